@@ -1,0 +1,28 @@
+// Exit codes and how an error is told: one line on stderr.
+#pragma once
+
+#include "mansard/base/result.hpp"
+
+namespace mansard::cli {
+
+enum Exit : int {
+  all_done = 0,
+  some_fell_back = 1,
+  usage = 2,
+  input_unreadable = 3,
+  option_invalid = 4,
+  nothing_reconstructed = 5,
+  cancelled = 6,
+  bug = 70,
+};
+
+/// Prints the diagnostic and returns the exit code that its code is listed with (70 for one that is not listed).
+[[nodiscard]] auto give_up(const base::Diagnostic& diagnostic) -> int;
+
+/// Codes of the command line itself.
+[[nodiscard]] auto codes() -> std::vector<base::Code>;
+
+/// The codes of every room and of the command line.
+[[nodiscard]] auto all_codes() -> std::vector<base::Code>;
+
+}  // namespace mansard::cli

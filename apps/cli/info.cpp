@@ -1,0 +1,124 @@
+// `mansard options` and `mansard explain`: the product describes itself.
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/cli/exit.hpp"
+#include "apps/cli/verbs.hpp"
+#include "mansard/pipeline/pipeline.hpp"
+
+namespace mansard::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+auto kind_name(base::Option::Kind kind) -> const char* {
+  switch (kind) {
+    case base::Option::Kind::flag: return "flag";
+    case base::Option::Kind::whole: return "whole";
+    case base::Option::Kind::number: return "number";
+    case base::Option::Kind::text: return "text";
+    case base::Option::Kind::choice: return "choice";
+  }
+  return "";
+}
+
+auto range_text(const base::Option& option) -> std::string {
+  if (option.kind == base::Option::Kind::choice || option.kind == base::Option::Kind::flag) {
+    std::string all;
+    for (const auto& word : option.choices) all += (all.empty() ? "" : "|") + word;
+    return all;
+  }
+  const auto& [least, most] = option.range;
+  const auto bound = [](double value) { return std::isfinite(value) ? base::to_text(value) : std::string(); };
+  if (!std::isfinite(least) && !std::isfinite(most)) return "";
+  return bound(least) + ".." + bound(most);
+}
+
+void print_text(const std::vector<base::OptionList>& lists) {
+  for (const auto& list : lists) {
+    if (list.options().empty()) continue;
+    std::printf("[%s]\n", list.room().c_str());
+    for (const auto& option : list.options())
+      std::printf("  %-16s %-10s %-4s %-18s %s%s\n", option.name.c_str(),
+                  option.get().empty() ? "-" : option.get().c_str(), option.unit.c_str(), range_text(option).c_str(),
+                  option.meaning.c_str(), option.alias.empty() ? "" : ("  (--" + option.alias + ")").c_str());
+  }
+  std::puts("\npresets:");
+  for (const auto& preset : pipeline::presets()) {
+    std::printf("  %-12s %s\n", preset.name.c_str(), preset.meaning.c_str());
+    for (const auto& [key, value] : preset.values) std::printf("    %s = %s\n", key.c_str(), value.c_str());
+  }
+}
+
+void print_json(const std::vector<base::OptionList>& lists) {
+  Json out;
+  Json options = Json::array();
+  for (const auto& list : lists)
+    for (const auto& option : list.options()) {
+      const auto bound = [](double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
+      options.push_back({{"room", list.room()},
+                         {"name", option.name},
+                         {"kind", kind_name(option.kind)},
+                         {"unit", option.unit},
+                         {"least", bound(option.range.least)},
+                         {"most", bound(option.range.most)},
+                         {"choices", option.choices},
+                         {"default", option.get()},
+                         {"alias", option.alias},
+                         {"meaning", option.meaning}});
+    }
+  out["options"] = options;
+  Json presets = Json::array();
+  for (const auto& preset : pipeline::presets()) {
+    Json values = Json::object();
+    for (const auto& [key, value] : preset.values) values[key] = value;
+    presets.push_back({{"name", preset.name}, {"meaning", preset.meaning}, {"values", values}});
+  }
+  out["presets"] = presets;
+  std::puts(out.dump(1).c_str());
+}
+
+auto explain(const std::string& word) -> int {
+  const auto codes = all_codes();
+  if (word.empty()) {
+    for (const auto& code : codes) std::printf("%-28s %s\n", code.code.c_str(), code.cause.c_str());
+    return all_done;
+  }
+  const auto at = std::ranges::find(codes, word, &base::Code::code);
+  if (at == codes.end()) {
+    std::vector<std::string> known;
+    for (const auto& code : codes) known.push_back(code.code);
+    const auto nearest = base::nearest_word(word, known);
+    return give_up(base::error("code-unknown",
+                               "there is no such code" + (nearest ? "; did you mean '" + *nearest + "'?" : std::string()),
+                               word));
+  }
+  std::printf("%s\n  means: %s\n  to do: %s\n  exit code: %d\n", at->code.c_str(), at->cause.c_str(), at->remedy.c_str(),
+              at->exit_code);
+  return all_done;
+}
+
+}  // namespace
+
+auto options_verb(CLI::App& app) -> Verb {
+  auto* verb = app.add_subcommand("options", "List every option with unit, range and default");
+  auto json = std::make_shared<bool>(false);
+  verb->add_flag("--json", *json, "As JSON");
+  return {verb, [json] {
+            pipeline::Options defaults;
+            const auto lists = pipeline::option_lists(defaults);
+            *json ? print_json(lists) : print_text(lists);
+            return static_cast<int>(all_done);
+          }};
+}
+
+auto explain_verb(CLI::App& app) -> Verb {
+  auto* verb = app.add_subcommand("explain", "Say what a diagnostic code means and what to do");
+  auto code = std::make_shared<std::string>();
+  verb->add_option("CODE", *code, "The code; without it, all codes are listed");
+  return {verb, [code] { return explain(*code); }};
+}
+
+}  // namespace mansard::cli

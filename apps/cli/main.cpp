@@ -1,0 +1,82 @@
+// mansard: verb, inputs, -o OUTPUT.
+#include <csignal>
+#include <cstdio>
+#include <new>
+#include <vector>
+
+#include "apps/cli/exit.hpp"
+#include "apps/cli/settings.hpp"
+#include "apps/cli/verbs.hpp"
+
+namespace mansard::cli {
+namespace {
+
+base::Cancel cancel;  // NOLINT: a signal handler can only reach a global
+
+void on_interrupt(int) {
+  cancel.request();
+  std::signal(SIGINT, SIG_DFL);  // a second Ctrl-C ends it at once
+}
+
+/// A misspelt option, with the nearest known one.
+auto unknown_option(const CLI::App& verb) -> std::optional<base::Diagnostic> {
+  for (const auto& word : verb.remaining()) {
+    if (!word.starts_with("-") || word.size() < 2) continue;
+    const auto name = word.substr(0, word.find('='));
+    const auto nearest = base::nearest_word(name, Settings::names(verb));
+    return base::error("option-unknown",
+                       "there is no such option" + (nearest ? "; did you mean '" + *nearest + "'?" : std::string()) +
+                           " See 'mansard " + verb.get_name() + " --help-all'",
+                       name);
+  }
+  return std::nullopt;
+}
+
+auto run(int argc, char** argv) -> int {
+  CLI::App app("City mesh and footprints in, labelled watertight building models out.", "mansard");
+  app.set_version_flag("--version", std::string("mansard ") + MANSARD_VERSION);
+  app.require_subcommand(1);
+  app.footer("'mansard VERB --help' shows a verb's options; 'mansard explain CODE' what a diagnostic means.");
+  const std::vector<Verb> verbs{reconstruct_verb(app, cancel), extrude_verb(app, cancel), options_verb(app),
+                                explain_verb(app)};
+  for (const auto& verb : verbs) verb.app->allow_extras();  // so that we can suggest the right one
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& e) {
+    return app.exit(e);
+  } catch (const CLI::ParseError& e) {
+    for (const auto* verb : app.get_subcommands())
+      if (const auto unknown = unknown_option(*verb)) return give_up(*unknown);
+    std::vector<std::string> names;
+    for (const auto& verb : verbs) names.push_back(verb.app->get_name());
+    const std::string first = argc > 1 ? argv[1] : "";
+    const auto nearest = app.get_subcommands().empty() ? base::nearest_word(first, names) : std::nullopt;
+    return give_up(base::error("usage", std::string(e.what()) + (nearest ? "; did you mean '" + *nearest + "'?" : "")));
+  }
+  for (const auto& verb : verbs) {
+    if (!verb.app->parsed()) continue;
+    if (const auto unknown = unknown_option(*verb.app)) return give_up(*unknown);
+    if (!verb.app->remaining().empty())
+      return give_up(base::error("usage", "one word too many; see 'mansard " + verb.app->get_name() + " --help'",
+                                 verb.app->remaining().front()));
+    return verb.run();
+  }
+  return usage;
+}
+
+}  // namespace
+}  // namespace mansard::cli
+
+auto main(int argc, char** argv) -> int {
+  namespace base = mansard::base;
+  namespace cli = mansard::cli;
+  std::signal(SIGINT, cli::on_interrupt);
+  std::signal(SIGTERM, cli::on_interrupt);
+  try {
+    return cli::run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    return cli::give_up(base::error("memory", "out of memory; use a smaller piece of the mesh (--bbox)"));
+  } catch (const std::exception& e) {
+    return cli::give_up(base::error("bug", std::string(e.what()) + "; please report it with the command line used"));
+  }
+}

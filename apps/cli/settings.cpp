@@ -1,0 +1,148 @@
+#include "apps/cli/settings.hpp"
+
+#include <algorithm>
+#include <toml++/toml.h>
+
+#include "mansard/base/files.hpp"
+#include "mansard/base/text.hpp"
+
+namespace mansard::cli {
+namespace {
+
+auto dashed(std::string text) -> std::string {
+  std::ranges::replace(text, '_', '-');
+  return text;
+}
+
+auto joined(const std::vector<std::string>& words) -> std::string {
+  std::string all;
+  for (const auto& word : words) all += (all.empty() ? "" : " ") + word;
+  return all;
+}
+
+auto describe(const base::Option& option) -> std::string {
+  std::string text = option.meaning;
+  if (!option.unit.empty()) text += " [" + option.unit + "]";
+  if (option.kind == base::Option::Kind::choice) {
+    text += " (";
+    for (const auto& word : option.choices) text += (word == option.choices.front() ? "" : ", ") + word;
+    text += ")";
+  }
+  const std::string value = option.get();
+  return text + (value.empty() ? "" : " default " + value);
+}
+
+/// A TOML value as the text an option takes: arrays become words separated by spaces.
+auto text_of(const toml::node& node) -> std::optional<std::string> {
+  if (const auto* value = node.as_string()) return value->get();
+  if (const auto* value = node.as_boolean()) return value->get() ? "true" : "false";
+  if (const auto* value = node.as_integer()) return std::to_string(value->get());
+  if (const auto* value = node.as_floating_point()) return base::to_text(value->get());
+  if (const auto* array = node.as_array()) {
+    std::vector<std::string> words;
+    for (const auto& entry : *array) {
+      auto word = text_of(entry);
+      if (!word) return std::nullopt;
+      words.push_back(std::move(*word));
+    }
+    return joined(words);
+  }
+  return std::nullopt;
+}
+
+auto apply_preset(std::vector<base::OptionList>& lists, const std::string& name) -> base::Result<void> {
+  std::vector<std::string> known;
+  for (const auto& preset : pipeline::presets()) {
+    known.push_back(preset.name);
+    if (preset.name != name) continue;
+    for (const auto& [key, value] : preset.values)
+      if (auto set = pipeline::set_option(lists, key, value); !set) return set.error();
+    return {};
+  }
+  std::string all;
+  for (const auto& word : known) all += (all.empty() ? "" : ", ") + word;
+  return base::error("option-value", "'" + name + "' is no preset; there are " + all, "preset");
+}
+
+auto apply_config(std::vector<base::OptionList>& lists, const std::string& path) -> base::Result<void> {
+  const auto text = base::read_file(path);
+  if (!text) return text.error();
+  toml::table table;
+  try {
+    table = toml::parse(*text);
+  } catch (const toml::parse_error& e) {
+    const auto at = e.source().begin;
+    return base::error("config", std::string(e.description()) + " (line " + std::to_string(at.line) + ")", path);
+  }
+  // The preset comes first wherever it stands in the file, so that the file's own keys change it.
+  if (const auto* preset = table.get("preset")) {
+    const auto name = text_of(*preset);
+    if (auto done = apply_preset(lists, name.value_or("")); !done) return done;
+  }
+  for (const auto& [room, node] : table) {
+    if (room.str() == "preset") continue;
+    const auto* keys = node.as_table();
+    if (keys == nullptr)
+      return base::error("config", "'" + std::string(room.str()) + "' is not a room's table; write [room] and its keys below",
+                         path);
+    for (const auto& [key, value] : *keys) {
+      const std::string name = std::string(room.str()) + "." + std::string(key.str());
+      const auto word = text_of(value);
+      if (!word) return base::error("config", "'" + name + "' has a value of the wrong kind", path);
+      if (auto done = pipeline::set_option(lists, name, *word); !done) {
+        auto why = done.error();
+        why.subject = path + ": " + why.subject;
+        return why;
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+void Settings::add_to(CLI::App& verb) {
+  verb.add_option("--config", config_, "Options from a TOML file, a table per room")->type_name("FILE");
+  verb.add_option("--preset", preset_, "Start from a preset: paper, chordatlas")->type_name("NAME");
+  pipeline::Options defaults;
+  for (const auto& list : pipeline::option_lists(defaults))
+    for (const auto& option : list.options()) {
+      auto& given = given_.emplace_back();
+      given.key = list.room() + "." + option.name;
+      std::string names = "--" + dashed(list.room() + "-" + option.name);
+      if (!option.alias.empty()) names += ",--" + dashed(option.alias);
+      // Vectors of numbers (an offset, a box) are texts of several words.
+      const std::size_t words = option.kind == base::Option::Kind::text
+                                    ? static_cast<std::size_t>(std::ranges::count(option.get(), ' ')) + 1
+                                    : 1;
+      given.flag = option.kind == base::Option::Kind::flag;
+      given.option = verb.add_option(names, given.words, describe(option));
+      given.option->expected(given.flag ? 0 : static_cast<int>(words), static_cast<int>(words));
+      given.option->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->group(list.room())->allow_extra_args(false);
+      static constexpr std::array kinds{"", "N", "X", "TEXT", "WORD"};
+      given.option->type_name(kinds[static_cast<std::size_t>(option.kind)]);
+    }
+}
+
+auto Settings::apply(pipeline::Options& options) const -> base::Result<void> {
+  auto lists = pipeline::option_lists(options);
+  if (!preset_.empty())
+    if (auto done = apply_preset(lists, preset_); !done) return done;
+  if (!config_.empty())
+    if (auto done = apply_config(lists, config_); !done) return done;
+  for (const auto& given : given_) {
+    if (given.option->count() == 0) continue;
+    const std::string value = given.flag && joined(given.words).empty() ? "true" : joined(given.words);
+    if (auto done = pipeline::set_option(lists, given.key, value); !done) return done;
+  }
+  return {};
+}
+
+auto Settings::names(const CLI::App& verb) -> std::vector<std::string> {
+  std::vector<std::string> all;
+  for (const auto* option : verb.get_options())
+    for (const auto& name : option->get_lnames()) all.push_back("--" + name);
+  return all;
+}
+
+}  // namespace mansard::cli

@@ -1,0 +1,25 @@
+# The doors of the house, on one screen. A room may include a room it DEPENDS on, and nothing else;
+# tools/check_doors.py holds every #include against this list. USES names the libraries behind that door.
+#
+#              room       doors                                                        libraries
+mansard_room(base                                                             USES TBB::tbb)
+mansard_room(geometry DEPENDS base                                            USES GMP::gmpxx GEOS::geos_c)
+mansard_room(rays     DEPENDS base geometry                                   USES embree)
+mansard_room(solver   DEPENDS base                                            USES CBC::cbc)
+
+mansard_room(ingest   DEPENDS base geometry                                   USES GDAL::GDAL PROJ::proj tinygltf OpenSSL::Crypto)
+mansard_room(block    DEPENDS base geometry ingest)
+mansard_room(slice    DEPENDS base geometry block)
+mansard_room(sweep    DEPENDS base geometry block slice)
+mansard_room(fracture DEPENDS base geometry)
+mansard_room(segment  DEPENDS base geometry rays solver block sweep fracture)
+mansard_room(profile  DEPENDS base geometry rays block sweep segment)
+mansard_room(extrude  DEPENDS base geometry                                   USES GMP::gmpxx)
+mansard_room(label    DEPENDS base geometry extrude)
+mansard_room(evaluate DEPENDS base geometry rays block label)
+mansard_room(write    DEPENDS base geometry ingest extrude label              USES nlohmann_json)
+mansard_room(picture  DEPENDS base geometry rays                              USES PNG::PNG)
+mansard_room(pipeline DEPENDS base geometry rays solver ingest block slice sweep fracture segment profile extrude label evaluate write picture USES nlohmann_json)
+
+# Results say which version made them.
+target_compile_definitions(mansard_pipeline PRIVATE MANSARD_VERSION="${PROJECT_VERSION}")

@@ -1,0 +1,73 @@
+#include "mansard/base/files.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <unistd.h>
+
+namespace mansard::base {
+namespace {
+
+struct Close {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, Close>;
+
+}  // namespace
+
+auto write_file(const std::filesystem::path& path, std::string_view bytes) -> Result<void> {
+  auto beside = path;
+  beside += ".part" + std::to_string(::getpid());
+  const auto give_up = [&](const char* step) -> Diagnostic {
+    const std::string why = std::strerror(errno);
+    std::error_code ignored;
+    std::filesystem::remove(beside, ignored);
+    return error("file-write", std::string("cannot ") + step + ": " + why + "; choose a place that can be written",
+                 path.string());
+  };
+  {
+    File file(std::fopen(beside.c_str(), "wb"));
+    if (!file) return give_up("write");
+    if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size()) return give_up("write");
+    if (std::fclose(file.release()) != 0) return give_up("write");
+  }
+  if (std::rename(beside.c_str(), path.c_str()) != 0) return give_up("rename into place");
+  return {};
+}
+
+auto read_file(const std::filesystem::path& path) -> Result<std::string> {
+  std::error_code status;
+  if (!std::filesystem::exists(path, status))
+    return error("file-missing", "no such file; check the path", path.string());
+  if (std::filesystem::is_directory(path, status))
+    return error("file-read", "this is a folder, not a file; name a file in it", path.string());
+  File file(std::fopen(path.c_str(), "rb"));
+  if (!file) return error("file-read", std::string("cannot read: ") + std::strerror(errno), path.string());
+  std::string bytes;
+  if (const auto size = std::filesystem::file_size(path, status); !status) bytes.resize(size);
+  const std::size_t got = std::fread(bytes.data(), 1, bytes.size(), file.get());
+  if (got != bytes.size() || std::ferror(file.get()) != 0)
+    return error("file-read", "the file ended before its stated size; copy it again", path.string());
+  return bytes;
+}
+
+auto codes() -> std::vector<Code> {
+  return {
+      {"file-missing", "A file named on the command line does not exist.", "Check the path.", 3},
+      {"file-read", "A file exists but cannot be read (a folder, no permission, a failing disk).",
+       "Check its permissions, or name a file rather than a folder.", 3},
+      {"file-write", "An output file cannot be written; nothing half-written is left behind.",
+       "Check the folder's permissions and the free space.", 3},
+      {"option-value", "An option was given a value outside its range or of the wrong kind.",
+       "'mansard options' lists each option with its unit, range and default.", 4},
+      {"option-unknown", "An option, or a key of the configuration file, does not exist.",
+       "The message names the nearest known one; 'mansard options' lists them all.", 4},
+      {"cancelled", "The run was stopped on request (Ctrl-C) before it was done.",
+       "Start it again; nothing half-written was left.", 6},
+      {"memory", "The machine ran out of memory.", "Use a smaller piece of the mesh (--bbox), or a larger machine.", 3},
+      {"bug", "Something happened that should not be possible.", "Please report it, with the command line used.", 70},
+  };
+}
+
+}  // namespace mansard::base

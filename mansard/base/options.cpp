@@ -1,0 +1,182 @@
+#include "mansard/base/options.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace mansard::base {
+namespace {
+
+auto bad_value(const std::string& room, const Option& option, std::string_view given, const std::string& wanted)
+    -> Diagnostic {
+  return error("option-value", "'" + std::string(given) + "' is not " + wanted + "; see 'mansard options'",
+               room + "." + option.name);
+}
+
+auto in_words(const Range& range, const std::string& unit) -> std::string {
+  const bool low = range.least > -std::numeric_limits<double>::infinity();
+  const bool high = range.most < std::numeric_limits<double>::infinity();
+  const std::string tail = unit.empty() ? "" : " " + unit;
+  if (low && high) return " from " + to_text(range.least) + " to " + to_text(range.most) + tail;
+  if (low) return " of at least " + to_text(range.least) + tail;
+  if (high) return " of at most " + to_text(range.most) + tail;
+  return "";
+}
+
+auto contains(const Range& range, double value) -> bool { return value >= range.least && value <= range.most; }
+
+}  // namespace
+
+auto OptionList::add(Option option) -> OptionList& {
+  assert(find(option.name) == nullptr);
+  options_.push_back(std::move(option));
+  return *this;
+}
+
+auto OptionList::alias(std::string name) -> OptionList& {
+  assert(!options_.empty());
+  options_.back().alias = std::move(name);
+  return *this;
+}
+
+auto OptionList::find(std::string_view name) const -> const Option* {
+  const auto at = std::ranges::find(options_, name, &Option::name);
+  return at == options_.end() ? nullptr : &*at;
+}
+
+auto OptionList::flag(std::string name, bool& member, std::string meaning) -> OptionList& {
+  Option option{.name = std::move(name), .meaning = std::move(meaning), .unit = {}, .kind = Option::Kind::flag,
+                .range = {}, .choices = {"true", "false"}, .alias = {}, .get = {}, .set = {}};
+  option.get = [&member] { return std::string(member ? "true" : "false"); };
+  option.set = [&member, room = room_, option](std::string_view given) -> Result<void> {
+    if (given != "true" && given != "false") return bad_value(room, option, given, "true or false");
+    member = given == "true";
+    return {};
+  };
+  return add(std::move(option));
+}
+
+auto OptionList::whole(std::string name, std::int64_t& member, std::string unit, Range range, std::string meaning)
+    -> OptionList& {
+  Option option{.name = std::move(name), .meaning = std::move(meaning), .unit = std::move(unit),
+                .kind = Option::Kind::whole, .range = range, .choices = {}, .alias = {}, .get = {}, .set = {}};
+  option.get = [&member] { return std::to_string(member); };
+  option.set = [&member, room = room_, option](std::string_view given) -> Result<void> {
+    const auto value = to_whole(given);
+    if (!value || !contains(option.range, static_cast<double>(*value)))
+      return bad_value(room, option, given, "a whole number" + in_words(option.range, option.unit));
+    member = *value;
+    return {};
+  };
+  return add(std::move(option));
+}
+
+auto OptionList::number(std::string name, double& member, std::string unit, Range range, std::string meaning)
+    -> OptionList& {
+  Option option{.name = std::move(name), .meaning = std::move(meaning), .unit = std::move(unit),
+                .kind = Option::Kind::number, .range = range, .choices = {}, .alias = {}, .get = {}, .set = {}};
+  option.get = [&member] { return to_text(member); };
+  option.set = [&member, room = room_, option](std::string_view given) -> Result<void> {
+    const auto value = to_number(given);
+    if (!value || !contains(option.range, *value))
+      return bad_value(room, option, given, "a number" + in_words(option.range, option.unit));
+    member = *value;
+    return {};
+  };
+  return add(std::move(option));
+}
+
+auto OptionList::number(std::string name, std::optional<double>& member, std::string unit, Range range,
+                        std::string meaning) -> OptionList& {
+  Option option{.name = std::move(name), .meaning = std::move(meaning), .unit = std::move(unit),
+                .kind = Option::Kind::number, .range = range, .choices = {}, .alias = {}, .get = {}, .set = {}};
+  option.get = [&member] { return member ? to_text(*member) : std::string(); };
+  option.set = [&member, room = room_, option](std::string_view given) -> Result<void> {
+    if (given.empty()) return member.reset(), Result<void>{};
+    const auto value = to_number(given);
+    if (!value || !contains(option.range, *value))
+      return bad_value(room, option, given, "a number" + in_words(option.range, option.unit));
+    member = *value;
+    return {};
+  };
+  return add(std::move(option));
+}
+
+auto OptionList::numbers(std::string name, std::span<double> members, std::string unit, Range range,
+                         std::string meaning) -> OptionList& {
+  Option option{.name = std::move(name), .meaning = std::move(meaning), .unit = std::move(unit),
+                .kind = Option::Kind::text, .range = range, .choices = {}, .alias = {}, .get = {}, .set = {}};
+  option.get = [members] {
+    std::string all;
+    for (const double member : members) all += (all.empty() ? "" : " ") + to_text(member);
+    return all;
+  };
+  option.set = [members, room = room_, option](std::string_view given) -> Result<void> {
+    std::vector<std::optional<double>> values;
+    for (std::size_t at = 0; (at = given.find_first_not_of(' ', at)) != given.npos;) {
+      const std::size_t end = std::min(given.find(' ', at), given.size());
+      values.push_back(to_number(given.substr(at, end - at)));
+      at = end;
+    }
+    const auto usable = [&option](const auto& value) { return value && contains(option.range, *value); };
+    if (values.size() != members.size() || !std::ranges::all_of(values, usable))
+      return bad_value(room, option, given,
+                       std::to_string(members.size()) + " numbers" + in_words(option.range, option.unit));
+    std::ranges::transform(values, members.begin(), [](const auto& value) { return *value; });
+    return {};
+  };
+  return add(std::move(option));
+}
+
+auto OptionList::text(std::string name, std::string& member, std::string meaning) -> OptionList& {
+  Option option{.name = std::move(name), .meaning = std::move(meaning), .unit = {}, .kind = Option::Kind::text,
+                .range = {}, .choices = {}, .alias = {}, .get = {}, .set = {}};
+  option.get = [&member] { return member; };
+  option.set = [&member](std::string_view given) -> Result<void> {
+    member = std::string(given);
+    return {};
+  };
+  return add(std::move(option));
+}
+
+auto OptionList::add_choice(std::string name, std::vector<std::string> words, std::string meaning,
+                            std::function<std::string()> get, std::function<bool(std::string_view)> put)
+    -> OptionList& {
+  Option option{.name = std::move(name), .meaning = std::move(meaning), .unit = {}, .kind = Option::Kind::choice,
+                .range = {}, .choices = std::move(words), .alias = {}, .get = std::move(get), .set = {}};
+  option.set = [put = std::move(put), room = room_, option](std::string_view given) -> Result<void> {
+    if (put(given)) return {};
+    std::string wanted = "one of";
+    for (const auto& word : option.choices) wanted += (word == option.choices.front() ? " " : ", ") + word;
+    return bad_value(room, option, given, wanted);
+  };
+  return add(std::move(option));
+}
+
+auto nearest_word(std::string_view word, const std::vector<std::string>& known) -> std::optional<std::string> {
+  const auto distance = [](std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+      std::size_t diagonal = row[0];
+      row[0] = i;
+      for (std::size_t j = 1; j <= b.size(); ++j) {
+        const std::size_t above = row[j];
+        row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
+        diagonal = above;
+      }
+    }
+    return row.back();
+  };
+  std::optional<std::string> best;
+  std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
+  for (const auto& candidate : known) {
+    const std::size_t d = distance(word, candidate);
+    if (d < least) {
+      least = d;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+}  // namespace mansard::base

@@ -1,0 +1,94 @@
+// One option list per room feeds the command line, the config file, its validation and the docs.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "mansard/base/result.hpp"
+#include "mansard/base/text.hpp"
+
+namespace mansard::base {
+
+/// A closed interval an option must lie in.
+struct Range {
+  double least = -std::numeric_limits<double>::infinity();
+  double most = std::numeric_limits<double>::infinity();
+};
+
+/// One option, bound to a member of a room's options struct: its default is the member's initialiser.
+struct Option {
+  enum class Kind { flag, whole, number, text, choice };
+
+  std::string name;     ///< snake_case, unique in its room; `--room-name` with dashes on the command line
+  std::string meaning;  ///< one sentence
+  std::string unit;     ///< "m", "m²", "rad", "s"; empty for none
+  Kind kind = Kind::text;
+  Range range;
+  std::vector<std::string> choices;
+  std::string alias;  ///< a short command line name without dashes ("gamma"); empty for none
+
+  std::function<std::string()> get;  ///< the present value as text; "" when absent
+  std::function<Result<void>(std::string_view)> set;  ///< error code "option-value" when it cannot be taken
+};
+
+/// The options of one room, bound to one instance of its struct (which must outlive the list).
+class OptionList {
+ public:
+  explicit OptionList(std::string room) : room_(std::move(room)) {}
+
+  auto flag(std::string name, bool& member, std::string meaning) -> OptionList&;
+  auto whole(std::string name, std::int64_t& member, std::string unit, Range range, std::string meaning) -> OptionList&;
+  auto number(std::string name, double& member, std::string unit, Range range, std::string meaning) -> OptionList&;
+  auto number(std::string name, std::optional<double>& member, std::string unit, Range range, std::string meaning)
+      -> OptionList&;
+  /// Several numbers as one text, separated by blanks ("84800 447400 0"): exactly as many as there are members.
+  auto numbers(std::string name, std::span<double> members, std::string unit, Range range, std::string meaning)
+      -> OptionList&;
+  auto text(std::string name, std::string& member, std::string meaning) -> OptionList&;
+
+  /// An enumeration by its names.
+  template <class E>
+  auto choice(std::string name, E& member, std::vector<std::pair<std::string, E>> names, std::string meaning)
+      -> OptionList& {
+    std::vector<std::string> words;
+    for (const auto& entry : names) words.push_back(entry.first);
+    auto get = [&member, names]() -> std::string {
+      for (const auto& entry : names)
+        if (entry.second == member) return entry.first;
+      return {};
+    };
+    auto put = [&member, names](std::string_view word) -> bool {
+      for (const auto& entry : names)
+        if (entry.first == word) return member = entry.second, true;
+      return false;
+    };
+    return add_choice(std::move(name), std::move(words), std::move(meaning), std::move(get), std::move(put));
+  }
+
+  /// Gives the option added last a second, short name on the command line.
+  auto alias(std::string name) -> OptionList&;
+
+  [[nodiscard]] auto room() const -> const std::string& { return room_; }
+  [[nodiscard]] auto options() const -> const std::vector<Option>& { return options_; }
+  [[nodiscard]] auto find(std::string_view name) const -> const Option*;
+
+ private:
+  auto add(Option option) -> OptionList&;
+  auto add_choice(std::string name, std::vector<std::string> words, std::string meaning,
+                  std::function<std::string()> get, std::function<bool(std::string_view)> put) -> OptionList&;
+
+  std::string room_;
+  std::vector<Option> options_;
+};
+
+/// The known word nearest to a misspelt one (edit distance at most a third of its length), if any.
+[[nodiscard]] auto nearest_word(std::string_view word, const std::vector<std::string>& known) -> std::optional<std::string>;
+
+}  // namespace mansard::base

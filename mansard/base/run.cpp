@@ -1,0 +1,20 @@
+#include "mansard/base/run.hpp"
+
+#include <memory>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
+namespace mansard::base {
+
+void parallel_for(std::size_t count, const std::function<void(std::size_t)>& work) {
+  tbb::parallel_for(std::size_t{0}, count, work);
+}
+
+void limit_threads(std::size_t threads) {
+  static std::unique_ptr<tbb::global_control> limit;
+  limit.reset();
+  if (threads > 0)
+    limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, threads);
+}
+
+}  // namespace mansard::base

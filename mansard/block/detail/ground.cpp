@@ -1,0 +1,126 @@
+#include "mansard/block/detail/ground.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mansard/base/run.hpp"
+#include "mansard/block/detail/near.hpp"
+#include "mansard/block/detail/neighbours.hpp"
+
+namespace mansard::block::detail {
+namespace {
+
+using geometry::Box2;
+using geometry::Point2;
+using geometry::Point3;
+using geometry::Polygon;
+
+using Triangle3 = std::array<Point3, 3>;
+
+constexpr double piece_size = 2.0;   // m: the longest side, in plan, of what one sample stands for
+constexpr double steepest = 0.7071;  // cosine of 45°: steeper is wall, hedge or the side of a car
+
+auto plan(const Triangle3& t) -> PlanTriangle { return {xy(t[0]), xy(t[1]), xy(t[2])}; }
+
+/// Cuts a triangle at the middle of its longest side until its pieces are small, leaving out what the box does not
+/// meet.
+template <class Take>
+void cut_up(const Triangle3& t, const Box2& within, int depth, const Take& take) {
+  if (!box_of(plan(t)).overlaps(within)) return;
+  std::size_t longest = 0;
+  double most = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (const Point2 side = xy(t[(k + 1) % 3]) - xy(t[k]); dot(side, side) > most) {
+      most = dot(side, side);
+      longest = k;
+    }
+  if (most <= piece_size * piece_size || depth == 0) return take(t);
+  const Point3 a = t[longest], b = t[(longest + 1) % 3], c = t[(longest + 2) % 3];
+  const Point3 middle = 0.5 * (a + b);
+  cut_up({a, middle, c}, within, depth - 1, take);
+  cut_up({middle, b, c}, within, depth - 1, take);
+}
+
+/// Which of the shapes that come near a region hold a point.
+struct Obstacles {
+  std::vector<const Polygon*> polygons;
+  std::vector<Box2> boxes;
+
+  [[nodiscard]] auto hold(Point2 p) const -> bool {
+    for (std::size_t i = 0; i < polygons.size(); ++i)
+      if (boxes[i].contains(p) && geometry::contains(*polygons[i], p)) return true;
+    return false;
+  }
+};
+
+}  // namespace
+
+auto percentile(std::vector<Sample> samples, double share, double least) -> std::optional<double> {
+  std::ranges::sort(samples, {}, [](const Sample& s) { return std::tuple(s.z, s.at, s.weight); });
+  double all = 0;
+  for (const auto& sample : samples) all += sample.weight;
+  if (samples.empty() || !(all >= least)) return std::nullopt;
+  double below = 0;
+  for (const auto& sample : samples) {
+    below += sample.weight;
+    if (below >= share * all) return sample.z;
+  }
+  return samples.back().z;
+}
+
+auto ground_samples(const geometry::Mesh& mesh, const std::vector<std::vector<Polygon>>& shapes, double reach)
+    -> std::vector<std::vector<Sample>> {
+  std::vector<Box2> boxes;
+  for (const auto& shape : shapes) boxes.push_back(bounds(shape).grown(reach));
+  const auto triangles = candidates(mesh, boxes);
+
+  // Shapes sorted by x, so that those near a region are found without looking at all.
+  std::vector<std::size_t> order(shapes.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair(boxes[i].least.x, i); });
+  double widest = 0;
+  for (const auto& box : boxes) widest = std::max(widest, box.empty() ? 0 : box.most.x - box.least.x);
+
+  std::vector<std::vector<Sample>> out(shapes.size());
+  base::parallel_for(shapes.size(), [&](std::size_t i) {
+    if (boxes[i].empty()) return;
+    Obstacles obstacles;
+    auto at =
+        std::ranges::lower_bound(order, boxes[i].least.x - widest, {}, [&](std::size_t j) { return boxes[j].least.x; });
+    for (; at != order.end() && boxes[*at].least.x <= boxes[i].most.x; ++at)
+      if (boxes[*at].overlaps(boxes[i]))
+        for (const auto& polygon : shapes[*at]) {
+          obstacles.polygons.push_back(&polygon);
+          obstacles.boxes.push_back(geometry::bounds(polygon.outer));
+        }
+    const Nearness near(shapes[i], reach);
+    for (const std::uint32_t index : triangles[i]) {
+      const auto& t = mesh.triangles[index];
+      const Triangle3 corners{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+      const Point3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+      // Upside down is as good: orientation is not to be relied on.
+      if (normal.z * normal.z < steepest * steepest * dot(normal, normal)) continue;
+      cut_up(corners, boxes[i], 40, [&](const Triangle3& piece) {
+        const Point3 centre = (1.0 / 3) * (piece[0] + piece[1] + piece[2]);
+        if (!near(xy(centre)) || obstacles.hold(xy(centre))) return;
+        const double area = std::abs(cross(xy(piece[1]) - xy(piece[0]), xy(piece[2]) - xy(piece[0]))) / 2;
+        out[i].push_back({xy(centre), centre.z, area});
+      });
+    }
+  });
+  return out;
+}
+
+auto surface_samples(const geometry::Mesh& mesh) -> std::vector<Sample> {
+  std::vector<Sample> out;
+  out.reserve(mesh.triangles.size());
+  for (const auto& t : mesh.triangles) {
+    const Point3 a = mesh.vertices[t[0]], b = mesh.vertices[t[1]], c = mesh.vertices[t[2]];
+    const Point3 centre = (1.0 / 3) * (a + b + c);
+    // The lowest corner: a wall in one piece from eaves to street says where the street is.
+    out.push_back({xy(centre), std::min({a.z, b.z, c.z}), length(cross(b - a, c - a)) / 2});
+  }
+  return out;
+}
+
+}  // namespace mansard::block::detail

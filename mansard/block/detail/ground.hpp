@@ -1,0 +1,29 @@
+// The terrain around buildings, from a mesh that has everything else in it too.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "mansard/geometry/mesh.hpp"
+#include "mansard/geometry/polygon.hpp"
+
+namespace mansard::block::detail {
+
+/// A height that stands for an area of m².
+struct Sample {
+  geometry::Point2 at;
+  double z = 0, weight = 0;
+};
+
+/// The height below which that share (0 … 1) of the samples' area lies; nothing for less than `least` m² of them.
+[[nodiscard]] auto percentile(std::vector<Sample> samples, double share, double least) -> std::optional<double>;
+
+/// What may be ground within `reach` of each shape (polygons of one footprint): pieces under 2 m of triangles that are
+/// not steep, outside all shapes. One list per shape, in the order of the mesh.
+[[nodiscard]] auto ground_samples(const geometry::Mesh& mesh, const std::vector<std::vector<geometry::Polygon>>& shapes,
+                                  double reach) -> std::vector<std::vector<Sample>>;
+
+/// One sample per triangle of the whole mesh, by its area in space: walls count too.
+[[nodiscard]] auto surface_samples(const geometry::Mesh& mesh) -> std::vector<Sample>;
+
+}  // namespace mansard::block::detail

@@ -1,0 +1,162 @@
+#include "mansard/block/detail/near.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mansard/base/run.hpp"
+#include "mansard/block/detail/neighbours.hpp"
+
+namespace mansard::block::detail {
+
+using geometry::Box2;
+using geometry::Point2;
+using geometry::Ring;
+using geometry::Segment2;
+
+auto box_of(const PlanTriangle& t) -> Box2 {
+  Box2 box;
+  for (const Point2 p : t) box.add(p);
+  return box;
+}
+
+Nearness::Nearness(const std::vector<geometry::Polygon>& area, double reach) : area_(area), reach_(reach) {
+  const auto add = [this](const Ring& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i) edges_.push_back({ring[i], ring[(i + 1) % ring.size()]});
+  };
+  for (const auto& polygon : area_) {
+    add(polygon.outer);
+    for (const auto& hole : polygon.holes) add(hole);
+  }
+  box_ = bounds(area_).grown(reach);
+  if (edges_.empty()) return;
+
+  // Some thousand cells: few enough to be made quickly, small enough to leave few triangles to the exact test.
+  const Point2 extent = box_.most - box_.least;
+  size_ = std::max(0.5, std::sqrt(extent.x * extent.y / 4096));
+  columns_ = static_cast<std::size_t>(extent.x / size_) + 1;
+  rows_ = static_cast<std::size_t>(extent.y / size_) + 1;
+  cells_.resize(columns_ * rows_);
+  const double half = size_ * 0.70710678118654757;
+  for (std::size_t r = 0; r < rows_; ++r)
+    for (std::size_t c = 0; c < columns_; ++c) {
+      const Point2 centre =
+          box_.least + Point2{(static_cast<double>(c) + 0.5) * size_, (static_cast<double>(r) + 0.5) * size_};
+      const double away = distance(centre);
+      // A little room for the rounding of the cell a point is put into.
+      const double margin = half * (1 + 1e-6);
+      cells_[r * columns_ + c] = away + margin <= reach ? Cell::near : away - margin > reach ? Cell::far : Cell::mixed;
+    }
+}
+
+auto Nearness::holds(Point2 p) const -> bool {
+  return std::ranges::any_of(area_, [p](const auto& polygon) { return geometry::contains(polygon, p); });
+}
+
+auto Nearness::distance(Point2 p) const -> double {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& edge : edges_) least = std::min(least, geometry::distance(edge, p));
+  return least > 0 && holds(p) ? 0 : least;
+}
+
+auto Nearness::place(double along, double least, std::size_t count) const -> std::size_t {
+  const double cell = std::floor((along - least) / size_);
+  return cell <= 0 ? 0 : std::min(static_cast<std::size_t>(cell), count - 1);
+}
+
+auto Nearness::exactly(const PlanTriangle& t) const -> bool {
+  const Box2 reach = box_of(t).grown(reach_);
+  for (const auto& edge : edges_) {
+    Box2 box;
+    box.add(edge.start);
+    box.add(edge.end);
+    if (!reach.overlaps(box)) continue;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (detail::distance({t[k], t[(k + 1) % 3]}, edge) <= reach_) return true;
+  }
+  // No edge is near the triangle's sides: one is wholly inside the other, or they are apart.
+  return holds(t[0]) || std::ranges::any_of(area_, [&t](const auto& polygon) {
+           return geometry::contains(std::span<const Point2>(t), polygon.outer.front());
+         });
+}
+
+auto Nearness::operator()(Point2 p) const -> bool {
+  if (edges_.empty() || !box_.contains(p)) return false;
+  const Cell cell = cells_[place(p.y, box_.least.y, rows_) * columns_ + place(p.x, box_.least.x, columns_)];
+  return cell == Cell::near || (cell == Cell::mixed && distance(p) <= reach_);
+}
+
+auto Nearness::operator()(const PlanTriangle& t) const -> bool {
+  const Box2 box = box_of(t);
+  if (edges_.empty() || !box_.overlaps(box)) return false;
+  for (const Point2 p : t)
+    if (box_.contains(p) &&
+        cells_[place(p.y, box_.least.y, rows_) * columns_ + place(p.x, box_.least.x, columns_)] == Cell::near)
+      return true;
+  bool all_far = true;
+  const std::size_t r1 = place(box.most.y, box_.least.y, rows_), c1 = place(box.most.x, box_.least.x, columns_);
+  for (std::size_t r = place(box.least.y, box_.least.y, rows_); all_far && r <= r1; ++r)
+    for (std::size_t c = place(box.least.x, box_.least.x, columns_); all_far && c <= c1; ++c)
+      all_far = cells_[r * columns_ + c] == Cell::far;
+  return !all_far && exactly(t);
+}
+
+auto candidates(const geometry::Mesh& mesh, const std::vector<Box2>& regions)
+    -> std::vector<std::vector<std::uint32_t>> {
+  std::vector<std::vector<std::uint32_t>> out(regions.size());
+  Box2 all;
+  double sides = 0;
+  for (const auto& region : regions) {
+    if (region.empty()) continue;
+    all.add(region.least);
+    all.add(region.most);
+    sides += std::max(region.most.x - region.least.x, region.most.y - region.least.y);
+  }
+  if (all.empty()) return out;
+
+  // A grid of the regions with cells about their size; every triangle looks into the cells under its box.
+  const Point2 extent = all.most - all.least;
+  const double size = std::max({sides / static_cast<double>(regions.size()), extent.x / 512, extent.y / 512, 1.0});
+  const auto columns = static_cast<std::size_t>(extent.x / size) + 1,
+             rows = static_cast<std::size_t>(extent.y / size) + 1;
+  const auto range = [&](const Box2& box) {
+    const auto place = [size](double along, double least, std::size_t count) {
+      const double cell = std::floor((along - least) / size);
+      return cell <= 0 ? std::size_t{0} : std::min(static_cast<std::size_t>(cell), count - 1);
+    };
+    return std::array<std::size_t, 4>{place(box.least.x, all.least.x, columns), place(box.most.x, all.least.x, columns),
+                                      place(box.least.y, all.least.y, rows), place(box.most.y, all.least.y, rows)};
+  };
+  std::vector<std::vector<std::uint32_t>> cells(columns * rows);
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    if (regions[i].empty()) continue;
+    const auto [c0, c1, r0, r1] = range(regions[i]);
+    for (std::size_t r = r0; r <= r1; ++r)
+      for (std::size_t c = c0; c <= c1; ++c) cells[r * columns + c].push_back(static_cast<std::uint32_t>(i));
+  }
+
+  // In pieces of the mesh, each with its own lists, put together in the order of the pieces.
+  constexpr std::size_t piece = 1 << 14;
+  const std::size_t pieces = (mesh.triangles.size() + piece - 1) / piece;
+  std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> found(pieces);
+  base::parallel_for(pieces, [&](std::size_t k) {
+    std::vector<std::uint32_t> near;
+    for (std::size_t t = k * piece; t < std::min(mesh.triangles.size(), (k + 1) * piece); ++t) {
+      const Box2 box = box_of(plan_of(mesh, mesh.triangles[t]));
+      if (!box.overlaps(all)) continue;
+      near.clear();
+      const auto [c0, c1, r0, r1] = range(box);
+      for (std::size_t r = r0; r <= r1; ++r)
+        for (std::size_t c = c0; c <= c1; ++c)
+          for (const std::uint32_t i : cells[r * columns + c])
+            if (regions[i].overlaps(box)) near.push_back(i);
+      std::ranges::sort(near);
+      near.erase(std::unique(near.begin(), near.end()), near.end());
+      for (const std::uint32_t i : near) found[k].emplace_back(i, static_cast<std::uint32_t>(t));
+    }
+  });
+  for (const auto& some : found)
+    for (const auto& [region, triangle] : some) out[region].push_back(triangle);
+  return out;
+}
+
+}  // namespace mansard::block::detail

@@ -1,0 +1,181 @@
+#include "mansard/block/detail/neighbours.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "mansard/geometry/predicates.hpp"
+
+namespace mansard::block::detail {
+namespace {
+
+using geometry::Box2;
+using geometry::Point2;
+using geometry::Polygon;
+using geometry::Ring;
+using geometry::Segment2;
+
+auto box_of(const Segment2& s) -> Box2 {
+  Box2 box;
+  box.add(s.start);
+  box.add(s.end);
+  return box;
+}
+
+auto edges_within(const Polygons& polygons, const Box2& reach) -> std::vector<Segment2> {
+  std::vector<Segment2> out;
+  const auto add = [&](const Ring& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Segment2 edge{ring[i], ring[(i + 1) % ring.size()]};
+      if (box_of(edge).overlaps(reach)) out.push_back(edge);
+    }
+  };
+  for (const auto& polygon : polygons) {
+    add(polygon.outer);
+    for (const auto& hole : polygon.holes) add(hole);
+  }
+  return out;
+}
+
+auto holds(const Polygons& polygons, Point2 p) -> bool {
+  return std::ranges::any_of(polygons, [p](const Polygon& polygon) { return geometry::contains(polygon, p); });
+}
+
+class Sets {
+ public:
+  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+  auto root(std::size_t i) -> std::size_t {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  /// The lower index leads, so that the result does not depend on the order of calls.
+  void join(std::size_t a, std::size_t b) {
+    a = root(a);
+    b = root(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+auto total(const Polygons& polygons) -> double {
+  double sum = 0;
+  for (const auto& polygon : polygons) sum += geometry::area(polygon);
+  return sum;
+}
+
+/// Grown and shrunk again: what is narrower than twice `by` stays filled.
+auto closed(const Polygons& shapes, double by) -> base::Result<Polygons> {
+  Polygons grown;
+  for (const auto& shape : shapes) {
+    auto more = geometry::buffer(shape, by);
+    if (!more) return more;
+    grown.insert(grown.end(), more->begin(), more->end());
+  }
+  const auto united = geometry::unite(grown);
+  if (!united) return united;
+  Polygons shrunk;
+  for (const auto& polygon : *united) {
+    auto less = geometry::buffer(polygon, -by);
+    if (!less) return less;
+    shrunk.insert(shrunk.end(), less->begin(), less->end());
+  }
+  return shrunk;
+}
+
+/// Growing and shrinking moves points by rounding: those that were there before get their place back.
+void restore(Polygons& polygons, const Polygons& originals) {
+  std::vector<Point2> known;
+  for (const auto& polygon : originals) {
+    known.insert(known.end(), polygon.outer.begin(), polygon.outer.end());
+    for (const auto& hole : polygon.holes) known.insert(known.end(), hole.begin(), hole.end());
+  }
+  std::ranges::sort(known);
+  constexpr double rounding = 1e-6;
+  const auto settle = [&](Ring& ring) {
+    for (auto& p : ring) {
+      const auto first = std::ranges::lower_bound(known, Point2{p.x - rounding, p.y - rounding});
+      for (auto at = first; at != known.end() && at->x <= p.x + rounding; ++at)
+        if (std::abs(at->y - p.y) <= rounding) {
+          p = *at;
+          break;
+        }
+    }
+  };
+  for (auto& polygon : polygons) {
+    settle(polygon.outer);
+    for (auto& hole : polygon.holes) settle(hole);
+  }
+}
+
+}  // namespace
+
+auto bounds(const Polygons& polygons) -> Box2 {
+  Box2 box;
+  for (const auto& polygon : polygons)
+    for (const Point2 p : polygon.outer) box.add(p);
+  return box;
+}
+
+auto distance(const Segment2& a, const Segment2& b) -> double {
+  if (geometry::meet(a, b)) return 0;
+  return std::min({geometry::distance(a, b.start), geometry::distance(a, b.end), geometry::distance(b, a.start),
+                   geometry::distance(b, a.end)});
+}
+
+auto are_near(const Polygons& a, const Polygons& b, double touch) -> bool {
+  const Box2 reach_a = bounds(a).grown(touch), reach_b = bounds(b).grown(touch);
+  if (a.empty() || b.empty() || !reach_a.overlaps(bounds(b))) return false;
+  const auto edges_a = edges_within(a, reach_b), edges_b = edges_within(b, reach_a);
+  for (const auto& edge : edges_a) {
+    const Box2 reach = box_of(edge).grown(touch);
+    for (const auto& other : edges_b) {
+      if (!reach.overlaps(box_of(other))) continue;
+      if (const double apart = distance(edge, other); apart == 0 || apart < touch) return true;
+    }
+  }
+  return std::ranges::any_of(a, [&b](const Polygon& p) { return holds(b, p.outer.front()); }) ||
+         std::ranges::any_of(b, [&a](const Polygon& p) { return holds(a, p.outer.front()); });
+}
+
+auto groups_of(const std::vector<Polygons>& shapes, double touch) -> std::vector<std::vector<std::size_t>> {
+  std::vector<Box2> boxes;
+  for (const auto& shape : shapes) boxes.push_back(bounds(shape).grown(touch / 2));
+  std::vector<std::size_t> order(shapes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair(boxes[i].least.x, i); });
+
+  Sets sets(shapes.size());
+  std::vector<std::size_t> open;  // those whose box may still meet the next one's
+  for (const std::size_t i : order) {
+    std::erase_if(open, [&](std::size_t j) { return boxes[j].most.x < boxes[i].least.x; });
+    for (const std::size_t j : open)
+      if (boxes[i].overlaps(boxes[j]) && sets.root(i) != sets.root(j) && are_near(shapes[i], shapes[j], touch))
+        sets.join(i, j);
+    open.push_back(i);
+  }
+  std::vector<std::vector<std::size_t>> groups(shapes.size());
+  for (std::size_t i = 0; i < shapes.size(); ++i) groups[sets.root(i)].push_back(i);
+  std::erase_if(groups, [](const auto& group) { return group.empty(); });
+  return groups;
+}
+
+auto outline_of(const Polygons& shapes, double touch) -> Polygons {
+  auto united = geometry::unite(shapes);
+  if (!united) return shapes;
+  if (touch <= 0) return std::move(*united);
+  auto filled = closed(*united, touch / 2);
+  if (!filled || filled->empty()) return std::move(*united);
+  // Mitres are cut off where corners are sharp; what that took from the shapes is put back.
+  restore(*filled, *united);
+  Polygons both = *united;
+  both.insert(both.end(), filled->begin(), filled->end());
+  auto whole = geometry::unite(both);
+  constexpr double gap_area = 0.01;  // m²
+  const bool simple = std::ranges::all_of(*united, [](const Polygon& p) { return geometry::is_simple(p); });
+  if (!whole || (simple && whole->size() == united->size() && total(*whole) - total(*united) < gap_area))
+    return std::move(*united);
+  return std::move(*whole);
+}
+
+}  // namespace mansard::block::detail

@@ -1,0 +1,29 @@
+// Which footprints touch, and what they look like from outside together.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "mansard/geometry/polygon.hpp"
+
+namespace mansard::block::detail {
+
+using Polygons = std::vector<geometry::Polygon>;
+
+[[nodiscard]] auto bounds(const Polygons& polygons) -> geometry::Box2;
+
+/// m between two closed segments; 0 where they meet.
+[[nodiscard]] auto distance(const geometry::Segment2& a, const geometry::Segment2& b) -> double;
+
+/// Whether two areas are nearer than `touch` or have a point in common.
+[[nodiscard]] auto are_near(const Polygons& a, const Polygons& b, double touch) -> bool;
+
+/// Groups of shapes linked by nearness: each ascending, ordered by their first. Boxes are swept along x, so the cost
+/// is O(m log m + pairs whose boxes come near).
+[[nodiscard]] auto groups_of(const std::vector<Polygons>& shapes, double touch)
+    -> std::vector<std::vector<std::size_t>>;
+
+/// The union, with gaps narrower than `touch` closed. Where there are none its points are those of the shapes.
+[[nodiscard]] auto outline_of(const Polygons& shapes, double touch) -> Polygons;
+
+}  // namespace mansard::block::detail

@@ -1,0 +1,38 @@
+// A grid over the plan whose cells are whole multiples of its spacing, and which of its cells polygons cover.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mansard/geometry/polygon.hpp"
+
+namespace mansard::evaluate::detail {
+
+/// Cell (i, j) is [i, i + 1]·spacing × [j, j + 1]·spacing and is sampled at its centre.
+struct Grid {
+  double spacing = 0.25;  ///< m
+  std::int64_t column = 0, row = 0;   ///< of the south-west cell
+  std::int64_t columns = 0, rows = 0;
+
+  [[nodiscard]] auto centre(std::int64_t i, std::int64_t j) const -> geometry::Point2 {
+    return {(static_cast<double>(column + i) + 0.5) * spacing, (static_cast<double>(row + j) + 0.5) * spacing};
+  }
+};
+
+/// The cells that overlap the box in more than its border.
+[[nodiscard]] auto grid_over(const geometry::Box2& box, double spacing) -> Grid;
+
+/// Polygons ready to be asked row by row.
+class Cover {
+ public:
+  explicit Cover(std::span<const geometry::Polygon> polygons);
+  /// Per column of row `j`: whether its centre is in one of the polygons.
+  [[nodiscard]] auto row(const Grid& grid, std::int64_t j) const -> std::vector<bool>;
+
+ private:
+  std::span<const geometry::Polygon> polygons_;
+  std::vector<geometry::Box2> boxes_;
+};
+
+}  // namespace mansard::evaluate::detail

@@ -1,0 +1,182 @@
+#include "mansard/evaluate/evaluate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "mansard/evaluate/detail/grid.hpp"
+
+namespace mansard::evaluate {
+namespace {
+
+using detail::Grid;
+using geometry::Box2;
+
+/// The solids' surfaces as one mesh; a solid that cannot be cut into triangles is left out, and so counts as missed.
+auto surface_of(std::span<const label::LabelledSolid> model) -> geometry::Mesh {
+  geometry::Mesh mesh;
+  for (const auto& labelled : model) {
+    const auto pieces = extrude::triangulate(labelled.solid);
+    if (!pieces) continue;
+    const auto offset = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), labelled.solid.vertices.begin(), labelled.solid.vertices.end());
+    for (const auto& t : pieces->triangles) mesh.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
+  }
+  return mesh;
+}
+
+auto box_of(std::span<const geometry::Polygon> polygons) -> Box2 {
+  Box2 box;
+  for (const auto& polygon : polygons)
+    for (const auto p : polygon.outer) box.add(p);
+  return box;
+}
+
+auto box_of(const geometry::Mesh& mesh) -> Box2 {
+  Box2 box;
+  for (const auto& v : mesh.vertices) box.add(geometry::xy(v));
+  return box;
+}
+
+/// What a row, or all rows, add up to.
+struct Sums {
+  std::size_t cells = 0, footprint_cells = 0, missed = 0, invented = 0;
+  double squares = 0, footprint_squares = 0;
+
+  void add(const Sums& more) {
+    cells += more.cells, footprint_cells += more.footprint_cells;
+    missed += more.missed, invented += more.invented;
+    squares += more.squares, footprint_squares += more.footprint_squares;
+  }
+};
+
+/// The cell of a share of the way through the sorted values.
+auto quantile(std::vector<float>& values, double share) -> double {
+  const auto at = static_cast<std::size_t>(std::floor(share * static_cast<double>(values.size() - 1) + 0.5));
+  std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(at));
+  return values[at];
+}
+
+void fill_quantiles(const ErrorMap& map, Scores& scores) {
+  std::vector<float> values;
+  values.reserve(scores.cells);
+  for (const float d : map.difference)
+    if (!std::isnan(d)) values.push_back(d);
+  if (values.empty()) return;
+  scores.median = quantile(values, 0.5);
+  for (float& d : values) d = std::abs(d);
+  scores.median_absolute = quantile(values, 0.5);
+  scores.p95_absolute = quantile(values, 0.95);
+}
+
+}  // namespace
+
+auto option_list(Options& o) -> base::OptionList {
+  base::OptionList list("evaluate");
+  list.number("grid", o.grid, "m", {0.01, 10}, "Distance between the samples of the vertical error.")
+      .number("margin", o.margin, "m", {0, 100}, "How far around the footprints' bounding box errors are measured.");
+  return list;
+}
+
+auto compare(std::span<const label::LabelledSolid> model, const rays::Scene& mesh,
+             std::span<const geometry::Polygon> footprints, double ground, const Options& options, const base::Run& run)
+    -> Comparison {
+  run.report("evaluate", {}, 0);
+  const geometry::Mesh surface = surface_of(model);
+  const rays::Scene top(surface);
+  const detail::Cover cover(footprints);
+
+  // Errors are measured over the footprints' bounding box, as in the paper; what is invented may lie outside it.
+  Box2 box = box_of(footprints).grown(options.margin);
+  const Box2 model_box = box_of(surface);
+  if (footprints.empty()) box = model_box.grown(options.margin);
+  const Grid inner = detail::grid_over(box, options.grid);
+  if (!model_box.empty()) {
+    box.add(model_box.least);
+    box.add(model_box.most);
+  }
+  const Grid outer = detail::grid_over(box, options.grid);
+
+  Comparison out;
+  ErrorMap& map = out.map;
+  map.origin = inner.centre(0, 0);
+  map.grid = options.grid;
+  map.columns = static_cast<std::size_t>(inner.columns);
+  map.rows = static_cast<std::size_t>(inner.rows);
+  map.difference.assign(map.columns * map.rows, std::numeric_limits<float>::quiet_NaN());
+
+  std::vector<Sums> rows(static_cast<std::size_t>(outer.rows));
+  base::parallel_for(rows.size(), [&](std::size_t row) {
+    if (run.cancelled()) return;
+    const auto j = static_cast<std::int64_t>(row);
+    const auto inside = cover.row(outer, j);
+    Sums& sums = rows[row];
+    for (std::int64_t i = 0; i < outer.columns; ++i) {
+      const auto at = outer.centre(i, j);
+      const auto built = top.top(at);
+      const bool in_footprint = inside[static_cast<std::size_t>(i)];
+      if (built && !in_footprint) ++sums.invented;
+      if (!built && in_footprint) ++sums.missed;
+      const std::int64_t column = outer.column + i - inner.column, line = outer.row + j - inner.row;
+      if (column < 0 || line < 0 || column >= inner.columns || line >= inner.rows) continue;
+      if (!built && !in_footprint) continue;
+      const auto scanned = mesh.top(at);
+      if (!scanned) continue;
+      const double difference = built.value_or(ground) - *scanned;
+      if (in_footprint) {
+        ++sums.footprint_cells;
+        sums.footprint_squares += difference * difference;
+      }
+      if (built) {
+        ++sums.cells;
+        sums.squares += difference * difference;
+        map.difference[static_cast<std::size_t>(line * inner.columns + column)] = static_cast<float>(difference);
+      }
+    }
+  });
+
+  Sums total;
+  for (const auto& row : rows) total.add(row);
+  Scores& scores = out.scores;
+  scores.cells = total.cells;
+  scores.footprint_cells = total.footprint_cells;
+  if (total.cells > 0) scores.mse = total.squares / static_cast<double>(total.cells);
+  if (total.footprint_cells > 0)
+    scores.footprint_mse = total.footprint_squares / static_cast<double>(total.footprint_cells);
+  const double cell_area = options.grid * options.grid;
+  scores.missed = static_cast<double>(total.missed) * cell_area;
+  scores.invented = static_cast<double>(total.invented) * cell_area;
+  fill_quantiles(map, scores);
+  run.report("evaluate", {}, 1);
+  return out;
+}
+
+auto error_over(const extrude::Solid& solid, const geometry::Polygon& polygon, const rays::Scene& mesh, double grid)
+    -> double {
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  const auto pieces = extrude::triangulate(solid);
+  if (!pieces || solid.vertices.empty()) return unknown;
+  const rays::Scene top(geometry::Mesh{solid.vertices, pieces->triangles});
+  double base = solid.vertices.front().z;
+  for (const auto& v : solid.vertices) base = std::min(base, v.z);
+
+  const Grid cells = detail::grid_over(geometry::bounds(polygon.outer), grid);
+  const detail::Cover cover({&polygon, 1});
+  std::size_t count = 0;
+  double squares = 0;
+  for (std::int64_t j = 0; j < cells.rows; ++j) {
+    const auto inside = cover.row(cells, j);
+    for (std::int64_t i = 0; i < cells.columns; ++i) {
+      if (!inside[static_cast<std::size_t>(i)]) continue;
+      const auto at = cells.centre(i, j);
+      const auto scanned = mesh.top(at);
+      if (!scanned) continue;
+      const double difference = top.top(at).value_or(base) - *scanned;
+      squares += difference * difference;
+      ++count;
+    }
+  }
+  return count > 0 ? squares / static_cast<double>(count) : unknown;
+}
+
+}  // namespace mansard::evaluate

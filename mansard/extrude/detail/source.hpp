@@ -1,0 +1,24 @@
+// The plan as the kernel takes it in, and the coarser versions of it that the ladder steps down to.
+#pragma once
+
+#include <optional>
+
+#include "mansard/extrude/detail/footprint.hpp"
+
+namespace mansard::extrude::detail {
+
+/// Oriented, repeated points dropped. Gives up with "extrude-profile", "extrude-cap", "extrude-not-simple",
+/// "extrude-no-area".
+[[nodiscard]] auto prepared(const geometry::Plan& plan) -> base::Result<Source>;
+
+/// Without details under `size` metres: corners nearer than that to the line past them, holes that small. Edges keep
+/// the profile of the longer one they came from. Still simple.
+[[nodiscard]] auto simplified(Source source, double size) -> Source;
+
+/// Every profile reduced to its wall and one mean pitch.
+[[nodiscard]] auto two_part(Source source) -> Source;
+
+/// Upright walls over the rings, flat below and above.
+[[nodiscard]] auto prism_of(const Source& source, double base, double cap) -> Solid;
+
+}  // namespace mansard::extrude::detail

@@ -1,0 +1,157 @@
+// Boolean operations and triangulation by GEOS, through its re-entrant C interface.
+#include <algorithm>
+#include <functional>
+#include <geos_c.h>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "mansard/geometry/polygon.hpp"
+
+namespace mansard::geometry {
+namespace {
+
+struct Context {
+  Context() : handle(GEOS_init_r()) {
+    GEOSContext_setErrorMessageHandler_r(
+        handle, [](const char* words, void* self) { static_cast<Context*>(self)->message = words; }, this);
+  }
+  Context(const Context&) = delete;
+  auto operator=(const Context&) -> Context& = delete;
+  ~Context() { GEOS_finish_r(handle); }
+
+  GEOSContextHandle_t handle;
+  std::string message;
+};
+
+struct Drop {
+  Context* context;
+  void operator()(GEOSGeometry* g) const { GEOSGeom_destroy_r(context->handle, g); }
+};
+using Shape = std::unique_ptr<GEOSGeometry, Drop>;
+
+auto keep(Context& context, GEOSGeometry* g) -> Shape { return Shape(g, Drop{&context}); }
+
+auto to_ring(Context& context, const Ring& ring) -> GEOSGeometry* {
+  const auto n = static_cast<unsigned>(ring.size());
+  GEOSCoordSequence* points = GEOSCoordSeq_create_r(context.handle, n + 1, 2);
+  for (unsigned i = 0; i <= n; ++i) GEOSCoordSeq_setXY_r(context.handle, points, i, ring[i % n].x, ring[i % n].y);
+  return GEOSGeom_createLinearRing_r(context.handle, points);
+}
+
+auto to_shape(Context& context, const Polygon& polygon) -> Shape {
+  if (polygon.outer.size() < 3) return keep(context, GEOSGeom_createEmptyPolygon_r(context.handle));
+  std::vector<GEOSGeometry*> holes;
+  for (const auto& hole : polygon.holes)
+    if (hole.size() >= 3) holes.push_back(to_ring(context, hole));
+  return keep(context, GEOSGeom_createPolygon_r(context.handle, to_ring(context, polygon.outer), holes.data(),
+                                                static_cast<unsigned>(holes.size())));
+}
+
+auto from_ring(Context& context, const GEOSGeometry* ring) -> Ring {
+  const GEOSCoordSequence* points = GEOSGeom_getCoordSeq_r(context.handle, ring);
+  unsigned n = 0;
+  GEOSCoordSeq_getSize_r(context.handle, points, &n);
+  Ring out;
+  for (unsigned i = 0; i + 1 < n; ++i) {
+    Point2 p;
+    GEOSCoordSeq_getXY_r(context.handle, points, i, &p.x, &p.y);
+    out.push_back(p);
+  }
+  return out;
+}
+
+void collect(Context& context, const GEOSGeometry* g, std::vector<Polygon>& out) {
+  const int type = GEOSGeomTypeId_r(context.handle, g);
+  if (type == GEOS_POLYGON) {
+    if (GEOSisEmpty_r(context.handle, g) != 0) return;
+    Polygon polygon;
+    polygon.outer = from_ring(context, GEOSGetExteriorRing_r(context.handle, g));
+    for (int i = 0; i < GEOSGetNumInteriorRings_r(context.handle, g); ++i)
+      polygon.holes.push_back(from_ring(context, GEOSGetInteriorRingN_r(context.handle, g, i)));
+    polygon = oriented(std::move(polygon));
+    if (area(polygon) > 0) out.push_back(std::move(polygon));
+  } else if (type == GEOS_MULTIPOLYGON || type == GEOS_GEOMETRYCOLLECTION) {
+    for (int i = 0; i < GEOSGetNumGeometries_r(context.handle, g); ++i)
+      collect(context, GEOSGetGeometryN_r(context.handle, g, i), out);
+  }
+}
+
+using Operation = std::function<GEOSGeometry*(Context&)>;
+
+auto polygons_of(const Operation& operation) -> base::Result<std::vector<Polygon>> {
+  Context context;
+  const Shape result = keep(context, operation(context));
+  if (!result) return base::error("geometry-boolean", context.message);
+  // A normal form, so that the order does not depend on the library's inner workings.
+  GEOSNormalize_r(context.handle, result.get());
+  std::vector<Polygon> out;
+  collect(context, result.get(), out);
+  return out;
+}
+
+}  // namespace
+
+auto unite(std::span<const Polygon> polygons) -> base::Result<std::vector<Polygon>> {
+  return polygons_of([&](Context& context) {
+    std::vector<GEOSGeometry*> shapes;
+    for (const auto& polygon : polygons) shapes.push_back(to_shape(context, polygon).release());
+    const Shape all = keep(context, GEOSGeom_createCollection_r(context.handle, GEOS_MULTIPOLYGON, shapes.data(),
+                                                                static_cast<unsigned>(shapes.size())));
+    return GEOSUnaryUnion_r(context.handle, all.get());
+  });
+}
+
+auto intersect(const Polygon& a, const Polygon& b) -> base::Result<std::vector<Polygon>> {
+  return polygons_of([&](Context& context) {
+    return GEOSIntersection_r(context.handle, to_shape(context, a).get(), to_shape(context, b).get());
+  });
+}
+
+auto subtract(const Polygon& a, const Polygon& b) -> base::Result<std::vector<Polygon>> {
+  return polygons_of([&](Context& context) {
+    return GEOSDifference_r(context.handle, to_shape(context, a).get(), to_shape(context, b).get());
+  });
+}
+
+auto buffer(const Polygon& polygon, double by) -> base::Result<std::vector<Polygon>> {
+  return polygons_of([&](Context& context) {
+    return GEOSBufferWithStyle_r(context.handle, to_shape(context, polygon).get(), by, 8, GEOSBUF_CAP_FLAT,
+                                 GEOSBUF_JOIN_MITRE, 2.0);
+  });
+}
+
+auto make_valid(const Polygon& polygon) -> base::Result<std::vector<Polygon>> {
+  return polygons_of(
+      [&](Context& context) { return GEOSMakeValid_r(context.handle, to_shape(context, polygon).get()); });
+}
+
+auto triangulate(const Polygon& polygon) -> base::Result<std::vector<std::array<std::uint32_t, 3>>> {
+  std::map<Point2, std::uint32_t> index;
+  std::uint32_t count = 0;
+  for (const Point2 p : polygon.outer) index.emplace(p, count++);
+  for (const auto& hole : polygon.holes)
+    for (const Point2 p : hole) index.emplace(p, count++);
+
+  Context context;
+  const Shape shape = to_shape(context, polygon);
+  const Shape parts = keep(context, GEOSConstrainedDelaunayTriangulation_r(context.handle, shape.get()));
+  if (!parts) return base::error("geometry-triangulate", context.message);
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (int i = 0; i < GEOSGetNumGeometries_r(context.handle, parts.get()); ++i) {
+    const GEOSGeometry* part = GEOSGetGeometryN_r(context.handle, parts.get(), i);
+    Ring ring = from_ring(context, GEOSGetExteriorRing_r(context.handle, part));
+    if (signed_area(ring) < 0) std::ranges::reverse(ring);
+    std::array<std::uint32_t, 3> triangle{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto at = ring.size() == 3 ? index.find(ring[k]) : index.end();
+      if (at == index.end()) return base::error("geometry-triangulate", "the triangulation moved a point");
+      triangle[k] = at->second;
+    }
+    triangles.push_back(triangle);
+  }
+  if (triangles.empty()) return base::error("geometry-triangulate", "the polygon has no area");
+  return triangles;
+}
+
+}  // namespace mansard::geometry

@@ -1,0 +1,33 @@
+// From what a file has to what the guarantees of the door say.
+#pragma once
+
+#include <optional>
+
+#include "mansard/ingest/detail/raw_mesh.hpp"
+#include "mansard/ingest/ingest.hpp"
+
+namespace mansard::ingest::detail {
+
+struct Box3 {
+  geometry::Box2 plan;
+  double low = 0, high = 0;  ///< metres; both 0 when the box is empty
+};
+
+/// Of the triangles that can be used, in raw coordinates plus the offset.
+[[nodiscard]] auto bounds(const RawMesh& raw, const std::array<double, 3>& offset) -> Box3;
+
+struct CleanMesh {
+  geometry::Mesh mesh;
+  MeshCounts counts;
+};
+
+/// Drops what cannot be used, makes corners at the same place one, takes out what then has no area or is there twice.
+/// `shift` is added to all coordinates; with `within`, triangles whose box misses it are left out uncounted.
+/// Cost: linear in vertices and triangles but for sorting around each vertex.
+[[nodiscard]] auto clean(RawMesh raw, const std::array<double, 3>& shift, const std::optional<geometry::Box2>& within)
+    -> CleanMesh;
+
+/// One warning for each kind of fault that was found.
+[[nodiscard]] auto warnings_of(const MeshCounts& counts, const std::string& subject) -> std::vector<base::Diagnostic>;
+
+}  // namespace mansard::ingest::detail

@@ -1,0 +1,233 @@
+#include "mansard/ingest/detail/crs.hpp"
+
+#include <ogr_spatialref.h>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "mansard/base/text.hpp"
+#include "mansard/ingest/detail/gdal_messages.hpp"
+
+namespace mansard::ingest::detail {
+namespace {
+
+/// A CRS whose coordinates are always x (east, longitude) before y, as files keep them and as this engine works,
+/// whatever the authority's axis order.
+struct Crs {
+  OGRSpatialReference system;
+  Crs() { system.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER); }
+};
+
+auto from_wkt(const std::string& wkt) -> std::optional<Crs> {
+  Crs crs;
+  if (crs.system.importFromWkt(wkt.c_str()) != OGRERR_NONE) return std::nullopt;
+  return crs;
+}
+
+auto from_words(const std::string& words) -> std::optional<Crs> {
+  Crs crs;
+  if (crs.system.SetFromUserInput(words.c_str(), OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get()) !=
+      OGRERR_NONE)
+    return std::nullopt;
+  return crs;
+}
+
+auto wkt_of(const OGRSpatialReference& system) -> std::string {
+  char* text = nullptr;
+  const char* options[] = {"FORMAT=WKT2_2019", "MULTILINE=NO", nullptr};
+  const OGRErr failed = system.exportToWkt(&text, options);
+  std::string wkt = failed == OGRERR_NONE && text != nullptr ? text : "";
+  CPLFree(text);
+  return wkt;
+}
+
+auto authority_code(const OGRSpatialReference& system) -> std::optional<std::string> {
+  const char* authority = system.GetAuthorityName(nullptr);
+  const char* code = system.GetAuthorityCode(nullptr);
+  if (authority == nullptr || code == nullptr || std::string_view(authority) != "EPSG") return std::nullopt;
+  return "EPSG:" + std::string(code);
+}
+
+/// "EPSG:n" as the CRS says, or as the register recognises it, else its WKT.
+auto name_of(const OGRSpatialReference& system) -> std::string {
+  if (auto code = authority_code(system)) return *code;
+  OGRSpatialReference copy(system);
+  if (copy.AutoIdentifyEPSG() == OGRERR_NONE)
+    if (auto code = authority_code(copy)) return *code;
+  int count = 0;
+  int* confidences = nullptr;
+  OGRSpatialReferenceH* matches = OSRFindMatches(OGRSpatialReference::ToHandle(&copy), nullptr, &count, &confidences);
+  std::optional<std::string> found;
+  // 90 %: equal but for the names.
+  if (count > 0 && confidences[0] >= 90) found = authority_code(*OGRSpatialReference::FromHandle(matches[0]));
+  OSRFreeSRSArray(matches);
+  CPLFree(confidences);
+  return found ? *found : wkt_of(system);
+}
+
+auto in_metres(const OGRSpatialReference& system) -> bool { return std::abs(system.GetLinearUnits() - 1) < 1e-9; }
+
+auto title_of(const OGRSpatialReference& system) -> std::string {
+  const auto code = authority_code(system);
+  const char* name = system.GetName();
+  return (code ? *code + " " : std::string()) + (name != nullptr ? name : "");
+}
+
+/// The CRS the user asked for: projected and metric, since the engine measures in metres.
+auto wanted_crs(const std::string& option) -> base::Result<Crs> {
+  auto crs = from_words(option);
+  if (!crs)
+    return base::error("ingest-crs-option",
+                       "'" + option + "' is not a known CRS; write EPSG:28992, a WKT text, or local", "ingest.crs");
+  if (crs->system.IsProjected() == 0 || !in_metres(crs->system))
+    return base::error("ingest-crs-option",
+                       "'" + option + "' (" + title_of(crs->system) + ") is not a projected CRS in metres; give one",
+                       "ingest.crs");
+  return std::move(*crs);
+}
+
+auto largest_side(const std::vector<RawFeature>& features) -> double {
+  double largest = 0;
+  for (const auto& feature : features)
+    if (const auto box = bounds(feature); !box.empty())
+      largest = std::max({largest, box.most.x - box.least.x, box.most.y - box.least.y});
+  return largest;
+}
+
+/// GeoJSON without "crs" is in degrees by its standard. It cannot be if it lies beyond them; and it is not if it lies
+/// on the mesh (which is in metres) and some building of it is larger than 1, which would be a hundred kilometres.
+auto looks_local(const FeatureFile& file, const geometry::Box2& mesh) -> bool {
+  const geometry::Box2 box = bounds(file.features);
+  if (box.empty()) return false;
+  if (box.least.x < -180 || box.most.x > 180 || box.least.y < -90 || box.most.y > 90) return true;
+  return box.overlaps(mesh) && largest_side(file.features) >= 1;
+}
+
+auto utm_crs(const OGRSpatialReference& geographic, const geometry::Box2& box) -> std::optional<Crs> {
+  const geometry::Point2 centre = 0.5 * (box.least + box.most);
+  const char* code = geographic.GetAuthorityCode("GEOGCS");
+  const auto number = base::to_whole(code != nullptr ? code : "").value_or(4326);
+  const int zone = utm_zone(centre.x, centre.y, static_cast<int>(number));
+  Crs crs;
+  if (zone == 0 || crs.system.importFromEPSG(zone) != OGRERR_NONE) return std::nullopt;
+  return crs;
+}
+
+/// Without a vertical part: footprints are flat, and their heights are not used.
+auto flat(const OGRSpatialReference& system) -> Crs {
+  Crs crs;
+  crs.system = system;
+  crs.system.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  if (crs.system.IsCompound() != 0) crs.system.StripVertical();
+  crs.system.DemoteTo2D(nullptr);
+  return crs;
+}
+
+auto without_crs(const std::string& option, const std::string& subject, bool geojson) -> base::Result<Way> {
+  const std::string why =
+      geojson ? "GeoJSON without a crs member whose numbers are not degrees" : "the file has no CRS";
+  Way way;
+  if (option.empty()) {
+    way.warnings.push_back(base::warning(
+        "ingest-crs-local", why + ": taken as metres in the mesh's own frame; --crs EPSG:n names their CRS", subject));
+    return way;
+  }
+  const auto wanted = wanted_crs(option);
+  if (!wanted) return wanted.error();
+  way.name = name_of(wanted->system);
+  way.warnings.push_back(base::warning("ingest-crs-local", why + ": taken to be in " + way.name + " already", subject));
+  return way;
+}
+
+}  // namespace
+
+auto utm_zone(double longitude, double latitude, int geographic) -> int {
+  if (!(latitude >= -80 && latitude <= 84)) return 0;
+  const double turned = longitude - 360 * std::floor((longitude + 180) / 360);
+  int zone = std::clamp(static_cast<int>(std::floor((turned + 180) / 6)) + 1, 1, 60);
+  // The west coast of Norway, and Svalbard.
+  if (latitude >= 56 && latitude < 64 && turned >= 3 && turned < 12) zone = 32;
+  if (latitude >= 72 && turned >= 0 && turned < 42) zone = turned < 9 ? 31 : turned < 21 ? 33 : turned < 33 ? 35 : 37;
+  constexpr int etrs89 = 4258, nad83 = 4269;
+  if (geographic == etrs89 && latitude >= 0 && zone >= 28 && zone <= 38) return 25800 + zone;
+  if (geographic == nad83 && latitude >= 0 && zone <= 23) return 26900 + zone;
+  return (latitude >= 0 ? 32600 : 32700) + zone;
+}
+
+auto choose_way(const FeatureFile& file, const std::string& option, const geometry::Box2& mesh,
+                const std::string& subject) -> base::Result<Way> {
+  const GdalMessages messages;
+  if (option == "local") return Way{};
+  if (file.crs.empty()) return without_crs(option, subject, false);
+  if (file.assumed_crs && looks_local(file, mesh)) return without_crs(option, subject, true);
+
+  const auto source = from_wkt(file.crs);
+  if (!source || (source->system.IsGeographic() == 0 && source->system.IsProjected() == 0))
+    return base::error("ingest-crs-unknown",
+                       "the CRS of the footprints is neither projected nor geographic, or not known" +
+                           (messages.failure().empty() ? std::string() : " (" + messages.failure() + ")") +
+                           "; reproject them, or say --crs local if they are metres in the mesh's frame",
+                       subject);
+  std::optional<Crs> target;
+  if (!option.empty()) {
+    auto wanted = wanted_crs(option);
+    if (!wanted) return wanted.error();
+    target = std::move(*wanted);
+  } else if (source->system.IsProjected() != 0) {
+    if (!in_metres(source->system))
+      return base::error(
+          "ingest-crs-unit",
+          "the CRS of the footprints (" + title_of(source->system) +
+              ") is not in metres; say --crs EPSG:n with a projected CRS that is, and bring the mesh there",
+          subject);
+    return Way{name_of(source->system), {}, {}, {}};
+  } else {
+    target = utm_crs(flat(source->system).system, bounds(file.features));
+    if (!target)
+      return base::error("ingest-crs-unknown",
+                         "the footprints are in degrees where there is no UTM zone; say --crs EPSG:n", subject);
+  }
+
+  Way way;
+  way.name = name_of(target->system);
+  const Crs from = flat(source->system), to = flat(target->system);
+  if (from.system.IsSame(&to.system) != 0) return way;
+  way.from = wkt_of(from.system);
+  way.to = wkt_of(to.system);
+  return way;
+}
+
+auto go(const Way& way, std::vector<RawFeature>& features, const std::string& subject) -> base::Result<void> {
+  if (way.to.empty()) return {};
+  const GdalMessages messages;
+  const auto from = from_wkt(way.from), to = from_wkt(way.to);
+  std::unique_ptr<OGRCoordinateTransformation> transformation;
+  if (from && to) transformation.reset(OGRCreateCoordinateTransformation(&from->system, &to->system));
+  if (!transformation)
+    return base::error("ingest-crs-unknown",
+                       "there is no way from the footprints' CRS to " + way.name + " (" + messages.failure() +
+                           "); say --crs EPSG:n with another one",
+                       subject);
+  constexpr double lost = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> x, y;
+  std::vector<int> done;
+  for (auto& feature : features)
+    for (auto& part : feature.parts)
+      for (auto& ring : part) {
+        x.clear();
+        y.clear();
+        for (const auto p : ring) {
+          x.push_back(p.x);
+          y.push_back(p.y);
+        }
+        done.assign(ring.size(), 0);
+        if (!ring.empty())
+          transformation->Transform(static_cast<int>(ring.size()), x.data(), y.data(), nullptr, nullptr, done.data());
+        for (std::size_t i = 0; i < ring.size(); ++i)
+          ring[i] = done[i] != 0 ? geometry::Point2{x[i], y[i]} : geometry::Point2{lost, lost};
+      }
+  return {};
+}
+
+}  // namespace mansard::ingest::detail

@@ -1,0 +1,34 @@
+// Which CRS to work in, and how the footprints get there.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mansard/base/result.hpp"
+#include "mansard/ingest/detail/features.hpp"
+#include "mansard/ingest/ingest.hpp"
+
+namespace mansard::ingest::detail {
+
+/// From the source's CRS to the working one; both empty when coordinates stay as they are.
+struct Way {
+  std::string name;  ///< of the working CRS, for Frame::crs
+  std::string from, to;
+  std::vector<base::Diagnostic> warnings;
+};
+
+/// Decides by what the source says, the option, and, for GeoJSON that says nothing, where the mesh lies.
+/// `mesh` is the box of the mesh with its offset. Gives up with "ingest-crs-unknown", "ingest-crs-unit",
+/// "ingest-crs-option".
+[[nodiscard]] auto choose_way(const FeatureFile& file, const std::string& option, const geometry::Box2& mesh,
+                              const std::string& subject) -> base::Result<Way>;
+
+/// Takes all points along; where that is not possible they become NaN. Gives up with "ingest-crs-unknown".
+[[nodiscard]] auto go(const Way& way, std::vector<RawFeature>& features, const std::string& subject)
+    -> base::Result<void>;
+
+/// EPSG code of the UTM zone of a place in degrees on the datum of the geographic CRS with that EPSG code (WGS 84 for
+/// all but ETRS89 and NAD83, which have zones of their own); 0 beyond the zones' latitudes.
+[[nodiscard]] auto utm_zone(double longitude, double latitude, int geographic) -> int;
+
+}  // namespace mansard::ingest::detail

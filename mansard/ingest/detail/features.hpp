@@ -1,0 +1,46 @@
+// Features as the vector source has them, in its coordinates.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mansard/base/result.hpp"
+#include "mansard/base/run.hpp"
+#include "mansard/ingest/ingest.hpp"
+
+namespace mansard::ingest::detail {
+
+/// The shell, then the holes, in any orientation and state; ends may repeat starts.
+using RawPolygon = std::vector<geometry::Ring>;
+
+struct RawFeature {
+  std::int64_t number = 0;  ///< the source's own number of the feature (OGR's FID)
+  Attributes attributes;
+  std::vector<RawPolygon> parts;
+  std::string geometry;         ///< what kind it has in the source, "NONE" for none
+  bool other_geometry = false;  ///< there are points, lines or solids in it
+  std::string failure;          ///< what went wrong when it was read; empty for nothing
+};
+
+struct FeatureFile {
+  std::vector<RawFeature> features;
+  std::string crs;  ///< WKT; empty when the source has none
+  /// GeoJSON without a "crs" member: its CRS is WGS 84 by RFC 7946, but many such files hold local metres.
+  bool assumed_crs = false;
+  std::vector<InputFile> inputs;
+  std::vector<base::Diagnostic> warnings;
+};
+
+/// Reads the chosen layer of any OGR vector source: polygons with curves as segments and without heights.
+/// Gives up with "file-missing", "file-read", "ingest-footprints-format", "ingest-footprints-none",
+/// "ingest-footprints-geometry", "ingest-layer", "ingest-where", "cancelled".
+[[nodiscard]] auto read_features(const std::filesystem::path& path, const Options& options, const base::Run& run)
+    -> base::Result<FeatureFile>;
+
+/// Of all points, in the source's coordinates.
+[[nodiscard]] auto bounds(const RawFeature& feature) -> geometry::Box2;
+[[nodiscard]] auto bounds(const std::vector<RawFeature>& features) -> geometry::Box2;
+
+}  // namespace mansard::ingest::detail

@@ -1,0 +1,20 @@
+#include "mansard/ingest/detail/hash.hpp"
+
+#include <openssl/evp.h>
+#include <array>
+
+namespace mansard::ingest::detail {
+
+auto sha256(std::string_view bytes) -> std::string {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned int size = 0;
+  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &size, EVP_sha256(), nullptr) != 1) return {};
+  std::string text;
+  for (unsigned int i = 0; i < size; ++i) {
+    text += "0123456789abcdef"[digest[i] >> 4];
+    text += "0123456789abcdef"[digest[i] & 15];
+  }
+  return text;
+}
+
+}  // namespace mansard::ingest::detail

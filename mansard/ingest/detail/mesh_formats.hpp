@@ -1,0 +1,23 @@
+// One reader per mesh format, from the bytes of a file. All give up with "ingest-mesh-format" (what is wrong, and the
+// line where there are lines), "ingest-mesh-truncated" (the file ends too early) and "ingest-mesh-empty".
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "mansard/base/result.hpp"
+#include "mansard/ingest/detail/raw_mesh.hpp"
+
+namespace mansard::ingest::detail {
+
+/// Wavefront OBJ: v and f; negative indices, polygons, continued lines.
+[[nodiscard]] auto read_obj(std::string_view bytes, const std::string& name) -> base::Result<RawMesh>;
+/// Stanford PLY: ascii and binary of either byte order; vertices, faces, triangle strips.
+[[nodiscard]] auto read_ply(std::string_view bytes, const std::string& name) -> base::Result<RawMesh>;
+/// OFF with its C, N and ST variants, as text.
+[[nodiscard]] auto read_off(std::string_view bytes, const std::string& name) -> base::Result<RawMesh>;
+/// glTF 2.0, binary or JSON; `path` leads to the buffers beside it. Coordinates stay y up.
+[[nodiscard]] auto read_gltf(std::string_view bytes, const std::filesystem::path& path) -> base::Result<RawMesh>;
+
+}  // namespace mansard::ingest::detail

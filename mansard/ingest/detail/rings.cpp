@@ -1,0 +1,256 @@
+#include "mansard/ingest/detail/rings.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mansard/base/text.hpp"
+#include "mansard/geometry/predicates.hpp"
+
+namespace mansard::ingest::detail {
+namespace {
+
+using geometry::Point2;
+using geometry::Polygon;
+using geometry::Ring;
+using geometry::Segment2;
+
+constexpr double same_point = 1e-3;   // m
+constexpr double least_area = 0.01;   // m²: smaller than a hand is no building
+constexpr double area_change = 0.01;  // of the area, by a repair
+constexpr double bridge = 0.05;       // m: half the diagonal of the square put where rings touch
+
+auto finite(const std::vector<RawPolygon>& parts) -> bool {
+  // Farther than twice round the earth is no place either.
+  for (const auto& part : parts)
+    for (const auto& ring : part)
+      for (const Point2 p : ring)
+        if (!(std::abs(p.x) < 1e8 && std::abs(p.y) < 1e8)) return false;
+  return true;
+}
+
+void drop_repeated(Ring& ring) {
+  Ring kept;
+  for (const Point2 p : ring)
+    if (kept.empty() || length(p - kept.back()) >= same_point) kept.push_back(p);
+  while (kept.size() > 1 && length(kept.front() - kept.back()) < same_point) kept.pop_back();
+  ring = std::move(kept);
+}
+
+/// Whether the ring goes out to b and back the same way.
+auto is_spike(Point2 a, Point2 b, Point2 c) -> bool {
+  const Point2 out = b - a, back = c - b;
+  if (dot(out, back) >= 0) return false;
+  return std::abs(cross(out, back)) < same_point * std::max(length(out), length(back));
+}
+
+/// Takes spikes out, a spike on a spike too; returns how many.
+auto drop_spikes(Ring& ring) -> std::size_t {
+  std::size_t count = 0;
+  for (std::size_t i = 0, calm = 0; ring.size() >= 3 && calm < ring.size();) {
+    const std::size_t n = ring.size();
+    if (!is_spike(ring[(i + n - 1) % n], ring[i % n], ring[(i + 1) % n])) {
+      i = (i + 1) % n;
+      ++calm;
+      continue;
+    }
+    ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(i % n));
+    drop_repeated(ring);
+    ++count;
+    calm = 0;
+    i = ring.empty() ? 0 : (i + ring.size() - 2) % ring.size();
+  }
+  return count;
+}
+
+auto place(Point2 p, const std::array<double, 2>& origin) -> std::string {
+  return "(" + base::to_text(p.x + origin[0], 2) + ", " + base::to_text(p.y + origin[1], 2) + ")";
+}
+
+/// Where two edges of the ring meet that should not.
+auto crossing_of(const Ring& ring) -> std::optional<Point2> {
+  const std::size_t n = ring.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Segment2 a{ring[i], ring[(i + 1) % n]};
+    for (std::size_t j = i + 2; j < n; ++j) {
+      if (i == 0 && j == n - 1) continue;
+      const Segment2 b{ring[j], ring[(j + 1) % n]};
+      if (!geometry::meet(a, b)) continue;
+      const Point2 u = a.end - a.start, v = b.end - b.start;
+      const double turn = cross(u, v);
+      const double t = turn != 0 ? std::clamp(cross(b.start - a.start, v) / turn, 0.0, 1.0) : 0;
+      return a.start + t * u;
+    }
+  }
+  return std::nullopt;
+}
+
+/// Whether the holes lie within the shell and not within each other, given that no rings meet.
+auto nested(const Polygon& polygon) -> bool {
+  for (std::size_t i = 0; i < polygon.holes.size(); ++i) {
+    const Point2 p = polygon.holes[i].front();
+    if (!geometry::contains(polygon.outer, p)) return false;
+    for (std::size_t j = 0; j < polygon.holes.size(); ++j)
+      if (i != j && geometry::contains(polygon.holes[j], p)) return false;
+  }
+  return true;
+}
+
+auto is_good(const Polygon& polygon) -> bool { return geometry::is_simple(polygon) && nested(polygon); }
+
+auto total(const std::vector<Polygon>& polygons) -> double {
+  double sum = 0;
+  for (const auto& polygon : polygons) sum += geometry::area(polygon);
+  return sum;
+}
+
+/// Puts a small square over every point where two rings of a polygon touch (which OGC allows, but a wall of no
+/// thickness is not to be built).
+auto bridged(const Polygon& polygon) -> std::optional<std::vector<Polygon>> {
+  std::vector<const Ring*> rings{&polygon.outer};
+  for (const auto& hole : polygon.holes) rings.push_back(&hole);
+  std::vector<Polygon> pieces{polygon};
+  const Polygon shell{polygon.outer, {}};
+  for (const Ring* ring : rings)
+    for (const Point2 p : *ring)
+      for (const Ring* other : rings) {
+        if (other == ring) continue;
+        const bool touches = std::ranges::any_of(*other, [&, i = std::size_t{0}](Point2) mutable {
+          const Segment2 edge{(*other)[i], (*other)[(i + 1) % other->size()]};
+          ++i;
+          return geometry::distance(edge, p) < 1e-6;
+        });
+        if (!touches) continue;
+        const Polygon square{{{p.x + bridge, p.y}, {p.x, p.y + bridge}, {p.x - bridge, p.y}, {p.x, p.y - bridge}}, {}};
+        const auto within = geometry::intersect(square, shell);
+        if (!within) return std::nullopt;
+        pieces.insert(pieces.end(), within->begin(), within->end());
+      }
+  auto united = geometry::unite(pieces);
+  if (!united || !std::ranges::all_of(*united, is_good)) return std::nullopt;
+  return std::move(*united);
+}
+
+/// Shell without holes, each read by the even-odd rule first.
+auto rebuilt(const Polygon& polygon) -> base::Result<std::vector<Polygon>> {
+  auto shells = geometry::make_valid({polygon.outer, {}});
+  if (!shells) return shells;
+  std::vector<Polygon> holes;
+  for (const auto& hole : polygon.holes) {
+    auto valid = geometry::make_valid({hole, {}});
+    if (!valid) return valid;
+    holes.insert(holes.end(), valid->begin(), valid->end());
+  }
+  const auto united = geometry::unite(holes);
+  if (!united) return united;
+  for (const auto& hole : *united) {
+    std::vector<Polygon> left;
+    for (const auto& shell : *shells) {
+      auto rest = geometry::subtract(shell, hole);
+      if (!rest) return rest;
+      left.insert(left.end(), rest->begin(), rest->end());
+    }
+    *shells = std::move(left);
+  }
+  std::erase_if(*shells, [](const Polygon& p) { return geometry::area(p) < least_area; });
+  return shells;
+}
+
+/// Good polygons for one that is not, or the reason why there are none.
+auto mended(const Polygon& polygon, const std::array<double, 2>& origin) -> base::Result<std::vector<Polygon>> {
+  const bool shell_crosses = !geometry::is_simple({polygon.outer, {}});
+  const auto give_up = [&]() -> base::Diagnostic {
+    if (!shell_crosses)
+      return base::error("ingest-footprint-holes",
+                         "its holes cross, overlap or lie outside it; correct them in the source");
+    const auto at = crossing_of(polygon.outer);
+    return base::error("ingest-footprint-crossing", "its outline crosses itself" +
+                                                        (at ? " near " + place(*at, origin) : std::string()) +
+                                                        "; correct it in the source");
+  };
+  const double expected = std::abs(geometry::area(polygon));
+  const auto candidates = rebuilt(polygon);
+  if (!candidates || std::abs(total(*candidates) - expected) > area_change * expected) return give_up();
+  std::vector<Polygon> out;
+  for (const auto& candidate : *candidates) {
+    if (is_good(candidate)) {
+      out.push_back(candidate);
+      continue;
+    }
+    const auto pieces = bridged(candidate);
+    if (!pieces) return give_up();
+    out.insert(out.end(), pieces->begin(), pieces->end());
+  }
+  if (out.empty()) return give_up();
+  return out;
+}
+
+void note(Repaired& out, const std::string& words) {
+  if (std::ranges::find(out.repairs, words) == out.repairs.end()) out.repairs.push_back(words);
+}
+
+/// Parts of one feature that overlap are made one; they may touch.
+void unite_overlapping(Repaired& out) {
+  if (out.polygons.size() < 2) return;
+  auto united = geometry::unite(out.polygons);
+  if (!united || total(out.polygons) - total(*united) <= 1e-6 * total(out.polygons)) return;
+  std::erase_if(*united, [](const Polygon& p) { return geometry::area(p) < least_area; });
+  std::vector<Polygon> good;
+  for (const auto& polygon : *united) {
+    if (is_good(polygon)) {
+      good.push_back(polygon);
+    } else if (auto pieces = bridged(polygon)) {
+      good.insert(good.end(), pieces->begin(), pieces->end());
+    } else {
+      return;
+    }
+  }
+  if (good.empty()) return;
+  out.polygons = std::move(good);
+  note(out, "parts that overlap were united");
+}
+
+}  // namespace
+
+auto repair(const std::vector<RawPolygon>& parts, const std::array<double, 2>& origin) -> Repaired {
+  Repaired out;
+  if (!finite(parts)) {
+    out.defect =
+        base::error("ingest-footprint-coordinates",
+                    "it has a coordinate that is not a number, or far off the earth; correct it in the source");
+    return out;
+  }
+  for (const auto& part : parts) {
+    Polygon polygon;
+    for (std::size_t r = 0; r < part.size(); ++r) {
+      Ring ring = part[r];
+      drop_repeated(ring);
+      if (drop_spikes(ring) > 0) note(out, "spikes were taken out");
+      if (r == 0) polygon.outer = std::move(ring);
+      else if (ring.size() >= 3) polygon.holes.push_back(std::move(ring));
+      else note(out, "a hole without area was left out");
+    }
+    polygon = geometry::oriented(std::move(polygon));
+    if (polygon.outer.size() >= 3 && is_good(polygon)) {
+      if (geometry::area(polygon) >= least_area) out.polygons.push_back(std::move(polygon));
+      else note(out, "a part without area was left out");
+      continue;
+    }
+    // A figure of eight may add up to nothing and still be no mere line.
+    const auto repaired =
+        polygon.outer.size() < 3 ? base::Result<std::vector<Polygon>>(std::vector<Polygon>{}) : mended(polygon, origin);
+    if (!repaired) {
+      out.defect = repaired.error();
+      out.polygons.clear();
+      return out;
+    }
+    if (repaired->empty()) note(out, "a part without area was left out");
+    else note(out, "rings that cross or touch a little were separated");
+    out.polygons.insert(out.polygons.end(), repaired->begin(), repaired->end());
+  }
+  unite_overlapping(out);
+  if (out.polygons.empty())
+    out.defect = base::error("ingest-footprint-area", "it has no area; remove it, or draw it in the source");
+  return out;
+}
+
+}  // namespace mansard::ingest::detail

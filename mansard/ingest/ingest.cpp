@@ -1,0 +1,239 @@
+// The story of reading: the mesh, the features, the way to one frame, and what is left when all faults are out.
+#include "mansard/ingest/ingest.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+
+#include "mansard/base/text.hpp"
+#include "mansard/ingest/detail/attributes.hpp"
+#include "mansard/ingest/detail/clean.hpp"
+#include "mansard/ingest/detail/crs.hpp"
+#include "mansard/ingest/detail/features.hpp"
+#include "mansard/ingest/detail/mesh_files.hpp"
+#include "mansard/ingest/detail/rings.hpp"
+
+namespace mansard::ingest {
+namespace {
+
+using geometry::Box2;
+using geometry::Point2;
+
+/// Around the footprints that --bbox keeps, so much of the mesh stays: more than any later stage looks at.
+constexpr double mesh_margin = 50;
+
+auto in_words(const Box2& box) -> std::string {
+  return "x " + base::to_text(box.least.x, 1) + " to " + base::to_text(box.most.x, 1) + ", y " +
+         base::to_text(box.least.y, 1) + " to " + base::to_text(box.most.y, 1);
+}
+
+auto wanted_box(const Options& options) -> base::Result<std::optional<Box2>> {
+  const auto& b = options.bbox;
+  if (std::ranges::all_of(b, [](double c) { return c == 0; })) return std::optional<Box2>();
+  if (!(b[0] < b[2] && b[1] < b[3]))
+    return base::error("ingest-bbox", "the box has no inside; write xmin ymin xmax ymax", "ingest.bbox");
+  return std::optional<Box2>(Box2{{b[0], b[1]}, {b[2], b[3]}});
+}
+
+auto keep_within(std::vector<detail::RawFeature>& features, const Box2& wanted, const std::string& subject)
+    -> base::Result<void> {
+  const Box2 all = bounds(features);
+  std::erase_if(features, [&](const auto& feature) {
+    const Box2 box = bounds(feature);
+    return box.empty() || !box.overlaps(wanted);
+  });
+  if (!features.empty()) return {};
+  return base::error("ingest-footprints-none",
+                     "no footprint lies in the box asked for (" + in_words(wanted) + "); they lie in " + in_words(all),
+                     subject);
+}
+
+/// Whole metres. Coordinates that are small anyway stay as they are, so that a local frame is read and written without
+/// a single rounding; others are counted from the middle of the footprints and the foot of the mesh, which loses
+/// nothing either where that makes the numbers smaller.
+auto choose_origin(const Box2& footprints, const detail::Box3& mesh) -> std::array<std::int64_t, 3> {
+  constexpr double small = 1024;
+  const auto along = [](double least, double most, double from) -> std::int64_t {
+    if (std::max(std::abs(least), std::abs(most)) <= small) return 0;
+    return static_cast<std::int64_t>(std::floor(from));
+  };
+  const Point2 middle = 0.5 * (footprints.least + footprints.most);
+  Box2 all = footprints;
+  all.add(mesh.plan.least);
+  all.add(mesh.plan.most);
+  return {along(all.least.x, all.most.x, middle.x), along(all.least.y, all.most.y, middle.y),
+          along(mesh.low, mesh.high, mesh.low)};
+}
+
+auto defect_without_polygons(const detail::RawFeature& feature) -> base::Diagnostic {
+  if (feature.other_geometry)
+    return base::error("ingest-footprint-type",
+                       "it is a " + feature.geometry + ", not a polygon; convert it in the source");
+  if (!feature.failure.empty())
+    return base::error("ingest-footprint-unreadable",
+                       "it cannot be read (" + feature.failure + "); correct it in the source");
+  return base::error("ingest-footprint-empty", "it has no geometry; remove it, or draw it in the source");
+}
+
+/// One footprint in the local frame, with what there is to say about it.
+struct Finished {
+  Footprint footprint;
+  std::optional<base::Diagnostic> warning;
+};
+
+auto finish(detail::RawFeature feature, std::string id, const Frame& frame, const Box2& mesh) -> Finished {
+  Finished out;
+  auto& footprint = out.footprint;
+  footprint.id = std::move(id);
+  footprint.attributes = std::move(feature.attributes);
+  const auto refuse = [&](base::Diagnostic why) {
+    why.subject = footprint.id;
+    footprint.defect = std::move(why);
+  };
+  if (feature.parts.empty()) {
+    refuse(defect_without_polygons(feature));
+    return out;
+  }
+  const std::array<double, 2> origin{static_cast<double>(frame.origin[0]), static_cast<double>(frame.origin[1])};
+  Box2 box;
+  for (auto& part : feature.parts)
+    for (auto& ring : part)
+      for (auto& p : ring) {
+        p = {p.x - origin[0], p.y - origin[1]};
+        box.add(p);
+      }
+  auto repaired = detail::repair(feature.parts, origin);
+  if (repaired.defect) {
+    refuse(std::move(*repaired.defect));
+  } else if (!box.overlaps(mesh)) {
+    refuse(
+        base::error("ingest-footprint-outside", "it lies outside the mesh; give the mesh there, or cut with --bbox"));
+  } else {
+    footprint.polygons = std::move(repaired.polygons);
+    if (feature.other_geometry) repaired.repairs.push_back("points, lines or solids beside its polygons were left out");
+    std::string all;
+    for (const auto& words : repaired.repairs) all += (all.empty() ? "" : ", ") + words;
+    if (!all.empty()) out.warning = base::warning("ingest-footprint-repaired", all, footprint.id);
+  }
+  return out;
+}
+
+void append(std::vector<base::Diagnostic>& all, std::vector<base::Diagnostic> more) {
+  all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::filesystem::path& footprint_path,
+          const Options& options, const base::Run& run) -> base::Result<Scene> {
+  const std::string subject = footprint_path.string();
+  const std::string mesh_name = mesh_paths.empty() ? std::string() : mesh_paths.front().string();
+  Scene scene;
+  const auto wanted = wanted_box(options);
+  if (!wanted) return wanted.error();
+
+  run.report("ingest", mesh_name, 0);
+  auto meshes = detail::read_meshes(mesh_paths, options.up, run);
+  if (!meshes) return meshes.error();
+  const detail::Box3 mesh_box = detail::bounds(meshes->mesh, options.mesh_offset);
+  if (mesh_box.plan.empty())
+    return base::error("ingest-mesh-unusable",
+                       "none of the " + std::to_string(meshes->mesh.triangles.size()) +
+                           " triangles has finite corners that exist; export the mesh again",
+                       mesh_name);
+
+  run.report("ingest", subject, 0.5);
+  auto file = detail::read_features(footprint_path, options, run);
+  if (!file) return file.error();
+  const auto way = detail::choose_way(*file, options.crs, mesh_box.plan, subject);
+  if (!way) return way.error();
+  if (auto gone = detail::go(*way, file->features, subject); !gone) return gone.error();
+  if (*wanted)
+    if (auto kept = keep_within(file->features, **wanted, subject); !kept) return kept.error();
+
+  const Box2 box = bounds(file->features);
+  if (!box.empty() && !box.overlaps(mesh_box.plan))
+    return base::error("ingest-no-overlap",
+                       "mesh and footprints do not overlap: the mesh lies in " + in_words(mesh_box.plan) +
+                           ", the footprints in " + in_words(box) +
+                           (way->name.empty() ? "" : " (" + way->name.substr(0, way->name.find('[')) + ")") +
+                           "; give --mesh-offset or --crs",
+                       subject);
+  scene.frame.crs = way->name;
+  scene.frame.origin = choose_origin(box.empty() ? mesh_box.plan : box, mesh_box);
+
+  run.report("ingest", mesh_name, 0.7);
+  std::array<double, 3> shift{};
+  for (std::size_t i = 0; i < 3; ++i) shift[i] = options.mesh_offset[i] - static_cast<double>(scene.frame.origin[i]);
+  const Point2 origin{static_cast<double>(scene.frame.origin[0]), static_cast<double>(scene.frame.origin[1])};
+  std::optional<Box2> within;
+  if (*wanted) {
+    Box2 kept = **wanted;
+    kept.add(box.least);
+    kept.add(box.most);
+    within = Box2{kept.least - origin, kept.most - origin}.grown(mesh_margin);
+  }
+  auto clean = detail::clean(std::move(meshes->mesh), shift, within);
+  if (clean.mesh.triangles.empty())
+    return base::error("ingest-mesh-unusable", "no triangle has an area; export the mesh again", mesh_name);
+  if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+
+  run.report("ingest", subject, 0.9);
+  auto ids = detail::ids_of(file->features, options.id_attribute, subject, file->warnings);
+  if (!ids) return ids.error();
+  const Box2 local{mesh_box.plan.least - origin, mesh_box.plan.most - origin};
+  std::vector<Finished> finished(file->features.size());
+  base::parallel_for(finished.size(), [&](std::size_t i) {
+    finished[i] = finish(std::move(file->features[i]), std::move((*ids)[i]), scene.frame, local);
+  });
+
+  scene.mesh = std::move(clean.mesh);
+  scene.mesh_counts = clean.counts;
+  scene.inputs = std::move(meshes->inputs);
+  scene.inputs.insert(scene.inputs.end(), file->inputs.begin(), file->inputs.end());
+  append(scene.warnings, std::move(meshes->warnings));
+  append(scene.warnings, detail::warnings_of(scene.mesh_counts, mesh_name));
+  append(scene.warnings, std::move(file->warnings));
+  append(scene.warnings, way->warnings);
+  for (auto& one : finished) {
+    if (one.warning) scene.warnings.push_back(std::move(*one.warning));
+    scene.footprints.push_back(std::move(one.footprint));
+  }
+  run.report("ingest", subject, 1);
+  return scene;
+}
+
+}  // namespace
+
+auto option_list(Options& o) -> base::OptionList {
+  constexpr double far = 1e8;
+  return std::move(
+      base::OptionList("ingest")
+          .numbers("mesh_offset", o.mesh_offset, "m", {-far, far}, "Added to the mesh's x, y and z.")
+          .alias("mesh_offset")
+          .choice("up", o.up, {{"automatic", UpAxis::automatic}, {"z", UpAxis::z}, {"y", UpAxis::y}},
+                  "Which axis of the mesh is up; automatic means y for glTF and z for the rest.")
+          .alias("up")
+          .text("crs", o.crs, "CRS to work in: EPSG:n, or local; empty for the footprints', or their UTM zone.")
+          .alias("crs")
+          .text("id_attribute", o.id_attribute, "Attribute that names a footprint; empty to look for a well-known one.")
+          .text("layer", o.layer, "Layer of the vector file; empty for its first one with polygons.")
+          .text("where", o.where, "Only footprints that pass this filter, as in SQL after WHERE.")
+          .numbers("bbox", o.bbox, "m", {-far, far},
+                   "Only footprints that meet the box xmin ymin xmax ymax in the working CRS; four zeros for all.")
+          .alias("bbox"));
+}
+
+auto read_scene(const std::vector<std::filesystem::path>& meshes, const std::filesystem::path& footprints,
+                const Options& options, const base::Run& run) -> base::Result<Scene> {
+  try {
+    return read(meshes, footprints, options, run);
+  } catch (const std::bad_alloc&) {
+    return base::error("ingest-memory", "mesh and footprints do not fit into memory; cut the mesh into tiles",
+                       meshes.empty() ? std::string() : meshes.front().string());
+  } catch (const std::exception& e) {
+    // What a library throws on bad files must not get past this room.
+    return base::error("ingest-footprints-format", std::string("cannot be read (") + e.what() + "); check what it is",
+                       footprints.string());
+  }
+}
+
+}  // namespace mansard::ingest

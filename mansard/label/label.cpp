@@ -1,0 +1,74 @@
+#include "mansard/label/label.hpp"
+
+#include <cmath>
+
+#include "mansard/label/detail/walls.hpp"
+
+namespace mansard::label {
+namespace {
+
+auto class_of(const extrude::Face& face, double lean) -> Class {
+  switch (face.kind) {
+    case extrude::FaceKind::base: return Class::ground;
+    case extrude::FaceKind::connector: return Class::wall;
+    case extrude::FaceKind::side: return std::abs(face.normal.z) <= lean ? Class::wall : Class::roof;
+    case extrude::FaceKind::terrace:
+    case extrude::FaceKind::cap: return Class::roof;
+  }
+  return Class::roof;
+}
+
+}  // namespace
+
+auto option_list(Options& o) -> base::OptionList {
+  base::OptionList list("label");
+  list.number("wall_angle", o.wall_angle, "rad", {0, 1.5}, "A side leaning more than this from vertical is roof.")
+      .number("party_distance", o.party_distance, "m", {0, 2},
+              "A wall this near to a neighbour's opposite wall is a party wall.");
+  return list;
+}
+
+auto classify(std::vector<extrude::Solid> solids, const Options& options, const base::Run& run)
+    -> std::vector<LabelledSolid> {
+  run.report("label", {}, 0);
+  // A face leaning by a from vertical has a normal with |z| = sin a.
+  const double lean = std::sin(options.wall_angle);
+  std::vector<LabelledSolid> labelled(solids.size());
+  std::vector<std::vector<bool>> is_wall(solids.size());
+  for (std::size_t s = 0; s < solids.size(); ++s) {
+    for (const auto& face : solids[s].faces) {
+      labelled[s].classes.push_back(class_of(face, lean));
+      is_wall[s].push_back(labelled[s].classes.back() == Class::wall);
+    }
+  }
+
+  const auto walls = detail::walls_of(solids, is_wall);
+  std::vector<double> shares(walls.size(), 0);
+  base::parallel_for(walls.size(), [&](std::size_t i) {
+    if (!run.cancelled()) shares[i] = detail::covered_share(walls[i], walls, solids, options.party_distance);
+  });
+  for (std::size_t i = 0; i < walls.size(); ++i)
+    if (shares[i] > 0.5) labelled[walls[i].solid].classes[walls[i].face] = Class::party_wall;
+
+  for (std::size_t s = 0; s < solids.size(); ++s) labelled[s].solid = std::move(solids[s]);
+  run.report("label", {}, 1);
+  return labelled;
+}
+
+auto areas(const LabelledSolid& labelled) -> Areas {
+  constexpr double flat = 0.9962;  // cosine of 5°, as 3DBAG tells flat roofs from sloped ones
+  Areas sum;
+  for (std::size_t f = 0; f < labelled.solid.faces.size(); ++f) {
+    const auto& face = labelled.solid.faces[f];
+    const double area = extrude::area(labelled.solid, face);
+    switch (labelled.classes[f]) {
+      case Class::wall: sum.wall += area; break;
+      case Class::party_wall: sum.party_wall += area; break;
+      case Class::ground: sum.ground += area; break;
+      case Class::roof: (face.normal.z >= flat ? sum.roof_flat : sum.roof_sloped) += area; break;
+    }
+  }
+  return sum;
+}
+
+}  // namespace mansard::label

@@ -1,0 +1,44 @@
+#include "mansard/picture/detail/camera.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mansard::picture::detail {
+
+using geometry::Point3;
+
+auto camera_for(const View& view, std::span<const Point3> points) -> Camera {
+  constexpr double margin = 0.04;  // of the picture, on each side
+  Camera camera;
+  camera.width = view.width;
+  camera.height = view.height;
+  if (view.kind == View::Kind::above) {
+    camera.right = {1, 0, 0};
+    camera.up = {0, 1, 0};
+    camera.towards = {0, 0, 1};
+  } else {
+    // Clockwise from south as seen on a map: a camera in the south looks north, one in the west looks east.
+    const double s = std::sin(view.azimuth), c = std::cos(view.azimuth);
+    const double flat = std::cos(view.elevation), high = std::sin(view.elevation);
+    camera.right = {c, -s, 0};
+    camera.towards = {-s * flat, -c * flat, high};
+    camera.up = geometry::cross(camera.towards, camera.right);
+  }
+
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Point3 least{infinity, infinity, infinity}, most{-infinity, -infinity, -infinity};
+  for (const Point3& p : points) {
+    const Point3 q{dot(p, camera.right), dot(p, camera.up), dot(p, camera.towards)};
+    least = {std::min(least.x, q.x), std::min(least.y, q.y), std::min(least.z, q.z)};
+    most = {std::max(most.x, q.x), std::max(most.y, q.y), std::max(most.z, q.z)};
+  }
+  const Point3 middle = 0.5 * (least + most), size = most - least;
+  const double room = 1 - 2 * margin;
+  camera.pixel = std::max({size.x / (room * static_cast<double>(view.width)),
+                           size.y / (room * static_cast<double>(view.height)), 1e-6});
+  camera.eye = middle.x * camera.right + middle.y * camera.up + (most.z + 1) * camera.towards;
+  return camera;
+}
+
+}  // namespace mansard::picture::detail

@@ -1,0 +1,363 @@
+#include "mansard/picture/detail/render.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace mansard::picture::detail {
+namespace {
+
+using geometry::Point3;
+
+// A low number of rays a pixel, different ones in each pixel of a square pattern, and the mean over such a square of
+// what lies in the same surface: as smooth as 256 rays for the price of 4 (interleaved sampling, Keller and Heidrich
+// 2001). The rays are fixed, so a picture is always the same. The sun, whose shadows have edges, has a smaller square.
+constexpr std::size_t sky_pattern = 8, sun_pattern = 4, sky_rays = 4;
+constexpr std::uint32_t nothing = ~0U;  ///< no triangle: paper
+
+/// One ray's find, at the centre of a pixel.
+struct Found {
+  Point3 point, normal;
+  std::uint32_t triangle = nothing;
+  bool lit = false;      ///< worth asking how much light it gets
+  float sky = 1, sun = 1;  ///< the parts of sky and sun that it sees
+};
+
+/// Sun and sky make a level roof about as bright as its colour says.
+struct Lamp {
+  Point3 direction;  ///< to the sun
+  Light sun{0.74F, 0.71F, 0.65F}, sky{0.45F, 0.47F, 0.51F};
+};
+
+/// Above the camera's left shoulder, where draughtsmen put it; on a map, in the north-west.
+auto lamp_for(const Camera& camera) -> Lamp {
+  const bool above = camera.towards.z > 0.99;
+  const Point3 ahead = normalised(above ? camera.up : Point3{camera.towards.x, camera.towards.y, 0});
+  Lamp lamp;
+  lamp.direction = normalised(-0.55 * camera.right + 0.6 * ahead + Point3{0, 0, 0.95});
+  return lamp;
+}
+
+/// Van der Corput's sequence in base 2.
+auto radical_inverse(std::uint32_t i) -> double {
+  double value = 0, weight = 0.5;
+  for (; i != 0; i >>= 1U, weight /= 2)
+    if ((i & 1U) != 0) value += weight;
+  return value;
+}
+
+/// Directions about +z, denser where the cosine is larger. A pixel takes one of each quarter of them.
+using SkyDirections = std::array<Point3, sky_pattern * sky_pattern * sky_rays>;
+auto sky_directions() -> SkyDirections {
+  SkyDirections directions;
+  for (std::uint32_t i = 0; i < directions.size(); ++i) {
+    const double u = (static_cast<double>(i) + 0.5) / static_cast<double>(directions.size());
+    const double angle = 2 * std::numbers::pi * radical_inverse(i);
+    directions[i] = {std::sqrt(u) * std::cos(angle), std::sqrt(u) * std::sin(angle), std::sqrt(1 - u)};
+  }
+  return directions;
+}
+
+/// Points of a disc, one for each pixel of the pattern: the sun is not a point, and shadows have soft edges.
+using SunDisc = std::array<geometry::Point2, sun_pattern * sun_pattern>;
+auto sun_disc() -> SunDisc {
+  constexpr double radius = 0.03;  // rad; the real one is 0.0047
+  SunDisc disc;
+  for (std::uint32_t i = 0; i < disc.size(); ++i) {
+    const double r = radius * std::sqrt((i + 0.5) / static_cast<double>(disc.size()));
+    const double angle = i * std::numbers::pi * (3 - std::sqrt(5.0));
+    disc[i] = {r * std::cos(angle), r * std::sin(angle)};
+  }
+  return disc;
+}
+
+/// A pixel's number in a pattern, neighbours far apart (Bayer's matrix): the bits of x ^ y and y, taken in turn.
+auto place_in_pattern(std::size_t x, std::size_t y, std::size_t size) -> std::size_t {
+  std::size_t place = 0;
+  x %= size;
+  y %= size;
+  for (std::size_t bit = 1; bit < size; bit <<= 1U)
+    place = 4 * place + ((x ^ y) & bit ? 2 : 0) + (y & bit ? 1 : 0);
+  return place;
+}
+
+/// Two unit vectors at right angles to n.
+auto frame_about(const Point3& n) -> std::array<Point3, 2> {
+  const Point3 other = std::abs(n.z) < 0.9 ? Point3{0, 0, 1} : Point3{1, 0, 0};
+  const Point3 a = normalised(cross(other, n));
+  return {a, cross(n, a)};
+}
+
+class Renderer {
+ public:
+  Renderer(Canvas& canvas, const Model& model, const rays::Scene& scene, const Camera& camera)
+      : canvas_(canvas), model_(model), scene_(scene), camera_(camera), lamp_(lamp_for(camera)),
+        found_(canvas.width * canvas.height), sky_(sky_directions()), disc_(sun_disc()) {
+    std::vector<double> heights;
+    Point3 least = model.mesh.vertices[model.mesh.triangles[0][0]], most = least;
+    for (const auto& t : model.mesh.triangles)
+      for (const auto v : t) {
+        const Point3& p = model.mesh.vertices[v];
+        heights.push_back(p.z);
+        least = {std::min(least.x, p.x), std::min(least.y, p.y), std::min(least.z, p.z)};
+        most = {std::max(most.x, p.x), std::max(most.y, p.y), std::max(most.z, p.z)};
+      }
+    // Scans have debris far below the ground; the paper lies under all but the lowest hundredth.
+    const auto low = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 100);
+    std::nth_element(heights.begin(), low, heights.end());
+    paper_height_ = *low - 1e-3;
+    const double size = length(most - least);
+    reach_ = 0.2 * size;
+    lift_ = 1e-3 + 2e-5 * size;
+  }
+
+  void look() {
+    rows([&](std::size_t x, std::size_t y) { found_[y * canvas_.width + x] = cast(middle(x, y)); });
+  }
+  void light() {
+    rows([&](std::size_t x, std::size_t y) {
+      Found& found = found_[y * canvas_.width + x];
+      if (!found.lit) return;
+      ask_for_sky(found, place_in_pattern(x, y, sky_pattern));
+      ask_for_sun(found, place_in_pattern(x, y, sun_pattern));
+    });
+  }
+  void smooth() {
+    std::vector<std::array<float, 2>> smooth(found_.size());
+    rows([&](std::size_t x, std::size_t y) { smooth[y * canvas_.width + x] = smoothed(x, y); });
+    for (std::size_t i = 0; i < found_.size(); ++i) {
+      found_[i].sky = smooth[i][0];
+      found_[i].sun = smooth[i][1];
+    }
+  }
+  void paint() {
+    rows([&](std::size_t x, std::size_t y) {
+      const std::size_t i = y * canvas_.width + x;
+      canvas_.light[i] = on_edge(x, y) ? supersampled(x, y) : colour_of(found_[i]);
+    });
+  }
+
+ private:
+  template <class Work>
+  void rows(Work work) const {
+    base::parallel_for(canvas_.height, [&](std::size_t y) {
+      for (std::size_t x = 0; x < canvas_.width; ++x) work(x, y);
+    });
+  }
+
+  static auto middle(std::size_t x, std::size_t y) -> Spot {
+    return {static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5};
+  }
+
+  [[nodiscard]] auto cast(Spot spot) const -> Found {
+    const Point3 start = camera_.start(spot);
+    const Point3 along = -1.0 * camera_.towards;
+    Found found;
+    if (const auto hit = scene_.cast(start, along)) {
+      found.triangle = hit->triangle;
+      found.point = start + hit->distance * along;
+      found.normal = model_.normals[hit->triangle];
+      if (length(found.normal) < 0.5) found.normal = camera_.towards;  // a triangle without area
+      if (dot(found.normal, camera_.towards) < 0) found.normal = -1.0 * found.normal;
+      found.lit = true;
+    } else if (camera_.towards.z > 0.05) {
+      found.point = start + ((start.z - paper_height_) / camera_.towards.z) * along;
+      found.normal = {0, 0, 1};
+      found.lit = true;
+    }
+    return found;
+  }
+
+  void ask_for_sky(Found& found, std::size_t place) const {
+    const auto [a, b] = frame_about(found.normal);
+    const Point3 origin = found.point + lift_ * found.normal;
+    float open = 0;
+    for (std::size_t k = 0; k < sky_rays; ++k) {
+      const Point3& d = sky_[k * sky_pattern * sky_pattern + place];
+      const auto hit = scene_.cast(origin, d.x * a + d.y * b + d.z * found.normal);
+      // Light that bounces between walls is not followed: what is far away counts as half open instead.
+      open += hit ? static_cast<float>(std::min(hit->distance / reach_, 1.0)) : 1.0F;
+    }
+    found.sky = open / static_cast<float>(sky_rays);
+  }
+
+  void ask_for_sun(Found& found, std::size_t place) const {
+    const Point3 origin = found.point + lift_ * found.normal;
+    if (dot(found.normal, lamp_.direction) <= 0) {
+      found.sun = 0;
+      return;
+    }
+    const auto [s, t] = frame_about(lamp_.direction);
+    found.sun = scene_.cast(origin, lamp_.direction + disc_[place].x * s + disc_[place].y * t) ? 0.0F : 1.0F;
+  }
+
+  /// The mean sky and sun of the squares of pixels around one that lie in the same surface. A square of a pattern's
+  /// size and one more, with half the weight at the rim, counts every place of the pattern the same.
+  [[nodiscard]] auto smoothed(std::size_t x, std::size_t y) const -> std::array<float, 2> {
+    constexpr std::size_t sky_reach = sky_pattern / 2, sun_reach = sun_pattern / 2;
+    const Found& own = found_[y * canvas_.width + x];
+    if (!own.lit) return {own.sky, own.sun};
+    float sky = 0, sky_weights = 0, sun = 0, sun_weights = 0;
+    const double near = 3 * camera_.pixel;
+    for (std::size_t j = y >= sky_reach ? y - sky_reach : 0; j <= std::min(y + sky_reach, canvas_.height - 1); ++j)
+      for (std::size_t i = x >= sky_reach ? x - sky_reach : 0; i <= std::min(x + sky_reach, canvas_.width - 1); ++i) {
+        const Found& other = found_[j * canvas_.width + i];
+        if (!other.lit) continue;
+        if (dot(own.normal, other.normal) < 0.7 || std::abs(dot(own.normal, other.point - own.point)) > near) continue;
+        const std::size_t dx = i > x ? i - x : x - i, dy = j > y ? j - y : y - j;
+        const float weight = (dx == sky_reach ? 0.5F : 1.0F) * (dy == sky_reach ? 0.5F : 1.0F);
+        sky += weight * other.sky;
+        sky_weights += weight;
+        if (dx > sun_reach || dy > sun_reach) continue;
+        const float sharper = (dx == sun_reach ? 0.5F : 1.0F) * (dy == sun_reach ? 0.5F : 1.0F);
+        sun += sharper * other.sun;
+        sun_weights += sharper;
+      }
+    return {sky / sky_weights, sun / sun_weights};
+  }
+
+  [[nodiscard]] auto colour_of(const Found& found) const -> Light {
+    static const Light sheet = to_light(paper);
+    if (!found.lit) return sheet;
+    const auto facing = static_cast<float>(std::max(0.0, dot(found.normal, lamp_.direction)));
+    // Walls see half the sky, and the ground, which gives back some of it.
+    const auto up = static_cast<float>(0.8 + 0.2 * found.normal.z);
+    const Light sky = (0.15F + 0.85F * found.sky) * up * lamp_.sky, sun = facing * found.sun * lamp_.sun;
+    if (found.triangle != nothing) return model_.albedo[found.triangle] * (sky + sun);
+    // The paper is white where nothing shades it, and keeps some white where something does.
+    const Light full = lamp_.sky + facing * lamp_.sun, here = sky + sun;
+    Light shade;
+    for (std::size_t c = 0; c < 3; ++c) shade[c] = sheet[c] * (0.35F + 0.65F * std::min(1.0F, here[c] / full[c]));
+    return shade;
+  }
+
+  /// Whether a neighbour shows another colour, another direction or another distance.
+  [[nodiscard]] auto on_edge(std::size_t x, std::size_t y) const -> bool {
+    const Found& own = found_[y * canvas_.width + x];
+    const auto differs = [&](std::size_t i, std::size_t j) {
+      const Found& other = found_[j * canvas_.width + i];
+      if (other.triangle == own.triangle) return false;
+      if (other.triangle == nothing || own.triangle == nothing) return true;
+      if (model_.albedo[other.triangle] != model_.albedo[own.triangle]) return true;
+      if (dot(other.normal, own.normal) < 0.97) return true;
+      return std::abs(dot(own.normal, other.point - own.point)) > 4 * camera_.pixel;
+    };
+    return (x > 0 && differs(x - 1, y)) || (x + 1 < canvas_.width && differs(x + 1, y)) ||
+           (y > 0 && differs(x, y - 1)) || (y + 1 < canvas_.height && differs(x, y + 1));
+  }
+
+  /// The mean of a 3 × 3 grid of rays; their light is that of the pixel around that found the most similar surface.
+  [[nodiscard]] auto supersampled(std::size_t x, std::size_t y) const -> Light {
+    constexpr int grid = 3;
+    Light sum{};
+    for (int j = 0; j < grid; ++j)
+      for (int i = 0; i < grid; ++i) {
+        Found found = cast({static_cast<double>(x) + (i + 0.5) / grid, static_cast<double>(y) + (j + 0.5) / grid});
+        if (found.lit) take_light(found, x, y);
+        sum = sum + colour_of(found);
+      }
+    return (1.0F / (grid * grid)) * sum;
+  }
+
+  void take_light(Found& found, std::size_t x, std::size_t y) const {
+    double best = 1e300;
+    for (std::size_t j = y >= 1 ? y - 1 : 0; j < std::min(y + 2, canvas_.height); ++j)
+      for (std::size_t i = x >= 1 ? x - 1 : 0; i < std::min(x + 2, canvas_.width); ++i) {
+        const Found& other = found_[j * canvas_.width + i];
+        if (!other.lit) continue;
+        const double unlike = (1 - dot(found.normal, other.normal)) * 10 +
+                              std::abs(dot(found.normal, other.point - found.point)) / camera_.pixel;
+        if (unlike < best) {
+          best = unlike;
+          found.sky = other.sky;
+          found.sun = other.sun;
+        }
+      }
+  }
+
+  Canvas& canvas_;
+  const Model& model_;
+  const rays::Scene& scene_;
+  const Camera& camera_;
+  Lamp lamp_;
+  std::vector<Found> found_;
+  SkyDirections sky_;
+  SunDisc disc_;
+  double paper_height_ = 0, reach_ = 1, lift_ = 0;
+};
+
+}  // namespace
+
+auto joined(std::span<const Layer> layers) -> Model {
+  Model model;
+  for (const Layer& layer : layers) {
+    const auto first = static_cast<std::uint32_t>(model.mesh.vertices.size());
+    model.mesh.vertices.insert(model.mesh.vertices.end(), layer.mesh.vertices.begin(), layer.mesh.vertices.end());
+    for (std::size_t t = 0; t < layer.mesh.triangles.size(); ++t) {
+      const auto& [a, b, c] = layer.mesh.triangles[t];
+      model.mesh.triangles.push_back({first + a, first + b, first + c});
+      const Point3 &p = layer.mesh.vertices[a], &q = layer.mesh.vertices[b], &r = layer.mesh.vertices[c];
+      model.normals.push_back(normalised(cross(q - p, r - p)));
+      const Colour colour = layer.colours.empty()
+                                ? mesh_blue
+                                : layer.colours[layer.colours.size() == layer.mesh.triangles.size() ? t : 0];
+      model.albedo.push_back(to_light(colour));
+    }
+  }
+  return model;
+}
+
+void render(Canvas& canvas, const Model& model, const rays::Scene& scene, const Camera& camera, const base::Run& run) {
+  Renderer renderer(canvas, model, scene, camera);
+  renderer.look();
+  run.report("picture", "", 0.2);
+  if (run.cancelled()) return;
+  renderer.light();
+  run.report("picture", "", 0.7);
+  if (run.cancelled()) return;
+  renderer.smooth();
+  renderer.paint();
+}
+
+void draw_lines(Canvas& canvas, const Lines& lines, const rays::Scene& scene, const Camera& camera) {
+  constexpr double lift = 0.05, tolerance = 0.10;  // m
+  struct Piece {
+    Spot a, b;
+  };
+  std::vector<std::vector<Piece>> visible(lines.segments.size());
+  base::parallel_for(lines.segments.size(), [&](std::size_t s) {
+    const auto& [start, end] = lines.segments[s];
+    const Spot a = camera.spot(start), b = camera.spot(end);
+    const auto steps = std::max<std::size_t>(1, static_cast<std::size_t>(2 * std::hypot(b.x - a.x, b.y - a.y)));
+    const auto at = [&](double t) { return Spot{a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)}; };
+    // A line along the foot of a wall, seen from above, coincides with the edge of the roof: whether the surface there
+    // hides it would be chance. It shows when a place just beside it does.
+    const double across = std::hypot(b.x - a.x, b.y - a.y);
+    const Spot aside = across > 0 ? Spot{-0.75 * (b.y - a.y) / across, 0.75 * (b.x - a.x) / across} : Spot{};
+    const auto open = [&](Spot spot, double depth) {
+      const auto hit = scene.cast(camera.start(spot), -1.0 * camera.towards);
+      return !hit || hit->distance >= depth - lift - tolerance;
+    };
+    double since = 0;  // where the visible piece began
+    bool before_seen = false;
+    for (std::size_t i = 0; i < steps; ++i) {
+      const double before = static_cast<double>(i) / static_cast<double>(steps);
+      const double middle = (static_cast<double>(i) + 0.5) / static_cast<double>(steps);
+      const Point3 p = (1 - middle) * start + middle * end;
+      const Spot spot = at(middle);
+      const double depth = camera.depth(p);
+      const bool seen = open(spot, depth) || open({spot.x + aside.x, spot.y + aside.y}, depth) ||
+                        open({spot.x - aside.x, spot.y - aside.y}, depth);
+      if (seen && !before_seen) since = before;
+      if (!seen && before_seen) visible[s].push_back({at(since), at(before)});
+      before_seen = seen;
+    }
+    if (before_seen) visible[s].push_back({at(since), b});
+  });
+  Ink ink(canvas.width, canvas.height);
+  for (const auto& pieces : visible)
+    for (const Piece& piece : pieces) ink.stroke(piece.a, piece.b, lines.width);
+  ink.spread_on(canvas, lines.colour);
+}
+
+}  // namespace mansard::picture::detail

@@ -1,0 +1,26 @@
+// Ray-traced light on coloured triangles.
+#pragma once
+
+#include "mansard/base/run.hpp"
+#include "mansard/picture/detail/camera.hpp"
+#include "mansard/rays/rays.hpp"
+
+namespace mansard::picture::detail {
+
+/// All layers as one mesh.
+struct Model {
+  geometry::Mesh mesh;
+  std::vector<Light> albedo;                ///< a triangle
+  std::vector<geometry::Point3> normals;    ///< a triangle, unit, either side; zero for one without area
+};
+[[nodiscard]] auto joined(std::span<const Layer> layers) -> Model;
+
+inline constexpr Colour paper{250, 250, 248};
+
+/// The model under a sun and an open sky, standing on a sheet of paper that takes its shadow.
+void render(Canvas& canvas, const Model& model, const rays::Scene& scene, const Camera& camera, const base::Run& run);
+
+/// The lines' visible pieces: those with nothing more than 10 cm in front of them.
+void draw_lines(Canvas& canvas, const Lines& lines, const rays::Scene& scene, const Camera& camera);
+
+}  // namespace mansard::picture::detail

@@ -1,0 +1,66 @@
+// Draws pictures: models beside the scan and the footprints, and error maps.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mansard/base/result.hpp"
+#include "mansard/base/run.hpp"
+#include "mansard/geometry/mesh.hpp"
+#include "mansard/geometry/points.hpp"
+
+namespace mansard::picture {
+
+using Colour = std::array<std::uint8_t, 3>;
+
+/// The paper's Figure 5: mesh blue, footprints orange, output grey with roofs and walls told apart.
+inline constexpr Colour mesh_blue{122, 154, 204}, footprint_orange{240, 140, 30}, wall_grey{216, 212, 204},
+    roof_red{176, 98, 80}, party_grey{150, 150, 158}, ground_grey{120, 124, 120};
+
+/// Triangles with a colour each (one colour means all alike).
+struct Layer {
+  geometry::Mesh mesh;
+  std::vector<Colour> colours;
+};
+
+/// Lines drawn on top where not hidden (lifted 5 cm off the surfaces).
+struct Lines {
+  std::vector<std::array<geometry::Point3, 2>> segments;
+  Colour colour = footprint_orange;
+  double width = 2;  ///< pixels
+};
+
+struct View {
+  enum class Kind : std::uint8_t { above, angle } kind = Kind::angle;  ///< orthographic from above, or at an angle
+  double azimuth = 0.6;    ///< rad; where the camera stands, clockwise from south
+  double elevation = 0.7;  ///< rad above the horizon
+  std::size_t width = 1600, height = 1200;  ///< pixels
+};
+
+/// An image, row by row from the top, 3 bytes a pixel.
+struct Image {
+  std::size_t width = 0, height = 0;
+  std::vector<std::uint8_t> pixels;
+};
+
+/// Shaded by a sun and an open sky, supersampled, framed to what is drawn. Same input, same bytes.
+[[nodiscard]] auto draw(std::span<const Layer> layers, std::span<const Lines> lines, const View& view,
+                        const base::Run& run = {}) -> Image;
+
+/// A field on a grid as colours with a legend: `values` row by row from the south, NaN left grey, colours fixed from
+/// −limit (blue) over 0 (white) to +limit (red), in metres.
+[[nodiscard]] auto error_map(std::span<const float> values, std::size_t columns, std::size_t rows, double limit,
+                             const std::string& title) -> Image;
+
+/// Images side by side on white.
+[[nodiscard]] auto beside(std::span<const Image> images) -> Image;
+
+[[nodiscard]] auto png(const Image& image) -> base::Result<std::string>;
+
+[[nodiscard]] auto codes() -> std::vector<base::Code>;
+
+}  // namespace mansard::picture

@@ -1,0 +1,164 @@
+#include "mansard/pipeline/detail/assemble.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mansard::pipeline::detail {
+namespace {
+
+/// In the words of 3DBAG: "horizontal", "multiple horizontal", "slanted".
+auto roof_type(const label::LabelledSolid& model) -> std::string {
+  constexpr double flat = 0.9962;  // cosine of 5°
+  double flat_area = 0, sloped_area = 0;
+  std::vector<double> levels;
+  for (std::size_t f = 0; f < model.solid.faces.size(); ++f) {
+    if (model.classes[f] != label::Class::roof) continue;
+    const auto& face = model.solid.faces[f];
+    const double area = extrude::area(model.solid, face);
+    if (face.normal.z < flat) {
+      sloped_area += area;
+      continue;
+    }
+    flat_area += area;
+    levels.push_back(model.solid.vertices[face.loops.front().front()].z);
+  }
+  if (sloped_area > 0.05 * (flat_area + sloped_area)) return "slanted";
+  std::ranges::sort(levels);
+  return !levels.empty() && levels.back() - levels.front() > 0.5 ? "multiple horizontal" : "horizontal";
+}
+
+auto ridge_height(const label::LabelledSolid& model) -> std::optional<double> {
+  std::optional<double> highest;
+  for (std::size_t f = 0; f < model.solid.faces.size(); ++f) {
+    const auto& face = model.solid.faces[f];
+    if (face.kind != extrude::FaceKind::side || model.classes[f] != label::Class::roof) continue;
+    for (const auto v : face.loops.front()) highest = std::max(highest.value_or(-1e9), model.solid.vertices[v].z);
+  }
+  return highest;
+}
+
+/// The attributes of outputs.md, in the file's heights.
+auto attributes_of(const PartResult& part, const BlockReport& block, double z0) -> ingest::Attributes {
+  const auto areas = label::areas(part.model);
+  ingest::Attributes out;
+  out.emplace_back("ms_h_ground", z0 + part.plan.base);
+  out.emplace_back("ms_h_roof_min", z0 + part.roof.front());
+  out.emplace_back("ms_h_roof_50p", z0 + percentile(part.roof, 0.5));
+  out.emplace_back("ms_h_roof_70p", z0 + percentile(part.roof, 0.7));
+  out.emplace_back("ms_h_roof_max", z0 + part.roof.back());
+  if (const auto ridge = ridge_height(part.model)) out.emplace_back("ms_h_ridge", z0 + *ridge);
+  out.emplace_back("ms_roof_type", roof_type(part.model));
+  out.emplace_back("ms_volume_lod22", extrude::volume(part.model.solid));
+  if (part.mse) out.emplace_back("ms_rmse_lod22", std::sqrt(*part.mse));
+  out.emplace_back("ms_area_roof_flat", areas.roof_flat);
+  out.emplace_back("ms_area_roof_sloped", areas.roof_sloped);
+  out.emplace_back("ms_area_wall", areas.wall);
+  out.emplace_back("ms_area_party_wall", areas.party_wall);
+  if (part.full)
+    out.emplace_back("ms_fallback", std::monostate{});
+  else
+    out.emplace_back("ms_fallback", part.reasons.empty() ? std::string("unknown") : part.reasons.front().code);
+  out.emplace_back("ms_block", block.name);
+  out.emplace_back("ms_opt_status", block.status);
+  out.emplace_back("ms_opt_gap", block.objective - block.bound);
+  return out;
+}
+
+void add(label::Areas& sum, const label::Areas& more) {
+  sum.wall += more.wall;
+  sum.party_wall += more.party_wall;
+  sum.roof_flat += more.roof_flat;
+  sum.roof_sloped += more.roof_sloped;
+  sum.ground += more.ground;
+}
+
+/// Adds a part to its building and to the building's report.
+struct Account {
+  double squared = 0;  // Σ mse × area, for the building's RMSE
+  double area = 0;
+};
+void take(PartResult part, const BlockReport& block, double z0, write::Building& building, BuildingReport& report,
+          Account& account) {
+  report.roof_min = report.parts == 0 ? z0 + part.roof.front() : std::min(report.roof_min, z0 + part.roof.front());
+  report.roof_max = report.parts == 0 ? z0 + part.roof.back() : std::max(report.roof_max, z0 + part.roof.back());
+  ++report.parts;
+  report.volume += extrude::volume(part.model.solid);
+  const auto areas = label::areas(part.model);
+  add(report.areas, areas);
+  if (part.mse) {
+    account.squared += *part.mse * areas.ground;
+    account.area += areas.ground;
+  }
+  if (!part.full) report.outcome = Outcome::fallback;
+  for (auto reason : part.reasons) {
+    if (reason.subject.empty()) reason.subject = building.id;
+    report.reasons.push_back(std::move(reason));
+  }
+  auto attributes = attributes_of(part, block, z0);
+  building.parts.push_back({building.id + "-" + std::to_string(report.parts), std::move(part.plan),
+                            std::move(part.model), std::move(attributes)});
+}
+
+}  // namespace
+
+auto assemble(const ingest::Scene& scene, const std::vector<block::Block>& blocks, std::vector<BlockResult> results,
+              const Options& options) -> Reconstruction {
+  Reconstruction out;
+  const auto z0 = static_cast<double>(scene.frame.origin[2]);
+  const std::size_t count = scene.footprints.size();
+  std::vector<write::Building> buildings(count);
+  std::vector<BuildingReport> reports(count);
+  std::vector<Account> accounts(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& footprint = scene.footprints[i];
+    buildings[i].id = reports[i].id = footprint.id;
+    buildings[i].attributes = footprint.attributes;
+    buildings[i].footprint = footprint.polygons;
+    if (footprint.defect) {
+      reports[i].outcome = Outcome::refused;
+      reports[i].reasons.push_back(*footprint.defect);
+    }
+  }
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    for (const auto& member : blocks[b].members) {
+      reports[member.feature].block = blocks[b].name;
+      reports[member.feature].ground = z0 + member.ground;
+      buildings[member.feature].ground = member.ground;
+    }
+    for (auto& part : results[b].parts) {
+      const std::size_t f = part.feature;
+      take(std::move(part), results[b].report, z0, buildings[f], reports[f], accounts[f]);
+    }
+    for (const std::size_t f : results[b].covered) {
+      reports[f].outcome = Outcome::covered;
+      reports[f].reasons.push_back(base::warning(
+          "pipeline-covered", "the ground of this footprint went to its neighbours' models", reports[f].id));
+    }
+    out.blocks.push_back(std::move(results[b].report));
+    out.error_maps.push_back(std::move(results[b].map));
+    out.warnings.insert(out.warnings.end(), results[b].warnings.begin(), results[b].warnings.end());
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (accounts[i].area > 0) reports[i].rmse = std::sqrt(accounts[i].squared / accounts[i].area);
+    auto& attributes = buildings[i].attributes;
+    attributes.emplace_back("ms_outcome", std::string(to_string(reports[i].outcome)));
+    if (reports[i].parts > 0) {
+      attributes.emplace_back("ms_h_ground", reports[i].ground);
+      attributes.emplace_back("ms_h_roof_max", reports[i].roof_max);
+      attributes.emplace_back("ms_volume_lod22", reports[i].volume);
+      if (reports[i].rmse) attributes.emplace_back("ms_rmse_lod22", *reports[i].rmse);
+    }
+  }
+  out.city.frame = scene.frame;
+  out.city.made_by.inputs = scene.inputs;
+  Options copy = options;
+  for (const auto& list : option_lists(copy))
+    for (const auto& option : list.options())
+      out.city.made_by.options.emplace_back(list.room() + "." + option.name, option.get());
+  out.city.made_by.version = MANSARD_VERSION;
+  out.city.buildings = std::move(buildings);
+  out.buildings = std::move(reports);
+  return out;
+}
+
+}  // namespace mansard::pipeline::detail

@@ -1,0 +1,279 @@
+#include "mansard/pipeline/detail/block_run.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace mansard::pipeline::detail {
+namespace {
+
+using geometry::Point2;
+using geometry::Polygon;
+
+/// Heights of the mesh's top surface over a polygon, sorted; on a grid aligned to whole multiples of `grid`.
+auto heights_over(const rays::Scene& surface, const Polygon& polygon, double grid) -> std::vector<double> {
+  const auto box = geometry::bounds(polygon.outer);
+  std::vector<double> heights;
+  for (double y = std::ceil(box.least.y / grid) * grid; y <= box.most.y; y += grid)
+    for (double x = std::ceil(box.least.x / grid) * grid; x <= box.most.x; x += grid)
+      if (geometry::contains(polygon, Point2{x, y}))
+        if (const auto z = surface.top({x, y})) heights.push_back(*z);
+  std::ranges::sort(heights);
+  return heights;
+}
+
+/// Raises a fitted plan with each candidate cap and keeps the one nearest to the mesh. The candidates come likeliest
+/// first, and a later one must be clearly better, by a share and by an amount, so that noise does not choose.
+auto raise_best(const profile::ProfiledFootprint& fitted, const Polygon& polygon, const rays::Scene& mesh,
+                const Options& options, const base::Run& run) -> base::Result<std::pair<geometry::Plan, extrude::Raised>> {
+  constexpr double clearly = 0.95, noticeably = 1e-3;  // of the error, and m²
+  std::optional<std::pair<geometry::Plan, extrude::Raised>> best;
+  std::optional<base::Diagnostic> failure;
+  double least = std::numeric_limits<double>::infinity();
+  for (const double cap : fitted.caps) {
+    geometry::Plan plan = fitted.plan;
+    plan.cap = cap;
+    auto raised = raise_part(plan, options, run);
+    if (!raised) {
+      failure = raised.error();
+      continue;
+    }
+    const double error = evaluate::error_over(raised->solid, polygon, mesh, options.cap_grid);
+    if (!best || error < clearly * least - noticeably) {
+      best = {std::move(plan), std::move(*raised)};
+      least = error;
+    }
+  }
+  if (best) return std::move(*best);
+  return *failure;
+}
+
+/// The flat prism of a GIS polygon at the mesh's median height over it, for footprints that got no part.
+auto plain_prism(std::size_t feature, const Polygon& polygon, double ground, const rays::Scene& mesh,
+                 const Options& options, const base::Diagnostic& why, const base::Run& run)
+    -> std::optional<PartResult> {
+  PartResult part;
+  part.feature = feature;
+  part.full = false;
+  const auto heights = heights_over(mesh, polygon, options.cap_grid);
+  double height = options.assumed_height;
+  if (heights.empty()) {
+    part.reasons.push_back(base::warning("pipeline-no-mesh", "the mesh shows nothing over this footprint; its height is assumed"));
+  } else {
+    part.reasons.push_back(why);
+    constexpr double least_height = 0.5;  // lower than a step is no building; keeps the prism a solid
+    height = std::max(least_height, percentile(heights, 0.5) - ground);
+  }
+  part.plan = profile::vertical_plan(polygon, ground, height);
+  auto raised = raise_part(part.plan, options, run);
+  if (!raised) return std::nullopt;
+  part.model.solid = std::move(raised->solid);
+  return part;
+}
+
+/// The heights of the model's roof and its vertical error against the mesh.
+void measure(PartResult& part, const rays::Scene& mesh, const Options& options) {
+  const auto triangles = extrude::triangulate(part.model.solid);
+  const auto polygon = geometry::polygon_of(part.plan);
+  if (triangles) {
+    const rays::Scene roof(geometry::Mesh{part.model.solid.vertices, triangles->triangles});
+    part.roof = heights_over(roof, polygon, options.cap_grid);
+  }
+  if (part.roof.empty()) {  // smaller than the grid
+    for (const auto& v : part.model.solid.vertices)
+      if (v.z > part.plan.base) part.roof.push_back(v.z);
+    std::ranges::sort(part.roof);
+  }
+  const double mse = evaluate::error_over(part.model.solid, polygon, mesh, options.evaluate.grid);
+  if (std::isfinite(mse)) part.mse = mse;
+}
+
+/// Parts from the segmentation, each raised along its profiles.
+auto raise_parts(const segment::Segmentation& segmentation, const block::Block& block, const rays::Scene& mesh,
+                 const Options& options, const base::Run& run, BlockResult& out) -> std::vector<PartResult> {
+  const Watch fitting;
+  const auto fitted = profile::fit(segmentation, block, mesh, options.profile, run);
+  out.report.times.push_back({"profile", fitting.seconds()});
+
+  const Watch raising;
+  std::vector<std::optional<PartResult>> raised(fitted.size());
+  base::parallel_for(fitted.size(), [&](std::size_t i) {
+    const auto& source = segmentation.parts[i];
+    const std::size_t feature = source.feature.value_or(block.members.front().feature);
+    if (heights_over(mesh, source.polygon, options.cap_grid).empty()) {  // the footprints alone say there is a building
+      raised[i] = plain_prism(feature, source.polygon, fitted[i].plan.base, mesh, options, {}, run);
+      return;
+    }
+    auto best = raise_best(fitted[i], source.polygon, mesh, options, run);
+    if (!best) return;
+    PartResult part;
+    part.feature = feature;
+    part.plan = std::move(best->first);
+    part.full = best->second.outcome == extrude::Outcome::full;
+    if (!part.full) part.reasons = std::move(best->second.warnings);
+    part.model.solid = std::move(best->second.solid);
+    raised[i] = std::move(part);
+  });
+  std::vector<PartResult> parts;
+  for (std::size_t i = 0; i < raised.size(); ++i) {
+    if (raised[i])
+      parts.push_back(std::move(*raised[i]));
+    else
+      out.warnings.push_back(base::warning("extrude-not-simple", "a part of the segmentation could not be raised",
+                                           block.name + " part " + std::to_string(i)));
+  }
+  out.report.times.push_back({"extrude", raising.seconds()});
+  return parts;
+}
+
+/// What is left of a feature's polygons once the parts of others are taken off.
+auto uncovered(const block::Member& member, const std::vector<PartResult>& parts) -> std::vector<Polygon> {
+  constexpr double least_area = 1.0;  // m²; less is a sliver along a neighbour
+  constexpr double least_width = 0.5;
+  std::vector<Polygon> left = member.polygons;
+  for (const auto& part : parts) {
+    const auto other = geometry::polygon_of(part.plan);
+    const auto box = geometry::bounds(other.outer);
+    std::vector<Polygon> rest;
+    for (auto& polygon : left) {
+      if (!box.overlaps(geometry::bounds(polygon.outer))) {
+        rest.push_back(std::move(polygon));
+        continue;
+      }
+      if (auto pieces = geometry::subtract(polygon, other)) rest.insert(rest.end(), pieces->begin(), pieces->end());
+    }
+    left = std::move(rest);
+  }
+  std::erase_if(left, [](const Polygon& p) {
+    return geometry::area(p) < least_area || geometry::area(p) < least_width * geometry::perimeter(p.outer) / 2 ||
+           !geometry::is_simple(p);
+  });
+  return left;
+}
+
+/// Every feature without a part becomes a prism, or is reported as covered by its neighbours.
+void fill_in(const block::Block& block, const rays::Scene& mesh, const Options& options,
+             const std::optional<base::Diagnostic>& block_failure, std::vector<PartResult>& parts, BlockResult& out,
+             const base::Run& run) {
+  for (const auto& member : block.members) {
+    if (std::ranges::any_of(parts, [&](const auto& part) { return part.feature == member.feature; })) continue;
+    bool any = false;
+    for (const auto& polygon : uncovered(member, parts)) {
+      const auto heights = heights_over(mesh, polygon, options.cap_grid);
+      const bool low = !heights.empty() && percentile(heights, 0.5) - member.ground < options.segment.min_height;
+      const auto why = block_failure ? *block_failure
+                       : low ? base::warning("pipeline-low", "the mesh is under segment.min_height here; raised as a prism")
+                             : base::warning("pipeline-outside", "no face of the fractured ground is its; raised as a prism");
+      if (auto part = plain_prism(member.feature, polygon, member.ground, mesh, options, why, run)) {
+        parts.push_back(std::move(*part));
+        any = true;
+      }
+    }
+    if (!any) out.covered.push_back(member.feature);
+  }
+  std::ranges::stable_sort(parts, {}, &PartResult::feature);
+}
+
+void keep_warnings(const std::vector<base::Diagnostic>& warnings, const block::Block& block, BlockResult& out) {
+  for (auto warning : warnings) {
+    warning.subject = warning.subject.empty() ? block.name : block.name + " " + warning.subject;
+    out.warnings.push_back(std::move(warning));
+  }
+}
+
+void classify(std::vector<PartResult>& parts, const Options& options, const base::Run& run) {
+  std::vector<extrude::Solid> solids;
+  for (auto& part : parts) solids.push_back(std::move(part.model.solid));
+  auto labelled = label::classify(std::move(solids), options.label, run);
+  for (std::size_t i = 0; i < parts.size(); ++i) parts[i].model = std::move(labelled[i]);
+}
+
+}  // namespace
+
+auto run_block(const block::Block& block, const Options& options, const base::Run& run,
+               const std::function<void(std::string_view)>& tell) -> BlockResult {
+  BlockResult out;
+  BlockReport& report = out.report;
+  report.name = block.name;
+  report.buildings = block.members.size();
+  report.triangles = block.mesh.triangles.size();
+  const auto stage = [&](std::string name, auto&& work) {
+    tell(name);
+    const Watch watch;
+    auto product = work();
+    report.times.push_back({std::move(name), watch.seconds()});
+    return product;
+  };
+
+  const auto stack = stage("slice", [&] { return slice::cut(block, options.slice, run); });
+  const auto sweeps = stage("sweep", [&] { return sweep::find_edges(stack, block, options.sweep, run); });
+  const rays::Scene mesh(block.mesh);
+
+  geometry::Box2 region;
+  for (const auto& polygon : block.outline)
+    for (const Point2 p : polygon.outer) region.add(p);
+  const auto arrangement = stage("fracture", [&] {
+    return fracture::arrange(segment::cuts_of(sweeps, block, options.segment), region, options.fracture, run);
+  });
+  report.slices = stack.slices.size();
+  for (const auto& slice : stack.slices) report.slice_segments += slice.segments.size();
+  report.sweep_edges = sweeps.edges.size();
+
+  std::vector<PartResult> parts;
+  std::optional<base::Diagnostic> failure;
+  if (arrangement) {
+    report.faces = arrangement->faces.size();
+    keep_warnings(arrangement->warnings, block, out);
+    const auto chosen = stage("segment", [&] {
+      return segment::choose(*arrangement, sweeps, block, mesh, options.segment, run);
+    });
+    if (chosen) {
+      report.inside_faces = static_cast<std::size_t>(
+          std::ranges::count_if(chosen->part_of_face, [](const auto& part) { return part.has_value(); }));
+      report.candidates = chosen->candidates.size();
+      report.variables = chosen->variables;
+      report.conflicts = chosen->conflicts;
+      report.terms = chosen->terms;
+      report.objective = chosen->objective;
+      report.bound = chosen->bound;
+      report.status = chosen->status;
+      report.rounds = chosen->rounds;
+      report.nodes = chosen->nodes;
+      keep_warnings(chosen->warnings, block, out);
+      tell("profile");
+      parts = raise_parts(*chosen, block, mesh, options, run, out);
+    } else {
+      failure = chosen.error();
+    }
+  } else {
+    failure = arrangement.error();
+  }
+  if (failure) {
+    report.status = "failed";
+    failure = base::warning("pipeline-block", "the block could not be segmented: " + failure->message, block.name);
+    out.warnings.push_back(*failure);
+  }
+  fill_in(block, mesh, options, failure, parts, out, run);
+  tell("label");
+  {
+    const Watch watch;
+    classify(parts, options, run);
+    base::parallel_for(parts.size(), [&](std::size_t i) { measure(parts[i], mesh, options); });
+    report.times.push_back({"label", watch.seconds()});
+  }
+  report.parts = parts.size();
+
+  std::vector<label::LabelledSolid> models;
+  std::vector<Polygon> footprints;
+  for (const auto& part : parts) models.push_back(part.model);
+  for (const auto& member : block.members)
+    footprints.insert(footprints.end(), member.polygons.begin(), member.polygons.end());
+  auto comparison = stage("evaluate", [&] {
+    return evaluate::compare(models, mesh, footprints, block.ground, options.evaluate, run);
+  });
+  report.scores = comparison.scores;
+  out.map = std::move(comparison.map);
+  out.parts = std::move(parts);
+  return out;
+}
+
+}  // namespace mansard::pipeline::detail

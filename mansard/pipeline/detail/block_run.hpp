@@ -1,0 +1,53 @@
+// One block through every room, from its mesh to its checked solids.
+#pragma once
+
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "mansard/pipeline/pipeline.hpp"
+
+namespace mansard::pipeline::detail {
+
+class Watch {
+ public:
+  [[nodiscard]] auto seconds() const -> double {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// A part before it is assigned to its building.
+struct PartResult {
+  std::size_t feature = 0;  ///< index into Scene::footprints
+  geometry::Plan plan;
+  label::LabelledSolid model;
+  std::vector<base::Diagnostic> reasons;  ///< why it is not raised in full; empty when it is
+  bool full = true;
+  std::vector<double> roof;  ///< z of the model's top surface on a grid, sorted, local frame
+  std::optional<double> mse;  ///< m² against the mesh
+};
+
+struct BlockResult {
+  BlockReport report;
+  std::vector<PartResult> parts;  ///< by feature
+  evaluate::ErrorMap map;
+  std::vector<std::size_t> covered;  ///< features whose ground went to their neighbours
+  std::vector<base::Diagnostic> warnings;
+};
+
+/// The value below which that share (0 … 1) of the sorted, non-empty values lies.
+[[nodiscard]] inline auto percentile(const std::vector<double>& sorted, double share) -> double {
+  return sorted[static_cast<std::size_t>(std::lround(share * static_cast<double>(sorted.size() - 1)))];
+}
+
+/// Never fails: what cannot be segmented or raised becomes prisms with a reason. `tell` is called at each stage.
+[[nodiscard]] auto run_block(const block::Block& block, const Options& options, const base::Run& run,
+                             const std::function<void(std::string_view)>& tell) -> BlockResult;
+
+}  // namespace mansard::pipeline::detail

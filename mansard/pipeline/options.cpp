@@ -1,0 +1,118 @@
+// Every room's options in one place, and the presets.
+#include "mansard/base/files.hpp"
+#include "mansard/pipeline/pipeline.hpp"
+#include "mansard/solver/solver.hpp"
+
+namespace mansard::pipeline {
+
+auto option_lists(Options& options) -> std::vector<base::OptionList> {
+  std::vector<base::OptionList> lists;
+  lists.push_back(ingest::option_list(options.ingest));
+  lists.push_back(block::option_list(options.block));
+  lists.push_back(slice::option_list(options.slice));
+  lists.push_back(sweep::option_list(options.sweep));
+  lists.push_back(fracture::option_list(options.fracture));
+  lists.push_back(segment::option_list(options.segment));
+  lists.push_back(profile::option_list(options.profile));
+  lists.push_back(extrude::option_list(options.extrude));
+  lists.push_back(label::option_list(options.label));
+  lists.push_back(evaluate::option_list(options.evaluate));
+  base::OptionList own("pipeline");
+  own.whole("seed", options.seed, "", {0, 9e15}, "Seed of all sampling; the same seed gives the same bytes.")
+      .alias("seed")
+      .number("assumed_height", options.assumed_height, "m", {0.5, 100},
+              "Height of the prism of a footprint over which the mesh shows nothing.")
+      .number("cap_grid", options.cap_grid, "m", {0.05, 5},
+              "Sample spacing when the height cap is chosen by its measured error.");
+  lists.push_back(std::move(own));
+  return lists;
+}
+
+auto presets() -> const std::vector<Preset>& {
+  // pipeline.md has the table. The reference's weights are per half-edge, ours per edge: twice as much. Its γ sums line
+  // lengths at 0.5 m, so 30 there is 15 m² of mesh.
+  static const std::vector<Preset> all{
+      {"paper",
+       "The numbers Kelly and Mitra publish.",
+       {{"slice.interval", "0.2"},
+        {"sweep.gamma", "10"},
+        {"sweep.cluster_step", "1.5"},
+        {"fracture.continuation", "2"},
+        {"segment.alpha", "40"},
+        {"segment.beta", "60"},
+        {"segment.height_weight", "1"},
+        {"segment.phi", "0.5"},
+        {"segment.thin_distance", "2"},
+        {"segment.thin_angle", "0.5235987755982988"},
+        {"segment.continuations", "sweep"},
+        {"segment.thin_rule", "all"},
+        {"segment.gis_edges", "ignore"},
+        {"profile.quality", "high"}}},
+      {"chordatlas",
+       "What the reference implementation runs.",
+       {{"slice.interval", "0.5"},
+        {"sweep.gamma", "15"},
+        {"sweep.cluster_step", "1.5"},
+        {"fracture.continuation", "2"},
+        {"segment.alpha", "80"},
+        {"segment.beta", "40"},
+        {"segment.height_weight", "8"},
+        {"segment.phi", "1"},
+        {"segment.thin_distance", "0.3"},
+        {"segment.thin_angle", "0.5"},
+        {"segment.continuations", "plain"},
+        {"segment.thin_rule", "unsupported"},
+        {"segment.gis_edges", "ignore"},
+        {"segment.gis_ratio", "0.44"},
+        {"segment.min_height", "4"},
+        {"segment.exposed", "0.4"},
+        {"profile.quality", "high"}}},
+  };
+  return all;
+}
+
+auto set_option(std::vector<base::OptionList>& lists, std::string_view key, std::string_view value)
+    -> base::Result<void> {
+  std::vector<std::string> known;
+  for (const auto& list : lists)
+    for (const auto& option : list.options()) {
+      const std::string name = list.room() + "." + option.name;
+      if (name == key) return option.set(value);
+      known.push_back(name);
+    }
+  const auto nearest = base::nearest_word(key, known);
+  return base::error("option-unknown",
+                     "there is no such option" + (nearest ? "; did you mean '" + *nearest + "'?" : std::string()) +
+                         " See 'mansard options'",
+                     std::string(key));
+}
+
+auto codes() -> std::vector<base::Code> {
+  std::vector<base::Code> all = base::codes();
+  const auto add = [&all](std::vector<base::Code> more) { all.insert(all.end(), more.begin(), more.end()); };
+  add(geometry::codes());
+  add(solver::codes());
+  add(ingest::codes());
+  add(fracture::codes());
+  add(segment::codes());
+  add(extrude::codes());
+  add(write::codes());
+  add(picture::codes());
+  add({
+      {"pipeline-nothing", "No footprint of the input could be used.",
+       "The report lists the reason of each; repair the footprints.", 5},
+      {"pipeline-no-mesh", "The mesh shows no surface over this footprint, so its height is assumed.",
+       "Use a mesh that covers the footprint, or set pipeline.assumed_height.", 1},
+      {"pipeline-low", "The mesh over this footprint is lower than segment.min_height above the ground.",
+       "Lower segment.min_height if low buildings matter; the building is a prism of its median height.", 1},
+      {"pipeline-outside", "No face of the fractured ground was given to this footprint.",
+       "The footprint may be displaced against the mesh; it is written as a prism of its median height.", 1},
+      {"pipeline-covered", "The ground of this footprint went to the models of its neighbours.",
+       "Check whether the input repeats a building; segment.gis_edges = hard keeps features apart.", 1},
+      {"pipeline-block", "The segmentation of a block failed, so its footprints became prisms.",
+       "The message says why; please report it.", 1},
+  });
+  return all;
+}
+
+}  // namespace mansard::pipeline

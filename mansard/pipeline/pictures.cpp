@@ -1,0 +1,156 @@
+// The pictures of a run, in the manner of the paper's Figure 5 and its error maps.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mansard/pipeline/pipeline.hpp"
+#include "mansard/rays/rays.hpp"
+
+namespace mansard::pipeline {
+namespace {
+
+using geometry::Point2;
+using geometry::Point3;
+
+/// Where the buildings are, with some street around them: what the pictures show.
+auto frame_of(const ingest::Scene& scene) -> geometry::Box2 {
+  constexpr double street = 8;
+  geometry::Box2 box;
+  for (const auto& footprint : scene.footprints)
+    for (const auto& polygon : footprint.polygons)
+      for (const Point2 p : polygon.outer) box.add(p);
+  return box.grown(street);
+}
+
+/// The triangles whose centres lie in the frame and pass the test.
+template <class Keep>
+auto part_of(const geometry::Mesh& mesh, const geometry::Box2& frame, Keep keep) -> geometry::Mesh {
+  geometry::Mesh out;
+  out.vertices = mesh.vertices;
+  for (const auto& t : mesh.triangles) {
+    const Point3 centre = (1.0 / 3) * (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]);
+    if (frame.contains(geometry::xy(centre)) && keep(centre)) out.triangles.push_back(t);
+  }
+  return out;
+}
+
+auto footprint_lines(const ingest::Scene& scene, const rays::Scene& surface) -> picture::Lines {
+  picture::Lines lines;
+  const auto add = [&](const geometry::Ring& ring) {
+    constexpr double piece = 1.0;  // short pieces follow the surface they are drawn on
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Point2 a = ring[i], b = ring[(i + 1) % ring.size()];
+      const auto n = static_cast<std::size_t>(std::ceil(geometry::length(b - a) / piece));
+      // The height is taken a little inside, where the roof is: on the wall itself it would jump up and down.
+      const Point2 inside = 0.75 * geometry::left_of(geometry::normalised(b - a));
+      const auto on = [&](std::size_t k) -> std::optional<Point3> {
+        const Point2 p = a + (static_cast<double>(k) / static_cast<double>(n)) * (b - a);
+        const auto z = surface.top(p + inside);
+        return z ? std::optional(Point3{p.x, p.y, *z}) : std::nullopt;
+      };
+      for (std::size_t k = 0; k < n; ++k)
+        if (const auto from = on(k), to = on(k + 1); from && to) lines.segments.push_back({*from, *to});
+    }
+  };
+  for (const auto& footprint : scene.footprints)
+    for (const auto& polygon : footprint.polygons) {
+      add(polygon.outer);
+      for (const auto& hole : polygon.holes) add(hole);
+    }
+  return lines;
+}
+
+auto colour_of(label::Class kind) -> picture::Colour {
+  switch (kind) {
+    case label::Class::wall: return picture::wall_grey;
+    case label::Class::party_wall: return picture::party_grey;
+    case label::Class::roof: return picture::roof_red;
+    case label::Class::ground: return picture::ground_grey;
+  }
+  return {};
+}
+
+auto models_of(const Reconstruction& reconstruction) -> picture::Layer {
+  picture::Layer layer;
+  for (const auto& building : reconstruction.city.buildings)
+    for (const auto& part : building.parts) {
+      const auto triangulated = extrude::triangulate(part.model.solid);
+      if (!triangulated) continue;
+      const auto first = static_cast<std::uint32_t>(layer.mesh.vertices.size());
+      layer.mesh.vertices.insert(layer.mesh.vertices.end(), part.model.solid.vertices.begin(),
+                                 part.model.solid.vertices.end());
+      for (std::size_t t = 0; t < triangulated->triangles.size(); ++t) {
+        const auto& corners = triangulated->triangles[t];
+        layer.mesh.triangles.push_back({first + corners[0], first + corners[1], first + corners[2]});
+        layer.colours.push_back(colour_of(part.model.classes[triangulated->face_of[t]]));
+      }
+    }
+  return layer;
+}
+
+/// All blocks' error maps on one grid.
+auto merged(const std::vector<evaluate::ErrorMap>& maps) -> evaluate::ErrorMap {
+  evaluate::ErrorMap all;
+  bool first = true;
+  Point2 most;
+  for (const auto& map : maps) {
+    if (map.columns == 0) continue;
+    const Point2 end = map.origin + Point2{map.grid * static_cast<double>(map.columns - 1),
+                                           map.grid * static_cast<double>(map.rows - 1)};
+    if (first) {
+      all.grid = map.grid;
+      all.origin = map.origin;
+      most = end;
+      first = false;
+    }
+    all.origin = {std::min(all.origin.x, map.origin.x), std::min(all.origin.y, map.origin.y)};
+    most = {std::max(most.x, end.x), std::max(most.y, end.y)};
+  }
+  if (first) return all;
+  const auto cell = [&](double from, double to) { return static_cast<std::size_t>(std::lround((to - from) / all.grid)); };
+  all.columns = cell(all.origin.x, most.x) + 1;
+  all.rows = cell(all.origin.y, most.y) + 1;
+  all.difference.assign(all.columns * all.rows, std::numeric_limits<float>::quiet_NaN());
+  for (const auto& map : maps)
+    for (std::size_t r = 0; r < map.rows; ++r)
+      for (std::size_t c = 0; c < map.columns; ++c)
+        if (const float value = map.at(c, r); !std::isnan(value))
+          all.difference[(r + cell(all.origin.y, map.origin.y)) * all.columns + c + cell(all.origin.x, map.origin.x)] =
+              value;
+  return all;
+}
+
+}  // namespace
+
+auto pictures(const Reconstruction& reconstruction, const ingest::Scene& scene, double limit, const base::Run& run)
+    -> Pictures {
+  const auto frame = frame_of(scene);
+  const rays::Scene surface(scene.mesh);
+  const auto lines = footprint_lines(scene, surface);
+  const auto in_footprint = [&](Point3 p) {
+    return std::ranges::any_of(scene.footprints, [&](const auto& footprint) {
+      return std::ranges::any_of(footprint.polygons, [&](const auto& polygon) {
+        return geometry::bounds(polygon.outer).contains(geometry::xy(p)) && geometry::contains(polygon, geometry::xy(p));
+      });
+    });
+  };
+  const picture::Layer scan{part_of(scene.mesh, frame, [](Point3) { return true; }), {picture::mesh_blue}};
+  // The street of the scan stays in the second picture, for scale, in a quieter blue; the scan's buildings go.
+  const picture::Layer street{part_of(scene.mesh, frame, [&](Point3 p) { return !in_footprint(p); }), {{206, 216, 232}}};
+  const auto models = models_of(reconstruction);
+
+  const auto pair = [&](picture::View view) {
+    const std::vector<picture::Layer> before{scan}, after{street, models};
+    const std::vector<picture::Lines> drawn{lines};
+    const std::vector<picture::Image> images{picture::draw(before, drawn, view, run),
+                                             picture::draw(after, {}, view, run)};
+    return picture::beside(images);
+  };
+  picture::View above, angle;
+  above.kind = picture::View::Kind::above;
+  const auto map = merged(reconstruction.error_maps);
+  return {pair(above), pair(angle),
+          picture::error_map(map.difference, map.columns, map.rows, limit, "model - mesh, m")};
+}
+
+}  // namespace mansard::pipeline

@@ -1,0 +1,136 @@
+// The only room that knows the order: a scene in, a city of labelled models out, and a report of how it went.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "mansard/base/options.hpp"
+#include "mansard/base/result.hpp"
+#include "mansard/base/run.hpp"
+#include "mansard/block/block.hpp"
+#include "mansard/evaluate/evaluate.hpp"
+#include "mansard/extrude/extrude.hpp"
+#include "mansard/fracture/fracture.hpp"
+#include "mansard/ingest/ingest.hpp"
+#include "mansard/label/label.hpp"
+#include "mansard/picture/picture.hpp"
+#include "mansard/profile/profile.hpp"
+#include "mansard/segment/segment.hpp"
+#include "mansard/slice/slice.hpp"
+#include "mansard/sweep/sweep.hpp"
+#include "mansard/write/write.hpp"
+
+namespace mansard::pipeline {
+
+/// The options of every room. What a run means is these and its inputs.
+struct Options {
+  ingest::Options ingest;
+  block::Options block;
+  slice::Options slice;
+  sweep::Options sweep;
+  fracture::Options fracture;
+  segment::Options segment;
+  profile::Options profile;
+  extrude::Options extrude;
+  label::Options label;
+  evaluate::Options evaluate;
+
+  std::int64_t seed = 1;
+  double assumed_height = 3.0;  ///< m; of the prism of a footprint over which the mesh shows nothing
+  double cap_grid = 0.5;        ///< m; sampling when the cap is chosen by measured error
+};
+
+/// One list per room, bound to `options`, in the order of the house.
+[[nodiscard]] auto option_lists(Options& options) -> std::vector<base::OptionList>;
+
+/// A preset's changes to the defaults: "room.name" → value.
+struct Preset {
+  std::string name;
+  std::string meaning;
+  std::vector<std::pair<std::string, std::string>> values;
+};
+/// `paper` (the published numbers) and `chordatlas` (what the reference implementation runs).
+[[nodiscard]] auto presets() -> const std::vector<Preset>&;
+
+/// Sets "room.name". Gives up with "option-unknown" (names the nearest known one) or "option-value".
+[[nodiscard]] auto set_option(std::vector<base::OptionList>& lists, std::string_view key, std::string_view value)
+    -> base::Result<void>;
+
+struct StageTime {
+  std::string stage;
+  double seconds = 0;  ///< summed over blocks; blocks run side by side, so this is work, not waiting
+};
+
+/// Table 1 of the paper, for one block.
+struct BlockReport {
+  std::string name;
+  std::size_t buildings = 0, parts = 0;
+  std::size_t triangles = 0, slices = 0, slice_segments = 0, sweep_edges = 0, faces = 0, inside_faces = 0;
+  std::size_t candidates = 0, variables = 0, conflicts = 0;
+  segment::Terms terms;
+  double objective = 0, bound = 0;
+  std::string status;
+  std::int64_t rounds = 0, nodes = 0;
+  evaluate::Scores scores;
+  std::vector<StageTime> times;
+};
+
+enum class Outcome : std::uint8_t {
+  full,      ///< every part was raised from its full profiles
+  fallback,  ///< at least one part is a simpler solid; the reason says why
+  covered,   ///< its ground went to neighbouring buildings; no solid of its own
+  refused,   ///< the footprint cannot be used
+};
+[[nodiscard]] auto to_string(Outcome outcome) -> std::string_view;
+
+struct BuildingReport {
+  std::string id, block;
+  Outcome outcome = Outcome::full;
+  std::vector<base::Diagnostic> reasons;
+  std::size_t parts = 0;
+  double ground = 0, roof_min = 0, roof_max = 0;  ///< z, metres, file frame
+  double volume = 0;                              ///< m³
+  label::Areas areas;
+  std::optional<double> rmse;  ///< m, vertical, over its parts; none where the mesh shows nothing
+};
+
+struct Reconstruction {
+  write::City city;
+  std::vector<BlockReport> blocks;
+  std::vector<BuildingReport> buildings;  ///< every input feature, in the source's order
+  std::vector<evaluate::ErrorMap> error_maps;  ///< per block
+  std::vector<StageTime> times;
+  evaluate::Scores scores;  ///< over all blocks, weighted by cells
+  std::vector<base::Diagnostic> warnings;
+};
+
+/// Guarantees: 1 every usable footprint ends in a valid solid, its own or (`covered`) a neighbour's · 2 every solid
+/// passed extrude::check · 3 one failing building or block leaves the others as they would be without it · 4 the same
+/// scene, options and seed give the same city at any thread count.
+/// Gives up with "cancelled", "pipeline-nothing" (no usable footprint).
+[[nodiscard]] auto reconstruct(const ingest::Scene& scene, const Options& options, const base::Run& run = {})
+    -> base::Result<Reconstruction>;
+
+/// One plan to one labelled, checked solid: what reconstruct does with each part once its profiles are known.
+[[nodiscard]] auto raise_part(const geometry::Plan& plan, const Options& options, const base::Run& run = {})
+    -> base::Result<extrude::Raised>;
+
+/// The report as JSON. Everything but the members called "seconds" is the same in every run.
+[[nodiscard]] auto report_json(const Reconstruction& reconstruction, const ingest::Scene& scene) -> std::string;
+
+/// Figure 5 of the paper, twice: the scan with the footprints beside the models, from above and at an angle; and the
+/// vertical error on a scale of ±`limit` metres.
+struct Pictures {
+  picture::Image above, angle, error;
+};
+[[nodiscard]] auto pictures(const Reconstruction& reconstruction, const ingest::Scene& scene, double limit,
+                            const base::Run& run = {}) -> Pictures;
+
+/// The codes of every room.
+[[nodiscard]] auto codes() -> std::vector<base::Code>;
+
+}  // namespace mansard::pipeline

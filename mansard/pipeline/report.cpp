@@ -1,0 +1,136 @@
+// run.json: what was done, with counts, times, and every building's outcome and reason.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "mansard/pipeline/pipeline.hpp"
+
+namespace mansard::pipeline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+auto json_of(const base::Diagnostic& d) -> Json {
+  return {{"severity", d.severity == base::Severity::error ? "error" : "warning"},
+          {"code", d.code},
+          {"subject", d.subject},
+          {"message", d.message}};
+}
+
+auto json_of(const std::vector<base::Diagnostic>& all) -> Json {
+  Json out = Json::array();
+  for (const auto& d : all) out.push_back(json_of(d));
+  return out;
+}
+
+auto json_of(const std::vector<StageTime>& times) -> Json {
+  Json out = Json::object();
+  for (const auto& time : times) out[time.stage] = std::round(time.seconds * 1e4) / 1e4;
+  return out;
+}
+
+auto json_of(const evaluate::Scores& s) -> Json {
+  return {{"vertical_mse_m2", s.mse},
+          {"cells", s.cells},
+          {"footprint_mse_m2", s.footprint_mse},
+          {"footprint_cells", s.footprint_cells},
+          {"median_m", s.median},
+          {"median_absolute_m", s.median_absolute},
+          {"p95_absolute_m", s.p95_absolute},
+          {"missed_m2", s.missed},
+          {"invented_m2", s.invented}};
+}
+
+auto json_of(const BlockReport& b) -> Json {
+  return {{"name", b.name},
+          {"buildings", b.buildings},
+          {"parts", b.parts},
+          {"triangles", b.triangles},
+          {"slices", b.slices},
+          {"slice_segments", b.slice_segments},
+          {"sweep_edges", b.sweep_edges},
+          {"faces", b.faces},
+          {"inside_faces", b.inside_faces},
+          {"candidate_edges", b.candidates},
+          {"variables", b.variables},
+          {"conflicts", b.conflicts},
+          {"objective",
+           {{"sweep_unused", b.terms.sweep_unused},
+            {"unsupported", b.terms.unsupported},
+            {"height", b.terms.height},
+            {"thin", b.terms.thin},
+            {"total", b.objective},
+            {"bound", b.bound},
+            {"gap", b.objective - b.bound},
+            {"status", b.status},
+            {"rounds", b.rounds},
+            {"nodes", b.nodes}}},
+          {"scores", json_of(b.scores)},
+          {"seconds", json_of(b.times)}};
+}
+
+auto json_of(const BuildingReport& b) -> Json {
+  Json out{{"id", b.id}, {"block", b.block}, {"outcome", to_string(b.outcome)}, {"reasons", json_of(b.reasons)},
+           {"parts", b.parts}};
+  if (b.parts > 0) {
+    out["ground_m"] = b.ground;
+    out["roof_min_m"] = b.roof_min;
+    out["roof_max_m"] = b.roof_max;
+    out["volume_m3"] = b.volume;
+    out["areas_m2"] = {{"wall", b.areas.wall},
+                       {"party_wall", b.areas.party_wall},
+                       {"roof_flat", b.areas.roof_flat},
+                       {"roof_sloped", b.areas.roof_sloped},
+                       {"ground", b.areas.ground}};
+  }
+  out["rmse_m"] = b.rmse ? Json(*b.rmse) : Json(nullptr);
+  return out;
+}
+
+auto count(const Reconstruction& r, Outcome outcome) -> std::size_t {
+  std::size_t n = 0;
+  for (const auto& b : r.buildings) n += b.outcome == outcome ? 1 : 0;
+  return n;
+}
+
+}  // namespace
+
+auto report_json(const Reconstruction& r, const ingest::Scene& scene) -> std::string {
+  Json out;
+  out["mansard"] = r.city.made_by.version;
+  Json inputs = Json::array();
+  for (const auto& input : scene.inputs)
+    inputs.push_back({{"path", input.path}, {"bytes", input.bytes}, {"sha256", input.sha256}});
+  out["inputs"] = inputs;
+  out["crs"] = scene.frame.crs.empty() ? Json(nullptr) : Json(scene.frame.crs);
+  out["origin"] = scene.frame.origin;
+  Json options = Json::object();
+  for (const auto& [name, value] : r.city.made_by.options) options[name] = value;
+  out["options"] = options;
+  const auto& m = scene.mesh_counts;
+  out["mesh"] = {{"vertices", m.vertices},
+                 {"triangles", m.triangles},
+                 {"dropped_not_finite", m.not_finite},
+                 {"dropped_out_of_range", m.out_of_range},
+                 {"dropped_degenerate", m.degenerate},
+                 {"dropped_duplicate", m.duplicate},
+                 {"non_manifold_edges", m.non_manifold_edges},
+                 {"boundary_edges", m.boundary_edges},
+                 {"flipped_edges", m.flipped_edges}};
+  out["counts"] = {{"footprints", r.buildings.size()},       {"full", count(r, Outcome::full)},
+                   {"fallback", count(r, Outcome::fallback)}, {"covered", count(r, Outcome::covered)},
+                   {"refused", count(r, Outcome::refused)},   {"blocks", r.blocks.size()}};
+  out["scores"] = json_of(r.scores);
+  out["seconds"] = json_of(r.times);
+  std::vector<base::Diagnostic> warnings = scene.warnings;
+  warnings.insert(warnings.end(), r.warnings.begin(), r.warnings.end());
+  out["warnings"] = json_of(warnings);
+  Json blocks = Json::array();
+  for (const auto& block : r.blocks) blocks.push_back(json_of(block));
+  out["blocks"] = blocks;
+  Json buildings = Json::array();
+  for (const auto& building : r.buildings) buildings.push_back(json_of(building));
+  out["buildings"] = buildings;
+  return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace mansard::pipeline

@@ -1,0 +1,286 @@
+#include "mansard/profile/profile.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "mansard/profile/detail/caps.hpp"
+#include "mansard/profile/detail/climb.hpp"
+#include "mansard/profile/detail/columns.hpp"
+#include "mansard/profile/detail/pitches.hpp"
+#include "mansard/profile/detail/refine.hpp"
+#include "mansard/profile/detail/runs.hpp"
+#include "mansard/profile/detail/section_index.hpp"
+
+namespace mansard::profile {
+namespace {
+
+using detail::Run;
+using geometry::Plan;
+using geometry::Polygon;
+
+constexpr double outward = 2.0;   // m; a slice's window begins this far outside the edge
+constexpr double deepest = 40.0;  // m; and ends here at the latest
+
+/// What one run gave.
+struct Fitted {
+  detail::Choices choices;  ///< the greedy profile first
+  Evidence evidence;
+};
+
+auto ground_of(const segment::Part& part, const block::Block& block) -> double {
+  for (const auto& member : block.members)
+    if (part.feature == member.feature) return member.ground;
+  return block.ground;
+}
+
+/// Slices the mesh across the run and climbs each slice.
+auto slices_of(const Polygon& polygon, const Run& run, const detail::SectionIndex& index, double base,
+               const Options& options, Fitted& fitted) -> std::vector<detail::SliceColumns> {
+  Evidence& evidence = fitted.evidence;
+  const detail::ClimbOptions climbing{options.step, options.jump, options.low_height, base};
+  std::vector<detail::SliceColumns> slices;
+  std::vector<double> walls;
+  for (auto sample : detail::samples_of(polygon, run, options.spacing)) {
+    ++evidence.attempted;
+    fitted.choices.reach = std::max(fitted.choices.reach, sample.reach);
+    sample.reach = std::min(sample.reach, deepest);
+    const auto pieces = index.cut({sample.foot, sample.inward, -outward, sample.reach});
+    const auto climb = detail::climb(pieces, climbing);
+    if (!climb) continue;
+    ++evidence.slices;
+    const auto wall = detail::wall_position(*climb, climbing, options.vertical_angle);
+    if (wall) walls.push_back(*wall);
+    slices.push_back(detail::columns_of(pieces, *climb, sample, base, wall));
+  }
+  if (!walls.empty()) {
+    std::ranges::sort(walls);
+    evidence.offset = -walls[walls.size() / 2];
+  }
+  return slices;
+}
+
+/// Whether the roof behind the run is its own: enough of its slices rise inward, those near its corners set aside.
+auto is_pitched(const std::vector<detail::SliceColumns>& slices, double length) -> bool {
+  constexpr double corner = 1.0;  // m; at a hip the neighbour's roof begins there
+  constexpr double share = 0.4;   // dormers may take the rest
+  const double aside = length > 2.6 * corner ? corner : 0;
+  std::size_t counted = 0, rising = 0;
+  for (const auto& slice : slices) {
+    if (slice.along < aside || slice.along > length - aside) continue;
+    ++counted;
+    rising += slice.first < slice.last ? 1 : 0;
+  }
+  return counted > 0 && static_cast<double>(rising) >= share * static_cast<double>(counted);
+}
+
+/// The roof that the slices agree on, with at most that many pitches; just the wall where they agree on none.
+auto pitched_profile(const std::vector<detail::SliceColumns>& slices, std::size_t pitches, const Options& options)
+    -> std::optional<geometry::Profile> {
+  // One pitch stands for all that a roof does, so slices may stray from it.
+  const detail::SupportOptions support{options.support, pitches == 1 ? 1.0 : 0.3, options.low_height};
+  const auto line = detail::supported(detail::fit_line(detail::pool(slices), pitches), slices, support);
+  if (line.empty()) return std::nullopt;
+  auto profile = detail::profile_from(line, options.vertical_angle);
+  if (profile.back().inward == 0) return std::nullopt;
+  return profile;
+}
+
+/// Adds the profiles that the slices suggest, most pitches first; the wall is always the last of them.
+void suggest(std::vector<detail::SliceColumns>& slices, double length, double height, const Options& options,
+             std::vector<geometry::Profile>& profiles) {
+  const auto wall = detail::vertical_profile(detail::edge_height(slices).value_or(height));
+  detail::find_rising(slices);
+  if (options.quality != Quality::simple && is_pitched(slices, length)) {
+    for (const std::size_t pitches : {3U, 1U}) {
+      if (options.quality == Quality::moderate && pitches > 1) continue;
+      auto profile = pitched_profile(slices, pitches, options);
+      if (profile && std::ranges::find(profiles, *profile) == profiles.end()) profiles.push_back(std::move(*profile));
+    }
+  }
+  profiles.push_back(wall);
+}
+
+/// A level lower part before the profile.
+auto set_back(const geometry::Profile& profile, const detail::Setback& setback) -> geometry::Profile {
+  geometry::Profile out{{0, 0}, {0, setback.height}, {setback.depth, setback.height}};
+  for (std::size_t i = 1; i < profile.size(); ++i) {
+    const geometry::ProfilePoint next{profile[i].inward + setback.depth, std::max(profile[i].height, setback.height)};
+    if (!(next == out.back())) out.push_back(next);
+  }
+  return out;
+}
+
+/// The candidates of a run. The greedy choice is the first.
+auto fit_run(const Polygon& polygon, const Run& run, const detail::SectionIndex& index, double base, double height,
+             const Options& options) -> Fitted {
+  Fitted fitted;
+  auto& profiles = fitted.choices.profiles;
+  const double length = detail::length_of(polygon, run);
+  auto slices = slices_of(polygon, run, index, base, options, fitted);
+  suggest(slices, length, height, options, profiles);
+  if (options.quality != Quality::high) return fitted;
+  // Evidence for a step back comes from the scan as a whole, so only refine() may choose it.
+  if (const auto setback = detail::find_setback(slices)) {
+    auto upper = detail::behind(slices, *setback);
+    std::vector<geometry::Profile> beyond;
+    suggest(upper, length, height, options, beyond);
+    for (const auto& profile : beyond) profiles.push_back(set_back(profile, *setback));
+  }
+  return fitted;
+}
+
+/// One part on its way to a plan.
+struct Work {
+  std::vector<detail::RoofSample> samples;
+  std::vector<double> heights;  ///< the samples', sorted
+  std::vector<Run> runs;
+  std::vector<detail::Choices> choices;  ///< per run, as `evidence` and `chosen`
+  std::vector<Evidence> evidence;
+  std::vector<std::size_t> chosen;
+  std::vector<double> caps;
+  double base = 0, height = 0;
+
+  [[nodiscard]] auto profile(std::size_t run) const -> const geometry::Profile& {
+    return choices[run].profiles[chosen[run]];
+  }
+};
+
+auto prepare(const segment::Part& part, const block::Block& block, const rays::Scene& mesh, const Options& options)
+    -> Work {
+  Work work;
+  work.base = ground_of(part, block);
+  work.runs = detail::runs_of(part.polygon, options.run_angle);
+  work.choices.resize(work.runs.size());
+  work.evidence.resize(work.runs.size());
+  work.chosen.assign(work.runs.size(), 0);
+  work.samples = detail::look_over(mesh, part.polygon, work.base);
+  for (const auto& sample : work.samples) work.heights.push_back(sample.height);
+  std::ranges::sort(work.heights);
+  constexpr double assumed = 3.0;  // m; one storey, where nothing was seen at all
+  constexpr double least = 0.5;    // m
+  if (!work.heights.empty())
+    work.height = std::max(least, work.heights[work.heights.size() / 2]);
+  else
+    work.height = part.height - work.base > least ? part.height - work.base : assumed;
+  return work;
+}
+
+auto caps_of(const Work& work, const Polygon& polygon) -> std::vector<double> {
+  std::vector<detail::ProfileTop> tops;
+  bool pitched = false;
+  for (std::size_t r = 0; r < work.runs.size(); ++r) {
+    if (work.evidence[r].slices == 0) continue;
+    tops.push_back({work.profile(r).back().height, detail::length_of(polygon, work.runs[r])});
+    pitched = pitched || work.profile(r).back().inward > 0;
+  }
+  return detail::caps_from(work.heights, std::move(tops), pitched, work.height);
+}
+
+/// Short runs (bevels, jogs, pieces of curves) see too little: they follow a neighbour that they hardly turn from, or
+/// stand as walls, unless the scan clearly says otherwise.
+void lead_short_runs(const Polygon& polygon, Work& work) {
+  constexpr double shortest = 1.0;  // m
+  for (std::size_t r = 0; r < work.runs.size(); ++r) {
+    if (work.evidence[r].slices == 0 || detail::length_of(polygon, work.runs[r]) >= shortest) continue;
+    auto& profiles = work.choices[r].profiles;
+    const auto wall = std::ranges::find_if(profiles, [](const auto& p) { return p.back().inward == 0; });
+    if (wall != profiles.end()) std::rotate(profiles.begin(), wall, wall + 1);
+    for (const auto neighbour : detail::gentle_neighbours(polygon, work.runs, r)) {
+      if (detail::length_of(polygon, work.runs[neighbour]) < shortest) continue;
+      const auto lead = work.choices[neighbour].profiles.front();
+      if (lead.back().inward > 0) profiles.insert(profiles.begin(), lead);
+    }
+  }
+}
+
+/// Weighs the runs' candidates against each other and against the scan.
+void settle(Work& work, const Polygon& polygon) {
+  lead_short_runs(polygon, work);
+  work.caps = caps_of(work, polygon);
+  if (work.samples.empty()) return;
+  work.chosen = detail::refine(polygon, work.runs, work.choices, work.samples, work.caps).chosen;
+  work.caps = caps_of(work, polygon);
+}
+
+/// The plan of a part, one profile a run.
+auto plan_of(const Polygon& polygon, const Work& work) -> Plan {
+  Plan plan;
+  plan.base = work.base;
+  plan.cap = work.caps.front();
+  plan.outer = {polygon.outer, std::vector<std::uint32_t>(polygon.outer.size(), 0)};
+  for (const auto& hole : polygon.holes) plan.holes.push_back({hole, std::vector<std::uint32_t>(hole.size(), 0)});
+  for (std::size_t r = 0; r < work.runs.size(); ++r) {
+    const Run& run = work.runs[r];
+    auto& ring = run.ring == 0 ? plan.outer : plan.holes[run.ring - 1];
+    for (const std::size_t edge : run.edges) ring.profile_of_edge[edge] = static_cast<std::uint32_t>(r);
+    plan.profiles.push_back(work.profile(r));
+  }
+  return plan;
+}
+
+}  // namespace
+
+auto option_list(Options& o) -> base::OptionList {
+  base::OptionList list("profile");
+  list.choice("quality", o.quality,
+              {{"simple", Quality::simple}, {"moderate", Quality::moderate}, {"high", Quality::high}},
+              "Walls only, one roof pitch an edge, or up to three.")
+      .number("spacing", o.spacing, "m", {0.05, 5}, "Distance between perpendicular slices along an edge.")
+      .number("step", o.step, "m", {0.05, 10}, "The climb goes on to a piece of mesh this near.")
+      .number("jump", o.jump, "m", {0.05, 20}, "Failing that, it jumps a hole or parapet this wide.")
+      .number("support", o.support, "", {0, 1}, "Share of an edge's slices that must agree with a pitch.")
+      .number("vertical_angle", o.vertical_angle, "rad", {0.001, 0.5}, "Parts this near to vertical become wall.")
+      .number("run_angle", o.run_angle, "rad", {0, 0.7}, "Edges that turn less than this share a profile.")
+      .number("low_height", o.low_height, "m", {0, 20},
+              "Height above ground below which cars, hedges and shops are expected and tolerances are wide.");
+  return list;
+}
+
+auto fit(const segment::Segmentation& segmentation, const block::Block& block, const rays::Scene& mesh,
+         const Options& options, const base::Run& run) -> std::vector<ProfiledFootprint> {
+  run.report("profile", block.name, 0);
+  const auto& parts = segmentation.parts;
+  const detail::SectionIndex index(block.mesh);
+
+  std::vector<Work> works(parts.size());
+  base::parallel_for(parts.size(), [&](std::size_t i) { works[i] = prepare(parts[i], block, mesh, options); });
+
+  // Runs, not parts, are the tasks: one part may own most of the edges.
+  std::vector<std::pair<std::size_t, std::size_t>> tasks;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    for (std::size_t r = 0; r < works[i].runs.size(); ++r) tasks.emplace_back(i, r);
+  base::parallel_for(tasks.size(), [&](std::size_t task) {
+    const auto [i, r] = tasks[task];
+    Work& work = works[i];
+    if (run.cancelled()) {
+      work.choices[r].profiles = {detail::vertical_profile(work.height)};
+      return;
+    }
+    auto fitted = fit_run(parts[i].polygon, work.runs[r], index, work.base, work.height, options);
+    work.choices[r] = std::move(fitted.choices);
+    work.evidence[r] = fitted.evidence;
+  });
+  base::parallel_for(parts.size(), [&](std::size_t i) { settle(works[i], parts[i].polygon); });
+
+  std::vector<ProfiledFootprint> footprints(parts.size());
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    footprints[i].plan = plan_of(parts[i].polygon, works[i]);
+    footprints[i].caps = works[i].caps;
+    footprints[i].evidence = works[i].evidence;
+  }
+  run.report("profile", block.name, 1);
+  return footprints;
+}
+
+auto vertical_plan(const Polygon& polygon, double base, double cap) -> Plan {
+  Plan plan;
+  plan.outer = {polygon.outer, std::vector<std::uint32_t>(polygon.outer.size(), 0)};
+  for (const auto& hole : polygon.holes) plan.holes.push_back({hole, std::vector<std::uint32_t>(hole.size(), 0)});
+  plan.profiles = {{{0, 0}, {0, cap}}};
+  plan.base = base;
+  plan.cap = cap;
+  return plan;
+}
+
+}  // namespace mansard::profile

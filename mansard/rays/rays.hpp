@@ -1,0 +1,45 @@
+// Rays against triangles (Embree). Directions need not be of unit length; distances are in metres.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "mansard/geometry/mesh.hpp"
+
+namespace mansard::rays {
+
+struct Hit {
+  double distance = 0;         ///< metres from the origin along the unit direction
+  std::uint32_t triangle = 0;  ///< index into the mesh's triangles
+};
+
+/// A mesh prepared for rays. Positions are held in single precision relative to the mesh's own centre, so heights are
+/// good to about 0.1 mm over a kilometre. Queries may run on any thread.
+/// Cost: O(n log n) to build, O(log n) a ray.
+class Scene {
+ public:
+  explicit Scene(const geometry::Mesh& mesh);
+  Scene(Scene&&) noexcept;
+  auto operator=(Scene&&) noexcept -> Scene&;
+  Scene(const Scene&) = delete;
+  auto operator=(const Scene&) -> Scene& = delete;
+  ~Scene();
+
+  /// The nearest triangle hit, from either side.
+  [[nodiscard]] auto cast(geometry::Point3 origin, geometry::Point3 direction) const -> std::optional<Hit>;
+  /// z of the topmost surface above or below (x, y): what a satellite sees.
+  [[nodiscard]] auto top(geometry::Point2 at) const -> std::optional<double>;
+  /// The triangle that `top` saw, and its z.
+  struct Seen {
+    double z = 0;
+    std::uint32_t triangle = 0;
+  };
+  [[nodiscard]] auto seen_from_above(geometry::Point2 at) const -> std::optional<Seen>;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace mansard::rays

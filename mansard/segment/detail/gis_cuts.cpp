@@ -1,0 +1,145 @@
+#include "mansard/segment/detail/gis_cuts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "mansard/geometry/polygon.hpp"
+
+namespace mansard::segment::detail {
+namespace {
+
+using geometry::Box2, geometry::Point2, geometry::Segment2;
+
+constexpr double near = 0.2;          ///< m; as far as the other member's boundary may be off
+constexpr double shortest = 0.2;      ///< m; of a stretch, and of a gap between stretches
+constexpr double parallel_sine = 0.1;
+
+auto edges_of(const block::Member& member) -> std::vector<Segment2> {
+  std::vector<Segment2> edges;
+  const auto add = [&](const geometry::Ring& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i) edges.push_back({ring[i], ring[(i + 1) % ring.size()]});
+  };
+  for (const auto& polygon : member.polygons) {
+    add(polygon.outer);
+    for (const auto& hole : polygon.holes) add(hole);
+  }
+  return edges;
+}
+
+auto box_of(const Segment2& s) -> Box2 {
+  Box2 box;
+  box.add(s.start), box.add(s.end);
+  return box;
+}
+
+/// The part of `edge`, from 0 to its length, where `other` runs along it within `reach` and at an angle of at most
+/// that sine; empty (from ≥ to) if none.
+auto shared(const Segment2& edge, const Segment2& other, double reach = near, double sine = parallel_sine)
+    -> std::pair<double, double> {
+  const Point2 a = edge.end - edge.start, b = other.end - other.start;
+  const double la = geometry::length(a), lb = geometry::length(b);
+  if (la == 0 || lb == 0 || std::abs(geometry::cross(a, b)) > sine * la * lb) return {0, 0};
+  double from = geometry::dot(other.start - edge.start, a) / la, to = geometry::dot(other.end - edge.start, a) / la;
+  double aside_from = geometry::cross(a, other.start - edge.start) / la;
+  double aside_to = geometry::cross(a, other.end - edge.start) / la;
+  if (from > to) std::swap(from, to), std::swap(aside_from, aside_to);
+  // Where the other's distance, linear along it, is within ±reach.
+  const double slope = to > from ? (aside_to - aside_from) / (to - from) : 0;
+  double low = from, high = to;
+  if (slope != 0) {
+    double one = from + (-reach - aside_from) / slope, two = from + (reach - aside_from) / slope;
+    if (one > two) std::swap(one, two);
+    low = std::max(low, one), high = std::min(high, two);
+  } else if (std::abs(aside_from) > reach) {
+    return {0, 0};
+  }
+  return {std::max(low, 0.0), std::min(high, la)};
+}
+
+/// Overlapping stretches, and those with less than `shortest` between them, become one.
+auto merged(std::vector<std::pair<double, double>> stretches) -> std::vector<std::pair<double, double>> {
+  std::ranges::sort(stretches);
+  std::vector<std::pair<double, double>> out;
+  for (const auto& stretch : stretches)
+    if (!out.empty() && stretch.first <= out.back().second + shortest)
+      out.back().second = std::max(out.back().second, stretch.second);
+    else
+      out.push_back(stretch);
+  return out;
+}
+
+void add_piece(const Segment2& edge, double from, double to, double least, std::vector<Segment2>& lines) {
+  const Point2 along = geometry::normalised(edge.end - edge.start);
+  if (to - from >= least) lines.push_back({edge.start + from * along, edge.start + to * along});
+}
+
+auto longest_first(std::vector<Segment2> lines) -> std::vector<Segment2> {
+  const auto squared = [](const Segment2& s) { return geometry::dot(s.end - s.start, s.end - s.start); };
+  std::ranges::sort(lines, [&](const Segment2& a, const Segment2& b) {
+    return std::pair(-squared(a), a) < std::pair(-squared(b), b);
+  });
+  return lines;
+}
+
+}  // namespace
+
+auto party_lines(const block::Block& block) -> std::vector<Segment2> {
+  std::vector<std::vector<Segment2>> edges;
+  std::vector<Box2> boxes(block.members.size());
+  for (std::size_t m = 0; m < block.members.size(); ++m) {
+    edges.push_back(edges_of(block.members[m]));
+    for (const Segment2& e : edges[m]) boxes[m].add(e.start);
+  }
+  std::vector<Segment2> lines;
+  for (std::size_t m = 0; m < edges.size(); ++m) {
+    std::vector<std::size_t> others;
+    for (std::size_t n = m + 1; n < edges.size(); ++n)
+      if (!boxes[m].empty() && !boxes[n].empty() && boxes[m].grown(near).overlaps(boxes[n])) others.push_back(n);
+    for (const Segment2& edge : edges[m]) {
+      const Box2 box = box_of(edge).grown(near);
+      std::vector<std::pair<double, double>> stretches;
+      for (const std::size_t n : others)
+        for (const Segment2& other : edges[n]) {
+          if (!box.overlaps(box_of(other))) continue;
+          const auto stretch = shared(edge, other);
+          if (stretch.first < stretch.second) stretches.push_back(stretch);
+        }
+      for (const auto& [from, to] : merged(std::move(stretches))) add_piece(edge, from, to, shortest, lines);
+    }
+  }
+  return longest_first(std::move(lines));
+}
+
+auto torn_lines(const block::Block& block, const sweep::SweepEdges& sweeps) -> std::vector<Segment2> {
+  constexpr double reach = 1.5;       // m; how far beside the GIS edge its wall may have been found
+  constexpr double sine = 0.3;        // … and how far turned
+  constexpr double least_piece = 1.0; // m; shorter stretches are left to the continuations
+  std::vector<std::vector<Segment2>> edges;
+  for (const auto& member : block.members) edges.push_back(edges_of(member));
+  std::vector<Segment2> lines;
+  for (std::size_t m = 0; m < edges.size(); ++m)
+    for (const Segment2& edge : edges[m]) {
+      const Box2 box = box_of(edge).grown(reach);
+      std::vector<std::pair<double, double>> known;  // stretches along which the wall is known already
+      const auto look = [&](const Segment2& other, double by, double turned) {
+        if (!box.overlaps(box_of(other))) return;
+        const auto stretch = shared(edge, other, by, turned);
+        if (stretch.first < stretch.second) known.push_back(stretch);
+      };
+      for (const auto& sweep : sweeps.edges) look(sweep.segment, reach, sine);
+      for (std::size_t n = 0; n < edges.size(); ++n)
+        if (n != m)
+          for (const Segment2& other : edges[n]) look(other, near, parallel_sine);
+      double from = 0;
+      const double length = geometry::length(edge.end - edge.start);
+      for (const auto& [first, last] : merged(std::move(known))) {
+        add_piece(edge, from, first, least_piece, lines);
+        from = last;
+      }
+      add_piece(edge, from, length, least_piece, lines);
+    }
+  return longest_first(std::move(lines));
+}
+
+}  // namespace mansard::segment::detail

@@ -1,0 +1,313 @@
+#include "mansard/segment/detail/multicut.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <queue>
+
+#include "mansard/segment/detail/local_search.hpp"
+#include "mansard/solver/solver.hpp"
+
+namespace mansard::segment::detail {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+/// Union-find with the lowest node as representative.
+class Pieces {
+ public:
+  explicit Pieces(std::size_t count) : up_(count) { std::iota(up_.begin(), up_.end(), 0U); }
+  auto of(std::uint32_t v) -> std::uint32_t {
+    while (up_[v] != v) v = up_[v] = up_[up_[v]];
+    return v;
+  }
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = of(a), b = of(b);
+    up_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::uint32_t> up_;
+};
+
+auto numbered(Pieces& pieces, std::uint32_t nodes) -> Labels {
+  Labels labels(nodes), number(nodes, none);
+  std::uint32_t count = 0;
+  for (std::uint32_t v = 0; v < nodes; ++v) {
+    auto& n = number[pieces.of(v)];
+    if (n == none) n = count++;
+    labels[v] = n;
+  }
+  return labels;
+}
+
+/// One connected part of the problem, with the numbers its nodes had in the whole. What forced edges cost and what
+/// they do to others is in the part's costs and constant where they leave it.
+struct Part {
+  Multicut problem;
+  std::vector<std::uint32_t> nodes;
+};
+
+/// Splits where only forced edges connect: those are cut whatever the labels, so that their pairs become linear.
+auto split(const Multicut& whole, std::int64_t& constant) -> std::vector<Part> {
+  Pieces pieces(whole.nodes);
+  for (const MulticutEdge& e : whole.edges)
+    if (!e.forced) pieces.join(e.a, e.b);
+  // A pair of free edges belongs to one program; those of one face do anyway.
+  for (const MulticutPair& pair : whole.pairs)
+    if (!whole.edges[pair.first].forced && !whole.edges[pair.second].forced)
+      pieces.join(whole.edges[pair.first].a, whole.edges[pair.second].a);
+  const Labels part_of = numbered(pieces, whole.nodes);
+  const std::size_t count = part_of.empty() ? 0 : std::ranges::max(part_of) + 1U;
+  std::vector<Part> parts(count);
+  std::vector<std::uint32_t> inner_node(whole.nodes), inner_edge(whole.edges.size(), none);
+  for (std::uint32_t v = 0; v < whole.nodes; ++v) {
+    Part& part = parts[part_of[v]];
+    inner_node[v] = part.problem.nodes++;
+    part.nodes.push_back(v);
+  }
+  for (std::uint32_t e = 0; e < whole.edges.size(); ++e) {
+    const MulticutEdge& edge = whole.edges[e];
+    if (part_of[edge.a] != part_of[edge.b]) {
+      constant += edge.cost;
+      continue;
+    }
+    auto& edges = parts[part_of[edge.a]].problem.edges;
+    inner_edge[e] = static_cast<std::uint32_t>(edges.size());
+    edges.push_back({inner_node[edge.a], inner_node[edge.b], edge.cost, edge.forced});
+  }
+  for (const MulticutPair& pair : whole.pairs) {
+    const std::uint32_t i = inner_edge[pair.first], j = inner_edge[pair.second];
+    if (i == none && j == none) {
+      constant += pair.penalty;
+    } else if (i == none || j == none) {
+      const std::uint32_t inside = i == none ? pair.second : pair.first;
+      parts[part_of[whole.edges[inside].a]].problem.edges[inner_edge[inside]].cost += pair.penalty;
+    } else if (part_of[whole.edges[pair.first].a] == part_of[whole.edges[pair.second].a]) {
+      parts[part_of[whole.edges[pair.first].a]].problem.pairs.push_back({i, j, pair.penalty});
+    } else if (whole.edges[pair.first].forced && whole.edges[pair.second].forced) {
+      constant += pair.penalty;
+    } else {
+      const std::uint32_t free = whole.edges[pair.first].forced ? pair.second : pair.first;
+      parts[part_of[whole.edges[free].a]].problem.edges[inner_edge[free]].cost += pair.penalty;
+    }
+  }
+  for (const auto& star : whole.stars) {
+    if (std::ranges::any_of(star, [&](std::uint32_t e) { return inner_edge[e] == none; })) continue;
+    std::vector<std::uint32_t> inner;
+    for (const std::uint32_t e : star) inner.push_back(inner_edge[e]);
+    parts[part_of[whole.edges[star.front()].a]].problem.stars.push_back(std::move(inner));
+  }
+  return parts;
+}
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// s_e ≤ Σ s_f.
+auto cycle_row(std::uint32_t edge, const std::vector<std::uint32_t>& path) -> solver::Row {
+  solver::Row row{{{edge, 1.0}}, -infinity, 0};
+  for (const std::uint32_t f : path) row.terms.emplace_back(f, -1.0);
+  return row;
+}
+
+/// Variables s_e, then y_ij = [s_i ∧ s_j], which needs no integrality; rows: pairs and stars.
+auto program_of(const Multicut& problem) -> solver::Program {
+  solver::Program program;
+  for (const MulticutEdge& e : problem.edges)
+    program.variables.push_back({static_cast<double>(e.cost), e.forced ? 1.0 : 0.0, 1.0, true});
+  for (const MulticutPair& pair : problem.pairs) {
+    const auto y = static_cast<std::uint32_t>(program.variables.size());
+    program.variables.push_back({static_cast<double>(pair.penalty), 0.0, 1.0, false});
+    program.rows.push_back({{{pair.first, 1.0}, {pair.second, 1.0}, {y, -1.0}}, -infinity, 1});
+  }
+  for (const auto& star : problem.stars) {
+    for (const std::uint32_t e : star) {
+      std::vector<std::uint32_t> others;
+      for (const std::uint32_t f : star)
+        if (f != e) others.push_back(f);
+      // Where the same two faces meet twice at a vertex, s_e ≤ s_e + … says nothing.
+      if (others.size() + 1 != star.size() || others.empty()) continue;
+      std::ranges::sort(others);
+      others.erase(std::ranges::unique(others).begin(), others.end());
+      program.rows.push_back(cycle_row(e, others));
+    }
+  }
+  return program;
+}
+
+auto values_of(const Multicut& problem, const Labels& labels) -> std::vector<double> {
+  std::vector<double> values;
+  for (const MulticutEdge& e : problem.edges) values.push_back(labels[e.a] != labels[e.b] ? 1.0 : 0.0);
+  for (const MulticutPair& pair : problem.pairs) values.push_back(values[pair.first] * values[pair.second]);
+  return values;
+}
+
+/// Cycle rows that the cut breaks: for every chosen edge with both ends in one piece, the shortest way around it.
+auto broken_cycles(const Multicut& problem, const std::vector<bool>& chosen) -> std::vector<solver::Row> {
+  Pieces pieces(problem.nodes);
+  std::vector<std::vector<std::uint32_t>> edges_of(problem.nodes);
+  for (std::uint32_t e = 0; e < problem.edges.size(); ++e) {
+    if (chosen[e]) continue;
+    pieces.join(problem.edges[e].a, problem.edges[e].b);
+    edges_of[problem.edges[e].a].push_back(e);
+    edges_of[problem.edges[e].b].push_back(e);
+  }
+  std::vector<solver::Row> rows;
+  std::vector<std::uint32_t> reached_by(problem.nodes), seen_in(problem.nodes, none);
+  for (std::uint32_t bridge = 0; bridge < problem.edges.size(); ++bridge) {
+    const auto [from, to] = std::pair(problem.edges[bridge].a, problem.edges[bridge].b);
+    if (!chosen[bridge] || pieces.of(from) != pieces.of(to)) continue;
+    std::queue<std::uint32_t> open;
+    open.push(from);
+    seen_in[from] = bridge;
+    while (seen_in[to] != bridge) {
+      const std::uint32_t v = open.front();
+      open.pop();
+      for (const std::uint32_t e : edges_of[v]) {
+        const std::uint32_t w = problem.edges[e].a == v ? problem.edges[e].b : problem.edges[e].a;
+        if (seen_in[w] == bridge) continue;
+        seen_in[w] = bridge, reached_by[w] = e;
+        open.push(w);
+      }
+    }
+    std::vector<std::uint32_t> path;
+    for (std::uint32_t v = to; v != from;) {
+      const MulticutEdge& e = problem.edges[reached_by[v]];
+      path.push_back(reached_by[v]);
+      v = e.a == v ? e.b : e.a;
+    }
+    rows.push_back(cycle_row(bridge, path));
+  }
+  return rows;
+}
+
+struct Deadline {
+  std::optional<Clock::time_point> at;
+  [[nodiscard]] auto left() const -> std::optional<double> {
+    if (!at) return std::nullopt;
+    return std::chrono::duration<double>(*at - Clock::now()).count();
+  }
+};
+
+/// Costs are whole, so a proven bound may be rounded up; not by what the solver's arithmetic may be off.
+auto rounded_up(double bound) -> std::int64_t {
+  return static_cast<std::int64_t>(std::ceil(bound - 1e-3 - 1e-9 * std::abs(bound)));
+}
+
+auto solve_part(const Multicut& problem, std::int64_t nodes, const Deadline& deadline, const base::Run& run)
+    -> MulticutAnswer {
+  MulticutAnswer answer;
+  answer.labels = improved(problem, greedy(problem));
+  answer.objective = cost_of(problem, answer.labels).value();
+  const auto offer = [&](const Labels& labels) {
+    if (const auto cost = cost_of(problem, labels); cost && *cost < answer.objective)
+      answer.objective = *cost, answer.labels = labels;
+  };
+  if (const Labels together(problem.nodes, 0); cost_of(problem, together)) offer(improved(problem, together));
+  answer.bound = trivial_bound(problem);
+
+  solver::Program program = program_of(problem);
+  answer.variables = program.variables.size();
+  while (answer.bound < answer.objective) {
+    const auto left = deadline.left();
+    if ((left && *left <= 0) || run.cancelled()) break;
+    // A gap under 1 is none, as costs are whole.
+    const auto solution =
+        solver::minimise(program, {.seconds = left, .nodes = nodes, .gap = 0.99}, values_of(problem, answer.labels));
+    ++answer.rounds;
+    if (!solution) {
+      answer.warnings.push_back(base::warning("segment-solver", solution.error().message));
+      break;
+    }
+    answer.nodes += solution->nodes;
+    if (solution->values.empty()) break;
+    answer.bound = std::max(answer.bound, std::min(rounded_up(solution->bound), answer.objective));
+
+    std::vector<bool> chosen(problem.edges.size());
+    Pieces pieces(problem.nodes);
+    for (std::uint32_t e = 0; e < problem.edges.size(); ++e) {
+      chosen[e] = solution->values[e] > 0.5;
+      if (!chosen[e]) pieces.join(problem.edges[e].a, problem.edges[e].b);
+    }
+    // Joining across what bridges remain always gives a labelling, if not one that cuts every forced edge.
+    const Labels labels = numbered(pieces, problem.nodes);
+    offer(labels);
+    std::vector<solver::Row> rows = broken_cycles(problem, chosen);
+    if (!rows.empty() && cost_of(problem, labels)) offer(improved(problem, labels));
+    if (solution->status != solver::Status::optimal) break;
+    if (rows.empty()) {
+      // The relaxation's optimum is a labelling: nothing is cheaper.
+      if (static_cast<double>(answer.objective) - solution->bound < 1.5) answer.bound = answer.objective;
+      break;
+    }
+    for (auto& row : rows) program.rows.push_back(std::move(row));
+  }
+  answer.optimal = answer.bound >= answer.objective;
+  if (answer.optimal) answer.bound = answer.objective;
+  return answer;
+}
+
+}  // namespace
+
+auto cost_of(const Multicut& problem, const Labels& labels) -> std::optional<std::int64_t> {
+  const auto cut = [&](const MulticutEdge& e) { return labels[e.a] != labels[e.b]; };
+  std::int64_t sum = 0;
+  for (const MulticutEdge& e : problem.edges) {
+    if (cut(e)) sum += e.cost;
+    else if (e.forced) return std::nullopt;
+  }
+  for (const MulticutPair& pair : problem.pairs)
+    if (cut(problem.edges[pair.first]) && cut(problem.edges[pair.second])) sum += pair.penalty;
+  return sum;
+}
+
+auto trivial_bound(const Multicut& problem) -> std::int64_t {
+  std::int64_t sum = 0;
+  for (const MulticutEdge& e : problem.edges) sum += e.forced ? e.cost : std::min<std::int64_t>(e.cost, 0);
+  for (const MulticutPair& pair : problem.pairs)
+    if (problem.edges[pair.first].forced && problem.edges[pair.second].forced) sum += pair.penalty;
+  return sum;
+}
+
+auto canonical(const Multicut& problem, const Labels& labels) -> Labels {
+  Pieces pieces(problem.nodes);
+  for (const MulticutEdge& e : problem.edges)
+    if (labels[e.a] == labels[e.b]) pieces.join(e.a, e.b);
+  return numbered(pieces, problem.nodes);
+}
+
+auto solve(const Multicut& problem, const MulticutLimits& limits, const base::Run& run) -> MulticutAnswer {
+  Deadline deadline;
+  if (limits.seconds) deadline.at = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                                      std::chrono::duration<double>(std::min(*limits.seconds, 1e8)));
+  MulticutAnswer whole;
+  whole.optimal = true;
+  whole.labels.resize(problem.nodes);
+  std::uint32_t used = 0;
+  const std::vector<Part> parts = split(problem, whole.objective);
+  whole.bound = whole.objective;
+  for (const Part& part : parts) {
+    MulticutAnswer answer = solve_part(part.problem, limits.nodes, deadline, run);
+    std::uint32_t most = 0;
+    for (std::size_t i = 0; i < part.nodes.size(); ++i) {
+      whole.labels[part.nodes[i]] = used + answer.labels[i];
+      most = std::max(most, answer.labels[i] + 1);
+    }
+    used += most;
+    whole.objective += answer.objective;
+    whole.bound += answer.bound;
+    whole.optimal = whole.optimal && answer.optimal;
+    whole.rounds = std::max(whole.rounds, answer.rounds);
+    whole.nodes += answer.nodes;
+    whole.variables += answer.variables;
+    for (auto& w : answer.warnings) whole.warnings.push_back(std::move(w));
+  }
+  whole.labels = joined_where_free(problem, whole.labels);
+  whole.objective = cost_of(problem, whole.labels).value();
+  return whole;
+}
+
+}  // namespace mansard::segment::detail

@@ -1,0 +1,67 @@
+// The pure optimisation: a minimum cost multicut with pair penalties, in whole numbers. Knows no geometry.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "mansard/base/result.hpp"
+#include "mansard/base/run.hpp"
+
+namespace mansard::segment::detail {
+
+/// s = 1 when the labels of a and b differ; costs `cost` then. A forced edge is always cut.
+struct MulticutEdge {
+  std::uint32_t a = 0, b = 0;
+  std::int64_t cost = 0;
+  bool forced = false;
+};
+
+/// Costs `penalty` ≥ 0 when both edges are cut.
+struct MulticutPair {
+  std::uint32_t first = 0, second = 0;
+  std::int64_t penalty = 0;
+};
+
+/// Nodes 0 … nodes − 1, no two edges between the same two nodes, no loops.
+struct Multicut {
+  std::uint32_t nodes = 0;
+  std::vector<MulticutEdge> edges;
+  std::vector<MulticutPair> pairs;
+  std::vector<std::vector<std::uint32_t>> stars;  ///< edges of a closed walk around a vertex: rows from the start
+};
+
+/// Label of every node. Nodes that can be told apart only by being unconnected may share a label.
+using Labels = std::vector<std::uint32_t>;
+
+/// What a labelling costs; nothing where it leaves a forced edge uncut.
+[[nodiscard]] auto cost_of(const Multicut& problem, const Labels& labels) -> std::optional<std::int64_t>;
+
+/// No labelling costs less: the sum of what each term costs at least.
+[[nodiscard]] auto trivial_bound(const Multicut& problem) -> std::int64_t;
+
+/// Numbers connected nodes of one label from 0, by their lowest node.
+[[nodiscard]] auto canonical(const Multicut& problem, const Labels& labels) -> Labels;
+
+struct MulticutLimits {
+  std::optional<double> seconds;  ///< 0: heuristics and the trivial bound only
+  std::int64_t nodes = 100000;    ///< of branch and bound, per solve
+};
+
+struct MulticutAnswer {
+  Labels labels;  ///< canonical
+  std::int64_t objective = 0, bound = 0;
+  bool optimal = false;  ///< bound = objective
+  std::int64_t rounds = 0, nodes = 0;
+  std::size_t variables = 0;
+  std::vector<base::Diagnostic> warnings;  ///< what the solver said where it gave up
+};
+
+/// Solves every connected part by rounds of integer programs: solve, find chosen edges with both ends in one piece,
+/// add their cycle rows, solve again. Of equally good labellings prefers the one with fewer pieces where two can be
+/// joined at no cost.
+[[nodiscard]] auto solve(const Multicut& problem, const MulticutLimits& limits, const base::Run& run = {})
+    -> MulticutAnswer;
+
+}  // namespace mansard::segment::detail

@@ -1,0 +1,39 @@
+// What the origins of a half-edge say.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "mansard/segment/segment.hpp"
+
+namespace mansard::segment::detail {
+
+[[nodiscard]] inline auto on_sweep_edge(const fracture::HalfEdge& h) -> bool {
+  return std::ranges::any_of(h.origins, [](const fracture::Origin& o) {
+    return o.kind == fracture::Kind::hard && o.source < gis_source;
+  });
+}
+[[nodiscard]] inline auto on_gis_edge(const fracture::HalfEdge& h) -> bool {
+  return std::ranges::any_of(h.origins, [](const fracture::Origin& o) {
+    return o.kind == fracture::Kind::hard && o.source >= gis_source;
+  });
+}
+/// isSweepEdge of the paper.
+[[nodiscard]] inline auto is_sweep(const fracture::HalfEdge& h, const Options& options) -> bool {
+  const auto continues_one = [](const fracture::Origin& o) {
+    return o.kind == fracture::Kind::continuation && o.source < gis_source;
+  };
+  return on_sweep_edge(h) ||
+         (options.continuations == Continuations::sweep && std::ranges::any_of(h.origins, continues_one));
+}
+/// Whether a footprint may have this edge without paying β.
+[[nodiscard]] inline auto is_supported(const fracture::HalfEdge& h, const Options& options) -> bool {
+  return is_sweep(h, options) || (options.gis_edges == GisEdges::hard && on_gis_edge(h));
+}
+
+[[nodiscard]] inline auto length_of(const fracture::Arrangement& arrangement, std::uint32_t half_edge) -> double {
+  const geometry::Segment2 s = arrangement.segment(half_edge);
+  return geometry::length(s.end - s.start);
+}
+
+}  // namespace mansard::segment::detail

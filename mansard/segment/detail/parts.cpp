@@ -1,0 +1,257 @@
+#include "mansard/segment/detail/parts.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "mansard/base/text.hpp"
+#include "mansard/segment/detail/origins.hpp"
+#include "mansard/segment/detail/rings.hpp"
+
+namespace mansard::segment::detail {
+namespace {
+
+using LabelOfFace = std::vector<std::optional<std::uint32_t>>;
+
+constexpr double smallest_part = 1.0;      ///< m²
+constexpr double collinear = 0.01;         ///< m; corners this near to the edge without them are dropped
+constexpr double opening = 0.01;           ///< m; how far a part that touches itself draws back
+constexpr double least_cover = 1.0 / 3.0;  ///< of an edge, from which a sweep-edge counts as its origin
+
+/// Faces by label, labels and faces ascending.
+auto faces_by_label(const LabelOfFace& label_of_face) -> std::map<std::uint32_t, std::vector<std::uint32_t>> {
+  std::map<std::uint32_t, std::vector<std::uint32_t>> faces;
+  for (std::uint32_t f = 0; f < label_of_face.size(); ++f)
+    if (label_of_face[f]) faces[*label_of_face[f]].push_back(f);
+  return faces;
+}
+
+auto area_of(const fracture::Arrangement& arrangement, const std::vector<std::uint32_t>& faces) -> double {
+  double sum = 0;
+  for (const std::uint32_t f : faces) sum += arrangement.faces[f].area;
+  return sum;
+}
+
+auto feature_of(const fracture::Arrangement& arrangement, const Evidence& evidence,
+                const std::vector<std::uint32_t>& faces) -> std::optional<std::size_t> {
+  std::map<std::size_t, double> area;
+  for (const std::uint32_t f : faces)
+    for (const auto& [feature, share] : evidence.samples[f].shares) area[feature] += share * arrangement.faces[f].area;
+  std::optional<std::size_t> best;
+  for (const auto& [feature, a] : area)
+    if (!best || a > area[*best]) best = feature;
+  return best;
+}
+
+/// The label across the longest common boundary among labels of the same feature.
+auto best_neighbour(const fracture::Arrangement& arrangement, const std::vector<std::uint32_t>& faces,
+                    const LabelOfFace& label_of_face,
+                    const std::map<std::uint32_t, std::optional<std::size_t>>& feature_of_label)
+    -> std::optional<std::uint32_t> {
+  const std::uint32_t label = *label_of_face[faces.front()];
+  std::map<std::uint32_t, double> common;
+  for (const std::uint32_t f : faces) {
+    std::uint32_t h = arrangement.faces[f].edge;
+    do {
+      const auto other = arrangement.half_edges[arrangement.half_edges[h].twin].face;
+      if (other && label_of_face[*other] && *label_of_face[*other] != label &&
+          feature_of_label.at(*label_of_face[*other]) == feature_of_label.at(label))
+        common[*label_of_face[*other]] += length_of(arrangement, h);
+      h = arrangement.half_edges[h].next;
+    } while (h != arrangement.faces[f].edge);
+  }
+  std::optional<std::uint32_t> best;
+  for (const auto& [l, length] : common)
+    if (!best || length > common[*best]) best = l;
+  return best;
+}
+
+void take_up_small_parts(const fracture::Arrangement& arrangement, const Evidence& evidence,
+                         LabelOfFace& label_of_face, std::vector<base::Diagnostic>& warnings) {
+  for (;;) {
+    const auto faces = faces_by_label(label_of_face);
+    std::map<std::uint32_t, std::optional<std::size_t>> features;
+    std::optional<std::pair<double, std::uint32_t>> smallest;
+    for (const auto& [label, members] : faces) {
+      features[label] = feature_of(arrangement, evidence, members);
+      const double area = area_of(arrangement, members);
+      if (area < smallest_part && (!smallest || std::pair(area, label) < *smallest)) smallest = {area, label};
+    }
+    if (!smallest) return;
+    const auto& members = faces.at(smallest->second);
+    const auto into = best_neighbour(arrangement, members, label_of_face, features);
+    for (const std::uint32_t f : members) label_of_face[f] = into;
+    warnings.push_back(base::warning(
+        "segment-part-small", "a part of " + base::to_text(smallest->first, 2) + " m² " +
+                                  (into ? "was joined to its neighbour" : "was left out: it has no neighbour to join"),
+        "face " + std::to_string(members.front())));
+  }
+}
+
+/// Median over the faces' samples, each weighted by the area it stands for; where the mesh showed nothing, over faces.
+auto height_of(const fracture::Arrangement& arrangement, const Evidence& evidence,
+               const std::vector<std::uint32_t>& faces) -> double {
+  std::vector<std::pair<double, double>> weighted;  // height, area
+  for (const std::uint32_t f : faces) {
+    const auto& heights = evidence.samples[f].heights;
+    const double area = arrangement.faces[f].area / static_cast<double>(std::max<std::size_t>(heights.size(), 1));
+    for (const double z : heights) weighted.emplace_back(z, area);
+  }
+  if (weighted.empty())
+    for (const std::uint32_t f : faces) weighted.emplace_back(evidence.faces[f].height, arrangement.faces[f].area);
+  std::ranges::sort(weighted);
+  double total = 0, sum = 0;
+  for (const auto& [z, area] : weighted) total += area;
+  for (const auto& [z, area] : weighted)
+    if ((sum += area) >= total / 2) return z;
+  return weighted.back().first;
+}
+
+auto origin_of(const fracture::Arrangement& arrangement, const std::vector<std::uint32_t>& half_edges,
+               const LabelOfFace& part_of_face) -> EdgeOrigin {
+  double total = 0;
+  std::map<std::uint32_t, double> under, beside;
+  for (const std::uint32_t h : half_edges) {
+    const fracture::HalfEdge& edge = arrangement.half_edges[h];
+    const double length = length_of(arrangement, h);
+    total += length;
+    std::set<std::uint32_t> sources;
+    // The part is on the left; a sweep-edge that faces outwards here runs the other way, its outside on its left.
+    for (const fracture::Origin& o : edge.origins)
+      if (o.kind == fracture::Kind::hard && o.source < gis_source && !o.along) sources.insert(o.source);
+    for (const std::uint32_t s : sources) under[s] += length;
+    if (const auto other = arrangement.half_edges[edge.twin].face; other && part_of_face[*other])
+      beside[*part_of_face[*other]] += length;
+  }
+  EdgeOrigin origin;
+  for (const auto& [source, length] : under)
+    if (length >= least_cover * total) origin.sweep_edges.push_back(source);
+  for (const auto& [part, length] : beside)
+    if (length > total / 2) origin.neighbour = part;
+  return origin;
+}
+
+auto is_simple(const std::vector<CornerRing>& rings) -> bool {
+  return std::ranges::all_of(rings, [](const CornerRing& ring) { return ring.size() >= 3; }) &&
+         geometry::is_simple(polygon_of(rings));
+}
+
+auto origins_of(const fracture::Arrangement& arrangement, const std::vector<CornerRing>& rings,
+                const LabelOfFace& part_of_face) -> std::vector<std::vector<EdgeOrigin>> {
+  std::vector<std::vector<EdgeOrigin>> origins;
+  for (const CornerRing& ring : rings) {
+    origins.emplace_back();
+    for (const Corner& c : ring) origins.back().push_back(origin_of(arrangement, c.half_edges, part_of_face));
+  }
+  return origins;
+}
+
+/// For outlines that opening does not make simple: shrunk, the largest piece, every edge with the origin of the
+/// nearest traced one.
+auto repaired(const fracture::Arrangement& arrangement, const std::vector<CornerRing>& rings,
+              const LabelOfFace& part_of_face, Part& part) -> bool {
+  auto valid = geometry::make_valid(polygon_of(rings));
+  if (!valid) return false;
+  std::optional<geometry::Polygon> best;
+  for (const auto& piece : *valid) {
+    const auto shrunk = geometry::buffer(piece, -opening);
+    if (!shrunk) continue;
+    for (const auto& p : *shrunk)
+      if (geometry::is_simple(p) && (!best || geometry::area(p) > geometry::area(*best))) best = p;
+  }
+  if (!best || geometry::area(*best) < smallest_part) return false;
+  part.polygon = *best;
+  const auto nearest = [&](geometry::Point2 a, geometry::Point2 b) {
+    const geometry::Point2 middle = 0.5 * (a + b), along = geometry::normalised(b - a);
+    std::tuple<double, std::size_t, std::size_t> found{1e300, 0, 0};
+    for (std::size_t r = 0; r < rings.size(); ++r)
+      for (std::size_t i = 0; i < rings[r].size(); ++i) {
+        const geometry::Segment2 s{rings[r][i].at, rings[r][(i + 1) % rings[r].size()].at};
+        const double turned = 1 - geometry::dot(along, geometry::normalised(s.end - s.start));
+        found = std::min(found, {geometry::distance(s, middle) + turned, r, i});
+      }
+    return origin_of(arrangement, rings[std::get<1>(found)][std::get<2>(found)].half_edges, part_of_face);
+  };
+  part.edges.clear();
+  const auto add = [&](const geometry::Ring& ring) {
+    part.edges.emplace_back();
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      part.edges.back().push_back(nearest(ring[i], ring[(i + 1) % ring.size()]));
+  };
+  add(part.polygon.outer);
+  for (const auto& hole : part.polygon.holes) add(hole);
+  return true;
+}
+
+/// Polygon and edges of a part; false where no simple polygon of 1 m² could be made of it.
+auto draw(const fracture::Arrangement& arrangement, const LabelOfFace& part_of_face, std::uint32_t number, Part& part,
+          std::vector<base::Diagnostic>& warnings) -> bool {
+  const std::vector<CornerRing> traced = trace(arrangement, part.faces, part_of_face);
+  for (const double tolerance : {collinear, 0.0}) {
+    const std::vector<CornerRing> rings = opened(straightened(traced, tolerance), opening);
+    if (!is_simple(rings)) continue;
+    part.polygon = polygon_of(rings);
+    part.edges = origins_of(arrangement, rings, part_of_face);
+    return true;
+  }
+  const std::string subject = "part " + std::to_string(number);
+  if (repaired(arrangement, traced, part_of_face, part)) {
+    warnings.push_back(base::warning("segment-part-repaired", "its outline crossed itself and was redrawn", subject));
+    return true;
+  }
+  warnings.push_back(base::warning("segment-part-dropped", "no simple outline could be made of it; left out", subject));
+  return false;
+}
+
+}  // namespace
+
+void make_parts(const fracture::Arrangement& arrangement, const Evidence& evidence, LabelOfFace label_of_face,
+                Segmentation& segmentation) {
+  take_up_small_parts(arrangement, evidence, label_of_face, segmentation.warnings);
+
+  for (;;) {
+    struct Order {
+      bool without;
+      std::size_t feature;
+      std::uint32_t lowest, label;
+      auto operator<=>(const Order&) const = default;
+    };
+    const auto faces = faces_by_label(label_of_face);
+    std::vector<Order> order;
+    for (const auto& [label, members] : faces) {
+      const auto feature = feature_of(arrangement, evidence, members);
+      order.push_back({!feature, feature.value_or(0), members.front(), label});
+    }
+    std::ranges::sort(order);
+
+    segmentation.parts.clear();
+    segmentation.part_of_face.assign(arrangement.faces.size(), std::nullopt);
+    for (std::uint32_t p = 0; p < order.size(); ++p)
+      for (const std::uint32_t f : faces.at(order[p].label)) segmentation.part_of_face[f] = p;
+
+    std::vector<base::Diagnostic> warnings;
+    bool dropped = false;
+    for (std::uint32_t p = 0; p < order.size(); ++p) {
+      Part part;
+      part.faces = faces.at(order[p].label);
+      if (!order[p].without) part.feature = order[p].feature;
+      part.height = height_of(arrangement, evidence, part.faces);
+      if (!draw(arrangement, segmentation.part_of_face, p, part, warnings)) {
+        // Its faces belong to nothing then, and the others are numbered anew.
+        for (const std::uint32_t f : part.faces) label_of_face[f] = std::nullopt;
+        segmentation.warnings.push_back(warnings.back());
+        dropped = true;
+        break;
+      }
+      segmentation.parts.push_back(std::move(part));
+    }
+    if (dropped) continue;
+    for (auto& w : warnings) segmentation.warnings.push_back(std::move(w));
+    break;
+  }
+  for (Candidate& c : segmentation.candidates)
+    c.chosen = segmentation.part_of_face[c.left] != segmentation.part_of_face[c.right];
+}
+
+}  // namespace mansard::segment::detail

@@ -1,0 +1,143 @@
+#include "mansard/segment/segment.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "mansard/segment/detail/candidates.hpp"
+#include "mansard/segment/detail/evidence.hpp"
+#include "mansard/segment/detail/gis_cuts.hpp"
+#include "mansard/segment/detail/multicut.hpp"
+#include "mansard/segment/detail/parts.hpp"
+
+namespace mansard::segment {
+namespace {
+
+/// Pieces of inside faces, by face.
+auto labels_by_face(const detail::Program& program, const detail::Labels& labels)
+    -> std::vector<std::optional<std::uint32_t>> {
+  std::vector<std::optional<std::uint32_t>> label_of_face(program.node_of_face.size());
+  for (std::size_t f = 0; f < label_of_face.size(); ++f)
+    if (program.node_of_face[f]) label_of_face[f] = labels[*program.node_of_face[f]];
+  return label_of_face;
+}
+
+auto is_sound(const fracture::Arrangement& arrangement, const sweep::SweepEdges& edges) -> bool {
+  const std::size_t n = arrangement.half_edges.size();
+  const auto is_known = [&](const fracture::Origin& o) {
+    return o.kind == fracture::Kind::border || o.source >= gis_source || o.source < edges.edges.size();
+  };
+  return n % 2 == 0 &&
+         std::ranges::all_of(arrangement.half_edges, [&](const fracture::HalfEdge& h) {
+           return h.twin < n && h.next < n && h.previous < n && h.from < arrangement.vertices.size() &&
+                  (!h.face || *h.face < arrangement.faces.size()) && std::ranges::all_of(h.origins, is_known);
+         }) &&
+         std::ranges::all_of(arrangement.faces, [&](const fracture::Face& f) { return f.edge < n; });
+}
+
+}  // namespace
+
+auto cuts_of(const sweep::SweepEdges& edges, const block::Block& block, const Options& options)
+    -> std::vector<fracture::Cut> {
+  std::vector<fracture::Cut> cuts;
+  for (std::uint32_t i = 0; i < edges.edges.size(); ++i) cuts.push_back({edges.edges[i].segment, i});
+  if (options.gis_edges == GisEdges::hard) {
+    auto lines = detail::party_lines(block);
+    const auto torn = detail::torn_lines(block, edges);
+    lines.insert(lines.end(), torn.begin(), torn.end());
+    for (std::uint32_t j = 0; j < lines.size(); ++j) cuts.push_back({lines[j], gis_source + j});
+  }
+  return cuts;
+}
+
+auto choose(const fracture::Arrangement& arrangement, const sweep::SweepEdges& edges, const block::Block& block,
+            const rays::Scene& mesh, const Options& options, const base::Run& run) -> base::Result<Segmentation> {
+  if (!is_sound(arrangement, edges))
+    return base::error("segment-failed", "the fractured ground is no plane subdivision by these sweep-edges",
+                       block.name);
+  run.report("segment", block.name, 0);
+  detail::Evidence evidence = detail::measure(arrangement, block, mesh, options, run);
+  detail::peel(arrangement, options, evidence.faces);
+
+  Segmentation segmentation;
+  segmentation.candidates = detail::candidates_of(arrangement, evidence.faces, options);
+  const auto candidate_of = detail::candidate_of_half_edge(arrangement, segmentation.candidates);
+  const auto pairs = detail::bad_pairs_of(arrangement, evidence.faces, candidate_of, options);
+  const detail::Program program = detail::program_of(arrangement, evidence.faces, segmentation.candidates,
+                                                     candidate_of, pairs, options);
+  run.report("segment", block.name, 0.3);
+  const detail::MulticutAnswer answer =
+      detail::solve(program.multicut, {.seconds = options.seconds, .nodes = options.nodes}, run);
+  run.report("segment", block.name, 0.9);
+
+  const auto label_of_face = labels_by_face(program, answer.labels);
+  segmentation.terms =
+      detail::terms_of(arrangement, evidence.faces, label_of_face, segmentation.candidates, pairs, options);
+  segmentation.objective = segmentation.terms.sum();
+  // The program counts in thousandths, rounded once per candidate and once per pair; the terms do not.
+  const double rounding = 1e-3 * static_cast<double>(segmentation.candidates.size() + pairs.size() + 1);
+  const auto whole = static_cast<double>(answer.objective + program.constant) / 1000;
+  if (std::abs(whole - segmentation.objective) > rounding + 1e-9 * std::abs(whole))
+    return base::error("segment-failed", "the program's objective is not that of its labels", block.name);
+  segmentation.bound = segmentation.objective;
+  if (!answer.optimal)
+    segmentation.bound -= static_cast<double>(answer.objective - answer.bound) / 1000 + 2 * rounding;
+  segmentation.status = program.multicut.nodes == 0 ? "empty" : answer.optimal ? "optimal" : "stopped";
+  segmentation.rounds = answer.rounds;
+  segmentation.nodes = answer.nodes;
+  segmentation.variables = answer.variables;
+  segmentation.conflicts = pairs.size();
+  segmentation.warnings = answer.warnings;
+
+  detail::make_parts(arrangement, evidence, label_of_face, segmentation);
+  segmentation.faces = std::move(evidence.faces);
+  run.report("segment", block.name, 1);
+  return segmentation;
+}
+
+auto option_list(Options& o) -> base::OptionList {
+  return std::move(
+      base::OptionList("segment")
+          .number("alpha", o.alpha, "", {0, 1e6}, "Cost of leaving a metre of sweep-edge unused.")
+          .alias("alpha")
+          .number("beta", o.beta, "", {0, 1e6}, "Cost of a metre of footprint edge that lies on no sweep-edge.")
+          .alias("beta")
+          .number("height_weight", o.height_weight, "", {0, 1e6},
+                  "Cost of joining faces across a metre of edge, per metre of height difference.")
+          .number("phi", o.phi, "", {0, 1e6},
+                  "Cost of a pair of edges that make a sliver or a needle, as a share of the total edge length.")
+          .number("thin_distance", o.thin_distance, "m", {0, 100}, "Opposite edges nearer than this make a sliver.")
+          .number("thin_angle", o.thin_angle, "rad", {0, 1.5}, "Adjacent edges under this angle make a needle.")
+          .choice("continuations", o.continuations,
+                  {{"sweep", Continuations::sweep}, {"plain", Continuations::plain}},
+                  "Whether the continuations of sweep-edges count as sweep-edges.")
+          .choice("thin_rule", o.thin_rule, {{"all", ThinRule::all}, {"unsupported", ThinRule::unsupported}},
+                  "Whether walls that were seen from both sides can make a sliver too.")
+          .choice("gis_edges", o.gis_edges, {{"ignore", GisEdges::ignore}, {"hard", GisEdges::hard}},
+                  "Whether edges between two features cut the ground, and no part spans two features.")
+          .number("gis_ratio", o.gis_ratio, "", {0, 1},
+                  "A face is inside when at least this part of it is inside the footprints.")
+          .number("min_height", o.min_height, "m", {0, 1000}, "… and its median height above ground is at least this.")
+          .number("exposed", o.exposed, "", {0, 1e6},
+                  "Faces with more wall-less boundary than this share of the rest are peeled off.")
+          .whole("samples", o.samples, "", {9, 100000}, "Height samples per face, at most.")
+          .number("seconds", o.seconds, "s", {0, 1e6}, "Time limit per block; none: until proven optimal.")
+          .whole("nodes", o.nodes, "", {0, 1e9}, "Limit of branch-and-bound nodes per solve."));
+}
+
+auto codes() -> std::vector<base::Code> {
+  return {
+      {"segment-failed", "The faces of a block could not be grouped into footprints.",
+       "The block's buildings fall back to flat-roofed prisms; report the input that led here.", 1},
+      {"segment-solver", "The integer program solver gave up on a part of a block; the best grouping found is used.",
+       "Report the input that led here.", 0},
+      {"segment-part-small", "A footprint part under 1 m² was joined to a neighbour of its feature, or left out.",
+       "Nothing to do; if many, raise segment.phi or sweep.gamma.", 0},
+      {"segment-part-repaired", "A footprint part's outline crossed itself and was redrawn, drawn back by 1 cm.",
+       "Nothing to do unless the part looks wrong.", 0},
+      {"segment-part-dropped", "No simple outline could be made of a footprint part; it was left out.",
+       "Raise fracture.snap; report the input that led here.", 0},
+  };
+}
+
+}  // namespace mansard::segment

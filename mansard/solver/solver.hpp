@@ -1,0 +1,58 @@
+// Integer programs, behind one door (CBC).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mansard/base/result.hpp"
+
+namespace mansard::solver {
+
+struct Variable {
+  double cost = 0;
+  double least = 0, most = 1;
+  bool whole = true;
+};
+
+/// least ≤ Σ coefficient · variable ≤ most.
+struct Row {
+  std::vector<std::pair<std::uint32_t, double>> terms;
+  double least = 0, most = 0;
+};
+
+/// Minimise Σ cost · x + constant.
+struct Program {
+  std::vector<Variable> variables;
+  std::vector<Row> rows;
+  double constant = 0;
+};
+
+enum class Status : std::uint8_t { optimal, stopped, infeasible };
+
+struct Limits {
+  std::optional<double> seconds;
+  std::optional<std::int64_t> nodes;
+  double gap = 0;  ///< stop when (objective − bound) is at most this, absolute
+};
+
+struct Solution {
+  Status status = Status::infeasible;
+  std::vector<double> values;  ///< of the best point found; empty when there is none
+  double objective = 0;        ///< of that point
+  double bound = 0;            ///< no point is cheaper than this (proven)
+  std::int64_t nodes = 0;
+};
+
+/// One thread, fixed order: the same program gives the same solution. `incumbent`, when given, must be feasible.
+/// Gives up with "solver-failed".
+[[nodiscard]] auto minimise(const Program& program, const Limits& limits,
+                            const std::optional<std::vector<double>>& incumbent = std::nullopt)
+    -> base::Result<Solution>;
+
+[[nodiscard]] auto codes() -> std::vector<base::Code>;
+
+}  // namespace mansard::solver

@@ -1,0 +1,116 @@
+#include "mansard/write/detail/obj_text.hpp"
+
+#include <map>
+
+#include "mansard/base/text.hpp"
+#include "mansard/write/detail/triangles.hpp"
+
+namespace mansard::write::detail {
+namespace {
+
+/// Names end at white space in OBJ, and a line at a line break.
+auto one_word(std::string_view name) -> std::string {
+  std::string word;
+  for (const char c : name) word += static_cast<unsigned char>(c) <= ' ' || c == '#' ? '_' : c;
+  return word.empty() ? "_" : word;
+}
+
+auto one_line(std::string_view words) -> std::string {
+  std::string line(words);
+  for (char& c : line)
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';
+  return line;
+}
+
+auto header(const City& city) -> std::string {
+  std::string out = "# mansard " + one_line(city.made_by.version) + "\n";
+  if (!city.frame.crs.empty()) out += "# crs " + one_line(city.frame.crs) + "\n";
+  out += "# metres, z up, coordinates in full: nothing was taken off\n";
+  for (const auto& input : city.made_by.inputs)
+    out += "# input " + one_line(input.path) + " sha256 " + one_line(input.sha256) + "\n";
+  for (const auto& [name, value] : city.made_by.options)
+    out += "# option " + one_line(name) + " = " + one_line(value) + "\n";
+  return out;
+}
+
+/// The faces of a part as corners: whole where they have no holes, as triangles where they have.
+struct Facets {
+  std::array<std::vector<std::vector<std::uint32_t>>, class_count> by_class;
+};
+
+auto facets_of(const Part& part) -> base::Result<Facets> {
+  const auto& solid = part.model.solid;
+  Facets facets;
+  std::optional<extrude::Triangulated> triangulated;
+  for (std::size_t f = 0; f < solid.faces.size(); ++f) {
+    auto& list = facets.by_class[static_cast<std::size_t>(part.model.classes[f])];
+    if (solid.faces[f].loops.size() == 1) {
+      list.push_back(solid.faces[f].loops[0]);
+      continue;
+    }
+    if (!triangulated) {
+      auto triangles = triangles_of(solid, part.id);
+      if (!triangles) return triangles.error();
+      triangulated = *std::move(triangles);
+    }
+    for (std::size_t t = 0; t < triangulated->triangles.size(); ++t)
+      if (triangulated->face_of[t] == f) {
+        const auto& corners = triangulated->triangles[t];
+        list.emplace_back(corners.begin(), corners.end());
+      }
+  }
+  return facets;
+}
+
+}  // namespace
+
+auto obj_text(const City& city, const Keys& keys, const std::string& mtl_name) -> base::Result<std::string> {
+  std::string out = header(city) + "mtllib " + one_line(mtl_name) + "\n";
+  std::size_t written = 0;  // vertices; OBJ counts them through the whole file, from 1
+  for (std::size_t b = 0; b < city.buildings.size(); ++b)
+    for (std::size_t p = 0; p < city.buildings[b].parts.size(); ++p) {
+      const Part& part = city.buildings[b].parts[p];
+      const auto facets = facets_of(part);
+      if (!facets) return facets.error();
+
+      out += "g " + one_word(keys.parts[b][p]) + "\n";
+      std::map<geometry::Point3, std::size_t> number_of;
+      std::string faces;
+      for (std::size_t c = 0; c < class_count; ++c) {
+        const auto& list = facets->by_class[c];
+        if (list.empty()) continue;
+        faces += "usemtl ";
+        faces += class_name(static_cast<label::Class>(c));
+        faces += '\n';
+        for (const auto& corners : list) {
+          faces += 'f';
+          for (const auto corner : corners) {
+            const auto v = in_file_frame(city.frame, part.model.solid.vertices[corner]);
+            const auto [entry, added] = number_of.try_emplace(v, written + 1);
+            if (added) {
+              ++written;
+              out += "v " + base::to_text(v.x) + " " + base::to_text(v.y) + " " + base::to_text(v.z) + "\n";
+            }
+            faces += ' ' + std::to_string(entry->second);
+          }
+          faces += '\n';
+        }
+      }
+      out += faces;
+    }
+  return out;
+}
+
+auto mtl_text() -> std::string {
+  std::string out = "# mansard: a material per class of surface\n";
+  for (std::size_t c = 0; c < class_count; ++c) {
+    out += "newmtl ";
+    out += class_name(static_cast<label::Class>(c));
+    out += "\nKd";
+    for (const int channel : class_colours[c]) out += " " + base::to_text(channel / 255.0, 4);
+    out += "\nKs 0 0 0\nd 1\nillum 1\n";
+  }
+  return out;
+}
+
+}  // namespace mansard::write::detail

@@ -1,0 +1,78 @@
+#include "mansard/write/write.hpp"
+
+#include "mansard/base/files.hpp"
+#include "mansard/write/detail/cityjson.hpp"
+#include "mansard/write/detail/glb_bytes.hpp"
+#include "mansard/write/detail/obj_text.hpp"
+#include "mansard/write/detail/parts.hpp"
+#include "mansard/write/detail/plan_text.hpp"
+
+namespace mansard::write {
+namespace {
+
+/// What every format with geometry asks of a city first.
+auto checked_keys(const City& city) -> base::Result<detail::Keys> {
+  if (const auto sound = detail::check_models(city); !sound) return sound.error();
+  return detail::keys_of(city);
+}
+
+}  // namespace
+
+auto cityjson(const City& city) -> base::Result<std::string> {
+  const auto keys = checked_keys(city);
+  if (!keys) return keys.error();
+  return detail::cityjson_text(city, *keys);
+}
+
+auto obj(const City& city, const std::string& mtl_name) -> base::Result<ObjFiles> {
+  const auto keys = checked_keys(city);
+  if (!keys) return keys.error();
+  auto text = detail::obj_text(city, *keys, mtl_name);
+  if (!text) return text.error();
+  return ObjFiles{*std::move(text), detail::mtl_text()};
+}
+
+auto glb(const City& city) -> base::Result<std::string> {
+  const auto keys = checked_keys(city);
+  if (!keys) return keys.error();
+  return detail::glb_bytes(city, *keys);
+}
+
+auto plans(const City& city) -> std::string { return detail::plan_text(city); }
+
+auto read_plans(const std::filesystem::path& path) -> base::Result<City> {
+  const auto text = base::read_file(path);
+  if (!text) return text.error();
+  return detail::parse_plans(*text, path.string());
+}
+
+auto codes() -> std::vector<base::Code> {
+  return {
+      {"write-duplicate-id", "Two buildings have the same id, so a city model cannot tell them apart.",
+       "Name an attribute that is unique with --ingest-id-attribute.", 3},
+      {"write-model", "A model that was to be written is broken: a coordinate that is not finite, a missing vertex.",
+       "This is a bug: please report it with the input.", 70},
+      {"write-triangulate", "A face of a model could not be cut into triangles for OBJ or GLB.",
+       "This is a bug: please report it with the input; CityJSON keeps whole polygons and is not affected.", 70},
+      {"write-glb-size", "The model is larger than the 4 GB a GLB file can hold.", "Run smaller areas (--bbox).", 2},
+      {"write-plan-json", "A plan file is not JSON, or is cut short, or has a number no double can hold.",
+       "Look at the byte that is named, or write the file again.", 3},
+      {"write-plan-type",
+       "A JSON file is neither plan + profiles (\"type\": \"mansard-plan\") nor CityJSON that carries plans.",
+       "Give the plan file or the CityJSON that reconstruct wrote.", 3},
+      {"write-plan-version", "A plan file is of a version of the format that is not known here.",
+       "Use the mansard that wrote it, or a newer one.", 3},
+      {"write-plan-missing", "A plan file lacks a member that is required.",
+       "Add it; docs/plan.schema.json lists all members.", 3},
+      {"write-plan-key", "A plan file has a member that the format does not know, often a misspelt one.",
+       "Correct its name or take it out; docs/plan.schema.json lists all members.", 3},
+      {"write-plan-value", "A member of a plan file has a value of the wrong type, length or range.",
+       "Correct it; the message names the place and what it should be.", 3},
+      {"write-plan-profile",
+       "A profile does not start at [0, 0], goes outward or down, repeats a point, or an edge names one that is "
+       "missing.",
+       "Correct the profile or the edge's number; profiles are numbered from 0.", 3},
+  };
+}
+
+}  // namespace mansard::write

@@ -1,0 +1,69 @@
+// Writes a city of models: CityJSON 2.0, OBJ + MTL, GLB, plan + profiles.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mansard/base/result.hpp"
+#include "mansard/base/run.hpp"
+#include "mansard/geometry/plan.hpp"
+#include "mansard/geometry/polygon.hpp"
+#include "mansard/ingest/ingest.hpp"
+#include "mansard/label/label.hpp"
+
+namespace mansard::write {
+
+/// One footprint of the segmentation, raised.
+struct Part {
+  std::string id;
+  geometry::Plan plan;
+  label::LabelledSolid model;
+  ingest::Attributes attributes;  ///< with prefix ms_
+};
+
+/// One GIS feature with the parts that overlap it most.
+struct Building {
+  std::string id;
+  ingest::Attributes attributes;  ///< the source's own, then those with prefix ms_
+  std::vector<geometry::Polygon> footprint;  ///< the GIS polygons, for LoD 0
+  double ground = 0;                         ///< z, metres
+  std::vector<Part> parts;
+};
+
+/// How the city was made, repeated in every file.
+struct MadeBy {
+  std::string version;
+  std::vector<std::pair<std::string, std::string>> options;  ///< room.name → value, as text
+  std::vector<ingest::InputFile> inputs;
+};
+
+struct City {
+  ingest::Frame frame;
+  MadeBy made_by;
+  std::vector<Building> buildings;
+};
+
+/// CityJSON 2.0 text. Vertices at 0.1 mm; polygons, not triangles; "1.2" (flat) and "2.2" solids per part.
+[[nodiscard]] auto cityjson(const City& city) -> base::Result<std::string>;
+
+/// OBJ text and its material library; `mtl_name` is the library's file name, coordinates are the file frame's in full.
+struct ObjFiles {
+  std::string obj, mtl;
+};
+[[nodiscard]] auto obj(const City& city, const std::string& mtl_name) -> base::Result<ObjFiles>;
+
+/// Binary glTF 2.0, y up, single precision around the origin (kept in asset.extras), a node per part, colour by class.
+[[nodiscard]] auto glb(const City& city) -> base::Result<std::string>;
+
+/// Plan + profiles: a small JSON of its own, documented in docs/write.md; the source of truth of every part.
+[[nodiscard]] auto plans(const City& city) -> std::string;
+
+/// Reads plan + profiles back: buildings and parts with plans but without models; from a file of plans, or from the
+/// plans that travel in our CityJSON. Gives up with "write-plan-…".
+[[nodiscard]] auto read_plans(const std::filesystem::path& path) -> base::Result<City>;
+
+[[nodiscard]] auto codes() -> std::vector<base::Code>;
+
+}  // namespace mansard::write

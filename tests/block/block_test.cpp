@@ -1,0 +1,325 @@
+#include "mansard/block/block.hpp"
+
+#include <gmock/gmock.h>
+#include <cmath>
+
+#include "mansard/block/detail/near.hpp"
+#include "mansard/block/detail/neighbours.hpp"
+
+namespace mansard::block {
+namespace {
+
+using geometry::Mesh;
+using geometry::Point2;
+using geometry::Point3;
+using geometry::Polygon;
+using ::testing::ElementsAre;
+
+auto box(double x0, double y0, double x1, double y1) -> Polygon {
+  return {{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, {}};
+}
+
+/// A height field of squares of that size, cut into triangles.
+template <class Height>
+auto field(double x0, double y0, double x1, double y1, double size, Height height) -> Mesh {
+  Mesh mesh;
+  const auto columns = static_cast<std::uint32_t>(std::lround((x1 - x0) / size));
+  const auto rows = static_cast<std::uint32_t>(std::lround((y1 - y0) / size));
+  for (std::uint32_t r = 0; r <= rows; ++r)
+    for (std::uint32_t c = 0; c <= columns; ++c) {
+      const double x = x0 + c * size, y = y0 + r * size;
+      mesh.vertices.push_back({x, y, height(Point2{x, y})});
+    }
+  for (std::uint32_t r = 0; r < rows; ++r)
+    for (std::uint32_t c = 0; c < columns; ++c) {
+      const std::uint32_t v = r * (columns + 1) + c;
+      mesh.triangles.push_back({v, v + 1, v + columns + 2});
+      mesh.triangles.push_back({v, v + columns + 2, v + columns + 1});
+    }
+  return mesh;
+}
+
+auto scene_of(Mesh mesh, const std::vector<std::vector<Polygon>>& footprints) -> ingest::Scene {
+  ingest::Scene scene;
+  scene.mesh = std::move(mesh);
+  for (std::size_t i = 0; i < footprints.size(); ++i)
+    scene.footprints.push_back({std::to_string(i), footprints[i], {}, {}});
+  return scene;
+}
+auto level(double z) {
+  return [z](Point2) { return z; };
+}
+
+auto members(const std::vector<Block>& blocks) -> std::vector<std::vector<std::size_t>> {
+  std::vector<std::vector<std::size_t>> out;
+  for (const auto& block : blocks) {
+    out.emplace_back();
+    for (const auto& member : block.members) out.back().push_back(member.feature);
+  }
+  return out;
+}
+auto total(const std::vector<Polygon>& polygons) -> double {
+  double sum = 0;
+  for (const auto& polygon : polygons) sum += geometry::area(polygon);
+  return sum;
+}
+
+TEST(Partition, puts_what_touches_together_and_leaves_what_is_apart) {
+  const auto scene = scene_of(field(0, 0, 60, 40, 2, level(0)), {{box(30, 0, 40, 10)},
+                                                                 {box(0, 0, 10, 10)},
+                                                                 {box(10.05, 0, 20, 10)},  // a gap of 5 cm
+                                                                 {box(20.2, 0, 25, 10)},   // of 20 cm
+                                                                 {box(0, 10, 5, 15)},      // a shared wall
+                                                                 {box(32, 2, 34, 4)}});    // within another
+  const auto blocks = partition(scene, {});
+  EXPECT_THAT(members(blocks), ElementsAre(ElementsAre(0, 5), ElementsAre(1, 2, 4), ElementsAre(3)));
+  EXPECT_EQ(blocks[0].name, "block-0");
+  EXPECT_EQ(blocks[1].name, "block-1");
+  EXPECT_EQ(blocks[2].name, "block-3");
+}
+
+TEST(Partition, leaves_out_features_with_a_defect) {
+  auto scene = scene_of(field(0, 0, 60, 40, 2, level(0)), {{box(0, 0, 10, 10)}, {}, {box(10, 0, 20, 10)}});
+  scene.footprints[1].defect = base::error("ingest-footprint-empty", "x");
+  EXPECT_THAT(members(partition(scene, {})), ElementsAre(ElementsAre(0, 2)));
+  scene.footprints.clear();
+  EXPECT_TRUE(partition(scene, {}).empty());
+}
+
+TEST(Partition, keeps_a_feature_of_several_parts_in_one_block) {
+  const auto scene = scene_of(field(0, 0, 60, 40, 2, level(0)),
+                              {{box(0, 0, 5, 5)}, {box(30, 0, 35, 5)}, {box(5, 0, 8, 5), box(27, 0, 30, 5)}});
+  const auto blocks = partition(scene, {});
+  EXPECT_THAT(members(blocks), ElementsAre(ElementsAre(0, 1, 2)));
+  EXPECT_EQ(blocks[0].outline.size(), 2U);
+  EXPECT_NEAR(total(blocks[0].outline), 80, 1e-9);
+}
+
+TEST(Partition, closes_gaps_in_the_outline_and_else_keeps_every_point) {
+  const auto gap =
+      partition(scene_of(field(0, 0, 40, 40, 2, level(0)), {{box(0, 0, 10, 10)}, {box(10.05, 0, 20, 10)}}), {});
+  ASSERT_EQ(gap.size(), 1U);
+  ASSERT_EQ(gap[0].outline.size(), 1U);
+  EXPECT_NEAR(geometry::area(gap[0].outline[0]), 200, 0.02);
+  const auto shared =
+      partition(scene_of(field(0, 0, 40, 40, 2, level(0)), {{box(0.1, 0.3, 10, 10)}, {box(10, 0.3, 20, 12)}}), {});
+  ASSERT_EQ(shared[0].outline.size(), 1U);
+  auto points = shared[0].outline[0].outer;
+  for (const Point2 p :
+       {Point2{0.1, 0.3}, Point2{20, 0.3}, Point2{20, 12}, Point2{10, 12}, Point2{10, 10}, Point2{0.1, 10}})
+    EXPECT_THAT(points, ::testing::Contains(p));
+}
+
+TEST(Partition, keeps_courtyards_and_counts_corners_that_touch_as_touching) {
+  // Four wings around a yard: with shared walls, and then meeting at their corners only.
+  const auto walls =
+      partition(scene_of(field(0, 0, 40, 40, 2, level(0)),
+                         {{box(0, 0, 30, 10)}, {box(20, 10, 30, 30)}, {box(0, 20, 20, 30)}, {box(0, 10, 10, 20)}}),
+                {});
+  ASSERT_EQ(walls.size(), 1U);
+  ASSERT_EQ(walls[0].outline.size(), 1U);
+  EXPECT_EQ(walls[0].outline[0].holes.size(), 1U);
+  EXPECT_EQ(total(walls[0].outline), 800);
+  const auto corners =
+      partition(scene_of(field(0, 0, 40, 40, 2, level(0)),
+                         {{box(10, 0, 20, 10)}, {box(20, 10, 30, 20)}, {box(10, 20, 20, 30)}, {box(0, 10, 10, 20)}}),
+                {});
+  ASSERT_EQ(corners.size(), 1U);
+  EXPECT_NEAR(total(corners[0].outline), 400, 0.1);
+}
+
+TEST(Partition, does_not_swallow_a_neighbour_in_the_bend_of_an_l) {
+  //  ####
+  //  #
+  //  #  X        X stands in the bend, within the hull of the L, 8 m from it.
+  const Polygon l{{{0, 0}, {5, 0}, {5, 35}, {40, 35}, {40, 40}, {0, 40}}, {}};
+  const auto blocks = partition(scene_of(field(-20, -20, 60, 60, 1, level(0)), {{l}, {box(13, 10, 20, 20)}}), {});
+  ASSERT_EQ(blocks.size(), 2U);
+  for (const Point3 v : blocks[0].mesh.vertices)
+    EXPECT_FALSE(v.x > 12 && v.x < 39 && v.y > 0 && v.y < 28) << v.x << " " << v.y;
+}
+
+TEST(Partition, keeps_exactly_the_triangles_within_the_padding) {
+  base::Random random(5);
+  const Polygon ring{{{0, 0}, {30, 0}, {30, 30}, {0, 30}}, {{{8, 8}, {8, 22}, {22, 22}, {22, 8}}}};
+  Mesh mesh;
+  for (int i = 0; i < 4000; ++i) {
+    const Point2 at{random.uniform(-15, 45), random.uniform(-15, 45)};
+    const double size = random.index(20) == 0 ? 60 : 2;
+    for (int k = 0; k < 3; ++k)
+      mesh.vertices.push_back({at.x + random.uniform(-size, size), at.y + random.uniform(-size, size), 0});
+    const auto v = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.triangles.push_back({v - 3, v - 2, v - 1});
+  }
+  const auto near = [&](const geometry::Triangle& t, double padding) {
+    const auto plan = detail::plan_of(mesh, t);
+    if (geometry::contains(ring, plan[0]) || geometry::contains(std::span<const Point2>(plan), ring.outer[0]))
+      return true;
+    for (const auto* loop : {&ring.outer, &ring.holes[0]})
+      for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+          if (detail::distance({plan[k], plan[(k + 1) % 3]}, {(*loop)[i], (*loop)[(i + 1) % 4]}) <= padding)
+            return true;
+    return false;
+  };
+  for (const double padding : {0.0, 1.0, 5.0}) {
+    Options options;
+    options.padding = padding;
+    const auto blocks = partition(scene_of(mesh, {{ring}}), options);
+    std::vector<std::array<Point3, 3>> kept, wanted;
+    for (const auto& t : blocks[0].mesh.triangles)
+      kept.push_back({blocks[0].mesh.vertices[t[0]], blocks[0].mesh.vertices[t[1]], blocks[0].mesh.vertices[t[2]]});
+    for (const auto& t : mesh.triangles)
+      if (near(t, padding)) wanted.push_back({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]});
+    EXPECT_EQ(kept, wanted) << "padding " << padding;
+    EXPECT_EQ(blocks[0].mesh.vertices.size(), 3 * wanted.size());
+    EXPECT_GT(wanted.size(), 100U);
+    EXPECT_LT(wanted.size(), mesh.triangles.size());
+  }
+}
+
+TEST(Partition, does_not_depend_on_the_order_of_the_features) {
+  base::Random random(9);
+  std::vector<std::vector<Polygon>> shapes;
+  for (int i = 0; i < 60; ++i) {
+    const double x = std::floor(random.uniform(0, 90)), y = std::floor(random.uniform(0, 90));
+    shapes.push_back({box(x, y, x + 4 + static_cast<double>(random.index(5)), y + 4)});
+  }
+  const auto sets_of = [&](const std::vector<std::size_t>& order) {
+    std::vector<std::vector<Polygon>> turned;
+    for (const auto i : order) turned.push_back(shapes[i]);
+    std::vector<std::vector<std::size_t>> sets;
+    for (const auto& block : partition(scene_of(field(0, 0, 100, 100, 2, level(3)), turned), {})) {
+      sets.emplace_back();
+      for (const auto& member : block.members) sets.back().push_back(order[member.feature]);
+      std::ranges::sort(sets.back());
+    }
+    std::ranges::sort(sets);
+    return sets;
+  };
+  std::vector<std::size_t> order(shapes.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  const auto first = sets_of(order);
+  EXPECT_GT(first.size(), 3U);
+  EXPECT_LT(first.size(), shapes.size());
+  for (int round = 0; round < 5; ++round) {
+    for (std::size_t i = order.size() - 1; i > 0; --i) std::swap(order[i], order[random.index(i + 1)]);
+    EXPECT_EQ(sets_of(order), first);
+  }
+}
+
+TEST(Partition, is_the_same_at_any_number_of_threads) {
+  std::vector<std::vector<Polygon>> shapes;
+  for (int i = 0; i < 30; ++i) shapes.push_back({box(i * 9.0, 0, i * 9.0 + (i % 3 == 0 ? 9 : 7), 8)});
+  const auto scene = scene_of(field(-10, -10, 290, 30, 1, [](Point2 p) { return std::sin(p.x) + p.y / 10; }), shapes);
+  base::limit_threads(1);
+  const auto one = partition(scene, {});
+  base::limit_threads(0);
+  const auto many = partition(scene, {});
+  ASSERT_EQ(one.size(), many.size());
+  for (std::size_t b = 0; b < one.size(); ++b) {
+    EXPECT_EQ(one[b].outline, many[b].outline);
+    EXPECT_EQ(one[b].mesh.vertices, many[b].mesh.vertices);
+    EXPECT_EQ(one[b].mesh.triangles, many[b].mesh.triangles);
+    EXPECT_EQ(one[b].ground, many[b].ground);
+  }
+}
+
+TEST(Ground, of_houses_on_a_slope_follows_the_slope) {
+  // Rises 1 m in 10. The low tenth of the 10 m ring around a house lies a little below its middle.
+  std::vector<std::vector<Polygon>> shapes;
+  for (const double x : {20.0, 60.0, 100.0}) shapes.push_back({box(x, 20, x + 10, 30)});
+  const auto roofs = [&](Point2 p) {
+    for (const auto& shape : shapes)
+      if (p.x > shape[0].outer[0].x - 0.1 && p.x < shape[0].outer[1].x + 0.1 && p.y > 19.9 && p.y < 30.1) return 30.0;
+    return p.x / 10;
+  };
+  const auto blocks = partition(scene_of(field(0, 0, 140, 50, 0.5, roofs), shapes), {});
+  ASSERT_EQ(blocks.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double middle = 2.5 + 4 * static_cast<double>(i);
+    EXPECT_NEAR(blocks[i].ground, middle - 1.2, 0.3);
+    EXPECT_EQ(blocks[i].members[0].ground, blocks[i].ground);
+  }
+}
+
+TEST(Ground, is_below_trees_and_above_a_few_pits) {
+  const auto bumpy = [](Point2 p) {
+    const auto cell = static_cast<int>(std::floor(p.x / 3)) + 7 * static_cast<int>(std::floor(p.y / 3));
+    return cell % 2 == 0 ? 8.0 : cell % 25 == 1 ? -6.0 : 1.0;
+  };
+  const auto blocks = partition(scene_of(field(0, 0, 60, 60, 0.5, bumpy), {{box(25, 25, 35, 35)}}), {});
+  EXPECT_NEAR(blocks[0].ground, 1, 0.01);
+}
+
+TEST(Ground, of_one_big_triangle_is_found_too) {
+  Mesh mesh;
+  mesh.vertices = {{-1e5, -1e5, 4}, {2e5, -1e5, 4}, {-1e5, 2e5, 4}};
+  mesh.triangles = {{0, 2, 1}};  // upside down
+  const auto blocks = partition(scene_of(mesh, {{box(0, 0, 10, 10)}}), {});
+  EXPECT_NEAR(blocks[0].ground, 4, 1e-9);
+  EXPECT_EQ(blocks[0].mesh.triangles.size(), 1U);
+}
+
+TEST(Ground, of_a_house_without_a_street_is_its_neighbours_or_the_foot_of_the_mesh) {
+  // The middle one of 9 houses of 12 m has no street within 10 m; its ground is that of the block.
+  std::vector<std::vector<Polygon>> shapes;
+  for (int i = 0; i < 9; ++i) shapes.push_back({box(i % 3 * 12, i / 3 * 12, i % 3 * 12 + 12, i / 3 * 12 + 12)});
+  const auto roofs = [](Point2 p) { return p.x > -0.1 && p.x < 36.1 && p.y > -0.1 && p.y < 36.1 ? 9.0 : 2.0; };
+  const auto blocks = partition(scene_of(field(-20, -20, 56, 56, 1, roofs), shapes), {});
+  ASSERT_EQ(blocks.size(), 1U);
+  EXPECT_NEAR(blocks[0].members[4].ground, 2, 1e-9);
+  // A house cut out of its mesh: walls down to 1, a roof at 7, no ground at all.
+  Mesh cut = field(0, 0, 10, 10, 5, level(7));
+  for (const auto& [a, b] : {std::pair{Point2{0, 0}, Point2{10, 0}}, std::pair{Point2{10, 0}, Point2{10, 10}}}) {
+    const auto v = static_cast<std::uint32_t>(cut.vertices.size());
+    for (const Point3 p : {Point3{a.x, a.y, 1}, Point3{b.x, b.y, 1}, Point3{b.x, b.y, 7}, Point3{a.x, a.y, 7}})
+      cut.vertices.push_back(p);
+    cut.triangles.push_back({v, v + 1, v + 2});
+    cut.triangles.push_back({v, v + 2, v + 3});
+  }
+  EXPECT_EQ(partition(scene_of(cut, {{box(0, 0, 10, 10)}}), {})[0].ground, 1);
+  // No mesh near: the foot of what there is. No mesh at all: a number still.
+  const auto far = partition(scene_of(field(500, 500, 510, 510, 1, level(12)), {{box(0, 0, 10, 10)}}), {});
+  EXPECT_EQ(far[0].ground, 12);
+  EXPECT_TRUE(far[0].mesh.triangles.empty());
+  EXPECT_EQ(partition(scene_of({}, {{box(0, 0, 10, 10)}}), {})[0].ground, 0);
+}
+
+TEST(Blocks, of_delft_cover_all_footprints_and_stay_above_the_sea) {
+  ingest::Options reading;
+  reading.mesh_offset = {84800, 447400, 0};
+  const std::filesystem::path data = MANSARD_SHARED_DATA;
+  const auto scene =
+      ingest::read_scene({data / "delft/delft_west_mesh.ply"}, data / "delft/delft_west_footprints.geojson", reading);
+  ASSERT_TRUE(scene) << base::to_string(scene.error());
+  const auto blocks = partition(*scene, {});
+  EXPECT_EQ(blocks.size(), 13U);
+  std::vector<std::size_t> seen;
+  for (const auto& block : blocks) {
+    double sum = 0;
+    for (const auto& member : block.members) {
+      seen.push_back(member.feature);
+      sum += total(member.polygons);
+      EXPECT_GT(member.ground, -1.5);
+      EXPECT_LT(member.ground, 2);
+    }
+    EXPECT_NEAR(total(block.outline), sum, 0.005 * sum) << block.name;
+    EXPECT_GT(block.mesh.triangles.size(), 1000U);
+  }
+  std::ranges::sort(seen);
+  EXPECT_EQ(seen.size(), 87U);
+  EXPECT_EQ(std::ranges::adjacent_find(seen), seen.end());
+}
+
+TEST(Options, name_their_ranges) {
+  Options options;
+  auto list = option_list(options);
+  EXPECT_TRUE(list.find("touch")->set("0.5"));
+  EXPECT_EQ(options.touch, 0.5);
+  EXPECT_FALSE(list.find("padding")->set("-1"));
+  EXPECT_FALSE(list.find("ground_percentile")->set("101"));
+}
+
+}  // namespace
+}  // namespace mansard::block

@@ -1,0 +1,360 @@
+// The product as its users meet it: the program, its files, its one line of complaint, its exit code.
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+namespace mansard::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+struct Outcome {
+  int exit = -1;
+  std::string out, err;
+};
+
+auto read(const fs::path& path) -> std::string {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// A gabled house on a field as OBJ, and its footprint as GeoJSON.
+const std::string field =
+    "v -20 -20 0\nv 40 -20 0\nv 40 40 0\nv -20 40 0\n"
+    "v 0 0 0\nv 12 0 0\nv 12 8 0\nv 0 8 0\nv 0 0 5\nv 12 0 5\nv 12 8 5\nv 0 8 5\nv 0 4 8\nv 12 4 8\n";
+const std::string house = field +
+                          "f 1 2 3 4\nf 5 6 10 9\nf 6 7 11 14 10\nf 7 8 12 11\nf 8 5 9 13 12\nf 9 10 14 13\nf 11 12 13 14\n";
+
+auto geojson(const std::string& geometry, const std::string& crs = "EPSG::28992") -> std::string {
+  const std::string declared =
+      crs.empty() ? "" : R"("crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:)" + crs + R"("}},)";
+  return R"({"type":"FeatureCollection",)" + declared +
+         R"("features":[{"type":"Feature","properties":{"id":"a"},"geometry":)" + geometry + "}]}";
+}
+auto polygon(const std::string& ring) -> std::string { return R"({"type":"Polygon","coordinates":[[)" + ring + "]]}"; }
+const std::string square = "[0,0],[12,0],[12,8],[0,8],[0,0]";
+
+class Command : public testing::Test {
+ protected:
+  void SetUp() override {
+    fs::create_directories(folder_);
+    put("house.obj", house);
+    put("house.geojson", geojson(polygon(square)));
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  auto put(const std::string& name, const std::string& bytes) -> std::string {
+    std::ofstream(folder_ / name, std::ios::binary) << bytes;
+    return at(name);
+  }
+  [[nodiscard]] auto at(const std::string& name) const -> std::string { return (folder_ / name).string(); }
+
+  auto run(const std::string& arguments) const -> Outcome {
+    const std::string command =
+        std::string(MANSARD_BINARY) + " " + arguments + " >" + at("stdout") + " 2>" + at("stderr") + " </dev/null";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(at("stdout")), read(at("stderr"))};
+  }
+  auto reconstruct(const std::string& mesh, const std::string& footprints, const std::string& more = "") const -> Outcome {
+    return run("reconstruct -q " + mesh + " " + footprints + " -o " + at("out") + " " + more);
+  }
+
+  /// One clear line with the code, the exit code, and no result left behind.
+  void expect_refusal(const Outcome& outcome, int exit, const std::string& code, const std::string& words = "") const {
+    EXPECT_EQ(outcome.exit, exit) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("error[" + code + "]"));
+    EXPECT_THAT(outcome.err, HasSubstr(words));
+    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    if (fs::exists(at("out"))) {
+      EXPECT_TRUE(fs::is_empty(at("out")));
+    }
+  }
+
+  fs::path folder_ = fs::temp_directory_path() / ("mansard-command-" + std::to_string(::getpid()));
+};
+
+TEST_F(Command, reconstructs_a_house_and_names_the_model_on_stdout) {
+  const auto outcome = reconstruct(at("house.obj"), at("house.geojson"), "--picture --report " + at("copy.json"));
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(outcome.out, at("out") + "/model.city.json\n" + at("out") + "/picture.png\n");
+  for (const auto* name : {"model.city.json", "model.obj", "model.mtl", "model.glb", "plans.json", "run.json",
+                           "picture.png", "above.png", "error.png"})
+    EXPECT_GT(fs::file_size(folder_ / "out" / name), 100U) << name;
+  EXPECT_EQ(read(at("copy.json")), read(at("out") + "/run.json"));
+  const auto report = nlohmann::json::parse(read(at("copy.json")));
+  EXPECT_EQ(report["counts"]["full"], 1);
+  EXPECT_EQ(report["crs"], "EPSG:28992");
+  const auto model = nlohmann::json::parse(read(at("out") + "/model.city.json"));
+  EXPECT_EQ(model["version"], "2.0");
+  EXPECT_EQ(model["metadata"]["referenceSystem"], "https://www.opengis.net/def/crs/EPSG/0/28992");
+}
+
+TEST_F(Command, gives_identical_model_files_with_one_thread_and_two) {
+  ASSERT_EQ(reconstruct(at("house.obj"), at("house.geojson"), "-j 1 --picture").exit, 0);
+  fs::rename(at("out"), at("one"));
+  ASSERT_EQ(reconstruct(at("house.obj"), at("house.geojson"), "-j 2 --picture").exit, 0);
+  for (const auto* name : {"model.city.json", "model.obj", "model.mtl", "model.glb", "plans.json", "picture.png",
+                           "above.png", "error.png"})
+    EXPECT_EQ(read(at("one") + "/" + name), read(at("out") + "/" + name)) << name;
+}
+
+TEST_F(Command, raises_its_own_plans_to_the_same_model_again) {
+  ASSERT_EQ(reconstruct(at("house.obj"), at("house.geojson")).exit, 0);
+  const auto again = run("extrude " + at("out") + "/plans.json -o " + at("again.obj"));
+  EXPECT_EQ(again.exit, 0) << again.err;
+  const auto vertices = [&](const std::string& path) {
+    std::vector<std::string> lines;
+    std::ifstream file(path);
+    for (std::string line; std::getline(file, line);)
+      if (line.starts_with("v ") || line.starts_with("f ")) lines.push_back(line);
+    return lines;
+  };
+  EXPECT_EQ(vertices(at("again.obj")), vertices(at("out") + "/model.obj"));
+  const auto twice = run("extrude " + at("out") + "/plans.json -o " + at("again.obj"));
+  EXPECT_EQ(twice.exit, 2);
+  EXPECT_THAT(twice.err, HasSubstr("output-exists"));
+}
+
+TEST_F(Command, says_one_plain_line_per_stage_when_piped) {
+  const auto outcome = run("reconstruct " + at("house.obj") + " " + at("house.geojson") + " -o " + at("out"));
+  EXPECT_EQ(outcome.exit, 0);
+  EXPECT_THAT(outcome.err, HasSubstr("mansard: done block-"));
+  EXPECT_THAT(outcome.err, HasSubstr("1 of 1 buildings in full"));
+  EXPECT_EQ(outcome.err.find('\x1b'), std::string::npos);
+  EXPECT_EQ(outcome.err.find('\r'), std::string::npos);
+}
+
+TEST_F(Command, tells_its_version_and_help) {
+  EXPECT_THAT(run("--version").out, testing::StartsWith("mansard "));
+  EXPECT_EQ(run("--help").exit, 0);
+  EXPECT_THAT(run("reconstruct --help-all").out, HasSubstr("--sweep-gamma"));
+}
+
+TEST_F(Command, lists_its_options_as_text_and_json) {
+  EXPECT_THAT(run("options").out, HasSubstr("gamma"));
+  const auto json = nlohmann::json::parse(run("options --json").out);
+  bool found = false;
+  for (const auto& option : json["options"])
+    if (option["room"] == "segment" && option["name"] == "alpha") {
+      found = true;
+      EXPECT_EQ(option["default"], "40");
+    }
+  EXPECT_TRUE(found);
+  EXPECT_EQ(json["presets"].size(), 2U);
+}
+
+TEST_F(Command, explains_every_code) {
+  EXPECT_THAT(run("explain option-value").out, HasSubstr("exit code: 4"));
+  const auto all = run("explain").out;
+  EXPECT_GT(std::ranges::count(all, '\n'), 20);
+  expect_refusal(run("explain option-valu"), 2, "code-unknown", "'option-value'");
+}
+
+TEST_F(Command, takes_options_from_a_file_below_the_command_line) {
+  const auto config = put("c.toml", "preset = \"paper\"\n[segment]\nalpha = 30\n[sweep]\ngamma = 12\n");
+  ASSERT_EQ(reconstruct(at("house.obj"), at("house.geojson"), "--config " + config + " --gamma 11").exit, 0);
+  const auto options = nlohmann::json::parse(read(at("out") + "/run.json"))["options"];
+  EXPECT_EQ(options["segment.alpha"], "30");
+  EXPECT_EQ(options["sweep.gamma"], "11");
+  EXPECT_EQ(options["segment.gis_edges"], "ignore");
+}
+
+TEST_F(Command, refuses_bad_usage) {
+  expect_refusal(run("reconstuct a b -o c"), 2, "usage", "did you mean 'reconstruct'");
+  expect_refusal(run("reconstruct " + at("house.obj") + " -o " + at("out")), 2, "usage");
+  expect_refusal(run("reconstruct " + at("house.obj") + " " + at("house.geojson")), 2, "usage", "--output");
+}
+
+TEST_F(Command, refuses_bad_options) {
+  expect_refusal(reconstruct(at("house.obj"), at("house.geojson"), "--sweep-gama 5"), 4, "option-unknown", "--sweep-gamma");
+  expect_refusal(reconstruct(at("house.obj"), at("house.geojson"), "--slice-interval -1"), 4, "option-value", "slice.interval");
+  expect_refusal(reconstruct(at("house.obj"), at("house.geojson"), "--slice-interval abc"), 4, "option-value");
+  expect_refusal(reconstruct(at("house.obj"), at("house.geojson"), "--profile-quality best"), 4, "option-value", "moderate");
+  expect_refusal(reconstruct(at("house.obj"), at("house.geojson"), "--preset london"), 4, "option-value", "chordatlas");
+}
+
+TEST_F(Command, refuses_bad_config_files) {
+  const auto with = [&](const std::string& text) {
+    return reconstruct(at("house.obj"), at("house.geojson"), "--config " + put("c.toml", text));
+  };
+  expect_refusal(with("[sweep\n"), 4, "config", "line 1");
+  expect_refusal(with("[sweep]\ngama = 5\n"), 4, "option-unknown", "'sweep.gamma'");
+  expect_refusal(with("[sweep]\ngamma = \"much\"\n"), 4, "option-value");
+  expect_refusal(with("gamma = 5\n"), 4, "config");
+  expect_refusal(reconstruct(at("house.obj"), at("house.geojson"), "--config " + at("none.toml")), 3, "file-missing");
+}
+
+TEST_F(Command, refuses_missing_empty_truncated_and_foreign_meshes) {
+  const auto with = [&](const std::string& name, const std::string& bytes) {
+    return reconstruct(put(name, bytes), at("house.geojson"));
+  };
+  expect_refusal(reconstruct(at("none.obj"), at("house.geojson")), 3, "file-missing", "none.obj");
+  for (const auto* ending : {"obj", "ply", "off", "glb"}) {
+    const auto outcome = with(std::string("empty.") + ending, "");
+    EXPECT_EQ(outcome.exit, 3) << ending << ": " << outcome.err;
+    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+  }
+  for (const auto& [name, bytes] : std::vector<std::pair<std::string, std::string>>{
+           {"cut.off", "OFF\n4 2 0\n0 0 0\n1 0"},
+           {"cut.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 9\nproperty float x\nproperty float y\n"
+                       "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n\1\2\3"},
+           {"huge.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 99999999999\nproperty float x\n"
+                        "property float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"},
+           {"text.glb", "this is no glTF"},
+           {"mesh.docx", "PK"}}) {
+    const auto outcome = with(name, bytes);
+    EXPECT_EQ(outcome.exit, 3) << name << ": " << outcome.err;
+    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(name));
+  }
+}
+
+TEST_F(Command, refuses_meshes_without_a_usable_triangle) {
+  for (const auto& [name, faces] : std::vector<std::pair<std::string, std::string>>{
+           {"no_faces.obj", ""}, {"outside.obj", "f 1 2 99\n"}, {"flat.obj", "f 1 1 2\n"}}) {
+    const auto outcome = reconstruct(put(name, field + faces), at("house.geojson"));
+    EXPECT_EQ(outcome.exit, 3) << name << ": " << outcome.err;
+  }
+  const auto nan = reconstruct(put("nan.obj", "v nan 0 0\nv 1 inf 0\nv 0 1 0\nf 1 2 3\n"), at("house.geojson"));
+  EXPECT_EQ(nan.exit, 3) << nan.err;
+}
+
+TEST_F(Command, goes_on_with_a_mesh_that_is_only_partly_bad) {
+  const auto mesh = put("rough.obj", house + "v nan 1 2\nf 5 6 15\nf 5 5 6\nf 5 6 10 9\nf 9 10 6\nf 1 2 999\n");
+  const auto outcome = reconstruct(mesh, at("house.geojson"));
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  const auto counts = nlohmann::json::parse(read(at("out") + "/run.json"))["mesh"];
+  EXPECT_GE(counts["dropped_not_finite"], 1);
+  EXPECT_GE(counts["dropped_degenerate"], 1);
+  EXPECT_GE(counts["dropped_duplicate"], 1);
+  EXPECT_GE(counts["dropped_out_of_range"], 1);
+}
+
+TEST_F(Command, refuses_footprint_files_that_hold_none) {
+  const auto with = [&](const std::string& name, const std::string& bytes) {
+    return reconstruct(at("house.obj"), put(name, bytes));
+  };
+  expect_refusal(reconstruct(at("house.obj"), at("none.geojson")), 3, "file-missing");
+  for (const auto& [name, bytes] : std::vector<std::pair<std::string, std::string>>{
+           {"empty.geojson", ""},
+           {"foreign.geojson", "hello"},
+           {"cut.geojson", geojson(polygon(square)).substr(0, 90)},
+           {"none.geojson", R"({"type":"FeatureCollection","features":[]})"},
+           {"points.geojson", geojson(R"({"type":"Point","coordinates":[1,2]})")}}) {
+    const auto outcome = with(name, bytes);
+    EXPECT_TRUE(outcome.exit == 3 || outcome.exit == 5) << name << ": " << outcome.exit << outcome.err;
+    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << name << ": " << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("error["));
+  }
+}
+
+TEST_F(Command, lets_a_bad_footprint_cost_only_itself) {
+  const std::string good = R"({"type":"Feature","properties":{"id":"good"},"geometry":)" + polygon(square) + "}";
+  for (const auto* ring : {"[0,0],[12,8],[12,0],[0,8],[0,0]", "[20,20],[30,20],[20,20],[20,20]", "[1,1],[1,1],[1,1],[1,1]"}) {
+    const std::string bad = R"({"type":"Feature","properties":{"id":"bad"},"geometry":)" + polygon(ring) + "}";
+    const auto file = put("two.geojson",
+                          R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:28992"}},"features":[)" +
+                              bad + "," + good + "]}");
+    const auto outcome = reconstruct(at("house.obj"), file, "--overwrite");
+    EXPECT_EQ(outcome.exit, 1) << outcome.err;
+    const auto buildings = nlohmann::json::parse(read(at("out") + "/run.json"))["buildings"];
+    ASSERT_EQ(buildings.size(), 2U);
+    EXPECT_EQ(buildings[0]["outcome"], "refused");
+    EXPECT_FALSE(buildings[0]["reasons"].empty());
+    EXPECT_EQ(buildings[1]["outcome"], "full");
+  }
+}
+
+TEST_F(Command, repairs_repeated_points_and_spikes) {
+  const auto file = put("rough.geojson", geojson(polygon("[0,0],[0,0],[12,0],[12,0],[12,8],[0,8],[-3,8],[0,8],[0,0]")));
+  const auto outcome = reconstruct(at("house.obj"), file);
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+}
+
+TEST_F(Command, refuses_an_unknown_crs) {
+  const auto outcome = reconstruct(at("house.obj"), at("house.geojson"), "--crs EPSG:999999");
+  EXPECT_TRUE(outcome.exit == 3 || outcome.exit == 4) << outcome.exit;
+  EXPECT_THAT(outcome.err, HasSubstr("crs"));
+}
+
+TEST_F(Command, says_where_mesh_and_footprints_lie_when_they_do_not_overlap) {
+  const auto outcome = reconstruct(at("house.obj"), put("far.geojson", geojson(polygon("[5000,5000],[5010,5000],[5010,5010],[5000,5000]"))));
+  EXPECT_EQ(outcome.exit, 3) << outcome.err;
+  EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("error["), HasSubstr("5000"), HasSubstr("-20")));
+}
+
+TEST_F(Command, overwrites_nothing_silently) {
+  ASSERT_EQ(reconstruct(at("house.obj"), at("house.geojson")).exit, 0);
+  const auto before = read(at("out") + "/model.obj");
+  const auto outcome = reconstruct(at("house.obj"), at("house.geojson"));
+  EXPECT_EQ(outcome.exit, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("--overwrite"));
+  EXPECT_EQ(read(at("out") + "/model.obj"), before);
+  EXPECT_EQ(reconstruct(at("house.obj"), at("house.geojson"), "--overwrite").exit, 0);
+}
+
+TEST_F(Command, refuses_an_output_folder_that_cannot_be_made) {
+  const auto outcome = run("reconstruct -q " + at("house.obj") + " " + at("house.geojson") + " -o " + at("house.obj") + "/out");
+  EXPECT_EQ(outcome.exit, 3) << outcome.err;
+  EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1);
+  expect_refusal(run("reconstruct -q " + at("house.obj") + " " + at("house.geojson") + " -o " + at("house.obj")), 2, "output-exists");
+}
+
+TEST_F(Command, gives_one_line_when_memory_runs_out) {
+  // A mesh as large as it says (a sparse file), and a process that may not have that much memory.
+  const std::string header =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 60000000\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  const auto mesh = put("huge.ply", header);
+  fs::resize_file(mesh, header.size() + 60000000ULL * 12 + 13);
+  const int status = std::system(("bash -c 'ulimit -v 700000; exec " + std::string(MANSARD_BINARY) + " reconstruct -q -j 1 " +
+                                  mesh + " " + at("house.geojson") + " -o " + at("out") + "' 2>" + at("stderr"))
+                                     .c_str());
+  ASSERT_TRUE(WIFEXITED(status));
+  expect_refusal({WEXITSTATUS(status), "", read(at("stderr"))}, 3, "ingest-memory", "huge.ply");
+}
+
+TEST_F(Command, stops_cleanly_on_interrupt) {
+  // Enough houses to be busy for a while.
+  std::string mesh;
+  std::string features;
+  for (int i = 0; i < 400; ++i) {
+    const double x = 30.0 * (i % 20), y = 30.0 * (i / 20);
+    const std::string shift[2] = {std::to_string(x), std::to_string(y)};
+    for (const auto& [dx, dy, z] : std::vector<std::array<double, 3>>{{0, 0, 0}, {12, 0, 0}, {12, 8, 0}, {0, 8, 0}, {0, 0, 5}, {12, 0, 5}, {12, 8, 5}, {0, 8, 5}, {0, 4, 8}, {12, 4, 8}})
+      mesh += "v " + std::to_string(x + dx) + " " + std::to_string(y + dy) + " " + std::to_string(z) + "\n";
+    mesh += "f -10 -9 -5 -6\nf -9 -8 -4 -1 -5\nf -8 -7 -3 -4\nf -7 -10 -6 -2 -3\nf -6 -5 -1 -2\nf -4 -3 -2 -1\n";
+    const auto corner = [&](double dx, double dy) { return "[" + std::to_string(x + dx) + "," + std::to_string(y + dy) + "]"; };
+    features += std::string(i > 0 ? "," : "") + R"({"type":"Feature","properties":{},"geometry":)" +
+                polygon(corner(0, 0) + "," + corner(12, 0) + "," + corner(12, 8) + "," + corner(0, 8) + "," + corner(0, 0)) + "}";
+  }
+  put("town.obj", mesh);
+  put("town.geojson", R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:28992"}},"features":[)" + features + "]}");
+  const pid_t child = ::fork();
+  if (child == 0) {
+    std::freopen(at("stderr").c_str(), "w", stderr);
+    std::freopen("/dev/null", "w", stdout);
+    ::execl(MANSARD_BINARY, "mansard", "reconstruct", "-q", at("town.obj").c_str(), at("town.geojson").c_str(), "-o", at("out").c_str(), nullptr);
+    ::_exit(127);
+  }
+  while (!fs::exists(at("out"))) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  ::kill(child, SIGINT);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 6) << read(at("stderr"));
+  EXPECT_TRUE(fs::is_empty(at("out")));
+}
+
+}  // namespace
+}  // namespace mansard::cli

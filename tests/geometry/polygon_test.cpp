@@ -1,0 +1,102 @@
+#include "mansard/geometry/polygon.hpp"
+
+#include <gmock/gmock.h>
+
+namespace mansard::geometry {
+namespace {
+
+const Polygon courtyard{{{0, 0}, {10, 0}, {10, 8}, {0, 8}}, {{{3, 3}, {3, 5}, {6, 5}, {6, 3}}}};
+
+auto total(const std::vector<Polygon>& polygons) -> double {
+  double sum = 0;
+  for (const auto& p : polygons) sum += area(p);
+  return sum;
+}
+
+TEST(Area, takes_holes_off_and_keeps_its_digits_far_from_the_origin) {
+  EXPECT_DOUBLE_EQ(area(courtyard), 80 - 6);
+  Ring far{{1e8, 1e8}, {1e8 + 0.5, 1e8}, {1e8 + 0.5, 1e8 + 0.5}};
+  EXPECT_DOUBLE_EQ(signed_area(far), 0.125);
+  EXPECT_EQ(signed_area(Ring{{0, 0}, {1, 1}}), 0);
+}
+
+TEST(Contains, counts_the_boundary_in_and_the_hole_out) {
+  EXPECT_TRUE(contains(courtyard, {1, 1}));
+  EXPECT_TRUE(contains(courtyard, {0, 4}));
+  EXPECT_TRUE(contains(courtyard, {10, 8}));
+  EXPECT_TRUE(contains(courtyard, {3, 4}));
+  EXPECT_FALSE(contains(courtyard, {4, 4}));
+  EXPECT_FALSE(contains(courtyard, {-1e-12, 4}));
+  EXPECT_FALSE(contains(courtyard, {11, 8}));  // level with a top edge
+}
+
+TEST(Distance, is_to_the_segment_not_to_its_line) {
+  const Segment2 s{{0, 0}, {4, 0}};
+  EXPECT_DOUBLE_EQ(distance(s, {2, 3}), 3);
+  EXPECT_DOUBLE_EQ(distance(s, {7, 4}), 5);
+  EXPECT_DOUBLE_EQ(parameter(s, {6, 1}), 1.5);
+  EXPECT_DOUBLE_EQ(boundary_distance(courtyard, {4.5, 4}), 1);
+}
+
+TEST(IsSimple, refuses_what_touches_itself) {
+  EXPECT_TRUE(is_simple(courtyard));
+  EXPECT_FALSE(is_simple({{{0, 0}, {4, 4}, {4, 0}, {0, 4}}, {}}));                    // bow-tie
+  EXPECT_FALSE(is_simple({{{0, 0}, {4, 0}, {2, 0}, {2, 3}}, {}}));                    // folds back
+  EXPECT_FALSE(is_simple({{{0, 0}, {4, 0}, {4, 4}, {4, 4}, {0, 4}}, {}}));            // repeats a point
+  EXPECT_FALSE(is_simple({{{0, 0}, {4, 0}, {2, 2}, {4, 4}, {0, 4}, {2, 2}}, {}}));    // pinched
+  EXPECT_FALSE(is_simple({{{0, 0}, {9, 0}, {9, 9}, {0, 9}}, {{{0, 3}, {2, 4}, {2, 3}}}}));  // a hole on the outside
+  EXPECT_FALSE(is_simple({{{0, 0}, {1, 1}}, {}}));
+  EXPECT_TRUE(is_simple({{{0, 0}, {2, 0}, {4, 0}, {4, 4}}, {}}));  // a straight corner is no fault
+}
+
+TEST(Oriented, turns_every_ring_the_right_way) {
+  Polygon wrong = courtyard;
+  std::ranges::reverse(wrong.outer);
+  std::ranges::reverse(wrong.holes[0]);
+  EXPECT_GT(signed_area(oriented(wrong).outer), 0);
+  EXPECT_LT(signed_area(oriented(wrong).holes[0]), 0);
+  EXPECT_EQ(oriented(courtyard), courtyard);
+}
+
+TEST(Triangulate, covers_the_polygon_with_its_own_points) {
+  const auto triangles = triangulate(courtyard);
+  ASSERT_TRUE(triangles);
+  EXPECT_EQ(triangles->size(), 8U);  // n + 2h − 2
+  Ring points = courtyard.outer;
+  points.insert(points.end(), courtyard.holes[0].begin(), courtyard.holes[0].end());
+  double sum = 0;
+  for (const auto& [a, b, c] : *triangles) {
+    const double part = signed_area(Ring{points[a], points[b], points[c]});
+    EXPECT_GT(part, 0);
+    sum += part;
+  }
+  EXPECT_DOUBLE_EQ(sum, area(courtyard));
+}
+
+TEST(Triangulate, gives_up_on_what_has_no_area) {
+  EXPECT_EQ(triangulate({{{0, 0}, {1, 0}, {2, 0}}, {}}).error().code, "geometry-triangulate");
+}
+
+TEST(Boolean, operations_agree_on_areas) {
+  const Polygon square{{{8, 2}, {14, 2}, {14, 6}, {8, 6}}, {}};
+  const auto both = intersect(courtyard, square), all = unite(std::vector{courtyard, square});
+  const auto rest = subtract(courtyard, square), grown = buffer(square, 1), shrunk = buffer(square, -1);
+  ASSERT_TRUE(both && all && rest && grown && shrunk);
+  EXPECT_DOUBLE_EQ(total(*both), 8);
+  EXPECT_DOUBLE_EQ(total(*all), 74 + 24 - 8);
+  EXPECT_DOUBLE_EQ(total(*rest), 74 - 8);
+  EXPECT_DOUBLE_EQ(total(*grown), 8 * 6);
+  EXPECT_DOUBLE_EQ(total(*shrunk), 4 * 2);
+  EXPECT_TRUE(intersect(square, Polygon{{{20, 0}, {21, 0}, {21, 1}}, {}})->empty());
+  for (const auto& p : *all) EXPECT_TRUE(is_simple(p));
+}
+
+TEST(MakeValid, opens_a_bow_tie_into_its_two_wings) {
+  const auto wings = make_valid({{{0, 0}, {4, 4}, {4, 0}, {0, 4}}, {}});
+  ASSERT_TRUE(wings);
+  EXPECT_EQ(wings->size(), 2U);
+  EXPECT_DOUBLE_EQ(total(*wings), 8);
+}
+
+}  // namespace
+}  // namespace mansard::geometry

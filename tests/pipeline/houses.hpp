@@ -1,0 +1,68 @@
+// Small synthetic streets: meshes as a scan would show them, with the footprints that go with them.
+#pragma once
+
+#include "mansard/ingest/ingest.hpp"
+
+namespace mansard::test {
+
+inline void add_quad(geometry::Mesh& mesh, geometry::Point3 a, geometry::Point3 b, geometry::Point3 c, geometry::Point3 d) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (const auto& p : {a, b, c, d}) mesh.vertices.push_back(p);
+  mesh.triangles.push_back({first, first + 1, first + 2});
+  mesh.triangles.push_back({first, first + 2, first + 3});
+}
+
+inline void add_triangle(geometry::Mesh& mesh, geometry::Point3 a, geometry::Point3 b, geometry::Point3 c) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (const auto& p : {a, b, c}) mesh.vertices.push_back(p);
+  mesh.triangles.push_back({first, first + 1, first + 2});
+}
+
+/// An axis-parallel house from (x0, y0) to (x1, y1), ridge along x in the middle; a flat roof when ridge == eaves.
+inline void add_house(geometry::Mesh& mesh, double x0, double y0, double x1, double y1, double eaves, double ridge) {
+  const double ym = (y0 + y1) / 2;
+  add_quad(mesh, {x0, y0, 0}, {x1, y0, 0}, {x1, y0, eaves}, {x0, y0, eaves});
+  add_quad(mesh, {x1, y1, 0}, {x0, y1, 0}, {x0, y1, eaves}, {x1, y1, eaves});
+  add_quad(mesh, {x1, y0, 0}, {x1, y1, 0}, {x1, y1, eaves}, {x1, y0, eaves});
+  add_quad(mesh, {x0, y1, 0}, {x0, y0, 0}, {x0, y0, eaves}, {x0, y1, eaves});
+  if (ridge > eaves) {
+    add_triangle(mesh, {x1, y0, eaves}, {x1, y1, eaves}, {x1, ym, ridge});
+    add_triangle(mesh, {x0, y1, eaves}, {x0, y0, eaves}, {x0, ym, ridge});
+  }
+  add_quad(mesh, {x0, y0, eaves}, {x1, y0, eaves}, {x1, ym, ridge}, {x0, ym, ridge});
+  add_quad(mesh, {x1, y1, eaves}, {x0, y1, eaves}, {x0, ym, ridge}, {x1, ym, ridge});
+}
+
+inline auto rectangle(double x0, double y0, double x1, double y1) -> geometry::Polygon {
+  return {{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, {}};
+}
+
+inline auto footprint(std::string id, geometry::Polygon polygon) -> ingest::Footprint {
+  ingest::Footprint f;
+  f.id = std::move(id);
+  f.polygons = {std::move(polygon)};
+  f.attributes = {{"use", std::string("home")}};
+  return f;
+}
+
+/// A gabled house of 12 × 8 m, 5 m to the eaves and 8 m to the ridge, on a level field.
+inline auto lone_house() -> ingest::Scene {
+  ingest::Scene scene;
+  add_quad(scene.mesh, {-20, -20, 0}, {40, -20, 0}, {40, 40, 0}, {-20, 40, 0});
+  add_house(scene.mesh, 0, 0, 12, 8, 5, 8);
+  scene.footprints.push_back(footprint("house", rectangle(0, 0, 12, 8)));
+  return scene;
+}
+
+/// Two flat-roofed houses wall to wall, 6 and 9 m high.
+inline auto terrace() -> ingest::Scene {
+  ingest::Scene scene;
+  add_quad(scene.mesh, {-20, -20, 0}, {50, -20, 0}, {50, 40, 0}, {-20, 40, 0});
+  add_house(scene.mesh, 0, 0, 12, 10, 6, 6);
+  add_house(scene.mesh, 12, 0, 24, 10, 9, 9);
+  scene.footprints.push_back(footprint("low", rectangle(0, 0, 12, 10)));
+  scene.footprints.push_back(footprint("high", rectangle(12, 0, 24, 10)));
+  return scene;
+}
+
+}  // namespace mansard::test

@@ -1,0 +1,207 @@
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "mansard/pipeline/pipeline.hpp"
+#include "pipeline/houses.hpp"
+
+namespace mansard::pipeline {
+namespace {
+
+using test::footprint;
+using test::rectangle;
+
+auto reconstructed(const ingest::Scene& scene, const Options& options = {}) -> Reconstruction {
+  auto result = reconstruct(scene, options);
+  EXPECT_TRUE(result) << base::to_string(result.error());
+  return std::move(*result);
+}
+
+void expect_valid(const Reconstruction& r) {
+  for (const auto& building : r.city.buildings)
+    for (const auto& part : building.parts)
+      EXPECT_THAT(extrude::check(part.model.solid), testing::IsEmpty()) << part.id;
+}
+
+TEST(Reconstruct, raises_a_gabled_house_as_it_stands) {
+  const auto r = reconstructed(test::lone_house());
+  ASSERT_EQ(r.city.buildings.size(), 1U);
+  ASSERT_EQ(r.city.buildings[0].parts.size(), 1U);
+  EXPECT_EQ(r.buildings[0].outcome, Outcome::full) << base::to_string(r.buildings[0].reasons.at(0));
+  expect_valid(r);
+  EXPECT_NEAR(r.buildings[0].volume, 12 * 8 * 5 + 12 * 8 * 3 / 2, 15);
+  EXPECT_NEAR(r.buildings[0].roof_max, 8, 0.3);
+  EXPECT_LT(r.scores.footprint_mse, 0.05);
+  EXPECT_LT(r.scores.missed, 3);
+  const auto& areas = r.buildings[0].areas;
+  EXPECT_NEAR(areas.roof_sloped, 2 * 12 * 5, 5);              // each slope is 5 m from eaves to ridge
+  EXPECT_NEAR(areas.wall, 2 * 12 * 5 + 2 * (8 * 5 + 12), 8);  // the gables are wall up to the ridge
+}
+
+TEST(Reconstruct, keeps_the_identity_of_every_feature) {
+  const auto r = reconstructed(test::terrace());
+  ASSERT_EQ(r.city.buildings.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto& building = r.city.buildings[i];
+    EXPECT_EQ(building.id, i == 0 ? "low" : "high");
+    EXPECT_EQ(building.attributes.front().first, "use");
+    ASSERT_EQ(building.parts.size(), 1U);
+    EXPECT_EQ(r.buildings[i].outcome, Outcome::full);
+    EXPECT_NEAR(r.buildings[i].roof_max, i == 0 ? 6 : 9, 0.2);
+    EXPECT_GT(r.buildings[i].areas.party_wall, 40);
+  }
+  expect_valid(r);
+  EXPECT_EQ(r.blocks.size(), 1U);
+  EXPECT_EQ(r.blocks[0].status, "optimal");
+  EXPECT_NEAR(r.blocks[0].objective, r.blocks[0].bound, 1e-3);
+}
+
+TEST(Reconstruct, does_the_same_on_coordinates_far_from_the_origin) {
+  auto moved = test::lone_house();
+  for (auto& v : moved.mesh.vertices) v = v + geometry::Point3{300, -200, 40};
+  for (auto& p : moved.footprints[0].polygons[0].outer) p = p + geometry::Point2{300, -200};
+  const auto here = reconstructed(test::lone_house()), there = reconstructed(moved);
+  EXPECT_NEAR(here.buildings[0].volume, there.buildings[0].volume, 2);
+  EXPECT_NEAR(there.buildings[0].ground, 40, 0.1);
+}
+
+TEST(Reconstruct, gives_the_same_bytes_at_any_thread_count) {
+  auto scene = test::terrace();
+  test::add_house(scene.mesh, 0, 20, 9, 27, 4, 6);
+  scene.footprints.push_back(footprint("behind", rectangle(0, 20, 9, 27)));
+  std::vector<std::string> files;
+  for (const std::size_t threads : {1, 2, 2}) {
+    base::limit_threads(threads);
+    const auto r = reconstructed(scene);
+    files.push_back(*write::cityjson(r.city) + write::plans(r.city));
+  }
+  base::limit_threads(0);
+  EXPECT_EQ(files[0], files[1]);
+  EXPECT_EQ(files[1], files[2]);
+}
+
+TEST(Reconstruct, lets_a_bad_footprint_cost_only_itself) {
+  auto scene = test::lone_house();
+  ingest::Footprint bad;
+  bad.id = "bad";
+  bad.defect = base::error("ingest-footprint-geometry", "crosses itself", "bad");
+  scene.footprints.insert(scene.footprints.begin(), bad);
+  const auto r = reconstructed(scene);
+  ASSERT_EQ(r.buildings.size(), 2U);
+  EXPECT_EQ(r.buildings[0].outcome, Outcome::refused);
+  EXPECT_EQ(r.buildings[0].reasons.at(0).message, "crosses itself");
+  EXPECT_EQ(r.buildings[1].outcome, Outcome::full);
+  const auto alone = reconstructed(test::lone_house());
+  EXPECT_EQ(r.city.buildings[1].parts[0].plan, alone.city.buildings[0].parts[0].plan);
+}
+
+TEST(Reconstruct, raises_a_footprint_without_mesh_as_a_prism_and_says_so) {
+  auto scene = test::lone_house();
+  scene.footprints.push_back(footprint("nowhere", rectangle(100, 100, 110, 108)));
+  Options options;
+  options.assumed_height = 4;
+  const auto r = reconstructed(scene, options);
+  EXPECT_EQ(r.buildings[1].outcome, Outcome::fallback);
+  EXPECT_EQ(r.buildings[1].reasons.at(0).code, "pipeline-no-mesh");
+  EXPECT_NEAR(r.buildings[1].volume, 10 * 8 * 4, 1e-6);
+  expect_valid(r);
+}
+
+TEST(Reconstruct, raises_a_footprint_on_bare_ground_as_a_low_prism_and_says_so) {
+  auto scene = test::lone_house();
+  scene.footprints.push_back(footprint("meadow", rectangle(22, 22, 30, 30)));
+  const auto r = reconstructed(scene);
+  EXPECT_EQ(r.buildings[1].outcome, Outcome::fallback);
+  EXPECT_EQ(r.buildings[1].reasons.at(0).code, "pipeline-low");
+  expect_valid(r);
+}
+
+TEST(Reconstruct, stops_on_request) {
+  base::Cancel cancel;
+  cancel.request();
+  base::Run run;
+  run.cancel = &cancel;
+  const auto result = reconstruct(test::lone_house(), {}, run);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, "cancelled");
+}
+
+TEST(Reconstruct, gives_up_when_no_footprint_can_be_used) {
+  auto scene = test::lone_house();
+  scene.footprints[0].defect = base::error("ingest-footprint-geometry", "no area", "house");
+  scene.footprints[0].polygons.clear();
+  const auto result = reconstruct(scene, {});
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, "pipeline-nothing");
+}
+
+TEST(Report, counts_every_footprint_and_every_term) {
+  const auto scene = test::terrace();
+  const auto report = nlohmann::json::parse(report_json(reconstructed(scene), scene));
+  EXPECT_EQ(report["counts"]["footprints"], 2);
+  EXPECT_EQ(report["counts"]["full"], 2);
+  EXPECT_EQ(report["buildings"].size(), 2U);
+  const auto& block = report["blocks"][0];
+  for (const auto* key : {"triangles", "slices", "slice_segments", "sweep_edges", "faces"}) EXPECT_GT(block[key], 0) << key;
+  const auto& o = block["objective"];
+  EXPECT_NEAR(o["total"].get<double>(),
+              o["sweep_unused"].get<double>() + o["unsupported"].get<double>() + o["height"].get<double>() +
+                  o["thin"].get<double>(),
+              1e-6);
+  for (const auto* stage : {"block", "slice", "sweep", "fracture", "segment", "profile", "extrude", "label", "evaluate"})
+    EXPECT_TRUE(report["seconds"].contains(stage)) << stage;
+  EXPECT_EQ(report["options"]["segment.alpha"], "40");
+}
+
+TEST(Presets, only_name_options_that_exist) {
+  for (const auto& preset : presets()) {
+    Options options;
+    auto lists = option_lists(options);
+    for (const auto& [key, value] : preset.values) {
+      const auto set = set_option(lists, key, value);
+      EXPECT_TRUE(set) << preset.name << ": " << base::to_string(set.error());
+    }
+  }
+}
+
+TEST(SetOption, names_the_nearest_option_for_a_misspelt_one) {
+  Options options;
+  auto lists = option_lists(options);
+  const auto set = set_option(lists, "sweep.gama", "5");
+  ASSERT_FALSE(set);
+  EXPECT_EQ(set.error().code, "option-unknown");
+  EXPECT_THAT(set.error().message, testing::HasSubstr("'sweep.gamma'"));
+}
+
+TEST(OptionLists, have_a_meaning_for_every_option_and_no_name_twice) {
+  Options options;
+  std::set<std::string> names;
+  for (const auto& list : option_lists(options))
+    for (const auto& option : list.options()) {
+      EXPECT_FALSE(option.meaning.empty()) << option.name;
+      EXPECT_TRUE(names.insert(list.room() + "." + option.name).second) << option.name;
+      if (!option.alias.empty()) {
+        EXPECT_TRUE(names.insert(option.alias).second) << option.alias;
+      }
+    }
+}
+
+TEST(Codes, are_listed_once_with_cause_and_remedy) {
+  std::set<std::string> seen;
+  for (const auto& code : codes()) {
+    EXPECT_TRUE(seen.insert(code.code).second) << code.code;
+    EXPECT_FALSE(code.cause.empty() || code.remedy.empty()) << code.code;
+  }
+}
+
+TEST(Pictures, are_drawn_for_a_reconstruction) {
+  const auto scene = test::lone_house();
+  const auto r = reconstructed(scene);
+  const auto p = pictures(r, scene, 2.0);
+  for (const auto* image : {&p.above, &p.angle, &p.error}) {
+    EXPECT_GT(image->width, 100U);
+    EXPECT_EQ(image->pixels.size(), 3 * image->width * image->height);
+  }
+}
+
+}  // namespace
+}  // namespace mansard::pipeline
