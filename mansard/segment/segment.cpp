@@ -89,7 +89,7 @@ auto choose(const fracture::Arrangement& arrangement, const sweep::SweepEdges& e
   segmentation.conflicts = pairs.size();
   segmentation.warnings = answer.warnings;
 
-  detail::make_parts(arrangement, evidence, label_of_face, segmentation);
+  detail::make_parts(arrangement, evidence, label_of_face, options.narrow, segmentation);
   segmentation.faces = std::move(evidence.faces);
   run.report("segment", block.name, 1);
   return segmentation;
@@ -120,6 +120,8 @@ auto option_list(Options& o) -> base::OptionList {
           .number("min_height", o.min_height, "m", {0, 1000}, "… and its median height above ground is at least this.")
           .number("exposed", o.exposed, "", {0, 1e6},
                   "Faces with more wall-less boundary than this share of the rest are peeled off.")
+          .number("narrow", o.narrow, "m", {0, 100},
+                  "Parts of less mean width go to their neighbour, or are left out as strips outside a wall; 0 keeps them.")
           .whole("samples", o.samples, "", {9, 100000}, "Height samples per face, at most.")
           .number("seconds", o.seconds, "s", {0, 1e6}, "Time limit per block; none: until proven optimal.")
           .whole("nodes", o.nodes, "", {0, 1e9}, "Limit of branch-and-bound nodes per solve."));

@@ -41,6 +41,7 @@ struct Options {
   double gis_ratio = 0.44;      ///< a face is inside when at least this part of it is inside the footprints …
   double min_height = 2.0;      ///< m; … and its median height above ground at least this
   double exposed = 0.4;         ///< faces with more wall-less boundary than this share of the rest are peeled off
+  double narrow = 1.0;          ///< m; parts of less mean width go to their neighbour, or out; 0 keeps them
   std::int64_t samples = 64;    ///< height samples per face, at least 9
   std::optional<double> seconds;  ///< time limit per block; none: until proven optimal or the node limit
   std::int64_t nodes = 100000;    ///< branch-and-bound nodes per solve

@@ -183,6 +183,7 @@ TEST(Choose, forbids_slivers_by_phi_but_not_thin_walls_seen_from_both_sides) {
   Case c{AsciiMap(std::vector<std::string>(4, "AAAABCCCC"), 1), {{'A', 8}, {'B', 20}, {'C', 8}}, {"ABC"}, {}};
   c.map.wall({4, 0}, {4, 4}, 0);  // northwards: its outside is A
   c.map.wall({5, 4}, {5, 0}, 1);  // southwards: its outside is C
+  c.options.narrow = 0;           // what the program chooses, without what happens afterwards
   c.options.thin_rule = ThinRule::unsupported;
   Segmentation s = c.run();
   EXPECT_EQ(s.parts.size(), 3U);
@@ -215,11 +216,35 @@ TEST(Choose, exempts_no_two_walls_that_face_the_same_way) {
 TEST(Choose, counts_a_sliver_along_the_outline) {
   Case c{AsciiMap({"BAAAA", "BAAAA", "BAAAA", "BAAAA"}, 1), {{'A', 8}, {'B', 8}}, {"AB"}, {}};
   c.map.wall({1, 0}, {1, 4}, 0);
+  c.options.narrow = 0;
   Segmentation s = c.run();
   EXPECT_EQ(s.conflicts, 1U);
   EXPECT_EQ(s.parts.size(), 2U) << "160 for not using the wall, 11 for the sliver";
   c.options.phi = 20;
   EXPECT_EQ(c.run().parts.size(), 1U);
+}
+
+TEST(Choose, gives_narrow_parts_to_their_neighbour_or_leaves_them_out) {
+  // A strip 0.75 m wide on average along the west wall: part of the roof when it is level with it, no roof when not.
+  const auto strip_at = [](double height, double narrow) {
+    Case c{AsciiMap({"BAAAA", "BAAAA", "BAAAA", "BAAAA"}, 1), {{'A', 8}, {'B', height}}, {"AB"}, {}};
+    c.map.wall({1, 0}, {1, 4}, 0);
+    c.options.narrow = narrow;
+    return c.run();
+  };
+  const auto level = strip_at(8.5, 1), low = strip_at(4, 1), kept = strip_at(4, 0);
+  ASSERT_EQ(level.parts.size(), 1U);
+  EXPECT_NEAR(geometry::area(level.parts[0].polygon), 20, 1e-6);
+  ASSERT_EQ(low.parts.size(), 1U);
+  EXPECT_NEAR(geometry::area(low.parts[0].polygon), 16, 1e-6);
+  EXPECT_EQ(low.warnings.at(0).code, "segment-part-small");
+  EXPECT_EQ(kept.parts.size(), 2U);
+}
+
+TEST(Choose, keeps_a_narrow_part_that_is_all_of_its_feature) {
+  Case c{AsciiMap({"BAAAA", "BAAAA", "BAAAA", "BAAAA"}, 1), {{'A', 8}, {'B', 4}}, {"A", "B"}, {}};
+  const auto s = c.run();
+  EXPECT_EQ(s.parts.size(), 2U);
 }
 
 TEST(Choose, leaves_out_what_is_low_or_outside_the_footprints) {
@@ -391,7 +416,7 @@ TEST(Options, list_every_member_once_with_its_default) {
   Options options;
   const base::OptionList list = option_list(options);
   EXPECT_EQ(list.room(), "segment");
-  EXPECT_EQ(list.options().size(), 15U);
+  EXPECT_EQ(list.options().size(), 16U);
   std::set<std::string> names;
   for (const auto& option : list.options()) names.insert(option.name);
   EXPECT_EQ(names.size(), list.options().size());

@@ -114,7 +114,8 @@ auto party_lines(const block::Block& block) -> std::vector<Segment2> {
 auto torn_lines(const block::Block& block, const sweep::SweepEdges& sweeps) -> std::vector<Segment2> {
   constexpr double reach = 1.5;       // m; how far beside the GIS edge its wall may have been found
   constexpr double sine = 0.3;        // … and how far turned
-  constexpr double least_piece = 1.0; // m; shorter stretches are left to the continuations
+  constexpr double least_edge = 1.0;   // m; of an edge of which nothing is known
+  constexpr double least_piece = 1.5;  // m; what is shorter beside a known wall is left to that wall's continuation
   std::vector<std::vector<Segment2>> edges;
   for (const auto& member : block.members) edges.push_back(edges_of(member));
   std::vector<Segment2> lines;
@@ -131,13 +132,14 @@ auto torn_lines(const block::Block& block, const sweep::SweepEdges& sweeps) -> s
       for (std::size_t n = 0; n < edges.size(); ++n)
         if (n != m)
           for (const Segment2& other : edges[n]) look(other, near, parallel_sine);
-      double from = 0;
       const double length = geometry::length(edge.end - edge.start);
-      for (const auto& [first, last] : merged(std::move(known))) {
+      if (known.empty()) add_piece(edge, 0, length, least_edge, lines);
+      double from = 0;
+      for (const auto& [first, last] : merged(known)) {
         add_piece(edge, from, first, least_piece, lines);
         from = last;
       }
-      add_piece(edge, from, length, least_piece, lines);
+      if (!known.empty()) add_piece(edge, from, length, least_piece, lines);
     }
   return longest_first(std::move(lines));
 }

@@ -1,6 +1,7 @@
 #include "mansard/segment/detail/parts.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <tuple>
@@ -15,6 +16,7 @@ namespace {
 using LabelOfFace = std::vector<std::optional<std::uint32_t>>;
 
 constexpr double smallest_part = 1.0;      ///< m²
+constexpr double same_height = 2.0;        ///< m; strips within this of their neighbour's height are part of its roof
 constexpr double collinear = 0.01;         ///< m; corners this near to the edge without them are dropped
 constexpr double opening = 0.01;           ///< m; how far a part that touches itself draws back
 constexpr double least_cover = 1.0 / 3.0;  ///< of an edge, from which a sweep-edge counts as its origin
@@ -67,28 +69,6 @@ auto best_neighbour(const fracture::Arrangement& arrangement, const std::vector<
   return best;
 }
 
-void take_up_small_parts(const fracture::Arrangement& arrangement, const Evidence& evidence,
-                         LabelOfFace& label_of_face, std::vector<base::Diagnostic>& warnings) {
-  for (;;) {
-    const auto faces = faces_by_label(label_of_face);
-    std::map<std::uint32_t, std::optional<std::size_t>> features;
-    std::optional<std::pair<double, std::uint32_t>> smallest;
-    for (const auto& [label, members] : faces) {
-      features[label] = feature_of(arrangement, evidence, members);
-      const double area = area_of(arrangement, members);
-      if (area < smallest_part && (!smallest || std::pair(area, label) < *smallest)) smallest = {area, label};
-    }
-    if (!smallest) return;
-    const auto& members = faces.at(smallest->second);
-    const auto into = best_neighbour(arrangement, members, label_of_face, features);
-    for (const std::uint32_t f : members) label_of_face[f] = into;
-    warnings.push_back(base::warning(
-        "segment-part-small", "a part of " + base::to_text(smallest->first, 2) + " m² " +
-                                  (into ? "was joined to its neighbour" : "was left out: it has no neighbour to join"),
-        "face " + std::to_string(members.front())));
-  }
-}
-
 /// Median over the faces' samples, each weighted by the area it stands for; where the mesh showed nothing, over faces.
 auto height_of(const fracture::Arrangement& arrangement, const Evidence& evidence,
                const std::vector<std::uint32_t>& faces) -> double {
@@ -106,6 +86,72 @@ auto height_of(const fracture::Arrangement& arrangement, const Evidence& evidenc
   for (const auto& [z, area] : weighted)
     if ((sum += area) >= total / 2) return z;
   return weighted.back().first;
+}
+
+/// 2 × area over perimeter: the width of a long strip.
+auto width_of(const fracture::Arrangement& arrangement, const std::vector<std::uint32_t>& faces,
+              const LabelOfFace& label_of_face, double area) -> double {
+  double perimeter = 0;
+  for (const std::uint32_t f : faces) {
+    std::uint32_t h = arrangement.faces[f].edge;
+    do {
+      const auto other = arrangement.half_edges[arrangement.half_edges[h].twin].face;
+      if (!other || label_of_face[*other] != label_of_face[f]) perimeter += length_of(arrangement, h);
+      h = arrangement.half_edges[h].next;
+    } while (h != arrangement.faces[f].edge);
+  }
+  return 2 * area / perimeter;
+}
+
+auto reaches_outside(const fracture::Arrangement& arrangement, const std::vector<std::uint32_t>& faces,
+                     const LabelOfFace& label_of_face) -> bool {
+  return std::ranges::any_of(faces, [&](std::uint32_t f) {
+    std::uint32_t h = arrangement.faces[f].edge;
+    do {
+      const auto other = arrangement.half_edges[arrangement.half_edges[h].twin].face;
+      if (!other || !label_of_face[*other]) return true;
+      h = arrangement.half_edges[h].next;
+    } while (h != arrangement.faces[f].edge);
+    return false;
+  });
+}
+
+/// Parts too small or too narrow to be a building of their own go to their neighbour in the same feature. A strip along
+/// the outside at another height is no roof but the space between a wall and a footprint drawn too wide: it is left out.
+void take_up_small_parts(const fracture::Arrangement& arrangement, const Evidence& evidence,
+                         LabelOfFace& label_of_face, double narrow, std::vector<base::Diagnostic>& warnings) {
+  std::set<std::uint32_t> kept;  // narrow, but all there is of their feature
+  for (;;) {
+    const auto faces = faces_by_label(label_of_face);
+    std::map<std::uint32_t, std::optional<std::size_t>> features;
+    std::optional<std::pair<double, std::uint32_t>> smallest;
+    for (const auto& [label, members] : faces) {
+      features[label] = feature_of(arrangement, evidence, members);
+      const double area = area_of(arrangement, members);
+      if (kept.contains(label) || (smallest && std::pair(area, label) > *smallest)) continue;
+      if (area < smallest_part || width_of(arrangement, members, label_of_face, area) < narrow)
+        smallest = {area, label};
+    }
+    if (!smallest) return;
+    const auto [area, label] = *smallest;
+    const auto& members = faces.at(label);
+    auto into = best_neighbour(arrangement, members, label_of_face, features);
+    if (area >= smallest_part && !into) {
+      kept.insert(label);
+      continue;
+    }
+    const bool apart = into && area >= smallest_part && reaches_outside(arrangement, members, label_of_face) &&
+                       std::abs(height_of(arrangement, evidence, members) -
+                                height_of(arrangement, evidence, faces.at(*into))) > same_height;
+    if (apart) into.reset();
+    for (const std::uint32_t f : members) label_of_face[f] = into;
+    warnings.push_back(base::warning(
+        "segment-part-small",
+        "a part of " + base::to_text(area, 2) + " m² " +
+            (into ? "was joined to its neighbour" : apart ? "was left out: a strip outside the wall, at another height"
+                                                          : "was left out: it has no neighbour to join"),
+        "face " + std::to_string(members.front())));
+  }
 }
 
 auto origin_of(const fracture::Arrangement& arrangement, const std::vector<std::uint32_t>& half_edges,
@@ -207,8 +253,8 @@ auto draw(const fracture::Arrangement& arrangement, const LabelOfFace& part_of_f
 }  // namespace
 
 void make_parts(const fracture::Arrangement& arrangement, const Evidence& evidence, LabelOfFace label_of_face,
-                Segmentation& segmentation) {
-  take_up_small_parts(arrangement, evidence, label_of_face, segmentation.warnings);
+                double narrow, Segmentation& segmentation) {
+  take_up_small_parts(arrangement, evidence, label_of_face, narrow, segmentation.warnings);
 
   for (;;) {
     struct Order {
