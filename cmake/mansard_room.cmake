@@ -3,7 +3,6 @@
 find_package(PkgConfig REQUIRED)
 find_package(TBB REQUIRED)
 find_package(GDAL REQUIRED)
-find_package(PROJ REQUIRED)
 find_package(OpenSSL REQUIRED)
 find_package(PNG REQUIRED)
 find_package(nlohmann_json REQUIRED)

@@ -1,5 +1,5 @@
 # The doors of the house, on one screen. A room may include a room it DEPENDS on, and nothing else;
-# tools/check_doors.py holds every #include against this list. USES names the libraries behind that door.
+# tools/check_doors.cmake holds every #include against this list. USES names the libraries behind that door.
 #
 #              room       doors                                                        libraries
 mansard_room(base                                                             USES TBB::tbb)
@@ -7,7 +7,7 @@ mansard_room(geometry DEPENDS base                                            US
 mansard_room(rays     DEPENDS base geometry                                   USES embree)
 mansard_room(solver   DEPENDS base                                            USES CBC::cbc)
 
-mansard_room(ingest   DEPENDS base geometry                                   USES GDAL::GDAL PROJ::proj tinygltf OpenSSL::Crypto)
+mansard_room(ingest   DEPENDS base geometry                                   USES GDAL::GDAL tinygltf OpenSSL::Crypto)
 mansard_room(block    DEPENDS base geometry ingest)
 mansard_room(slice    DEPENDS base geometry block)
 mansard_room(sweep    DEPENDS base geometry block slice)

@@ -20,6 +20,8 @@ auto codes() -> std::vector<base::Code> {
        usage},
       {"output-exists", "The output folder holds results already, and nothing is overwritten silently.",
        "Choose another folder, or say --overwrite.", usage},
+      {"output-input", "A result would take the place of an input, or lie among the meshes of an input folder.",
+       "Choose an output folder apart from the inputs.", usage},
       {"config", "The configuration file is not TOML, or a value in it has the wrong kind.",
        "Options are keys in a table per room: [sweep] gamma = 10.", option_invalid},
       {"code-unknown", "There is no such diagnostic code.", "'mansard explain' alone lists them all.", usage},

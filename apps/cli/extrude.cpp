@@ -52,34 +52,44 @@ auto raise_all(write::City& city, const pipeline::Options& options, const base::
 }
 
 /// One file when OUT names one by its ending, all formats in a folder otherwise.
-auto write_out(const write::City& city, const Request& request) -> base::Result<void> {
-  const fs::path out(request.out);
-  const std::string name = out.filename().string();
-  const auto single = name.ends_with(".json") || out.extension() == ".obj" || out.extension() == ".glb";
-  if (!single) {
-    if (auto ready = prepare(out, request.overwrite); !ready) return ready;
-    auto files = model_files(city);
-    if (!files) return files.error();
-    for (const auto& [file, bytes] : *files)
-      if (auto written = base::write_file(out / file, bytes); !written) return written;
-    return {};
+auto is_file(const fs::path& out) -> bool {
+  return out.filename().string().ends_with(".json") || out.extension() == ".obj" || out.extension() == ".glb";
+}
+
+/// The files that OUT stands for.
+auto outputs(const fs::path& out) -> std::vector<fs::path> {
+  std::vector<fs::path> all;
+  if (!is_file(out)) {
+    for (const auto* name : result_names) all.push_back(out / name);
+    return all;
   }
-  if (fs::exists(out) && !request.overwrite)
-    return base::error("output-exists", "this file is there already; choose another, or say --overwrite", out.string());
-  if (out.extension() == ".glb") {
-    const auto bytes = write::glb(city);
-    return bytes ? base::write_file(out, *bytes) : bytes.error();
+  all.push_back(out);
+  if (out.extension() == ".obj") all.push_back(fs::path(out).replace_extension(".mtl"));
+  return all;
+}
+
+auto check_outputs(const Request& request) -> base::Result<void> {
+  if (auto spared = spare_inputs(outputs(request.out), {request.plan}); !spared) return spared;
+  if (!is_file(request.out)) return prepare(request.out, request.overwrite);
+  for (const auto& file : outputs(request.out))
+    if (auto usable = file_free(file, request.overwrite); !usable) return usable;
+  return {};
+}
+
+auto write_out(const write::City& city, const Request& request, const base::Cancel& cancel) -> base::Result<void> {
+  const fs::path out(request.out);
+  if (!is_file(out)) {
+    auto files = model_files(city);
+    return files ? write_files(out, *files, {}, {}, cancel) : files.error();
   }
   if (out.extension() == ".obj") {
-    auto library = out;
-    library.replace_extension(".mtl");
+    const auto library = fs::path(out).replace_extension(".mtl");
     const auto files = write::obj(city, library.filename().string());
     if (!files) return files.error();
-    if (auto written = base::write_file(library, files->mtl); !written) return written;
-    return base::write_file(out, files->obj);
+    return base::write_files({{library, files->mtl}, {out, files->obj}}, &cancel);
   }
-  const auto text = write::cityjson(city);
-  return text ? base::write_file(out, *text) : text.error();
+  const auto bytes = out.extension() == ".glb" ? write::glb(city) : write::cityjson(city);
+  return bytes ? base::write_files({{out, *bytes}}, &cancel) : bytes.error();
 }
 
 auto extrude(const Request& request, const base::Cancel& cancel) -> int {
@@ -87,10 +97,11 @@ auto extrude(const Request& request, const base::Cancel& cancel) -> int {
   if (auto applied = request.settings.apply(options); !applied) return give_up(applied.error());
   auto city = write::read_plans(request.plan);
   if (!city) return give_up(city.error());
+  if (auto ready = check_outputs(request); !ready) return give_up(ready.error());
   city->made_by.version = MANSARD_VERSION;
   const auto fell_back = raise_all(*city, options, cancel);
   if (!fell_back) return give_up(fell_back.error());
-  if (auto written = write_out(*city, request); !written) return give_up(written.error());
+  if (auto written = write_out(*city, request, cancel); !written) return give_up(written.error());
   std::printf("%s\n", request.out.c_str());
   return *fell_back == 0 ? all_done : some_fell_back;
 }

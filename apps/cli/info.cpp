@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/cli/exit.hpp"
+#include "apps/cli/settings.hpp"
 #include "apps/cli/verbs.hpp"
 #include "mansard/pipeline/pipeline.hpp"
 
@@ -43,7 +44,7 @@ void print_text(const std::vector<base::OptionList>& lists) {
     for (const auto& option : list.options())
       std::printf("  %-16s %-10s %-4s %-18s %s%s\n", option.name.c_str(),
                   option.get().empty() ? "-" : option.get().c_str(), option.unit.c_str(), range_text(option).c_str(),
-                  option.meaning.c_str(), option.alias.empty() ? "" : ("  (--" + option.alias + ")").c_str());
+                  option.meaning.c_str(), option.alias.empty() ? "" : ("  (--" + dashed(option.alias) + ")").c_str());
   }
   std::puts("\npresets:");
   for (const auto& preset : pipeline::presets()) {

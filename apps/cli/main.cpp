@@ -2,6 +2,7 @@
 #include <csignal>
 #include <cstdio>
 #include <new>
+#include <unistd.h>
 #include <vector>
 
 #include "apps/cli/exit.hpp"
@@ -14,8 +15,8 @@ namespace {
 base::Cancel cancel;  // NOLINT: a signal handler can only reach a global
 
 void on_interrupt(int) {
+  if (cancel.requested()) ::_exit(cancelled);  // the second Ctrl-C ends it at once
   cancel.request();
-  std::signal(SIGINT, SIG_DFL);  // a second Ctrl-C ends it at once
 }
 
 /// A misspelt option, with the nearest known one.
@@ -26,7 +27,7 @@ auto unknown_option(const CLI::App& verb) -> std::optional<base::Diagnostic> {
     const auto nearest = base::nearest_word(name, Settings::names(verb));
     return base::error("option-unknown",
                        "there is no such option" + (nearest ? "; did you mean '" + *nearest + "'?" : std::string()) +
-                           " See 'mansard " + verb.get_name() + " --help-all'",
+                           "; see 'mansard " + verb.get_name() + " --help-all'",
                        name);
   }
   return std::nullopt;
@@ -51,7 +52,13 @@ auto run(int argc, char** argv) -> int {
     for (const auto& verb : verbs) names.push_back(verb.app->get_name());
     const std::string first = argc > 1 ? argv[1] : "";
     const auto nearest = app.get_subcommands().empty() ? base::nearest_word(first, names) : std::nullopt;
-    return give_up(base::error("usage", std::string(e.what()) + (nearest ? "; did you mean '" + *nearest + "'?" : "")));
+    const auto* verb = app.get_subcommands().empty() ? nullptr : app.get_subcommands().front();
+    if (verb != nullptr && (dynamic_cast<const CLI::ValidationError*>(&e) != nullptr ||
+                            dynamic_cast<const CLI::ConversionError*>(&e) != nullptr))
+      return give_up(base::error("option-value", std::string(e.what()) + "; see 'mansard " + verb->get_name() + " --help'"));
+    const std::string what = verb == nullptr && !first.empty() ? "'" + first + "' is no verb" : std::string(e.what());
+    return give_up(base::error("usage", what + (nearest ? "; did you mean '" + *nearest + "'?" : "") + "; see 'mansard " +
+                                            (verb != nullptr ? verb->get_name() + " " : "") + "--help'"));
   }
   for (const auto& verb : verbs) {
     if (!verb.app->parsed()) continue;
@@ -72,6 +79,7 @@ auto main(int argc, char** argv) -> int {
   namespace cli = mansard::cli;
   std::signal(SIGINT, cli::on_interrupt);
   std::signal(SIGTERM, cli::on_interrupt);
+  std::signal(SIGHUP, cli::on_interrupt);
   try {
     return cli::run(argc, argv);
   } catch (const std::bad_alloc&) {

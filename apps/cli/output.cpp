@@ -1,5 +1,8 @@
 #include "apps/cli/output.hpp"
 
+#include <algorithm>
+#include <unistd.h>
+
 #include "mansard/base/files.hpp"
 
 namespace mansard::cli {
@@ -24,6 +27,47 @@ auto prepare(const fs::path& folder, bool overwrite) -> base::Result<void> {
     return base::error("file-write", "cannot write into this folder; choose a place that can be written", folder.string());
   fs::remove(probe, status);
   return {};
+}
+
+auto spare_inputs(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) -> base::Result<void> {
+  for (const auto& output : outputs)
+    for (const auto& input : inputs) {
+      std::error_code status;
+      const auto from = fs::weakly_canonical(input, status), to = fs::weakly_canonical(output, status);
+      const bool same = from == to || fs::equivalent(input, output, status);
+      const auto [end, ignored] = std::mismatch(from.begin(), from.end(), to.begin(), to.end());
+      if (same || (fs::is_directory(input, status) && end == from.end()))
+        return base::error("output-input",
+                           same ? "this is an input, which would be lost; choose another place for the results"
+                                : "this lies in the input folder '" + input.string() +
+                                      "', whose meshes the results would join; choose another place for them",
+                           output.string());
+    }
+  return {};
+}
+
+auto file_free(const fs::path& path, bool overwrite) -> base::Result<void> {
+  std::error_code status;
+  if (fs::is_directory(path, status))
+    return base::error("output-exists", "this is a folder, and the output is a file; choose another name", path.string());
+  if (fs::exists(path, status) && !overwrite)
+    return base::error("output-exists", "this file is there already; choose another, or say --overwrite", path.string());
+  auto folder = path.parent_path();
+  if (folder.empty()) folder = ".";
+  if (!fs::is_directory(folder, status))
+    return base::error("file-write", "there is no folder '" + folder.string() + "' for it; make it, or choose another place",
+                       path.string());
+  if (::access(folder.c_str(), W_OK) != 0)
+    return base::error("file-write", "cannot write into its folder; choose a place that can be written", path.string());
+  return {};
+}
+
+auto write_files(const fs::path& folder, const std::vector<std::pair<std::string, std::string>>& named,
+                 const fs::path& copy, std::string_view copied, const base::Cancel& cancel) -> base::Result<void> {
+  std::vector<base::FileToWrite> files;
+  for (const auto& [name, bytes] : named) files.push_back({folder / name, bytes});
+  if (!copy.empty()) files.push_back({copy, copied});
+  return base::write_files(files, &cancel);
 }
 
 auto model_files(const write::City& city) -> base::Result<std::vector<std::pair<std::string, std::string>>> {

@@ -1,12 +1,15 @@
 // The output folder: nothing is overwritten silently, and files appear whole or not at all.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "mansard/base/result.hpp"
+#include "mansard/base/run.hpp"
 #include "mansard/write/write.hpp"
 
 namespace mansard::cli {
@@ -14,6 +17,23 @@ namespace mansard::cli {
 /// Checks that the folder is empty or may be overwritten, makes it, and checks that it can be written, before any work.
 /// Gives up with "output-exists", "file-write".
 [[nodiscard]] auto prepare(const std::filesystem::path& folder, bool overwrite) -> base::Result<void>;
+
+/// Gives up with "output-input" where an output would replace an input, or lie in a folder that is one.
+[[nodiscard]] auto spare_inputs(const std::vector<std::filesystem::path>& outputs,
+                                const std::vector<std::filesystem::path>& inputs) -> base::Result<void>;
+
+/// Checks that a file can be written there and replaces nothing unasked. Gives up with "output-exists", "file-write".
+[[nodiscard]] auto file_free(const std::filesystem::path& path, bool overwrite) -> base::Result<void>;
+
+/// All of the files into the folder, and `copied` to `copy` unless that is empty; or none of them.
+[[nodiscard]] auto write_files(const std::filesystem::path& folder,
+                               const std::vector<std::pair<std::string, std::string>>& named,
+                               const std::filesystem::path& copy, std::string_view copied, const base::Cancel& cancel)
+    -> base::Result<void>;
+
+/// Every name that a folder of results may have.
+inline constexpr std::array result_names{"model.city.json", "model.obj",   "model.mtl", "model.glb", "plans.json",
+                                         "run.json",        "picture.png", "above.png", "error.png"};
 
 /// Names and contents of the model files: model.city.json, model.obj, model.mtl, model.glb, plans.json.
 [[nodiscard]] auto model_files(const write::City& city)

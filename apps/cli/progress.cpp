@@ -2,9 +2,33 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "mansard/base/text.hpp"
+
 namespace mansard::cli {
+
+namespace {
+
+/// As much of the line as the terminal is wide: a bar that wraps cannot be wiped out again.
+auto fitted(std::string line) -> std::string {
+  winsize size{};
+  const std::size_t columns = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+  std::size_t shown = 0;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(line[i]);
+    if (byte < 0x20 || byte == 0x7f) line[i] = ' ';
+    if ((byte & 0xc0) == 0x80) continue;  // goes on with a letter of several bytes
+    if (++shown >= columns) {
+      line.resize(i);
+      break;
+    }
+  }
+  return line;
+}
+
+}  // namespace
 
 Progress::Progress(bool quiet)
     : quiet_(quiet), terminal_(::isatty(STDERR_FILENO) != 0), start_(std::chrono::steady_clock::now()) {}
@@ -39,10 +63,11 @@ void Progress::show(std::string_view stage, std::string_view subject, double fra
     const int seconds = static_cast<int>(spent * (1 - fraction) / fraction + 0.5);
     left = std::to_string(seconds) + " s left";
   }
-  std::fprintf(stderr, "\r\x1b[K[%s%s] %3.0f %%  %.*s %.*s  %s", std::string(static_cast<std::size_t>(full), '#').c_str(),
-               std::string(static_cast<std::size_t>(width - full), '.').c_str(), 100 * fraction,
-               static_cast<int>(stage.size()), stage.data(), static_cast<int>(subject.size()), subject.data(),
-               left.c_str());
+  std::string line = "[" + std::string(static_cast<std::size_t>(full), '#') +
+                     std::string(static_cast<std::size_t>(width - full), '.') + "] " +
+                     base::to_text(100 * fraction, 0) + " %  " + left + (left.empty() ? "" : "  ");
+  line += std::string(stage) + " " + std::string(subject);
+  std::fprintf(stderr, "\r\x1b[K%s", fitted(std::move(line)).c_str());
   std::fflush(stderr);
   drawn_ = true;
 }

@@ -61,10 +61,19 @@ auto write_all(const Request& request, const pipeline::Reconstruction& result, c
     }
   }
   if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
-  for (const auto& [name, bytes] : *files)
-    if (auto written = base::write_file(fs::path(request.out) / name, bytes); !written) return written;
-  if (!request.report.empty()) return base::write_file(request.report, report);
-  return {};
+  return write_files(request.out, *files, request.report, report, *run.cancel);
+}
+
+/// Whatever may be wrong with the outputs, before any work.
+auto check_outputs(const Request& request) -> base::Result<void> {
+  const std::vector<fs::path> inputs(request.inputs.begin(), request.inputs.end());
+  std::vector<fs::path> outputs;
+  for (const auto* name : result_names) outputs.push_back(fs::path(request.out) / name);
+  if (!request.report.empty()) outputs.emplace_back(request.report);
+  if (auto spared = spare_inputs(outputs, inputs); !spared) return spared;
+  if (!request.report.empty())
+    if (auto usable = file_free(request.report, request.overwrite); !usable) return usable;
+  return prepare(request.out, request.overwrite);
 }
 
 auto reconstruct(const Request& request, const base::Cancel& cancel) -> int {
@@ -72,7 +81,7 @@ auto reconstruct(const Request& request, const base::Cancel& cancel) -> int {
     return give_up(base::error("usage", "reconstruct takes one mesh or more, then the footprints"));
   pipeline::Options options;
   if (auto applied = request.settings.apply(options); !applied) return give_up(applied.error());
-  if (auto ready = prepare(request.out, request.overwrite); !ready) return give_up(ready.error());
+  if (auto ready = check_outputs(request); !ready) return give_up(ready.error());
   base::limit_threads(request.jobs);
 
   Progress progress(request.quiet);
@@ -111,7 +120,8 @@ auto reconstruct_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
   verb->add_option("--error-limit", request->error_limit, "Ends of the error map's colour scale [m]")
       ->check(CLI::Range(0.01, 1000.0));
   verb->add_option("--report", request->report, "Write the report (run.json) here too")->type_name("FILE");
-  verb->add_option("-j,--jobs", request->jobs, "Threads; 0 for one per core. The result is the same at any number");
+  verb->add_option("-j,--jobs", request->jobs, "Threads; 0 for one per core. The result is the same at any number")
+      ->check(CLI::Range(0, 1024));
   verb->add_flag("-q,--quiet", request->quiet, "No progress, no summary");
   verb->add_flag("-v,--verbose", request->verbose, "Name the reason of every building that is not in full");
   verb->set_help_all_flag("--help-all", "Show this and every room's options");

@@ -9,11 +9,6 @@
 namespace mansard::cli {
 namespace {
 
-auto dashed(std::string text) -> std::string {
-  std::ranges::replace(text, '_', '-');
-  return text;
-}
-
 auto joined(const std::vector<std::string>& words) -> std::string {
   std::string all;
   for (const auto& word : words) all += (all.empty() ? "" : " ") + word;
@@ -101,6 +96,11 @@ auto apply_config(std::vector<base::OptionList>& lists, const std::string& path)
 
 }  // namespace
 
+auto dashed(std::string text) -> std::string {
+  std::ranges::replace(text, '_', '-');
+  return text;
+}
+
 void Settings::add_to(CLI::App& verb) {
   verb.add_option("--config", config_, "Options from a TOML file, a table per room")->type_name("FILE");
   verb.add_option("--preset", preset_, "Start from a preset: paper, chordatlas")->type_name("NAME");
@@ -132,6 +132,9 @@ auto Settings::apply(pipeline::Options& options) const -> base::Result<void> {
     if (auto done = apply_config(lists, config_); !done) return done;
   for (const auto& given : given_) {
     if (given.option->count() == 0) continue;
+    if (const auto times = given.option->count() / std::max<std::size_t>(1, static_cast<std::size_t>(given.option->get_items_expected_max()));
+        !given.flag && times > 1)
+      return base::error("option-value", "it is given " + std::to_string(times) + " times; give it once", given.key);
     const std::string value = given.flag && joined(given.words).empty() ? "true" : joined(given.words);
     if (auto done = pipeline::set_option(lists, given.key, value); !done) return done;
   }

@@ -10,6 +10,9 @@
 
 namespace mansard::cli {
 
+/// An option's name as it is typed: with dashes.
+[[nodiscard]] auto dashed(std::string text) -> std::string;
+
 /// Every option of every room as `--room-name VALUE` (and its alias), with `--config` and `--preset`.
 class Settings {
  public:

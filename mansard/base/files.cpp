@@ -16,24 +16,40 @@ using File = std::unique_ptr<std::FILE, Close>;
 
 }  // namespace
 
-auto write_file(const std::filesystem::path& path, std::string_view bytes) -> Result<void> {
-  auto beside = path;
-  beside += ".part" + std::to_string(::getpid());
-  const auto give_up = [&](const char* step) -> Diagnostic {
-    const std::string why = std::strerror(errno);
-    std::error_code ignored;
-    std::filesystem::remove(beside, ignored);
-    return error("file-write", std::string("cannot ") + step + ": " + why + "; choose a place that can be written",
-                 path.string());
+auto write_files(const std::vector<FileToWrite>& files, const Cancel* cancel) -> Result<void> {
+  const auto beside = [](const FileToWrite& file) {
+    auto path = file.path;
+    return path += ".part" + std::to_string(::getpid());
   };
-  {
-    File file(std::fopen(beside.c_str(), "wb"));
-    if (!file) return give_up("write");
-    if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size()) return give_up("write");
-    if (std::fclose(file.release()) != 0) return give_up("write");
+  const auto clean_up = [&] {
+    std::error_code ignored;
+    for (const auto& file : files) std::filesystem::remove(beside(file), ignored);
+  };
+  const auto give_up = [&](const std::string& what, const FileToWrite& file) -> Diagnostic {
+    clean_up();
+    return error("file-write", what + "; choose a place that can be written and has room", file.path.string());
+  };
+  for (const auto& file : files) {
+    // Renaming onto a folder fails only when others are in place already.
+    std::error_code status;
+    if (std::filesystem::is_directory(file.path, status)) return give_up("cannot write: this is a folder", file);
+    File out(std::fopen(beside(file).c_str(), "wb"));
+    const bool written = out && std::fwrite(file.bytes.data(), 1, file.bytes.size(), out.get()) == file.bytes.size() &&
+                         std::fclose(out.release()) == 0;
+    if (!written) return give_up(std::string("cannot write: ") + std::strerror(errno), file);
+    if (cancel != nullptr && cancel->requested()) {
+      clean_up();
+      return error("cancelled", "stopped on request; nothing was written");
+    }
   }
-  if (std::rename(beside.c_str(), path.c_str()) != 0) return give_up("rename into place");
+  for (const auto& file : files)
+    if (std::rename(beside(file).c_str(), file.path.c_str()) != 0)
+      return give_up(std::string("cannot rename into place: ") + std::strerror(errno), file);
   return {};
+}
+
+auto write_file(const std::filesystem::path& path, std::string_view bytes) -> Result<void> {
+  return write_files({{path, bytes}});
 }
 
 auto read_file(const std::filesystem::path& path) -> Result<std::string> {

@@ -43,6 +43,8 @@ auto codes() -> std::vector<base::Code> {
        "Convert it to a polygon; this building is left out.", 1},
       {"ingest-footprint-coordinates", "A footprint has a coordinate that is not a number, or cannot be projected.",
        "Correct it in the source; this building is left out.", 1},
+      {"ingest-footprint-size", "A footprint is kilometres long, as a wrong CRS or a district's outline makes it.",
+       "Check its coordinates and the CRS; this building is left out.", 1},
       {"ingest-footprint-outside", "A footprint lies where there is no mesh at all.",
        "Give the mesh there, or cut the footprints with --bbox; this building is left out.", 1},
       {"ingest-footprint-repaired", "A footprint had a small fault that was repaired.",

@@ -75,6 +75,8 @@ auto defect_without_polygons(const detail::RawFeature& feature) -> base::Diagnos
   return base::error("ingest-footprint-empty", "it has no geometry; remove it, or draw it in the source");
 }
 
+constexpr double largest_building = 5000;  // m; the longest there is has 3 km
+
 /// One footprint in the local frame, with what there is to say about it.
 struct Finished {
   Footprint footprint;
@@ -105,6 +107,9 @@ auto finish(detail::RawFeature feature, std::string id, const Frame& frame, cons
   auto repaired = detail::repair(feature.parts, origin);
   if (repaired.defect) {
     refuse(std::move(*repaired.defect));
+  } else if (const double side = std::max(box.most.x - box.least.x, box.most.y - box.least.y); side > largest_building) {
+    refuse(base::error("ingest-footprint-size", "it is " + base::to_text(side, 0) +
+                                                    " m long, longer than any building; check its coordinates and CRS"));
   } else if (!box.overlaps(mesh)) {
     refuse(
         base::error("ingest-footprint-outside", "it lies outside the mesh; give the mesh there, or cut with --bbox"));
@@ -215,8 +220,11 @@ auto option_list(Options& o) -> base::OptionList {
           .text("crs", o.crs, "CRS to work in: EPSG:n, or local; empty for the footprints', or their UTM zone.")
           .alias("crs")
           .text("id_attribute", o.id_attribute, "Attribute that names a footprint; empty to look for a well-known one.")
+          .alias("id_attribute")
           .text("layer", o.layer, "Layer of the vector file; empty for its first one with polygons.")
+          .alias("layer")
           .text("where", o.where, "Only footprints that pass this filter, as in SQL after WHERE.")
+          .alias("where")
           .numbers("bbox", o.bbox, "m", {-far, far},
                    "Only footprints that meet the box xmin ymin xmax ymax in the working CRS; four zeros for all.")
           .alias("bbox"));

@@ -303,6 +303,52 @@ TEST_F(Command, overwrites_nothing_silently) {
   EXPECT_EQ(reconstruct(at("house.obj"), at("house.geojson"), "--overwrite").exit, 0);
 }
 
+TEST_F(Command, never_writes_over_its_inputs) {
+  fs::create_directory(at("tiles"));
+  fs::copy_file(at("house.obj"), at("tiles") + "/model.obj");
+  const auto over = run("reconstruct -q " + at("tiles") + "/model.obj " + at("house.geojson") + " -o " + at("tiles") + " --overwrite");
+  EXPECT_EQ(over.exit, 2) << over.err;
+  EXPECT_THAT(over.err, HasSubstr("output-input"));
+  EXPECT_EQ(read(at("tiles") + "/model.obj"), house);
+  expect_refusal(reconstruct(at("house.obj"), at("house.geojson"), "--report " + at("house.obj")), 2, "output-input");
+  EXPECT_EQ(read(at("house.obj")), house);
+}
+
+TEST_F(Command, leaves_no_file_behind_when_one_of_them_cannot_be_written) {
+  const auto outcome = reconstruct(at("house.obj"), at("house.geojson"), "--report " + at("no such folder") + "/run.json");
+  EXPECT_EQ(outcome.exit, 3) << outcome.err;
+  EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+  EXPECT_TRUE(!fs::exists(at("out")) || fs::is_empty(at("out")));
+}
+
+TEST_F(Command, refuses_a_footprint_source_whose_crs_is_unknown) {
+  const auto outcome = reconstruct(at("house.obj"), put("odd.geojson", geojson(polygon(square), "EPSG::999999")));
+  expect_refusal(outcome, 3, "ingest-crs-unknown");
+  EXPECT_EQ(reconstruct(at("house.obj"), at("odd.geojson"), "--crs local").exit, 0);
+}
+
+TEST_F(Command, refuses_a_footprint_of_impossible_size_alone) {
+  const std::string good = R"({"type":"Feature","properties":{"id":"good"},"geometry":)" + polygon(square) + "}";
+  for (const auto* ring : {"[-100000,-100000],[100000,-100000],[100000,100000],[-100000,-100000]",
+                           "[0,0],[1e300,0],[1e300,1e300],[0,0]"}) {
+    const std::string bad = R"({"type":"Feature","properties":{"id":"bad"},"geometry":)" + polygon(ring) + "}";
+    const auto outcome = reconstruct(
+        at("house.obj"),
+        put("two.geojson",
+            R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:28992"}},"features":[)" + bad +
+                "," + good + "]}"),
+        "--overwrite");
+    EXPECT_EQ(outcome.exit, 1) << outcome.err;
+    const auto buildings = nlohmann::json::parse(read(at("out") + "/run.json"))["buildings"];
+    EXPECT_EQ(buildings[0]["outcome"], "refused");
+    EXPECT_EQ(buildings[1]["outcome"], "full");
+  }
+}
+
+TEST_F(Command, refuses_a_negative_number_of_jobs) {
+  expect_refusal(reconstruct(at("house.obj"), at("house.geojson"), "-j -1"), 4, "option-value");
+}
+
 TEST_F(Command, refuses_an_output_folder_that_cannot_be_made) {
   const auto outcome = run("reconstruct -q " + at("house.obj") + " " + at("house.geojson") + " -o " + at("house.obj") + "/out");
   EXPECT_EQ(outcome.exit, 3) << outcome.err;

@@ -199,7 +199,7 @@ auto ids_of(const std::vector<RawFeature>& features, const std::string& attribut
       return base::error("ingest-id-attribute",
                          "there is no attribute '" + attribute + "'" +
                              (nearest ? "; did you mean '" + *nearest + "'?" : std::string()) +
-                             " The layer has: " + all,
+                             "; the layer has: " + all,
                          subject);
     }
     auto ids = column(features, *at);

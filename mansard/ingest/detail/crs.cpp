@@ -159,7 +159,12 @@ auto choose_way(const FeatureFile& file, const std::string& option, const geomet
                 const std::string& subject) -> base::Result<Way> {
   const GdalMessages messages;
   if (option == "local") return Way{};
-  if (file.crs.empty()) return without_crs(option, subject, false);
+  if (!file.crs_failure.empty() && option.empty())
+    return base::error("ingest-crs-unknown",
+                       "the CRS that the footprints name is not known (" + file.crs_failure +
+                           "); correct it, or say --crs EPSG:n, or --crs local for the mesh's frame",
+                       subject);
+  if (!file.crs_failure.empty() || file.crs.empty()) return without_crs(option, subject, false);
   if (file.assumed_crs && looks_local(file, mesh)) return without_crs(option, subject, true);
 
   const auto source = from_wkt(file.crs);

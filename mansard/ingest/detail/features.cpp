@@ -63,7 +63,7 @@ auto choose_layer(GDALDataset& dataset, const Options& options, const std::strin
     const auto nearest = base::nearest_word(options.layer, names);
     return base::error("ingest-layer",
                        "there is no layer '" + options.layer + "'" +
-                           (nearest ? "; did you mean '" + *nearest + "'?" : std::string()) + " The file has: " + all,
+                           (nearest ? "; did you mean '" + *nearest + "'?" : std::string()) + "; the file has: " + all,
                        subject);
   }
   OGRLayer* chosen = nullptr;
@@ -164,6 +164,8 @@ auto read_features(const fs::path& path, const Options& options, const base::Run
     const auto text = base::read_file(path);
     if (!text) return text.error();
     out.assumed_crs = !has_top_level_member(*text, "crs");
+    // GDAL complains, and takes degrees instead.
+    if (!out.assumed_crs && at_opening.find("crs") != std::string::npos) out.crs_failure = at_opening;
   }
   const auto bad_filter = [&] {
     return base::error("ingest-where",
@@ -212,7 +214,7 @@ auto bounds(const RawFeature& feature) -> geometry::Box2 {
   for (const auto& part : feature.parts)
     for (const auto& ring : part)
       for (const auto p : ring)
-        if (std::isfinite(p.x) && std::isfinite(p.y)) box.add(p);
+        if (std::abs(p.x) < 1e8 && std::abs(p.y) < 1e8) box.add(p);  // not for NaN either
   return box;
 }
 

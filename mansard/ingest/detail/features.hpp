@@ -29,6 +29,7 @@ struct FeatureFile {
   std::string crs;  ///< WKT; empty when the source has none
   /// GeoJSON without a "crs" member: its CRS is WGS 84 by RFC 7946, but many such files hold local metres.
   bool assumed_crs = false;
+  std::string crs_failure;  ///< why the CRS that the file names is not known; empty when it is, or none is named
   std::vector<InputFile> inputs;
   std::vector<base::Diagnostic> warnings;
 };
@@ -39,7 +40,7 @@ struct FeatureFile {
 [[nodiscard]] auto read_features(const std::filesystem::path& path, const Options& options, const base::Run& run)
     -> base::Result<FeatureFile>;
 
-/// Of all points, in the source's coordinates.
+/// Of all points that are on the earth, in the source's coordinates.
 [[nodiscard]] auto bounds(const RawFeature& feature) -> geometry::Box2;
 [[nodiscard]] auto bounds(const std::vector<RawFeature>& features) -> geometry::Box2;
 

@@ -28,7 +28,9 @@ auto meshes_in(const fs::path& folder) -> base::Result<std::vector<fs::path>> {
   std::vector<fs::path> found;
   std::error_code failure;
   for (fs::recursive_directory_iterator at(folder, failure), end; !failure && at != end; at.increment(failure))
-    if (at->is_regular_file(failure) && std::ranges::find(mesh_endings, ending_of(at->path())) != mesh_endings.end())
+    // Hidden files are not the user's: macOS leaves a ._name beside every name it copies.
+    if (at->is_regular_file(failure) && !at->path().filename().string().starts_with('.') &&
+        std::ranges::find(mesh_endings, ending_of(at->path())) != mesh_endings.end())
       found.push_back(at->path());
   if (failure) return base::error("file-read", "cannot list the folder: " + failure.message(), folder.string());
   if (found.empty())

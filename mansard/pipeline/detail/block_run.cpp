@@ -9,9 +9,13 @@ namespace {
 using geometry::Point2;
 using geometry::Polygon;
 
-/// Heights of the mesh's top surface over a polygon, sorted; on a grid aligned to whole multiples of `grid`.
+/// Heights of the mesh's top surface over a polygon, sorted; on a grid aligned to whole multiples of `grid`, coarser
+/// for polygons so large that it would not matter.
 auto heights_over(const rays::Scene& surface, const Polygon& polygon, double grid) -> std::vector<double> {
+  constexpr double most_samples = 250'000;
   const auto box = geometry::bounds(polygon.outer);
+  const Point2 extent = box.most - box.least;
+  grid = std::max(grid, std::sqrt(extent.x * extent.y / most_samples));
   std::vector<double> heights;
   for (double y = std::ceil(box.least.y / grid) * grid; y <= box.most.y; y += grid)
     for (double x = std::ceil(box.least.x / grid) * grid; x <= box.most.x; x += grid)

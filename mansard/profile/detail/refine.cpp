@@ -149,7 +149,7 @@ class Search {
 
 auto look_over(const rays::Scene& mesh, const Polygon& polygon, double base) -> std::vector<RoofSample> {
   constexpr double wanted = 3000;
-  const double grid = std::clamp(std::sqrt(geometry::area(polygon) / wanted), 0.25, 4.0);
+  const double grid = std::max(0.25, std::sqrt(geometry::area(polygon) / wanted));
   const auto box = geometry::bounds(polygon.outer);
   std::vector<RoofSample> samples;
   const auto columns = static_cast<std::int64_t>(std::floor(box.most.x / grid));

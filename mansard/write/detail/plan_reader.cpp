@@ -346,7 +346,9 @@ auto read_cityjson(const Item& file) -> City {
   const auto plan_in = [](const Json& object) -> const Json* {
     const auto attributes = object.find("attributes");
     if (attributes == object.end() || !attributes->is_object() || !attributes->contains("ms_plan")) return nullptr;
-    return &(*attributes)["ms_plan"];
+    const Json& plan = (*attributes)["ms_plan"];
+    // A feature may have an attribute of this name from elsewhere; a plan of ours is an object.
+    return plan.is_object() ? &plan : nullptr;
   };
 
   City city;
