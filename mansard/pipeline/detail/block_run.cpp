@@ -101,6 +101,7 @@ auto raise_parts(const segment::Segmentation& segmentation, const block::Block& 
   const Watch raising;
   std::vector<std::optional<PartResult>> raised(fitted.size());
   base::parallel_for(fitted.size(), [&](std::size_t i) {
+    if (run.cancelled()) return;  // the whole run is given up then
     const auto& source = segmentation.parts[i];
     const std::size_t feature = source.feature.value_or(block.members.front().feature);
     if (heights_over(mesh, source.polygon, options.cap_grid).empty()) {  // the footprints alone say there is a building
