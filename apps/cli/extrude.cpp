@@ -51,7 +51,7 @@ auto raise_all(write::City& city, const pipeline::Options& options, const base::
   return fell_back;
 }
 
-/// One file when OUT names one by its ending, all formats in a folder otherwise.
+/// Whether OUT names one file, by its ending; all formats go into a folder otherwise.
 auto is_file(const fs::path& out) -> bool {
   return out.filename().string().ends_with(".json") || out.extension() == ".obj" || out.extension() == ".glb";
 }
@@ -80,7 +80,7 @@ auto write_out(const write::City& city, const Request& request, const base::Canc
   const fs::path out(request.out);
   if (!is_file(out)) {
     auto files = model_files(city);
-    return files ? write_files(out, *files, {}, {}, cancel) : files.error();
+    return files ? base::write_files(in_folder(out, *files), &cancel) : files.error();
   }
   if (out.extension() == ".obj") {
     const auto library = fs::path(out).replace_extension(".mtl");

@@ -93,7 +93,7 @@ auto explain(const std::string& word) -> int {
     for (const auto& code : codes) known.push_back(code.code);
     const auto nearest = base::nearest_word(word, known);
     return give_up(base::error("code-unknown",
-                               "there is no such code" + (nearest ? "; did you mean '" + *nearest + "'?" : std::string()),
+                               "there is no such code" + base::did_you_mean(nearest),
                                word));
   }
   std::printf("%s\n  means: %s\n  to do: %s\n  exit code: %d\n", at->code.c_str(), at->cause.c_str(), at->remedy.c_str(),

@@ -26,7 +26,7 @@ auto unknown_option(const CLI::App& verb) -> std::optional<base::Diagnostic> {
     const auto name = word.substr(0, word.find('='));
     const auto nearest = base::nearest_word(name, Settings::names(verb));
     return base::error("option-unknown",
-                       "there is no such option" + (nearest ? "; did you mean '" + *nearest + "'?" : std::string()) +
+                       "there is no such option" + base::did_you_mean(nearest) +
                            "; see 'mansard " + verb.get_name() + " --help-all'",
                        name);
   }
@@ -57,7 +57,7 @@ auto run(int argc, char** argv) -> int {
                             dynamic_cast<const CLI::ConversionError*>(&e) != nullptr))
       return give_up(base::error("option-value", std::string(e.what()) + "; see 'mansard " + verb->get_name() + " --help'"));
     const std::string what = verb == nullptr && !first.empty() ? "'" + first + "' is no verb" : std::string(e.what());
-    return give_up(base::error("usage", what + (nearest ? "; did you mean '" + *nearest + "'?" : "") + "; see 'mansard " +
+    return give_up(base::error("usage", what + base::did_you_mean(nearest) + "; see 'mansard " +
                                             (verb != nullptr ? verb->get_name() + " " : "") + "--help'"));
   }
   for (const auto& verb : verbs) {

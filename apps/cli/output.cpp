@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <unistd.h>
 
-#include "mansard/base/files.hpp"
-
 namespace mansard::cli {
 
 namespace fs = std::filesystem;
@@ -62,12 +60,11 @@ auto file_free(const fs::path& path, bool overwrite) -> base::Result<void> {
   return {};
 }
 
-auto write_files(const fs::path& folder, const std::vector<std::pair<std::string, std::string>>& named,
-                 const fs::path& copy, std::string_view copied, const base::Cancel& cancel) -> base::Result<void> {
+auto in_folder(const fs::path& folder, const std::vector<std::pair<std::string, std::string>>& named)
+    -> std::vector<base::FileToWrite> {
   std::vector<base::FileToWrite> files;
   for (const auto& [name, bytes] : named) files.push_back({folder / name, bytes});
-  if (!copy.empty()) files.push_back({copy, copied});
-  return base::write_files(files, &cancel);
+  return files;
 }
 
 auto model_files(const write::City& city) -> base::Result<std::vector<std::pair<std::string, std::string>>> {

@@ -4,12 +4,11 @@
 #include <array>
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "mansard/base/files.hpp"
 #include "mansard/base/result.hpp"
-#include "mansard/base/run.hpp"
 #include "mansard/write/write.hpp"
 
 namespace mansard::cli {
@@ -25,11 +24,10 @@ namespace mansard::cli {
 /// Checks that a file can be written there and replaces nothing unasked. Gives up with "output-exists", "file-write".
 [[nodiscard]] auto file_free(const std::filesystem::path& path, bool overwrite) -> base::Result<void>;
 
-/// All of the files into the folder, and `copied` to `copy` unless that is empty; or none of them.
-[[nodiscard]] auto write_files(const std::filesystem::path& folder,
-                               const std::vector<std::pair<std::string, std::string>>& named,
-                               const std::filesystem::path& copy, std::string_view copied, const base::Cancel& cancel)
-    -> base::Result<void>;
+/// The named files as they shall stand in the folder; `named` must outlive what is returned.
+[[nodiscard]] auto in_folder(const std::filesystem::path& folder,
+                             const std::vector<std::pair<std::string, std::string>>& named)
+    -> std::vector<base::FileToWrite>;
 
 /// Every name that a folder of results may have.
 inline constexpr std::array result_names{"model.city.json", "model.obj",   "model.mtl", "model.glb", "plans.json",

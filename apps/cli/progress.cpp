@@ -12,14 +12,13 @@ namespace mansard::cli {
 namespace {
 
 /// As much of the line as the terminal is wide: a bar that wraps cannot be wiped out again.
-auto fitted(std::string line) -> std::string {
+auto fitted(const std::string& drawn) -> std::string {
+  std::string line = base::on_one_line(drawn);
   winsize size{};
   const std::size_t columns = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
   std::size_t shown = 0;
   for (std::size_t i = 0; i < line.size(); ++i) {
-    const auto byte = static_cast<unsigned char>(line[i]);
-    if (byte < 0x20 || byte == 0x7f) line[i] = ' ';
-    if ((byte & 0xc0) == 0x80) continue;  // goes on with a letter of several bytes
+    if ((static_cast<unsigned char>(line[i]) & 0xc0) == 0x80) continue;  // goes on with a letter of several bytes
     if (++shown >= columns) {
       line.resize(i);
       break;
@@ -67,7 +66,7 @@ void Progress::show(std::string_view stage, std::string_view subject, double fra
                      std::string(static_cast<std::size_t>(width - full), '.') + "] " +
                      base::to_text(100 * fraction, 0) + " %  " + left + (left.empty() ? "" : "  ");
   line += std::string(stage) + " " + std::string(subject);
-  std::fprintf(stderr, "\r\x1b[K%s", fitted(std::move(line)).c_str());
+  std::fprintf(stderr, "\r\x1b[K%s", fitted(line).c_str());
   std::fflush(stderr);
   drawn_ = true;
 }

@@ -60,8 +60,9 @@ auto write_all(const Request& request, const pipeline::Reconstruction& result, c
       files->emplace_back(name, std::move(*bytes));
     }
   }
-  if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
-  return write_files(request.out, *files, request.report, report, *run.cancel);
+  auto all = in_folder(request.out, *files);
+  if (!request.report.empty()) all.push_back({request.report, report});
+  return base::write_files(all, run.cancel);
 }
 
 /// Whatever may be wrong with the outputs, before any work.

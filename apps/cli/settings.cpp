@@ -132,8 +132,8 @@ auto Settings::apply(pipeline::Options& options) const -> base::Result<void> {
     if (auto done = apply_config(lists, config_); !done) return done;
   for (const auto& given : given_) {
     if (given.option->count() == 0) continue;
-    if (const auto times = given.option->count() / std::max<std::size_t>(1, static_cast<std::size_t>(given.option->get_items_expected_max()));
-        !given.flag && times > 1)
+    const auto words = static_cast<std::size_t>(std::max(1, given.option->get_items_expected_max()));
+    if (const auto times = given.option->count() / words; !given.flag && times > 1)
       return base::error("option-value", "it is given " + std::to_string(times) + " times; give it once", given.key);
     const std::string value = given.flag && joined(given.words).empty() ? "true" : joined(given.words);
     if (auto done = pipeline::set_option(lists, given.key, value); !done) return done;

@@ -179,4 +179,8 @@ auto nearest_word(std::string_view word, const std::vector<std::string>& known) 
   return best;
 }
 
+auto did_you_mean(const std::optional<std::string>& word) -> std::string {
+  return word ? "; did you mean '" + *word + "'?" : std::string();
+}
+
 }  // namespace mansard::base

@@ -91,4 +91,7 @@ class OptionList {
 /// The known word nearest to a misspelt one (edit distance at most a third of its length), if any.
 [[nodiscard]] auto nearest_word(std::string_view word, const std::vector<std::string>& known) -> std::optional<std::string>;
 
+/// "; did you mean 'word'?" for the end of a message; nothing for nothing.
+[[nodiscard]] auto did_you_mean(const std::optional<std::string>& word) -> std::string;
+
 }  // namespace mansard::base

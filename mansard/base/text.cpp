@@ -40,4 +40,10 @@ auto to_number(std::string_view text) -> std::optional<double> {
 
 auto to_whole(std::string_view text) -> std::optional<std::int64_t> { return parse<std::int64_t>(text); }
 
+auto on_one_line(std::string text) -> std::string {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  return text;
+}
+
 }  // namespace mansard::base

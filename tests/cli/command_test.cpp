@@ -42,6 +42,15 @@ auto geojson(const std::string& geometry, const std::string& crs = "EPSG::28992"
 auto polygon(const std::string& ring) -> std::string { return R"({"type":"Polygon","coordinates":[[)" + ring + "]]}"; }
 const std::string square = "[0,0],[12,0],[12,8],[0,8],[0,0]";
 
+/// A footprint of that ring, "bad", and then the house's own, "good".
+auto beside_a_good_one(const std::string& ring) -> std::string {
+  const auto feature = [](const std::string& id, const std::string& of) {
+    return R"({"type":"Feature","properties":{"id":")" + id + R"("},"geometry":)" + polygon(of) + "}";
+  };
+  return R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:28992"}},"features":[)" +
+         feature("bad", ring) + "," + feature("good", square) + "]}";
+}
+
 class Command : public testing::Test {
  protected:
   void SetUp() override {
@@ -259,13 +268,8 @@ TEST_F(Command, refuses_footprint_files_that_hold_none) {
 }
 
 TEST_F(Command, lets_a_bad_footprint_cost_only_itself) {
-  const std::string good = R"({"type":"Feature","properties":{"id":"good"},"geometry":)" + polygon(square) + "}";
   for (const auto* ring : {"[0,0],[12,8],[12,0],[0,8],[0,0]", "[20,20],[30,20],[20,20],[20,20]", "[1,1],[1,1],[1,1],[1,1]"}) {
-    const std::string bad = R"({"type":"Feature","properties":{"id":"bad"},"geometry":)" + polygon(ring) + "}";
-    const auto file = put("two.geojson",
-                          R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:28992"}},"features":[)" +
-                              bad + "," + good + "]}");
-    const auto outcome = reconstruct(at("house.obj"), file, "--overwrite");
+    const auto outcome = reconstruct(at("house.obj"), put("two.geojson", beside_a_good_one(ring)), "--overwrite");
     EXPECT_EQ(outcome.exit, 1) << outcome.err;
     const auto buildings = nlohmann::json::parse(read(at("out") + "/run.json"))["buildings"];
     ASSERT_EQ(buildings.size(), 2U);
@@ -328,16 +332,9 @@ TEST_F(Command, refuses_a_footprint_source_whose_crs_is_unknown) {
 }
 
 TEST_F(Command, refuses_a_footprint_of_impossible_size_alone) {
-  const std::string good = R"({"type":"Feature","properties":{"id":"good"},"geometry":)" + polygon(square) + "}";
   for (const auto* ring : {"[-100000,-100000],[100000,-100000],[100000,100000],[-100000,-100000]",
                            "[0,0],[1e300,0],[1e300,1e300],[0,0]"}) {
-    const std::string bad = R"({"type":"Feature","properties":{"id":"bad"},"geometry":)" + polygon(ring) + "}";
-    const auto outcome = reconstruct(
-        at("house.obj"),
-        put("two.geojson",
-            R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:28992"}},"features":[)" + bad +
-                "," + good + "]}"),
-        "--overwrite");
+    const auto outcome = reconstruct(at("house.obj"), put("two.geojson", beside_a_good_one(ring)), "--overwrite");
     EXPECT_EQ(outcome.exit, 1) << outcome.err;
     const auto buildings = nlohmann::json::parse(read(at("out") + "/run.json"))["buildings"];
     EXPECT_EQ(buildings[0]["outcome"], "refused");

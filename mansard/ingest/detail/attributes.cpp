@@ -198,7 +198,7 @@ auto ids_of(const std::vector<RawFeature>& features, const std::string& attribut
       for (const auto& name : names) all += (all.empty() ? "" : ", ") + name;
       return base::error("ingest-id-attribute",
                          "there is no attribute '" + attribute + "'" +
-                             (nearest ? "; did you mean '" + *nearest + "'?" : std::string()) +
+                             base::did_you_mean(nearest) +
                              "; the layer has: " + all,
                          subject);
     }

@@ -63,7 +63,7 @@ auto choose_layer(GDALDataset& dataset, const Options& options, const std::strin
     const auto nearest = base::nearest_word(options.layer, names);
     return base::error("ingest-layer",
                        "there is no layer '" + options.layer + "'" +
-                           (nearest ? "; did you mean '" + *nearest + "'?" : std::string()) + "; the file has: " + all,
+                           base::did_you_mean(nearest) + "; the file has: " + all,
                        subject);
   }
   OGRLayer* chosen = nullptr;

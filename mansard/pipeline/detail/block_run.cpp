@@ -51,19 +51,21 @@ auto raise_best(const profile::ProfiledFootprint& fitted, const Polygon& polygon
   return *failure;
 }
 
-/// The flat prism of a GIS polygon at the mesh's median height over it, for footprints that got no part.
-auto plain_prism(std::size_t feature, const Polygon& polygon, double ground, const rays::Scene& mesh,
+auto no_mesh() -> base::Diagnostic {
+  return base::warning("pipeline-no-mesh", "the mesh shows nothing over this footprint; its height is assumed");
+}
+
+/// The flat prism of a polygon at the median of the mesh's heights over it (sorted; assumed where there are none), and
+/// why it is no more than that.
+auto plain_prism(std::size_t feature, const Polygon& polygon, double ground, const std::vector<double>& heights,
                  const Options& options, const base::Diagnostic& why, const base::Run& run)
     -> std::optional<PartResult> {
   PartResult part;
   part.feature = feature;
   part.full = false;
-  const auto heights = heights_over(mesh, polygon, options.cap_grid);
+  part.reasons = {why};
   double height = options.assumed_height;
-  if (heights.empty()) {
-    part.reasons.push_back(base::warning("pipeline-no-mesh", "the mesh shows nothing over this footprint; its height is assumed"));
-  } else {
-    part.reasons.push_back(why);
+  if (!heights.empty()) {
     constexpr double least_height = 0.5;  // lower than a step is no building; keeps the prism a solid
     height = std::max(least_height, percentile(heights, 0.5) - ground);
   }
@@ -105,7 +107,7 @@ auto raise_parts(const segment::Segmentation& segmentation, const block::Block& 
     const auto& source = segmentation.parts[i];
     const std::size_t feature = source.feature.value_or(block.members.front().feature);
     if (heights_over(mesh, source.polygon, options.cap_grid).empty()) {  // the footprints alone say there is a building
-      raised[i] = plain_prism(feature, source.polygon, fitted[i].plan.base, mesh, options, {}, run);
+      raised[i] = plain_prism(feature, source.polygon, fitted[i].plan.base, {}, options, no_mesh(), run);
       return;
     }
     auto best = raise_best(fitted[i], source.polygon, mesh, options, run);
@@ -165,10 +167,11 @@ void fill_in(const block::Block& block, const rays::Scene& mesh, const Options& 
     for (const auto& polygon : uncovered(member, parts)) {
       const auto heights = heights_over(mesh, polygon, options.cap_grid);
       const bool low = !heights.empty() && percentile(heights, 0.5) - member.ground < options.segment.min_height;
-      const auto why = block_failure ? *block_failure
-                       : low ? base::warning("pipeline-low", "the mesh is under segment.min_height here; raised as a prism")
-                             : base::warning("pipeline-outside", "no face of the fractured ground is its; raised as a prism");
-      if (auto part = plain_prism(member.feature, polygon, member.ground, mesh, options, why, run)) {
+      const auto why = heights.empty() ? no_mesh()
+                       : block_failure ? *block_failure
+                       : low           ? base::warning("pipeline-low", "the mesh is under segment.min_height here; raised as a prism")
+                                       : base::warning("pipeline-outside", "no face of the fractured ground is its; raised as a prism");
+      if (auto part = plain_prism(member.feature, polygon, member.ground, heights, options, why, run)) {
         parts.push_back(std::move(*part));
         any = true;
       }

@@ -70,16 +70,13 @@ void borrow_heights(const fracture::Arrangement& arrangement, const Options& opt
     for (std::uint32_t f = 0; f < faces.size(); ++f) {
       if (before[f] || faces[f].gis_share < options.gis_ratio) continue;
       std::pair<bool, double> best{false, 0.0};  // not a wall, length
-      const std::uint32_t first = arrangement.faces[f].edge;
-      std::uint32_t h = first;
-      do {
-        const auto other = arrangement.half_edges[arrangement.half_edges[h].twin].face;
+      for (const std::uint32_t h : half_edges_around(arrangement, f)) {
+        const auto other = face_across(arrangement, h);
         if (other && before[*other] && faces[*other].gis_share >= options.gis_ratio) {
           const std::pair<bool, double> found{!on_sweep_edge(arrangement.half_edges[h]), length_of(arrangement, h)};
           if (found > best) best = found, faces[f].height = faces[*other].height, known[f] = any = true;
         }
-        h = arrangement.half_edges[h].next;
-      } while (h != first);
+      }
     }
   }
 }
@@ -154,15 +151,12 @@ auto measure(const fracture::Arrangement& arrangement, const block::Block& block
 void peel(const fracture::Arrangement& arrangement, const Options& options, std::vector<FaceEvidence>& faces) {
   const auto exposed_too_much = [&](std::uint32_t f) {
     double exposed = 0, safe = 0;
-    const std::uint32_t first = arrangement.faces[f].edge;
-    std::uint32_t h = first;
-    do {
+    for (const std::uint32_t h : half_edges_around(arrangement, f)) {
       const fracture::HalfEdge& edge = arrangement.half_edges[h];
-      const auto other = arrangement.half_edges[edge.twin].face;
+      const auto other = face_across(arrangement, h);
       const bool open = (!other || !faces[*other].inside) && !on_sweep_edge(edge) && !on_gis_edge(edge);
       (open ? exposed : safe) += length_of(arrangement, h);
-      h = edge.next;
-    } while (h != first);
+    }
     return exposed > options.exposed * safe;
   };
   // Taking a face off can only expose its neighbours more, so the order does not matter. Other than in the reference,

@@ -112,8 +112,8 @@ auto party_lines(const block::Block& block) -> std::vector<Segment2> {
 }
 
 auto torn_lines(const block::Block& block, const sweep::SweepEdges& sweeps) -> std::vector<Segment2> {
-  constexpr double reach = 1.5;       // m; how far beside the GIS edge its wall may have been found
-  constexpr double sine = 0.3;        // … and how far turned
+  constexpr double reach = 1.5;        // m; how far beside the GIS edge its wall may have been found
+  constexpr double sine = 0.3;         // … and how far turned
   constexpr double least_edge = 1.0;   // m; of an edge of which nothing is known
   constexpr double least_piece = 1.5;  // m; what is shorter beside a known wall is left to that wall's continuation
   std::vector<std::vector<Segment2>> edges;
@@ -132,14 +132,13 @@ auto torn_lines(const block::Block& block, const sweep::SweepEdges& sweeps) -> s
       for (std::size_t n = 0; n < edges.size(); ++n)
         if (n != m)
           for (const Segment2& other : edges[n]) look(other, near, parallel_sine);
-      const double length = geometry::length(edge.end - edge.start);
-      if (known.empty()) add_piece(edge, 0, length, least_edge, lines);
+      const double least = known.empty() ? least_edge : least_piece;
       double from = 0;
-      for (const auto& [first, last] : merged(known)) {
-        add_piece(edge, from, first, least_piece, lines);
+      for (const auto& [first, last] : merged(std::move(known))) {
+        add_piece(edge, from, first, least, lines);
         from = last;
       }
-      if (!known.empty()) add_piece(edge, from, length, least_piece, lines);
+      add_piece(edge, from, geometry::length(edge.end - edge.start), least, lines);
     }
   return longest_first(std::move(lines));
 }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 #include "mansard/segment/segment.hpp"
 
@@ -29,6 +31,23 @@ namespace mansard::segment::detail {
 /// Whether a footprint may have this edge without paying β.
 [[nodiscard]] inline auto is_supported(const fracture::HalfEdge& h, const Options& options) -> bool {
   return is_sweep(h, options) || (options.gis_edges == GisEdges::hard && on_gis_edge(h));
+}
+
+/// The half-edges around a face, from its first.
+[[nodiscard]] inline auto half_edges_around(const fracture::Arrangement& arrangement, std::uint32_t face)
+    -> std::vector<std::uint32_t> {
+  std::vector<std::uint32_t> around;
+  std::uint32_t h = arrangement.faces[face].edge;
+  do {
+    around.push_back(h);
+    h = arrangement.half_edges[h].next;
+  } while (h != around.front());
+  return around;
+}
+/// The face on the other side; none outside the bounding rectangle.
+[[nodiscard]] inline auto face_across(const fracture::Arrangement& arrangement, std::uint32_t half_edge)
+    -> std::optional<std::uint32_t> {
+  return arrangement.half_edges[arrangement.half_edges[half_edge].twin].face;
 }
 
 [[nodiscard]] inline auto length_of(const fracture::Arrangement& arrangement, std::uint32_t half_edge) -> double {

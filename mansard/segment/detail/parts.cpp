@@ -53,16 +53,13 @@ auto best_neighbour(const fracture::Arrangement& arrangement, const std::vector<
     -> std::optional<std::uint32_t> {
   const std::uint32_t label = *label_of_face[faces.front()];
   std::map<std::uint32_t, double> common;
-  for (const std::uint32_t f : faces) {
-    std::uint32_t h = arrangement.faces[f].edge;
-    do {
-      const auto other = arrangement.half_edges[arrangement.half_edges[h].twin].face;
+  for (const std::uint32_t f : faces)
+    for (const std::uint32_t h : half_edges_around(arrangement, f)) {
+      const auto other = face_across(arrangement, h);
       if (other && label_of_face[*other] && *label_of_face[*other] != label &&
           feature_of_label.at(*label_of_face[*other]) == feature_of_label.at(label))
         common[*label_of_face[*other]] += length_of(arrangement, h);
-      h = arrangement.half_edges[h].next;
-    } while (h != arrangement.faces[f].edge);
-  }
+    }
   std::optional<std::uint32_t> best;
   for (const auto& [l, length] : common)
     if (!best || length > common[*best]) best = l;
@@ -92,27 +89,21 @@ auto height_of(const fracture::Arrangement& arrangement, const Evidence& evidenc
 auto width_of(const fracture::Arrangement& arrangement, const std::vector<std::uint32_t>& faces,
               const LabelOfFace& label_of_face, double area) -> double {
   double perimeter = 0;
-  for (const std::uint32_t f : faces) {
-    std::uint32_t h = arrangement.faces[f].edge;
-    do {
-      const auto other = arrangement.half_edges[arrangement.half_edges[h].twin].face;
+  for (const std::uint32_t f : faces)
+    for (const std::uint32_t h : half_edges_around(arrangement, f)) {
+      const auto other = face_across(arrangement, h);
       if (!other || label_of_face[*other] != label_of_face[f]) perimeter += length_of(arrangement, h);
-      h = arrangement.half_edges[h].next;
-    } while (h != arrangement.faces[f].edge);
-  }
+    }
   return 2 * area / perimeter;
 }
 
 auto reaches_outside(const fracture::Arrangement& arrangement, const std::vector<std::uint32_t>& faces,
                      const LabelOfFace& label_of_face) -> bool {
   return std::ranges::any_of(faces, [&](std::uint32_t f) {
-    std::uint32_t h = arrangement.faces[f].edge;
-    do {
-      const auto other = arrangement.half_edges[arrangement.half_edges[h].twin].face;
-      if (!other || !label_of_face[*other]) return true;
-      h = arrangement.half_edges[h].next;
-    } while (h != arrangement.faces[f].edge);
-    return false;
+    return std::ranges::any_of(half_edges_around(arrangement, f), [&](std::uint32_t h) {
+      const auto other = face_across(arrangement, h);
+      return !other || !label_of_face[*other];
+    });
   });
 }
 
