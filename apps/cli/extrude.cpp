@@ -1,5 +1,10 @@
-// `mansard extrude PLAN.json -o OUT`: plan and profiles to solids again.
+// `mansard extrude INPUT -o OUT`: plan and profiles to solids again, or footprints to solids without a mesh.
+#include "apps/cli/extrude.hpp"
+
+#include <algorithm>
+#include <array>
 #include <cstdio>
+#include <fstream>
 #include <memory>
 
 #include "apps/cli/exit.hpp"
@@ -13,17 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Request {
-  std::string plan, out;
-  bool overwrite = false;
-  Settings settings;
-};
-
 /// Raises every plan of the file; the count of those that fell back.
-auto raise_all(write::City& city, const pipeline::Options& options, const base::Cancel& cancel)
+auto raise_all(write::City& city, const pipeline::Options& options, bool quiet, const base::Run& run)
     -> base::Result<std::size_t> {
-  base::Run run;
-  run.cancel = &cancel;
   std::vector<extrude::Solid> solids;
   std::size_t fell_back = 0;
   for (auto& building : city.buildings)
@@ -38,6 +35,7 @@ auto raise_all(write::City& city, const pipeline::Options& options, const base::
       if (raised->outcome != extrude::Outcome::full) {
         ++fell_back;
         for (auto warning : raised->warnings) {
+          if (quiet) break;
           warning.subject = part.id;
           std::fprintf(stderr, "mansard: %s\n", base::to_string(warning).c_str());
         }
@@ -68,57 +66,112 @@ auto outputs(const fs::path& out) -> std::vector<fs::path> {
   return all;
 }
 
-auto check_outputs(const Request& request) -> base::Result<void> {
-  if (auto spared = spare_inputs(outputs(request.out), {request.plan}); !spared) return spared;
-  if (!is_file(request.out)) return prepare(request.out, request.overwrite);
-  for (const auto& file : outputs(request.out))
-    if (auto usable = file_free(file, request.overwrite); !usable) return usable;
-  return {};
-}
-
-auto write_out(const write::City& city, const Request& request, const base::Cancel& cancel) -> base::Result<void> {
-  const fs::path out(request.out);
-  if (!is_file(out)) {
-    auto files = model_files(city);
-    return files ? base::write_files(in_folder(out, *files), &cancel) : files.error();
-  }
-  if (out.extension() == ".obj") {
-    const auto library = fs::path(out).replace_extension(".mtl");
-    const auto files = write::obj(city, library.filename().string());
-    if (!files) return files.error();
-    return base::write_files({{library, files->mtl}, {out, files->obj}}, &cancel);
-  }
-  const auto bytes = out.extension() == ".glb" ? write::glb(city) : write::cityjson(city);
-  return bytes ? base::write_files({{out, *bytes}}, &cancel) : bytes.error();
-}
-
-auto extrude(const Request& request, const base::Cancel& cancel) -> int {
+auto extrude_plans(const ExtrudeRequest& request, const base::Cancel& cancel) -> int {
+  if (!request.report.empty())
+    return give_up(base::error("usage", "plans are raised without a report; --report is for footprints", "--report"));
   pipeline::Options options;
   if (auto applied = request.settings.apply(options); !applied) return give_up(applied.error());
-  auto city = write::read_plans(request.plan);
+  auto city = write::read_plans(request.input);
   if (!city) return give_up(city.error());
   if (auto ready = check_outputs(request); !ready) return give_up(ready.error());
   city->made_by.version = MANSARD_VERSION;
-  const auto fell_back = raise_all(*city, options, cancel);
+  base::Run run;
+  run.cancel = &cancel;
+  const auto fell_back = raise_all(*city, options, request.quiet, run);
   if (!fell_back) return give_up(fell_back.error());
-  if (auto written = write_out(*city, request, cancel); !written) return give_up(written.error());
+  if (auto written = write_out(*city, {}, request, run); !written) return give_up(written.error());
   std::printf("%s\n", request.out.c_str());
   return *fell_back == 0 ? all_done : some_fell_back;
 }
 
+auto picture_file(const fs::path& out) -> fs::path {
+  return is_file(out) ? fs::path(out).replace_extension(".png") : out / "picture.png";
+}
+
 }  // namespace
 
+auto check_outputs(const ExtrudeRequest& request) -> base::Result<void> {
+  const bool file = is_file(request.out);
+  auto all = outputs(request.out);
+  if (file && request.picture) all.push_back(picture_file(request.out));
+  std::vector<fs::path> single = file ? all : std::vector<fs::path>();
+  if (!request.report.empty()) single.emplace_back(request.report);
+  all.insert(all.end(), single.begin(), single.end());
+  if (auto spared = spare_inputs(all, {request.input}); !spared) return spared;
+  for (const auto& path : single)
+    if (auto usable = file_free(path, request.overwrite); !usable) return usable;
+  return file ? base::Result<void>() : prepare(request.out, request.overwrite);
+}
+
+auto write_out(const write::City& city, const std::string& report, const ExtrudeRequest& request,
+               const base::Run& run) -> base::Result<void> {
+  const fs::path out(request.out);
+  std::vector<std::pair<fs::path, std::string>> files;
+  if (!is_file(out)) {
+    auto models = model_files(city);
+    if (!models) return models.error();
+    for (auto& [name, bytes] : *models) files.emplace_back(out / name, std::move(bytes));
+    if (!report.empty()) files.emplace_back(out / "run.json", report);
+  } else if (out.extension() == ".obj") {
+    const auto library = fs::path(out).replace_extension(".mtl");
+    auto models = write::obj(city, library.filename().string());
+    if (!models) return models.error();
+    files.emplace_back(library, std::move(models->mtl));
+    files.emplace_back(out, std::move(models->obj));
+  } else {
+    auto bytes = out.extension() == ".glb" ? write::glb(city) : write::cityjson(city);
+    if (!bytes) return bytes.error();
+    files.emplace_back(out, std::move(*bytes));
+  }
+  if (!request.report.empty()) files.emplace_back(request.report, report);
+  if (request.picture) {
+    auto bytes = picture::png(pipeline::picture_of(city, {}, run));
+    if (!bytes) return bytes.error();
+    files.emplace_back(picture_file(out), std::move(*bytes));
+  }
+  std::vector<base::FileToWrite> all;
+  for (const auto& [path, bytes] : files) all.push_back({path, bytes});
+  return base::write_files(all, run.cancel);
+}
+
+auto holds_plans(const fs::path& path) -> bool {
+  std::error_code status;
+  if (!fs::is_regular_file(path, status)) return false;
+  std::string head(1 << 16, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(file.gcount()));
+  const auto first = head.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+  if (first == std::string::npos || head[first] != '{') return false;
+  const auto has = [&](const char* word) { return head.find(word) != std::string::npos; };
+  if (has("\"mansard-plan\"") || has("\"CityJSON\"")) return true;
+  static constexpr std::array features{"\"Feature", "\"coordinates\"", "\"features\"", "\"Topology\"", "\"geometryType\""};
+  return std::ranges::none_of(features, has);
+}
+
 auto extrude_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
-  auto* verb = app.add_subcommand("extrude", "Plan and profiles to solids: an edited building raised again");
-  auto request = std::make_shared<Request>();
-  verb->add_option("PLAN", request->plan, "A plans.json")->required()->type_name("PLAN.json");
+  auto* verb = app.add_subcommand("extrude", "Footprints to solids without a mesh; or an edited plan raised again");
+  auto request = std::make_shared<ExtrudeRequest>();
+  verb->add_option("INPUT", request->input,
+                   "Footprints (any OGR vector file), raised by their attributes or by --profile; or a plans.json")
+      ->required()
+      ->type_name("FOOTPRINTS|PLAN.json");
   verb->add_option("-o,--output", request->out, "A .city.json, .obj or .glb file, or a folder for all of them")
       ->required()
       ->type_name("OUT");
   verb->add_flag("--overwrite", request->overwrite, "Replace results that are there already");
+  verb->add_flag("--picture", request->picture, "Also write a picture of the models");
+  verb->add_option("--report", request->report, "Write the report (run.json) here too")->type_name("FILE");
+  verb->add_option("-j,--jobs", request->jobs, "Threads; 0 for one per core. The result is the same at any number")
+      ->check(CLI::Range(0, 1024));
+  verb->add_flag("-q,--quiet", request->quiet, "No progress, no summary");
+  verb->add_flag("-v,--verbose", request->verbose, "Name what was left out or fell back, building by building");
   verb->set_help_all_flag("--help-all", "Show this and every room's options");
   request->settings.add_to(*verb);
-  return {verb, [request, &cancel] { return extrude(*request, cancel); }};
+  return {verb, [request, &cancel] {
+            base::limit_threads(request->jobs);
+            return holds_plans(request->input) ? extrude_plans(*request, cancel) : extrude_footprints(*request, cancel);
+          }};
 }
 
 }  // namespace mansard::cli

@@ -13,45 +13,99 @@
 namespace mansard::extrude {
 namespace {
 
+/// Details under this go with the second rung; turns under that.
+constexpr double detail_size = 0.3, shallow = 0.0873;
+
+struct Sound {
+  Solid solid;
+  double residual = 0;
+};
+
 /// Sweep → rounding → check: the solid, or what is wrong with it.
-auto solid_of(const detail::Footprint& footprint, const geometry::Plan& plan, const base::Run& run)
-    -> base::Result<Solid> {
-  const auto surface = detail::sweep(footprint, detail::on_grid(plan.cap), run);
+auto solid_of(const detail::Footprint& footprint, const geometry::Plan& plan, const Options& options,
+              const base::Run& run, const detail::Eaves* eaves = nullptr) -> base::Result<Sound> {
+  const auto surface = detail::sweep(footprint, detail::on_grid(plan.cap), run, eaves);
   std::vector<base::Diagnostic> faults;
   for (const bool collapse : {true, false}) {
-    Solid solid = detail::rounded(surface, {footprint.origin, plan.base}, collapse);
-    faults = check(solid);
-    if (faults.empty()) return solid;
+    auto rounded = detail::rounded(surface, {footprint.origin, plan.base, options.grid}, collapse);
+    faults = check(rounded.solid);
+    if (faults.empty()) return Sound{std::move(rounded.solid), rounded.residual};
+    if (collapse && rounded.collapsed == 0) break;
   }
   return faults.front();
 }
 
-/// Canonical footprint → solid; nothing, and why, if it cannot be.
-auto attempt(const detail::Source& source, const geometry::Plan& plan, const Options& options, const base::Run& run,
-             std::vector<base::Diagnostic>& warnings, std::string& why) -> std::optional<Solid> {
+/// The flat prism over the source, or what is wrong with it.
+auto prism_over(const detail::Source& source, const geometry::Plan& plan, const Options& options)
+    -> base::Result<Solid> {
+  Solid solid = detail::prism_of(source, plan.base, plan.cap);
+  for (auto& v : solid.vertices) v = detail::on_grid(v, options.grid);
+  const auto faults = check(solid);
+  if (!faults.empty()) return faults.front();
+  return solid;
+}
+
+/// As given, else without its details, which may be what spoils it.
+auto last_rung(const detail::Source& source, const geometry::Plan& plan, const Options& options)
+    -> base::Result<Solid> {
+  auto solid = prism_over(source, plan, options);
+  if (!solid) solid = prism_over(detail::simplified(source, detail_size), plan, options);
+  if (solid) return solid;
+  return base::error("extrude-not-simple", "no solid can be made over the footprint: " + solid.error().message);
+}
+
+/// The same with overhanging eaves; nothing, and why if anything kept them from it, when they cannot be.
+auto with_overhang(const detail::Footprint& footprint, const geometry::Plan& plan, const Options& options,
+                   const base::Run& run, std::string& why) -> std::optional<Sound> {
+  const auto eaves = detail::eaves_of(footprint, detail::on_grid(plan.cap), options.overhang, why);
+  if (!eaves) return std::nullopt;
   try {
-    auto footprint = detail::canonical(source, options, why);
-    if (!footprint) return std::nullopt;
-    auto solid = solid_of(*footprint, plan, run);
-    if (!solid && solid.error().code == "solid-non-manifold") {
-      // Upright walls that meet in a line exactly: the right answer is not a manifold. A little less run parts them.
-      detail::shorten_runs(footprint->tracks);
-      solid = solid_of(*footprint, plan, run);
-      if (solid)
-        warnings.push_back(
-            base::warning("extrude-nudged", "upright walls met in a line; all runs were shortened by 0.1 %"));
-    }
-    constexpr double worth_telling = 0.01;
-    if (solid && footprint->moved > worth_telling)
-      warnings.push_back(base::warning(
-          "extrude-straightened",
-          "shallow turns were straightened; the outline moved by up to " + base::to_text(footprint->moved, 3) + " m"));
+    auto solid = solid_of(footprint, plan, options, run, &*eaves);
     if (solid) return std::move(*solid);
-    why = solid.error().message + " [" + solid.error().code + "]";
+    why = solid.error().message;
   } catch (const detail::Broken& broken) {
     why = broken.what();
   }
   return std::nullopt;
+}
+
+/// Canonical footprint → solid; nothing, and why, if it cannot be.
+auto attempt(const detail::Source& source, const geometry::Plan& plan, const Options& options, const base::Run& run,
+             std::vector<base::Diagnostic>& warnings, std::string& why) -> std::optional<Sound> {
+  auto footprint = detail::canonical(source, options, why);
+  if (!footprint) return std::nullopt;
+  const auto raised = [&](const detail::Footprint& from, std::string& reason) -> std::optional<Sound> {
+    try {
+      auto solid = solid_of(from, plan, options, run);
+      if (solid) return std::move(*solid);
+      reason = solid.error().message + " [" + solid.error().code + "]";
+    } catch (const detail::Broken& broken) {
+      reason = broken.what();
+    }
+    return std::nullopt;
+  };
+  auto solid = raised(*footprint, why);
+  // Upright walls that meet in a line exactly: the right answer is not a manifold. A little less or more parts them.
+  for (int nudge = 0; !solid && nudge < detail::most_nudges && !run.cancelled(); ++nudge) {
+    std::string how, reason;
+    auto other = detail::nudged(*footprint, nudge, options, how);
+    if (!other) continue;
+    solid = raised(*other, reason);
+    if (!solid) continue;
+    warnings.push_back(base::warning("extrude-nudged", how + ": " + why));
+    footprint = std::move(other);
+  }
+  if (solid && options.overhang > 0) {
+    std::string hindrance;
+    if (auto roofed = with_overhang(*footprint, plan, options, run, hindrance)) solid = std::move(roofed);
+    if (!hindrance.empty()) warnings.push_back(base::warning("extrude-overhang", hindrance));
+  }
+  constexpr double worth_telling = 0.01;
+  if (solid && footprint->moved > worth_telling)
+    warnings.push_back(base::warning(
+        "extrude-straightened",
+        "shallow turns were straightened; the outline moved by up to " + base::to_text(footprint->moved, 3) + " m"));
+  return solid;
 }
 
 }  // namespace
@@ -65,15 +119,15 @@ auto raise(const geometry::Plan& plan, const Options& options, const base::Run& 
     if (run.cancelled()) return false;
     auto solid = attempt(from, plan, with, run, raised.warnings, why);
     if (!solid) return false;
-    raised.solid = std::move(*solid);
+    raised.solid = std::move(solid->solid);
+    raised.residual = solid->residual;
     raised.outcome = outcome;
     return true;
   };
   if (succeeds(*source, options, Outcome::full)) return raised;
 
   // Down the ladder: details of 30 cm and turns of 5° go first, then all but one pitch, then the roof.
-  constexpr double detail_size = 0.3, shallow = 0.0873;
-  Options coarse;
+  Options coarse = options;
   coarse.merge_angle = std::max(options.merge_angle, shallow);
   coarse.tolerance = std::max(options.tolerance, detail_size);
   const detail::Source simple = detail::simplified(*source, detail_size);
@@ -83,15 +137,34 @@ auto raise(const geometry::Plan& plan, const Options& options, const base::Run& 
   if (succeeds(detail::two_part(simple), coarse, Outcome::two_part)) return raised;
   raised.warnings.push_back(base::warning(
       "extrude-prism", "the part became a flat-roofed prism: " + (run.cancelled() ? "stopped on request" : why)));
-  raised.solid = detail::prism_of(*source, plan.base, plan.cap);
+  auto flat = last_rung(*source, plan, options);
+  if (!flat) return flat.error();
+  raised.solid = std::move(*flat);
   raised.outcome = Outcome::prism;
   return raised;
 }
 
-auto prism(const geometry::Plan& plan) -> base::Result<Solid> {
+auto prism(const geometry::Plan& plan, const Options& options) -> base::Result<Solid> {
   const auto source = detail::prepared(plan);
   if (!source) return source.error();
-  return detail::prism_of(*source, plan.base, plan.cap);
+  return last_rung(*source, plan, options);
+}
+
+auto crest(const geometry::Plan& plan, const Options& options, const base::Run& run) -> base::Result<double> {
+  const auto source = detail::prepared(plan);
+  if (!source) return source.error();
+  std::string why;
+  try {
+    if (const auto footprint = detail::canonical(*source, options, why)) {
+      const auto surface = detail::sweep(*footprint, detail::on_grid(plan.cap), run);
+      double top = 0;
+      for (const auto& place : surface.places) top = std::max(top, place.z);
+      return top;
+    }
+  } catch (const detail::Broken& broken) {
+    why = broken.what();
+  }
+  return base::error("extrude-canonical", why);
 }
 
 auto volume(const Solid& solid) -> double {
@@ -122,7 +195,9 @@ auto option_list(Options& options) -> base::OptionList {
                        .number("merge_angle", options.merge_angle, "rad", {0, 0.2},
                                "Turns of the footprint under this are straightened.")
                        .number("tolerance", options.tolerance, "m", {0.001, 1},
-                               "The footprint that is raised lies within this of the given one."));
+                               "The footprint that is raised lies within this of the given one.")
+                       .number("overhang", options.overhang, "m", {0, 3},
+                               "How far the lowest eaves overhang, with a level soffit below them."));
 }
 
 auto codes() -> std::vector<base::Code> {
@@ -134,11 +209,16 @@ auto codes() -> std::vector<base::Code> {
        "Correct the plan's profile: inward and height must never decrease.", 1},
       {"extrude-cap", "The height at which the extrusion ends is not above the base.", "Set the plan's cap above 0.",
        1},
+      {"extrude-canonical", "A footprint has no simple outline on exact lines within tolerance.",
+       "Widen the narrow place that the message names, or raise --extrude-tolerance.", 1},
       {"extrude-straightened", "Shallow turns of a footprint were straightened by more than a centimetre.",
        "Lower --extrude-merge-angle to keep them.", 0},
       {"extrude-nudged",
-       "Walls above setbacks met exactly in a line, which no manifold can; runs were shortened by 0.1 %.",
-       "Change a setback by a few millimetres.", 0},
+       "Upright walls met exactly in a line, which no manifold can; runs were shortened by up to 1 %, or walls moved by "
+       "up to 3 mm.",
+       "Change a setback or a wall by a few millimetres.", 0},
+      {"extrude-overhang", "A building got no overhanging eaves, or not all around.",
+       "Give its roof edges eaves at one height above upright walls, and less overhang where walls are close.", 0},
       {"extrude-simplified",
        "A building could not be raised in full detail; its footprint was simplified by up to 30 cm.",
        "Look for very small or nearly parallel edges in its plan.", 1},

@@ -23,6 +23,7 @@ enum class FaceKind : std::uint8_t {
   terrace,    ///< horizontal part of a profile
   cap,        ///< flat top where the extrusion was ended
   base,       ///< the ground floor
+  soffit,     ///< the level underside of overhanging eaves
 };
 
 /// The plan's edge and the part of its profile that a face comes from.
@@ -53,6 +54,10 @@ enum class Outcome : std::uint8_t { full, simplified, two_part, prism };
 struct Options {
   double merge_angle = 0.0087;   ///< rad; turns under this are straightened
   double tolerance = 0.05;       ///< m; the canonical footprint lies within this of the input
+  /// m; how far the eaves overhang, with a level soffit below. Only where a roof rises from the lowest eaves; 0: none.
+  double overhang = 0;
+  /// m; vertices are rounded to multiples of this before the check, for files with that many decimals; 0: not at all.
+  double grid = 0;
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 
@@ -60,16 +65,23 @@ struct Raised {
   Solid solid;
   Outcome outcome = Outcome::full;
   std::vector<base::Diagnostic> warnings;  ///< a reason per step down, and what was straightened
+  double residual = 0;  ///< m; the furthest that a vertex lies from the plane of one of its faces, by rounding
 };
 
 /// Raises the plan. Speeds are never negative, so the roof is a height field above vertical walls.
 /// Guarantees: the numbers of docs/extrude.md; the solid passes check(). Never fails for a simple polygon with area: the
-/// ladder ends at the prism. Gives up with: "extrude-not-simple", "extrude-no-area", "extrude-profile", "extrude-cap".
+/// ladder ends at the prism, or at that of the outline without its details. Gives up with: "extrude-not-simple", "extrude-no-area", "extrude-profile", "extrude-cap".
 [[nodiscard]] auto raise(const geometry::Plan& plan, const Options& options = {}, const base::Run& run = {})
     -> base::Result<Raised>;
 
-/// The flat-roofed prism of the plan's polygon, base to cap: the last rung of the ladder.
-[[nodiscard]] auto prism(const geometry::Plan& plan) -> base::Result<Solid>;
+/// The flat-roofed prism of the plan's polygon, base to cap: the last rung of the ladder. Checked, like raise() and with
+/// the same errors.
+[[nodiscard]] auto prism(const geometry::Plan& plan, const Options& options = {}) -> base::Result<Solid>;
+
+/// The height above the base at which the sweep of the plan ends, in metres: its ridge, or the cap. Costs no solid and
+/// no check. Gives up as raise() does, and with "extrude-canonical" where that would go down the ladder.
+[[nodiscard]] auto crest(const geometry::Plan& plan, const Options& options = {}, const base::Run& run = {})
+    -> base::Result<double>;
 
 /// Everything wrong with a solid: "solid-open", "solid-non-manifold", "solid-orientation", "solid-not-planar" (a vertex
 /// more than `planar` metres off its face's plane), "solid-self-intersection", "solid-degenerate". Empty means valid.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <new>
 
 #include "mansard/base/text.hpp"
@@ -127,6 +128,25 @@ void append(std::vector<base::Diagnostic>& all, std::vector<base::Diagnostic> mo
   all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
+/// All features of the file as footprints. Where their polygons are beside `mesh`, they have a defect.
+auto finish_all(detail::FeatureFile& file, const Options& options, const Frame& frame, const Box2& mesh,
+                const std::string& subject) -> base::Result<std::vector<Finished>> {
+  auto ids = detail::ids_of(file.features, options.id_attribute, subject, file.warnings);
+  if (!ids) return ids.error();
+  std::vector<Finished> finished(file.features.size());
+  base::parallel_for(finished.size(), [&](std::size_t i) {
+    finished[i] = finish(std::move(file.features[i]), std::move((*ids)[i]), frame, mesh);
+  });
+  return finished;
+}
+
+void take(std::vector<Finished> finished, Scene& scene) {
+  for (auto& one : finished) {
+    if (one.warning) scene.warnings.push_back(std::move(*one.warning));
+    scene.footprints.push_back(std::move(one.footprint));
+  }
+}
+
 auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::filesystem::path& footprint_path,
           const Options& options, const base::Run& run) -> base::Result<Scene> {
   const std::string subject = footprint_path.string();
@@ -182,13 +202,9 @@ auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::files
   if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
 
   run.report("ingest", subject, 0.9);
-  auto ids = detail::ids_of(file->features, options.id_attribute, subject, file->warnings);
-  if (!ids) return ids.error();
   const Box2 local{mesh_box.plan.least - origin, mesh_box.plan.most - origin};
-  std::vector<Finished> finished(file->features.size());
-  base::parallel_for(finished.size(), [&](std::size_t i) {
-    finished[i] = finish(std::move(file->features[i]), std::move((*ids)[i]), scene.frame, local);
-  });
+  auto finished = finish_all(*file, options, scene.frame, local, subject);
+  if (!finished) return finished.error();
 
   scene.mesh = std::move(clean.mesh);
   scene.mesh_counts = clean.counts;
@@ -198,11 +214,36 @@ auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::files
   append(scene.warnings, detail::warnings_of(scene.mesh_counts, mesh_name));
   append(scene.warnings, std::move(file->warnings));
   append(scene.warnings, way->warnings);
-  for (auto& one : finished) {
-    if (one.warning) scene.warnings.push_back(std::move(*one.warning));
-    scene.footprints.push_back(std::move(one.footprint));
-  }
+  take(std::move(*finished), scene);
   run.report("ingest", subject, 1);
+  return scene;
+}
+
+auto read_alone(const std::filesystem::path& path, const Options& options, const base::Run& run) -> base::Result<Scene> {
+  const std::string subject = path.string();
+  const auto wanted = wanted_box(options);
+  if (!wanted) return wanted.error();
+  run.report("ingest", subject, 0);
+  auto file = detail::read_features(path, options, run);
+  if (!file) return file.error();
+  // Without a mesh to lie on, the footprints' own place stands for it.
+  const auto way = detail::choose_way(*file, options.crs, bounds(file->features), subject);
+  if (!way) return way.error();
+  if (auto gone = detail::go(*way, file->features, subject); !gone) return gone.error();
+  if (*wanted)
+    if (auto kept = keep_within(file->features, **wanted, subject); !kept) return kept.error();
+
+  Scene scene;
+  const Box2 box = bounds(file->features);
+  scene.frame.crs = way->name;
+  if (!box.empty()) scene.frame.origin = choose_origin(box, {box, 0, 0});
+  constexpr double far = std::numeric_limits<double>::infinity();
+  auto finished = finish_all(*file, options, scene.frame, {{-far, -far}, {far, far}}, subject);
+  if (!finished) return finished.error();
+  scene.inputs = std::move(file->inputs);
+  append(scene.warnings, std::move(file->warnings));
+  append(scene.warnings, way->warnings);
+  take(std::move(*finished), scene);
   return scene;
 }
 
@@ -239,6 +280,19 @@ auto read_scene(const std::vector<std::filesystem::path>& meshes, const std::fil
                        meshes.empty() ? std::string() : meshes.front().string());
   } catch (const std::exception& e) {
     // What a library throws on bad files must not get past this room.
+    return base::error("ingest-footprints-format", std::string("cannot be read (") + e.what() + "); check what it is",
+                       footprints.string());
+  }
+}
+
+auto read_footprints(const std::filesystem::path& footprints, const Options& options, const base::Run& run)
+    -> base::Result<Scene> {
+  try {
+    return read_alone(footprints, options, run);
+  } catch (const std::bad_alloc&) {
+    return base::error("ingest-memory", "the footprints do not fit into memory; read a part with --bbox or --where",
+                       footprints.string());
+  } catch (const std::exception& e) {
     return base::error("ingest-footprints-format", std::string("cannot be read (") + e.what() + "); check what it is",
                        footprints.string());
   }

@@ -91,6 +91,11 @@ struct Options {
 [[nodiscard]] auto read_scene(const std::vector<std::filesystem::path>& meshes, const std::filesystem::path& footprints,
                               const Options& options, const base::Run& run = {}) -> base::Result<Scene>;
 
+/// Footprints alone, where there is no mesh: as read_scene, with an empty mesh and z from 0. GeoJSON that says no CRS is
+/// taken to be in metres where it cannot be in degrees, or where a building would be longer than a degree.
+[[nodiscard]] auto read_footprints(const std::filesystem::path& footprints, const Options& options,
+                                   const base::Run& run = {}) -> base::Result<Scene>;
+
 [[nodiscard]] auto codes() -> std::vector<base::Code>;
 
 }  // namespace mansard::ingest

@@ -10,6 +10,7 @@ namespace {
 auto class_of(const extrude::Face& face, double lean) -> Class {
   switch (face.kind) {
     case extrude::FaceKind::base: return Class::ground;
+    case extrude::FaceKind::soffit: return Class::soffit;
     case extrude::FaceKind::connector: return Class::wall;
     case extrude::FaceKind::side: return std::abs(face.normal.z) <= lean ? Class::wall : Class::roof;
     case extrude::FaceKind::terrace:
@@ -65,6 +66,7 @@ auto areas(const LabelledSolid& labelled) -> Areas {
       case Class::wall: sum.wall += area; break;
       case Class::party_wall: sum.party_wall += area; break;
       case Class::ground: sum.ground += area; break;
+      case Class::soffit: sum.soffit += area; break;
       case Class::roof: (face.normal.z >= flat ? sum.roof_flat : sum.roof_sloped) += area; break;
     }
   }

@@ -12,7 +12,7 @@
 
 namespace mansard::label {
 
-enum class Class : std::uint8_t { wall, party_wall, roof, ground };
+enum class Class : std::uint8_t { wall, party_wall, roof, ground, soffit };
 
 struct LabelledSolid {
   extrude::Solid solid;
@@ -25,7 +25,7 @@ struct Options {
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 
-/// Side faces within `wall_angle` of vertical and connectors are walls, the base is ground, all else roof. A wall is a
+/// Side faces within `wall_angle` of vertical and connectors are walls, the base is ground, soffits are soffits, all else roof. A wall is a
 /// party wall where more than half of its area faces a wall of another solid of the block, opposite and within
 /// `party_distance`. Guarantees: 1 one class per face · 2 the order of solids does not matter.
 [[nodiscard]] auto classify(std::vector<extrude::Solid> solids, const Options& options, const base::Run& run = {})
@@ -33,7 +33,7 @@ struct Options {
 
 /// Areas per class, m².
 struct Areas {
-  double wall = 0, party_wall = 0, roof_flat = 0, roof_sloped = 0, ground = 0;
+  double wall = 0, party_wall = 0, roof_flat = 0, roof_sloped = 0, ground = 0, soffit = 0;
 };
 [[nodiscard]] auto areas(const LabelledSolid& labelled) -> Areas;
 

@@ -15,6 +15,7 @@ auto option_lists(Options& options) -> std::vector<base::OptionList> {
   lists.push_back(segment::option_list(options.segment));
   lists.push_back(profile::option_list(options.profile));
   lists.push_back(extrude::option_list(options.extrude));
+  lists.push_back(roof::option_list(options.roof));
   lists.push_back(label::option_list(options.label));
   lists.push_back(evaluate::option_list(options.evaluate));
   base::OptionList own("pipeline");
@@ -98,6 +99,7 @@ auto codes() -> std::vector<base::Code> {
   add(fracture::codes());
   add(segment::codes());
   add(extrude::codes());
+  add(roof::codes());
   add(write::codes());
   add(picture::codes());
   add({

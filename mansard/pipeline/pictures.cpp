@@ -65,14 +65,15 @@ auto colour_of(label::Class kind) -> picture::Colour {
     case label::Class::wall: return picture::wall_grey;
     case label::Class::party_wall: return picture::party_grey;
     case label::Class::roof: return picture::roof_red;
-    case label::Class::ground: return picture::ground_grey;
+    case label::Class::ground:
+    case label::Class::soffit: return picture::ground_grey;
   }
   return {};
 }
 
-auto models_of(const Reconstruction& reconstruction) -> picture::Layer {
+auto models_of(const write::City& city) -> picture::Layer {
   picture::Layer layer;
-  for (const auto& building : reconstruction.city.buildings)
+  for (const auto& building : city.buildings)
     for (const auto& part : building.parts) {
       const auto triangulated = extrude::triangulate(part.model.solid);
       if (!triangulated) continue;
@@ -122,6 +123,11 @@ auto merged(const std::vector<evaluate::ErrorMap>& maps) -> evaluate::ErrorMap {
 
 }  // namespace
 
+auto picture_of(const write::City& city, const picture::View& view, const base::Run& run) -> picture::Image {
+  const std::vector<picture::Layer> layers{models_of(city)};
+  return picture::draw(layers, {}, view, run);
+}
+
 auto pictures(const Reconstruction& reconstruction, const ingest::Scene& scene, double limit, const base::Run& run)
     -> Pictures {
   const auto frame = frame_of(scene);
@@ -137,7 +143,7 @@ auto pictures(const Reconstruction& reconstruction, const ingest::Scene& scene, 
   const picture::Layer scan{part_of(scene.mesh, frame, [](Point3) { return true; }), {picture::mesh_blue}};
   // The street of the scan stays in the second picture, for scale, in a quieter blue; the scan's buildings go.
   const picture::Layer street{part_of(scene.mesh, frame, [&](Point3 p) { return !in_footprint(p); }), {{206, 216, 232}}};
-  const auto models = models_of(reconstruction);
+  const auto models = models_of(reconstruction.city);
 
   const auto pair = [&](picture::View view) {
     const std::vector<picture::Layer> before{scan}, after{street, models};

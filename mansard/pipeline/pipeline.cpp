@@ -39,13 +39,6 @@ auto combined(const std::vector<BlockReport>& blocks) -> evaluate::Scores {
   return sum;
 }
 
-/// Vertices at 0.1 mm, as the files have them: what is checked is what is written.
-auto rounded(extrude::Solid solid) -> extrude::Solid {
-  const auto round = [](double metres) { return std::round(metres * 1e4) / 1e4; };
-  for (auto& v : solid.vertices) v = {round(v.x), round(v.y), round(v.z)};
-  return solid;
-}
-
 auto summed(const std::vector<BlockReport>& blocks) -> std::vector<StageTime> {
   std::vector<StageTime> sum;
   for (const auto& block : blocks)
@@ -113,22 +106,7 @@ auto reconstruct(const ingest::Scene& scene, const Options& options, const base:
 
 auto raise_part(const geometry::Plan& plan, const Options& options, const base::Run& run)
     -> base::Result<extrude::Raised> {
-  auto raised = extrude::raise(plan, options.extrude, run);
-  std::vector<base::Diagnostic> reasons;
-  if (raised) {
-    raised->solid = rounded(std::move(raised->solid));
-    const auto faults = extrude::check(raised->solid);
-    if (faults.empty()) return raised;
-    reasons = std::move(raised->warnings);
-    reasons.push_back(base::warning("extrude-prism", "the solid failed its check: " + faults.front().message));
-  } else {
-    reasons.push_back(base::warning("extrude-prism", raised.error().message));
-  }
-  auto prism = extrude::prism(plan);
-  if (!prism) return prism.error();
-  extrude::Raised flat{rounded(std::move(*prism)), extrude::Outcome::prism, std::move(reasons)};
-  if (const auto faults = extrude::check(flat.solid); !faults.empty()) return faults.front();
-  return flat;
+  return extrude::raise(plan, detail::with_grid(options.extrude), run);
 }
 
 }  // namespace mansard::pipeline

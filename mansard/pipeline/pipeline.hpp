@@ -19,6 +19,7 @@
 #include "mansard/label/label.hpp"
 #include "mansard/picture/picture.hpp"
 #include "mansard/profile/profile.hpp"
+#include "mansard/roof/roof.hpp"
 #include "mansard/segment/segment.hpp"
 #include "mansard/slice/slice.hpp"
 #include "mansard/sweep/sweep.hpp"
@@ -36,6 +37,7 @@ struct Options {
   segment::Options segment;
   profile::Options profile;
   extrude::Options extrude;
+  roof::Options roof;
   label::Options label;
   evaluate::Options evaluate;
 
@@ -96,6 +98,7 @@ struct BuildingReport {
   double volume = 0;                              ///< m³
   label::Areas areas;
   std::optional<double> rmse;  ///< m, vertical, over its parts; none where the mesh shows nothing
+  std::string roof, height_from;  ///< the shape made and where its height comes from; of raise_footprints only
 };
 
 struct Reconstruction {
@@ -115,11 +118,19 @@ struct Reconstruction {
 [[nodiscard]] auto reconstruct(const ingest::Scene& scene, const Options& options, const base::Run& run = {})
     -> base::Result<Reconstruction>;
 
+/// Footprints without a mesh: each raised by its attributes, or along options.roof.profile. No blocks, no scores.
+/// Guarantees: 1 to 4 of reconstruct · 5 a building is `full` only with the roof its attributes ask for; values that
+/// could not be used are among its reasons either way.
+/// Gives up with "cancelled", "pipeline-nothing", "roof-profile", "roof-attribute".
+[[nodiscard]] auto raise_footprints(const ingest::Scene& scene, const Options& options, const base::Run& run = {})
+    -> base::Result<Reconstruction>;
+
 /// One plan to one labelled, checked solid: what reconstruct does with each part once its profiles are known.
 [[nodiscard]] auto raise_part(const geometry::Plan& plan, const Options& options, const base::Run& run = {})
     -> base::Result<extrude::Raised>;
 
-/// The report as JSON. Everything but the members called "seconds" is the same in every run.
+/// The report as JSON. Everything but the members called "seconds" is the same in every run. Without a mesh it has no
+/// "mesh", "scores" and "blocks".
 [[nodiscard]] auto report_json(const Reconstruction& reconstruction, const ingest::Scene& scene) -> std::string;
 
 /// Figure 5 of the paper, twice: the scan with the footprints beside the models, from above and at an angle; and the
@@ -129,6 +140,10 @@ struct Pictures {
 };
 [[nodiscard]] auto pictures(const Reconstruction& reconstruction, const ingest::Scene& scene, double limit,
                             const base::Run& run = {}) -> Pictures;
+
+/// The models alone.
+[[nodiscard]] auto picture_of(const write::City& city, const picture::View& view = {}, const base::Run& run = {})
+    -> picture::Image;
 
 /// The codes of every room.
 [[nodiscard]] auto codes() -> std::vector<base::Code>;

@@ -80,8 +80,11 @@ auto json_of(const BuildingReport& b) -> Json {
                        {"party_wall", b.areas.party_wall},
                        {"roof_flat", b.areas.roof_flat},
                        {"roof_sloped", b.areas.roof_sloped},
+                       {"soffit", b.areas.soffit},
                        {"ground", b.areas.ground}};
   }
+  if (!b.roof.empty()) out["roof"] = b.roof;
+  if (!b.height_from.empty()) out["height_from"] = b.height_from;
   out["rmse_m"] = b.rmse ? Json(*b.rmse) : Json(nullptr);
   return out;
 }
@@ -106,8 +109,9 @@ auto report_json(const Reconstruction& r, const ingest::Scene& scene) -> std::st
   Json options = Json::object();
   for (const auto& [name, value] : r.city.made_by.options) options[name] = value;
   out["options"] = options;
+  const bool scanned = !scene.mesh.triangles.empty();
   const auto& m = scene.mesh_counts;
-  out["mesh"] = {{"vertices", m.vertices},
+  if (scanned) out["mesh"] = {{"vertices", m.vertices},
                  {"triangles", m.triangles},
                  {"dropped_not_finite", m.not_finite},
                  {"dropped_out_of_range", m.out_of_range},
@@ -119,14 +123,14 @@ auto report_json(const Reconstruction& r, const ingest::Scene& scene) -> std::st
   out["counts"] = {{"footprints", r.buildings.size()},       {"full", count(r, Outcome::full)},
                    {"fallback", count(r, Outcome::fallback)}, {"covered", count(r, Outcome::covered)},
                    {"refused", count(r, Outcome::refused)},   {"blocks", r.blocks.size()}};
-  out["scores"] = json_of(r.scores);
+  if (scanned) out["scores"] = json_of(r.scores);
   out["seconds"] = json_of(r.times);
   std::vector<base::Diagnostic> warnings = scene.warnings;
   warnings.insert(warnings.end(), r.warnings.begin(), r.warnings.end());
   out["warnings"] = json_of(warnings);
   Json blocks = Json::array();
   for (const auto& block : r.blocks) blocks.push_back(json_of(block));
-  out["blocks"] = blocks;
+  if (scanned) out["blocks"] = blocks;
   Json buildings = Json::array();
   for (const auto& building : r.buildings) buildings.push_back(json_of(building));
   out["buildings"] = buildings;

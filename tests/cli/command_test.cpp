@@ -134,6 +134,95 @@ TEST_F(Command, raises_its_own_plans_to_the_same_model_again) {
   EXPECT_THAT(twice.err, HasSubstr("output-exists"));
 }
 
+/// A feature of that ring with those properties, as JSON.
+auto feature(const std::string& properties, const std::string& ring) -> std::string {
+  return R"({"type":"Feature","properties":{)" + properties + R"(},"geometry":)" + polygon(ring) + "}";
+}
+auto collection(const std::string& features) -> std::string {
+  return R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:28992"}},"features":[)" + features + "]}";
+}
+const std::string two_houses = collection(
+    feature(R"("id":"gabled","roof:shape":"gabled","height":"9 m","roof:height":"3")", square) + "," +
+    feature(R"("id":"odd","roof:shape":"hipped","height":"tall","building:levels":2)", "[20,0],[32,0],[32,8],[20,8],[20,0]"));
+
+TEST_F(Command, raises_footprints_by_their_attributes) {
+  const auto file = put("two.geojson", two_houses);
+  const auto outcome = run("extrude " + file + " -o " + at("out") + " --picture --report " + at("copy.json"));
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, at("out") + "\n");
+  EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("2 of 2 buildings in full (1 of them with remarks)"),
+                                          HasSubstr("warning[roof-value] odd: height = \"tall\"")));
+  for (const auto* name : {"model.city.json", "model.obj", "model.mtl", "model.glb", "plans.json", "run.json", "picture.png"})
+    EXPECT_GT(fs::file_size(folder_ / "out" / name), 100U) << name;
+  EXPECT_EQ(read(at("copy.json")), read(at("out") + "/run.json"));
+  const auto report = nlohmann::json::parse(read(at("copy.json")));
+  EXPECT_NEAR(report["buildings"][0]["volume_m3"].get<double>(), 12 * 8 * 7.5, 0.01);
+  EXPECT_NEAR(report["buildings"][0]["roof_max_m"].get<double>(), 9, 1e-3);
+  EXPECT_EQ(report["buildings"][1]["height_from"], "levels");
+  EXPECT_EQ(report["crs"], "EPSG:28992");
+  // What it wrote is a plan file, which raises to the same model.
+  const auto again = run("extrude " + at("out") + "/plans.json -o " + at("again.city.json"));
+  EXPECT_EQ(again.exit, 0) << again.err;
+  const auto vertices = [](const std::string& text) { return nlohmann::json::parse(text)["vertices"]; };
+  EXPECT_EQ(vertices(read(at("again.city.json"))), vertices(read(at("out") + "/model.city.json")));
+}
+
+TEST_F(Command, raises_footprints_in_degrees_with_hstore_tags_in_their_utm_zone) {
+  const auto file = put("osm.geojson", R"({"type":"FeatureCollection","features":[)" +
+      feature(R"("osm_way_id":"7","other_tags":"\"roof:shape\"=>\"hipped\",\"building:levels\"=>\"3\"")",
+              "[4.36,52.0],[4.3602,52.0],[4.3602,52.0001],[4.36,52.0001],[4.36,52.0]") + "]}");
+  const auto outcome = run("extrude -q " + file + " -o " + at("out"));
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  const auto report = nlohmann::json::parse(read(at("out") + "/run.json"));
+  EXPECT_EQ(report["crs"], "EPSG:32631");
+  EXPECT_EQ(report["buildings"][0]["id"], "7");
+  EXPECT_EQ(report["buildings"][0]["roof"], "hipped");
+  EXPECT_EQ(report["buildings"][0]["height_from"], "levels");
+  EXPECT_NEAR(report["buildings"][0]["areas_m2"]["ground"].get<double>(), 13.73 * 11.12, 1.5);
+}
+
+TEST_F(Command, raises_footprints_along_one_profile_to_one_file) {
+  const auto file = put("two.geojson", two_houses);
+  const auto outcome = run("extrude -q " + file + " -o " + at("p.obj") + " --profile '0,0 0,6 4,9' --where \"id = 'odd'\"");
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_GT(fs::file_size(at("p.obj")), 100U);
+  EXPECT_EQ(std::ranges::count(read(at("p.obj")), 'v') > 10, true);
+  expect_refusal(run("extrude -q " + file + " -o " + at("out") + " --profile '0,0 0,6 -4,9'"), 4, "roof-profile", "-4,9");
+  expect_refusal(run("extrude -q " + file + " -o " + at("out") + " --height-attribute hight"), 4, "roof-attribute", "'height'");
+  expect_refusal(run("extrude -q " + file + " -o " + at("out") + " --roof-shape onion"), 4, "option-value", "mansard");
+}
+
+TEST_F(Command, gives_the_same_roofs_with_one_thread_and_two) {
+  const auto file = put("two.geojson", two_houses);
+  ASSERT_EQ(run("extrude -q -j 1 " + file + " -o " + at("one")).exit, 0);
+  ASSERT_EQ(run("extrude -q -j 2 " + file + " -o " + at("out")).exit, 0);
+  for (const auto* name : {"model.city.json", "model.obj", "model.glb", "plans.json"})
+    EXPECT_EQ(read(at("one") + "/" + name), read(at("out") + "/" + name)) << name;
+}
+
+TEST_F(Command, lets_a_bad_footprint_cost_only_itself_without_a_mesh_too) {
+  const auto bad = put("bad.geojson", beside_a_good_one("[0,0],[12,8],[12,0],[0,8],[0,0]"));
+  const auto outcome = run("extrude -q " + bad + " -o " + at("out"));
+  EXPECT_EQ(outcome.exit, 1) << outcome.err;
+  const auto buildings = nlohmann::json::parse(read(at("out") + "/run.json"))["buildings"];
+  EXPECT_EQ(buildings[0]["outcome"], "refused");
+  EXPECT_EQ(buildings[1]["outcome"], "full");
+  const auto only = put("only.geojson", geojson(polygon("[0,0],[12,8],[12,0],[0,8],[0,0]")));
+  EXPECT_EQ(run("extrude -q " + only + " -o " + at("none")).exit, 5);
+}
+
+TEST_F(Command, tells_plans_from_footprints_by_their_contents) {
+  expect_refusal(run("extrude " + put("a.json", R"({"type":"mansard-plan"})") + " -o " + at("out")), 3, "write-plan-missing");
+  expect_refusal(run("extrude " + put("b.json", R"({"type":"recipe"})") + " -o " + at("out")), 3, "write-plan-type");
+  expect_refusal(run("extrude -q " + put("c.shp", "no shapes") + " -o " + at("out")), 3, "ingest-footprints-format");
+  expect_refusal(run("extrude -q " + at("none.gpkg") + " -o " + at("out")), 3, "file-missing");
+  EXPECT_EQ(run("extrude -q " + put("plan-like-name.json", geojson(polygon(square))) + " -o " + at("ok")).exit, 0);
+  const auto own = put("own.geojson", two_houses);
+  expect_refusal(run("extrude -q " + own + " -o " + own), 2, "output-exists");
+  expect_refusal(run("extrude -q " + own + " -o " + at("x.obj") + " --report " + own + " --overwrite"), 2, "output-input");
+  EXPECT_EQ(read(own), two_houses);
+}
+
 TEST_F(Command, says_one_plain_line_per_stage_when_piped) {
   const auto outcome = run("reconstruct " + at("house.obj") + " " + at("house.geojson") + " -o " + at("out"));
   EXPECT_EQ(outcome.exit, 0);

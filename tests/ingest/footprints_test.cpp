@@ -115,6 +115,28 @@ INSTANTIATE_TEST_SUITE_P(, SourcesOfAnyFormat,
                                            Format{"FlatGeobuf", "fgb"}),
                          [](const auto& given) { return std::string(given.param.ending); });
 
+TEST_P(SourcesOfAnyFormat, are_read_without_a_mesh_just_the_same) {
+  const auto [driver, ending] = GetParam();
+  const fs::path path = at(std::string("alone.") + ending);
+  write(driver, path, 28992,
+        {{"POLYGON ((84910.125 447510.5,84910.125 447530.5,84930.125 447530.5,84930.125 447510.5,84910.125 447510.5))",
+          "one", 3},
+         {"POLYGON ((94960 457540,94970 457540,94970 457550,94960 457550,94960 457540))", "far", 2}});
+  const auto alone = read_footprints(path, {});
+  ASSERT_TRUE(alone) << base::to_string(alone.error());
+  EXPECT_EQ(alone->frame.crs, "EPSG:28992");
+  EXPECT_EQ(alone->frame.origin[2], 0);
+  EXPECT_TRUE(alone->mesh.triangles.empty());
+  ASSERT_EQ(alone->footprints.size(), 2U);
+  for (const auto& footprint : alone->footprints) EXPECT_FALSE(footprint.defect);  // nothing lies outside
+  Options some;
+  some.bbox = {84900, 447500, 85000, 447600};
+  const auto near = read_footprints(path, some);
+  ASSERT_TRUE(near) << base::to_string(near.error());
+  ASSERT_EQ(near->footprints.size(), 1U);
+  EXPECT_DOUBLE_EQ(geometry::area(near->footprints[0].polygons.at(0)), 400);
+}
+
 TEST_F(Sources, a_shapefile_names_all_its_files_as_inputs) {
   write("ESRI Shapefile", at("f.shp"), 28992, {{"POLYGON ((0 0,9 0,9 9,0 0))", "a", 1}});
   const auto scene = read({ground()}, at("f.shp"));

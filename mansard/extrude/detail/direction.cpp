@@ -1,8 +1,7 @@
 #include "mansard/extrude/detail/direction.hpp"
 
+#include <bit>
 #include <cmath>
-#include <numbers>
-#include <numeric>
 
 namespace mansard::extrude::detail {
 namespace {
@@ -12,18 +11,27 @@ constexpr std::int64_t one = std::int64_t{1} << 20;
 }  // namespace
 
 auto bearing_of(geometry::Point2 vector) -> Bearing {
-  const double angle = std::atan2(vector.y, vector.x);
-  const int quarters = static_cast<int>(std::lround(angle / (std::numbers::pi / 2)));
-  const double rest = angle - quarters * (std::numbers::pi / 2);
-  return {std::llround(std::tan(rest / 2) * static_cast<double>(one)), (quarters + 4) % 4};
+  // Quarter turns by comparison, not by an angle: the four turned vectors then meet the same numbers.
+  double u = vector.x, v = vector.y;
+  int quarters = 0;
+  while (!(u > 0 && -u < v && v <= u) && quarters < 4) {
+    const double turned = -u;
+    u = v;
+    v = turned;
+    ++quarters;
+  }
+  if (quarters == 4) return {};  // no vector at all
+  return {std::llround(v / (u + std::sqrt(u * u + v * v)) * static_cast<double>(one)), quarters};
 }
 
 auto direction_of(Bearing bearing) -> Direction {
-  // The rational parametrisation of the circle: ((1 − t²) / (1 + t²), 2t / (1 + t²)) with t = k / 2^20.
-  const std::int64_t k = bearing.k;
-  Direction d{one * one - k * k, 2 * k * one, one * one + k * k};
-  const std::int64_t common = std::gcd(std::gcd(d.a, d.b), d.l);
-  d = {d.a / common, d.b / common, d.l / common};
+  // The rational parametrisation of the circle: ((1 − t²) / (1 + t²), 2t / (1 + t²)) with t = k / 2^20 in lowest terms.
+  Direction d{1, 0, 1};
+  if (bearing.k != 0) {
+    const int twos = std::countr_zero(static_cast<std::uint64_t>(bearing.k));
+    const std::int64_t p = bearing.k >> twos, q = one >> twos;
+    d = {q * q - p * p, 2 * p * q, q * q + p * p};
+  }
   for (int quarter = 0; quarter < bearing.quarters; ++quarter) d = d.left();
   return d;
 }

@@ -35,6 +35,9 @@ struct Bearing {
   std::int64_t k = 0;
   int quarters = 0;
 };
+/// The table's entry nearest to a vector. A quarter turn of the vector adds to `quarters` alone, and a mirrored vector
+/// has −k, bit for bit; but a vector at exactly 45° to the axes has the greatest k and its mirror image too, because no
+/// rational unit vector lies there.
 [[nodiscard]] auto bearing_of(geometry::Point2 vector) -> Bearing;
 [[nodiscard]] auto direction_of(Bearing bearing) -> Direction;
 

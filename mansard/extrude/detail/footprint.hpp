@@ -22,11 +22,20 @@ struct TrackPart {
 };
 using Track = std::vector<TrackPart>;
 
-/// Quantised, knots on a straight run taken out.
+/// A profile on the grid: parts without extent left out, knots within four quanta of a straight run taken out. The
+/// profile of a canonical profile is that profile.
+struct CanonicalProfile {
+  Track track;
+  geometry::Profile profile;
+  std::size_t empty_parts = 0, straight_knots = 0;
+};
+[[nodiscard]] auto canonical_profile(const geometry::Profile& profile) -> CanonicalProfile;
 [[nodiscard]] auto track_of(const geometry::Profile& profile) -> Track;
+/// Whether they climb alike, whatever the parts are called.
+[[nodiscard]] auto same_shape(const Track& p, const Track& q) -> bool;
 
-/// All horizontal distances less by one part in 1024.
-void shorten_runs(std::vector<Track>& tracks);
+/// All runs between knots less by `parts` 4096ths, and on the grid again.
+void shorten_runs(Track& track, int parts);
 
 struct CanonicalEdge {
   Direction direction;
@@ -36,16 +45,26 @@ struct CanonicalEdge {
   std::optional<ExactPoint> joint;  ///< the start point where the predecessor lies on the same line
 };
 
+/// What the canonicaliser did.
+struct Tally {
+  std::size_t straightened = 0;  ///< corners at shallow turns that are no more
+  std::size_t collinear = 0;     ///< the same, exactly between their neighbours
+  std::size_t joints = 0;        ///< between neighbours on one line with different profiles
+  std::size_t slivers = 0;       ///< edges too short to be one on exact lines, and stretches between joints
+};
+
 struct Footprint {
   std::vector<std::vector<CanonicalEdge>> rings;
   std::vector<std::vector<ExactPoint>> corners;  ///< start point of each edge
   std::vector<Track> tracks;
-  geometry::Point2 origin;  ///< whole metres, taken off all coordinates
-  double moved = 0;         ///< m; how far the outline moved at its corners, those straightened away included
+  geometry::Point2 origin;  ///< half metres, taken off all coordinates
+  double moved = 0;         ///< m; bound on the Hausdorff distance between this outline and the source's, both ways
+  Tally tally;
 };
 
 /// A ring of the plan prepared for the kernel: oriented, repeated points dropped, the plan's edges remembered.
 struct SourceRing {
+  std::uint32_t ring = 0;  ///< the plan's: 0 the outer one, 1 … its holes
   std::vector<geometry::Point2> points;
   std::vector<std::uint32_t> profile;  ///< of edge i
   std::vector<std::uint32_t> edge;     ///< the plan's edge index
@@ -53,11 +72,29 @@ struct SourceRing {
 struct Source {
   std::vector<SourceRing> rings;  ///< outer first
   std::vector<geometry::Profile> profiles;
+  std::size_t repeated_points = 0;  ///< dropped
 };
 
 /// Lines, directions and joints for the source; nothing, and why, when the result would not be a simple polygon within
-/// tolerance of the source.
+/// tolerance of the source. A source that lies on exact lines already stays as it is. Mirrored in an axis, turned by
+/// quarters, shifted by whole metres or started at another corner the source gives the same footprint so treated,
+/// exactly (but see bearing_of).
 [[nodiscard]] auto canonical(const Source& source, const Options& options, std::string& why)
     -> std::optional<Footprint>;
+
+/// The footprint a little different, for when upright walls met in one line exactly: attempts 0, 1, … are other
+/// combinations of shorter runs and of edges moved inward by a few quanta, each line by another number of them. `how`
+/// says so in words. Nothing when the outline would not be simple or would move beyond tolerance.
+inline constexpr int most_nudges = 6;
+[[nodiscard]] auto nudged(const Footprint& footprint, int attempt, const Options& options, std::string& how)
+    -> std::optional<Footprint>;
+
+/// The corner where two lines meet that are not parallel.
+[[nodiscard]] auto corner_of(const CanonicalEdge& before, const CanonicalEdge& after) -> ExactPoint;
+/// Two edges of the outline that cross or touch; exact where doubles leave it open. Places are (ring, edge).
+struct Clash {
+  std::size_t ring = 0, edge = 0, other_ring = 0, other_edge = 0;
+};
+[[nodiscard]] auto clash_in(const std::vector<std::vector<ExactPoint>>& corners) -> std::optional<Clash>;
 
 }  // namespace mansard::extrude::detail

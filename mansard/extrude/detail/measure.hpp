@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "mansard/extrude/detail/triangles.hpp"
 #include "mansard/extrude/extrude.hpp"
 
 namespace mansard::extrude::detail {
@@ -13,12 +14,11 @@ namespace mansard::extrude::detail {
 /// Newell's vector of a face: along its normal, of twice its area.
 [[nodiscard]] auto area_vector(const Solid& solid, const Face& face) -> geometry::Point3;
 
-/// The face's loops on the coordinate plane it faces most, as seen from outside; holes clockwise.
-[[nodiscard]] auto projected(const Solid& solid, const Face& face) -> geometry::Polygon;
-
 /// Triangles of one face over solid.vertices.
-[[nodiscard]] auto triangles_of(const Solid& solid, const Face& face)
-    -> base::Result<std::vector<std::array<std::uint32_t, 3>>>;
+[[nodiscard]] auto triangles_of(const Solid& solid, const Face& face) -> base::Result<std::vector<Corners>>;
+
+/// geometry::orientation(), quick to see that corners on a line are.
+[[nodiscard]] auto turn(geometry::Point2 a, geometry::Point2 b, geometry::Point2 c) -> int;
 
 /// +1 when d lies above the plane of a, b, c (counter-clockwise seen from there), −1 below, 0 on it. Exact.
 [[nodiscard]] auto above(geometry::Point3 a, geometry::Point3 b, geometry::Point3 c, geometry::Point3 d) -> int;

@@ -2,117 +2,148 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <tuple>
+
+#include "mansard/extrude/detail/triangles.hpp"
 
 namespace mansard::extrude::detail {
 namespace {
 
 using geometry::Point2;
 using geometry::Point3;
+using Indices = std::vector<std::uint32_t>;
+
+constexpr double short_arc = 1e-3;  // m
 
 auto normal_of(const FaceNode& node) -> Point3 {
-  if (node.kind == FaceKind::base) return {0, 0, -1};
+  if (node.kind == FaceKind::base || node.kind == FaceKind::soffit) return {0, 0, -1};
   if (node.kind == FaceKind::cap || node.kind == FaceKind::terrace) return {0, 0, 1};
   const Point2 inward = left_of(node.direction.approximate());
   const double slope = node.kind == FaceKind::connector ? 0 : node.slope.get_d();
   return normalised(Point3{-inward.x, -inward.y, slope});
 }
 
-/// The face seen from outside along the axis nearest to its normal.
-auto seen(Point3 normal, Point3 p) -> Point2 {
-  const double x = std::abs(normal.x), y = std::abs(normal.y), z = std::abs(normal.z);
-  if (z >= x && z >= y) return normal.z > 0 ? Point2{p.x, p.y} : Point2{p.y, p.x};
-  if (x >= y) return normal.x > 0 ? Point2{p.y, p.z} : Point2{p.z, p.y};
-  return normal.y > 0 ? Point2{p.z, p.x} : Point2{p.x, p.z};
+/// Where each face's plane lies along its normal: the exact points are on it, so that their doubles agree to rounding.
+auto offsets_of(const Solid& solid) -> std::vector<double> {
+  std::vector<double> offsets;
+  offsets.reserve(solid.faces.size());
+  for (const Face& face : solid.faces) {
+    double least = dot(face.normal, solid.vertices[face.loops[0][0]]), most = least;
+    for (const auto& loop : face.loops)
+      for (const std::uint32_t v : loop) {
+        const double d = dot(face.normal, solid.vertices[v]);
+        least = std::min(least, d);
+        most = std::max(most, d);
+      }
+    offsets.push_back((least + most) / 2);
+  }
+  return offsets;
 }
 
-/// Draws short edges together, one after the other, shortest first.
+auto has_short_arc(const Solid& solid) -> bool {
+  for (const Face& face : solid.faces)
+    for (const auto& loop : face.loops)
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        const Point3 d = solid.vertices[loop[i + 1 == loop.size() ? 0 : i + 1]] - solid.vertices[loop[i]];
+        if (dot(d, d) < short_arc * short_arc) return true;
+      }
+  return false;
+}
+
+auto holds(const Indices& list, std::uint32_t item) -> bool { return std::ranges::find(list, item) != list.end(); }
+void unite(Indices& list, std::uint32_t item) {
+  if (!holds(list, item)) list.push_back(item);
+}
+auto is_corner(const Face& face, std::uint32_t v) -> bool {
+  return std::ranges::any_of(face.loops, [v](const auto& loop) { return holds(loop, v); });
+}
+
+/// Draws short arcs together, one after the other, shortest first. Faces that vanish keep their place without loops.
 class Collapse {
  public:
-  Collapse(std::vector<Point3>& vertices, std::vector<Face>& faces) : vertices_(vertices), faces_(faces) {
-    around_.resize(vertices.size());
-    for (std::uint32_t f = 0; f < faces.size(); ++f) {
-      const Point3 n = faces[f].normal;
-      double least = dot(n, vertices[faces[f].loops[0][0]]), most = least;
-      for (const auto& loop : faces[f].loops)
-        for (const std::uint32_t v : loop) {
-          around_[v].insert(f);
-          least = std::min(least, dot(n, vertices[v]));
-          most = std::max(most, dot(n, vertices[v]));
-        }
-      offsets_.push_back((least + most) / 2);
-    }
+  Collapse(Solid& solid, const std::vector<double>& offsets)
+      : vertices_(solid.vertices), faces_(solid.faces), offsets_(offsets), triangulator_(solid) {
+    around_.resize(vertices_.size());
+    for (std::uint32_t f = 0; f < faces_.size(); ++f)
+      for (const auto& loop : faces_[f].loops)
+        for (const std::uint32_t v : loop) unite(around_[v], f);
   }
 
-  void run() {
-    while (pass()) {
-    }
-    std::erase_if(faces_, [](const Face& face) { return face.loops.empty(); });
+  /// How many were.
+  auto run() -> std::size_t {
+    std::size_t before = 0;
+    do {
+      before = joined_;
+      pass();
+    } while (joined_ > before);
+    return joined_;
   }
 
  private:
-  /// Tries every short edge once; whether one was drawn together.
-  auto pass() -> bool {
-    constexpr double short_edge = 1e-3;
-    std::vector<std::tuple<double, std::uint32_t, std::uint32_t>> edges;
+  /// Tries every short arc once.
+  void pass() {
+    std::vector<std::tuple<double, std::uint32_t, std::uint32_t>> arcs;
     for (const Face& face : faces_)
       for (const auto& loop : face.loops)
         for (std::size_t i = 0; i < loop.size(); ++i) {
           const std::uint32_t a = loop[i], b = loop[(i + 1) % loop.size()];
           const double l = length(vertices_[b] - vertices_[a]);
-          if (a < b && l < short_edge) edges.emplace_back(l, a, b);
+          if (a < b && l < short_arc) arcs.emplace_back(l, a, b);
         }
-    std::ranges::sort(edges);
-    bool joined = false;
-    for (const auto& [l, a, b] : edges)
-      if (!around_[a].empty() && !around_[b].empty() && share_an_edge(a, b) && try_to_join(a, b)) joined = true;
-    return joined;
+    std::ranges::sort(arcs);
+    for (const auto& [l, a, b] : arcs)
+      if (topology_allows(a, b) && join(a, b)) ++joined_;
   }
 
-  [[nodiscard]] auto follows(const Face& face, std::uint32_t a, std::uint32_t b) const -> bool {
+  static auto follows(const Face& face, std::uint32_t a, std::uint32_t b) -> bool {
     for (const auto& loop : face.loops)
       for (std::size_t i = 0; i < loop.size(); ++i)
         if (loop[i] == a && loop[(i + 1) % loop.size()] == b) return true;
     return false;
   }
-  [[nodiscard]] auto share_an_edge(std::uint32_t a, std::uint32_t b) const -> bool {
-    return std::ranges::any_of(around_[a], [&](std::uint32_t f) { return follows(faces_[f], a, b); });
-  }
 
-  [[nodiscard]] auto neighbours(std::uint32_t v) const -> std::set<std::uint32_t> {
-    std::set<std::uint32_t> found;
+  [[nodiscard]] auto neighbours(std::uint32_t v) const -> Indices {
+    Indices found;
     for (const std::uint32_t f : around_[v])
       for (const auto& loop : faces_[f].loops)
         for (std::size_t i = 0; i < loop.size(); ++i)
           if (loop[i] == v) {
-            found.insert(loop[(i + 1) % loop.size()]);
-            found.insert(loop[(i + loop.size() - 1) % loop.size()]);
+            unite(found, loop[(i + 1) % loop.size()]);
+            unite(found, loop[(i + loop.size() - 1) % loop.size()]);
           }
     return found;
   }
 
-  /// The link condition: a and b share the two faces along their edge only, and a common neighbour only as the third
-  /// corner of a triangle among these.
+  /// The link condition for faces of any number of corners: a and b are neighbours, share no faces but the two along
+  /// their arc, and share a neighbour only as the third corner of a triangle among these two; such a triangle is all of
+  /// its face, which vanishes. Four faces about a and b alone, a tetrahedron, would leave nothing.
   [[nodiscard]] auto topology_allows(std::uint32_t a, std::uint32_t b) const -> bool {
-    std::size_t triangles = 0;
+    std::size_t along = 0, triangles = 0;
     for (const std::uint32_t f : around_[a]) {
-      if (!around_[b].contains(f)) continue;
-      if (!follows(faces_[f], a, b) && !follows(faces_[f], b, a)) return false;
-      if (faces_[f].loops.size() == 1 && faces_[f].loops[0].size() == 3) ++triangles;
-      for (const auto& loop : faces_[f].loops) {
-        const bool with = std::ranges::find(loop, a) != loop.end() || std::ranges::find(loop, b) != loop.end();
-        if (with && loop.size() == 3 && faces_[f].loops.size() > 1) return false;
+      if (!holds(around_[b], f)) continue;
+      const Face& face = faces_[f];
+      const bool forth = follows(face, a, b), back = follows(face, b, a);
+      if (forth == back) return false;  // apart on one face, or the arc inside of it
+      ++along;
+      std::size_t loops = 0;
+      for (const auto& loop : face.loops) {
+        if (!holds(loop, a) && !holds(loop, b)) continue;
+        ++loops;
+        if (loop.size() > 3) continue;
+        if (face.loops.size() > 1) return false;  // the loop would vanish, its face would not
+        ++triangles;
       }
+      if (loops > 1) return false;  // two loops would touch
     }
-    const auto of_a = neighbours(a), of_b = neighbours(b);
+    if (along != 2) return false;
+    const Indices of_a = neighbours(a), of_b = neighbours(b);
     std::size_t common = 0;
-    for (const std::uint32_t v : of_a) common += of_b.contains(v) ? 1 : 0;
-    return common == triangles;
+    for (const std::uint32_t v : of_a) common += holds(of_b, v) ? 1 : 0;
+    return common == triangles && of_a.size() + of_b.size() - 2 - common >= 3;
   }
 
   /// The point nearest to all the planes (least squares), held near `start` where they leave it free.
-  [[nodiscard]] auto compromise(const std::set<std::uint32_t>& touched, Point3 start) const -> Point3 {
+  [[nodiscard]] auto compromise(const Indices& touched, Point3 start) const -> Point3 {
     constexpr double hold = 1e-6;
     Point3 x{hold, 0, 0}, y{0, hold, 0}, z{0, 0, hold}, pull;
     for (const std::uint32_t f : touched) {
@@ -127,10 +158,10 @@ class Collapse {
     return start + Point3{dot(pull, cross(y, z)) / det, dot(x, cross(pull, z)) / det, dot(x, cross(y, pull)) / det};
   }
 
-  auto try_to_join(std::uint32_t a, std::uint32_t b) -> bool {
-    if (!topology_allows(a, b)) return false;
-    std::set<std::uint32_t> touched = around_[a];
-    touched.insert(around_[b].begin(), around_[b].end());
+  auto join(std::uint32_t a, std::uint32_t b) -> bool {
+    Indices touched = around_[a];
+    for (const std::uint32_t f : around_[b]) unite(touched, f);
+    std::ranges::sort(touched);
 
     const Point3 pa = vertices_[a], pb = vertices_[b];
     const auto residual = [&](Point3 p) {
@@ -142,28 +173,29 @@ class Collapse {
     Point3 best = pa;
     for (const Point3 p : {pb, 0.5 * (pa + pb), compromise(touched, 0.5 * (pa + pb))})
       if (residual(p) < residual(best)) best = p;
-    if (residual(best) > allowed) return false;
+    if (!(residual(best) <= allowed)) return false;
 
-    std::vector<std::pair<std::uint32_t, Face>> before;
-    for (const std::uint32_t f : touched) before.emplace_back(f, faces_[f]);
+    std::vector<std::vector<Indices>> before;
+    for (const std::uint32_t f : touched) before.push_back(faces_[f].loops);
     vertices_[a] = vertices_[b] = best;
+    for (const std::uint32_t f : touched) replace(faces_[f], b, a);
     bool sound = true;
-    for (const std::uint32_t f : touched) {
-      replace(faces_[f], b, a);
-      sound = sound && (faces_[f].loops.empty() || is_sound(faces_[f]));
-    }
-    if (!sound) {
+    for (std::size_t i = 0; i < touched.size(); ++i)
+      if (faces_[touched[i]].loops.empty())
+        for (const std::uint32_t v : before[i][0])
+          if (v != a && v != b) sound = sound && take_out_passing(v);
+    if (!sound || !all_sound(touched)) {
       vertices_[a] = pa;
       vertices_[b] = pb;
-      for (auto& [f, face] : before) faces_[f] = std::move(face);
+      for (std::size_t i = 0; i < touched.size(); ++i) faces_[touched[i]].loops = std::move(before[i]);
       return false;
     }
-    for (const auto& [f, face] : before)
-      for (const auto& loop : face.loops)
-        for (const std::uint32_t v : loop) around_[v].erase(f);
+    for (std::size_t i = 0; i < touched.size(); ++i)
+      for (const Indices& loop : before[i])
+        for (const std::uint32_t v : loop)
+          if (v == a || v == b || !is_corner(faces_[touched[i]], v)) std::erase(around_[v], touched[i]);
     for (const std::uint32_t f : touched)
-      for (const auto& loop : faces_[f].loops)
-        for (const std::uint32_t v : loop) around_[v].insert(f);
+      if (is_corner(faces_[f], a)) around_[a].push_back(f);
     return true;
   }
 
@@ -177,29 +209,41 @@ class Collapse {
     if (face.loops[0].size() < 3) face.loops.clear();
   }
 
-  /// Still simple and the same way round, seen along its normal; exact for the rounded points.
-  [[nodiscard]] auto is_sound(const Face& face) const -> bool {
-    geometry::Polygon polygon;
-    for (std::size_t l = 0; l < face.loops.size(); ++l) {
-      geometry::Ring ring;
-      for (const std::uint32_t v : face.loops[l]) ring.push_back(seen(face.normal, vertices_[v]));
-      if ((geometry::signed_area(ring) > 0) != (l == 0)) return false;
-      if (l == 0) polygon.outer = std::move(ring);
-      else polygon.holes.push_back(std::move(ring));
-    }
-    return geometry::is_simple(polygon);
+  /// A corner of three faces, of which one has vanished, lies inside an arc now: taken out. False where that leaves
+  /// nothing of a loop.
+  auto take_out_passing(std::uint32_t v) -> bool {
+    Indices left;
+    for (const std::uint32_t f : around_[v])
+      if (is_corner(faces_[f], v)) left.push_back(f);
+    if (left.size() != 2) return true;
+    for (const std::uint32_t f : left)
+      for (auto& loop : faces_[f].loops)
+        if (std::erase(loop, v) > 0 && loop.size() < 3) return false;
+    return true;
+  }
+
+  /// No face turned over or crossing itself; exact for the rounded points.
+  auto all_sound(const Indices& touched) -> bool {
+    return std::ranges::all_of(touched, [&](std::uint32_t f) {
+      triangles_.clear();
+      return faces_[f].loops.empty() || triangulator_.append(faces_[f], faces_[f].normal, triangles_);
+    });
   }
 
   std::vector<Point3>& vertices_;
   std::vector<Face>& faces_;
-  std::vector<std::set<std::uint32_t>> around_;
-  std::vector<double> offsets_;
+  const std::vector<double>& offsets_;
+  std::vector<Indices> around_;  ///< the faces at each vertex
+  Triangulator triangulator_;
+  std::vector<Corners> triangles_;
+  std::size_t joined_ = 0;
 };
 
 /// Numbers the vertices in the order in which the faces name them, and leaves out those that none does.
 void renumber(Solid& solid) {
-  std::vector<std::uint32_t> index(solid.vertices.size(), UINT32_MAX);
+  Indices index(solid.vertices.size(), UINT32_MAX);
   std::vector<Point3> used;
+  used.reserve(solid.vertices.size());
   for (Face& face : solid.faces)
     for (auto& loop : face.loops)
       for (std::uint32_t& v : loop) {
@@ -214,18 +258,37 @@ void renumber(Solid& solid) {
 
 }  // namespace
 
-auto rounded(const ExactSurface& surface, const Placement& placement, bool collapse) -> Solid {
-  Solid solid;
-  for (const Trace::Point& p : surface.points) solid.vertices.push_back({p.x.get_d(), p.y.get_d(), p.z.get_d()});
+auto on_grid(Point3 p, double grid) -> Point3 {
+  if (grid <= 0) return p;
+  // A whole number of steps per metre gives the double that a file's decimals give.
+  const double steps = std::round(1 / grid);
+  const auto round = [&](double v) { return steps >= 1 ? std::round(v * steps) / steps : std::round(v / grid) * grid; };
+  return {round(p.x), round(p.y), round(p.z)};
+}
+
+auto rounded(const ExactSurface& surface, const Placement& placement, bool collapse) -> Rounded {
+  Rounded result;
+  Solid& solid = result.solid;
+  solid.vertices = surface.places;
+  solid.faces.reserve(surface.faces.size());
   for (const auto& face : surface.faces) {
     Face out{face.loops, face.node.kind, std::nullopt, normal_of(face.node)};
     if (out.kind == FaceKind::side || out.kind == FaceKind::terrace) out.provenance = face.node.provenance;
     solid.faces.push_back(std::move(out));
   }
-  if (collapse) Collapse(solid.vertices, solid.faces).run();
+  const auto offsets = offsets_of(solid);
+  if (collapse && has_short_arc(solid)) result.collapsed = Collapse(solid, offsets).run();
   renumber(solid);
-  for (Point3& p : solid.vertices) p = p + Point3{placement.origin.x, placement.origin.y, placement.base};
-  return solid;
+
+  const Point3 shift{placement.origin.x, placement.origin.y, placement.base};
+  for (Point3& p : solid.vertices) p = on_grid(p + shift, placement.grid);
+  for (std::size_t f = 0; f < solid.faces.size(); ++f)
+    for (const auto& loop : solid.faces[f].loops)
+      for (const std::uint32_t v : loop)
+        result.residual =
+            std::max(result.residual, std::abs(dot(solid.faces[f].normal, solid.vertices[v] - shift) - offsets[f]));
+  std::erase_if(solid.faces, [](const Face& face) { return face.loops.empty(); });
+  return result;
 }
 
 }  // namespace mansard::extrude::detail

@@ -1,6 +1,7 @@
 // The snapshot: everything that happens at one critical moment, resolved at once by one rule.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <tuple>
 
 #include "mansard/extrude/detail/wavefront.hpp"
@@ -8,131 +9,206 @@
 namespace mansard::extrude::detail {
 namespace {
 
-constexpr std::uint32_t none = UINT32_MAX;
+using geometry::Point2;
 
-struct Box {
-  Interval x, y;
-  [[nodiscard]] auto overlaps(const Box& o) const -> bool { return x.overlaps(o.x) && y.overlaps(o.y); }
-  [[nodiscard]] auto with(const Box& o) const -> Box {
-    return {{std::min(x.lo, o.x.lo), std::max(x.hi, o.x.hi)}, {std::min(y.lo, o.y.lo), std::max(y.hi, o.y.hi)}};
-  }
-};
-
-/// A stretch of an edge between two sites.
+/// A stretch of an edge between two sites, or a site and a quiet vertex.
 struct Piece {
-  std::uint32_t edge, from, to;
+  std::uint32_t edge;
+  std::uint32_t from, to;  ///< sites; none at a quiet vertex
   bool alive = true;
-  std::uint32_t next = none, prev = none;
+  std::uint32_t next = none, prev = none;  ///< pieces
+  std::uint32_t slot = none;
 };
 
 }  // namespace
 
-/// Sites are the points where something happens; a vertex that nothing touches stays quiet and is a site of its own,
-/// numbered after the others, whose exact place is never needed.
+/// Sites are the points where something happens. Only edges at a site are looked at; a vertex that nothing touches is
+/// quiet, and stays as it is.
 struct Wavefront::Meeting {
+  struct Site {
+    Triple planes{};
+    std::uint32_t point = 0;
+    Point2 place;
+  };
+  struct Stop {
+    std::uint32_t vertex, site;
+  };
+
   Wavefront& wave;
-  const Rational &t, &z;
-  std::uint32_t count;
-  std::vector<Box> boxes;
-  std::vector<std::optional<ExactPoint>> exact;
-  std::vector<bool> involved;
-  std::vector<std::vector<std::uint32_t>> touching;  // vertices strictly inside edge i
-  std::vector<std::uint32_t> site_of;                // vertex → site
-  std::vector<ExactPoint> sites;
-  std::vector<std::uint32_t> points;  // site → point of the trace
+  const double t;
+  std::vector<std::uint32_t> vertices;  ///< involved, sorted
+  std::vector<Triple> planes;           ///< that meet at them
+  std::vector<std::uint32_t> leader;    ///< of equal vertices
+  std::vector<std::uint32_t> site_of;   ///< by place in `vertices`
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> inside;  ///< edge, vertex that touches it between its ends
+  std::vector<Site> sites;
+  std::vector<std::uint32_t> touched;  ///< edges at a site, sorted
   std::vector<Piece> pieces;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> range;  ///< pieces of touched edge i: [first, second)
 
-  Meeting(Wavefront& w, const Rational& moment, const Rational& height)
-      : wave(w), t(moment), z(height), count(static_cast<std::uint32_t>(w.edges.size())) {
-    const Interval when(t);
-    exact.resize(count);
-    involved.assign(count, false);
-    touching.resize(count);
-    for (const WaveEdge& e : wave.edges) boxes.push_back({e.x0 + e.x1 * when, e.y0 + e.y1 * when});
+  explicit Meeting(Wavefront& w) : wave(w), t((w.now.lo + w.now.hi) / 2) {}
+
+  [[nodiscard]] auto index_of(std::uint32_t vertex) const -> std::uint32_t {
+    const auto at = std::ranges::lower_bound(vertices, vertex);
+    if (at == vertices.end() || *at != vertex) return none;
+    return static_cast<std::uint32_t>(at - vertices.begin());
+  }
+  [[nodiscard]] auto root(std::uint32_t i) -> std::uint32_t {
+    while (leader[i] != i) i = leader[i] = leader[leader[i]];
+    return i;
+  }
+  void unite(std::uint32_t i, std::uint32_t j) {
+    i = root(i);
+    j = root(j);
+    leader[std::max(i, j)] = std::min(i, j);
   }
 
-  auto at(std::uint32_t vertex) -> const ExactPoint& {
-    if (!exact[vertex]) exact[vertex] = wave.start_of(vertex, t);
-    return *exact[vertex];
-  }
-
-  void find_contacts() {
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const std::uint32_t j = wave.edges[i].next;
-      if (boxes[i].overlaps(boxes[j]) && at(i) == at(j)) involved[i] = involved[j] = true;
+  /// Which vertices are involved, which of them are at one place, and which lie inside an edge.
+  void gather(const std::vector<Contact>& contacts) {
+    struct Involved {
+      std::uint32_t vertex, contact;
+    };
+    std::vector<Involved> involved;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> equal;  // vertices
+    for (std::uint32_t k = 0; k < contacts.size(); ++k) {
+      const Contact& c = contacts[k];
+      const std::uint32_t end = wave.edges[c.edge].next;
+      involved.push_back({c.vertex, k});
+      if (c.vertex == c.edge) {
+        involved.push_back({end, k});
+        equal.emplace_back(c.vertex, end);
+        continue;
+      }
+      const int place = c.inside ? 0 : wave.place_on(c);
+      if (place == 0) {
+        inside.emplace_back(c.edge, c.vertex);
+        continue;
+      }
+      const std::uint32_t other = place < 0 ? c.edge : end;
+      involved.push_back({other, k});
+      equal.emplace_back(c.vertex, other);
     }
-    for (std::uint32_t e = 0; e < count; ++e) {
-      const std::uint32_t end = wave.edges[e].next;
-      const Box reach = boxes[e].with(boxes[end]);
-      const Direction& d = wave.line_of(e).direction;
-      const auto l = static_cast<double>(d.l);
-      const Interval a = Interval(static_cast<double>(d.a)) / l, b = Interval(static_cast<double>(d.b)) / l;
-      const Interval r = wave.line_of(e).c + wave.line_of(e).s * Interval(t);
-      for (std::uint32_t v = 0; v < count; ++v) {
-        if (v == e || v == end || !boxes[v].overlaps(reach)) continue;
-        if (!(a * boxes[v].y - b * boxes[v].x - r).holds_zero()) continue;
-        contact(v, e, end);
+    std::ranges::sort(involved, {}, [](const Involved& i) { return std::tuple(i.vertex, i.contact); });
+    for (const Involved& i : involved)
+      if (vertices.empty() || vertices.back() != i.vertex) {
+        vertices.push_back(i.vertex);
+        planes.push_back(wave.triple_of(contacts[i.contact]));
+      }
+    leader.resize(vertices.size());
+    std::iota(leader.begin(), leader.end(), 0U);
+    for (const auto& [v, w] : equal) unite(index_of(v), index_of(w));
+    std::ranges::sort(inside);
+    inside.erase(std::ranges::unique(inside).begin(), inside.end());
+  }
+
+  /// Where vertex v lies along the edge relative to vertex w, both on it.
+  [[nodiscard]] auto order_along(std::uint32_t edge, std::uint32_t v, std::uint32_t w) -> int {
+    if (root(index_of(v)) == root(index_of(w))) return 0;
+    const PlaneId line = wave.plane_at(edge);
+    // A line through v that is not along the edge; where w lies beside it.
+    PlaneId through = wave.start_plane(v);
+    if (wave.turn(through, line) == 0) through = wave.plane_at(v);
+    return -wave.planes_.side(through, {wave.start_plane(w), wave.plane_at(w), line}) * wave.turn(through, line);
+  }
+
+  void sort_inside() {
+    for (auto first = inside.begin(); first != inside.end();) {
+      auto last = first;
+      while (last != inside.end() && last->first == first->first) ++last;
+      const std::uint32_t edge = first->first;
+      const Plane& line = wave.planes_[wave.plane_at(edge)];
+      const Point2 along{line.ny, -line.nx};
+      struct Along {
+        double least, most;
+        std::uint32_t vertex;
+      };
+      std::vector<Along> order;
+      for (auto i = first; i != last; ++i) {
+        const WaveEdge& v = wave.edges[i->second];
+        const double w = dot(along, wave.position(i->second, t));
+        const double unsure = 2 * (v.error0 + std::abs(t) * v.error1 + v.pace * (wave.now.hi - wave.now.lo)) +
+                              0x1.0p-50 * (std::abs(w) + std::abs(v.x0) + std::abs(v.y0));
+        order.push_back({w - unsure, w + unsure, i->second});
+      }
+      std::ranges::sort(order, [&](const Along& p, const Along& q) {
+        if (p.most < q.least || q.most < p.least) return p.most < q.least;
+        const int exactly = p.vertex == q.vertex ? 0 : order_along(edge, p.vertex, q.vertex);
+        return exactly != 0 ? exactly < 0 : p.vertex < q.vertex;
+      });
+      for (std::size_t i = 0; i < order.size(); ++i, ++first) {
+        first->second = order[i].vertex;
+        if (i > 0 && order[i - 1].most >= order[i].least && order_along(edge, order[i - 1].vertex, order[i].vertex) == 0)
+          unite(index_of(order[i - 1].vertex), index_of(order[i].vertex));
       }
     }
-  }
-
-  void contact(std::uint32_t v, std::uint32_t e, std::uint32_t end) {
-    const Line& line = wave.line_of(e);
-    const Rational a(line.direction.a), b(line.direction.b);
-    if (a * at(v).y - b * at(v).x != line.C + line.S * t) return;
-    const auto along = [&](std::uint32_t vertex) -> Rational { return a * at(vertex).x + b * at(vertex).y; };
-    const Rational w = along(v), from = along(e), to = along(end);
-    if (w < from || w > to) return;
-    involved[v] = true;
-    if (w == from) involved[e] = true;
-    if (w == to) involved[end] = true;
-    if (w > from && w < to) touching[e].push_back(v);
   }
 
   void name_sites() {
-    std::vector<std::uint32_t> order;
-    for (std::uint32_t v = 0; v < count; ++v)
-      if (involved[v]) order.push_back(v);
-    std::ranges::sort(order, [&](std::uint32_t p, std::uint32_t q) {
-      const int by_x = cmp(at(p).x, at(q).x);
-      if (by_x != 0) return by_x < 0;
-      const int by_y = cmp(at(p).y, at(q).y);
-      return by_y != 0 ? by_y < 0 : p < q;
-    });
-    site_of.resize(count);
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      if (i == 0 || !(at(order[i]) == sites.back())) {
-        sites.push_back(at(order[i]));
-        points.push_back(wave.trace_.point(sites.back(), z));
+    site_of.assign(vertices.size(), none);
+    for (std::uint32_t i = 0; i < vertices.size(); ++i) {
+      const std::uint32_t r = root(i);
+      if (site_of[r] == none) {
+        site_of[r] = static_cast<std::uint32_t>(sites.size());
+        const std::uint32_t point = wave.trace_.point({planes[r], wave.terraces_run, wave.height});
+        const geometry::Point3 place = wave.trace_.place(point);
+        sites.push_back({planes[r], point, {place.x / quantum, place.y / quantum}});
       }
-      site_of[order[i]] = static_cast<std::uint32_t>(sites.size() - 1);
+      site_of[i] = site_of[r];
     }
-    for (std::uint32_t v = 0; v < count; ++v)
-      if (!involved[v]) site_of[v] = static_cast<std::uint32_t>(sites.size()) + v;
+    join_equal_sites();
+  }
+
+  /// Contacts say which vertices meet, but not that two meetings are at one point.
+  void join_equal_sites() {
+    std::vector<std::uint32_t> order(sites.size()), merged(sites.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::iota(merged.begin(), merged.end(), 0U);
+    std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
+      return std::tuple(sites[a].place.x, sites[a].place.y, a) < std::tuple(sites[b].place.x, sites[b].place.y, b);
+    });
+    // Places are the nearest doubles: equal points have equal ones.
+    for (std::size_t i = 1; i < order.size(); ++i)
+      for (std::size_t j = i; j-- > 0 && sites[order[j]].place == sites[order[i]].place;) {
+        const auto& p = sites[order[j]].planes;
+        const auto& q = sites[order[i]].planes;
+        if (!std::ranges::all_of(p, [&](PlaneId plane) { return wave.planes_.side(plane, q) == 0; })) continue;
+        merged[order[i]] = merged[order[j]];
+        break;
+      }
+    for (std::uint32_t& site : site_of) site = merged[site];
+  }
+
+  [[nodiscard]] auto site_at(std::uint32_t vertex) const -> std::uint32_t {
+    const std::uint32_t i = index_of(vertex);
+    return i == none ? none : site_of[i];
   }
 
   void end_arcs() {
-    for (std::uint32_t v = 0; v < count; ++v)
-      if (involved[v])
-        wave.trace_.arc(wave.edges[v].origin, points[site_of[v]], wave.edges[wave.edges[v].prev].node,
-                        wave.edges[v].node);
+    for (std::uint32_t i = 0; i < vertices.size(); ++i) {
+      const WaveEdge& e = wave.edges[vertices[i]];
+      wave.trace_.arc(e.origin, sites[site_of[i]].point, wave.edges[e.prev].node, e.node);
+    }
   }
 
   void cut_pieces() {
-    for (std::uint32_t e = 0; e < count; ++e) {
-      auto& inside = touching[e];
-      const Direction& d = wave.line_of(e).direction;
-      const Rational a(d.a), b(d.b);
-      std::vector<std::pair<Rational, std::uint32_t>> stops;
-      for (const std::uint32_t v : inside) stops.emplace_back(Rational(a * at(v).x + b * at(v).y), site_of[v]);
-      std::ranges::sort(stops);
-      std::uint32_t here = site_of[e];
+    for (const std::uint32_t v : vertices) {
+      touched.push_back(v);
+      touched.push_back(wave.edges[v].prev);
+    }
+    for (const auto& [edge, vertex] : inside) touched.push_back(edge);
+    std::ranges::sort(touched);
+    touched.erase(std::ranges::unique(touched).begin(), touched.end());
+    auto stop = inside.begin();
+    for (const std::uint32_t e : touched) {
+      const auto first = static_cast<std::uint32_t>(pieces.size());
+      std::uint32_t here = site_at(e);
       const auto go = [&](std::uint32_t to) {
-        if (to != here) pieces.push_back({e, here, to});
+        if (to != here || to == none) pieces.push_back({e, here, to});
         here = to;
       };
-      for (const auto& [along, site] : stops) go(site);
-      go(site_of[wave.edges[e].next]);
+      for (; stop != inside.end() && stop->first == e; ++stop) go(site_at(stop->second));
+      go(site_at(wave.edges[e].next));
+      range.emplace_back(first, static_cast<std::uint32_t>(pieces.size()));
     }
   }
 
@@ -140,130 +216,168 @@ struct Wavefront::Meeting {
   void cancel() {
     std::vector<std::uint32_t> order;
     for (std::uint32_t i = 0; i < pieces.size(); ++i)
-      if (pieces[i].from < sites.size() && pieces[i].to < sites.size()) order.push_back(i);
-    const auto key = [&](std::uint32_t i) { return std::minmax(pieces[i].from, pieces[i].to); };
-    std::ranges::sort(order, [&](std::uint32_t p, std::uint32_t q) {
-      const std::pair<std::uint32_t, std::uint32_t> kp = key(p), kq = key(q);
-      return std::tie(kp.first, kp.second, p) < std::tie(kq.first, kq.second, q);
-    });
+      if (pieces[i].from != none && pieces[i].to != none) order.push_back(i);
+    const auto key = [&](std::uint32_t i) {
+      return std::pair(std::min(pieces[i].from, pieces[i].to), std::max(pieces[i].from, pieces[i].to));
+    };
+    std::ranges::sort(order, {}, [&](std::uint32_t i) { return std::pair(key(i), i); });
     for (std::size_t i = 0; i + 1 < order.size(); ++i) {
       Piece &p = pieces[order[i]], &q = pieces[order[i + 1]];
       if (!p.alive || p.from != q.to || p.to != q.from) continue;
       p.alive = q.alive = false;
-      wave.trace_.arc(points[p.to], points[p.from], wave.edges[p.edge].node, wave.edges[q.edge].node);
+      wave.trace_.arc(sites[p.to].point, sites[p.from].point, wave.edges[p.edge].node, wave.edges[q.edge].node);
     }
-    for (std::size_t i = 0; i + 1 < order.size(); ++i) {
-      const Piece &p = pieces[order[i]], &q = pieces[order[i + 1]];
-      if (p.alive && q.alive && std::minmax(p.from, p.to) == std::minmax(q.from, q.to))
+    for (std::size_t i = 0; i + 1 < order.size(); ++i)
+      if (pieces[order[i]].alive && pieces[order[i + 1]].alive && key(order[i]) == key(order[i + 1]))
         throw Broken("two edges of the wavefront lie on each other");
-    }
   }
 
   /// At every site each incoming piece goes on with the next outgoing one clockwise: the one that bounds the same wedge
   /// of interior.
   void join() {
     struct Ray {
+      std::uint32_t site;
       Direction direction;  // away from the site
       std::uint32_t piece;
       bool incoming;
     };
-    std::vector<std::vector<Ray>> rays(sites.size() + count);
+    std::vector<Ray> rays;
     for (std::uint32_t i = 0; i < pieces.size(); ++i) {
-      if (!pieces[i].alive) continue;
-      const Direction& d = wave.line_of(pieces[i].edge).direction;
-      rays[pieces[i].from].push_back({d, i, false});
-      rays[pieces[i].to].push_back({d.reversed(), i, true});
+      const Piece& p = pieces[i];
+      if (!p.alive) continue;
+      const Direction& d = wave.lines[wave.edges[p.edge].line].direction;
+      if (p.from != none) rays.push_back({p.from, d, i, false});
+      if (p.to != none) rays.push_back({p.to, d.reversed(), i, true});
     }
-    for (auto& around : rays) {
-      if (around.size() % 2 != 0) throw Broken("a site with more ways in than out");
-      std::ranges::sort(around, [](const Ray& p, const Ray& q) {
-        if (p.direction == q.direction) return p.piece < q.piece;
-        return angle_less(p.direction, q.direction);
-      });
-      for (std::size_t i = 0; i < around.size(); ++i) {
-        const Ray& in = around[i];
+    std::ranges::sort(rays, [](const Ray& p, const Ray& q) {
+      if (p.site != q.site) return p.site < q.site;
+      if (p.direction == q.direction) return p.piece < q.piece;
+      return angle_less(p.direction, q.direction);
+    });
+    for (std::size_t first = 0; first < rays.size();) {
+      std::size_t last = first;
+      while (last < rays.size() && rays[last].site == rays[first].site) ++last;
+      if ((last - first) % 2 != 0) throw Broken("a site with more ways in than out");
+      for (std::size_t i = first; i < last; ++i) {
+        const Ray& in = rays[i];
         if (!in.incoming) continue;
-        const Ray& out = around[(i + around.size() - 1) % around.size()];
+        const Ray& out = rays[i == first ? last - 1 : i - 1];
         if (out.incoming) throw Broken("the wavefront crosses itself");
         pieces[in.piece].next = out.piece;
         pieces[out.piece].prev = in.piece;
       }
+      first = last;
+    }
+    // At a quiet vertex between two touched edges their pieces go on as before.
+    for (std::uint32_t k = 0; k < touched.size(); ++k) {
+      if (range[k].first == range[k].second) continue;
+      const std::uint32_t last = range[k].second - 1, after = wave.edges[touched[k]].next;
+      if (pieces[last].to != none) continue;
+      const auto at = std::ranges::lower_bound(touched, after);
+      if (at == touched.end() || *at != after) continue;
+      const std::uint32_t first = range[static_cast<std::size_t>(at - touched.begin())].first;
+      pieces[last].next = first;
+      pieces[first].prev = last;
     }
     for (const Piece& p : pieces)
-      if (p.alive && (p.next == none || p.prev == none)) throw Broken("a site with more ways in than out");
+      if (p.alive && ((p.to != none && p.next == none) || (p.from != none && p.prev == none)))
+        throw Broken("a site with more ways in than out");
   }
 
   /// Undoes cuts that changed nothing.
   void mend() {
     for (std::uint32_t i = 0; i < pieces.size(); ++i) {
       if (!pieces[i].alive) continue;
-      while (pieces[pieces[i].next].edge == pieces[i].edge) {
+      while (pieces[i].next != none && pieces[i].to != none && pieces[pieces[i].next].edge == pieces[i].edge) {
         const std::uint32_t j = pieces[i].next;
         if (j == i) throw Broken("a loop of one edge");
         pieces[j].alive = false;
         pieces[i].to = pieces[j].to;
         pieces[i].next = pieces[j].next;
-        pieces[pieces[i].next].prev = i;
+        if (pieces[i].next != none) pieces[pieces[i].next].prev = i;
       }
     }
-  }
-
-  [[nodiscard]] auto rebuilt() -> std::vector<WaveEdge> {
-    std::vector<std::uint32_t> index(pieces.size(), none);
-    std::uint32_t alive = 0;
-    for (std::uint32_t i = 0; i < pieces.size(); ++i)
-      if (pieces[i].alive) index[i] = alive++;
-    std::vector<WaveEdge> edges;
-    edges.reserve(alive);
-    for (const Piece& p : pieces) {
-      if (!p.alive) continue;
-      WaveEdge e;
-      e.line = wave.edges[p.edge].line;
-      e.node = wave.edges[p.edge].node;
-      e.next = index[p.next];
-      e.prev = index[p.prev];
-      if (p.from < sites.size()) {
-        e.origin = points[p.from];
-        e.start = sites[p.from];
-      } else {
-        e.origin = wave.edges[p.from - sites.size()].origin;
-      }
-      edges.push_back(std::move(e));
-    }
-    for (const WaveEdge& e : edges)
-      if (edges[e.next].next == static_cast<std::uint32_t>(&e - edges.data())) throw Broken("a loop of two edges");
-    return edges;
-  }
-
-  /// Twice the area, and how unsure it is.
-  [[nodiscard]] auto area(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& stretches) const -> Interval {
-    double sum = 0, unsure = 0;
-    const auto middle = [](Interval v) { return (v.lo + v.hi) / 2; };
-    for (const auto& [i, j] : stretches) {
-      const double xi = middle(boxes[i].x), yi = middle(boxes[i].y), xj = middle(boxes[j].x), yj = middle(boxes[j].y);
-      sum += xi * yj - xj * yi;
-      const double width = boxes[i].x.hi - boxes[i].x.lo + boxes[i].y.hi - boxes[i].y.lo + boxes[j].x.hi -
-                           boxes[j].x.lo + boxes[j].y.hi - boxes[j].y.lo;
-      unsure += (1e-12 + width) * (std::abs(xi) + std::abs(yi) + std::abs(xj) + std::abs(yj) + 1);
-    }
-    return {sum - unsure, sum + unsure};
   }
 
   /// Always-on invariant: a snapshot changes how pieces are joined, never the area they enclose.
   void compare_areas() const {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> before, after;
-    for (std::uint32_t i = 0; i < count; ++i) before.emplace_back(i, wave.edges[i].next);
-    std::vector<std::uint32_t> vertex_of(sites.size() + count);
-    for (std::uint32_t v = 0; v < count; ++v) vertex_of[site_of[v]] = v;
+    double sum = 0, unsure = 0;
+    const Point2 o = sites.front().place;
+    const auto place = [&](std::uint32_t site, std::uint32_t vertex) {
+      return (site == none ? wave.position(vertex, t) : sites[site].place) - o;
+    };
+    const auto add = [&](std::uint32_t edge, Point2 a, Point2 b, double sign) {
+      const WaveEdge& e = wave.edges[edge];
+      sum += sign * cross(a, b);
+      const double off = 1e-3 + e.span_error0 + std::abs(t) * e.span_error1 +
+                         1e-9 * (std::abs(a.x) + std::abs(a.y) + std::abs(b.x) + std::abs(b.y));
+      unsure += off * (std::abs(a.x) + std::abs(a.y) + std::abs(b.x) + std::abs(b.y) + 1);
+    };
+    for (const std::uint32_t e : touched)
+      add(e, place(site_at(e), e), place(site_at(wave.edges[e].next), wave.edges[e].next), 1);
     for (const Piece& p : pieces)
-      if (p.alive) after.emplace_back(vertex_of[p.from], vertex_of[p.to]);
-    if (!area(before).overlaps(area(after))) throw Broken("a snapshot changed the area");
+      if (p.alive) add(p.edge, place(p.from, p.edge), place(p.to, wave.edges[p.edge].next), -1);
+    if (std::abs(sum) > unsure) throw Broken("a snapshot changed the area");
+  }
+
+  void rebuild() {
+    struct Was {
+      std::uint32_t line, node, prev, next, joint, origin, next_joint;
+      std::uint64_t origin_moment, origin_level;
+    };
+    std::vector<Was> was;
+    for (const std::uint32_t i : touched) {
+      const WaveEdge& e = wave.edges[i];
+      was.push_back({e.line, e.node, e.prev, e.next, e.joint, e.origin, 0, e.origin_moment, e.origin_level});
+    }
+    for (const std::uint32_t i : touched) wave.release(i);
+    std::vector<std::uint32_t> born;
+    std::size_t k = 0;
+    for (std::uint32_t i = 0; i < pieces.size(); ++i) {
+      Piece& p = pieces[i];
+      if (!p.alive) continue;
+      while (touched[k] != p.edge) ++k;
+      p.slot = wave.create(was[k].line, was[k].node);
+      WaveEdge& e = wave.edges[p.slot];
+      if (p.from != none) {
+        e.origin = sites[p.from].point;
+        e.origin_moment = wave.moment;
+        e.origin_level = wave.level;
+      } else {
+        e.joint = was[k].joint;
+        e.origin = was[k].origin;
+        e.origin_moment = was[k].origin_moment;
+        e.origin_level = was[k].origin_level;
+        e.prev = was[k].prev;  // unless it is a piece, see below
+      }
+      if (p.to == none) e.next = was[k].next;
+      born.push_back(i);
+    }
+    for (const std::uint32_t i : born) {
+      const Piece& p = pieces[i];
+      WaveEdge& e = wave.edges[p.slot];
+      if (p.prev != none) e.prev = pieces[p.prev].slot;
+      else wave.edges[e.prev].next = p.slot;
+      if (p.next != none) e.next = pieces[p.next].slot;
+      else wave.edges[e.next].prev = p.slot;
+    }
+    for (const std::uint32_t i : born) {
+      const Piece& p = pieces[i];
+      const WaveEdge& e = wave.edges[p.slot];
+      if (e.next == p.slot || wave.edges[e.next].next == p.slot) throw Broken("a loop of two edges");
+      wave.changed(p.slot);
+      if (p.from != none && wave.lines[wave.edges[e.prev].line].direction == wave.lines[e.line].direction)
+        wave.edges[p.slot].joint = wave.joint_through(e.line, sites[p.from].planes);
+    }
+    wave.pending_.clear();
+    for (const std::uint32_t i : born) wave.pending_.push_back(pieces[i].slot);
   }
 };
 
-void Wavefront::snapshot(const Rational& t, const Rational& z) {
-  Meeting meeting(*this, t, z);
-  meeting.find_contacts();
+void Wavefront::snapshot(const std::vector<Contact>& contacts) {
+  Meeting meeting(*this);
+  meeting.gather(contacts);
+  meeting.sort_inside();
   meeting.name_sites();
   meeting.end_arcs();
   meeting.cut_pieces();
@@ -271,7 +385,27 @@ void Wavefront::snapshot(const Rational& t, const Rational& z) {
   meeting.join();
   meeting.mend();
   meeting.compare_areas();
-  edges = meeting.rebuilt();
+  meeting.rebuild();
+}
+
+auto Wavefront::joint_through(std::uint32_t line, const Triple& at) -> PlaneId {
+  const Direction across = lines[line].direction.left();
+  const Planes::Exact p = planes_.exact(at);
+  // The direction turned left twice looks back along the line.
+  const Rational along = -(Rational(lines[line].direction.a) * p.x + Rational(lines[line].direction.b) * p.y);
+  return planes_.add(plane_of(across, along / lines[line].direction.l, 0));
+}
+
+void Wavefront::close_arc(std::uint32_t edge, PlaneId moment_plane) {
+  WaveEdge& e = edges[edge];
+  const bool stands = terraces_run && e.origin_level == level && planes_[start_plane(edge)].is_static() &&
+                      planes_[plane_at(edge)].is_static();
+  if (e.origin_moment == moment || stands) return;
+  const std::uint32_t here = trace_.point({{start_plane(edge), plane_at(edge), moment_plane}, terraces_run, height});
+  trace_.arc(e.origin, here, edges[e.prev].node, e.node);
+  e.origin = here;
+  e.origin_moment = moment;
+  e.origin_level = level;
 }
 
 }  // namespace mansard::extrude::detail

@@ -2,6 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <tuple>
+
+#include "mansard/base/text.hpp"
+#include "mansard/extrude/detail/grid.hpp"
 
 namespace mansard::extrude::detail {
 namespace {
@@ -18,8 +23,11 @@ auto polygon_of(const Source& source) -> geometry::Polygon {
 auto fault_of(const geometry::Profile& profile) -> const char* {
   constexpr double rounding = 1e-9;
   if (profile.size() < 2) return "has fewer than two points";
-  for (const auto& p : profile)
+  for (const auto& p : profile) {
     if (!std::isfinite(p.inward) || !std::isfinite(p.height)) return "has a point that is not finite";
+    if (std::max(std::abs(p.inward), std::abs(p.height)) > 1e6)
+      return "reaches beyond 1,000 km; profiles are in metres";
+  }
   if (std::abs(profile[0].inward) > rounding || std::abs(profile[0].height) > rounding)
     return "does not start at (0, 0)";
   for (std::size_t i = 1; i < profile.size(); ++i) {
@@ -29,16 +37,19 @@ auto fault_of(const geometry::Profile& profile) -> const char* {
   return nullptr;
 }
 
-auto ring_of(const geometry::PlanRing& ring, bool outer) -> SourceRing {
+auto ring_of(const geometry::PlanRing& ring, Point2 origin, bool outer, std::size_t& repeated) -> SourceRing {
   SourceRing out;
-  for (std::uint32_t i = 0; i < ring.points.size(); ++i) {
-    const Point2 next = ring.points[(i + 1) % ring.points.size()];
-    if (ring.points[i] == next) continue;  // an edge without length
+  const GridRing grid = on_fine_grid(ring.points, origin);
+  for (std::uint32_t i = 0; i < grid.size(); ++i) {
+    if (grid[i] == grid[i + 1 < grid.size() ? i + 1 : 0]) {  // an edge without length
+      ++repeated;
+      continue;
+    }
     out.points.push_back(ring.points[i]);
     out.profile.push_back(ring.profile_of_edge[i]);
     out.edge.push_back(i);
   }
-  if (!out.points.empty() && (geometry::signed_area(out.points) > 0) != outer) {
+  if (!out.points.empty() && (twice_area(on_fine_grid(out.points, origin)) > 0) != outer) {
     std::ranges::reverse(out.points);
     // Edge i now runs from the old point n − 1 − i to the one before: the old edge n − 2 − i.
     std::ranges::reverse(out.profile);
@@ -49,91 +60,227 @@ auto ring_of(const geometry::PlanRing& ring, bool outer) -> SourceRing {
   return out;
 }
 
+auto text(Point2 p) -> std::string { return "(" + base::to_text(p.x, 3) + ", " + base::to_text(p.y, 3) + ")"; }
+
+auto ring_name(std::size_t r) -> std::string { return r == 0 ? "the outline" : "hole " + std::to_string(r); }
+
+/// What a meeting of edges is, where, and what to do about it.
+auto in_words(const Source& source, const Meetings& meetings, std::size_t most, Point2 origin) -> std::string {
+  const Meeting& m = *meetings.first;
+  const auto name = [&](const Meeting::Edge& e) { return std::to_string(source.rings[e.ring].edge[e.index]); };
+  std::string a = "edge " + name(m.a), b = "edge " + name(m.b);
+  const bool one_ring = m.a.ring == m.b.ring;
+  if (m.a.ring != 0) a += " of hole " + std::to_string(m.a.ring);
+  if (m.b.ring != 0) b += " of hole " + std::to_string(m.b.ring);
+  const std::string where = " at " + text(m.at + origin);
+  std::string out;
+  switch (m.kind) {
+    case Meeting::Kind::crossing:
+      out = a + " and " + b + " cross" + where +
+            (one_ring ? "; swap corners that are out of order, or cut the outline there into two"
+                      : "; merge the hole with the outside, or move it in");
+      break;
+    case Meeting::Kind::touch:
+      out =
+          a + " and " + b + " touch" + where +
+          (one_ring ? "; a ring may not touch itself: make two parts of it there, or move the corner by a millimetre"
+                    : "; rings may not touch: open the hole to the outside there, or move the corner by a millimetre");
+      break;
+    case Meeting::Kind::overlap:
+      out = a + " and " + b + " lie on each other" + where +
+            (one_ring ? "; remove the strip without width, or make two parts of the outline"
+                      : "; open the hole to the outside along them");
+      break;
+    case Meeting::Kind::spike:
+      out = a + " and " + b + " fold back on each other" + where + "; remove the corner";
+      break;
+  }
+  if (meetings.count > 1)
+    out +=
+        " (" + std::string(meetings.count < most ? "" : "at least ") + std::to_string(meetings.count) + " such places)";
+  return out;
+}
+
 }  // namespace
 
 auto prepared(const geometry::Plan& plan) -> base::Result<Source> {
   if (!std::isfinite(plan.cap) || !std::isfinite(plan.base) || plan.cap < 2 * quantum || plan.cap > 1e5)
     return base::error("extrude-cap", "the cap must lie above the base");
-  Source source;
-  source.profiles = plan.profiles;
   for (std::size_t p = 0; p < plan.profiles.size(); ++p)
     if (const char* fault = fault_of(plan.profiles[p]))
       return base::error("extrude-profile", "profile " + std::to_string(p) + " " + fault);
-  const auto take = [&](const geometry::PlanRing& ring, bool outer) -> std::optional<base::Diagnostic> {
-    if (ring.profile_of_edge.size() != ring.points.size())
-      return base::error("extrude-profile", "a ring does not name one profile per edge");
-    for (const std::uint32_t p : ring.profile_of_edge)
-      if (p >= plan.profiles.size()) return base::error("extrude-profile", "an edge names a profile that is not there");
-    for (const Point2 p : ring.points)
+  std::vector<const geometry::PlanRing*> rings{&plan.outer};
+  for (const auto& hole : plan.holes) rings.push_back(&hole);
+  geometry::Box2 box;
+  for (std::size_t r = 0; r < rings.size(); ++r) {
+    if (rings[r]->profile_of_edge.size() != rings[r]->points.size())
+      return base::error("extrude-profile", ring_name(r) + " does not name one profile per edge");
+    for (std::size_t i = 0; i < rings[r]->points.size(); ++i) {
+      const std::string place = " " + std::to_string(i) + " of " + ring_name(r);
+      const Point2 p = rings[r]->points[i];
+      if (rings[r]->profile_of_edge[i] >= plan.profiles.size())
+        return base::error(
+            "extrude-profile",
+            "edge" + place + " names profile " + std::to_string(rings[r]->profile_of_edge[i]) + ", which is not there");
       if (!std::isfinite(p.x) || !std::isfinite(p.y))
-        return base::error("extrude-not-simple", "a corner is not finite");
-    source.rings.push_back(ring_of(ring, outer));
-    return std::nullopt;
-  };
-  if (auto fault = take(plan.outer, true)) return *fault;
-  for (const auto& hole : plan.holes)
-    if (auto fault = take(hole, false)) return *fault;
-
-  const geometry::Polygon polygon = polygon_of(source);
-  if (polygon.outer.size() < 3 || std::abs(geometry::signed_area(polygon.outer)) < 1e-6)
-    return base::error("extrude-no-area", "the footprint has no area");
-  if (!geometry::is_simple(polygon)) return base::error("extrude-not-simple", "the footprint's edges cross or touch");
-  for (std::size_t h = 0; h < polygon.holes.size(); ++h) {
-    if (!geometry::contains(polygon.outer, polygon.holes[h][0]))
-      return base::error("extrude-not-simple", "a hole lies outside of the footprint");
-    for (std::size_t other = 0; other < polygon.holes.size(); ++other)
-      if (other != h && geometry::contains(polygon.holes[other], polygon.holes[h][0]))
-        return base::error("extrude-not-simple", "a hole lies in another hole");
+        return base::error("extrude-not-simple", "corner" + place + " is not finite");
+      box.add(p);
+    }
   }
-  if (geometry::area(polygon) < 1e-6) return base::error("extrude-no-area", "the footprint has no area");
+  if (box.empty()) return base::error("extrude-no-area", "the outline has no corners");
+  if (box.most.x - box.least.x > widest || box.most.y - box.least.y > widest)
+    return base::error("extrude-not-simple", "the footprint is more than 4,000 km across; coordinates must be metres");
+
+  Source source;
+  source.profiles = plan.profiles;
+  const Point2 origin = origin_of(box);
+  std::vector<GridRing> grid;
+  for (std::size_t r = 0; r < rings.size(); ++r) {
+    source.rings.push_back(ring_of(*rings[r], origin, r == 0, source.repeated_points));
+    source.rings.back().ring = static_cast<std::uint32_t>(r);
+    grid.push_back(on_fine_grid(source.rings.back().points, origin));
+    if (grid.back().size() < 3)
+      return base::error(r == 0 ? "extrude-no-area" : "extrude-not-simple",
+                         ring_name(r) + " has fewer than three different corners; remove it");
+  }
+  constexpr double least_area = 1e-6 / grid_step / grid_step;
+  constexpr std::size_t most = 100;
+  const Meetings meetings = meetings_of(grid, most);
+  if (std::abs(twice_area(grid[0])) < 2 * least_area)
+    return base::error("extrude-no-area", "the outline near " + text(rings[0]->points[0]) + " encloses no area" +
+                                              (meetings.first ? ": " + in_words(source, meetings, most, origin) : ""));
+  // Picometres of rounding can cross what does not cross as given.
+  if (meetings.first && !geometry::is_simple(polygon_of(source)))
+    return base::error("extrude-not-simple", in_words(source, meetings, most, origin));
+  double area = twice_area(grid[0]);
+  for (std::size_t h = 1; h < grid.size(); ++h) {
+    area += twice_area(grid[h]);
+    const auto fault = [&](const std::string& what) {
+      return base::error("extrude-not-simple",
+                         "hole " + std::to_string(h) + " near " + text(rings[h]->points[0]) + what);
+    };
+    if (!contains(grid[0], grid[h][0])) return fault(" lies outside of the footprint; remove it, or make it a part");
+    for (std::size_t other = 1; other < grid.size(); ++other)
+      if (other != h && contains(grid[other], grid[h][0]))
+        return fault(" lies in hole " + std::to_string(other) + "; make it a part of its own");
+  }
+  if (area < 2 * least_area) return base::error("extrude-no-area", "the footprint has no area but its holes'");
   return source;
 }
+
+namespace {
+
+/// A ring from which corners are taken, with the profile and edge of the edge after each.
+class Thinning {
+ public:
+  Thinning(Source& source, double size) : source_(source), size_(size) {
+    geometry::Box2 box;
+    for (const auto& ring : source.rings)
+      for (const Point2 p : ring.points) box.add(p);
+    const Point2 origin = origin_of(box);
+    for (const auto& ring : source.rings) {
+      grid_.push_back(on_fine_grid(ring.points, origin));
+      alive_.emplace_back(ring.points.size(), true);
+    }
+    for (std::size_t r = 0; r < grid_.size(); ++r)
+      for (std::size_t i = 0; i < grid_[r].size(); ++i) all_.push_back({metres(grid_[r][i]), r, i});
+    std::ranges::sort(all_, {}, [](const Corner& c) { return std::tuple(c.at.x, c.ring, c.index); });
+  }
+
+  void run() {
+    for (std::size_t r = 0; r < grid_.size(); ++r) thin(r);
+  }
+
+ private:
+  struct Corner {
+    Point2 at;
+    std::size_t ring, index;
+  };
+
+  void thin(std::size_t r) {
+    SourceRing& ring = source_.rings[r];
+    const std::size_t n = ring.points.size();
+    std::vector<std::size_t> next(n), before(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      next[i] = i + 1 < n ? i + 1 : 0;
+      before[next[i]] = i;
+    }
+    const auto off = [&](std::size_t i) {
+      return geometry::distance({ring.points[before[i]], ring.points[next[i]]}, ring.points[i]);
+    };
+    // Least first; a corner that cannot go now is asked again when a neighbour has gone, or in another pass.
+    std::size_t left = n;
+    for (bool changed = true; changed && left > 3;) {
+      changed = false;
+      std::set<std::pair<double, std::size_t>> order;
+      std::vector<double> place(n);
+      const auto offer = [&](std::size_t i) {
+        order.erase({place[i], i});
+        place[i] = off(i);
+        if (place[i] < size_) order.insert({place[i], i});
+      };
+      for (std::size_t i = 0; i < n; ++i)
+        if (alive_[r][i]) offer(i);
+      while (!order.empty() && left > 3) {
+        const std::size_t i = order.begin()->second, p = before[i], q = next[i];
+        order.erase(order.begin());
+        if (!is_free(r, p, i, q)) continue;
+        // The merged edge is that before the corner; it keeps its own profile if it was the longer one.
+        if (length(ring.points[q] - ring.points[i]) > length(ring.points[i] - ring.points[p])) {
+          ring.profile[p] = ring.profile[i];
+          ring.edge[p] = ring.edge[i];
+        }
+        alive_[r][i] = false;
+        next[p] = q;
+        before[q] = p;
+        --left;
+        changed = true;
+        offer(p);
+        offer(q);
+      }
+    }
+    SourceRing kept;
+    kept.ring = ring.ring;
+    for (std::size_t i = 0; i < n; ++i)
+      if (alive_[r][i]) {
+        kept.points.push_back(ring.points[i]);
+        kept.profile.push_back(ring.profile[i]);
+        kept.edge.push_back(ring.edge[i]);
+      }
+    ring = std::move(kept);
+  }
+
+  /// Whether no other corner lies in the triangle that goes, its border included: then the new edge meets nothing.
+  [[nodiscard]] auto is_free(std::size_t r, std::size_t p, std::size_t i, std::size_t q) const -> bool {
+    const GridPoint a = grid_[r][p], b = grid_[r][i], c = grid_[r][q];
+    const int way = turn(a, b, c);
+    if (way == 0) return true;  // exactly between, for the ring is simple
+    geometry::Box2 box;
+    for (const GridPoint corner : {a, b, c}) box.add(metres(corner));
+    const auto begin = std::ranges::lower_bound(all_, box.least.x, {}, [](const Corner& k) { return k.at.x; });
+    for (auto k = begin; k != all_.end() && k->at.x <= box.most.x; ++k) {
+      if (k->at.y < box.least.y || k->at.y > box.most.y || !alive_[k->ring][k->index]) continue;
+      if (k->ring == r && (k->index == p || k->index == i || k->index == q)) continue;
+      const GridPoint at = grid_[k->ring][k->index];
+      if (turn(a, b, at) * way >= 0 && turn(b, c, at) * way >= 0 && turn(c, a, at) * way >= 0) return false;
+    }
+    return true;
+  }
+
+  Source& source_;
+  double size_;
+  std::vector<GridRing> grid_;
+  std::vector<std::vector<bool>> alive_;
+  std::vector<Corner> all_;  ///< of all rings, by x
+};
+
+}  // namespace
 
 auto simplified(Source source, double size) -> Source {
   for (std::size_t r = source.rings.size(); r-- > 1;)
     if (std::abs(geometry::signed_area(source.rings[r].points)) < size * size)
       source.rings.erase(source.rings.begin() + static_cast<std::ptrdiff_t>(r));
-
-  const auto without = [&](std::size_t r, std::size_t i) {
-    SourceRing ring = source.rings[r];
-    const std::size_t n = ring.points.size(), before = (i + n - 1) % n;
-    const double left = length(ring.points[i] - ring.points[before]);
-    const double right = length(ring.points[(i + 1) % n] - ring.points[i]);
-    // The merged edge is `before`; it keeps its own profile if it was the longer one.
-    if (right > left) {
-      ring.profile[before] = ring.profile[i];
-      ring.edge[before] = ring.edge[i];
-    }
-    const auto at = static_cast<std::ptrdiff_t>(i);
-    ring.points.erase(ring.points.begin() + at);
-    ring.profile.erase(ring.profile.begin() + at);
-    ring.edge.erase(ring.edge.begin() + at);
-    return ring;
-  };
-  for (std::size_t r = 0; r < source.rings.size(); ++r) {
-    std::vector<std::pair<double, std::size_t>> order;
-    const auto rank = [&] {
-      order.clear();
-      const auto& p = source.rings[r].points;
-      const std::size_t n = p.size();
-      for (std::size_t i = 0; i < n && n > 3; ++i)
-        if (const double d = geometry::distance({p[(i + n - 1) % n], p[(i + 1) % n]}, p[i]); d < size)
-          order.emplace_back(d, i);
-      std::ranges::sort(order);
-    };
-    rank();
-    for (std::size_t k = 0; k < order.size();) {
-      SourceRing kept = std::exchange(source.rings[r], without(r, order[k].second));
-      const bool right_way = (geometry::signed_area(source.rings[r].points) > 0) == (r == 0);
-      if (right_way && geometry::is_simple(polygon_of(source))) {
-        rank();
-        k = 0;
-      } else {
-        source.rings[r] = std::move(kept);
-        ++k;
-      }
-    }
-  }
+  Thinning(source, size).run();
   return source;
 }
 
@@ -174,7 +321,7 @@ auto prism_of(const Source& source, double base, double cap) -> Solid {
       const Point2 out = -1.0 * left_of(normalised(ring.points[j] - ring.points[i]));
       solid.faces.push_back({{{below[i], below[j], above[j], above[i]}},
                              FaceKind::side,
-                             Provenance{r, ring.edge[i], 0},
+                             Provenance{ring.ring, ring.edge[i], 0},
                              {out.x, out.y, 0}});
     }
     roof.loops.push_back(std::move(above));

@@ -8,7 +8,8 @@
 namespace mansard::extrude::detail {
 
 /// Oriented, repeated points dropped. Gives up with "extrude-profile", "extrude-cap", "extrude-not-simple",
-/// "extrude-no-area".
+/// "extrude-no-area", and says where (the plan's edge numbers and coordinates) and what to do. Simple is decided
+/// exactly; points within 2^-36 m of each other are one.
 [[nodiscard]] auto prepared(const geometry::Plan& plan) -> base::Result<Source>;
 
 /// Without details under `size` metres: corners nearer than that to the line past them, holes that small. Edges keep

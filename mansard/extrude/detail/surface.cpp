@@ -1,19 +1,31 @@
 #include "mansard/extrude/detail/surface.hpp"
 
 #include <algorithm>
-#include <set>
-#include <utility>
+#include <map>
+#include <optional>
+#include <tuple>
 
 namespace mansard::extrude::detail {
 
-auto Trace::point(const ExactPoint& p, const Rational& z) -> std::uint32_t {
-  auto& here = found_[{z.get_d(), p.x.get_d(), p.y.get_d()}];
-  for (const std::uint32_t i : here)
-    if (points_[i].x == p.x && points_[i].y == p.y && points_[i].z == z) return i;
-  const auto index = static_cast<std::uint32_t>(points_.size());
-  points_.push_back({p.x, p.y, z});
-  here.push_back(index);
-  return index;
+namespace {
+
+auto exact_place(const Planes& planes, const TracePoint& point) -> ExactPlace {
+  Planes::Exact e = planes.exact(point.planes);
+  const auto metres = [](Rational quanta) -> Rational { return quanta / quanta_per_metre; };
+  return {metres(std::move(e.x)), metres(std::move(e.y)),
+          metres(point.on_level ? Rational(mpz_class(point.level)) : std::move(e.t))};
+}
+
+}  // namespace
+
+auto ExactSurface::exact(std::uint32_t point) const -> ExactPlace { return exact_place(planes, points[point]); }
+
+auto Trace::point(TracePoint point) -> std::uint32_t {
+  geometry::Point3 p = planes.nearest(point.planes);
+  if (point.on_level) p.z = static_cast<double>(point.level);
+  places_.push_back(quantum * p);
+  points_.push_back(point);
+  return static_cast<std::uint32_t>(points_.size() - 1);
 }
 
 auto Trace::node(FaceNode node) -> std::uint32_t {
@@ -42,80 +54,91 @@ void Trace::arc(std::uint32_t from, std::uint32_t to, std::uint32_t left, std::u
   if (from != to) arcs_.push_back({from, to, left, right});
 }
 
-void Trace::cut_at(const Rational& z) {
-  if (cuts_.empty() || cuts_.back() != z) cuts_.push_back(z);
-}
-
-void Trace::cut_arcs() {
-  for (const Rational& z : cuts_) {
-    std::vector<std::uint32_t> level;
-    for (std::uint32_t i = 0; i < points_.size(); ++i)
-      if (points_[i].z == z) level.push_back(i);
-    const std::size_t count = arcs_.size();
-    for (std::size_t k = 0; k < count; ++k) {
-      const Arc arc = arcs_[k];
-      const Point &a = points_[arc.from], &b = points_[arc.to];
-      if (a.z != z || b.z != z) continue;
-      const Rational dx = b.x - a.x, dy = b.y - a.y;
-      geometry::Box2 box;
-      box.add({a.x.get_d(), a.y.get_d()});
-      box.add({b.x.get_d(), b.y.get_d()});
-      box = box.grown(1e-6);
-      std::vector<std::pair<Rational, std::uint32_t>> inside;
-      for (const std::uint32_t i : level) {
-        const Point& p = points_[i];
-        if (i == arc.from || i == arc.to || !box.contains({p.x.get_d(), p.y.get_d()})) continue;
-        const Rational px = p.x - a.x, py = p.y - a.y;
-        if (px * dy != py * dx) continue;
-        const Rational along = px * dx + py * dy;
-        if (along > 0 && along < dx * dx + dy * dy) inside.emplace_back(along, i);
-      }
-      std::ranges::sort(inside);
-      std::uint32_t from = arc.from;
-      for (const auto& [along, i] : inside) {
-        arcs_.push_back({from, i, arc.left, arc.right});
-        from = i;
-      }
-      arcs_[k].from = from;
-    }
-  }
+void Trace::cut_at(std::int64_t level) {
+  if (cuts_.empty() || cuts_.back() != level) cuts_.push_back(level);
 }
 
 namespace {
 
 using Loop = std::vector<std::uint32_t>;
 
+/// Exact coordinates, computed where doubles leave a question open.
+class Places {
+ public:
+  Places(const Planes& planes, const std::vector<TracePoint>& points, const std::vector<geometry::Point3>& places)
+      : planes_(planes), points_(points), places_(places), exact_(points.size()) {}
+
+  [[nodiscard]] auto nearest(std::uint32_t i) const -> geometry::Point3 { return places_[i]; }
+  [[nodiscard]] auto operator()(std::uint32_t i) const -> const ExactPlace& {
+    if (!exact_[i]) exact_[i] = exact_place(planes_, points_[i]);
+    return *exact_[i];
+  }
+  [[nodiscard]] auto same(std::uint32_t i, std::uint32_t j) const -> bool {
+    if (places_[i] != places_[j]) return false;
+    const ExactPlace &p = (*this)(i), &q = (*this)(j);
+    return p.x == q.x && p.y == q.y && p.z == q.z;
+  }
+
+ private:
+  const Planes& planes_;
+  const std::vector<TracePoint>& points_;
+  const std::vector<geometry::Point3>& places_;
+  mutable std::vector<std::optional<ExactPlace>> exact_;
+};
+
+/// The bound on x1 · y1 − x2 · y2 of differences of nearest doubles, each of which is off by half a unit of its size.
+auto certain(double left, double right, double coordinate, double extent) -> int {
+  const double unsure = 0x1.0p-50 * (std::abs(left) + std::abs(right)) + 0x1.0p-50 * coordinate * extent;
+  const double value = left - right;
+  return value > unsure ? 1 : (value < -unsure ? -1 : 0);
+}
+
 /// The face's own plane, seen from outside, in exact coordinates.
 class Chart {
  public:
-  Chart(const std::vector<Trace::Point>& points, const FaceNode& node) : points_(points), node_(node) {}
-
-  [[nodiscard]] auto operator()(std::uint32_t i) const -> ExactPoint {
-    const Trace::Point& p = points_[i];
-    if (node_.kind == FaceKind::base) return {p.y, p.x};
-    const bool upright = node_.kind == FaceKind::connector || (node_.kind == FaceKind::side && node_.slope == 0);
-    if (!upright) return {p.x, p.y};
-    return {Rational(node_.direction.a) * p.x + Rational(node_.direction.b) * p.y, p.z};
+  Chart(const Places& places, const FaceNode& node) : places_(places), node_(node) {
+    upright_ = node.kind == FaceKind::connector || (node.kind == FaceKind::side && node.slope == 0);
+    looks_down_ = node.kind == FaceKind::base || node.kind == FaceKind::soffit;
+    along_ = node.direction.approximate();
   }
 
-  [[nodiscard]] auto turn(std::uint32_t a, std::uint32_t b, std::uint32_t c) const -> int {
-    const ExactPoint p = (*this)(a), q = (*this)(b), r = (*this)(c);
-    return sgn(Rational((q.x - p.x) * (r.y - q.y) - (q.y - p.y) * (r.x - q.x)));
+  [[nodiscard]] auto operator()(std::uint32_t i) const -> ExactPoint {
+    const ExactPlace& p = places_(i);
+    if (looks_down_) return {p.y, p.x};
+    if (!upright_) return {p.x, p.y};
+    return {Rational(node_.direction.a) * p.x + Rational(node_.direction.b) * p.y, p.z * node_.direction.l};
+  }
+  [[nodiscard]] auto nearly(std::uint32_t i) const -> geometry::Point2 {
+    const geometry::Point3 p = places_.nearest(i);
+    if (looks_down_) return {p.y, p.x};
+    if (!upright_) return {p.x, p.y};
+    return {along_.x * p.x + along_.y * p.y, p.z};
+  }
+
+  /// Sign of (q − p) × (r − o).
+  [[nodiscard]] auto cross_sign(std::uint32_t p, std::uint32_t q, std::uint32_t o, std::uint32_t r) const -> int {
+    const geometry::Point2 a = nearly(p), b = nearly(q), c = nearly(o), d = nearly(r);
+    const double size = std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y), std::abs(c.x),
+                                  std::abs(c.y), std::abs(d.x), std::abs(d.y)});
+    const double extent = std::abs(b.x - a.x) + std::abs(b.y - a.y) + std::abs(d.x - c.x) + std::abs(d.y - c.y) + size * 0x1.0p-50;
+    if (const int sure = certain((b.x - a.x) * (d.y - c.y), (b.y - a.y) * (d.x - c.x), 8 * size, extent); sure != 0)
+      return sure;
+    const ExactPoint P = (*this)(p), Q = (*this)(q), O = (*this)(o), R = (*this)(r);
+    return sgn(Rational((Q.x - P.x) * (R.y - O.y) - (Q.y - P.y) * (R.x - O.x)));
+  }
+  [[nodiscard]] auto dot_sign(std::uint32_t p, std::uint32_t q, std::uint32_t o, std::uint32_t r) const -> int {
+    const ExactPoint P = (*this)(p), Q = (*this)(q), O = (*this)(o), R = (*this)(r);
+    return sgn(Rational((Q.x - P.x) * (R.x - O.x) + (Q.y - P.y) * (R.y - O.y)));
   }
 
   /// +1 counter-clockwise, judged at the loop's lowest leftmost corner, which is never straight.
   [[nodiscard]] auto orientation(const Loop& loop) const -> int {
     std::size_t least = 0;
-    ExactPoint at = (*this)(loop[0]);
-    for (std::size_t i = 1; i < loop.size(); ++i) {
-      ExactPoint p = (*this)(loop[i]);
-      if (p.x < at.x || (p.x == at.x && p.y < at.y)) {
-        at = std::move(p);
-        least = i;
-      }
-    }
+    for (std::size_t i = 1; i < loop.size(); ++i)
+      if (before(loop[i], loop[least])) least = i;
     const std::size_t n = loop.size();
-    return turn(loop[(least + n - 1) % n], loop[least], loop[(least + 1) % n]);
+    const std::uint32_t a = loop[(least + n - 1) % n], b = loop[least], c = loop[(least + 1) % n];
+    return cross_sign(a, b, b, c);
   }
 
   /// Whether the point lies in the loop: 1 inside, 0 on it, −1 outside.
@@ -123,7 +146,11 @@ class Chart {
     const ExactPoint p = (*this)(point);
     bool inside = false;
     for (std::size_t i = 0; i < loop.size(); ++i) {
-      const ExactPoint a = (*this)(loop[i]), b = (*this)(loop[(i + 1) % loop.size()]);
+      const std::uint32_t from = loop[i], to = loop[(i + 1) % loop.size()];
+      const double slack = 1e-6, y = nearly(point).y;
+      if (std::max(nearly(from).y, nearly(to).y) < y - slack || std::min(nearly(from).y, nearly(to).y) > y + slack)
+        continue;
+      const ExactPoint a = (*this)(from), b = (*this)(to);
       const int area = sgn(Rational((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x)));
       if (area == 0 && std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x) && std::min(a.y, b.y) <= p.y &&
           p.y <= std::max(a.y, b.y))
@@ -134,8 +161,18 @@ class Chart {
   }
 
  private:
-  const std::vector<Trace::Point>& points_;
+  /// By x, then by y.
+  [[nodiscard]] auto before(std::uint32_t i, std::uint32_t j) const -> bool {
+    const double slack = 1e-6, x = nearly(i).x - nearly(j).x;
+    if (std::abs(x) > slack) return x < 0;
+    const ExactPoint p = (*this)(i), q = (*this)(j);
+    return p.x < q.x || (p.x == q.x && p.y < q.y);
+  }
+
+  const Places& places_;
   const FaceNode& node_;
+  bool upright_, looks_down_;
+  geometry::Point2 along_;
 };
 
 /// The directed boundary edges of one face, sorted by start.
@@ -143,17 +180,25 @@ using Boundary = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 /// What a face walks both ways is inside it, or a zero-width part of it: no boundary.
 auto without_opposites(Boundary edges) -> Boundary {
-  std::ranges::sort(edges);
-  std::multiset<std::pair<std::uint32_t, std::uint32_t>> left(edges.begin(), edges.end());
-  for (const auto& [from, to] : edges) {
-    if (from > to) continue;
-    auto forth = left.find({from, to});
-    auto back = left.find({to, from});
-    if (forth == left.end() || back == left.end()) continue;
-    left.erase(forth);
-    left.erase(back);
+  // By the undirected edge, one direction before the other: equal numbers of both cancel.
+  std::ranges::sort(edges, [](const auto& p, const auto& q) {
+    return std::tuple(std::minmax(p.first, p.second), p.first > p.second) <
+           std::tuple(std::minmax(q.first, q.second), q.first > q.second);
+  });
+  Boundary left;
+  for (std::size_t i = 0; i < edges.size();) {
+    std::size_t j = i, forth = 0;
+    for (; j < edges.size() && std::minmax(edges[j].first, edges[j].second) ==
+                                   std::minmax(edges[i].first, edges[i].second);
+         ++j)
+      forth += edges[j].first < edges[j].second;
+    const std::size_t back = j - i - forth, common = std::min(forth, back);
+    for (std::size_t k = common; k < forth; ++k) left.push_back(edges[i]);
+    for (std::size_t k = common; k < back; ++k) left.push_back(edges[j - 1]);
+    i = j;
   }
-  return {left.begin(), left.end()};
+  std::ranges::sort(left);
+  return left;
 }
 
 /// Walks the boundary, keeping to one wedge of the interior where it touches itself.
@@ -169,23 +214,16 @@ auto walk(const Boundary& edges, const Chart& chart) -> std::vector<Loop> {
     const auto first = static_cast<std::size_t>(out.begin() - edges.begin());
     if (out.size() == 1) return first;
     // The first outgoing ray clockwise from the way back.
-    const ExactPoint at = chart(v), from = chart(u);
-    const auto away = [&](const ExactPoint& p) { return ExactPoint{p.x - at.x, p.y - at.y}; };
-    const ExactPoint back = away(from);
-    const auto turned = [&](const ExactPoint& p) -> int {  // 0: within half a turn clockwise of `back`, 1: beyond
-      const int c = sgn(Rational(back.x * p.y - back.y * p.x));
+    const auto turned = [&](std::uint32_t p) -> int {  // 0: within half a turn clockwise of the way back, 1: beyond
+      const int c = chart.cross_sign(v, u, v, p);
       if (c != 0) return c < 0 ? 0 : 1;
-      return sgn(Rational(back.x * p.x + back.y * p.y)) < 0 ? 1 : 2;
+      return chart.dot_sign(v, u, v, p) < 0 ? 1 : 2;
     };
     std::size_t best = first;
-    ExactPoint best_ray = away(chart(edges[first].second));
     for (std::size_t i = first + 1; i < first + out.size(); ++i) {
-      ExactPoint ray = away(chart(edges[i].second));
-      const int p = turned(ray), q = turned(best_ray);
-      const bool sooner = p != q ? p < q : sgn(Rational(best_ray.x * ray.y - best_ray.y * ray.x)) > 0;
-      if (!sooner) continue;
-      best = i;
-      best_ray = std::move(ray);
+      const std::uint32_t at = edges[i].second, champion = edges[best].second;
+      const int p = turned(at), q = turned(champion);
+      if (p != q ? p < q : chart.cross_sign(v, champion, v, at) > 0) best = i;
     }
     return best;
   };
@@ -198,6 +236,12 @@ auto walk(const Boundary& edges, const Chart& chart) -> std::vector<Loop> {
       loop.push_back(edges[e].first);
     }
     // A loop that comes back to a point is two loops that touch there.
+    Loop sorted = loop;
+    std::ranges::sort(sorted);
+    if (std::ranges::adjacent_find(sorted) == sorted.end()) {
+      loops.push_back(std::move(loop));
+      continue;
+    }
     Loop open;
     for (const std::uint32_t v : loop) {
       const auto seen = std::ranges::find(open, v);
@@ -215,17 +259,18 @@ auto walk(const Boundary& edges, const Chart& chart) -> std::vector<Loop> {
 }
 
 /// Each counter-clockwise loop is a face; clockwise ones are holes of the innermost face around them.
-void nest(std::vector<Loop> loops, const FaceNode& node, const Chart& chart, ExactSurface& surface) {
+void nest(std::vector<Loop> loops, const FaceNode& node, const Chart& chart,
+          std::vector<ExactSurface::ExactFace>& faces) {
   if (loops.size() == 1) {
-    surface.faces.push_back({std::move(loops), node});
+    faces.push_back({std::move(loops), node});
     return;
   }
   std::vector<Loop> holes;
-  const std::size_t first = surface.faces.size();
+  const std::size_t first = faces.size();
   for (Loop& loop : loops) {
     const int turn = chart.orientation(loop);
     if (turn == 0) throw Broken("a face without area");
-    if (turn > 0) surface.faces.push_back({{std::move(loop)}, node});
+    if (turn > 0) faces.push_back({{std::move(loop)}, node});
     else holes.push_back(std::move(loop));
   }
   const auto within = [&](const Loop& inner, const Loop& outer) {
@@ -234,64 +279,149 @@ void nest(std::vector<Loop> loops, const FaceNode& node, const Chart& chart, Exa
     return false;
   };
   for (Loop& hole : holes) {
-    std::size_t home = surface.faces.size();
-    for (std::size_t f = first; f < surface.faces.size(); ++f) {
-      if (!within(hole, surface.faces[f].loops[0])) continue;
-      if (home == surface.faces.size() || within(surface.faces[f].loops[0], surface.faces[home].loops[0])) home = f;
+    std::size_t home = faces.size();
+    for (std::size_t f = first; f < faces.size(); ++f) {
+      if (!within(hole, faces[f].loops[0])) continue;
+      if (home == faces.size() || within(faces[f].loops[0], faces[home].loops[0])) home = f;
     }
-    if (home == surface.faces.size()) throw Broken("a hole outside of every face");
-    surface.faces[home].loops.push_back(std::move(hole));
+    if (home == faces.size()) throw Broken("a hole outside of every face");
+    faces[home].loops.push_back(std::move(hole));
   }
 }
 
 /// Points with two neighbours only lie inside an edge (the sweep stopped there for some other reason).
-void take_out_passing_points(ExactSurface& surface) {
-  std::vector<std::set<std::uint32_t>> neighbours(surface.points.size());
-  for (const auto& face : surface.faces)
+void take_out_passing_points(std::vector<ExactSurface::ExactFace>& faces, const Places& places, std::size_t points) {
+  constexpr std::uint32_t many = UINT32_MAX - 1;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> neighbours(points, {none, none});
+  const auto meets = [&](std::uint32_t v, std::uint32_t w) {
+    auto& [a, b] = neighbours[v];
+    if (a == w || b == w || a == many) return;
+    if (a == none) a = w;
+    else if (b == none) b = w;
+    else a = many;
+  };
+  for (const auto& face : faces)
     for (const Loop& loop : face.loops)
       for (std::size_t i = 0; i < loop.size(); ++i) {
-        const std::uint32_t a = loop[i], b = loop[(i + 1) % loop.size()];
-        neighbours[a].insert(b);
-        neighbours[b].insert(a);
+        meets(loop[i], loop[(i + 1) % loop.size()]);
+        meets(loop[(i + 1) % loop.size()], loop[i]);
       }
   const auto straight = [&](std::uint32_t v) {
-    if (neighbours[v].size() != 2) return false;
-    const auto &a = surface.points[*neighbours[v].begin()], &m = surface.points[v],
-               &b = surface.points[*neighbours[v].rbegin()];
+    const auto [i, j] = neighbours[v];
+    if (i >= many || j >= many) return false;
+    const ExactPlace &a = places(i), &m = places(v), &b = places(j);
     const Rational ux = m.x - a.x, uy = m.y - a.y, uz = m.z - a.z, vx = b.x - m.x, vy = b.y - m.y, vz = b.z - m.z;
     return ux * vy == uy * vx && uy * vz == uz * vy && ux * vz == uz * vx;
   };
-  std::vector<bool> passing(surface.points.size());
-  for (std::uint32_t v = 0; v < surface.points.size(); ++v) passing[v] = straight(v);
-  for (auto& face : surface.faces)
+  std::vector<bool> passing(points);
+  bool any = false;
+  for (std::uint32_t v = 0; v < points; ++v)
+    if (straight(v)) any = passing[v] = true;
+  if (!any) return;
+  for (auto& face : faces)
     for (Loop& loop : face.loops) std::erase_if(loop, [&](std::uint32_t v) { return passing[v]; });
 }
 
 }  // namespace
 
-auto assemble(Trace& trace) -> ExactSurface {
-  trace.cut_arcs();
-  for (const Trace::Arc& arc : trace.arcs())
-    if (trace.nodes()[arc.left].kind == FaceKind::terrace && trace.nodes()[arc.right].kind == FaceKind::terrace)
-      trace.unite(arc.left, arc.right);
+/// One number for points at one place: touching vertices of the wavefront stop at points of their own.
+void Trace::merge_points() {
+  const Places places(planes, points_, places_);
+  std::vector<std::uint32_t> order(points_.size()), first(points_.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = first[i] = i;
+  std::ranges::sort(order, [&](std::uint32_t i, std::uint32_t j) {
+    return std::tuple(places_[i].z, places_[i].x, places_[i].y, i) < std::tuple(places_[j].z, places_[j].x, places_[j].y, j);
+  });
+  bool merged = false;
+  for (std::size_t i = 0; i < order.size(); ++i)
+    for (std::size_t j = i; j-- > 0 && places_[order[j]] == places_[order[i]];)
+      if (first[order[j]] == order[j] && places.same(order[j], order[i])) {
+        first[order[i]] = order[j];
+        merged = true;
+        break;
+      }
+  if (!merged) return;
+  for (Arc& arc : arcs_) {
+    arc.from = first[arc.from];
+    arc.to = first[arc.to];
+  }
+  std::erase_if(arcs_, [](const Arc& arc) { return arc.from == arc.to; });
+}
 
-  std::vector<Boundary> boundaries(trace.nodes().size());
-  for (const Trace::Arc& arc : trace.arcs()) {
-    const std::uint32_t left = trace.root(arc.left), right = trace.root(arc.right);
+void Trace::cut_arcs() {
+  if (cuts_.empty()) return;
+  const Places places(planes, points_, places_);
+  std::vector<bool> used(points_.size(), false);
+  for (const Arc& arc : arcs_) used[arc.from] = used[arc.to] = true;
+  std::map<double, std::vector<std::uint32_t>> levels;
+  for (const std::int64_t level : cuts_) levels[quantum * static_cast<double>(level)];
+  for (std::uint32_t i = 0; i < points_.size(); ++i)
+    if (used[i])
+      if (const auto level = levels.find(places_[i].z); level != levels.end()) level->second.push_back(i);
+  for (auto& [z, level] : levels)
+    std::ranges::sort(level, [&](std::uint32_t i, std::uint32_t j) {
+      return std::tuple(places_[i].x, i) < std::tuple(places_[j].x, j);
+    });
+  const std::size_t count = arcs_.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    const Arc arc = arcs_[k];
+    const geometry::Point3 p = places_[arc.from], q = places_[arc.to];
+    if (p.z != q.z) continue;
+    const auto at = levels.find(p.z);
+    if (at == levels.end()) continue;
+    const auto& level = at->second;
+    constexpr double near = 1e-6;
+    const double left = std::min(p.x, q.x) - near, right = std::max(p.x, q.x) + near;
+    const double length = std::hypot(q.x - p.x, q.y - p.y);
+    std::vector<std::pair<Rational, std::uint32_t>> inside;
+    for (auto i = std::ranges::lower_bound(level, left, {}, [&](std::uint32_t v) { return places_[v].x; });
+         i != level.end() && places_[*i].x <= right; ++i) {
+      const geometry::Point3 m = places_[*i];
+      if (*i == arc.from || *i == arc.to) continue;
+      if (std::abs((m.x - p.x) * (q.y - p.y) - (m.y - p.y) * (q.x - p.x)) > near * length) continue;
+      const ExactPlace &a = places(arc.from), &b = places(arc.to), &v = places(*i);
+      if (a.z != v.z || b.z != v.z) continue;
+      const Rational dx = b.x - a.x, dy = b.y - a.y, px = v.x - a.x, py = v.y - a.y;
+      if (px * dy != py * dx) continue;
+      Rational along = px * dx + py * dy;
+      if (along > 0 && along < dx * dx + dy * dy) inside.emplace_back(std::move(along), *i);
+    }
+    std::ranges::sort(inside);
+    std::uint32_t from = arc.from;
+    for (const auto& [along, i] : inside) {
+      arcs_.push_back({from, i, arc.left, arc.right});
+      from = i;
+    }
+    arcs_[k].from = from;
+  }
+}
+
+auto Trace::assemble() -> ExactSurface {
+  merge_points();
+  cut_arcs();
+  for (const Arc& arc : arcs_)
+    if (nodes_[arc.left].kind == FaceKind::terrace && nodes_[arc.right].kind == FaceKind::terrace)
+      unite(arc.left, arc.right);
+
+  std::vector<Boundary> boundaries(nodes_.size());
+  for (const Arc& arc : arcs_) {
+    const std::uint32_t left = root(arc.left), right = root(arc.right);
     if (left == right) continue;
     boundaries[left].emplace_back(arc.from, arc.to);
     boundaries[right].emplace_back(arc.to, arc.from);
   }
   ExactSurface surface;
-  surface.points = trace.points();
+  const Places places(planes, points_, places_);
   for (std::uint32_t n = 0; n < boundaries.size(); ++n) {
     const Boundary edges = without_opposites(std::move(boundaries[n]));
     if (edges.empty()) continue;
-    const FaceNode& node = trace.nodes()[n];
-    const Chart chart(surface.points, node);
-    nest(walk(edges, chart), node, chart, surface);
+    const Chart chart(places, nodes_[n]);
+    nest(walk(edges, chart), nodes_[n], chart, surface.faces);
   }
-  take_out_passing_points(surface);
+  take_out_passing_points(surface.faces, places, points_.size());
+  surface.places = std::move(places_);
+  surface.points = std::move(points_);
+  surface.planes = std::move(planes);
   return surface;
 }
 

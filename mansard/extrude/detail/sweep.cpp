@@ -9,39 +9,48 @@
 namespace mansard::extrude::detail {
 namespace {
 
+/// Of a number that must be whole.
+auto whole_quanta(const Rational& metres) -> std::int64_t {
+  const Rational quanta = metres * quanta_per_metre;
+  if (quanta.get_den() != 1 || bits_of(quanta.get_num()) > 40) throw Broken("a height off the grid");
+  return quanta.get_num().get_si();
+}
+
 /// What a line does over the height: its track, and the part it is on.
 struct Course {
   const CanonicalEdge* edge;
   const Track* track;
   std::size_t part = 0;
-  Rational C, S;  ///< the line's motion over the height on that part, scaled
 
   [[nodiscard]] auto now() const -> const TrackPart& { return (*track)[part]; }
-  /// The height where the present part ends; the last never does.
-  [[nodiscard]] auto knot() const -> const Rational* {
-    return part + 1 < track->size() ? &(*track)[part + 1].height : nullptr;
-  }
-  void enter(std::size_t next) {
-    part = next;
-    const TrackPart& p = now();
-    const Rational l(edge->direction.l);
-    S = l * p.slope;
-    C = l * (edge->offset + p.inward - p.slope * p.height);
-  }
+};
+
+/// The height at which a line enters a part of its track.
+struct Knot {
+  std::int64_t height;
+  std::uint32_t line, part;
+  friend auto operator<=>(const Knot&, const Knot&) = default;
 };
 
 class Sweep {
  public:
-  Sweep(const Footprint& footprint, Rational cap, const base::Run& run)
-      : footprint_(footprint), cap_(std::move(cap)), run_(run), wave_(lines_, trace_) {}
+  Sweep(const Footprint& footprint, const Rational& cap, const base::Run& run, const Eaves* eaves)
+      : footprint_(footprint), cap_(whole_quanta(cap)), run_(run), eaves_(eaves), wave_(trace_) {
+    wave_.now = fraction_of(0);
+    wave_.horizon = static_cast<double>(cap_);
+    moment_plane_ = trace_.planes.add(moment_plane(0));
+  }
 
   auto surface() -> ExactSurface {
     lay_out();
-    if (starts_with_terrace()) set_back_at_the_ground();
-    draw_base();
+    if (std::ranges::any_of(courses_, [](const Course& c) { return c.now().horizontal; })) set_back_at_the_ground();
+    if (eaves_ != nullptr) draw_eaves();
+    else draw_base();
     while (rise()) {
     }
-    return assemble(trace_);
+    ExactSurface surface = trace_.assemble();
+    surface.moments = steps_;
+    return surface;
   }
 
  private:
@@ -49,33 +58,57 @@ class Sweep {
 
   /// One line per canonical edge; edges on one line with one track share a plane for ever.
   void lay_out() {
-    std::map<std::tuple<Direction, std::pair<mpz_class, mpz_class>, std::uint32_t>, std::uint32_t> planes;
+    std::map<std::tuple<Direction, Rational, std::uint32_t>, std::uint32_t> motions;
     for (std::size_t r = 0; r < footprint_.rings.size(); ++r) {
       const auto& ring = footprint_.rings[r];
-      const auto first = static_cast<std::uint32_t>(wave_.edges.size()), size = static_cast<std::uint32_t>(ring.size());
-      for (std::uint32_t i = 0; i < size; ++i) {
-        const CanonicalEdge& edge = ring[i];
-        Course course{&edge, &footprint_.tracks[edge.track], 0, {}, {}};
-        course.enter(0);
+      const auto size = static_cast<std::uint32_t>(ring.size());
+      const auto first = static_cast<std::uint32_t>(wave_.edges.size());
+      for (const CanonicalEdge& edge : ring) {
+        const auto index = static_cast<std::uint32_t>(courses_.size());
+        courses_.push_back({&edge, &footprint_.tracks[edge.track], 0});
         Line line;
         line.direction = edge.direction;
-        line.plane = planes
-                         .try_emplace({edge.direction, {edge.offset.get_num(), edge.offset.get_den()}, edge.track},
-                                      static_cast<std::uint32_t>(planes.size()))
-                         .first->second;
-        line.move(course.C, course.S);
-        WaveEdge e;
-        e.line = static_cast<std::uint32_t>(lines_.size());
+        line.motions = motions
+                           .try_emplace({edge.direction, edge.offset, edge.track},
+                                        static_cast<std::uint32_t>(motions.size()))
+                           .first->second;
+        wave_.add(std::move(line));
+        // Where a roof overhangs, the sweep begins with it.
+        const std::uint32_t begins = overhangs(r, static_cast<std::size_t>(&edge - ring.data())) ? 1 : 0;
+        enter(index, begins);
+        for (std::uint32_t part = begins + 1; part < courses_.back().track->size(); ++part)
+          knots_.push_back({whole_quanta((*courses_.back().track)[part].height), index, part});
+        wave_.create(index, face_of(index));
+      }
+      for (std::uint32_t i = 0; i < size; ++i) {
+        WaveEdge& e = wave_.edges[first + i];
         e.prev = first + (i + size - 1) % size;
         e.next = first + (i + 1) % size;
-        e.start = footprint_.corners[r][i];
-        e.origin = trace_.point(*e.start, z_);
-        lines_.push_back(std::move(line));
-        courses_.push_back(std::move(course));
-        e.node = face_of(e.line);
-        wave_.edges.push_back(std::move(e));
+        if (const auto& joint = ring[i].joint) {
+          const Direction& d = ring[i].direction;
+          const Rational along = -(Rational(d.a) * joint->x + Rational(d.b) * joint->y) / d.l;
+          e.joint = trace_.planes.add(plane_of(d.left(), along * quanta_per_metre, 0));
+        }
       }
     }
+    std::ranges::sort(knots_);
+    for (const std::uint32_t i : wave_.alive()) wave_.changed(i);
+  }
+
+  [[nodiscard]] auto overhangs(std::size_t ring, std::size_t edge) const -> bool {
+    return eaves_ != nullptr && eaves_->overhangs[ring][edge];
+  }
+
+  /// The line moves by this part of its track from now on.
+  void enter(std::uint32_t line, std::size_t part) {
+    Course& course = courses_[line];
+    course.part = part;
+    wave_.lines[line].speed = course.now().slope;
+    wave_.lines[line].plane = plane_on(*course.edge, course.now());
+  }
+  auto plane_on(const CanonicalEdge& edge, const TrackPart& p) -> PlaneId {
+    const Rational offset = (edge.offset + p.inward - p.slope * p.height) * quanta_per_metre;
+    return trace_.planes.add(plane_of(edge.direction, offset, p.slope));
   }
 
   /// The course of a wavefront edge; connectors have none.
@@ -92,115 +125,202 @@ class Sweep {
         {c.now().horizontal ? FaceKind::terrace : FaceKind::side, from, c.edge->direction, c.now().slope});
   }
 
-  [[nodiscard]] auto starts_with_terrace() const -> bool {
-    return std::ranges::any_of(courses_, [](const Course& c) { return c.now().horizontal; });
-  }
-
   /// A setback at height 0 has no thickness: the ground floor is what is left after it.
   void set_back_at_the_ground() {
-    Edges all;
-    for (std::uint32_t i = 0; i < wave_.edges.size(); ++i)
-      if (course_of(i)->now().horizontal) all.push_back(i);
-    run_terraces(all);
+    start_arcs();
+    std::vector<std::uint32_t> entering(courses_.size(), none);
+    for (std::uint32_t line = 0; line < courses_.size(); ++line)
+      if (courses_[line].now().horizontal) entering[line] = 1;
+    run_terraces(entering);
     trace_.forget_arcs();
-    if (wave_.edges.empty()) throw Broken("the setback at the ground leaves nothing");
+    if (wave_.empty()) throw Broken("the setback at the ground leaves nothing");
   }
 
   void draw_base() {
+    next_moment(fraction_of(0));
+    start_arcs();
     const std::uint32_t base = trace_.node({FaceKind::base, {}, {}, 0});
-    for (std::uint32_t i = 0; i < wave_.edges.size(); ++i)
-      wave_.edges[i].origin = trace_.point(wave_.start_of(i, z_), z_);
-    for (const WaveEdge& e : wave_.edges) trace_.arc(e.origin, wave_.edges[e.next].origin, e.node, base);
-    wave_.connect();
+    for (const std::uint32_t i : wave_.alive()) {
+      const WaveEdge& e = wave_.edges[i];
+      trace_.arc(e.origin, wave_.edges[e.next].origin, e.node, base);
+    }
+    wave_.connect_all();
   }
 
-  /// On to the next critical height; false when nothing is left to raise.
+  /// Walls up to the soffit, the soffit, and the outline from which the roofs go on.
+  void draw_eaves() {
+    const PlaneId ground = moment_plane_;
+    wave_.height = eaves_->soffit;
+    next_moment(fraction_of(eaves_->soffit));
+    moment_plane_ = trace_.planes.add(moment_plane(eaves_->soffit));
+    const std::uint32_t base = trace_.node({FaceKind::base, {}, {}, 0});
+    const std::uint32_t soffit = trace_.node({FaceKind::soffit, {}, {}, 0});
+    start_arcs();
+    std::uint32_t first = 0;  // edges are numbered as they were laid out
+    for (std::size_t r = 0; r < footprint_.rings.size(); ++r) {
+      const auto size = static_cast<std::uint32_t>(footprint_.rings[r].size());
+      std::vector<PlaneId> walls;
+      std::vector<std::uint32_t> wall_nodes, feet, tops;
+      for (std::uint32_t i = 0; i < size; ++i) {
+        const Course& c = courses_[wave_.edges[first + i].line];
+        const bool out = overhangs(r, i);
+        walls.push_back(out ? plane_on(*c.edge, c.track->front()) : wave_.plane_at(first + i));
+        Provenance from = c.edge->provenance;
+        from.part = c.track->front().part;
+        wall_nodes.push_back(out ? trace_.node({FaceKind::side, from, c.edge->direction, 0})
+                                 : wave_.edges[first + i].node);
+      }
+      for (std::uint32_t i = 0; i < size; ++i) {
+        const PlaneId joint = wave_.edges[first + i].joint;
+        const PlaneId before = joint != none ? joint : walls[(i + size - 1) % size];
+        feet.push_back(trace_.point({{before, walls[i], ground}, false, 0}));
+        tops.push_back(trace_.point({{before, walls[i], moment_plane_}, false, 0}));
+      }
+      for (std::uint32_t i = 0; i < size; ++i) {
+        const std::uint32_t j = (i + 1) % size;
+        const WaveEdge& e = wave_.edges[first + i];
+        const std::uint32_t start = e.origin, end = wave_.edges[first + j].origin;
+        trace_.arc(feet[i], feet[j], wall_nodes[i], base);
+        trace_.arc(feet[i], tops[i], wall_nodes[(i + size - 1) % size], wall_nodes[i]);
+        if (overhangs(r, i)) {
+          trace_.arc(tops[i], tops[j], soffit, wall_nodes[i]);
+          trace_.arc(start, end, e.node, soffit);
+        } else {
+          trace_.arc(start, tops[i], e.node, soffit);
+          trace_.arc(tops[j], end, e.node, soffit);
+        }
+      }
+      first += size;
+    }
+    wave_.connect_all();
+  }
+
+  /// Every vertex begins its arc here and now.
+  void start_arcs() {
+    for (const std::uint32_t i : wave_.alive()) {
+      WaveEdge& e = wave_.edges[i];
+      e.origin = trace_.point({{wave_.start_plane(i), wave_.plane_at(i), moment_plane_}, false, 0});
+      e.origin_moment = wave_.moment;
+      e.origin_level = wave_.level;
+    }
+  }
+
+  void next_moment(Fraction time) {
+    wave_.now = std::move(time);
+    ++wave_.moment;
+  }
+
+  /// On to the next knot or the cap; false when nothing is left to raise.
   auto rise() -> bool {
-    Rational limit = cap_;
-    for (std::uint32_t i = 0; i < wave_.edges.size(); ++i)
-      if (const Course* c = course_of(i))
-        if (const Rational* knot = c->knot(); knot != nullptr && *knot < limit) limit = *knot;
-    const auto event = wave_.next_event(z_, limit);
-    z_ = event ? *event : limit;
-    count_step();
-    wave_.snapshot(z_, z_);
-    if (wave_.edges.empty()) return false;
-    if (z_ == cap_) {
+    while (knot_ < knots_.size() && knots_[knot_].height <= wave_.height) ++knot_;
+    const std::int64_t limit = knot_ < knots_.size() ? std::min(cap_, knots_[knot_].height) : cap_;
+    const Fraction end = fraction_of(limit);
+    if (!pass_events(end, [&] { ++wave_.level; })) return false;
+    wave_.height = limit;
+    moment_plane_ = trace_.planes.add(moment_plane(limit));
+    if (limit == cap_) {
       close_with_cap();
       return false;
     }
     pass_knots();
-    if (wave_.edges.empty()) return false;
-    wave_.connect();
+    return !wave_.empty();
+  }
+
+  /// All events up to `end`, where the wavefront then is; those at `end` wait to be connected until it is known how
+  /// things go on. False when nothing is left.
+  template <class Rising>
+  auto pass_events(const Fraction& end, Rising rising) -> bool {
+    bool at_end = false;
+    for (Fraction when; !at_end;) {
+      const auto contacts = wave_.next_contacts(end, when);
+      count_step();
+      at_end = contacts.empty() || trace_.planes.compare(when, end) == 0;
+      rising();
+      next_moment(contacts.empty() ? end : when);
+      if (contacts.empty()) break;
+      wave_.snapshot(contacts);
+      if (wave_.empty()) return false;
+      if (!at_end) wave_.connect_pending();
+    }
     return true;
   }
 
-  /// Geometric events come first (the snapshot), then terraces, then new speeds.
+  /// Geometric events have come first; now terraces, then new speeds.
   void pass_knots() {
-    Edges terraces;
-    for (std::uint32_t i = 0; i < wave_.edges.size(); ++i) {
-      Course* c = course_of(i);
-      if (c != nullptr && at_knot(*c) && (*c->track)[c->part + 1].horizontal) terraces.push_back(i);
+    std::vector<std::uint32_t> entering(courses_.size(), none);  // by line: the part
+    bool terraces = false;
+    for (; knot_ < knots_.size() && knots_[knot_].height == wave_.height; ++knot_) {
+      const Knot& k = knots_[knot_];
+      if ((*courses_[k.line].track)[k.part].horizontal) {
+        courses_[k.line].part = k.part;
+        terraces = true;
+      }
+      entering[k.line] = k.part;
     }
-    if (!terraces.empty()) {
-      for (const std::uint32_t i : terraces)
-        if (Course* c = course_of(i); !c->now().horizontal) ++c->part;
-      run_terraces(terraces);
-      return;
-    }
-    enter_new_parts(z_);
+    if (terraces) run_terraces(entering);
+    else enter_parts(entering);
   }
 
-  [[nodiscard]] auto at_knot(const Course& c) const -> bool {
-    const Rational* knot = c.knot();
-    return knot != nullptr && *knot == z_;
+  [[nodiscard]] auto edges_where(const auto& line_is) const -> Edges {
+    Edges found;
+    for (const std::uint32_t i : wave_.alive())
+      if (const std::uint32_t line = wave_.edges[i].line; line < courses_.size() && line_is(line)) found.push_back(i);
+    return found;
   }
 
   /// Terraces run at one height in a second time τ from 0 to 1: only they move, at the speed of their run.
-  void run_terraces(const Edges& terraces) {
-    trace_.cut_at(z_);
-    change_faces(terraces, z_);
-    for (std::uint32_t i = 0; i < lines_.size(); ++i) {
-      Line& line = lines_[i];
-      Rational here = line.C + line.S * z_;
-      const bool runs = i < courses_.size() && courses_[i].now().horizontal;
-      line.move(std::move(here), runs ? Rational(courses_[i].now().run * courses_[i].edge->direction.l) : Rational(0));
+  void run_terraces(const std::vector<std::uint32_t>& entering) {
+    trace_.cut_at(wave_.height);
+    const auto runs = [&](std::uint32_t line) { return courses_[line].now().horizontal; };
+    const Edges terraces = edges_where(runs);
+    change_faces(terraces);
+    for (const std::uint32_t i : terraces) {
+      Line& line = wave_.lines[wave_.edges[i].line];
+      if (line.on_level == wave_.level) continue;
+      const Course& c = courses_[wave_.edges[i].line];
+      line.on_level = wave_.level;
+      line.run = c.now().run;
+      line.level_plane = trace_.planes.add(plane_of(
+          line.direction, (c.edge->offset + c.now().inward) * quanta_per_metre, line.run * quanta_per_metre));
     }
-    wave_.connect();
-    const Rational end = 1;
-    for (Rational tau = 0; tau < end;) {
-      const auto event = wave_.next_event(tau, end);
-      tau = event ? *event : end;
-      count_step();
-      wave_.snapshot(tau, z_);
-      if (wave_.edges.empty()) return;
-      if (tau < end) wave_.connect();
-    }
-    enter_new_parts(end);
+    wave_.enter_terraces();
+    wave_.connect_all();
+    const bool left = pass_events(fraction_of(1), [] {});
+    moment_plane_ = trace_.planes.add(moment_plane(1));
+    if (left) change_faces_to(entering);
+    wave_.leave_terraces();
+    moment_plane_ = trace_.planes.add(moment_plane(wave_.height));
+    if (left) enter_speeds(entering);
   }
 
-  /// New faces and speeds for edges whose part ends at this height; `t` is the wavefront's time, z or τ.
-  void enter_new_parts(const Rational& t) {
-    std::vector<std::size_t> next(courses_.size());
-    Edges changed;
-    for (std::uint32_t line = 0; line < courses_.size(); ++line) {
-      const Course& c = courses_[line];
-      next[line] = c.now().horizontal || at_knot(c) ? c.part + 1 : c.part;
-    }
-    for (std::uint32_t i = 0; i < wave_.edges.size(); ++i)
-      if (const Course* c = course_of(i); c != nullptr && next[wave_.edges[i].line] != c->part) changed.push_back(i);
+  void enter_parts(const std::vector<std::uint32_t>& entering) {
+    change_faces_to(entering);
+    enter_speeds(entering);
+  }
+
+  void change_faces_to(const std::vector<std::uint32_t>& entering) {
     for (std::uint32_t line = 0; line < courses_.size(); ++line)
-      if (next[line] != courses_[line].part) courses_[line].enter(next[line]);
-    change_faces(changed, t);
-    for (std::uint32_t line = 0; line < courses_.size(); ++line) lines_[line].move(courses_[line].C, courses_[line].S);
+      if (entering[line] != none) courses_[line].part = entering[line];
+    change_faces(edges_where([&](std::uint32_t line) { return entering[line] != none; }));
+  }
+
+  void enter_speeds(const std::vector<std::uint32_t>& entering) {
+    std::vector<bool> entered(courses_.size(), false);
+    for (const std::uint32_t i : edges_where([&](std::uint32_t line) { return entering[line] != none; })) {
+      const std::uint32_t line = wave_.edges[i].line;
+      if (!entered[line]) enter(line, entering[line]);
+      entered[line] = true;
+      wave_.changed(i);
+    }
+    wave_.connect_all();
   }
 
   /// The faces of these edges end here and those of their courses' present parts begin.
-  void change_faces(const Edges& changed, const Rational& t) {
-    std::vector<bool> ends(wave_.edges.size(), false);
-    for (const std::uint32_t i : changed) ends[i] = ends[wave_.edges[i].next] = true;
-    for (std::uint32_t i = 0; i < ends.size(); ++i)
-      if (ends[i]) wave_.close_arc(i, t, z_);
+  void change_faces(const Edges& changed) {
+    for (const std::uint32_t i : changed) {
+      wave_.close_arc(i, moment_plane_);
+      wave_.close_arc(wave_.edges[i].next, moment_plane_);
+    }
     for (const std::uint32_t i : changed) {
       WaveEdge& e = wave_.edges[i];
       const std::uint32_t face = face_of(e.line);
@@ -211,32 +331,36 @@ class Sweep {
 
   void close_with_cap() {
     const std::uint32_t cap = trace_.node({FaceKind::cap, {}, {}, 0});
-    for (std::uint32_t i = 0; i < wave_.edges.size(); ++i) wave_.close_arc(i, z_, z_);
-    for (const WaveEdge& e : wave_.edges) trace_.arc(e.origin, wave_.edges[e.next].origin, cap, e.node);
+    const Edges all = wave_.alive();
+    for (const std::uint32_t i : all) wave_.close_arc(i, moment_plane_);
+    for (const std::uint32_t i : all) {
+      const WaveEdge& e = wave_.edges[i];
+      trace_.arc(e.origin, wave_.edges[e.next].origin, cap, e.node);
+    }
   }
 
   /// Every event removes an edge or splits a loop, so the steps are bounded; this only guards against a fault.
   void count_step() {
-    if (++steps_ > 1000 + 100 * footprint_size()) throw Broken("the sweep does not end");
+    if (++steps_ > 1000 + 100 * courses_.size()) throw Broken("the sweep does not end");
     if (run_.cancelled()) throw Broken("cancelled");
   }
-  [[nodiscard]] auto footprint_size() const -> std::size_t { return courses_.size(); }
 
   const Footprint& footprint_;
-  const Rational cap_;
+  const std::int64_t cap_;
   const base::Run& run_;
-  Rational z_ = 0;
-  std::size_t steps_ = 0;
-  std::vector<Line> lines_;
+  const Eaves* eaves_;
+  std::size_t steps_ = 0, knot_ = 0;
   std::vector<Course> courses_;  ///< of the lines that are not connectors, which come first
+  std::vector<Knot> knots_;
+  PlaneId moment_plane_ = none;
   Trace trace_;
   Wavefront wave_;
 };
 
 }  // namespace
 
-auto sweep(const Footprint& footprint, const Rational& cap, const base::Run& run) -> ExactSurface {
-  return Sweep(footprint, cap, run).surface();
+auto sweep(const Footprint& footprint, const Rational& cap, const base::Run& run, const Eaves* eaves) -> ExactSurface {
+  return Sweep(footprint, cap, run, eaves).surface();
 }
 
 }  // namespace mansard::extrude::detail

@@ -1,229 +1,460 @@
 #include "mansard/extrude/detail/wavefront.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
 
 namespace mansard::extrude::detail {
-namespace {
 
-auto unit(std::int64_t part, std::int64_t l) -> Interval {
-  if (part == 0) return {0.0};
-  return Interval(static_cast<double>(part)) / Interval(static_cast<double>(l));
-}
-
-/// Sine or cosine between two directions from their exact product.
-auto ratio(Int128 product, const Direction& p, const Direction& q) -> Interval {
-  if (product == 0) return {0.0};
-  const auto d = static_cast<double>(product);
-  return Interval::outward(d, d) / (Interval(static_cast<double>(p.l)) * Interval(static_cast<double>(q.l)));
-}
-
-}  // namespace
-
-void Wavefront::merge_planes() {
-  std::vector<bool> gone(edges.size(), false);
-  const auto one_plane = [&](std::uint32_t i, std::uint32_t j) {
-    const Line &a = line_of(i), &b = line_of(j);
-    // Two connectors in line never move: they are one wall.
-    return a.direction == b.direction && a.plane == b.plane;
+auto Wavefront::add(Line line) -> std::uint32_t {
+  const auto number = [&](const Direction& d) {
+    return directions_.try_emplace(d, static_cast<std::uint32_t>(directions_.size())).first->second;
   };
-  for (std::uint32_t i = 0; i < edges.size(); ++i) {
-    if (gone[i]) continue;
-    while (one_plane(i, edges[i].next)) {
-      const std::uint32_t j = edges[i].next;
-      if (j == i) throw Broken("a loop of one edge");
-      trace_.unite(edges[i].node, edges[j].node);
-      gone[j] = true;
-      edges[i].next = edges[j].next;
-      edges[edges[i].next].prev = i;
-    }
-  }
-  std::vector<std::uint32_t> index(edges.size());
-  std::uint32_t kept = 0;
-  for (std::uint32_t i = 0; i < edges.size(); ++i) {
-    index[i] = kept;
-    if (gone[i]) continue;
-    if (kept != i) edges[kept] = std::move(edges[i]);
-    ++kept;
-  }
-  edges.resize(kept);
-  for (WaveEdge& e : edges) {
-    e.prev = index[e.prev];
-    e.next = index[e.next];
-  }
+  line.towards = number(line.direction);
+  line.away = number(line.direction.reversed());
+  lines.push_back(std::move(line));
+  return static_cast<std::uint32_t>(lines.size() - 1);
 }
 
-void Wavefront::connect() {
-  merge_planes();
-  const auto count = static_cast<std::uint32_t>(edges.size());
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const std::uint32_t before = edges[i].prev;
-    if (line_of(before).direction != line_of(i).direction) continue;
-    if (!edges[i].start) throw Broken("neighbours on one line without a known joint");
-    const ExactPoint& p = *edges[i].start;
-    const Line& behind = line_of(before);
-    const bool steps_out = behind.S > line_of(i).S;  // the edge before runs ahead: step back outwards to this one
-    Line line;
-    line.connector = true;
-    line.direction = steps_out ? behind.direction.left().reversed() : behind.direction.left();
-    const Rational along = Rational(behind.direction.a) * p.x + Rational(behind.direction.b) * p.y;
-    line.move(steps_out ? along : Rational(-along), 0);
-    line.plane = UINT32_MAX;
-    WaveEdge edge;
-    edge.line = static_cast<std::uint32_t>(lines_.size());
-    edge.node = trace_.node({FaceKind::connector, {}, line.direction, 0});
-    edge.origin = edges[i].origin;
-    edge.prev = before;
-    edge.next = i;
-    const auto index = static_cast<std::uint32_t>(edges.size());
-    edges[before].next = edges[i].prev = index;
-    lines_.push_back(std::move(line));
-    edges.push_back(std::move(edge));
+auto Wavefront::alive() const -> std::vector<std::uint32_t> {
+  std::vector<std::uint32_t> all;
+  all.reserve(fronts_.size());
+  for (const Front& front : fronts_) all.push_back(front.edge);
+  std::ranges::sort(all);
+  return all;
+}
+
+auto Wavefront::create(std::uint32_t line, std::uint32_t node) -> std::uint32_t {
+  auto slot = static_cast<std::uint32_t>(edges.size());
+  if (free_.empty()) {
+    edges.emplace_back();
+  } else {
+    slot = free_.back();
+    free_.pop_back();
   }
-  prepare();
+  WaveEdge fresh;
+  fresh.vertex_stamp = edges[slot].vertex_stamp;
+  fresh.edge_stamp = edges[slot].edge_stamp;
+  fresh.line = line;
+  fresh.node = node;
+  fresh.place = static_cast<std::uint32_t>(fronts_.size());
+  fronts_.emplace_back().edge = slot;
+  edges[slot] = fresh;
+  return slot;
 }
 
-void Wavefront::prepare() {
-  for (std::uint32_t i = 0; i < edges.size(); ++i) {
-    WaveEdge& e = edges[i];
-    e.start.reset();
-    const Line &p = line_of(e.prev), &m = lines_[e.line];
-    const Int128 turn = cross(p.direction, m.direction);
-    if (turn == 0) throw Broken("parallel neighbours in the wavefront");
-    e.reflex = turn < 0;
-    const Interval sine = ratio(turn, p.direction, m.direction),
-                   cosine = ratio(dot(p.direction, m.direction), p.direction, m.direction);
-    const Interval pa = unit(p.direction.a, p.direction.l), pb = unit(p.direction.b, p.direction.l);
-    const Interval ma = unit(m.direction.a, m.direction.l), mb = unit(m.direction.b, m.direction.l);
-    e.x0 = (p.c * ma - pa * m.c) / sine;
-    e.x1 = (p.s * ma - pa * m.s) / sine;
-    e.y0 = (mb * p.c - pb * m.c) / sine;
-    e.y1 = (mb * p.s - pb * m.s) / sine;
-    e.from0 = (p.c - m.c * cosine) / sine;
-    e.from1 = (p.s - m.s * cosine) / sine;
-    WaveEdge& before = edges[e.prev];
-    before.to0 = (m.c - p.c * cosine) / -sine;
-    before.to1 = (m.s - p.s * cosine) / -sine;
-  }
-}
-
-auto Wavefront::motion_of(std::uint32_t edge) const -> Motion {
-  const Line &p = line_of(edges[edge].prev), &m = line_of(edge);
-  const Int128 turn = cross(p.direction, m.direction);
-  if (turn == 0) throw Broken("parallel neighbours in the wavefront");
-  const Rational inverse(1, to_integer(turn));
-  Rational scale = inverse;
-  scale.canonicalize();
-  const Rational pa(p.direction.a), pb(p.direction.b), ma(m.direction.a), mb(m.direction.b);
-  return {(p.C * ma - pa * m.C) * scale, (p.S * ma - pa * m.S) * scale, (mb * p.C - pb * m.C) * scale,
-          (mb * p.S - pb * m.S) * scale};
-}
-
-auto Wavefront::start_of(std::uint32_t edge, const Rational& t) const -> ExactPoint {
-  if (edges[edge].start) return *edges[edge].start;
-  const Line &p = line_of(edges[edge].prev), &m = line_of(edge);
-  const Int128 turn = cross(p.direction, m.direction);
-  if (turn == 0) throw Broken("parallel neighbours in the wavefront");
-  const Rational rp = p.C + p.S * t, rm = m.C + m.S * t;
-  const Rational divisor(to_integer(turn));
-  return {(rp * m.direction.a - rm * p.direction.a) / divisor, (rp * m.direction.b - rm * p.direction.b) / divisor};
-}
-
-void Wavefront::close_arc(std::uint32_t edge, const Rational& t, const Rational& z) {
+void Wavefront::release(std::uint32_t edge) {
+  set_pointed(edge, false);
   WaveEdge& e = edges[edge];
-  const std::uint32_t here = trace_.point(start_of(edge, t), z);
-  trace_.arc(e.origin, here, edges[e.prev].node, e.node);
-  e.origin = here;
+  fronts_[e.place] = fronts_.back();
+  edges[fronts_[e.place].edge].place = e.place;
+  fronts_.pop_back();
+  e.line = none;
+  e.vertex_dirty = e.edge_dirty = false;
+  ++e.vertex_stamp;
+  ++e.edge_stamp;
+  free_.push_back(edge);
 }
 
-auto Wavefront::collapse(std::uint32_t edge) const -> std::optional<Rational> {
-  const Line &e = line_of(edge), &p = line_of(edges[edge].prev), &q = line_of(edges[edge].next);
-  const Rational square = Rational(e.direction.l) * e.direction.l;
-  // Where neighbour k cuts the edge's line, times l: (R_k l² − R_e (k·e)) / (k×e); its offset and its speed.
-  const auto cut = [&](const Line& k, const Rational& rk, const Rational& re) -> Rational {
-    return (rk * square - re * Rational(to_integer(dot(k.direction, e.direction)))) /
-           Rational(to_integer(cross(k.direction, e.direction)));
-  };
-  const Rational growth = cut(q, q.S, e.S) - cut(p, p.S, e.S);
-  if (growth >= 0) return std::nullopt;
-  const Rational length = cut(q, q.C, e.C) - cut(p, p.C, e.C);
-  return Rational(-length / growth);
-}
-
-auto Wavefront::hit(std::uint32_t vertex, std::uint32_t edge, const Rational& now) const -> std::optional<Rational> {
-  const Motion v = motion_of(vertex);
-  const Line& e = line_of(edge);
-  const Rational a(e.direction.a), b(e.direction.b);
-  const Rational approach = a * v.y1 - b * v.x1 - e.S;
-  if (approach >= 0) return std::nullopt;
-  const Rational gap = a * v.y0 - b * v.x0 - e.C;
-  const Rational t = -gap / approach;
-  if (t <= now) return std::nullopt;
-  const auto along = [&](const Motion& m) -> Rational { return a * (m.x0 + m.x1 * t) + b * (m.y0 + m.y1 * t); };
-  const Rational w = along(v);
-  if (w < along(motion_of(edge)) || w > along(motion_of(edges[edge].next))) return std::nullopt;
-  return t;
-}
-
-auto Wavefront::next_event(const Rational& now, const Rational& limit) const -> std::optional<Rational> {
-  struct Candidate {
-    double earliest;
-    std::uint32_t vertex, edge;  // vertex == edge: the edge collapses
-  };
-  const Interval present(now);
-  double latest = Interval(limit).hi;  // an event surely happens by then, or nothing before the limit
-  std::vector<Candidate> candidates;
-  const auto count = static_cast<std::uint32_t>(edges.size());
-
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const WaveEdge& e = edges[i];
-    const Interval growth = e.to1 - e.from1;
-    if (growth.lo >= 0) continue;
-    const Interval t = -(e.to0 - e.from0) / growth;
-    if (t.hi < present.lo || t.lo > latest) continue;
-    if (growth.hi < 0 && t.lo > present.hi) latest = std::min(latest, t.hi);
-    candidates.push_back({t.lo, i, i});
-  }
-  std::vector<std::uint32_t> reflex;
-  for (std::uint32_t i = 0; i < count; ++i)
-    if (edges[i].reflex) reflex.push_back(i);
-  for (std::uint32_t j = 0; j < count && !reflex.empty(); ++j) {
-    const WaveEdge& e = edges[j];
-    const Line& line = lines_[e.line];
-    const Interval a = unit(line.direction.a, line.direction.l), b = unit(line.direction.b, line.direction.l);
-    for (const std::uint32_t i : reflex) {
-      const WaveEdge& v = edges[i];
-      if (i == j || v.prev == j) continue;
-      const Interval approach = a * v.y1 - b * v.x1 - line.s;
-      if (approach.lo >= 0) continue;
-      const Interval t = -(a * v.y0 - b * v.x0 - line.c) / approach;
-      if (t.hi < present.lo || t.lo > latest) continue;
-      const bool parallel = line_of(i).direction == line.direction || line_of(v.prev).direction == line.direction;
-      if (parallel && approach.hi >= 0) {
-        // Equal speeds, told apart exactly and cheaply before the general test.
-        const Line& twin = line_of(i).direction == line.direction ? line_of(i) : line_of(v.prev);
-        if (twin.S >= line.S) continue;
-      }
-      const Interval when(std::max(t.lo, present.lo), std::min(t.hi, latest));
-      const Interval w = a * (v.x0 + v.x1 * when) + b * (v.y0 + v.y1 * when);
-      const Interval from = e.from0 + e.from1 * when, to = e.to0 + e.to1 * when;
-      if (w.hi < from.lo || w.lo > to.hi) continue;
-      if (approach.hi < 0 && t.lo > present.hi && w.lo > from.hi && w.hi < to.lo) latest = std::min(latest, t.hi);
-      candidates.push_back({t.lo, i, j});
+void Wavefront::set_pointed(std::uint32_t edge, bool pointed) {
+  WaveEdge& e = edges[edge];
+  if (pointed) {
+    if (!e.pointed) {
+      e.pointed_place = static_cast<std::uint32_t>(tips_.size());
+      tips_.emplace_back();
     }
+    tips_[e.pointed_place] = {e.x0, e.x1, e.y0, e.y1, e.error0, e.error1, e.pace, edge};
+  } else if (e.pointed) {
+    tips_[e.pointed_place] = tips_.back();
+    edges[tips_[e.pointed_place].edge].pointed_place = e.pointed_place;
+    tips_.pop_back();
   }
+  e.pointed = pointed;
+}
 
-  std::ranges::sort(candidates, [](const Candidate& p, const Candidate& q) {
-    return std::tie(p.earliest, p.vertex, p.edge) < std::tie(q.earliest, q.vertex, q.edge);
-  });
-  std::optional<Rational> first;
-  for (const Candidate& c : candidates) {
-    if (c.earliest > latest) break;
-    auto t = c.vertex == c.edge ? collapse(c.edge) : hit(c.vertex, c.edge, now);
-    if (!t || *t <= now || *t > limit || (first && *t >= *first)) continue;
-    latest = std::min(latest, Interval(*t).hi);
-    first = std::move(t);
+void Wavefront::start_changed(std::uint32_t edge) {
+  edges[edge].vertex_dirty = true;
+  dirty_.push_back(edge);
+}
+
+void Wavefront::changed(std::uint32_t edge) {
+  edges[edge].edge_dirty = true;
+  start_changed(edge);
+  start_changed(edges[edge].next);
+}
+
+auto Wavefront::speed_of(const Line& line) const -> const Rational& {
+  static const Rational rest = 0;
+  if (!terraces_run) return line.speed;
+  return line.on_level == level ? line.run : rest;
+}
+
+auto Wavefront::plane_at(std::uint32_t edge) -> PlaneId {
+  Line& line = lines[edges[edge].line];
+  if (!terraces_run) return line.plane;
+  if (line.on_level != level) {
+    if (planes_[line.plane].is_static()) return line.plane;
+    line.on_level = level;
+    line.run = 0;
+    line.level_plane = planes_.add(at_rest(planes_[line.plane], height));
   }
-  return first;
+  return line.level_plane;
+}
+auto Wavefront::start_plane(std::uint32_t edge) -> PlaneId {
+  const WaveEdge& e = edges[edge];
+  return e.joint != none ? e.joint : plane_at(e.prev);
+}
+auto Wavefront::end_plane(std::uint32_t edge) -> PlaneId {
+  const std::uint32_t after = edges[edge].next;
+  return edges[after].joint != none ? edges[after].joint : plane_at(after);
+}
+
+void Wavefront::connect(std::uint32_t edge) {
+  const std::uint32_t before = edges[edge].prev;
+  const Line &behind = lines[edges[before].line], &line = lines[edges[edge].line];
+  if (before == edge) throw Broken("a loop of one edge");
+  if (behind.direction != line.direction) throw Broken("a joint between lines of two directions");
+  // Two connectors in line never move: they are one wall.
+  if (behind.motions == line.motions) {
+    trace_.unite(edges[before].node, edges[edge].node);
+    const std::uint32_t after = edges[edge].next;
+    edges[before].next = after;
+    edges[after].prev = before;
+    release(edge);
+    changed(before);
+    return;
+  }
+  if (speed_of(behind) == speed_of(line)) return;
+
+  Line connector;
+  connector.motions = none;
+  const bool steps_out = speed_of(behind) > speed_of(line);  // the edge before runs ahead: step back outwards to this
+  const Plane joint = planes_[edges[edge].joint];            // of the direction turned left
+  connector.plane = steps_out ? planes_.add(flipped(joint)) : edges[edge].joint;
+  connector.direction = planes_[connector.plane].direction;
+  const std::uint32_t node = trace_.node({FaceKind::connector, {}, connector.direction, 0});
+  const std::uint32_t between = create(add(std::move(connector)), node);
+  WaveEdge &e = edges[edge], &c = edges[between];
+  c.prev = before;
+  c.next = edge;
+  c.origin = e.origin;
+  c.origin_moment = e.origin_moment;
+  c.origin_level = e.origin_level;
+  edges[before].next = e.prev = between;
+  e.joint = none;
+  changed(before);
+  changed(between);
+  changed(edge);
+}
+
+void Wavefront::connect_pending() {
+  for (const std::uint32_t i : std::exchange(pending_, {}))
+    if (edges[i].line != none && edges[i].joint != none) connect(i);
+}
+
+void Wavefront::connect_all() {
+  pending_ = alive();
+  connect_pending();
+}
+
+void Wavefront::enter_terraces() {
+  refresh();
+  terraces_run = true;
+  waiting_ = std::exchange(queue_, {});
+  rise_horizon_ = std::exchange(horizon, 1);
+  now = fraction_of(0);
+  touched_.clear();
+  aim_all();
+  ++refreshes_;
+  const auto moves = [&](std::uint32_t line) { return speed_of(lines[line]) != 0; };
+  for (const Tip& tip : tips_) {
+    WaveEdge& v = edges[tip.edge];
+    if (!moves(v.line) && !moves(edges[v.prev].line)) continue;
+    v.scanned = refreshes_;
+    for (const Front& front : fronts_) try_hit(tip, front);
+  }
+  for (const Front& front : fronts_) {
+    try_collapse(front.edge);
+    if (!moves(edges[front.edge].line)) continue;
+    for (const Tip& tip : tips_)
+      if (edges[tip.edge].scanned != refreshes_) try_hit(tip, front);
+  }
+}
+
+void Wavefront::leave_terraces() {
+  refresh();
+  terraces_run = false;
+  horizon = rise_horizon_;
+  now = fraction_of(height);
+  queue_ = std::exchange(waiting_, {});
+  aim_all();
+  for (const std::uint32_t i : touched_)
+    if (edges[i].line != none) changed(i);
+  touched_.clear();
+}
+
+auto Wavefront::seen_plane(PlaneId plane) const -> Seen {
+  const Plane& p = planes_[plane];
+  return {p.nx, p.ny, p.c, p.s, std::abs(p.c), &p.direction};
+}
+
+auto Wavefront::seen(std::uint32_t index) const -> Seen {
+  const Line& line = lines[index];
+  if (!terraces_run) return seen_plane(line.plane);
+  if (line.on_level == level) return seen_plane(line.level_plane);
+  const Plane& p = planes_[line.plane];
+  const double moved = p.s * static_cast<double>(height);
+  return {p.nx, p.ny, p.c + moved, 0, std::abs(p.c) + std::abs(moved), &p.direction};
+}
+
+namespace {
+constexpr double eps = 0x1.0p-53;
+}
+
+void Wavefront::aim_vertex(std::uint32_t edge) {
+  WaveEdge& e = edges[edge];
+  const Seen p = e.joint != none ? seen_plane(e.joint) : seen(edges[e.prev].line), m = seen(e.line);
+  const Int128 turned = cross(*p.direction, *m.direction);
+  if (turned == 0) throw Broken("parallel neighbours in the wavefront");
+  const double sine =
+      static_cast<double>(turned) / (static_cast<double>(p.direction->l) * static_cast<double>(m.direction->l));
+  e.x0 = (p.c * m.ny - p.ny * m.c) / sine;
+  e.x1 = (p.s * m.ny - p.ny * m.s) / sine;
+  e.y0 = (p.nx * m.c - p.c * m.nx) / sine;
+  e.y1 = (p.nx * m.s - p.s * m.nx) / sine;
+  // Coefficients are within 16 eps of their size, and there are two products, a difference and a quotient.
+  e.error0 = 64 * eps * (p.size + m.size) / std::abs(sine);
+  e.error1 = 64 * eps * (std::abs(p.s) + std::abs(m.s)) / std::abs(sine);
+  e.pace = std::abs(e.x1) + std::abs(e.y1) + e.error1;
+  set_pointed(edge, turned < 0 || e.joint != none);
+}
+
+void Wavefront::aim_edge(std::uint32_t edge) {
+  WaveEdge& e = edges[edge];
+  const WaveEdge& end = edges[e.next];
+  const Seen m = seen(e.line);
+  fronts_[e.place] = {m.nx, m.ny, m.c, m.s, m.size, edge};
+  const double ux = m.ny, uy = -m.nx;
+  e.from0 = ux * e.x0 + uy * e.y0;
+  e.from1 = ux * e.x1 + uy * e.y1;
+  e.to0 = ux * end.x0 + uy * end.y0;
+  e.to1 = ux * end.x1 + uy * end.y1;
+  const double size0 = std::abs(e.x0) + std::abs(e.y0) + std::abs(end.x0) + std::abs(end.y0);
+  const double size1 = std::abs(e.x1) + std::abs(e.y1) + std::abs(end.x1) + std::abs(end.y1);
+  e.span_error0 = 2 * (e.error0 + end.error0) + 16 * eps * size0;
+  e.span_error1 = 2 * (e.error1 + end.error1) + 16 * eps * size1;
+  e.span_pace = e.pace + end.pace;
+}
+
+void Wavefront::aim_all() {
+  const std::vector<std::uint32_t> all = alive();
+  for (const std::uint32_t i : all) aim_vertex(i);
+  for (const std::uint32_t i : all) aim_edge(i);
+}
+
+void Wavefront::refresh() {
+  if (dirty_.empty()) return;
+  ++refreshes_;
+  std::vector<std::uint32_t> vertices, stretched;
+  const auto stretch = [&](std::uint32_t i) {
+    edges[i].edge_dirty = true;
+    stretched.push_back(i);
+  };
+  for (const std::uint32_t i : dirty_) {
+    WaveEdge& e = edges[i];
+    if (e.line == none) continue;
+    if (e.vertex_dirty) {
+      e.vertex_dirty = false;
+      ++e.vertex_stamp;
+      aim_vertex(i);
+      vertices.push_back(i);
+      stretch(i);
+      stretch(e.prev);
+    }
+    if (e.edge_dirty) stretched.push_back(i);
+  }
+  dirty_.clear();
+  std::erase_if(stretched, [&](std::uint32_t i) { return !std::exchange(edges[i].edge_dirty, false); });
+  for (const std::uint32_t i : stretched) {
+    ++edges[i].edge_stamp;
+    aim_edge(i);
+    if (terraces_run) touched_.push_back(i);
+  }
+  for (const std::uint32_t i : stretched) try_collapse(i);
+  for (const std::uint32_t v : vertices) {
+    if (!edges[v].pointed) continue;
+    edges[v].scanned = refreshes_;
+    const Tip tip = tips_[edges[v].pointed_place];
+    for (const Front& front : fronts_) try_hit(tip, front);
+  }
+  for (const std::uint32_t i : stretched) {
+    const Front front = fronts_[edges[i].place];
+    for (const Tip& tip : tips_)
+      if (edges[tip.edge].scanned != refreshes_) try_hit(tip, front);
+  }
+}
+
+void Wavefront::try_collapse(std::uint32_t edge) {
+  const WaveEdge& e = edges[edge];
+  const double growth = e.to1 - e.from1, unsure = e.span_error1 + 4 * eps * (std::abs(e.to1) + std::abs(e.from1));
+  if (growth > unsure) return;
+  if (e.span_pace == 0) return;
+  const double length = e.to0 - e.from0;
+  if (growth >= -4 * unsure) return push(now.lo, horizon, {edge, edge}, false);
+  const double t = -length / growth;
+  const double off = 1.5 * (e.span_error0 + 4 * eps * (std::abs(e.to0) + std::abs(e.from0)) + std::abs(t) * unsure) / -growth +
+                     4 * eps * std::abs(t);
+  push(t - off, t + off, {edge, edge}, t - off > now.hi);
+}
+
+auto Wavefront::never_meet(std::uint32_t vertex, std::uint32_t edge) const -> bool {
+  const WaveEdge &v = edges[vertex], &e = edges[edge];
+  const Line& line = lines[e.line];
+  const Rational& speed = speed_of(line);
+  const bool still = speed == 0;
+  if (v.pace == 0 && still) return true;
+  const auto keeps_off = [&](const Line& other) {
+    return (other.towards == line.towards && speed_of(other) == speed) ||
+           (other.towards == line.away && still && speed_of(other) == 0);
+  };
+  return keeps_off(lines[v.line]) || (v.joint == none && keeps_off(lines[edges[v.prev].line]));
+}
+
+void Wavefront::try_hit(const Tip& v, const Front& e) {
+  const double approach = e.nx * v.x1 + e.ny * v.y1 - e.s;
+  const double unsure1 = 2 * v.error1 + 32 * eps * (v.pace + std::abs(e.s));
+  if (approach > unsure1 || v.edge == e.edge) return;
+  const WaveEdge& edge = edges[e.edge];
+  if (edge.next == v.edge) return;
+  if (approach >= -4 * unsure1) {
+    if (!never_meet(v.edge, e.edge)) push(now.lo, horizon, {v.edge, e.edge}, false);
+    return;
+  }
+  const double gap = e.nx * v.x0 + e.ny * v.y0 - e.c;
+  const double t = -gap / approach;
+  const double unsure0 = 2 * v.error0 + 32 * eps * (std::abs(v.x0) + std::abs(v.y0) + e.size);
+  const double off = 1.5 * (unsure0 + std::abs(t) * unsure1) / -approach + 4 * eps * std::abs(t);
+  if (t + off < now.lo || t - off > horizon) return;
+  const double w = e.ny * (v.x0 + v.x1 * t) - e.nx * (v.y0 + v.y1 * t);
+  const double margin = 2 * (v.error0 + std::abs(t) * v.error1 + v.pace * off) + edge.span_error0 +
+                        std::abs(t) * edge.span_error1 + edge.span_pace * off + unsure0;
+  const double from = edge.from0 + edge.from1 * t, to = edge.to0 + edge.to1 * t;
+  if (w < from - margin || w > to + margin) return;
+  const bool inside = w > from + margin && w < to - margin;
+  push(t - off, t + off, {v.edge, e.edge, inside}, inside && t - off > now.hi);
+}
+
+// ---- the queue
+
+auto Wavefront::Later::operator()(const Candidate& a, const Candidate& b) const -> bool {
+  return std::tuple(a.lo, a.contact.vertex, a.contact.edge, a.hi) >
+         std::tuple(b.lo, b.contact.vertex, b.contact.edge, b.hi);
+}
+
+void Wavefront::put(const Candidate& candidate) {
+  queue_.push_back(candidate);
+  std::ranges::push_heap(queue_, Later());
+}
+
+void Wavefront::push(double lo, double hi, Contact contact, bool sure) {
+  if (hi < now.lo || lo > horizon) return;
+  put({lo, hi, contact, edges[contact.vertex].vertex_stamp, edges[contact.edge].edge_stamp, sure});
+}
+
+auto Wavefront::is_current(const Candidate& c) const -> bool {
+  return edges[c.contact.edge].edge_stamp == c.edge_stamp &&
+         (c.contact.vertex == c.contact.edge || edges[c.contact.vertex].vertex_stamp == c.vertex_stamp);
+}
+
+auto Wavefront::triple_of(const Contact& c) -> Triple {
+  if (c.vertex == c.edge) return {start_plane(c.edge), plane_at(c.edge), end_plane(c.edge)};
+  return {start_plane(c.vertex), plane_at(c.vertex), plane_at(c.edge)};
+}
+
+auto Wavefront::place_on(const Contact& c) -> int {
+  const Triple at = triple_of(c);
+  const PlaneId line = plane_at(c.edge), start = start_plane(c.edge), end = end_plane(c.edge);
+  // n_k · p − r_k is (w − w_k) times the sine from plane k to the edge.
+  const int from = planes_.side(start, at) * turn(start, line), to = planes_.side(end, at) * turn(end, line);
+  if (from < 0) return -2;
+  if (to > 0) return 2;
+  return from == 0 ? -1 : (to == 0 ? 1 : 0);
+}
+
+auto Wavefront::happens(const Contact& c) -> bool {
+  const Triple at = triple_of(c);
+  const int convergence = planes_.convergence(at);
+  if (convergence == 0) return false;
+  // The sum of both products' signs follows from where two of the lines cut the third: the length of an edge changes by
+  // −W / ((p × e) (e × n)), the gap before a vertex by −W / (p × m), up to positive factors.
+  if (c.vertex == c.edge) {
+    if (convergence * turn(at[0], at[1]) * turn(at[1], at[2]) <= 0) return false;
+    return planes_.compare(planes_.time(at), now) > 0;
+  }
+  if (convergence * turn(at[0], at[1]) <= 0) return false;
+  if (planes_.compare(planes_.time(at), now) <= 0) return false;
+  return c.inside || std::abs(place_on(c)) < 2;
+}
+
+auto Wavefront::next_contacts(const Fraction& limit, Fraction& when) -> std::vector<Contact> {
+  refresh();
+  std::vector<Candidate> group, later;
+  Fraction first;
+  bool known = false;  // whether `first` is
+  const auto time_of = [&](const Candidate& c) { return planes_.time(triple_of(c.contact)); };
+  while (!queue_.empty()) {
+    Candidate c = queue_.front();
+    if (c.lo > (group.empty() ? limit.hi : group.front().hi)) break;
+    std::ranges::pop_heap(queue_, Later());
+    queue_.pop_back();
+    if (!is_current(c)) continue;
+    if (!c.sure) {
+      if (!happens(c.contact)) continue;
+      const Fraction t = time_of(c);
+      c.lo = t.lo;
+      c.hi = t.hi;
+      c.sure = true;
+    }
+    if (c.hi >= limit.lo && planes_.compare(time_of(c), limit) > 0) {
+      later.push_back(c);
+      continue;
+    }
+    if (group.empty()) {
+      group.push_back(c);
+      known = false;
+      continue;
+    }
+    int order = c.hi < group.front().lo ? -1 : (c.lo > group.front().hi ? 1 : 0);
+    if (order == 0) {
+      if (!known) first = time_of(group.front());
+      known = true;
+      Fraction t = time_of(c);
+      order = planes_.compare(t, first);
+      if (order < 0) {
+        first = std::move(t);
+      } else {  // the tightest interval known: fewer candidates overlap it
+        group.front().lo = first.lo;
+        group.front().hi = first.hi;
+      }
+    } else if (order < 0) {
+      known = false;
+    }
+    if (order < 0) {
+      later.insert(later.end(), group.begin(), group.end());
+      group.clear();
+    }
+    if (order <= 0) group.push_back(c);
+    else later.push_back(c);
+  }
+  for (const Candidate& c : later) put(c);
+  std::vector<Contact> contacts;
+  if (group.empty()) return contacts;
+  when = known ? first : time_of(group.front());
+  for (const Candidate& c : group) contacts.push_back(c.contact);
+  std::ranges::sort(contacts, {}, [](const Contact& c) { return std::tuple(c.vertex, c.edge); });
+  return contacts;
 }
 
 }  // namespace mansard::extrude::detail

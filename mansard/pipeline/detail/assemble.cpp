@@ -4,9 +4,7 @@
 #include <cmath>
 
 namespace mansard::pipeline::detail {
-namespace {
 
-/// In the words of 3DBAG: "horizontal", "multiple horizontal", "slanted".
 auto roof_type(const label::LabelledSolid& model) -> std::string {
   constexpr double flat = 0.9962;  // cosine of 5°
   double flat_area = 0, sloped_area = 0;
@@ -36,6 +34,18 @@ auto ridge_height(const label::LabelledSolid& model) -> std::optional<double> {
   }
   return highest;
 }
+
+auto made_by(const ingest::Scene& scene, const Options& options) -> write::MadeBy {
+  write::MadeBy out;
+  out.version = MANSARD_VERSION;
+  out.inputs = scene.inputs;
+  Options copy = options;
+  for (const auto& list : option_lists(copy))
+    for (const auto& option : list.options()) out.options.emplace_back(list.room() + "." + option.name, option.get());
+  return out;
+}
+
+namespace {
 
 /// The attributes of outputs.md, in the file's heights.
 auto attributes_of(const PartResult& part, const BlockReport& block, double z0) -> ingest::Attributes {
@@ -69,6 +79,7 @@ void add(label::Areas& sum, const label::Areas& more) {
   sum.party_wall += more.party_wall;
   sum.roof_flat += more.roof_flat;
   sum.roof_sloped += more.roof_sloped;
+  sum.soffit += more.soffit;
   sum.ground += more.ground;
 }
 
@@ -150,12 +161,7 @@ auto assemble(const ingest::Scene& scene, const std::vector<block::Block>& block
     }
   }
   out.city.frame = scene.frame;
-  out.city.made_by.inputs = scene.inputs;
-  Options copy = options;
-  for (const auto& list : option_lists(copy))
-    for (const auto& option : list.options())
-      out.city.made_by.options.emplace_back(list.room() + "." + option.name, option.get());
-  out.city.made_by.version = MANSARD_VERSION;
+  out.city.made_by = made_by(scene, options);
   out.city.buildings = std::move(buildings);
   out.buildings = std::move(reports);
   return out;

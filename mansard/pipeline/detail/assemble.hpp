@@ -11,4 +11,17 @@ namespace mansard::pipeline::detail {
 [[nodiscard]] auto assemble(const ingest::Scene& scene, const std::vector<block::Block>& blocks,
                             std::vector<BlockResult> results, const Options& options) -> Reconstruction;
 
+/// Files have 0.1 mm: what is checked is what is written.
+[[nodiscard]] inline auto with_grid(extrude::Options options) -> extrude::Options {
+  options.grid = 1e-4;
+  return options;
+}
+
+/// In the words of 3DBAG: "horizontal", "multiple horizontal", "slanted".
+[[nodiscard]] auto roof_type(const label::LabelledSolid& model) -> std::string;
+/// z of the highest corner of a pitched face, where there is one.
+[[nodiscard]] auto ridge_height(const label::LabelledSolid& model) -> std::optional<double>;
+/// Version, inputs and every option.
+[[nodiscard]] auto made_by(const ingest::Scene& scene, const Options& options) -> write::MadeBy;
+
 }  // namespace mansard::pipeline::detail

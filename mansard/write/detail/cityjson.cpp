@@ -52,6 +52,7 @@ auto semantics_of(const Surface& surface) -> std::string {
     case Class::wall: json.text("WallSurface").key("ms_party_wall").flag(false); break;
     case Class::party_wall: json.text("WallSurface").key("ms_party_wall").flag(true); break;
     case Class::ground: json.text("GroundSurface"); break;
+    case Class::soffit: json.text("OuterCeilingSurface"); break;
     case Class::roof: {
       const auto& n = surface.normal;
       const double slope = degrees(std::atan2(std::hypot(n.x, n.y), n.z));

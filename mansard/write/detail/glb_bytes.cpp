@@ -90,7 +90,8 @@ enum View : std::int64_t { positions_view, normals_view, indices_view };
 constexpr std::array<std::array<double, 4>, class_count> linear_colours{{{0.687, 0.658, 0.604, 1},
                                                                          {0.305, 0.305, 0.342, 1},
                                                                          {0.434, 0.122, 0.080, 1},
-                                                                         {0.188, 0.202, 0.188, 1}}};
+                                                                         {0.188, 0.202, 0.188, 1},
+                                                                         {0.305, 0.231, 0.162, 1}}};
 
 /// The classes that occur, in order: the file's materials.
 auto materials_of(const std::vector<PartMesh>& meshes) -> std::vector<std::size_t> {

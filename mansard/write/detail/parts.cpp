@@ -54,7 +54,7 @@ auto check_models(const City& city) -> base::Result<void> {
 }
 
 auto class_name(label::Class c) -> std::string_view {
-  constexpr std::array<std::string_view, class_count> names{"wall", "party_wall", "roof", "ground"};
+  constexpr std::array<std::string_view, class_count> names{"wall", "party_wall", "roof", "ground", "soffit"};
   return names[static_cast<std::size_t>(c)];
 }
 

@@ -28,13 +28,13 @@ struct Keys {
 /// class per face, unit normals. Gives up with "write-model".
 [[nodiscard]] auto check_models(const City& city) -> base::Result<void>;
 
-/// wall, party_wall, roof, ground: the names of materials, in the order of label::Class.
+/// wall, party_wall, roof, ground, soffit: the names of materials, in the order of label::Class.
 [[nodiscard]] auto class_name(label::Class c) -> std::string_view;
-inline constexpr std::size_t class_count = 4;
+inline constexpr std::size_t class_count = 5;
 
 /// The classes' colours, sRGB: those of picture/picture.hpp, which this room may not enter.
 inline constexpr std::array<std::array<int, 3>, class_count> class_colours{
-    {{216, 212, 204}, {150, 150, 158}, {176, 98, 80}, {120, 124, 120}}};
+    {{216, 212, 204}, {150, 150, 158}, {176, 98, 80}, {120, 124, 120}, {150, 132, 112}}};
 
 /// Coordinates in the frame of the files.
 [[nodiscard]] auto in_file_frame(const ingest::Frame& frame, geometry::Point3 p) -> geometry::Point3;

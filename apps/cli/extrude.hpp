@@ -1,0 +1,37 @@
+// What the two halves of `mansard extrude` share: one raises plans again, the other footprints without a mesh.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/cli/settings.hpp"
+#include "mansard/base/run.hpp"
+#include "mansard/write/write.hpp"
+
+namespace mansard::cli {
+
+struct ExtrudeRequest {
+  std::string input, out, report;
+  bool overwrite = false, picture = false, quiet = false, verbose = false;
+  std::size_t jobs = 0;
+  Settings settings;
+};
+
+/// Whatever may be wrong with the outputs, before any work. Gives up with "output-…", "file-write".
+[[nodiscard]] auto check_outputs(const ExtrudeRequest& request) -> base::Result<void>;
+
+/// The models as OUT asks for them, with a picture if asked for, and the report (in a folder and where --report says;
+/// empty for none).
+[[nodiscard]] auto write_out(const write::City& city, const std::string& report, const ExtrudeRequest& request,
+                             const base::Run& run) -> base::Result<void>;
+
+/// Whether the file holds plan + profiles, by its contents, rather than footprints: JSON that says so, or JSON in which
+/// nothing looks like a feature.
+[[nodiscard]] auto holds_plans(const std::filesystem::path& path) -> bool;
+
+/// `mansard extrude FOOTPRINTS -o OUT`; the exit code.
+[[nodiscard]] auto extrude_footprints(const ExtrudeRequest& request, const base::Cancel& cancel) -> int;
+
+}  // namespace mansard::cli

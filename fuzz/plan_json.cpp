@@ -1,0 +1,70 @@
+// Bytes → the reader of plan + profiles. It must not throw, must give an error with a code of its room or a city, and a
+// city that was read must come back the same from its own text.
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <exception>
+#include <string>
+#include <string_view>
+
+#include "fuzz/fuzz.hpp"
+#include "mansard/write/write.hpp"
+
+namespace {
+
+using namespace mansard;
+using fuzz::promise;
+
+/// A file in memory, whose content can be replaced.
+class MemoryFile {
+ public:
+  MemoryFile() : descriptor_(memfd_create("plan", 0)), path_("/proc/self/fd/" + std::to_string(descriptor_)) {}
+  ~MemoryFile() { close(descriptor_); }
+  MemoryFile(const MemoryFile&) = delete;
+  auto operator=(const MemoryFile&) -> MemoryFile& = delete;
+
+  void hold(std::string_view bytes) const {
+    promise(ftruncate(descriptor_, 0) == 0, "no file in memory");
+    promise(pwrite(descriptor_, bytes.data(), bytes.size(), 0) == static_cast<ssize_t>(bytes.size()), "no memory");
+  }
+  [[nodiscard]] auto path() const -> const std::string& { return path_; }
+
+ private:
+  int descriptor_;
+  std::string path_;
+};
+
+auto read(std::string_view bytes) -> base::Result<write::City> {
+  static const MemoryFile file;
+  file.hold(bytes);
+  return write::read_plans(file.path());
+}
+
+}  // namespace
+
+auto LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) -> int {
+  try {
+    const auto city = read({reinterpret_cast<const char*>(bytes), size});
+    if (!city) {
+      promise(city.error().code.starts_with("write-plan-"), "an error that is not the reader's",
+              [&] { return base::to_string(city.error()); });
+      promise(!city.error().message.empty(), "an error that says nothing");
+      return 0;
+    }
+    const std::string text = write::plans(*city);
+    const auto again = read(text);
+    promise(again.has_value(), "what was written is not read", [&] { return base::to_string(again.error()) + text; });
+    promise(write::plans(*again) == text, "what was written and read is written differently", [&] { return text; });
+    promise(std::ranges::equal(city->buildings, again->buildings, {},
+                               [](const auto& building) { return building.parts.size(); },
+                               [](const auto& building) { return building.parts.size(); }),
+            "parts were lost");
+    for (std::size_t b = 0; b < city->buildings.size(); ++b)
+      for (std::size_t p = 0; p < city->buildings[b].parts.size(); ++p)
+        promise(city->buildings[b].parts[p].plan == again->buildings[b].parts[p].plan, "a plan changed on its way");
+  } catch (const std::exception& thrown) {
+    promise(false, "an exception left the room", [&] { return thrown.what(); });
+  }
+  return 0;
+}

@@ -1,0 +1,279 @@
+#include "mansard/extrude/detail/plane.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace mansard::extrude::detail {
+namespace {
+
+constexpr double eps = 0x1.0p-53;
+constexpr std::size_t most_bits = 72, most_offset_bits = 112;
+
+auto ratio(const mpz_class& n, const mpz_class& d) -> double { return n.get_d() / d.get_d(); }
+
+/// Doubles and narrowness from exact coefficients.
+auto finished(Plane plane, Coefficients<mpz_class> exact) -> Plane {
+  const mpz_class scale = abs(exact.A) > abs(exact.B)
+                              ? mpz_class(exact.A * plane.direction.l / -mpz_class(plane.direction.b))
+                              : mpz_class(exact.B * plane.direction.l / mpz_class(plane.direction.a));
+  plane.nx = -static_cast<double>(plane.direction.b) / static_cast<double>(plane.direction.l);
+  plane.ny = static_cast<double>(plane.direction.a) / static_cast<double>(plane.direction.l);
+  plane.c = ratio(exact.D, scale);
+  plane.s = ratio(exact.S, scale);
+  plane.narrow = bits_of(exact.A) <= most_bits && bits_of(exact.B) <= most_bits && bits_of(exact.S) <= most_bits &&
+                 bits_of(exact.D) <= most_offset_bits;
+  if (plane.narrow)
+    plane.whole = {to_int128(exact.A), to_int128(exact.B), to_int128(exact.D), to_int128(exact.S)};
+  else
+    plane.unbounded = std::make_shared<const Coefficients<mpz_class>>(std::move(exact));
+  return plane;
+}
+
+auto sign_of(const Wide& value) -> int { return value.sign(); }
+auto sign_of(const mpz_class& value) -> int { return sgn(value); }
+
+/// Where three planes meet, homogeneous: x = X / W, y = Y / W, t = −E / W (Cramer's rule on A x + B y − S t = D).
+template <class Number>
+struct Meet {
+  Number X, Y, E, W;
+};
+
+template <class Number>
+auto det(const Number& a, const Number& b, const Number& c, const Number& m_bc, const Number& m_ac, const Number& m_ab)
+    -> Number {
+  return Number(a * m_bc) - Number(b * m_ac) + Number(c * m_ab);
+}
+
+template <class Number>
+struct Triangle {
+  const Coefficients<Number>&p, &q, &r;
+  Number pq, pr, qr;  ///< minors A B
+
+  Triangle(const Coefficients<Number>& i, const Coefficients<Number>& j, const Coefficients<Number>& k)
+      : p(i), q(j), r(k), pq(i.A * j.B - j.A * i.B), pr(i.A * k.B - k.A * i.B), qr(j.A * k.B - k.A * j.B) {}
+
+  [[nodiscard]] auto W() const -> Number { return det<Number>(p.S, q.S, r.S, qr, pr, pq); }
+  [[nodiscard]] auto E() const -> Number { return det<Number>(p.D, q.D, r.D, qr, pr, pq); }
+  [[nodiscard]] auto X() const -> Number {
+    return det<Number>(p.D, q.D, r.D, Number(q.B * r.S - r.B * q.S), Number(p.B * r.S - r.B * p.S),
+                       Number(p.B * q.S - q.B * p.S));
+  }
+  [[nodiscard]] auto Y() const -> Number {
+    return det<Number>(p.D, q.D, r.D, Number(r.A * q.S - q.A * r.S), Number(r.A * p.S - p.A * r.S),
+                       Number(q.A * p.S - p.A * q.S));
+  }
+  [[nodiscard]] auto meet() const -> Meet<Number> { return {X(), Y(), E(), W()}; }
+};
+
+/// A double with a bound: |exact − value| ≤ k · eps · size with k known at the place of use.
+struct Bounded {
+  double value, size;
+  friend auto operator+(Bounded a, Bounded b) -> Bounded { return {a.value + b.value, a.size + b.size}; }
+  friend auto operator-(Bounded a, Bounded b) -> Bounded { return {a.value - b.value, a.size + b.size}; }
+  friend auto operator*(Bounded a, Bounded b) -> Bounded { return {a.value * b.value, a.size * b.size}; }
+};
+auto bounded(double v) -> Bounded { return {v, std::abs(v)}; }
+auto bounded(const Plane& p) -> Coefficients<Bounded> {
+  return {bounded(p.nx), bounded(p.ny), bounded(p.c), bounded(p.s)};
+}
+/// Of a value made of products of at most four coefficients (8 eps each) and fewer than a dozen sums and products: its
+/// relative error against `size` is below 4 · 8 + 4 + 12 < 64 eps.
+auto certain_sign(Bounded b) -> int {
+  const double bound = 64 * eps * b.size + 0x1.0p-900;
+  return b.value > bound ? 1 : (b.value < -bound ? -1 : 0);
+}
+
+template <class Number>
+auto side_of(const Coefficients<Number>& l, const Meet<Number>& m) -> Number {
+  return Number(l.A * m.X) + Number(l.B * m.Y) + Number(l.S * m.E) - Number(l.D * m.W);
+}
+
+auto enclosed(Fraction f) -> Fraction {
+  const double value = f.narrow ? nearest(f.n, f.d) : nearest(f.un, f.ud);
+  f.lo = std::nextafter(value, -std::numeric_limits<double>::infinity());
+  f.hi = std::nextafter(value, std::numeric_limits<double>::infinity());
+  return f;
+}
+
+auto bit_length(const Wide& v) -> int { return v == 0 ? 0 : static_cast<int>(msb(v)) + 1; }
+auto bit_length(const mpz_class& v) -> int { return v == 0 ? 0 : static_cast<int>(bits_of(v)); }
+auto low_word(const Wide& v) -> std::uint64_t { return static_cast<std::uint64_t>(v); }
+auto low_word(const mpz_class& v) -> std::uint64_t { return v.get_ui(); }
+
+/// For magnitudes. The quotient is taken to 63 or 64 bits, the last of which also says whether anything is left over:
+/// then its rounding to 53 bits is the value's.
+template <class Number>
+auto nearest_magnitude(Number n, Number d) -> double {
+  if (n == 0) return 0;
+  const int shift = 63 - (bit_length(n) - bit_length(d));
+  // Wide numbers have room: quotients of the kernel have |n| < 2^262 and d < 2^222 (see Plane::narrow).
+  if (shift >= 0) n <<= shift;
+  else d <<= -shift;
+  const Number quotient = n / d;
+  std::uint64_t digits = low_word(quotient);
+  if (Number(quotient * d) != n) digits |= 1;
+  return std::ldexp(static_cast<double>(digits), -shift);
+}
+
+}  // namespace
+
+auto nearest(const Wide& n, const Wide& d) -> double {
+  const double magnitude = nearest_magnitude<Wide>(abs(n), abs(d));
+  return n.sign() * d.sign() < 0 ? -magnitude : magnitude;
+}
+auto nearest(const mpz_class& n, const mpz_class& d) -> double {
+  const double magnitude = nearest_magnitude<mpz_class>(abs(n), abs(d));
+  return sgn(n) * sgn(d) < 0 ? -magnitude : magnitude;
+}
+
+auto plane_of(const Direction& direction, const Rational& offset, const Rational& speed) -> Plane {
+  const mpz_class scale = lcm(offset.get_den(), speed.get_den());
+  Plane plane;
+  plane.direction = direction;
+  const mpz_class l(direction.l);
+  return finished(std::move(plane),
+                  {-mpz_class(direction.b) * scale, mpz_class(direction.a) * scale,
+                   l * offset.get_num() * mpz_class(scale / offset.get_den()),
+                   l * speed.get_num() * mpz_class(scale / speed.get_den())});
+}
+
+auto flipped(const Plane& plane) -> Plane {
+  Plane other = plane;
+  other.direction = plane.direction.reversed();
+  other.nx = -plane.nx;
+  other.ny = -plane.ny;
+  other.c = -plane.c;
+  other.s = -plane.s;
+  if (plane.narrow) {
+    other.whole = {-plane.whole.A, -plane.whole.B, -plane.whole.D, -plane.whole.S};
+  } else {
+    const auto& u = *plane.unbounded;
+    other.unbounded = std::make_shared<const Coefficients<mpz_class>>(Coefficients<mpz_class>{-u.A, -u.B, -u.D, -u.S});
+  }
+  return other;
+}
+
+auto at_rest(const Plane& plane, std::int64_t t) -> Plane {
+  Coefficients<mpz_class> exact = plane.narrow ? Coefficients<mpz_class>{to_integer(plane.whole.A), to_integer(plane.whole.B),
+                                                                         to_integer(plane.whole.D), to_integer(plane.whole.S)}
+                                               : *plane.unbounded;
+  exact.D += exact.S * mpz_class(t);
+  exact.S = 0;
+  Plane rest;
+  rest.direction = plane.direction;
+  return finished(std::move(rest), std::move(exact));
+}
+
+auto moment_plane(std::int64_t t) -> Plane {
+  Plane plane;
+  plane.whole = {0, 0, -static_cast<Int128>(t), 1};
+  plane.c = -static_cast<double>(t);
+  plane.s = 1;
+  return plane;
+}
+
+template <class Number>
+auto Planes::coefficients(PlaneId id) const -> Coefficients<Number> {
+  const Plane& p = planes_[id];
+  if constexpr (std::is_same_v<Number, Wide>) {
+    return {Wide(p.whole.A), Wide(p.whole.B), Wide(p.whole.D), Wide(p.whole.S)};
+  } else {
+    if (!p.narrow) return *p.unbounded;
+    return {to_integer(p.whole.A), to_integer(p.whole.B), to_integer(p.whole.D), to_integer(p.whole.S)};
+  }
+}
+
+auto Planes::convergence(const Triple& at) const -> int {
+  {
+    const auto p = bounded(planes_[at[0]]), q = bounded(planes_[at[1]]), r = bounded(planes_[at[2]]);
+    if (const int sure = certain_sign(Triangle<Bounded>(p, q, r).W()); sure != 0) return ++tiers_.filtered, sure;
+  }
+  const auto exactly = [&]<class Number>(Number) {
+    const auto p = coefficients<Number>(at[0]), q = coefficients<Number>(at[1]), r = coefficients<Number>(at[2]);
+    return sign_of(Triangle<Number>(p, q, r).W());
+  };
+  if (narrow(at)) return ++tiers_.fixed, exactly(Wide());
+  return ++tiers_.unbounded, exactly(mpz_class());
+}
+
+auto Planes::side(PlaneId plane, const Triple& at) const -> int {
+  {
+    const auto p = bounded(planes_[at[0]]), q = bounded(planes_[at[1]]), r = bounded(planes_[at[2]]);
+    const Meet<Bounded> m = Triangle<Bounded>(p, q, r).meet();
+    const int sure = certain_sign(side_of(bounded(planes_[plane]), m)) * certain_sign(m.W);
+    if (sure != 0) return ++tiers_.filtered, sure;
+  }
+  const auto exactly = [&]<class Number>(Number) {
+    const auto p = coefficients<Number>(at[0]), q = coefficients<Number>(at[1]), r = coefficients<Number>(at[2]),
+               l = coefficients<Number>(plane);
+    const Meet<Number> m = Triangle<Number>(p, q, r).meet();
+    if (sign_of(m.W) == 0) throw Broken("three lines that do not meet in one point");
+    return sign_of(side_of(l, m)) * sign_of(m.W);
+  };
+  if (narrow(at) && planes_[plane].narrow) return ++tiers_.fixed, exactly(Wide());
+  return ++tiers_.unbounded, exactly(mpz_class());
+}
+
+auto Planes::time(const Triple& at) const -> Fraction {
+  Fraction f;
+  f.narrow = narrow(at);
+  const auto exactly = [&]<class Number>(Number& n, Number& d) {
+    const auto p = coefficients<Number>(at[0]), q = coefficients<Number>(at[1]), r = coefficients<Number>(at[2]);
+    const Triangle<Number> triangle(p, q, r);
+    n = -triangle.E();
+    d = triangle.W();
+    if (sign_of(d) == 0) throw Broken("three lines that do not meet in one point");
+    if (sign_of(d) < 0) {
+      n = -n;
+      d = -d;
+    }
+  };
+  if (f.narrow) exactly(f.n, f.d);
+  else exactly(f.un, f.ud);
+  return enclosed(std::move(f));
+}
+
+auto Planes::compare(const Fraction& a, const Fraction& b) const -> int {
+  if (a.hi < b.lo || a.lo > b.hi) return ++tiers_.filtered, a.hi < b.lo ? -1 : 1;
+  if (a.narrow && b.narrow) return ++tiers_.fixed, sign_of(Wide(Wide(a.n * b.d) - Wide(b.n * a.d)));
+  ++tiers_.unbounded;
+  const auto integer = [](const Wide& w) {
+    mpz_class z(0);
+    Wide rest = abs(w);
+    for (int word = 0; rest != 0; ++word, rest >>= 64)
+      z += mpz_class(static_cast<unsigned long>(static_cast<std::uint64_t>(rest & Wide(UINT64_MAX)))) << (64 * word);
+    return w.sign() < 0 ? mpz_class(-z) : z;
+  };
+  const mpz_class an = a.narrow ? integer(a.n) : a.un, ad = a.narrow ? integer(a.d) : a.ud,
+                  bn = b.narrow ? integer(b.n) : b.un, bd = b.narrow ? integer(b.d) : b.ud;
+  return sgn(mpz_class(an * bd - bn * ad));
+}
+
+auto Planes::exact(const Triple& at) const -> Exact {
+  const auto p = coefficients<mpz_class>(at[0]), q = coefficients<mpz_class>(at[1]), r = coefficients<mpz_class>(at[2]);
+  const Meet<mpz_class> m = Triangle<mpz_class>(p, q, r).meet();
+  if (m.W == 0) throw Broken("three lines that do not meet in one point");
+  Exact e{Rational(m.X, m.W), Rational(m.Y, m.W), Rational(-m.E, m.W)};
+  e.x.canonicalize();
+  e.y.canonicalize();
+  e.t.canonicalize();
+  return e;
+}
+
+auto Planes::nearest(const Triple& at) const -> geometry::Point3 {
+  const auto exactly = [&]<class Number>(Number) -> geometry::Point3 {
+    const auto p = coefficients<Number>(at[0]), q = coefficients<Number>(at[1]), r = coefficients<Number>(at[2]);
+    const Meet<Number> m = Triangle<Number>(p, q, r).meet();
+    if (sign_of(m.W) == 0) throw Broken("three lines that do not meet in one point");
+    return {detail::nearest(m.X, m.W), detail::nearest(m.Y, m.W), detail::nearest(Number(-m.E), m.W)};
+  };
+  return narrow(at) ? exactly(Wide()) : exactly(mpz_class());
+}
+
+auto fraction_of(std::int64_t whole) -> Fraction {
+  Fraction f;
+  f.n = whole;
+  return enclosed(std::move(f));
+}
+
+}  // namespace mansard::extrude::detail

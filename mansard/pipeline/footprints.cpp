@@ -1,0 +1,257 @@
+// Footprints without a mesh: attributes to forms, forms to plans, plans to solids.
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "mansard/base/text.hpp"
+#include "mansard/pipeline/detail/assemble.hpp"
+#include "mansard/pipeline/pipeline.hpp"
+
+namespace mansard::pipeline {
+namespace {
+
+/// One polygon of a feature, raised.
+struct Raising {
+  std::size_t feature = 0, polygon = 0;
+  roof::Planned planned;
+  std::optional<extrude::Solid> solid;
+  bool full = true;
+  std::vector<base::Diagnostic> reasons;
+  double planning = 0, raising = 0;  ///< s
+};
+
+void append(std::vector<base::Diagnostic>& all, const std::vector<base::Diagnostic>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+auto top_of(const extrude::Solid& solid) -> double {
+  double top = solid.vertices.front().z;
+  for (const auto& v : solid.vertices) top = std::max(top, v.z);
+  return top;
+}
+
+/// The plan as a checked solid; what the ladder did, and a ridge that is not where it should be, are reasons.
+void raise(Raising& job, bool ridge_known, const Options& options, const base::Run& run) {
+  auto& plan = job.planned.plan;
+  auto raised = raise_part(plan, options, run);
+  if (raised && raised->outcome == extrude::Outcome::prism && job.planned.shape != roof::Shape::flat) {
+    // Slivers that do not outlive the rounding to 0.1 mm: one more try without small details, before the roof goes.
+    Options coarse = options;
+    coarse.extrude.merge_angle = std::max(options.extrude.merge_angle, 0.0873);
+    coarse.extrude.tolerance = std::max(options.extrude.tolerance, 0.3);
+    if (auto again = raise_part(plan, coarse, run); again && again->outcome != extrude::Outcome::prism) {
+      const auto why = raised->warnings.empty() ? std::string("it could not be raised") : raised->warnings.back().message;
+      again->outcome = std::max(again->outcome, extrude::Outcome::simplified);
+      again->warnings.insert(again->warnings.begin(),
+                             base::warning("extrude-simplified", "the footprint was simplified: " + why));
+      raised = std::move(again);
+    }
+  }
+  if (raised && raised->outcome == extrude::Outcome::prism && plan.cap != job.planned.flat_top) {
+    plan.cap = job.planned.flat_top;  // a flat roof where the ridge would have been, and not above it
+    if (auto prism = extrude::prism(plan, detail::with_grid(options.extrude))) raised->solid = std::move(*prism);
+  }
+  if (!raised) {
+    job.full = false;
+    job.reasons.push_back(base::warning(raised.error().code, raised.error().message));
+    return;
+  }
+  if (raised->outcome != extrude::Outcome::full) {
+    job.full = false;
+    append(job.reasons, raised->warnings);
+  }
+  constexpr double far_off = 0.05;  // m
+  const double top = top_of(raised->solid) - plan.base;
+  if (ridge_known && raised->outcome != extrude::Outcome::prism && std::abs(top - job.planned.top) > far_off) {
+    job.full = false;
+    job.reasons.push_back(base::warning("roof-missed", "its ridge is " + base::to_text(top, 2) +
+                                                           " m above its base instead of " +
+                                                           base::to_text(job.planned.top, 2) + " m"));
+  }
+  job.solid = std::move(raised->solid);
+}
+
+/// z of the roof's lowest corner.
+auto eaves_of(const label::LabelledSolid& model) -> double {
+  double low = top_of(model.solid);
+  for (std::size_t f = 0; f < model.solid.faces.size(); ++f)
+    if (model.classes[f] == label::Class::roof)
+      for (const auto v : model.solid.faces[f].loops.front()) low = std::min(low, model.solid.vertices[v].z);
+  return low;
+}
+
+auto attributes_of(const label::LabelledSolid& model, const Raising& job, const BuildingReport& building)
+    -> ingest::Attributes {
+  const auto areas = label::areas(model);
+  ingest::Attributes out;
+  const auto add = [&out](const char* name, ingest::Value value) { out.push_back({name, std::move(value)}); };
+  add("ms_h_ground", job.planned.plan.base);
+  add("ms_h_roof_min", eaves_of(model));
+  add("ms_h_roof_max", top_of(model.solid));
+  if (const auto ridge = detail::ridge_height(model)) add("ms_h_ridge", *ridge);
+  add("ms_roof_type", detail::roof_type(model));
+  add("ms_roof_shape", building.roof);
+  add("ms_height_from", building.height_from);
+  add("ms_volume_lod22", extrude::volume(model.solid));
+  add("ms_area_roof_flat", areas.roof_flat);
+  add("ms_area_roof_sloped", areas.roof_sloped);
+  add("ms_area_wall", areas.wall);
+  add("ms_area_party_wall", areas.party_wall);
+  if (job.full) add("ms_fallback", std::monostate{});
+  else add("ms_fallback", job.reasons.empty() ? std::string("unknown") : job.reasons.front().code);
+  return out;
+}
+
+/// Adds a part to its building and to the building's report.
+void take(Raising job, label::LabelledSolid model, write::Building& building, BuildingReport& report) {
+  auto attributes = attributes_of(model, job, report);
+  const double low = eaves_of(model), high = top_of(model.solid);
+  report.roof_min = report.parts == 0 ? low : std::min(report.roof_min, low);
+  report.roof_max = report.parts == 0 ? high : std::max(report.roof_max, high);
+  ++report.parts;
+  report.volume += extrude::volume(model.solid);
+  const auto areas = label::areas(model);
+  report.areas.wall += areas.wall;
+  report.areas.party_wall += areas.party_wall;
+  report.areas.roof_flat += areas.roof_flat;
+  report.areas.roof_sloped += areas.roof_sloped;
+  report.areas.soffit += areas.soffit;
+  report.areas.ground += areas.ground;
+  building.parts.push_back({building.id + "-" + std::to_string(report.parts), std::move(job.planned.plan),
+                            std::move(model), std::move(attributes)});
+}
+
+/// Buildings and reports, still without parts.
+void begin(const ingest::Scene& scene, const std::vector<roof::Read>& read, bool by_attributes, Reconstruction& out) {
+  for (std::size_t i = 0; i < scene.footprints.size(); ++i) {
+    const auto& footprint = scene.footprints[i];
+    auto& building = out.city.buildings.emplace_back();
+    auto& report = out.buildings.emplace_back();
+    building.id = report.id = footprint.id;
+    building.attributes = footprint.attributes;
+    building.footprint = footprint.polygons;
+    building.ground = report.ground = read[i].form.ground;
+    if (footprint.defect) {
+      report.outcome = Outcome::refused;
+      report.reasons.push_back(*footprint.defect);
+      continue;
+    }
+    report.height_from = by_attributes ? roof::to_string(read[i].form.source) : "profile";
+    if (by_attributes) append(report.reasons, read[i].warnings);
+  }
+}
+
+/// The attributes that only the whole building has; the ids of its reasons; a word on heights out of thin air.
+void finish(const ingest::Scene& scene, Reconstruction& out) {
+  std::size_t assumed = 0;
+  for (std::size_t i = 0; i < out.buildings.size(); ++i) {
+    auto& report = out.buildings[i];
+    for (auto& reason : report.reasons)
+      if (reason.subject.empty()) reason.subject = report.id;
+    if (report.height_from == roof::to_string(roof::Source::assumed)) ++assumed;
+    auto& attributes = out.city.buildings[i].attributes;
+    attributes.emplace_back("ms_outcome", std::string(to_string(report.outcome)));
+    if (report.parts == 0) continue;
+    attributes.emplace_back("ms_h_ground", report.ground);
+    attributes.emplace_back("ms_h_roof_max", report.roof_max);
+    attributes.emplace_back("ms_volume_lod22", report.volume);
+  }
+  if (assumed > 0)
+    out.warnings.push_back(base::warning("roof-assumed",
+                                         std::to_string(assumed) + " of " + std::to_string(out.buildings.size()) +
+                                             " buildings have neither height nor levels; their height is assumed",
+                                         scene.inputs.empty() ? std::string() : scene.inputs.front().path));
+}
+
+}  // namespace
+
+auto raise_footprints(const ingest::Scene& scene, const Options& options, const base::Run& run)
+    -> base::Result<Reconstruction> {
+  const auto usable = std::ranges::find_if(scene.footprints, [](const auto& f) { return !f.defect.has_value(); });
+  if (usable == scene.footprints.end())
+    return base::error("pipeline-nothing", scene.footprints.empty()
+                                               ? "there are no footprints"
+                                               : "none of the " + std::to_string(scene.footprints.size()) +
+                                                     " footprints can be used; the first: " +
+                                                     scene.footprints.front().defect->message);
+  if (auto known = roof::check_attributes(usable->attributes, options.roof); !known) return known.error();
+  const bool by_attributes = options.roof.profile.empty();
+  geometry::Profile profile;
+  if (!by_attributes) {
+    auto given = roof::profile_of(options.roof.profile);
+    if (!given) return given.error();
+    profile = std::move(*given);
+  }
+
+  std::vector<roof::Read> read;
+  std::vector<Raising> jobs;
+  for (std::size_t i = 0; i < scene.footprints.size(); ++i) {
+    read.push_back(roof::form_of(scene.footprints[i].attributes, options.roof));
+    if (!by_attributes) read.back().form.base = 0;
+    for (std::size_t p = 0; p < scene.footprints[i].polygons.size(); ++p) {
+      jobs.emplace_back();
+      jobs.back().feature = i;
+      jobs.back().polygon = p;
+    }
+  }
+
+  std::mutex progress;
+  std::size_t done = 0;
+  base::Run inner = run;
+  inner.progress = nullptr;
+  run.report("extrude", {}, 0);
+  base::parallel_for(jobs.size(), [&](std::size_t i) {
+    if (run.cancelled()) return;
+    Raising& job = jobs[i];
+    const auto& polygon = scene.footprints[job.feature].polygons[job.polygon];
+    const auto& form = read[job.feature].form;
+    const detail::Watch planning;
+    auto planned = by_attributes ? roof::plan_of(polygon, form, options.roof, inner)
+                                 : roof::plan_along(polygon, profile, form, options.roof.cap);
+    job.planning = planning.seconds();
+    if (!planned) {
+      job.full = false;
+      job.reasons.push_back(base::warning(planned.error().code, planned.error().message));
+    } else {
+      const detail::Watch raising;
+      job.planned = std::move(*planned);
+      job.full = job.planned.as_asked;
+      job.reasons = job.planned.warnings;
+      raise(job, by_attributes, options, inner);
+      job.raising = raising.seconds();
+    }
+    const std::scoped_lock lock(progress);
+    if (++done % 64 == 0 || done == jobs.size())
+      run.report("extrude", {}, static_cast<double>(done) / static_cast<double>(jobs.size()));
+  });
+  if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+
+  const detail::Watch labelling;
+  std::vector<extrude::Solid> solids;
+  for (auto& job : jobs)
+    if (job.solid) solids.push_back(std::move(*job.solid));
+  auto models = label::classify(std::move(solids), options.label, inner);
+
+  Reconstruction out;
+  out.city.frame = scene.frame;
+  out.city.made_by = detail::made_by(scene, options);
+  begin(scene, read, by_attributes, out);
+  StageTime planning{"roof", 0}, raising{"extrude", 0};
+  std::size_t next = 0;
+  for (auto& job : jobs) {
+    planning.seconds += job.planning;
+    raising.seconds += job.raising;
+    auto& report = out.buildings[job.feature];
+    append(report.reasons, job.reasons);
+    if (!job.full) report.outcome = Outcome::fallback;
+    if (by_attributes && report.roof.empty()) report.roof = roof::to_string(job.planned.shape);
+    if (job.solid) take(std::move(job), std::move(models[next++]), out.city.buildings[job.feature], report);
+  }
+  for (auto& report : out.buildings)
+    if (report.parts == 0) report.outcome = Outcome::refused;
+  out.times = {planning, raising, {"label", labelling.seconds()}};
+  finish(scene, out);
+  return out;
+}
+
+}  // namespace mansard::pipeline

@@ -1,0 +1,147 @@
+#include "mansard/roof/detail/shapes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mansard::roof::detail {
+namespace {
+
+using geometry::Point2;
+
+auto pointing(double bearing) -> Point2 { return {std::sin(bearing), std::cos(bearing)}; }
+
+/// The way the ridge of a near-rectangle goes.
+auto ridge_axis(const Extent& extent, const Form& form) -> Point2 {
+  const Point2 across = left_of(extent.axis);
+  if (form.direction) {  // a gabled roof looks at right angles to its ridge
+    const Point2 d = pointing(*form.direction);
+    return std::abs(dot(d, extent.axis)) > std::abs(dot(d, across)) ? across : extent.axis;
+  }
+  return form.orientation == Orientation::across ? across : extent.axis;
+}
+
+}  // namespace
+
+auto design_of(const geometry::Polygon& polygon, const std::vector<Side>& sides, const Form& form, double half_hip)
+    -> Design {
+  Design out{form.shape, std::vector<Sweep>(sides.size()), true, {}};
+  if (form.shape == Shape::hipped || form.shape == Shape::mansard) return out;
+
+  const Extent extent = extent_of(sides);
+  std::vector<bool> ends;
+  double span = 0;  // of the whole roof, where it has one
+  if (nearly_rectangle(polygon, extent)) {
+    const Point2 axis = ridge_axis(extent, form);
+    ends = ends_by_axis(sides, axis);
+    span = std::abs(dot(axis, extent.axis)) > 0.5 ? extent.width : extent.length;
+  } else {
+    ends = ends_of_wings(polygon, sides);
+    if (form.orientation == Orientation::across || form.direction)
+      out.warnings.push_back(base::warning("roof-orientation", "every wing of this outline has a ridge of its own"));
+  }
+  const bool any = std::ranges::find(ends, true) != ends.end(), all = std::ranges::find(ends, false) == ends.end();
+  if (!any || all) {
+    out.shape = form.shape == Shape::gambrel ? Shape::mansard : Shape::hipped;
+    out.as_asked = false;
+    out.warnings.push_back(base::warning("roof-shape-here", "no side of this outline is fit for a gable; made " +
+                                                                std::string(to_string(out.shape)) + " instead of " +
+                                                                std::string(to_string(form.shape))));
+    return out;
+  }
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    if (!ends[i]) continue;
+    if (form.shape == Shape::half_hipped) out.sweeps[i].lag = half_hip * (span > 0 ? span : sides[i].length) / 2;
+    else out.sweeps[i].moves = false;
+  }
+  return out;
+}
+
+auto level_sides(const std::vector<Side>& sides, Point2 uphill) -> std::vector<bool> {
+  constexpr double level = 0.99966;  // cosine of 1.5°
+  std::vector<bool> out;
+  for (const Side& side : sides) out.push_back(dot(side.inward, uphill) > level);
+  return out;
+}
+
+auto slope_of(const geometry::Polygon& polygon, const Form& form) -> Slope {
+  constexpr double near = 0.966;  // cosine of 15°: a direction is meant to be that of an edge
+  const auto sides = sides_of(polygon);
+  Slope out{polygon, {}, 0, 0, 0};
+  const auto longest = [&](auto&& allowed) -> const Side* {
+    const Side* best = nullptr;
+    for (const Side& side : sides)
+      if (side.ring == 0 && allowed(side) && (best == nullptr || side.length > best->length + 1e-6)) best = &side;
+    return best;
+  };
+  if (form.direction) {
+    out.uphill = -1.0 * pointing(*form.direction);
+    if (const Side* side = longest([&](const Side& s) { return dot(s.inward, out.uphill) > near; }))
+      out.uphill = side->inward;
+  } else {
+    const Point2 axis = extent_of(sides).axis;
+    const bool across = form.orientation == Orientation::across;
+    const Side* side = longest([&](const Side& s) { return (std::abs(dot(s.inward, axis)) > 0.7071) == across; });
+    if (side == nullptr) side = longest([](const Side&) { return true; });
+    out.uphill = side->inward;
+  }
+
+  // Where two upright sides meet lowest, no edge would sweep the plane: cut the corner off, level.
+  constexpr double cut_width = 0.08, most_of_side = 1.0 / 3;
+  const auto level = level_sides(sides, out.uphill);
+  std::vector<geometry::Ring> rings(polygon.holes.size() + 1);
+  std::size_t first = 0;
+  for (std::size_t r = 0; r < rings.size(); ++r) {
+    const auto& ring = ring_of(polygon, r);
+    std::vector<bool> is_level(ring.size(), false);
+    for (; first < sides.size() && sides[first].ring == r; ++first)
+      for (std::size_t k = 0; k < sides[first].count; ++k)
+        is_level[(sides[first].first + k) % ring.size()] = level[first];
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const std::size_t before = (i + ring.size() - 1) % ring.size();
+      const Point2 p = ring[i], in = ring[before] - p, on = ring[(i + 1) % ring.size()] - p;
+      const double up_in = dot(normalised(in), out.uphill), up_on = dot(normalised(on), out.uphill);
+      if (is_level[i] || is_level[before] || up_in <= 0 || up_on <= 0 || cross(in, on) >= 0) {
+        rings[r].push_back(p);
+        continue;
+      }
+      const Point2 level_in = (1 / up_in) * normalised(in), level_on = (1 / up_on) * normalised(on);
+      const double wide = length(level_on - level_in);  // of a cut one metre up
+      const double up = std::min({cut_width / wide, most_of_side * dot(in, out.uphill), most_of_side * dot(on, out.uphill)});
+      rings[r].push_back(p + up * level_in);
+      rings[r].push_back(p + up * level_on);
+      ++out.cut;
+    }
+  }
+  out.polygon.outer = rings[0];
+  out.polygon.holes.assign(rings.begin() + 1, rings.end());
+  double high = -1e300;
+  out.low = 1e300;
+  for (const Point2 p : out.polygon.outer) {
+    out.low = std::min(out.low, dot(p, out.uphill));
+    high = std::max(high, dot(p, out.uphill));
+  }
+  out.run = high - out.low;
+  return out;
+}
+
+auto apex_of(const geometry::Polygon& polygon, const std::vector<Side>& sides) -> std::optional<Point2> {
+  if (!polygon.holes.empty()) return std::nullopt;
+  constexpr double least = 0.2;  // m; nearer to a side than this, its roof would be a wall
+  const auto deepest = deepest_of(sides);
+  const auto sees_all = [&](Point2 p, double enough) {
+    return std::ranges::all_of(sides, [&](const Side& side) { return dot(p - side.start, side.inward) >= enough; });
+  };
+  if (deepest.distance < least || !sees_all(deepest.place, least / 2)) return std::nullopt;
+  const Point2 origin = polygon.outer.front();
+  Point2 sum;
+  double doubled = 0;
+  for (std::size_t i = 0; i < polygon.outer.size(); ++i) {
+    const Point2 a = polygon.outer[i] - origin, b = polygon.outer[(i + 1) % polygon.outer.size()] - origin;
+    sum = sum + cross(a, b) * (a + b);
+    doubled += cross(a, b);
+  }
+  const Point2 centroid = origin + (1 / (3 * doubled)) * sum;
+  return sees_all(centroid, deepest.distance / 2) ? centroid : deepest.place;
+}
+
+}  // namespace mansard::roof::detail

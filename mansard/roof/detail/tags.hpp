@@ -1,0 +1,82 @@
+// Tags by any of their names, and their values as numbers.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mansard/ingest/ingest.hpp"
+#include "mansard/roof/roof.hpp"
+
+namespace mansard::roof::detail {
+
+/// A tag as a feature has it.
+struct Tag {
+  std::string name;  ///< the attribute's, or the key in the hstore text
+  std::string text;  ///< not empty, without blanks around it
+};
+
+/// One tag of the simple 3D scheme. `names` are in lower case with '_' for ':', '-', '.' and blanks: its own, those of
+/// other schemes, and what ten letters of a Shapefile leave of them.
+struct Key {
+  std::string_view tag;
+  std::vector<std::string_view> names;
+  const std::string Options::* attribute;  ///< the option that names an attribute instead
+};
+
+namespace keys {
+[[nodiscard]] auto height() -> const Key&;
+[[nodiscard]] auto levels() -> const Key&;
+[[nodiscard]] auto min_height() -> const Key&;
+[[nodiscard]] auto min_level() -> const Key&;
+[[nodiscard]] auto shape() -> const Key&;
+[[nodiscard]] auto roof_height() -> const Key&;
+[[nodiscard]] auto roof_levels() -> const Key&;
+[[nodiscard]] auto angle() -> const Key&;
+[[nodiscard]] auto orientation() -> const Key&;
+[[nodiscard]] auto direction() -> const Key&;
+[[nodiscard]] auto ground() -> const Key&;
+[[nodiscard]] auto all() -> const std::vector<const Key*>&;
+}  // namespace keys
+
+/// A feature's attributes, ready to be asked.
+class Tags {
+ public:
+  Tags(const ingest::Attributes& attributes, const Options& options);
+  [[nodiscard]] auto find(const Key& key) const -> std::optional<Tag>;
+
+ private:
+  struct Entry {
+    std::string name;  ///< as Key::names
+    const std::string* original;
+    const ingest::Value* value;
+  };
+  std::vector<Entry> entries_;
+  const Options& options_;
+};
+
+/// The value of a key in hstore text ("a"=>"b", "c"=>"d") or a JSON object of texts.
+[[nodiscard]] auto in_hstore(std::string_view text, std::string_view key) -> std::optional<std::string>;
+
+[[nodiscard]] auto lower(std::string_view text) -> std::string;
+/// Lower case with '_' for ':', '-', '.' and blanks.
+[[nodiscard]] auto plain(std::string_view name) -> std::string;
+
+/// "12", "12.5 m", "12,5", "39'4\"", "40 ft", "1250 cm" as metres.
+[[nodiscard]] auto length_of(std::string_view text) -> std::optional<double>;
+/// "30", "30°", "30 deg" as radians.
+[[nodiscard]] auto angle_of(std::string_view text) -> std::optional<double>;
+/// "135", "SE", "south-east" as radians clockwise from north, from 0 to 2π.
+[[nodiscard]] auto bearing_of(std::string_view text) -> std::optional<double>;
+/// A number without a unit.
+[[nodiscard]] auto count_of(std::string_view text) -> std::optional<double>;
+
+/// The shape of a roof:shape, and whether it is that shape or only the nearest one.
+struct Named {
+  Shape shape = Shape::flat;
+  bool exact = true;
+};
+[[nodiscard]] auto shape_of(std::string_view text) -> std::optional<Named>;
+
+}  // namespace mansard::roof::detail

@@ -1,0 +1,247 @@
+// The story of a roof: what its sides do, how high that comes at unit slope, and the profiles that bring it to its height.
+#include "mansard/roof/roof.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mansard/base/text.hpp"
+#include "mansard/roof/detail/shapes.hpp"
+
+namespace mansard::roof {
+namespace {
+
+using detail::Side;
+using geometry::Point2;
+using geometry::Profile;
+
+constexpr double thin = 0.01;       // m; a roof or a run less than this is none
+constexpr double above_top = 0.01;  // m; the cap stands so much over the ridge, so as not to cut it
+
+/// A plan whose edges all have the first profile, until they are given others. Equal profiles are one.
+class Draft {
+ public:
+  Draft(const geometry::Polygon& polygon, double base, Profile first) {
+    plan_.base = base;
+    plan_.profiles.push_back(std::move(first));
+    plan_.outer = ring(polygon.outer);
+    for (const auto& hole : polygon.holes) plan_.holes.push_back(ring(hole));
+  }
+  void give(const Side& side, const Profile& profile) {
+    auto at = std::ranges::find(plan_.profiles, profile);
+    if (at == plan_.profiles.end()) at = plan_.profiles.insert(at, profile);
+    auto& of = side.ring == 0 ? plan_.outer : plan_.holes[side.ring - 1];
+    for (std::size_t k = 0; k < side.count; ++k)
+      of.profile_of_edge[(side.first + k) % of.points.size()] =
+          static_cast<std::uint32_t>(at - plan_.profiles.begin());
+  }
+  [[nodiscard]] auto plan(double cap) && -> geometry::Plan {
+    plan_.cap = cap;
+    return std::move(plan_);
+  }
+
+ private:
+  static auto ring(const geometry::Ring& points) -> geometry::PlanRing {
+    return {points, std::vector<std::uint32_t>(points.size(), 0)};
+  }
+  geometry::Plan plan_;
+};
+
+auto upright(double height) -> Profile { return {{0, 0}, {0, height}}; }
+
+/// Wall, then what comes above it; without a wall of no height.
+auto on_wall(double wall, std::initializer_list<geometry::ProfilePoint> above) -> Profile {
+  Profile profile{{0, 0}};
+  if (wall > 0) profile.push_back({0, wall});
+  for (const auto& point : above) profile.push_back({point.inward, wall + point.height});
+  return profile;
+}
+
+/// What is wall and what is roof, in metres.
+struct Heights {
+  double wall = 0, rise = 0;
+};
+
+/// `run` is the horizontal distance over which the roof rises.
+auto heights_of(const Form& form, double run, Planned& out) -> Heights {
+  const double room = form.height - form.base;
+  const bool given = form.rise || form.angle;
+  double rise = form.rise ? *form.rise : run * std::tan(form.angle ? *form.angle : form.pitch);
+  if (!form.roof_included) {
+    if (!given && room > 0) rise = std::min(rise, room * form.most_share / (1 - form.most_share));
+    return {room, rise};
+  }
+  if (!given) rise = std::min(rise, room * form.most_share);
+  if (rise > room + thin) {
+    const double lower = room * form.most_share;
+    out.as_asked = false;
+    out.warnings.push_back(base::warning(
+        "roof-height", "a roof of this pitch would be " + base::to_text(rise, 1) + " m high, more than the building's " +
+                           base::to_text(room, 1) + " m; it was made " + base::to_text(lower, 1) + " m high"));
+    rise = lower;
+  }
+  if (room - rise < thin) rise = room;  // no wall a centimetre high
+  return {room - rise, rise};
+}
+
+void make_flat(const geometry::Polygon& polygon, double top, Planned& out) {
+  out.shape = Shape::flat;
+  out.top = out.flat_top = top;
+  out.plan = Draft(polygon, out.plan.base, upright(top)).plan(top);
+}
+
+void make_skillion(const geometry::Polygon& polygon, const Form& form, Planned& out) {
+  const auto slope = detail::slope_of(polygon, form);
+  const auto [wall, rise] = heights_of(form, slope.run, out);
+  if (rise < thin) return make_flat(polygon, wall + rise, out);
+  if (slope.cut > 0)
+    out.warnings.push_back(base::warning(
+        "roof-corner-cut", std::to_string(slope.cut) + " low corners were cut off by 8 cm, for the plane to start from"));
+  const double steep = rise / slope.run;
+  Draft draft(slope.polygon, out.plan.base, upright(wall + rise));
+  const auto sides = detail::sides_of(slope.polygon);
+  const auto level = detail::level_sides(sides, slope.uphill);
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    if (!level[i]) continue;
+    // Edges that start higher in the same plane stand on a wall up to there.
+    const double above = steep * (dot(0.5 * (sides[i].start + sides[i].end), slope.uphill) - slope.low);
+    const double foot = wall + above < thin / 10 ? 0 : wall + above;
+    if (foot < wall + rise - thin) draft.give(sides[i], on_wall(foot, {{slope.run, rise}}));
+  }
+  out.plan = std::move(draft).plan(wall + rise + above_top);
+}
+
+void make_pyramid(const geometry::Polygon& polygon, Point2 apex, const std::vector<Side>& sides, const Form& form,
+                  Planned& out) {
+  const auto distance = [&](const Side& side) {
+    // The line through the middle of the side: its ends may bulge a little.
+    return std::round(dot(apex - 0.5 * (side.start + side.end), side.inward) * 1e4) / 1e4;
+  };
+  double nearest = distance(sides.front());
+  for (const Side& side : sides) nearest = std::min(nearest, distance(side));
+  const auto [wall, rise] = heights_of(form, nearest, out);
+  if (rise < thin) return make_flat(polygon, wall + rise, out);
+  Draft draft(polygon, out.plan.base, on_wall(wall, {{distance(sides.front()), rise}}));
+  for (const Side& side : sides) draft.give(side, on_wall(wall, {{distance(side), rise}}));
+  out.plan = std::move(draft).plan(wall + rise + above_top);
+}
+
+/// The profile of a roof that reaches `rise` after `run`: one pitch, or a steep and a shallow one.
+auto pitched(Shape shape, double wall, double run, double rise) -> Profile {
+  if (shape == Shape::gambrel) return on_wall(wall, {{0.35 * run, 0.65 * rise}, {run, rise}});
+  if (shape == Shape::mansard) {
+    constexpr double share = 0.7, widest = 0.35, steep = 2.747;  // tan 70°
+    return on_wall(wall, {{std::min(share * rise / steep, widest * run), share * rise}, {run, rise}});
+  }
+  return on_wall(wall, {{run, rise}});
+}
+
+void make_swept(const geometry::Polygon& polygon, const std::vector<Side>& sides, const Form& form,
+                const Options& options, const base::Run& run, Planned& out) {
+  auto design = detail::design_of(polygon, sides, form, options.half_hip);
+  out.shape = design.shape;
+  out.as_asked = out.as_asked && design.as_asked;
+  out.warnings.insert(out.warnings.end(), design.warnings.begin(), design.warnings.end());
+  auto crest = detail::crest_of(polygon, sides, design.sweeps, run);
+  if (!crest || *crest < thin) {
+    out.as_asked = false;
+    out.warnings.push_back(base::warning("roof-shape-here", "no roof could be raised over this outline; made flat"));
+    const double top = form.height - form.base + (form.roof_included ? 0 : form.rise.value_or(0));
+    return make_flat(polygon, top, out);
+  }
+  const auto [wall, rise] = heights_of(form, *crest, out);
+  if (rise < thin) return make_flat(polygon, wall + rise, out);
+  const double steep = rise / *crest;
+  Draft draft(polygon, out.plan.base, pitched(design.shape, wall, *crest, rise));
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const auto& sweep = design.sweeps[i];
+    if (!sweep.moves) draft.give(sides[i], upright(wall + rise));
+    else if (sweep.lag > 0) draft.give(sides[i], on_wall(wall + steep * sweep.lag, {{*crest, rise}}));
+  }
+  out.plan = std::move(draft).plan(wall + rise + above_top);
+}
+
+auto sound(const geometry::Polygon& polygon, const Form& form) -> bool {
+  const double room = form.height - form.base;
+  const bool finite = std::isfinite(form.height) && std::isfinite(form.base) && std::isfinite(form.ground) &&
+                      std::isfinite(form.rise.value_or(0)) && std::isfinite(form.angle.value_or(0));
+  const bool filled = room > 0 || (room == 0 && !form.roof_included && form.shape != Shape::flat);
+  return finite && filled && polygon.outer.size() >= 3;
+}
+
+}  // namespace
+
+auto plan_of(const geometry::Polygon& polygon, const Form& form, const Options& options, const base::Run& run)
+    -> base::Result<Planned> {
+  if (!sound(polygon, form))
+    return base::error("roof-form", "there is nothing between base (" + base::to_text(form.base, 2) + " m) and top (" +
+                                        base::to_text(form.height, 2) + " m)");
+  Planned out;
+  out.shape = form.shape;
+  out.plan.base = form.ground + form.base;
+  const auto sides = detail::sides_of(polygon);
+  if (form.shape == Shape::flat || form.rise.value_or(1) < thin) {
+    make_flat(polygon, form.height - form.base, out);
+  } else if (form.shape == Shape::skillion) {
+    make_skillion(polygon, form, out);
+  } else if (form.shape == Shape::pyramidal) {
+    if (const auto apex = detail::apex_of(polygon, sides)) {
+      make_pyramid(polygon, *apex, sides, form, out);
+    } else {
+      Form hipped = form;
+      hipped.shape = Shape::hipped;
+      out.as_asked = false;
+      out.warnings.push_back(base::warning("roof-shape-here", "no apex sees every side of this outline; made hipped"));
+      make_swept(polygon, sides, hipped, options, run, out);
+    }
+  } else {
+    make_swept(polygon, sides, form, options, run, out);
+  }
+  if (out.shape != Shape::flat) out.top = out.flat_top = out.plan.cap - above_top;
+  if (out.top <= 0)
+    return base::error("roof-form", "neither walls nor roof have a height");
+  return out;
+}
+
+auto profile_of(std::string_view text) -> base::Result<Profile> {
+  const auto refuse = [&](const std::string& what) {
+    return base::error("roof-profile", "\"" + base::on_one_line(std::string(text)) + "\" " + what, "roof.profile");
+  };
+  Profile profile;
+  for (std::size_t at = 0; (at = text.find_first_not_of(" ;\t", at)) != std::string_view::npos;) {
+    const std::size_t end = std::min(text.find_first_of(" ;\t", at), text.size());
+    const auto pair = text.substr(at, end - at);
+    const auto comma = pair.find(',');
+    const auto inward = base::to_number(pair.substr(0, comma));
+    const auto height = comma == std::string_view::npos ? std::nullopt : base::to_number(pair.substr(comma + 1));
+    if (!inward || !height) return refuse("has '" + std::string(pair) + "', which is no pair inward,height");
+    if (std::abs(*inward) > 1e4 || std::abs(*height) > 1e4) return refuse("has a number beyond 10000 m");
+    const geometry::ProfilePoint point{*inward, *height};
+    if (profile.empty() && point != geometry::ProfilePoint{}) profile.push_back({});
+    if (!profile.empty() && point == profile.back()) return refuse("repeats '" + std::string(pair) + "'");
+    if (!profile.empty() && point.inward < profile.back().inward) return refuse("goes outward at '" + std::string(pair) + "'");
+    if (!profile.empty() && point.height < profile.back().height) return refuse("goes down at '" + std::string(pair) + "'");
+    profile.push_back(point);
+    at = end;
+  }
+  if (profile.size() < 2 || profile.back().height <= 0) return refuse("has no height; write \"0,0 0,6 4,9\"");
+  return profile;
+}
+
+auto plan_along(const geometry::Polygon& polygon, const Profile& profile, const Form& form, std::optional<double> cap)
+    -> Planned {
+  Planned out;
+  const auto &last = profile.back(), &before = profile[profile.size() - 2];
+  const double rise = last.height - before.height, run = last.inward - before.inward;
+  out.flat_top = out.top = last.height;
+  if (rise > 0 && run > 0) {
+    // Every edge moves alike, so the outline is used up where the smallest box around it is.
+    const auto extent = detail::extent_of(detail::sides_of(polygon));
+    out.top = std::max(last.height, before.height + (extent.width / 2 - before.inward) * rise / run) + above_top;
+  }
+  if (cap) out.top = std::min(out.top, *cap);
+  out.flat_top = std::min(out.flat_top, out.top);
+  out.plan = Draft(polygon, form.ground + form.base, profile).plan(out.top);
+  return out;
+}
+
+}  // namespace mansard::roof

@@ -1,0 +1,172 @@
+// Footprints without a mesh, raised by their attributes.
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "mansard/pipeline/pipeline.hpp"
+#include "pipeline/houses.hpp"
+
+namespace mansard::pipeline {
+namespace {
+
+using ingest::Attributes;
+using ingest::Value;
+using test::rectangle;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+auto tagged(std::string id, geometry::Polygon polygon, Attributes attributes) -> ingest::Footprint {
+  auto footprint = test::footprint(std::move(id), std::move(polygon));
+  footprint.attributes = std::move(attributes);
+  return footprint;
+}
+
+auto raised(const ingest::Scene& scene, const Options& options = {}) -> Reconstruction {
+  auto result = raise_footprints(scene, options);
+  EXPECT_TRUE(result) << base::to_string(result.error());
+  for (const auto& building : result->city.buildings)
+    for (const auto& part : building.parts)
+      EXPECT_THAT(extrude::check(part.model.solid), IsEmpty()) << part.id;
+  return std::move(*result);
+}
+
+auto text(const char* value) -> Value { return std::string(value); }
+
+TEST(RaiseFootprints, gives_walls_and_roofs_the_areas_worked_out_by_hand) {
+  ingest::Scene scene;
+  const auto house = [](const char* shape) {
+    return Attributes{{"roof:shape", text(shape)}, {"height", 9.0}, {"roof:height", text("3 m")}};
+  };
+  scene.footprints.push_back(tagged("gabled", rectangle(0, 0, 12, 8), house("gabled")));
+  scene.footprints.push_back(tagged("hipped", rectangle(20, 0, 32, 8), house("hipped")));
+  scene.footprints.push_back(tagged("flat", rectangle(40, 0, 52, 8), house("flat")));
+  const auto r = raised(scene);
+  for (const auto& building : r.buildings) {
+    EXPECT_EQ(building.outcome, Outcome::full);
+    EXPECT_EQ(building.roof, building.id);
+    EXPECT_EQ(building.height_from, "height");
+    EXPECT_NEAR(building.roof_max, 9, 1e-3);
+    EXPECT_NEAR(building.areas.ground, 96, 0.01);
+    EXPECT_THAT(building.reasons, IsEmpty());
+  }
+  EXPECT_NEAR(r.buildings[0].areas.roof_sloped, 2 * 12 * 5, 0.01);  // 4 m across and 3 m up are 5 m of roof
+  EXPECT_NEAR(r.buildings[0].areas.wall, 40 * 6 + 8 * 3, 0.01);     // and two gables
+  EXPECT_NEAR(r.buildings[1].areas.roof_sloped, 96 * 5 / 4.0, 0.01);
+  EXPECT_NEAR(r.buildings[1].areas.wall, 40 * 6, 0.01);
+  EXPECT_NEAR(r.buildings[2].areas.roof_flat, 96, 0.01);
+  EXPECT_NEAR(r.buildings[0].volume, 576 + 144, 0.01);
+  const auto& attributes = r.city.buildings[0].parts[0].attributes;
+  const auto of = [&](std::string_view name) {
+    for (const auto& [key, value] : attributes)
+      if (key == name) return value;
+    return Value(std::string("none"));
+  };
+  EXPECT_EQ(of("ms_roof_shape"), text("gabled"));
+  EXPECT_NEAR(std::get<double>(of("ms_h_roof_min")), 6, 1e-3);
+  EXPECT_NEAR(std::get<double>(of("ms_h_ridge")), 9, 1e-3);
+}
+
+TEST(RaiseFootprints, finds_party_walls_between_neighbours) {
+  ingest::Scene scene;
+  for (int i = 0; i < 2; ++i)
+    scene.footprints.push_back(tagged(std::to_string(i), rectangle(12 * i, 0, 12 * i + 12, 8), {{"height", 6.0}}));
+  const auto r = raised(scene);
+  for (const auto& building : r.buildings) EXPECT_NEAR(building.areas.party_wall, 8 * 6, 0.01);
+}
+
+TEST(RaiseFootprints, lets_a_bad_building_cost_only_itself_and_names_building_and_value) {
+  ingest::Scene scene;
+  scene.footprints.push_back(tagged("church", rectangle(0, 0, 12, 8), {{"height", text("tall")}}));
+  scene.footprints.push_back(tagged("hole", {}, {{"height", 5.0}}));
+  scene.footprints.back().polygons.clear();
+  scene.footprints.back().defect = base::error("ingest-footprint-empty", "it has no geometry", "hole");
+  scene.footprints.push_back(
+      tagged("barn", rectangle(20, 0, 32, 8), {{"height", 6.0}, {"roof:shape", text("gabled")}, {"roof:height", text("9")}}));
+  scene.footprints.push_back(tagged("kiosk", rectangle(40, 0, 44, 4), {{"height", text("-3")}, {"roof:shape", text("dome")}}));
+  geometry::Polygon yard = rectangle(60, 0, 80, 20);
+  yard.holes.push_back({{66, 6}, {66, 14}, {74, 14}, {74, 6}});
+  scene.footprints.push_back(tagged("yard", yard, {{"height", 9.0}, {"roof:shape", text("pyramidal")}}));
+  const auto r = raised(scene);
+  const auto said = [&](std::size_t i, const char* code, const char* words) {
+    for (const auto& reason : r.buildings[i].reasons)
+      if (reason.code == code && reason.subject == r.buildings[i].id && reason.message.find(words) != std::string::npos)
+        return true;
+    return false;
+  };
+  EXPECT_EQ(r.buildings[0].outcome, Outcome::full);
+  EXPECT_TRUE(said(0, "roof-value", "\"tall\""));
+  EXPECT_EQ(r.buildings[0].height_from, "assumed");
+  EXPECT_EQ(r.buildings[1].outcome, Outcome::refused);
+  EXPECT_EQ(r.buildings[2].outcome, Outcome::full);
+  EXPECT_TRUE(said(2, "roof-conflict", "roof:height = \"9\""));
+  EXPECT_TRUE(said(3, "roof-value", "\"-3\""));
+  EXPECT_TRUE(said(3, "roof-shape-unknown", "\"dome\""));
+  EXPECT_EQ(r.buildings[3].roof, "pyramidal");
+  EXPECT_EQ(r.buildings[4].outcome, Outcome::fallback);
+  EXPECT_TRUE(said(4, "roof-shape-here", "hipped"));
+  EXPECT_EQ(r.buildings[4].roof, "hipped");
+  ASSERT_EQ(r.warnings.size(), 1U);
+  EXPECT_THAT(r.warnings[0].message, HasSubstr("2 of 5 buildings"));
+}
+
+TEST(RaiseFootprints, takes_one_profile_for_every_edge) {
+  ingest::Scene scene;
+  scene.footprints.push_back(tagged("a", rectangle(0, 0, 12, 8), {{"height", 50.0}, {"min_height", 3.0}}));
+  Options options;
+  options.roof.profile = "0,0 0,6 4,9";
+  const auto r = raised(scene, options);
+  EXPECT_NEAR(r.buildings[0].volume, 576 + 3 * (4 * 4 + 64 / 3.0), 0.01);
+  EXPECT_EQ(r.buildings[0].height_from, "profile");
+  options.roof.profile = "0,0 -1,6";
+  const auto bad = raise_footprints(scene, options);
+  ASSERT_FALSE(bad);
+  EXPECT_EQ(bad.error().code, "roof-profile");
+  options.roof.profile.clear();
+  options.roof.building_height_attribute = "hoogte";
+  const auto missing = raise_footprints(scene, options);
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.error().code, "roof-attribute");
+  EXPECT_EQ(raise_footprints({}, {}).error().code, "pipeline-nothing");
+}
+
+TEST(RaiseFootprints, gives_the_same_bytes_at_any_thread_count) {
+  ingest::Scene scene;
+  const std::vector<const char*> shapes{"flat", "gabled", "hipped", "skillion", "mansard", "pyramidal", "tall"};
+  for (int i = 0; i < 60; ++i)
+    scene.footprints.push_back(tagged(std::to_string(i), rectangle(15 * i, 0, 15 * i + 9 + i % 5, 8),
+                                      {{"building:levels", std::int64_t{1 + i % 6}},
+                                       {"roof:shape", text(shapes[static_cast<std::size_t>(i) % shapes.size()])}}));
+  std::vector<std::string> bytes;
+  for (const std::size_t threads : {1U, 2U, 4U}) {
+    base::limit_threads(threads);
+    auto r = raised(scene);
+    r.times.clear();
+    bytes.push_back(*write::cityjson(r.city) + report_json(r, scene));
+  }
+  base::limit_threads(0);
+  EXPECT_EQ(bytes[0], bytes[1]);
+  EXPECT_EQ(bytes[0], bytes[2]);
+}
+
+TEST(RaiseFootprints, reports_every_building_without_blocks_or_scores) {
+  ingest::Scene scene;
+  scene.footprints.push_back(tagged("a", rectangle(0, 0, 12, 8), {{"height", 6.0}}));
+  const auto report = nlohmann::json::parse(report_json(raised(scene), scene));
+  EXPECT_EQ(report["counts"]["full"], 1);
+  EXPECT_FALSE(report.contains("mesh") || report.contains("scores") || report.contains("blocks"));
+  EXPECT_EQ(report["buildings"][0]["roof"], "flat");
+  EXPECT_EQ(report["buildings"][0]["height_from"], "height");
+  EXPECT_EQ(report["options"]["roof.default_height"], "6");
+}
+
+TEST(RaiseFootprints, stops_when_asked) {
+  ingest::Scene scene;
+  scene.footprints.push_back(tagged("a", rectangle(0, 0, 12, 8), {{"height", 6.0}}));
+  base::Cancel cancel;
+  cancel.request();
+  base::Run run;
+  run.cancel = &cancel;
+  EXPECT_EQ(raise_footprints(scene, {}, run).error().code, "cancelled");
+}
+
+}  // namespace
+}  // namespace mansard::pipeline

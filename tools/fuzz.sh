@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# Fuzzes the reader of plans and the extrusion kernel, each for SECONDS, from fuzz/corpus and what earlier runs have found.
+#   tools/fuzz.sh SECONDS [plan_json|extrude]
+# A failure is made smaller and its path printed; copied into fuzz/corpus/<name>/ it is replayed by every test run.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+seconds=${1:?"SECONDS for each fuzzer"}
+targets=(plan_json extrude)
+[[ $# -lt 2 ]] || targets=("${@:2}")
+
+# clang is needed here and nowhere else, so packages.txt does not ask for it. Before 16 it cannot take the ranges of the
+# standard library of g++ 12.
+if ! command -v clang++-16 > /dev/null ||
+   ! compgen -G "$(clang++-16 -print-resource-dir)/lib/linux/libclang_rt.fuzzer-*" > /dev/null; then
+  as_root=(env DEBIAN_FRONTEND=noninteractive)
+  [[ $(id -u) -eq 0 ]] || as_root=(sudo "${as_root[@]}")
+  "${as_root[@]}" apt-get -qq update
+  "${as_root[@]}" apt-get -qq install -y --no-install-recommends clang-16 libclang-rt-16-dev
+fi
+
+cmake --preset fuzz --log-level=WARNING > /dev/null
+cmake --build --preset fuzz --target "${targets[@]/#/fuzz_}"
+findings=$PWD/build/fuzz/findings
+mkdir -p "$findings"
+code=0
+for target in "${targets[@]}"; do
+  program=build/fuzz/bin/fuzz_$target
+  grown=build/fuzz/corpus/$target  # what is new goes here, not into the repository
+  mkdir -p "$grown"
+  options=(-timeout=60 -rss_limit_mb=4096 -artifact_prefix="$findings/$target-")
+  [[ ! -f fuzz/$target.dict ]] || options+=(-dict="fuzz/$target.dict")
+  if "$program" "$grown" "fuzz/corpus/$target" -max_total_time="$seconds" -max_len=2000 -print_final_stats=1 "${options[@]}"; then
+    continue
+  fi
+  code=1
+  for crash in "$findings/$target"-crash-*; do
+    [[ -e $crash ]] || continue
+    "$program" -minimize_crash=1 -max_total_time=60 -exact_artifact_path="$crash.small" "$crash" > /dev/null 2>&1 || true
+    [[ -s $crash.small ]] || cp "$crash" "$crash.small"
+    echo "fuzz: $target breaks a promise on $crash.small"
+    "$program" "$crash.small" 2>&1 | grep -A20 -m1 -E 'broken promise|ERROR|runtime error' || true
+  done
+done
+exit $code
