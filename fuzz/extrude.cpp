@@ -235,10 +235,6 @@ void try_plan(const Plan& plan) {
             with(refusal));
     return;
   }
-  // A spike without width, as a turned outline can have that goes back over itself, is simple or not by the last bit of
-  // its coordinates, and so is its prism.
-  constexpr double no_width = 1e-7;
-  if (raised->outcome == extrude::Outcome::prism && smallest_detail(polygon) < no_width) return;
   const auto faults = extrude::check(raised->solid);
   promise(faults.empty(), "not a valid solid", [&] { return base::to_string(faults[0]) + text(plan); });
   const double volume = extrude::volume(raised->solid), most = geometry::area(polygon) * plan.cap;

@@ -87,6 +87,13 @@ TEST(Eaves, that_would_close_a_courtyard_are_left_off_and_it_is_said) {
   EXPECT_EQ(house.warnings[0].code, "extrude-overhang");
 }
 
+TEST(Eaves, of_a_sharp_corner_do_not_meet_far_outside) {
+  const auto house = raised(plan({{0, 0}, {30, 0}, {0, 4}}, {hip}), 0.5);
+  EXPECT_EQ(count(house.solid, FaceKind::soffit), 0U);
+  ASSERT_FALSE(house.warnings.empty());
+  EXPECT_EQ(house.warnings[0].code, "extrude-overhang");
+}
+
 TEST(Eaves, are_none_under_a_flat_roof_and_nobody_is_told) {
   const auto flat = raised(plan(box(8, 10), {wall}, {}, 6), 0.5), cut = raised(plan(box(8, 10), {hip}, {}, 3), 0.5);
   for (const auto* house : {&flat, &cut}) {

@@ -83,6 +83,11 @@ auto eaves_of(const Footprint& footprint, const Rational& cap, double overhang, 
         outline.push_back(corner_of(before, edge));
       }
       rounded.push_back({outline.back().x.get_d(), outline.back().y.get_d()});
+      // The eaves of a spike would meet far outside.
+      const ExactPoint& foot = footprint.corners[corners.size() - 1][i];
+      const geometry::Point2 out = rounded.back() - geometry::Point2{foot.x.get_d(), foot.y.get_d()};
+      constexpr double mitre = 4;
+      if (length(out) > mitre * overhang) return refuse("eaves would meet too far out at a sharp corner");
     }
     if ((geometry::signed_area(rounded) > 0) != (corners.size() == 1)) return refuse("a courtyard would be covered");
     // An edge that turned round encloses the wrong side even where the whole is simple.
