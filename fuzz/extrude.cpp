@@ -48,7 +48,8 @@ class Bytes {
       case 0: return 0;
       case 1: return (value % (10 * most)) / 10.0;
       case 2: return value * most / 256.0;
-      case 3: case 4: return value % (2 * most) / 2.0;
+      case 3:
+      case 4: return value % (2 * most) / 2.0;
       default: return value % most;
     }
   }
@@ -217,7 +218,8 @@ auto harmless(const Plan& plan, const geometry::Polygon& polygon) -> bool {
     return true;
   };
   const auto starts_upwards = [](const Profile& profile) { return profile[1].height > 0; };
-  return std::ranges::all_of(plan.profiles, starts_upwards) && smallest_detail(polygon) >= detail && blunt(polygon.outer) && std::ranges::all_of(polygon.holes, blunt);
+  return std::ranges::all_of(plan.profiles, starts_upwards) && smallest_detail(polygon) >= detail &&
+         blunt(polygon.outer) && std::ranges::all_of(polygon.holes, blunt);
 }
 
 void try_plan(const Plan& plan) {
@@ -231,8 +233,7 @@ void try_plan(const Plan& plan) {
     const auto known = std::ranges::find(codes, raised.error().code, &base::Code::code);
     promise(known != codes.end() && known->code.starts_with("extrude-") && known->exit_code != 0,
             "an error that is not the room's", with(refusal));
-    promise(!valid(polygon) || smallest_detail(polygon) < 0.01, "a simple polygon is refused",
-            with(refusal));
+    promise(!valid(polygon) || smallest_detail(polygon) < 0.01, "a simple polygon is refused", with(refusal));
     return;
   }
   const auto faults = extrude::check(raised->solid);

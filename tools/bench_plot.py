@@ -110,7 +110,7 @@ def plot(best, path):
            f'<text x="{left}" y="24" font-size="15" font-weight="bold">CPU time of one polygon by its number of corners'
            '</text>']
     for i, (_, label, colour, dash) in enumerate(SERIES):
-        x, y = left + (i % 4) * 222, 48
+        x, y = left + (0, 262, 476, 640)[i % 4], 48
         out.append(f'<path d="M{x} {y - 4}h26" stroke="{colour}" stroke-width="2.5" stroke-dasharray="{dash}"/>'
                    f'<text x="{x + 32}" y="{y}">{label}</text>')
     for index, (shape, title) in enumerate(SHAPES):

@@ -214,7 +214,8 @@ auto codes() -> std::vector<base::Code> {
       {"extrude-straightened", "Shallow turns of a footprint were straightened by more than a centimetre.",
        "Lower --extrude-merge-angle to keep them.", 0},
       {"extrude-nudged",
-       "Upright walls met exactly in a line, which no manifold can; runs were shortened by up to 1 %, or walls moved by "
+       "Upright walls met exactly in a line, which no manifold can; runs were shortened by up to 1 %, or walls moved "
+       "by "
        "up to 3 mm.",
        "Change a setback or a wall by a few millimetres.", 0},
       {"extrude-overhang", "A building got no overhanging eaves, or not all around.",

@@ -53,7 +53,8 @@ auto eaves_of(const Footprint& footprint, const Rational& cap, double overhang, 
   for (const auto& ring : footprint.rings)
     for (const CanonicalEdge& edge : ring) {
       const Track& track = footprint.tracks[edge.track];
-      const bool upright = !track[0].horizontal && track[0].slope == 0 && (track.size() < 2 || track[1].height > soffit);
+      const bool upright =
+          !track[0].horizontal && track[0].slope == 0 && (track.size() < 2 || track[1].height > soffit);
       if (!upright) return refuse("a wall leans or steps back below the soffit");
     }
 

@@ -12,14 +12,14 @@ namespace mansard::extrude::detail {
 
 /// At the height of the soffit the roofs that rise from the lowest eaves begin, as far out as their pitch has it.
 struct Eaves {
-  std::int64_t soffit = 0;                       ///< quanta above the base
-  std::vector<std::vector<bool>> overhangs;      ///< by ring and edge
-  std::vector<std::vector<CanonicalEdge>> rings; ///< the outline at the soffit
+  std::int64_t soffit = 0;                        ///< quanta above the base
+  std::vector<std::vector<bool>> overhangs;       ///< by ring and edge
+  std::vector<std::vector<CanonicalEdge>> rings;  ///< the outline at the soffit
 };
 
 /// The eaves of a footprint whose edges all rise upright at first. The edge of the shallowest pitch among the lowest
-/// eaves overhangs by `overhang` metres, steeper ones by less. Nothing, and why, when that cannot be; no reason when no roof
-/// rises from a wall below the cap. `why` is also set when eaves at other heights stay as they are.
+/// eaves overhangs by `overhang` metres, steeper ones by less. Nothing, and why, when that cannot be; no reason when no
+/// roof rises from a wall below the cap. `why` is also set when eaves at other heights stay as they are.
 [[nodiscard]] auto eaves_of(const Footprint& footprint, const Rational& cap, double overhang, std::string& why)
     -> std::optional<Eaves>;
 

@@ -93,9 +93,9 @@ struct Plate {
   std::array<Point3, 3> at;
   Corners corners;
   std::uint32_t face;
-  std::uint32_t index;   ///< in the caller's list
-  Point3 normal;         ///< rounded
-  Point3 terms;          ///< the sizes of the products that the normal was rounded from
+  std::uint32_t index;  ///< in the caller's list
+  Point3 normal;        ///< rounded
+  Point3 terms;         ///< the sizes of the products that the normal was rounded from
   Point3 least, most;
 };
 
@@ -313,8 +313,8 @@ class Pairs {
   Found found_;
 };
 
-/// A large face at one height exactly, such as the ground floor: what stands on it or hangs below it meets it in its own
-/// corners and edges, and no triangle of it needs to be looked at.
+/// A large face at one height exactly, such as the ground floor: what stands on it or hangs below it meets it in its
+/// own corners and edges, and no triangle of it needs to be looked at.
 class Level {
  public:
   Level(const std::vector<Point3>& vertices, const Face& face, std::vector<Plate> plates)

@@ -56,7 +56,9 @@ inline constexpr long quanta_per_metre = 65536;
   const auto result = static_cast<Int128>((static_cast<UInt128>(high.get_ui()) << 64) | magnitude.get_ui());
   return value < 0 ? -result : result;
 }
-[[nodiscard]] inline auto bits_of(const mpz_class& value) -> std::size_t { return mpz_sizeinbase(value.get_mpz_t(), 2); }
+[[nodiscard]] inline auto bits_of(const mpz_class& value) -> std::size_t {
+  return mpz_sizeinbase(value.get_mpz_t(), 2);
+}
 
 /// An exact point in the plane.
 struct ExactPoint {

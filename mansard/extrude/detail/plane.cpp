@@ -22,10 +22,8 @@ auto finished(Plane plane, Coefficients<mpz_class> exact) -> Plane {
   plane.s = ratio(exact.S, scale);
   plane.narrow = bits_of(exact.A) <= most_bits && bits_of(exact.B) <= most_bits && bits_of(exact.S) <= most_bits &&
                  bits_of(exact.D) <= most_offset_bits;
-  if (plane.narrow)
-    plane.whole = {to_int128(exact.A), to_int128(exact.B), to_int128(exact.D), to_int128(exact.S)};
-  else
-    plane.unbounded = std::make_shared<const Coefficients<mpz_class>>(std::move(exact));
+  if (plane.narrow) plane.whole = {to_int128(exact.A), to_int128(exact.B), to_int128(exact.D), to_int128(exact.S)};
+  else plane.unbounded = std::make_shared<const Coefficients<mpz_class>>(std::move(exact));
   return plane;
 }
 
@@ -131,10 +129,9 @@ auto plane_of(const Direction& direction, const Rational& offset, const Rational
   Plane plane;
   plane.direction = direction;
   const mpz_class l(direction.l);
-  return finished(std::move(plane),
-                  {-mpz_class(direction.b) * scale, mpz_class(direction.a) * scale,
-                   l * offset.get_num() * mpz_class(scale / offset.get_den()),
-                   l * speed.get_num() * mpz_class(scale / speed.get_den())});
+  return finished(std::move(plane), {-mpz_class(direction.b) * scale, mpz_class(direction.a) * scale,
+                                     l * offset.get_num() * mpz_class(scale / offset.get_den()),
+                                     l * speed.get_num() * mpz_class(scale / speed.get_den())});
 }
 
 auto flipped(const Plane& plane) -> Plane {
@@ -154,9 +151,10 @@ auto flipped(const Plane& plane) -> Plane {
 }
 
 auto at_rest(const Plane& plane, std::int64_t t) -> Plane {
-  Coefficients<mpz_class> exact = plane.narrow ? Coefficients<mpz_class>{to_integer(plane.whole.A), to_integer(plane.whole.B),
-                                                                         to_integer(plane.whole.D), to_integer(plane.whole.S)}
-                                               : *plane.unbounded;
+  Coefficients<mpz_class> exact = plane.narrow
+                                      ? Coefficients<mpz_class>{to_integer(plane.whole.A), to_integer(plane.whole.B),
+                                                                to_integer(plane.whole.D), to_integer(plane.whole.S)}
+                                      : *plane.unbounded;
   exact.D += exact.S * mpz_class(t);
   exact.S = 0;
   Plane rest;

@@ -34,9 +34,9 @@ struct Coefficients {
 /// A plane with A = B = 0 is a moment: S t = −D.
 struct Plane {
   Direction direction;
-  bool narrow = true;  ///< |A|, |B|, |S| < 2^72, |D| < 2^112: then all predicates stay below 2^479
-  Coefficients<Int128> whole{0, 0, 0, 0};                      ///< when narrow
-  std::shared_ptr<const Coefficients<mpz_class>> unbounded;    ///< when not
+  bool narrow = true;                      ///< |A|, |B|, |S| < 2^72, |D| < 2^112: then all predicates stay below 2^479
+  Coefficients<Int128> whole{0, 0, 0, 0};  ///< when narrow
+  std::shared_ptr<const Coefficients<mpz_class>> unbounded;  ///< when not
   double nx = 0, ny = 0, c = 0, s = 0;  ///< unit normal, offset and speed in quanta; each within 2^-50 relative
 
   [[nodiscard]] auto is_static() const -> bool { return narrow ? whole.S == 0 : unbounded->S == 0; }

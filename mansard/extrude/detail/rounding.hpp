@@ -23,8 +23,8 @@ struct Rounded {
 [[nodiscard]] auto on_grid(geometry::Point3 p, double grid) -> geometry::Point3;
 
 /// The surface in doubles. With `collapse`, arcs under a millimetre are drawn together first, shortest first, each only
-/// where the surface stays a manifold (the link condition), every face keeps its side and its loops apart (exactly, seen
-/// along the axis nearest to its normal), and no plane is missed by more than 0.04 mm; else it is kept.
+/// where the surface stays a manifold (the link condition), every face keeps its side and its loops apart (exactly,
+/// seen along the axis nearest to its normal), and no plane is missed by more than 0.04 mm; else it is kept.
 [[nodiscard]] auto rounded(const ExactSurface& surface, const Placement& placement, bool collapse) -> Rounded;
 
 }  // namespace mansard::extrude::detail

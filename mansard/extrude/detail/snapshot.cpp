@@ -36,10 +36,10 @@ struct Wavefront::Meeting {
 
   Wavefront& wave;
   const double t;
-  std::vector<std::uint32_t> vertices;  ///< involved, sorted
-  std::vector<Triple> planes;           ///< that meet at them
-  std::vector<std::uint32_t> leader;    ///< of equal vertices
-  std::vector<std::uint32_t> site_of;   ///< by place in `vertices`
+  std::vector<std::uint32_t> vertices;                          ///< involved, sorted
+  std::vector<Triple> planes;                                   ///< that meet at them
+  std::vector<std::uint32_t> leader;                            ///< of equal vertices
+  std::vector<std::uint32_t> site_of;                           ///< by place in `vertices`
   std::vector<std::pair<std::uint32_t, std::uint32_t>> inside;  ///< edge, vertex that touches it between its ends
   std::vector<Site> sites;
   std::vector<std::uint32_t> touched;  ///< edges at a site, sorted
@@ -137,7 +137,8 @@ struct Wavefront::Meeting {
       });
       for (std::size_t i = 0; i < order.size(); ++i, ++first) {
         first->second = order[i].vertex;
-        if (i > 0 && order[i - 1].most >= order[i].least && order_along(edge, order[i - 1].vertex, order[i].vertex) == 0)
+        if (i > 0 && order[i - 1].most >= order[i].least &&
+            order_along(edge, order[i - 1].vertex, order[i].vertex) == 0)
           unite(index_of(order[i - 1].vertex), index_of(order[i].vertex));
       }
     }

@@ -120,7 +120,8 @@ class Chart {
     const geometry::Point2 a = nearly(p), b = nearly(q), c = nearly(o), d = nearly(r);
     const double size = std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y), std::abs(c.x),
                                   std::abs(c.y), std::abs(d.x), std::abs(d.y)});
-    const double extent = std::abs(b.x - a.x) + std::abs(b.y - a.y) + std::abs(d.x - c.x) + std::abs(d.y - c.y) + size * 0x1.0p-50;
+    const double extent =
+        std::abs(b.x - a.x) + std::abs(b.y - a.y) + std::abs(d.x - c.x) + std::abs(d.y - c.y) + size * 0x1.0p-50;
     if (const int sure = certain((b.x - a.x) * (d.y - c.y), (b.y - a.y) * (d.x - c.x), 8 * size, extent); sure != 0)
       return sure;
     const ExactPoint P = (*this)(p), Q = (*this)(q), O = (*this)(o), R = (*this)(r);
@@ -188,8 +189,8 @@ auto without_opposites(Boundary edges) -> Boundary {
   Boundary left;
   for (std::size_t i = 0; i < edges.size();) {
     std::size_t j = i, forth = 0;
-    for (; j < edges.size() && std::minmax(edges[j].first, edges[j].second) ==
-                                   std::minmax(edges[i].first, edges[i].second);
+    for (; j < edges.size() &&
+           std::minmax(edges[j].first, edges[j].second) == std::minmax(edges[i].first, edges[i].second);
          ++j)
       forth += edges[j].first < edges[j].second;
     const std::size_t back = j - i - forth, common = std::min(forth, back);
@@ -330,7 +331,8 @@ void Trace::merge_points() {
   std::vector<std::uint32_t> order(points_.size()), first(points_.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = first[i] = i;
   std::ranges::sort(order, [&](std::uint32_t i, std::uint32_t j) {
-    return std::tuple(places_[i].z, places_[i].x, places_[i].y, i) < std::tuple(places_[j].z, places_[j].x, places_[j].y, j);
+    return std::tuple(places_[i].z, places_[i].x, places_[i].y, i) <
+           std::tuple(places_[j].z, places_[j].x, places_[j].y, j);
   });
   bool merged = false;
   for (std::size_t i = 0; i < order.size(); ++i)

@@ -68,10 +68,9 @@ class Sweep {
         courses_.push_back({&edge, &footprint_.tracks[edge.track], 0});
         Line line;
         line.direction = edge.direction;
-        line.motions = motions
-                           .try_emplace({edge.direction, edge.offset, edge.track},
-                                        static_cast<std::uint32_t>(motions.size()))
-                           .first->second;
+        line.motions =
+            motions.try_emplace({edge.direction, edge.offset, edge.track}, static_cast<std::uint32_t>(motions.size()))
+                .first->second;
         wave_.add(std::move(line));
         // Where a roof overhangs, the sweep begins with it.
         const std::uint32_t begins = overhangs(r, static_cast<std::size_t>(&edge - ring.data())) ? 1 : 0;
@@ -280,8 +279,8 @@ class Sweep {
       const Course& c = courses_[wave_.edges[i].line];
       line.on_level = wave_.level;
       line.run = c.now().run;
-      line.level_plane = trace_.planes.add(plane_of(
-          line.direction, (c.edge->offset + c.now().inward) * quanta_per_metre, line.run * quanta_per_metre));
+      line.level_plane = trace_.planes.add(
+          plane_of(line.direction, (c.edge->offset + c.now().inward) * quanta_per_metre, line.run * quanta_per_metre));
     }
     wave_.enter_terraces();
     wave_.connect_all();

@@ -17,8 +17,7 @@ constexpr std::uint32_t none = UINT32_MAX;
 auto along(Point2 p, int axis) -> double { return axis == 0 ? p.x : p.y; }
 
 auto in_triangle(Point2 a, Point2 b, Point2 c, Point2 p) -> bool {
-  return detail::turn(a, b, p) >= 0 && detail::turn(b, c, p) >= 0 &&
-         detail::turn(c, a, p) >= 0;
+  return detail::turn(a, b, p) >= 0 && detail::turn(b, c, p) >= 0 && detail::turn(c, a, p) >= 0;
 }
 
 }  // namespace
@@ -49,8 +48,8 @@ void Triangulator::lay_out(const Face& face, Point3 n) {
     for (std::uint32_t i = 0; i < size; ++i) {
       const Point3 p = solid_.vertices[loop[i]];
       const Point2 q = axis == 2 ? Point2{p.x, p.y} : (axis == 0 ? Point2{p.y, p.z} : Point2{p.z, p.x});
-      corners_.push_back({away ? q : Point2{q.y, q.x}, loop[i], first + (i + size - 1) % size, first + (i + 1) % size,
-                          none, false});
+      corners_.push_back(
+          {away ? q : Point2{q.y, q.x}, loop[i], first + (i + size - 1) % size, first + (i + 1) % size, none, false});
     }
   }
   first_.push_back(static_cast<std::uint32_t>(corners_.size()));
@@ -237,8 +236,7 @@ auto Triangulator::sees(std::uint32_t a, std::uint32_t b) const -> bool {
 
 auto Triangulator::opens_towards(std::uint32_t v, Point2 q) const -> bool {
   const Point2 at = corners_[v].at, out = corners_[corners_[v].next].at, in = corners_[corners_[v].prev].at;
-  if (detail::turn(in, at, out) > 0)
-    return detail::turn(at, out, q) > 0 && detail::turn(at, q, in) > 0;
+  if (detail::turn(in, at, out) > 0) return detail::turn(at, out, q) > 0 && detail::turn(at, q, in) > 0;
   return !(detail::turn(at, in, q) >= 0 && detail::turn(at, q, out) >= 0);
 }
 
@@ -375,7 +373,8 @@ void Triangulator::flip_diagonals() {
     if (other == none) continue;
     const std::uint32_t u = other / 3, j = other % 3;
     const Triangle p = triangles_[t], q = triangles_[u];
-    const std::uint32_t a = p.corner[i], b = p.corner[(i + 1) % 3], c = p.corner[(i + 2) % 3], d = q.corner[(j + 2) % 3];
+    const std::uint32_t a = p.corner[i], b = p.corner[(i + 1) % 3], c = p.corner[(i + 2) % 3],
+                        d = q.corner[(j + 2) % 3];
     const double before = std::min(quality(a, b, c), quality(b, a, d));
     const double after = std::min(quality(c, a, d), quality(d, b, c));
     if (after <= before * (1 + 1e-9) || turn(c, a, d) <= 0 || turn(d, b, c) <= 0) continue;

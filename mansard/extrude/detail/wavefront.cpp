@@ -304,8 +304,9 @@ void Wavefront::try_collapse(std::uint32_t edge) {
   const double length = e.to0 - e.from0;
   if (growth >= -4 * unsure) return push(now.lo, horizon, {edge, edge}, false);
   const double t = -length / growth;
-  const double off = 1.5 * (e.span_error0 + 4 * eps * (std::abs(e.to0) + std::abs(e.from0)) + std::abs(t) * unsure) / -growth +
-                     4 * eps * std::abs(t);
+  const double off =
+      1.5 * (e.span_error0 + 4 * eps * (std::abs(e.to0) + std::abs(e.from0)) + std::abs(t) * unsure) / -growth +
+      4 * eps * std::abs(t);
   push(t - off, t + off, {edge, edge}, t - off > now.hi);
 }
 

@@ -13,9 +13,9 @@ namespace mansard::extrude::detail {
 /// A moving line of the wavefront; several edges can lie on it.
 struct Line {
   Direction direction;
-  PlaneId plane = none;       ///< of its motion over the height
-  Rational speed;             ///< inward, run over rise
-  std::uint32_t motions = 0;  ///< equal for lines that coincide for ever
+  PlaneId plane = none;                       ///< of its motion over the height
+  Rational speed;                             ///< inward, run over rise
+  std::uint32_t motions = 0;                  ///< equal for lines that coincide for ever
   std::uint32_t towards = none, away = none;  ///< numbers of the direction and its opposite; set by Wavefront::add
 
   // While terraces run, lines of that level stand still, or move at the speed of their run.
@@ -29,15 +29,15 @@ struct WaveEdge {
   std::uint32_t line = none;  ///< none: the slot is free
   std::uint32_t node = 0;
   std::uint32_t prev = 0, next = 0;
-  PlaneId joint = none;  ///< where the predecessor lies on the same line: the upright plane through the start
-  std::uint32_t origin = 0;                          ///< the point where the present arc of the start vertex began
+  PlaneId joint = none;      ///< where the predecessor lies on the same line: the upright plane through the start
+  std::uint32_t origin = 0;  ///< the point where the present arc of the start vertex began
   std::uint64_t origin_moment = 0, origin_level = 0;  ///< when that was
 
   std::uint32_t vertex_stamp = 0, edge_stamp = 0;  ///< changed with the motion of the start, or of any part of the edge
   bool vertex_dirty = false, edge_dirty = false;
-  bool pointed = false;         ///< the start can run into edges: it is reflex, or a joint
-  std::uint32_t place = none;   ///< in the list of edges
-  std::uint64_t scanned = 0;    ///< the refresh in which the start was held against all edges
+  bool pointed = false;        ///< the start can run into edges: it is reflex, or a joint
+  std::uint32_t place = none;  ///< in the list of edges
+  std::uint64_t scanned = 0;   ///< the refresh in which the start was held against all edges
   std::uint32_t pointed_place = none;
 
   // In doubles: the start vertex as x0 + x1 t, y0 + y1 t; each is off by less than `error0`, `error1`.
@@ -63,10 +63,10 @@ class Wavefront {
 
   // The present moment, told by the sweep.
   Fraction now;
-  double horizon = 0;                      ///< later than this nothing counts
-  std::uint64_t moment = 1, level = 1;     ///< numbers; a level is one height
-  bool terraces_run = false;               ///< then t is τ from 0 to 1, and the height stands still
-  std::int64_t height = 0;                 ///< quanta; of the level
+  double horizon = 0;                   ///< later than this nothing counts
+  std::uint64_t moment = 1, level = 1;  ///< numbers; a level is one height
+  bool terraces_run = false;            ///< then t is τ from 0 to 1, and the height stands still
+  std::int64_t height = 0;              ///< quanta; of the level
 
   /// A free slot; the caller links it, then calls `changed`.
   auto create(std::uint32_t line, std::uint32_t node) -> std::uint32_t;
@@ -172,9 +172,9 @@ class Wavefront {
   std::vector<Front> fronts_;  ///< of the slots in use, in no order that means anything
   std::vector<Tip> tips_;
   std::map<Direction, std::uint32_t> directions_;
-  std::vector<std::uint32_t> pending_;       ///< slots made by the last snapshot
-  std::vector<std::uint32_t> touched_;       ///< slots changed while terraces ran
-  std::vector<Candidate> queue_, waiting_;   ///< heaps; `waiting_` is the rise's while terraces run
+  std::vector<std::uint32_t> pending_;      ///< slots made by the last snapshot
+  std::vector<std::uint32_t> touched_;      ///< slots changed while terraces ran
+  std::vector<Candidate> queue_, waiting_;  ///< heaps; `waiting_` is the rise's while terraces run
   double rise_horizon_ = 0;
   std::uint64_t refreshes_ = 0;
 };
