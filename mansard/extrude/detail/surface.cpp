@@ -30,6 +30,7 @@ auto Trace::point(TracePoint point) -> std::uint32_t {
 
 auto Trace::node(FaceNode node) -> std::uint32_t {
   const auto index = static_cast<std::uint32_t>(nodes_.size());
+  own_names_.push_back(node.provenance);
   nodes_.push_back(std::move(node));
   parent_.push_back(index);
   return index;
@@ -398,6 +399,28 @@ void Trace::cut_arcs() {
   }
 }
 
+/// Faces of one plane that were united and yet came out apart each go by the edges whose sweep began with them.
+void Trace::rename(std::uint32_t root_node, std::span<ExactSurface::ExactFace> faces) const {
+  std::vector<std::optional<Provenance>> names(faces.size());
+  std::vector<bool> begun(nodes_.size(), false);
+  for (const Arc& arc : arcs_)
+    for (const bool left : {true, false}) {
+      const std::uint32_t node = left ? arc.left : arc.right;
+      if (begun[node]) continue;
+      begun[node] = true;  // a face begins with its first arc
+      if (root(node) != root_node) continue;
+      const std::uint32_t from = left ? arc.from : arc.to, to = left ? arc.to : arc.from;
+      for (std::size_t f = 0; f < faces.size(); ++f)
+        for (const Loop& loop : faces[f].loops) {
+          const auto at = std::ranges::find(loop, from);
+          if (at == loop.end() || (at + 1 == loop.end() ? loop.front() : *(at + 1)) != to) continue;
+          if (!names[f] || own_names_[node] < *names[f]) names[f] = own_names_[node];
+        }
+    }
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    if (names[f]) faces[f].node.provenance = *names[f];
+}
+
 auto Trace::assemble() -> ExactSurface {
   merge_points();
   cut_arcs();
@@ -418,7 +441,10 @@ auto Trace::assemble() -> ExactSurface {
     const Boundary edges = without_opposites(std::move(boundaries[n]));
     if (edges.empty()) continue;
     const Chart chart(places, nodes_[n]);
+    const std::size_t first = surface.faces.size();
     nest(walk(edges, chart), nodes_[n], chart, surface.faces);
+    if (surface.faces.size() > first + 1 && nodes_[n].kind == FaceKind::side)
+      rename(n, std::span(surface.faces).subspan(first));
   }
   take_out_passing_points(surface.faces, places, points_.size());
   surface.places = std::move(places_);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -74,11 +75,13 @@ class Trace {
  private:
   [[nodiscard]] auto root(std::uint32_t node) const -> std::uint32_t;
   void merge_points();
+  void rename(std::uint32_t root_node, std::span<ExactSurface::ExactFace> faces) const;
   void cut_arcs();
 
   std::vector<TracePoint> points_;
   std::vector<geometry::Point3> places_;
   std::vector<FaceNode> nodes_;
+  std::vector<Provenance> own_names_;  ///< of the nodes, before any were united
   mutable std::vector<std::uint32_t> parent_;
   std::vector<Arc> arcs_;
   std::vector<std::int64_t> cuts_;
