@@ -23,7 +23,7 @@ struct Sound {
 
 /// Sweep → rounding → check: the solid, or what is wrong with it.
 auto solid_of(const detail::Footprint& footprint, const geometry::Plan& plan, const Options& options,
-              const base::Run& run, const detail::Eaves* eaves = nullptr) -> base::Result<Sound> {
+              const base::Run& run, const detail::Eaves* eaves) -> base::Result<Sound> {
   const auto surface = detail::sweep(footprint, detail::on_grid(plan.cap), run, eaves);
   std::vector<base::Diagnostic> faults;
   for (const bool collapse : {true, false}) {
@@ -54,15 +54,13 @@ auto last_rung(const detail::Source& source, const geometry::Plan& plan, const O
   return base::error("extrude-not-simple", "no solid can be made over the footprint: " + solid.error().message);
 }
 
-/// The same with overhanging eaves; nothing, and why if anything kept them from it, when they cannot be.
-auto with_overhang(const detail::Footprint& footprint, const geometry::Plan& plan, const Options& options,
-                   const base::Run& run, std::string& why) -> std::optional<Sound> {
-  const auto eaves = detail::eaves_of(footprint, detail::on_grid(plan.cap), options.overhang, why);
-  if (!eaves) return std::nullopt;
+/// The same without exceptions: nothing, and why, where an invariant of the sweep broke too.
+auto tried(const detail::Footprint& footprint, const geometry::Plan& plan, const Options& options,
+           const base::Run& run, const detail::Eaves* eaves, std::string& why) -> std::optional<Sound> {
   try {
-    auto solid = solid_of(footprint, plan, options, run, &*eaves);
+    auto solid = solid_of(footprint, plan, options, run, eaves);
     if (solid) return std::move(*solid);
-    why = solid.error().message;
+    why = solid.error().message + " [" + solid.error().code + "]";
   } catch (const detail::Broken& broken) {
     why = broken.what();
   }
@@ -74,30 +72,22 @@ auto attempt(const detail::Source& source, const geometry::Plan& plan, const Opt
              std::vector<base::Diagnostic>& warnings, std::string& why) -> std::optional<Sound> {
   auto footprint = detail::canonical(source, options, why);
   if (!footprint) return std::nullopt;
-  const auto raised = [&](const detail::Footprint& from, std::string& reason) -> std::optional<Sound> {
-    try {
-      auto solid = solid_of(from, plan, options, run);
-      if (solid) return std::move(*solid);
-      reason = solid.error().message + " [" + solid.error().code + "]";
-    } catch (const detail::Broken& broken) {
-      reason = broken.what();
-    }
-    return std::nullopt;
-  };
-  auto solid = raised(*footprint, why);
+  auto solid = tried(*footprint, plan, options, run, nullptr, why);
   // Upright walls that meet in a line exactly: the right answer is not a manifold. A little less or more parts them.
   for (int nudge = 0; !solid && nudge < detail::most_nudges && !run.cancelled(); ++nudge) {
     std::string how, reason;
     auto other = detail::nudged(*footprint, nudge, options, how);
     if (!other) continue;
-    solid = raised(*other, reason);
+    solid = tried(*other, plan, options, run, nullptr, reason);
     if (!solid) continue;
     warnings.push_back(base::warning("extrude-nudged", how + ": " + why));
     footprint = std::move(other);
   }
   if (solid && options.overhang > 0) {
     std::string hindrance;
-    if (auto roofed = with_overhang(*footprint, plan, options, run, hindrance)) solid = std::move(roofed);
+    // No hindrance is told where there is nothing that could overhang.
+    if (const auto eaves = detail::eaves_of(*footprint, detail::on_grid(plan.cap), options.overhang, hindrance))
+      if (auto roofed = tried(*footprint, plan, options, run, &*eaves, hindrance)) solid = std::move(roofed);
     if (!hindrance.empty()) warnings.push_back(base::warning("extrude-overhang", hindrance));
   }
   constexpr double worth_telling = 0.01;
@@ -215,8 +205,7 @@ auto codes() -> std::vector<base::Code> {
        "Lower --extrude-merge-angle to keep them.", 0},
       {"extrude-nudged",
        "Upright walls met exactly in a line, which no manifold can; runs were shortened by up to 1 %, or walls moved "
-       "by "
-       "up to 3 mm.",
+       "by up to 3 mm.",
        "Change a setback or a wall by a few millimetres.", 0},
       {"extrude-overhang", "A building got no overhanging eaves, or not all around.",
        "Give its roof edges eaves at one height above upright walls, and less overhang where walls are close.", 0},

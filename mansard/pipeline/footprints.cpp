@@ -34,19 +34,6 @@ auto top_of(const extrude::Solid& solid) -> double {
 void raise(Raising& job, bool ridge_known, const Options& options, const base::Run& run) {
   auto& plan = job.planned.plan;
   auto raised = raise_part(plan, options, run);
-  if (raised && raised->outcome == extrude::Outcome::prism && job.planned.shape != roof::Shape::flat) {
-    // Slivers that do not outlive the rounding to 0.1 mm: one more try without small details, before the roof goes.
-    Options coarse = options;
-    coarse.extrude.merge_angle = std::max(options.extrude.merge_angle, 0.0873);
-    coarse.extrude.tolerance = std::max(options.extrude.tolerance, 0.3);
-    if (auto again = raise_part(plan, coarse, run); again && again->outcome != extrude::Outcome::prism) {
-      const auto why = raised->warnings.empty() ? std::string("it could not be raised") : raised->warnings.back().message;
-      again->outcome = std::max(again->outcome, extrude::Outcome::simplified);
-      again->warnings.insert(again->warnings.begin(),
-                             base::warning("extrude-simplified", "the footprint was simplified: " + why));
-      raised = std::move(again);
-    }
-  }
   if (raised && raised->outcome == extrude::Outcome::prism && plan.cap != job.planned.flat_top) {
     plan.cap = job.planned.flat_top;  // a flat roof where the ridge would have been, and not above it
     if (auto prism = extrude::prism(plan, detail::with_grid(options.extrude))) raised->solid = std::move(*prism);
@@ -110,13 +97,7 @@ void take(Raising job, label::LabelledSolid model, write::Building& building, Bu
   report.roof_max = report.parts == 0 ? high : std::max(report.roof_max, high);
   ++report.parts;
   report.volume += extrude::volume(model.solid);
-  const auto areas = label::areas(model);
-  report.areas.wall += areas.wall;
-  report.areas.party_wall += areas.party_wall;
-  report.areas.roof_flat += areas.roof_flat;
-  report.areas.roof_sloped += areas.roof_sloped;
-  report.areas.soffit += areas.soffit;
-  report.areas.ground += areas.ground;
+  detail::add(report.areas, label::areas(model));
   building.parts.push_back({building.id + "-" + std::to_string(report.parts), std::move(job.planned.plan),
                             std::move(model), std::move(attributes)});
 }

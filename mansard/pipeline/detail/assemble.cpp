@@ -35,6 +35,15 @@ auto ridge_height(const label::LabelledSolid& model) -> std::optional<double> {
   return highest;
 }
 
+void add(label::Areas& sum, const label::Areas& more) {
+  sum.wall += more.wall;
+  sum.party_wall += more.party_wall;
+  sum.roof_flat += more.roof_flat;
+  sum.roof_sloped += more.roof_sloped;
+  sum.soffit += more.soffit;
+  sum.ground += more.ground;
+}
+
 auto made_by(const ingest::Scene& scene, const Options& options) -> write::MadeBy {
   write::MadeBy out;
   out.version = MANSARD_VERSION;
@@ -72,15 +81,6 @@ auto attributes_of(const PartResult& part, const BlockReport& block, double z0) 
   out.emplace_back("ms_opt_status", block.status);
   out.emplace_back("ms_opt_gap", block.objective - block.bound);
   return out;
-}
-
-void add(label::Areas& sum, const label::Areas& more) {
-  sum.wall += more.wall;
-  sum.party_wall += more.party_wall;
-  sum.roof_flat += more.roof_flat;
-  sum.roof_sloped += more.roof_sloped;
-  sum.soffit += more.soffit;
-  sum.ground += more.ground;
 }
 
 /// Adds a part to its building and to the building's report.
