@@ -1,12 +1,14 @@
 #include "mansard/segment/segment.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <utility>
 
 #include "mansard/segment/detail/candidates.hpp"
 #include "mansard/segment/detail/evidence.hpp"
 #include "mansard/segment/detail/gis_cuts.hpp"
+#include "mansard/segment/detail/height_steps.hpp"
 #include "mansard/segment/detail/multicut.hpp"
 #include "mansard/segment/detail/parts.hpp"
 
@@ -14,11 +16,11 @@ namespace mansard::segment {
 namespace {
 
 /// Pieces of inside faces, by face.
-auto labels_by_face(const detail::Program& program, const detail::Labels& labels)
+auto labels_by_face(const detail::Problem& problem, const detail::Labels& labels)
     -> std::vector<std::optional<std::uint32_t>> {
-  std::vector<std::optional<std::uint32_t>> label_of_face(program.node_of_face.size());
+  std::vector<std::optional<std::uint32_t>> label_of_face(problem.node_of_face.size());
   for (std::size_t f = 0; f < label_of_face.size(); ++f)
-    if (program.node_of_face[f]) label_of_face[f] = labels[*program.node_of_face[f]];
+    if (problem.node_of_face[f]) label_of_face[f] = labels[*problem.node_of_face[f]];
   return label_of_face;
 }
 
@@ -41,7 +43,7 @@ auto cuts_of(const sweep::SweepEdges& edges, const block::Block& block, const Op
     -> std::vector<fracture::Cut> {
   std::vector<fracture::Cut> cuts;
   for (std::uint32_t i = 0; i < edges.edges.size(); ++i) cuts.push_back({edges.edges[i].segment, i});
-  if (options.gis_edges == GisEdges::hard) {
+  if (options.gis_edges != GisEdges::ignore) {
     auto lines = detail::party_lines(block);
     const auto torn = detail::torn_lines(block, edges);
     lines.insert(lines.end(), torn.begin(), torn.end());
@@ -61,33 +63,41 @@ auto choose(const fracture::Arrangement& arrangement, const sweep::SweepEdges& e
 
   Segmentation segmentation;
   segmentation.candidates = detail::candidates_of(arrangement, evidence.faces, options);
+  if (options.height_measure == HeightMeasure::along)
+    detail::measure_steps(arrangement, mesh, options, run, segmentation.candidates);
   const auto candidate_of = detail::candidate_of_half_edge(arrangement, segmentation.candidates);
-  const auto pairs = detail::bad_pairs_of(arrangement, evidence.faces, candidate_of, options);
-  const detail::Program program = detail::program_of(arrangement, evidence.faces, segmentation.candidates,
-                                                     candidate_of, pairs, options);
+  segmentation.conflicts = detail::conflicts_of(arrangement, evidence.faces, candidate_of, options);
+  segmentation.phi = detail::phi_of(arrangement, evidence.faces, options);
+  detail::price(segmentation.candidates, segmentation.conflicts, segmentation.phi, options);
+  const detail::Problem problem = detail::problem_of(arrangement, evidence.faces, segmentation.candidates,
+                                                     candidate_of, segmentation.conflicts, segmentation.phi);
   run.report("segment", block.name, 0.3);
-  const detail::MulticutAnswer answer =
-      detail::solve(program.multicut, {.seconds = options.seconds, .nodes = options.nodes}, run);
+  const auto start = std::chrono::steady_clock::now();
+  detail::MulticutAnswer answer = detail::solve(
+      problem.multicut, {.seconds = options.seconds, .nodes = options.nodes, .cliques = options.cliques}, run);
+  segmentation.solve_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   run.report("segment", block.name, 0.9);
 
-  const auto label_of_face = labels_by_face(program, answer.labels);
-  segmentation.terms =
-      detail::terms_of(arrangement, evidence.faces, label_of_face, segmentation.candidates, pairs, options);
+  const auto label_of_face = labels_by_face(problem, answer.labels);
+  for (Candidate& c : segmentation.candidates) c.solved = label_of_face[c.left] != label_of_face[c.right];
+  segmentation.rows = detail::star_rows(problem.multicut);
+  for (CycleRow& row : answer.rows) segmentation.rows.push_back(std::move(row));
+  segmentation.terms = detail::terms_of(arrangement, label_of_face, segmentation.candidates, candidate_of,
+                                        segmentation.conflicts, segmentation.phi, options);
   segmentation.objective = segmentation.terms.sum();
-  // The program counts in thousandths, rounded once per candidate and once per pair; the terms do not.
-  const double rounding = 1e-3 * static_cast<double>(segmentation.candidates.size() + pairs.size() + 1);
-  const auto whole = static_cast<double>(answer.objective + program.constant) / 1000;
+  // The program counts in thousandths, rounded twice per candidate; the terms do not.
+  const double rounding = 1e-3 * static_cast<double>(segmentation.candidates.size() + 1);
+  const auto whole = static_cast<double>(answer.objective + problem.constant) / 1000;
   if (std::abs(whole - segmentation.objective) > rounding + 1e-9 * std::abs(whole))
     return base::error("segment-failed", "the program's objective is not that of its labels", block.name);
   segmentation.bound = segmentation.objective;
   if (!answer.optimal)
     segmentation.bound -= static_cast<double>(answer.objective - answer.bound) / 1000 + 2 * rounding;
-  segmentation.status = program.multicut.nodes == 0 ? "empty" : answer.optimal ? "optimal" : "stopped";
+  segmentation.status = problem.multicut.nodes == 0 ? "empty" : answer.optimal ? "optimal" : "stopped";
   segmentation.rounds = answer.rounds;
   segmentation.nodes = answer.nodes;
   segmentation.variables = answer.variables;
-  segmentation.conflicts = pairs.size();
-  segmentation.warnings = answer.warnings;
+  segmentation.warnings = std::move(answer.warnings);
 
   detail::make_parts(arrangement, evidence, label_of_face, options.narrow, segmentation);
   segmentation.faces = std::move(evidence.faces);
@@ -113,8 +123,18 @@ auto option_list(Options& o) -> base::OptionList {
                   "Whether the continuations of sweep-edges count as sweep-edges.")
           .choice("thin_rule", o.thin_rule, {{"all", ThinRule::all}, {"unsupported", ThinRule::unsupported}},
                   "Whether walls that were seen from both sides can make a sliver too.")
-          .choice("gis_edges", o.gis_edges, {{"ignore", GisEdges::ignore}, {"hard", GisEdges::hard}},
-                  "Whether edges between two features cut the ground, and no part spans two features.")
+          .choice("thin_reach", o.thin_reach, {{"face", ThinReach::face}, {"block", ThinReach::block}},
+                  "Whether slivers and needles are looked for within single faces, or across several too.")
+          .choice("height_measure", o.height_measure,
+                  {{"along", HeightMeasure::along}, {"median", HeightMeasure::median}},
+                  "Height differences: measured along the edge, or between the faces' medians.")
+          .number("height_offset", o.height_offset, "m", {0.01, 10},
+                  "How far to both sides of an edge heights are sampled along it.")
+          .choice("gis_edges", o.gis_edges,
+                  {{"ignore", GisEdges::ignore}, {"candidate", GisEdges::candidate}, {"hard", GisEdges::hard}},
+                  "Whether edges between two features cut the ground: not, where that pays, or always.")
+          .number("gis_alpha", o.gis_alpha, "", {0, 1e6},
+                  "Cost of leaving a metre of GIS edge unused, with gis_edges = candidate.")
           .number("gis_ratio", o.gis_ratio, "", {0, 1},
                   "A face is inside when at least this part of it is inside the footprints.")
           .number("min_height", o.min_height, "m", {0, 1000}, "… and its median height above ground is at least this.")
@@ -124,7 +144,8 @@ auto option_list(Options& o) -> base::OptionList {
                   "Parts of less mean width go to their neighbour, or are left out as strips outside a wall; 0 keeps them.")
           .whole("samples", o.samples, "", {9, 100000}, "Height samples per face, at most.")
           .number("seconds", o.seconds, "s", {0, 1e6}, "Time limit per block; none: until proven optimal.")
-          .whole("nodes", o.nodes, "", {0, 1e9}, "Limit of branch-and-bound nodes per solve."));
+          .whole("nodes", o.nodes, "", {0, 1e9}, "Limit of branch-and-bound nodes per solve.")
+          .flag("cliques", o.cliques, "Give the solver a row for every clique of conflicts as well."));
 }
 
 auto codes() -> std::vector<base::Code> {

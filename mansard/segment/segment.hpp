@@ -14,6 +14,7 @@
 #include "mansard/fracture/fracture.hpp"
 #include "mansard/geometry/polygon.hpp"
 #include "mansard/rays/rays.hpp"
+#include "mansard/solver/solver.hpp"
 #include "mansard/sweep/sweep.hpp"
 
 namespace mansard::segment {
@@ -22,11 +23,17 @@ namespace mansard::segment {
 inline constexpr std::uint32_t gis_source = 0x80000000U;
 
 enum class GisEdges : std::uint8_t {
-  ignore,  ///< as in the paper: GIS edges are not inserted
-  hard,    ///< edges between two features are inserted, and those no sweep-edge follows; no part spans two features
+  ignore,     ///< as in the paper: GIS edges are not inserted
+  candidate,  ///< edges between two features are inserted, and those no sweep-edge follows; the optimum decides
+  hard,       ///< the same, and no part spans two features
 };
 enum class Continuations : std::uint8_t { sweep, plain };  ///< do continuations count as sweep-edges in O1?
 enum class ThinRule : std::uint8_t { all, unsupported };  ///< O7 over all near pairs, or not where both sides are walls
+enum class ThinReach : std::uint8_t { face, block };      ///< O7 between edges of one face, or across several faces too
+enum class HeightMeasure : std::uint8_t {
+  along,   ///< mean difference of the mesh's heights on the two sides of the edge, sampled along it
+  median,  ///< difference of the two faces' median heights, as in the reference implementation
+};
 
 struct Options {
   double alpha = 40.0;          ///< per metre of sweep-edge left unused
@@ -37,7 +44,11 @@ struct Options {
   double thin_angle = 0.5235987755982988;  ///< rad; O7: adjacent edges under this angle
   Continuations continuations = Continuations::plain;
   ThinRule thin_rule = ThinRule::unsupported;
+  ThinReach thin_reach = ThinReach::face;
+  HeightMeasure height_measure = HeightMeasure::median;
+  double height_offset = 0.6;   ///< m; how far to both sides of an edge heights are sampled along it
   GisEdges gis_edges = GisEdges::hard;
+  double gis_alpha = 10.0;      ///< per metre of GIS edge left unused, with gis_edges = candidate
   double gis_ratio = 0.44;      ///< a face is inside when at least this part of it is inside the footprints …
   double min_height = 2.0;      ///< m; … and its median height above ground at least this
   double exposed = 0.4;         ///< faces with more wall-less boundary than this share of the rest are peeled off
@@ -45,6 +56,7 @@ struct Options {
   std::int64_t samples = 64;    ///< height samples per face, at least 9
   std::optional<double> seconds;  ///< time limit per block; none: until proven optimal or the node limit
   std::int64_t nodes = 100000;    ///< branch-and-bound nodes per solve
+  bool cliques = false;           ///< give the solver a row for every clique of conflicts as well
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 
@@ -62,14 +74,39 @@ struct FaceEvidence {
   std::optional<std::size_t> feature;  ///< index into Scene::footprints of the feature with the largest share
 };
 
+/// What an interior edge costs, in the objective's units.
+struct Costs {
+  double unsupported = 0, outline_conflict = 0;           ///< if it is cut: β; φ for each conflict with the outline
+  double sweep_unused = 0, height = 0, gis_unused = 0;    ///< if it is not: α; O2; gis_alpha
+  [[nodiscard]] auto cut() const -> double { return unsupported + outline_conflict; }
+  [[nodiscard]] auto uncut() const -> double { return sweep_unused + height + gis_unused; }
+};
+
 /// One interior edge of the program: a run of half-edges between two faces.
 struct Candidate {
   std::uint32_t left = 0, right = 0;      ///< faces
   std::vector<std::uint32_t> half_edges;  ///< those with `left` on their left
   double length = 0, height_difference = 0;  ///< m
-  bool sweep = false;   ///< isSweepEdge
+  double sweep_length = 0, unsupported_length = 0, gis_length = 0;  ///< m that pay α uncut; β cut; gis_alpha uncut
+  bool sweep = false;   ///< isSweepEdge, most of it
   bool forced = false;  ///< between two features, with gis_edges = hard
-  bool chosen = false;
+  bool solved = false;  ///< cut by the program's answer
+  bool chosen = false;  ///< between two parts, after small and narrow parts were joined
+  Costs costs;
+};
+
+/// A bad pair of O7: two candidates; a candidate and the outline, or itself, where `second` is absent.
+struct Conflict {
+  std::uint32_t first = 0;
+  std::optional<std::uint32_t> second;
+  friend auto operator<=>(const Conflict&, const Conflict&) = default;
+};
+
+/// Whoever walks from one side of the edge around to the other along the path crosses another wall, if the edge is one:
+/// s_edge ≤ Σ s_path. By candidates.
+struct CycleRow {
+  std::uint32_t edge = 0;
+  std::vector<std::uint32_t> path;  ///< ascending
 };
 
 struct Terms {
@@ -77,7 +114,8 @@ struct Terms {
   double unsupported = 0;   ///< O1, β
   double height = 0;        ///< O2
   double thin = 0;          ///< O7
-  [[nodiscard]] auto sum() const -> double { return sweep_unused + unsupported + height + thin; }
+  double gis_unused = 0;    ///< gis_alpha; 0 unless gis_edges = candidate
+  [[nodiscard]] auto sum() const -> double { return sweep_unused + unsupported + height + thin + gis_unused; }
 };
 
 /// Where a footprint's edge comes from.
@@ -98,6 +136,9 @@ struct Part {
 struct Segmentation {
   std::vector<FaceEvidence> faces;
   std::vector<Candidate> candidates;
+  std::vector<Conflict> conflicts;   ///< ascending
+  double phi = 0;                    ///< what a conflict costs when both are cut
+  std::vector<CycleRow> rows;        ///< those of the start (stars), then those that the rounds added
   std::vector<std::optional<std::uint32_t>> part_of_face;
   std::vector<Part> parts;  ///< ordered by feature, then by lowest face
 
@@ -106,7 +147,8 @@ struct Segmentation {
   double bound = 0;      ///< proven: no segmentation is cheaper
   std::string status;    ///< "optimal", "stopped" (limit reached; the gap is true), "empty" (no face inside)
   std::int64_t rounds = 0, nodes = 0;
-  std::size_t variables = 0, conflicts = 0;
+  std::size_t variables = 0;
+  double solve_seconds = 0;  ///< from the candidates and conflicts to the labels
   std::vector<base::Diagnostic> warnings;
 };
 
@@ -116,6 +158,12 @@ struct Segmentation {
 [[nodiscard]] auto choose(const fracture::Arrangement& arrangement, const sweep::SweepEdges& edges,
                           const block::Block& block, const rays::Scene& mesh, const Options& options,
                           const base::Run& run = {}) -> base::Result<Segmentation>;
+
+/// The integer program that was solved, whole and with every row it took: variable i is s of candidate i, then comes a y
+/// for every conflict of two candidates. Costs and constant are whole, in thousandths of the objective. Every cut of
+/// the plane into parts satisfies the rows, so whatever any solver proves of it bounds the segmentation; when the status
+/// is "optimal", its optimum is 1000 × objective but for one unit of rounding a candidate.
+[[nodiscard]] auto program_of(const Segmentation& segmentation) -> solver::Program;
 
 [[nodiscard]] auto codes() -> std::vector<base::Code>;
 

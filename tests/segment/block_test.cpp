@@ -163,7 +163,7 @@ TEST(MadeBlock, DISABLED_measures_time_by_size) {
           const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
           const auto inside = std::ranges::count_if(s.faces, &FaceEvidence::inside);
           std::cout << (one ? "ignored " : "hard    ") << (rule == ThinRule::all ? "all         " : "unsupported ")
-                    << inside << " | " << s.variables << " | " << s.conflicts << " | " << s.rounds << " | " << s.nodes << " | "
+                    << inside << " | " << s.variables << " | " << s.conflicts.size() << " | " << s.rounds << " | " << s.nodes << " | "
                     << s.status << " | " << s.objective - s.bound << " | " << taken.count() << "\n";
         }
 }

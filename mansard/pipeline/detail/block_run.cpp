@@ -239,7 +239,7 @@ auto run_block(const block::Block& block, const Options& options, const base::Ru
           std::ranges::count_if(chosen->part_of_face, [](const auto& part) { return part.has_value(); }));
       report.candidates = chosen->candidates.size();
       report.variables = chosen->variables;
-      report.conflicts = chosen->conflicts;
+      report.conflicts = chosen->conflicts.size();
       report.terms = chosen->terms;
       report.objective = chosen->objective;
       report.bound = chosen->bound;

@@ -22,15 +22,18 @@ auto candidates_of(const fracture::Arrangement& arrangement, const std::vector<F
   for (auto& [pair, half_edges] : shared) {
     Candidate c;
     c.left = pair.first, c.right = pair.second;
-    double sweep = 0;
     for (const std::uint32_t h : half_edges) {
+      const fracture::HalfEdge& edge = arrangement.half_edges[h];
       const double length = length_of(arrangement, h);
       c.length += length;
-      if (is_sweep(arrangement.half_edges[h], options)) sweep += length;
+      // A candidate may be a wall along one stretch and none along another: each stretch pays for itself.
+      if (is_sweep(edge, options)) c.sweep_length += length;
+      if (!is_supported(edge, options)) c.unsupported_length += length;
+      if (pays_as_gis(edge, options)) c.gis_length += length;
     }
     c.half_edges = std::move(half_edges);
     c.height_difference = std::abs(faces[c.left].height - faces[c.right].height);
-    c.sweep = sweep > c.length / 2;
+    c.sweep = c.sweep_length > c.length / 2;
     c.forced = options.gis_edges == GisEdges::hard && faces[c.left].feature != faces[c.right].feature;
     candidates.push_back(std::move(c));
   }
@@ -53,7 +56,16 @@ auto phi_of(const fracture::Arrangement& arrangement, const std::vector<FaceEvid
     const auto left = arrangement.half_edges[h].face, right = arrangement.half_edges[h + 1].face;
     if ((left && faces[*left].inside) || (right && faces[*right].inside)) sum += length_of(arrangement, h);
   }
-  return options.phi * sum;
+  return std::round(1000 * options.phi * sum) / 1000;
+}
+
+void price(std::vector<Candidate>& candidates, const std::vector<Conflict>& conflicts, double phi,
+           const Options& options) {
+  for (Candidate& c : candidates)
+    c.costs = {options.beta * c.unsupported_length, 0, options.alpha * c.sweep_length,
+               options.height_weight * c.length * c.height_difference, options.gis_alpha * c.gis_length};
+  for (const Conflict& conflict : conflicts)
+    if (!conflict.second) candidates[conflict.first].costs.outline_conflict += phi;
 }
 
 namespace {
@@ -76,43 +88,41 @@ auto stars_of(const fracture::Arrangement& arrangement, const std::vector<std::o
   return stars;
 }
 
-}  // namespace
-
-auto program_of(const fracture::Arrangement& arrangement, const std::vector<FaceEvidence>& faces,
-                const std::vector<Candidate>& candidates,
-                const std::vector<std::optional<std::uint32_t>>& candidate_of, const std::vector<BadPair>& pairs,
-                const Options& options) -> Program {
-  Program program;
-  Multicut& multicut = program.multicut;
-  program.node_of_face.resize(faces.size());
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    if (faces[f].inside) program.node_of_face[f] = multicut.nodes++;
+/// Edges, between faces, and pairs.
+void add_edges(const std::vector<Candidate>& candidates, const std::vector<Conflict>& conflicts, double phi,
+               Problem& problem) {
   for (const Candidate& c : candidates) {
-    // A candidate may be a wall along one stretch and none along another: each stretch pays for itself.
-    double sweep = 0, unsupported = 0;
-    for (const std::uint32_t h : c.half_edges) {
-      const double length = length_of(arrangement, h);
-      if (is_sweep(arrangement.half_edges[h], options)) sweep += length;
-      if (!is_supported(arrangement.half_edges[h], options)) unsupported += length;
-    }
-    const std::int64_t if_not_cut =
-        thousandths(options.alpha * sweep + options.height_weight * c.length * c.height_difference);
-    program.constant += if_not_cut;
-    multicut.edges.push_back({*program.node_of_face[c.left], *program.node_of_face[c.right],
-                              thousandths(options.beta * unsupported) - if_not_cut, c.forced});
+    const std::int64_t uncut = thousandths(c.costs.uncut());
+    problem.constant += uncut;
+    problem.multicut.edges.push_back({c.left, c.right, thousandths(c.costs.cut()) - uncut, c.forced});
   }
-  const std::int64_t phi = thousandths(phi_of(arrangement, faces, options));
-  for (const BadPair& pair : pairs) {
-    if (pair.second) multicut.pairs.push_back({pair.first, *pair.second, phi});
-    else multicut.edges[pair.first].cost += phi;
-  }
-  multicut.stars = stars_of(arrangement, candidate_of);
-  return program;
+  for (const Conflict& conflict : conflicts)
+    if (conflict.second) problem.multicut.pairs.push_back({conflict.first, *conflict.second, thousandths(phi)});
 }
 
-auto terms_of(const fracture::Arrangement& arrangement, const std::vector<FaceEvidence>& faces,
+}  // namespace
+
+auto problem_of(const fracture::Arrangement& arrangement, const std::vector<FaceEvidence>& faces,
+                const std::vector<Candidate>& candidates,
+                const std::vector<std::optional<std::uint32_t>>& candidate_of,
+                const std::vector<Conflict>& conflicts, double phi) -> Problem {
+  Problem problem;
+  problem.node_of_face.resize(faces.size());
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    if (faces[f].inside) problem.node_of_face[f] = problem.multicut.nodes++;
+  add_edges(candidates, conflicts, phi, problem);
+  for (MulticutEdge& edge : problem.multicut.edges) {
+    edge.a = *problem.node_of_face[edge.a];
+    edge.b = *problem.node_of_face[edge.b];
+  }
+  problem.multicut.stars = stars_of(arrangement, candidate_of);
+  return problem;
+}
+
+auto terms_of(const fracture::Arrangement& arrangement,
               const std::vector<std::optional<std::uint32_t>>& label_of_face, const std::vector<Candidate>& candidates,
-              const std::vector<BadPair>& pairs, const Options& options) -> Terms {
+              const std::vector<std::optional<std::uint32_t>>& candidate_of, const std::vector<Conflict>& conflicts,
+              double phi, const Options& options) -> Terms {
   Terms terms;
   for (std::uint32_t h = 0; h < arrangement.half_edges.size(); h += 2) {
     const fracture::HalfEdge& edge = arrangement.half_edges[h];
@@ -121,18 +131,30 @@ auto terms_of(const fracture::Arrangement& arrangement, const std::vector<FaceEv
     const double length = length_of(arrangement, h);
     if (*label_of_face[*one] == *label_of_face[*other]) {
       if (is_sweep(edge, options)) terms.sweep_unused += options.alpha * length;
-      terms.height += options.height_weight * length * std::abs(faces[*one].height - faces[*other].height);
+      if (pays_as_gis(edge, options)) terms.gis_unused += options.gis_alpha * length;
+      terms.height += options.height_weight * length * candidates[*candidate_of[h]].height_difference;
     } else if (!is_supported(edge, options)) {
       terms.unsupported += options.beta * length;
     }
   }
-  const double phi = phi_of(arrangement, faces, options);
   const auto cut = [&](std::uint32_t c) {
     return label_of_face[candidates[c].left] != label_of_face[candidates[c].right];
   };
-  for (const BadPair& pair : pairs)
-    if (cut(pair.first) && (!pair.second || cut(*pair.second))) terms.thin += phi;
+  for (const Conflict& conflict : conflicts)
+    if (cut(conflict.first) && (!conflict.second || cut(*conflict.second))) terms.thin += phi;
   return terms;
 }
 
 }  // namespace mansard::segment::detail
+
+namespace mansard::segment {
+
+auto program_of(const Segmentation& segmentation) -> solver::Program {
+  detail::Problem problem;
+  detail::add_edges(segmentation.candidates, segmentation.conflicts, segmentation.phi, problem);
+  solver::Program program = detail::integer_program(problem.multicut, segmentation.rows, false);
+  program.constant = static_cast<double>(problem.constant);
+  return program;
+}
+
+}  // namespace mansard::segment

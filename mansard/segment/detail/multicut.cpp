@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <queue>
 
@@ -44,11 +45,11 @@ auto numbered(Pieces& pieces, std::uint32_t nodes) -> Labels {
   return labels;
 }
 
-/// One connected part of the problem, with the numbers its nodes had in the whole. What forced edges cost and what
-/// they do to others is in the part's costs and constant where they leave it.
+/// One connected part of the problem, with the numbers its nodes and edges had in the whole. What forced edges cost and
+/// what they do to others is in the part's costs and constant where they leave it.
 struct Part {
   Multicut problem;
-  std::vector<std::uint32_t> nodes;
+  std::vector<std::uint32_t> nodes, edges;
 };
 
 /// Splits where only forced edges connect: those are cut whatever the labels, so that their pairs become linear.
@@ -75,9 +76,10 @@ auto split(const Multicut& whole, std::int64_t& constant) -> std::vector<Part> {
       constant += edge.cost;
       continue;
     }
-    auto& edges = parts[part_of[edge.a]].problem.edges;
-    inner_edge[e] = static_cast<std::uint32_t>(edges.size());
-    edges.push_back({inner_node[edge.a], inner_node[edge.b], edge.cost, edge.forced});
+    Part& part = parts[part_of[edge.a]];
+    inner_edge[e] = static_cast<std::uint32_t>(part.edges.size());
+    part.edges.push_back(e);
+    part.problem.edges.push_back({inner_node[edge.a], inner_node[edge.b], edge.cost, edge.forced});
   }
   for (const MulticutPair& pair : whole.pairs) {
     const std::uint32_t i = inner_edge[pair.first], j = inner_edge[pair.second];
@@ -106,36 +108,42 @@ auto split(const Multicut& whole, std::int64_t& constant) -> std::vector<Part> {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// s_e ≤ Σ s_f.
-auto cycle_row(std::uint32_t edge, const std::vector<std::uint32_t>& path) -> solver::Row {
-  solver::Row row{{{edge, 1.0}}, -infinity, 0};
-  for (const std::uint32_t f : path) row.terms.emplace_back(f, -1.0);
+auto row_of(const CycleRow& cycle) -> solver::Row {
+  solver::Row row{{{cycle.edge, 1.0}}, -infinity, 0};
+  for (const std::uint32_t f : cycle.path) row.terms.emplace_back(f, -1.0);
   return row;
 }
 
-/// Variables s_e, then y_ij = [s_i ∧ s_j], which needs no integrality; rows: pairs and stars.
-auto program_of(const Multicut& problem) -> solver::Program {
-  solver::Program program;
-  for (const MulticutEdge& e : problem.edges)
-    program.variables.push_back({static_cast<double>(e.cost), e.forced ? 1.0 : 0.0, 1.0, true});
-  for (const MulticutPair& pair : problem.pairs) {
-    const auto y = static_cast<std::uint32_t>(program.variables.size());
-    program.variables.push_back({static_cast<double>(pair.penalty), 0.0, 1.0, false});
-    program.rows.push_back({{{pair.first, 1.0}, {pair.second, 1.0}, {y, -1.0}}, -infinity, 1});
+/// Sets of three and more edges that are all in pairs with each other, every pair in one set at most: greedily, lowest
+/// edge first.
+void add_clique_rows(const Multicut& problem, solver::Program& program) {
+  const auto count = static_cast<std::uint32_t>(problem.edges.size());
+  std::vector<std::map<std::uint32_t, std::uint32_t>> partners(count);  // higher edge → pair
+  for (std::uint32_t p = 0; p < problem.pairs.size(); ++p) {
+    const auto [low, high] = std::minmax(problem.pairs[p].first, problem.pairs[p].second);
+    partners[low].emplace(high, p);
   }
-  for (const auto& star : problem.stars) {
-    for (const std::uint32_t e : star) {
-      std::vector<std::uint32_t> others;
-      for (const std::uint32_t f : star)
-        if (f != e) others.push_back(f);
-      // Where the same two faces meet twice at a vertex, s_e ≤ s_e + … says nothing.
-      if (others.size() + 1 != star.size() || others.empty()) continue;
-      std::ranges::sort(others);
-      others.erase(std::ranges::unique(others).begin(), others.end());
-      program.rows.push_back(cycle_row(e, others));
+  std::vector<bool> used(problem.pairs.size(), false);
+  for (std::uint32_t e = 0; e < count; ++e) {
+    std::vector<std::uint32_t> clique{e}, pairs;
+    for (const auto& [f, p] : partners[e]) {
+      std::vector<std::uint32_t> links;
+      for (const std::uint32_t g : clique)
+        if (const auto link = partners[g].find(f); link != partners[g].end() && !used[link->second])
+          links.push_back(link->second);
+      if (links.size() < clique.size()) continue;
+      clique.push_back(f);
+      pairs.insert(pairs.end(), links.begin(), links.end());
     }
+    if (clique.size() < 3) continue;
+    solver::Row row{{}, -infinity, 1};
+    for (const std::uint32_t f : clique) row.terms.emplace_back(f, 1.0);
+    for (const std::uint32_t p : pairs) {
+      used[p] = true;
+      row.terms.emplace_back(count + p, -1.0);
+    }
+    program.rows.push_back(std::move(row));
   }
-  return program;
 }
 
 auto values_of(const Multicut& problem, const Labels& labels) -> std::vector<double> {
@@ -146,7 +154,7 @@ auto values_of(const Multicut& problem, const Labels& labels) -> std::vector<dou
 }
 
 /// Cycle rows that the cut breaks: for every chosen edge with both ends in one piece, the shortest way around it.
-auto broken_cycles(const Multicut& problem, const std::vector<bool>& chosen) -> std::vector<solver::Row> {
+auto broken_cycles(const Multicut& problem, const std::vector<bool>& chosen) -> std::vector<CycleRow> {
   Pieces pieces(problem.nodes);
   std::vector<std::vector<std::uint32_t>> edges_of(problem.nodes);
   for (std::uint32_t e = 0; e < problem.edges.size(); ++e) {
@@ -155,7 +163,7 @@ auto broken_cycles(const Multicut& problem, const std::vector<bool>& chosen) -> 
     edges_of[problem.edges[e].a].push_back(e);
     edges_of[problem.edges[e].b].push_back(e);
   }
-  std::vector<solver::Row> rows;
+  std::vector<CycleRow> rows;
   std::vector<std::uint32_t> reached_by(problem.nodes), seen_in(problem.nodes, none);
   for (std::uint32_t bridge = 0; bridge < problem.edges.size(); ++bridge) {
     const auto [from, to] = std::pair(problem.edges[bridge].a, problem.edges[bridge].b);
@@ -179,7 +187,8 @@ auto broken_cycles(const Multicut& problem, const std::vector<bool>& chosen) -> 
       path.push_back(reached_by[v]);
       v = e.a == v ? e.b : e.a;
     }
-    rows.push_back(cycle_row(bridge, path));
+    std::ranges::sort(path);
+    rows.push_back({bridge, std::move(path)});
   }
   return rows;
 }
@@ -197,7 +206,7 @@ auto rounded_up(double bound) -> std::int64_t {
   return static_cast<std::int64_t>(std::ceil(bound - 1e-3 - 1e-9 * std::abs(bound)));
 }
 
-auto solve_part(const Multicut& problem, std::int64_t nodes, const Deadline& deadline, const base::Run& run)
+auto solve_part(const Multicut& problem, const MulticutLimits& limits, const Deadline& deadline, const base::Run& run)
     -> MulticutAnswer {
   MulticutAnswer answer;
   answer.labels = improved(problem, greedy(problem));
@@ -209,14 +218,14 @@ auto solve_part(const Multicut& problem, std::int64_t nodes, const Deadline& dea
   if (const Labels together(problem.nodes, 0); cost_of(problem, together)) offer(improved(problem, together));
   answer.bound = trivial_bound(problem);
 
-  solver::Program program = program_of(problem);
+  solver::Program program = integer_program(problem, star_rows(problem), limits.cliques);
   answer.variables = program.variables.size();
   while (answer.bound < answer.objective) {
     const auto left = deadline.left();
     if ((left && *left <= 0) || run.cancelled()) break;
     // A gap under 1 is none, as costs are whole.
     const auto solution =
-        solver::minimise(program, {.seconds = left, .nodes = nodes, .gap = 0.99}, values_of(problem, answer.labels));
+        solver::minimise(program, {.seconds = left, .nodes = limits.nodes, .gap = 0.99}, values_of(problem, answer.labels));
     ++answer.rounds;
     if (!solution) {
       answer.warnings.push_back(base::warning("segment-solver", solution.error().message));
@@ -235,7 +244,7 @@ auto solve_part(const Multicut& problem, std::int64_t nodes, const Deadline& dea
     // Joining across what bridges remain always gives a labelling, if not one that cuts every forced edge.
     const Labels labels = numbered(pieces, problem.nodes);
     offer(labels);
-    std::vector<solver::Row> rows = broken_cycles(problem, chosen);
+    std::vector<CycleRow> rows = broken_cycles(problem, chosen);
     if (!rows.empty() && cost_of(problem, labels)) offer(improved(problem, labels));
     if (solution->status != solver::Status::optimal) break;
     if (rows.empty()) {
@@ -243,7 +252,10 @@ auto solve_part(const Multicut& problem, std::int64_t nodes, const Deadline& dea
       if (static_cast<double>(answer.objective) - solution->bound < 1.5) answer.bound = answer.objective;
       break;
     }
-    for (auto& row : rows) program.rows.push_back(std::move(row));
+    for (auto& row : rows) {
+      program.rows.push_back(row_of(row));
+      answer.rows.push_back(std::move(row));
+    }
   }
   answer.optimal = answer.bound >= answer.objective;
   if (answer.optimal) answer.bound = answer.objective;
@@ -279,6 +291,37 @@ auto canonical(const Multicut& problem, const Labels& labels) -> Labels {
   return numbered(pieces, problem.nodes);
 }
 
+auto star_rows(const Multicut& problem) -> std::vector<CycleRow> {
+  std::vector<CycleRow> rows;
+  for (const auto& star : problem.stars) {
+    for (const std::uint32_t e : star) {
+      std::vector<std::uint32_t> others;
+      for (const std::uint32_t f : star)
+        if (f != e) others.push_back(f);
+      // Where the same two faces meet twice at a vertex, s_e ≤ s_e + … says nothing.
+      if (others.size() + 1 != star.size() || others.empty()) continue;
+      std::ranges::sort(others);
+      others.erase(std::ranges::unique(others).begin(), others.end());
+      rows.push_back({e, std::move(others)});
+    }
+  }
+  return rows;
+}
+
+auto integer_program(const Multicut& problem, const std::vector<CycleRow>& rows, bool cliques) -> solver::Program {
+  solver::Program program;
+  for (const MulticutEdge& e : problem.edges)
+    program.variables.push_back({static_cast<double>(e.cost), e.forced ? 1.0 : 0.0, 1.0, true});
+  for (const MulticutPair& pair : problem.pairs) {
+    const auto y = static_cast<std::uint32_t>(program.variables.size());
+    program.variables.push_back({static_cast<double>(pair.penalty), 0.0, 1.0, false});
+    program.rows.push_back({{{pair.first, 1.0}, {pair.second, 1.0}, {y, -1.0}}, -infinity, 1});
+  }
+  for (const CycleRow& row : rows) program.rows.push_back(row_of(row));
+  if (cliques) add_clique_rows(problem, program);
+  return program;
+}
+
 auto solve(const Multicut& problem, const MulticutLimits& limits, const base::Run& run) -> MulticutAnswer {
   Deadline deadline;
   if (limits.seconds) deadline.at = Clock::now() + std::chrono::duration_cast<Clock::duration>(
@@ -290,7 +333,7 @@ auto solve(const Multicut& problem, const MulticutLimits& limits, const base::Ru
   const std::vector<Part> parts = split(problem, whole.objective);
   whole.bound = whole.objective;
   for (const Part& part : parts) {
-    MulticutAnswer answer = solve_part(part.problem, limits.nodes, deadline, run);
+    MulticutAnswer answer = solve_part(part.problem, limits, deadline, run);
     std::uint32_t most = 0;
     for (std::size_t i = 0; i < part.nodes.size(); ++i) {
       whole.labels[part.nodes[i]] = used + answer.labels[i];
@@ -303,6 +346,11 @@ auto solve(const Multicut& problem, const MulticutLimits& limits, const base::Ru
     whole.rounds = std::max(whole.rounds, answer.rounds);
     whole.nodes += answer.nodes;
     whole.variables += answer.variables;
+    for (CycleRow& row : answer.rows) {
+      row.edge = part.edges[row.edge];
+      for (std::uint32_t& e : row.path) e = part.edges[e];
+      whole.rows.push_back(std::move(row));
+    }
     for (auto& w : answer.warnings) whole.warnings.push_back(std::move(w));
   }
   whole.labels = joined_where_free(problem, whole.labels);

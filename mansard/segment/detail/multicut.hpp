@@ -8,6 +8,7 @@
 
 #include "mansard/base/result.hpp"
 #include "mansard/base/run.hpp"
+#include "mansard/segment/segment.hpp"
 
 namespace mansard::segment::detail {
 
@@ -47,7 +48,11 @@ using Labels = std::vector<std::uint32_t>;
 struct MulticutLimits {
   std::optional<double> seconds;  ///< 0: heuristics and the trivial bound only
   std::int64_t nodes = 100000;    ///< of branch and bound, per solve
+  bool cliques = false;           ///< rows for cliques of pairs from the start
 };
+
+/// s_edge ≤ Σ s_path, by edges of the problem.
+[[nodiscard]] auto star_rows(const Multicut& problem) -> std::vector<CycleRow>;
 
 struct MulticutAnswer {
   Labels labels;  ///< canonical
@@ -55,8 +60,14 @@ struct MulticutAnswer {
   bool optimal = false;  ///< bound = objective
   std::int64_t rounds = 0, nodes = 0;
   std::size_t variables = 0;
+  std::vector<CycleRow> rows;              ///< those that the rounds added
   std::vector<base::Diagnostic> warnings;  ///< what the solver said where it gave up
 };
+
+/// The whole problem as an integer program: s_e by edge, then y by pair (which needs no integrality); pairs as rows, the
+/// given rows, and with `cliques` a row Σ y ≥ Σ s − 1 for sets of edges that are all in pairs with each other.
+[[nodiscard]] auto integer_program(const Multicut& problem, const std::vector<CycleRow>& rows, bool cliques)
+    -> solver::Program;
 
 /// Solves every connected part by rounds of integer programs: solve, find chosen edges with both ends in one piece,
 /// add their cycle rows, solve again. Of equally good labellings prefers the one with fewer pieces where two can be

@@ -30,7 +30,11 @@ namespace mansard::segment::detail {
 }
 /// Whether a footprint may have this edge without paying β.
 [[nodiscard]] inline auto is_supported(const fracture::HalfEdge& h, const Options& options) -> bool {
-  return is_sweep(h, options) || (options.gis_edges == GisEdges::hard && on_gis_edge(h));
+  return is_sweep(h, options) || (options.gis_edges != GisEdges::ignore && on_gis_edge(h));
+}
+/// Whether leaving this edge out of the footprints pays for a GIS edge left unused.
+[[nodiscard]] inline auto pays_as_gis(const fracture::HalfEdge& h, const Options& options) -> bool {
+  return options.gis_edges == GisEdges::candidate && on_gis_edge(h) && !is_sweep(h, options);
 }
 
 /// The half-edges around a face, from its first.
