@@ -1,9 +1,18 @@
 #!/usr/bin/env bash
 # Installs what packages.txt lists and this machine lacks; when nothing is missing it takes no time and needs no root.
+# A line is a package, or `package unless:command`, which is skipped where that command can be found.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-mapfile -t wanted < <(sed -e 's/#.*//' packages.txt | awk 'NF { print $1 }')
+wanted=()
+while read -r package condition; do
+  case $condition in
+    '') ;;
+    unless:?*) if command -v "${condition#unless:}" > /dev/null; then continue; fi ;;
+    *) echo "setup: packages.txt: $package: '$condition' is not unless:command" >&2; exit 1 ;;
+  esac
+  [[ -z $package ]] || wanted+=("$package")
+done < <(sed -e 's/#.*//' packages.txt)
 if [[ ${#wanted[@]} -eq 0 ]]; then
   echo "setup: packages.txt lists nothing" >&2
   exit 1

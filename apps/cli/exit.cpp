@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "mansard/explore/explore.hpp"
 #include "mansard/pipeline/pipeline.hpp"
+#include "mansard/simulate/simulate.hpp"
 
 namespace mansard::cli {
 
@@ -30,8 +32,7 @@ auto codes() -> std::vector<base::Code> {
 
 auto all_codes() -> std::vector<base::Code> {
   auto all = pipeline::codes();
-  const auto own = codes();
-  all.insert(all.end(), own.begin(), own.end());
+  for (const auto& own : {simulate::codes(), explore::codes(), codes()}) all.insert(all.end(), own.begin(), own.end());
   return all;
 }
 

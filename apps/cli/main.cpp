@@ -38,8 +38,10 @@ auto run(int argc, char** argv) -> int {
   app.set_version_flag("--version", std::string("mansard ") + MANSARD_VERSION);
   app.require_subcommand(1);
   app.footer("'mansard VERB --help' shows a verb's options; 'mansard explain CODE' what a diagnostic means.");
-  const std::vector<Verb> verbs{reconstruct_verb(app, cancel), extrude_verb(app, cancel), options_verb(app),
-                                explain_verb(app)};
+  const std::vector<Verb> verbs{reconstruct_verb(app, cancel), segment_verb(app, cancel),
+                                extrude_verb(app, cancel), simulate_verb(app, cancel),
+                                evaluate_verb(app, cancel), label_verb(app, cancel),
+                                explore_verb(app, {argv, argv + argc}, cancel), options_verb(app), explain_verb(app)};
   for (const auto& verb : verbs) verb.app->allow_extras();  // so that we can suggest the right one
   try {
     app.parse(argc, argv);

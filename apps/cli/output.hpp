@@ -31,7 +31,7 @@ namespace mansard::cli {
 
 /// Every name that a folder of results may have.
 inline constexpr std::array result_names{"model.city.json", "model.obj",   "model.mtl", "model.glb", "plans.json",
-                                         "run.json",        "picture.png", "above.png", "error.png"};
+                                         "run.json",        "picture.png", "above.png", "error.png", "segment.gpkg"};
 
 /// Names and contents of the model files: model.city.json, model.obj, model.mtl, model.glb, plans.json.
 [[nodiscard]] auto model_files(const write::City& city)

@@ -45,21 +45,23 @@ auto text_of(const toml::node& node) -> std::optional<std::string> {
   return std::nullopt;
 }
 
-auto apply_preset(std::vector<base::OptionList>& lists, const std::string& name) -> base::Result<void> {
-  std::vector<std::string> known;
-  for (const auto& preset : pipeline::presets()) {
-    known.push_back(preset.name);
-    if (preset.name != name) continue;
-    for (const auto& [key, value] : preset.values)
-      if (auto set = pipeline::set_option(lists, key, value); !set) return set.error();
-    return {};
-  }
+auto names_of(const std::vector<pipeline::Preset>& presets) -> std::string {
   std::string all;
-  for (const auto& word : known) all += (all.empty() ? "" : ", ") + word;
-  return base::error("option-value", "'" + name + "' is no preset; there are " + all, "preset");
+  for (const auto& preset : presets) all += (all.empty() ? "" : ", ") + preset.name;
+  return all;
 }
 
-auto apply_config(std::vector<base::OptionList>& lists, const std::string& path) -> base::Result<void> {
+auto apply_preset(Menu& menu, const std::string& name) -> base::Result<void> {
+  for (const auto& preset : menu.presets) {
+    if (preset.name != name) continue;
+    for (const auto& [key, value] : preset.values)
+      if (auto set = pipeline::set_option(menu.lists, key, value); !set) return set.error();
+    return {};
+  }
+  return base::error("option-value", "'" + name + "' is no preset; there are " + names_of(menu.presets), "preset");
+}
+
+auto apply_config(Menu& menu, const std::string& path) -> base::Result<void> {
   const auto text = base::read_file(path);
   if (!text) return text.error();
   toml::table table;
@@ -72,7 +74,7 @@ auto apply_config(std::vector<base::OptionList>& lists, const std::string& path)
   // The preset comes first wherever it stands in the file, so that the file's own keys change it.
   if (const auto* preset = table.get("preset")) {
     const auto name = text_of(*preset);
-    if (auto done = apply_preset(lists, name.value_or("")); !done) return done;
+    if (auto done = apply_preset(menu, name.value_or("")); !done) return done;
   }
   for (const auto& [room, node] : table) {
     if (room.str() == "preset") continue;
@@ -84,7 +86,7 @@ auto apply_config(std::vector<base::OptionList>& lists, const std::string& path)
       const std::string name = std::string(room.str()) + "." + std::string(key.str());
       const auto word = text_of(value);
       if (!word) return base::error("config", "'" + name + "' has a value of the wrong kind", path);
-      if (auto done = pipeline::set_option(lists, name, *word); !done) {
+      if (auto done = pipeline::set_option(menu.lists, name, *word); !done) {
         auto why = done.error();
         why.subject = path + ": " + why.subject;
         return why;
@@ -94,6 +96,8 @@ auto apply_config(std::vector<base::OptionList>& lists, const std::string& path)
   return {};
 }
 
+auto menu_of(pipeline::Options& options) -> Menu { return {pipeline::option_lists(options), pipeline::presets()}; }
+
 }  // namespace
 
 auto dashed(std::string text) -> std::string {
@@ -102,10 +106,14 @@ auto dashed(std::string text) -> std::string {
 }
 
 void Settings::add_to(CLI::App& verb) {
-  verb.add_option("--config", config_, "Options from a TOML file, a table per room")->type_name("FILE");
-  verb.add_option("--preset", preset_, "Start from a preset: paper, chordatlas")->type_name("NAME");
   pipeline::Options defaults;
-  for (const auto& list : pipeline::option_lists(defaults))
+  add_to(verb, menu_of(defaults));
+}
+
+void Settings::add_to(CLI::App& verb, const Menu& menu) {
+  verb.add_option("--config", config_, "Options from a TOML file, a table per room")->type_name("FILE");
+  verb.add_option("--preset", preset_, "Start from a preset: " + names_of(menu.presets))->type_name("NAME");
+  for (const auto& list : menu.lists)
     for (const auto& option : list.options()) {
       auto& given = given_.emplace_back();
       given.key = list.room() + "." + option.name;
@@ -124,19 +132,20 @@ void Settings::add_to(CLI::App& verb) {
     }
 }
 
-auto Settings::apply(pipeline::Options& options) const -> base::Result<void> {
-  auto lists = pipeline::option_lists(options);
+auto Settings::apply(pipeline::Options& options) const -> base::Result<void> { return apply(menu_of(options)); }
+
+auto Settings::apply(Menu menu) const -> base::Result<void> {
   if (!preset_.empty())
-    if (auto done = apply_preset(lists, preset_); !done) return done;
+    if (auto done = apply_preset(menu, preset_); !done) return done;
   if (!config_.empty())
-    if (auto done = apply_config(lists, config_); !done) return done;
+    if (auto done = apply_config(menu, config_); !done) return done;
   for (const auto& given : given_) {
     if (given.option->count() == 0) continue;
     const auto words = static_cast<std::size_t>(std::max(1, given.option->get_items_expected_max()));
     if (const auto times = given.option->count() / words; !given.flag && times > 1)
       return base::error("option-value", "it is given " + std::to_string(times) + " times; give it once", given.key);
     const std::string value = given.flag && joined(given.words).empty() ? "true" : joined(given.words);
-    if (auto done = pipeline::set_option(lists, given.key, value); !done) return done;
+    if (auto done = pipeline::set_option(menu.lists, given.key, value); !done) return done;
   }
   return {};
 }

@@ -3,6 +3,8 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "mansard/base/run.hpp"
 
@@ -14,7 +16,13 @@ struct Verb {
 };
 
 [[nodiscard]] auto reconstruct_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
+[[nodiscard]] auto segment_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
 [[nodiscard]] auto extrude_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
+[[nodiscard]] auto simulate_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
+[[nodiscard]] auto evaluate_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
+[[nodiscard]] auto label_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
+/// `words` are the whole command line, which the report repeats.
+[[nodiscard]] auto explore_verb(CLI::App& app, std::vector<std::string> words, const base::Cancel& cancel) -> Verb;
 [[nodiscard]] auto options_verb(CLI::App& app) -> Verb;
 [[nodiscard]] auto explain_verb(CLI::App& app) -> Verb;
 

@@ -10,6 +10,7 @@ namespace mansard::evaluate {
 namespace {
 
 using detail::Grid;
+using detail::Where;
 using geometry::Box2;
 
 /// The solids' surfaces as one mesh; a solid that cannot be cut into triangles is left out, and so counts as missed.
@@ -57,16 +58,28 @@ auto quantile(std::vector<float>& values, double share) -> double {
   return values[at];
 }
 
-void fill_quantiles(const ErrorMap& map, Scores& scores) {
-  std::vector<float> values;
-  values.reserve(scores.cells);
-  for (const float d : map.difference)
-    if (!std::isnan(d)) values.push_back(d);
-  if (values.empty()) return;
-  scores.median = quantile(values, 0.5);
-  for (float& d : values) d = std::abs(d);
-  scores.median_absolute = quantile(values, 0.5);
-  scores.p95_absolute = quantile(values, 0.95);
+/// The sums as scores, but for the quantiles.
+auto scores_of(const Sums& total, double grid) -> Scores {
+  Scores scores;
+  scores.cells = total.cells;
+  scores.footprint_cells = total.footprint_cells;
+  if (total.cells > 0) scores.mse = total.squares / static_cast<double>(total.cells);
+  if (total.footprint_cells > 0)
+    scores.footprint_mse = total.footprint_squares / static_cast<double>(total.footprint_cells);
+  const double cell_area = grid * grid;
+  scores.missed = static_cast<double>(total.missed) * cell_area;
+  scores.invented = static_cast<double>(total.invented) * cell_area;
+  return scores;
+}
+
+auto empty_map(const Grid& cells) -> ErrorMap {
+  ErrorMap map;
+  map.origin = cells.centre(0, 0);
+  map.grid = cells.spacing;
+  map.columns = static_cast<std::size_t>(cells.columns);
+  map.rows = static_cast<std::size_t>(cells.rows);
+  map.difference.assign(map.columns * map.rows, std::numeric_limits<float>::quiet_NaN());
+  return map;
 }
 
 }  // namespace
@@ -81,8 +94,12 @@ auto option_list(Options& o) -> base::OptionList {
 auto compare(std::span<const label::LabelledSolid> model, const rays::Scene& mesh,
              std::span<const geometry::Polygon> footprints, double ground, const Options& options, const base::Run& run)
     -> Comparison {
+  return compare(surface_of(model), mesh, footprints, ground, options, run);
+}
+
+auto compare(const geometry::Mesh& surface, const rays::Scene& mesh, std::span<const geometry::Polygon> footprints,
+             double ground, const Options& options, const base::Run& run) -> Comparison {
   run.report("evaluate", {}, 0);
-  const geometry::Mesh surface = surface_of(model);
   const rays::Scene top(surface);
   const detail::Cover cover(footprints);
 
@@ -98,57 +115,71 @@ auto compare(std::span<const label::LabelledSolid> model, const rays::Scene& mes
   const Grid outer = detail::grid_over(box, options.grid);
 
   Comparison out;
-  ErrorMap& map = out.map;
-  map.origin = inner.centre(0, 0);
-  map.grid = options.grid;
-  map.columns = static_cast<std::size_t>(inner.columns);
-  map.rows = static_cast<std::size_t>(inner.rows);
-  map.difference.assign(map.columns * map.rows, std::numeric_limits<float>::quiet_NaN());
-
+  ErrorMap& map = out.map = empty_map(inner);
   std::vector<Sums> rows(static_cast<std::size_t>(outer.rows));
   base::parallel_for(rows.size(), [&](std::size_t row) {
     if (run.cancelled()) return;
     const auto j = static_cast<std::int64_t>(row);
-    const auto inside = cover.row(outer, j);
     Sums& sums = rows[row];
-    for (std::int64_t i = 0; i < outer.columns; ++i) {
-      const auto at = outer.centre(i, j);
-      const auto built = top.top(at);
-      const bool in_footprint = inside[static_cast<std::size_t>(i)];
-      if (built && !in_footprint) ++sums.invented;
-      if (!built && in_footprint) ++sums.missed;
-      const std::int64_t column = outer.column + i - inner.column, line = outer.row + j - inner.row;
-      if (column < 0 || line < 0 || column >= inner.columns || line >= inner.rows) continue;
-      if (!built && !in_footprint) continue;
-      const auto scanned = mesh.top(at);
-      if (!scanned) continue;
-      const double difference = built.value_or(ground) - *scanned;
-      if (in_footprint) {
+    detail::each_cell(outer, j, Where::everywhere, cover, top, mesh, [&](const detail::Cell& cell) {
+      if (cell.built && !cell.inside) ++sums.invented;
+      if (!cell.built && cell.inside) ++sums.missed;
+      const std::int64_t column = outer.column + cell.column - inner.column, line = outer.row + j - inner.row;
+      if (column < 0 || line < 0 || column >= inner.columns || line >= inner.rows || !cell.scanned) return;
+      const double difference = cell.built.value_or(ground) - *cell.scanned;
+      if (cell.inside) {
         ++sums.footprint_cells;
         sums.footprint_squares += difference * difference;
       }
-      if (built) {
+      if (cell.built) {
         ++sums.cells;
         sums.squares += difference * difference;
         map.difference[static_cast<std::size_t>(line * inner.columns + column)] = static_cast<float>(difference);
       }
-    }
+    });
   });
 
   Sums total;
   for (const auto& row : rows) total.add(row);
-  Scores& scores = out.scores;
-  scores.cells = total.cells;
-  scores.footprint_cells = total.footprint_cells;
-  if (total.cells > 0) scores.mse = total.squares / static_cast<double>(total.cells);
-  if (total.footprint_cells > 0)
-    scores.footprint_mse = total.footprint_squares / static_cast<double>(total.footprint_cells);
-  const double cell_area = options.grid * options.grid;
-  scores.missed = static_cast<double>(total.missed) * cell_area;
-  scores.invented = static_cast<double>(total.invented) * cell_area;
-  fill_quantiles(map, scores);
+  out.scores = scores_of(total, options.grid);
+  set_quantiles(map.difference, out.scores);
   run.report("evaluate", {}, 1);
   return out;
+}
+
+auto scores_over(const rays::Scene& model, const rays::Scene& mesh, std::span<const geometry::Polygon> footprints,
+                 double ground, double grid) -> Scores {
+  const detail::Cover cover(footprints);
+  const Grid cells = detail::grid_over(box_of(footprints), grid);
+  Sums sums;
+  std::vector<float> differences;
+  for (std::int64_t j = 0; j < cells.rows; ++j)
+    detail::each_cell(cells, j, Where::inside, cover, model, mesh, [&](const detail::Cell& cell) {
+      if (!cell.built) ++sums.missed;
+      if (!cell.scanned) return;
+      const double difference = cell.built.value_or(ground) - *cell.scanned;
+      ++sums.footprint_cells;
+      sums.footprint_squares += difference * difference;
+      if (!cell.built) return;
+      ++sums.cells;
+      sums.squares += difference * difference;
+      differences.push_back(static_cast<float>(difference));
+    });
+  Scores scores = scores_of(sums, grid);
+  set_quantiles(differences, scores);
+  return scores;
+}
+
+void set_quantiles(std::span<const float> differences, Scores& scores) {
+  std::vector<float> values;
+  values.reserve(scores.cells);
+  for (const float d : differences)
+    if (!std::isnan(d)) values.push_back(d);
+  if (values.empty()) return;
+  scores.median = quantile(values, 0.5);
+  for (float& d : values) d = std::abs(d);
+  scores.median_absolute = quantile(values, 0.5);
+  scores.p95_absolute = quantile(values, 0.95);
 }
 
 auto error_over(const extrude::Solid& solid, const geometry::Polygon& polygon, const rays::Scene& mesh, double grid)
@@ -159,23 +190,17 @@ auto error_over(const extrude::Solid& solid, const geometry::Polygon& polygon, c
   const rays::Scene top(geometry::Mesh{solid.vertices, pieces->triangles});
   double base = solid.vertices.front().z;
   for (const auto& v : solid.vertices) base = std::min(base, v.z);
-
   const Grid cells = detail::grid_over(geometry::bounds(polygon.outer), grid);
   const detail::Cover cover({&polygon, 1});
   std::size_t count = 0;
   double squares = 0;
-  for (std::int64_t j = 0; j < cells.rows; ++j) {
-    const auto inside = cover.row(cells, j);
-    for (std::int64_t i = 0; i < cells.columns; ++i) {
-      if (!inside[static_cast<std::size_t>(i)]) continue;
-      const auto at = cells.centre(i, j);
-      const auto scanned = mesh.top(at);
-      if (!scanned) continue;
-      const double difference = top.top(at).value_or(base) - *scanned;
+  for (std::int64_t j = 0; j < cells.rows; ++j)
+    detail::each_cell(cells, j, Where::inside, cover, top, mesh, [&](const detail::Cell& cell) {
+      if (!cell.scanned) return;
+      const double difference = cell.built.value_or(base) - *cell.scanned;
       squares += difference * difference;
       ++count;
-    }
-  }
+    });
   return count > 0 ? squares / static_cast<double>(count) : unknown;
 }
 

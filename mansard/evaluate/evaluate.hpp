@@ -56,6 +56,23 @@ struct Comparison {
                            std::span<const geometry::Polygon> footprints, double ground, const Options& options,
                            const base::Run& run = {}) -> Comparison;
 
+/// The same of any surface; what is not a solid of ours, and the models of several makers.
+[[nodiscard]] auto compare(const geometry::Mesh& model, const rays::Scene& mesh,
+                           std::span<const geometry::Polygon> footprints, double ground, const Options& options,
+                           const base::Run& run = {}) -> Comparison;
+
+/// The scores over these footprints alone, where they are small: `mse` and what is of it over their cells rather than
+/// over the bounding box, and nothing invented. Cost: O(area / grid² · log n).
+[[nodiscard]] auto scores_over(const rays::Scene& model, const rays::Scene& mesh,
+                               std::span<const geometry::Polygon> footprints, double ground, double grid) -> Scores;
+
+/// Several maps of one spacing as one; where two have a value the later one counts. With more cells than `most`, as for
+/// buildings spread over a county, the cells are a whole number of times larger, each the mean of those in it.
+[[nodiscard]] auto merged(std::span<const ErrorMap> maps, std::size_t most = 16'000'000) -> ErrorMap;
+
+/// Sets median, median_absolute and p95_absolute by the differences, model − mesh in metres; NaN ones do not count.
+void set_quantiles(std::span<const float> differences, Scores& scores);
+
 /// Mean squared vertical error, m², of one solid over its own polygon, for choosing between candidates; cells where the
 /// mesh has no surface do not count. `grid` in metres.
 [[nodiscard]] auto error_over(const extrude::Solid& solid, const geometry::Polygon& polygon, const rays::Scene& mesh,

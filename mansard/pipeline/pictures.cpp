@@ -1,7 +1,6 @@
 // The pictures of a run, in the manner of the paper's Figure 5 and its error maps.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "mansard/pipeline/pipeline.hpp"
 #include "mansard/rays/rays.hpp"
@@ -89,38 +88,6 @@ auto models_of(const write::City& city) -> picture::Layer {
   return layer;
 }
 
-/// All blocks' error maps on one grid.
-auto merged(const std::vector<evaluate::ErrorMap>& maps) -> evaluate::ErrorMap {
-  evaluate::ErrorMap all;
-  bool first = true;
-  Point2 most;
-  for (const auto& map : maps) {
-    if (map.columns == 0) continue;
-    const Point2 end = map.origin + Point2{map.grid * static_cast<double>(map.columns - 1),
-                                           map.grid * static_cast<double>(map.rows - 1)};
-    if (first) {
-      all.grid = map.grid;
-      all.origin = map.origin;
-      most = end;
-      first = false;
-    }
-    all.origin = {std::min(all.origin.x, map.origin.x), std::min(all.origin.y, map.origin.y)};
-    most = {std::max(most.x, end.x), std::max(most.y, end.y)};
-  }
-  if (first) return all;
-  const auto cell = [&](double from, double to) { return static_cast<std::size_t>(std::lround((to - from) / all.grid)); };
-  all.columns = cell(all.origin.x, most.x) + 1;
-  all.rows = cell(all.origin.y, most.y) + 1;
-  all.difference.assign(all.columns * all.rows, std::numeric_limits<float>::quiet_NaN());
-  for (const auto& map : maps)
-    for (std::size_t r = 0; r < map.rows; ++r)
-      for (std::size_t c = 0; c < map.columns; ++c)
-        if (const float value = map.at(c, r); !std::isnan(value))
-          all.difference[(r + cell(all.origin.y, map.origin.y)) * all.columns + c + cell(all.origin.x, map.origin.x)] =
-              value;
-  return all;
-}
-
 }  // namespace
 
 auto picture_of(const write::City& city, const picture::View& view, const base::Run& run) -> picture::Image {
@@ -154,7 +121,7 @@ auto pictures(const Reconstruction& reconstruction, const ingest::Scene& scene, 
   };
   picture::View above, angle;
   above.kind = picture::View::Kind::above;
-  const auto map = merged(reconstruction.error_maps);
+  const auto map = evaluate::merged(reconstruction.error_maps);
   return {pair(above), pair(angle),
           picture::error_map(map.difference, map.columns, map.rows, limit, "model - mesh, m")};
 }

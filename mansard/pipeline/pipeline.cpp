@@ -39,8 +39,9 @@ auto combined(const std::vector<BlockReport>& blocks) -> evaluate::Scores {
   return sum;
 }
 
-auto summed(const std::vector<BlockReport>& blocks) -> std::vector<StageTime> {
-  std::vector<StageTime> sum;
+/// Per stage over all blocks, after the one before them.
+auto summed(const StageTime& before, const std::vector<BlockReport>& blocks) -> std::vector<StageTime> {
+  std::vector<StageTime> sum{before};
   for (const auto& block : blocks)
     for (const auto& time : block.times) {
       const auto at = std::ranges::find(sum, time.stage, &StageTime::stage);
@@ -51,6 +52,49 @@ auto summed(const std::vector<BlockReport>& blocks) -> std::vector<StageTime> {
     }
   return sum;
 }
+
+struct Division {
+  std::vector<block::Block> blocks;
+  StageTime time;
+};
+
+auto divide(const ingest::Scene& scene, const Options& options, const base::Run& run) -> base::Result<Division> {
+  const bool usable = std::ranges::any_of(scene.footprints, [](const auto& f) { return !f.defect.has_value(); });
+  if (!usable)
+    return base::error("pipeline-nothing",
+                       scene.footprints.empty() ? "there are no footprints"
+                                                : "none of the " + std::to_string(scene.footprints.size()) +
+                                                      " footprints can be used; the first: " +
+                                                      scene.footprints.front().defect->message);
+  const detail::Watch watch;
+  auto blocks = block::partition(scene, options.block, run);
+  return Division{std::move(blocks), {"block", watch.seconds()}};
+}
+
+/// A result per block. Blocks are independent: they run side by side, and each writes only to its own place.
+template <class Work>
+auto for_every(const std::vector<block::Block>& blocks, const base::Run& run, const Work& work) {
+  using BlockResult = decltype(work(blocks.front(), run, detail::Tell{}));
+  std::vector<BlockResult> results(blocks.size());
+  std::mutex progress;
+  std::size_t done = 0;
+  base::Run inner = run;
+  inner.progress = nullptr;
+  base::parallel_for(blocks.size(), [&](std::size_t i) {
+    if (run.cancelled()) return;
+    const auto tell = [&](std::string_view stage) {
+      const std::scoped_lock lock(progress);
+      run.report(stage, blocks[i].name, static_cast<double>(done) / static_cast<double>(blocks.size()));
+    };
+    results[i] = work(blocks[i], inner, tell);
+    const std::scoped_lock lock(progress);
+    ++done;
+    run.report("done", blocks[i].name, static_cast<double>(done) / static_cast<double>(blocks.size()));
+  });
+  return results;
+}
+
+auto cancelled() -> base::Diagnostic { return base::error("cancelled", "stopped on request; nothing was written"); }
 
 }  // namespace
 
@@ -64,44 +108,66 @@ auto to_string(Outcome outcome) -> std::string_view {
   return "";
 }
 
-auto reconstruct(const ingest::Scene& scene, const Options& options, const base::Run& run)
+auto relative_gap(const BlockReport& block) -> double {
+  const double gap = block.objective - block.bound;
+  return gap > 0 && block.objective != 0 ? gap / std::abs(block.objective) : 0;
+}
+
+auto reconstruct(const ingest::Scene& scene, const Options& options, const base::Run& run, Keep keep)
     -> base::Result<Reconstruction> {
-  const bool usable = std::ranges::any_of(scene.footprints, [](const auto& f) { return !f.defect.has_value(); });
-  if (!usable)
-    return base::error("pipeline-nothing",
-                       scene.footprints.empty() ? "there are no footprints"
-                                                : "none of the " + std::to_string(scene.footprints.size()) +
-                                                      " footprints can be used; the first: " +
-                                                      scene.footprints.front().defect->message);
-
-  detail::Watch watch;
-  const auto blocks = block::partition(scene, options.block, run);
-  const StageTime partitioning{"block", watch.seconds()};
-
-  // Blocks are independent: they run side by side, and each writes only to its own place.
-  std::vector<detail::BlockResult> results(blocks.size());
-  std::mutex progress;
-  std::size_t done = 0;
-  base::Run inner = run;
-  inner.progress = nullptr;
-  base::parallel_for(blocks.size(), [&](std::size_t i) {
-    if (run.cancelled()) return;
-    const auto tell = [&](std::string_view stage) {
-      const std::scoped_lock lock(progress);
-      run.report(stage, blocks[i].name, static_cast<double>(done) / static_cast<double>(blocks.size()));
-    };
-    results[i] = detail::run_block(blocks[i], options, inner, tell);
-    const std::scoped_lock lock(progress);
-    ++done;
-    run.report("done", blocks[i].name, static_cast<double>(done) / static_cast<double>(blocks.size()));
+  const auto division = divide(scene, options, run);
+  if (!division) return division.error();
+  auto results = for_every(division->blocks, run, [&](const auto& block, const auto& inner, const auto& tell) {
+    return detail::run_block(block, options, inner, tell, keep);
   });
-  if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+  if (run.cancelled()) return cancelled();
 
-  Reconstruction out = detail::assemble(scene, blocks, std::move(results), options);
-  out.times = summed(out.blocks);
-  out.times.insert(out.times.begin(), partitioning);
+  std::vector<SegmentedBlock> segmented;
+  for (auto& result : results)
+    if (result.segmented) segmented.push_back(std::move(*result.segmented));
+  Reconstruction out = detail::assemble(scene, division->blocks, std::move(results), options);
+  out.segmented = std::move(segmented);
+  out.times = summed(division->time, out.blocks);
   out.scores = combined(out.blocks);
   return out;
+}
+
+auto segment(const ingest::Scene& scene, const Options& options, const base::Run& run) -> base::Result<Segmented> {
+  const auto division = divide(scene, options, run);
+  if (!division) return division.error();
+  struct Result {
+    BlockReport report;
+    SegmentedBlock segmented;
+    std::vector<base::Diagnostic> warnings;
+  };
+  auto results = for_every(division->blocks, run, [&](const auto& block, const auto& inner, const auto& tell) {
+    Result result;
+    const rays::Scene mesh(block.mesh);
+    result.segmented = detail::segment_block(block, mesh, options, inner, tell, result.report, result.warnings);
+    return result;
+  });
+  if (run.cancelled()) return cancelled();
+
+  Segmented out;
+  out.made_by = detail::made_by(scene, options);
+  for (auto& result : results) {
+    out.blocks.push_back(std::move(result.report));
+    out.segmented.push_back(std::move(result.segmented));
+    out.warnings.insert(out.warnings.end(), result.warnings.begin(), result.warnings.end());
+  }
+  out.times = summed(division->time, out.blocks);
+  return out;
+}
+
+auto parts_by_feature(const ingest::Scene& scene, const std::vector<SegmentedBlock>& blocks)
+    -> std::vector<std::size_t> {
+  std::vector<std::size_t> parts(scene.footprints.size(), 0);
+  for (const auto& block : blocks) {
+    if (!block.segmentation) continue;
+    for (const auto& part : block.segmentation->parts)
+      if (part.feature) ++parts[*part.feature];
+  }
+  return parts;
 }
 
 auto raise_part(const geometry::Plan& plan, const Options& options, const base::Run& run)

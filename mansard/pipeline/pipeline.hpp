@@ -81,6 +81,23 @@ struct BlockReport {
   std::vector<StageTime> times;
 };
 
+/// (objective − bound) / |objective|: how much cheaper, at most, a segmentation of the block could be. 0 without a gap,
+/// and where nothing costs anything.
+[[nodiscard]] auto relative_gap(const BlockReport& block) -> double;
+
+/// What a block's walls were chosen from, and how.
+struct SegmentedBlock {
+  std::string name;
+  std::vector<std::size_t> features;  ///< indices into Scene::footprints
+  std::vector<sweep::SweepEdge> sweep_edges;
+  fracture::Arrangement arrangement;                  ///< empty where the ground could not be fractured
+  std::optional<segment::Segmentation> segmentation;  ///< none where the block failed
+  std::optional<base::Diagnostic> failure;            ///< why there is none: "pipeline-block"
+};
+
+/// What is kept beside the models: memory grows with the number of blocks when all their segmentations are.
+enum class Keep : std::uint8_t { models, segmentations };
+
 enum class Outcome : std::uint8_t {
   full,      ///< every part was raised from its full profiles
   fallback,  ///< at least one part is a simpler solid; the reason says why
@@ -109,14 +126,39 @@ struct Reconstruction {
   std::vector<StageTime> times;
   evaluate::Scores scores;  ///< over all blocks, weighted by cells
   std::vector<base::Diagnostic> warnings;
+  std::vector<SegmentedBlock> segmented;  ///< per block with Keep::segmentations, else empty
 };
 
 /// Guarantees: 1 every usable footprint ends in a valid solid, its own or (`covered`) a neighbour's · 2 every solid
 /// passed extrude::check · 3 one failing building or block leaves the others as they would be without it · 4 the same
 /// scene, options and seed give the same city at any thread count.
 /// Gives up with "cancelled", "pipeline-nothing" (no usable footprint).
-[[nodiscard]] auto reconstruct(const ingest::Scene& scene, const Options& options, const base::Run& run = {})
-    -> base::Result<Reconstruction>;
+[[nodiscard]] auto reconstruct(const ingest::Scene& scene, const Options& options, const base::Run& run = {},
+                               Keep keep = Keep::models) -> base::Result<Reconstruction>;
+
+/// Every block up to its segmentation, without models.
+struct Segmented {
+  write::MadeBy made_by;
+  std::vector<BlockReport> blocks;        ///< without scores
+  std::vector<SegmentedBlock> segmented;  ///< per block
+  std::vector<StageTime> times;
+  std::vector<base::Diagnostic> warnings;
+};
+
+/// The first stages of reconstruct, with the same segmentations as there. Guarantees: 1 one failing block leaves the
+/// others as they would be without it · 2 the same scene, options and seed give the same at any thread count.
+/// Gives up with "cancelled", "pipeline-nothing" (no usable footprint).
+[[nodiscard]] auto segment(const ingest::Scene& scene, const Options& options, const base::Run& run = {})
+    -> base::Result<Segmented>;
+
+/// How many parts each feature got: by Scene::footprints.
+[[nodiscard]] auto parts_by_feature(const ingest::Scene& scene, const std::vector<SegmentedBlock>& blocks)
+    -> std::vector<std::size_t>;
+
+/// Why a wall was drawn or not, as layers for write::geopackage: gis_footprints, sweep_edges, faces, edges, conflicts,
+/// footprints, made_by. Their fields are listed in docs/pipeline.md. Heights are z of the file frame.
+[[nodiscard]] auto segment_layers(const ingest::Scene& scene, const std::vector<SegmentedBlock>& blocks,
+                                  const write::MadeBy& made_by) -> std::vector<write::Layer>;
 
 /// Footprints without a mesh: each raised by its attributes, or along options.roof.profile. No blocks, no scores.
 /// Guarantees: 1 to 4 of reconstruct · 5 a building is `full` only with the roof its attributes ask for; values that
@@ -132,6 +174,8 @@ struct Reconstruction {
 /// The report as JSON. Everything but the members called "seconds" is the same in every run. Without a mesh it has no
 /// "mesh", "scores" and "blocks".
 [[nodiscard]] auto report_json(const Reconstruction& reconstruction, const ingest::Scene& scene) -> std::string;
+/// The same for blocks without models: no "scores", no "buildings".
+[[nodiscard]] auto report_json(const Segmented& segmented, const ingest::Scene& scene) -> std::string;
 
 /// Figure 5 of the paper, twice: the scan with the footprints beside the models, from above and at an angle; and the
 /// vertical error on a scale of ±`limit` metres.

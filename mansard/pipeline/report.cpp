@@ -1,4 +1,5 @@
 // run.json: what was done, with counts, times, and every building's outcome and reason.
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -40,8 +41,9 @@ auto json_of(const evaluate::Scores& s) -> Json {
           {"invented_m2", s.invented}};
 }
 
-auto json_of(const BlockReport& b) -> Json {
-  return {{"name", b.name},
+/// Scores are of models; blocks that are only segmented have none.
+auto json_of(const BlockReport& b, bool with_scores) -> Json {
+  Json out{{"name", b.name},
           {"buildings", b.buildings},
           {"parts", b.parts},
           {"triangles", b.triangles},
@@ -58,14 +60,23 @@ auto json_of(const BlockReport& b) -> Json {
             {"unsupported", b.terms.unsupported},
             {"height", b.terms.height},
             {"thin", b.terms.thin},
+            {"gis_unused", b.terms.gis_unused},
             {"total", b.objective},
             {"bound", b.bound},
             {"gap", b.objective - b.bound},
+            {"relative_gap", relative_gap(b)},
             {"status", b.status},
             {"rounds", b.rounds},
-            {"nodes", b.nodes}}},
-          {"scores", json_of(b.scores)},
-          {"seconds", json_of(b.times)}};
+            {"nodes", b.nodes}}}};
+  if (with_scores) out["scores"] = json_of(b.scores);
+  out["seconds"] = json_of(b.times);
+  return out;
+}
+
+auto json_of(const std::vector<BlockReport>& blocks, bool with_scores) -> Json {
+  Json out = Json::array();
+  for (const auto& block : blocks) out.push_back(json_of(block, with_scores));
+  return out;
 }
 
 auto json_of(const BuildingReport& b) -> Json {
@@ -95,11 +106,10 @@ auto count(const Reconstruction& r, Outcome outcome) -> std::size_t {
   return n;
 }
 
-}  // namespace
-
-auto report_json(const Reconstruction& r, const ingest::Scene& scene) -> std::string {
+/// What every report begins with: how it was made, and of what.
+auto head(const write::MadeBy& made_by, const ingest::Scene& scene) -> Json {
   Json out;
-  out["mansard"] = r.city.made_by.version;
+  out["mansard"] = made_by.version;
   Json inputs = Json::array();
   for (const auto& input : scene.inputs)
     inputs.push_back({{"path", input.path}, {"bytes", input.bytes}, {"sha256", input.sha256}});
@@ -107,34 +117,63 @@ auto report_json(const Reconstruction& r, const ingest::Scene& scene) -> std::st
   out["crs"] = scene.frame.crs.empty() ? Json(nullptr) : Json(scene.frame.crs);
   out["origin"] = scene.frame.origin;
   Json options = Json::object();
-  for (const auto& [name, value] : r.city.made_by.options) options[name] = value;
+  for (const auto& [name, value] : made_by.options) options[name] = value;
   out["options"] = options;
-  const bool scanned = !scene.mesh.triangles.empty();
   const auto& m = scene.mesh_counts;
-  if (scanned) out["mesh"] = {{"vertices", m.vertices},
-                 {"triangles", m.triangles},
-                 {"dropped_not_finite", m.not_finite},
-                 {"dropped_out_of_range", m.out_of_range},
-                 {"dropped_degenerate", m.degenerate},
-                 {"dropped_duplicate", m.duplicate},
-                 {"non_manifold_edges", m.non_manifold_edges},
-                 {"boundary_edges", m.boundary_edges},
-                 {"flipped_edges", m.flipped_edges}};
+  if (!scene.mesh.triangles.empty())
+    out["mesh"] = {{"vertices", m.vertices},
+                   {"triangles", m.triangles},
+                   {"dropped_not_finite", m.not_finite},
+                   {"dropped_out_of_range", m.out_of_range},
+                   {"dropped_degenerate", m.degenerate},
+                   {"dropped_duplicate", m.duplicate},
+                   {"non_manifold_edges", m.non_manifold_edges},
+                   {"boundary_edges", m.boundary_edges},
+                   {"flipped_edges", m.flipped_edges}};
+  return out;
+}
+
+/// The input's, then the blocks'.
+auto all_warnings(const ingest::Scene& scene, const std::vector<base::Diagnostic>& own) -> Json {
+  std::vector<base::Diagnostic> warnings = scene.warnings;
+  warnings.insert(warnings.end(), own.begin(), own.end());
+  return json_of(warnings);
+}
+
+auto text_of(const Json& report) -> std::string {
+  return report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+auto report_json(const Reconstruction& r, const ingest::Scene& scene) -> std::string {
+  Json out = head(r.city.made_by, scene);
+  const bool scanned = !scene.mesh.triangles.empty();
   out["counts"] = {{"footprints", r.buildings.size()},       {"full", count(r, Outcome::full)},
                    {"fallback", count(r, Outcome::fallback)}, {"covered", count(r, Outcome::covered)},
                    {"refused", count(r, Outcome::refused)},   {"blocks", r.blocks.size()}};
   if (scanned) out["scores"] = json_of(r.scores);
   out["seconds"] = json_of(r.times);
-  std::vector<base::Diagnostic> warnings = scene.warnings;
-  warnings.insert(warnings.end(), r.warnings.begin(), r.warnings.end());
-  out["warnings"] = json_of(warnings);
-  Json blocks = Json::array();
-  for (const auto& block : r.blocks) blocks.push_back(json_of(block));
-  if (scanned) out["blocks"] = blocks;
+  out["warnings"] = all_warnings(scene, r.warnings);
+  if (scanned) out["blocks"] = json_of(r.blocks, true);
   Json buildings = Json::array();
   for (const auto& building : r.buildings) buildings.push_back(json_of(building));
   out["buildings"] = buildings;
-  return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return text_of(out);
+}
+
+auto report_json(const Segmented& s, const ingest::Scene& scene) -> std::string {
+  Json out = head(s.made_by, scene);
+  const auto parts = parts_by_feature(scene, s.segmented);
+  const auto refused = std::ranges::count_if(scene.footprints, [](const auto& f) { return f.defect.has_value(); });
+  out["counts"] = {{"footprints", scene.footprints.size()},
+                   {"refused", refused},
+                   {"without_part", std::ranges::count(parts, 0U) - refused},
+                   {"blocks", s.blocks.size()}};
+  out["seconds"] = json_of(s.times);
+  out["warnings"] = all_warnings(scene, s.warnings);
+  out["blocks"] = json_of(s.blocks, false);
+  return text_of(out);
 }
 
 }  // namespace mansard::pipeline

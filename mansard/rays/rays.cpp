@@ -7,9 +7,73 @@ namespace mansard::rays {
 using geometry::Point2;
 using geometry::Point3;
 
+namespace {
+
+/// The point of the triangle a, b, c nearest to p: a corner, else on an edge, else inside, by the signs of p's
+/// coordinates along the edges (C. Ericson, Real-Time Collision Detection, 2005, section 5.1.5).
+auto nearest_point(Point3 p, Point3 a, Point3 b, Point3 c) -> Point3 {
+  const Point3 ab = b - a, ac = c - a;
+  const double a_b = dot(ab, p - a), a_c = dot(ac, p - a);
+  if (a_b <= 0 && a_c <= 0) return a;
+  const double b_b = dot(ab, p - b), b_c = dot(ac, p - b);
+  if (b_b >= 0 && b_c <= b_b) return b;
+  const double beyond_ab = a_b * b_c - b_b * a_c;
+  if (beyond_ab <= 0 && a_b >= 0 && b_b <= 0) return a + (a_b / (a_b - b_b)) * ab;
+  const double c_b = dot(ab, p - c), c_c = dot(ac, p - c);
+  if (c_c >= 0 && c_b <= c_c) return c;
+  const double beyond_ac = c_b * a_c - a_b * c_c;
+  if (beyond_ac <= 0 && a_c >= 0 && c_c <= 0) return a + (a_c / (a_c - c_c)) * ac;
+  const double beyond_bc = b_b * c_c - c_b * b_c;
+  const double to_c = b_c - b_b, to_b = c_b - c_c;
+  if (beyond_bc <= 0 && to_c >= 0 && to_b >= 0) return b + (to_c / (to_c + to_b)) * (c - b);
+  const double whole = beyond_ab + beyond_ac + beyond_bc;
+  return a + (beyond_ac / whole) * ab + (beyond_ab / whole) * ac;
+}
+
+/// What a search for the nearest place knows while it goes through the tree.
+struct Search {
+  const float* vertices = nullptr;
+  const unsigned* indices = nullptr;
+  Point3 to;
+  double within = 0;
+  const Scene::Extra* extra = nullptr;
+  bool found = false;
+  double cost = 0;
+  Nearest best;
+
+  [[nodiscard]] auto corner(unsigned triangle, unsigned k) const -> Point3 {
+    const float* v = vertices + 3 * std::size_t{indices[3 * std::size_t{triangle} + k]};
+    return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
+  }
+};
+
+/// Called for every triangle of a leaf; true where the search has become narrower.
+auto look_at(RTCPointQueryFunctionArguments* at) -> bool {
+  auto& search = *static_cast<Search*>(at->userPtr);
+  const unsigned t = at->primID;
+  const double extra = search.extra != nullptr ? (*search.extra)(t) : 0;
+  if (search.found && extra > search.cost) return false;
+  const Point3 place = nearest_point(search.to, search.corner(t, 0), search.corner(t, 1), search.corner(t, 2));
+  const double distance = length(place - search.to), cost = distance + extra;
+  if (distance > search.within || !(cost < std::numeric_limits<double>::infinity())) return false;
+  if (search.found && (cost > search.cost || (cost == search.cost && t > search.best.triangle))) return false;
+  search.found = true;
+  search.cost = cost;
+  search.best = {place, distance, t};
+  // A hair more than the best, so that equally near triangles are still looked at.
+  const auto radius = static_cast<float>(cost * (1 + 1e-6));
+  if (!(radius < at->query->radius)) return false;
+  at->query->radius = radius;
+  return true;
+}
+
+}  // namespace
+
 struct Scene::Parts {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
+  const float* vertices = nullptr;  ///< as Embree keeps them
+  const unsigned* indices = nullptr;
   Point3 centre;
   double top = 0;  ///< a z above everything, relative to the centre
   bool empty = true;
@@ -46,6 +110,8 @@ Scene::Scene(const geometry::Mesh& mesh) : parts_(std::make_unique<Parts>()) {
                                                                3 * sizeof(float), mesh.vertices.size()));
   auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(triangles, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                                                  3 * sizeof(unsigned), mesh.triangles.size()));
+  p.vertices = vertices;
+  p.indices = indices;
   for (const Point3& v : mesh.vertices) {
     *vertices++ = static_cast<float>(v.x - p.centre.x);
     *vertices++ = static_cast<float>(v.y - p.centre.y);
@@ -95,6 +161,25 @@ auto Scene::seen_from_above(Point2 at) const -> std::optional<Seen> {
 auto Scene::top(Point2 at) const -> std::optional<double> {
   const auto seen = seen_from_above(at);
   return seen ? std::optional(seen->z) : std::nullopt;
+}
+
+auto Scene::nearest(Point3 to, double within) const -> std::optional<Nearest> { return nearest(to, within, {}); }
+
+auto Scene::nearest(Point3 to, double within, const Extra& extra) const -> std::optional<Nearest> {
+  if (parts_->empty) return std::nullopt;
+  const Point3 at = to - parts_->centre;
+  Search search{parts_->vertices, parts_->indices, at, within, extra ? &extra : nullptr, false, 0, {}};
+  RTCPointQuery query{};
+  query.x = static_cast<float>(at.x);
+  query.y = static_cast<float>(at.y);
+  query.z = static_cast<float>(at.z);
+  query.radius = static_cast<float>(within);
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(parts_->scene, &query, &context, &look_at, &search);
+  if (!search.found) return std::nullopt;
+  search.best.point = search.best.point + parts_->centre;
+  return search.best;
 }
 
 }  // namespace mansard::rays

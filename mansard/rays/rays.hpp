@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -11,6 +13,13 @@ namespace mansard::rays {
 
 struct Hit {
   double distance = 0;         ///< metres from the origin along the unit direction
+  std::uint32_t triangle = 0;  ///< index into the mesh's triangles
+};
+
+/// The place on a mesh that is nearest to a point.
+struct Nearest {
+  geometry::Point3 point;
+  double distance = 0;         ///< metres
   std::uint32_t triangle = 0;  ///< index into the mesh's triangles
 };
 
@@ -36,6 +45,15 @@ class Scene {
     std::uint32_t triangle = 0;
   };
   [[nodiscard]] auto seen_from_above(geometry::Point2 at) const -> std::optional<Seen>;
+
+  /// The nearest place of the mesh within so many metres, of any triangle. Of two as near (to the last bit) that of the
+  /// lower triangle.
+  [[nodiscard]] auto nearest(geometry::Point3 to, double within = std::numeric_limits<double>::infinity()) const
+      -> std::optional<Nearest>;
+  /// The same for the least of distance + extra(triangle) metres, which is never negative; a triangle with infinite
+  /// extra is passed over. `within` limits the distance alone.
+  using Extra = std::function<double(std::uint32_t)>;
+  [[nodiscard]] auto nearest(geometry::Point3 to, double within, const Extra& extra) const -> std::optional<Nearest>;
 
  private:
   struct Parts;

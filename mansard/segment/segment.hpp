@@ -38,7 +38,7 @@ enum class HeightMeasure : std::uint8_t {
 struct Options {
   double alpha = 40.0;          ///< per metre of sweep-edge left unused
   double beta = 60.0;           ///< per metre of footprint edge without a sweep-edge
-  double height_weight = 1.0;   ///< of O2, per metre and metre of height difference
+  double height_weight = 16.0;  ///< of O2, per metre and metre of height difference
   double phi = 0.5;             ///< of O7, times the total edge length
   double thin_distance = 2.0;   ///< m; O7: opposite edges nearer than this
   double thin_angle = 0.5235987755982988;  ///< rad; O7: adjacent edges under this angle

@@ -72,6 +72,13 @@ auto codes() -> std::vector<base::Code> {
        "A profile does not start at [0, 0], goes outward or down, repeats a point, or an edge names one that is "
        "missing.",
        "Correct the profile or the edge's number; profiles are numbered from 0.", 3},
+      {"write-layer", "A layer that was to be written is broken: values that do not fit its fields, or coordinates that "
+       "are not finite.",
+       "This is a bug: please report it with the input.", 70},
+      {"write-geopackage", "GDAL could not make a GeoPackage.",
+       "The message has GDAL's words; its GPKG driver and PROJ's data must be installed, and there must be memory.", 3},
+      {"write-geotiff", "GDAL could not make a GeoTIFF, or there is nothing to put into it.",
+       "The message has GDAL's words; its GTiff driver and PROJ's data must be installed, and there must be memory.", 3},
   };
 }
 

@@ -1,6 +1,7 @@
-// Writes a city of models: CityJSON 2.0, OBJ + MTL, GLB, plan + profiles.
+// Writes a city of models: CityJSON 2.0, OBJ + MTL, GLB, plan + profiles; and layers of plan geometry: GeoPackage.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -63,6 +64,36 @@ struct ObjFiles {
 /// Reads plan + profiles back: buildings and parts with plans but without models; from a file of plans, or from the
 /// plans that travel in our CityJSON. Gives up with "write-plan-…".
 [[nodiscard]] auto read_plans(const std::filesystem::path& path) -> base::Result<City>;
+
+/// What the features of a layer are: a table without geometry, one line, several lines, …
+enum class Shape : std::uint8_t { none, line, lines, polygon, polygons };
+enum class FieldType : std::uint8_t { whole, real, text, flag };
+
+struct Field {
+  std::string name;
+  FieldType type = FieldType::text;
+};
+
+/// A row of a layer. Without lines and polygons it has no geometry, which every shape allows.
+struct Feature {
+  std::vector<std::vector<geometry::Point2>> lines;  ///< local frame, two points or more each
+  std::vector<geometry::Polygon> polygons;           ///< local frame
+  std::vector<ingest::Value> values;                 ///< one per field, of its type or absent
+};
+
+struct Layer {
+  std::string name, meaning;
+  Shape shape = Shape::none;
+  std::vector<Field> fields;
+  std::vector<Feature> features;
+};
+
+/// The bytes of a GeoPackage (OGC 12-128) with these layers in this order, in the frame's file coordinates and CRS, each
+/// with a spatial index. A field whose name is taken already ("fid", "geom", or an earlier one in any case) gets "_2" or
+/// the next number free. The same layers give the same bytes at any time: the date of change is 1970-01-01.
+/// Gives up with "write-layer" (the layers are inconsistent), "write-geopackage" (the library's words).
+[[nodiscard]] auto geopackage(const std::vector<Layer>& layers, const ingest::Frame& frame)
+    -> base::Result<std::string>;
 
 [[nodiscard]] auto codes() -> std::vector<base::Code>;
 

@@ -135,7 +135,7 @@ TEST(Compare, grows_the_map_by_the_margin) {
 }
 
 TEST(Compare, of_nothing_scores_nothing) {
-  const auto result = compare({}, Scene(Mesh{}), {}, 0, {});
+  const auto result = compare(labelled({}), Scene(Mesh{}), {}, 0, {});
   EXPECT_EQ(result.scores.cells, 0U);
   EXPECT_EQ(result.scores.mse, 0);
   EXPECT_TRUE(result.map.difference.empty());

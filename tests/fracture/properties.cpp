@@ -62,6 +62,24 @@ TEST(Guarantees, one_to_three_hold_for_other_snapping_distances_and_continuation
         4);
 }
 
+// What follows from 2: no edge comes nearer than snap to another it shares no vertex with, and the two beside it end at
+// least that far off, so that over every edge of a face stands a triangle of height snap that belongs to the face.
+TEST(Guarantees, two_leaves_no_slivers) {
+  for (const double snap : {0.01, 0.05, 0.2})
+    everywhere(
+        [&](const auto& cuts) {
+          const auto arrangement = arranged(cuts, {2, snap, 10});
+          for (std::uint32_t f = 0; f < arrangement.faces.size(); ++f) {
+            const geometry::Ring ring = arrangement.ring(f);
+            double longest = 0;
+            for (std::size_t i = 0; i < ring.size(); ++i)
+              longest = std::max(longest, geometry::length(ring[(i + 1) % ring.size()] - ring[i]));
+            EXPECT_GE(arrangement.faces[f].area, 0.5 * snap * longest) << "face " << f;
+          }
+        },
+        40, 4);
+}
+
 TEST(Guarantees, two_leaves_no_cut_out_but_in_hostile_bundles) {
   for (const Family& family : families()) {
     std::size_t left_out = 0, all = 0;

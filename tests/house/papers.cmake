@@ -7,7 +7,7 @@ file(READ ${ROOT}/docs/dependencies.md dependencies)
 file(STRINGS ${ROOT}/packages.txt lines)
 set(packages "")
 foreach(line IN LISTS lines)
-  string(REGEX REPLACE "[ \t]*#.*" "" package "${line}")
+  string(REGEX REPLACE "[ \t#].*" "" package "${line}")  # a comment, or unless:command
   if(NOT package STREQUAL "")
     list(APPEND packages ${package})
     string(FIND "${dependencies}" "`${package}`" found)

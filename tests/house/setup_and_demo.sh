@@ -24,7 +24,13 @@ machine() {  # user id, missing packages as a regex
   stand_in sudo '"$@"'
   stand_in id "echo $1"
 }
-setup() { "$repository/tools/setup.sh" > "$scratch/stdout" 2> "$scratch/stderr"; }
+setup() { "${1:-$repository}/tools/setup.sh" > "$scratch/stdout" 2> "$scratch/stderr"; }
+setup_with() {  # an edit of packages.txt, by sed
+  mkdir "$scratch/tools"
+  cp "$repository/tools/setup.sh" "$scratch/tools/"
+  sed "$1" "$repository/packages.txt" > "$scratch/packages.txt"
+  setup "$scratch"
+}
 
 # demo: a program that leaves what `reconstruct` leaves and ends with the code given
 program() {
@@ -57,6 +63,22 @@ case $2 in
     machine 1000 'cmake'
     setup || fail "setup failed"
     called '^sudo .*apt-get .*install .*cmake$' || fail "no sudo"
+    ;;
+  setup_skips_a_package_whose_command_is_there)
+    machine 0 'npm|make'
+    stand_in npm ''
+    setup || fail "setup failed"
+    called '^apt-get .*install -y --no-install-recommends make$' || fail "npm is there already"
+    ;;
+  setup_installs_a_package_whose_command_is_not_there)
+    machine 0 'npm|make'
+    setup_with 's/unless:npm/unless:no-such-command/' || fail "setup failed"
+    called '^apt-get .*install -y --no-install-recommends make npm$' || fail "not these two"
+    ;;
+  setup_fails_when_a_line_cannot_be_understood)
+    machine 0 'nothing'
+    ! setup_with 's/unless:npm/unles:npm/' || fail "the line was swallowed"
+    grep -q "npm: 'unles:npm'" "$scratch/stderr" || fail "no word of the line"
     ;;
   setup_fails_when_a_package_cannot_be_installed)
     machine 0 'cmake'

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "mansard/base/run.hpp"
+
 namespace mansard::rays {
 namespace {
 
@@ -41,6 +45,58 @@ TEST(Scene, of_nothing_sees_nothing) {
   const Scene scene(geometry::Mesh{});
   EXPECT_FALSE(scene.top({0, 0}));
   EXPECT_FALSE(scene.cast({0, 0, 0}, {1, 0, 0}));
+}
+
+/// The slow way: the least distance over many places of the triangle.
+auto sampled_distance(geometry::Point3 p, geometry::Point3 a, geometry::Point3 b, geometry::Point3 c) -> double {
+  constexpr int n = 200;
+  double least = 1e9;
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; i + j <= n; ++j)
+      least = std::min(least, length(p - (a + (i / double{n}) * (b - a) + (j / double{n}) * (c - a))));
+  return least;
+}
+
+TEST(Nearest, is_on_a_corner_an_edge_or_inside_as_a_search_over_many_places_says) {
+  base::Random random(7);
+  const auto any = [&] { return geometry::Point3{random.uniform(-5, 5), random.uniform(-5, 5), random.uniform(-5, 5)}; };
+  for (int round = 0; round < 40; ++round) {
+    const geometry::Point3 shift{80000, 400000, 12};
+    const geometry::Point3 a = any(), b = any(), c = any(), p = any();
+    const Scene scene(geometry::Mesh{{shift + a, shift + b, shift + c}, {{0, 1, 2}}});
+    const auto near = scene.nearest(shift + p);
+    ASSERT_TRUE(near);
+    EXPECT_NEAR(near->distance, sampled_distance(p, a, b, c), 0.06) << round;  // the samples lie up to 8 cm apart
+    EXPECT_LE(near->distance, sampled_distance(p, a, b, c) + 1e-3) << round;
+    EXPECT_NEAR(length(near->point - (shift + p)), near->distance, 1e-3) << round;
+  }
+}
+
+TEST(Nearest, looks_no_further_than_it_is_told) {
+  const Scene scene(two_storeys({}));
+  EXPECT_FALSE(scene.nearest({2, 2, 9.5}, 2.4));
+  const auto near = scene.nearest({2, 2, 9.5}, 2.6);
+  ASSERT_TRUE(near);
+  EXPECT_NEAR(near->distance, 2.5, 1e-5);
+  EXPECT_NEAR(near->point.z, 7, 1e-5);
+}
+
+TEST(Nearest, weighs_triangles_by_what_they_cost_beside_their_distance) {
+  const Scene scene(two_storeys({}));
+  const auto upper_costs = [](double metres) {
+    return [metres](std::uint32_t triangle) { return triangle >= 2 ? metres : 0; };
+  };
+  EXPECT_GE(scene.nearest({2, 2, 6}, 10, upper_costs(1.9))->triangle, 2U);  // 1 + 1.9 against 3
+  EXPECT_LT(scene.nearest({2, 2, 6}, 10, upper_costs(2.1))->triangle, 2U);
+  EXPECT_NEAR(scene.nearest({2, 2, 6}, 10, upper_costs(2.1))->distance, 3, 1e-5);
+  EXPECT_FALSE(scene.nearest({2, 2, 6.5}, 1, upper_costs(std::numeric_limits<double>::infinity())));
+}
+
+TEST(Nearest, takes_the_lower_of_two_triangles_that_are_as_near) {
+  // The two triangles of a square share their diagonal.
+  const Scene scene(two_storeys({}));
+  EXPECT_EQ(scene.nearest({8, 8, 1})->triangle, 0U);
+  EXPECT_FALSE(Scene(geometry::Mesh{}).nearest({0, 0, 0}));
 }
 
 }  // namespace

@@ -14,11 +14,16 @@
 
 namespace mansard::segment::testing {
 
+/// O2 weighs 1, as published, so that what is drawn can be added up in the head.
+struct DrawnOptions : Options {
+  DrawnOptions() { height_weight = 1; }
+};
+
 struct Case {
   AsciiMap map;
   std::map<char, double> heights;
   std::vector<std::string> features;
-  Options options;
+  DrawnOptions options;
 
   [[nodiscard]] auto run(std::size_t edges = 8) const -> Segmentation {
     const rays::Scene mesh(map.roofs(heights));

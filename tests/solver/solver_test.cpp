@@ -209,8 +209,9 @@ TEST(Solver, prints_nothing) {
 }
 
 TEST(Solver, explains_its_codes) {
-  ASSERT_EQ(codes().size(), 1U);
+  ASSERT_EQ(codes().size(), 2U);
   EXPECT_EQ(codes()[0].code, "solver-failed");
+  EXPECT_EQ(codes()[1].code, "solver-mps");
 }
 
 }  // namespace

@@ -75,7 +75,8 @@ struct Buckets {
 };
 
 /// Takes out triangles that have the corners of an earlier one, whichever way round.
-auto drop_repeated(std::vector<Triangle>& triangles, std::size_t vertices) -> std::uint64_t {
+auto drop_repeated(std::vector<Triangle>& triangles, std::vector<std::uint8_t>& classes, std::size_t vertices)
+    -> std::uint64_t {
   struct Item {
     std::uint32_t middle = 0, last = 0;
     std::size_t triangle = 0;
@@ -98,8 +99,12 @@ auto drop_repeated(std::vector<Triangle>& triangles, std::size_t vertices) -> st
   const std::size_t before = triangles.size();
   std::size_t kept = 0;
   for (std::size_t i = 0; i < before; ++i)
-    if (repeated[i] == 0) triangles[kept++] = triangles[i];
+    if (repeated[i] == 0) {
+      if (!classes.empty()) classes[kept] = classes[i];
+      triangles[kept++] = triangles[i];
+    }
   triangles.resize(kept);
+  if (!classes.empty()) classes.resize(kept);
   return before - kept;
 }
 
@@ -174,7 +179,8 @@ auto clean(RawMesh raw, const std::array<double, 3>& shift, const std::optional<
   std::vector<std::uint32_t> place(raw.vertices.size(), no_vertex);
   for (std::uint32_t v = 0; v < raw.vertices.size(); ++v)
     if (usable(raw.vertices[v])) place[v] = welder.first_at(v);
-  for (const auto& t : raw.triangles) {
+  for (std::size_t i = 0; i < raw.triangles.size(); ++i) {
+    const Triangle& t = raw.triangles[i];
     if (!in_range(t, raw.vertices.size())) {
       ++counts.out_of_range;
       continue;
@@ -190,10 +196,14 @@ auto clean(RawMesh raw, const std::array<double, 3>& shift, const std::optional<
       for (const Point3 p : {a, b, c}) box.add(xy(p));
       if (!box.overlaps(*within)) continue;
     }
-    if (has_area(a, b, c)) triangles.push_back(welded);
-    else ++counts.degenerate;
+    if (!has_area(a, b, c)) {
+      ++counts.degenerate;
+      continue;
+    }
+    triangles.push_back(welded);
+    if (!raw.classes.empty()) out.classes.push_back(raw.classes[i]);
   }
-  counts.duplicate = drop_repeated(triangles, raw.vertices.size());
+  counts.duplicate = drop_repeated(triangles, out.classes, raw.vertices.size());
   out.mesh.vertices = std::move(raw.vertices);
   compact(out.mesh);
   triangles.shrink_to_fit();

@@ -18,6 +18,7 @@ struct Box3 {
 
 struct CleanMesh {
   geometry::Mesh mesh;
+  std::vector<std::uint8_t> classes;  ///< per triangle, where the raw mesh has them; else empty
   MeshCounts counts;
 };
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -38,6 +39,14 @@ struct Property {
   Type type = Type::float32;
   std::optional<Type> count;  ///< of a list
 };
+
+/// The class of a face: what `mansard simulate` and `mansard label` write.
+auto is_class(const Property& property) -> bool { return property.name == "class" && !property.count; }
+
+auto to_class(double value) -> std::uint8_t {
+  constexpr std::uint8_t other = 3;
+  return value >= 0 && value < other ? static_cast<std::uint8_t>(value) : other;
+}
 
 struct Element {
   std::string name;
@@ -142,6 +151,7 @@ auto take_elements(Values values, const Header& header, const std::string& name)
 
     const bool vertices = element.name == "vertex", faces = element.name == "face",
                strips = element.name == "tristrips";
+    const bool classed = faces && std::ranges::any_of(element.properties, is_class);
     if (vertices) mesh.vertices.reserve(static_cast<std::size_t>(element.count));
     if (faces) mesh.triangles.reserve(static_cast<std::size_t>(element.count));
     constexpr std::size_t nowhere = 3;
@@ -151,10 +161,13 @@ auto take_elements(Values values, const Header& header, const std::string& name)
 
     for (std::int64_t i = 0; i < element.count; ++i) {
       std::array<double, 4> point{};
+      double of_face = 0;
       for (std::size_t p = 0; p < element.properties.size(); ++p) {
         const Property& property = element.properties[p];
         if (!property.count) {
-          point[target[p]] = values.take(property.type);
+          const double value = values.take(property.type);
+          if (classed && is_class(property)) of_face = value;
+          point[target[p]] = value;
           continue;
         }
         const double size = values.take(*property.count);
@@ -178,6 +191,7 @@ auto take_elements(Values values, const Header& header, const std::string& name)
         return base::error("ingest-mesh-format", which + " is broken; export the mesh again", name);
       }
       if (vertices) mesh.vertices.push_back({point[0], point[1], point[2]});
+      if (classed) mesh.classes.resize(mesh.triangles.size(), to_class(of_face));
     }
   }
   return mesh;

@@ -17,6 +17,7 @@ struct RawMesh {
   std::vector<geometry::Point3> vertices;     ///< file coordinates, may hold NaN
   std::vector<geometry::Triangle> triangles;  ///< may name vertices that do not exist
   std::uint64_t short_faces = 0;              ///< faces of fewer than three corners, left out
+  std::vector<std::uint8_t> classes;          ///< per triangle, where the file has them; else empty
 };
 
 /// Index of a face's corner as 32 bits.

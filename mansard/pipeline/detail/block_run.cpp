@@ -181,13 +181,6 @@ void fill_in(const block::Block& block, const rays::Scene& mesh, const Options& 
   std::ranges::stable_sort(parts, {}, &PartResult::feature);
 }
 
-void keep_warnings(const std::vector<base::Diagnostic>& warnings, const block::Block& block, BlockResult& out) {
-  for (auto warning : warnings) {
-    warning.subject = warning.subject.empty() ? block.name : block.name + " " + warning.subject;
-    out.warnings.push_back(std::move(warning));
-  }
-}
-
 void classify(std::vector<PartResult>& parts, const Options& options, const base::Run& run) {
   std::vector<extrude::Solid> solids;
   for (auto& part : parts) solids.push_back(std::move(part.model.solid));
@@ -197,70 +190,20 @@ void classify(std::vector<PartResult>& parts, const Options& options, const base
 
 }  // namespace
 
-auto run_block(const block::Block& block, const Options& options, const base::Run& run,
-               const std::function<void(std::string_view)>& tell) -> BlockResult {
+auto run_block(const block::Block& block, const Options& options, const base::Run& run, const Tell& tell, Keep keep)
+    -> BlockResult {
   BlockResult out;
   BlockReport& report = out.report;
-  report.name = block.name;
-  report.buildings = block.members.size();
-  report.triangles = block.mesh.triangles.size();
-  const auto stage = [&](std::string name, auto&& work) {
-    tell(name);
-    const Watch watch;
-    auto product = work();
-    report.times.push_back({std::move(name), watch.seconds()});
-    return product;
-  };
-
-  const auto stack = stage("slice", [&] { return slice::cut(block, options.slice, run); });
-  const auto sweeps = stage("sweep", [&] { return sweep::find_edges(stack, block, options.sweep, run); });
   const rays::Scene mesh(block.mesh);
-
-  geometry::Box2 region;
-  for (const auto& polygon : block.outline)
-    for (const Point2 p : polygon.outer) region.add(p);
-  const auto arrangement = stage("fracture", [&] {
-    return fracture::arrange(segment::cuts_of(sweeps, block, options.segment), region, options.fracture, run);
-  });
-  report.slices = stack.slices.size();
-  for (const auto& slice : stack.slices) report.slice_segments += slice.segments.size();
-  report.sweep_edges = sweeps.edges.size();
+  SegmentedBlock segmented = segment_block(block, mesh, options, run, tell, report, out.warnings);
 
   std::vector<PartResult> parts;
-  std::optional<base::Diagnostic> failure;
-  if (arrangement) {
-    report.faces = arrangement->faces.size();
-    keep_warnings(arrangement->warnings, block, out);
-    const auto chosen = stage("segment", [&] {
-      return segment::choose(*arrangement, sweeps, block, mesh, options.segment, run);
-    });
-    if (chosen) {
-      report.inside_faces = static_cast<std::size_t>(
-          std::ranges::count_if(chosen->part_of_face, [](const auto& part) { return part.has_value(); }));
-      report.candidates = chosen->candidates.size();
-      report.variables = chosen->variables;
-      report.conflicts = chosen->conflicts.size();
-      report.terms = chosen->terms;
-      report.objective = chosen->objective;
-      report.bound = chosen->bound;
-      report.status = chosen->status;
-      report.rounds = chosen->rounds;
-      report.nodes = chosen->nodes;
-      keep_warnings(chosen->warnings, block, out);
-      tell("profile");
-      parts = raise_parts(*chosen, block, mesh, options, run, out);
-    } else {
-      failure = chosen.error();
-    }
-  } else {
-    failure = arrangement.error();
+  if (segmented.segmentation) {
+    tell("profile");
+    parts = raise_parts(*segmented.segmentation, block, mesh, options, run, out);
   }
-  if (failure) {
-    report.status = "failed";
-    failure = base::warning("pipeline-block", "the block could not be segmented: " + failure->message, block.name);
-    out.warnings.push_back(*failure);
-  }
-  fill_in(block, mesh, options, failure, parts, out, run);
+  fill_in(block, mesh, options, segmented.failure, parts, out, run);
+  if (keep == Keep::segmentations) out.segmented = std::move(segmented);
   tell("label");
   {
     const Watch watch;
@@ -275,7 +218,7 @@ auto run_block(const block::Block& block, const Options& options, const base::Ru
   for (const auto& part : parts) models.push_back(part.model);
   for (const auto& member : block.members)
     footprints.insert(footprints.end(), member.polygons.begin(), member.polygons.end());
-  auto comparison = stage("evaluate", [&] {
+  auto comparison = stage("evaluate", tell, report, [&] {
     return evaluate::compare(models, mesh, footprints, block.ground, options.evaluate, run);
   });
   report.scores = comparison.scores;

@@ -22,6 +22,19 @@ class Watch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// Told the name of every stage as it begins.
+using Tell = std::function<void(std::string_view)>;
+
+/// Does the work and adds its time to the report.
+template <class Work>
+[[nodiscard]] auto stage(const char* name, const Tell& tell, BlockReport& report, Work&& work) {
+  tell(name);
+  const Watch watch;
+  auto product = work();
+  report.times.push_back({name, watch.seconds()});
+  return product;
+}
+
 /// A part before it is assigned to its building.
 struct PartResult {
   std::size_t feature = 0;  ///< index into Scene::footprints
@@ -39,6 +52,7 @@ struct BlockResult {
   evaluate::ErrorMap map;
   std::vector<std::size_t> covered;  ///< features whose ground went to their neighbours
   std::vector<base::Diagnostic> warnings;
+  std::optional<SegmentedBlock> segmented;  ///< with Keep::segmentations
 };
 
 /// The value below which that share (0 … 1) of the sorted, non-empty values lies.
@@ -46,8 +60,13 @@ struct BlockResult {
   return sorted[static_cast<std::size_t>(std::lround(share * static_cast<double>(sorted.size() - 1)))];
 }
 
-/// Never fails: what cannot be segmented or raised becomes prisms with a reason. `tell` is called at each stage.
-[[nodiscard]] auto run_block(const block::Block& block, const Options& options, const base::Run& run,
-                             const std::function<void(std::string_view)>& tell) -> BlockResult;
+/// From slices to the segmentation. Never fails: what goes wrong is in `failure`, among the warnings and in the report.
+[[nodiscard]] auto segment_block(const block::Block& block, const rays::Scene& mesh, const Options& options,
+                                 const base::Run& run, const Tell& tell, BlockReport& report,
+                                 std::vector<base::Diagnostic>& warnings) -> SegmentedBlock;
+
+/// Never fails: what cannot be segmented or raised becomes prisms with a reason.
+[[nodiscard]] auto run_block(const block::Block& block, const Options& options, const base::Run& run, const Tell& tell,
+                             Keep keep) -> BlockResult;
 
 }  // namespace mansard::pipeline::detail

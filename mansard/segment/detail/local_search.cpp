@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
+
+#include "mansard/segment/detail/contraction.hpp"
 
 namespace mansard::segment::detail {
 namespace {
@@ -26,72 +29,32 @@ class Search {
       if (problem.pairs[p].second != problem.pairs[p].first) pairs_of_[problem.pairs[p].second].push_back(p);
     }
     for (const std::uint32_t label : labels_) fresh_ = std::max(fresh_, label + 1);
+    grow(fresh_);
+    for (std::uint32_t v = 0; v < problem.nodes; ++v) members_[labels_[v]].push_back(v);
   }
 
   [[nodiscard]] auto labels() const -> const Labels& { return labels_; }
 
-  /// What joining neighbouring pieces would change, by label pair.
-  [[nodiscard]] auto joins() const -> std::map<std::pair<std::uint32_t, std::uint32_t>, std::int64_t> {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::int64_t> change;
-    const auto key = [&](std::uint32_t e) {
-      return std::minmax(labels_[problem_.edges[e].a], labels_[problem_.edges[e].b]);
-    };
-    for (std::uint32_t e = 0; e < problem_.edges.size(); ++e) {
-      if (!cut(e)) continue;
-      auto& sum = change[key(e)];
-      sum = problem_.edges[e].forced || sum == forbidden ? forbidden : sum - problem_.edges[e].cost;
-    }
-    const auto relieve = [&](std::uint32_t e, std::int64_t penalty) {
-      auto& sum = change[key(e)];
-      if (sum != forbidden) sum -= penalty;
-    };
-    for (const MulticutPair& pair : problem_.pairs) {
-      if (!cut(pair.first) || !cut(pair.second)) continue;
-      relieve(pair.first, pair.penalty);
-      if (key(pair.first) != key(pair.second)) relieve(pair.second, pair.penalty);
-    }
-    return change;
-  }
-
-  /// Joins what gains (or, with `free`, what costs nothing), several pairs a round where they do not touch.
+  /// Joins what gains, or with `free` what costs nothing too.
   auto join(bool free) -> bool {
-    bool any = false;
-    for (;;) {
-      std::vector<std::pair<std::int64_t, std::pair<std::uint32_t, std::uint32_t>>> wanted;
-      for (const auto& [pieces, change] : joins())
-        if (change < 0 || (free && change == 0)) wanted.emplace_back(change, pieces);
-      if (wanted.empty()) return any;
-      std::ranges::sort(wanted);
-      std::vector<std::uint32_t> becomes(fresh_);
-      for (std::uint32_t l = 0; l < fresh_; ++l) becomes[l] = l;
-      std::vector<bool> touched(fresh_, false);
-      const std::int64_t best = wanted.front().first;
-      // Joins tied by a pair penalty may gain only once, so they are made one at a time where that is affordable, and
-      // never together with one that gains less than half of the best. Free joins too may be free only singly.
-      const bool singly = best == 0 || (!problem_.pairs.empty() && wanted.size() < 200);
-      for (const auto& [change, pieces] : wanted) {
-        if (change > best / 2 || touched[pieces.first] || touched[pieces.second]) continue;
-        touched[pieces.first] = touched[pieces.second] = true;
-        becomes[pieces.second] = pieces.first;
-        if (singly) break;
-      }
-      for (auto& label : labels_) label = becomes[label];
-      any = true;
-    }
+    Contraction contraction(problem_, pairs_of_, labels_, fresh_);
+    const bool any = contraction.run(free);
+    for (std::uint32_t v = 0; v < problem_.nodes; ++v) give(v, contraction.label_of(labels_[v]));
+    return any;
   }
 
   /// Moves single nodes and sequences of nodes between neighbouring pieces, or out of one, as long as that gains.
   auto move() -> bool {
     bool any = false;
     for (std::uint32_t v = 0; v < problem_.nodes; ++v) any = move_one(v) || any;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> neighbours;
-    for (const auto& [pieces, change] : joins()) neighbours.push_back(pieces);
+    std::set<std::pair<std::uint32_t, std::uint32_t>> neighbours;
+    for (std::uint32_t e = 0; e < problem_.edges.size(); ++e)
+      if (cut(e)) neighbours.insert(std::minmax(labels_[problem_.edges[e].a], labels_[problem_.edges[e].b]));
     for (const auto& [a, b] : neighbours) any = sequence(a, b) || any;
     Labels present = labels_;
     std::ranges::sort(present);
     present.erase(std::ranges::unique(present).begin(), present.end());
-    for (const std::uint32_t label : present)
-      if (sequence(label, fresh_)) ++fresh_, any = true;
+    for (const std::uint32_t label : present) any = sequence(label, fresh_) || any;
     return any;
   }
 
@@ -135,16 +98,21 @@ class Search {
       look(labels_[problem_.edges[e].a == v ? problem_.edges[e].b : problem_.edges[e].a]);
     look(fresh_);
     if (best == 0) return false;
-    if (to == fresh_) ++fresh_;
-    labels_[v] = to;
+    give(v, to);
     return true;
   }
 
+  /// Kernighan and Lin: moves nodes between two pieces, or into a new one, the best first and each once, and keeps the
+  /// moves up to the best sum. Pieces that are as they were when that gained nothing are passed over.
   auto sequence(std::uint32_t one, std::uint32_t other) -> bool {
-    std::vector<std::uint32_t> nodes;
-    for (std::uint32_t v = 0; v < problem_.nodes; ++v)
-      if (labels_[v] == one || labels_[v] == other) nodes.push_back(v);
+    const auto stamp = std::pair(stamp_[one], other < fresh_ ? stamp_[other] : 0);
+    auto& tried = tried_[other < fresh_ ? std::pair(one, other) : std::pair(one, one)];
+    if (tried == stamp) return false;
+    tried = stamp;
+    std::vector<std::uint32_t> nodes = members_[one];
+    if (other < fresh_) nodes.insert(nodes.end(), members_[other].begin(), members_[other].end());
     if (nodes.size() < 2 || nodes.size() > largest_for_sequences) return false;
+    std::ranges::sort(nodes);
     std::vector<std::uint32_t> moved;
     std::int64_t sum = 0, best = 0;
     std::size_t keep = 0;
@@ -163,14 +131,34 @@ class Search {
       sum += least;
       if (sum < best) best = sum, keep = moved.size();
     }
-    for (std::size_t i = keep; i < moved.size(); ++i) labels_[moved[i]] = labels_[moved[i]] == one ? other : one;
+    for (const std::uint32_t v : moved) labels_[v] = labels_[v] == one ? other : one;
+    for (std::size_t i = 0; i < keep; ++i) give(moved[i], labels_[moved[i]] == one ? other : one);
     return keep > 0;
+  }
+
+  void give(std::uint32_t v, std::uint32_t label) {
+    if (labels_[v] == label) return;
+    if (label == fresh_) grow(fresh_ + 1);
+    std::erase(members_[labels_[v]], v);
+    members_[label].push_back(v);
+    stamp_[labels_[v]] = stamp_[label] = ++changes_;
+    labels_[v] = label;
+  }
+
+  void grow(std::uint32_t labels) {
+    fresh_ = labels;
+    members_.resize(labels);
+    stamp_.resize(labels, ++changes_);
   }
 
   const Multicut& problem_;
   Labels labels_;
   std::vector<std::vector<std::uint32_t>> edges_of_, pairs_of_;
-  std::uint32_t fresh_ = 0;
+  std::uint32_t fresh_ = 0;                          ///< the lowest label not used yet
+  std::vector<std::vector<std::uint32_t>> members_;  ///< by label
+  std::vector<std::uint64_t> stamp_;                 ///< by label: when it last changed
+  std::uint64_t changes_ = 0;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::uint64_t, std::uint64_t>> tried_;
 };
 
 }  // namespace

@@ -220,6 +220,20 @@ auto solve_part(const Multicut& problem, const MulticutLimits& limits, const Dea
 
   solver::Program program = integer_program(problem, star_rows(problem), limits.cliques);
   answer.variables = program.variables.size();
+  if (answer.bound < answer.objective && deadline.left().value_or(1) > 0 && !run.cancelled()) {
+    for (auto& variable : program.variables) variable.whole = false;
+    const auto relaxed = solver::minimise(program, {.seconds = deadline.left(), .nodes = std::nullopt, .gap = 0});
+    for (std::size_t e = 0; e < problem.edges.size(); ++e) program.variables[e].whole = true;
+    if (relaxed && relaxed->status == solver::Status::optimal) {
+      answer.bound = std::max(answer.bound, std::min(rounded_up(relaxed->bound), answer.objective));
+      for (const double threshold : {0.3, 0.5, 0.7}) {
+        Pieces pieces(problem.nodes);
+        for (std::size_t e = 0; e < problem.edges.size(); ++e)
+          if (relaxed->values[e] < threshold) pieces.join(problem.edges[e].a, problem.edges[e].b);
+        if (const Labels near = numbered(pieces, problem.nodes); cost_of(problem, near)) offer(improved(problem, near));
+      }
+    }
+  }
   while (answer.bound < answer.objective) {
     const auto left = deadline.left();
     if ((left && *left <= 0) || run.cancelled()) break;

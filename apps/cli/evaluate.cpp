@@ -1,0 +1,122 @@
+// `mansard evaluate MODEL MESH… [--truth T] [-o REPORT]`: how good a model is, ours or another's.
+#include <cstdio>
+#include <memory>
+
+#include "apps/cli/exit.hpp"
+#include "apps/cli/output.hpp"
+#include "apps/cli/progress.hpp"
+#include "apps/cli/settings.hpp"
+#include "apps/cli/verbs.hpp"
+#include "mansard/picture/picture.hpp"
+#include "mansard/pipeline/evaluation.hpp"
+#include "mansard/write/scan.hpp"
+
+namespace mansard::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using NamedBytes = std::vector<std::pair<std::string, std::string>>;
+
+struct Request {
+  std::vector<std::string> inputs;  // the model, then the meshes
+  std::string truth, footprints, lod, out;
+  bool overwrite = false, quiet = false;
+  std::size_t jobs = 0;
+  double error_limit = 2.0;
+  Settings settings;
+};
+
+constexpr std::array report_names{"report.json", "error.png", "error.tif"};
+
+auto is_file(const std::string& out) -> bool { return fs::path(out).extension() == ".json"; }
+
+auto check_outputs(const Request& request) -> base::Result<void> {
+  if (request.out.empty()) return {};
+  std::vector<fs::path> results;
+  if (is_file(request.out)) results.emplace_back(request.out);
+  else
+    for (const auto* name : report_names) results.push_back(fs::path(request.out) / name);
+  std::vector<fs::path> inputs(request.inputs.begin(), request.inputs.end());
+  for (const auto& extra : {request.truth, request.footprints})
+    if (!extra.empty()) inputs.emplace_back(extra);
+  if (auto spared = spare_inputs(results, inputs); !spared) return spared;
+  return is_file(request.out) ? file_free(request.out, request.overwrite) : prepare(request.out, request.overwrite);
+}
+
+auto files_of(const Request& request) -> pipeline::EvaluationFiles {
+  return {request.inputs.front(),
+          {request.inputs.begin() + 1, request.inputs.end()},
+          request.truth,
+          request.footprints,
+          request.lod};
+}
+
+/// The report, and in a folder the error maps too: in a colour scale that is the same for every model, and as numbers.
+auto write_all(const Request& request, const pipeline::Evaluation& result, const pipeline::EvaluationInput& input,
+               const std::string& report, const base::Cancel& cancel) -> base::Result<void> {
+  if (is_file(request.out)) return base::write_files({{request.out, report}}, &cancel);
+  NamedBytes files{{"report.json", report}};
+  const auto& map = result.map;
+  auto png =
+      picture::png(picture::error_map(map.difference, map.columns, map.rows, request.error_limit, "model - mesh, m"));
+  if (!png) return png.error();
+  auto tiff = write::geotiff({map.origin, map.grid, map.columns, map.rows, map.difference}, input.scene.frame);
+  if (!tiff) return tiff.error();
+  files.emplace_back("error.png", std::move(*png));
+  files.emplace_back("error.tif", std::move(*tiff));
+  return base::write_files(in_folder(request.out, files), &cancel);
+}
+
+auto evaluate(const Request& request, const base::Cancel& cancel) -> int {
+  if (request.inputs.size() < 2) return give_up(base::error("usage", "give a model, then one mesh or more"));
+  pipeline::Options options;
+  if (auto applied = request.settings.apply(options); !applied) return give_up(applied.error());
+  if (auto ready = check_outputs(request); !ready) return give_up(ready.error());
+  base::limit_threads(request.jobs);
+  Progress progress(request.quiet);
+  base::Run run;
+  run.cancel = &cancel;
+  run.seed = static_cast<std::uint64_t>(options.seed);
+  run.progress = [&](auto stage, auto subject, double fraction) { progress.show(stage, subject, fraction); };
+
+  const auto input = pipeline::read_evaluation(files_of(request), options.ingest, run);
+  if (!input) return give_up(input.error());
+  for (const auto& warning : input->scene.warnings) progress.say(base::to_string(warning));
+  const auto result = pipeline::evaluate_model(*input, options, run);
+  if (!result) return give_up(result.error());
+  for (const auto& warning : result->warnings) progress.say(base::to_string(warning));
+  if (!request.out.empty()) {
+    const auto report = pipeline::evaluation_json(*result, *input, options);
+    if (auto written = write_all(request, *result, *input, report, cancel); !written) return give_up(written.error());
+  }
+  std::fputs(pipeline::evaluation_table(*result, *input).c_str(), stdout);
+  if (!request.out.empty()) std::printf("%s\n", request.out.c_str());
+  return all_done;
+}
+
+}  // namespace
+
+auto evaluate_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
+  auto* verb = app.add_subcommand("evaluate", "Hold a building model against a mesh, and against known truth");
+  auto request = std::make_shared<Request>();
+  verb->add_option("INPUTS", request->inputs,
+                   "The model (CityJSON, CityJSONSeq or OBJ), then the meshes (OBJ, PLY, OFF, GLB, or folders of them)")
+      ->type_name("MODEL MESH…");
+  verb->add_option("--truth", request->truth, "A model that is known to be right")->type_name("MODEL");
+  verb->add_option("--footprints", request->footprints, "Measure over these rather than the truth's or the model's own")
+      ->type_name("FILE");
+  verb->add_option("--lod", request->lod, "Read this LoD of model and truth; without it, the highest of each object");
+  verb->add_option("-o,--output", request->out, "The report (a name ending in .json), or a folder for report and maps")
+      ->type_name("REPORT");
+  verb->add_option("--error-limit", request->error_limit, "Ends of the error map's colour scale [m]")
+      ->check(CLI::Range(0.01, 1000.0));
+  verb->add_flag("--overwrite", request->overwrite, "Replace results that are there already");
+  verb->add_option("-j,--jobs", request->jobs, "Threads; 0 for one per core. The result is the same at any number")
+      ->check(CLI::Range(0, 1024));
+  verb->add_flag("-q,--quiet", request->quiet, "No progress, no warnings");
+  verb->set_help_all_flag("--help-all", "Show this and every room's options");
+  request->settings.add_to(*verb);
+  return {verb, [request, &cancel] { return evaluate(*request, cancel); }};
+}
+
+}  // namespace mansard::cli

@@ -1,0 +1,215 @@
+// `mansard explore EXPERIMENT MESH… FOOTPRINTS -o OUTDIR`: the paper's experiments, with a report of each.
+#include "mansard/explore/explore.hpp"
+
+#include <toml++/toml.h>
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "apps/cli/exit.hpp"
+#include "apps/cli/output.hpp"
+#include "apps/cli/scan.hpp"
+#include "apps/cli/verbs.hpp"
+#include "mansard/base/files.hpp"
+#include "mansard/base/text.hpp"
+
+namespace mansard::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Request {
+  ScanRequest scan;
+  std::string experiment, out, list, data;
+  std::vector<std::string> grids;
+  std::size_t most_runs = 100;
+  double error_limit = 2.0;
+  bool no_pictures = false;
+};
+
+auto bad_list(const Request& request, const std::string& what) -> base::Diagnostic {
+  return base::error("explore-list", what, request.list);
+}
+
+/// A path of the list: it starts at --data, or where the list is.
+auto path_from(const Request& request, const std::string& path) -> fs::path {
+  return (request.data.empty() ? fs::path(request.list).parent_path() : fs::path(request.data)) / path;
+}
+
+auto dataset_of(const Request& request, const toml::table& table) -> base::Result<explore::Dataset> {
+  explore::Dataset dataset;
+  for (const auto& [key, node] : table) {
+    const auto name = std::string(key.str());
+    const auto* text = node.as_string();
+    if (name == "name" && text != nullptr) {
+      dataset.name = text->get();
+    } else if (name == "footprints" && text != nullptr) {
+      dataset.footprints = path_from(request, text->get());
+    } else if (const auto* meshes = node.as_array(); name == "meshes" && meshes != nullptr) {
+      for (const auto& mesh : *meshes) {
+        if (mesh.as_string() == nullptr) return bad_list(request, "a mesh is the text of a path");
+        dataset.meshes.push_back(path_from(request, mesh.as_string()->get()));
+      }
+    } else if (const auto* options = node.as_table(); name == "options" && options != nullptr) {
+      for (const auto& [option, value] : *options) {
+        if (value.as_string() == nullptr)
+          return bad_list(request,
+                          "the option '" + std::string(option.str()) + "' is no text; put its value in quotes");
+        dataset.options.emplace_back(option.str(), value.as_string()->get());
+      }
+    } else {
+      return bad_list(request, "'" + name +
+                                   "' is not known, or of the wrong kind; a [[dataset]] has name, meshes, "
+                                   "footprints and options");
+    }
+  }
+  if (dataset.name.empty() || dataset.meshes.empty() || dataset.footprints.empty())
+    return bad_list(request, "a [[dataset]] lacks its name, its meshes or its footprints");
+  return dataset;
+}
+
+auto listed(const Request& request) -> base::Result<std::vector<explore::Dataset>> {
+  const auto text = base::read_file(request.list);
+  if (!text) return text.error();
+  toml::table table;
+  try {
+    table = toml::parse(*text);
+  } catch (const toml::parse_error& e) {
+    return bad_list(request, std::string(e.description()) + " (line " + std::to_string(e.source().begin.line) + ")");
+  }
+  const auto* entries = table["dataset"].as_array();
+  if (entries == nullptr || table.size() != 1) return bad_list(request, "the list is of [[dataset]] entries alone");
+  std::vector<explore::Dataset> datasets;
+  for (const auto& entry : *entries) {
+    if (entry.as_table() == nullptr) return bad_list(request, "write [[dataset]] above every entry");
+    auto dataset = dataset_of(request, *entry.as_table());
+    if (!dataset) return dataset.error();
+    if (std::ranges::find(datasets, dataset->name, &explore::Dataset::name) != datasets.end())
+      return bad_list(request, "two datasets are called '" + dataset->name + "'; name them apart");
+    datasets.push_back(std::move(*dataset));
+  }
+  return datasets;
+}
+
+/// From the list, or the one of the command line, which is called as the folder of its footprints.
+auto datasets_of(const Request& request) -> base::Result<std::vector<explore::Dataset>> {
+  const auto& inputs = request.scan.inputs;
+  if (!request.list.empty()) {
+    if (!inputs.empty()) return base::error("usage", "give a list of datasets or meshes and footprints, not both");
+    return listed(request);
+  }
+  if (inputs.size() < 2) return base::error("usage", "give one mesh or more, then the footprints; or --datasets LIST");
+  const fs::path footprints = inputs.back();
+  auto name = fs::absolute(footprints).parent_path().filename().string();
+  if (name.empty()) name = footprints.stem().string();
+  return std::vector<explore::Dataset>{{name, {inputs.begin(), inputs.end() - 1}, footprints, {}}};
+}
+
+auto study_of(const Request& request, const std::vector<std::string>& words) -> base::Result<explore::Request> {
+  const auto experiment = explore::experiment_of(request.experiment);
+  if (!experiment) {
+    const auto known = explore::experiment_names();
+    std::string all;
+    for (const auto& name : known) all += (all.empty() ? "" : ", ") + name;
+    return base::error(
+        "usage", "there are the experiments " + all + base::did_you_mean(base::nearest_word(request.experiment, known)),
+        request.experiment);
+  }
+  explore::Request study;
+  study.experiment = *experiment;
+  if (auto applied = request.scan.settings.apply(study.options); !applied) return applied.error();
+  auto datasets = datasets_of(request);
+  if (!datasets) return datasets.error();
+  study.datasets = std::move(*datasets);
+  std::vector<explore::Axis> asked;
+  for (const auto& grid : request.grids) {
+    auto axis = explore::axis_of(grid);
+    if (!axis) return axis.error();
+    asked.push_back(std::move(*axis));
+  }
+  auto axes = explore::axes_of(*experiment, asked);
+  if (!axes) return axes.error();
+  study.axes = std::move(*axes);
+  study.most_runs = request.most_runs;
+  study.pictures = !request.no_pictures;
+  study.error_limit = request.error_limit;
+  study.command = words;
+  study.command.front() = "mansard";  // wherever it was called from
+  study.version = MANSARD_VERSION;
+  return study;
+}
+
+auto check_outputs(const Request& request, const explore::Request& study) -> base::Result<void> {
+  std::vector<fs::path> inputs;
+  if (!request.list.empty()) inputs.emplace_back(request.list);
+  for (const auto& dataset : study.datasets) {
+    inputs.insert(inputs.end(), dataset.meshes.begin(), dataset.meshes.end());
+    inputs.push_back(dataset.footprints);
+  }
+  std::vector<fs::path> results;
+  for (const auto* name : {"index.html", "results.json", "results.csv"})
+    results.push_back(fs::path(request.out) / name);
+  if (auto spared = spare_inputs(results, inputs); !spared) return spared;
+  return prepare(request.out, request.scan.overwrite);
+}
+
+void summarise(const explore::Study& study, Progress& progress) {
+  std::size_t failures = 0;
+  for (const auto& row : study.rows) {
+    if (!row.failure) continue;
+    ++failures;
+    progress.say(base::to_string(*row.failure));
+  }
+  progress.say(std::to_string(study.rows.size() - failures) + " of " + std::to_string(study.rows.size()) +
+               " runs went through");
+}
+
+auto explore_scans(const Request& request, const std::vector<std::string>& words, const base::Cancel& cancel) -> int {
+  const auto study = study_of(request, words);
+  if (!study) return give_up(study.error());
+  if (auto ready = check_outputs(request, *study); !ready) return give_up(ready.error());
+  Progress progress(request.scan.quiet);
+  const auto run = start(request.scan, study->options, cancel, progress);
+  const auto result = explore::investigate(*study, run);
+  if (!result) return give_up(result.error());
+
+  progress.show("write", request.out, 1);
+  const auto files = explore::report(*result);
+  if (auto written = base::write_files(in_folder(request.out, files), run.cancel); !written)
+    return give_up(written.error());
+  summarise(*result, progress);
+  std::printf("%s\n", (fs::path(request.out) / "index.html").c_str());
+  const bool all = std::ranges::none_of(result->rows, [](const auto& row) { return row.failure.has_value(); });
+  return all ? all_done : some_fell_back;
+}
+
+}  // namespace
+
+auto explore_verb(CLI::App& app, std::vector<std::string> words, const base::Cancel& cancel) -> Verb {
+  auto* verb = app.add_subcommand("explore", "The paper's experiments: many settings, and a report of them");
+  auto request = std::make_shared<Request>();
+  std::string names;
+  for (const auto& name : explore::experiment_names()) names += (names.empty() ? "" : ", ") + name;
+  verb->add_option("EXPERIMENT", request->experiment, "One of " + names)->required()->type_name("");
+  add_to(*verb, request->scan);
+  verb->remove_option(verb->get_option("--report"));  // the report is what it writes
+  verb->remove_option(verb->get_option("--verbose"));
+  verb->add_option("-o,--output", request->out, "Folder for the report")->required()->type_name("OUTDIR");
+  verb->add_option("--grid", request->grids, "An option and its values; once per option, every combination is run")
+      ->type_name("KEY=A,B,C")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);
+  verb->add_option("--datasets", request->list, "Several datasets, by a TOML list of [[dataset]] entries")
+      ->type_name("LIST");
+  verb->add_option("--data", request->data, "Where the list's paths start; without it, in the list's folder")
+      ->type_name("DIR");
+  verb->add_option("--most-runs", request->most_runs, "Refuse to start more runs than this")
+      ->check(CLI::Range(1, 100000));
+  verb->add_flag("--no-pictures", request->no_pictures, "Render nothing: plans, plots and numbers alone");
+  verb->add_option("--error-limit", request->error_limit, "Ends of the error maps' colour scale [m]")
+      ->check(CLI::Range(0.01, 1000.0));
+  return {verb, [request, words = std::move(words), &cancel] { return explore_scans(*request, words, cancel); }};
+}
+
+}  // namespace mansard::cli

@@ -1,0 +1,58 @@
+#include "apps/cli/scan.hpp"
+
+#include "apps/cli/output.hpp"
+
+namespace mansard::cli {
+
+namespace fs = std::filesystem;
+
+void add_to(CLI::App& verb, ScanRequest& request) {
+  verb.add_option("INPUTS", request.inputs,
+                  "Meshes (OBJ, PLY, OFF, GLB, or folders of them), then the footprints (any OGR vector file)")
+      ->type_name("MESH… FOOTPRINTS");
+  verb.add_flag("--overwrite", request.overwrite, "Replace results that are there already");
+  verb.add_option("--report", request.report, "Write the report (run.json) here")->type_name("FILE");
+  verb.add_option("-j,--jobs", request.jobs, "Threads; 0 for one per core. The result is the same at any number")
+      ->check(CLI::Range(0, 1024));
+  verb.add_flag("-q,--quiet", request.quiet, "No progress, no summary");
+  verb.add_flag("-v,--verbose", request.verbose, "Name every reason and warning, however many there are");
+  verb.set_help_all_flag("--help-all", "Show this and every room's options");
+  request.settings.add_to(verb);
+}
+
+auto options_of(const ScanRequest& request) -> base::Result<pipeline::Options> {
+  if (request.inputs.size() < 2) return base::error("usage", "give one mesh or more, then the footprints");
+  pipeline::Options options;
+  if (auto applied = request.settings.apply(options); !applied) return applied.error();
+  return options;
+}
+
+auto files_free(const ScanRequest& request, std::vector<fs::path> files) -> base::Result<void> {
+  if (!request.report.empty()) files.emplace_back(request.report);
+  if (auto spared = spare_inputs(files, {request.inputs.begin(), request.inputs.end()}); !spared) return spared;
+  for (const auto& file : files)
+    if (auto usable = file_free(file, request.overwrite); !usable) return usable;
+  return {};
+}
+
+auto start(const ScanRequest& request, const pipeline::Options& options, const base::Cancel& cancel, Progress& progress)
+    -> base::Run {
+  base::limit_threads(request.jobs);
+  base::Run run;
+  run.cancel = &cancel;
+  run.seed = static_cast<std::uint64_t>(options.seed);
+  run.progress = [&progress](auto stage, auto subject, double fraction) { progress.show(stage, subject, fraction); };
+  return run;
+}
+
+auto read_scan(const ScanRequest& request, const pipeline::Options& options, const base::Run& run, Progress& progress)
+    -> base::Result<ingest::Scene> {
+  progress.show("ingest", request.inputs.front(), 0);
+  const std::vector<fs::path> meshes(request.inputs.begin(), request.inputs.end() - 1);
+  auto scene = ingest::read_scene(meshes, request.inputs.back(), options.ingest, run);
+  if (scene)
+    for (const auto& warning : scene->warnings) progress.say(base::to_string(warning));
+  return scene;
+}
+
+}  // namespace mansard::cli

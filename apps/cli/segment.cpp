@@ -1,0 +1,147 @@
+// `mansard segment MESH… FOOTPRINTS -o OUT.gpkg`: why walls are where they are.
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "apps/cli/exit.hpp"
+#include "apps/cli/output.hpp"
+#include "apps/cli/scan.hpp"
+#include "apps/cli/verbs.hpp"
+#include "mansard/base/text.hpp"
+
+namespace mansard::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using NamedBytes = std::vector<std::pair<fs::path, std::string>>;
+
+struct Request {
+  ScanRequest scan;
+  std::string out, mps;
+};
+
+auto check_outputs(const Request& request) -> base::Result<void> {
+  if (fs::path(request.out).extension() != ".gpkg")
+    return base::error("usage", "the output is a GeoPackage; give a name that ends in .gpkg", request.out);
+  std::vector<fs::path> files{request.out};
+  if (!request.mps.empty()) files.emplace_back(request.mps);
+  return files_free(request.scan, std::move(files));
+}
+
+/// The programs of the blocks with faces inside. One takes the name that was given; several have the block's in it.
+auto programs(const Request& request, const pipeline::Segmented& result) -> base::Result<NamedBytes> {
+  std::vector<const pipeline::SegmentedBlock*> blocks;
+  for (const auto& block : result.segmented)
+    if (block.segmentation && std::ranges::any_of(block.segmentation->faces, &segment::FaceEvidence::inside))
+      blocks.push_back(&block);
+  NamedBytes files;
+  std::vector<fs::path> names;
+  for (const auto* block : blocks) {
+    fs::path path = request.mps;
+    if (blocks.size() > 1) path.replace_filename(path.stem().string() + "-" + block->name + path.extension().string());
+    auto text = solver::mps(segment::program_of(*block->segmentation), block->name);
+    if (!text) return text.error();
+    names.push_back(path);
+    files.emplace_back(std::move(path), std::move(*text));
+  }
+  if (auto usable = files_free(request.scan, std::move(names)); !usable) return usable.error();
+  return files;
+}
+
+auto total(const std::vector<pipeline::BlockReport>& blocks, std::size_t pipeline::BlockReport::*member)
+    -> std::size_t {
+  std::size_t sum = 0;
+  for (const auto& block : blocks) sum += block.*member;
+  return sum;
+}
+
+auto with_status(const std::vector<pipeline::BlockReport>& blocks, std::string_view status) -> std::string {
+  return std::to_string(std::ranges::count(blocks, status, &pipeline::BlockReport::status));
+}
+
+void say_terms(const std::vector<pipeline::BlockReport>& blocks, Progress& progress) {
+  segment::Terms sum;
+  for (const auto& block : blocks) {
+    sum.sweep_unused += block.terms.sweep_unused;
+    sum.unsupported += block.terms.unsupported;
+    sum.height += block.terms.height;
+    sum.thin += block.terms.thin;
+    sum.gis_unused += block.terms.gis_unused;
+  }
+  const auto amount = [](double cost) { return base::to_text(cost, 1); };
+  progress.say("objective " + amount(sum.sum()) + ": sweep-edges unused " + amount(sum.sweep_unused) +
+               ", walls without one " + amount(sum.unsupported) + ", height steps " + amount(sum.height) +
+               ", conflicts " + amount(sum.thin) + ", GIS edges unused " + amount(sum.gis_unused));
+}
+
+void summarise(const pipeline::Segmented& result, const Request& request, Progress& progress) {
+  using pipeline::BlockReport;
+  const auto& blocks = result.blocks;
+  const auto count = [&](std::size_t BlockReport::*member) { return std::to_string(total(blocks, member)); };
+  progress.say(std::to_string(blocks.size()) + (blocks.size() == 1 ? " block: " : " blocks: ") +
+               count(&BlockReport::sweep_edges) + " sweep-edges, " + count(&BlockReport::faces) + " faces, " +
+               count(&BlockReport::variables) + " variables, " + count(&BlockReport::parts) + " parts");
+  say_terms(blocks, progress);
+  double gap = 0;
+  for (const auto& block : blocks) gap = std::max(gap, relative_gap(block));
+  progress.say(with_status(blocks, "optimal") + " of " + std::to_string(blocks.size()) + " blocks proven optimal, " +
+               with_status(blocks, "stopped") + " stopped, " + with_status(blocks, "empty") + " empty, " +
+               with_status(blocks, "failed") + " failed; the largest gap is " + base::to_text(100 * gap, 3) + " %");
+  if (request.scan.verbose || result.warnings.size() <= 20)
+    for (const auto& warning : result.warnings) progress.say(base::to_string(warning));
+}
+
+auto write_all(const Request& request, const pipeline::Segmented& result, const ingest::Scene& scene,
+               const NamedBytes& mps, const base::Run& run) -> base::Result<void> {
+  const auto layers = write::geopackage(pipeline::segment_layers(scene, result.segmented, result.made_by), scene.frame);
+  if (!layers) return layers.error();
+  const std::string report = pipeline::report_json(result, scene);
+  std::vector<base::FileToWrite> files{{request.out, *layers}};
+  for (const auto& [path, bytes] : mps) files.push_back({path, bytes});
+  if (!request.scan.report.empty()) files.push_back({request.scan.report, report});
+  return base::write_files(files, run.cancel);
+}
+
+auto segment_scan(const Request& request, const base::Cancel& cancel) -> int {
+  const auto options = options_of(request.scan);
+  if (!options) return give_up(options.error());
+  if (auto ready = check_outputs(request); !ready) return give_up(ready.error());
+  Progress progress(request.scan.quiet);
+  const auto run = start(request.scan, *options, cancel, progress);
+  const auto scene = read_scan(request.scan, *options, run, progress);
+  if (!scene) return give_up(scene.error());
+  const auto result = pipeline::segment(*scene, *options, run);
+  if (!result) return give_up(result.error());
+  const auto mps = request.mps.empty() ? NamedBytes{} : programs(request, *result);
+  if (!mps) return give_up(mps.error());
+  progress.show("write", request.out, 1);
+  if (auto written = write_all(request, *result, *scene, *mps, run); !written) return give_up(written.error());
+
+  summarise(*result, request, progress);
+  const auto parts = pipeline::parts_by_feature(*scene, result->segmented);
+  const auto without = std::ranges::count(parts, 0U);
+  if (without > 0)
+    progress.say(std::to_string(without) + " of " + std::to_string(parts.size()) +
+                 " footprints have no part of their own; see 'parts' and 'defect' in gis_footprints");
+  if (!request.mps.empty() && mps->empty())
+    progress.say("no block has a face inside, so there is no program to export");
+  std::printf("%s\n", request.out.c_str());
+  for (const auto& [path, bytes] : *mps) std::printf("%s\n", path.c_str());
+  return without == 0 ? all_done : some_fell_back;
+}
+
+}  // namespace
+
+auto segment_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
+  auto* verb =
+      app.add_subcommand("segment", "Mesh and footprints to plan layers that show why walls were drawn or not");
+  auto request = std::make_shared<Request>();
+  add_to(*verb, request->scan);
+  verb->add_option("-o,--output", request->out, "GeoPackage for the layers")->required()->type_name("OUT.gpkg");
+  verb->add_option("--export-mps", request->mps,
+                   "Write the integer program here too, for any other solver; with several blocks, one file each")
+      ->type_name("FILE");
+  return {verb, [request, &cancel] { return segment_scan(*request, cancel); }};
+}
+
+}  // namespace mansard::cli

@@ -1,0 +1,70 @@
+#include <algorithm>
+#include <cmath>
+
+#include "mansard/evaluate/evaluate.hpp"
+
+namespace mansard::evaluate {
+namespace {
+
+/// The cells that all maps lie in, of `times` the maps' spacing and on whole multiples of it.
+struct Frame {
+  double grid = 0;
+  std::int64_t west = 0, south = 0, columns = 0, rows = 0;
+
+  Frame(std::span<const ErrorMap> maps, double spacing, std::int64_t times)
+      : grid(spacing * static_cast<double>(times)) {
+    std::int64_t east = 0, north = 0;
+    for (const auto& map : maps) {
+      if (map.columns == 0) continue;
+      const auto least_column = cell(map.origin.x), least_row = cell(map.origin.y);
+      const auto most_column = cell(map.origin.x + map.grid * static_cast<double>(map.columns - 1)),
+                 most_row = cell(map.origin.y + map.grid * static_cast<double>(map.rows - 1));
+      const bool first = columns == 0;
+      west = first ? least_column : std::min(west, least_column);
+      south = first ? least_row : std::min(south, least_row);
+      east = first ? most_column : std::max(east, most_column);
+      north = first ? most_row : std::max(north, most_row);
+      columns = east - west + 1;
+      rows = north - south + 1;
+    }
+  }
+  /// The cell in which a centre of a finer one lies.
+  [[nodiscard]] auto cell(double centre) const -> std::int64_t {
+    return static_cast<std::int64_t>(std::floor(centre / grid));
+  }
+};
+
+}  // namespace
+
+auto merged(std::span<const ErrorMap> maps, std::size_t most) -> ErrorMap {
+  const auto filled = std::ranges::find_if(maps, [](const ErrorMap& map) { return map.columns > 0; });
+  ErrorMap all;
+  if (filled == maps.end()) return all;
+  std::int64_t times = 1;
+  Frame frame(maps, filled->grid, times);
+  while (static_cast<std::size_t>(frame.columns * frame.rows) > most) frame = Frame(maps, filled->grid, ++times);
+
+  all.grid = frame.grid;
+  all.origin = {(static_cast<double>(frame.west) + 0.5) * frame.grid,
+                (static_cast<double>(frame.south) + 0.5) * frame.grid};
+  all.columns = static_cast<std::size_t>(frame.columns);
+  all.rows = static_cast<std::size_t>(frame.rows);
+  all.difference.assign(all.columns * all.rows, std::numeric_limits<float>::quiet_NaN());
+  std::vector<std::uint32_t> counts(times > 1 ? all.difference.size() : 0, 0);
+  for (const auto& map : maps)
+    for (std::size_t r = 0; r < map.rows; ++r)
+      for (std::size_t c = 0; c < map.columns; ++c) {
+        const float value = map.at(c, r);
+        if (std::isnan(value)) continue;
+        const auto column = frame.cell(map.origin.x + map.grid * static_cast<double>(c)) - frame.west;
+        const auto row = frame.cell(map.origin.y + map.grid * static_cast<double>(r)) - frame.south;
+        const auto at = static_cast<std::size_t>(row * frame.columns + column);
+        float& cell = all.difference[at];
+        // The mean so far, with one more.
+        cell = times == 1 || counts[at] == 0 ? value : cell + (value - cell) / static_cast<float>(counts[at] + 1);
+        if (times > 1) ++counts[at];
+      }
+  return all;
+}
+
+}  // namespace mansard::evaluate

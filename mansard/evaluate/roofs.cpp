@@ -1,0 +1,161 @@
+// Roofs and classes of a model against those of the truth.
+#include <algorithm>
+#include <cmath>
+
+#include "mansard/evaluate/detail/grid.hpp"
+#include "mansard/evaluate/detail/normals.hpp"
+#include "mansard/evaluate/truth.hpp"
+
+namespace mansard::evaluate {
+namespace {
+
+using geometry::Point3;
+using ingest::SurfaceClass;
+
+/// A model, ready to be looked at from above.
+struct FromAbove {
+  ingest::ModelSurface surface;
+  std::vector<Point3> normals;
+  rays::Scene scene;
+
+  explicit FromAbove(const ingest::Model& model)
+      : surface(ingest::surface_of(model)), normals(detail::normals_of(surface.mesh)), scene(surface.mesh) {}
+};
+
+/// One place on a true roof plane.
+struct Place {
+  std::uint32_t plane = 0;
+  bool bare = true;
+  double angle = 0, offset = 0;
+};
+
+/// Radians between the normals, whichever way the faces are turned.
+auto angle_between(Point3 a, Point3 b) -> double { return std::acos(std::clamp(std::abs(dot(a, b)), 0.0, 1.0)); }
+
+/// The places of one building of the truth, on the grid over it.
+auto places_of(std::uint32_t building, const geometry::Box2& box, const FromAbove& truth, const Planes& planes,
+               const FromAbove& model, double grid) -> std::vector<Place> {
+  constexpr double least_area = 2;  // m²; less is a dormer's cheek or a sliver
+  std::vector<Place> places;
+  const auto cells = detail::grid_over(box, grid);
+  for (std::int64_t j = 0; j < cells.rows; ++j)
+    for (std::int64_t i = 0; i < cells.columns; ++i) {
+      const auto at = cells.centre(i, j);
+      const auto real = truth.scene.seen_from_above(at);
+      if (!real || truth.surface.buildings[real->triangle] != building) continue;
+      if (truth.surface.classes[real->triangle] != SurfaceClass::roof) continue;
+      const auto plane = planes.of_face[truth.surface.faces[real->triangle]];
+      if (planes.planes[plane].area < least_area) continue;
+      Place place{plane};
+      if (const auto built = model.scene.seen_from_above(at)) {
+        place.bare = false;
+        place.angle = angle_between(truth.normals[real->triangle], model.normals[built->triangle]);
+        place.offset = built->z - real->z;
+      }
+      places.push_back(place);
+    }
+  return places;
+}
+
+auto places_on(const FromAbove& truth, std::size_t buildings, const Planes& planes, const FromAbove& model, double grid)
+    -> std::vector<Place> {
+  std::vector<geometry::Box2> boxes(buildings);
+  for (std::size_t t = 0; t < truth.surface.mesh.triangles.size(); ++t)
+    for (const auto v : truth.surface.mesh.triangles[t])
+      boxes[truth.surface.buildings[t]].add(xy(truth.surface.mesh.vertices[v]));
+  std::vector<std::vector<Place>> of_building(buildings);
+  base::parallel_for(buildings, [&](std::size_t b) {
+    of_building[b] = places_of(static_cast<std::uint32_t>(b), boxes[b], truth, planes, model, grid);
+  });
+  std::vector<Place> places;
+  for (const auto& own : of_building) places.insert(places.end(), own.begin(), own.end());
+  return places;
+}
+
+auto quantile(std::vector<double>& values, double share) -> double {
+  if (values.empty()) return 0;
+  const auto at = static_cast<std::size_t>(std::floor(share * static_cast<double>(values.size() - 1) + 0.5));
+  std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(at));
+  return values[at];
+}
+
+}  // namespace
+
+auto compare_roofs(const ingest::Model& truth_model, const ingest::Model& model_model, double grid) -> Roofs {
+  constexpr double right_angle = 3 * 0.017453292519943295, right_offset = 0.25;
+  const FromAbove truth(truth_model), model(model_model);
+  const auto planes = planes_of(truth_model);
+  const auto places = places_on(truth, truth_model.buildings.size(), planes, model, grid);
+
+  Roofs out;
+  std::vector<std::size_t> seen(planes.planes.size(), 0), good(planes.planes.size(), 0);
+  std::vector<double> angles, offsets;
+  std::size_t by_angle = 0, by_height = 0, by_both = 0;
+  for (const auto& place : places) {
+    ++seen[place.plane];
+    if (place.bare) {
+      ++out.bare;
+      continue;
+    }
+    angles.push_back(place.angle);
+    offsets.push_back(place.offset);
+    const bool turned = place.angle > right_angle, off = std::abs(place.offset) > right_offset;
+    if (!turned) ++by_angle;
+    if (!off) ++by_height;
+    if (turned || off) continue;
+    ++by_both;
+    ++good[place.plane];
+  }
+  for (std::size_t p = 0; p < seen.size(); ++p) {
+    out.planes += seen[p] > 0 ? 1 : 0;
+    out.found += seen[p] > 0 && 2 * good[p] >= seen[p] ? 1 : 0;
+  }
+  out.places = places.size();
+  if (places.empty()) return out;
+  const auto all = static_cast<double>(places.size());
+  out.right_angle = static_cast<double>(by_angle) / all;
+  out.right_height = static_cast<double>(by_height) / all;
+  out.right = static_cast<double>(by_both) / all;
+  for (const double angle : angles) out.angle_mean += angle / static_cast<double>(angles.size());
+  out.angle_median = quantile(angles, 0.5);
+  out.offset_median = quantile(offsets, 0.5);
+  for (double& offset : offsets) offset = std::abs(offset);
+  out.offset_p95_absolute = quantile(offsets, 0.95);
+  return out;
+}
+
+auto Confusion::accuracy() const -> double {
+  double right = 0, all = 0;
+  for (std::size_t t = 0; t < area.size(); ++t)
+    for (std::size_t m = 0; m < area.size(); ++m) {
+      all += area[t][m];
+      right += t == m ? area[t][m] : 0;
+    }
+  return all > 0 ? right / all : 0;
+}
+
+auto compare_classes(const ingest::ModelSurface& truth, const ingest::ModelSurface& model, const SampleOptions& options,
+                     std::uint64_t seed, const base::Run& run) -> Confusion {
+  constexpr double turned = 0.2;  // m
+  const rays::Scene scene(truth.mesh);
+  const auto true_normals = detail::normals_of(truth.mesh), normals = detail::normals_of(model.mesh);
+  const auto samples = open_samples(model, options, seed, run);
+  constexpr std::uint8_t none = ingest::surface_class_count;
+  std::vector<std::uint8_t> real(samples.size(), none);
+  base::parallel_for(samples.size(), [&](std::size_t i) {
+    if (run.cancelled()) return;
+    const Point3 own = normals[samples[i].triangle];
+    const auto near = scene.nearest(samples[i].point, confusion_reach,
+                                    [&](std::uint32_t t) { return turned * (1 - dot(own, true_normals[t])); });
+    if (near) real[i] = static_cast<std::uint8_t>(truth.classes[near->triangle]);
+  });
+  const double each = area_per_sample(model.mesh, options);
+  Confusion out;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const auto as = static_cast<std::size_t>(model.classes[samples[i].triangle]);
+    (real[i] == none ? out.beyond : out.area[real[i]][as]) += each;
+  }
+  return out;
+}
+
+}  // namespace mansard::evaluate

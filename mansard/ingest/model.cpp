@@ -1,0 +1,308 @@
+// The story of a model: its bytes, what its format says, one frame, and what is left when all faults are out.
+#include "mansard/ingest/model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+
+#include "mansard/base/files.hpp"
+#include "mansard/base/text.hpp"
+#include "mansard/ingest/detail/by_normal.hpp"
+#include "mansard/ingest/detail/clean.hpp"
+#include "mansard/ingest/detail/hash.hpp"
+#include "mansard/ingest/detail/mesh_files.hpp"
+#include "mansard/ingest/detail/model_crs.hpp"
+#include "mansard/ingest/detail/model_files.hpp"
+
+namespace mansard::ingest {
+namespace {
+
+using geometry::Point2;
+using geometry::Point3;
+
+constexpr double farthest = 1e8;  // m; a coordinate beyond is as good as infinite
+
+auto usable(Point3 p) -> bool {
+  return std::abs(p.x) < farthest && std::abs(p.y) < farthest && std::abs(p.z) < farthest;  // false for NaN
+}
+
+/// An axis-parallel box in space.
+struct Extent {
+  geometry::Box2 plan;
+  double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
+
+  void add(Point3 p) {
+    plan.add(xy(p));
+    low = std::min(low, p.z);
+    high = std::max(high, p.z);
+  }
+  [[nodiscard]] auto overlaps(const Extent& other) const -> bool {
+    return plan.overlaps(other.plan) && low <= other.high && other.low <= high;
+  }
+};
+
+auto in_words(const Extent& e, const Frame& frame) -> std::string {
+  const auto range = [&](const char* axis, double least, double most, std::size_t i) {
+    const auto at = static_cast<double>(frame.origin[i]);
+    return std::string(axis) + " " + base::to_text(least + at, 1) + " to " + base::to_text(most + at, 1);
+  };
+  return range("x", e.plan.least.x, e.plan.most.x, 0) + ", " + range("y", e.plan.least.y, e.plan.most.y, 1) + ", " +
+         range("z", e.low, e.high, 2);
+}
+
+template <class Act>
+void each_loop(Model& model, Act act) {
+  for (auto& building : model.buildings)
+    for (auto& part : building.parts)
+      for (auto& face : part.faces)
+        for (auto& loop : face.loops) act(loop);
+}
+
+/// Repeated corners go; a loop without three of them is none.
+auto is_sound(std::vector<Point3>& loop) -> bool {
+  loop.erase(std::unique(loop.begin(), loop.end()), loop.end());
+  while (loop.size() > 1 && loop.front() == loop.back()) loop.pop_back();
+  return loop.size() >= 3 && std::ranges::all_of(loop, usable);
+}
+
+/// Takes out what cannot be used; returns how many faces.
+auto drop_unusable(std::vector<ModelBuilding>& buildings) -> std::size_t {
+  std::size_t dropped = 0;
+  for (auto& building : buildings) {
+    for (auto& part : building.parts) {
+      dropped += std::erase_if(part.faces, [](ModelFace& face) {
+        if (face.loops.empty() || !is_sound(face.loops.front())) return true;
+        const auto holes = face.loops.begin() + 1;
+        face.loops.erase(std::remove_if(holes, face.loops.end(), [](auto& hole) { return !is_sound(hole); }),
+                         face.loops.end());
+        return length(detail::area_vector(face.loops.front())) < 1e-9;
+      });
+    }
+    std::erase_if(building.parts, [](const ModelPart& part) { return part.faces.empty(); });
+  }
+  std::erase_if(buildings, [](const ModelBuilding& building) { return building.parts.empty(); });
+  return dropped;
+}
+
+/// Whole metres, as for footprints: nothing for coordinates that are small anyway, else the middle and the foot.
+auto origin_of(const Extent& e) -> std::array<std::int64_t, 3> {
+  constexpr double small = 1024;
+  const auto along = [](double least, double most, double from) -> std::int64_t {
+    return std::max(std::abs(least), std::abs(most)) <= small ? 0 : static_cast<std::int64_t>(std::floor(from));
+  };
+  const Point2 middle = 0.5 * (e.plan.least + e.plan.most);
+  return {along(e.plan.least.x, e.plan.most.x, middle.x), along(e.plan.least.y, e.plan.most.y, middle.y),
+          along(e.low, e.high, e.low)};
+}
+
+void shift(Model& model, Point3 by) {
+  each_loop(model, [&](auto& loop) {
+    for (auto& p : loop) p = p + by;
+  });
+}
+
+auto is_obj(const std::filesystem::path& path) -> bool {
+  std::string ending = path.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+  return ending == ".obj";
+}
+
+/// The CRS to work in: the model's own, unless the user says there is none, or names it where the model does not.
+auto working_crs(const std::string& spelt, const std::string& option, const std::string& subject)
+    -> base::Result<std::string> {
+  if (option == "local") return std::string();
+  auto own = detail::plane_crs(spelt, subject);
+  if (!own || option.empty()) return own;
+  auto asked = detail::plane_crs(option, "ingest.crs");
+  if (!asked || own->empty() || detail::same_crs(*own, *asked)) return asked;
+  return base::error("ingest-model-crs",
+                     "the model is in " + *own + " and --crs says " + *asked +
+                         "; a model is never projected: convert one of them, or say --crs local",
+                     subject);
+}
+
+auto read(const std::filesystem::path& path, const ModelOptions& options) -> base::Result<Model> {
+  const std::string subject = path.string();
+  const auto bytes = base::read_file(path);
+  if (!bytes) return bytes.error();
+  if (bytes->empty()) return base::error("ingest-model-format", "the file is empty; copy or export it again", subject);
+  auto raw =
+      is_obj(path) ? detail::read_labelled_obj(*bytes, subject) : detail::read_cityjson(*bytes, options.lod, subject);
+  if (!raw) return raw.error();
+  auto crs = working_crs(raw->crs, options.crs, subject);
+  if (!crs) return crs.error();
+
+  Model model;
+  model.buildings = std::move(raw->buildings);
+  model.lod = std::move(raw->lod);
+  model.warnings = std::move(raw->warnings);
+  model.inputs = {{subject, bytes->size(), detail::sha256(*bytes)}};
+  const auto say = [&](const char* code, const std::string& words) {
+    model.warnings.push_back(base::warning(code, words, subject));
+  };
+  if (const auto dropped = drop_unusable(model.buildings); dropped > 0)
+    say("ingest-model-face", std::to_string(dropped) + " faces without three corners or without area were left out");
+  if (model.buildings.empty())
+    return base::error("ingest-model-empty", "there is no building with a surface in it; check LoD and object types",
+                       subject);
+
+  std::size_t guessed = 0, faces = 0;
+  for (auto& building : model.buildings) {
+    guessed += detail::classify_by_normal(building);
+    for (const auto& part : building.parts) faces += part.faces.size();
+  }
+  if (guessed > 0)
+    say("ingest-model-semantics", std::to_string(guessed) + " of " + std::to_string(faces) +
+                                      " surfaces do not say whether they are wall, roof or ground; told by direction");
+  Extent extent;
+  each_loop(model, [&](const auto& loop) {
+    for (const auto p : loop) extent.add(p);
+  });
+  model.frame = {origin_of(extent), std::move(*crs)};
+  const auto& o = model.frame.origin;
+  shift(model, {-static_cast<double>(o[0]), -static_cast<double>(o[1]), -static_cast<double>(o[2])});
+  return model;
+}
+
+/// The plane that a face is cut into triangles in: the two axes it is least foreshortened along, turned so that its
+/// outer loop is counter-clockwise.
+auto drawn(const ModelFace& face) -> geometry::Polygon {
+  const Point3 n = detail::area_vector(face.loops.front());
+  const auto on = [&](Point3 p) -> Point2 {
+    if (std::abs(n.z) >= std::abs(n.x) && std::abs(n.z) >= std::abs(n.y)) return {n.z > 0 ? p.x : -p.x, p.y};
+    if (std::abs(n.x) >= std::abs(n.y)) return {n.x > 0 ? p.y : -p.y, p.z};
+    return {n.y > 0 ? p.z : -p.z, p.x};
+  };
+  geometry::Polygon polygon;
+  for (const auto& loop : face.loops) {
+    geometry::Ring ring;
+    for (const Point3 p : loop) ring.push_back(on(p));
+    if (&loop == &face.loops.front()) polygon.outer = std::move(ring);
+    else polygon.holes.push_back(std::move(ring));
+  }
+  return polygon;
+}
+
+/// Triangles over the corners of all loops in order; none for a face that crosses itself.
+auto triangles_of(const ModelFace& face) -> std::vector<geometry::Triangle> {
+  if (face.loops.size() == 1 && face.loops.front().size() == 3) return {{0, 1, 2}};
+  auto cut = geometry::triangulate(drawn(face));
+  return cut ? std::move(*cut) : std::vector<geometry::Triangle>();
+}
+
+auto extent_of(const geometry::Mesh& mesh) -> Extent {
+  Extent e;
+  for (const Point3 p : mesh.vertices) e.add(p);
+  return e;
+}
+
+}  // namespace
+
+auto to_string(SurfaceClass kind) -> std::string_view {
+  static constexpr std::array<std::string_view, surface_class_count> names{"wall", "roof", "ground", "other"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+auto read_model(const std::filesystem::path& path, const ModelOptions& options) -> base::Result<Model> {
+  try {
+    return read(path, options);
+  } catch (const std::bad_alloc&) {
+    return base::error("ingest-memory", "the model does not fit into memory; cut it into tiles", path.string());
+  } catch (const std::exception& e) {
+    return base::error("ingest-model-format", std::string("cannot be read (") + e.what() + "); check what it is",
+                       path.string());
+  }
+}
+
+auto in_frame(Model model, const Frame& frame) -> base::Result<Model> {
+  const std::string subject = model.inputs.empty() ? std::string() : model.inputs.front().path;
+  if (!model.frame.crs.empty() && !frame.crs.empty() && !detail::same_crs(model.frame.crs, frame.crs))
+    return base::error("ingest-model-crs",
+                       "it is in " + model.frame.crs + ", and the rest in " + frame.crs +
+                           "; a model is never projected: convert one of them",
+                       subject);
+  const auto by = [&](std::size_t axis) { return static_cast<double>(model.frame.origin[axis] - frame.origin[axis]); };
+  shift(model, {by(0), by(1), by(2)});
+  model.frame = frame;
+  return model;
+}
+
+auto surface_of(const Model& model) -> ModelSurface {
+  ModelSurface out;
+  std::uint32_t building = 0, part = 0, face_number = 0;
+  for (const auto& b : model.buildings) {
+    for (const auto& p : b.parts) {
+      for (const auto& face : p.faces) {
+        const auto first = static_cast<std::uint32_t>(out.mesh.vertices.size());
+        const auto triangles = triangles_of(face);
+        if (triangles.empty()) ++out.lost;
+        for (const auto& loop : face.loops) out.mesh.vertices.insert(out.mesh.vertices.end(), loop.begin(), loop.end());
+        for (const auto& t : triangles) {
+          out.mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+          out.classes.push_back(face.kind);
+          out.buildings.push_back(building);
+          out.parts.push_back(part);
+          out.faces.push_back(face_number);
+        }
+        ++face_number;
+      }
+      ++part;
+    }
+    ++building;
+  }
+  return out;
+}
+
+auto part_of(const ModelSurface& surface, const std::vector<bool>& buildings) -> ModelSurface {
+  ModelSurface out;
+  const auto& mesh = surface.mesh;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (!buildings[surface.buildings[t]]) continue;
+    const auto first = static_cast<std::uint32_t>(out.mesh.vertices.size());
+    for (const auto v : mesh.triangles[t]) out.mesh.vertices.push_back(mesh.vertices[v]);
+    out.mesh.triangles.push_back({first, first + 1, first + 2});
+    out.classes.push_back(surface.classes[t]);
+    out.buildings.push_back(surface.buildings[t]);
+    out.parts.push_back(surface.parts[t]);
+    out.faces.push_back(surface.faces[t]);
+  }
+  return out;
+}
+
+auto read_mesh(const std::vector<std::filesystem::path>& paths, const Frame& frame, const Options& options,
+               const base::Run& run) -> base::Result<ScannedMesh> {
+  const std::string subject = paths.empty() ? std::string() : paths.front().string();
+  run.report("ingest", subject, 0);
+  auto files = detail::read_meshes(paths, options.up, run);
+  if (!files) return files.error();
+  std::array<double, 3> by{};
+  for (std::size_t i = 0; i < 3; ++i) by[i] = options.mesh_offset[i] - static_cast<double>(frame.origin[i]);
+  auto clean = detail::clean(std::move(files->mesh), by, std::nullopt);
+  if (clean.mesh.triangles.empty())
+    return base::error("ingest-mesh-unusable", "no triangle can be used; export the mesh again", subject);
+  ScannedMesh out;
+  out.mesh = std::move(clean.mesh);
+  for (const auto c : clean.classes) out.classes.push_back(static_cast<SurfaceClass>(c));
+  out.counts = clean.counts;
+  out.inputs = std::move(files->inputs);
+  out.warnings = std::move(files->warnings);
+  auto more = detail::warnings_of(out.counts, subject);
+  out.warnings.insert(out.warnings.end(), more.begin(), more.end());
+  run.report("ingest", subject, 1);
+  return out;
+}
+
+auto check_overlap(const geometry::Mesh& first, const geometry::Mesh& second,
+                   const std::pair<std::string, std::string>& what, const Frame& frame, const std::string& subject)
+    -> base::Result<void> {
+  const Extent a = extent_of(first), b = extent_of(second);
+  if (a.overlaps(b)) return {};
+  return base::error("ingest-model-overlap",
+                     what.first + " and " + what.second + " do not overlap: the " + what.first + " lies in " +
+                         in_words(a, frame) + ", the " + what.second + " in " + in_words(b, frame) +
+                         (frame.crs.empty() ? "" : " (" + frame.crs.substr(0, frame.crs.find('[')) + ")") +
+                         "; check both, and --mesh-offset",
+                     subject);
+}
+
+}  // namespace mansard::ingest

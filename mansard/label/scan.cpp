@@ -1,0 +1,96 @@
+#include "mansard/label/scan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mansard/label/detail/terrain.hpp"
+#include "mansard/rays/rays.hpp"
+
+namespace mansard::label {
+namespace {
+
+using geometry::Point3;
+using ingest::SurfaceClass;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+auto normals_of(const geometry::Mesh& mesh) -> std::vector<Point3> {
+  std::vector<Point3> normals;
+  for (const auto& t : mesh.triangles) normals.push_back(normalised(detail::area_vector(mesh, t)));
+  return normals;
+}
+
+/// What a place costs as ground: its distance from the terrain, across it, and what it looks another way.
+auto ground_cost(Point3 p, Point3 normal, const detail::Terrain& terrain, const ScanOptions& options) -> double {
+  constexpr double steep = 0.2;  // the foot of a wall is not ground for being low
+  const double off = std::abs(p.z - terrain.at(xy(p)));
+  if (!(off <= options.ground_height)) return infinity;
+  return off * std::max(normal.z, steep) + options.turned * (1 - normal.z);
+}
+
+}  // namespace
+
+auto label_scan(const geometry::Mesh& scan, const ingest::ModelSurface& model, const ScanOptions& options,
+                const base::Run& run) -> std::vector<SurfaceClass> {
+  run.report("label", {}, 0);
+  const rays::Scene scene(model.mesh);
+  const auto model_normals = normals_of(model.mesh), normals = normals_of(scan);
+  const detail::Terrain terrain(
+      scan, [&](std::size_t t) { return !scene.top(xy(detail::centre_of(scan, scan.triangles[t]))); }, options.cell,
+      options.slope);
+  std::vector<SurfaceClass> classes(scan.triangles.size(), SurfaceClass::other);
+  base::parallel_for(classes.size(), [&](std::size_t i) {
+    if (run.cancelled()) return;
+    const Point3 p = detail::centre_of(scan, scan.triangles[i]);
+    const auto extra = [&](std::uint32_t t) {
+      if (model.classes[t] == SurfaceClass::ground) return infinity;
+      return options.turned * (1 - dot(normals[i], model_normals[t]));
+    };
+    const double as_ground = ground_cost(p, normals[i], terrain, options);
+    if (as_ground < infinity) classes[i] = SurfaceClass::ground;
+    const auto near = scene.nearest(p, options.reach, extra);
+    if (near && near->distance + extra(near->triangle) <= as_ground) classes[i] = model.classes[near->triangle];
+  });
+  run.report("label", {}, 1);
+  return classes;
+}
+
+auto label_by_normal(const geometry::Mesh& scan) -> std::vector<SurfaceClass> {
+  constexpr double steep = 0.70710678;        // cosine of 45°
+  constexpr double storey = 2.5, reach = 15;  // m
+  // No slope to speak of: what is lowest within reach.
+  const detail::Terrain lowest(
+      scan, [](std::size_t) { return true; }, reach, 0.01);
+  std::vector<SurfaceClass> classes;
+  classes.reserve(scan.triangles.size());
+  for (const auto& t : scan.triangles) {
+    const Point3 p = detail::centre_of(scan, t);
+    if (std::abs(normalised(detail::area_vector(scan, t)).z) < steep) classes.push_back(SurfaceClass::wall);
+    else classes.push_back(p.z > lowest.at(xy(p)) + storey ? SurfaceClass::roof : SurfaceClass::ground);
+  }
+  return classes;
+}
+
+auto confusion_of(const geometry::Mesh& scan, std::span<const SurfaceClass> truth, std::span<const SurfaceClass> given)
+    -> ScanConfusion {
+  ScanConfusion area{};
+  for (std::size_t t = 0; t < scan.triangles.size(); ++t)
+    area[static_cast<std::size_t>(truth[t])][static_cast<std::size_t>(given[t])] +=
+        length(detail::area_vector(scan, scan.triangles[t])) / 2;
+  return area;
+}
+
+auto classes_from(const geometry::Mesh& scan, const geometry::Mesh& labelled, std::span<const SurfaceClass> classes)
+    -> std::vector<SurfaceClass> {
+  constexpr double same_place = 1.0;  // m
+  const rays::Scene scene(labelled);
+  std::vector<SurfaceClass> out(scan.triangles.size(), SurfaceClass::other);
+  base::parallel_for(out.size(), [&](std::size_t i) {
+    if (const auto near = scene.nearest(detail::centre_of(scan, scan.triangles[i]), same_place))
+      out[i] = classes[near->triangle];
+  });
+  return out;
+}
+
+}  // namespace mansard::label

@@ -1,0 +1,307 @@
+// The story of an evaluation: the files in one frame, block after block, building after building, then the truth.
+#include "mansard/pipeline/evaluation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "mansard/base/text.hpp"
+#include "mansard/block/block.hpp"
+
+namespace mansard::pipeline {
+namespace {
+
+using evaluate::Outline;
+
+/// Footprints as they stand in another frame, which differs by whole metres.
+void move_to(const ingest::Frame& frame, ingest::Scene& scene) {
+  const geometry::Point2 by{static_cast<double>(scene.frame.origin[0] - frame.origin[0]),
+                            static_cast<double>(scene.frame.origin[1] - frame.origin[1])};
+  const auto move = [&](geometry::Ring& ring) {
+    for (auto& p : ring) p = p + by;
+  };
+  for (auto& footprint : scene.footprints)
+    for (auto& polygon : footprint.polygons) {
+      move(polygon.outer);
+      std::ranges::for_each(polygon.holes, move);
+    }
+}
+
+auto outline_of(const ingest::ModelBuilding& building) -> Outline { return evaluate::outline_of(building.parts); }
+
+auto building_outlines(const ingest::Model& model) -> std::vector<Outline> {
+  std::vector<Outline> out(model.buildings.size());
+  base::parallel_for(out.size(), [&](std::size_t b) { out[b] = outline_of(model.buildings[b]); });
+  return out;
+}
+
+auto part_outlines(const ingest::Model& model) -> std::vector<Outline> {
+  std::vector<Outline> out;
+  for (const auto& building : model.buildings)
+    for (const auto& part : building.parts) out.push_back(evaluate::outline_of({&part, 1}));
+  return out;
+}
+
+/// The footprints that a model stands on itself.
+auto footprints_of(const ingest::Model& model) -> std::vector<ingest::Footprint> {
+  auto outlines = building_outlines(model);
+  std::vector<ingest::Footprint> out;
+  for (std::size_t b = 0; b < outlines.size(); ++b) {
+    auto& footprint = out.emplace_back();
+    footprint.id = model.buildings[b].id;
+    footprint.polygons = std::move(outlines[b]);
+    if (footprint.polygons.empty())
+      footprint.defect =
+          base::warning("ingest-footprint-area", "its faces seen from above have no outline", footprint.id);
+  }
+  return out;
+}
+
+void append(std::vector<base::Diagnostic>& all, const std::vector<base::Diagnostic>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+auto in_words(const geometry::Box2& box, const ingest::Frame& frame) -> std::string {
+  const auto range = [&](double least, double most, std::size_t axis) {
+    const auto at = static_cast<double>(frame.origin[axis]);
+    return base::to_text(least + at, 1) + " to " + base::to_text(most + at, 1);
+  };
+  return "x " + range(box.least.x, box.most.x, 0) + ", y " + range(box.least.y, box.most.y, 1);
+}
+
+auto read_reference(const EvaluationFiles& files, const ingest::Options& options, const base::Run& run,
+                    EvaluationInput& input) -> base::Result<void> {
+  auto& scene = input.scene;
+  const ingest::Frame frame = input.model.frame;
+  if (files.footprints.empty()) {
+    input.reference = input.truth ? Reference::truth : Reference::model;
+    scene.footprints = footprints_of(input.truth ? *input.truth : input.model);
+    return {};
+  }
+  input.reference = Reference::footprints;
+  auto wanted = options;
+  if (wanted.crs.empty()) wanted.crs = frame.crs;
+  auto read = ingest::read_footprints(files.footprints, wanted, run);
+  if (!read) return read.error();
+  move_to(frame, *read);
+  scene.footprints = std::move(read->footprints);
+  scene.inputs.insert(scene.inputs.end(), read->inputs.begin(), read->inputs.end());
+  append(scene.warnings, read->warnings);
+  geometry::Box2 drawn, built;
+  for (const auto& footprint : scene.footprints)
+    for (const auto& polygon : footprint.polygons)
+      for (const auto p : polygon.outer) drawn.add(p);
+  for (const auto p : ingest::surface_of(input.model).mesh.vertices) built.add(xy(p));
+  if (drawn.overlaps(built)) return {};
+  return base::error("ingest-model-overlap",
+                     "footprints and model do not overlap: the footprints lie in " + in_words(drawn, frame) +
+                         ", the model in " + in_words(built, frame) + "; check both, and --crs",
+                     files.footprints.string());
+}
+
+/// Which block each building of the model stands on: the one it shares most ground with; none for one beside all.
+auto block_of_buildings(const std::vector<Outline>& outlines, const std::vector<block::Block>& blocks)
+    -> std::vector<std::optional<std::size_t>> {
+  std::vector<std::optional<std::size_t>> out(outlines.size());
+  base::parallel_for(outlines.size(), [&](std::size_t m) {
+    double most = 0;
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+      if (const double common = evaluate::common_area(outlines[m], blocks[b].outline); common > most) {
+        most = common;
+        out[m] = b;
+      }
+  });
+  return out;
+}
+
+struct BlockWork {
+  BlockScores block;
+  std::vector<BuildingScores> buildings;
+  std::vector<std::size_t> features;  ///< of the buildings, in the scene
+  std::vector<double> from_model, from_scan;
+  evaluate::ErrorMap map;
+};
+
+auto work_on(const block::Block& block, const ingest::ModelSurface& model, const ingest::Scene& scene,
+             const Options& options, const base::Run& run) -> BlockWork {
+  BlockWork out;
+  out.block.name = block.name;
+  out.block.buildings = block.members.size();
+  std::vector<geometry::Polygon> footprints;
+  std::vector<evaluate::Site> sites;
+  for (const auto& member : block.members) {
+    footprints.insert(footprints.end(), member.polygons.begin(), member.polygons.end());
+    sites.push_back({member.polygons, member.ground});
+  }
+  const rays::Scene scan(block.mesh), top(model.mesh);
+  auto comparison = evaluate::compare(model.mesh, scan, footprints, block.ground, options.evaluate, run);
+  out.block.scores = comparison.scores;
+  out.map = std::move(comparison.map);
+  for (const auto& member : block.members) {
+    BuildingScores building{scene.footprints[member.feature].id, block.name, {}, false};
+    building.scores = evaluate::scores_over(top, scan, member.polygons, member.ground, options.evaluate.grid);
+    const double area = std::accumulate(member.polygons.begin(), member.polygons.end(), 0.0,
+                                        [](double sum, const auto& p) { return sum + geometry::area(p); });
+    building.modelled = building.scores.missed < 0.5 * area;
+    out.buildings.push_back(std::move(building));
+    out.features.push_back(member.feature);
+  }
+  out.from_model = evaluate::from_model(model, scan, {}, run.seed, run);
+  out.from_scan = evaluate::from_scan(block.mesh, sites, model, {}, run.seed, run);
+  out.block.from_model = evaluate::spread_of(out.from_model);
+  out.block.from_scan = evaluate::spread_of(out.from_scan);
+  return out;
+}
+
+/// The scores of all blocks as those of one.
+void sum_up(std::vector<BlockWork>& work, Evaluation& out) {
+  std::vector<evaluate::ErrorMap> maps;
+  std::vector<double> from_model, from_scan;
+  std::vector<float> differences;
+  auto& sum = out.scores;
+  for (auto& one : work) {
+    const auto& s = one.block.scores;
+    sum.cells += s.cells;
+    sum.footprint_cells += s.footprint_cells;
+    sum.mse += static_cast<double>(s.cells) * s.mse;
+    sum.footprint_mse += static_cast<double>(s.footprint_cells) * s.footprint_mse;
+    sum.missed += s.missed;
+    sum.invented += s.invented;
+    differences.insert(differences.end(), one.map.difference.begin(), one.map.difference.end());
+    from_model.insert(from_model.end(), one.from_model.begin(), one.from_model.end());
+    from_scan.insert(from_scan.end(), one.from_scan.begin(), one.from_scan.end());
+    maps.push_back(std::move(one.map));
+    out.blocks.push_back(std::move(one.block));
+  }
+  if (sum.cells > 0) sum.mse /= static_cast<double>(sum.cells);
+  if (sum.footprint_cells > 0) sum.footprint_mse /= static_cast<double>(sum.footprint_cells);
+  evaluate::set_quantiles(differences, sum);
+  out.from_model = evaluate::spread_of(std::move(from_model));
+  out.from_scan = evaluate::spread_of(std::move(from_scan));
+  out.map = evaluate::merged(maps);
+
+  std::vector<std::pair<std::size_t, BuildingScores>> buildings;
+  for (auto& one : work)
+    for (std::size_t i = 0; i < one.buildings.size(); ++i)
+      buildings.emplace_back(one.features[i], std::move(one.buildings[i]));
+  std::ranges::sort(buildings, {}, &std::pair<std::size_t, BuildingScores>::first);
+  for (auto& [feature, building] : buildings) out.buildings.push_back(std::move(building));
+}
+
+auto counts_of(const ingest::Model& model) -> ModelCounts {
+  ModelCounts out;
+  out.buildings = model.buildings.size();
+  for (const auto& building : model.buildings) {
+    out.parts += building.parts.size();
+    for (const auto& part : building.parts) out.faces += part.faces.size();
+  }
+  const auto planes = evaluate::planes_of(model);
+  out.planes = planes.planes.size();
+  for (const auto& plane : planes.planes) out.area[static_cast<std::size_t>(plane.kind)] += plane.area;
+  return out;
+}
+
+auto against(const ingest::Model& truth, const ingest::Model& model, const ingest::ModelSurface& surface,
+             const Options& options, const base::Run& run) -> TruthScores {
+  TruthScores out;
+  const auto true_buildings = building_outlines(truth), true_parts = part_outlines(truth);
+  const auto parts = part_outlines(model);
+  out.parts = evaluate::compare_partition(true_parts, parts);
+  out.buildings = evaluate::compare_partition(true_buildings, building_outlines(model));
+  // A wall between two buildings must be found; a wall between two parts of one may be.
+  out.party_walls = evaluate::compare_party_walls(true_buildings, parts);
+  out.party_walls.right = evaluate::compare_party_walls(true_parts, parts).right;
+  out.roofs = evaluate::compare_roofs(truth, model, options.evaluate.grid);
+  out.classes = evaluate::compare_classes(ingest::surface_of(truth), surface, {}, run.seed, run);
+  return out;
+}
+
+}  // namespace
+
+auto to_string(Reference reference) -> std::string_view {
+  switch (reference) {
+    case Reference::footprints: return "footprints";
+    case Reference::truth: return "truth";
+    case Reference::model: return "model";
+  }
+  return "";
+}
+
+auto read_evaluation(const EvaluationFiles& files, const ingest::Options& options, const base::Run& run)
+    -> base::Result<EvaluationInput> {
+  EvaluationInput input;
+  auto model = ingest::read_model(files.model, {files.lod, options.crs});
+  if (!model) return model.error();
+  input.model = std::move(*model);
+  auto& scene = input.scene;
+  scene.frame = input.model.frame;
+  scene.inputs = input.model.inputs;
+  scene.warnings = input.model.warnings;
+  const auto surface = ingest::surface_of(input.model);
+  if (surface.lost > 0)
+    scene.warnings.push_back(base::warning("ingest-model-face",
+                                           std::to_string(surface.lost) + " faces cross themselves and were left out",
+                                           files.model.string()));
+  auto mesh = ingest::read_mesh(files.meshes, scene.frame, options, run);
+  if (!mesh) return mesh.error();
+  if (auto met = ingest::check_overlap(surface.mesh, mesh->mesh, {"model", "mesh"}, scene.frame, files.model.string());
+      !met)
+    return met.error();
+  scene.mesh = std::move(mesh->mesh);
+  scene.mesh_counts = mesh->counts;
+  scene.inputs.insert(scene.inputs.end(), mesh->inputs.begin(), mesh->inputs.end());
+  append(scene.warnings, mesh->warnings);
+
+  if (!files.truth.empty()) {
+    auto truth = ingest::read_model(files.truth, {files.lod, {}});
+    if (truth) truth = ingest::in_frame(std::move(*truth), scene.frame);
+    if (!truth) return truth.error();
+    if (auto met = ingest::check_overlap(surface.mesh, ingest::surface_of(*truth).mesh, {"model", "truth"}, scene.frame,
+                                         files.truth.string());
+        !met)
+      return met.error();
+    scene.inputs.insert(scene.inputs.end(), truth->inputs.begin(), truth->inputs.end());
+    append(scene.warnings, truth->warnings);
+    input.truth = std::move(*truth);
+  }
+  if (auto done = read_reference(files, options, run, input); !done) return done.error();
+  return input;
+}
+
+auto evaluate_model(const EvaluationInput& input, const Options& options, const base::Run& run)
+    -> base::Result<Evaluation> {
+  Evaluation out;
+  for (const auto& footprint : input.scene.footprints)
+    if (footprint.defect) out.warnings.push_back(*footprint.defect);
+  const auto blocks = block::partition(input.scene, options.block, run);
+  if (blocks.empty() && !run.cancelled())
+    return base::error("pipeline-nothing", "there is no footprint to measure over",
+                       std::string(to_string(input.reference)));
+
+  const auto surface = ingest::surface_of(input.model);
+  const auto outlines = building_outlines(input.model);
+  const auto stands_on = block_of_buildings(outlines, blocks);
+  std::vector<BlockWork> work;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+    run.report("evaluate", blocks[b].name, static_cast<double>(b) / static_cast<double>(blocks.size()));
+    std::vector<bool> own(outlines.size());
+    for (std::size_t m = 0; m < own.size(); ++m) own[m] = stands_on[m] == b;
+    base::Run inner = run;
+    inner.progress = nullptr;
+    work.push_back(work_on(blocks[b], ingest::part_of(surface, own), input.scene, options, inner));
+    work.back().block.model_buildings = static_cast<std::size_t>(std::ranges::count(own, true));
+  }
+  sum_up(work, out);
+  for (std::size_t m = 0; m < outlines.size(); ++m) {
+    if (stands_on[m]) continue;
+    out.beside.push_back(input.model.buildings[m].id);
+    for (const auto& polygon : outlines[m]) out.scores.invented += geometry::area(polygon);
+  }
+  out.counts = counts_of(input.model);
+  if (input.truth) out.truth = against(*input.truth, input.model, surface, options, run);
+  if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+  return out;
+}
+
+}  // namespace mansard::pipeline

@@ -1,0 +1,95 @@
+// A model of any maker held against a mesh, and against known truth.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mansard/evaluate/distances.hpp"
+#include "mansard/evaluate/evaluate.hpp"
+#include "mansard/evaluate/truth.hpp"
+#include "mansard/ingest/model.hpp"
+#include "mansard/pipeline/pipeline.hpp"
+
+namespace mansard::pipeline {
+
+struct EvaluationFiles {
+  std::filesystem::path model;
+  std::vector<std::filesystem::path> meshes;
+  std::filesystem::path truth, footprints;  ///< empty for none
+  std::string lod;                          ///< of model and truth; empty: the highest
+};
+
+/// Whose footprints say where a building should be: those asked for, else the truth's, else the model's own.
+enum class Reference : std::uint8_t { footprints, truth, model };
+[[nodiscard]] auto to_string(Reference reference) -> std::string_view;
+
+/// Everything in the frame of the model.
+struct EvaluationInput {
+  ingest::Model model;
+  std::optional<ingest::Model> truth;
+  ingest::Scene scene;  ///< the mesh with the reference's footprints; `warnings` of all files
+  Reference reference = Reference::model;
+};
+
+/// Reads the files. The CRS is the model's, else `options.crs`; footprints are projected to it, a truth must be in it.
+/// Gives up as ingest::read_model, read_mesh and read_footprints do, and with "ingest-model-overlap".
+[[nodiscard]] auto read_evaluation(const EvaluationFiles& files, const ingest::Options& options,
+                                   const base::Run& run = {}) -> base::Result<EvaluationInput>;
+
+struct ModelCounts {
+  std::size_t buildings = 0, parts = 0, faces = 0, planes = 0;
+  std::array<double, ingest::surface_class_count> area{};  ///< m² per class
+};
+
+/// A building of the reference.
+struct BuildingScores {
+  std::string id, block;
+  evaluate::Scores scores;  ///< over its own footprint
+  bool modelled = false;    ///< the model covers at least half of it
+};
+
+struct BlockScores {
+  std::string name;
+  std::size_t buildings = 0, model_buildings = 0;
+  evaluate::Scores scores;
+  evaluate::Spread from_model, from_scan;  ///< m
+};
+
+struct TruthScores {
+  evaluate::Partition parts, buildings;
+  evaluate::PartyWalls party_walls;  ///< truth, found: of its buildings; model, right: of all parts
+  evaluate::Roofs roofs;
+  evaluate::Confusion classes;
+};
+
+struct Evaluation {
+  ModelCounts counts;
+  evaluate::Scores scores;                 ///< over all blocks; quantiles of all cells
+  evaluate::Spread from_model, from_scan;  ///< m
+  std::vector<BlockScores> blocks;
+  std::vector<BuildingScores> buildings;  ///< in the reference's order, without those that cannot be used
+  std::vector<std::string> beside;        ///< model buildings on no footprint of the reference: invented
+  std::optional<TruthScores> truth;
+  evaluate::ErrorMap map;
+  std::vector<base::Diagnostic> warnings;
+};
+
+/// Guarantees: 1 with the footprints that a model was reconstructed from, the blocks' scores are those of its run.json
+/// to within the rounding of the file · 2 the same input, options and seed give the same numbers at any thread count.
+/// Gives up with "cancelled", "pipeline-nothing" (no usable footprint).
+[[nodiscard]] auto evaluate_model(const EvaluationInput& input, const Options& options, const base::Run& run = {})
+    -> base::Result<Evaluation>;
+
+/// The report as JSON: docs/evaluate.md lists its members.
+[[nodiscard]] auto evaluation_json(const Evaluation& evaluation, const EvaluationInput& input, const Options& options)
+    -> std::string;
+/// The same for a person, in a few lines.
+[[nodiscard]] auto evaluation_table(const Evaluation& evaluation, const EvaluationInput& input) -> std::string;
+
+/// Square metres by true class and class given, as a small table.
+using ClassAreas = std::array<std::array<double, ingest::surface_class_count>, ingest::surface_class_count>;
+[[nodiscard]] auto confusion_table(const ClassAreas& area) -> std::string;
+
+}  // namespace mansard::pipeline

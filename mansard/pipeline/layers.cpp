@@ -1,0 +1,288 @@
+// The segmentation as layers: what was measured, what each edge would have cost, and what was made of it.
+#include <algorithm>
+#include <map>
+
+#include "mansard/base/text.hpp"
+#include "mansard/pipeline/detail/why.hpp"
+#include "mansard/pipeline/pipeline.hpp"
+
+namespace mansard::pipeline {
+namespace {
+
+using enum write::FieldType;
+using Values = std::vector<ingest::Value>;
+using Lines = std::vector<std::vector<geometry::Point2>>;
+
+auto as_whole(std::size_t number) -> ingest::Value { return static_cast<std::int64_t>(number); }
+
+template <class T>
+auto as_whole(const std::optional<T>& number) -> ingest::Value {
+  return number ? as_whole(*number) : ingest::Value();
+}
+
+auto id_of(const ingest::Scene& scene, const std::optional<std::size_t>& feature) -> ingest::Value {
+  return feature ? ingest::Value(scene.footprints[*feature].id) : ingest::Value();
+}
+
+auto length_of(const geometry::Segment2& s) -> double { return geometry::length(s.end - s.start); }
+
+// ---- the input
+
+auto as_text(const ingest::Value& value) -> ingest::Value {
+  if (const auto* flag = std::get_if<bool>(&value)) return std::string(*flag ? "true" : "false");
+  if (const auto* number = std::get_if<std::int64_t>(&value)) return std::to_string(*number);
+  if (const auto* number = std::get_if<double>(&value)) return base::to_text(*number);
+  return value;
+}
+
+/// Sources have one type per attribute, but scenes need not: whole and real numbers make real ones, others text.
+auto type_for(const ingest::Value& value, std::optional<write::FieldType> before) -> write::FieldType {
+  const auto own = std::holds_alternative<bool>(value)           ? flag
+                   : std::holds_alternative<std::int64_t>(value) ? whole
+                   : std::holds_alternative<double>(value)       ? real
+                                                                 : text;
+  if (!before || *before == own) return own;
+  const auto is_number = [](write::FieldType type) { return type == whole || type == real; };
+  return is_number(own) && is_number(*before) ? real : text;
+}
+
+/// Every attribute of any feature, in the order of their first appearance.
+auto attribute_fields(const std::vector<ingest::Footprint>& footprints) -> std::vector<write::Field> {
+  std::vector<std::string> names;
+  std::map<std::string, std::optional<write::FieldType>> types;
+  for (const auto& footprint : footprints)
+    for (const auto& [name, value] : footprint.attributes) {
+      const auto [at, is_new] = types.try_emplace(name);
+      if (is_new) names.push_back(name);
+      if (!std::holds_alternative<std::monostate>(value)) at->second = type_for(value, at->second);
+    }
+  std::vector<write::Field> fields;
+  for (const auto& name : names) fields.push_back({name, types[name].value_or(text)});
+  return fields;
+}
+
+auto gis_footprints(const ingest::Scene& scene, const std::vector<SegmentedBlock>& blocks) -> write::Layer {
+  write::Layer layer{"gis_footprints",
+                     "The footprints as they were read, with their own attributes",
+                     write::Shape::polygons,
+                     {{"feature"}, {"block"}, {"parts", whole}, {"defect"}},
+                     {}};
+  const auto attributes = attribute_fields(scene.footprints);
+  layer.fields.insert(layer.fields.end(), attributes.begin(), attributes.end());
+  std::vector<ingest::Value> block_of(scene.footprints.size());
+  for (const auto& block : blocks)
+    for (const std::size_t f : block.features) block_of[f] = block.name;
+  const auto parts = parts_by_feature(scene, blocks);
+  for (std::size_t f = 0; f < scene.footprints.size(); ++f) {
+    const auto& footprint = scene.footprints[f];
+    Values values{footprint.id, block_of[f], as_whole(parts[f]), ingest::Value()};
+    if (footprint.defect) values.back() = footprint.defect->message;
+    std::map<std::string, ingest::Value> own(footprint.attributes.begin(), footprint.attributes.end());
+    for (const auto& [name, type] : attributes) values.push_back(type == text ? as_text(own[name]) : own[name]);
+    layer.features.push_back({{}, footprint.polygons, std::move(values)});
+  }
+  return layer;
+}
+
+auto made_by_layer(const write::MadeBy& made_by) -> write::Layer {
+  write::Layer layer{"made_by", "How this file was made", write::Shape::none, {{"name"}, {"value"}}, {}};
+  const auto add = [&](const std::string& name, const std::string& value) {
+    layer.features.push_back({{}, {}, {name, value}});
+  };
+  add("mansard", made_by.version);
+  for (const auto& input : made_by.inputs) add("input", input.path + " sha256:" + input.sha256);
+  for (const auto& [name, value] : made_by.options) add(name, value);
+  return layer;
+}
+
+// ---- what was found and measured
+
+auto empty_sweep_edges() -> write::Layer {
+  return {"sweep_edges",
+          "Walls as the mesh shows them, in plan; outside on the left",
+          write::Shape::line,
+          {{"block"}, {"number", whole}, {"area", real}, {"low", real}, {"high", real}, {"length", real}},
+          {}};
+}
+
+void add_sweep_edges(const SegmentedBlock& block, double z0, write::Layer& layer) {
+  for (std::size_t i = 0; i < block.sweep_edges.size(); ++i) {
+    const auto& edge = block.sweep_edges[i];
+    layer.features.push_back(
+        {{{edge.segment.start, edge.segment.end}},
+         {},
+         {block.name, as_whole(i), edge.area, z0 + edge.low, z0 + edge.high, length_of(edge.segment)}});
+  }
+}
+
+auto empty_faces() -> write::Layer {
+  return {"faces",
+          "The fractured ground",
+          write::Shape::polygon,
+          {{"block"},
+           {"number", whole},
+           {"inside", flag},
+           {"height", real},
+           {"seen", flag},
+           {"gis_share", real},
+           {"feature"},
+           {"part", whole},
+           {"area", real}},
+          {}};
+}
+
+void add_faces(const SegmentedBlock& block, const ingest::Scene& scene, double z0, write::Layer& layer) {
+  const auto& faces = block.arrangement.faces;
+  for (std::uint32_t f = 0; f < faces.size(); ++f) {
+    Values values{block.name, as_whole(f)};
+    if (block.segmentation) {
+      const auto& evidence = block.segmentation->faces[f];
+      const ingest::Value height = evidence.seen ? ingest::Value(z0 + evidence.height) : ingest::Value();
+      values.insert(values.end(), {evidence.inside, height, evidence.seen, evidence.gis_share,
+                                   id_of(scene, evidence.feature), as_whole(block.segmentation->part_of_face[f])});
+    } else {
+      values.resize(values.size() + 6);  // nothing was measured
+    }
+    values.emplace_back(faces[f].area);
+    layer.features.push_back({{}, {{block.arrangement.ring(f), {}}}, std::move(values)});
+  }
+}
+
+// ---- what the program decided
+
+auto lines_of(const SegmentedBlock& block, const segment::Candidate& candidate) -> Lines {
+  Lines lines;
+  for (const std::uint32_t h : candidate.half_edges) {
+    const auto segment = block.arrangement.segment(h);
+    lines.push_back({segment.start, segment.end});
+  }
+  return lines;
+}
+
+/// As solver::mps names it.
+auto variable_name(std::size_t number) -> std::string {
+  const auto digits = std::to_string(number);
+  return "X" + std::string(digits.size() < 7 ? 7 - digits.size() : 0, '0') + digits;
+}
+
+auto empty_edges() -> write::Layer {
+  return {"edges",
+          "Edges between inside faces, one variable of the program each, with what they cost and why they were "
+          "cut or not",
+          write::Shape::lines,
+          {{"block"},
+           {"number", whole},
+           {"left", whole},
+           {"right", whole},
+           {"length", real},
+           {"sweep_length", real},
+           {"unsupported_length", real},
+           {"gis_length", real},
+           {"height_difference", real},
+           {"cost_if_cut", real},
+           {"cost_unsupported", real},
+           {"cost_outline_conflict", real},
+           {"cost_if_uncut", real},
+           {"cost_sweep_unused", real},
+           {"cost_height", real},
+           {"cost_gis_unused", real},
+           {"sweep", flag},
+           {"forced", flag},
+           {"solved", flag},
+           {"chosen", flag},
+           {"variable"},
+           {"why"}},
+          {}};
+}
+
+void add_edges(const SegmentedBlock& block, write::Layer& layer) {
+  const auto walls = detail::walls_in_conflict(*block.segmentation);
+  for (std::size_t i = 0; i < block.segmentation->candidates.size(); ++i) {
+    const auto& c = block.segmentation->candidates[i];
+    layer.features.push_back({lines_of(block, c),
+                              {},
+                              {block.name,
+                               as_whole(i),
+                               as_whole(c.left),
+                               as_whole(c.right),
+                               c.length,
+                               c.sweep_length,
+                               c.unsupported_length,
+                               c.gis_length,
+                               c.height_difference,
+                               c.costs.cut(),
+                               c.costs.unsupported,
+                               c.costs.outline_conflict,
+                               c.costs.uncut(),
+                               c.costs.sweep_unused,
+                               c.costs.height,
+                               c.costs.gis_unused,
+                               c.sweep,
+                               c.forced,
+                               c.solved,
+                               c.chosen,
+                               variable_name(i),
+                               detail::why(c, walls[i], block.segmentation->phi)}});
+  }
+}
+
+auto empty_conflicts() -> write::Layer {
+  return {"conflicts",
+          "Bad pairs: two edges, or one and the outline, which make a sliver or a needle if both are cut",
+          write::Shape::lines,
+          {{"block"}, {"number", whole}, {"first", whole}, {"second", whole}, {"phi", real}, {"paid", flag}},
+          {}};
+}
+
+void add_conflicts(const SegmentedBlock& block, write::Layer& layer) {
+  const auto& [candidates, conflicts, phi] =
+      std::tie(block.segmentation->candidates, block.segmentation->conflicts, block.segmentation->phi);
+  for (std::size_t i = 0; i < conflicts.size(); ++i) {
+    const auto& [first, second] = conflicts[i];
+    Lines lines = lines_of(block, candidates[first]);
+    if (second)
+      for (auto& line : lines_of(block, candidates[*second])) lines.push_back(std::move(line));
+    const bool paid = candidates[first].solved && (!second || candidates[*second].solved);
+    layer.features.push_back(
+        {std::move(lines), {}, {block.name, as_whole(i), as_whole(first), as_whole(second), phi, paid}});
+  }
+}
+
+auto empty_footprints() -> write::Layer {
+  return {"footprints",
+          "The parts: faces that were put together",
+          write::Shape::polygon,
+          {{"block"}, {"number", whole}, {"feature"}, {"height", real}, {"area", real}, {"faces", whole}},
+          {}};
+}
+
+void add_footprints(const SegmentedBlock& block, const ingest::Scene& scene, double z0, write::Layer& layer) {
+  for (std::size_t i = 0; i < block.segmentation->parts.size(); ++i) {
+    const auto& part = block.segmentation->parts[i];
+    layer.features.push_back({{},
+                              {part.polygon},
+                              {block.name, as_whole(i), id_of(scene, part.feature), z0 + part.height,
+                               geometry::area(part.polygon), as_whole(part.faces.size())}});
+  }
+}
+
+}  // namespace
+
+auto segment_layers(const ingest::Scene& scene, const std::vector<SegmentedBlock>& blocks, const write::MadeBy& made_by)
+    -> std::vector<write::Layer> {
+  const auto z0 = static_cast<double>(scene.frame.origin[2]);
+  auto sweep_edges = empty_sweep_edges(), faces = empty_faces(), edges = empty_edges();
+  auto conflicts = empty_conflicts(), footprints = empty_footprints();
+  for (const SegmentedBlock& block : blocks) {
+    add_sweep_edges(block, z0, sweep_edges);
+    add_faces(block, scene, z0, faces);
+    if (!block.segmentation) continue;
+    add_edges(block, edges);
+    add_conflicts(block, conflicts);
+    add_footprints(block, scene, z0, footprints);
+  }
+  return {gis_footprints(scene, blocks), std::move(sweep_edges), std::move(faces),      std::move(edges),
+          std::move(conflicts),          std::move(footprints),  made_by_layer(made_by)};
+}
+
+}  // namespace mansard::pipeline

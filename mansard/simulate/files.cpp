@@ -1,0 +1,153 @@
+// The files of a simulation that no other room writes.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "mansard/simulate/simulate.hpp"
+
+namespace mansard::simulate {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using geometry::Point2;
+
+/// Little-endian, as the header says.
+template <class T>
+void append(std::string& bytes, T value) {
+  std::array<char, sizeof(T)> raw{};
+  std::memcpy(raw.data(), &value, sizeof(T));
+  if constexpr (std::endian::native == std::endian::big) std::ranges::reverse(raw);
+  bytes.append(raw.data(), raw.size());
+}
+
+auto json_of(const ingest::Value& value) -> Json {
+  return std::visit(
+      [](const auto& v) -> Json {
+        if constexpr (std::is_same_v<std::decay_t<decltype(v)>, std::monostate>) return nullptr;
+        else return v;
+      },
+      value);
+}
+
+/// Metres to the millimetre, in the file's frame.
+auto place(Point2 p, const ingest::Frame& frame) -> Json {
+  const auto rounded = [](double x) { return std::round(x * 1000) / 1000 + 0.0; };
+  return {rounded(p.x + static_cast<double>(frame.origin[0])), rounded(p.y + static_cast<double>(frame.origin[1]))};
+}
+
+auto rings_of(const geometry::Polygon& polygon, const ingest::Frame& frame) -> Json {
+  Json rings = Json::array();
+  const auto add = [&](const geometry::Ring& ring) {
+    Json points = Json::array();
+    for (const Point2 p : ring) points.push_back(place(p, frame));
+    points.push_back(points.front());
+    rings.push_back(std::move(points));
+  };
+  add(polygon.outer);
+  for (const auto& hole : polygon.holes) add(hole);
+  return rings;
+}
+
+auto attribute(const ingest::Attributes& attributes, std::string_view name) -> Json {
+  for (const auto& [key, value] : attributes)
+    if (key == name) return json_of(value);
+  return nullptr;
+}
+
+auto building_json(const write::Building& building, double z0) -> Json {
+  Json parts = Json::array();
+  for (const auto& part : building.parts) {
+    double top = part.plan.base;
+    for (const auto v : part.model.solid.vertices) top = std::max(top, v.z);
+    const auto areas = label::areas(part.model);
+    parts.push_back({{"id", part.id},
+                     {"role", attribute(part.attributes, "ms_role")},
+                     {"base", z0 + part.plan.base},
+                     {"eaves", attribute(part.attributes, "ms_eaves")},
+                     {"top", z0 + top},
+                     {"volume", extrude::volume(part.model.solid)},
+                     {"area_roof_flat", areas.roof_flat},
+                     {"area_roof_sloped", areas.roof_sloped},
+                     {"area_wall", areas.wall},
+                     {"area_party_wall", areas.party_wall}});
+  }
+  return {{"id", building.id},
+          {"ground", z0 + building.ground},
+          {"roof", attribute(building.attributes, "sim_roof")},
+          {"storeys", attribute(building.attributes, "sim_storeys")},
+          {"parts", std::move(parts)}};
+}
+
+}  // namespace
+
+auto ply(const Scan& scan, const ingest::Frame& frame) -> std::string {
+  std::string bytes = "ply\nformat binary_little_endian 1.0\ncomment made by mansard simulate\n";
+  bytes += "comment class: 0 wall, 1 roof, 2 ground, 3 other; building: row of truth.json's buildings, -1 for none\n";
+  bytes += "element vertex " + std::to_string(scan.mesh.vertices.size()) +
+           "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
+           std::to_string(scan.mesh.triangles.size()) +
+           "\nproperty list uchar int vertex_indices\nproperty uchar class\nproperty int building\nend_header\n";
+  constexpr std::size_t vertex_size = 24, face_size = 18;
+  bytes.reserve(bytes.size() + vertex_size * scan.mesh.vertices.size() + face_size * scan.mesh.triangles.size());
+  for (const auto v : scan.mesh.vertices) {
+    append(bytes, v.x + static_cast<double>(frame.origin[0]));
+    append(bytes, v.y + static_cast<double>(frame.origin[1]));
+    append(bytes, v.z + static_cast<double>(frame.origin[2]));
+  }
+  for (std::size_t t = 0; t < scan.mesh.triangles.size(); ++t) {
+    append(bytes, std::uint8_t{3});
+    for (const auto v : scan.mesh.triangles[t]) append(bytes, static_cast<std::int32_t>(v));
+    append(bytes, static_cast<std::uint8_t>(scan.classes[t]));
+    append(bytes, scan.buildings[t] == Scan::none ? std::int32_t{-1} : static_cast<std::int32_t>(scan.buildings[t]));
+  }
+  return bytes;
+}
+
+auto geojson(const std::vector<ingest::Footprint>& footprints, const ingest::Frame& frame) -> std::string {
+  Json features = Json::array();
+  for (const auto& footprint : footprints) {
+    Json properties = Json::object(), polygons = Json::array();
+    for (const auto& [name, value] : footprint.attributes) properties[name] = json_of(value);
+    for (const auto& polygon : footprint.polygons) polygons.push_back(rings_of(polygon, frame));
+    const bool single = polygons.size() == 1;
+    features.push_back({{"type", "Feature"},
+                        {"properties", std::move(properties)},
+                        {"geometry",
+                         {{"type", single ? "Polygon" : "MultiPolygon"},
+                          {"coordinates", single ? Json(polygons.front()) : Json(polygons)}}}});
+  }
+  Json out = {{"type", "FeatureCollection"}};
+  if (frame.crs.starts_with("EPSG:"))
+    out["crs"] = {{"type", "name"}, {"properties", {{"name", "urn:ogc:def:crs:EPSG::" + frame.crs.substr(5)}}}};
+  out["features"] = std::move(features);
+  return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+auto truth_json(const Truth& truth, const std::vector<ingest::Footprint>& footprints, const Options& options,
+                const std::string& source) -> std::string {
+  const auto& frame = truth.city.frame;
+  const auto z0 = static_cast<double>(frame.origin[2]);
+  Json used = Json::object();
+  Options copy = options;
+  const auto list = option_list(copy);
+  for (const auto& option : list.options()) used["simulate." + option.name] = option.get();
+  Json buildings = Json::array(), walls = Json::array(), features = Json::array();
+  for (const auto& building : truth.city.buildings) buildings.push_back(building_json(building, z0));
+  for (const auto& wall : truth.party_walls)
+    walls.push_back({{"first", truth.city.buildings[wall.first].id},
+                     {"second", truth.city.buildings[wall.second].id},
+                     {"line", {place(wall.line.start, frame), place(wall.line.end, frame)}},
+                     {"first_top", z0 + wall.first_top},
+                     {"second_top", z0 + wall.second_top}});
+  for (const auto& footprint : footprints)
+    features.push_back({{"id", footprint.id}, {"buildings", attribute(footprint.attributes, "buildings")}});
+  const Json out = {{"type", "mansard-truth"}, {"version", 1},         {"source", source},
+                    {"seed", options.seed},    {"crs", frame.crs},     {"options", std::move(used)},
+                    {"buildings", buildings},  {"party_walls", walls}, {"footprints", features}};
+  return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace mansard::simulate

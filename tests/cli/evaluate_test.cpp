@@ -1,0 +1,156 @@
+// `mansard evaluate` and `mansard label` as their users meet them.
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+
+namespace mansard::cli {
+namespace {
+
+using testing::HasSubstr;
+
+/// A box of 12 × 8 as an OBJ object whose groups are classes.
+auto box(const std::string& name, double west, double height) -> std::string {
+  const auto v = [&](double x, double y, double z) {
+    return "v " + std::to_string(west + x) + " " + std::to_string(y) + " " + std::to_string(z) + "\n";
+  };
+  std::string out = "o " + name + "\n";
+  for (const double z : {0.0, height}) out += v(0, 0, z) + v(12, 0, z) + v(12, 8, z) + v(0, 8, z);
+  return out + "g wall\nf -8 -7 -3 -4\nf -7 -6 -2 -3\nf -6 -5 -1 -2\nf -5 -8 -4 -1\ng roof\nf -4 -3 -2 -1\n" +
+         "g ground\nf -5 -6 -7 -8\n";
+}
+
+/// The scan of such a box, 6 m high, on a field.
+const std::string box_scan =
+    "v -20 -20 0\nv 40 -20 0\nv 40 40 0\nv -20 40 0\nf 1 2 3 4\n" + box("scan", 0, 6).substr(7);
+
+class Evaluate : public Command {
+ protected:
+  void SetUp() override {
+    Command::SetUp();
+    put("scan.obj", box_scan);
+  }
+  auto evaluate(const std::string& model, const std::string& more = "") -> Outcome {
+    return run("evaluate -q " + put("model.obj", model) + " " + at("scan.obj") + " -o " + at("report.json") +
+               " --overwrite " + more);
+  }
+  auto report() const -> nlohmann::json { return nlohmann::json::parse(read(at("report.json"))); }
+};
+
+TEST_F(Evaluate, finds_a_box_that_is_off_by_a_metre) {
+  const auto outcome = evaluate(box("a", 0, 7));
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_THAT(outcome.out, testing::AllOf(HasSubstr("the model's own footprints"), HasSubstr("1.0000 m²"),
+                                          HasSubstr("missed, invented                    not measured")));
+  const auto scores = report()["scores"];
+  EXPECT_NEAR(scores["vertical_mse_m2"].get<double>(), 1, 1e-4);
+  EXPECT_NEAR(scores["footprint_mse_m2"].get<double>(), 1, 1e-4);
+  EXPECT_NEAR(scores["median_m"].get<double>(), 1, 1e-4);
+  EXPECT_EQ(scores["cells"], 48 * 32);
+  EXPECT_TRUE(scores["missed_m2"].is_null());
+  EXPECT_EQ(report()["model"]["faces"], 6);
+  EXPECT_EQ(report()["model"]["planes"], 6);
+  EXPECT_NEAR(report()["distances"]["model_to_mesh"]["max_m"].get<double>(), 1, 1e-3);
+}
+
+TEST_F(Evaluate, finds_a_building_that_is_missing_by_the_truth) {
+  put("scan.obj", box_scan + box("second", 20, 6));
+  const auto truth = put("truth.obj", box("a", 0, 6) + box("b", 20, 6));
+  const auto outcome = evaluate(box("a", 0, 6), "--truth " + truth);
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  const auto r = report();
+  EXPECT_EQ(r["footprints_of"], "truth");
+  EXPECT_NEAR(r["scores"]["vertical_mse_m2"].get<double>(), 0, 1e-6);
+  EXPECT_NEAR(r["scores"]["footprint_mse_m2"].get<double>(), 36.0 / 2, 0.01);
+  EXPECT_NEAR(r["scores"]["missed_m2"].get<double>(), 96, 1e-9);
+  EXPECT_EQ(r["scores"]["invented_m2"], 0);
+  EXPECT_EQ(r["truth"]["buildings"]["matched"], 1);
+  EXPECT_EQ(r["truth"]["roofs"]["planes_found"], 1);
+  EXPECT_EQ(r["truth"]["roofs"]["planes"], 2);
+  EXPECT_EQ(r["truth"]["classes"]["accuracy"], 1);
+  ASSERT_EQ(r["buildings"].size(), 2U);
+  EXPECT_EQ(r["buildings"][1]["id"], "b");
+  EXPECT_FALSE(r["buildings"][1]["modelled"].get<bool>());
+  EXPECT_NEAR(r["buildings"][1]["scores"]["footprint_mse_m2"].get<double>(), 36, 0.01);
+  EXPECT_EQ(r["blocks"].size(), 2U);
+  // The other way round the second one is invented.
+  const auto invented = evaluate(box("a", 0, 6) + box("b", 20, 6), "--truth " + put("one.obj", box("a", 0, 6)));
+  EXPECT_EQ(invented.exit, 0) << invented.err;
+  EXPECT_NEAR(report()["scores"]["invented_m2"].get<double>(), 96, 1e-6);
+  EXPECT_EQ(report()["beside_all_footprints"], nlohmann::json{"b"});
+}
+
+TEST_F(Evaluate, measures_over_footprints_that_are_given) {
+  const std::string wide = geojson(polygon("[0,0],[16,0],[16,8],[0,8],[0,0]"), "");
+  const auto outcome = evaluate(box("a", 0, 6), "--footprints " + put("wide.geojson", wide));
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_NEAR(report()["scores"]["missed_m2"].get<double>(), 32, 1e-9);
+  EXPECT_EQ(report()["footprints_of"], "footprints");
+}
+
+TEST_F(Evaluate, gives_a_model_of_ours_the_scores_of_its_run) {
+  ASSERT_EQ(reconstruct(at("house.obj"), at("house.geojson")).exit, 0);
+  const auto run_report = nlohmann::json::parse(read(at("out") + "/run.json"));
+  const auto outcome = run("evaluate -q " + at("out") + "/model.city.json " + at("house.obj") + " --footprints " +
+                           at("house.geojson") + " -o " + at("report"));
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  for (const auto* name : {"report.json", "error.png", "error.tif"})
+    EXPECT_GT(fs::file_size(folder_ / "report" / name), 300U) << name;
+  const auto scores = nlohmann::json::parse(read(at("report") + "/report.json"))["scores"];
+  for (const auto* name : {"vertical_mse_m2", "footprint_mse_m2", "missed_m2", "invented_m2", "cells"})
+    EXPECT_NEAR(scores[name].get<double>(), run_report["scores"][name].get<double>(), 1e-4) << name;
+}
+
+TEST_F(Evaluate, gives_the_same_bytes_with_one_thread_and_two) {
+  const auto model = put("model.obj", box("a", 0.3, 7));
+  for (const auto* threads : {"1", "2"})
+    ASSERT_EQ(run("evaluate -q " + model + " " + at("scan.obj") + " --truth " + put("truth.obj", box("a", 0, 6)) +
+                  " -o " + at(threads) + " -j " + threads)
+                  .exit,
+              0);
+  for (const auto* name : {"/report.json", "/error.png", "/error.tif"})
+    EXPECT_EQ(read(at("1") + name), read(at("2") + name)) << name;
+}
+
+TEST_F(Evaluate, names_what_is_wrong) {
+  const auto model = put("model.obj", box("a", 500, 6));
+  expect_refusal(run("evaluate -q " + model + " " + at("scan.obj")), 3, "ingest-model-overlap",
+                 "the mesh in x -20.0 to 40.0");
+  expect_refusal(run("evaluate -q " + at("scan.obj")), 2, "usage", "a model, then one mesh");
+  expect_refusal(run("evaluate -q " + put("m.json", "[]") + " " + at("scan.obj")), 3, "ingest-model-format");
+  const auto beside = put("beside.geojson", geojson(polygon("[300,0],[316,0],[316,8],[300,8],[300,0]"), ""));
+  expect_refusal(
+      run("evaluate -q " + put("here.obj", box("a", 0, 6)) + " " + at("scan.obj") + " --footprints " + beside), 3,
+      "ingest-model-overlap", "the footprints lie in x 300.0 to 316.0");
+  const auto crs = put("rd.obj", "# crs EPSG:28992\n" + box("a", 0, 6));
+  expect_refusal(run("evaluate -q " + crs + " " + at("scan.obj") + " --crs EPSG:25831"), 3, "ingest-model-crs",
+                 "EPSG:25831");
+  const auto truth = put("utm.obj", "# crs EPSG:25831\n" + box("a", 0, 6));
+  expect_refusal(run("evaluate -q " + crs + " " + at("scan.obj") + " --truth " + truth), 3, "ingest-model-crs",
+                 "EPSG:28992");
+  expect_refusal(
+      run("evaluate -q " + put("a.json", "{}") + " " + at("scan.obj") + " -o " + at("a.json") + " --overwrite"), 2,
+      "output-input");
+}
+
+TEST_F(Evaluate, labels_the_scan_and_counts_what_is_right) {
+  const auto model = put("model.obj", box("a", 0, 6));
+  const auto outcome = run("label -q " + at("scan.obj") + " " + model + " -o " + at("labelled.ply"));
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("wall 8  roof 2"));
+  const auto again = run("label -q " + at("scan.obj") + " " + model + " -o " + at("labelled.glb") + " --truth-mesh " +
+                         at("labelled.ply"));
+  EXPECT_EQ(again.exit, 0) << again.err;
+  EXPECT_THAT(again.out,
+              testing::AllOf(HasSubstr("by the model: 100.0 % of the area right"), HasSubstr("by the normal alone: ")));
+  EXPECT_GT(fs::file_size(folder_ / "labelled.glb"), 500U);
+  expect_refusal(run("label -q " + at("scan.obj") + " " + model + " -o " + at("labelled.ply")), 2, "output-exists");
+  expect_refusal(run("label -q " + at("scan.obj") + " " + model + " -o " + at("labelled.obj")), 2, "usage",
+                 ".ply or .glb");
+  expect_refusal(
+      run("label -q " + at("scan.obj") + " " + model + " -o " + at("b.ply") + " --truth-mesh " + at("scan.obj")), 2,
+      "usage", "have no class");
+}
+
+}  // namespace
+}  // namespace mansard::cli

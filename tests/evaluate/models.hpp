@@ -1,0 +1,49 @@
+// Models made by hand, as files would give them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "label/solids.hpp"
+#include "mansard/ingest/model.hpp"
+
+namespace models {
+
+using mansard::geometry::Point2;
+using mansard::geometry::Point3;
+using mansard::ingest::Model;
+using mansard::ingest::ModelBuilding;
+using mansard::ingest::ModelFace;
+using mansard::ingest::ModelPart;
+using mansard::ingest::SurfaceClass;
+
+/// A solid's faces with their classes by their normals: upright wall, down ground, else roof.
+inline auto part_of(const solids::Solid& solid, const std::string& id) -> ModelPart {
+  ModelPart part{id, {}};
+  for (const auto& face : solid.faces) {
+    ModelFace out;
+    for (const auto& loop : face.loops) {
+      auto& points = out.loops.emplace_back();
+      for (const auto v : loop) points.push_back(solid.vertices[v]);
+    }
+    out.kind = std::abs(face.normal.z) < 0.2 ? SurfaceClass::wall
+               : face.normal.z < 0           ? SurfaceClass::ground
+                                             : SurfaceClass::roof;
+    part.faces.push_back(std::move(out));
+  }
+  return part;
+}
+
+/// A building of one part per solid; ids "0", "1", … and "0-0", "0-1", ….
+inline auto model_of(const std::vector<std::vector<solids::Solid>>& buildings) -> Model {
+  Model model;
+  for (std::size_t b = 0; b < buildings.size(); ++b) {
+    ModelBuilding building{std::to_string(b), {}};
+    for (std::size_t p = 0; p < buildings[b].size(); ++p)
+      building.parts.push_back(part_of(buildings[b][p], std::to_string(b) + "-" + std::to_string(p)));
+    model.buildings.push_back(std::move(building));
+  }
+  return model;
+}
+
+}  // namespace models

@@ -1,0 +1,340 @@
+// The segmentation as layers: that they hold what the program measured and decided, and say why in words.
+#include <gmock/gmock.h>
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "mansard/pipeline/detail/why.hpp"
+#include "mansard/pipeline/pipeline.hpp"
+#include "pipeline/houses.hpp"
+
+namespace mansard::pipeline {
+namespace {
+
+using ingest::Value;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+auto segmented(const ingest::Scene& scene, const Options& options = {}) -> Segmented {
+  auto result = segment(scene, options);
+  EXPECT_TRUE(result) << base::to_string(result.error());
+  return std::move(*result);
+}
+
+auto layers_of(const ingest::Scene& scene, const Options& options = {}) -> std::vector<write::Layer> {
+  const auto result = segmented(scene, options);
+  return segment_layers(scene, result.segmented, result.made_by);
+}
+
+auto named(const std::vector<write::Layer>& layers, const std::string& name) -> const write::Layer& {
+  return *std::ranges::find(layers, name, &write::Layer::name);
+}
+
+/// A column of a layer, row by row.
+auto column(const write::Layer& layer, const std::string& field) -> std::vector<Value> {
+  const auto at = std::ranges::find(layer.fields, field, &write::Field::name) - layer.fields.begin();
+  std::vector<Value> values;
+  for (const auto& feature : layer.features) values.push_back(feature.values.at(static_cast<std::size_t>(at)));
+  return values;
+}
+template <class T>
+auto column_of(const write::Layer& layer, const std::string& field) -> std::vector<T> {
+  std::vector<T> values;
+  for (const auto& value : column(layer, field)) values.push_back(std::get<T>(value));
+  return values;
+}
+
+/// An L of two wings of 6 and 9 m under one footprint, beside the terrace of two footprints, 100 m above the datum.
+auto town() -> ingest::Scene {
+  auto scene = test::terrace();
+  test::add_house(scene.mesh, 30, 0, 42, 10, 6, 6);
+  test::add_house(scene.mesh, 30, 10, 36, 24, 9, 9);
+  scene.footprints.push_back(
+      test::footprint("wings", {{{30, 0}, {42, 0}, {42, 10}, {36, 10}, {36, 24}, {30, 24}}, {}}));
+  scene.frame = {{84800, 447400, 100}, "EPSG:28992"};
+  return scene;
+}
+
+/// A footprint so far away that its ground cannot be fractured.
+auto with_a_bad_block(ingest::Scene scene) -> ingest::Scene {
+  scene.footprints.push_back(test::footprint("far", test::rectangle(2e7, 0, 2e7 + 12, 8)));
+  return scene;
+}
+
+TEST(SegmentLayers, are_seven_and_a_geopackage_takes_them) {
+  const auto layers = layers_of(town());
+  std::vector<std::string> names;
+  for (const auto& layer : layers) names.push_back(layer.name);
+  EXPECT_THAT(names, testing::ElementsAre("gis_footprints", "sweep_edges", "faces", "edges", "conflicts", "footprints",
+                                          "made_by"));
+  for (const auto& layer : layers) {
+    if (layer.name == "made_by") continue;
+    const std::set<Value> known{std::string("block-0"), std::string("block-2")};
+    for (const auto& block : column(layer, "block")) EXPECT_TRUE(known.contains(block)) << layer.name;
+  }
+  for (const auto* name : {"gis_footprints", "sweep_edges", "faces", "edges", "footprints", "made_by"})
+    EXPECT_FALSE(named(layers, name).features.empty()) << name;
+  const auto bytes = write::geopackage(layers, town().frame);
+  EXPECT_TRUE(bytes) << base::to_string(bytes.error());
+}
+
+TEST(SegmentLayers, have_costs_that_add_up_to_the_objective) {
+  const std::filesystem::path folder = std::filesystem::path(MANSARD_DATA) / "b9";  // torn walls: every term is paid
+  const auto scene = ingest::read_scene({folder / "mesh.off"}, folder / "footprints.geojson", {});
+  ASSERT_TRUE(scene) << base::to_string(scene.error());
+  Options options;
+  options.segment.gis_edges = segment::GisEdges::candidate;
+  auto result = segmented(*scene, options);
+  for (auto& block : result.segmented)  // what is joined or left out afterwards is not the objective's business
+    for (auto& candidate : block.segmentation.value().candidates) candidate.chosen = false;
+  double objective = 0;
+  for (const auto& block : result.blocks) objective += block.objective;
+  const auto layers = segment_layers(*scene, result.segmented, result.made_by);
+  const auto& edges = named(layers, "edges");
+  const auto cut = column_of<double>(edges, "cost_if_cut"), uncut = column_of<double>(edges, "cost_if_uncut");
+  const auto solved = column_of<bool>(edges, "solved");
+  double sum = 0;
+  for (std::size_t i = 0; i < solved.size(); ++i) sum += solved[i] ? cut[i] : uncut[i];
+  const auto& conflicts = named(layers, "conflicts");
+  const auto second = column(conflicts, "second");
+  const auto phi = column_of<double>(conflicts, "phi");
+  const auto paid = column_of<bool>(conflicts, "paid");
+  for (std::size_t i = 0; i < paid.size(); ++i)  // those with the outline are in the edges' costs
+    if (paid[i] && !std::holds_alternative<std::monostate>(second[i])) sum += phi[i];
+  EXPECT_GT(objective, 1000);
+  EXPECT_TRUE(std::ranges::count(paid, true) > 0);
+  EXPECT_NEAR(sum, objective, 1e-6);
+  const auto parts_of = [&](const std::vector<const char*>& names) {
+    std::vector<double> total(solved.size(), 0);
+    for (const auto* name : names) {
+      const auto costs = column_of<double>(edges, name);
+      for (std::size_t i = 0; i < total.size(); ++i) total[i] += costs[i];
+    }
+    return total;
+  };
+  EXPECT_THAT(parts_of({"cost_unsupported", "cost_outline_conflict"}), testing::Pointwise(testing::DoubleEq(), cut));
+  EXPECT_THAT(parts_of({"cost_sweep_unused", "cost_height", "cost_gis_unused"}),
+              testing::Pointwise(testing::DoubleNear(1e-9), uncut));
+}
+
+TEST(SegmentLayers, give_faces_and_parts_that_belong_together) {
+  const auto layers = layers_of(town());
+  const auto& faces = named(layers, "faces");
+  const auto& footprints = named(layers, "footprints");
+  std::map<std::pair<Value, Value>, double> area, count;  // by block and part
+  for (std::size_t f = 0; f < faces.features.size(); ++f) {
+    const auto key = std::pair(column(faces, "block")[f], column(faces, "part")[f]);
+    area[key] += std::get<double>(column(faces, "area")[f]);
+    count[key] += 1;
+    EXPECT_NEAR(geometry::area(faces.features[f].polygons.at(0)), std::get<double>(column(faces, "area")[f]), 1e-6);
+  }
+  ASSERT_GE(footprints.features.size(), 3U);
+  for (std::size_t p = 0; p < footprints.features.size(); ++p) {
+    const auto key = std::pair(column(footprints, "block")[p], column(footprints, "number")[p]);
+    EXPECT_NEAR(column_of<double>(footprints, "area")[p], area.at(key), 0.5);  // corners within 1 cm are dropped
+    EXPECT_EQ(static_cast<double>(column_of<std::int64_t>(footprints, "faces")[p]), count.at(key));
+  }
+}
+
+TEST(SegmentLayers, give_heights_in_the_frame_of_the_file) {
+  const auto layers = layers_of(town());
+  const auto& footprints = named(layers, "footprints");
+  std::map<std::string, double> height;
+  for (std::size_t p = 0; p < footprints.features.size(); ++p)
+    height[column_of<std::string>(footprints, "feature")[p]] = column_of<double>(footprints, "height")[p];
+  EXPECT_NEAR(height["low"], 106, 0.1);
+  EXPECT_NEAR(height["high"], 109, 0.1);
+  for (const double low : column_of<double>(named(layers, "sweep_edges"), "low")) EXPECT_GE(low, 99.9);
+}
+
+TEST(SegmentLayers, name_variables_as_the_exported_program_does) {
+  const auto scene = town();
+  const auto result = segmented(scene);
+  const auto layers = segment_layers(scene, result.segmented, result.made_by);
+  const auto& edges = named(layers, "edges");
+  for (const auto& block : result.segmented) {
+    const auto mps = solver::mps(segment::program_of(*block.segmentation), block.name);
+    ASSERT_TRUE(mps);
+    std::size_t own = 0;
+    for (std::size_t i = 0; i < edges.features.size(); ++i) {
+      if (column(edges, "block")[i] != Value(block.name)) continue;
+      ++own;
+      EXPECT_THAT(*mps, HasSubstr(" " + column_of<std::string>(edges, "variable")[i] + " "));
+    }
+    EXPECT_EQ(own, block.segmentation->candidates.size());
+  }
+}
+
+TEST(SegmentLayers, keep_the_sources_attributes_and_what_could_not_be_used) {
+  auto scene = town();
+  scene.footprints[0].attributes = {{"levels", std::int64_t{2}}, {"year", std::int64_t{1900}}, {"use", Value()}};
+  scene.footprints[1].attributes = {{"levels", 2.5}, {"year", std::string("unknown")}, {"block", true}};
+  scene.footprints[2].defect = base::error("ingest-footprint-crossing", "crosses itself", "wings");
+  scene.footprints[2].polygons.clear();
+  const auto layers = layers_of(scene);
+  const auto& gis = named(layers, "gis_footprints");
+  EXPECT_EQ(gis.features.size(), 3U);
+  EXPECT_EQ(column(gis, "levels")[0], Value(std::int64_t{2}));
+  EXPECT_EQ(column(gis, "levels")[1], Value(2.5));
+  EXPECT_EQ(column(gis, "year")[0], Value(std::string("1900")));
+  EXPECT_EQ(column(gis, "defect")[1], Value());
+  EXPECT_EQ(column(gis, "defect")[2], Value(std::string("crosses itself")));
+  EXPECT_EQ(column(gis, "parts")[2], Value(std::int64_t{0}));
+  EXPECT_TRUE(write::geopackage(layers, scene.frame));  // the source's own "block" gets another name
+}
+
+TEST(SegmentLayers, say_that_a_wall_is_between_two_features) {
+  const auto layers = layers_of(test::terrace());
+  const auto& edges = named(layers, "edges");
+  std::size_t between = 0;
+  for (std::size_t i = 0; i < edges.features.size(); ++i)
+    if (column_of<bool>(edges, "forced")[i] && column_of<bool>(edges, "chosen")[i]) {
+      ++between;
+      EXPECT_EQ(column_of<std::string>(edges, "why")[i], "cut: between two features");
+    }
+  EXPECT_GT(between, 0U);
+}
+
+TEST(Segment, leaves_the_other_blocks_alone_when_one_fails_and_says_so) {
+  const auto good = town(), bad = with_a_bad_block(good);
+  const auto alone = segmented(good), together = segmented(bad);
+  ASSERT_EQ(together.blocks.size(), alone.blocks.size() + 1);
+  EXPECT_EQ(together.blocks.back().status, "failed");
+  ASSERT_TRUE(together.segmented.back().failure);
+  EXPECT_EQ(together.segmented.back().failure->code, "pipeline-block");
+  EXPECT_THAT(together.warnings, testing::Contains(*together.segmented.back().failure));
+  const auto before = segment_layers(good, alone.segmented, alone.made_by);
+  const auto after = segment_layers(bad, together.segmented, together.made_by);
+  for (const auto* name : {"faces", "edges", "conflicts", "footprints"}) {
+    const auto &one = named(before, name), &other = named(after, name);
+    ASSERT_EQ(one.features.size(), other.features.size()) << name;
+    for (std::size_t i = 0; i < one.features.size(); ++i) EXPECT_EQ(one.features[i].values, other.features[i].values);
+  }
+  EXPECT_TRUE(write::geopackage(after, bad.frame));
+  const auto report = nlohmann::json::parse(report_json(together, bad));
+  EXPECT_EQ(report["blocks"].back()["objective"]["status"], "failed");
+  EXPECT_EQ(report["counts"]["without_part"], 1);
+}
+
+TEST(Segment, gives_the_same_geopackage_at_any_thread_count) {
+  const auto scene = town();
+  std::vector<std::string> files;
+  for (const std::size_t threads : {1U, 2U, 4U}) {
+    base::limit_threads(threads);
+    files.push_back(*write::geopackage(layers_of(scene), scene.frame));
+  }
+  base::limit_threads(0);
+  EXPECT_TRUE(files[0] == files[1]);
+  EXPECT_TRUE(files[0] == files[2]);
+}
+
+TEST(Segment, reports_every_term_and_a_relative_gap) {
+  const auto scene = town();
+  const auto report = nlohmann::json::parse(report_json(segmented(scene), scene));
+  EXPECT_FALSE(report.contains("scores") || report.contains("buildings"));
+  ASSERT_EQ(report["blocks"].size(), 2U);
+  for (const auto& block : report["blocks"]) {
+    EXPECT_FALSE(block.contains("scores"));
+    const auto& o = block["objective"];
+    double sum = 0;
+    for (const auto* term : {"sweep_unused", "unsupported", "height", "thin", "gis_unused"})
+      sum += o[term].get<double>();
+    EXPECT_NEAR(sum, o["total"].get<double>(), 1e-9);
+    EXPECT_EQ(o["status"], "optimal");
+    EXPECT_EQ(o["relative_gap"], 0.0);
+    EXPECT_GT(block["parts"], 0);
+  }
+  for (const auto* stage : {"block", "slice", "sweep", "fracture", "segment"})
+    EXPECT_TRUE(report["seconds"].contains(stage)) << stage;
+}
+
+TEST(Segment, gives_up_as_reconstruct_does) {
+  base::Cancel cancel;
+  cancel.request();
+  base::Run run;
+  run.cancel = &cancel;
+  EXPECT_EQ(segment(town(), {}, run).error().code, "cancelled");
+  EXPECT_EQ(segment({}, {}).error().code, "pipeline-nothing");
+}
+
+TEST(RelativeGap, is_a_share_of_the_objective) {
+  BlockReport block;
+  EXPECT_EQ(relative_gap(block), 0);
+  block.objective = 200;
+  block.bound = 150;
+  EXPECT_EQ(relative_gap(block), 0.25);
+  block.bound = 200;
+  EXPECT_EQ(relative_gap(block), 0);
+}
+
+TEST(Reconstruct, keeps_the_segmentations_when_asked_and_they_are_those_of_segment) {
+  const auto scene = town();
+  const auto asked = reconstruct(scene, {}, {}, Keep::segmentations);
+  ASSERT_TRUE(asked);
+  const auto layers = segment_layers(scene, asked->segmented, asked->city.made_by);
+  EXPECT_TRUE(*write::geopackage(layers, scene.frame) == *write::geopackage(layers_of(scene), scene.frame));
+  const auto unasked = reconstruct(scene, {});
+  ASSERT_TRUE(unasked);
+  EXPECT_THAT(unasked->segmented, IsEmpty());
+  EXPECT_EQ(*write::cityjson(asked->city), *write::cityjson(unasked->city));
+}
+
+// ---- the sentences
+
+auto candidate(bool solved, const segment::Costs& costs) -> segment::Candidate {
+  segment::Candidate c;
+  c.length = c.sweep_length = c.unsupported_length = c.gis_length = 12;
+  c.height_difference = 8;
+  c.solved = c.chosen = solved;
+  c.costs = costs;
+  return c;
+}
+
+TEST(Why, weighs_what_was_done_against_what_was_not) {
+  EXPECT_EQ(detail::why(candidate(true, {0, 0, 480, 0, 0}), 0, 100),
+            "cut: 480 for leaving 12.0 m of sweep-edge unused against 0");
+  EXPECT_EQ(detail::why(candidate(false, {720, 0, 0, 96, 0}), 0, 100),
+            "not cut: 720 for 12.0 m without a sweep-edge against 96 for the height step of 8.0 m");
+  EXPECT_EQ(detail::why(candidate(true, {0, 0, 0, 4.26, 120}), 0, 100),
+            "cut: 4.3 for the height step of 8.0 m and 120 for leaving 12.0 m of GIS edge unused against 0");
+  EXPECT_EQ(detail::why(candidate(false, {0, 0, 0, 0, 0}), 0, 100), "not cut: 0 against 0");
+  EXPECT_EQ(detail::why(candidate(true, {0, 0, 0, 0.01, 0}), 0, 100),
+            "cut: under 0.1 for the height step of 8.0 m against 0");
+}
+
+TEST(Why, says_when_other_edges_decided) {
+  EXPECT_EQ(
+      detail::why(candidate(true, {720, 0, 0, 96, 0}), 0, 100),
+      "cut though dearer by itself (720 for 12.0 m without a sweep-edge against 96 for the height step of 8.0 m): "
+      "its ends need a wall");
+  EXPECT_EQ(detail::why(candidate(false, {0, 0, 480, 0, 0}), 0, 100),
+            "not cut though cheaper by itself (0 against 480 for leaving 12.0 m of sweep-edge unused): the walls that "
+            "its ends need cost more");
+}
+
+TEST(Why, counts_conflicts_with_the_outline_and_with_other_walls) {
+  EXPECT_EQ(detail::why(candidate(false, {0, 500, 480, 0, 0}), 0, 100),
+            "not cut: 500 for its conflict with the outline against 480 for leaving 12.0 m of sweep-edge unused");
+  EXPECT_EQ(detail::why(candidate(false, {0, 0, 480, 0, 0}), 1, 500),
+            "not cut: 500 for its conflict with another wall against 480 for leaving 12.0 m of sweep-edge unused");
+  EXPECT_THAT(detail::why(candidate(true, {0, 0, 480, 0, 0}), 3, 500),
+              HasSubstr("dearer by itself (1500 for its conflicts with 3 other walls against 480"));
+  segment::Segmentation s;
+  s.candidates = {candidate(true, {}), candidate(false, {}), candidate(true, {})};
+  s.conflicts = {{0, std::nullopt}, {0, 1}, {1, 2}};
+  EXPECT_THAT(detail::walls_in_conflict(s), testing::ElementsAre(0, 2, 0));
+}
+
+TEST(Why, says_when_features_or_small_parts_decided) {
+  auto c = candidate(true, {720, 0, 0, 0, 0});
+  c.forced = true;
+  EXPECT_EQ(detail::why(c, 0, 100), "cut: between two features");
+  c.chosen = false;
+  EXPECT_EQ(detail::why(c, 0, 100),
+            "cut by the program, but one side is too small or narrow for a part: joined or left out");
+}
+
+}  // namespace
+}  // namespace mansard::pipeline
