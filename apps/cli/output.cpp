@@ -31,7 +31,9 @@ auto spare_inputs(const std::vector<fs::path>& outputs, const std::vector<fs::pa
   for (const auto& output : outputs)
     for (const auto& input : inputs) {
       std::error_code status;
-      const auto from = fs::weakly_canonical(input, status), to = fs::weakly_canonical(output, status);
+      // A name alone would stay relative where nothing is there yet.
+      const auto from = fs::weakly_canonical(fs::absolute(input, status), status);
+      const auto to = fs::weakly_canonical(fs::absolute(output, status), status);
       const bool same = from == to || fs::equivalent(input, output, status);
       const auto [end, ignored] = std::mismatch(from.begin(), from.end(), to.begin(), to.end());
       if (same || (fs::is_directory(input, status) && end == from.end()))
@@ -48,6 +50,9 @@ auto file_free(const fs::path& path, bool overwrite) -> base::Result<void> {
   std::error_code status;
   if (fs::is_directory(path, status))
     return base::error("output-exists", "this is a folder, and the output is a file; choose another name", path.string());
+  if (fs::exists(path, status) && !fs::is_regular_file(path, status))
+    return base::error("output-exists", "this is no ordinary file, and would be replaced by one; choose another name",
+                       path.string());
   if (fs::exists(path, status) && !overwrite)
     return base::error("output-exists", "this file is there already; choose another, or say --overwrite", path.string());
   auto folder = path.parent_path();

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <set>
 
 #include "apps/cli/exit.hpp"
 #include "apps/cli/output.hpp"
@@ -20,11 +21,25 @@ struct Request {
   std::string out, mps;
 };
 
+/// Of two results in one place only the last would be left. The report is looked at too.
+auto check_apart(const Request& request, std::vector<fs::path> files) -> base::Result<void> {
+  if (!request.scan.report.empty()) files.emplace_back(request.scan.report);
+  std::set<fs::path> taken;
+  for (const auto& file : files) {
+    std::error_code status;
+    const auto place = fs::weakly_canonical(fs::absolute(file, status), status);
+    if (!status && !taken.insert(place).second)
+      return base::error("usage", "two results would be written here; give each a name of its own", file.string());
+  }
+  return {};
+}
+
 auto check_outputs(const Request& request) -> base::Result<void> {
   if (fs::path(request.out).extension() != ".gpkg")
     return base::error("usage", "the output is a GeoPackage; give a name that ends in .gpkg", request.out);
   std::vector<fs::path> files{request.out};
   if (!request.mps.empty()) files.emplace_back(request.mps);
+  if (auto apart = check_apart(request, files); !apart) return apart;
   return files_free(request.scan, std::move(files));
 }
 
@@ -35,15 +50,19 @@ auto programs(const Request& request, const pipeline::Segmented& result) -> base
     if (block.segmentation && std::ranges::any_of(block.segmentation->faces, &segment::FaceEvidence::inside))
       blocks.push_back(&block);
   NamedBytes files;
-  std::vector<fs::path> names;
+  std::vector<fs::path> names, results{request.out};
   for (const auto* block : blocks) {
     fs::path path = request.mps;
     if (blocks.size() > 1) path.replace_filename(path.stem().string() + "-" + block->name + path.extension().string());
     auto text = solver::mps(segment::program_of(*block->segmentation), block->name);
-    if (!text) return text.error();
+    if (!text)
+      return base::error(text.error().code, text.error().message + ": lower the weights of the room segment",
+                         block->name);
     names.push_back(path);
     files.emplace_back(std::move(path), std::move(*text));
   }
+  results.insert(results.end(), names.begin(), names.end());
+  if (auto apart = check_apart(request, std::move(results)); !apart) return apart.error();
   if (auto usable = files_free(request.scan, std::move(names)); !usable) return usable.error();
   return files;
 }

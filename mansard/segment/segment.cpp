@@ -154,8 +154,10 @@ auto codes() -> std::vector<base::Code> {
        "The block's buildings fall back to flat-roofed prisms; report the input that led here.", 1},
       {"segment-solver", "The integer program solver gave up on a part of a block; the best grouping found is used.",
        "Report the input that led here.", 0},
-      {"segment-part-small", "A footprint part under 1 m² was joined to a neighbour of its feature, or left out.",
-       "Nothing to do; if many, raise segment.phi or sweep.gamma.", 0},
+      {"segment-part-small",
+       "A footprint part under 1 m² or of less mean width than segment.narrow was joined to a neighbour of its "
+       "feature, or left out.",
+       "Nothing to do; if many, raise segment.phi or sweep.gamma. To keep narrow parts, lower segment.narrow.", 0},
       {"segment-part-repaired", "A footprint part's outline crossed itself and was redrawn, drawn back by 1 cm.",
        "Nothing to do unless the part looks wrong.", 0},
       {"segment-part-dropped", "No simple outline could be made of a footprint part; it was left out.",

@@ -145,7 +145,8 @@ struct Segmentation {
   Terms terms;           ///< re-evaluated from the labels
   double objective = 0;  ///< terms.sum()
   double bound = 0;      ///< proven: no segmentation is cheaper
-  std::string status;    ///< "optimal", "stopped" (limit reached; the gap is true), "empty" (no face inside)
+  std::string status;    ///< "optimal", "empty" (no face inside), "stopped" (a limit reached, the run cancelled, or the
+                         ///< solver gave up; labels are the best found, and the gap is true)
   std::int64_t rounds = 0, nodes = 0;
   std::size_t variables = 0;
   double solve_seconds = 0;  ///< from the candidates and conflicts to the labels
@@ -159,7 +160,8 @@ struct Segmentation {
                           const block::Block& block, const rays::Scene& mesh, const Options& options,
                           const base::Run& run = {}) -> base::Result<Segmentation>;
 
-/// The integer program that was solved, whole and with every row it took: variable i is s of candidate i, then comes a y
+/// The integer program that was solved, whole and with every row it took but those of cliques, which only say again
+/// what is known of whole points: variable i is s of candidate i, then comes a y
 /// for every conflict of two candidates. Costs and constant are whole, in thousandths of the objective. Every cut of
 /// the plane into parts satisfies the rows, so whatever any solver proves of it bounds the segmentation; when the status
 /// is "optimal", its optimum is 1000 × objective but for one unit of rounding a candidate.

@@ -57,7 +57,7 @@ auto minimise(const Program& program, const Limits& limits, const std::optional<
 
 auto codes() -> std::vector<base::Code> {
   return {{"solver-failed", "The integer program solver gave up.",
-           "Report the input that led here; the block is rebuilt from its footprints alone.", 1},
+           "Report the input that led here; the best answer found before is used.", 1},
           {"solver-mps", "An integer program cannot be written as MPS.",
            "Round costs, coefficients and bounds to at most 11 digits; no lower bound may exceed its upper one.", 3}};
 }

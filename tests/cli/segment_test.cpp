@@ -1,4 +1,6 @@
 // `mansard segment`: layers, programs and a report, and `mansard reconstruct --layers`.
+#include <sys/stat.h>
+
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
@@ -79,6 +81,34 @@ TEST_F(Segment, overwrites_nothing_silently) {
   EXPECT_EQ(segment(footprints, "-q --overwrite --export-mps " + at("out.mps")).exit, 0);
   EXPECT_THAT(read(at("out-block-1.mps")), StartsWith("NAME"));
   expect_refusal(segment(footprints, "-q"), 2, "output-exists", "out.gpkg");
+}
+
+TEST_F(Segment, writes_no_two_results_into_one_file) {
+  const auto out = at("out.gpkg"), beside = at(".") + "/out.gpkg";
+  for (const auto& more : {"--report " + out, "--export-mps " + out, "--report " + beside,
+                           "--export-mps " + at("out.mps") + " --report " + at("out.mps")})
+    expect_refusal(segment(at("house.geojson"), "-q --overwrite " + more), 2, "usage", "two results");
+  // The names that several blocks give their programs are known only when they are.
+  expect_refusal(segment(two_blocks(), "-q --export-mps " + at("out.mps") + " --report " + at("out-block-1.mps")), 2,
+                 "usage", "out-block-1.mps");
+  EXPECT_THAT(results(), testing::IsEmpty());
+}
+
+TEST_F(Segment, replaces_nothing_but_ordinary_files) {
+  ASSERT_EQ(::mkfifo(at("pipe").c_str(), 0600), 0);
+  expect_refusal(segment(at("house.geojson"), "-q --overwrite --report " + at("pipe")), 2, "output-exists", "ordinary");
+  EXPECT_TRUE(fs::is_fifo(at("pipe")));
+}
+
+TEST_F(Segment, writes_nothing_into_a_folder_of_meshes_by_whatever_name) {
+  fs::create_directories(at("tiles"));
+  fs::copy(at("house.obj"), at("tiles/house.obj"));
+  for (const std::string out : {"why.gpkg", "./why.gpkg"}) {
+    const std::string inside = "cd " + at("tiles") + " && " + MANSARD_BINARY;
+    const int status = std::system((inside + " segment -q . " + at("house.geojson") + " -o " + out + " 2>/dev/null").c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 2) << out;
+  }
+  EXPECT_FALSE(fs::exists(at("tiles/why.gpkg")));
 }
 
 TEST_F(Segment, gives_the_same_bytes_at_any_number_of_threads) {

@@ -43,7 +43,8 @@ TEST(Parts, of_random_labels_are_simple_disjoint_and_cover_the_inside) {
     const int columns = 3 + static_cast<int>(random.index(5)), rows = 3 + static_cast<int>(random.index(5));
     const AsciiMap map(cells(columns, rows), 4);
     const std::size_t count = map.arrangement.faces.size();
-    detail::Evidence evidence{std::vector<FaceEvidence>(count), std::vector<detail::FaceSamples>(count)};
+    detail::Evidence evidence{std::vector<FaceEvidence>(count), std::vector<detail::FaceSamples>(count),
+                              std::vector<double>(count, 0.0)};
     // Blobs: labels 0 or 1 or outside, then split into connected pieces.
     std::vector<int> colour(count);
     double inside = 0;

@@ -178,12 +178,14 @@ TEST(Choose, gives_narrow_parts_to_their_neighbour_or_leaves_them_out) {
     c.options.narrow = narrow;
     return c.run();
   };
-  const auto level = strip_at(8.5, 1), low = strip_at(4, 1), kept = strip_at(4, 0);
+  const auto level = strip_at(8.5, 1), low = strip_at(3.5, 1), half = strip_at(4.5, 1), kept = strip_at(3.5, 0);
   ASSERT_EQ(level.parts.size(), 1U);
   EXPECT_NEAR(geometry::area(level.parts[0].polygon), 20, 1e-6);
   ASSERT_EQ(low.parts.size(), 1U);
   EXPECT_NEAR(geometry::area(low.parts[0].polygon), 16, 1e-6);
   EXPECT_EQ(low.warnings.at(0).code, "segment-part-small");
+  ASSERT_EQ(half.parts.size(), 1U);
+  EXPECT_NEAR(geometry::area(half.parts[0].polygon), 20, 1e-6) << "a wall that the scan has melted";
   EXPECT_EQ(kept.parts.size(), 2U);
 }
 

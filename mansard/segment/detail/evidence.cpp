@@ -91,8 +91,9 @@ auto measure(const fracture::Arrangement& arrangement, const block::Block& block
     for (const auto& polygon : member.polygons) members.back().boxes.push_back(geometry::bounds(polygon.outer));
   }
   const std::size_t count = arrangement.faces.size();
-  Evidence evidence{std::vector<FaceEvidence>(count), std::vector<FaceSamples>(count)};
-  std::vector<double> ground(count, block.ground);
+  Evidence evidence{std::vector<FaceEvidence>(count), std::vector<FaceSamples>(count),
+                    std::vector<double>(count, block.ground)};
+  std::vector<double>& ground = evidence.ground;
 
   base::parallel_for(count, [&](std::size_t f) {
     FaceEvidence& face = evidence.faces[f];

@@ -18,6 +18,7 @@ struct FaceSamples {
 struct Evidence {
   std::vector<FaceEvidence> faces;
   std::vector<FaceSamples> samples;
+  std::vector<double> ground;  ///< z of the ground of the face's feature, metres
 };
 
 /// Samples every face and decides which are inside, exposed faces still among them. The seed is run.seed.
@@ -27,7 +28,8 @@ struct Evidence {
 /// Takes faces off from outside that nothing but the fracture's continuations bounds (reference facts 4.2).
 void peel(const fracture::Arrangement& arrangement, const Options& options, std::vector<FaceEvidence>& faces);
 
-/// Share of its area from which a face is inside whatever the mesh lacks.
+/// Of a face's area in the footprints: over this share it is inside though the mesh lacks it; from this share on it is
+/// not peeled off.
 inline constexpr double surely_inside = 0.8;
 
 }  // namespace mansard::segment::detail

@@ -16,7 +16,8 @@ namespace {
 using LabelOfFace = std::vector<std::optional<std::uint32_t>>;
 
 constexpr double smallest_part = 1.0;      ///< m²
-constexpr double same_height = 2.0;        ///< m; strips within this of their neighbour's height are part of its roof
+constexpr double same_height = 2.0;        ///< m; strips within this of their neighbour's height are part of its roof …
+constexpr double low_share = 0.5;          ///< … as are those of at least this share of its height above ground
 constexpr double collinear = 0.01;         ///< m; corners this near to the edge without them are dropped
 constexpr double opening = 0.01;           ///< m; how far a part that touches itself draws back
 constexpr double least_cover = 1.0 / 3.0;  ///< of an edge, from which a sweep-edge counts as its origin
@@ -108,7 +109,8 @@ auto reaches_outside(const fracture::Arrangement& arrangement, const std::vector
 }
 
 /// Parts too small or too narrow to be a building of their own go to their neighbour in the same feature. A strip along
-/// the outside at another height is no roof but the space between a wall and a footprint drawn too wide: it is left out.
+/// the outside, less than half as high, is no roof but the space between a wall and a footprint drawn too wide: it is left
+/// out.
 void take_up_small_parts(const fracture::Arrangement& arrangement, const Evidence& evidence,
                          LabelOfFace& label_of_face, double narrow, std::vector<base::Diagnostic>& warnings) {
   std::set<std::uint32_t> kept;  // narrow, but all there is of their feature
@@ -131,15 +133,16 @@ void take_up_small_parts(const fracture::Arrangement& arrangement, const Evidenc
       kept.insert(label);
       continue;
     }
+    const double own = height_of(arrangement, evidence, members), ground = evidence.ground[members.front()];
+    const double next = into ? height_of(arrangement, evidence, faces.at(*into)) : own;
     const bool apart = into && area >= smallest_part && reaches_outside(arrangement, members, label_of_face) &&
-                       std::abs(height_of(arrangement, evidence, members) -
-                                height_of(arrangement, evidence, faces.at(*into))) > same_height;
+                       next - own > same_height && own - ground < low_share * (next - ground);
     if (apart) into.reset();
     for (const std::uint32_t f : members) label_of_face[f] = into;
     warnings.push_back(base::warning(
         "segment-part-small",
         "a part of " + base::to_text(area, 2) + " m² " +
-            (into ? "was joined to its neighbour" : apart ? "was left out: a strip outside the wall, at another height"
+            (into ? "was joined to its neighbour" : apart ? "was left out: a low strip outside the wall"
                                                           : "was left out: it has no neighbour to join"),
         "face " + std::to_string(members.front())));
   }
