@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Request {
-  std::string model, block, footprints, out;
+  std::string model, block, footprints, lod, out;
   bool overwrite = false, picture = false, quiet = false;
   std::size_t jobs = 0;
   Settings settings;
@@ -35,22 +35,45 @@ auto source_of(const Request& request) -> std::string {
   return !request.block.empty() ? request.block : !request.model.empty() ? request.model : request.footprints;
 }
 
+void say_all(const std::vector<base::Diagnostic>& warnings, Progress& progress) {
+  for (const auto& warning : warnings) progress.say(base::to_string(warning));
+}
+
+/// What is scanned.
+using Known = simulate::ModelTruth;
+
+auto with_surface(base::Result<simulate::Truth> truth) -> base::Result<Known> {
+  if (!truth) return truth.error();
+  auto surface = simulate::surface_of(truth->city);
+  if (!surface) return surface.error();
+  return Known{std::move(*truth), std::move(*surface)};
+}
+
+/// Plans where the file has them: of a model of another maker less is known.
+auto known_of_model(const Request& request, const base::Run& run, Progress& progress) -> base::Result<Known> {
+  auto plans = write::read_plans(request.model);
+  if (plans) return with_surface(simulate::truth_of(std::move(*plans), run));
+  if (const auto& code = plans.error().code; code != "write-plan-type" && code != "write-plan-json")
+    return plans.error();
+  const auto model = ingest::read_model(request.model, {request.lod, {}});
+  if (!model) return model.error();
+  auto warnings = model->warnings;
+  auto known = simulate::truth_of(*model, warnings);
+  say_all(warnings, progress);
+  return known;
+}
+
 auto truth_for(const Request& request, const simulate::Options& options, const base::Run& run, Progress& progress)
     -> base::Result<simulate::Truth> {
   if (!request.block.empty()) {
     const auto kind = simulate::kind_of(request.block);
     return simulate::make_block(*kind, options.block, run.seed, run);
   }
-  if (!request.model.empty()) {
-    auto plans = write::read_plans(request.model);
-    if (!plans) return plans.error();
-    return simulate::truth_of(std::move(*plans), run);
-  }
   const auto scene = ingest::read_footprints(request.footprints, {}, run);
   if (!scene) return scene.error();
   auto warnings = scene->warnings;
   auto truth = simulate::furnish(*scene, options.block, run.seed, warnings, run);
-  for (const auto& warning : warnings) progress.say(base::to_string(warning));
+  say_all(warnings, progress);
   return truth;
 }
 
@@ -64,28 +87,35 @@ auto picture_of(const simulate::Scan& scan, const base::Run& run) -> base::Resul
   return picture::png(picture::draw(layers, {}, {}, run));
 }
 
-auto write_all(const Request& request, const simulate::Options& options, const simulate::Truth& truth,
-               const base::Run& run, Progress& progress) -> base::Result<void> {
-  const auto surface = simulate::surface_of(truth.city);
-  if (!surface) return surface.error();
-  const auto scan = simulate::scan(*surface, options.scan, run.seed, run);
+/// The truth as models and plans; nothing for a model of another maker, which is the truth as it is.
+auto add_models(const write::City& city, std::vector<std::pair<std::string, std::string>>& files)
+    -> base::Result<void> {
+  auto cityjson = write::cityjson(city);
+  if (!cityjson) return cityjson.error();
+  auto obj = write::obj(city, "truth.mtl");
+  if (!obj) return obj.error();
+  files.emplace_back("truth.city.json", std::move(*cityjson));
+  files.emplace_back("truth.obj", std::move(obj->obj));
+  files.emplace_back("truth.mtl", std::move(obj->mtl));
+  files.emplace_back("plans.json", write::plans(city));
+  return {};
+}
+
+auto write_all(const Request& request, const simulate::Options& options, const Known& known, const base::Run& run,
+               Progress& progress) -> base::Result<void> {
+  const auto& truth = known.truth;
+  const auto scan = simulate::scan(known.surface, options.scan, run.seed, run);
   if (!scan) return scan.error();
   const auto footprints = simulate::survey(truth, options.survey, run.seed);
   if (!footprints) return footprints.error();
 
   progress.show("write", request.out, 1);
-  const auto cityjson = write::cityjson(truth.city);
-  if (!cityjson) return cityjson.error();
-  auto obj = write::obj(truth.city, "truth.mtl");
-  if (!obj) return obj.error();
   std::vector<std::pair<std::string, std::string>> files{
       {"mesh.ply", simulate::ply(*scan, truth.city.frame)},
       {"footprints.geojson", simulate::geojson(*footprints, truth.city.frame)},
-      {"truth.city.json", *cityjson},
-      {"truth.obj", std::move(obj->obj)},
-      {"truth.mtl", std::move(obj->mtl)},
-      {"plans.json", write::plans(truth.city)},
       {"truth.json", simulate::truth_json(truth, *footprints, options, source_of(request))}};
+  if (!truth.model)
+    if (auto added = add_models(truth.city, files); !added) return added;
   if (request.picture) {
     auto picture = picture_of(*scan, run);
     if (!picture) return picture.error();
@@ -121,15 +151,16 @@ auto simulate_block(const Request& request, const base::Cancel& cancel) -> int {
   run.cancel = &cancel;
   run.seed = static_cast<std::uint64_t>(options.seed);
   run.progress = [&](auto stage, auto subject, double fraction) { progress.show(stage, subject, fraction); };
-  auto truth = truth_for(request, options, run, progress);
-  if (!truth) return give_up(truth.error());
+  auto known = request.model.empty() ? with_surface(truth_for(request, options, run, progress))
+                                     : known_of_model(request, run, progress);
+  if (!known) return give_up(known.error());
   if (request.model.empty()) {  // plans that are there keep the word of who made them
-    truth->city.made_by.version = MANSARD_VERSION;
+    auto& made_by = known->truth.city.made_by;
+    made_by.version = MANSARD_VERSION;
     const auto list = simulate::option_list(options);
-    for (const auto& option : list.options())
-      truth->city.made_by.options.emplace_back("simulate." + option.name, option.get());
+    for (const auto& option : list.options()) made_by.options.emplace_back("simulate." + option.name, option.get());
   }
-  if (auto written = write_all(request, options, *truth, run, progress); !written) return give_up(written.error());
+  if (auto written = write_all(request, options, *known, run, progress); !written) return give_up(written.error());
   std::printf("%s\n", (fs::path(request.out) / "mesh.ply").c_str());
   return all_done;
 }
@@ -139,12 +170,14 @@ auto simulate_block(const Request& request, const base::Cancel& cancel) -> int {
 auto simulate_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
   auto* verb = app.add_subcommand("simulate", "A block with known truth, and a mesh as a scan would show it");
   auto request = std::make_shared<Request>();
-  verb->add_option("MODEL", request->model, "A plans.json, or a model.city.json that carries plans")
-      ->type_name("PLANS.json");
+  verb->add_option("MODEL", request->model, "A plans.json, or a building model: CityJSON, CityJSONSeq or labelled OBJ")
+      ->type_name("MODEL");
   verb->add_option("--block", request->block, "Invent one: terrace, perimeter, courtyard, towers, detached")
       ->type_name("KIND");
   verb->add_option("--footprints", request->footprints, "Real outlines (any OGR vector file) with invented buildings")
       ->type_name("FILE");
+  verb->add_option("--lod", request->lod,
+                   "Read this LoD of a MODEL without plans; without it, the highest of each object");
   verb->add_option("-o,--output", request->out, "Folder for the results")->required()->type_name("OUTDIR");
   verb->add_flag("--overwrite", request->overwrite, "Replace results that are there already");
   verb->add_flag("--picture", request->picture, "Also write picture.png: the scan, coloured by class");

@@ -81,6 +81,27 @@ auto building_json(const write::Building& building, double z0) -> Json {
           {"parts", std::move(parts)}};
 }
 
+/// Of a model of another maker: what its faces say.
+auto model_building_json(const write::Building& building, const ModelSource::Building& facts, double z0) -> Json {
+  Json areas = Json::object();
+  for (std::size_t c = 0; c < class_count; ++c)
+    areas["area_" + std::string(to_string(static_cast<Class>(c)))] = facts.area[c];
+  Json out = {{"id", building.id},
+              {"ground", z0 + building.ground},
+              {"top", z0 + facts.top},
+              {"ground_faces", facts.ground_faces}};
+  out.update(areas);
+  return out;
+}
+
+auto model_json(const ModelSource& model) -> Json {
+  Json out = {{"file", model.file.path}, {"bytes", model.file.bytes}, {"sha256", model.file.sha256}};
+  if (!model.lod.empty()) out["lod"] = model.lod;
+  return out;
+}
+
+auto height(const std::optional<double>& z, double z0) -> Json { return z ? Json(z0 + *z) : Json(nullptr); }
+
 }  // namespace
 
 auto ply(const Scan& scan, const ingest::Frame& frame) -> std::string {
@@ -135,18 +156,27 @@ auto truth_json(const Truth& truth, const std::vector<ingest::Footprint>& footpr
   const auto list = option_list(copy);
   for (const auto& option : list.options()) used["simulate." + option.name] = option.get();
   Json buildings = Json::array(), walls = Json::array(), features = Json::array();
-  for (const auto& building : truth.city.buildings) buildings.push_back(building_json(building, z0));
+  for (std::size_t b = 0; b < truth.city.buildings.size(); ++b) {
+    const auto& building = truth.city.buildings[b];
+    buildings.push_back(truth.model ? model_building_json(building, truth.model->buildings[b], z0)
+                                    : building_json(building, z0));
+  }
   for (const auto& wall : truth.party_walls)
     walls.push_back({{"first", truth.city.buildings[wall.first].id},
                      {"second", truth.city.buildings[wall.second].id},
                      {"line", {place(wall.line.start, frame), place(wall.line.end, frame)}},
-                     {"first_top", z0 + wall.first_top},
-                     {"second_top", z0 + wall.second_top}});
+                     {"first_top", height(wall.first_top, z0)},
+                     {"second_top", height(wall.second_top, z0)}});
   for (const auto& footprint : footprints)
     features.push_back({{"id", footprint.id}, {"buildings", attribute(footprint.attributes, "buildings")}});
-  const Json out = {{"type", "mansard-truth"}, {"version", 1},         {"source", source},
-                    {"seed", options.seed},    {"crs", frame.crs},     {"options", std::move(used)},
-                    {"buildings", buildings},  {"party_walls", walls}, {"footprints", features}};
+  Json out = {{"type", "mansard-truth"}, {"version", 1}, {"source", source}};
+  if (truth.model) out["model"] = model_json(*truth.model);
+  out["seed"] = options.seed;
+  out["crs"] = frame.crs;
+  out["options"] = std::move(used);
+  out["buildings"] = std::move(buildings);
+  out["party_walls"] = std::move(walls);
+  out["footprints"] = std::move(features);
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -121,6 +121,16 @@ auto codes() -> std::vector<base::Code> {
        70},
       {"simulate-nothing", "There is nothing to simulate: no usable footprint, or a model without solids.",
        "Give footprints with area, or a plans.json or model.city.json with parts.", 5},
+      {"simulate-model-ground", "Buildings of a model have no ground faces.",
+       "Their outlines are what is seen of them from above, and they stand on their lowest corner. Label the ground "
+       "faces in the model if that is not right, as where roofs stand out over walls.",
+       0},
+      {"simulate-model-open", "Buildings of a model are not closed when seen from above and from below.",
+       "They are taken as solid from their highest surface down to the ground; what stands out over open air becomes "
+       "a wall. Close the model if that is not right.",
+       0},
+      {"simulate-model-outline", "A building of a model has no outline: no area when seen from above.",
+       "It is left out. Give it ground faces or a roof, or do without it.", 0},
       {"simulate-size", "A scan would have more cells or points than can be numbered.",
        "Take a coarser --resolution, or a smaller model.", 4},
       {"simulate-flat", "No pitched roof could be raised over a footprint; it got a flat one.",

@@ -26,6 +26,17 @@ auto too_large(const Surface& surface, const geometry::Box2& area, double resolu
            high / resolution < most_levels);
 }
 
+auto class_of(label::Class kind) -> Class {
+  switch (kind) {
+    case label::Class::wall:
+    case label::Class::party_wall: return Class::wall;
+    case label::Class::roof:
+    case label::Class::soffit: return Class::roof;
+    case label::Class::ground: return Class::ground;
+  }
+  return Class::other;
+}
+
 }  // namespace
 
 auto surface_of(const write::City& city) -> base::Result<Surface> {
@@ -46,7 +57,7 @@ auto surface_of(const write::City& city) -> base::Result<Surface> {
         const auto& corners = triangulated->triangles[t];
         const std::uint32_t face = triangulated->face_of[t];
         out.mesh.triangles.push_back({first + corners[0], first + corners[1], first + corners[2]});
-        out.classes.push_back(part.model.classes[face]);
+        out.classes.push_back(class_of(part.model.classes[face]));
         out.buildings.push_back(b);
         out.faces.push_back(faces + face);
       }

@@ -18,6 +18,7 @@
 #include "mansard/geometry/mesh.hpp"
 #include "mansard/geometry/polygon.hpp"
 #include "mansard/ingest/ingest.hpp"
+#include "mansard/ingest/model.hpp"
 #include "mansard/label/label.hpp"
 #include "mansard/write/write.hpp"
 
@@ -86,15 +87,35 @@ struct Preset {
 
 /// A stretch along which two buildings stand wall to wall.
 struct PartyWall {
-  geometry::Segment2 line;               ///< in plan, the first building on its left
-  std::size_t first = 0, second = 0;     ///< indices into City::buildings
-  double first_top = 0, second_top = 0;  ///< z, metres: how high the walls of each stand there
+  geometry::Segment2 line;            ///< in plan, the first building on its left
+  std::size_t first = 0, second = 0;  ///< indices into City::buildings
+  /// z, metres: how high the walls of each stand there; none where there is no wall.
+  std::optional<double> first_top, second_top;
 };
 
-/// What is really there. Every part of the city is a plan, raised and labelled; every solid passed extrude::check.
+/// What a scan's triangle shows.
+enum class Class : std::uint8_t { wall, roof, ground, other };
+[[nodiscard]] auto to_string(Class kind) -> std::string_view;
+inline constexpr std::size_t class_count = 4;
+
+/// Where a truth comes from that was not made of plans: what is known of it lies in that file.
+struct ModelSource {
+  struct Building {
+    double top = 0;                          ///< z, metres, of its highest corner
+    bool ground_faces = false;               ///< whether the model says what its ground is
+    std::array<double, class_count> area{};  ///< m² of the model's faces, by Class
+  };
+  ingest::InputFile file;
+  std::string lod;                  ///< as ingest::Model::lod
+  std::vector<Building> buildings;  ///< one for each of the city
+};
+
+/// What is really there. Every part of the city is a plan, raised and labelled; every solid passed extrude::check. Of a
+/// model of another maker the city has ids, outlines and ground, and no parts.
 struct Truth {
   write::City city;
   std::vector<PartyWall> party_walls;  ///< ordered by first, second, line
+  std::optional<ModelSource> model;
 };
 
 /// A block with invented, plausible buildings about the origin. Guarantees: 1 every solid is raised in full and valid ·
@@ -120,18 +141,28 @@ struct Truth {
 [[nodiscard]] auto survey(const Truth& truth, const SurveyOptions& options, std::uint64_t seed)
     -> base::Result<std::vector<ingest::Footprint>>;
 
-/// Closed, outward-oriented surfaces of buildings, as triangles: what can be scanned.
+/// Surfaces of buildings, as triangles: what can be scanned. Where a building is closed along a vertical line, it is
+/// solid inside; elsewhere it is solid from its highest surface down to the ground, so that walls may lack.
 struct Surface {
   geometry::Mesh mesh;
-  std::vector<label::Class> classes;     ///< per triangle
+  std::vector<Class> classes;            ///< per triangle
   std::vector<std::uint32_t> buildings;  ///< per triangle
   std::vector<std::uint32_t> faces;      ///< per triangle: which plane face of the model it belongs to
 };
 /// Gives up with "geometry-triangulate".
 [[nodiscard]] auto surface_of(const write::City& city) -> base::Result<Surface>;
 
-enum class Class : std::uint8_t { wall, roof, ground, other };
-[[nodiscard]] auto to_string(Class kind) -> std::string_view;
+struct ModelTruth {
+  Truth truth;
+  Surface surface;  ///< the model's own faces, and a floor under the buildings that have no ground
+};
+/// A model of any maker, as truth. Outlines are the ground faces seen from above; of a building without them, all faces
+/// but walls, with a floor at its lowest corner ("simulate-model-ground" is appended to `warnings`). Party walls are
+/// the stretches that two outlines share within 10 cm. A building turned inside out is turned back. Open buildings and
+/// those without an outline, which are left out, are warned of: "simulate-model-open", "simulate-model-outline".
+/// Guarantee: 1 buildings keep their ids and order. Gives up with "simulate-nothing".
+[[nodiscard]] auto truth_of(const ingest::Model& model, std::vector<base::Diagnostic>& warnings)
+    -> base::Result<ModelTruth>;
 
 struct Scan {
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();

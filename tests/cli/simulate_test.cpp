@@ -42,6 +42,28 @@ TEST_F(Simulate, scans_its_own_plans_and_finds_the_same_truth_again) {
             json::parse(read(at("city/truth.json")))["party_walls"]);
 }
 
+TEST_F(Simulate, scans_a_labelled_model_which_is_then_the_truth) {
+  const std::string model =  // the gabled house, each of its faces labelled
+      field + "o villa\ng wall\nf 5 6 10 9\nf 6 7 11 14 10\nf 7 8 12 11\nf 8 5 9 13 12\ng roof\nf 9 10 14 13\n" +
+      "f 11 12 13 14\ng ground\nf 8 7 6 5\n";
+  put("villa.obj", model);
+  const auto made = simulate(at("villa.obj") + " --preset clean");
+  ASSERT_EQ(made.exit, 0) << made.err;
+  EXPECT_FALSE(fs::exists(at("block/truth.obj")));
+  EXPECT_FALSE(fs::exists(at("block/plans.json")));
+  const auto truth = json::parse(read(at("block/truth.json")));
+  EXPECT_EQ(truth["model"]["file"], at("villa.obj"));
+  EXPECT_EQ(truth["buildings"][0]["id"], "villa");
+  const auto footprints = json::parse(read(at("block/footprints.geojson")));
+  EXPECT_EQ(footprints["features"][0]["properties"]["buildings"], "villa");
+  const auto score = run("evaluate -q " + at("villa.obj") + " " + at("block/mesh.ply") + " --truth " + at("villa.obj") +
+                         " -o " + at("score.json"));
+  ASSERT_EQ(score.exit, 0) << score.err;
+  const auto report = json::parse(read(at("score.json")));
+  EXPECT_LT(report["distances"]["model_to_mesh"]["mean_m"], 0.1);
+  EXPECT_EQ(report["truth"]["buildings"]["matched"], 1);
+}
+
 TEST_F(Simulate, has_the_same_bytes_with_one_thread_and_two) {
   ASSERT_EQ(simulate("--block perimeter --resolution 0.8 -j 1", "one").exit, 0);
   ASSERT_EQ(simulate("--block perimeter --resolution 0.8 -j 2", "two").exit, 0);
@@ -80,7 +102,9 @@ TEST_F(Simulate, says_what_is_wrong) {
   expect_refusal(refused("--block terrace --simulate-noise -1"), 4, "option-value");
   expect_refusal(refused("--block terrace --preset drone"), 4, "option-value", "nadir-drone");
   expect_refusal(refused("--footprints " + at("nothing.geojson")), 3, "file-missing");
-  expect_refusal(refused(at("house.geojson")), 3, "write-plan-type");
+  expect_refusal(refused(at("house.geojson")), 3, "ingest-model-format");
+  put("broken.json", R"({"type":"mansard-plan","version":1})");
+  expect_refusal(refused(at("broken.json")), 3, "write-plan-missing");
   ASSERT_EQ(simulate("--block towers --resolution 2").exit, 0);
   EXPECT_THAT(simulate("--block towers --resolution 2").err, testing::HasSubstr("error[output-exists]"));
 }

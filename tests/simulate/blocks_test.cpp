@@ -122,7 +122,7 @@ auto equal_share(double asked) -> double {
     const auto truth = make_block(Kind::terrace, options, seed);
     for (const auto& wall : truth->party_walls) {
       all += 1;
-      equal += std::abs(wall.first_top - wall.second_top) < 0.05 ? 1 : 0;
+      equal += std::abs(wall.first_top.value() - wall.second_top.value()) < 0.05 ? 1 : 0;
     }
   }
   return equal / all;
@@ -157,16 +157,16 @@ TEST(TruthOf, finds_the_party_wall_with_both_heights) {
   EXPECT_NEAR(wall.line.start.x, 12, 1e-6);
   EXPECT_NEAR(wall.line.end.x, 12, 1e-6);
   EXPECT_NEAR(wall.line.end.y - wall.line.start.y, 10, 1e-6);  // the first building on the left
-  EXPECT_NEAR(wall.first_top, 6, 1e-3);
-  EXPECT_NEAR(wall.second_top, 9, 1e-3);
+  EXPECT_NEAR(wall.first_top.value(), 6, 1e-3);
+  EXPECT_NEAR(wall.second_top.value(), 9, 1e-3);
 }
 
 TEST(TruthOf, measures_a_gable_only_over_the_shared_stretch) {
   // The gable of the second is 8 m at its middle, y = 5; the first touches it from y = 0 to 2, where it is 5 + 2 × 0.6.
   const auto truth = test::truth_of({test::house("a", 0, 0, 6, 2, 4), test::house("b", 6, 0, 16, 10, 5, 3)});
   ASSERT_EQ(truth.party_walls.size(), 1U);
-  EXPECT_NEAR(truth.party_walls[0].first_top, 4, 1e-3);
-  EXPECT_NEAR(truth.party_walls[0].second_top, 6.2, 1e-2);
+  EXPECT_NEAR(truth.party_walls[0].first_top.value(), 4, 1e-3);
+  EXPECT_NEAR(truth.party_walls[0].second_top.value(), 6.2, 1e-2);
 }
 
 TEST(TruthOf, finds_no_party_wall_where_a_gap_is) {

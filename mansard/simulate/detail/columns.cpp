@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 namespace mansard::simulate::detail {
 namespace {
@@ -32,7 +33,7 @@ struct Span {
 
 /// A surface crossed by a vertical line: +1 into a solid on the way up, −1 out of it.
 struct Crossing {
-  std::uint32_t line = 0;
+  std::uint32_t line = 0, building = 0;
   int into = 0;
   double z = 0;
 };
@@ -45,7 +46,7 @@ class Lines {
   void cross_all(const std::vector<std::uint32_t>& triangles) {
     for (const auto t : triangles) cross_one(t);
     std::ranges::sort(crossings_, [](const Crossing& a, const Crossing& b) {
-      return std::tuple(a.line, a.z, -a.into) < std::tuple(b.line, b.z, -b.into);
+      return std::tuple(a.line, a.building, a.z, -a.into) < std::tuple(b.line, b.building, b.z, -b.into);
     });
   }
 
@@ -101,19 +102,33 @@ class Lines {
               side(xy(v[2]), xy(v[0]), p) != up)
             continue;
           const double z = v[0].z - (normal.x * (p.x - v[0].x) + normal.y * (p.y - v[0].y)) / normal.z;
-          crossings_.push_back({line_of(i, j, s), up ? -1 : 1, z});
+          crossings_.push_back({line_of(i, j, s), world_.surface.buildings[triangle], up ? -1 : 1, z});
         }
   }
 
   void add_buildings(std::uint32_t line, double ground, std::size_t& next, std::vector<Span>& spans) const {
+    while (next < crossings_.size() && crossings_[next].line == line) {
+      const std::size_t first = next;
+      const auto same = [&](const Crossing& c) { return c.line == line && c.building == crossings_[first].building; };
+      while (next < crossings_.size() && same(crossings_[next])) ++next;
+      add_building({crossings_.begin() + static_cast<std::ptrdiff_t>(first), next - first}, ground, spans);
+    }
+  }
+
+  /// Where its surfaces do not close, a building is solid from the highest one down.
+  static void add_building(std::span<const Crossing> crossings, double ground, std::vector<Span>& spans) {
     constexpr double passage = 2.0;  // m; what starts lower stands on the ground, however that falls
+    const std::size_t before = spans.size();
     int inside = 0;
     double from = 0;
-    for (; next < crossings_.size() && crossings_[next].line == line; ++next) {
-      if (inside == 0) from = crossings_[next].z < ground + passage ? -endless : crossings_[next].z;
-      inside += crossings_[next].into;
-      if (inside == 0) spans.push_back({from, crossings_[next].z});
+    for (const Crossing& crossing : crossings) {
+      if (inside == 0) from = crossing.z < ground + passage ? -endless : crossing.z;
+      inside += crossing.into;
+      if (inside == 0) spans.push_back({from, crossing.z});
     }
+    if (inside == 0) return;
+    spans.resize(before);
+    spans.push_back({-endless, crossings.back().z});
   }
 
   static void unite(std::vector<Span>& spans) {

@@ -37,7 +37,7 @@ auto unmatched(const Surface& surface, const ScanOptions& options, std::uint64_t
     -> std::map<std::uint32_t, double> {
   std::map<std::uint32_t, std::pair<double, double>> extents;
   for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
-    if (surface.classes[t] != label::Class::wall && surface.classes[t] != label::Class::party_wall) continue;
+    if (surface.classes[t] != Class::wall) continue;
     if (drawn(seed, surface.faces[t]) >= options.missing_walls) continue;
     auto& [low, high] = extents.try_emplace(surface.faces[t], 1e9, -1e9).first->second;
     for (const auto v : surface.mesh.triangles[t]) {

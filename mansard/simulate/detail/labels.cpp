@@ -8,17 +8,6 @@ namespace {
 
 using geometry::Point3;
 
-auto class_of(label::Class kind) -> Class {
-  switch (kind) {
-    case label::Class::wall:
-    case label::Class::party_wall: return Class::wall;
-    case label::Class::roof:
-    case label::Class::soffit: return Class::roof;
-    case label::Class::ground: return Class::ground;
-  }
-  return Class::other;
-}
-
 auto label_of(Point3 p, Point3 normal, const World& world, const std::vector<const Object*>& objects,
               const Nearest& nearest, double radius) -> Label {
   double best = std::abs(p.z - world.terrain.at(xy(p))) * std::max(normal.z, 0.2) + Nearest::turned * (1 - normal.z);
@@ -29,7 +18,7 @@ auto label_of(Point3 p, Point3 normal, const World& world, const std::vector<con
   constexpr double near = 0.3;
   auto found = nearest.find(p, normal, std::min(near, radius));
   if (!found) found = nearest.find(p, normal, radius);
-  if (found && found->cost < best) label = {class_of(world.surface.classes[found->triangle]), found->triangle};
+  if (found && found->cost < best) label = {world.surface.classes[found->triangle], found->triangle};
   return label;
 }
 

@@ -31,7 +31,7 @@ auto nearest_point(Point3 p, Point3 a, Point3 b, Point3 c) -> Point3 {
   return a + (vb / sum) * ab + (vc / sum) * ac;
 }
 
-auto is_shell(label::Class kind) -> bool { return kind != label::Class::ground; }
+auto is_shell(Class kind) -> bool { return kind != Class::ground; }
 
 }  // namespace
 

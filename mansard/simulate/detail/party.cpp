@@ -8,10 +8,10 @@ namespace mansard::simulate::detail {
 namespace {
 
 using geometry::Point2;
+using geometry::Point3;
 using geometry::Segment2;
 
 constexpr double shortest = 0.2;  // m
-constexpr double touch = 0.02;    // m; solids keep their corners to within that
 
 /// What of `of` lies beside `other`, if it runs the opposite way close by.
 auto beside(const Segment2& of, const Segment2& other, double apart) -> std::optional<Segment2> {
@@ -29,31 +29,25 @@ auto beside(const Segment2& of, const Segment2& other, double apart) -> std::opt
   return Segment2{of.start + from * u, of.start + to * u};
 }
 
-/// z of the highest point of the building's walls along the line.
-auto wall_top(const write::Building& building, const Segment2& line) -> double {
-  double top = building.ground;
-  for (const auto& part : building.parts) {
-    const auto& solid = part.model.solid;
-    for (std::size_t f = 0; f < solid.faces.size(); ++f) {
-      if (part.model.classes[f] != label::Class::wall && part.model.classes[f] != label::Class::party_wall) continue;
-      const auto& loop = solid.faces[f].loops.front();
-      constexpr double near = 0.1;
-      const Point2 middle = 0.5 * (line.start + line.end), normal = normalised(left_of(line.end - line.start));
-      const bool along = std::ranges::all_of(
-          loop, [&](auto v) { return std::abs(dot(xy(solid.vertices[v]) - middle, normal)) < near; });
-      if (!along) continue;
-      // Of a longer wall only what stands over the line; its top there by the edges of its outline.
-      const Point2 u = normalised(line.end - line.start);
-      const double half = length(line.end - line.start) / 2;
-      for (std::size_t i = 0; i < loop.size(); ++i) {
-        const auto a = solid.vertices[loop[i]], b = solid.vertices[loop[(i + 1) % loop.size()]];
-        const double s = dot(xy(a) - middle, u), t = dot(xy(b) - middle, u);
-        if (std::max(s, t) < -half || std::min(s, t) > half) continue;
-        const auto z = [&](double at) {
-          return s == t ? std::max(a.z, b.z) : a.z + std::clamp((at - s) / (t - s), 0.0, 1.0) * (b.z - a.z);
-        };
-        top = std::max({top, z(std::max(-half, std::min(s, t))), z(std::min(half, std::max(s, t)))});
-      }
+/// z of the highest point of the walls along the line, if there are any.
+auto wall_top(const std::vector<std::vector<Point3>>& walls, const Segment2& line) -> std::optional<double> {
+  const Point2 middle = 0.5 * (line.start + line.end), u = normalised(line.end - line.start);
+  const double half = length(line.end - line.start) / 2;
+  std::optional<double> top;
+  for (const auto& loop : walls) {
+    constexpr double near = 0.1;
+    if (!std::ranges::all_of(loop, [&](Point3 p) { return std::abs(dot(xy(p) - middle, left_of(u))) < near; }))
+      continue;
+    // Of a longer wall only what stands over the line; its top there by the edges of its outline.
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Point3 a = loop[i], b = loop[(i + 1) % loop.size()];
+      const double s = dot(xy(a) - middle, u), t = dot(xy(b) - middle, u);
+      if (std::max(s, t) < -half || std::min(s, t) > half) continue;
+      const auto z = [&](double at) {
+        return s == t ? std::max(a.z, b.z) : a.z + std::clamp((at - s) / (t - s), 0.0, 1.0) * (b.z - a.z);
+      };
+      const double here = std::max(z(std::max(-half, std::min(s, t))), z(std::min(half, std::max(s, t))));
+      top = std::max(top.value_or(here), here);
     }
   }
   return top;
@@ -89,20 +83,30 @@ auto shared_sides(const std::vector<Side>& sides, double apart) -> std::vector<S
   return shared;
 }
 
-auto party_walls_of(const write::City& city) -> std::vector<PartyWall> {
-  std::vector<Side> sides;
-  for (std::size_t b = 0; b < city.buildings.size(); ++b)
-    for (const auto& part : city.buildings[b].parts) {
-      constexpr double storey = 2.5;  // m; what begins higher stands on another part
-      if (part.plan.base > city.buildings[b].ground + storey) continue;
-      add_sides(geometry::polygon_of(part.plan), b, sides);
+auto standing_of(const write::Building& building) -> Standing {
+  Standing out;
+  for (const auto& part : building.parts) {
+    constexpr double storey = 2.5;  // m; what begins higher stands on another part
+    if (part.plan.base <= building.ground + storey) out.outlines.push_back(geometry::polygon_of(part.plan));
+    const auto& solid = part.model.solid;
+    for (std::size_t f = 0; f < solid.faces.size(); ++f) {
+      if (part.model.classes[f] != label::Class::wall && part.model.classes[f] != label::Class::party_wall) continue;
+      auto& wall = out.walls.emplace_back();
+      for (const auto v : solid.faces[f].loops.front()) wall.push_back(solid.vertices[v]);
     }
+  }
+  return out;
+}
+
+auto party_walls_of(const std::vector<Standing>& buildings, double apart) -> std::vector<PartyWall> {
+  std::vector<Side> sides;
+  for (std::size_t b = 0; b < buildings.size(); ++b)
+    for (const auto& outline : buildings[b].outlines) add_sides(outline, b, sides);
   std::vector<PartyWall> walls;
-  for (const auto& [a, b, line] : shared_sides(sides, touch)) {
-    PartyWall wall{line, sides[a].owner, sides[b].owner, 0, 0};
-    wall.first_top = wall_top(city.buildings[wall.first], line);
-    wall.second_top = wall_top(city.buildings[wall.second], line);
-    walls.push_back(wall);
+  for (const auto& [a, b, line] : shared_sides(sides, apart)) {
+    const auto first = sides[a].owner, second = sides[b].owner;
+    walls.push_back(
+        {line, first, second, wall_top(buildings[first].walls, line), wall_top(buildings[second].walls, line)});
   }
   std::ranges::sort(walls, [](const PartyWall& a, const PartyWall& b) {
     return std::tie(a.first, a.second, a.line) < std::tie(b.first, b.second, b.line);

@@ -24,7 +24,16 @@ struct Shared {
 /// Ordered by a, then b. Stretches shorter than 0.2 m are left out.
 [[nodiscard]] auto shared_sides(const std::vector<Side>& sides, double apart) -> std::vector<Shared>;
 
-/// The party walls of a city with models.
-[[nodiscard]] auto party_walls_of(const write::City& city) -> std::vector<PartyWall>;
+/// What of a building can be shared.
+struct Standing {
+  std::vector<geometry::Polygon> outlines;           ///< of what stands on the ground
+  std::vector<std::vector<geometry::Point3>> walls;  ///< outer loops
+};
+[[nodiscard]] auto standing_of(const write::Building& building) -> Standing;
+
+/// The party walls of buildings: stretches that their outlines share within `apart` metres.
+[[nodiscard]] auto party_walls_of(const std::vector<Standing>& buildings, double apart) -> std::vector<PartyWall>;
+
+inline constexpr double solids_touch = 0.02;  ///< m; solids keep their corners to within that
 
 }  // namespace mansard::simulate::detail

@@ -111,7 +111,9 @@ auto truth_over(std::vector<Raised> buildings, const base::Run& run) -> Truth {
   std::size_t next = 0;
   for (auto& building : truth.city.buildings)
     for (auto& part : building.parts) part.model = std::move(models[next++]);
-  truth.party_walls = party_walls_of(truth.city);
+  std::vector<Standing> standing;
+  for (const auto& building : truth.city.buildings) standing.push_back(standing_of(building));
+  truth.party_walls = party_walls_of(standing, solids_touch);
   return truth;
 }
 

@@ -29,7 +29,7 @@ auto feet_of(const Surface& surface) -> std::vector<Point3> {
   std::vector<Point3> feet;
   constexpr double apart = 4.0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (surface.classes[t] != label::Class::ground) continue;
+    if (surface.classes[t] != Class::ground) continue;
     const auto& corners = mesh.triangles[t];
     if (mesh.vertices[corners[0]].z > lowest[surface.buildings[t]] + superstructure) continue;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -101,7 +101,7 @@ void add_chimneys(std::vector<Object>& objects, const Surface& surface, const Sc
   };
   std::map<std::uint32_t, Summit> summits;
   for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
-    if (surface.classes[t] != label::Class::roof) continue;
+    if (surface.classes[t] != Class::roof) continue;
     const auto& corners = surface.mesh.triangles[t];
     for (std::size_t i = 0; i < 3; ++i) {
       const Point3 v = surface.mesh.vertices[corners[i]], w = surface.mesh.vertices[corners[(i + 1) % 3]];
