@@ -1,7 +1,6 @@
 #include "mansard/segment/detail/contraction.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <set>
 #include <utility>
 
@@ -9,8 +8,7 @@ namespace mansard::segment::detail {
 
 Contraction::Contraction(const Multicut& problem, const std::vector<std::vector<std::uint32_t>>& pairs_of,
                          const Labels& labels, std::uint32_t count)
-    : problem_(problem), pairs_of_(pairs_of), labels_(labels), up_(count), bundles_(count), below_(count) {
-  std::iota(up_.begin(), up_.end(), 0U);
+    : problem_(problem), pairs_of_(pairs_of), labels_(labels), pieces_(count), bundles_(count), below_(count) {
   for (std::uint32_t e = 0; e < problem.edges.size(); ++e) {
     if (!is_cut(e)) continue;
     const auto [low, high] = key_of(e);
@@ -21,11 +19,6 @@ Contraction::Contraction(const Multicut& problem, const std::vector<std::vector<
   }
   for (std::uint32_t low = 0; low < count; ++low)
     for (auto& [high, bundle] : bundles_[low]) weigh({low, high}, bundle);
-}
-
-auto Contraction::label_of(std::uint32_t label) -> std::uint32_t {
-  while (up_[label] != label) label = up_[label] = up_[up_[label]];
-  return label;
 }
 
 auto Contraction::key_of(std::uint32_t edge) -> Key {
@@ -67,7 +60,7 @@ void Contraction::join(const Key& key) {
     bundles_[other].erase(found);
   }
   below_[high].clear();
-  up_[high] = low;
+  pieces_.join(low, high);
   std::set<Key> changed;
   for (auto& [other, bundle] : moved) {
     const Key to = std::minmax(low, other);

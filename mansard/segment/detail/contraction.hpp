@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "mansard/base/disjoint_sets.hpp"
 #include "mansard/segment/detail/multicut.hpp"
 
 namespace mansard::segment::detail {
@@ -23,7 +24,7 @@ class Contraction {
   auto run(bool free) -> bool;
 
   /// The label a piece has now: the lowest of those joined.
-  [[nodiscard]] auto label_of(std::uint32_t label) -> std::uint32_t;
+  [[nodiscard]] auto label_of(std::uint32_t label) -> std::uint32_t { return pieces_.of(label); }
 
  private:
   struct Bundle {
@@ -41,7 +42,7 @@ class Contraction {
   const Multicut& problem_;
   const std::vector<std::vector<std::uint32_t>>& pairs_of_;
   const Labels& labels_;
-  std::vector<std::uint32_t> up_;                        ///< towards the lowest label of the piece
+  base::DisjointSets pieces_;                             ///< of labels
   std::vector<std::map<std::uint32_t, Bundle>> bundles_;  ///< by lower, then by higher label
   std::vector<std::vector<std::uint32_t>> below_;        ///< by higher label, the lower ones (some long gone)
   /// Least change first; what no longer holds is passed over.

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <queue>
 
+#include "mansard/base/disjoint_sets.hpp"
 #include "mansard/segment/detail/local_search.hpp"
 #include "mansard/solver/solver.hpp"
 
@@ -17,22 +17,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-/// Union-find with the lowest node as representative.
-class Pieces {
- public:
-  explicit Pieces(std::size_t count) : up_(count) { std::iota(up_.begin(), up_.end(), 0U); }
-  auto of(std::uint32_t v) -> std::uint32_t {
-    while (up_[v] != v) v = up_[v] = up_[up_[v]];
-    return v;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = of(a), b = of(b);
-    up_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> up_;
-};
+using Pieces = base::DisjointSets;
 
 auto numbered(Pieces& pieces, std::uint32_t nodes) -> Labels {
   Labels labels(nodes), number(nodes, none);

@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 
+#include "mansard/base/disjoint_sets.hpp"
 #include "mansard/rays/rays.hpp"
 
 namespace mansard::simulate::detail {
@@ -51,28 +52,9 @@ auto unmatched(const Surface& surface, const ScanOptions& options, std::uint64_t
   return below;
 }
 
-/// Numbers triangles that hang together alike: union-find over their vertices.
-class Together {
- public:
-  explicit Together(std::size_t vertices) : parent_(vertices) {
-    for (std::size_t v = 0; v < vertices; ++v) parent_[v] = static_cast<std::uint32_t>(v);
-  }
-  auto find(std::uint32_t v) -> std::uint32_t {
-    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-    return v;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = find(a), b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
 void lose_crumbs(const geometry::Mesh& mesh, std::vector<bool>& lost) {
   constexpr std::uint32_t crumb = 40;  // triangles
-  Together together(mesh.vertices.size());
+  base::DisjointSets together(mesh.vertices.size());
   for (std::size_t t = 0; t < lost.size(); ++t) {
     if (lost[t]) continue;
     together.join(mesh.triangles[t][0], mesh.triangles[t][1]);
@@ -80,9 +62,9 @@ void lose_crumbs(const geometry::Mesh& mesh, std::vector<bool>& lost) {
   }
   std::vector<std::uint32_t> sizes(mesh.vertices.size(), 0);
   for (std::size_t t = 0; t < lost.size(); ++t)
-    if (!lost[t]) ++sizes[together.find(mesh.triangles[t][0])];
+    if (!lost[t]) ++sizes[together.of(mesh.triangles[t][0])];
   for (std::size_t t = 0; t < lost.size(); ++t)
-    if (!lost[t] && sizes[together.find(mesh.triangles[t][0])] < crumb) lost[t] = true;
+    if (!lost[t] && sizes[together.of(mesh.triangles[t][0])] < crumb) lost[t] = true;
 }
 
 }  // namespace

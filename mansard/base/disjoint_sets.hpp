@@ -1,0 +1,31 @@
+// Union-find over the numbers 0 … count − 1.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+namespace mansard::base {
+
+/// Every set is named by its lowest number, whatever the order of joins.
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t count) : up_(count) { std::iota(up_.begin(), up_.end(), 0U); }
+
+  /// The name of the set that holds v.
+  auto of(std::uint32_t v) -> std::uint32_t {
+    while (up_[v] != v) v = up_[v] = up_[up_[v]];
+    return v;
+  }
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = of(a), b = of(b);
+    up_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::uint32_t> up_;
+};
+
+}  // namespace mansard::base
