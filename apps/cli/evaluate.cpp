@@ -4,8 +4,7 @@
 
 #include "apps/cli/exit.hpp"
 #include "apps/cli/output.hpp"
-#include "apps/cli/progress.hpp"
-#include "apps/cli/settings.hpp"
+#include "apps/cli/scan.hpp"
 #include "apps/cli/verbs.hpp"
 #include "mansard/picture/picture.hpp"
 #include "mansard/pipeline/evaluation.hpp"
@@ -17,13 +16,10 @@ namespace {
 namespace fs = std::filesystem;
 using NamedBytes = std::vector<std::pair<std::string, std::string>>;
 
-struct Request {
+struct Request : Common {
   std::vector<std::string> inputs;  // the model, then the meshes
   std::string truth, footprints, lod, out;
-  bool overwrite = false, quiet = false;
-  std::size_t jobs = 0;
   double error_limit = 2.0;
-  Settings settings;
 };
 
 constexpr std::array report_names{"report.json", "error.png", "error.tif"};
@@ -72,12 +68,8 @@ auto evaluate(const Request& request, const base::Cancel& cancel) -> int {
   pipeline::Options options;
   if (auto applied = request.settings.apply(options); !applied) return give_up(applied.error());
   if (auto ready = check_outputs(request); !ready) return give_up(ready.error());
-  base::limit_threads(request.jobs);
   Progress progress(request.quiet);
-  base::Run run;
-  run.cancel = &cancel;
-  run.seed = static_cast<std::uint64_t>(options.seed);
-  run.progress = [&](auto stage, auto subject, double fraction) { progress.show(stage, subject, fraction); };
+  const auto run = start(request, options.seed, cancel, progress);
 
   const auto input = pipeline::read_evaluation(files_of(request), options.ingest, run);
   if (!input) return give_up(input.error());
@@ -89,7 +81,7 @@ auto evaluate(const Request& request, const base::Cancel& cancel) -> int {
     const auto report = pipeline::evaluation_json(*result, *input, options);
     if (auto written = write_all(request, *result, *input, report, cancel); !written) return give_up(written.error());
   }
-  std::fputs(pipeline::evaluation_table(*result, *input).c_str(), stdout);
+  std::fputs(pipeline::evaluation_table(*result, *input, options).c_str(), stdout);
   if (!request.out.empty()) std::printf("%s\n", request.out.c_str());
   return all_done;
 }
@@ -110,12 +102,7 @@ auto evaluate_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
       ->type_name("REPORT");
   verb->add_option("--error-limit", request->error_limit, "Ends of the error map's colour scale [m]")
       ->check(CLI::Range(0.01, 1000.0));
-  verb->add_flag("--overwrite", request->overwrite, "Replace results that are there already");
-  verb->add_option("-j,--jobs", request->jobs, "Threads; 0 for one per core. The result is the same at any number")
-      ->check(CLI::Range(0, 1024));
-  verb->add_flag("-q,--quiet", request->quiet, "No progress, no warnings");
-  verb->set_help_all_flag("--help-all", "Show this and every room's options");
-  request->settings.add_to(*verb);
+  add_common(*verb, *request, "warnings");
   return {verb, [request, &cancel] { return evaluate(*request, cancel); }};
 }
 

@@ -169,14 +169,16 @@ auto explore_scans(const Request& request, const std::vector<std::string>& words
   if (!study) return give_up(study.error());
   if (auto ready = check_outputs(request, *study); !ready) return give_up(ready.error());
   Progress progress(request.scan.quiet);
-  const auto run = start(request.scan, study->options, cancel, progress);
+  const auto run = start(request.scan, study->options.seed, cancel, progress);
   const auto result = explore::investigate(*study, run);
   if (!result) return give_up(result.error());
 
   progress.show("write", request.out, 1);
-  const auto files = explore::report(*result);
-  if (auto written = base::write_files(in_folder(request.out, files), run.cancel); !written)
-    return give_up(written.error());
+  const auto named = explore::report(*result);
+  const auto files = in_folder(request.out, named);
+  const auto left = leftovers(request.out, "results.json", explore::is_picture);
+  if (auto written = base::write_files(files, run.cancel); !written) return give_up(written.error());
+  remove_stale(left, files);
   summarise(*result, progress);
   std::printf("%s\n", (fs::path(request.out) / "index.html").c_str());
   const bool all = std::ranges::none_of(result->rows, [](const auto& row) { return row.failure.has_value(); });

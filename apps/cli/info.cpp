@@ -8,6 +8,7 @@
 #include "apps/cli/settings.hpp"
 #include "apps/cli/verbs.hpp"
 #include "mansard/pipeline/pipeline.hpp"
+#include "mansard/simulate/simulate.hpp"
 
 namespace mansard::cli {
 namespace {
@@ -37,8 +38,30 @@ auto range_text(const base::Option& option) -> std::string {
   return bound(least) + ".." + bound(most);
 }
 
-void print_text(const std::vector<base::OptionList>& lists) {
-  for (const auto& list : lists) {
+/// The options of the rooms that make models, and those of `simulate`.
+struct Known {
+  pipeline::Options pipeline;
+  simulate::Options simulate;
+  std::vector<base::OptionList> lists = pipeline::option_lists(pipeline);
+  std::vector<pipeline::Preset> presets = pipeline::presets(), simulate_presets;
+
+  Known() {
+    lists.push_back(simulate::option_list(simulate));
+    for (const auto& preset : simulate::presets())
+      simulate_presets.push_back({preset.name, preset.meaning, preset.values});
+  }
+};
+
+void print_presets(const char* of, const std::vector<pipeline::Preset>& presets) {
+  std::printf("\n%s:\n", of);
+  for (const auto& preset : presets) {
+    std::printf("  %-14s %s\n", preset.name.c_str(), preset.meaning.c_str());
+    for (const auto& [key, value] : preset.values) std::printf("    %s = %s\n", key.c_str(), value.c_str());
+  }
+}
+
+void print_text(const Known& known) {
+  for (const auto& list : known.lists) {
     if (list.options().empty()) continue;
     std::printf("[%s]\n", list.room().c_str());
     for (const auto& option : list.options())
@@ -46,17 +69,24 @@ void print_text(const std::vector<base::OptionList>& lists) {
                   option.get().empty() ? "-" : option.get().c_str(), option.unit.c_str(), range_text(option).c_str(),
                   option.meaning.c_str(), option.alias.empty() ? "" : ("  (--" + dashed(option.alias) + ")").c_str());
   }
-  std::puts("\npresets:");
-  for (const auto& preset : pipeline::presets()) {
-    std::printf("  %-12s %s\n", preset.name.c_str(), preset.meaning.c_str());
-    for (const auto& [key, value] : preset.values) std::printf("    %s = %s\n", key.c_str(), value.c_str());
-  }
+  print_presets("presets", known.presets);
+  print_presets("presets of simulate", known.simulate_presets);
 }
 
-void print_json(const std::vector<base::OptionList>& lists) {
+auto json_of(const std::vector<pipeline::Preset>& presets) -> Json {
+  Json out = Json::array();
+  for (const auto& preset : presets) {
+    Json values = Json::object();
+    for (const auto& [key, value] : preset.values) values[key] = value;
+    out.push_back({{"name", preset.name}, {"meaning", preset.meaning}, {"values", values}});
+  }
+  return out;
+}
+
+void print_json(const Known& known) {
   Json out;
   Json options = Json::array();
-  for (const auto& list : lists)
+  for (const auto& list : known.lists)
     for (const auto& option : list.options()) {
       const auto bound = [](double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
       options.push_back({{"room", list.room()},
@@ -71,13 +101,8 @@ void print_json(const std::vector<base::OptionList>& lists) {
                          {"meaning", option.meaning}});
     }
   out["options"] = options;
-  Json presets = Json::array();
-  for (const auto& preset : pipeline::presets()) {
-    Json values = Json::object();
-    for (const auto& [key, value] : preset.values) values[key] = value;
-    presets.push_back({{"name", preset.name}, {"meaning", preset.meaning}, {"values", values}});
-  }
-  out["presets"] = presets;
+  out["presets"] = json_of(known.presets);
+  out["simulate_presets"] = json_of(known.simulate_presets);
   std::puts(out.dump(1).c_str());
 }
 
@@ -108,9 +133,8 @@ auto options_verb(CLI::App& app) -> Verb {
   auto json = std::make_shared<bool>(false);
   verb->add_flag("--json", *json, "As JSON");
   return {verb, [json] {
-            pipeline::Options defaults;
-            const auto lists = pipeline::option_lists(defaults);
-            *json ? print_json(lists) : print_text(lists);
+            const Known known;
+            *json ? print_json(known) : print_text(known);
             return static_cast<int>(all_done);
           }};
 }

@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "apps/cli/exit.hpp"
 #include "apps/cli/output.hpp"
-#include "apps/cli/progress.hpp"
-#include "apps/cli/settings.hpp"
+#include "apps/cli/scan.hpp"
 #include "apps/cli/verbs.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/label/scan.hpp"
@@ -19,13 +19,10 @@ namespace {
 namespace fs = std::filesystem;
 using Classes = std::vector<ingest::SurfaceClass>;
 
-struct Request {
+struct Request : Common {
   std::vector<std::string> inputs;  // the meshes, then the model
-  std::string truth_mesh, lod, out;
-  bool overwrite = false, quiet = false;
-  std::size_t jobs = 0;
+  std::string truth_mesh, truth, lod, out;
   label::ScanOptions scan;
-  Settings settings;
 };
 
 auto check_outputs(const Request& request) -> base::Result<void> {
@@ -33,7 +30,8 @@ auto check_outputs(const Request& request) -> base::Result<void> {
   if (ending != ".ply" && ending != ".glb")
     return base::error("usage", "the output is a mesh; give a name that ends in .ply or .glb", request.out);
   std::vector<fs::path> inputs(request.inputs.begin(), request.inputs.end());
-  if (!request.truth_mesh.empty()) inputs.emplace_back(request.truth_mesh);
+  for (const auto& extra : {request.truth_mesh, request.truth})
+    if (!extra.empty()) inputs.emplace_back(extra);
   if (auto spared = spare_inputs({request.out}, inputs); !spared) return spared;
   return file_free(request.out, request.overwrite);
 }
@@ -43,7 +41,21 @@ struct Input {
   ingest::Frame frame;
   ingest::ScannedMesh mesh;
   Classes truth;  ///< per triangle of the mesh; empty for none
+  std::optional<ingest::ModelSurface> true_model;
 };
+
+auto true_model_of(const Request& request, const Input& input) -> base::Result<std::optional<ingest::ModelSurface>> {
+  std::optional<ingest::ModelSurface> none;
+  if (request.truth.empty()) return none;
+  auto truth = ingest::read_model(request.truth, {request.lod, {}});
+  if (truth) truth = ingest::in_frame(std::move(*truth), input.frame);
+  if (!truth) return truth.error();
+  auto surface = ingest::surface_of(*truth);
+  if (auto met = ingest::check_overlap(input.mesh.mesh, surface.mesh, {"mesh", "truth"}, input.frame, request.truth);
+      !met)
+    return met.error();
+  return std::optional(std::move(surface));
+}
 
 auto truth_of(const Request& request, const Input& input, const ingest::Options& options, const base::Run& run)
     -> base::Result<Classes> {
@@ -79,6 +91,9 @@ auto read(const Request& request, const pipeline::Options& options, const base::
   auto truth = truth_of(request, input, options.ingest, run);
   if (!truth) return truth.error();
   input.truth = std::move(*truth);
+  auto true_model = true_model_of(request, input);
+  if (!true_model) return true_model.error();
+  input.true_model = std::move(*true_model);
   return input;
 }
 
@@ -91,6 +106,31 @@ auto right_share(const label::ScanConfusion& area, std::size_t classes) -> std::
       right += t == g ? area[t][g] : 0;
     }
   return all > 0 ? base::to_text(100 * right / all, 1) + " %" : "-";
+}
+
+/// Of what stands above the ground, which by the true model is wall or roof.
+void print_walls_and_roofs(const Input& input, const Classes& classes, const label::ScanOptions& options) {
+  const auto& mesh = input.mesh.mesh;
+  auto truth = label::nearest_wall_or_roof(mesh, *input.true_model);
+  const auto above = label::above_ground(mesh, *input.true_model, options);
+  for (std::size_t t = 0; t < truth.size(); ++t)
+    if (!above[t]) truth[t] = ingest::SurfaceClass::ground;
+  double all = 0;
+  const auto share = [&](const Classes& given) {
+    const auto area = label::confusion_of(mesh, truth, given);
+    double right = 0;
+    all = 0;
+    for (const std::size_t t : {0U, 1U}) {  // wall, roof
+      right += area[t][t];
+      for (const double m2 : area[t]) all += m2;
+    }
+    return all > 0 ? base::to_text(100 * right / all, 1) + " %" : std::string("-");
+  };
+  const std::string nearest = share(label::nearest_wall_or_roof(mesh, input.model)), labelled = share(classes),
+                    normal = share(label::wall_or_roof_by_normal(mesh));
+  std::printf("wall or roof as by the true model, of %s m²: by the nearest wall or roof of this one %s, as labelled %s, "
+              "by the normal alone %s\n",
+              base::to_text(all, 0).c_str(), nearest.c_str(), labelled.c_str(), normal.c_str());
 }
 
 void print(const Input& input, const Classes& classes) {
@@ -116,11 +156,8 @@ auto label_mesh(const Request& request, const base::Cancel& cancel) -> int {
   pipeline::Options options;
   if (auto applied = request.settings.apply(options); !applied) return give_up(applied.error());
   if (auto ready = check_outputs(request); !ready) return give_up(ready.error());
-  base::limit_threads(request.jobs);
   Progress progress(request.quiet);
-  base::Run run;
-  run.cancel = &cancel;
-  run.progress = [&](auto stage, auto subject, double fraction) { progress.show(stage, subject, fraction); };
+  const auto run = start(request, options.seed, cancel, progress);
   const auto input = read(request, options, run, progress);
   if (!input) return give_up(input.error());
 
@@ -131,6 +168,7 @@ auto label_mesh(const Request& request, const base::Cancel& cancel) -> int {
   if (!bytes) return give_up(bytes.error());
   if (auto written = base::write_files({{request.out, *bytes}}, &cancel); !written) return give_up(written.error());
   print(*input, classes);
+  if (input->true_model) print_walls_and_roofs(*input, classes, request.scan);
   std::printf("%s\n", request.out.c_str());
   return all_done;
 }
@@ -148,17 +186,14 @@ auto label_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
       ->type_name("MESH2");
   verb->add_option("--truth-mesh", request->truth_mesh, "PLY whose faces have their true class, to count what is right")
       ->type_name("FILE");
+  verb->add_option("--truth", request->truth, "A model that is known to be right, to count walls and roofs that are")
+      ->type_name("MODEL");
   verb->add_option("--lod", request->lod, "Read this LoD of the model; without it, the highest of each object");
   verb->add_option("--reach", request->scan.reach, "How far from the model a wall or roof may be [m]")
       ->check(CLI::Range(0.01, 100.0));
   verb->add_option("--ground-height", request->scan.ground_height, "How far from the terrain ground may be [m]")
       ->check(CLI::Range(0.01, 100.0));
-  verb->add_flag("--overwrite", request->overwrite, "Replace a result that is there already");
-  verb->add_option("-j,--jobs", request->jobs, "Threads; 0 for one per core. The result is the same at any number")
-      ->check(CLI::Range(0, 1024));
-  verb->add_flag("-q,--quiet", request->quiet, "No progress, no warnings");
-  verb->set_help_all_flag("--help-all", "Show this and every room's options");
-  request->settings.add_to(*verb);
+  add_common(*verb, *request, "warnings");
   return {verb, [request, &cancel] { return label_mesh(*request, cancel); }};
 }
 

@@ -46,6 +46,27 @@ auto spare_inputs(const std::vector<fs::path>& outputs, const std::vector<fs::pa
   return {};
 }
 
+auto leftovers(const fs::path& folder, const std::string& always, const std::function<bool(const std::string&)>& own)
+    -> std::vector<fs::path> {
+  std::vector<fs::path> left;
+  std::error_code status;
+  const auto ordinary = [&](const fs::path& path) {
+    return fs::symlink_status(path, status).type() == fs::file_type::regular;
+  };
+  if (!ordinary(folder / always)) return left;
+  for (const auto& entry : fs::directory_iterator(folder, status))
+    if (own(entry.path().filename().string()) && ordinary(entry.path())) left.push_back(entry.path());
+  return left;
+}
+
+void remove_stale(const std::vector<fs::path>& left, const std::vector<base::FileToWrite>& written) {
+  for (const auto& path : left) {
+    std::error_code status;
+    const auto same = [&](const base::FileToWrite& file) { return file.path == path; };
+    if (std::ranges::none_of(written, same)) fs::remove(path, status);
+  }
+}
+
 auto file_free(const fs::path& path, bool overwrite) -> base::Result<void> {
   std::error_code status;
   if (fs::is_directory(path, status))

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +21,13 @@ namespace mansard::cli {
 /// Gives up with "output-input" where an output would replace an input, or lie in a folder that is one.
 [[nodiscard]] auto spare_inputs(const std::vector<std::filesystem::path>& outputs,
                                 const std::vector<std::filesystem::path>& inputs) -> base::Result<void>;
+
+/// Ordinary files in the folder that an earlier run of a verb left there: those that are its own by name, where the file
+/// is there that it always writes. To be asked before that is written again.
+[[nodiscard]] auto leftovers(const std::filesystem::path& folder, const std::string& always,
+                             const std::function<bool(const std::string&)>& own) -> std::vector<std::filesystem::path>;
+/// Takes away those of them that have not been written again, so that no folder has results of two runs.
+void remove_stale(const std::vector<std::filesystem::path>& left, const std::vector<base::FileToWrite>& written);
 
 /// Checks that a file can be written there and replaces nothing unasked. Gives up with "output-exists", "file-write".
 [[nodiscard]] auto file_free(const std::filesystem::path& path, bool overwrite) -> base::Result<void>;

@@ -63,7 +63,12 @@ auto write_all(const Request& request, const pipeline::Reconstruction& result, c
   }
   auto all = in_folder(request.out, *files);
   if (!request.scan.report.empty()) all.push_back({request.scan.report, report});
-  return base::write_files(all, run.cancel);
+  const auto left = leftovers(request.out, "run.json", [](const auto& name) {
+    return name == "picture.png" || name == "above.png" || name == "error.png";
+  });
+  if (auto written = base::write_files(all, run.cancel); !written) return written;
+  remove_stale(left, all);
+  return {};
 }
 
 /// Whatever may be wrong with the outputs, before any work.
@@ -81,7 +86,7 @@ auto reconstruct(const Request& request, const base::Cancel& cancel) -> int {
   if (!options) return give_up(options.error());
   if (auto ready = check_outputs(request); !ready) return give_up(ready.error());
   Progress progress(request.scan.quiet);
-  const auto run = start(request.scan, *options, cancel, progress);
+  const auto run = start(request.scan, options->seed, cancel, progress);
   const auto scene = read_scan(request.scan, *options, run, progress);
   if (!scene) return give_up(scene.error());
 

@@ -6,18 +6,35 @@ namespace mansard::cli {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+void add_flags(CLI::App& verb, Common& common, const std::string& silenced) {
+  verb.add_flag("--overwrite", common.overwrite, "Replace results that are there already");
+  verb.add_option("-j,--jobs", common.jobs, "Threads; 0 for one per core. The result is the same at any number")
+      ->check(CLI::Range(0, 1024));
+  verb.add_flag("-q,--quiet", common.quiet, "No progress, no " + silenced);
+  verb.set_help_all_flag("--help-all", "Show this and every room's options");
+}
+
+}  // namespace
+
+void add_common(CLI::App& verb, Common& common, const std::string& silenced) {
+  add_flags(verb, common, silenced);
+  common.settings.add_to(verb);
+}
+
+void add_common(CLI::App& verb, Common& common, const std::string& silenced, const Menu& menu) {
+  add_flags(verb, common, silenced);
+  common.settings.add_to(verb, menu);
+}
+
 void add_to(CLI::App& verb, ScanRequest& request) {
   verb.add_option("INPUTS", request.inputs,
                   "Meshes (OBJ, PLY, OFF, GLB, or folders of them), then the footprints (any OGR vector file)")
       ->type_name("MESH… FOOTPRINTS");
-  verb.add_flag("--overwrite", request.overwrite, "Replace results that are there already");
   verb.add_option("--report", request.report, "Write the report (run.json) here")->type_name("FILE");
-  verb.add_option("-j,--jobs", request.jobs, "Threads; 0 for one per core. The result is the same at any number")
-      ->check(CLI::Range(0, 1024));
-  verb.add_flag("-q,--quiet", request.quiet, "No progress, no summary");
   verb.add_flag("-v,--verbose", request.verbose, "Name every reason and warning, however many there are");
-  verb.set_help_all_flag("--help-all", "Show this and every room's options");
-  request.settings.add_to(verb);
+  add_common(verb, request, "summary");
 }
 
 auto options_of(const ScanRequest& request) -> base::Result<pipeline::Options> {
@@ -35,12 +52,11 @@ auto files_free(const ScanRequest& request, std::vector<fs::path> files) -> base
   return {};
 }
 
-auto start(const ScanRequest& request, const pipeline::Options& options, const base::Cancel& cancel, Progress& progress)
-    -> base::Run {
-  base::limit_threads(request.jobs);
+auto start(const Common& common, std::int64_t seed, const base::Cancel& cancel, Progress& progress) -> base::Run {
+  base::limit_threads(common.jobs);
   base::Run run;
   run.cancel = &cancel;
-  run.seed = static_cast<std::uint64_t>(options.seed);
+  run.seed = static_cast<std::uint64_t>(seed);
   run.progress = [&progress](auto stage, auto subject, double fraction) { progress.show(stage, subject, fraction); };
   return run;
 }

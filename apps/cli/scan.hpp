@@ -1,4 +1,4 @@
-// What `reconstruct` and `segment` share: meshes and footprints in, options of every room.
+// What verbs share: threads, progress and options; of `reconstruct`, `segment` and `explore` meshes and footprints in.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -11,12 +11,26 @@
 
 namespace mansard::cli {
 
-struct ScanRequest {
-  std::vector<std::string> inputs;  // meshes, then the footprints
-  std::string report;
-  bool overwrite = false, quiet = false, verbose = false;
+/// What every verb that measures or makes something has.
+struct Common {
+  bool overwrite = false, quiet = false;
   std::size_t jobs = 0;
   Settings settings;
+};
+
+/// --overwrite, --jobs, --quiet ("No progress, no " `silenced`), --help-all and, but with a menu of the verb's own, the
+/// options of every room.
+void add_common(CLI::App& verb, Common& common, const std::string& silenced);
+void add_common(CLI::App& verb, Common& common, const std::string& silenced, const Menu& menu);
+
+/// Sets the number of threads. `progress` must outlive the run.
+[[nodiscard]] auto start(const Common& common, std::int64_t seed, const base::Cancel& cancel, Progress& progress)
+    -> base::Run;
+
+struct ScanRequest : Common {
+  std::vector<std::string> inputs;  // meshes, then the footprints
+  std::string report;
+  bool verbose = false;
 };
 
 /// Inputs and the options that every room and both verbs have.
@@ -29,10 +43,6 @@ void add_to(CLI::App& verb, ScanRequest& request);
 /// "file-write".
 [[nodiscard]] auto files_free(const ScanRequest& request, std::vector<std::filesystem::path> files)
     -> base::Result<void>;
-
-/// Sets the number of threads. `progress` must outlive the run.
-[[nodiscard]] auto start(const ScanRequest& request, const pipeline::Options& options, const base::Cancel& cancel,
-                         Progress& progress) -> base::Run;
 
 /// Reads meshes and footprints and says their warnings.
 [[nodiscard]] auto read_scan(const ScanRequest& request, const pipeline::Options& options, const base::Run& run,

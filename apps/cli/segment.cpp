@@ -126,7 +126,7 @@ auto segment_scan(const Request& request, const base::Cancel& cancel) -> int {
   if (!options) return give_up(options.error());
   if (auto ready = check_outputs(request); !ready) return give_up(ready.error());
   Progress progress(request.scan.quiet);
-  const auto run = start(request.scan, *options, cancel, progress);
+  const auto run = start(request.scan, options->seed, cancel, progress);
   const auto scene = read_scan(request.scan, *options, run, progress);
   if (!scene) return give_up(scene.error());
   const auto result = pipeline::segment(*scene, *options, run);

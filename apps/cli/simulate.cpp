@@ -2,13 +2,13 @@
 // it.
 #include "mansard/simulate/simulate.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
 #include "apps/cli/exit.hpp"
 #include "apps/cli/output.hpp"
-#include "apps/cli/progress.hpp"
-#include "apps/cli/settings.hpp"
+#include "apps/cli/scan.hpp"
 #include "apps/cli/verbs.hpp"
 #include "mansard/picture/picture.hpp"
 
@@ -17,12 +17,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Request {
+struct Request : Common {
   std::string model, block, footprints, lod, out;
-  bool overwrite = false, picture = false, quiet = false;
-  std::size_t jobs = 0;
-  Settings settings;
+  std::vector<double> box;
+  bool picture = false;
 };
+
+/// Every name that this verb may give a file, but for truth.json, which is always there.
+constexpr std::array file_names{"mesh.ply",         "footprints.geojson", "truth.geojson", "truth.city.json",
+                                "truth.city.jsonl", "truth.obj",          "truth.mtl",     "plans.json",
+                                "picture.png"};
 
 auto menu_of(simulate::Options& options) -> Menu {
   Menu menu{{simulate::option_list(options)}, {}};
@@ -55,8 +59,10 @@ auto known_of_model(const Request& request, const base::Run& run, Progress& prog
   if (plans) return with_surface(simulate::truth_of(std::move(*plans), run));
   if (const auto& code = plans.error().code; code != "write-plan-type" && code != "write-plan-json")
     return plans.error();
-  const auto model = ingest::read_model(request.model, {request.lod, {}});
+  auto model = ingest::read_model(request.model, {request.lod, {}});
   if (!model) return model.error();
+  if (!request.box.empty())
+    *model = simulate::within(std::move(*model), {{request.box[0], request.box[1]}, {request.box[2], request.box[3]}});
   auto warnings = model->warnings;
   auto known = simulate::truth_of(*model, warnings);
   say_all(warnings, progress);
@@ -69,7 +75,9 @@ auto truth_for(const Request& request, const simulate::Options& options, const b
     const auto kind = simulate::kind_of(request.block);
     return simulate::make_block(*kind, options.block, run.seed, run);
   }
-  const auto scene = ingest::read_footprints(request.footprints, {}, run);
+  ingest::Options ingest;
+  if (!request.box.empty()) std::ranges::copy(request.box, ingest.bbox.begin());
+  const auto scene = ingest::read_footprints(request.footprints, ingest, run);
   if (!scene) return scene.error();
   auto warnings = scene->warnings;
   auto truth = simulate::furnish(*scene, options.block, run.seed, warnings, run);
@@ -87,7 +95,24 @@ auto picture_of(const simulate::Scan& scan, const base::Run& run) -> base::Resul
   return picture::png(picture::draw(layers, {}, {}, run));
 }
 
-/// The truth as models and plans; nothing for a model of another maker, which is the truth as it is.
+/// A model of another maker is the truth as it is: its file, under a name that says so; of a part of it its triangles.
+auto add_copy(const Request& request, const Known& known, std::vector<std::pair<std::string, std::string>>& files)
+    -> base::Result<void> {
+  if (!request.box.empty()) {
+    files.emplace_back("truth.obj", simulate::surface_obj(known.surface, known.truth.city));
+    return {};
+  }
+  auto bytes = base::read_file(request.model);
+  if (!bytes) return bytes.error();
+  const auto ending = fs::path(request.model).extension();
+  files.emplace_back(ending == ".obj"     ? "truth.obj"
+                     : ending == ".jsonl" ? "truth.city.jsonl"
+                                          : "truth.city.json",
+                     std::move(*bytes));
+  return {};
+}
+
+/// The truth as models and plans.
 auto add_models(const write::City& city, std::vector<std::pair<std::string, std::string>>& files)
     -> base::Result<void> {
   auto cityjson = write::cityjson(city);
@@ -113,15 +138,20 @@ auto write_all(const Request& request, const simulate::Options& options, const K
   std::vector<std::pair<std::string, std::string>> files{
       {"mesh.ply", simulate::ply(*scan, truth.city.frame)},
       {"footprints.geojson", simulate::geojson(*footprints, truth.city.frame)},
+      {"truth.geojson", simulate::geojson(simulate::true_footprints(truth), truth.city.frame)},
       {"truth.json", simulate::truth_json(truth, *footprints, options, source_of(request))}};
-  if (!truth.model)
-    if (auto added = add_models(truth.city, files); !added) return added;
+  if (auto added = truth.model ? add_copy(request, known, files) : add_models(truth.city, files); !added) return added;
   if (request.picture) {
     auto picture = picture_of(*scan, run);
     if (!picture) return picture.error();
     files.emplace_back("picture.png", std::move(*picture));
   }
-  if (auto written = base::write_files(in_folder(request.out, files), run.cancel); !written) return written;
+  const auto all = in_folder(request.out, files);
+  const auto left = leftovers(request.out, "truth.json", [](const auto& name) {
+    return std::ranges::find(file_names, name) != file_names.end();
+  });
+  if (auto written = base::write_files(all, run.cancel); !written) return written;
+  remove_stale(left, all);
   progress.say(std::to_string(truth.city.buildings.size()) + " buildings, " + std::to_string(truth.party_walls.size()) +
                " party walls, " + std::to_string(scan->mesh.triangles.size()) + " triangles");
   return {};
@@ -134,23 +164,18 @@ auto simulate_block(const Request& request, const base::Cancel& cancel) -> int {
   if (!request.block.empty() && !simulate::kind_of(request.block))
     return give_up(base::error("option-value", "there are the blocks terrace, perimeter, courtyard, towers, detached",
                                request.block));
+  if (!request.box.empty() && !request.block.empty())
+    return give_up(base::error("usage", "--bbox keeps a part of a MODEL or of --footprints; a --block has --simulate-size"));
   simulate::Options options;
   if (auto applied = request.settings.apply(menu_of(options)); !applied) return give_up(applied.error());
-  std::vector<fs::path> results, given;
-  for (const auto* name : {"mesh.ply", "footprints.geojson", "truth.city.json", "truth.obj", "truth.mtl", "plans.json",
-                           "truth.json", "picture.png"})
-    results.push_back(fs::path(request.out) / name);
+  std::vector<fs::path> results{fs::path(request.out) / "truth.json"}, given;
+  for (const auto* name : file_names) results.push_back(fs::path(request.out) / name);
   for (const auto& input : {request.model, request.footprints})
     if (!input.empty()) given.emplace_back(input);
   if (auto spared = spare_inputs(results, given); !spared) return give_up(spared.error());
   if (auto ready = prepare(request.out, request.overwrite); !ready) return give_up(ready.error());
-  base::limit_threads(request.jobs);
-
   Progress progress(request.quiet);
-  base::Run run;
-  run.cancel = &cancel;
-  run.seed = static_cast<std::uint64_t>(options.seed);
-  run.progress = [&](auto stage, auto subject, double fraction) { progress.show(stage, subject, fraction); };
+  const auto run = start(request, options.seed, cancel, progress);
   auto known = request.model.empty() ? with_surface(truth_for(request, options, run, progress))
                                      : known_of_model(request, run, progress);
   if (!known) return give_up(known.error());
@@ -179,14 +204,13 @@ auto simulate_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
   verb->add_option("--lod", request->lod,
                    "Read this LoD of a MODEL without plans; without it, the highest of each object");
   verb->add_option("-o,--output", request->out, "Folder for the results")->required()->type_name("OUTDIR");
-  verb->add_flag("--overwrite", request->overwrite, "Replace results that are there already");
+  verb->add_option("--bbox", request->box,
+                   "Keep the buildings of a MODEL, or the footprints, that meet the box, in the file's or the working CRS")
+      ->type_name("XMIN YMIN XMAX YMAX")
+      ->expected(4);
   verb->add_flag("--picture", request->picture, "Also write picture.png: the scan, coloured by class");
-  verb->add_option("-j,--jobs", request->jobs, "Threads; 0 for one per core. The result is the same at any number")
-      ->check(CLI::Range(0, 1024));
-  verb->add_flag("-q,--quiet", request->quiet, "No progress, no summary");
-  verb->set_help_all_flag("--help-all", "Show this and the options of what is simulated");
   simulate::Options defaults;
-  request->settings.add_to(*verb, menu_of(defaults));
+  add_common(*verb, *request, "summary", menu_of(defaults));
   return {verb, [request, &cancel] { return simulate_block(*request, cancel); }};
 }
 

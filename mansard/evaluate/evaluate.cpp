@@ -4,12 +4,13 @@
 #include <cmath>
 #include <optional>
 
-#include "mansard/evaluate/detail/grid.hpp"
+#include "mansard/evaluate/detail/sums.hpp"
 
 namespace mansard::evaluate {
 namespace {
 
 using detail::Grid;
+using detail::Sums;
 using detail::Where;
 using geometry::Box2;
 
@@ -26,50 +27,10 @@ auto surface_of(std::span<const label::LabelledSolid> model) -> geometry::Mesh {
   return mesh;
 }
 
-auto box_of(std::span<const geometry::Polygon> polygons) -> Box2 {
-  Box2 box;
-  for (const auto& polygon : polygons)
-    for (const auto p : polygon.outer) box.add(p);
-  return box;
-}
-
 auto box_of(const geometry::Mesh& mesh) -> Box2 {
   Box2 box;
   for (const auto& v : mesh.vertices) box.add(geometry::xy(v));
   return box;
-}
-
-/// What a row, or all rows, add up to.
-struct Sums {
-  std::size_t cells = 0, footprint_cells = 0, missed = 0, invented = 0;
-  double squares = 0, footprint_squares = 0;
-
-  void add(const Sums& more) {
-    cells += more.cells, footprint_cells += more.footprint_cells;
-    missed += more.missed, invented += more.invented;
-    squares += more.squares, footprint_squares += more.footprint_squares;
-  }
-};
-
-/// The cell of a share of the way through the sorted values.
-auto quantile(std::vector<float>& values, double share) -> double {
-  const auto at = static_cast<std::size_t>(std::floor(share * static_cast<double>(values.size() - 1) + 0.5));
-  std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(at));
-  return values[at];
-}
-
-/// The sums as scores, but for the quantiles.
-auto scores_of(const Sums& total, double grid) -> Scores {
-  Scores scores;
-  scores.cells = total.cells;
-  scores.footprint_cells = total.footprint_cells;
-  if (total.cells > 0) scores.mse = total.squares / static_cast<double>(total.cells);
-  if (total.footprint_cells > 0)
-    scores.footprint_mse = total.footprint_squares / static_cast<double>(total.footprint_cells);
-  const double cell_area = grid * grid;
-  scores.missed = static_cast<double>(total.missed) * cell_area;
-  scores.invented = static_cast<double>(total.invented) * cell_area;
-  return scores;
 }
 
 auto empty_map(const Grid& cells) -> ErrorMap {
@@ -87,7 +48,9 @@ auto empty_map(const Grid& cells) -> ErrorMap {
 auto option_list(Options& o) -> base::OptionList {
   base::OptionList list("evaluate");
   list.number("grid", o.grid, "m", {0.01, 10}, "Distance between the samples of the vertical error.")
-      .number("margin", o.margin, "m", {0, 100}, "How far around the footprints' bounding box errors are measured.");
+      .number("margin", o.margin, "m", {0, 100}, "How far around the footprints' bounding box errors are measured.")
+      .number("inset", o.inset, "m", {0, 100},
+              "How deep inside the footprints the scores `inside` begin; 0: they are not measured.");
   return list;
 }
 
@@ -101,10 +64,10 @@ auto compare(const geometry::Mesh& surface, const rays::Scene& mesh, std::span<c
              double ground, const Options& options, const base::Run& run) -> Comparison {
   run.report("evaluate", {}, 0);
   const rays::Scene top(surface);
-  const detail::Cover cover(footprints);
+  const detail::Plan plan(footprints, options.inset);
 
   // Errors are measured over the footprints' bounding box, as in the paper; what is invented may lie outside it.
-  Box2 box = box_of(footprints).grown(options.margin);
+  Box2 box = detail::box_of(footprints).grown(options.margin);
   const Box2 model_box = box_of(surface);
   if (footprints.empty()) box = model_box.grown(options.margin);
   const Grid inner = detail::grid_over(box, options.grid);
@@ -121,19 +84,16 @@ auto compare(const geometry::Mesh& surface, const rays::Scene& mesh, std::span<c
     if (run.cancelled()) return;
     const auto j = static_cast<std::int64_t>(row);
     Sums& sums = rows[row];
-    detail::each_cell(outer, j, Where::everywhere, cover, top, mesh, [&](const detail::Cell& cell) {
+    const auto depth = plan.depths(outer, j);
+    detail::each_cell(outer, j, Where::everywhere, plan.cover, top, mesh, [&](const detail::Cell& cell) {
       if (cell.built && !cell.inside) ++sums.invented;
       if (!cell.built && cell.inside) ++sums.missed;
       const std::int64_t column = outer.column + cell.column - inner.column, line = outer.row + j - inner.row;
       if (column < 0 || line < 0 || column >= inner.columns || line >= inner.rows || !cell.scanned) return;
       const double difference = cell.built.value_or(ground) - *cell.scanned;
-      if (cell.inside) {
-        ++sums.footprint_cells;
-        sums.footprint_squares += difference * difference;
-      }
+      if (cell.inside) sums.add_inside(difference, depth[static_cast<std::size_t>(cell.column)]);
       if (cell.built) {
-        ++sums.cells;
-        sums.squares += difference * difference;
+        sums.add_built(difference);
         map.difference[static_cast<std::size_t>(line * inner.columns + column)] = static_cast<float>(difference);
       }
     });
@@ -141,45 +101,12 @@ auto compare(const geometry::Mesh& surface, const rays::Scene& mesh, std::span<c
 
   Sums total;
   for (const auto& row : rows) total.add(row);
-  out.scores = scores_of(total, options.grid);
+  out.scores = total.scores(options.grid);
   set_quantiles(map.difference, out.scores);
+  set_quantiles(total.differences, out.scores);
+  out.differences = std::move(total.differences);
   run.report("evaluate", {}, 1);
   return out;
-}
-
-auto scores_over(const rays::Scene& model, const rays::Scene& mesh, std::span<const geometry::Polygon> footprints,
-                 double ground, double grid) -> Scores {
-  const detail::Cover cover(footprints);
-  const Grid cells = detail::grid_over(box_of(footprints), grid);
-  Sums sums;
-  std::vector<float> differences;
-  for (std::int64_t j = 0; j < cells.rows; ++j)
-    detail::each_cell(cells, j, Where::inside, cover, model, mesh, [&](const detail::Cell& cell) {
-      if (!cell.built) ++sums.missed;
-      if (!cell.scanned) return;
-      const double difference = cell.built.value_or(ground) - *cell.scanned;
-      ++sums.footprint_cells;
-      sums.footprint_squares += difference * difference;
-      if (!cell.built) return;
-      ++sums.cells;
-      sums.squares += difference * difference;
-      differences.push_back(static_cast<float>(difference));
-    });
-  Scores scores = scores_of(sums, grid);
-  set_quantiles(differences, scores);
-  return scores;
-}
-
-void set_quantiles(std::span<const float> differences, Scores& scores) {
-  std::vector<float> values;
-  values.reserve(scores.cells);
-  for (const float d : differences)
-    if (!std::isnan(d)) values.push_back(d);
-  if (values.empty()) return;
-  scores.median = quantile(values, 0.5);
-  for (float& d : values) d = std::abs(d);
-  scores.median_absolute = quantile(values, 0.5);
-  scores.p95_absolute = quantile(values, 0.95);
 }
 
 auto error_over(const extrude::Solid& solid, const geometry::Polygon& polygon, const rays::Scene& mesh, double grid)

@@ -148,6 +148,8 @@ struct Study {
 /// bytes. Everything but the cells of class "seconds", the columns named "…_s" and the members of "seconds" is the same
 /// in every run.
 [[nodiscard]] auto report(const Study& study) -> std::vector<std::pair<std::string, std::string>>;
+/// Whether a report may have a picture of that name: "run-12-above.png".
+[[nodiscard]] auto is_picture(const std::string& name) -> bool;
 
 [[nodiscard]] auto codes() -> std::vector<base::Code>;
 

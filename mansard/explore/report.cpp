@@ -1,4 +1,6 @@
 // The report's files: the page, and every number as JSON and CSV.
+#include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "mansard/explore/detail/columns.hpp"
@@ -117,6 +119,18 @@ auto report(const Study& study) -> std::vector<std::pair<std::string, std::strin
   for (const auto& row : study.rows)
     for (const auto& picture : row.pictures) files.emplace_back(picture.name, picture.png);
   return files;
+}
+
+auto is_picture(const std::string& name) -> bool {
+  constexpr std::string_view before = "run-", after = ".png";
+  if (!name.starts_with(before) || !name.ends_with(after)) return false;
+  const auto inner = std::string_view(name).substr(before.size(), name.size() - before.size() - after.size());
+  const auto dash = inner.find('-');
+  if (dash == 0 || dash == std::string_view::npos) return false;
+  const auto number = inner.substr(0, dash), what = inner.substr(dash + 1);
+  constexpr std::array<std::string_view, 4> kinds{"angle", "above", "error", "models"};
+  return std::ranges::all_of(number, [](char c) { return c >= '0' && c <= '9'; }) &&
+         std::ranges::find(kinds, what) != kinds.end();
 }
 
 }  // namespace mansard::explore

@@ -157,6 +157,21 @@ auto crest(const geometry::Plan& plan, const Options& options, const base::Run& 
   return base::error("extrude-canonical", why);
 }
 
+auto sketch(const geometry::Plan& plan, const Options& options, const base::Run& run) -> base::Result<Solid> {
+  const auto source = detail::prepared(plan);
+  if (!source) return source.error();
+  std::string why;
+  try {
+    if (const auto footprint = detail::canonical(*source, options, why)) {
+      const auto surface = detail::sweep(*footprint, detail::on_grid(plan.cap), run);
+      return detail::rounded(surface, {footprint->origin, plan.base, 0}, false).solid;
+    }
+  } catch (const detail::Broken& broken) {
+    why = broken.what();
+  }
+  return base::error("extrude-canonical", why);
+}
+
 auto volume(const Solid& solid) -> double {
   if (solid.vertices.empty()) return 0;
   const geometry::Point3 o = solid.vertices.front();  // near the solid, so that far-away ones keep their digits

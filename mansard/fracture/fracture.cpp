@@ -43,11 +43,11 @@ auto rectangle_of(const std::vector<Cut>& cuts, const Box2& region, const Option
 /// What is tried for one cut, best first: as asked; drawn to vertices from farther away; laid down a little beside its
 /// place, first on the side of the rectangle's middle (so that a mirrored plane takes the mirrored choice); the same
 /// with no continuation but to the next edge.
-auto attempts_for(const detail::Line& line, Point2 middle, const Options& options, double merge)
+auto attempts_for(const detail::Line& line, Point2 middle, double asked, double merge)
     -> std::vector<detail::Attempt> {
   const double inwards = geometry::orientation(line.hard.start, line.hard.end, middle) < 0 ? -merge : merge;
   std::vector<detail::Attempt> attempts;
-  for (const double continuation : {options.continuation, 0.0}) {
+  for (const double continuation : {asked, 0.0}) {
     attempts.push_back({continuation, 1, 0, 0});
     attempts.push_back({continuation, 1.5, 0, 0});
     for (const double by : {0.4 * inwards, 0.8 * inwards, 1.2 * inwards})
@@ -84,7 +84,8 @@ auto insert_all(const std::vector<Cut>& cuts, const Box2& rectangle, const Optio
       continue;
     }
     const auto mark = graph.mark();
-    const auto attempts = attempts_for(lines[i], middle, options, tolerances.merge);
+    const double continuation = cuts[i].continuation.value_or(options.continuation);
+    const auto attempts = attempts_for(lines[i], middle, continuation, tolerances.merge);
     const bool inserted = std::ranges::any_of(attempts, [&](const detail::Attempt& attempt) {
       if (insertion.lay(i, attempt) && (!wary || !detail::fault_of(detail::faces_of(graph, cuts), options.snap)))
         return true;

@@ -29,6 +29,13 @@ auto ground_cost(Point3 p, Point3 normal, const detail::Terrain& terrain, const 
   return off * std::max(normal.z, steep) + options.turned * (1 - normal.z);
 }
 
+/// The terrain of a scan, found where there is no model.
+auto terrain_beside(const rays::Scene& model, const geometry::Mesh& scan, const ScanOptions& options)
+    -> detail::Terrain {
+  const auto open = [&](std::size_t t) { return !model.top(xy(detail::centre_of(scan, scan.triangles[t]))); };
+  return {scan, open, options.cell, options.slope};
+}
+
 }  // namespace
 
 auto label_scan(const geometry::Mesh& scan, const ingest::ModelSurface& model, const ScanOptions& options,
@@ -36,9 +43,7 @@ auto label_scan(const geometry::Mesh& scan, const ingest::ModelSurface& model, c
   run.report("label", {}, 0);
   const rays::Scene scene(model.mesh);
   const auto model_normals = normals_of(model.mesh), normals = normals_of(scan);
-  const detail::Terrain terrain(
-      scan, [&](std::size_t t) { return !scene.top(xy(detail::centre_of(scan, scan.triangles[t]))); }, options.cell,
-      options.slope);
+  const detail::Terrain terrain = terrain_beside(scene, scan, options);
   std::vector<SurfaceClass> classes(scan.triangles.size(), SurfaceClass::other);
   base::parallel_for(classes.size(), [&](std::size_t i) {
     if (run.cancelled()) return;
@@ -69,6 +74,42 @@ auto label_by_normal(const geometry::Mesh& scan) -> std::vector<SurfaceClass> {
     if (std::abs(normalised(detail::area_vector(scan, t)).z) < steep) classes.push_back(SurfaceClass::wall);
     else classes.push_back(p.z > lowest.at(xy(p)) + storey ? SurfaceClass::roof : SurfaceClass::ground);
   }
+  return classes;
+}
+
+auto nearest_wall_or_roof(const geometry::Mesh& scan, const ingest::ModelSurface& model) -> std::vector<SurfaceClass> {
+  const rays::Scene scene(model.mesh);
+  const auto extra = [&](std::uint32_t t) {
+    const bool known = model.classes[t] == SurfaceClass::wall || model.classes[t] == SurfaceClass::roof;
+    return known ? 0 : infinity;
+  };
+  std::vector<SurfaceClass> classes(scan.triangles.size(), SurfaceClass::other);
+  base::parallel_for(classes.size(), [&](std::size_t i) {
+    if (const auto near = scene.nearest(detail::centre_of(scan, scan.triangles[i]), infinity, extra))
+      classes[i] = model.classes[near->triangle];
+  });
+  return classes;
+}
+
+auto above_ground(const geometry::Mesh& scan, const ingest::ModelSurface& model, const ScanOptions& options)
+    -> std::vector<bool> {
+  const detail::Terrain terrain = terrain_beside(rays::Scene(model.mesh), scan, options);
+  std::vector<bool> above;
+  above.reserve(scan.triangles.size());
+  for (const auto& t : scan.triangles) {
+    const Point3 p = detail::centre_of(scan, t);
+    above.push_back(p.z > terrain.at(xy(p)) + options.ground_height);
+  }
+  return above;
+}
+
+auto wall_or_roof_by_normal(const geometry::Mesh& scan) -> std::vector<SurfaceClass> {
+  constexpr double steep = 0.64278761;  // cosine of 50°
+  std::vector<SurfaceClass> classes;
+  classes.reserve(scan.triangles.size());
+  for (const auto& t : scan.triangles)
+    classes.push_back(std::abs(normalised(detail::area_vector(scan, t)).z) < steep ? SurfaceClass::wall
+                                                                                    : SurfaceClass::roof);
   return classes;
 }
 

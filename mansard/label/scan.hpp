@@ -31,6 +31,16 @@ struct ScanOptions {
 /// not.
 [[nodiscard]] auto label_by_normal(const geometry::Mesh& scan) -> std::vector<ingest::SurfaceClass>;
 
+/// For models that know walls and roofs only: the class of the nearest wall or roof of the model, however far and
+/// whichever way it looks; `other` where the model has neither.
+[[nodiscard]] auto nearest_wall_or_roof(const geometry::Mesh& scan, const ingest::ModelSurface& model)
+    -> std::vector<ingest::SurfaceClass>;
+/// The trivial rule for these: steeper than 50° is wall, else roof.
+[[nodiscard]] auto wall_or_roof_by_normal(const geometry::Mesh& scan) -> std::vector<ingest::SurfaceClass>;
+/// Whether each triangle's centre is more than `ground_height` above the terrain, found where the model has nothing.
+[[nodiscard]] auto above_ground(const geometry::Mesh& scan, const ingest::ModelSurface& model,
+                                const ScanOptions& options = {}) -> std::vector<bool>;
+
 /// m²: area[true class][class given], of the triangles of `scan`. `truth` is per triangle.
 using ScanConfusion = std::array<std::array<double, ingest::surface_class_count>, ingest::surface_class_count>;
 [[nodiscard]] auto confusion_of(const geometry::Mesh& scan, std::span<const ingest::SurfaceClass> truth,

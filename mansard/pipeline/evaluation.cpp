@@ -114,6 +114,31 @@ auto block_of_buildings(const std::vector<Outline>& outlines, const std::vector<
   return out;
 }
 
+/// Scores of several places, and what their quantiles are of.
+struct Total {
+  std::vector<evaluate::Scores> scores;
+  std::vector<float> built;
+  evaluate::Differences differences;
+
+  void add(const evaluate::Scores& of, std::span<const float> cells, const evaluate::Differences& inside) {
+    scores.push_back(of);
+    built.insert(built.end(), cells.begin(), cells.end());
+    differences.add(inside);
+  }
+  void add(const evaluate::Comparison& of) { add(of.scores, of.map.difference, of.differences); }
+  void add(const evaluate::Prism& of) { add(of.scores, of.differences.footprints, of.differences); }
+  [[nodiscard]] auto all() const -> evaluate::Scores {
+    auto sum = evaluate::combined(scores);
+    evaluate::set_quantiles(built, sum);
+    evaluate::set_quantiles(differences, sum);
+    return sum;
+  }
+};
+
+struct Totals {
+  Total model, prism, model_from_truth, prism_from_truth;
+};
+
 struct BlockWork {
   BlockScores block;
   std::vector<BuildingScores> buildings;
@@ -122,8 +147,28 @@ struct BlockWork {
   evaluate::ErrorMap map;
 };
 
-auto work_on(const block::Block& block, const ingest::ModelSurface& model, const ingest::Scene& scene,
-             const Options& options, const base::Run& run) -> BlockWork {
+/// One building of a block against the mesh, and against the truth where there is one.
+auto building_scores(const block::Member& member, const rays::Scene& model, const rays::Scene& scan,
+                     const rays::Scene* truth, const evaluate::Options& options, Totals& totals) -> BuildingScores {
+  BuildingScores out;
+  out.scores = evaluate::scores_over(model, scan, member.polygons, member.ground, options);
+  out.prism = evaluate::prism_over(scan, member.polygons, options);
+  totals.prism.add(out.prism);
+  out.prism.differences = {};
+  if (truth) {
+    out.from_truth = evaluate::scores_over(model, *truth, member.polygons, member.ground, options);
+    const auto prism = evaluate::prism_over(*truth, member.polygons, out.prism.height, options);
+    totals.prism_from_truth.add(prism);
+    out.prism_from_truth = prism.scores;
+  }
+  const double area = std::accumulate(member.polygons.begin(), member.polygons.end(), 0.0,
+                                      [](double sum, const auto& p) { return sum + geometry::area(p); });
+  out.modelled = out.scores.missed < 0.5 * area;
+  return out;
+}
+
+auto work_on(const block::Block& block, const ingest::ModelSurface& model, const rays::Scene* truth,
+             const ingest::Scene& scene, const Options& options, const base::Run& run, Totals& totals) -> BlockWork {
   BlockWork out;
   out.block.name = block.name;
   out.block.buildings = block.members.size();
@@ -135,14 +180,16 @@ auto work_on(const block::Block& block, const ingest::ModelSurface& model, const
   }
   const rays::Scene scan(block.mesh), top(model.mesh);
   auto comparison = evaluate::compare(model.mesh, scan, footprints, block.ground, options.evaluate, run);
+  totals.model.add(comparison);
   out.block.scores = comparison.scores;
   out.map = std::move(comparison.map);
+  if (truth)
+    totals.model_from_truth.add(
+        evaluate::compare(model.mesh, *truth, footprints, block.ground, options.evaluate, run));
   for (const auto& member : block.members) {
-    BuildingScores building{scene.footprints[member.feature].id, block.name, {}, false};
-    building.scores = evaluate::scores_over(top, scan, member.polygons, member.ground, options.evaluate.grid);
-    const double area = std::accumulate(member.polygons.begin(), member.polygons.end(), 0.0,
-                                        [](double sum, const auto& p) { return sum + geometry::area(p); });
-    building.modelled = building.scores.missed < 0.5 * area;
+    auto building = building_scores(member, top, scan, truth, options.evaluate, totals);
+    building.id = scene.footprints[member.feature].id;
+    building.block = block.name;
     out.buildings.push_back(std::move(building));
     out.features.push_back(member.feature);
   }
@@ -153,29 +200,16 @@ auto work_on(const block::Block& block, const ingest::ModelSurface& model, const
   return out;
 }
 
-/// The scores of all blocks as those of one.
+/// What is known of all blocks together.
 void sum_up(std::vector<BlockWork>& work, Evaluation& out) {
   std::vector<evaluate::ErrorMap> maps;
   std::vector<double> from_model, from_scan;
-  std::vector<float> differences;
-  auto& sum = out.scores;
   for (auto& one : work) {
-    const auto& s = one.block.scores;
-    sum.cells += s.cells;
-    sum.footprint_cells += s.footprint_cells;
-    sum.mse += static_cast<double>(s.cells) * s.mse;
-    sum.footprint_mse += static_cast<double>(s.footprint_cells) * s.footprint_mse;
-    sum.missed += s.missed;
-    sum.invented += s.invented;
-    differences.insert(differences.end(), one.map.difference.begin(), one.map.difference.end());
     from_model.insert(from_model.end(), one.from_model.begin(), one.from_model.end());
     from_scan.insert(from_scan.end(), one.from_scan.begin(), one.from_scan.end());
     maps.push_back(std::move(one.map));
     out.blocks.push_back(std::move(one.block));
   }
-  if (sum.cells > 0) sum.mse /= static_cast<double>(sum.cells);
-  if (sum.footprint_cells > 0) sum.footprint_mse /= static_cast<double>(sum.footprint_cells);
-  evaluate::set_quantiles(differences, sum);
   out.from_model = evaluate::spread_of(std::move(from_model));
   out.from_scan = evaluate::spread_of(std::move(from_scan));
   out.map = evaluate::merged(maps);
@@ -225,6 +259,14 @@ auto to_string(Reference reference) -> std::string_view {
     case Reference::model: return "model";
   }
   return "";
+}
+
+auto worse_than_prism(const BuildingScores& building) -> bool {
+  return building.scores.footprint_mse > building.prism.scores.footprint_mse + worse_by;
+}
+
+auto worse_than_prism_from_truth(const BuildingScores& building) -> bool {
+  return building.from_truth && building.from_truth->footprint_mse > building.prism_from_truth->footprint_mse + worse_by;
 }
 
 auto read_evaluation(const EvaluationFiles& files, const ingest::Options& options, const base::Run& run)
@@ -281,6 +323,9 @@ auto evaluate_model(const EvaluationInput& input, const Options& options, const 
   const auto surface = ingest::surface_of(input.model);
   const auto outlines = building_outlines(input.model);
   const auto stands_on = block_of_buildings(outlines, blocks);
+  std::optional<rays::Scene> truth;
+  if (input.truth) truth.emplace(ingest::surface_of(*input.truth).mesh);
+  Totals totals;
   std::vector<BlockWork> work;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
@@ -289,17 +334,24 @@ auto evaluate_model(const EvaluationInput& input, const Options& options, const 
     for (std::size_t m = 0; m < own.size(); ++m) own[m] = stands_on[m] == b;
     base::Run inner = run;
     inner.progress = nullptr;
-    work.push_back(work_on(blocks[b], ingest::part_of(surface, own), input.scene, options, inner));
+    work.push_back(work_on(blocks[b], ingest::part_of(surface, own), truth ? &*truth : nullptr, input.scene, options,
+                           inner, totals));
     work.back().block.model_buildings = static_cast<std::size_t>(std::ranges::count(own, true));
   }
   sum_up(work, out);
+  out.scores = totals.model.all();
+  out.prism = totals.prism.all();
   for (std::size_t m = 0; m < outlines.size(); ++m) {
     if (stands_on[m]) continue;
     out.beside.push_back(input.model.buildings[m].id);
     for (const auto& polygon : outlines[m]) out.scores.invented += geometry::area(polygon);
   }
   out.counts = counts_of(input.model);
-  if (input.truth) out.truth = against(*input.truth, input.model, surface, options, run);
+  if (input.truth) {
+    out.truth = against(*input.truth, input.model, surface, options, run);
+    out.truth->scores = totals.model_from_truth.all();
+    out.truth->prism = totals.prism_from_truth.all();
+  }
   if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
   return out;
 }

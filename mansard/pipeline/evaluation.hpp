@@ -47,8 +47,16 @@ struct ModelCounts {
 struct BuildingScores {
   std::string id, block;
   evaluate::Scores scores;  ///< over its own footprint
-  bool modelled = false;    ///< the model covers at least half of it
+  evaluate::Prism prism;    ///< the footprint raised to the mesh's median height over it
+  std::optional<evaluate::Scores> from_truth, prism_from_truth;  ///< the same two against the truth's surface
+  bool modelled = false;                                         ///< the model covers at least half of it
 };
+
+/// m²; a model whose MSE over a footprint is this much above that of the prism is worse than it. Less is the noise of
+/// the scan: 0.1 m, squared.
+inline constexpr double worse_by = 0.01;
+[[nodiscard]] auto worse_than_prism(const BuildingScores& building) -> bool;
+[[nodiscard]] auto worse_than_prism_from_truth(const BuildingScores& building) -> bool;
 
 struct BlockScores {
   std::string name;
@@ -58,6 +66,7 @@ struct BlockScores {
 };
 
 struct TruthScores {
+  evaluate::Scores scores, prism;  ///< of the model and of the prisms, as against the mesh, against the truth's surface
   evaluate::Partition parts, buildings;
   evaluate::PartyWalls party_walls;  ///< truth, found: of its buildings; model, right: of all parts
   evaluate::Roofs roofs;
@@ -67,6 +76,7 @@ struct TruthScores {
 struct Evaluation {
   ModelCounts counts;
   evaluate::Scores scores;                 ///< over all blocks; quantiles of all cells
+  evaluate::Scores prism;                  ///< of the buildings' prisms
   evaluate::Spread from_model, from_scan;  ///< m
   std::vector<BlockScores> blocks;
   std::vector<BuildingScores> buildings;  ///< in the reference's order, without those that cannot be used
@@ -86,7 +96,8 @@ struct Evaluation {
 [[nodiscard]] auto evaluation_json(const Evaluation& evaluation, const EvaluationInput& input, const Options& options)
     -> std::string;
 /// The same for a person, in a few lines.
-[[nodiscard]] auto evaluation_table(const Evaluation& evaluation, const EvaluationInput& input) -> std::string;
+[[nodiscard]] auto evaluation_table(const Evaluation& evaluation, const EvaluationInput& input, const Options& options)
+    -> std::string;
 
 /// Square metres by true class and class given, as a small table.
 using ClassAreas = std::array<std::array<double, ingest::surface_class_count>, ingest::surface_class_count>;

@@ -15,6 +15,11 @@ using base::to_text;
 
 auto degrees(double radians) -> double { return radians * 180 / std::numbers::pi; }
 
+auto json_of(const evaluate::InsideScores& s) -> Json {
+  if (s.cells == 0) return nullptr;
+  return {{"mse_m2", s.mse}, {"median_absolute_m", s.median_absolute}, {"cells", s.cells}};
+}
+
 /// Missed and invented area mean something only where others say where buildings are.
 auto json_of(const evaluate::Scores& s, bool independent) -> Json {
   Json out{{"vertical_mse_m2", s.mse},
@@ -25,9 +30,50 @@ auto json_of(const evaluate::Scores& s, bool independent) -> Json {
            {"p95_absolute_m", s.p95_absolute},
            {"footprint_mse_m2", s.footprint_mse},
            {"footprint_rmse_m", std::sqrt(s.footprint_mse)},
-           {"footprint_cells", s.footprint_cells}};
+           {"footprint_cells", s.footprint_cells},
+           {"footprint_median_absolute_m", s.footprint_median_absolute},
+           {"inside", json_of(s.inside)},
+           {"inside_each", json_of(s.inside_each)}};
   out["missed_m2"] = independent ? Json(s.missed) : Json(nullptr);
   out["invented_m2"] = independent ? Json(s.invented) : Json(nullptr);
+  return out;
+}
+
+/// Of prisms: they miss and invent nothing, and each is measured by itself, so that party walls are boundaries.
+auto json_of_prism(const evaluate::Scores& s) -> Json {
+  return {{"footprint_mse_m2", s.footprint_mse},
+          {"footprint_cells", s.footprint_cells},
+          {"footprint_median_absolute_m", s.footprint_median_absolute},
+          {"inside_each", json_of(s.inside_each)}};
+}
+
+/// Which buildings would be better as a prism.
+template <class Worse>
+auto ids_of(const std::vector<BuildingScores>& buildings, Worse worse) -> std::vector<std::string> {
+  std::vector<std::string> ids;
+  for (const auto& building : buildings)
+    if (worse(building)) ids.push_back(building.id);
+  return ids;
+}
+
+auto json_of(const BuildingScores& b, bool independent) -> Json {
+  // Over one footprint alone, nothing is invented and its boundary is the only one.
+  const auto own = [&](const evaluate::Scores& s) {
+    Json scores = json_of(s, independent);
+    scores.erase("invented_m2");
+    scores.erase("inside");
+    return scores;
+  };
+  Json prism = json_of_prism(b.prism.scores);
+  prism["height_m"] = b.prism.height;
+  Json out{{"id", b.id}, {"block", b.block}, {"modelled", b.modelled}, {"scores", own(b.scores)},
+           {"prism", std::move(prism)}, {"worse_than_prism", worse_than_prism(b)}};
+  if (b.from_truth) {
+    Json truth = own(*b.from_truth);
+    truth["prism_footprint_mse_m2"] = b.prism_from_truth->footprint_mse;
+    truth["worse_than_prism"] = worse_than_prism_from_truth(b);
+    out["truth"] = std::move(truth);
+  }
   return out;
 }
 
@@ -58,7 +104,9 @@ auto json_of(const TruthScores& t) -> Json {
     for (std::size_t j = 0; j < t.classes.area.size(); ++j)
       confusion[std::string(ingest::to_string(static_cast<ingest::SurfaceClass>(i)))]
                [std::string(ingest::to_string(static_cast<ingest::SurfaceClass>(j)))] = t.classes.area[i][j];
-  return {{"parts", json_of(t.parts)},
+  return {{"scores", json_of(t.scores, true)},
+          {"prism", json_of_prism(t.prism)},
+          {"parts", json_of(t.parts)},
           {"buildings", json_of(t.buildings)},
           {"party_walls",
            {{"truth_m", t.party_walls.truth},
@@ -116,9 +164,37 @@ auto in_words(const evaluate::Partition& p) -> std::string {
          std::to_string(p.merges) + " merged";
 }
 
-auto table_of(const TruthScores& t) -> std::string {
+auto in_words(const evaluate::InsideScores& s) -> std::string {
+  return to_text(s.mse, 4) + " m², median absolute " + to_text(s.median_absolute, 3) + " m";
+}
+
+/// The lines of what lies inside, where it was measured, and of the prisms.
+auto inside_lines(const evaluate::Scores& s, double inset) -> std::string {
+  if (s.inside.cells == 0) return {};
+  const std::string deep = to_text(inset, 2) + " m";
+  return line("  " + deep + " inside them", in_words(s.inside)) +
+         line("  " + deep + " inside each", in_words(s.inside_each));
+}
+
+template <class Worse>
+auto prism_lines(const evaluate::Scores& prism, const std::vector<BuildingScores>& buildings, Worse worse)
+    -> std::string {
+  const auto ids = ids_of(buildings, worse);
+  std::string named;
+  for (const auto& id : ids) named += (named.empty() ? ": " : ", ") + id;
+  return line("  flat prisms in its place", to_text(prism.footprint_mse, 4) + " m²") +
+         line("  worse than their prism", std::to_string(ids.size()) + " of " + std::to_string(buildings.size()) +
+                                              " buildings" + named);
+}
+
+auto table_of(const Evaluation& e, double inset) -> std::string {
+  const auto& t = *e.truth;
   const auto& r = t.roofs;
   std::string out = "\nagainst the truth\n";
+  out += line("  over the footprints", to_text(t.scores.footprint_mse, 4) + " m², median absolute " +
+                                           to_text(t.scores.footprint_median_absolute, 3) + " m");
+  out += inside_lines(t.scores, inset);
+  out += prism_lines(t.prism, e.buildings, worse_than_prism_from_truth);
   out += line("  buildings", in_words(t.buildings));
   out += line("  parts", in_words(t.parts));
   out += line("  party walls found", percent(t.party_walls.found, t.party_walls.truth) + " of " +
@@ -167,12 +243,18 @@ auto evaluation_json(const Evaluation& e, const EvaluationInput& input, const Op
   out["crs"] = input.scene.frame.crs.empty() ? Json(nullptr) : Json(input.scene.frame.crs);
   out["lod"] = input.model.lod.empty() ? Json(nullptr) : Json(input.model.lod);
   out["grid_m"] = options.evaluate.grid;
+  out["inset_m"] = options.evaluate.inset;
   out["seed"] = options.seed;
   out["footprints_of"] = to_string(input.reference);
   out["model"] = json_of(e.counts);
   out["scores"] = json_of(e.scores, independent);
   out["distances"] = {{"model_to_mesh", json_of(e.from_model)}, {"mesh_to_model", json_of(e.from_scan)}};
-  if (e.truth) out["truth"] = json_of(*e.truth);
+  out["prism"] = json_of_prism(e.prism);
+  out["worse_than_prism"] = ids_of(e.buildings, worse_than_prism);
+  if (e.truth) {
+    out["truth"] = json_of(*e.truth);
+    out["truth"]["worse_than_prism"] = ids_of(e.buildings, worse_than_prism_from_truth);
+  }
   out["beside_all_footprints"] = e.beside;
   auto warnings = input.scene.warnings;
   warnings.insert(warnings.end(), e.warnings.begin(), e.warnings.end());
@@ -186,18 +268,12 @@ auto evaluation_json(const Evaluation& e, const EvaluationInput& input, const Op
                              {"model_to_mesh", json_of(block.from_model)},
                              {"mesh_to_model", json_of(block.from_scan)}});
   out["buildings"] = Json::array();
-  for (const auto& building : e.buildings) {
-    Json scores = json_of(building.scores, independent);
-    scores.erase("invented_m2");
-    out["buildings"].push_back({{"id", building.id},
-                                {"block", building.block},
-                                {"modelled", building.modelled},
-                                {"scores", std::move(scores)}});
-  }
+  for (const auto& building : e.buildings) out["buildings"].push_back(json_of(building, independent));
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-auto evaluation_table(const Evaluation& e, const EvaluationInput& input) -> std::string {
+auto evaluation_table(const Evaluation& e, const EvaluationInput& input, const Options& options) -> std::string {
+  const double inset = options.evaluate.inset;
   const auto& s = e.scores;
   const auto& c = e.counts;
   const std::string whose = input.reference == Reference::footprints ? "the footprints given"
@@ -213,6 +289,8 @@ auto evaluation_table(const Evaluation& e, const EvaluationInput& input) -> std:
                                     to_text(std::sqrt(s.mse), 3) + " m; " + std::to_string(s.cells) + " cells)");
   out += line("  over the footprints", to_text(s.footprint_mse, 4) + " m², what is missing counted as ground (RMSE " +
                                            to_text(std::sqrt(s.footprint_mse), 3) + " m)");
+  out += inside_lines(s, inset);
+  out += prism_lines(e.prism, e.buildings, worse_than_prism);
   out += line("  median, 95 %", to_text(s.median, 3) + " m (model - mesh), " + to_text(s.p95_absolute, 3) + " m");
   if (input.reference == Reference::model)
     out += line("missed, invented", "not measured: give --truth or --footprints");
@@ -220,7 +298,7 @@ auto evaluation_table(const Evaluation& e, const EvaluationInput& input) -> std:
   if (!e.beside.empty()) out += line("on no footprint", std::to_string(e.beside.size()) + " buildings of the model");
   out += line("model to mesh", in_words(e.from_model));
   out += line("mesh to model", in_words(e.from_scan));
-  if (e.truth) out += table_of(*e.truth);
+  if (e.truth) out += table_of(e, inset);
   return out;
 }
 

@@ -99,9 +99,16 @@ auto made_by_layer(const write::MadeBy& made_by) -> write::Layer {
 
 auto empty_sweep_edges() -> write::Layer {
   return {"sweep_edges",
-          "Walls as the mesh shows them, in plan; outside on the left",
+          "Walls and roof steps as the mesh shows them, in plan; outside on the left",
           write::Shape::line,
-          {{"block"}, {"number", whole}, {"area", real}, {"low", real}, {"high", real}, {"length", real}},
+          {{"block"},
+           {"number", whole},
+           {"evidence"},
+           {"area", real},
+           {"low", real},
+           {"high", real},
+           {"length", real},
+           {"step", real}},
           {}};
 }
 
@@ -111,7 +118,8 @@ void add_sweep_edges(const SegmentedBlock& block, double z0, write::Layer& layer
     layer.features.push_back(
         {{{edge.segment.start, edge.segment.end}},
          {},
-         {block.name, as_whole(i), edge.area, z0 + edge.low, z0 + edge.high, length_of(edge.segment)}});
+         {block.name, as_whole(i), edge.evidence == sweep::Evidence::wall ? "wall" : "roof step", edge.area,
+          z0 + edge.low, z0 + edge.high, length_of(edge.segment), edge.step}});
   }
 }
 

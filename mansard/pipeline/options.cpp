@@ -15,6 +15,7 @@ auto option_lists(Options& options) -> std::vector<base::OptionList> {
   lists.push_back(segment::option_list(options.segment));
   lists.push_back(profile::option_list(options.profile));
   lists.push_back(extrude::option_list(options.extrude));
+  lists.push_back(refine::option_list(options.refine));
   lists.push_back(roof::option_list(options.roof));
   lists.push_back(label::option_list(options.label));
   lists.push_back(evaluate::option_list(options.evaluate));
@@ -23,8 +24,8 @@ auto option_lists(Options& options) -> std::vector<base::OptionList> {
       .alias("seed")
       .number("assumed_height", options.assumed_height, "m", {0.5, 100},
               "Height of the prism of a footprint over which the mesh shows nothing.")
-      .number("cap_grid", options.cap_grid, "m", {0.05, 5},
-              "Sample spacing when the height cap is chosen by its measured error.");
+      .number("roof_grid", options.roof_grid, "m", {0.05, 5},
+              "Sample spacing of the roof heights among the attributes.");
   lists.push_back(std::move(own));
   return lists;
 }
@@ -38,6 +39,8 @@ auto presets() -> const std::vector<Preset>& {
        {{"slice.interval", "0.2"},
         {"sweep.gamma", "10"},
         {"sweep.cluster_step", "1.5"},
+        {"sweep.gis_offset", "0"},
+        {"sweep.step_height", "0"},
         {"fracture.continuation", "2"},
         {"segment.alpha", "40"},
         {"segment.beta", "60"},
@@ -49,12 +52,15 @@ auto presets() -> const std::vector<Preset>& {
         {"segment.thin_rule", "all"},
         {"segment.gis_edges", "ignore"},
         {"segment.narrow", "0"},
-        {"profile.quality", "high"}}},
+        {"profile.quality", "high"},
+        {"refine.effort", "caps"}}},
       {"chordatlas",
        "What the reference implementation runs.",
        {{"slice.interval", "0.5"},
         {"sweep.gamma", "15"},
         {"sweep.cluster_step", "1.5"},
+        {"sweep.gis_offset", "0"},
+        {"sweep.step_height", "0"},
         {"fracture.continuation", "2"},
         {"segment.alpha", "80"},
         {"segment.beta", "40"},
@@ -69,7 +75,8 @@ auto presets() -> const std::vector<Preset>& {
         {"segment.gis_ratio", "0.44"},
         {"segment.min_height", "4"},
         {"segment.exposed", "0.4"},
-        {"profile.quality", "high"}}},
+        {"profile.quality", "high"},
+        {"refine.effort", "caps"}}},
   };
   return all;
 }

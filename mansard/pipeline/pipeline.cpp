@@ -11,32 +11,10 @@
 namespace mansard::pipeline {
 namespace {
 
-/// Scores of the whole from the scores of the blocks. Medians and percentiles cannot be added up: they are weighted
-/// means, good enough for a headline; the blocks have the exact ones.
 auto combined(const std::vector<BlockReport>& blocks) -> evaluate::Scores {
-  evaluate::Scores sum;
-  for (const auto& block : blocks) {
-    const auto& s = block.scores;
-    const auto cells = static_cast<double>(s.cells), inside = static_cast<double>(s.footprint_cells);
-    sum.cells += s.cells;
-    sum.footprint_cells += s.footprint_cells;
-    sum.mse += cells * s.mse;
-    sum.median += cells * s.median;
-    sum.median_absolute += cells * s.median_absolute;
-    sum.p95_absolute += cells * s.p95_absolute;
-    sum.footprint_mse += inside * s.footprint_mse;
-    sum.missed += s.missed;
-    sum.invented += s.invented;
-  }
-  if (sum.cells > 0) {
-    const auto n = static_cast<double>(sum.cells);
-    sum.mse /= n;
-    sum.median /= n;
-    sum.median_absolute /= n;
-    sum.p95_absolute /= n;
-  }
-  if (sum.footprint_cells > 0) sum.footprint_mse /= static_cast<double>(sum.footprint_cells);
-  return sum;
+  std::vector<evaluate::Scores> scores;
+  for (const auto& block : blocks) scores.push_back(block.scores);
+  return evaluate::combined(scores);
 }
 
 /// Per stage over all blocks, after the one before them.

@@ -19,6 +19,7 @@
 #include "mansard/label/label.hpp"
 #include "mansard/picture/picture.hpp"
 #include "mansard/profile/profile.hpp"
+#include "mansard/refine/refine.hpp"
 #include "mansard/roof/roof.hpp"
 #include "mansard/segment/segment.hpp"
 #include "mansard/slice/slice.hpp"
@@ -37,13 +38,14 @@ struct Options {
   segment::Options segment;
   profile::Options profile;
   extrude::Options extrude;
+  refine::Options refine;
   roof::Options roof;
   label::Options label;
   evaluate::Options evaluate;
 
   std::int64_t seed = 1;
   double assumed_height = 3.0;  ///< m; of the prism of a footprint over which the mesh shows nothing
-  double cap_grid = 0.5;        ///< m; sampling when the cap is chosen by measured error
+  double roof_grid = 0.5;       ///< m; sampling of roof heights for attributes
 };
 
 /// One list per room, bound to `options`, in the order of the house.

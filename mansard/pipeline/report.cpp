@@ -29,11 +29,18 @@ auto json_of(const std::vector<StageTime>& times) -> Json {
   return out;
 }
 
+auto json_of(const evaluate::InsideScores& s) -> Json {
+  return {{"mse_m2", s.mse}, {"median_absolute_m", s.median_absolute}, {"cells", s.cells}};
+}
+
 auto json_of(const evaluate::Scores& s) -> Json {
   return {{"vertical_mse_m2", s.mse},
           {"cells", s.cells},
           {"footprint_mse_m2", s.footprint_mse},
           {"footprint_cells", s.footprint_cells},
+          {"footprint_median_absolute_m", s.footprint_median_absolute},
+          {"inside", json_of(s.inside)},
+          {"inside_each", json_of(s.inside_each)},
           {"median_m", s.median},
           {"median_absolute_m", s.median_absolute},
           {"p95_absolute_m", s.p95_absolute},

@@ -219,6 +219,14 @@ auto plan_of(const Polygon& polygon, const Work& work) -> Plan {
   return plan;
 }
 
+auto alternatives_of(const Work& work) -> std::vector<std::vector<geometry::Profile>> {
+  std::vector<std::vector<geometry::Profile>> out(work.runs.size());
+  for (std::size_t r = 0; r < work.runs.size(); ++r)
+    for (std::size_t c = 0; c < work.choices[r].profiles.size(); ++c)
+      if (c != work.chosen[r]) out[r].push_back(work.choices[r].profiles[c]);
+  return out;
+}
+
 }  // namespace
 
 auto option_list(Options& o) -> base::OptionList {
@@ -268,6 +276,7 @@ auto fit(const segment::Segmentation& segmentation, const block::Block& block, c
     footprints[i].plan = plan_of(parts[i].polygon, works[i]);
     footprints[i].caps = works[i].caps;
     footprints[i].evidence = works[i].evidence;
+    footprints[i].alternatives = alternatives_of(works[i]);
   }
   run.report("profile", block.name, 1);
   return footprints;

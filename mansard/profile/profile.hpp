@@ -39,6 +39,8 @@ struct Evidence {
 struct ProfiledFootprint {
   geometry::Plan plan;  ///< base = ground; cap = caps.front()
   std::vector<Evidence> evidence;       ///< per profile of the plan
+  /// Per profile of the plan: the others that its slices suggest, each as a profile is; may be empty.
+  std::vector<std::vector<geometry::Profile>> alternatives;
   std::vector<double> caps;  ///< candidate heights above base at which to end the roof, m, the likeliest first; all > 0
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "mansard/segment/detail/candidates.hpp"
@@ -11,6 +12,7 @@
 #include "mansard/segment/detail/height_steps.hpp"
 #include "mansard/segment/detail/multicut.hpp"
 #include "mansard/segment/detail/parts.hpp"
+#include "mansard/segment/detail/registered.hpp"
 
 namespace mansard::segment {
 namespace {
@@ -42,13 +44,22 @@ auto is_sound(const fracture::Arrangement& arrangement, const sweep::SweepEdges&
 auto cuts_of(const sweep::SweepEdges& edges, const block::Block& block, const Options& options)
     -> std::vector<fracture::Cut> {
   std::vector<fracture::Cut> cuts;
-  for (std::uint32_t i = 0; i < edges.edges.size(); ++i) cuts.push_back({edges.edges[i].segment, i});
+  const auto is_wall = [&](std::uint32_t i) { return edges.edges[i].evidence == sweep::Evidence::wall; };
+  for (std::uint32_t i = 0; i < edges.edges.size(); ++i)
+    if (is_wall(i)) cuts.push_back({edges.edges[i].segment, i});
   if (options.gis_edges != GisEdges::ignore) {
-    auto lines = detail::party_lines(block);
-    const auto torn = detail::torn_lines(block, edges);
+    const auto footprints = detail::registered(block, edges.registration);
+    auto lines = detail::party_lines(footprints);
+    sweep::SweepEdges walls;  // a step in the roof beside it does not show a wall
+    walls.registration = edges.registration;
+    std::ranges::copy_if(edges.edges, std::back_inserter(walls.edges),
+                         [](const sweep::SweepEdge& e) { return e.evidence == sweep::Evidence::wall; });
+    const auto torn = detail::torn_lines(footprints, walls);
     lines.insert(lines.end(), torn.begin(), torn.end());
     for (std::uint32_t j = 0; j < lines.size(); ++j) cuts.push_back({lines[j], gis_source + j});
   }
+  for (std::uint32_t i = 0; i < edges.edges.size(); ++i)
+    if (!is_wall(i)) cuts.push_back({edges.edges[i].segment, i, 0.0});
   return cuts;
 }
 
@@ -58,11 +69,12 @@ auto choose(const fracture::Arrangement& arrangement, const sweep::SweepEdges& e
     return base::error("segment-failed", "the fractured ground is no plane subdivision by these sweep-edges",
                        block.name);
   run.report("segment", block.name, 0);
-  detail::Evidence evidence = detail::measure(arrangement, block, mesh, options, run);
+  detail::Evidence evidence =
+      detail::measure(arrangement, detail::registered(block, edges.registration), mesh, options, run);
   detail::peel(arrangement, options, evidence.faces);
 
   Segmentation segmentation;
-  segmentation.candidates = detail::candidates_of(arrangement, evidence.faces, options);
+  segmentation.candidates = detail::candidates_of(arrangement, edges, evidence.faces, options);
   if (options.height_measure == HeightMeasure::along)
     detail::measure_steps(arrangement, mesh, options, run, segmentation.candidates);
   const auto candidate_of = detail::candidate_of_half_edge(arrangement, segmentation.candidates);
@@ -82,7 +94,7 @@ auto choose(const fracture::Arrangement& arrangement, const sweep::SweepEdges& e
   for (Candidate& c : segmentation.candidates) c.solved = label_of_face[c.left] != label_of_face[c.right];
   segmentation.rows = detail::star_rows(problem.multicut);
   for (CycleRow& row : answer.rows) segmentation.rows.push_back(std::move(row));
-  segmentation.terms = detail::terms_of(arrangement, label_of_face, segmentation.candidates, candidate_of,
+  segmentation.terms = detail::terms_of(arrangement, edges, label_of_face, segmentation.candidates, candidate_of,
                                         segmentation.conflicts, segmentation.phi, options);
   segmentation.objective = segmentation.terms.sum();
   // The program counts in thousandths, rounded twice per candidate; the terms do not.
@@ -114,6 +126,8 @@ auto option_list(Options& o) -> base::OptionList {
           .alias("beta")
           .number("height_weight", o.height_weight, "", {0, 1e6},
                   "Cost of joining faces across a metre of edge, per metre of height difference.")
+          .number("step_full", o.step_full, "m", {0, 100},
+                  "A roof step of this height left unused costs as much as a wall, a lower one in proportion.")
           .number("phi", o.phi, "", {0, 1e6},
                   "Cost of a pair of edges that make a sliver or a needle, as a share of the total edge length.")
           .number("thin_distance", o.thin_distance, "m", {0, 100}, "Opposite edges nearer than this make a sliver.")

@@ -39,6 +39,7 @@ struct Options {
   double alpha = 40.0;          ///< per metre of sweep-edge left unused
   double beta = 60.0;           ///< per metre of footprint edge without a sweep-edge
   double height_weight = 16.0;  ///< of O2, per metre and metre of height difference
+  double step_full = 1.0;       ///< m; an unused roof step of this height pays the whole α, a lower one its share
   double phi = 0.5;             ///< of O7, times the total edge length
   double thin_distance = 2.0;   ///< m; O7: opposite edges nearer than this
   double thin_angle = 0.5235987755982988;  ///< rad; O7: adjacent edges under this angle
@@ -60,8 +61,8 @@ struct Options {
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 
-/// The lines to fracture a block by: its sweep-edges longest first, then, unless ignored, the GIS edges between
-/// features.
+/// The lines to fracture a block by: its walls longest first, then, unless ignored, the GIS edges between features and
+/// those of torn walls, then its roof steps, longest first: these go on to the next of all those lines and no farther.
 [[nodiscard]] auto cuts_of(const sweep::SweepEdges& edges, const block::Block& block, const Options& options)
     -> std::vector<fracture::Cut>;
 
@@ -87,7 +88,8 @@ struct Candidate {
   std::uint32_t left = 0, right = 0;      ///< faces
   std::vector<std::uint32_t> half_edges;  ///< those with `left` on their left
   double length = 0, height_difference = 0;  ///< m
-  double sweep_length = 0, unsupported_length = 0, gis_length = 0;  ///< m that pay α uncut; β cut; gis_alpha uncut
+  double sweep_length = 0, unsupported_length = 0, gis_length = 0;  ///< m that pay α uncut (of a low roof
+                                                                     ///< step its share); β cut; gis_alpha uncut
   bool sweep = false;   ///< isSweepEdge, most of it
   bool forced = false;  ///< between two features, with gis_edges = hard
   bool solved = false;  ///< cut by the program's answer

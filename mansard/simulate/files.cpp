@@ -6,6 +6,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "mansard/base/text.hpp"
 #include "mansard/simulate/simulate.hpp"
 
 namespace mansard::simulate {
@@ -145,6 +146,42 @@ auto geojson(const std::vector<ingest::Footprint>& footprints, const ingest::Fra
     out["crs"] = {{"type", "name"}, {"properties", {{"name", "urn:ogc:def:crs:EPSG::" + frame.crs.substr(5)}}}};
   out["features"] = std::move(features);
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+auto surface_obj(const Surface& surface, const write::City& city) -> std::string {
+  const auto& origin = city.frame.origin;
+  std::string out = "# made by mansard simulate\n";
+  if (!city.frame.crs.empty()) out += "# crs " + city.frame.crs + "\n";
+  for (const auto& v : surface.mesh.vertices)
+    out += "v " + base::to_text(v.x + static_cast<double>(origin[0])) + " " +
+           base::to_text(v.y + static_cast<double>(origin[1])) + " " +
+           base::to_text(v.z + static_cast<double>(origin[2])) + "\n";
+  for (std::size_t b = 0; b < city.buildings.size(); ++b) {
+    out += "o " + city.buildings[b].id + "\n";
+    for (std::size_t c = 0; c < class_count; ++c) {
+      std::string faces;
+      for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
+        if (surface.buildings[t] != b || surface.classes[t] != static_cast<Class>(c)) continue;
+        faces += 'f';
+        for (const auto v : surface.mesh.triangles[t]) faces += " " + std::to_string(v + 1);
+        faces += '\n';
+      }
+      if (!faces.empty()) out += "g " + std::string(to_string(static_cast<Class>(c))) + "\n" + faces;
+    }
+  }
+  return out;
+}
+
+auto true_footprints(const Truth& truth) -> std::vector<ingest::Footprint> {
+  const auto z0 = static_cast<double>(truth.city.frame.origin[2]);
+  std::vector<ingest::Footprint> out;
+  for (const auto& building : truth.city.buildings) {
+    auto& feature = out.emplace_back();
+    feature.id = building.id;
+    feature.polygons = building.footprint;
+    feature.attributes = {{"id", building.id}, {"ground", z0 + building.ground}};
+  }
+  return out;
 }
 
 auto truth_json(const Truth& truth, const std::vector<ingest::Footprint>& footprints, const Options& options,

@@ -177,6 +177,18 @@ auto some(const std::vector<std::string>& ids) -> std::string {
 
 }  // namespace
 
+auto within(ingest::Model model, const geometry::Box2& box) -> ingest::Model {
+  const geometry::Point2 origin{static_cast<double>(model.frame.origin[0]), static_cast<double>(model.frame.origin[1])};
+  std::erase_if(model.buildings, [&](const ModelBuilding& building) {
+    geometry::Box2 own;
+    each_face(building, [&](const auto& face) {
+      for (const Point3 p : face.loops.front()) own.add(xy(p) + origin);
+    });
+    return !box.overlaps(own);
+  });
+  return model;
+}
+
 auto truth_of(const ingest::Model& model, std::vector<base::Diagnostic>& warnings) -> base::Result<ModelTruth> {
   const std::string subject = model.inputs.empty() ? std::string() : model.inputs.front().path;
   Truth truth;

@@ -132,7 +132,7 @@ auto codes() -> std::vector<base::Code> {
       {"simulate-model-outline", "A building of a model has no outline: no area when seen from above.",
        "It is left out. Give it ground faces or a roof, or do without it.", 0},
       {"simulate-size", "A scan would have more cells or points than can be numbered.",
-       "Take a coarser --resolution, or a smaller model.", 4},
+       "Keep a part of it with --bbox, or take a coarser --resolution; the message says how coarse.", 4},
       {"simulate-flat", "No pitched roof could be raised over a footprint; it got a flat one.",
        "Nothing need be done; the truth says so.", 0},
       {"simulate-left-out", "Nothing could be raised over a footprint; it is not in the truth.",

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mansard/base/text.hpp"
 #include "mansard/simulate/detail/damage.hpp"
 #include "mansard/simulate/detail/height_field.hpp"
 #include "mansard/simulate/detail/raising.hpp"
@@ -16,14 +17,28 @@ enum Purpose : std::uint64_t { ground, things, places, roughness, damage, tiles 
 
 auto seed_for(std::uint64_t seed, Purpose purpose) -> std::uint64_t { return base::Random(seed, purpose).next(); }
 
-/// Columns of the grid and its levels, held against what can be numbered and kept.
-auto too_large(const Surface& surface, const geometry::Box2& area, double resolution) -> bool {
-  constexpr double most_columns = 1 << 27, most_along = 1 << 20, most_levels = 1 << 19;
+/// What a grid may have: columns that can be numbered and kept, and cells along an axis.
+constexpr double most_columns = 1 << 27, most_along = 1 << 20, most_levels = 1 << 19;
+
+/// Columns of the grid and its levels, held against what can be numbered and kept. Gives up with "simulate-size".
+auto check_size(const Surface& surface, const geometry::Box2& area, double resolution) -> base::Result<void> {
   double high = 0;
   for (const auto v : surface.mesh.vertices) high = std::max(high, std::abs(v.z));
-  const auto extent = (1 / resolution) * (area.most - area.least);
-  return !(extent.x * extent.y < most_columns && std::max(extent.x, extent.y) < most_along &&
-           high / resolution < most_levels);
+  const auto size = area.most - area.least;
+  const auto extent = (1 / resolution) * size;
+  const double columns = extent.x * extent.y;
+  if (columns < most_columns && std::max(extent.x, extent.y) < most_along && high / resolution < most_levels) return {};
+  const double coarser = std::max({std::sqrt(size.x * size.y / most_columns), std::max(size.x, size.y) / most_along,
+                                   high / most_levels});
+  constexpr double tenth = 10;  // the advice is rounded up to 0.1 m
+  return base::error("simulate-size",
+                     "the scan would have too many cells: " + base::to_text(size.x, 0) + " × " +
+                         base::to_text(size.y, 0) + " m are " + base::to_text(columns / 1e6, 0) +
+                         " million columns at " + base::to_text(resolution) + " m, and " +
+                         base::to_text(most_columns / 1e6, 0) +
+                         " million are the most; keep a part of it with --bbox, or take a resolution of " +
+                         base::to_text(std::floor(coarser * tenth + 1) / tenth, 1) + " m",
+                     "simulate.resolution");
 }
 
 auto class_of(label::Class kind) -> Class {
@@ -74,10 +89,7 @@ auto scan(const Surface& surface, const ScanOptions& options, std::uint64_t seed
   for (const auto v : surface.mesh.vertices) area.add(xy(v));
   area = area.grown(options.margin);
 
-  if (too_large(surface, area, options.resolution))
-    return base::error("simulate-size",
-                       "the scan would have too many cells; take a coarser resolution or a smaller area",
-                       "simulate.resolution");
+  if (auto fits = check_size(surface, area, options.resolution); !fits) return fits.error();
 
   run.report("simulate", "surroundings", 0);
   const detail::Nearest nearest(surface);

@@ -152,6 +152,9 @@ struct Surface {
 /// Gives up with "geometry-triangulate".
 [[nodiscard]] auto surface_of(const write::City& city) -> base::Result<Surface>;
 
+/// The buildings of a model that meet the box, in metres of the file's frame.
+[[nodiscard]] auto within(ingest::Model model, const geometry::Box2& box) -> ingest::Model;
+
 struct ModelTruth {
   Truth truth;
   Surface surface;  ///< the model's own faces, and a floor under the buildings that have no ground
@@ -185,6 +188,10 @@ struct Scan {
 [[nodiscard]] auto ply(const Scan& scan, const ingest::Frame& frame) -> std::string;
 /// GeoJSON in the file's frame, with its CRS where that is an EPSG code.
 [[nodiscard]] auto geojson(const std::vector<ingest::Footprint>& footprints, const ingest::Frame& frame) -> std::string;
+/// OBJ in the file's frame: an object per building of the city, its triangles in a group per class.
+[[nodiscard]] auto surface_obj(const Surface& surface, const write::City& city) -> std::string;
+/// What truly stands there, as features: the outline of every building, with id and ground.
+[[nodiscard]] auto true_footprints(const Truth& truth) -> std::vector<ingest::Footprint>;
 /// What the files beside it do not say: party walls, roofs of the buildings, options and seed. `source` names the kind
 /// of block or the file.
 [[nodiscard]] auto truth_json(const Truth& truth, const std::vector<ingest::Footprint>& footprints,

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "mansard/base/options.hpp"
 #include "mansard/base/run.hpp"
 #include "mansard/block/block.hpp"
 #include "mansard/geometry/points.hpp"
+#include "mansard/rays/rays.hpp"
 #include "mansard/slice/slice.hpp"
 
 namespace mansard::sweep {
@@ -24,16 +26,30 @@ struct Cluster {
   double area = 0;          ///< m²: sum of lengths × slice interval
 };
 
+enum class Evidence : std::uint8_t {
+  wall,       ///< slices of an upright surface
+  roof_step,  ///< a jump of the top surface inside the footprints
+};
+
 struct SweepEdge {
   geometry::Segment2 segment;  ///< plan position of the wall foot; outside on the left
   double area = 0;             ///< m² of mesh behind it
   double low = 0, high = 0;    ///< z between which the wall was seen, metres
-  std::size_t cluster = 0;     ///< index into SweepEdges::clusters
+  std::size_t cluster = 0;     ///< index into SweepEdges::clusters; of a roof step, a cluster without lines
+  Evidence evidence = Evidence::wall;
+  double step = 0;             ///< m; mean height of a roof step beyond what the slopes beside it explain
+};
+
+/// How the block's footprints lie beside the walls of the mesh.
+struct Registration {
+  geometry::Point2 shift;  ///< m; what to add to the footprints to bring them to the mesh
+  double spread = 0;       ///< m; median distance, by length, between walls and footprints thereafter
 };
 
 struct SweepEdges {
   std::vector<SweepEdge> edges;    ///< longest first; ties by coordinates
   std::vector<Cluster> clusters;
+  Registration registration;
 };
 
 struct Options {
@@ -42,16 +58,28 @@ struct Options {
   double line_gap = 0.6;          ///< m; gaps up to this are closed along a line
   double gis_angle = 0.39;        ///< rad; lines turn to a GIS edge within this angle; 0 leaves them alone
   double gis_distance = 3.0;      ///< m; … when the GIS edge is this near
+  double gis_offset = 0.75;       ///< m; edges seen up to this far outside a footprint's stand on it; 0: where seen
+  double gis_inward = 0.25;       ///< m; … and up to this far inside: a scan sees eaves, but nothing through a wall
   double cluster_step = 0.8;      ///< m; greatest lateral step between neighbouring slices
   double low_height = 4.0;        ///< m above ground; lines below weigh a tenth (cars, hedges)
   double thin_distance = 4.0;     ///< m; lines lose weight for anti-parallel lines this near (buses, fences)
   double setback = 1.0;           ///< m; wall feet this far off the median become sweep-edges of their own
+  double step_height = 0.35;      ///< m; roofs that jump by this along a straight line make sweep-edges; 0: none do
+  double step_length = 2.5;       ///< m; … of this length
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 
+/// The shift of the registration is 0 unless it stands out of what it leaves unexplained.
 /// Guarantees: 1 every edge's cluster has area ≥ gamma · 2 the result does not depend on the order of segments within
 /// a slice (beyond rounding) nor on the thread count · 3 edges are sorted longest first.
 [[nodiscard]] auto find_edges(const slice::SliceStack& stack, const block::Block& block, const Options& options,
                               const base::Run& run = {}) -> SweepEdges;
+
+/// The same edges, and those along which the top surface jumps inside the footprints, where neither a wall nor a
+/// footprint's edge runs already: steps between roofs, and changes from one roof to another. Guarantees: 1 walls keep
+/// their order, and every roof step is at least `step_height` high and `step_length` long · 2 edges are sorted longest
+/// first · 3 the same input gives the same answer at any thread count. Cost: O(area of the footprints · log n).
+[[nodiscard]] auto with_roof_steps(SweepEdges edges, const block::Block& block, const rays::Scene& mesh,
+                                   const Options& options, const base::Run& run = {}) -> SweepEdges;
 
 }  // namespace mansard::sweep

@@ -179,6 +179,21 @@ TEST_F(Command, lists_its_options_as_text_and_json) {
     }
   EXPECT_TRUE(found);
   EXPECT_EQ(json["presets"].size(), 2U);
+  EXPECT_TRUE(std::ranges::any_of(json["options"], [](const auto& option) {
+    return option["room"] == "simulate" && option["name"] == "melt" && option["default"] == "0.25";
+  }));
+  EXPECT_EQ(json["simulate_presets"][2]["name"], "oblique-aerial");
+  EXPECT_THAT(run("options").out, testing::AllOf(HasSubstr("[simulate]"), HasSubstr("lidar-2.5d")));
+}
+
+TEST_F(Command, leaves_no_pictures_of_an_earlier_run) {
+  ASSERT_EQ(reconstruct(at("house.obj"), at("house.geojson"), "--picture").exit, 0);
+  ASSERT_TRUE(fs::exists(at("out/picture.png")));
+  put("out/mine.png", "mine");
+  ASSERT_EQ(reconstruct(at("house.obj"), at("house.geojson"), "--overwrite").exit, 0);
+  for (const auto* name : {"picture.png", "above.png", "error.png"}) EXPECT_FALSE(fs::exists(at("out/") + name)) << name;
+  EXPECT_TRUE(fs::exists(at("out/mine.png")));
+  EXPECT_TRUE(fs::exists(at("out/model.glb")));
 }
 
 TEST_F(Command, explains_every_code) {

@@ -53,6 +53,32 @@ TEST_F(Evaluate, finds_a_box_that_is_off_by_a_metre) {
   EXPECT_NEAR(report()["distances"]["model_to_mesh"]["max_m"].get<double>(), 1, 1e-3);
 }
 
+TEST_F(Evaluate, holds_models_against_flat_prisms) {
+  // A box of 12 × 8 whose east half is 2 m lower in the scan, and a model of it that is 3 m too high.
+  put("scan.obj", "v -20 -20 0\nv 40 -20 0\nv 40 40 0\nv -20 40 0\nf 1 2 3 4\n" +
+                      std::string("v 0 0 6\nv 6 0 6\nv 6 8 6\nv 0 8 6\nf 5 6 7 8\nv 6 0 4\nv 12 0 4\nv 12 8 4\nv 6 8 4\n"
+                                  "f 9 10 11 12\n"));
+  const auto outcome = evaluate(box("a", 0, 9), "--truth " + put("truth.obj", box("a", 0, 6)));
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  const auto r = report();
+  const auto prism = r["buildings"][0]["prism"]["height_m"].get<double>();
+  EXPECT_TRUE(std::abs(prism - 6) < 1e-3 || std::abs(prism - 4) < 1e-3) << prism;
+  EXPECT_NEAR(r["prism"]["footprint_mse_m2"].get<double>(), 4.0 / 2, 1e-3);
+  EXPECT_EQ(r["worse_than_prism"], nlohmann::json{"a"});
+  EXPECT_TRUE(r["buildings"][0]["worse_than_prism"].get<bool>());
+  EXPECT_NEAR(r["scores"]["inside"]["mse_m2"].get<double>(), (9 + 25) / 2.0, 1e-3);
+  EXPECT_EQ(r["scores"]["inside"]["cells"], 42 * 26);
+  EXPECT_THAT(outcome.out, HasSubstr("worse than their prism            1 of 1 buildings: a"));
+  // Against the truth the model is 3 m off everywhere; the prism is where the scan is.
+  EXPECT_NEAR(r["truth"]["scores"]["footprint_mse_m2"].get<double>(), 9, 1e-3);
+  EXPECT_NEAR(r["truth"]["prism"]["footprint_mse_m2"].get<double>(), (prism - 6) * (prism - 6), 1e-3);
+  EXPECT_EQ(r["truth"]["worse_than_prism"], nlohmann::json{"a"});
+  EXPECT_NEAR(r["buildings"][0]["truth"]["footprint_mse_m2"].get<double>(), 9, 1e-3);
+  const auto without = evaluate(box("a", 0, 9), "--evaluate-inset 0");
+  EXPECT_TRUE(report()["scores"]["inside"].is_null());
+  EXPECT_THAT(without.out, testing::Not(HasSubstr("inside them")));
+}
+
 TEST_F(Evaluate, finds_a_building_that_is_missing_by_the_truth) {
   put("scan.obj", box_scan + box("second", 20, 6));
   const auto truth = put("truth.obj", box("a", 0, 6) + box("b", 20, 6));
@@ -144,6 +170,14 @@ TEST_F(Evaluate, labels_the_scan_and_counts_what_is_right) {
   EXPECT_THAT(again.out,
               testing::AllOf(HasSubstr("by the model: 100.0 % of the area right"), HasSubstr("by the normal alone: ")));
   EXPECT_GT(fs::file_size(folder_ / "labelled.glb"), 500U);
+  // Of the walls 6 × 40 m² and the roof 96 m²; half of each wall's triangles have their centres at 2 m and at 4 m.
+  const auto truth = put("higher.obj", box("a", 0, 12));
+  const auto held = run("label -q " + at("scan.obj") + " " + model + " -o " + at("third.ply") + " --truth " + truth);
+  EXPECT_EQ(held.exit, 0) << held.err;
+  EXPECT_THAT(held.out, HasSubstr("wall or roof as by the true model, of 336 m²: by the nearest wall or roof of this one "));
+  EXPECT_THAT(held.out, HasSubstr("by the normal alone "));
+  const auto same = run("label -q " + at("scan.obj") + " " + model + " -o " + at("fourth.ply") + " --truth " + model);
+  EXPECT_THAT(same.out, HasSubstr("of this one 100.0 %, as labelled 100.0 %, by the normal alone 100.0 %"));
   expect_refusal(run("label -q " + at("scan.obj") + " " + model + " -o " + at("labelled.ply")), 2, "output-exists");
   expect_refusal(run("label -q " + at("scan.obj") + " " + model + " -o " + at("labelled.obj")), 2, "usage",
                  ".ply or .glb");

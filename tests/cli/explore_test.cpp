@@ -82,7 +82,15 @@ TEST_F(Explore, overwrites_nothing_silently) {
   const auto outcome = explore("table");
   EXPECT_EQ(outcome.exit, 2);
   EXPECT_THAT(outcome.err, HasSubstr("output-exists"));
+  put("out/run-1-above.png", "somebody else's: there is no report beside it");
   EXPECT_EQ(explore("table", "--overwrite --no-pictures").exit, 0);
+  EXPECT_EQ(read(at("out") + "/mine.txt"), "mine");
+  EXPECT_TRUE(fs::exists(at("out/run-1-above.png")));
+  put("out/run-7-above.png", "of an earlier run");
+  put("out/run-7-notes.png", "mine");
+  EXPECT_EQ(explore("table", "--overwrite --no-pictures").exit, 0);
+  EXPECT_FALSE(fs::exists(at("out/run-7-above.png")));
+  EXPECT_TRUE(fs::exists(at("out/run-7-notes.png")));
   EXPECT_EQ(read(at("out") + "/mine.txt"), "mine");
 }
 

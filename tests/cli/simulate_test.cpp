@@ -15,6 +15,12 @@ class Simulate : public Command {
   }
 };
 
+/// The gabled house, each of its faces labelled.
+auto labelled_house() -> std::string {
+  return field + "o villa\ng wall\nf 5 6 10 9\nf 6 7 11 14 10\nf 7 8 12 11\nf 8 5 9 13 12\ng roof\nf 9 10 14 13\n" +
+         "f 11 12 13 14\ng ground\nf 8 7 6 5\n";
+}
+
 TEST_F(Simulate, makes_a_terrace_that_is_reconstructed_building_by_building) {
   const auto made = simulate("--block terrace --simulate-size 30 --preset oblique-aerial --simulate-merged 0");
   ASSERT_EQ(made.exit, 0) << made.err;
@@ -43,14 +49,15 @@ TEST_F(Simulate, scans_its_own_plans_and_finds_the_same_truth_again) {
 }
 
 TEST_F(Simulate, scans_a_labelled_model_which_is_then_the_truth) {
-  const std::string model =  // the gabled house, each of its faces labelled
-      field + "o villa\ng wall\nf 5 6 10 9\nf 6 7 11 14 10\nf 7 8 12 11\nf 8 5 9 13 12\ng roof\nf 9 10 14 13\n" +
-      "f 11 12 13 14\ng ground\nf 8 7 6 5\n";
+  const std::string model = labelled_house();
   put("villa.obj", model);
   const auto made = simulate(at("villa.obj") + " --preset clean");
   ASSERT_EQ(made.exit, 0) << made.err;
-  EXPECT_FALSE(fs::exists(at("block/truth.obj")));
+  EXPECT_EQ(read(at("block/truth.obj")), model);
   EXPECT_FALSE(fs::exists(at("block/plans.json")));
+  const auto outlines = json::parse(read(at("block/truth.geojson")));
+  EXPECT_EQ(outlines["features"][0]["properties"]["id"], "villa");
+  EXPECT_EQ(outlines["features"][0]["geometry"]["coordinates"][0].size(), 5U);
   const auto truth = json::parse(read(at("block/truth.json")));
   EXPECT_EQ(truth["model"]["file"], at("villa.obj"));
   EXPECT_EQ(truth["buildings"][0]["id"], "villa");
@@ -72,6 +79,62 @@ TEST_F(Simulate, has_the_same_bytes_with_one_thread_and_two) {
     EXPECT_GT(fs::file_size(at("one/") + name), 100U) << name;
     EXPECT_EQ(read(at("one/") + name), read(at("two/") + name)) << name;
   }
+}
+
+TEST_F(Simulate, writes_models_whose_parts_are_counted_by_building) {
+  ASSERT_EQ(simulate("--block terrace --simulate-size 30 --resolution 0.8").exit, 0);
+  const auto buildings = json::parse(read(at("block/truth.json")))["buildings"];
+  ASSERT_EQ(run("evaluate -q " + at("block/truth.obj") + " " + at("block/mesh.ply") + " -o " + at("obj.json")).exit, 0);
+  const auto counted = json::parse(read(at("obj.json")))["model"];
+  EXPECT_EQ(counted["buildings"], buildings.size());
+  EXPECT_GT(counted["parts"], buildings.size());  // annexes
+  const auto outlines = json::parse(read(at("block/truth.geojson")))["features"];
+  ASSERT_EQ(outlines.size(), buildings.size());
+  EXPECT_EQ(outlines[0]["properties"]["ground"], buildings[0]["ground"]);
+}
+
+TEST_F(Simulate, keeps_what_is_in_a_box_and_says_how_much_is_too_much) {
+  const auto box = [](int west) {  // a house of 4 × 4 m
+    const auto v = [&](int x, int y, int z) {
+      return "v " + std::to_string(west + x) + " " + std::to_string(y) + " " + std::to_string(z) + "\n";
+    };
+    std::string text = "o at_" + std::to_string(west) + "\n";
+    for (const int z : {0, 6}) text += v(0, 0, z) + v(4, 0, z) + v(4, 4, z) + v(0, 4, z);
+    return text + "g wall\nf -8 -7 -3 -4\nf -7 -6 -2 -3\nf -6 -5 -1 -2\nf -5 -8 -4 -1\ng roof\nf -4 -3 -2 -1\ng ground\n"
+                  "f -5 -6 -7 -8\n";
+  };
+  const auto town = put("town.obj", box(0) + box(2000000));
+  expect_refusal(run("simulate -q " + town + " -o " + at("out")), 4, "simulate-size", "keep a part of it with --bbox");
+  const auto made = simulate(town + " --bbox -10 -10 10 10 --preset clean");
+  ASSERT_EQ(made.exit, 0) << made.err;
+  const auto truth = json::parse(read(at("block/truth.json")));
+  ASSERT_EQ(truth["buildings"].size(), 1U);
+  EXPECT_EQ(truth["buildings"][0]["id"], "at_0");
+  const auto score = run("evaluate -q " + at("block/truth.obj") + " " + at("block/mesh.ply") + " --truth " +
+                         at("block/truth.obj") + " -o " + at("score.json"));
+  ASSERT_EQ(score.exit, 0) << score.err;
+  const auto counted = json::parse(read(at("score.json")))["model"];
+  EXPECT_EQ(counted["buildings"], 1);
+  EXPECT_EQ(counted["planes"], 6);
+  EXPECT_NEAR(counted["area_m2"]["wall"].get<double>(), 4 * 4 * 6, 1e-9);
+  expect_refusal(run("simulate -q " + town + " --bbox 50 50 60 60 -o " + at("out")), 5, "simulate-nothing");
+  expect_refusal(run("simulate -q --block towers --bbox 0 0 1 1 -o " + at("out")), 2, "usage", "--simulate-size");
+}
+
+TEST_F(Simulate, leaves_nothing_of_an_earlier_run_and_all_else) {
+  ASSERT_EQ(simulate("--block towers --resolution 2 --picture").exit, 0);
+  put("block/mine.txt", "mine");
+  put("villa.obj", labelled_house());
+  ASSERT_EQ(simulate(at("villa.obj") + " --resolution 1 --overwrite").exit, 0);
+  for (const auto* name : {"truth.city.json", "truth.mtl", "plans.json", "picture.png"})
+    EXPECT_FALSE(fs::exists(at("block/") + name)) << name;
+  EXPECT_EQ(read(at("block/truth.obj")), labelled_house());
+  EXPECT_EQ(read(at("block/mine.txt")), "mine");
+  // Where no simulation has been, the same names are somebody else's.
+  fs::create_directories(at("other"));
+  put("other/plans.json", "mine");
+  ASSERT_EQ(simulate(at("villa.obj") + " --resolution 1 --overwrite", "other").exit, 0);
+  EXPECT_EQ(read(at("other/plans.json")), "mine");
 }
 
 TEST_F(Simulate, builds_on_footprints) {

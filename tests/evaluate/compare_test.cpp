@@ -190,7 +190,8 @@ TEST(Error_over, takes_the_base_where_the_solid_leaves_the_polygon_bare) {
 TEST(Options, are_all_listed) {
   Options options;
   const auto list = mansard::evaluate::option_list(options);
-  EXPECT_EQ(list.options().size(), 2U);
+  EXPECT_EQ(list.options().size(), 3U);
+  EXPECT_TRUE(list.find("inset")->set("0").has_value());
   EXPECT_FALSE(list.find("grid")->set("0").has_value());
 }
 

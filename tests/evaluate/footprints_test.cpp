@@ -23,7 +23,7 @@ auto rectangle(double x0, double x1) -> Polygon { return {{{x0, 0}, {x1, 0}, {x1
 TEST(Scores_over, of_a_box_off_by_a_metre_are_one) {
   const Scene model(mesh_of({{box({0, 0}, {10, 8}, 0, 7)}})), scan(mesh_of({{box({0, 0}, {10, 8}, 0, 6)}}));
   const std::vector<Polygon> footprints{rectangle(0, 10)};
-  const auto scores = scores_over(model, scan, footprints, 0, 0.25);
+  const auto scores = scores_over(model, scan, footprints, 0, {0.25});
   EXPECT_NEAR(scores.mse, 1, 1e-5);
   EXPECT_NEAR(scores.footprint_mse, 1, 1e-5);
   EXPECT_NEAR(scores.median, 1, 1e-5);
@@ -35,7 +35,7 @@ TEST(Scores_over, of_a_box_off_by_a_metre_are_one) {
 TEST(Scores_over, of_a_missing_building_are_the_square_of_its_height) {
   const Scene model(mesh_of({{box({20, 0}, {30, 8}, 0, 6)}})), scan(mesh_of({{box({0, 0}, {10, 8}, 0, 6)}}));
   const std::vector<Polygon> footprints{rectangle(0, 10)};
-  const auto scores = scores_over(model, scan, footprints, 0.5, 0.25);
+  const auto scores = scores_over(model, scan, footprints, 0.5, {0.25});
   EXPECT_EQ(scores.cells, 0U);
   EXPECT_EQ(scores.mse, 0);
   EXPECT_NEAR(scores.footprint_mse, 5.5 * 5.5, 1e-4);
@@ -46,7 +46,7 @@ TEST(Scores_over, of_a_tilted_plane_are_those_of_evenly_spread_heights) {
   // Flat at 6 against 5.5 … 6.5: spread evenly over ± ½ m, so the mean square is 1/12, and 95 % lie within 0.475.
   const Scene model(mesh_of({{gable({0, 0}, {10, 8}, 0, 5.5, 6.5)}})), scan(mesh_of({{box({0, 0}, {10, 8}, 0, 6)}}));
   const std::vector<Polygon> footprints{rectangle(0, 10)};
-  const auto scores = scores_over(model, scan, footprints, 0, 0.05);
+  const auto scores = scores_over(model, scan, footprints, 0, {0.05});
   EXPECT_NEAR(scores.mse, 1.0 / 12, 1e-4);
   EXPECT_NEAR(scores.median, 0, 0.01);
   EXPECT_NEAR(scores.median_absolute, 0.25, 0.01);
@@ -57,8 +57,8 @@ TEST(Scores_over, do_not_look_beyond_the_footprint) {
   const Scene model(mesh_of({{box({0, 0}, {10, 8}, 0, 6)}, {box({10, 0}, {20, 8}, 0, 16)}})),
       scan(mesh_of({{box({0, 0}, {20, 8}, 0, 6)}}));
   const std::vector<Polygon> west{rectangle(0, 10)}, both{rectangle(0, 20)};
-  EXPECT_NEAR(scores_over(model, scan, west, 0, 0.25).mse, 0, 1e-6);
-  EXPECT_NEAR(scores_over(model, scan, both, 0, 0.25).mse, 50, 1e-3);
+  EXPECT_NEAR(scores_over(model, scan, west, 0, {0.25}).mse, 0, 1e-6);
+  EXPECT_NEAR(scores_over(model, scan, both, 0, {0.25}).mse, 50, 1e-3);
 }
 
 TEST(Compare, gives_any_surface_the_numbers_it_gives_a_solid) {

@@ -420,4 +420,21 @@ TEST(Options, list_every_member) {
   EXPECT_EQ(options.tolerance, 0.1);
 }
 
+TEST(Sketch, is_what_raise_gives_before_rounding) {
+  for (const auto& ring : {box(10, 10), box(14, 9), box(6.5, 22)}) {
+    const auto p = plan(ring, {hip});
+    const auto sketch = extrude::sketch(p);
+    ASSERT_TRUE(sketch);
+    const auto solid = full(p);
+    EXPECT_EQ(sketch->faces.size(), solid.faces.size());
+    EXPECT_NEAR(extrude::volume(*sketch), extrude::volume(solid), 1e-3);
+  }
+}
+
+TEST(Sketch, gives_up_on_a_footprint_that_crosses_itself) {
+  const auto sketch = extrude::sketch(plan({{0, 0}, {10, 10}, {10, 0}, {0, 14}}, {hip}));
+  ASSERT_FALSE(sketch);
+  EXPECT_EQ(sketch.error().code, "extrude-not-simple");
+}
+
 }  // namespace

@@ -240,7 +240,14 @@ TEST_F(Models, are_read_from_obj_by_objects_groups_and_materials) {
   EXPECT_EQ(grouped->frame.crs, "EPSG:28992");
   ASSERT_EQ(grouped->buildings.size(), 1U);
   EXPECT_EQ(grouped->buildings[0].id, "house 1");
-  // Our own: a group per part, a material per class.
+  // Our own: an object per building, a group per part, a material per class; as they were, without objects.
+  const auto whole = model(vertices + "o a\ng a-1\nusemtl party_wall\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n" +
+                               "usemtl roof\nf 5 6 7 8\ng a-2\nusemtl ground\nf 1 4 3 2\n",
+                           "m.obj");
+  expect_box(whole);
+  ASSERT_EQ(whole->buildings.size(), 1U);
+  ASSERT_EQ(whole->buildings[0].parts.size(), 2U);
+  EXPECT_EQ(whole->buildings[0].parts[1].id, "a-2");
   const auto ours = model(vertices + "g a-1\nusemtl party_wall\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n" +
                               "usemtl roof\nf 5 6 7 8\ng a-2\nusemtl ground\nf 1 4 3 2\n",
                           "m.obj");

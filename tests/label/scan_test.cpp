@@ -170,4 +170,43 @@ TEST(Classes_from, are_those_of_the_nearest_triangle) {
   EXPECT_EQ(mansard::label::classes_from(above.mesh, scene.mesh, scene.truth).front(), other);  // 3 m off
 }
 
+/// z of a triangle's centre, m.
+auto height(const Scene& scene, std::size_t t) -> double {
+  double z = 0;
+  for (const auto v : scene.mesh.triangles[t]) z += scene.mesh.vertices[v].z / 3;
+  return z;
+}
+
+TEST(Walls_and_roofs, are_those_of_the_nearest_face_of_a_model) {
+  const auto scene = field_with_house();
+  const auto given = mansard::label::nearest_wall_or_roof(scene.mesh, model_of());
+  const auto above = mansard::label::above_ground(scene.mesh, model_of());
+  const auto by_normal = mansard::label::wall_or_roof_by_normal(scene.mesh);
+  std::size_t high = 0;
+  for (std::size_t t = 0; t < scene.truth.size(); ++t) {
+    const double z = height(scene, t);
+    EXPECT_EQ(above[t], z > 0.5) << z;
+    EXPECT_NE(given[t], ground);
+    if (!above[t]) continue;
+    EXPECT_EQ(given[t], scene.truth[t]) << z;
+    EXPECT_EQ(by_normal[t], scene.truth[t]) << z;
+    ++high;
+  }
+  EXPECT_GT(high, 1000U);
+  auto nothing = model_of();
+  nothing.classes.assign(nothing.classes.size(), ground);
+  EXPECT_EQ(mansard::label::nearest_wall_or_roof(scene.mesh, nothing).front(), other);
+}
+
+TEST(Walls_and_roofs, by_the_normal_part_at_fifty_degrees) {
+  const auto slope = [](double degrees) {
+    Scene one;
+    const double angle = degrees * 3.14159265358979 / 180;
+    one.add({0, 0, 0}, {1, 0, 0}, {0, std::cos(angle), std::sin(angle)}, roof);
+    return mansard::label::wall_or_roof_by_normal(one.mesh).front();
+  };
+  EXPECT_EQ(slope(49), roof);
+  EXPECT_EQ(slope(51), wall);
+}
+
 }  // namespace

@@ -147,7 +147,7 @@ TEST(Report, counts_every_footprint_and_every_term) {
               o["sweep_unused"].get<double>() + o["unsupported"].get<double>() + o["height"].get<double>() +
                   o["thin"].get<double>(),
               1e-6);
-  for (const auto* stage : {"block", "slice", "sweep", "fracture", "segment", "profile", "extrude", "label", "evaluate"})
+  for (const auto* stage : {"block", "slice", "sweep", "fracture", "segment", "profile", "refine", "label", "evaluate"})
     EXPECT_TRUE(report["seconds"].contains(stage)) << stage;
   EXPECT_EQ(report["options"]["segment.alpha"], "40");
 }

@@ -42,6 +42,20 @@ TEST(Cuts, are_the_sweep_edges_in_their_order_and_then_the_party_walls) {
   EXPECT_EQ(cuts_of(edges, block, paper).size(), 3U);
 }
 
+TEST(Cuts, of_roof_steps_come_last_and_do_not_go_on) {
+  sweep::SweepEdges edges;
+  edges.edges = {{{{0, 1}, {12, 1}}, 6, 5, 6, 0}, {{{0, 8}, {0, 0}}, 40, 0, 5, 0}};
+  edges.edges[0].evidence = sweep::Evidence::roof_step;
+  block::Block block;
+  block.members = {member(0, rectangle(0, 0, 12, 8))};
+  const auto cuts = cuts_of(edges, block, {});
+  ASSERT_EQ(cuts.size(), 5U) << "the step stands for no wall: three sides of the footprint are torn";
+  EXPECT_EQ(cuts.front().source, 1U);
+  EXPECT_FALSE(cuts.front().continuation);
+  EXPECT_EQ(cuts.back().source, 0U);
+  EXPECT_EQ(cuts.back().continuation, 0.0);
+}
+
 TEST(PartyLines, find_party_walls_that_do_not_quite_touch_once) {
   block::Block block;
   block.members = {member(0, rectangle(0, 0, 6, 10)), member(1, rectangle(6.15, -2, 5, 20))};
@@ -98,15 +112,37 @@ TEST(TornLines, are_the_whole_outline_where_the_mesh_shows_no_wall) {
   EXPECT_NEAR(length_of(lines[3]), 8, 1e-9);
 }
 
-TEST(TornLines, are_only_the_stretches_that_no_sweep_edge_follows) {
+TEST(TornLines, are_only_the_stretches_that_no_sweep_edge_stands_on) {
   block::Block block;
   block.members = {member(0, rectangle(0, 0, 12, 8))};
-  // The south wall is known up to x = 7, a metre inside; the others in full; the east wall 2 m off does not count.
   const auto lines = detail::torn_lines(
-      block, walls({{{0, 1}, {7, 1}}, {{12, 8}, {0, 8}}, {{0, 8}, {0, 0}}, {{14, 0}, {14, 8}}}));
-  ASSERT_EQ(lines.size(), 2U);
+      block, walls({{{0, 0.1}, {7, 0.1}}, {{12, 8}, {0, 8}}, {{0, 8}, {0, 0}}, {{14, 0}, {14, 8}}}));
+  ASSERT_EQ(lines.size(), 2U) << "what is left of the south wall, and the east wall, which was seen 2 m off";
   EXPECT_EQ(lines[0], (Segment2{{12, 0}, {12, 8}}));
   EXPECT_EQ(lines[1], (Segment2{{7, 0}, {12, 0}}));
+}
+
+TEST(TornLines, run_beside_walls_that_were_found_elsewhere) {
+  block::Block block;
+  block.members = {member(0, rectangle(0, 0, 12, 8))};
+  const auto lines = detail::torn_lines(
+      block, walls({{{0, 0.6}, {12, 0.6}}, {{12, 8}, {0, 8}}, {{0, 8}, {0, 0}}, {{12, 0}, {12, 8}}}));
+  ASSERT_EQ(lines.size(), 1U) << "what lies between the two is for the mesh's heights to say";
+  EXPECT_EQ(lines[0], (Segment2{{0, 0}, {12, 0}}));
+}
+
+TEST(TornLines, go_where_the_footprints_were_moved) {
+  block::Block block;
+  block.members = {member(0, rectangle(0, 0, 12, 8))};
+  sweep::SweepEdges none;
+  none.registration.shift = {0.5, -0.25};
+  const auto cuts = cuts_of(none, block, {});
+  ASSERT_EQ(cuts.size(), 4U);
+  for (const auto& cut : cuts)
+    for (const Point2 p : {cut.segment.start, cut.segment.end}) {
+      EXPECT_TRUE(p.x == 0.5 || p.x == 12.5) << p.x;
+      EXPECT_TRUE(p.y == -0.25 || p.y == 7.75) << p.y;
+    }
 }
 
 TEST(TornLines, leave_party_walls_to_the_party_lines) {

@@ -60,6 +60,30 @@ TEST(Scan, follows_turned_walls_and_sloped_roofs_within_the_resolution) {  // gu
   EXPECT_GT(looked_at, 500U);
 }
 
+TEST(Scan, calls_nothing_ground_that_hangs_from_a_tree) {
+  auto options = clean();
+  options.height_field = true;
+  options.resolution = 0.35;
+  options.trees = 40;
+  options.margin = 25;
+  const auto scan = scanned(test::truth_of({test::house("a", 0, 0, 12, 10, 6)}), options);
+  double hanging = 0, ground = 0;
+  for (std::size_t t = 0; t < scan.classes.size(); ++t) {
+    const auto across = test::across(scan.mesh, scan.mesh.triangles[t]);
+    const double area = length(across) / 2, z = test::centre(scan.mesh, scan.mesh.triangles[t]).z;
+    const auto p = test::centre(scan.mesh, scan.mesh.triangles[t]);
+    const bool by_house = p.x > -1 && p.x < 13 && p.y > -1 && p.y < 11;
+    if (z > 0.6) {
+      EXPECT_NE(scan.classes[t], Class::ground) << p.x << " " << p.y << " " << p.z;
+      if (!by_house && across.z < area) hanging += scan.classes[t] == Class::other ? area : 0;
+    } else if (scan.classes[t] == Class::ground) {
+      ground += area;
+    }
+  }
+  EXPECT_GT(hanging, 100);
+  EXPECT_GT(ground, 1000);
+}
+
 TEST(Scan, without_noise_is_labelled_as_its_geometry_says) {
   const auto scan = scanned(test::truth_of({test::house("a", 0, 0, 12, 10, 6, 3)}), clean());
   std::map<Class, std::size_t> right, all;

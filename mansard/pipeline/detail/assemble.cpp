@@ -77,6 +77,11 @@ auto attributes_of(const PartResult& part, const BlockReport& block, double z0) 
     out.emplace_back("ms_fallback", std::monostate{});
   else
     out.emplace_back("ms_fallback", part.reasons.empty() ? std::string("unknown") : part.reasons.front().code);
+  if (!part.changes.empty()) {
+    std::string words;
+    for (const auto& change : part.changes) words += (words.empty() ? "" : "; ") + change;
+    out.emplace_back("ms_refined", words);
+  }
   out.emplace_back("ms_block", block.name);
   out.emplace_back("ms_opt_status", block.status);
   out.emplace_back("ms_opt_gap", block.objective - block.bound);

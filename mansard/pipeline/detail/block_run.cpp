@@ -1,5 +1,7 @@
 #include "mansard/pipeline/detail/block_run.hpp"
 
+#include "mansard/pipeline/detail/assemble.hpp"
+
 #include <algorithm>
 #include <limits>
 
@@ -23,32 +25,6 @@ auto heights_over(const rays::Scene& surface, const Polygon& polygon, double gri
         if (const auto z = surface.top({x, y})) heights.push_back(*z);
   std::ranges::sort(heights);
   return heights;
-}
-
-/// Raises a fitted plan with each candidate cap and keeps the one nearest to the mesh. The candidates come likeliest
-/// first, and a later one must be clearly better, by a share and by an amount, so that noise does not choose.
-auto raise_best(const profile::ProfiledFootprint& fitted, const Polygon& polygon, const rays::Scene& mesh,
-                const Options& options, const base::Run& run) -> base::Result<std::pair<geometry::Plan, extrude::Raised>> {
-  constexpr double clearly = 0.95, noticeably = 1e-3;  // of the error, and m²
-  std::optional<std::pair<geometry::Plan, extrude::Raised>> best;
-  std::optional<base::Diagnostic> failure;
-  double least = std::numeric_limits<double>::infinity();
-  for (const double cap : fitted.caps) {
-    geometry::Plan plan = fitted.plan;
-    plan.cap = cap;
-    auto raised = raise_part(plan, options, run);
-    if (!raised) {
-      failure = raised.error();
-      continue;
-    }
-    const double error = evaluate::error_over(raised->solid, polygon, mesh, options.cap_grid);
-    if (!best || error < clearly * least - noticeably) {
-      best = {std::move(plan), std::move(*raised)};
-      least = error;
-    }
-  }
-  if (best) return std::move(*best);
-  return *failure;
 }
 
 auto no_mesh() -> base::Diagnostic {
@@ -82,7 +58,7 @@ void measure(PartResult& part, const rays::Scene& mesh, const Options& options) 
   const auto polygon = geometry::polygon_of(part.plan);
   if (triangles) {
     const rays::Scene roof(geometry::Mesh{part.model.solid.vertices, triangles->triangles});
-    part.roof = heights_over(roof, polygon, options.cap_grid);
+    part.roof = heights_over(roof, polygon, options.roof_grid);
   }
   if (part.roof.empty()) {  // smaller than the grid
     for (const auto& v : part.model.solid.vertices)
@@ -93,6 +69,14 @@ void measure(PartResult& part, const rays::Scene& mesh, const Options& options) 
   if (std::isfinite(mse)) part.mse = mse;
 }
 
+/// Whoever asks for simpler profiles is not given finer ones by the back door.
+auto refining_of(const Options& options) -> refine::Options {
+  refine::Options out = options.refine;
+  if (options.profile.quality == profile::Quality::simple) out.effort = refine::Effort::caps;
+  if (options.profile.quality == profile::Quality::moderate) out.effort = std::min(out.effort, refine::Effort::planes);
+  return out;
+}
+
 /// Parts from the segmentation, each raised along its profiles.
 auto raise_parts(const segment::Segmentation& segmentation, const block::Block& block, const rays::Scene& mesh,
                  const Options& options, const base::Run& run, BlockResult& out) -> std::vector<PartResult> {
@@ -100,35 +84,34 @@ auto raise_parts(const segment::Segmentation& segmentation, const block::Block& 
   const auto fitted = profile::fit(segmentation, block, mesh, options.profile, run);
   out.report.times.push_back({"profile", fitting.seconds()});
 
-  const Watch raising;
-  std::vector<std::optional<PartResult>> raised(fitted.size());
-  base::parallel_for(fitted.size(), [&](std::size_t i) {
-    if (run.cancelled()) return;  // the whole run is given up then
+  const Watch refining;
+  std::vector<PartResult> parts;
+  std::vector<refine::Draft> drafts;
+  for (std::size_t i = 0; i < fitted.size(); ++i) {
     const auto& source = segmentation.parts[i];
     const std::size_t feature = source.feature.value_or(block.members.front().feature);
-    if (heights_over(mesh, source.polygon, options.cap_grid).empty()) {  // the footprints alone say there is a building
-      raised[i] = plain_prism(feature, source.polygon, fitted[i].plan.base, {}, options, no_mesh(), run);
-      return;
+    if (heights_over(mesh, source.polygon, options.roof_grid).empty()) {  // the footprints alone say there is a building
+      if (auto prism = plain_prism(feature, source.polygon, fitted[i].plan.base, {}, options, no_mesh(), run))
+        parts.push_back(std::move(*prism));
+      continue;
     }
-    auto best = raise_best(fitted[i], source.polygon, mesh, options, run);
-    if (!best) return;
-    PartResult part;
-    part.feature = feature;
-    part.plan = std::move(best->first);
-    part.full = best->second.outcome == extrude::Outcome::full;
-    if (!part.full) part.reasons = std::move(best->second.warnings);
-    part.model.solid = std::move(best->second.solid);
-    raised[i] = std::move(part);
-  });
-  std::vector<PartResult> parts;
-  for (std::size_t i = 0; i < raised.size(); ++i) {
-    if (raised[i])
-      parts.push_back(std::move(*raised[i]));
-    else
-      out.warnings.push_back(base::warning("extrude-not-simple", "a part of the segmentation could not be raised",
-                                           block.name + " part " + std::to_string(i)));
+    drafts.push_back({feature, fitted[i].plan, fitted[i].caps, fitted[i].alternatives});
   }
-  out.report.times.push_back({"extrude", raising.seconds()});
+  auto refined = refine::refine(drafts, mesh, refining_of(options), with_grid(options.extrude), run);
+  for (auto& from : refined.parts) {
+    PartResult part;
+    part.feature = from.owner;
+    part.plan = std::move(from.plan);
+    part.full = from.raised.outcome == extrude::Outcome::full;
+    if (!part.full) part.reasons = std::move(from.raised.warnings);
+    part.model.solid = std::move(from.raised.solid);
+    part.changes = std::move(from.changes);
+    parts.push_back(std::move(part));
+  }
+  for (const auto& [draft, why] : refined.failed)
+    out.warnings.push_back(base::warning(why.code, "a part of the segmentation could not be raised: " + why.message,
+                                         block.name + " part " + std::to_string(draft)));
+  out.report.times.push_back({"refine", refining.seconds()});
   return parts;
 }
 
@@ -165,7 +148,7 @@ void fill_in(const block::Block& block, const rays::Scene& mesh, const Options& 
     if (std::ranges::any_of(parts, [&](const auto& part) { return part.feature == member.feature; })) continue;
     bool any = false;
     for (const auto& polygon : uncovered(member, parts)) {
-      const auto heights = heights_over(mesh, polygon, options.cap_grid);
+      const auto heights = heights_over(mesh, polygon, options.roof_grid);
       const bool low = !heights.empty() && percentile(heights, 0.5) - member.ground < options.segment.min_height;
       const auto why = heights.empty() ? no_mesh()
                        : block_failure ? *block_failure

@@ -48,7 +48,9 @@ auto segment_block(const block::Block& block, const rays::Scene& mesh, const Opt
   for (const auto& member : block.members) out.features.push_back(member.feature);
 
   const auto stack = stage("slice", tell, report, [&] { return slice::cut(block, options.slice, run); });
-  auto sweeps = stage("sweep", tell, report, [&] { return sweep::find_edges(stack, block, options.sweep, run); });
+  auto sweeps = stage("sweep", tell, report, [&] {
+    return sweep::with_roof_steps(sweep::find_edges(stack, block, options.sweep, run), block, mesh, options.sweep, run);
+  });
   auto arrangement = stage("fracture", tell, report, [&] {
     return fracture::arrange(segment::cuts_of(sweeps, block, options.segment), region_of(block), options.fracture, run);
   });

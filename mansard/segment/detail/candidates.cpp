@@ -9,8 +9,8 @@
 
 namespace mansard::segment::detail {
 
-auto candidates_of(const fracture::Arrangement& arrangement, const std::vector<FaceEvidence>& faces,
-                   const Options& options) -> std::vector<Candidate> {
+auto candidates_of(const fracture::Arrangement& arrangement, const sweep::SweepEdges& edges,
+                   const std::vector<FaceEvidence>& faces, const Options& options) -> std::vector<Candidate> {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> shared;
   for (std::uint32_t h = 0; h < arrangement.half_edges.size(); ++h) {
     const auto left = arrangement.half_edges[h].face;
@@ -22,18 +22,20 @@ auto candidates_of(const fracture::Arrangement& arrangement, const std::vector<F
   for (auto& [pair, half_edges] : shared) {
     Candidate c;
     c.left = pair.first, c.right = pair.second;
+    double on_sweep = 0;
     for (const std::uint32_t h : half_edges) {
       const fracture::HalfEdge& edge = arrangement.half_edges[h];
       const double length = length_of(arrangement, h);
       c.length += length;
       // A candidate may be a wall along one stretch and none along another: each stretch pays for itself.
-      if (is_sweep(edge, options)) c.sweep_length += length;
+      c.sweep_length += sweep_share(edge, edges, options) * length;
+      if (is_sweep(edge, options)) on_sweep += length;
       if (!is_supported(edge, options)) c.unsupported_length += length;
       if (pays_as_gis(edge, options)) c.gis_length += length;
     }
     c.half_edges = std::move(half_edges);
     c.height_difference = std::abs(faces[c.left].height - faces[c.right].height);
-    c.sweep = c.sweep_length > c.length / 2;
+    c.sweep = on_sweep > c.length / 2;
     c.forced = options.gis_edges == GisEdges::hard && faces[c.left].feature != faces[c.right].feature;
     candidates.push_back(std::move(c));
   }
@@ -119,7 +121,7 @@ auto problem_of(const fracture::Arrangement& arrangement, const std::vector<Face
   return problem;
 }
 
-auto terms_of(const fracture::Arrangement& arrangement,
+auto terms_of(const fracture::Arrangement& arrangement, const sweep::SweepEdges& edges,
               const std::vector<std::optional<std::uint32_t>>& label_of_face, const std::vector<Candidate>& candidates,
               const std::vector<std::optional<std::uint32_t>>& candidate_of, const std::vector<Conflict>& conflicts,
               double phi, const Options& options) -> Terms {
@@ -130,7 +132,7 @@ auto terms_of(const fracture::Arrangement& arrangement,
     if (!one || !other || !label_of_face[*one] || !label_of_face[*other]) continue;
     const double length = length_of(arrangement, h);
     if (*label_of_face[*one] == *label_of_face[*other]) {
-      if (is_sweep(edge, options)) terms.sweep_unused += options.alpha * length;
+      terms.sweep_unused += options.alpha * sweep_share(edge, edges, options) * length;
       if (pays_as_gis(edge, options)) terms.gis_unused += options.gis_alpha * length;
       terms.height += options.height_weight * length * candidates[*candidate_of[h]].height_difference;
     } else if (!is_supported(edge, options)) {

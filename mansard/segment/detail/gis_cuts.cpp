@@ -33,25 +33,23 @@ auto box_of(const Segment2& s) -> Box2 {
   return box;
 }
 
-/// The part of `edge`, from 0 to its length, where `other` runs along it within `reach` and at an angle of at most
-/// that sine; empty (from ≥ to) if none.
-auto shared(const Segment2& edge, const Segment2& other, double reach = near, double sine = parallel_sine)
-    -> std::pair<double, double> {
+/// The part of `edge`, from 0 to its length, where `other` runs along it; empty (from ≥ to) if none.
+auto shared(const Segment2& edge, const Segment2& other) -> std::pair<double, double> {
   const Point2 a = edge.end - edge.start, b = other.end - other.start;
   const double la = geometry::length(a), lb = geometry::length(b);
-  if (la == 0 || lb == 0 || std::abs(geometry::cross(a, b)) > sine * la * lb) return {0, 0};
+  if (la == 0 || lb == 0 || std::abs(geometry::cross(a, b)) > parallel_sine * la * lb) return {0, 0};
   double from = geometry::dot(other.start - edge.start, a) / la, to = geometry::dot(other.end - edge.start, a) / la;
   double aside_from = geometry::cross(a, other.start - edge.start) / la;
   double aside_to = geometry::cross(a, other.end - edge.start) / la;
   if (from > to) std::swap(from, to), std::swap(aside_from, aside_to);
-  // Where the other's distance, linear along it, is within ±reach.
+  // Where the other's distance, linear along it, is within ±near.
   const double slope = to > from ? (aside_to - aside_from) / (to - from) : 0;
   double low = from, high = to;
   if (slope != 0) {
-    double one = from + (-reach - aside_from) / slope, two = from + (reach - aside_from) / slope;
+    double one = from + (-near - aside_from) / slope, two = from + (near - aside_from) / slope;
     if (one > two) std::swap(one, two);
     low = std::max(low, one), high = std::min(high, two);
-  } else if (std::abs(aside_from) > reach) {
+  } else if (std::abs(aside_from) > near) {
     return {0, 0};
   }
   return {std::max(low, 0.0), std::min(high, la)};
@@ -69,9 +67,9 @@ auto merged(std::vector<std::pair<double, double>> stretches) -> std::vector<std
   return out;
 }
 
-void add_piece(const Segment2& edge, double from, double to, double least, std::vector<Segment2>& lines) {
+void add_piece(const Segment2& edge, double from, double to, std::vector<Segment2>& lines) {
   const Point2 along = geometry::normalised(edge.end - edge.start);
-  if (to - from >= least) lines.push_back({edge.start + from * along, edge.start + to * along});
+  if (to - from >= shortest) lines.push_back({edge.start + from * along, edge.start + to * along});
 }
 
 auto longest_first(std::vector<Segment2> lines) -> std::vector<Segment2> {
@@ -105,40 +103,35 @@ auto party_lines(const block::Block& block) -> std::vector<Segment2> {
           const auto stretch = shared(edge, other);
           if (stretch.first < stretch.second) stretches.push_back(stretch);
         }
-      for (const auto& [from, to] : merged(std::move(stretches))) add_piece(edge, from, to, shortest, lines);
+      for (const auto& [from, to] : merged(std::move(stretches))) add_piece(edge, from, to, lines);
     }
   }
   return longest_first(std::move(lines));
 }
 
 auto torn_lines(const block::Block& block, const sweep::SweepEdges& sweeps) -> std::vector<Segment2> {
-  constexpr double reach = 1.5;        // m; how far beside the GIS edge its wall may have been found
-  constexpr double sine = 0.3;         // … and how far turned
-  constexpr double least_edge = 1.0;   // m; of an edge of which nothing is known
-  constexpr double least_piece = 1.5;  // m; what is shorter beside a known wall is left to that wall's continuation
   std::vector<std::vector<Segment2>> edges;
   for (const auto& member : block.members) edges.push_back(edges_of(member));
   std::vector<Segment2> lines;
   for (std::size_t m = 0; m < edges.size(); ++m)
     for (const Segment2& edge : edges[m]) {
-      const Box2 box = box_of(edge).grown(reach);
+      const Box2 box = box_of(edge).grown(near);
       std::vector<std::pair<double, double>> known;  // stretches along which the wall is known already
-      const auto look = [&](const Segment2& other, double by, double turned) {
+      const auto look = [&](const Segment2& other) {
         if (!box.overlaps(box_of(other))) return;
-        const auto stretch = shared(edge, other, by, turned);
+        const auto stretch = shared(edge, other);
         if (stretch.first < stretch.second) known.push_back(stretch);
       };
-      for (const auto& sweep : sweeps.edges) look(sweep.segment, reach, sine);
+      for (const auto& sweep : sweeps.edges) look(sweep.segment);
       for (std::size_t n = 0; n < edges.size(); ++n)
         if (n != m)
-          for (const Segment2& other : edges[n]) look(other, near, parallel_sine);
-      const double least = known.empty() ? least_edge : least_piece;
+          for (const Segment2& other : edges[n]) look(other);
       double from = 0;
       for (const auto& [first, last] : merged(std::move(known))) {
-        add_piece(edge, from, first, least, lines);
+        add_piece(edge, from, first, lines);
         from = last;
       }
-      add_piece(edge, from, geometry::length(edge.end - edge.start), least, lines);
+      add_piece(edge, from, geometry::length(edge.end - edge.start), lines);
     }
   return longest_first(std::move(lines));
 }

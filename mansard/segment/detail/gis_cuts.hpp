@@ -13,8 +13,9 @@ namespace mansard::segment::detail {
 /// stretch: the one of the member listed first. Longest first; ties by coordinates.
 [[nodiscard]] auto party_lines(const block::Block& block) -> std::vector<geometry::Segment2>;
 
-/// The stretches of the members' other edges that no sweep-edge follows: walls the mesh does not show, because they are
-/// torn, too low, or cut off at the end of a tile. Longest first; ties by coordinates.
+/// The stretches of the members' other edges on which no sweep-edge stands: walls the mesh does not show, because
+/// they are torn, too low, or cut off at the end of a tile, and walls it shows elsewhere. Longest first; ties by
+/// coordinates.
 [[nodiscard]] auto torn_lines(const block::Block& block, const sweep::SweepEdges& sweeps)
     -> std::vector<geometry::Segment2>;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace mansard::simulate::detail {
 namespace {
@@ -10,8 +11,12 @@ using geometry::Point3;
 
 auto label_of(Point3 p, Point3 normal, const World& world, const std::vector<const Object*>& objects,
               const Nearest& nearest, double radius) -> Label {
-  double best = std::abs(p.z - world.terrain.at(xy(p))) * std::max(normal.z, 0.2) + Nearest::turned * (1 - normal.z);
+  // In 2.5-D, triangles hang from crowns and roofs to the street: in between there is nothing of the ground.
+  constexpr double hanging = 0.5;  // m; a melted edge, or a bump, lifts the ground by less
+  const double off = std::abs(p.z - world.terrain.at(xy(p)));
+  double best = off * std::max(normal.z, 0.2) + Nearest::turned * (1 - normal.z);
   Label label{Class::ground, Scan::none};
+  if (off > hanging) best = std::numeric_limits<double>::infinity(), label.kind = Class::other;
   for (const Object* object : objects)
     if (const double cost = object->distance(p); cost < best) best = cost, label = {Class::other, Scan::none};
   // First nearby, then as far as asked: most surfaces lie where they should.

@@ -293,12 +293,16 @@ auto select_edges(std::vector<Side> sides, const LineStack& lines, const slice::
   }
   drop_twins(result);
   renumber_clusters(result);
-  std::sort(result.edges.begin(), result.edges.end(), [](const SweepEdge& a, const SweepEdge& b) {
+  sort_longest_first(result.edges);
+  return result;
+}
+
+void sort_longest_first(std::vector<SweepEdge>& edges) {
+  std::sort(edges.begin(), edges.end(), [](const SweepEdge& a, const SweepEdge& b) {
     const double la = span(a.segment), lb = span(b.segment);
     if (la != lb) return la > lb;
     return a.segment != b.segment ? a.segment < b.segment : a.cluster < b.cluster;
   });
-  return result;
 }
 
 }  // namespace mansard::sweep::detail

@@ -15,4 +15,7 @@ namespace mansard::sweep::detail {
                                 const slice::SliceStack& stack, const block::Block& block,
                                 const Options& options) -> SweepEdges;
 
+/// Ties by coordinates, then by cluster.
+void sort_longest_first(std::vector<SweepEdge>& edges);
+
 }  // namespace mansard::sweep::detail

@@ -73,6 +73,7 @@ auto obj_text(const City& city, const Keys& keys, const std::string& mtl_name) -
       const auto facets = facets_of(part);
       if (!facets) return facets.error();
 
+      if (p == 0) out += "o " + one_word(keys.buildings[b]) + "\n";
       out += "g " + one_word(keys.parts[b][p]) + "\n";
       std::map<geometry::Point3, std::size_t> number_of;
       std::string faces;

@@ -1,0 +1,168 @@
+#include "mansard/refine/detail/forms.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+
+#include "mansard/refine/detail/lines.hpp"
+
+namespace mansard::refine::detail {
+namespace {
+
+using geometry::Plan;
+using geometry::PlanRing;
+using geometry::Point2;
+using geometry::Profile;
+
+template <class See>
+void each_edge(const Plan& plan, See see) {
+  const auto ring = [&see](const PlanRing& r) {
+    for (std::size_t i = 0; i < r.points.size(); ++i)
+      see(r.points[i], r.points[(i + 1) % r.points.size()], r.profile_of_edge[i]);
+  };
+  ring(plan.outer);
+  for (const auto& hole : plan.holes) ring(hole);
+}
+
+/// An edge that carries roof.
+struct Eaves {
+  Point2 start, along;  ///< along: unit
+  double length = 0;    ///< m
+};
+auto eaves_of(const Plan& plan, const std::vector<bool>& carries) -> std::vector<Eaves> {
+  std::vector<Eaves> out;
+  each_edge(plan, [&](Point2 a, Point2 b, std::uint32_t profile) {
+    const double length = geometry::length(b - a);
+    if (carries[profile] && length > 0) out.push_back({a, (1 / length) * (b - a), length});
+  });
+  return out;
+}
+
+/// Metres to the nearest of those in whose strip, widened by 45° to both sides, the place lies.
+auto distance_inward(const std::vector<Eaves>& eaves, Point2 at) -> std::optional<double> {
+  std::optional<double> nearest;
+  for (const Eaves& edge : eaves) {
+    const double d = dot(at - edge.start, geometry::left_of(edge.along)), t = dot(at - edge.start, edge.along);
+    if (d >= 0 && t >= -d && t <= edge.length + d && (!nearest || d < *nearest)) nearest = d;
+  }
+  return nearest;
+}
+
+/// The one line that suits all sides that carry roof.
+auto common_line(const Plan& plan, const std::vector<bool>& carries, const Site& site) -> std::optional<RoofLine> {
+  constexpr std::size_t enough = 800;  // looks; more would not move it
+  const std::size_t stride = 1 + site.cells.size() / enough;
+  const auto eaves = eaves_of(plan, carries);
+  std::vector<Look> looks;
+  double mean = 0;
+  for (std::size_t i = 0; i < site.cells.size(); i += stride) {
+    const auto cell = site.cells[i];
+    const Point2 at = site.measured.centre(cell % site.measured.columns, cell / site.measured.columns);
+    const auto d = distance_inward(eaves, at);
+    if (!d) continue;
+    looks.push_back({*d, site.measured.z[cell], site.weight[i]});
+    mean += site.measured.z[cell];
+  }
+  if (looks.empty()) return std::nullopt;
+  return line_through(looks, {mean / static_cast<double>(looks.size()), 0});
+}
+
+/// The directions of the plan's longest sides, of each pair of opposite ones one.
+auto axes_of(const std::vector<Side>& sides) -> std::vector<Point2> {
+  std::vector<std::size_t> order(sides.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::ranges::stable_sort(order, std::greater<>{}, [&](std::size_t i) { return sides[i].length; });
+  constexpr double alike = 0.9;  // cosine of about 26°
+  constexpr std::size_t most = 3;
+  std::vector<Point2> axes;
+  for (const std::size_t i : order) {
+    const bool known = std::ranges::any_of(
+        axes, [&](Point2 axis) { return std::abs(dot(axis, sides[i].inward)) > alike; });
+    if (!known && axes.size() < most) axes.push_back(sides[i].inward);
+  }
+  return axes;
+}
+
+/// Sides much shorter than both of their neighbours, at outer corners: where gables stand on bent plans.
+auto ends_of(const Plan& plan, const std::vector<Side>& sides) -> std::vector<bool> {
+  std::vector<bool> ends(sides.size(), false);
+  const auto& ring = plan.outer;
+  const std::size_t n = ring.points.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto before = ring.profile_of_edge[(i + n - 1) % n], here = ring.profile_of_edge[i],
+               after = ring.profile_of_edge[(i + 1) % n];
+    if (before == here || after == here) continue;
+    const double turn_in = cross(sides[before].inward, sides[here].inward);
+    const double turn_out = cross(sides[here].inward, sides[after].inward);
+    constexpr double clear_turn = 0.5;
+    ends[here] = turn_in > clear_turn && turn_out > clear_turn &&
+                 sides[here].length < 1.2 * std::min(sides[before].length, sides[after].length);
+  }
+  return ends;
+}
+
+}  // namespace
+
+auto wall(double height) -> Profile { return {{0, 0}, {0, std::max(0.5, height)}}; }
+
+auto pitched(double gutter, double slope) -> Profile {
+  if (!(gutter > 0)) return {{0, 0}, {1, slope}};
+  return {{0, 0}, {0, gutter}, {1, gutter + slope}};
+}
+
+auto sides_of(const Plan& plan) -> std::vector<Side> {
+  std::vector<Side> sides(plan.profiles.size());
+  each_edge(plan, [&](Point2 a, Point2 b, std::uint32_t profile) {
+    sides[profile].inward = sides[profile].inward + geometry::left_of(b - a);
+    sides[profile].length += geometry::length(b - a);
+  });
+  for (auto& side : sides) side.inward = geometry::normalised(side.inward);
+  return sides;
+}
+
+auto forms_of(const Plan& plan, const Site& site) -> std::vector<Plan> {
+  std::vector<Plan> out;
+  if (site.sorted.empty()) return out;
+  constexpr double clear = 0.5;  // m; above the mesh, so that roofs can close
+  constexpr double least = 0.5;  // m; so that there is a solid at all
+  const auto share = [&](double s) {
+    return site.sorted[static_cast<std::size_t>(s * static_cast<double>(site.sorted.size() - 1))];
+  };
+  const double top = std::max(least, share(0.99) + clear);
+
+  for (const double level : {commonest(site.sorted), share(0.5)}) {
+    Plan flat = plan;
+    flat.cap = std::max(least, level);
+    for (auto& profile : flat.profiles) profile = wall(flat.cap);
+    out.push_back(std::move(flat));
+  }
+
+  const auto sides = sides_of(plan);
+  const auto propose = [&](const std::function<bool(std::size_t)>& carries_roof) {
+    std::vector<bool> carries(sides.size());
+    for (std::size_t p = 0; p < sides.size(); ++p) carries[p] = sides[p].length > 0 && carries_roof(p);
+    if (std::ranges::none_of(carries, [](bool c) { return c; })) return;
+    const auto line = common_line(plan, carries, site);
+    constexpr double flattest = 0.05, steepest = 5.0;
+    if (!line || line->slope < flattest || line->slope > steepest) return;
+    Plan form = plan;
+    form.cap = top;
+    for (std::size_t p = 0; p < sides.size(); ++p)
+      form.profiles[p] = carries[p] ? pitched(line->at_edge, line->slope) : wall(std::max(least, line->at_edge));
+    out.push_back(std::move(form));
+  };
+  constexpr double across = 0.8;  // cosine of 37°
+  for (const Point2 axis : axes_of(sides)) {
+    propose([&](std::size_t p) { return std::abs(dot(sides[p].inward, axis)) > across; });
+    propose([&](std::size_t p) { return dot(sides[p].inward, axis) > across; });
+    propose([&](std::size_t p) { return dot(sides[p].inward, axis) < -across; });
+  }
+  const auto ends = ends_of(plan, sides);
+  propose([&](std::size_t p) { return !ends[p]; });
+  propose([](std::size_t) { return true; });
+  return out;
+}
+
+}  // namespace mansard::refine::detail

@@ -1,0 +1,28 @@
+// The roofs that a plan may carry: flat, of one pitch, gabled either way, hipped.
+#pragma once
+
+#include <vector>
+
+#include "mansard/geometry/plan.hpp"
+#include "mansard/refine/detail/site.hpp"
+
+namespace mansard::refine::detail {
+
+/// The plan with the common forms of roof, each with gutter height and pitch as the site's looks suggest, and as many
+/// flat ones as there are levels to end at. Profiles of the plan keep their numbers.
+[[nodiscard]] auto forms_of(const geometry::Plan& plan, const Site& site) -> std::vector<geometry::Plan>;
+
+/// A wall up to there, metres.
+[[nodiscard]] auto wall(double height) -> geometry::Profile;
+/// A wall up to the gutter, then a roof.
+[[nodiscard]] auto pitched(double gutter, double slope) -> geometry::Profile;
+
+/// The edges of one profile.
+struct Side {
+  geometry::Point2 inward;  ///< unit; of its edges together, longer ones counting more
+  double length = 0;        ///< m
+};
+/// Per profile of the plan.
+[[nodiscard]] auto sides_of(const geometry::Plan& plan) -> std::vector<Side>;
+
+}  // namespace mansard::refine::detail

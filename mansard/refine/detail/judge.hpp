@@ -1,0 +1,36 @@
+// A plan raised, seen from above and held against the mesh.
+#pragma once
+
+#include "mansard/extrude/extrude.hpp"
+#include "mansard/refine/detail/site.hpp"
+#include "mansard/refine/detail/view.hpp"
+
+namespace mansard::refine::detail {
+
+struct Judged {
+  geometry::Plan plan;
+  extrude::Solid sketch;
+  View view;
+  double misfit = 0;  ///< m² · m²: weighed robust squared differences times their area
+  double cost = 0;    ///< misfit and the price of the faces
+};
+
+class Judge {
+ public:
+  Judge(const Site& site, const Options& options, const extrude::Options& raising, const base::Run& run)
+      : site_(site), options_(options), raising_(raising), run_(run) {}
+
+  /// Gives up where the plan cannot be raised in full.
+  [[nodiscard]] auto operator()(const geometry::Plan& plan) const -> base::Result<Judged>;
+
+  [[nodiscard]] auto site() const -> const Site& { return site_; }
+  [[nodiscard]] auto options() const -> const Options& { return options_; }
+
+ private:
+  const Site& site_;
+  const Options& options_;
+  const extrude::Options& raising_;
+  const base::Run& run_;
+};
+
+}  // namespace mansard::refine::detail

@@ -1,0 +1,26 @@
+// Robust straight lines through heights over a distance: what a roof plane is, seen along its edge.
+#pragma once
+
+#include <optional>
+#include <span>
+
+namespace mansard::refine::detail {
+
+struct Look {
+  double inward = 0, height = 0;  ///< m
+  double weight = 1;
+};
+
+/// height = at_edge + slope · inward.
+struct RoofLine {
+  double at_edge = 0;  ///< m
+  double slope = 0;    ///< m per m
+};
+
+/// The line with the least sum of weighed robust squares, from `start`. None where the looks are too few or lie within
+/// too narrow a band to give a slope.
+[[nodiscard]] auto line_through(std::span<const Look> looks, RoofLine start) -> std::optional<RoofLine>;
+/// The same with the slope given: the weighed robust height at the edge.
+[[nodiscard]] auto raised_line(std::span<const Look> looks, RoofLine start) -> RoofLine;
+
+}  // namespace mansard::refine::detail

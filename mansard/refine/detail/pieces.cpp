@@ -1,0 +1,156 @@
+#include "mansard/refine/detail/pieces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "mansard/refine/detail/forms.hpp"
+
+namespace mansard::refine::detail {
+namespace {
+
+using geometry::Plan;
+using geometry::PlanRing;
+using geometry::Point2;
+using geometry::Polygon;
+using geometry::Ring;
+
+/// Metres of a → b that lie along an edge in the same direction.
+auto overlap(Point2 a, Point2 b, Point2 from, Point2 to) -> double {
+  constexpr double aside = 0.02;  // m; straightened neighbours differ by up to a centimetre
+  const double length = geometry::length(b - a), other = geometry::length(to - from);
+  if (!(length > 0) || !(other > 0)) return 0;
+  const Point2 along = (1 / length) * (b - a), across = geometry::left_of(along);
+  if (dot(along, to - from) <= 0) return 0;
+  if (std::abs(dot(from - a, across)) > aside || std::abs(dot(to - a, across)) > aside) return 0;
+  return std::min(length, dot(to - a, along)) - std::max(0.0, dot(from - a, along));
+}
+
+/// Of which origin, and which profile there.
+using Under = std::pair<std::size_t, std::uint32_t>;
+
+/// The profile that most of a → b lies on.
+auto profile_under(std::span<const Origin> origins, Point2 a, Point2 b) -> std::optional<Under> {
+  std::map<Under, double> lengths;
+  for (std::size_t o = 0; o < origins.size(); ++o) {
+    const auto add = [&](const PlanRing& ring) {
+      for (std::size_t i = 0; i < ring.points.size(); ++i) {
+        const double common = overlap(a, b, ring.points[i], ring.points[(i + 1) % ring.points.size()]);
+        if (common > 0) lengths[{o, ring.profile_of_edge[i]}] += common;
+      }
+    };
+    add(origins[o].roof.outer);
+    for (const auto& hole : origins[o].roof.holes) add(hole);
+  }
+  const auto longest = std::ranges::max_element(lengths, {}, [](const auto& entry) { return entry.second; });
+  const double half = geometry::length(b - a) / 2;
+  if (longest == lengths.end() || longest->second < half) return std::nullopt;
+  return longest->first;
+}
+
+/// Corners on straight lines, which cutting and joining leave behind, and repeated ones.
+auto cleaned(const Ring& ring, double straight) -> Ring {
+  Ring out = ring;
+  for (bool changed = true; changed && out.size() > 3;) {
+    changed = false;
+    for (std::size_t i = 0; i < out.size() && out.size() > 3; ++i) {
+      const Point2 before = out[(i + out.size() - 1) % out.size()], after = out[(i + 1) % out.size()];
+      if (geometry::distance({before, after}, out[i]) >= straight) continue;
+      out.erase(out.begin() + static_cast<std::ptrdiff_t>(i));
+      changed = true;
+    }
+  }
+  return out;
+}
+
+auto caps_of(const Site& site, double otherwise) -> std::vector<double> {
+  if (site.sorted.empty()) return {otherwise};
+  constexpr double clear = 0.5, least = 0.5, distinct = 0.05;  // m
+  const auto share = [&](double s) {
+    return site.sorted[static_cast<std::size_t>(s * static_cast<double>(site.sorted.size() - 1))];
+  };
+  std::vector<double> caps;
+  for (double cap : {commonest(site.sorted), share(0.99) + clear, share(0.99), share(0.5)}) {
+    cap = std::max(least, cap);
+    if (std::ranges::none_of(caps, [cap](double c) { return std::abs(c - cap) < distinct; })) caps.push_back(cap);
+  }
+  return caps;
+}
+
+}  // namespace
+
+auto mean_width(const Polygon& polygon) -> double {
+  double around = geometry::perimeter(polygon.outer);
+  for (const auto& hole : polygon.holes) around += geometry::perimeter(hole);
+  return 2 * geometry::area(polygon) / around;
+}
+
+auto cut(const Polygon& part, const Polygon& structure, double least_area) -> std::vector<Polygon> {
+  const auto inside = geometry::intersect(part, structure), rest = geometry::subtract(part, structure);
+  if (!inside || !rest || inside->empty() || rest->empty()) return {};
+  std::vector<Polygon> out = *rest;
+  std::ranges::stable_sort(out, [](const auto& a, const auto& b) { return geometry::area(a) > geometry::area(b); });
+  out.insert(out.end(), inside->begin(), inside->end());
+  constexpr double narrowest = 0.6;   // m; less is a strip along an edge, not a structure
+  constexpr double straight = 1e-6;   // m off the line of the neighbours
+  for (auto& piece : out) {
+    piece.outer = cleaned(piece.outer, straight);
+    for (auto& hole : piece.holes) hole = cleaned(hole, straight);
+    if (geometry::area(piece) < least_area || mean_width(piece) < narrowest || !geometry::is_simple(piece)) return {};
+  }
+  return out;
+}
+
+auto joined(const Polygon& a, const Polygon& b) -> std::optional<Polygon> {
+  constexpr double slit = 0.02;       // m; twice what straightening may have opened between neighbours
+  constexpr double straight = 1e-3;   // m; what closing the slits bends
+  const Polygon both[]{a, b};
+  auto united = geometry::unite(both);
+  if (!united || united->empty()) return std::nullopt;
+  Polygon out = united->front();
+  if (united->size() > 1 || !geometry::is_simple(out)) return std::nullopt;
+  std::erase_if(out.holes, [](const Ring& hole) { return std::abs(geometry::signed_area(hole)) < slit * geometry::perimeter(hole); });
+  out.outer = cleaned(out.outer, straight);
+  for (auto& hole : out.holes) hole = cleaned(hole, straight);
+  if (!geometry::is_simple(out)) return std::nullopt;
+  return out;
+}
+
+auto draft_of(std::span<const Origin> origins, const Site& piece) -> Draft {
+  Draft out;
+  const auto& first = origins.front();
+  out.owner = first.draft.owner;
+  std::map<Under, std::uint32_t> kept;  // profiles of the origins, by their new numbers
+  const double level = piece.sorted.empty() ? first.roof.cap : commonest(piece.sorted);
+  const auto ring_of = [&](const Ring& points) {
+    PlanRing ring{points, {}};
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto next = static_cast<std::uint32_t>(out.plan.profiles.size());
+      const auto under = profile_under(origins, points[i], points[(i + 1) % points.size()]);
+      if (!under) {
+        out.plan.profiles.push_back(wall(level));
+        out.alternatives.emplace_back();
+        ring.profile_of_edge.push_back(next);
+        continue;
+      }
+      const auto [at, is_new] = kept.try_emplace(*under, next);
+      if (is_new) {
+        const auto& [origin, profile] = *under;
+        const auto& others = origins[origin].draft.alternatives;
+        out.plan.profiles.push_back(origins[origin].roof.profiles[profile]);
+        out.alternatives.push_back(profile < others.size() ? others[profile] : std::vector<geometry::Profile>{});
+      }
+      ring.profile_of_edge.push_back(at->second);
+    }
+    return ring;
+  };
+  out.plan.outer = ring_of(piece.polygon.outer);
+  for (const auto& hole : piece.polygon.holes) out.plan.holes.push_back(ring_of(hole));
+  out.plan.base = first.roof.base;
+  out.caps = caps_of(piece, first.roof.cap);
+  out.plan.cap = out.caps.front();
+  return out;
+}
+
+}  // namespace mansard::refine::detail

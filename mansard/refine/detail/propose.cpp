@@ -1,0 +1,329 @@
+#include "mansard/refine/detail/propose.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+#include "mansard/refine/detail/propose_outline.hpp"
+#include "mansard/refine/detail/propose_raster.hpp"
+#include "mansard/refine/detail/propose_regions.hpp"
+#include "mansard/refine/detail/propose_split.hpp"
+#include "mansard/refine/detail/propose_surface.hpp"
+
+namespace mansard::refine::detail {
+namespace {
+
+using geometry::Polygon;
+using Mask = std::vector<std::uint8_t>;
+
+constexpr double melted = 0.5;             // m, of walls in a scan
+// What tells a roof from a tree's crown.
+constexpr double crisp = 0.15;             // m rms about a simple surface: a roof; a crown 3 m high has more
+constexpr double smooth = 0.35;            // m rms: a roof with its clutter,
+constexpr double full = 0.73;              // if it stands nearly as high at its melted rim as in its middle
+constexpr double smooth_by_height = 0.12;  // of the height it stands out by: a tower's clutter is larger
+constexpr double least_hipped = 16;        // m²; a crown smaller than that passes for a roof of four hips
+constexpr double fair_area = 30;           // m²; a roof so large may have hips, and structures upon it:
+constexpr double fairly_smooth = 0.45;     // m rms then,
+constexpr double smooth_share = 0.7;       // or that share of its cells on one plane
+constexpr double large_area = 80;          // m²; what is so large is no tree,
+constexpr double fair_share = 0.8;         // if cutting it off explains that share of the part's error
+// What makes a line across.
+constexpr double worth_a_line = 0.15;      // of the part's error, explained by it
+constexpr double least_side = 1.25;        // m, mean width of either side
+// Which cuts come first.
+constexpr double nearly_same = 0.25;       // of a cut's cells, on other sides in two cuts
+constexpr double cost_of_shape = 0.04;     // of the gain, per rectangle
+constexpr double cost_of_askew = 0.25;     // of the gain, for walls that no edge of the part goes along
+constexpr double other_direction = 0.14;   // rad, 8°
+constexpr std::size_t most_directions = 4;
+constexpr double enough_cells = 8000;      // to hold a cut against; of more, every second or third in each direction
+// What is too little to leave.
+constexpr double sliver_area = 1;          // m²
+constexpr double sliver_width = 0.5;       // m
+
+struct Cut {
+  Polygon polygon;
+  carve::Frame frame;
+  int shape = 0;  ///< 0 a line across, else how many rectangles
+  bool step = true;
+  Mask mask;
+  carve::Errors errors;
+  double gain = 0;  ///< m²·m²
+  [[nodiscard]] auto ranked() const -> double {
+    return gain * (1 - cost_of_shape * shape) * (frame.of_part ? 1 : 1 - cost_of_askew);
+  }
+};
+
+/// Area over the longer side of its box along the frame, metres.
+auto mean_width(const Polygon& polygon, const carve::Frame& frame) -> double {
+  const geometry::Box2 box = geometry::bounds(carve::in_frame(polygon, frame).outer);
+  return geometry::area(polygon) / std::max({box.most.x - box.least.x, box.most.y - box.least.y, 1e-9});
+}
+
+/// Whether what stands out is one roof rather than a tree.
+auto coherent(const carve::Raster& raster, const Cut& cut) -> bool {
+  const carve::Errors& e = cut.errors;
+  const bool inside = std::abs(e.inside_mean) >= std::abs(e.outside_mean);
+  Mask of_it = cut.mask;
+  if (!inside)
+    for (std::size_t k = 0; k < of_it.size(); ++k)
+      of_it[k] = raster.state[k] != carve::Cell::outside && !cut.mask[k] ? 1 : 0;
+  const double mean = std::abs(inside ? e.inside_mean : e.outside_mean);
+  const Mask core = carve::shrunk(raster, of_it, melted);
+  const carve::Fit fit = carve::fit_of(raster, core, cut.frame, smooth);
+  const double area = (inside ? e.inside : e.outside).count * raster.cell_area();
+  const double tolerance = std::max(area >= fair_area ? fairly_smooth : smooth, smooth_by_height * mean);
+  if (fit.rms <= tolerance && (fit.rms <= crisp || area >= fair_area || carve::fullness_of(raster, of_it) >= full))
+    return true;
+  const bool may_be_hipped = inside && area >= least_hipped && area < large_area;
+  if (may_be_hipped && carve::hipped_error(raster, core, cut.polygon) <= crisp) return true;
+  if (area >= fair_area && fit.near >= smooth_share) return true;
+  return area >= large_area && cut.gain >= fair_share * e.whole.model * raster.cell_area();
+}
+
+/// The cuts of one part as they are found, held against the cells as measured.
+class Cuts {
+ public:
+  Cuts(const Polygon& part, const carve::Raster& raster, const ProposeOptions& options)
+      : part_(part), raster_(raster), options_(options), area_(geometry::area(part)) {}
+
+  void consider(const Polygon& polygon, const carve::Frame& frame, int shape, bool step) {
+    const double piece = geometry::area(polygon);
+    if (piece < options_.least_area || area_ - piece < options_.least_area) return;
+    if (shape > 0 && mean_width(polygon, frame) < options_.least_width) return;
+    Cut cut{polygon, frame, shape, step, carve::cells_in(polygon, raster_), {}, 0};
+    cut.errors = carve::errors_of(raster_, cut.mask, frame);
+    cut.gain = cut.errors.gain() * raster_.cell_area();
+    if (!(cut.gain >= options_.least_gain)) return;
+    if (shape == 0 && cut.errors.gain() < worth_a_line * cut.errors.whole.best) return;
+    if (shape > 0 && !coherent(raster_, cut)) return;
+    found_.push_back(std::move(cut));
+  }
+
+  /// Best first, none nearly the same as a better one.
+  [[nodiscard]] auto best() && -> std::vector<Cut> {
+    std::ranges::stable_sort(found_, before);
+    std::vector<Cut> out;
+    for (Cut& cut : found_) {
+      if (out.size() == options_.most) break;
+      if (std::ranges::none_of(out, [&](const Cut& o) { return same(o, cut); })) out.push_back(std::move(cut));
+    }
+    return out;
+  }
+
+ private:
+  static auto before(const Cut& a, const Cut& b) -> bool {
+    if (a.ranked() != b.ranked()) return a.ranked() > b.ranked();
+    return a.polygon.outer < b.polygon.outer;
+  }
+
+  /// A piece and the rest around it are one cut; it is as large as the smaller of the two.
+  [[nodiscard]] auto same(const Cut& a, const Cut& b) const -> bool {
+    std::size_t in_a = 0, in_b = 0, crossed = 0, cells = 0;
+    for (std::size_t k = 0; k < a.mask.size(); ++k) {
+      if (raster_.state[k] == carve::Cell::outside) continue;
+      ++cells;
+      in_a += a.mask[k];
+      in_b += b.mask[k];
+      crossed += a.mask[k] ^ b.mask[k];
+    }
+    const std::size_t size = std::max(std::min(in_a, cells - in_a), std::min(in_b, cells - in_b));
+    return static_cast<double>(std::min(crossed, cells - crossed)) <= nearly_same * static_cast<double>(size);
+  }
+
+  const Polygon& part_;
+  const carve::Raster& raster_;
+  const ProposeOptions& options_;
+  double area_;
+  std::vector<Cut> found_;
+};
+
+/// The part's side of a line at x that lies beyond it in direction `way`, in the raster's frame.
+auto half_plane(const carve::Raster& raster, double x, int way) -> Polygon {
+  const geometry::Box2 box = geometry::bounds(raster.part.outer).grown(1);
+  const double from = way > 0 ? x : box.least.x, to = way > 0 ? box.most.x : x;
+  return {{{from, box.least.y}, {to, box.least.y}, {to, box.most.y}, {from, box.most.y}}, {}};
+}
+
+auto exchanged(Polygon polygon) -> Polygon {
+  for (auto& p : polygon.outer) std::swap(p.x, p.y);
+  std::ranges::reverse(polygon.outer);
+  return polygon;
+}
+
+void consider_lines(const Polygon& part, const carve::Raster& raster, bool across, const ProposeOptions& options,
+                    Cuts& cuts) {
+  const geometry::Box2 box = geometry::bounds(raster.part.outer);
+  const auto wide = [&](const Polygon& piece) {
+    return geometry::area(piece) >= options.least_area && mean_width(piece, raster.frame) >= least_side;
+  };
+  for (const carve::SplitLine& line : carve::split_lines(raster, options)) {
+    const double at = carve::aligned(raster, line.at, box.least.y, box.most.y);
+    std::array<std::vector<Polygon>, 2> sides;
+    for (const int way : {0, 1}) {
+      Polygon side = half_plane(raster, at, way == 0 ? -1 : 1);
+      if (across) side = exchanged(std::move(side));
+      sides[static_cast<std::size_t>(way)] = carve::pieces_in_part(part, side, raster.frame);
+      std::erase_if(sides[static_cast<std::size_t>(way)], [&](const Polygon& piece) { return !wide(piece); });
+    }
+    // What a line shaves off as a thin strip is the rim of an outline that is a little too large.
+    if (sides[0].empty() || sides[1].empty()) continue;
+    for (const auto& side : sides)
+      for (const Polygon& piece : side) cuts.consider(piece, raster.frame, 0, line.step);
+  }
+}
+
+void consider_regions(const Polygon& part, const carve::Raster& raster, const carve::Raster& turned,
+                      const ProposeOptions& options, Cuts& cuts, std::vector<carve::Frame>& directions) {
+  for (const carve::Region& region : carve::regions_of(raster, options)) {
+    int shape = 0;
+    for (const Polygon& outline : carve::outlines_of(raster, turned, region, options)) {
+      const auto pieces = carve::pieces_in_part(part, outline, raster.frame);
+      ++shape;
+      if (!pieces.empty()) cuts.consider(pieces.front(), raster.frame, shape, true);
+    }
+    carve::Frame own;
+    if (directions.size() >= most_directions || !carve::own_direction(raster, region, own)) continue;
+    if (std::ranges::all_of(directions, [&](const auto& d) { return carve::turn_between(d, own) > other_direction; }))
+      directions.push_back(own);
+  }
+}
+
+/// The piece with the slivers that it would leave, where that keeps it simple.
+auto without_slivers(const Polygon& part, Polygon piece) -> Polygon {
+  const auto rest = geometry::subtract(part, piece);
+  if (!rest) return piece;
+  std::vector<Polygon> together{piece};
+  for (const Polygon& r : *rest) {
+    const double area = geometry::area(r);
+    if (area < sliver_area || 2 * area < sliver_width * geometry::perimeter(r.outer)) together.push_back(r);
+  }
+  if (together.size() == 1) return piece;
+  auto united = geometry::unite(together);
+  return united && united->size() == 1 ? std::move(united->front()) : piece;
+}
+
+/// With the part's own corners where it has some, and no corner twice or on a straight line but those.
+auto tidied(const Polygon& part, const Polygon& piece) -> Polygon {
+  constexpr double same_place = 1e-6;  // m; above the rounding of a clip, below what anyone builds
+  std::vector<geometry::Point2> corners = part.outer;
+  for (const auto& hole : part.holes) corners.insert(corners.end(), hole.begin(), hole.end());
+  const auto at_corner = [&](geometry::Point2 p) { return std::ranges::find(corners, p) != corners.end(); };
+  const auto tidy = [&](const geometry::Ring& ring) {
+    geometry::Ring out;
+    for (geometry::Point2 p : ring) {
+      for (const geometry::Point2 c : corners)
+        if (length(p - c) < same_place) p = c;
+      if (out.empty() || length(p - out.back()) >= same_place) out.push_back(p);
+    }
+    while (out.size() > 1 && length(out.front() - out.back()) < same_place) out.pop_back();
+    for (std::size_t i = 0; i < out.size() && out.size() > 3;) {
+      const geometry::Segment2 past{out[(i + out.size() - 1) % out.size()], out[(i + 1) % out.size()]};
+      if (!at_corner(out[i]) && geometry::distance(past, out[i]) < same_place)
+        out.erase(out.begin() + static_cast<std::ptrdiff_t>(i));
+      else ++i;
+    }
+    return out;
+  };
+  Polygon out{tidy(piece.outer), {}};
+  for (const auto& hole : piece.holes)
+    if (geometry::Ring ring = tidy(hole); ring.size() > 2) out.holes.push_back(std::move(ring));
+  return out;
+}
+
+/// Whether part and piece can be told apart by polygon operations: rounding at shared walls defeats them now and then.
+auto sound(const Polygon& part, const Polygon& piece, double least_area) -> bool {
+  constexpr double nothing = 1e-6;  // m²
+  if (piece.outer.size() < 3 || !geometry::is_simple(piece)) return false;
+  const auto rest = geometry::subtract(part, piece), beyond = geometry::subtract(piece, part);
+  if (!rest || !beyond) return false;
+  const auto total = [](const std::vector<Polygon>& polygons) {
+    double sum = 0;
+    for (const Polygon& p : polygons) sum += geometry::area(p);
+    return sum;
+  };
+  const double left = total(*rest), own = geometry::area(piece);
+  return total(*beyond) < nothing && std::abs(left + own - geometry::area(part)) < nothing && own >= least_area &&
+         left >= least_area;
+}
+
+auto metres(double value) -> std::string {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f m", value);
+  return text;
+}
+
+/// How much higher the piece stands than what is next to it, both read near to but off the walls, which melt; nothing
+/// where unseen.
+auto rise_of(const carve::Raster& raster, const Mask& mask) -> std::optional<double> {
+  const Mask core = carve::shrunk(raster, mask, melted), rim = carve::grown(raster, mask, melted);
+  const Mask around = carve::grown(raster, mask, 4 * melted);
+  Mask part(mask.size()), rest(mask.size());
+  for (std::size_t k = 0; k < mask.size(); ++k) {
+    part[k] = raster.state[k] != carve::Cell::outside ? 1 : 0;
+    rest[k] = part[k] && !mask[k] ? 1 : 0;
+  }
+  const Mask beside = carve::grown(raster, rest, 4 * melted), off_eaves = carve::shrunk(raster, part, melted);
+  double in = 0, in_count = 0, out = 0, out_count = 0;
+  for (std::size_t k = 0; k < mask.size(); ++k) {
+    if (raster.state[k] != carve::Cell::seen || !off_eaves[k]) continue;
+    if (core[k] && beside[k]) in += raster.z[k], in_count += 1;
+    if (around[k] && !rim[k]) out += raster.z[k], out_count += 1;
+  }
+  if (in_count < 1 || out_count < 1) return std::nullopt;
+  return in / in_count - out / out_count;
+}
+
+auto words_for(const carve::Raster& raster, const Cut& cut, const ProposeOptions& options) -> std::string {
+  const bool line = cut.shape == 0;
+  if (line && !cut.step) return "another roof on either side of a line across";
+  const std::string beside = line ? "the other side of a line across" : "the roof around it";
+  const auto rise = rise_of(raster, cut.mask);
+  if (!rise || std::abs(*rise) < options.least_step / 2) return "a roof of its own beside " + beside;
+  return *rise > 0 ? "stands " + metres(*rise) + " above " + beside : "lies " + metres(-*rise) + " below " + beside;
+}
+
+/// Every so many cells of a fine grid.
+auto thinned(const Heights& heights, std::size_t every) -> Heights {
+  Heights out{heights.origin, heights.spacing * static_cast<double>(every), (heights.columns + every - 1) / every,
+              (heights.rows + every - 1) / every, {}};
+  out.z.reserve(out.columns * out.rows);
+  for (std::size_t j = 0; j < heights.rows; j += every)
+    for (std::size_t i = 0; i < heights.columns; i += every) out.z.push_back(heights.at(i, j));
+  return out;
+}
+
+}  // namespace
+
+auto propose(const Polygon& part, const Heights& measured, const Heights& model, const ProposeOptions& options)
+    -> std::vector<Proposal> {
+  const std::size_t cells = measured.columns * measured.rows;
+  if (part.outer.size() < 3 || cells == 0 || !(measured.spacing > 0)) return {};
+  if (measured.z.size() != cells || model.z.size() != cells) return {};
+  const double in_part = geometry::area(part) / (measured.spacing * measured.spacing);
+  const auto every = static_cast<std::size_t>(std::ceil(std::sqrt(std::max(1.0, in_part / enough_cells))));
+  const carve::Raster as_measured = carve::raster_of(part, thinned(measured, every), thinned(model, every), {});
+  Cuts cuts(part, as_measured, options);
+  std::vector<carve::Frame> directions = carve::directions_of(part);
+  for (std::size_t d = 0; d < directions.size(); ++d) {
+    const carve::Raster raster = carve::raster_of(part, measured, model, directions[d]);
+    const carve::Raster turned = carve::turned(raster);
+    consider_regions(part, raster, turned, options, cuts, directions);
+    consider_lines(part, raster, false, options, cuts);
+    consider_lines(part, turned, true, options, cuts);
+  }
+  std::vector<Proposal> out;
+  for (Cut& cut : std::move(cuts).best()) {
+    Polygon piece = tidied(part, without_slivers(part, std::move(cut.polygon)));
+    if (!sound(part, piece, options.least_area)) continue;
+    std::string what = words_for(as_measured, cut, options);
+    out.push_back({std::move(piece), cut.gain, cut.errors.inside_mean, std::move(what), cut.shape == 0});
+  }
+  std::ranges::stable_sort(out, std::greater{}, &Proposal::gain);
+  return out;
+}
+
+}  // namespace mansard::refine::detail

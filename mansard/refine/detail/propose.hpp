@@ -1,0 +1,39 @@
+// Where a part may be cut in two so that simple roofs fit better: structures of another height that stand in it or bite
+// into it, and straight lines between two roofs. Pure geometry: what a cut is worth in full only raising can tell.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mansard/geometry/polygon.hpp"
+#include "mansard/refine/detail/heights.hpp"
+
+namespace mansard::refine::detail {
+
+struct ProposeOptions {
+  double least_area = 4;    ///< m², of the piece and of what is left
+  double least_gain = 2;    ///< m²·m²: squared residual, summed over area
+  double least_step = 0.5;  ///< m; what differs less is no structure
+  double least_width = 1.2; ///< m, mean; what is narrower is a chimney or a melted edge
+  std::size_t most = 6;     ///< proposals
+};
+
+/// A piece of a part that may become a part of its own.
+struct Proposal {
+  geometry::Polygon polygon;  ///< metres; in the part, simple; holes only where the part has holes
+  double gain = 0;            ///< m²·m²: squared residual, by area, that simple surfaces in the pieces would explain
+  double height = 0;          ///< m, measured less model, mean over the piece
+  std::string what;           ///< for the reader: "stands 2.4 m above the roof around it"
+  bool whole_side = false;    ///< one straight line across the part; the piece is one side of it
+};
+
+/// The cuts worth trying, best first.
+///   1. Every polygon lies in the part, is simple, and leaves at least `least_area` on either side.
+///   2. No two are nearly the same cut.
+///   3. The same input gives the same list, to the byte.
+/// Cost: cells × directions (two or three), with small constants.
+/// Measured and model share one grid; cells that are NaN in either count for nothing.
+[[nodiscard]] auto propose(const geometry::Polygon& part, const Heights& measured, const Heights& model,
+                           const ProposeOptions& options = {}) -> std::vector<Proposal>;
+
+}  // namespace mansard::refine::detail

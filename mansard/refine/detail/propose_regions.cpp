@@ -1,0 +1,268 @@
+#include "mansard/refine/detail/propose_regions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "mansard/base/disjoint_sets.hpp"
+
+namespace mansard::refine::detail::carve {
+namespace {
+
+using Mask = std::vector<std::uint8_t>;
+
+constexpr int gap_passes = 3;          // cells: unseen gaps as wide as twice this are bridged
+constexpr double bin = 0.25;           // m, of the histogram of residuals
+constexpr double highest = 40;         // m; residuals beyond it count as this
+constexpr double deep_valley = 0.5;    // of the lower of its two peaks: what parts two levels
+constexpr std::size_t most_levels = 6; // that part the residuals; the clearest
+constexpr double seen_share = 0.6;     // of a region's cells; on less nothing is known
+
+/// Residuals with unseen gaps filled from around.
+auto filled(const Raster& raster) -> std::vector<float> {
+  std::vector<float> out = raster.residual;
+  std::vector<Cell> state = raster.state;
+  for (int pass = 0; pass < gap_passes; ++pass) {
+    std::vector<std::pair<std::size_t, float>> found;
+    for (int j = 0; j < raster.rows; ++j)
+      for (int i = 0; i < raster.columns; ++i) {
+        if (state[raster.at(i, j)] != Cell::unseen) continue;
+        float sum = 0, n = 0;
+        for (const auto& [di, dj] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+          if (!raster.inside(i + di, j + dj) || state[raster.at(i + di, j + dj)] != Cell::seen) continue;
+          sum += out[raster.at(i + di, j + dj)];
+          n += 1;
+        }
+        if (n > 0) found.emplace_back(raster.at(i, j), sum / n);
+      }
+    if (found.empty()) break;
+    for (const auto& [k, value] : found) {
+      out[k] = value;
+      state[k] = Cell::seen;
+    }
+  }
+  return out;
+}
+
+/// Cells that are `by` cells or fewer, along a row or a column, from one that is off go off; where `ends`, also those
+/// as near to the raster's border.
+auto shrunk_cells(const Raster& raster, const Mask& mask, int by, bool ends = true) -> Mask {
+  const auto columns = static_cast<std::size_t>(raster.columns), cells = mask.size();
+  const auto step = [&](const Mask& in, std::size_t stride, std::size_t line) {
+    // Every line of `line` cells on its own; a whole raster is one line of rows.
+    Mask out = in;
+    for (std::size_t start = 0; start < cells; start += line)
+      for (std::size_t d = stride; d <= static_cast<std::size_t>(by) * stride; d += stride) {
+        const std::size_t shared = d < line ? line - d : 0;
+        const std::uint8_t* from = in.data() + start;
+        std::uint8_t* to = out.data() + start;
+        for (std::size_t k = 0; k < shared; ++k) to[k] &= from[k + d];
+        for (std::size_t k = 0; k < shared; ++k) to[k + d] &= from[k];
+        if (!ends) continue;
+        for (std::size_t k = line - std::min(line, d); k < line; ++k) out[start + k] = 0;
+        for (std::size_t k = 0; k < std::min(line, d); ++k) out[start + k] = 0;
+      }
+    return out;
+  };
+  return cells == 0 ? mask : step(step(mask, 1, columns), columns, cells);
+}
+
+/// Only what a square of twice `by` cells and one can sweep over.
+auto opened(const Raster& raster, const Mask& mask, int by) -> Mask {
+  Mask off = shrunk_cells(raster, mask, by);
+  for (auto& m : off) m = m ? 0 : 1;
+  off = shrunk_cells(raster, off, by, false);  // growing is shrinking the rest
+  Mask out(mask.size());
+  for (std::size_t k = 0; k < out.size(); ++k) out[k] = mask[k] && !off[k] ? 1 : 0;
+  return out;
+}
+
+/// A stretch of a row.
+struct Run {
+  int row, first, last;  // last is not in it
+};
+
+/// The mask's runs by component, each in the order of rows; components in the order of their first cells.
+auto components(const Raster& raster, const Mask& mask) -> std::vector<std::vector<Run>> {
+  std::vector<Run> runs;
+  std::vector<std::size_t> row_begin;
+  for (int row = 0; row < raster.rows; ++row) {
+    row_begin.push_back(runs.size());
+    for (int i = 0; i < raster.columns; ++i) {
+      if (!mask[raster.at(i, row)]) continue;
+      const int first = i;
+      while (i < raster.columns && mask[raster.at(i, row)]) ++i;
+      runs.push_back({row, first, i});
+    }
+  }
+  row_begin.push_back(runs.size());
+  base::DisjointSets sets(runs.size());
+  for (std::size_t row = 1; row + 1 < row_begin.size(); ++row) {
+    std::size_t above = row_begin[row - 1];
+    for (std::size_t k = row_begin[row]; k < row_begin[row + 1]; ++k) {
+      while (above < row_begin[row] && runs[above].last <= runs[k].first) ++above;
+      for (std::size_t a = above; a < row_begin[row] && runs[a].first < runs[k].last; ++a)
+        sets.join(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(k));
+    }
+  }
+  constexpr std::size_t none = ~std::size_t{0};
+  std::vector<std::size_t> place(runs.size(), none);
+  std::vector<std::vector<Run>> out;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    std::size_t& at = place[sets.of(static_cast<std::uint32_t>(k))];
+    if (at == none) {
+      at = out.size();
+      out.emplace_back();
+    }
+    out[at].push_back(runs[k]);
+  }
+  return out;
+}
+
+void add_components(const Raster& raster, const Mask& mask, double least_area, std::vector<Region>& out) {
+  const double least_cells = least_area / raster.cell_area();
+  if (static_cast<double>(std::ranges::count(mask, 1)) < least_cells) return;
+  for (const std::vector<Run>& runs : components(raster, mask)) {
+    std::size_t cells = 0, seen = 0;
+    for (const Run& run : runs) cells += static_cast<std::size_t>(run.last - run.first);
+    if (static_cast<double>(cells) < least_cells) continue;
+    Region region{Mask(mask.size(), 0), raster.columns, 0, runs.front().row, runs.back().row, cells};
+    for (const Run& run : runs) {
+      region.least_column = std::min(region.least_column, run.first);
+      region.most_column = std::max(region.most_column, run.last - 1);
+      for (int i = run.first; i < run.last; ++i) {
+        region.mask[raster.at(i, run.row)] = 1;
+        if (raster.state[raster.at(i, run.row)] == Cell::seen) ++seen;
+      }
+    }
+    if (static_cast<double>(seen) >= seen_share * static_cast<double>(cells)) out.push_back(std::move(region));
+  }
+}
+
+/// Levels, m, ascending, that part the residuals into heaps.
+auto levels_of(const Raster& raster, const std::vector<float>& residual, double least_area) -> std::vector<double> {
+  const auto count = static_cast<std::size_t>(2 * highest / bin) + 1;
+  std::vector<double> raw(count, 0), heap(count, 0);
+  for (std::size_t k = 0; k < residual.size(); ++k)
+    if (raster.state[k] == Cell::seen)
+      raw[static_cast<std::size_t>((std::clamp<double>(residual[k], -highest, highest) + highest) / bin)] +=
+          raster.cell_area();
+  for (std::size_t b = 1; b + 1 < count; ++b) heap[b] = (raw[b - 1] + 2 * raw[b] + raw[b + 1]) / 4;
+
+  struct Level {
+    double height, weight;
+  };
+  std::vector<Level> found;
+  std::size_t peak = 0;    // of the heap before
+  std::size_t lowest = 0;  // since then
+  for (std::size_t b = 1; b + 1 < count; ++b) {
+    const bool top = heap[b] > heap[b - 1] && heap[b] >= heap[b + 1] && 3 * heap[b] >= least_area / 2;
+    if (heap[b] < heap[lowest]) lowest = b;
+    if (!top) continue;
+    const double smaller = std::min(heap[peak], heap[b]);
+    if (peak != 0 && heap[lowest] < deep_valley * smaller) {
+      // Half way between the heaps is where a melted wall is crossed.
+      const double middle = (static_cast<double>(peak + b) + 1) / 2 * bin - highest;
+      found.push_back({middle, smaller});
+      peak = lowest = b;
+    } else if (heap[b] > heap[peak]) {
+      peak = lowest = b;
+    }
+  }
+  std::ranges::stable_sort(found, std::greater{}, &Level::weight);
+  if (found.size() > most_levels) found.resize(most_levels);
+  std::vector<double> out;
+  for (const Level& level : found) out.push_back(level.height);
+  std::ranges::sort(out);
+  return out;
+}
+
+/// Every pair of bounds, m, between which a structure may stand; the model itself lies in none.
+auto bands_of(const std::vector<double>& levels, double least_step) -> std::vector<std::pair<double, double>> {
+  constexpr double unbounded = 1e9;
+  std::vector<double> above{least_step}, below{-least_step};
+  for (const double level : levels) {
+    if (level > 1.5 * least_step) above.push_back(level);
+    if (level < -1.5 * least_step) below.push_back(level);
+  }
+  std::ranges::sort(below, std::greater{});
+  std::vector<std::pair<double, double>> out;
+  for (std::size_t i = 0; i < above.size(); ++i) {
+    out.emplace_back(above[i], unbounded);
+    if (i + 1 < above.size()) out.emplace_back(above[i], above[i + 1]);
+  }
+  for (std::size_t i = 0; i < below.size(); ++i) {
+    out.emplace_back(-unbounded, below[i]);
+    if (i + 1 < below.size()) out.emplace_back(below[i + 1], below[i]);
+  }
+  return out;
+}
+
+}  // namespace
+
+auto shrunk(const Raster& raster, const Mask& mask, double by) -> Mask {
+  return shrunk_cells(raster, mask, static_cast<int>(std::lround(by / raster.spacing)));
+}
+
+auto grown(const Raster& raster, const Mask& mask, double by) -> Mask {
+  Mask off(mask.size());
+  for (std::size_t k = 0; k < off.size(); ++k) off[k] = mask[k] ? 0 : 1;
+  off = shrunk_cells(raster, std::move(off), static_cast<int>(std::lround(by / raster.spacing)), false);
+  for (auto& o : off) o = o ? 0 : 1;
+  return off;
+}
+
+auto regions_of(const Raster& raster, const ProposeOptions& options) -> std::vector<Region> {
+  const std::vector<float> residual = filled(raster);
+  // Half of the least width, so that what is narrower vanishes.
+  const int by = std::max(1, static_cast<int>(std::lround(options.least_width / 2 / raster.spacing - 0.5)));
+  std::vector<Region> out;
+  for (const auto& [low, high] : bands_of(levels_of(raster, residual, options.least_area), options.least_step)) {
+    Mask mask(residual.size());
+    for (std::size_t k = 0; k < mask.size(); ++k)
+      mask[k] = raster.state[k] != Cell::outside && residual[k] > low && residual[k] < high ? 1 : 0;
+    const std::size_t before = out.size();
+    mask = opened(raster, mask, by);
+    add_components(raster, mask, 0.75 * options.least_area, out);
+    // What a region runs around may be the simpler outline of the same cut.
+    for (std::size_t i = before, end = out.size(); i < end; ++i) {
+      const double box = (out[i].most_column - out[i].least_column + 1.0) * (out[i].most_row - out[i].least_row + 1.0);
+      if (static_cast<double>(out[i].cells) > 0.75 * box) continue;
+      Mask rest(mask.size());
+      for (std::size_t k = 0; k < rest.size(); ++k)
+        rest[k] = raster.state[k] != Cell::outside && !out[i].mask[k] ? 1 : 0;
+      add_components(raster, opened(raster, rest, by), options.least_area, out);
+    }
+  }
+  return out;
+}
+
+auto own_direction(const Raster& raster, const Region& region, Frame& direction) -> bool {
+  constexpr double agreement = 0.6;  // of the rim's rises, as a resultant; squares in the raster's noise reach 0.2
+  std::complex<double> sum = 0;
+  double total = 0;
+  const auto r = [&](int i, int j) { return static_cast<double>(raster.residual[raster.at(i, j)]); };
+  for (int j = std::max(1, region.least_row - 2); j <= std::min(raster.rows - 2, region.most_row + 2); ++j)
+    for (int i = std::max(1, region.least_column - 2); i <= std::min(raster.columns - 2, region.most_column + 2); ++i) {
+      bool rim = false, known = true;
+      for (const auto& [di, dj] : {std::pair{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+        const std::size_t k = raster.at(i + di, j + dj);
+        known = known && raster.state[k] == Cell::seen;
+        rim = rim || region.mask[k] != region.mask[raster.at(i, j)];
+      }
+      if (!rim || !known) continue;
+      const std::complex<double> rise(r(i + 1, j) - r(i - 1, j), r(i, j + 1) - r(i, j - 1));
+      const double size = std::abs(rise);
+      if (size < 1e-6) continue;
+      const std::complex<double> unit = rise / size, twice = unit * unit;
+      sum += size * twice * twice;  // four times the angle: walls at right angles agree
+      total += size;
+    }
+  if (total <= 0 || std::abs(sum) < agreement * total) return false;
+  const double angle = std::arg(sum) / 4;
+  const geometry::Point2 own{std::cos(angle), std::sin(angle)};
+  direction = {raster.frame.back(own), false};
+  return true;
+}
+
+}  // namespace mansard::refine::detail::carve

@@ -1,0 +1,74 @@
+// How well simple surfaces fit a set of cells: sums that add and subtract, so that any cut is tried at once.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mansard/refine/detail/propose_raster.hpp"
+
+namespace mansard::refine::detail::carve {
+
+/// Sums over cells; x and y from the raster's corner, metres.
+struct Moments {
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0, z = 0, xz = 0, yz = 0, zz = 0, r = 0, rr = 0;
+  void add(double px, double py, double pz, double pr);
+  auto operator+=(const Moments& o) -> Moments&;
+  auto operator-=(const Moments& o) -> Moments&;
+};
+
+/// Sums over cells along one direction.
+struct LineMoments {
+  double n = 0, t = 0, tt = 0, z = 0, tz = 0, zz = 0;
+  void add(double pt, double pz);
+  auto operator+=(const LineMoments& o) -> LineMoments&;
+  friend auto operator-(LineMoments a, const LineMoments& b) -> LineMoments;
+};
+
+/// Σ squared error, m² × cells, of the best of: the model, the model lifted, a level, a plane.
+[[nodiscard]] auto plain_error(const Moments& m) -> double;
+
+/// Of the best roof with its ridge at `knot` across the direction, sums given left and right of it. Infinite where the
+/// two slopes make a valley, which is two roofs, or one is too steep for a roof.
+[[nodiscard]] auto ridge_error(const LineMoments& left, const LineMoments& right, double knot) -> double;
+
+/// Of the best of all ridges over a row of bins, given as running sums: bin i is sums[i + 1] − sums[i], knots between
+/// bins at first_knot + i·step.
+[[nodiscard]] auto best_ridge_error(std::span<const LineMoments> sums, double first_knot, double step) -> double;
+
+/// Errors of one set of cells, m² × cells: of the model as it is, and of the best simple surface (or the model).
+struct Error {
+  double count = 0, model = 0, best = 0;
+};
+
+/// What a cut explains, m² × cells. Where one surface for all would explain most of what the model leaves, only what
+/// two explain beyond that one; else what the smaller side alone gains over the model, if that is more, since one
+/// surface for all would bend towards whatever else stands in the part.
+[[nodiscard]] auto gain_of(const Error& inside, const Error& outside, const Error& whole) -> double;
+
+/// Two sets of cells, each by its best simple surface, and both by one.
+struct Errors {
+  Error inside, outside, whole;
+  double inside_mean = 0, outside_mean = 0;   ///< mean residual, m
+  [[nodiscard]] auto gain() const -> double { return gain_of(inside, outside, whole); }
+};
+[[nodiscard]] auto errors_of(const Raster& raster, const std::vector<std::uint8_t>& mask, const Frame& ridges)
+    -> Errors;
+
+/// How smooth a set of cells is.
+struct Fit {
+  double rms = 0;   ///< m, that the best level, plane, lifted model or (on large sets) ridge leaves
+  double near = 0;  ///< share of cells within `tolerance` of a plane that most of them agree on
+};
+[[nodiscard]] auto fit_of(const Raster& raster, const std::vector<std::uint8_t>& mask, const Frame& ridges,
+                          double tolerance) -> Fit;
+
+/// The mean residual over what the most residual twentieth of the cells has at least: 1 for a box, less for a dome.
+[[nodiscard]] auto fullness_of(const Raster& raster, const std::vector<std::uint8_t>& mask) -> double;
+
+/// Root mean square, m, that a roof hipped on all sides of the polygon, of any pitch, leaves of the cells; infinite
+/// where it would be a funnel. The raster is one along the axes.
+[[nodiscard]] auto hipped_error(const Raster& raster, const std::vector<std::uint8_t>& mask,
+                                const geometry::Polygon& polygon) -> double;
+
+}  // namespace mansard::refine::detail::carve

@@ -1,0 +1,187 @@
+#include "mansard/refine/detail/refit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "mansard/refine/detail/lines.hpp"
+
+namespace mansard::refine::detail {
+namespace {
+
+using geometry::Plan;
+using geometry::PlanRing;
+using geometry::Point2;
+using geometry::Profile;
+
+constexpr double least_slope = 0.03;  // flatter ones are the cap's business
+constexpr double most_slope = 12.0;   // steeper ones are walls
+
+/// Looks by profile and by the part of the profile that made the face they see.
+using Looks = std::vector<std::vector<std::vector<Look>>>;
+
+auto ring_of(const Plan& plan, std::uint32_t ring) -> const PlanRing& {
+  return ring == 0 ? plan.outer : plan.holes[ring - 1];
+}
+
+/// Unit, in plan.
+auto inward_from(const PlanRing& ring, std::uint32_t edge) -> Point2 {
+  return geometry::left_of(geometry::normalised(ring.points[(edge + 1) % ring.points.size()] - ring.points[edge]));
+}
+
+/// Metres inward of the edge.
+auto inward_of(const PlanRing& ring, std::uint32_t edge, Point2 at) -> double {
+  return dot(at - ring.points[edge], inward_from(ring, edge));
+}
+
+struct Sorted {
+  Looks looks;
+  std::vector<double> cap;  ///< heights seen on the cap
+};
+
+/// Whether a look sees the middle of a face: nothing else is seen `melt` along the edge and up and down the slope.
+class Middle {
+ public:
+  Middle(const Judged& judged, const Heights& grid) : judged_(judged), grid_(grid) {}
+
+  [[nodiscard]] auto holds(std::size_t cell, const Profile& profile, std::uint32_t part, Point2 at, double inward,
+                           Point2 up) const -> bool {
+    const auto &foot = profile[part], &head = profile[part + 1];
+    const double slope = (head.height - foot.height) / (head.inward - foot.inward);
+    const double reach = melt / std::sqrt(1 + slope * slope);  // as it is seen from above
+    if (inward < foot.inward + reach) return false;
+    const bool ends = part + 2 < profile.size();  // the last part goes on until it meets another face
+    if (ends ? inward > head.inward - reach : !same(cell, at + reach * up)) return false;
+    const Point2 along = melt * geometry::left_of(up);
+    return same(cell, at + along) && same(cell, at - along);
+  }
+
+ private:
+  /// Two and a half times the smoothing of a fair scan (0.2 m): beyond, a crease does not move a surface any more.
+  static constexpr double melt = 0.5;  // m
+
+  [[nodiscard]] auto same(std::size_t cell, Point2 at) const -> bool {
+    const double column = std::round((at.x - grid_.origin.x) / grid_.spacing);
+    const double row = std::round((at.y - grid_.origin.y) / grid_.spacing);
+    if (column < 0 || row < 0 || column >= static_cast<double>(grid_.columns) || row >= static_cast<double>(grid_.rows))
+      return false;
+    const auto other = static_cast<std::size_t>(row) * grid_.columns + static_cast<std::size_t>(column);
+    return !std::isnan(grid_.z[other]) && judged_.view.face[other] == judged_.view.face[cell];
+  }
+
+  const Judged& judged_;
+  const Heights& grid_;
+};
+
+auto sort_looks(const Judged& judged, const Site& site, Used used) -> Sorted {
+  const Middle middle(judged, site.measured);
+  Sorted out;
+  out.looks.resize(judged.plan.profiles.size());
+  for (std::size_t p = 0; p < out.looks.size(); ++p) out.looks[p].resize(judged.plan.profiles[p].size());
+  for (std::size_t i = 0; i < site.cells.size(); ++i) {
+    const auto cell = site.cells[i];
+    if (std::isnan(judged.view.z[cell])) continue;
+    const auto& face = judged.sketch.faces[judged.view.face[cell]];
+    if (face.kind == extrude::FaceKind::cap && site.weight[i] == 1) out.cap.push_back(site.measured.z[cell]);
+    if (!face.provenance || face.kind == extrude::FaceKind::connector) continue;
+    const auto& from = *face.provenance;
+    const auto& ring = ring_of(judged.plan, from.ring);
+    auto& parts = out.looks[ring.profile_of_edge[from.edge]];
+    if (from.part >= parts.size()) continue;
+    const Point2 at = site.measured.centre(cell % site.measured.columns, cell / site.measured.columns);
+    const double inward = inward_of(ring, from.edge, at);
+    if (used == Used::all) {
+      parts[from.part].push_back({inward, site.measured.z[cell], site.weight[i]});
+    } else if (from.part + 1 < parts.size()) {
+      const auto& profile = judged.plan.profiles[ring.profile_of_edge[from.edge]];
+      if (middle.holds(cell, profile, from.part, at, inward, inward_from(ring, from.edge)))
+        parts[from.part].push_back({inward, site.measured.z[cell], 1});
+    }
+  }
+  return out;
+}
+
+/// The sloped part of a profile from points i to i + 1 as a line; none for walls and terraces.
+auto line_of(const Profile& profile, std::size_t i) -> std::optional<RoofLine> {
+  const auto &a = profile[i], &b = profile[i + 1];
+  if (b.inward <= a.inward) return std::nullopt;
+  const double slope = (b.height - a.height) / (b.inward - a.inward);
+  return RoofLine{a.height - slope * a.inward, slope};
+}
+
+auto refitted_line(const RoofLine& line, const std::vector<Look>& looks) -> RoofLine {
+  constexpr std::size_t fewest = 4;
+  if (looks.size() < fewest) return line;
+  const auto free = line_through(looks, line);
+  RoofLine out = free.value_or(raised_line(looks, line));
+  const double terrace = line.slope == 0 ? 0 : least_slope;
+  out.slope = std::clamp(out.slope, terrace, most_slope);
+  if (line.slope == 0) out.slope = 0;
+  return free && out.slope == free->slope ? out : raised_line(looks, out);
+}
+
+/// A profile is a chain: where its lines were joined they are joined again, walls between them stay where they stand.
+auto rebuilt(const Profile& profile, const std::vector<std::vector<Look>>& looks) -> std::optional<Profile> {
+  std::vector<std::optional<RoofLine>> lines;
+  for (std::size_t i = 0; i + 1 < profile.size(); ++i) {
+    lines.push_back(line_of(profile, i));
+    if (lines.back()) lines.back() = refitted_line(*lines.back(), looks[i]);
+  }
+  Profile out{{0, 0}};
+  const auto add = [&out](double inward, double height) {
+    const geometry::ProfilePoint next{inward, height};
+    if (!(next == out.back())) out.push_back(next);
+  };
+  double last_inward = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (!lines[i]) continue;
+    const RoofLine& line = *lines[i];
+    if (i == 0) {  // a roof from the ground up: its foot stays
+      if (line.at_edge > 0) add(0, line.at_edge);
+    } else if (!lines[i - 1]) {  // behind a wall
+      add(profile[i].inward, line.at_edge + line.slope * profile[i].inward);
+    }
+    const auto next = i + 1 < lines.size() ? lines[i + 1] : std::nullopt;
+    double end = profile[i + 1].inward;
+    if (next && std::abs(next->slope - line.slope) > 1e-6) {
+      constexpr double farthest = 1.5;  // m that a knot may move; a wilder one means that the looks do not carry it
+      end = (line.at_edge - next->at_edge) / (next->slope - line.slope);
+      if (std::abs(end - profile[i + 1].inward) > farthest) return std::nullopt;
+    }
+    if (end < last_inward) return std::nullopt;
+    last_inward = end;
+    add(end, line.at_edge + line.slope * end);
+  }
+  if (out.size() < 2) return std::nullopt;
+  if (!lines.back()) add(out.back().inward, out.back().height + profile.back().height - profile[profile.size() - 2].height);
+  for (std::size_t i = 1; i < out.size(); ++i)
+    if (out[i].inward < out[i - 1].inward || out[i].height < out[i - 1].height) return std::nullopt;
+  return out;
+}
+
+auto median(std::vector<double> values) -> double {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+}  // namespace
+
+auto refitted(const Judged& judged, const Site& site, Used used) -> Plan {
+  auto sorted = sort_looks(judged, site, used);
+  Plan plan = judged.plan;
+  for (std::size_t p = 0; p < plan.profiles.size(); ++p) {
+    const auto& profile = plan.profiles[p];
+    if (profile.back().inward == 0) continue;
+    if (std::ranges::all_of(sorted.looks[p], [](const auto& looks) { return looks.empty(); })) continue;
+    if (auto better = rebuilt(profile, sorted.looks[p])) plan.profiles[p] = std::move(*better);
+  }
+  constexpr std::size_t fewest = 8;
+  constexpr double least_cap = 0.5;  // m
+  if (sorted.cap.size() >= fewest) plan.cap = std::max(least_cap, median(std::move(sorted.cap)));
+  return plan;
+}
+
+}  // namespace mansard::refine::detail

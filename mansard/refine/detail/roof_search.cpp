@@ -1,0 +1,181 @@
+#include "mansard/refine/detail/roof_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "mansard/refine/detail/forms.hpp"
+#include "mansard/refine/detail/refit.hpp"
+#include "mansard/refine/detail/sharpen.hpp"
+
+namespace mansard::refine::detail {
+namespace {
+
+using geometry::Plan;
+using geometry::Profile;
+
+/// Later caps must be clearly better, so that noise does not choose; the likeliest come first.
+auto best_cap(const Draft& draft, const Judge& judge) -> base::Result<Judged> {
+  constexpr double clearly = 0.95;
+  std::optional<Judged> best;
+  std::optional<base::Diagnostic> failure;
+  for (const double cap : draft.caps) {
+    Plan plan = draft.plan;
+    plan.cap = cap;
+    auto judged = judge(plan);
+    if (!judged)
+      failure = judged.error();
+    else if (!best || judged->misfit < clearly * best->misfit)
+      best = std::move(*judged);
+  }
+  if (best) return std::move(*best);
+  return *failure;
+}
+
+/// Moves the planes until that no longer helps.
+auto settle(Judged judged, const Judge& judge) -> Judged {
+  constexpr int rounds = 3;
+  for (int round = 0; round < rounds; ++round) {
+    auto next = judge(refitted(judged, judge.site()));
+    if (!next || !(next->cost < judged.cost)) break;
+    judged = std::move(*next);
+  }
+  return judged;
+}
+
+auto is_wall(const Profile& profile) -> bool { return profile.back().inward == 0; }
+
+/// What an edge might carry instead of what it carries now.
+auto others_of(const Draft& draft, const Plan& plan, std::size_t p, const std::vector<Side>& sides)
+    -> std::vector<Profile> {
+  std::vector<Profile> out;
+  const auto add = [&](Profile profile) {
+    if (profile != plan.profiles[p] && std::ranges::find(out, profile) == out.end()) out.push_back(std::move(profile));
+  };
+  if (!is_wall(plan.profiles[p])) add(wall(plan.profiles[p][1].height));
+  if (p < draft.alternatives.size())
+    for (const auto& profile : draft.alternatives[p]) add(profile);
+  // What the opposite and the longest pitched side carry.
+  std::optional<std::size_t> opposite, longest;
+  for (std::size_t q = 0; q < sides.size(); ++q) {
+    if (q == p || is_wall(plan.profiles[q])) continue;
+    if (!longest || sides[q].length > sides[*longest].length) longest = q;
+    constexpr double facing = -0.95;
+    if (dot(sides[q].inward, sides[p].inward) < facing && (!opposite || sides[q].length > sides[*opposite].length))
+      opposite = q;
+  }
+  if (opposite) add(plan.profiles[*opposite]);
+  if (longest) add(plan.profiles[*longest]);
+  return out;
+}
+
+/// One edge after the other, the longest first: whatever it carries better is taken.
+auto descend(Judged judged, const Draft& draft, const Judge& judge) -> Judged {
+  constexpr std::size_t most_sides = 24;  // of plans with more, the longest
+  const auto sides = sides_of(judged.plan);
+  std::vector<std::size_t> order;
+  for (std::size_t p = 0; p < sides.size(); ++p)
+    if (sides[p].length > 0) order.push_back(p);
+  std::ranges::stable_sort(order, std::greater<>{}, [&](std::size_t p) { return sides[p].length; });
+  if (order.size() > most_sides) order.resize(most_sides);
+  for (const std::size_t p : order) {
+    for (auto& profile : others_of(draft, judged.plan, p, sides)) {
+      Plan plan = judged.plan;
+      plan.profiles[p] = std::move(profile);
+      auto next = judge(plan);
+      if (next && next->cost < judged.cost) judged = std::move(*next);
+    }
+  }
+  return judged;
+}
+
+/// A wall and one pitch: its gutter and slope.
+struct Pitch {
+  double gutter = 0, slope = 0;
+};
+auto pitch_of(const Profile& profile) -> std::optional<Pitch> {
+  if (profile.size() != 3 || profile[1].inward != 0 || is_wall(profile)) return std::nullopt;
+  return Pitch{profile[1].height, (profile[2].height - profile[1].height) / profile[2].inward};
+}
+
+/// Builders make gutters level and pitches equal; noise does not. Sides that nearly agree take their mean, longer ones
+/// counting more, where that costs no more than a face is worth.
+auto regular(Judged judged, const Judge& judge) -> Judged {
+  constexpr double gutters = 0.3, slopes = 0.1;  // m; about 4° at 40°
+  const auto sides = sides_of(judged.plan);
+  Plan plan = judged.plan;
+  std::vector<bool> done(sides.size(), false);
+  for (std::size_t p = 0; p < sides.size(); ++p) {
+    const auto first = pitch_of(judged.plan.profiles[p]);
+    if (done[p] || !first || !(sides[p].length > 0)) continue;
+    std::vector<std::size_t> alike;
+    Pitch mean;
+    double length = 0;
+    for (std::size_t q = p; q < sides.size(); ++q) {
+      const auto other = pitch_of(judged.plan.profiles[q]);
+      if (done[q] || !other || std::abs(other->gutter - first->gutter) > gutters ||
+          std::abs(other->slope - first->slope) > slopes)
+        continue;
+      alike.push_back(q);
+      mean.gutter += sides[q].length * other->gutter;
+      mean.slope += sides[q].length * other->slope;
+      length += sides[q].length;
+    }
+    for (const std::size_t q : alike) {
+      done[q] = true;
+      if (alike.size() > 1) plan.profiles[q] = pitched(mean.gutter / length, mean.slope / length);
+    }
+  }
+  if (plan == judged.plan) return judged;
+  auto next = judge(plan);
+  if (next && next->cost <= judged.cost + judge.options().face_price) return std::move(*next);
+  return judged;
+}
+
+auto pitched_sides(const Plan& plan) -> std::size_t {
+  return static_cast<std::size_t>(std::ranges::count_if(plan.profiles, [](const auto& p) { return !is_wall(p); }));
+}
+
+}  // namespace
+
+auto best_roof(const Draft& draft, const Judge& judge, Search search, double worth,
+               std::vector<std::string>& changed)
+    -> base::Result<Judged> {
+  auto start = best_cap(draft, judge);
+  if (!start || judge.options().effort == Effort::caps || judge.site().cells.empty()) return start;
+
+  const double faces_apart = judge.options().face_price;  // less misfit than one face costs: nothing can pay
+  Judged best = std::move(*start);
+  const auto before = best.plan;
+  if (best.misfit < faces_apart) return best;
+
+  std::vector<Judged> starts;
+  starts.push_back(best);
+  for (const auto& form : forms_of(draft.plan, judge.site()))
+    if (auto judged = judge(form)) starts.push_back(std::move(*judged));
+  std::ranges::stable_sort(starts, {}, &Judged::cost);
+  const std::size_t followed = search == Search::thorough ? 4 : 2;
+  if (starts.size() > followed) starts.resize(followed);
+  for (auto& judged : starts) {
+    judged = settle(std::move(judged), judge);
+    if (judged.cost < best.cost) best = judged;
+  }
+  constexpr double hopeless = 2;  // searching on never halved a roof's cost
+  if (search == Search::quick || best.cost > hopeless * worth) return best;
+  constexpr int rounds = 2;
+  for (int round = 0; round < rounds; ++round) {
+    const double cost = best.cost;
+    best = settle(descend(std::move(best), draft, judge), judge);
+    constexpr double enough = 0.98;
+    if (best.cost > enough * cost) break;
+  }
+  best = sharpened(regular(std::move(best), judge), judge);
+  const auto was = pitched_sides(before), is = pitched_sides(best.plan);
+  if (was != is)
+    changed.push_back("roof rises from " + std::to_string(is) + " of its sides instead of " + std::to_string(was));
+  else if (best.plan != before)
+    changed.push_back("pitches, gutters or cap moved to the scan's");
+  return best;
+}
+
+}  // namespace mansard::refine::detail

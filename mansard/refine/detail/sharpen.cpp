@@ -1,0 +1,57 @@
+#include "mansard/refine/detail/sharpen.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "mansard/refine/detail/forms.hpp"
+#include "mansard/refine/detail/refit.hpp"
+
+namespace mansard::refine::detail {
+namespace {
+
+using geometry::Plan;
+using geometry::Profile;
+
+auto is_wall(const Profile& profile) -> bool { return profile.back().inward == 0; }
+
+/// Whether all that the plan's profiles carry rises less than a flat roof may, for the rain to run off.
+auto nearly_level(const Plan& plan) -> bool {
+  constexpr double flattest = 0.05;  // m per m; 3°
+  bool any = false;
+  for (const auto& profile : plan.profiles) {
+    if (is_wall(profile)) continue;
+    any = true;
+    for (std::size_t i = 0; i + 1 < profile.size(); ++i) {
+      const auto &a = profile[i], &b = profile[i + 1];
+      if (b.inward > a.inward && b.height - a.height > flattest * (b.inward - a.inward)) return false;
+    }
+  }
+  return any;
+}
+
+/// Flat, at the height of most of what is seen.
+auto levelled(const Plan& plan, const Site& site) -> Plan {
+  constexpr double least = 0.5;  // m
+  Plan flat = plan;
+  flat.cap = std::max(least, site.sorted[site.sorted.size() / 2]);
+  for (auto& profile : flat.profiles) profile = wall(flat.cap);
+  return flat;
+}
+
+}  // namespace
+
+auto sharpened(Judged judged, const Judge& judge) -> Judged {
+  if (judge.site().sorted.empty()) return judged;
+  constexpr int rounds = 2;
+  const double most = judged.cost + judge.options().face_price;
+  for (int round = 0; round < rounds; ++round) {
+    auto next = judge(refitted(judged, judge.site(), Used::middle));
+    if (!next || next->plan == judged.plan || next->cost > most) break;
+    judged = std::move(*next);
+  }
+  if (!nearly_level(judged.plan)) return judged;
+  auto flat = judge(levelled(judged.plan, judge.site()));
+  return flat && flat->cost <= most ? std::move(*flat) : judged;
+}
+
+}  // namespace mansard::refine::detail

@@ -1,0 +1,34 @@
+// What the mesh shows over one part, and how much each look counts.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mansard/geometry/polygon.hpp"
+#include "mansard/rays/rays.hpp"
+#include "mansard/refine/detail/heights.hpp"
+#include "mansard/refine/refine.hpp"
+
+namespace mansard::refine::detail {
+
+struct Site {
+  geometry::Polygon polygon;
+  double base = 0;                   ///< z, metres
+  Heights measured;                  ///< NaN where nothing was seen, or outside the polygon
+  std::vector<std::uint32_t> cells;  ///< those with a height, ascending
+  std::vector<double> weight;        ///< per entry of `cells`: less along the outline
+  std::vector<double> sorted;        ///< the heights
+  double cell_area = 0;              ///< m²
+};
+
+/// Looks down on the polygon every `grid` metres, at the centres of cells aligned to whole multiples of it; coarser over
+/// very large parts.
+[[nodiscard]] auto look(const geometry::Polygon& polygon, double base, const rays::Scene& mesh, const Options& options)
+    -> Site;
+/// A piece of a site that was looked at already.
+[[nodiscard]] auto crop(const Site& site, const geometry::Polygon& piece, const Options& options) -> Site;
+
+/// The middle of the half metre of height that most looks share: a flat roof's level, whatever stands on it.
+[[nodiscard]] auto commonest(const std::vector<double>& sorted) -> double;
+
+}  // namespace mansard::refine::detail

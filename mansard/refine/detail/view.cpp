@@ -1,0 +1,89 @@
+#include "mansard/refine/detail/view.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mansard::refine::detail {
+namespace {
+
+using geometry::Point3;
+
+/// The rows [first, last) of the grid whose centres lie between two y.
+struct Rows {
+  std::size_t first = 0, last = 0;
+};
+auto rows_between(const Heights& grid, double least, double most) -> Rows {
+  const auto index = [&grid](double y) {
+    return static_cast<std::size_t>(
+        std::clamp(std::ceil((y - grid.origin.y) / grid.spacing), 0.0, static_cast<double>(grid.rows)));
+  };
+  return {index(least), index(most)};
+}
+
+class Painter {
+ public:
+  Painter(const extrude::Solid& solid, const Heights& grid, double base) : solid_(solid), grid_(grid), base_(base) {
+    view_.z.assign(grid.z.size(), std::numeric_limits<double>::quiet_NaN());
+    view_.face.assign(grid.z.size(), 0);
+  }
+
+  void paint(std::uint32_t f) {
+    const auto& face = solid_.faces[f];
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    for (const auto v : face.loops.front()) {
+      least = std::min(least, solid_.vertices[v].y);
+      most = std::max(most, solid_.vertices[v].y);
+    }
+    const auto rows = rows_between(grid_, least, most);
+    const Point3 at = solid_.vertices[face.loops.front().front()];
+    const double dx = -face.normal.x / face.normal.z, dy = -face.normal.y / face.normal.z;
+    for (std::size_t row = rows.first; row < rows.last; ++row) {
+      const double y = grid_.centre(0, row).y;
+      cross(face, y);
+      for (std::size_t k = 0; k + 1 < crossings_.size(); k += 2) {
+        const double first = std::ceil((crossings_[k] - grid_.origin.x) / grid_.spacing);
+        for (auto column = static_cast<std::size_t>(std::max(0.0, first)); column < grid_.columns; ++column) {
+          const double x = grid_.centre(column, row).x;
+          if (x >= crossings_[k + 1]) break;
+          const std::size_t cell = row * grid_.columns + column;
+          view_.z[cell] = at.z + dx * (x - at.x) + dy * (y - at.y) - base_;
+          view_.face[cell] = f;
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] auto view() && -> View { return std::move(view_); }
+
+ private:
+  /// Where the face's edges cross the line of that y, sorted.
+  void cross(const extrude::Face& face, double y) {
+    crossings_.clear();
+    for (const auto& loop : face.loops) {
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        const Point3 a = solid_.vertices[loop[i]], b = solid_.vertices[loop[(i + 1) % loop.size()]];
+        if ((a.y <= y) != (b.y <= y)) crossings_.push_back(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
+      }
+    }
+    std::ranges::sort(crossings_);
+  }
+
+  const extrude::Solid& solid_;
+  const Heights& grid_;
+  double base_;
+  std::vector<double> crossings_;
+  View view_;
+};
+
+}  // namespace
+
+auto view_of(const extrude::Solid& solid, const Heights& grid, double base) -> View {
+  constexpr double upright = 1e-6;
+  Painter painter(solid, grid, base);
+  for (std::uint32_t f = 0; f < solid.faces.size(); ++f)
+    if (solid.faces[f].normal.z > upright) painter.paint(f);
+  return std::move(painter).view();
+}
+
+}  // namespace mansard::refine::detail

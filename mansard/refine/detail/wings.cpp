@@ -1,0 +1,101 @@
+#include "mansard/refine/detail/wings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace mansard::refine::detail {
+namespace {
+
+using geometry::Point2;
+using geometry::Polygon;
+using geometry::Ring;
+using geometry::Segment2;
+
+template <class See>
+void each_ring(const Polygon& polygon, See see) {
+  see(polygon.outer);
+  for (const auto& hole : polygon.holes) see(hole);
+}
+
+/// From a reflex corner straight on through the part to its boundary.
+auto line_on(const Polygon& part, Point2 from, Point2 direction) -> std::optional<Segment2> {
+  constexpr double shortest = 1.5;  // m; nearer, there is no wing behind it
+  double nearest = -1;
+  each_ring(part, [&](const Ring& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Point2 a = ring[i], edge = ring[(i + 1) % ring.size()] - a;
+      const double turned = cross(direction, edge);
+      if (turned == 0) continue;
+      const double t = cross(a - from, edge) / turned, s = cross(a - from, direction) / turned;
+      constexpr double itself = 1e-6;
+      if (t > itself && s >= -itself && s <= 1 + itself && (nearest < 0 || t < nearest)) nearest = t;
+    }
+  });
+  if (nearest < shortest) return std::nullopt;
+  return Segment2{from, from + nearest * direction};
+}
+
+/// The pieces of the part on the left of a line that lie along one of the new lines.
+auto side_of(const Polygon& part, Point2 on, Point2 along, const std::vector<Segment2>& lines) -> std::vector<Polygon> {
+  const auto box = geometry::bounds(part.outer);
+  const double far = 2 * geometry::length(box.most - box.least) + geometry::length(on - box.least);
+  const Point2 a = on - far * along, b = on + far * along, up = far * geometry::left_of(along);
+  const auto pieces = geometry::intersect(part, Polygon{{a, b, b + up, a + up}, {}});
+  std::vector<Polygon> out;
+  if (!pieces) return out;
+  constexpr double touching = 1e-6;
+  for (const auto& piece : *pieces)
+    if (std::ranges::any_of(lines, [&](const Segment2& line) {
+          return geometry::boundary_distance(piece, 0.5 * (line.start + line.end)) < touching;
+        }))
+      out.push_back(piece);
+  return out;
+}
+
+auto length_of(const Segment2& line) -> double { return geometry::length(line.end - line.start); }
+
+/// One side of the lines with a wedge beyond each: where slopes of one pitch meet at right angles, the valley runs at 45°.
+auto with_wedges(const std::vector<Polygon>& side, Point2 along, const std::vector<Segment2>& lines)
+    -> std::vector<Polygon> {
+  std::vector<Polygon> all = side;
+  for (const Segment2& line : lines) {
+    const Point2 tip = 0.5 * (line.start + line.end) - (0.5 * length_of(line)) * geometry::left_of(along);
+    all.push_back(geometry::oriented({{line.start, line.end, tip}, {}}));
+  }
+  const auto united = geometry::unite(all);
+  return united ? *united : std::vector<Polygon>{};
+}
+
+}  // namespace
+
+auto wings_of(const Polygon& part) -> std::vector<Wing> {
+  std::vector<Wing> out;
+  const auto reflex = [](Point2 before, Point2 after) {
+    constexpr double clear = 0.35;  // sine of 20°
+    return cross(before, after) < -clear;
+  };
+  each_ring(part, [&](const Ring& ring) {
+    const std::size_t n = ring.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto direction = [&](std::size_t k) { return geometry::normalised(ring[(k + 1) % n] - ring[k % n]); };
+      const Point2 along = direction(i);
+      std::vector<Segment2> lines;
+      if (reflex(along, direction(i + 1)))
+        if (const auto line = line_on(part, ring[(i + 1) % n], along)) lines.push_back(*line);
+      if (reflex(direction(i + n - 1), along))
+        if (const auto line = line_on(part, ring[i], -1 * along)) lines.push_back(*line);
+      if (lines.empty()) continue;
+      const auto longest = std::ranges::max_element(lines, {}, length_of);
+      for (const Point2 way : {along, -1 * along}) {
+        const auto side = side_of(part, ring[i], way, lines);
+        for (const auto& pieces : {side, with_wedges(side, way, lines)})
+          if (pieces.size() == 1)
+            out.push_back({pieces.front(), 0.5 * (longest->start + longest->end), length_of(*longest)});
+      }
+    }
+  });
+  return out;
+}
+
+}  // namespace mansard::refine::detail

@@ -1,0 +1,68 @@
+// Makes every part's roof the one the scan shows: planes refitted, gables, forms and caps chosen by measured error, and
+// what stands on a roof or beside it given a plan of its own, at a price for every face.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mansard/base/options.hpp"
+#include "mansard/base/result.hpp"
+#include "mansard/base/run.hpp"
+#include "mansard/extrude/extrude.hpp"
+#include "mansard/geometry/plan.hpp"
+#include "mansard/rays/rays.hpp"
+
+namespace mansard::refine {
+
+enum class Effort : std::uint8_t {
+  caps,    ///< only the height at which the roof ends
+  planes,  ///< the profiles too: which edges carry roof, and where its planes lie
+  parts,   ///< and the plan: parts under one roof are joined, structures of another height become parts of their own
+};
+
+struct Options {
+  Effort effort = Effort::parts;
+  double grid = 0.25;       ///< m between looks from above
+  double face_price = 0.3;  ///< m² · m²; what a further face must take off the sum of squared differences
+  double part_price = 2.0;  ///< the same, of a further part, beside its faces
+  double robust = 3.0;      ///< m; greater differences count linearly, not squared: trees, debris
+  double margin = 0.4;      ///< m along the outline where a melted scan counts less
+  double least_area = 4.0;  ///< m²; smaller structures stay with the roof they stand on
+};
+[[nodiscard]] auto option_list(Options& options) -> base::OptionList;
+
+/// What is known of a part before the scan is asked as a whole.
+struct Draft {
+  std::size_t owner = 0;  ///< only parts of one owner are joined: the feature that they belong to
+  geometry::Plan plan;
+  std::vector<double> caps;  ///< m above the base, the likeliest first; at least one
+  /// Per profile of the plan, others that its edges may carry.
+  std::vector<std::vector<geometry::Profile>> alternatives;
+};
+
+struct Part {
+  std::size_t owner = 0;
+  std::size_t draft = 0;  ///< the draft it was made of; of several that were joined, the first
+  geometry::Plan plan;
+  extrude::Raised raised;
+  std::vector<std::string> changes;  ///< what was done to the draft, in words
+};
+
+struct Refined {
+  std::vector<Part> parts;  ///< by draft; of one draft its own remainder first, then what was cut out of it
+  std::vector<std::pair<std::size_t, base::Diagnostic>> failed;  ///< drafts that could not be raised, and why
+};
+
+/// Parts joined where one roof suits both, each given the roof that suits the scan best, and cut where two suit better.
+/// Guarantees: 1 every solid is of extrude::raise · 2 the polygons of an owner's parts are simple, disjoint, and cover
+/// what its drafts covered, but for gaps under a millimetre that joining closes · 3 the same drafts and mesh give the
+/// same parts at any thread count · 4 a draft over which the mesh shows nothing stays as it is.
+/// Cost: some dozens to hundreds of raises a draft.
+[[nodiscard]] auto refine(std::span<const Draft> drafts, const rays::Scene& mesh, const Options& options,
+                          const extrude::Options& raising, const base::Run& run = {}) -> Refined;
+
+}  // namespace mansard::refine

@@ -1,0 +1,287 @@
+#include "mansard/sweep/detail/registration.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+
+#include "mansard/geometry/polygon.hpp"
+#include "mansard/sweep/detail/line_index.hpp"
+
+namespace mansard::sweep::detail {
+
+using geometry::Point2;
+using geometry::Segment2;
+
+namespace {
+
+constexpr double parallel_cosine = 0.995;  // 0.1 rad: edges that are compared by their distance
+constexpr double least_shared = 1.0;       // m of two edges beside each other before their distance says anything
+constexpr double farthest = 1.0;           // m; walls farther off their footprint are another thing
+constexpr double noise_floor = 0.02;       // m; distances under it are all alike
+constexpr double least_determined = 0.05;  // of the length: what must face across every direction to fix the shift
+constexpr double stands_out = 2.0;         // a shift is this many times what it leaves unexplained
+constexpr int rounds = 30;
+
+constexpr double facing_cosine = 0.7;      // a wall follows edges turned from it by up to 45°: a bay, an apse
+constexpr double least_piece = 0.1;        // m
+constexpr double straight = 0.03;          // m; corners this near to the line without them do not bend it
+constexpr double least_rest = 1.0;         // m of a sweep-edge beside which there is no footprint edge
+
+auto span(const Segment2& s) -> double { return length(s.end - s.start); }
+
+/// The edges of polygons, turned so that outside is on the left, as with sweep-edges.
+void add_edges(const geometry::Polygon& polygon, Point2 shift, std::vector<Segment2>& edges) {
+  const auto add = [&](const geometry::Ring& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Segment2 s{ring[(i + 1) % ring.size()] + shift, ring[i] + shift};
+      if (span(s) > 0) edges.push_back(s);
+    }
+  };
+  add(polygon.outer);
+  for (const auto& hole : polygon.holes) add(hole);
+}
+
+/// A sweep-edge beside an edge of the outline.
+struct Match {
+  double offset;  // m; how far outside of the outline's edge the wall was seen
+  Point2 normal;  // outward
+  double weight;  // m that they run beside each other
+};
+
+auto matches_of(const std::vector<SweepEdge>& edges, const block::Block& block) -> std::vector<Match> {
+  std::vector<Segment2> outline;
+  for (const auto& polygon : block.outline) add_edges(polygon, {}, outline);
+  const LineIndex index(outline, 8);
+  std::vector<Match> matches;
+  for (const auto& edge : edges) {
+    const Segment2& s = edge.segment;
+    const Point2 d = normalised(s.end - s.start);
+    for (const auto k : index.near(box_of(s).grown(farthest))) {
+      const Segment2& g = outline[k];
+      const Point2 u = normalised(g.end - g.start);
+      if (dot(u, d) < parallel_cosine) continue;
+      const double from = std::max(0.0, dot(g.start - s.start, d)), to = std::min(span(s), dot(g.end - s.start, d));
+      if (to - from < least_shared) continue;
+      const double offset = cross(u, s.start + (0.5 * (from + to)) * d - g.start);
+      if (std::abs(offset) <= farthest) matches.push_back({offset, geometry::left_of(u), to - from});
+    }
+  }
+  return matches;
+}
+
+/// By weight.
+auto median(std::vector<std::pair<double, double>> values) -> double {
+  std::sort(values.begin(), values.end());
+  double total = 0, sum = 0;
+  for (const auto& v : values) total += v.second;
+  for (const auto& v : values)
+    if ((sum += v.second) >= 0.5 * total) return v.first;
+  return 0;
+}
+
+/// What all distances have in common: footprints displaced by `shift`, walls seen `outward` of them.
+struct Common {
+  Point2 shift;
+  double outward = 0;
+  [[nodiscard]] auto rest(const Match& m) const -> double { return m.offset - dot(m.normal, shift) - outward; }
+};
+
+/// Mean of what is left, each capped.
+auto left_over(const std::vector<Match>& matches, const Common& common) -> double {
+  double sum = 0, total = 0;
+  for (const auto& m : matches) {
+    sum += m.weight * std::min(std::abs(common.rest(m)), 0.5 * farthest);
+    total += m.weight;
+  }
+  return sum / total;
+}
+
+/// Solves a symmetric system of three; none where a pivot, relative to the weight of all, is too small to trust.
+auto solved(std::array<std::array<double, 4>, 3> m, double least_pivot) -> std::optional<std::array<double, 3>> {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (m[i][i] < least_pivot) return std::nullopt;
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (j == i) continue;
+      const double k = m[j][i] / m[i][i];
+      for (std::size_t c = i; c < 4; ++c) m[j][c] -= k * m[i][c];
+    }
+  }
+  return std::array{m[0][3] / m[0][0], m[1][3] / m[1][1], m[2][3] / m[2][2]};
+}
+
+/// The common part with the least sum of absolute rests, by reweighted least squares; none where the walls face too few
+/// ways to tell a displacement from eaves.
+auto common_of(const std::vector<Match>& matches) -> std::optional<Common> {
+  Common common;
+  common.outward = [&] {
+    std::vector<std::pair<double, double>> offsets;
+    for (const auto& m : matches) offsets.emplace_back(m.offset, m.weight);
+    return median(std::move(offsets));
+  }();
+  for (int round = 0; round < rounds; ++round) {
+    std::array<std::array<double, 4>, 3> normal{};
+    double total = 0;
+    for (const auto& m : matches) {
+      const double w = m.weight / std::max(noise_floor, std::abs(common.rest(m)));
+      const std::array row{1.0, m.normal.x, m.normal.y, m.offset};
+      total += w;
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 4; ++j) normal[i][j] += w * row[i] * row[j];
+    }
+    const auto answer = solved(normal, least_determined * total);
+    if (!answer) return std::nullopt;
+    common = {{(*answer)[1], (*answer)[2]}, (*answer)[0]};
+  }
+  return common;
+}
+
+}  // namespace
+
+auto register_footprints(const std::vector<SweepEdge>& edges, const block::Block& block, const Options& options)
+    -> Registration {
+  Registration registration;
+  if (!(options.gis_offset > 0)) return registration;
+  const auto matches = matches_of(edges, block);
+  if (matches.empty()) return registration;
+  if (const auto common = common_of(matches)) {
+    Common shift{common->shift, 0};
+    const double moved = length(shift.shift), rest = left_over(matches, shift);
+    if (moved <= options.gis_offset && moved >= stands_out * rest && rest < left_over(matches, {}))
+      registration.shift = shift.shift;
+  }
+  std::vector<std::pair<double, double>> rests;
+  for (const auto& m : matches) rests.emplace_back(std::abs(Common{registration.shift, 0}.rest(m)), m.weight);
+  registration.spread = median(std::move(rests));
+  return registration;
+}
+
+namespace {
+
+/// A stretch of a sweep-edge that follows a footprint's edge.
+struct Stretch {
+  double away;      // m, mean distance
+  double from, to;  // m along the sweep-edge
+  Segment2 on;      // of the footprint's edge
+};
+
+/// The stretch along which `s` runs up to gis_offset outside and gis_inward inside of `g`; none if there is too little.
+auto follows(const Segment2& s, const Segment2& g, const Options& options) -> std::optional<Stretch> {
+  const double inward = options.gis_inward, outward = options.gis_offset;
+  const Point2 d = normalised(s.end - s.start), v = g.end - g.start;
+  if (dot(normalised(v), d) < facing_cosine) return std::nullopt;
+  const double a = dot(g.start - s.start, d), b = dot(g.end - s.start, d);
+  double from = std::max(0.0, a), to = std::min(span(s), b);
+  // How far outside of g the wall stands, at a and b; linear between.
+  const double out_a = -cross(d, g.start - s.start), out_b = -cross(d, g.end - s.start);
+  const double slope = (out_b - out_a) / (b - a);
+  const auto out = [&](double x) { return out_a + slope * (x - a); };
+  if (std::abs(slope) > 1e-9) {
+    double one = a + (-inward - out_a) / slope, two = a + (outward - out_a) / slope;
+    if (one > two) std::swap(one, two);
+    from = std::max(from, one), to = std::min(to, two);
+  } else if (out_a < -inward || out_a > outward) {
+    return std::nullopt;
+  }
+  if (to - from < least_piece) return std::nullopt;
+  const auto at = [&](double x) { return g.start + ((x - a) / (b - a)) * v; };
+  return Stretch{std::abs(out(0.5 * (from + to))), from, to, {at(from), at(to)}};
+}
+
+/// The nearest stretches first, each where no nearer one is; in order along the edge.
+auto without_overlaps(std::vector<Stretch> found) -> std::vector<Stretch> {
+  std::sort(found.begin(), found.end(), [](const Stretch& a, const Stretch& b) {
+    return a.away != b.away ? a.away < b.away : a.on < b.on;
+  });
+  std::vector<Stretch> kept;
+  for (const auto& stretch : found) {
+    std::vector<std::pair<double, double>> open{{stretch.from, stretch.to}};
+    for (const auto& k : kept) {
+      std::vector<std::pair<double, double>> rest;
+      for (const auto& [from, to] : open) {
+        if (k.from > from) rest.emplace_back(from, std::min(to, k.from));
+        if (k.to < to) rest.emplace_back(std::max(from, k.to), to);
+      }
+      open = std::move(rest);
+    }
+    const Point2 v = stretch.on.end - stretch.on.start;
+    for (const auto& [from, to] : open) {
+      if (to - from < least_piece) continue;
+      const auto at = [&](double x) {
+        return stretch.on.start + ((x - stretch.from) / (stretch.to - stretch.from)) * v;
+      };
+      kept.push_back({stretch.away, from, to, {at(from), at(to)}});
+    }
+  }
+  std::sort(kept.begin(), kept.end(), [](const Stretch& a, const Stretch& b) { return a.from < b.from; });
+  return kept;
+}
+
+/// Stretches on one straight line become one: corners between houses of a row must not cut their facade.
+auto joined(const std::vector<Stretch>& stretches) -> std::vector<Stretch> {
+  std::vector<Stretch> out;
+  std::vector<Point2> between;
+  for (const auto& next : stretches) {
+    if (!out.empty() && next.from - out.back().to < least_rest) {
+      const Segment2 chord{out.back().on.start, next.on.end};
+      auto passed = between;
+      passed.insert(passed.end(), {out.back().on.end, next.on.start});
+      if (std::ranges::all_of(passed, [&](Point2 p) { return distance(chord, p) <= straight; })) {
+        out.back().on.end = next.on.end;
+        out.back().to = next.to;
+        between = std::move(passed);
+        continue;
+      }
+    }
+    out.push_back(next);
+    between.clear();
+  }
+  return out;
+}
+
+}  // namespace
+
+auto put_on_footprints(const std::vector<SweepEdge>& edges, const block::Block& block,
+                       const Registration& registration, const Options& options) -> std::vector<SweepEdge> {
+  if (!(options.gis_offset > 0)) return edges;
+  std::vector<Segment2> footprints;
+  for (const auto& member : block.members)
+    for (const auto& polygon : member.polygons) add_edges(polygon, registration.shift, footprints);
+  const LineIndex index(footprints, 8);
+
+  std::vector<SweepEdge> result;
+  for (const auto& edge : edges) {
+    const Segment2& s = edge.segment;
+    const double l = span(s);
+    std::vector<Stretch> found;
+    for (const auto k : index.near(box_of(s).grown(options.gis_offset)))
+      if (const auto stretch = follows(s, footprints[k], options)) found.push_back(*stretch);
+    found = joined(without_overlaps(std::move(found)));
+    const auto add = [&](const Segment2& at) {
+      SweepEdge piece = edge;
+      piece.segment = at;
+      piece.area = edge.area * std::min(1.0, span(at) / l);
+      result.push_back(piece);
+    };
+    if (found.empty()) {
+      result.push_back(edge);
+      continue;
+    }
+    const Point2 d = normalised(s.end - s.start);
+    const auto add_rest = [&](double from, double to) {
+      if (to - from >= least_rest) add({s.start + from * d, s.start + to * d});
+    };
+    double reached = 0;
+    for (const auto& stretch : found) {
+      add_rest(reached, stretch.from);
+      add(stretch.on);
+      reached = stretch.to;
+    }
+    add_rest(reached, l);
+  }
+  return result;
+}
+
+}  // namespace mansard::sweep::detail

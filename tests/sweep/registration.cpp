@@ -1,0 +1,177 @@
+// Footprints brought to the mesh, and sweep-edges put on them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "mansard/sweep/detail/registration.hpp"
+#include "sweep/town.hpp"
+
+namespace mansard::sweep::detail {
+namespace {
+
+using testing::Each;
+using testing::Field;
+
+auto rectangle(Point2 low, Point2 high) -> geometry::Ring {
+  return {low, {high.x, low.y}, high, {low.x, high.y}};
+}
+
+auto block_of(std::vector<geometry::Ring> footprints) -> block::Block {
+  block::Block block;
+  block.name = "made";
+  for (std::size_t i = 0; i < footprints.size(); ++i) {
+    block.members.push_back({i, {{footprints[i], {}}}, 0});
+    block.outline.push_back({footprints[i], {}});
+  }
+  return block;
+}
+
+/// The walls of a ring, each `out` metres outside of it, outside on the left, 5 m high.
+auto walls_of(const geometry::Ring& ring, double out = 0) -> std::vector<SweepEdge> {
+  std::vector<SweepEdge> walls;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point2 a = ring[(i + 1) % ring.size()], b = ring[i];
+    const Point2 normal = geometry::left_of(normalised(b - a));
+    walls.push_back({{a + out * normal, b + out * normal}, 5 * length(b - a), 0, 5, i});
+  }
+  return walls;
+}
+
+auto farthest_from(const std::vector<SweepEdge>& edges, const std::vector<SweepEdge>& walls) -> double {
+  double most = 0;
+  for (const auto& e : edges)
+    for (const Point2 p : {e.segment.start, e.segment.end}) {
+      double least = 1e9;
+      for (const auto& w : walls) least = std::min(least, geometry::distance(w.segment, p));
+      most = std::max(most, least);
+    }
+  return most;
+}
+
+const geometry::Ring house = rectangle({0, 0}, {12, 8});
+
+TEST(Registration, finds_by_how_much_all_footprints_are_displaced) {
+  const Point2 off{0.21, -0.13};
+  geometry::Ring drawn = house;
+  for (auto& p : drawn) p = p + off;
+  const auto found = register_footprints(walls_of(house), block_of({drawn}), {});
+  EXPECT_LT(length(found.shift + off), 0.01);
+  EXPECT_LT(found.spread, 0.01);
+}
+
+TEST(Registration, is_not_led_astray_by_one_wall_that_is_elsewhere) {
+  const Point2 off{0.21, -0.13};
+  geometry::Ring drawn = house;
+  for (auto& p : drawn) p = p + off;
+  auto walls = walls_of(rectangle({0, 0}, {12, 8}));
+  const auto other = walls_of(rectangle({20, 0}, {30, 8}));
+  walls.insert(walls.end(), other.begin(), other.end());
+  walls.back().segment.start.x -= 0.6, walls.back().segment.end.x -= 0.6;  // a conservatory, unknown to the footprints
+  const auto found =
+      register_footprints(walls, block_of({drawn, rectangle(Point2{20, 0} + off, Point2{30, 8} + off)}), {});
+  EXPECT_LT(length(found.shift + off), 0.02);
+}
+
+TEST(Registration, takes_eaves_for_eaves) {
+  const auto found = register_footprints(walls_of(house, 0.4), block_of({house}), {});
+  EXPECT_EQ(found.shift, (Point2{0, 0}));
+  EXPECT_NEAR(found.spread, 0.4, 1e-9);
+}
+
+TEST(Registration, says_nothing_of_a_shift_where_walls_face_one_way) {
+  const auto walls = walls_of(house, 0.3);
+  const auto found = register_footprints({walls.front()}, block_of({house}), {});
+  EXPECT_EQ(found.shift, (Point2{0, 0})) << "eaves, or a displacement: one wall cannot tell";
+  EXPECT_NEAR(found.spread, 0.3, 1e-9);
+}
+
+TEST(Registration, of_nothing_is_nothing) {
+  geometry::Ring drawn = house;
+  for (auto& p : drawn) p = p + Point2{0.2, 0.1};
+  const auto none = Point2{0, 0};
+  EXPECT_EQ(register_footprints({}, block_of({drawn}), {}).shift, none);
+  EXPECT_EQ(register_footprints(walls_of(house), block::Block{}, {}).shift, none);
+  EXPECT_EQ(register_footprints(walls_of(house), block_of({drawn}), {.gis_offset = 0}).shift, none);
+}
+
+TEST(OnFootprints, walls_seen_outside_stand_on_them) {
+  const auto block = block_of({house});
+  const auto edges = put_on_footprints(walls_of(house, 0.5), block, {}, {});
+  ASSERT_EQ(edges.size(), 4U);
+  EXPECT_LT(farthest_from(edges, walls_of(house)), 1e-9);
+}
+
+TEST(OnFootprints, walls_seen_inside_stay_there_but_for_noise) {
+  const auto walls = walls_of(house, -0.5);
+  EXPECT_EQ(farthest_from(put_on_footprints(walls, block_of({house}), {}, {}), walls), 0)
+      << "a scan sees the outermost surface: nothing stands out there";
+  EXPECT_LT(farthest_from(put_on_footprints(walls_of(house, -0.2), block_of({house}), {}, {}), walls_of(house)), 1e-9);
+}
+
+TEST(OnFootprints, nothing_moves_when_it_is_switched_off) {
+  const auto walls = walls_of(house, 0.1);
+  EXPECT_EQ(farthest_from(put_on_footprints(walls, block_of({house}), {}, {.gis_offset = 0}), walls), 0);
+}
+
+TEST(OnFootprints, they_are_displaced_first) {
+  geometry::Ring drawn = house;
+  for (auto& p : drawn) p = p + Point2{0.5, 0.5};
+  const auto edges =
+      put_on_footprints(walls_of(house, 0.03), block_of({drawn}), {.shift = {-0.5, -0.5}}, {});
+  EXPECT_LT(farthest_from(edges, walls_of(house)), 1e-9);
+}
+
+TEST(OnFootprints, a_wall_far_off_or_turned_or_inside_out_stays) {
+  const std::vector<SweepEdge> walls{{{{1, -3}, {9, -3}}, 40, 0, 5, 0},    // inside out, as seen from the south wall
+                                     {{{9, -1}, {1, -1}}, 40, 0, 5, 1},    // a metre outside
+                                     {{{2, 1}, {5, 7}}, 30, 0, 5, 2}};     // oblique, in the middle
+  const auto edges = put_on_footprints(walls, block_of({house}), {}, {});
+  ASSERT_EQ(edges.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(edges[i].segment, walls[i].segment);
+}
+
+TEST(OnFootprints, a_wall_bends_with_them_and_keeps_its_area) {
+  // The south wall is drawn with a flat bay, 0.3 m deep; it was seen as one line.
+  const geometry::Ring bay{{0, 0}, {4, 0}, {4.3, -0.3}, {7.7, -0.3}, {8, 0}, {12, 0}, {12, 8}, {0, 8}};
+  const SweepEdge wall{{{12, -0.1}, {0, -0.1}}, 60, 0, 5, 0};
+  const auto edges = put_on_footprints({wall}, block_of({bay}), {}, {});
+  EXPECT_EQ(edges.size(), 5U);
+  EXPECT_LT(farthest_from(edges, walls_of(bay)), 1e-9);
+  double area = 0;
+  for (const auto& e : edges) area += e.area;
+  EXPECT_NEAR(area, 60, 2) << "slanted pieces are a little longer than the line was there";
+  EXPECT_THAT(edges, Each(Field(&SweepEdge::cluster, 0U)));
+}
+
+TEST(OnFootprints, what_goes_beyond_them_stays_where_it_was) {
+  const SweepEdge wall{{{18, -0.2}, {0, -0.2}}, 90, 0, 5, 0};  // 6 m beyond the house
+  const auto edges = put_on_footprints({wall}, block_of({house}), {}, {});
+  ASSERT_EQ(edges.size(), 2U);
+  EXPECT_EQ(edges[0].segment.start, (Point2{18, -0.2}));
+  EXPECT_NEAR(length(edges[0].segment.end - edges[0].segment.start), 6, 1e-9);
+  EXPECT_NEAR(edges[0].area, 30, 1e-9);
+  EXPECT_NEAR(edges[1].area, 60, 1e-9);
+}
+
+TEST(OnFootprints, the_facade_of_a_row_stays_one) {
+  std::vector<geometry::Ring> row;
+  for (int i = 0; i < 5; ++i) row.push_back(rectangle({6.0 * i, 0}, {6.0 * i + 6, 9}));
+  const SweepEdge facade{{{30, -0.1}, {0, -0.1}}, 150, 0, 5, 0};
+  const auto edges = put_on_footprints({facade}, block_of(row), {}, {});
+  ASSERT_EQ(edges.size(), 1U);
+  EXPECT_LT(length(edges[0].segment.start - Point2{30, 0}) + length(edges[0].segment.end), 1e-9);
+}
+
+TEST(OnFootprints, a_whole_scan_is_put_on_its_displaced_footprints) {
+  Town town(0.05);
+  town.gabled({0, 0}, {14, 9}, 6, 9);
+  town.ground({-12, -12}, {26, 21});
+  town.footprint({0.2, -0.15}, {14.2, 8.85});
+  const auto found = edges_of(town.block());
+  EXPECT_LT(length(found.registration.shift - Point2{-0.2, 0.15}), 0.06);
+  EXPECT_LT(found.registration.spread, 0.05);
+  const auto truth = walls_of(rectangle({0, 0}, {14, 9}));
+  for (const auto& w : truth) EXPECT_EQ(followers(found, w.segment.start, w.segment.end, 0.06), 1);
+}
+
+}  // namespace
+}  // namespace mansard::sweep::detail
