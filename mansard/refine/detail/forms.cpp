@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 
 #include "mansard/refine/detail/lines.hpp"
 
@@ -50,23 +51,84 @@ auto distance_inward(const std::vector<Eaves>& eaves, Point2 at) -> std::optiona
   return nearest;
 }
 
-/// The one line that suits all sides that carry roof.
-auto common_line(const Plan& plan, const std::vector<bool>& carries, const Site& site) -> std::optional<RoofLine> {
-  constexpr std::size_t enough = 800;  // looks; more would not move it
+/// Heights over the distance from the sides that carry roof.
+auto looks_over(const Plan& plan, const std::vector<bool>& carries, const Site& site) -> std::vector<Look> {
+  constexpr std::size_t enough = 800;  // looks; more would not move a line
   const std::size_t stride = 1 + site.cells.size() / enough;
   const auto eaves = eaves_of(plan, carries);
   std::vector<Look> looks;
-  double mean = 0;
   for (std::size_t i = 0; i < site.cells.size(); i += stride) {
     const auto cell = site.cells[i];
     const Point2 at = site.measured.centre(cell % site.measured.columns, cell / site.measured.columns);
-    const auto d = distance_inward(eaves, at);
-    if (!d) continue;
-    looks.push_back({*d, site.measured.z[cell], site.weight[i]});
-    mean += site.measured.z[cell];
+    if (const auto d = distance_inward(eaves, at)) looks.push_back({*d, site.measured.z[cell], site.weight[i]});
   }
+  return looks;
+}
+
+/// The one line that suits all sides that carry roof.
+auto common_line(std::span<const Look> looks) -> std::optional<RoofLine> {
   if (looks.empty()) return std::nullopt;
+  double mean = 0;
+  for (const Look& look : looks) mean += look.height;
   return line_through(looks, {mean / static_cast<double>(looks.size()), 0});
+}
+
+/// Σ weighed squares that the best line leaves of looks, from running sums.
+struct Sums {
+  double w = 0, x = 0, z = 0, xx = 0, xz = 0, zz = 0;
+  void add(const Look& look) {
+    w += look.weight;
+    x += look.weight * look.inward;
+    z += look.weight * look.height;
+    xx += look.weight * look.inward * look.inward;
+    xz += look.weight * look.inward * look.height;
+    zz += look.weight * look.height * look.height;
+  }
+  [[nodiscard]] auto less(const Sums& o) const -> Sums {
+    return {w - o.w, x - o.x, z - o.z, xx - o.xx, xz - o.xz, zz - o.zz};
+  }
+  [[nodiscard]] auto left() const -> double {
+    if (!(w > 0)) return 0;
+    const double across = xx - x * x / w, along = xz - x * z / w, all = zz - z * z / w;
+    return across > 0 ? std::max(0.0, all - along * along / across) : all;
+  }
+};
+
+/// A steep roof and a flatter one above it, of whatever distance from the sides parts them best. A melted corner, or a
+/// wall behind the outline, looks the same but for its size.
+auto mansard_line(std::vector<Look> looks) -> std::optional<Profile> {
+  constexpr double least_knot = 0.7, most_knot = 3, least_rise = 1.5;  // m; melted corners are smaller
+  constexpr double steep = 1.2, steepest = 5, half = 0.5;  // m per m; and the upper roof is not half as steep
+  constexpr std::size_t fewest = 12;
+  std::ranges::stable_sort(looks, {}, &Look::inward);
+  std::vector<Sums> sums(1);
+  for (const Look& look : looks) {
+    sums.push_back(sums.back());
+    sums.back().add(look);
+  }
+  std::size_t best = 0;
+  double least = sums.back().left();
+  for (std::size_t i = fewest; i + fewest < looks.size(); ++i) {
+    if (looks[i].inward < least_knot / 2) continue;
+    if (looks[i].inward > most_knot) break;
+    const double left = sums[i].left() + sums.back().less(sums[i]).left();
+    if (left < least) {
+      least = left;
+      best = i;
+    }
+  }
+  if (best == 0) return std::nullopt;
+  const std::span<const Look> all(looks);
+  const auto lower = common_line(all.first(best)), upper = common_line(all.subspan(best));
+  if (!lower || !upper || lower->slope < steep || lower->slope > steepest) return std::nullopt;
+  constexpr double flattest = 0.05;
+  const double slope = std::max(flattest, upper->slope);
+  if (slope > half * lower->slope) return std::nullopt;
+  const double knot = (upper->at_edge - lower->at_edge) / (lower->slope - slope);
+  if (!(knot > least_knot && knot < most_knot && lower->slope * knot > least_rise && lower->at_edge > 0))
+    return std::nullopt;
+  const double height = lower->at_edge + lower->slope * knot;
+  return Profile{{0, 0}, {0, lower->at_edge}, {knot, height}, {knot + 1, height + slope}};
 }
 
 /// The directions of the plan's longest sides, of each pair of opposite ones one.
@@ -144,14 +206,18 @@ auto forms_of(const Plan& plan, const Site& site) -> std::vector<Plan> {
     std::vector<bool> carries(sides.size());
     for (std::size_t p = 0; p < sides.size(); ++p) carries[p] = sides[p].length > 0 && carries_roof(p);
     if (std::ranges::none_of(carries, [](bool c) { return c; })) return;
-    const auto line = common_line(plan, carries, site);
+    auto looks = looks_over(plan, carries, site);
+    const auto line = common_line(looks);
     constexpr double flattest = 0.05, steepest = 5.0;
-    if (!line || line->slope < flattest || line->slope > steepest) return;
     Plan form = plan;
     form.cap = top;
-    for (std::size_t p = 0; p < sides.size(); ++p)
-      form.profiles[p] = carries[p] ? pitched(line->at_edge, line->slope) : wall(std::max(least, line->at_edge));
-    out.push_back(std::move(form));
+    const auto give = [&](const Profile& roof, double gutter) {
+      for (std::size_t p = 0; p < sides.size(); ++p)
+        form.profiles[p] = carries[p] ? roof : wall(std::max(least, gutter));
+      out.push_back(form);
+    };
+    if (line && line->slope >= flattest && line->slope <= steepest) give(pitched(line->at_edge, line->slope), line->at_edge);
+    if (const auto roof = mansard_line(std::move(looks))) give(*roof, (*roof)[1].height);
   };
   constexpr double across = 0.8;  // cosine of 37°
   for (const Point2 axis : axes_of(sides)) {

@@ -1,4 +1,4 @@
-// The roofs that a plan may carry: flat, of one pitch, gabled either way, hipped.
+// The roofs that a plan may carry: flat, of one pitch, gabled either way, hipped, each also with a steep foot.
 #pragma once
 
 #include <vector>

@@ -69,6 +69,45 @@ auto others_of(const Draft& draft, const Plan& plan, std::size_t p, const std::v
   return out;
 }
 
+/// m²·m² by profile: weighed squared differences of the looks whose nearest side, in a strip widened by 45°, it is.
+auto misfit_by_side(const Judged& judged, const Judge& judge) -> std::vector<double> {
+  struct Edge {
+    geometry::Point2 start, along;
+    double length = 0;
+    std::uint32_t profile = 0;
+  };
+  std::vector<Edge> edges;
+  const auto add = [&edges](const geometry::PlanRing& ring) {
+    for (std::size_t i = 0; i < ring.points.size(); ++i) {
+      const auto a = ring.points[i], b = ring.points[(i + 1) % ring.points.size()];
+      edges.push_back({a, geometry::normalised(b - a), geometry::length(b - a), ring.profile_of_edge[i]});
+    }
+  };
+  add(judged.plan.outer);
+  for (const auto& hole : judged.plan.holes) add(hole);
+
+  const auto& site = judge.site();
+  std::vector<double> out(judged.plan.profiles.size(), 0);
+  for (std::size_t i = 0; i < site.cells.size(); ++i) {
+    const auto cell = site.cells[i];
+    const double difference = std::abs(judged.view.z[cell] - site.measured.z[cell]);
+    constexpr double noise = 0.2;  // m; no other profile explains less
+    if (!(difference > noise)) continue;
+    const auto at = site.measured.centre(cell % site.measured.columns, cell / site.measured.columns);
+    const Edge* nearest = nullptr;
+    double least = 0;
+    for (const Edge& edge : edges) {
+      const double d = dot(at - edge.start, geometry::left_of(edge.along)), t = dot(at - edge.start, edge.along);
+      if (d < 0 || t < -d || t > edge.length + d || (nearest != nullptr && d >= least)) continue;
+      nearest = &edge;
+      least = d;
+    }
+    if (nearest != nullptr)
+      out[nearest->profile] += site.weight[i] * difference * std::min(difference, judge.options().robust) * site.cell_area;
+  }
+  return out;
+}
+
 /// One edge after the other, the longest first: whatever it carries better is taken.
 auto descend(Judged judged, const Draft& draft, const Judge& judge) -> Judged {
   constexpr std::size_t most_sides = 24;  // of plans with more, the longest
@@ -78,7 +117,9 @@ auto descend(Judged judged, const Draft& draft, const Judge& judge) -> Judged {
     if (sides[p].length > 0) order.push_back(p);
   std::ranges::stable_sort(order, std::greater<>{}, [&](std::size_t p) { return sides[p].length; });
   if (order.size() > most_sides) order.resize(most_sides);
+  const auto misfit = misfit_by_side(judged, judge);
   for (const std::size_t p : order) {
+    if (misfit[p] < judge.options().face_price) continue;  // nothing to gain that a face would not cost
     for (auto& profile : others_of(draft, judged.plan, p, sides)) {
       Plan plan = judged.plan;
       plan.profiles[p] = std::move(profile);
@@ -149,6 +190,7 @@ auto best_roof(const Draft& draft, const Judge& judge, Search search, double wor
   const auto before = best.plan;
   if (best.misfit < faces_apart) return best;
 
+  if (search == Search::settled) return settle(std::move(best), judge);
   std::vector<Judged> starts;
   starts.push_back(best);
   for (const auto& form : forms_of(draft.plan, judge.site()))

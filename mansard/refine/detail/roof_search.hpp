@@ -10,6 +10,7 @@
 namespace mansard::refine::detail {
 
 enum class Search : std::uint8_t {
+  settled,   ///< the draft's own form, settled: for what is left of a roof that was searched before
   quick,     ///< the forms as they are and the best of them settled: to tell whether it is worth searching
   thorough,  ///< edge by edge as well
 };

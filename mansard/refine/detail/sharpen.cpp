@@ -16,7 +16,7 @@ auto is_wall(const Profile& profile) -> bool { return profile.back().inward == 0
 
 /// Whether all that the plan's profiles carry rises less than a flat roof may, for the rain to run off.
 auto nearly_level(const Plan& plan) -> bool {
-  constexpr double flattest = 0.05;  // m per m; 3°
+  constexpr double flattest = 0.07;  // m per m; 4°
   bool any = false;
   for (const auto& profile : plan.profiles) {
     if (is_wall(profile)) continue;

@@ -21,8 +21,9 @@ constexpr double parallel_cosine = 0.995;  // 0.1 rad: edges that are compared b
 constexpr double least_shared = 1.0;       // m of two edges beside each other before their distance says anything
 constexpr double farthest = 1.0;           // m; walls farther off their footprint are another thing
 constexpr double noise_floor = 0.02;       // m; distances under it are all alike
-constexpr double least_determined = 0.05;  // of the length: what must face across every direction to fix the shift
+constexpr double least_determined = 0.02;  // of the length: what must face across every direction to fix the shift
 constexpr double stands_out = 2.0;         // a shift is this many times what it leaves unexplained
+constexpr double least_shift = 0.12;       // m; less is as likely the scan's own displacement as the footprints'
 constexpr int rounds = 30;
 
 constexpr double facing_cosine = 0.7;      // a wall follows edges turned from it by up to 45°: a bay, an apse
@@ -89,6 +90,13 @@ struct Common {
   [[nodiscard]] auto rest(const Match& m) const -> double { return m.offset - dot(m.normal, shift) - outward; }
 };
 
+/// What half of the walls are nearer than.
+auto median_rest(const std::vector<Match>& matches, const Common& common) -> double {
+  std::vector<std::pair<double, double>> rests;
+  for (const auto& m : matches) rests.emplace_back(std::abs(common.rest(m)), m.weight);
+  return median(std::move(rests));
+}
+
 /// Mean of what is left, each capped.
 auto left_over(const std::vector<Match>& matches, const Common& common) -> double {
   double sum = 0, total = 0;
@@ -148,13 +156,13 @@ auto register_footprints(const std::vector<SweepEdge>& edges, const block::Block
   if (matches.empty()) return registration;
   if (const auto common = common_of(matches)) {
     Common shift{common->shift, 0};
-    const double moved = length(shift.shift), rest = left_over(matches, shift);
-    if (moved <= options.gis_offset && moved >= stands_out * rest && rest < left_over(matches, {}))
+    const double moved = length(shift.shift);
+    // The median: annexes and set-backs stand far from their outline wherever that lies.
+    if (moved >= least_shift && moved <= options.gis_offset && moved >= stands_out * median_rest(matches, shift) &&
+        left_over(matches, shift) < left_over(matches, {}))
       registration.shift = shift.shift;
   }
-  std::vector<std::pair<double, double>> rests;
-  for (const auto& m : matches) rests.emplace_back(std::abs(Common{registration.shift, 0}.rest(m)), m.weight);
-  registration.spread = median(std::move(rests));
+  registration.spread = median_rest(matches, {registration.shift, 0});
   return registration;
 }
 

@@ -1,0 +1,215 @@
+#include "mansard/refine/detail/work.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "mansard/refine/detail/pieces.hpp"
+#include "mansard/refine/detail/wings.hpp"
+
+namespace mansard::refine::detail {
+namespace {
+
+/// Whether their grounds may meet, and there is anything to see over them.
+auto touch(const Piece& a, const Piece& b) -> bool {
+  constexpr double touching = 0.05;  // m
+  const auto box = geometry::bounds(a.site.polygon.outer).grown(touching);
+  return box.overlaps(geometry::bounds(b.site.polygon.outer)) && !a.site.sorted.empty() && !b.site.sorted.empty();
+}
+
+}  // namespace
+
+auto Work::look(const geometry::Polygon& polygon, double base) const -> Site {
+  return detail::look(polygon, base, mesh_, options_);
+}
+
+/// `worth`: dearer roofs are of no interest.
+auto Work::roofed(std::size_t draft_index, Site site, Draft draft, Search search, double worth) const -> base::Result<Piece> {
+  std::vector<std::string> changes;
+  auto roof = best_roof(draft, Judge(site, options_, raising_, run_), search, worth, changes);
+  if (!roof) return roof.error();
+  Piece piece{draft_index, std::move(site), std::move(draft), std::move(*roof), std::nullopt, std::move(changes)};
+  if (search != Search::thorough) return piece;
+  auto raised = extrude::raise(piece.roof.plan, raising_, run_);
+  if (!raised) return raised.error();
+  if (raised->outcome != extrude::Outcome::full) return raised->warnings.back();
+  piece.raised = std::move(*raised);
+  return piece;
+}
+
+/// The pieces that are cheaper together than the one, if there are.
+auto Work::split(const Piece& piece) const -> std::vector<Piece> {
+  const double least_gain = options_.part_price + 4 * options_.face_price;  // no solid has fewer faces
+  if (run_.cancelled() || piece.roof.misfit < least_gain) return {};
+  auto pieces = cut_within(piece, least_gain, piece.roof.cost);
+  return pieces.empty() ? into_wings(piece, least_gain) : pieces;
+}
+
+/// Where two pieces meet in the wrong place: both as one, cut anew, if that is cheaper.
+auto Work::cut_anew(const Piece& a, const Piece& b) const -> std::vector<Piece> {
+  const double least_gain = options_.part_price;
+  if (run_.cancelled() || !touch(a, b)) return {};
+  if (misfit_near(a, b.site.polygon) + misfit_near(b, a.site.polygon) < least_gain) return {};
+  const double worth = a.roof.cost + b.roof.cost + options_.part_price;
+  auto both = united(a, b, Search::quick, worth);
+  if (!both) return {};
+  return cut_within(*both, least_gain, worth - least_gain);
+}
+
+auto Work::proposing(double least_gain) const -> ProposeOptions {
+  ProposeOptions wanted;
+  wanted.least_area = options_.least_area;
+  wanted.least_gain = least_gain;
+  return wanted;
+}
+
+/// Of the proposed cuts the one whose pieces cost least, if that is less than they are worth.
+auto Work::cut_within(const Piece& piece, double least_gain, double worth) const -> std::vector<Piece> {
+  Heights model = piece.site.measured;
+  model.z = piece.roof.view.z;
+  return cheapest(piece, propose(piece.site.polygon, piece.site.measured, model, proposing(least_gain)), worth);
+}
+
+auto Work::cheapest(const Piece& piece, const std::vector<Proposal>& proposals, double worth) const
+    -> std::vector<Piece> {
+  struct Trial {
+    double cost = 0;
+    std::vector<Piece> pieces;
+    const Proposal* proposal = nullptr;
+  };
+  std::vector<Trial> trials(proposals.size());
+  base::parallel_for(proposals.size(), [&](std::size_t k) {
+    auto& [cost, pieces, proposal] = trials[k];
+    proposal = &proposals[k];
+    pieces = tried(piece, *proposal, worth);
+    cost = options_.part_price * static_cast<double>(pieces.size());
+    for (const auto& one : pieces) cost += one.roof.cost;
+  });
+  std::erase_if(trials, [](const Trial& trial) { return trial.pieces.empty(); });
+  std::ranges::stable_sort(trials, {}, &Trial::cost);
+  for (auto& trial : trials) {
+    auto pieces = searched(piece, *trial.proposal, std::move(trial.pieces));
+    if (!pieces.empty()) return pieces;
+  }
+  return {};
+}
+
+/// The same of the cuts between wings, those with most misfit about them.
+auto Work::into_wings(const Piece& piece, double least_gain) const -> std::vector<Piece> {
+  constexpr std::size_t most = 12;  // cuts tried
+  std::vector<Proposal> wings;
+  for (auto& wing : wings_of(piece.site.polygon)) {
+    const double about = misfit_about(piece, wing.middle, wing.length);
+    if (about >= least_gain) wings.push_back({std::move(wing.polygon), about, 0, "a wing", true});
+  }
+  std::ranges::stable_sort(wings, std::greater<>{}, &Proposal::gain);
+  if (wings.size() > most) wings.resize(most);
+  return cheapest(piece, wings, piece.roof.cost);
+}
+
+/// m²·m²: squared differences of the looks around a place.
+auto Work::misfit_about(const Piece& piece, geometry::Point2 place, double within) const -> double {
+  const auto& site = piece.site;
+  double sum = 0;
+  for (std::size_t i = 0; i < site.cells.size(); ++i) {
+    const auto cell = site.cells[i];
+    const auto off = site.measured.centre(cell % site.measured.columns, cell / site.measured.columns) - place;
+    const double d = std::abs(piece.roof.view.z[cell] - site.measured.z[cell]);
+    if (dot(off, off) < within * within && !std::isnan(d)) sum += site.weight[i] * d * std::min(d, options_.robust);
+  }
+  return sum * site.cell_area;
+}
+
+/// Both under one roof, where their grounds make one polygon.
+auto Work::united(const Piece& a, const Piece& b, Search search, double worth) const -> std::optional<Piece> {
+  const auto polygon = joined(a.site.polygon, b.site.polygon);
+  if (!polygon) return std::nullopt;
+  Site site = look(*polygon, a.site.base);
+  const Origin origins[]{{a.draft, a.roof.plan}, {b.draft, b.roof.plan}};
+  Draft draft = draft_of(origins, site);
+  auto made = roofed(std::min(a.draft_index, b.draft_index), std::move(site), std::move(draft), search, worth);
+  if (!made) return std::nullopt;
+  return std::move(*made);
+}
+
+/// The same where that is cheaper.
+auto Work::as_one(const Piece& a, const Piece& b) const -> std::optional<Piece> {
+  if (!may_join(a, b)) return std::nullopt;
+  const double worth = a.roof.cost + b.roof.cost + options_.part_price;
+  constexpr double near = 1.25;  // searching edge by edge seldom takes more off
+  auto made = united(a, b, Search::quick, worth);
+  if (!made || made->roof.cost >= near * worth) return std::nullopt;
+  auto searched = roofed(made->draft_index, std::move(made->site), std::move(made->draft));
+  if (!searched || searched->roof.cost >= worth) return std::nullopt;
+  made = std::move(*searched);
+  made->changes.insert(made->changes.begin(), "two parts joined under one roof");
+  return made;
+}
+
+/// m²·m²: of the squared differences above half a metre, those along the other's ground.
+auto Work::misfit_near(const Piece& piece, const geometry::Polygon& other) const -> double {
+  constexpr double step = 0.5, near = 1.5;  // m
+  const auto& site = piece.site;
+  double sum = 0;
+  for (const auto cell : site.cells) {
+    const double d = std::abs(piece.roof.view.z[cell] - site.measured.z[cell]);
+    if (!(d > step)) continue;
+    const auto at = site.measured.centre(cell % site.measured.columns, cell / site.measured.columns);
+    if (geometry::boundary_distance(other, at) < near) sum += d * std::min(d, options_.robust);
+  }
+  return sum * site.cell_area;
+}
+
+/// Whether two that touch may be cheaper as one: two flat roofs too far apart are not.
+auto Work::may_join(const Piece& a, const Piece& b) const -> bool {
+  if (!touch(a, b)) return false;
+  const auto level = [](const Piece& piece) -> std::optional<double> {
+    for (const auto& profile : piece.roof.plan.profiles)
+      if (profile.back().inward > 0) return std::nullopt;
+    return piece.roof.plan.cap;
+  };
+  const auto low = level(a), high = level(b);
+  if (!low || !high) return true;
+  const double area = std::min(geometry::area(a.site.polygon), geometry::area(b.site.polygon));
+  const double step = std::abs(*high - *low);
+  constexpr std::size_t shared = 8;  // faces that joining may save at most, about
+  return area * std::min(step * step, options_.robust * step) < options_.part_price + shared * options_.face_price;
+}
+
+/// The pieces of a cut, each with a roof found quickly; none where they cost more than they are worth.
+auto Work::tried(const Piece& piece, const Proposal& proposal, double worth) const -> std::vector<Piece> {
+  std::vector<Piece> out;
+  double left = worth;
+  const Origin origin[]{{piece.draft, piece.roof.plan}};
+  for (const auto& polygon : cut(piece.site.polygon, proposal.polygon, options_.least_area)) {
+    Site site = crop(piece.site, polygon, options_);
+    if (site.cells.empty()) return {};
+    Draft draft = draft_of(origin, site);
+    const bool rest = out.empty() && !proposal.whole_side;  // its roof was found before; a little of it is gone
+    auto made = roofed(piece.draft_index, std::move(site), std::move(draft), rest ? Search::settled : Search::quick, left);
+    if (!made) return {};
+    left -= made->roof.cost + (out.empty() ? 0 : options_.part_price);
+    if (left <= 0) return {};
+    out.push_back(std::move(*made));
+  }
+  return out;
+}
+
+/// The same pieces searched thoroughly; none where a sketch is one that no solid can be made of.
+auto Work::searched(const Piece& piece, const Proposal& proposal, std::vector<Piece> pieces) const
+    -> std::vector<Piece> {
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    auto better = roofed(piece.draft_index, std::move(pieces[i].site), std::move(pieces[i].draft));
+    if (!better) return {};
+    pieces[i] = std::move(*better);
+    auto& changes = pieces[i].changes;
+    if (i == 0)
+      changes.insert(changes.begin(), piece.changes.begin(), piece.changes.end());
+    else
+      changes.insert(changes.begin(), "a part of its own: " + proposal.what);
+  }
+  return pieces;
+}
+
+}  // namespace mansard::refine::detail
