@@ -25,7 +25,7 @@ struct FromAbove {
 /// One place on a true roof plane.
 struct Place {
   std::uint32_t plane = 0;
-  bool bare = true;
+  bool bare = true, amid = false;  ///< amid: its four neighbours lie on the same plane
   double angle = 0, offset = 0;
 };
 
@@ -36,8 +36,11 @@ auto angle_between(Point3 a, Point3 b) -> double { return std::acos(std::clamp(s
 auto places_of(std::uint32_t building, const geometry::Box2& box, const FromAbove& truth, const Planes& planes,
                const FromAbove& model, double grid) -> std::vector<Place> {
   constexpr double least_area = 2;  // m²; less is a dormer's cheek or a sliver
+  constexpr std::uint32_t none = ~0U;
   std::vector<Place> places;
   const auto cells = detail::grid_over(box, grid);
+  std::vector<std::uint32_t> plane_at(static_cast<std::size_t>(cells.rows * cells.columns), none);
+  std::vector<std::size_t> where;
   for (std::int64_t j = 0; j < cells.rows; ++j)
     for (std::int64_t i = 0; i < cells.columns; ++i) {
       const auto at = cells.centre(i, j);
@@ -47,6 +50,8 @@ auto places_of(std::uint32_t building, const geometry::Box2& box, const FromAbov
       const auto plane = planes.of_face[truth.surface.faces[real->triangle]];
       if (planes.planes[plane].area < least_area) continue;
       Place place{plane};
+      where.push_back(static_cast<std::size_t>(j * cells.columns + i));
+      plane_at[where.back()] = plane;
       if (const auto built = model.scene.seen_from_above(at)) {
         place.bare = false;
         place.angle = angle_between(truth.normals[real->triangle], model.normals[built->triangle]);
@@ -54,6 +59,13 @@ auto places_of(std::uint32_t building, const geometry::Box2& box, const FromAbov
       }
       places.push_back(place);
     }
+  const auto columns = static_cast<std::size_t>(cells.columns);
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const std::size_t at = where[k], column = at % columns;
+    const auto same = [&](std::size_t other) { return plane_at[other] == places[k].plane; };
+    places[k].amid = column > 0 && column + 1 < columns && at >= columns && at + columns < plane_at.size() &&
+                     same(at - 1) && same(at + 1) && same(at - columns) && same(at + columns);
+  }
   return places;
 }
 
@@ -89,10 +101,12 @@ auto compare_roofs(const ingest::Model& truth_model, const ingest::Model& model_
 
   Roofs out;
   std::vector<std::size_t> seen(planes.planes.size(), 0), good(planes.planes.size(), 0);
+  std::vector<bool> broad(planes.planes.size(), false);
   std::vector<double> angles, offsets;
   std::size_t by_angle = 0, by_height = 0, by_both = 0;
   for (const auto& place : places) {
     ++seen[place.plane];
+    if (place.amid) broad[place.plane] = true;
     if (place.bare) {
       ++out.bare;
       continue;
@@ -108,7 +122,10 @@ auto compare_roofs(const ingest::Model& truth_model, const ingest::Model& model_
   }
   for (std::size_t p = 0; p < seen.size(); ++p) {
     out.planes += seen[p] > 0 ? 1 : 0;
-    out.found += seen[p] > 0 && 2 * good[p] >= seen[p] ? 1 : 0;
+    const bool found = seen[p] > 0 && 2 * good[p] >= seen[p];
+    out.found += found ? 1 : 0;
+    out.broad += broad[p] ? 1 : 0;
+    out.broad_found += broad[p] && found ? 1 : 0;
   }
   out.places = places.size();
   if (places.empty()) return out;

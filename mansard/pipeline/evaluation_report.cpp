@@ -116,6 +116,8 @@ auto json_of(const TruthScores& t) -> Json {
           {"roofs",
            {{"planes", r.planes},
             {"planes_found", r.found},
+            {"planes_broad", r.broad},
+            {"planes_broad_found", r.broad_found},
             {"places", r.places},
             {"bare", r.bare},
             {"angle_mean_deg", degrees(r.angle_mean)},

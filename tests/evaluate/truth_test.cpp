@@ -141,6 +141,18 @@ TEST(Roofs, leave_small_planes_out) {
   EXPECT_EQ(compare_roofs(truth, truth, 0.25).planes, 1U);
 }
 
+TEST(Roofs, narrower_than_three_places_are_not_broad) {
+  // A parapet of 0.3 m beside a roof, and one of 0.9 m.
+  for (const double width : {0.3, 0.9}) {
+    const auto truth = model_of({{box({0, 0}, {10, 8}, 0, 6), box({10, 0}, {10 + width, 8}, 0, 6.7)}});
+    const auto result = compare_roofs(truth, model_of({{box({0, 0}, {10 + width, 8}, 0, 6)}}), 0.25);
+    EXPECT_EQ(result.planes, 2U);
+    EXPECT_EQ(result.found, 1U);
+    EXPECT_EQ(result.broad, width < 0.75 ? 1U : 2U);
+    EXPECT_EQ(result.broad_found, 1U);
+  }
+}
+
 TEST(Classes, of_a_model_against_itself_are_all_right) {
   const auto surface = surface_of(model_of({{gable({0, 0}, {10, 8}, 0, 6, 9)}}));
   const auto result = compare_classes(surface, surface, {}, 1);

@@ -216,7 +216,8 @@ auto forms_of(const Plan& plan, const Site& site) -> std::vector<Plan> {
         form.profiles[p] = carries[p] ? roof : wall(std::max(least, gutter));
       out.push_back(form);
     };
-    if (line && line->slope >= flattest && line->slope <= steepest) give(pitched(line->at_edge, line->slope), line->at_edge);
+    if (line && line->slope >= flattest && line->slope <= steepest)
+      give(pitched(line->at_edge, line->slope), line->at_edge);
     if (const auto roof = mansard_line(std::move(looks))) give(*roof, (*roof)[1].height);
   };
   constexpr double across = 0.8;  // cosine of 37°

@@ -135,6 +135,7 @@ auto refine_owner(std::span<const Draft> drafts, std::span<const std::size_t> mi
       if (cost_of(pieces, options) > enough * before) break;
     }
   }
+  base::parallel_for(pieces.size(), [&](std::size_t i) { pieces[i] = work.finished(std::move(pieces[i])); });
   for (auto& piece : pieces)
     out.parts.push_back({piece.draft.owner, piece.draft_index, std::move(piece.roof.plan), std::move(*piece.raised),
                          std::move(piece.changes)});

@@ -155,7 +155,8 @@ auto rebuilt(const Profile& profile, const std::vector<std::vector<Look>>& looks
     add(end, line.at_edge + line.slope * end);
   }
   if (out.size() < 2) return std::nullopt;
-  if (!lines.back()) add(out.back().inward, out.back().height + profile.back().height - profile[profile.size() - 2].height);
+  if (!lines.back())
+    add(out.back().inward, out.back().height + profile.back().height - profile[profile.size() - 2].height);
   for (std::size_t i = 1; i < out.size(); ++i)
     if (out[i].inward < out[i - 1].inward || out[i].height < out[i - 1].height) return std::nullopt;
   return out;

@@ -6,7 +6,6 @@
 
 #include "mansard/refine/detail/forms.hpp"
 #include "mansard/refine/detail/refit.hpp"
-#include "mansard/refine/detail/sharpen.hpp"
 
 namespace mansard::refine::detail {
 namespace {
@@ -211,7 +210,7 @@ auto best_roof(const Draft& draft, const Judge& judge, Search search, double wor
     constexpr double enough = 0.98;
     if (best.cost > enough * cost) break;
   }
-  best = sharpened(regular(std::move(best), judge), judge);
+  best = regular(std::move(best), judge);
   const auto was = pitched_sides(before), is = pitched_sides(best.plan);
   if (was != is)
     changed.push_back("roof rises from " + std::to_string(is) + " of its sides instead of " + std::to_string(was));

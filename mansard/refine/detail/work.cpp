@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "mansard/refine/detail/pieces.hpp"
+#include "mansard/refine/detail/sharpen.hpp"
 #include "mansard/refine/detail/wings.hpp"
 
 namespace mansard::refine::detail {
@@ -194,6 +195,19 @@ auto Work::tried(const Piece& piece, const Proposal& proposal, double worth) con
     out.push_back(std::move(*made));
   }
   return out;
+}
+
+auto Work::finished(Piece piece) const -> Piece {
+  const bool keep = options_.effort == Effort::caps || piece.site.cells.empty() ||
+                    piece.roof.misfit < options_.face_price || run_.cancelled();
+  if (keep) return piece;
+  auto sharp = sharpened(piece.roof, Judge(piece.site, options_, raising_, run_));
+  if (sharp.plan == piece.roof.plan) return piece;
+  auto raised = extrude::raise(sharp.plan, raising_, run_);
+  if (!raised || raised->outcome != extrude::Outcome::full) return piece;
+  piece.roof = std::move(sharp);
+  piece.raised = std::move(*raised);
+  return piece;
 }
 
 /// The same pieces searched thoroughly; none where a sketch is one that no solid can be made of.

@@ -43,6 +43,9 @@ class Work {
   /// Where two pieces meet in the wrong place: both as one, cut anew, if that is cheaper.
   [[nodiscard]] auto cut_anew(const Piece& a, const Piece& b) const -> std::vector<Piece>;
 
+  /// The piece with its planes where they were before the scan melted them, where a solid can be made of that.
+  [[nodiscard]] auto finished(Piece piece) const -> Piece;
+
   [[nodiscard]] auto options() const -> const Options& { return options_; }
   [[nodiscard]] auto cancelled() const -> bool { return run_.cancelled(); }
 
