@@ -98,6 +98,21 @@ auto attempt(const detail::Source& source, const geometry::Plan& plan, const Opt
   return solid;
 }
 
+/// use(footprint, surface) of the plan as it is, without the ladder.
+template <class T, class Use>
+auto after_sweep(const geometry::Plan& plan, const Options& options, const base::Run& run, Use use) -> base::Result<T> {
+  const auto source = detail::prepared(plan);
+  if (!source) return source.error();
+  std::string why;
+  try {
+    if (const auto footprint = detail::canonical(*source, options, why))
+      return use(*footprint, detail::sweep(*footprint, detail::on_grid(plan.cap), run));
+  } catch (const detail::Broken& broken) {
+    why = broken.what();
+  }
+  return base::error("extrude-canonical", why);
+}
+
 }  // namespace
 
 auto raise(const geometry::Plan& plan, const Options& options, const base::Run& run) -> base::Result<Raised> {
@@ -141,35 +156,17 @@ auto prism(const geometry::Plan& plan, const Options& options) -> base::Result<S
 }
 
 auto crest(const geometry::Plan& plan, const Options& options, const base::Run& run) -> base::Result<double> {
-  const auto source = detail::prepared(plan);
-  if (!source) return source.error();
-  std::string why;
-  try {
-    if (const auto footprint = detail::canonical(*source, options, why)) {
-      const auto surface = detail::sweep(*footprint, detail::on_grid(plan.cap), run);
-      double top = 0;
-      for (const auto& place : surface.places) top = std::max(top, place.z);
-      return top;
-    }
-  } catch (const detail::Broken& broken) {
-    why = broken.what();
-  }
-  return base::error("extrude-canonical", why);
+  return after_sweep<double>(plan, options, run, [](const auto&, const auto& surface) {
+    double top = 0;
+    for (const auto& place : surface.places) top = std::max(top, place.z);
+    return top;
+  });
 }
 
 auto sketch(const geometry::Plan& plan, const Options& options, const base::Run& run) -> base::Result<Solid> {
-  const auto source = detail::prepared(plan);
-  if (!source) return source.error();
-  std::string why;
-  try {
-    if (const auto footprint = detail::canonical(*source, options, why)) {
-      const auto surface = detail::sweep(*footprint, detail::on_grid(plan.cap), run);
-      return detail::rounded(surface, {footprint->origin, plan.base, 0}, false).solid;
-    }
-  } catch (const detail::Broken& broken) {
-    why = broken.what();
-  }
-  return base::error("extrude-canonical", why);
+  return after_sweep<Solid>(plan, options, run, [&plan](const auto& footprint, const auto& surface) {
+    return detail::rounded(surface, {footprint.origin, plan.base, 0}, false).solid;
+  });
 }
 
 auto volume(const Solid& solid) -> double {

@@ -123,7 +123,8 @@ TEST(Refine, gives_a_tower_a_plan_of_its_own) {
   EXPECT_NEAR(geometry::area(geometry::polygon_of(parts[1].plan)), 12, 1.5);  // the scan slopes 0.2 m outwards
   EXPECT_NEAR(parts[0].plan.cap, 6, 0.03);
   EXPECT_NEAR(parts[1].plan.cap, 9, 0.05);
-  const double covered = geometry::area(geometry::polygon_of(parts[0].plan)) + geometry::area(geometry::polygon_of(parts[1].plan));
+  double covered = 0;
+  for (const auto& part : parts) covered += geometry::area(geometry::polygon_of(part.plan));
   EXPECT_NEAR(covered, 96, 1e-6);
 }
 

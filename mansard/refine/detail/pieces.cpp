@@ -110,7 +110,9 @@ auto joined(const Polygon& a, const Polygon& b) -> std::optional<Polygon> {
   if (!united || united->empty()) return std::nullopt;
   Polygon out = united->front();
   if (united->size() > 1 || !geometry::is_simple(out)) return std::nullopt;
-  std::erase_if(out.holes, [](const Ring& hole) { return std::abs(geometry::signed_area(hole)) < slit * geometry::perimeter(hole); });
+  std::erase_if(out.holes, [](const Ring& hole) {
+    return std::abs(geometry::signed_area(hole)) < slit * geometry::perimeter(hole);
+  });
   out.outer = cleaned(out.outer, straight);
   for (auto& hole : out.holes) hole = cleaned(hole, straight);
   if (!geometry::is_simple(out)) return std::nullopt;

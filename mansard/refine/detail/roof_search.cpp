@@ -102,7 +102,8 @@ auto misfit_by_side(const Judged& judged, const Judge& judge) -> std::vector<dou
       least = d;
     }
     if (nearest != nullptr)
-      out[nearest->profile] += site.weight[i] * difference * std::min(difference, judge.options().robust) * site.cell_area;
+      out[nearest->profile] +=
+          site.weight[i] * difference * std::min(difference, judge.options().robust) * site.cell_area;
   }
   return out;
 }

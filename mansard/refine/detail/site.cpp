@@ -90,7 +90,8 @@ void finish(Site& site, const Options& options) {
   std::vector<bool> margin(grid.z.size(), false);
   const auto mark = [&](const geometry::Ring& ring) {
     for (std::size_t i = 0; i < ring.size(); ++i)
-      each_near(ring[i], ring[(i + 1) % ring.size()], options.margin, grid, [&](std::size_t cell) { margin[cell] = true; });
+      each_near(ring[i], ring[(i + 1) % ring.size()], options.margin, grid,
+                [&](std::size_t cell) { margin[cell] = true; });
   };
   mark(site.polygon.outer);
   for (const auto& hole : site.polygon.holes) mark(hole);

@@ -26,7 +26,8 @@ auto Work::look(const geometry::Polygon& polygon, double base) const -> Site {
 }
 
 /// `worth`: dearer roofs are of no interest.
-auto Work::roofed(std::size_t draft_index, Site site, Draft draft, Search search, double worth) const -> base::Result<Piece> {
+auto Work::roofed(std::size_t draft_index, Site site, Draft draft, Search search, double worth) const
+    -> base::Result<Piece> {
   std::vector<std::string> changes;
   auto roof = best_roof(draft, Judge(site, options_, raising_, run_), search, worth, changes);
   if (!roof) return roof.error();
@@ -188,7 +189,8 @@ auto Work::tried(const Piece& piece, const Proposal& proposal, double worth) con
     if (site.cells.empty()) return {};
     Draft draft = draft_of(origin, site);
     const bool rest = out.empty() && !proposal.whole_side;  // its roof was found before; a little of it is gone
-    auto made = roofed(piece.draft_index, std::move(site), std::move(draft), rest ? Search::settled : Search::quick, left);
+    const Search search = rest ? Search::settled : Search::quick;
+    auto made = roofed(piece.draft_index, std::move(site), std::move(draft), search, left);
     if (!made) return {};
     left -= made->roof.cost + (out.empty() ? 0 : options_.part_price);
     if (left <= 0) return {};
