@@ -87,6 +87,7 @@ auto raise_parts(const segment::Segmentation& segmentation, const block::Block& 
   const Watch refining;
   std::vector<PartResult> parts;
   std::vector<refine::Draft> drafts;
+  std::vector<std::size_t> part_of_draft;
   for (std::size_t i = 0; i < fitted.size(); ++i) {
     const auto& source = segmentation.parts[i];
     const std::size_t feature = source.feature.value_or(block.members.front().feature);
@@ -95,6 +96,7 @@ auto raise_parts(const segment::Segmentation& segmentation, const block::Block& 
         parts.push_back(std::move(*prism));
       continue;
     }
+    part_of_draft.push_back(i);
     drafts.push_back({feature, fitted[i].plan, fitted[i].caps, fitted[i].alternatives});
   }
   auto refined = refine::refine(drafts, mesh, refining_of(options), with_grid(options.extrude), run);
@@ -110,7 +112,7 @@ auto raise_parts(const segment::Segmentation& segmentation, const block::Block& 
   }
   for (const auto& [draft, why] : refined.failed)
     out.warnings.push_back(base::warning(why.code, "a part of the segmentation could not be raised: " + why.message,
-                                         block.name + " part " + std::to_string(draft)));
+                                         block.name + " part " + std::to_string(part_of_draft[draft])));
   out.report.times.push_back({"refine", refining.seconds()});
   return parts;
 }
