@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "mansard/base/sorted.hpp"
+
 namespace mansard::profile::detail {
 namespace {
 
@@ -23,20 +25,6 @@ auto common_top(std::vector<ProfileTop>& tops) -> std::optional<double> {
   return tops.back().height;
 }
 
-/// The middle of the 0.5 m of height that holds most samples: a flat roof's level, whatever stands on it.
-auto commonest(std::span<const double> sorted) -> double {
-  constexpr double breadth = 0.5;
-  std::size_t best = 0, most = 0;
-  for (std::size_t low = 0, high = 0; low < sorted.size(); ++low) {
-    while (high < sorted.size() && sorted[high] <= sorted[low] + breadth) ++high;
-    if (high - low > most) {
-      most = high - low;
-      best = low;
-    }
-  }
-  return sorted[best + most / 2];
-}
-
 }  // namespace
 
 auto caps_from(std::span<const double> heights, std::vector<ProfileTop> tops, bool pitched,
@@ -53,7 +41,8 @@ auto caps_from(std::span<const double> heights, std::vector<ProfileTop> tops, bo
     // First a cap the roofs close under: a ridge cut off flat a little too low would be seen on every house.
     wanted = {ridge + clear, ridge, *top + clear, high, median};
   } else {
-    wanted = {commonest(heights), median};
+    constexpr double breadth = 0.5;  // m; a flat roof's level, whatever stands on it
+    wanted = {base::commonest(heights, breadth), median};
     if (top) wanted.push_back(*top);
     wanted.push_back(high);
   }

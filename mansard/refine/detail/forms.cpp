@@ -27,30 +27,6 @@ void each_edge(const Plan& plan, See see) {
   for (const auto& hole : plan.holes) ring(hole);
 }
 
-/// An edge that carries roof.
-struct Eaves {
-  Point2 start, along;  ///< along: unit
-  double length = 0;    ///< m
-};
-auto eaves_of(const Plan& plan, const std::vector<bool>& carries) -> std::vector<Eaves> {
-  std::vector<Eaves> out;
-  each_edge(plan, [&](Point2 a, Point2 b, std::uint32_t profile) {
-    const double length = geometry::length(b - a);
-    if (carries[profile] && length > 0) out.push_back({a, (1 / length) * (b - a), length});
-  });
-  return out;
-}
-
-/// Metres to the nearest of those in whose strip, widened by 45° to both sides, the place lies.
-auto distance_inward(const std::vector<Eaves>& eaves, Point2 at) -> std::optional<double> {
-  std::optional<double> nearest;
-  for (const Eaves& edge : eaves) {
-    const double d = dot(at - edge.start, geometry::left_of(edge.along)), t = dot(at - edge.start, edge.along);
-    if (d >= 0 && t >= -d && t <= edge.length + d && (!nearest || d < *nearest)) nearest = d;
-  }
-  return nearest;
-}
-
 /// Heights over the distance from the sides that carry roof.
 auto looks_over(const Plan& plan, const std::vector<bool>& carries, const Site& site) -> std::vector<Look> {
   constexpr std::size_t enough = 800;  // looks; more would not move a line
@@ -59,8 +35,9 @@ auto looks_over(const Plan& plan, const std::vector<bool>& carries, const Site& 
   std::vector<Look> looks;
   for (std::size_t i = 0; i < site.cells.size(); i += stride) {
     const auto cell = site.cells[i];
-    const Point2 at = site.measured.centre(cell % site.measured.columns, cell / site.measured.columns);
-    if (const auto d = distance_inward(eaves, at)) looks.push_back({*d, site.measured.z[cell], site.weight[i]});
+    const Point2 at = site.measured.centre(cell);
+    if (const auto near = nearest_eaves(eaves, at))
+      looks.push_back({near->inward, site.measured.z[cell], site.weight[i]});
   }
   return looks;
 }
@@ -166,6 +143,24 @@ auto ends_of(const Plan& plan, const std::vector<Side>& sides) -> std::vector<bo
 }
 
 }  // namespace
+
+auto eaves_of(const Plan& plan, const std::vector<bool>& carries) -> std::vector<Eaves> {
+  std::vector<Eaves> out;
+  each_edge(plan, [&](Point2 a, Point2 b, std::uint32_t profile) {
+    const double length = geometry::length(b - a);
+    if (carries[profile] && length > 0) out.push_back({a, (1 / length) * (b - a), length, profile});
+  });
+  return out;
+}
+
+auto nearest_eaves(const std::vector<Eaves>& eaves, Point2 at) -> std::optional<Nearest> {
+  std::optional<Nearest> nearest;
+  for (const Eaves& edge : eaves) {
+    const double d = dot(at - edge.start, geometry::left_of(edge.along)), t = dot(at - edge.start, edge.along);
+    if (d >= 0 && t >= -d && t <= edge.length + d && (!nearest || d < nearest->inward)) nearest = {edge.profile, d};
+  }
+  return nearest;
+}
 
 auto wall(double height) -> Profile { return {{0, 0}, {0, std::max(0.5, height)}}; }
 

@@ -1,6 +1,8 @@
 // The roofs that a plan may carry: flat, of one pitch, gabled either way, hipped, each also with a steep foot.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "mansard/geometry/plan.hpp"
@@ -24,5 +26,24 @@ struct Side {
 };
 /// Per profile of the plan.
 [[nodiscard]] auto sides_of(const geometry::Plan& plan) -> std::vector<Side>;
+
+/// One edge of a plan.
+struct Eaves {
+  geometry::Point2 start, along;  ///< along: unit
+  double length = 0;              ///< m
+  std::uint32_t profile = 0;
+};
+/// The edges whose profiles carry roof, of all that have a length.
+[[nodiscard]] auto eaves_of(const geometry::Plan& plan, const std::vector<bool>& carries) -> std::vector<Eaves>;
+
+struct Nearest {
+  std::uint32_t profile = 0;
+  double inward = 0;  ///< m
+};
+/// The nearest of those in whose strip, widened by 45° to both sides, the place lies.
+[[nodiscard]] auto nearest_eaves(const std::vector<Eaves>& eaves, geometry::Point2 at) -> std::optional<Nearest>;
+
+/// Whether a profile is nothing but a wall.
+[[nodiscard]] inline auto is_wall(const geometry::Profile& profile) -> bool { return profile.back().inward == 0; }
 
 }  // namespace mansard::refine::detail

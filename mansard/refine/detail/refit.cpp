@@ -90,7 +90,7 @@ auto sort_looks(const Judged& judged, const Site& site, Used used) -> Sorted {
     const auto& ring = ring_of(judged.plan, from.ring);
     auto& parts = out.looks[ring.profile_of_edge[from.edge]];
     if (from.part >= parts.size()) continue;
-    const Point2 at = site.measured.centre(cell % site.measured.columns, cell / site.measured.columns);
+    const Point2 at = site.measured.centre(cell);
     const double inward = inward_of(ring, from.edge, at);
     if (used == Used::all) {
       parts[from.part].push_back({inward, site.measured.z[cell], site.weight[i]});

@@ -42,8 +42,6 @@ auto settle(Judged judged, const Judge& judge) -> Judged {
   return judged;
 }
 
-auto is_wall(const Profile& profile) -> bool { return profile.back().inward == 0; }
-
 /// What an edge might carry instead of what it carries now.
 auto others_of(const Draft& draft, const Plan& plan, std::size_t p, const std::vector<Side>& sides)
     -> std::vector<Profile> {
@@ -70,21 +68,7 @@ auto others_of(const Draft& draft, const Plan& plan, std::size_t p, const std::v
 
 /// m²·m² by profile: weighed squared differences of the looks whose nearest side, in a strip widened by 45°, it is.
 auto misfit_by_side(const Judged& judged, const Judge& judge) -> std::vector<double> {
-  struct Edge {
-    geometry::Point2 start, along;
-    double length = 0;
-    std::uint32_t profile = 0;
-  };
-  std::vector<Edge> edges;
-  const auto add = [&edges](const geometry::PlanRing& ring) {
-    for (std::size_t i = 0; i < ring.points.size(); ++i) {
-      const auto a = ring.points[i], b = ring.points[(i + 1) % ring.points.size()];
-      edges.push_back({a, geometry::normalised(b - a), geometry::length(b - a), ring.profile_of_edge[i]});
-    }
-  };
-  add(judged.plan.outer);
-  for (const auto& hole : judged.plan.holes) add(hole);
-
+  const auto edges = eaves_of(judged.plan, std::vector<bool>(judged.plan.profiles.size(), true));
   const auto& site = judge.site();
   std::vector<double> out(judged.plan.profiles.size(), 0);
   for (std::size_t i = 0; i < site.cells.size(); ++i) {
@@ -92,16 +76,8 @@ auto misfit_by_side(const Judged& judged, const Judge& judge) -> std::vector<dou
     const double difference = std::abs(judged.view.z[cell] - site.measured.z[cell]);
     constexpr double noise = 0.2;  // m; no other profile explains less
     if (!(difference > noise)) continue;
-    const auto at = site.measured.centre(cell % site.measured.columns, cell / site.measured.columns);
-    const Edge* nearest = nullptr;
-    double least = 0;
-    for (const Edge& edge : edges) {
-      const double d = dot(at - edge.start, geometry::left_of(edge.along)), t = dot(at - edge.start, edge.along);
-      if (d < 0 || t < -d || t > edge.length + d || (nearest != nullptr && d >= least)) continue;
-      nearest = &edge;
-      least = d;
-    }
-    if (nearest != nullptr)
+    const auto at = site.measured.centre(cell);
+    if (const auto nearest = nearest_eaves(edges, at))
       out[nearest->profile] +=
           site.weight[i] * difference * std::min(difference, judge.options().robust) * site.cell_area;
   }

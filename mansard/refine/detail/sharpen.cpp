@@ -10,9 +10,6 @@ namespace mansard::refine::detail {
 namespace {
 
 using geometry::Plan;
-using geometry::Profile;
-
-auto is_wall(const Profile& profile) -> bool { return profile.back().inward == 0; }
 
 /// Whether all that the plan's profiles carry rises less than a flat roof may, for the rain to run off.
 auto nearly_level(const Plan& plan) -> bool {

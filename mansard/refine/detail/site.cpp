@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "mansard/base/sorted.hpp"
+
 namespace mansard::refine::detail {
 namespace {
 
@@ -12,29 +14,19 @@ using geometry::Polygon;
 
 constexpr double unseen = std::numeric_limits<double>::quiet_NaN();
 
-/// Calls see(cell) for every cell of the grid whose centre is inside.
+/// Calls see(column, row) for every cell of the grid whose centre is inside.
 template <class See>
 void each_inside(const Polygon& polygon, const Heights& grid, See see) {
   std::vector<double> crossings;
   const auto cross = [&](const geometry::Ring& ring, double y) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Point2 a = ring[i], b = ring[(i + 1) % ring.size()];
-      if ((a.y <= y) != (b.y <= y)) crossings.push_back(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
-    }
+    for (std::size_t i = 0; i < ring.size(); ++i) add_crossing(ring[i], ring[(i + 1) % ring.size()], y, crossings);
   };
   for (std::size_t row = 0; row < grid.rows; ++row) {
     crossings.clear();
     const double y = grid.centre(0, row).y;
     cross(polygon.outer, y);
     for (const auto& hole : polygon.holes) cross(hole, y);
-    std::ranges::sort(crossings);
-    for (std::size_t k = 0; k + 1 < crossings.size(); k += 2) {
-      const double first = std::ceil((crossings[k] - grid.origin.x) / grid.spacing);
-      for (auto column = static_cast<std::size_t>(std::max(0.0, first)); column < grid.columns; ++column) {
-        if (grid.centre(column, row).x >= crossings[k + 1]) break;
-        see(column, row);
-      }
-    }
+    each_between(grid, row, crossings, [&](std::size_t column) { see(column, row); });
   }
 }
 
@@ -135,16 +127,8 @@ auto crop(const Site& site, const Polygon& piece, const Options& options) -> Sit
 }
 
 auto commonest(const std::vector<double>& sorted) -> double {
-  constexpr double breadth = 0.5;
-  std::size_t best = 0, most = 0;
-  for (std::size_t low = 0, high = 0; low < sorted.size(); ++low) {
-    while (high < sorted.size() && sorted[high] <= sorted[low] + breadth) ++high;
-    if (high - low > most) {
-      most = high - low;
-      best = low;
-    }
-  }
-  return sorted[best + most / 2];
+  constexpr double breadth = 0.5;  // m
+  return base::commonest(sorted, breadth);
 }
 
 }  // namespace mansard::refine::detail

@@ -41,32 +41,23 @@ class Painter {
     for (std::size_t row = rows.first; row < rows.last; ++row) {
       const double y = grid_.centre(0, row).y;
       cross(face, y);
-      for (std::size_t k = 0; k + 1 < crossings_.size(); k += 2) {
-        const double first = std::ceil((crossings_[k] - grid_.origin.x) / grid_.spacing);
-        for (auto column = static_cast<std::size_t>(std::max(0.0, first)); column < grid_.columns; ++column) {
-          const double x = grid_.centre(column, row).x;
-          if (x >= crossings_[k + 1]) break;
-          const std::size_t cell = row * grid_.columns + column;
-          view_.z[cell] = at.z + dx * (x - at.x) + dy * (y - at.y) - base_;
-          view_.face[cell] = f;
-        }
-      }
+      each_between(grid_, row, crossings_, [&](std::size_t column) {
+        const std::size_t cell = row * grid_.columns + column;
+        view_.z[cell] = at.z + dx * (grid_.centre(column, row).x - at.x) + dy * (y - at.y) - base_;
+        view_.face[cell] = f;
+      });
     }
   }
 
   [[nodiscard]] auto view() && -> View { return std::move(view_); }
 
  private:
-  /// Where the face's edges cross the line of that y, sorted.
+  /// Where the face's edges cross the line of that y.
   void cross(const extrude::Face& face, double y) {
     crossings_.clear();
-    for (const auto& loop : face.loops) {
-      for (std::size_t i = 0; i < loop.size(); ++i) {
-        const Point3 a = solid_.vertices[loop[i]], b = solid_.vertices[loop[(i + 1) % loop.size()]];
-        if ((a.y <= y) != (b.y <= y)) crossings_.push_back(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
-      }
-    }
-    std::ranges::sort(crossings_);
+    for (const auto& loop : face.loops)
+      for (std::size_t i = 0; i < loop.size(); ++i)
+        add_crossing(xy(solid_.vertices[loop[i]]), xy(solid_.vertices[loop[(i + 1) % loop.size()]]), y, crossings_);
   }
 
   const extrude::Solid& solid_;

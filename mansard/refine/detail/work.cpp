@@ -116,7 +116,7 @@ auto Work::misfit_about(const Piece& piece, geometry::Point2 place, double withi
   double sum = 0;
   for (std::size_t i = 0; i < site.cells.size(); ++i) {
     const auto cell = site.cells[i];
-    const auto off = site.measured.centre(cell % site.measured.columns, cell / site.measured.columns) - place;
+    const auto off = site.measured.centre(cell) - place;
     const double d = std::abs(piece.roof.view.z[cell] - site.measured.z[cell]);
     if (dot(off, off) < within * within && !std::isnan(d)) sum += site.weight[i] * d * std::min(d, options_.robust);
   }
@@ -157,7 +157,7 @@ auto Work::misfit_near(const Piece& piece, const geometry::Polygon& other) const
   for (const auto cell : site.cells) {
     const double d = std::abs(piece.roof.view.z[cell] - site.measured.z[cell]);
     if (!(d > step)) continue;
-    const auto at = site.measured.centre(cell % site.measured.columns, cell / site.measured.columns);
+    const auto at = site.measured.centre(cell);
     if (geometry::boundary_distance(other, at) < near) sum += d * std::min(d, options_.robust);
   }
   return sum * site.cell_area;
