@@ -11,14 +11,10 @@ using mansard::evaluate::ErrorMap;
 using mansard::evaluate::scores_over;
 using mansard::geometry::Polygon;
 using mansard::rays::Scene;
-using models::model_of;
+using models::mesh_of;
+using models::rectangle;
 using solids::box;
 using solids::gable;
-
-auto mesh_of(const std::vector<std::vector<solids::Solid>>& buildings) -> mansard::geometry::Mesh {
-  return mansard::ingest::surface_of(model_of(buildings)).mesh;
-}
-auto rectangle(double x0, double x1) -> Polygon { return {{{x0, 0}, {x1, 0}, {x1, 8}, {x0, 8}}, {}}; }
 
 TEST(Scores_over, of_a_box_off_by_a_metre_are_one) {
   const Scene model(mesh_of({{box({0, 0}, {10, 8}, 0, 7)}})), scan(mesh_of({{box({0, 0}, {10, 8}, 0, 6)}}));

@@ -14,14 +14,10 @@ using mansard::evaluate::Scores;
 using mansard::evaluate::scores_over;
 using mansard::geometry::Polygon;
 using mansard::rays::Scene;
-using models::model_of;
+using models::mesh_of;
+using models::rectangle;
 using solids::box;
 using solids::gable;
-
-auto mesh_of(const std::vector<std::vector<solids::Solid>>& buildings) -> mansard::geometry::Mesh {
-  return mansard::ingest::surface_of(model_of(buildings)).mesh;
-}
-auto rectangle(double x0, double x1) -> Polygon { return {{{x0, 0}, {x1, 0}, {x1, 8}, {x0, 8}}, {}}; }
 
 // Of 10 × 8 m, the cells of 0.25 m whose centres are more than 0.75 m inside: 8.5 × 6.5 m.
 constexpr std::size_t deep = 34 * 26;

@@ -46,4 +46,14 @@ inline auto model_of(const std::vector<std::vector<solids::Solid>>& buildings) -
   return model;
 }
 
+/// The surface of such a model.
+inline auto mesh_of(const std::vector<std::vector<solids::Solid>>& buildings) -> mansard::geometry::Mesh {
+  return mansard::ingest::surface_of(model_of(buildings)).mesh;
+}
+
+/// From y = 0 to 8 m.
+inline auto rectangle(double x0, double x1) -> mansard::geometry::Polygon {
+  return {{{x0, 0}, {x1, 0}, {x1, 8}, {x0, 8}}, {}};
+}
+
 }  // namespace models
