@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "mansard/base/run.hpp"
 #include "mansard/sweep/detail/registration.hpp"
 #include "sweep/town.hpp"
 
@@ -69,6 +70,53 @@ TEST(Registration, is_not_led_astray_by_one_wall_that_is_elsewhere) {
   const auto found =
       register_footprints(walls, block_of({drawn, rectangle(Point2{20, 0} + off, Point2{30, 8} + off)}), {});
   EXPECT_LT(length(found.shift + off), 0.02);
+}
+
+auto moved(geometry::Ring ring, Point2 by) -> geometry::Ring {
+  for (auto& p : ring) p = p + by;
+  return ring;
+}
+
+/// Eight houses in a row, gaps between them, and their walls, each up to `scatter` off, in or out.
+struct Row {
+  std::vector<geometry::Ring> drawn;
+  std::vector<SweepEdge> walls;
+};
+auto row(Point2 off, double scatter) -> Row {
+  Row out;
+  base::Random random(7);
+  for (int i = 0; i < 8; ++i) {
+    const auto ring = moved(house, {20.0 * i, 0});
+    out.drawn.push_back(moved(ring, off));
+    for (auto wall : walls_of(ring)) {
+      const Point2 normal = geometry::left_of(normalised(wall.segment.end - wall.segment.start));
+      const double by = random.uniform(-scatter, scatter);
+      wall.segment = {wall.segment.start + by * normal, wall.segment.end + by * normal};
+      out.walls.push_back(wall);
+    }
+  }
+  return out;
+}
+
+TEST(Registration, believes_many_walls_although_each_is_off_by_more_than_half_the_shift) {
+  const Point2 off{0.06, 0.19};
+  const auto many = row(off, 0.3);
+  const auto found = register_footprints(many.walls, block_of(many.drawn), {});
+  EXPECT_LT(length(found.shift + off), 0.1);
+  EXPECT_GT(found.spread, length(found.shift) / 2) << "each wall alone says nothing";
+}
+
+TEST(Registration, takes_scatter_for_no_displacement) {
+  const auto straight = row({0, 0}, 0.25);
+  EXPECT_EQ(register_footprints(straight.walls, block_of(straight.drawn), {}).shift, (Point2{0, 0}));
+}
+
+TEST(Registration, finds_footprints_that_are_a_metre_off) {
+  const Point2 off{-0.8, 0.6};
+  const auto exact = row(off, 0.05);
+  EXPECT_LT(length(register_footprints(exact.walls, block_of(exact.drawn), {}).shift + off), 0.05);
+  const auto far = row(1.7 * off, 0.05);
+  EXPECT_EQ(register_footprints(far.walls, block_of(far.drawn), {}).shift, (Point2{0, 0})) << "not by two";
 }
 
 TEST(Registration, takes_eaves_for_eaves) {

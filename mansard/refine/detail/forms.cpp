@@ -69,6 +69,7 @@ struct Sums {
     const double across = xx - x * x / w, along = xz - x * z / w, all = zz - z * z / w;
     return across > 0 ? std::max(0.0, all - along * along / across) : all;
   }
+  [[nodiscard]] auto left_level() const -> double { return w > 0 ? std::max(0.0, zz - z * z / w) : 0; }
 };
 
 /// A steep roof and a flatter one above it, of whatever distance from the sides parts them best. A melted corner, or a
@@ -106,6 +107,62 @@ auto mansard_line(std::vector<Look> looks) -> std::optional<Profile> {
     return std::nullopt;
   const double height = lower->at_edge + lower->slope * knot;
   return Profile{{0, 0}, {0, lower->at_edge}, {knot, height}, {knot + 1, height + slope}};
+}
+
+/// The median: looks where the strip ends see some of the wall behind it.
+auto middle_height(std::span<const Look> looks) -> double {
+  std::vector<double> heights;
+  for (const Look& look : looks) heights.push_back(look.height);
+  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
+  std::ranges::nth_element(heights, middle);
+  return *middle;
+}
+
+/// A level strip and what stands behind it, of whatever depth parts them best.
+auto setback(std::vector<Look> looks) -> std::vector<Profile> {
+  constexpr double least_depth = 0.7, most_depth = 4, seen_behind = 3, least_rise = 0.8;  // m
+  constexpr double lean = 0.8;   // of what one line leaves; a step that explains no more is a slope
+  constexpr double about = 1, along = 0.8;  // m behind the step; share of the looks there that are up
+  constexpr std::size_t fewest = 12;
+  std::ranges::stable_sort(looks, {}, &Look::inward);
+  std::erase_if(looks, [&](const Look& look) { return look.inward > most_depth + seen_behind; });
+  std::vector<Sums> sums(1);
+  for (const Look& look : looks) {
+    sums.push_back(sums.back());
+    sums.back().add(look);
+  }
+  std::size_t best = 0;
+  double least = lean * sums.back().left();
+  for (std::size_t i = fewest; i + fewest < looks.size(); ++i) {
+    if (looks[i].inward < least_depth) continue;
+    if (looks[i].inward > most_depth) break;
+    const double left = sums[i].left_level() + sums.back().less(sums[i]).left();
+    if (left < least) {
+      least = left;
+      best = i;
+    }
+  }
+  if (best == 0) return {};
+  const double depth = (looks[best - 1].inward + looks[best].inward) / 2;
+  const std::span<const Look> all(looks);
+  const auto behind = common_line(all.subspan(best));
+  const double low = middle_height(all.first(best));
+  if (!behind || !(low > 0)) return {};
+  const double high = behind->at_edge + behind->slope * depth;
+  if (high - low < least_rise) return {};
+  // A tower on the roof stands behind a part of the strip only.
+  std::size_t seen = 0, upright = 0;
+  for (const Look& look : all.subspan(best)) {
+    if (look.inward > depth + about) break;
+    ++seen;
+    upright += look.height > (low + high) / 2 ? 1 : 0;
+  }
+  if (static_cast<double>(upright) < along * static_cast<double>(seen)) return {};
+  std::vector<Profile> out{{{0, 0}, {0, low}, {depth, low}}};
+  constexpr double flattest = 0.05, steepest = 5;
+  if (behind->slope > flattest && behind->slope < steepest)
+    out.push_back({{0, 0}, {0, low}, {depth, low}, {depth, high}, {depth + 1, high + behind->slope}});
+  return out;
 }
 
 /// The directions of the plan's longest sides, of each pair of opposite ones one.
@@ -177,6 +234,20 @@ auto sides_of(const Plan& plan) -> std::vector<Side> {
   });
   for (auto& side : sides) side.inward = geometry::normalised(side.inward);
   return sides;
+}
+
+auto setbacks_of(const Plan& plan, const Site& site) -> std::vector<std::vector<Profile>> {
+  const auto eaves = eaves_of(plan, std::vector<bool>(plan.profiles.size(), true));
+  std::vector<std::vector<Look>> looks(plan.profiles.size());
+  for (std::size_t i = 0; i < site.cells.size(); ++i) {
+    const auto cell = site.cells[i];
+    if (site.weight[i] < 1) continue;  // the melted wall hides how level the strip is
+    if (const auto near = nearest_eaves(eaves, site.measured.centre(cell)))
+      looks[near->profile].push_back({near->inward, site.measured.z[cell], site.weight[i]});
+  }
+  std::vector<std::vector<Profile>> out;
+  for (auto& of_side : looks) out.push_back(setback(std::move(of_side)));
+  return out;
 }
 
 auto forms_of(const Plan& plan, const Site& site) -> std::vector<Plan> {

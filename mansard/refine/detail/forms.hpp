@@ -14,6 +14,11 @@ namespace mansard::refine::detail {
 /// flat ones as there are levels to end at. Profiles of the plan keep their numbers.
 [[nodiscard]] auto forms_of(const geometry::Plan& plan, const Site& site) -> std::vector<geometry::Plan>;
 
+/// Per profile of the plan what its sides may carry where the scan shows a level strip along them, of 0.7 to 4 m, and
+/// higher up behind it something else: wall, terrace, wall, and what goes on above. Cost: O(cells · edges).
+[[nodiscard]] auto setbacks_of(const geometry::Plan& plan, const Site& site)
+    -> std::vector<std::vector<geometry::Profile>>;
+
 /// A wall up to there, metres.
 [[nodiscard]] auto wall(double height) -> geometry::Profile;
 /// A wall up to the gutter, then a roof.

@@ -94,9 +94,13 @@ auto descend(Judged judged, const Draft& draft, const Judge& judge) -> Judged {
   std::ranges::stable_sort(order, std::greater<>{}, [&](std::size_t p) { return sides[p].length; });
   if (order.size() > most_sides) order.resize(most_sides);
   const auto misfit = misfit_by_side(judged, judge);
+  std::optional<std::vector<std::vector<Profile>>> setbacks;
   for (const std::size_t p : order) {
     if (misfit[p] < judge.options().face_price) continue;  // nothing to gain that a face would not cost
-    for (auto& profile : others_of(draft, judged.plan, p, sides)) {
+    if (!setbacks) setbacks = setbacks_of(judged.plan, judge.site());
+    auto others = others_of(draft, judged.plan, p, sides);
+    others.insert(others.end(), (*setbacks)[p].begin(), (*setbacks)[p].end());
+    for (auto& profile : others) {
       Plan plan = judged.plan;
       plan.profiles[p] = std::move(profile);
       auto next = judge(plan);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -19,10 +20,15 @@ namespace {
 
 constexpr double parallel_cosine = 0.995;  // 0.1 rad: edges that are compared by their distance
 constexpr double least_shared = 1.0;       // m of two edges beside each other before their distance says anything
-constexpr double farthest = 1.0;           // m; walls farther off their footprint are another thing
+constexpr double farthest = 1.0;           // m; walls farther off their footprint are another thing,
+constexpr double farthest_astray = 1.5;    // m; unless all of them are
 constexpr double noise_floor = 0.02;       // m; distances under it are all alike
 constexpr double least_determined = 0.02;  // of the length: what must face across every direction to fix the shift
-constexpr double stands_out = 2.0;         // a shift is this many times what it leaves unexplained
+constexpr double stands_out = 2.0;         // a shift is this many times what it leaves unexplained,
+constexpr double significant = 2.45;       // or its standard error (95 % of a normal distribution in the plane), where
+constexpr double explains = 0.15;          // it also takes this share off what was left over;
+constexpr double explains_astray = 0.5;    // and this share where footprints would be astray
+constexpr double fitted = 3;               // numbers: a shift and a distance outward
 constexpr double least_shift = 0.12;       // m; less is as likely the scan's own displacement as the footprints'
 constexpr int rounds = 30;
 
@@ -52,7 +58,8 @@ struct Match {
   double weight;  // m that they run beside each other
 };
 
-auto matches_of(const std::vector<SweepEdge>& edges, const block::Block& block) -> std::vector<Match> {
+auto matches_of(const std::vector<SweepEdge>& edges, const block::Block& block, double within)
+    -> std::vector<Match> {
   std::vector<Segment2> outline;
   for (const auto& polygon : block.outline) add_edges(polygon, {}, outline);
   const LineIndex index(outline, 8);
@@ -60,14 +67,14 @@ auto matches_of(const std::vector<SweepEdge>& edges, const block::Block& block) 
   for (const auto& edge : edges) {
     const Segment2& s = edge.segment;
     const Point2 d = normalised(s.end - s.start);
-    for (const auto k : index.near(box_of(s).grown(farthest))) {
+    for (const auto k : index.near(box_of(s).grown(within))) {
       const Segment2& g = outline[k];
       const Point2 u = normalised(g.end - g.start);
       if (dot(u, d) < parallel_cosine) continue;
       const double from = std::max(0.0, dot(g.start - s.start, d)), to = std::min(span(s), dot(g.end - s.start, d));
       if (to - from < least_shared) continue;
       const double offset = cross(u, s.start + (0.5 * (from + to)) * d - g.start);
-      if (std::abs(offset) <= farthest) matches.push_back({offset, geometry::left_of(u), to - from});
+      if (std::abs(offset) <= within) matches.push_back({offset, geometry::left_of(u), to - from});
     }
   }
   return matches;
@@ -146,22 +153,61 @@ auto common_of(const std::vector<Match>& matches) -> std::optional<Common> {
   return common;
 }
 
+/// m; how far off the shift may be for the walls' scatter alone, infinite where there are too few of them.
+auto standard_error(const std::vector<Match>& matches, const Common& common) -> double {
+  double sum = 0, squared = 0;
+  for (const auto& m : matches) {
+    sum += m.weight;
+    squared += m.weight * m.weight;
+  }
+  const double free = sum * sum / squared - fitted;  // as many walls of one length would say as much
+  constexpr double of_median = 1.4826;               // standard deviation of a normal distribution by its median
+  constexpr double directions = 2;                   // a wall tells nothing of the shift along it
+  return free > 0 ? of_median * median_rest(matches, common) * std::sqrt(directions / free)
+                  : std::numeric_limits<double>::infinity();
+}
+
+/// The shift of all footprints, where the walls are clear about it.
+auto clear_shift(const std::vector<Match>& matches, const Options& options) -> std::optional<Point2> {
+  const auto common = common_of(matches);
+  if (!common) return std::nullopt;
+  const Common shift{common->shift, 0};
+  const double moved = length(shift.shift), left = left_over(matches, shift), before = left_over(matches, {});
+  if (!(moved >= least_shift && moved <= options.gis_offset && left < before)) return std::nullopt;
+  // The median: annexes and set-backs stand far from their outline wherever that lies.
+  const bool stands = moved >= stands_out * median_rest(matches, shift);
+  const bool sure = moved >= significant * standard_error(matches, *common) && left <= (1 - explains) * before;
+  return stands || sure ? std::optional(shift.shift) : std::nullopt;
+}
+
+/// The same of footprints farther off, which must explain most of what was seen: walls of something else are as near.
+auto shift_astray(const std::vector<Match>& matches, const Options& options) -> std::optional<Point2> {
+  const auto common = common_of(matches);
+  if (!common) return std::nullopt;
+  const Common shift{common->shift, 0};
+  const double moved = length(shift.shift), most = options.gis_offset * farthest_astray / farthest;
+  const bool clear = moved > options.gis_offset && moved <= most &&
+                     moved >= stands_out * median_rest(matches, shift) &&
+                     moved >= significant * standard_error(matches, *common) &&
+                     left_over(matches, shift) <= (1 - explains_astray) * left_over(matches, {});
+  return clear ? std::optional(shift.shift) : std::nullopt;
+}
+
 }  // namespace
 
 auto register_footprints(const std::vector<SweepEdge>& edges, const block::Block& block, const Options& options)
     -> Registration {
   Registration registration;
   if (!(options.gis_offset > 0)) return registration;
-  const auto matches = matches_of(edges, block);
-  if (matches.empty()) return registration;
-  if (const auto common = common_of(matches)) {
-    Common shift{common->shift, 0};
-    const double moved = length(shift.shift);
-    // The median: annexes and set-backs stand far from their outline wherever that lies.
-    if (moved >= least_shift && moved <= options.gis_offset && moved >= stands_out * median_rest(matches, shift) &&
-        left_over(matches, shift) < left_over(matches, {}))
-      registration.shift = shift.shift;
+  auto matches = matches_of(edges, block, farthest);
+  auto shift = matches.empty() ? std::nullopt : clear_shift(matches, options);
+  if (!shift) {
+    auto wider = matches_of(edges, block, farthest_astray);
+    if (!wider.empty()) shift = shift_astray(wider, options);
+    if (shift) matches = std::move(wider);
   }
+  if (matches.empty()) return registration;
+  registration.shift = shift.value_or(Point2{});
   registration.spread = median_rest(matches, {registration.shift, 0});
   return registration;
 }
