@@ -1,43 +1,8 @@
 # mansard_room(name DEPENDS rooms… USES libraries…): the folder mansard/<name> becomes the library mansard_<name>.
-# mansard_install(name): what the room stands on and itself, for `cmake --install … --component <name>`.
-# Libraries are found here, when a room names them in USES, and nobody else links them.
+# Libraries are found when a room names them in USES, and nobody else links them. How rooms are installed:
+# cmake/packaging.cmake.
 include(GNUInstallDirs)
-
-# The target that a name in USES stands for. Cached variables and imported targets reach the whole tree.
-function(mansard_library name result)
-  set(target ${name})
-  if(name STREQUAL "TBB::tbb")
-    find_package(TBB REQUIRED)
-  elseif(name STREQUAL "GMP::gmpxx")
-    include(cmake/mansard_gmp.cmake)
-  elseif(name STREQUAL "GEOS::geos_c")
-    find_package(GEOS REQUIRED)
-  elseif(name STREQUAL "Boost::multiprecision")  # headers only: those who link the room do not need them
-    find_package(Boost REQUIRED)
-    set(target $<BUILD_INTERFACE:Boost::headers>)
-  elseif(name STREQUAL "embree")
-    find_package(embree 3 REQUIRED)
-  elseif(name STREQUAL "CBC::cbc")
-    find_package(PkgConfig REQUIRED)
-    pkg_check_modules(CBC REQUIRED IMPORTED_TARGET cbc)
-    set(target PkgConfig::CBC)
-  elseif(name STREQUAL "GDAL::GDAL")
-    find_package(GDAL REQUIRED)
-  elseif(name STREQUAL "tinygltf")
-    find_library(TINYGLTF_LIBRARY tinygltf REQUIRED)
-    set(target ${TINYGLTF_LIBRARY})
-  elseif(name STREQUAL "OpenSSL::Crypto")
-    find_package(OpenSSL REQUIRED)
-  elseif(name STREQUAL "nlohmann_json")
-    find_package(nlohmann_json REQUIRED)
-    set(target nlohmann_json::nlohmann_json)
-  elseif(name STREQUAL "PNG::PNG")
-    find_package(PNG REQUIRED)
-  else()
-    message(FATAL_ERROR "cmake/mansard_room.cmake does not know how to find ${name}")
-  endif()
-  set(${result} ${target} PARENT_SCOPE)
-endfunction()
+include(cmake/mansard_libraries.cmake)
 
 function(mansard_room name)
   if(MANSARD_ROOMS AND NOT name IN_LIST MANSARD_ROOMS)
@@ -47,7 +12,9 @@ function(mansard_room name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/mansard/${name}/*.cpp)
   add_library(mansard_${name} STATIC ${sources})
   add_library(mansard::${name} ALIAS mansard_${name})
-  set_target_properties(mansard_${name} PROPERTIES EXPORT_NAME ${name} MANSARD_DOORS "${ROOM_DEPENDS}")
+  set_target_properties(mansard_${name} PROPERTIES EXPORT_NAME ${name} MANSARD_DOORS "${ROOM_DEPENDS}"
+    MANSARD_USES "${ROOM_USES}")
+  set_property(GLOBAL APPEND PROPERTY MANSARD_ROOM_LIST ${name})  # in the order of the house
   if(NOT PROJECT_IS_TOP_LEVEL AND NOT MANSARD_INSTALL)  # another project builds what it links
     set_target_properties(mansard_${name} PROPERTIES EXCLUDE_FROM_ALL TRUE)
   endif()
@@ -61,39 +28,14 @@ function(mansard_room name)
     target_link_libraries(mansard_${name} PUBLIC mansard_${door})
   endforeach()
   foreach(library IN LISTS ROOM_USES)
-    mansard_library(${library} target)
-    target_link_libraries(mansard_${name} PRIVATE ${target})
-  endforeach()
-endfunction()
-
-# The libraries and doors (not detail/) of the room and of every room that it stands on, and the package file.
-function(mansard_install name)
-  set(rooms "")
-  set(open ${name})
-  while(open)
-    list(POP_FRONT open room)
-    if(NOT room IN_LIST rooms)
-      list(APPEND rooms ${room})
-      get_target_property(doors mansard_${room} MANSARD_DOORS)
-      list(APPEND open ${doors})
+    mansard_find_library(${library} REQUIRED)
+    if(NOT TARGET ${MANSARD_LIBRARY_TARGET})
+      message(FATAL_ERROR "${library} was found without the target ${MANSARD_LIBRARY_TARGET}")
     endif()
-  endwhile()
-
-  foreach(room IN LISTS rooms)
-    install(TARGETS mansard_${room} EXPORT mansard_${name} COMPONENT ${name})
-    install(DIRECTORY ${PROJECT_SOURCE_DIR}/mansard/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/mansard
-      COMPONENT ${name} FILES_MATCHING PATTERN *.hpp PATTERN detail EXCLUDE)
+    if(${library} IN_LIST MANSARD_HEADERS_ONLY)  # those who link the room do not need them
+      target_link_libraries(mansard_${name} PRIVATE $<BUILD_INTERFACE:${MANSARD_LIBRARY_TARGET}>)
+    else()
+      target_link_libraries(mansard_${name} PRIVATE ${MANSARD_LIBRARY_TARGET})
+    endif()
   endforeach()
-  set(package ${CMAKE_INSTALL_LIBDIR}/cmake/mansard)
-  install(EXPORT mansard_${name} NAMESPACE mansard:: FILE mansardTargets.cmake DESTINATION ${package} COMPONENT ${name})
-
-  include(CMakePackageConfigHelpers)
-  list(JOIN rooms " " MANSARD_INSTALLED_ROOMS)
-  configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/mansardConfig.cmake.in
-    ${PROJECT_BINARY_DIR}/mansardConfig.cmake INSTALL_DESTINATION ${package})
-  write_basic_package_version_file(${PROJECT_BINARY_DIR}/mansardConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-  install(FILES ${PROJECT_BINARY_DIR}/mansardConfig.cmake ${PROJECT_BINARY_DIR}/mansardConfigVersion.cmake
-    ${PROJECT_SOURCE_DIR}/cmake/mansard_gmp.cmake DESTINATION ${package} COMPONENT ${name})
-  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR}
-    COMPONENT ${name})
 endfunction()

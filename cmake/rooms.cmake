@@ -23,6 +23,7 @@ mansard_room(write    DEPENDS base geometry ingest extrude label              US
 mansard_room(simulate DEPENDS base geometry rays ingest extrude label write   USES nlohmann_json)
 mansard_room(picture  DEPENDS base geometry rays                              USES PNG::PNG)
 mansard_room(pipeline DEPENDS base geometry rays solver ingest block slice sweep fracture segment profile extrude refine roof label evaluate write picture USES nlohmann_json)
+mansard_room(edit     DEPENDS base geometry rays ingest extrude label evaluate write pipeline USES nlohmann_json)
 mansard_room(explore  DEPENDS base geometry rays ingest block fracture segment profile extrude evaluate write picture pipeline USES nlohmann_json)
 
 # Results say which version made them.

@@ -40,3 +40,6 @@ echo
 for name in hall b9 delft; do
   printf '%-6s model    %s\n%-6s picture  %s\n' "$name" "$results/$name/model.city.json" '' "$results/$name/picture.png"
 done
+
+echo
+echo "Look at them and edit them in a browser: $mansard serve --open"

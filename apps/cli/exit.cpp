@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "apps/server/server.hpp"
+#include "mansard/edit/edit.hpp"
 #include "mansard/explore/explore.hpp"
 #include "mansard/pipeline/pipeline.hpp"
 #include "mansard/simulate/simulate.hpp"
@@ -30,9 +32,21 @@ auto codes() -> std::vector<base::Code> {
   };
 }
 
+auto exits() -> std::vector<ExitMeaning> {
+  return {{all_done, "all done"},
+          {some_fell_back, "finished; some buildings fell back to a simpler model or could not be used"},
+          {usage, "the command line could not be understood, or the output exists or is an input"},
+          {input_unreadable, "an input could not be read, a result not written, or memory ran out"},
+          {option_invalid, "an option or the configuration file is invalid"},
+          {nothing_reconstructed, "nothing could be reconstructed"},
+          {cancelled, "cancelled"},
+          {bug, "a bug; please report it"}};
+}
+
 auto all_codes() -> std::vector<base::Code> {
   auto all = pipeline::codes();
-  for (const auto& own : {simulate::codes(), explore::codes(), codes()}) all.insert(all.end(), own.begin(), own.end());
+  for (const auto& own : {edit::codes(), simulate::codes(), explore::codes(), server::codes(), codes()})
+    all.insert(all.end(), own.begin(), own.end());
   return all;
 }
 

@@ -1,6 +1,9 @@
 // Exit codes and how an error is told: one line on stderr.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "mansard/base/result.hpp"
 
 namespace mansard::cli {
@@ -15,6 +18,13 @@ enum Exit : int {
   cancelled = 6,
   bug = 70,
 };
+
+/// When the program ends with which code, for the manual.
+struct ExitMeaning {
+  int code = all_done;
+  std::string when;
+};
+[[nodiscard]] auto exits() -> std::vector<ExitMeaning>;
 
 /// Prints the diagnostic and returns the exit code that its code is listed with (70 for one that is not listed).
 [[nodiscard]] auto give_up(const base::Diagnostic& diagnostic) -> int;

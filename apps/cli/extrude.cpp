@@ -18,37 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Raises every plan of the file; the count of those that fell back.
-auto raise_all(write::City& city, const pipeline::Options& options, bool quiet, const base::Run& run)
-    -> base::Result<std::size_t> {
-  std::vector<extrude::Solid> solids;
-  std::size_t fell_back = 0;
-  for (auto& building : city.buildings)
-    for (auto& part : building.parts) {
-      if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
-      auto raised = pipeline::raise_part(part.plan, options, run);
-      if (!raised) {
-        auto why = raised.error();
-        why.subject = part.id;
-        return why;
-      }
-      if (raised->outcome != extrude::Outcome::full) {
-        ++fell_back;
-        for (auto warning : raised->warnings) {
-          if (quiet) break;
-          warning.subject = part.id;
-          std::fprintf(stderr, "mansard: %s\n", base::to_string(warning).c_str());
-        }
-      }
-      solids.push_back(std::move(raised->solid));
-    }
-  auto labelled = label::classify(std::move(solids), options.label, run);
-  std::size_t next = 0;
-  for (auto& building : city.buildings)
-    for (auto& part : building.parts) part.model = std::move(labelled[next++]);
-  return fell_back;
-}
-
 /// Whether OUT names one file, by its ending; all formats go into a folder otherwise.
 auto is_file(const fs::path& out) -> bool {
   return out.filename().string().ends_with(".json") || out.extension() == ".obj" || out.extension() == ".glb";
@@ -74,14 +43,16 @@ auto extrude_plans(const ExtrudeRequest& request, const base::Cancel& cancel) ->
   auto city = write::read_plans(request.input);
   if (!city) return give_up(city.error());
   if (auto ready = check_outputs(request); !ready) return give_up(ready.error());
-  city->made_by.version = MANSARD_VERSION;
   base::Run run;
   run.cancel = &cancel;
-  const auto fell_back = raise_all(*city, options, request.quiet, run);
-  if (!fell_back) return give_up(fell_back.error());
-  if (auto written = write_out(*city, {}, request, run); !written) return give_up(written.error());
+  const auto raised = pipeline::raise_plans(std::move(*city), options, run);
+  if (!raised) return give_up(raised.error());
+  for (const auto& part : raised->fell_short)
+    for (const auto& reason : part.reasons)
+      if (!request.quiet) std::fprintf(stderr, "mansard: %s\n", base::to_string(reason).c_str());
+  if (auto written = write_out(raised->city, {}, request, run); !written) return give_up(written.error());
   std::printf("%s\n", request.out.c_str());
-  return *fell_back == 0 ? all_done : some_fell_back;
+  return raised->fell_short.empty() ? all_done : some_fell_back;
 }
 
 auto picture_file(const fs::path& out) -> fs::path {

@@ -5,9 +5,13 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/cli/exit.hpp"
+#include "apps/cli/grammar.hpp"
 #include "apps/cli/settings.hpp"
 #include "apps/cli/verbs.hpp"
+#include "mansard/edit/attributes.hpp"
+#include "mansard/pipeline/attributes.hpp"
 #include "mansard/pipeline/pipeline.hpp"
+#include "mansard/simulate/attributes.hpp"
 #include "mansard/simulate/simulate.hpp"
 
 namespace mansard::cli {
@@ -83,7 +87,23 @@ auto json_of(const std::vector<pipeline::Preset>& presets) -> Json {
   return out;
 }
 
-void print_json(const Known& known) {
+auto json_of(const Term& term) -> Json {
+  return {{"names", term.names}, {"value", term.value}, {"required", term.required}, {"meaning", term.meaning},
+          {"room", term.room}};
+}
+
+auto json_of(const std::vector<Form>& forms) -> Json {
+  Json out = Json::array();
+  for (const auto& form : forms) {
+    Json entry{{"verb", form.verb}, {"meaning", form.meaning}, {"arguments", Json::array()}, {"options", Json::array()}};
+    for (const auto& term : form.arguments) entry["arguments"].push_back(json_of(term));
+    for (const auto& term : form.options) entry["options"].push_back(json_of(term));
+    out.push_back(std::move(entry));
+  }
+  return out;
+}
+
+void print_json(const Known& known, const CLI::App& app) {
   Json out;
   Json options = Json::array();
   for (const auto& list : known.lists)
@@ -103,6 +123,40 @@ void print_json(const Known& known) {
   out["options"] = options;
   out["presets"] = json_of(known.presets);
   out["simulate_presets"] = json_of(known.simulate_presets);
+  out["verbs"] = json_of(forms_of(app));
+  std::puts(out.dump(1).c_str());
+}
+
+auto all_attributes() -> std::vector<write::Attribute> {
+  auto all = pipeline::attributes();
+  for (const auto& own : {edit::attributes(), simulate::attributes()}) all.insert(all.end(), own.begin(), own.end());
+  return all;
+}
+
+void print_attributes(bool as_json) {
+  Json out;
+  for (const auto& attribute : all_attributes()) {
+    std::string objects;
+    for (const auto& object : attribute.of) objects += (objects.empty() ? "" : ", ") + object;
+    out["attributes"].push_back({{"name", attribute.name},
+                                 {"room", attribute.room},
+                                 {"of", attribute.of},
+                                 {"type", attribute.type},
+                                 {"unit", attribute.unit},
+                                 {"meaning", attribute.meaning}});
+    if (!as_json)
+      std::printf("%-20s %-8s %-3s %s  (%s)\n", attribute.name.c_str(), attribute.type.c_str(), attribute.unit.c_str(),
+                  attribute.meaning.c_str(), objects.c_str());
+  }
+  if (as_json) std::puts(out.dump(1).c_str());
+}
+
+void print_json(const std::vector<base::Code>& codes) {
+  Json out;
+  for (const auto& code : codes)
+    out["codes"].push_back(
+        {{"code", code.code}, {"means", code.cause}, {"to_do", code.remedy}, {"exit_code", code.exit_code}});
+  for (const auto& exit : exits()) out["exit_codes"].push_back({{"exit_code", exit.code}, {"when", exit.when}});
   std::puts(out.dump(1).c_str());
 }
 
@@ -130,11 +184,17 @@ auto explain(const std::string& word) -> int {
 
 auto options_verb(CLI::App& app) -> Verb {
   auto* verb = app.add_subcommand("options", "List every option with unit, range and default");
-  auto json = std::make_shared<bool>(false);
-  verb->add_flag("--json", *json, "As JSON");
-  return {verb, [json] {
+  auto json = std::make_shared<bool>(false), attributes = std::make_shared<bool>(false);
+  verb->add_flag("--json", *json, "As JSON, with what every verb takes");
+  verb->add_flag("--attributes", *attributes, "The attributes of models instead, with type, unit and meaning");
+  return {verb, [json, attributes, &app] {
             const Known known;
-            *json ? print_json(known) : print_text(known);
+            if (*attributes)
+              print_attributes(*json);
+            else if (*json)
+              print_json(known, app);
+            else
+              print_text(known);
             return static_cast<int>(all_done);
           }};
 }
@@ -142,8 +202,15 @@ auto options_verb(CLI::App& app) -> Verb {
 auto explain_verb(CLI::App& app) -> Verb {
   auto* verb = app.add_subcommand("explain", "Say what a diagnostic code means and what to do");
   auto code = std::make_shared<std::string>();
-  verb->add_option("CODE", *code, "The code; without it, all codes are listed");
-  return {verb, [code] { return explain(*code); }};
+  auto* argument = verb->add_option("CODE", *code, "The code; without it, all codes are listed");
+  auto json = std::make_shared<bool>(false);
+  auto* as_json = verb->add_flag("--json", *json, "All codes, and the exit codes, as JSON");
+  as_json->excludes(argument);
+  return {verb, [code, json] {
+            if (!*json) return explain(*code);
+            print_json(all_codes());
+            return static_cast<int>(all_done);
+          }};
 }
 
 }  // namespace mansard::cli

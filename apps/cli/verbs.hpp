@@ -23,7 +23,11 @@ struct Verb {
 [[nodiscard]] auto label_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
 /// `words` are the whole command line, which the report repeats.
 [[nodiscard]] auto explore_verb(CLI::App& app, std::vector<std::string> words, const base::Cancel& cancel) -> Verb;
+[[nodiscard]] auto serve_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
 [[nodiscard]] auto options_verb(CLI::App& app) -> Verb;
 [[nodiscard]] auto explain_verb(CLI::App& app) -> Verb;
+/// These two tell of the whole app, once every verb is in it.
+[[nodiscard]] auto completion_verb(CLI::App& app) -> Verb;
+[[nodiscard]] auto manual_verb(CLI::App& app) -> Verb;
 
 }  // namespace mansard::cli

@@ -5,6 +5,7 @@
 
 #include "mansard/base/text.hpp"
 #include "mansard/pipeline/detail/assemble.hpp"
+#include "mansard/pipeline/detail/model_attributes.hpp"
 #include "mansard/pipeline/pipeline.hpp"
 
 namespace mansard::pipeline {

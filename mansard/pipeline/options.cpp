@@ -122,6 +122,8 @@ auto codes() -> std::vector<base::Code> {
        "Check whether the input repeats a building; segment.gis_edges = hard keeps features apart.", 1},
       {"pipeline-block", "The segmentation of a block failed, so its footprints became prisms.",
        "The message says why; please report it.", 1},
+      {"pipeline-block-unknown", "A run of some blocks names one that there is not.",
+       "Take a name from the report of a whole run, or of 'mansard segment'.", 4},
   });
   return all;
 }

@@ -72,6 +72,40 @@ auto for_every(const std::vector<block::Block>& blocks, const base::Run& run, co
   return results;
 }
 
+/// Leaves the blocks that are named; all where none is.
+auto keep_only(std::vector<block::Block>& blocks, std::span<const std::string> only) -> base::Result<void> {
+  if (only.empty()) return {};
+  for (const auto& name : only) {
+    if (std::ranges::find(blocks, name, &block::Block::name) != blocks.end()) continue;
+    std::vector<std::string> known;
+    for (const auto& block : blocks) known.push_back(block.name);
+    return base::error("pipeline-block-unknown",
+                       "no block has this name" + base::did_you_mean(base::nearest_word(name, known)) +
+                           "; blocks are named by the lowest number of their footprints",
+                       name);
+  }
+  std::erase_if(blocks, [&](const auto& block) { return std::ranges::find(only, block.name) == only.end(); });
+  return {};
+}
+
+/// Takes out what belongs to no block of these.
+void keep_only(const std::vector<block::Block>& blocks, Reconstruction& out) {
+  std::vector<bool> kept(out.buildings.size(), false);
+  for (const auto& block : blocks)
+    for (const auto& member : block.members) kept[member.feature] = true;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    if (!kept[i]) continue;
+    if (count != i) {
+      out.buildings[count] = std::move(out.buildings[i]);
+      out.city.buildings[count] = std::move(out.city.buildings[i]);
+    }
+    ++count;
+  }
+  out.buildings.resize(count);
+  out.city.buildings.resize(count);
+}
+
 auto cancelled() -> base::Diagnostic { return base::error("cancelled", "stopped on request; nothing was written"); }
 
 }  // namespace
@@ -91,10 +125,11 @@ auto relative_gap(const BlockReport& block) -> double {
   return gap > 0 && block.objective != 0 ? gap / std::abs(block.objective) : 0;
 }
 
-auto reconstruct(const ingest::Scene& scene, const Options& options, const base::Run& run, Keep keep)
-    -> base::Result<Reconstruction> {
-  const auto division = divide(scene, options, run);
+auto reconstruct(const ingest::Scene& scene, const Options& options, const base::Run& run, Keep keep,
+                 std::span<const std::string> only) -> base::Result<Reconstruction> {
+  auto division = divide(scene, options, run);
   if (!division) return division.error();
+  if (auto known = keep_only(division->blocks, only); !known) return known.error();
   auto results = for_every(division->blocks, run, [&](const auto& block, const auto& inner, const auto& tell) {
     return detail::run_block(block, options, inner, tell, keep);
   });
@@ -104,6 +139,7 @@ auto reconstruct(const ingest::Scene& scene, const Options& options, const base:
   for (auto& result : results)
     if (result.segmented) segmented.push_back(std::move(*result.segmented));
   Reconstruction out = detail::assemble(scene, division->blocks, std::move(results), options);
+  if (!only.empty()) keep_only(division->blocks, out);
   out.segmented = std::move(segmented);
   out.times = summed(division->time, out.blocks);
   out.scores = combined(out.blocks);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -134,9 +135,12 @@ struct Reconstruction {
 /// Guarantees: 1 every usable footprint ends in a valid solid, its own or (`covered`) a neighbour's · 2 every solid
 /// passed extrude::check · 3 one failing building or block leaves the others as they would be without it · 4 the same
 /// scene, options and seed give the same city at any thread count.
-/// Gives up with "cancelled", "pipeline-nothing" (no usable footprint).
+/// With `only`, the names of some blocks, nothing else is reconstructed and no other feature is in the city or the report;
+/// these blocks come out as in a run of all.
+/// Gives up with "cancelled", "pipeline-nothing" (no usable footprint), "pipeline-block-unknown".
 [[nodiscard]] auto reconstruct(const ingest::Scene& scene, const Options& options, const base::Run& run = {},
-                               Keep keep = Keep::models) -> base::Result<Reconstruction>;
+                               Keep keep = Keep::models, std::span<const std::string> only = {})
+    -> base::Result<Reconstruction>;
 
 /// Every block up to its segmentation, without models.
 struct Segmented {
@@ -172,6 +176,29 @@ struct Segmented {
 /// One plan to one labelled, checked solid: what reconstruct does with each part once its profiles are known.
 [[nodiscard]] auto raise_part(const geometry::Plan& plan, const Options& options, const base::Run& run = {})
     -> base::Result<extrude::Raised>;
+
+/// The plans of a city raised and classified all together, by nothing but the plans: `mansard extrude plans.json`.
+struct RaisedPlans {
+  write::City city;  ///< as given, with every model in place; made by this version
+  struct Short {
+    std::size_t building = 0, part = 0;     ///< of the city
+    extrude::Outcome outcome = extrude::Outcome::full;
+    std::vector<base::Diagnostic> reasons;  ///< the subject is the part's id
+  };
+  std::vector<Short> fell_short;  ///< the parts that are simpler than their plans, in order
+};
+/// The same plans and options give the same models at any thread count. Gives up with "cancelled", and as raise_part does
+/// with the first part that has no solid.
+[[nodiscard]] auto raise_plans(write::City city, const Options& options, const base::Run& run = {})
+    -> base::Result<RaisedPlans>;
+
+/// The attributes of a part that speak of its model (heights, roof type, volume, areas, error, fallback), measured anew;
+/// all others stay as `part` has them. `mesh` may be null: no error then. `fallback`: the code of the reason why the
+/// model is simpler than its plan; empty when it is not. `z0`: z of the frame's origin, metres.
+[[nodiscard]] auto part_attributes(const write::Part& part, const std::string& fallback, const rays::Scene* mesh,
+                                   double z0, const Options& options) -> ingest::Attributes;
+/// The same for a building, of the attributes of its parts.
+[[nodiscard]] auto building_attributes(const write::Building& building, double z0) -> ingest::Attributes;
 
 /// The report as JSON. Everything but the members called "seconds" is the same in every run. Without a mesh it has no
 /// "mesh", "scores" and "blocks".

@@ -19,9 +19,6 @@ using detail::Run;
 using geometry::Plan;
 using geometry::Polygon;
 
-constexpr double outward = 2.0;   // m; a slice's window begins this far outside the edge
-constexpr double deepest = 40.0;  // m; and ends here at the latest
-
 /// What one run gave.
 struct Fitted {
   detail::Choices choices;  ///< the greedy profile first
@@ -44,8 +41,8 @@ auto slices_of(const Polygon& polygon, const Run& run, const detail::SectionInde
   for (auto sample : detail::samples_of(polygon, run, options.spacing)) {
     ++evidence.attempted;
     fitted.choices.reach = std::max(fitted.choices.reach, sample.reach);
-    sample.reach = std::min(sample.reach, deepest);
-    const auto pieces = index.cut({sample.foot, sample.inward, -outward, sample.reach});
+    sample.reach = std::min(sample.reach, detail::slice_to);
+    const auto pieces = index.cut({sample.foot, sample.inward, detail::slice_from, sample.reach});
     const auto climb = detail::climb(pieces, climbing);
     if (!climb) continue;
     ++evidence.slices;

@@ -46,6 +46,16 @@ auto read_plans(const std::filesystem::path& path) -> base::Result<City> {
   return detail::parse_plans(*text, path.string());
 }
 
+auto plan_json(const geometry::Plan& plan) -> std::string {
+  detail::JsonText json;
+  detail::append_plan(json.begin_object(), plan);
+  return std::move(json.end_object()).str();
+}
+
+auto read_plan(std::string_view json, const std::string& name) -> base::Result<geometry::Plan> {
+  return detail::parse_plan(json, name);
+}
+
 auto codes() -> std::vector<base::Code> {
   return {
       {"write-duplicate-id", "Two buildings have the same id, so a city model cannot tell them apart.",

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mansard/base/result.hpp"
@@ -64,6 +65,12 @@ struct ObjFiles {
 /// Reads plan + profiles back: buildings and parts with plans but without models; from a file of plans, or from the
 /// plans that travel in our CityJSON. Gives up with "write-plan-…".
 [[nodiscard]] auto read_plans(const std::filesystem::path& path) -> base::Result<City>;
+
+/// One plan on one line, as the member "plan" of a plans.json has it: numbers read back as the very same doubles.
+[[nodiscard]] auto plan_json(const geometry::Plan& plan) -> std::string;
+/// Reads one plan back, as strictly as a file of them; `name` is what messages call its place. Gives up with
+/// "write-plan-…".
+[[nodiscard]] auto read_plan(std::string_view json, const std::string& name) -> base::Result<geometry::Plan>;
 
 /// What the features of a layer are: a table without geometry, one line, several lines, …
 enum class Shape : std::uint8_t { none, line, lines, polygon, polygons };

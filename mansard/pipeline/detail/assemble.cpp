@@ -3,37 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mansard/pipeline/detail/model_attributes.hpp"
+
 namespace mansard::pipeline::detail {
-
-auto roof_type(const label::LabelledSolid& model) -> std::string {
-  constexpr double flat = 0.9962;  // cosine of 5°
-  double flat_area = 0, sloped_area = 0;
-  std::vector<double> levels;
-  for (std::size_t f = 0; f < model.solid.faces.size(); ++f) {
-    if (model.classes[f] != label::Class::roof) continue;
-    const auto& face = model.solid.faces[f];
-    const double area = extrude::area(model.solid, face);
-    if (face.normal.z < flat) {
-      sloped_area += area;
-      continue;
-    }
-    flat_area += area;
-    levels.push_back(model.solid.vertices[face.loops.front().front()].z);
-  }
-  if (sloped_area > 0.05 * (flat_area + sloped_area)) return "slanted";
-  std::ranges::sort(levels);
-  return !levels.empty() && levels.back() - levels.front() > 0.5 ? "multiple horizontal" : "horizontal";
-}
-
-auto ridge_height(const label::LabelledSolid& model) -> std::optional<double> {
-  std::optional<double> highest;
-  for (std::size_t f = 0; f < model.solid.faces.size(); ++f) {
-    const auto& face = model.solid.faces[f];
-    if (face.kind != extrude::FaceKind::side || model.classes[f] != label::Class::roof) continue;
-    for (const auto v : face.loops.front()) highest = std::max(highest.value_or(-1e9), model.solid.vertices[v].z);
-  }
-  return highest;
-}
 
 void add(label::Areas& sum, const label::Areas& more) {
   sum.wall += more.wall;
@@ -58,25 +30,8 @@ namespace {
 
 /// The attributes of outputs.md, in the file's heights.
 auto attributes_of(const PartResult& part, const BlockReport& block, double z0) -> ingest::Attributes {
-  const auto areas = label::areas(part.model);
-  ingest::Attributes out;
-  out.emplace_back("ms_h_ground", z0 + part.plan.base);
-  out.emplace_back("ms_h_roof_min", z0 + part.roof.front());
-  out.emplace_back("ms_h_roof_50p", z0 + percentile(part.roof, 0.5));
-  out.emplace_back("ms_h_roof_70p", z0 + percentile(part.roof, 0.7));
-  out.emplace_back("ms_h_roof_max", z0 + part.roof.back());
-  if (const auto ridge = ridge_height(part.model)) out.emplace_back("ms_h_ridge", z0 + *ridge);
-  out.emplace_back("ms_roof_type", roof_type(part.model));
-  out.emplace_back("ms_volume_lod22", extrude::volume(part.model.solid));
-  if (part.mse) out.emplace_back("ms_rmse_lod22", std::sqrt(*part.mse));
-  out.emplace_back("ms_area_roof_flat", areas.roof_flat);
-  out.emplace_back("ms_area_roof_sloped", areas.roof_sloped);
-  out.emplace_back("ms_area_wall", areas.wall);
-  out.emplace_back("ms_area_party_wall", areas.party_wall);
-  if (part.full)
-    out.emplace_back("ms_fallback", std::monostate{});
-  else
-    out.emplace_back("ms_fallback", part.reasons.empty() ? std::string("unknown") : part.reasons.front().code);
+  const std::string why = part.reasons.empty() ? "unknown" : part.reasons.front().code;
+  auto out = model_attributes(part.model, part.plan, part.roof, part.mse, part.full ? std::string() : why, z0);
   if (!part.changes.empty()) {
     std::string words;
     for (const auto& change : part.changes) words += (words.empty() ? "" : "; ") + change;

@@ -17,10 +17,6 @@ namespace mansard::pipeline::detail {
   return options;
 }
 
-/// In the words of 3DBAG: "horizontal", "multiple horizontal", "slanted".
-[[nodiscard]] auto roof_type(const label::LabelledSolid& model) -> std::string;
-/// z of the highest corner of a pitched face, where there is one.
-[[nodiscard]] auto ridge_height(const label::LabelledSolid& model) -> std::optional<double>;
 void add(label::Areas& sum, const label::Areas& more);
 /// Version, inputs and every option.
 [[nodiscard]] auto made_by(const ingest::Scene& scene, const Options& options) -> write::MadeBy;

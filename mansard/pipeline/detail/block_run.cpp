@@ -1,6 +1,7 @@
 #include "mansard/pipeline/detail/block_run.hpp"
 
 #include "mansard/pipeline/detail/assemble.hpp"
+#include "mansard/pipeline/detail/model_attributes.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -10,22 +11,6 @@ namespace {
 
 using geometry::Point2;
 using geometry::Polygon;
-
-/// Heights of the mesh's top surface over a polygon, sorted; on a grid aligned to whole multiples of `grid`, coarser
-/// for polygons so large that it would not matter.
-auto heights_over(const rays::Scene& surface, const Polygon& polygon, double grid) -> std::vector<double> {
-  constexpr double most_samples = 250'000;
-  const auto box = geometry::bounds(polygon.outer);
-  const Point2 extent = box.most - box.least;
-  grid = std::max(grid, std::sqrt(extent.x * extent.y / most_samples));
-  std::vector<double> heights;
-  for (double y = std::ceil(box.least.y / grid) * grid; y <= box.most.y; y += grid)
-    for (double x = std::ceil(box.least.x / grid) * grid; x <= box.most.x; x += grid)
-      if (geometry::contains(polygon, Point2{x, y}))
-        if (const auto z = surface.top({x, y})) heights.push_back(*z);
-  std::ranges::sort(heights);
-  return heights;
-}
 
 auto no_mesh() -> base::Diagnostic {
   return base::warning("pipeline-no-mesh", "the mesh shows nothing over this footprint; its height is assumed");
@@ -54,17 +39,8 @@ auto plain_prism(std::size_t feature, const Polygon& polygon, double ground, con
 
 /// The heights of the model's roof and its vertical error against the mesh.
 void measure(PartResult& part, const rays::Scene& mesh, const Options& options) {
-  const auto triangles = extrude::triangulate(part.model.solid);
   const auto polygon = geometry::polygon_of(part.plan);
-  if (triangles) {
-    const rays::Scene roof(geometry::Mesh{part.model.solid.vertices, triangles->triangles});
-    part.roof = heights_over(roof, polygon, options.roof_grid);
-  }
-  if (part.roof.empty()) {  // smaller than the grid
-    for (const auto& v : part.model.solid.vertices)
-      if (v.z > part.plan.base) part.roof.push_back(v.z);
-    std::ranges::sort(part.roof);
-  }
+  part.roof = roof_heights(part.model, part.plan, options.roof_grid);
   const double mse = evaluate::error_over(part.model.solid, polygon, mesh, options.evaluate.grid);
   if (std::isfinite(mse)) part.mse = mse;
 }

@@ -56,11 +56,6 @@ struct BlockResult {
   std::optional<SegmentedBlock> segmented;  ///< with Keep::segmentations
 };
 
-/// The value below which that share (0 … 1) of the sorted, non-empty values lies.
-[[nodiscard]] inline auto percentile(const std::vector<double>& sorted, double share) -> double {
-  return sorted[static_cast<std::size_t>(std::lround(share * static_cast<double>(sorted.size() - 1)))];
-}
-
 /// From slices to the segmentation. Never fails: what goes wrong is in `failure`, among the warnings and in the report.
 [[nodiscard]] auto segment_block(const block::Block& block, const rays::Scene& mesh, const Options& options,
                                  const base::Run& run, const Tell& tell, BlockReport& report,

@@ -17,6 +17,9 @@ struct Run {
 /// Outer ring first, runs in the order of their first edge. `angle` in radians.
 [[nodiscard]] auto runs_of(const geometry::Polygon& polygon, double angle) -> std::vector<Run>;
 
+inline constexpr double slice_from = -2.0;  ///< m; inward of the edge, where a slice begins
+inline constexpr double slice_to = 40.0;    ///< m; and where it ends at the latest
+
 /// Where one perpendicular slice stands.
 struct Sample {
   geometry::Point2 foot;

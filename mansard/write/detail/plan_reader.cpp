@@ -222,6 +222,8 @@ auto read_profile(const Item& item) -> geometry::Profile {
   return profile;
 }
 
+constexpr std::initializer_list<const char*> plan_members{"base", "cap", "outer", "holes", "profiles"};
+
 /// The members of a plan; the caller has looked for unknown ones.
 auto read_plan(const Item& item) -> geometry::Plan {
   geometry::Plan plan;
@@ -269,7 +271,7 @@ auto read_city(const Item& file) -> City {
       Part part;
       part.id = new_id(each, part_ids);
       if (each.has("attributes")) part.attributes = read_attributes(each.member("attributes"));
-      part.plan = read_plan(each.member("plan").object({"base", "cap", "outer", "holes", "profiles"}));
+      part.plan = read_plan(each.member("plan").object(plan_members));
       building.parts.push_back(std::move(part));
     });
     city.buildings.push_back(std::move(building));
@@ -405,12 +407,12 @@ auto read_any(const Item& file) -> City {
                                       "\" (or \"CityJSON\", with plans); give a file that mansard wrote"};
 }
 
-}  // namespace
-
-auto parse_plans(std::string_view text, const std::string& name) -> base::Result<City> {
+/// What `read` makes of the JSON, with the file's faults as diagnostics.
+template <class Value, class Read>
+auto parsed(std::string_view text, const std::string& name, const Read& read) -> base::Result<Value> {
   try {
     const Json json = Json::parse(text);
-    return read_any({json, {}});
+    return read(Item{json, {}});
   } catch (const Json::parse_error& e) {
     return base::error("write-plan-json",
                        "this is not JSON: it goes wrong at byte " + std::to_string(e.byte) + "; is the file whole?",
@@ -420,6 +422,16 @@ auto parse_plans(std::string_view text, const std::string& name) -> base::Result
   } catch (const Defect& defect) {
     return base::error(defect.code, defect.message, name);
   }
+}
+
+}  // namespace
+
+auto parse_plans(std::string_view text, const std::string& name) -> base::Result<City> {
+  return parsed<City>(text, name, read_any);
+}
+
+auto parse_plan(std::string_view text, const std::string& name) -> base::Result<geometry::Plan> {
+  return parsed<geometry::Plan>(text, name, [](const Item& item) { return read_plan(item.object(plan_members)); });
 }
 
 }  // namespace mansard::write::detail

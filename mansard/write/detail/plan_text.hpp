@@ -12,5 +12,7 @@ namespace mansard::write::detail {
 
 /// `name` is the file's, for messages. Gives up with the "write-plan-…" codes.
 [[nodiscard]] auto parse_plans(std::string_view text, const std::string& name) -> base::Result<City>;
+/// One plan by itself; the same codes.
+[[nodiscard]] auto parse_plan(std::string_view text, const std::string& name) -> base::Result<geometry::Plan>;
 
 }  // namespace mansard::write::detail

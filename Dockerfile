@@ -1,0 +1,21 @@
+# mansard in a container: docker build -t mansard . && docker run --rm -v "$PWD:/work" mansard reconstruct …
+# The first stage goes the way of `make demo`, from a Debian 12 with nothing but make in it, so what it needs is in
+# packages.txt and nowhere else; the second has the Debian package made there, and no compiler.
+FROM debian:12-slim AS build
+RUN apt-get -qq update && apt-get -qq install -y --no-install-recommends make ca-certificates
+WORKDIR /mansard
+# The set-up comes first: it changes least.
+COPY packages.txt Makefile ./
+COPY tools/setup.sh tools/setup.sh
+RUN make setup
+COPY . .
+RUN make demo
+RUN cmake --build --preset release --target mansard_manual && cd build/release && cpack -G DEB -D CPACK_COMPONENTS_ALL=program
+
+FROM debian:12-slim
+COPY --from=build /mansard/build/release/packaging/mansard_*.deb /tmp/
+RUN apt-get -qq update && apt-get -qq install -y --no-install-recommends /tmp/mansard_*.deb \
+  && rm -rf /var/lib/apt/lists/* /tmp/mansard_*.deb
+WORKDIR /work
+ENTRYPOINT ["mansard"]
+CMD ["--help"]

@@ -1,0 +1,122 @@
+// `mansard serve [PROJECT]`: the workbench in a browser.
+#include <cstdio>
+#include <fcntl.h>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "apps/cli/exit.hpp"
+#include "apps/cli/verbs.hpp"
+#include "apps/server/guard.hpp"
+#include "apps/server/server.hpp"
+
+namespace mansard::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Request {
+  server::Options options;
+  std::string project = "mansard-project", sample;
+  std::uint64_t upload_limit = 4096;  // MB
+  std::size_t jobs = 0;
+  bool open = false, quiet = false;
+};
+
+/// A file that leads to the link. On a command line, as `xdg-open LINK`, everybody on the machine could read the token.
+class Opener {
+ public:
+  Opener(const fs::path& project, const std::string& link) : path_(fs::absolute(project) / "open.html") {
+    ::unlink(path_.c_str());
+    const int file = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    if (file < 0) return;
+    const auto text = "<!doctype html><meta http-equiv=\"refresh\" content=\"0; url=" + link + "\">\n";
+    there_ = ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+    ::close(file);
+  }
+  Opener(const Opener&) = delete;
+  auto operator=(const Opener&) -> Opener& = delete;
+  ~Opener() { ::unlink(path_.c_str()); }
+
+  /// False: there is no browser to be found.
+  [[nodiscard]] auto open() const -> bool {
+    if (!there_) return false;
+    const auto child = ::fork();
+    if (child < 0) return false;
+    if (child == 0) {
+      const int nowhere = ::open("/dev/null", O_RDWR);
+      for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, stream);
+      ::execlp("xdg-open", "xdg-open", path_.c_str(), static_cast<char*>(nullptr));
+      ::_exit(127);
+    }
+    int status = 0;
+    return ::waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  }
+
+ private:
+  fs::path path_;
+  bool there_ = false;
+};
+
+/// The sample that comes with the program: beside an installed one, or in the repository that it was built in.
+auto own_sample() -> fs::path {
+  std::error_code status;
+  const auto folder = fs::read_symlink("/proc/self/exe", status).parent_path();
+  const auto installed = folder / "../share/mansard/data/delft";
+  return (fs::is_directory(installed, status) ? installed : folder / "../../../data/delft").lexically_normal();
+}
+
+auto serve(const Request& request, const base::Cancel& cancel) -> int {
+  auto options = request.options;
+  options.project = request.project;
+  options.sample = request.sample.empty() ? own_sample() : fs::path(request.sample);
+  options.upload_limit = request.upload_limit << 20;
+  std::error_code status;
+  if (!request.sample.empty() && !fs::is_directory(options.sample, status))
+    return give_up(base::error("server-sample", "there is no such folder", request.sample));
+  base::limit_threads(request.jobs);
+  if (!server::is_loopback(options.address))
+    std::fprintf(stderr,
+                 "mansard: %s can be reached from other machines, without encryption: whoever sees the link or the "
+                 "traffic can do everything that you can do here\n",
+                 options.address.c_str());
+  std::unique_ptr<Opener> opener;
+  const auto served = server::serve(options, cancel, [&](const std::string& link) {
+    std::printf("%s\n", link.c_str());
+    std::fflush(stdout);
+    if (!request.open) return;
+    opener = std::make_unique<Opener>(options.project, link);
+    if (!opener->open() && !request.quiet) std::fprintf(stderr, "mansard: no browser could be opened; open the link\n");
+  });
+  return served ? all_done : give_up(served.error());
+}
+
+}  // namespace
+
+auto serve_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
+  auto* verb = app.add_subcommand("serve", "The workbench: look at scan and models in a browser, and edit them");
+  auto request = std::make_shared<Request>();
+  verb->add_option("PROJECT", request->project, "Folder of the project; made if it is missing")
+      ->type_name("PROJECT")
+      ->capture_default_str();
+  verb->add_option("--port", request->options.port, "Port to listen on; 0 for any that is free")
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
+  verb->add_option("--address", request->options.address, "Address of this machine to listen on")
+      ->type_name("ADDRESS")
+      ->capture_default_str();
+  verb->add_flag("--open", request->open, "Open the page in the browser");
+  verb->add_option("--sample", request->sample, "Folder with meshes and a file 'footprints', offered to empty projects")
+      ->type_name("DIR");
+  verb->add_option("--upload-limit", request->upload_limit, "Largest file that a page may upload [MB]")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 24))
+      ->capture_default_str();
+  verb->add_option("-j,--jobs", request->jobs, "Threads; 0 for one per core. The result is the same at any number")
+      ->check(CLI::Range(0, 1024));
+  verb->add_flag("-q,--quiet", request->quiet, "No remarks");
+  return {verb, [request, &cancel] { return serve(*request, cancel); }};
+}
+
+}  // namespace mansard::cli

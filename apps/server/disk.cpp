@@ -1,0 +1,136 @@
+#include "apps/server/disk.hpp"
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <utility>
+
+namespace mansard::server {
+namespace {
+
+namespace fs = std::filesystem;
+
+auto cannot(const std::string& what, const fs::path& path) -> base::Diagnostic {
+  return base::error("file-write",
+                     "cannot " + what + ": " + std::strerror(errno) + "; choose a place that can be written and has room",
+                     path.string());
+}
+
+auto write_all(int file, std::string_view bytes) -> bool {
+  while (!bytes.empty()) {
+    const auto written = ::write(file, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+/// A name is on the disk only when its folder is.
+auto flush_folder(const fs::path& folder) -> bool {
+  const Descriptor open(::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  return open.there() && ::fsync(open.number()) == 0;
+}
+
+/// Unlike any other of this process and, as projects are locked, of any other.
+auto beside(const fs::path& path) -> fs::path {
+  static std::atomic<unsigned> count{0};
+  return path.parent_path() / ("." + path.filename().string() + "." + std::to_string(count++) + ".part");
+}
+
+}  // namespace
+
+auto Descriptor::operator=(Descriptor&& other) noexcept -> Descriptor& {
+  if (this != &other) {
+    if (there()) ::close(number_);
+    number_ = other.release();
+  }
+  return *this;
+}
+
+Descriptor::~Descriptor() {
+  if (there()) ::close(number_);
+}
+
+auto Descriptor::release() -> int { return std::exchange(number_, -1); }
+
+auto write_durably(const fs::path& path, std::string_view bytes) -> base::Result<void> {
+  auto file = Arriving::open(path);
+  if (!file) return file.error();
+  if (auto added = file->add(bytes); !added) return added;
+  return file->finish();
+}
+
+auto make_folder(const fs::path& path) -> base::Result<void> {
+  if (::mkdir(path.c_str(), 0777) != 0) {
+    std::error_code status;
+    if (errno == EEXIST && fs::is_directory(path, status)) return {};
+    return cannot("make this folder", path);
+  }
+  if (!flush_folder(path.parent_path())) return cannot("flush the folder of", path);
+  return {};
+}
+
+auto move_durably(const fs::path& from, const fs::path& to) -> base::Result<void> {
+  if (::rename(from.c_str(), to.c_str()) != 0) return cannot("rename to '" + to.string() + "'", from);
+  if (!flush_folder(to.parent_path()) || !flush_folder(from.parent_path())) return cannot("flush the folder of", to);
+  return {};
+}
+
+Journal::Journal(fs::path path, Descriptor file, std::uint64_t size)
+    : path_(std::move(path)), file_(std::move(file)), size_(size) {}
+
+auto Journal::open(const fs::path& path, std::uint64_t kept) -> base::Result<Journal> {
+  Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
+  if (!file.there()) return cannot("open", path);
+  if (::ftruncate(file.number(), static_cast<off_t>(kept)) != 0 || ::fsync(file.number()) != 0 ||
+      !flush_folder(path.parent_path()))
+    return cannot("write", path);
+  return Journal(path, std::move(file), kept);
+}
+
+auto Journal::append(std::string_view line) -> base::Result<void> {
+  std::string whole(line);
+  whole += '\n';
+  if (write_all(file_.number(), whole) && ::fsync(file_.number()) == 0) {
+    size_ += whole.size();
+    return {};
+  }
+  auto why = cannot("write", path_);
+  // Half a line must not be followed by another one. Where cutting it off fails too, the next start drops it.
+  if (::ftruncate(file_.number(), static_cast<off_t>(size_)) != 0) file_ = Descriptor();
+  return why;
+}
+
+Arriving::Arriving(fs::path path, fs::path beside, Descriptor file)
+    : path_(std::move(path)), beside_(std::move(beside)), file_(std::move(file)) {}
+
+auto Arriving::open(fs::path path) -> base::Result<Arriving> {
+  auto name = beside(path);
+  Descriptor file(::open(name.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666));
+  if (!file.there()) return cannot("write", path);
+  return Arriving(std::move(path), std::move(name), std::move(file));
+}
+
+Arriving::~Arriving() {
+  if (file_.there()) ::unlink(beside_.c_str());
+}
+
+auto Arriving::add(std::string_view bytes) -> base::Result<void> {
+  if (!write_all(file_.number(), bytes)) return cannot("write", path_);
+  size_ += bytes.size();
+  return {};
+}
+
+auto Arriving::finish() -> base::Result<void> {
+  if (::fsync(file_.number()) != 0) return cannot("write", path_);
+  if (::rename(beside_.c_str(), path_.c_str()) != 0) return cannot("rename into place", path_);
+  file_ = Descriptor();
+  if (!flush_folder(path_.parent_path())) return cannot("flush the folder of", path_);
+  return {};
+}
+
+}  // namespace mansard::server

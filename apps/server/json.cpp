@@ -1,0 +1,298 @@
+#include "apps/server/json.hpp"
+
+#include <cmath>
+
+namespace mansard::server {
+namespace {
+
+auto json_of(geometry::Point2 p) -> Json { return Json::array({p.x, p.y}); }
+auto json_of(geometry::Point3 p) -> Json { return Json::array({p.x, p.y, p.z}); }
+
+template <class T>
+auto or_null(const std::optional<T>& value) -> Json {
+  return value ? Json(*value) : Json(nullptr);
+}
+auto or_null(const std::optional<base::Diagnostic>& value) -> Json {
+  return value ? server::json_of(*value) : Json(nullptr);
+}
+
+constexpr std::array class_names{"wall", "party_wall", "roof", "ground", "soffit"};
+constexpr std::array outcome_names{"full", "simplified", "two_part", "prism"};
+constexpr std::array kind_names{"flag", "whole", "number", "text", "choice"};
+
+auto json_of(const geometry::Polygon& polygon) -> Json {
+  Json holes = Json::array();
+  for (const auto& hole : polygon.holes) holes.push_back(server::json_of(hole));
+  return {{"outer", server::json_of(polygon.outer)}, {"holes", holes}};
+}
+
+auto json_of(const std::vector<geometry::Polygon>& polygons) -> Json {
+  Json out = Json::array();
+  for (const auto& polygon : polygons) out.push_back(json_of(polygon));
+  return out;
+}
+
+auto finite_or_null(double value) -> Json { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+auto json_of(const base::Option& option, const std::string& room) -> Json {
+  return {{"room", room},
+          {"name", option.name},
+          {"kind", kind_names[static_cast<std::size_t>(option.kind)]},
+          {"unit", option.unit},
+          {"least", finite_or_null(option.range.least)},
+          {"most", finite_or_null(option.range.most)},
+          {"choices", option.choices},
+          {"default", option.get()},
+          {"alias", option.alias},
+          {"meaning", option.meaning}};
+}
+
+struct Box3 {
+  geometry::Point3 low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
+  void add(geometry::Point3 p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+};
+
+/// In plan that of the outline: the mesh goes on for the padding.
+auto box_of(const block::Block& block) -> Box3 {
+  Box3 box;
+  for (const auto& polygon : block.outline)
+    for (const auto& p : polygon.outer) box.add({p.x, p.y, block.ground});
+  for (const auto& v : block.mesh.vertices) {
+    box.low.z = std::min(box.low.z, v.z);
+    box.high.z = std::max(box.high.z, v.z);
+  }
+  return box;
+}
+
+auto json_of(const block::Block& block, const ingest::Scene& scene) -> Json {
+  Json buildings = Json::array();
+  for (const auto& member : block.members) buildings.push_back(scene.footprints[member.feature].id);
+  const auto box = box_of(block);
+  return {{"name", block.name},
+          {"buildings", buildings},
+          {"low", json_of(box.low)},
+          {"high", json_of(box.high)},
+          {"triangles", block.mesh.triangles.size()}};
+}
+
+}  // namespace
+
+auto text_of(const Json& json) -> std::string { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+auto json_of(const base::Diagnostic& d) -> Json {
+  return {{"severity", d.severity == base::Severity::error ? "error" : "warning"},
+          {"code", d.code},
+          {"message", d.message},
+          {"subject", d.subject}};
+}
+
+auto json_of(std::span<const base::Diagnostic> diagnostics) -> Json {
+  Json out = Json::array();
+  for (const auto& diagnostic : diagnostics) out.push_back(json_of(diagnostic));
+  return out;
+}
+
+auto json_of(const Job& job) -> Json {
+  return {{"id", job.id},           {"kind", job.kind},         {"run", or_null(job.run)},
+          {"state", to_string(job.state)}, {"stage", job.stage}, {"subject", job.subject},
+          {"fraction", job.fraction}, {"failure", or_null(job.failure)}};
+}
+
+auto json_of(const MapInfo& map) -> Json {
+  return {{"block", map.block},
+          {"origin", json_of(map.origin)},
+          {"grid", map.grid},
+          {"columns", map.columns},
+          {"rows", map.rows}};
+}
+
+auto json_of(const RunRecord& run, std::size_t edits) -> Json {
+  Json scores = nullptr;
+  if (run.scores)
+    scores = {{"mse", run.scores->mse},
+              {"footprint_mse", run.scores->footprint_mse},
+              {"footprint_median_absolute", run.scores->footprint_median_absolute},
+              {"inside_mse", run.scores->inside_mse},
+              {"missed", run.scores->missed},
+              {"invented", run.scores->invented}};
+  Json times = Json::array();
+  for (const auto& time : run.times) times.push_back({{"stage", time.stage}, {"seconds", time.seconds}});
+  return {{"id", run.id},           {"label", run.label},   {"state", to_string(run.state)},
+          {"failure", or_null(run.failure)}, {"created", run.created}, {"preset", run.preset},
+          {"options", run.options}, {"blocks", run.blocks}, {"scores", scores},
+          {"times", times},         {"buildings", run.buildings}, {"full", run.full},
+          {"parts", run.parts},     {"faces", run.faces},   {"edits", edits}};
+}
+
+/// The writer of plans says what a plan looks like, here as in a file.
+auto json_of(const geometry::Plan& plan) -> Json { return Json::parse(write::plan_json(plan)); }
+
+auto json_of(const geometry::ProfilePoint& point) -> Json { return Json::array({point.inward, point.height}); }
+
+auto json_of(std::span<const geometry::Point2> points) -> Json {
+  Json out = Json::array();
+  for (const auto& p : points) out.push_back(json_of(p));
+  return out;
+}
+
+auto json_of(const label::LabelledSolid& model) -> Json {
+  const auto& solid = model.solid;
+  const auto cut = extrude::triangulate(solid);
+  if (!cut) return nullptr;
+  Json positions = Json::array(), triangles = Json::array(), faces = Json::array();
+  for (const auto& v : solid.vertices)
+    for (const double c : {v.x, v.y, v.z}) positions.push_back(c);
+  for (const auto& triangle : cut->triangles)
+    for (const auto v : triangle) triangles.push_back(v);
+  for (std::size_t f = 0; f < solid.faces.size(); ++f) {
+    const auto& from = solid.faces[f].provenance;
+    faces.push_back({{"loops", solid.faces[f].loops},
+                     {"class", class_names[static_cast<std::size_t>(model.classes[f])]},
+                     {"ring", from ? Json(from->ring) : Json(nullptr)},
+                     {"edge", from ? Json(from->edge) : Json(nullptr)}});
+  }
+  return {{"positions", std::move(positions)},
+          {"triangles", std::move(triangles)},
+          {"face_of", cut->face_of},
+          {"faces", std::move(faces)}};
+}
+
+auto json_of(const edit::NamedPlan& part) -> Json { return {{"id", part.id}, {"plan", json_of(part.plan)}}; }
+
+auto json_of(const edit::Change& change) -> Json {
+  Json parts = Json::array();
+  for (const auto& part : change.parts) parts.push_back(json_of(part));
+  return {{"building", change.building}, {"revision", change.revision}, {"parts", std::move(parts)}};
+}
+
+auto json_of(const edit::History& history) -> Json {
+  Json edits = Json::array();
+  for (const auto& edit : history.edits()) edits.push_back(edit.what);
+  return {{"edits", std::move(edits)}, {"done", history.done()}};
+}
+
+auto json_of(const std::string& id, std::uint64_t revision, std::span<const edit::NamedPlan> plans,
+             const edit::RaisedBuilding& raised) -> Json {
+  Json parts = Json::array();
+  for (std::size_t i = 0; i < raised.parts.size(); ++i) {
+    const auto& part = raised.parts[i];
+    parts.push_back({{"id", part.id},
+                     {"plan", json_of(plans[i].plan)},
+                     {"geometry", part.model ? json_of(*part.model) : Json(nullptr)},
+                     {"outcome", outcome_names[static_cast<std::size_t>(part.outcome)]},
+                     {"diagnostics", json_of(part.diagnostics)},
+                     {"mse", or_null(part.mse)},
+                     {"volume", part.volume}});
+  }
+  return {{"id", id},
+          {"revision", revision},
+          {"valid", raised.valid()},
+          {"parts", std::move(parts)},
+          {"diagnostics", json_of(raised.diagnostics)},
+          {"mse", or_null(raised.mse)}};
+}
+
+auto options_json() -> Json {
+  pipeline::Options defaults;
+  Json options = Json::array(), presets = Json::array();
+  for (const auto& list : pipeline::option_lists(defaults))
+    for (const auto& option : list.options()) options.push_back(json_of(option, list.room()));
+  for (const auto& preset : pipeline::presets()) {
+    Json values = Json::object();
+    for (const auto& [key, value] : preset.values) values[key] = value;
+    presets.push_back({{"name", preset.name}, {"meaning", preset.meaning}, {"values", values}});
+  }
+  return {{"options", options}, {"presets", presets}};
+}
+
+auto layers_json(const std::vector<pipeline::SegmentedBlock>& blocks) -> Json {
+  Json sweep_edges = Json::array(), faces = Json::array(), edges = Json::array();
+  for (const auto& block : blocks) {
+    for (const auto& edge : block.sweep_edges)
+      sweep_edges.push_back({{"block", block.name},
+                             {"from", json_of(edge.segment.start)},
+                             {"to", json_of(edge.segment.end)},
+                             {"low", edge.low},
+                             {"high", edge.high}});
+    for (std::uint32_t f = 0; f < block.arrangement.faces.size(); ++f) {
+      const auto* evidence = block.segmentation ? &block.segmentation->faces[f] : nullptr;
+      faces.push_back({{"block", block.name},
+                       {"outer", json_of(block.arrangement.ring(f))},
+                       {"holes", Json::array()},  // faces are simply connected
+                       {"inside", evidence != nullptr && evidence->inside},
+                       {"height", evidence != nullptr && evidence->seen ? Json(evidence->height) : Json(nullptr)},
+                       {"part", evidence != nullptr ? or_null(block.segmentation->part_of_face[f]) : Json(nullptr)}});
+    }
+    if (!block.segmentation) continue;
+    for (const auto& candidate : block.segmentation->candidates) {
+      Json lines = Json::array();
+      for (const auto h : candidate.half_edges) {
+        const auto segment = block.arrangement.segment(h);
+        lines.push_back(Json::array({json_of(segment.start), json_of(segment.end)}));
+      }
+      edges.push_back({{"block", block.name},
+                       {"lines", std::move(lines)},
+                       {"chosen", candidate.chosen},
+                       {"cost_cut", candidate.costs.cut()},
+                       {"cost_uncut", candidate.costs.uncut()}});
+    }
+  }
+  return {{"sweep_edges", std::move(sweep_edges)}, {"faces", std::move(faces)}, {"edges", std::move(edges)}};
+}
+
+auto id_of(const picture::Tile& tile) -> std::string {
+  return std::to_string(tile.level) + "-" + std::to_string(tile.column) + "-" + std::to_string(tile.row);
+}
+
+auto json_of(std::span<const picture::Tile> tiles) -> Json {
+  Json infos = Json::array();
+  std::size_t levels = 0;
+  for (const auto& tile : tiles) {
+    levels = std::max(levels, tile.level + 1);
+    infos.push_back({{"id", id_of(tile)},
+                     {"level", tile.level},
+                     {"column", tile.column},
+                     {"row", tile.row},
+                     {"low", json_of(tile.low)},
+                     {"high", json_of(tile.high)},
+                     {"centre", json_of(tile.centre)},
+                     {"vertices", tile.positions.size() / 3},
+                     {"triangles", tile.triangles.size() / 3}});
+  }
+  return {{"levels", levels}, {"tiles", std::move(infos)}};
+}
+
+auto json_of(const ingest::Scene& scene, std::span<const block::Block> blocks) -> Json {
+  std::vector<Json> block_of(scene.footprints.size(), nullptr), ground(scene.footprints.size(), 0.0);
+  Json block_list = Json::array(), footprints = Json::array();
+  for (const auto& block : blocks) {
+    block_list.push_back(json_of(block, scene));
+    for (const auto& member : block.members) {
+      block_of[member.feature] = block.name;
+      ground[member.feature] = member.ground;
+    }
+  }
+  for (std::size_t f = 0; f < scene.footprints.size(); ++f) {
+    const auto& footprint = scene.footprints[f];
+    footprints.push_back({{"id", footprint.id},
+                          {"block", block_of[f]},
+                          {"polygons", json_of(footprint.polygons)},
+                          {"ground", ground[f]},
+                          {"defect", or_null(footprint.defect)}});
+  }
+  Box3 box;
+  for (const auto& v : scene.mesh.vertices) box.add(v);
+  return {{"origin", scene.frame.origin},
+          {"crs", scene.frame.crs},
+          {"triangles", scene.mesh.triangles.size()},
+          {"low", json_of(box.low)},
+          {"high", json_of(box.high)},
+          {"blocks", std::move(block_list)},
+          {"footprints", std::move(footprints)},
+          {"warnings", json_of(scene.warnings)}};
+}
+
+}  // namespace mansard::server

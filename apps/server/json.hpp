@@ -1,0 +1,58 @@
+// What the server says, as JSON. The names are those of openapi.json.
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "apps/server/jobs.hpp"
+#include "apps/server/project.hpp"
+#include "mansard/base/result.hpp"
+#include "mansard/edit/edit.hpp"
+#include "mansard/ingest/ingest.hpp"
+#include "mansard/picture/tiles.hpp"
+#include "mansard/pipeline/pipeline.hpp"
+
+namespace mansard::server {
+
+using Json = nlohmann::ordered_json;
+
+/// On one line. Bytes of file names and ids that are not UTF-8 are replaced.
+[[nodiscard]] auto text_of(const Json& json) -> std::string;
+
+[[nodiscard]] auto json_of(const base::Diagnostic& diagnostic) -> Json;
+[[nodiscard]] auto json_of(std::span<const base::Diagnostic> diagnostics) -> Json;
+[[nodiscard]] auto json_of(const Job& job) -> Json;
+[[nodiscard]] auto json_of(const MapInfo& map) -> Json;
+/// RunSummary; `edits` stand.
+[[nodiscard]] auto json_of(const RunRecord& run, std::size_t edits) -> Json;
+[[nodiscard]] auto json_of(const geometry::Plan& plan) -> Json;
+[[nodiscard]] auto json_of(const label::LabelledSolid& model) -> Json;
+[[nodiscard]] auto json_of(const geometry::ProfilePoint& point) -> Json;
+[[nodiscard]] auto json_of(std::span<const geometry::Point2> points) -> Json;
+[[nodiscard]] auto json_of(const edit::NamedPlan& part) -> Json;
+[[nodiscard]] auto json_of(const edit::Change& change) -> Json;
+[[nodiscard]] auto json_of(const edit::History& history) -> Json;
+
+/// RaisedBuilding. `plans` are those that were raised, in the same order.
+[[nodiscard]] auto json_of(const std::string& id, std::uint64_t revision, std::span<const edit::NamedPlan> plans,
+                           const edit::RaisedBuilding& raised) -> Json;
+
+/// Options: every option of every room with its default, and the presets.
+[[nodiscard]] auto options_json() -> Json;
+
+/// Layers.
+[[nodiscard]] auto layers_json(const std::vector<pipeline::SegmentedBlock>& blocks) -> Json;
+
+/// "1-3-4": of a tile.
+[[nodiscard]] auto id_of(const picture::Tile& tile) -> std::string;
+/// TileIndex.
+[[nodiscard]] auto json_of(std::span<const picture::Tile> tiles) -> Json;
+
+/// Scene. `blocks` are of the scene.
+[[nodiscard]] auto json_of(const ingest::Scene& scene, std::span<const block::Block> blocks) -> Json;
+
+}  // namespace mansard::server

@@ -1,0 +1,120 @@
+// One run's models while somebody looks at them: as its edits left them, ready to be shown, tried out and changed.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/server/disk.hpp"
+#include "apps/server/project.hpp"
+#include "apps/server/requests.hpp"
+#include "apps/server/scene.hpp"
+#include "mansard/base/result.hpp"
+#include "mansard/edit/edit.hpp"
+#include "mansard/geometry/points.hpp"
+#include "mansard/pipeline/pipeline.hpp"
+
+namespace mansard::server {
+
+using SceneOrNone = std::shared_ptr<const OpenScene>;
+
+/// What an edit, an undo or a redo changed, as JSON texts.
+struct Changed {
+  std::string buildings;  ///< an array of Building
+  std::string history;    ///< History
+  std::size_t standing = 0;
+};
+
+/// Readers take what stands at that moment and are never held up by an edit, nor hold one up. Edits come one after the
+/// other; each is on the disk before it is seen.
+class Models {
+ public:
+  /// From what the run left in its folder, and its journal, whose torn end is cut off. Gives up with "edit-journal",
+  /// "server-project", "write-plan-…", "file-…". Cost: every plan is raised, on all threads.
+  [[nodiscard]] static auto open(const std::filesystem::path& folder, const RunRecord& run, const SceneOrNone& scene)
+      -> base::Result<std::shared_ptr<Models>>;
+
+  /// {"buildings": …, "history": …}
+  [[nodiscard]] auto all() const -> std::string;
+  /// {"buildings": …}, of RaisedBuilding. Gives up with "edit-building".
+  [[nodiscard]] auto preview(const std::vector<edit::Change>& changes, const OpenScene* scene) const
+      -> base::Result<std::string>;
+  /// Proposal. Give up with "edit-building", "edit-part", "edit-split", "edit-merge".
+  [[nodiscard]] auto split(const SplitRequest& request) const -> base::Result<std::string>;
+  [[nodiscard]] auto merge(const MergeRequest& request) const -> base::Result<std::string>;
+  /// Gives up with "edit-building", "edit-part".
+  [[nodiscard]] auto plan_of(const PartName& name) const -> base::Result<geometry::Plan>;
+
+  /// Gives up with "edit-invalid", and as edit::History::apply and Journal::append do.
+  [[nodiscard]] auto apply(edit::Edit edit, const OpenScene* scene) -> base::Result<Changed>;
+  [[nodiscard]] auto undo(const OpenScene* scene) -> base::Result<Changed>;
+  [[nodiscard]] auto redo(const OpenScene* scene) -> base::Result<Changed>;
+  /// Measures what was edited while there was no scene; nothing where there was nothing to measure.
+  [[nodiscard]] auto measure(const OpenScene& scene) -> std::optional<Changed>;
+
+  /// The bytes of one of model_files, of the edited state. Gives up as the writers do, and with "server-unknown".
+  [[nodiscard]] auto exported(const std::string& file, const SceneOrNone& scene) -> base::Result<std::string>;
+  [[nodiscard]] auto exported(const SceneOrNone& scene) -> base::Result<Texts>;
+
+  [[nodiscard]] auto options() const -> const pipeline::Options& { return options_; }
+
+ private:
+  /// A building as it stands. Never changed: the next state has another.
+  struct Seen {
+    std::string id;
+    std::uint64_t revision = 0;
+    std::vector<edit::NamedPlan> parts;
+    geometry::Box2 box;
+    bool measured = false;
+    std::string json;  ///< Building
+  };
+  struct Report {
+    std::string block;
+    std::string fixed;  ///< members of Building that no edit changes, as JSON without its braces
+  };
+  struct View {
+    std::vector<std::shared_ptr<const Seen>> buildings;  ///< in the source's order
+    std::string history;                                 ///< JSON
+    std::uint64_t number = 0;                            ///< of the state
+  };
+
+  Models(write::City city, edit::History history, Journal journal, pipeline::Options options);
+  [[nodiscard]] auto view() const -> std::shared_ptr<const View>;
+  [[nodiscard]] auto read_reports(const std::filesystem::path& path) -> base::Result<void>;
+  [[nodiscard]] auto raise_all(const OpenScene* scene) -> base::Result<void>;
+  [[nodiscard]] auto known(const edit::Change& change, const View& view) const -> base::Result<std::size_t>;
+  [[nodiscard]] auto raised(const edit::Change& change, std::size_t at, const std::vector<edit::Change>& together,
+                            const View& view, const OpenScene* scene) const -> edit::RaisedBuilding;
+  [[nodiscard]] auto seen(const std::string& id, const edit::RaisedBuilding& raised, bool measured) const
+      -> std::shared_ptr<const Seen>;
+  [[nodiscard]] auto publish(const std::vector<std::string>& changed, const OpenScene* scene) -> Changed;
+  [[nodiscard]] auto step(base::Result<std::vector<std::string>> (edit::History::*one)(), std::string_view line,
+                          const OpenScene* scene) -> base::Result<Changed>;
+
+  write::City city_;  // of the run: its plans, without models
+  pipeline::Options options_;
+  std::map<std::string, std::size_t, std::less<>> index_;
+  std::vector<Report> reports_;
+
+  std::mutex edits_;  // held by whoever changes what follows
+  edit::History history_;
+  Journal journal_;
+
+  mutable std::mutex view_mutex_;
+  std::shared_ptr<const View> view_;
+
+  struct Export {
+    std::uint64_t number = 0;
+    bool with_scene = false;
+    Texts files;
+  };
+  std::mutex export_mutex_;
+  std::optional<Export> export_;  // of the last state that was asked for
+};
+
+}  // namespace mansard::server

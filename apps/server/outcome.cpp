@@ -1,0 +1,60 @@
+#include "apps/server/outcome.hpp"
+
+#include <algorithm>
+
+namespace mansard::server {
+namespace {
+
+auto bytes_of(const std::vector<float>& values) -> std::string {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)};
+}
+
+void count(const pipeline::Reconstruction& result, RunRecord& record) {
+  const auto& s = result.scores;
+  record.scores = RunScores{s.mse,        s.footprint_mse, s.footprint_median_absolute,
+                            s.inside.mse, s.missed,        s.invented};
+  record.times = result.times;
+  record.buildings = result.buildings.size();
+  record.full = static_cast<std::size_t>(
+      std::ranges::count(result.buildings, pipeline::Outcome::full, &pipeline::BuildingReport::outcome));
+  record.parts = record.faces = 0;
+  for (const auto& building : result.city.buildings)
+    for (const auto& part : building.parts) {
+      ++record.parts;
+      record.faces += part.model.solid.faces.size();
+    }
+}
+
+}  // namespace
+
+auto error_name(std::size_t map) -> std::string { return "error-" + std::to_string(map) + ".bin"; }
+
+auto reconstruct(const OpenScene& scene, RunRecord record, const base::Run& how) -> base::Result<RunOutcome> {
+  pipeline::Options options;
+  if (auto set = set_all(options, record.options); !set) return set.error();
+  auto run = how;
+  run.seed = static_cast<std::uint64_t>(options.seed);
+  const auto result =
+      pipeline::reconstruct(scene.scene(), options, run, pipeline::Keep::segmentations, record.blocks);
+  if (!result) return result.error();
+  run.report("write", "", 1);
+  auto layers = write::geopackage(
+      pipeline::segment_layers(scene.scene(), result->segmented, result->city.made_by), scene.scene().frame);
+  if (!layers) return layers.error();
+  RunOutcome out{std::move(record), {}};
+  count(*result, out.record);
+  out.files.emplace_back("report.json", pipeline::report_json(*result, scene.scene()));
+  out.files.emplace_back("plans.json", write::plans(result->city));
+  out.files.emplace_back("layers.json", text_of(layers_json(result->segmented)));
+  out.files.emplace_back("segment.gpkg", std::move(*layers));
+  out.record.maps.clear();
+  for (std::size_t b = 0; b < result->error_maps.size(); ++b) {
+    const auto& map = result->error_maps[b];
+    out.files.emplace_back(error_name(b), bytes_of(map.difference));
+    out.record.maps.push_back({result->blocks[b].name, map.origin, map.grid, map.columns, map.rows});
+  }
+  if (run.cancelled()) return base::error("cancelled", "stopped on request");
+  return out;
+}
+
+}  // namespace mansard::server

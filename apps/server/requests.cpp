@@ -1,0 +1,234 @@
+#include "apps/server/requests.hpp"
+
+#include <algorithm>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+
+#include "mansard/base/options.hpp"
+#include "mansard/base/text.hpp"
+#include "mansard/write/write.hpp"
+
+namespace mansard::server {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Nobody needs more, and each level costs memory.
+constexpr int deepest = 64;
+
+/// Thrown and caught inside this file.
+struct Refused {
+  base::Diagnostic why;
+};
+
+auto bad(const std::string& what, const std::string& where = {}) -> base::Diagnostic {
+  return base::error("server-body", what, where);
+}
+
+/// A value and its place.
+struct Item {
+  const Json& json;
+  std::string place;
+
+  [[nodiscard]] auto where() const -> std::string { return place.empty() ? "the body" : place; }
+  [[noreturn]] void refuse(const std::string& wanted) const { throw Refused{bad(where() + " must be " + wanted, place)}; }
+
+  auto object(std::initializer_list<const char*> names) const -> const Item& {
+    if (!json.is_object()) refuse("an object");
+    const std::vector<std::string> known(names.begin(), names.end());
+    for (const auto& [key, value] : json.items())
+      if (std::ranges::find(known, key) == known.end())
+        throw Refused{bad(where() + " has an unknown member \"" + base::on_one_line(key) + "\"" +
+                              base::did_you_mean(base::nearest_word(key, known)),
+                          place)};
+    return *this;
+  }
+  [[nodiscard]] auto has(const char* name) const -> bool { return json.contains(name); }
+  [[nodiscard]] auto member(const char* name) const -> Item {
+    const auto found = json.find(name);
+    if (found == json.end()) throw Refused{bad(where() + " has no \"" + name + "\"", place)};
+    return {*found, place.empty() ? name : place + "." + name};
+  }
+  template <class Work>
+  void each(Work work) const {
+    if (!json.is_array()) refuse("an array");
+    for (std::size_t i = 0; i < json.size(); ++i) work(Item{json[i], place + "[" + std::to_string(i) + "]"});
+  }
+  [[nodiscard]] auto text() const -> std::string {
+    if (!json.is_string()) refuse("a text");
+    return json.get<std::string>();
+  }
+  [[nodiscard]] auto texts() const -> std::vector<std::string> {
+    std::vector<std::string> out;
+    each([&](const Item& item) { out.push_back(item.text()); });
+    return out;
+  }
+  [[nodiscard]] auto map() const -> Texts {
+    if (!json.is_object()) refuse("an object of texts");
+    Texts out;
+    for (const auto& [key, value] : json.items()) out[key] = Item{value, place + "." + key}.text();
+    return out;
+  }
+  [[nodiscard]] auto number() const -> double {
+    if (!json.is_number()) refuse("a number");
+    return json.get<double>();
+  }
+  [[nodiscard]] auto whole() const -> std::uint64_t {
+    if (!json.is_number_unsigned()) refuse("a whole number from 0");
+    return json.get<std::uint64_t>();
+  }
+  [[nodiscard]] auto flag() const -> bool {
+    if (!json.is_boolean()) refuse("true or false");
+    return json.get<bool>();
+  }
+  [[nodiscard]] auto point() const -> geometry::Point2 {
+    if (!json.is_array() || json.size() != 2) refuse("an array of 2 numbers");
+    return {Item{json[0], place + "[0]"}.number(), Item{json[1], place + "[1]"}.number()};
+  }
+  [[nodiscard]] auto plan() const -> geometry::Plan {
+    auto plan = write::read_plan(json.dump(), place);
+    if (!plan) throw Refused{plan.error()};
+    return std::move(*plan);
+  }
+};
+
+/// Whether brackets are nested too deep, texts left aside.
+auto too_deep(std::string_view body) -> bool {
+  int depth = 0;
+  bool in_text = false;
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    const char c = body[i];
+    if (in_text) {
+      if (c == '\\') ++i;
+      if (c == '"') in_text = false;
+    } else if (c == '"') {
+      in_text = true;
+    } else if (c == '[' || c == '{') {
+      if (++depth > deepest) return true;
+    } else if (c == ']' || c == '}') {
+      --depth;
+    }
+  }
+  return false;
+}
+
+template <class Work>
+auto reading(std::string_view body, Work work) -> base::Result<decltype(work(std::declval<const Item&>()))> {
+  try {
+    if (too_deep(body)) return bad("the body is nested too deep");
+    const auto json = Json::parse(body);
+    return work(Item{json, {}});
+  } catch (const Json::parse_error& e) {
+    return bad("the body is not JSON, at byte " + std::to_string(e.byte));
+  } catch (const Json::exception&) {  // a number that no double can hold, a text that is not UTF-8
+    return bad("the body has a value that cannot be read");
+  } catch (const Refused& refused) {
+    return refused.why;
+  }
+}
+
+auto change_of(const Item& item) -> edit::Change {
+  item.object({"building", "revision", "parts"});
+  edit::Change change{item.member("building").text(), item.member("revision").whole(), {}};
+  item.member("parts").each([&](const Item& part) {
+    part.object({"id", "plan"});
+    change.parts.push_back({part.member("id").text(), part.member("plan").plan()});
+  });
+  return change;
+}
+
+auto changes_of(const Item& item) -> std::vector<edit::Change> {
+  std::vector<edit::Change> changes;
+  item.each([&](const Item& change) { changes.push_back(change_of(change)); });
+  return changes;
+}
+
+auto part_of(const Item& item) -> PartName { return {item.member("building").text(), item.member("part").text()}; }
+
+}  // namespace
+
+auto read_inputs(std::string_view body) -> base::Result<InputsRequest> {
+  return reading(body, [](const Item& item) {
+    item.object({"meshes", "footprints", "reading"});
+    InputsRequest request{item.member("meshes").texts(), item.member("footprints").text(), {}};
+    if (request.meshes.empty()) item.member("meshes").refuse("one file or folder or more");
+    if (item.has("reading")) request.reading = item.member("reading").map();
+    return request;
+  });
+}
+
+auto read_run(std::string_view body) -> base::Result<RunRequest> {
+  return reading(body, [](const Item& item) {
+    item.object({"label", "preset", "options", "blocks"});
+    RunRequest request;
+    if (item.has("label")) request.label = base::on_one_line(item.member("label").text());
+    if (item.has("preset")) request.preset = item.member("preset").text();
+    if (item.has("options")) request.options = item.member("options").map();
+    if (item.has("blocks")) request.blocks = item.member("blocks").texts();
+    return request;
+  });
+}
+
+auto read_label(std::string_view body) -> base::Result<std::string> {
+  return reading(body, [](const Item& item) { return base::on_one_line(item.object({"label"}).member("label").text()); });
+}
+
+auto read_section(std::string_view body) -> base::Result<SectionRequest> {
+  return reading(body, [](const Item& item) {
+    item.object({"plan", "ring", "edge", "share"});
+    return SectionRequest{item.member("plan").plan(), item.member("ring").whole(), item.member("edge").whole(),
+                          item.member("share").number()};
+  });
+}
+
+auto read_changes(std::string_view body) -> base::Result<std::vector<edit::Change>> {
+  return reading(body, [](const Item& item) { return changes_of(item.object({"changes"}).member("changes")); });
+}
+
+auto read_edit(std::string_view body) -> base::Result<edit::Edit> {
+  return reading(body, [](const Item& item) {
+    item.object({"what", "changes"});
+    return edit::Edit{base::on_one_line(item.member("what").text()), changes_of(item.member("changes"))};
+  });
+}
+
+auto read_split(std::string_view body) -> base::Result<SplitRequest> {
+  return reading(body, [](const Item& item) {
+    item.object({"building", "part", "line"});
+    SplitRequest request{part_of(item), {}};
+    item.member("line").each([&](const Item& point) { request.line.push_back(point.point()); });
+    return request;
+  });
+}
+
+auto read_merge(std::string_view body) -> base::Result<MergeRequest> {
+  return reading(body, [](const Item& item) {
+    std::vector<PartName> parts;
+    item.object({"parts"}).member("parts").each([&](const Item& part) {
+      parts.push_back(part_of(part.object({"building", "part"})));
+    });
+    if (parts.size() != 2) item.member("parts").refuse("two parts");
+    return MergeRequest{parts.front(), parts.back()};
+  });
+}
+
+auto read_overwrite(std::string_view body) -> base::Result<bool> {
+  return reading(body, [](const Item& item) { return item.object({"overwrite"}).member("overwrite").flag(); });
+}
+
+auto read_nothing(std::string_view body) -> base::Result<void> {
+  if (body.empty()) return {};
+  const auto read = reading(body, [](const Item& item) { return item.object({}).json.empty(); });
+  return read ? base::Result<void>() : read.error();
+}
+
+auto check_edge(const geometry::Plan& plan, std::size_t ring, std::size_t edge, double share) -> base::Result<void> {
+  if (ring > plan.holes.size())
+    return bad("ring must be at most " + std::to_string(plan.holes.size()), "ring");
+  const auto edges = (ring == 0 ? plan.outer : plan.holes[ring - 1]).points.size();
+  if (edge >= edges) return bad("edge must be less than " + std::to_string(edges), "edge");
+  if (!(share >= 0 && share <= 1)) return bad("share must be from 0 to 1", "share");
+  return {};
+}
+
+}  // namespace mansard::server

@@ -1,0 +1,57 @@
+// What a page sends, read strictly: every complaint says where, in the manner of changes[0].parts[1].plan.cap.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "apps/server/project.hpp"
+#include "mansard/base/result.hpp"
+#include "mansard/edit/edit.hpp"
+#include "mansard/geometry/plan.hpp"
+
+namespace mansard::server {
+
+struct InputsRequest {
+  std::vector<std::string> meshes;
+  std::string footprints;
+  Texts reading;
+};
+struct RunRequest {
+  std::string label, preset;
+  Texts options;
+  std::vector<std::string> blocks;
+};
+struct SectionRequest {
+  geometry::Plan plan;
+  std::size_t ring = 0, edge = 0;
+  double share = 0;
+};
+struct PartName {
+  std::string building, part;
+};
+struct SplitRequest {
+  PartName at;
+  std::vector<geometry::Point2> line;
+};
+using MergeRequest = std::pair<PartName, PartName>;
+
+/// All give up with "server-body", and with "write-plan-…" for plans.
+[[nodiscard]] auto read_inputs(std::string_view body) -> base::Result<InputsRequest>;
+[[nodiscard]] auto read_run(std::string_view body) -> base::Result<RunRequest>;
+[[nodiscard]] auto read_label(std::string_view body) -> base::Result<std::string>;
+[[nodiscard]] auto read_section(std::string_view body) -> base::Result<SectionRequest>;
+[[nodiscard]] auto read_changes(std::string_view body) -> base::Result<std::vector<edit::Change>>;
+[[nodiscard]] auto read_edit(std::string_view body) -> base::Result<edit::Edit>;
+[[nodiscard]] auto read_split(std::string_view body) -> base::Result<SplitRequest>;
+[[nodiscard]] auto read_merge(std::string_view body) -> base::Result<MergeRequest>;
+[[nodiscard]] auto read_overwrite(std::string_view body) -> base::Result<bool>;
+/// For calls that say nothing: an empty body, or {}.
+[[nodiscard]] auto read_nothing(std::string_view body) -> base::Result<void>;
+
+/// Whether a plan has that edge, and the share is one. Gives up with "server-body".
+[[nodiscard]] auto check_edge(const geometry::Plan& plan, std::size_t ring, std::size_t edge, double share)
+    -> base::Result<void>;
+
+}  // namespace mansard::server

@@ -1,0 +1,214 @@
+#include "apps/server/routes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <new>
+#include <vector>
+
+#include "apps/server/assets.hpp"
+#include "apps/server/json.hpp"
+#include "apps/server/server.hpp"
+#include "mansard/base/text.hpp"
+
+namespace mansard::server {
+namespace {
+
+constexpr std::string_view octets = "application/octet-stream";
+
+/// Reads the body and goes on with what was read.
+template <class Read, class Work>
+auto with(Read read, Work work) {
+  return [=](Workspace& workspace, const Call& call) -> Text {
+    auto request = read(call.body);
+    if (!request) return request.error();
+    return work(workspace, call, std::move(*request));
+  };
+}
+
+auto run_of(const Call& call) -> const std::string& { return call.captured.find("run")->second; }
+
+auto word(const Call& call, const char* name) -> base::Result<std::string> {
+  const auto at = call.query.find(name);
+  if (at == call.query.end()) return base::error("server-body", std::string("the query has no '") + name + "'", name);
+  return at->second;
+}
+
+auto section_of_standing_plan(Workspace& workspace, const Call& call) -> Text {
+  const auto building = word(call, "building"), part = word(call, "part"), ring = word(call, "ring"),
+             edge = word(call, "edge"), share = word(call, "share");
+  for (const auto* read : {&building, &part, &ring, &edge, &share})
+    if (!*read) return read->error();
+  const auto ring_number = base::to_whole(*ring), edge_number = base::to_whole(*edge);
+  const auto at = base::to_number(*share);
+  if (!ring_number || *ring_number < 0 || !edge_number || *edge_number < 0 || !at)
+    return base::error("server-body", "ring and edge are whole numbers from 0, share a number from 0 to 1");
+  return workspace.section(run_of(call), {*building, *part}, static_cast<std::size_t>(*ring_number),
+                           static_cast<std::size_t>(*edge_number), *at);
+}
+
+auto nothing_then(Text (Workspace::*work)(const std::string&, const std::string&)) {
+  return [=](Workspace& workspace, const Call& call) -> Text {
+    if (auto read = read_nothing(call.body); !read) return read.error();
+    return (workspace.*work)(run_of(call), call.client);
+  };
+}
+
+auto table() -> std::vector<Route> {
+  constexpr auto nothing = Sends::nothing, sends = Sends::json, file = Sends::file;
+  constexpr auto gives = Gives::json, bytes = Gives::bytes, events = Gives::events;
+  return {
+      {"GET", "/api/status", nothing, gives, [](auto& w, const auto&) { return w.status(); }},
+      {"GET", "/api/openapi.json", nothing, gives, [](auto&, const auto&) { return Text(std::string(openapi())); }},
+      {"GET", "/api/options", nothing, gives, [](auto&, const auto&) { return Text(text_of(options_json())); }},
+      {"GET", "/api/project", nothing, gives, [](auto& w, const auto&) { return w.project(); }},
+      {"POST", "/api/project/inputs", sends, gives,
+       with(read_inputs, [](auto& w, const auto&, auto request) { return w.open_inputs(request); })},
+      {"POST", "/api/project/sample", sends, gives,
+       [](auto& w, const auto& call) {
+         const auto read = read_nothing(call.body);
+         return read ? w.open_sample() : Text(read.error());
+       }},
+      {"PUT", "/api/uploads/{name}", file, gives, {}},
+      {"GET", "/api/scene", nothing, gives, [](auto& w, const auto&) { return w.scene(); }},
+      {"GET", "/api/scene/tiles", nothing, gives, [](auto& w, const auto&) { return w.tiles(); }},
+      {"GET", "/api/scene/tiles/{id}", nothing, bytes,
+       [](auto& w, const auto& call) { return w.tile(call.captured.at("id")); }},
+      {"POST", "/api/runs", sends, gives,
+       with(read_run, [](auto& w, const auto&, auto request) { return w.start_run(request); })},
+      {"DELETE", "/api/runs/{run}", nothing, gives, [](auto& w, const auto& call) { return w.remove_run(run_of(call)); }},
+      {"PATCH", "/api/runs/{run}", sends, gives,
+       with(read_label, [](auto& w, const auto& call, auto label) { return w.rename_run(run_of(call), label); })},
+      {"GET", "/api/runs/{run}/report", nothing, gives,
+       [](auto& w, const auto& call) { return w.report(run_of(call)); }},
+      {"GET", "/api/runs/{run}/buildings", nothing, gives,
+       [](auto& w, const auto& call) { return w.buildings(run_of(call)); }},
+      {"GET", "/api/runs/{run}/layers", nothing, gives,
+       [](auto& w, const auto& call) { return w.layers(run_of(call)); }},
+      {"GET", "/api/runs/{run}/error", nothing, gives,
+       [](auto& w, const auto& call) { return w.error_maps(run_of(call)); }},
+      {"GET", "/api/runs/{run}/error/{block}", nothing, bytes,
+       [](auto& w, const auto& call) { return w.error_map(run_of(call), call.captured.at("block")); }},
+      {"GET", "/api/runs/{run}/section", nothing, gives, section_of_standing_plan},
+      {"POST", "/api/runs/{run}/section", sends, gives,
+       with(read_section, [](auto& w, const auto& call, auto request) { return w.section(run_of(call), request); })},
+      {"POST", "/api/runs/{run}/preview", sends, gives,
+       with(read_changes, [](auto& w, const auto& call, auto changes) { return w.preview(run_of(call), changes); })},
+      {"POST", "/api/runs/{run}/split", sends, gives,
+       with(read_split, [](auto& w, const auto& call, auto request) { return w.split(run_of(call), request); })},
+      {"POST", "/api/runs/{run}/merge", sends, gives,
+       with(read_merge, [](auto& w, const auto& call, auto request) { return w.merge(run_of(call), request); })},
+      {"POST", "/api/runs/{run}/edits", sends, gives,
+       with(read_edit,
+            [](auto& w, const auto& call, auto edit) { return w.apply(run_of(call), std::move(edit), call.client); })},
+      {"POST", "/api/runs/{run}/undo", sends, gives, nothing_then(&Workspace::undo)},
+      {"POST", "/api/runs/{run}/redo", sends, gives, nothing_then(&Workspace::redo)},
+      {"GET", "/api/runs/{run}/export/{file}", nothing, bytes,
+       [](auto& w, const auto& call) { return w.export_file(run_of(call), call.captured.at("file")); }},
+      {"POST", "/api/runs/{run}/export", sends, gives,
+       with(read_overwrite, [](auto& w, const auto& call, auto may) { return w.export_all(run_of(call), may); })},
+      {"GET", "/api/jobs", nothing, gives, [](auto& w, const auto&) { return w.jobs(); }},
+      {"DELETE", "/api/jobs/{id}", nothing, gives,
+       [](auto& w, const auto& call) { return w.cancel(call.captured.at("id")); }},
+      {"GET", "/api/events", nothing, events, {}},
+  };
+}
+
+auto split(std::string_view path) -> std::vector<std::string_view> {
+  std::vector<std::string_view> words;
+  for (std::size_t from = 0; from <= path.size();) {
+    const auto end = std::min(path.find('/', from), path.size());
+    words.push_back(path.substr(from, end - from));
+    from = end + 1;
+  }
+  return words;
+}
+
+auto matches(const Route& route, const std::vector<std::string_view>& words, Words& captured) -> bool {
+  const auto pattern = split(route.path);
+  if (pattern.size() != words.size()) return false;
+  captured.clear();
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (pattern[i].starts_with('{'))
+      captured.emplace(pattern[i].substr(1, pattern[i].size() - 2), words[i]);
+    else if (pattern[i] != words[i])
+      return false;
+  }
+  return true;
+}
+
+/// The code says what went wrong; HTTP only has classes for it.
+auto status_of(std::string_view code) -> int {
+  static constexpr std::array<std::pair<std::string_view, int>, 24> known{{
+      {"server-body", 400},   {"option-value", 400},    {"option-unknown", 400}, {"file-missing", 400},
+      {"server-upload", 400}, {"server-token", 401},    {"server-host", 403},    {"server-origin", 403},
+      {"server-path", 404},   {"server-unknown", 404},  {"server-no-scene", 404}, {"server-sample", 404},
+      {"edit-building", 404}, {"edit-part", 404},       {"pipeline-block-unknown", 404}, {"server-method", 405},
+      {"edit-stale", 409},    {"edit-nothing", 409},    {"server-busy", 409},    {"server-inputs", 409},
+      {"server-not-done", 409}, {"output-exists", 409}, {"server-large", 413},   {"server-listeners", 503},
+  }};
+  const auto at = std::ranges::find(known, code, &std::pair<std::string_view, int>::first);
+  if (at != known.end()) return at->second;
+  if (code.starts_with("write-plan-")) return 400;
+  if (code.starts_with("edit-")) return 422;
+  return 500;
+}
+
+}  // namespace
+
+auto routes() -> std::span<const Route> {
+  static const auto all = table();
+  return all;
+}
+
+auto find_route(Call& call) -> base::Result<const Route*> {
+  const auto words = split(call.path);
+  bool other_method = false;
+  for (const auto& route : routes()) {
+    if (!matches(route, words, call.captured)) continue;
+    if (route.method == call.method) return &route;
+    other_method = true;
+  }
+  call.captured.clear();
+  if (other_method)
+    return base::error("server-method", "this cannot be done with " + call.method + " here; see /api/openapi.json");
+  return base::error("server-path", "there is nothing of that name; see /api/openapi.json",
+                     base::on_one_line(call.path.substr(0, 200)));
+}
+
+auto refusal(const base::Diagnostic& why) -> Answer {
+  return {status_of(why.code), "application/json", text_of({{"error", json_of(why)}}), {}};
+}
+
+auto answer(Workspace& workspace, const Route& route, const Call& call) -> Answer {
+  try {
+    auto text = route.answer(workspace, call);
+    if (!text) return refusal(text.error());
+    Answer out;
+    out.body = std::move(*text);
+    if (route.gives == Gives::bytes) out.type = octets;
+    return out;
+  } catch (const std::bad_alloc&) {
+    return refusal(base::error("memory", "out of memory; use a smaller piece of the mesh (ingest.bbox)"));
+  } catch (const std::exception& e) {
+    return refusal(base::error("bug", std::string(e.what()) + "; please report it"));
+  }
+}
+
+auto page(std::string_view path, std::string_view known_hash) -> Answer {
+  const auto* asset = path.starts_with('/') ? find_asset(path.substr(1)) : nullptr;
+  if (asset == nullptr)
+    return refusal(base::error("server-path", "there is nothing of that name",
+                               base::on_one_line(std::string(path.substr(0, 200)))));
+  const auto tag = "\"" + std::string(asset->hash) + "\"";
+  // Names under assets/ have a hash of what they hold; the page itself does not.
+  Answer out{200, std::string(asset->mime), {}, {{"ETag", tag}}};
+  out.headers["Cache-Control"] = asset->name.starts_with("assets/") ? "private, max-age=31536000, immutable" : "no-cache";
+  if (known_hash == tag)
+    out.status = 304;
+  else
+    out.body = asset->bytes;
+  return out;
+}
+
+}  // namespace mansard::server

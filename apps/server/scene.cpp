@@ -1,0 +1,108 @@
+#include "apps/server/scene.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+namespace mansard::server {
+namespace {
+
+/// m to the sides of an edge, and above and below its base, that a section shows.
+constexpr double reach = 20.0;
+
+template <class T>
+void append(std::string& bytes, const std::vector<T>& values) {
+  bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+}
+
+}  // namespace
+
+auto set_all(pipeline::Options& options, const Texts& values) -> base::Result<void> {
+  auto lists = pipeline::option_lists(options);
+  for (const auto& [key, value] : values)
+    if (auto set = pipeline::set_option(lists, key, value); !set) return set;
+  return {};
+}
+
+auto OpenScene::read(const Inputs& inputs, const base::Run& run) -> base::Result<std::shared_ptr<const OpenScene>> {
+  pipeline::Options options;
+  if (auto set = set_all(options, inputs.reading); !set) return set.error();
+  const std::vector<std::filesystem::path> meshes(inputs.meshes.begin(), inputs.meshes.end());
+  auto scene = ingest::read_scene(meshes, inputs.footprints, options.ingest, run);
+  if (!scene) return scene.error();
+  const std::shared_ptr<OpenScene> out(new OpenScene);
+  out->scene_ = std::move(*scene);
+  run.report("block", inputs.footprints, 0.9);
+  out->blocks_ = block::partition(out->scene_, options.block, run);
+  run.report("tiles", inputs.meshes.front(), 0.95);
+  out->tiles_ = picture::tiles(out->scene_.mesh, {}, run);
+  if (run.cancelled()) return base::error("cancelled", "stopped on request");
+  out->prepared_.resize(out->blocks_.size());
+  for (std::size_t b = 0; b < out->blocks_.size(); ++b)
+    for (const auto& member : out->blocks_[b].members) out->block_of_[out->scene_.footprints[member.feature].id] = b;
+  for (std::size_t t = 0; t < out->tiles_.size(); ++t) out->tile_of_[id_of(out->tiles_[t])] = t;
+  out->scene_json_ = text_of(json_of(out->scene_, out->blocks_));
+  out->tiles_json_ = text_of(json_of(out->tiles_));
+  return std::shared_ptr<const OpenScene>(out);
+}
+
+auto OpenScene::has_block(std::string_view name) const -> bool {
+  return std::ranges::any_of(blocks_, [&](const auto& block) { return block.name == name; });
+}
+
+auto OpenScene::tile_bytes(const std::string& id) const -> std::optional<std::string> {
+  static_assert(std::endian::native == std::endian::little);
+  const auto at = tile_of_.find(id);
+  if (at == tile_of_.end()) return std::nullopt;
+  const auto& tile = tiles_[at->second];
+  std::string bytes;
+  bytes.reserve(8 + (tile.positions.size() + tile.triangles.size()) * 4);
+  append(bytes, std::vector<std::uint32_t>{static_cast<std::uint32_t>(tile.positions.size() / 3),
+                                           static_cast<std::uint32_t>(tile.triangles.size() / 3)});
+  append(bytes, tile.positions);
+  append(bytes, tile.triangles);
+  return bytes;
+}
+
+auto OpenScene::rays_of(std::string_view building) const -> const rays::Scene* {
+  const auto at = block_of_.find(building);
+  if (at == block_of_.end() || blocks_[at->second].mesh.triangles.empty()) return nullptr;
+  auto& prepared = prepared_[at->second];
+  std::call_once(prepared.once_rays, [&] { prepared.rays = std::make_unique<rays::Scene>(blocks_[at->second].mesh); });
+  return prepared.rays.get();
+}
+
+auto OpenScene::section(const geometry::Plan& plan, std::size_t ring, std::size_t edge, double share,
+                        const std::optional<std::string>& building, const pipeline::Options& options) const -> Json {
+  const auto& points = ring == 0 ? plan.outer.points : plan.holes[ring - 1].points;
+  const auto from = points[edge], to = points[(edge + 1) % points.size()];
+  Json pieces = Json::array(), climbs = Json::array();
+  if (!blocks_.empty()) {
+    const auto known = building ? block_of_.find(*building) : block_of_.end();
+    const auto b = known != block_of_.end() ? known->second : block_near(0.5 * (from + to));
+    const auto& mesh = blocks_[b].mesh;
+    auto& prepared = prepared_[b];
+    std::call_once(prepared.once_raw, [&] { prepared.raw = std::make_unique<profile::RawProfiles>(mesh); });
+    for (const auto& [start, end] : edit::section(mesh, from, to, share, plan.base, reach).pieces)
+      pieces.push_back(Json::array({json_of(start), json_of(end)}));
+    for (const auto& raw : prepared.raw->behind(geometry::polygon_of(plan), ring, edge, plan.base, options.profile)) {
+      Json climb = Json::array();
+      for (const auto& point : raw.points) climb.push_back(json_of(point));
+      climbs.push_back(std::move(climb));
+    }
+  }
+  return {{"share", share}, {"pieces", std::move(pieces)}, {"climbs", std::move(climbs)}};
+}
+
+auto OpenScene::block_near(geometry::Point2 at) const -> std::size_t {
+  std::size_t nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    for (const auto& polygon : blocks_[b].outline) {
+      const double distance = geometry::contains(polygon, at) ? 0 : geometry::boundary_distance(polygon, at);
+      if (distance < least) least = distance, nearest = b;
+    }
+  return nearest;
+}
+
+}  // namespace mansard::server

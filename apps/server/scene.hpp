@@ -1,0 +1,69 @@
+// The scan as it was read, with what is made of it once and asked for often.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/server/json.hpp"
+#include "apps/server/project.hpp"
+#include "mansard/base/result.hpp"
+#include "mansard/base/run.hpp"
+#include "mansard/block/block.hpp"
+#include "mansard/edit/edit.hpp"
+#include "mansard/ingest/ingest.hpp"
+#include "mansard/picture/tiles.hpp"
+#include "mansard/profile/raw.hpp"
+#include "mansard/rays/rays.hpp"
+
+namespace mansard::server {
+
+/// Sets options by name. Gives up with "option-unknown", "option-value".
+[[nodiscard]] auto set_all(pipeline::Options& options, const Texts& values) -> base::Result<void>;
+
+/// Does not change once it is read; queries may run on any thread.
+class OpenScene {
+ public:
+  /// Gives up as ingest::read_scene does, and with "cancelled", "option-…".
+  [[nodiscard]] static auto read(const Inputs& inputs, const base::Run& run)
+      -> base::Result<std::shared_ptr<const OpenScene>>;
+
+  [[nodiscard]] auto scene() const -> const ingest::Scene& { return scene_; }
+  [[nodiscard]] auto blocks() const -> const std::vector<block::Block>& { return blocks_; }
+  [[nodiscard]] auto has_block(std::string_view name) const -> bool;
+  [[nodiscard]] auto scene_json() const -> const std::string& { return scene_json_; }
+  [[nodiscard]] auto tiles_json() const -> const std::string& { return tiles_json_; }
+  /// As types.ts says; nothing where there is no such tile.
+  [[nodiscard]] auto tile_bytes(const std::string& id) const -> std::optional<std::string>;
+
+  /// The mesh around a building, made ready for rays when it is first asked for; null where there is none.
+  [[nodiscard]] auto rays_of(std::string_view building) const -> const rays::Scene*;
+  /// Across an edge of a plan. Where the building is not known, the block that is nearest counts.
+  [[nodiscard]] auto section(const geometry::Plan& plan, std::size_t ring, std::size_t edge, double share,
+                             const std::optional<std::string>& building, const pipeline::Options& options) const -> Json;
+
+ private:
+  OpenScene() = default;
+  struct Prepared {
+    std::once_flag once_rays, once_raw;
+    std::unique_ptr<rays::Scene> rays;
+    std::unique_ptr<profile::RawProfiles> raw;
+  };
+  [[nodiscard]] auto block_near(geometry::Point2 at) const -> std::size_t;
+
+  ingest::Scene scene_;
+  std::vector<block::Block> blocks_;
+  std::map<std::string, std::size_t, std::less<>> block_of_;  // by building
+  std::vector<picture::Tile> tiles_;
+  std::map<std::string, std::size_t, std::less<>> tile_of_;
+  std::string scene_json_, tiles_json_;
+  mutable std::deque<Prepared> prepared_;  // per block
+};
+
+}  // namespace mansard::server

@@ -1,0 +1,251 @@
+import { beforeEach, describe, expect, it, vi } from "vitest";
+import * as actions from "./actions";
+import type * as api from "./api/types";
+import * as state from "./state";
+import { building } from "./view/fixtures";
+
+const run = (id: string, change: Partial<api.RunSummary> = {}): api.RunSummary => ({
+  id,
+  label: "",
+  state: "done",
+  failure: null,
+  created: "",
+  preset: "",
+  options: {},
+  blocks: [],
+  scores: null,
+  times: [],
+  buildings: 2,
+  full: 2,
+  parts: 2,
+  faces: 14,
+  edits: 0,
+  ...change,
+});
+const project = (...runs: api.RunSummary[]): api.Project => ({
+  name: "p",
+  folder: "/p",
+  inputs: null,
+  reading: {},
+  runs,
+  sample: false,
+});
+const history = (done: number, ...edits: string[]): api.History => ({ edits, done });
+const job = (change: Partial<api.Job>): api.Job => ({
+  id: "job-1",
+  kind: "run",
+  run: "run-2",
+  state: "running",
+  stage: "",
+  subject: "",
+  fraction: 0,
+  failure: null,
+  ...change,
+});
+
+/** The server's answers, by method and path. */
+let answers: Record<string, (body: unknown) => unknown>;
+beforeEach(() => {
+  answers = {};
+  state.project.value = project(run("run-1"), run("run-2"));
+  state.run.value = state.other.value = state.selection.value = state.draft.value = state.opening.value = null;
+  state.also.value = [];
+  state.jobs.value = [];
+  state.messages.value = [];
+  vi.stubGlobal("fetch", async (path: string, init: RequestInit) => {
+    const answer = answers[`${init.method ?? "GET"} ${path}`];
+    if (!answer)
+      return Response.json({ error: { severity: "error", code: "none", message: path, subject: "" } }, { status: 404 });
+    const given = await answer(init.body ? JSON.parse(init.body as string) : undefined);
+    return given instanceof Response ? given : Response.json(given);
+  });
+});
+const buildings = (...all: api.Building[]) => ({ buildings: all, history: history(0) });
+const open = (...all: api.Building[]) =>
+  (state.run.value = { id: "run-1", buildings: new Map(all.map((b) => [b.id, b])), history: history(0) });
+
+describe("runs", () => {
+  it("are opened with the selection where it still stands", async () => {
+    answers["GET /api/runs/run-1/buildings"] = () => buildings(building("a"), building("b"));
+    await actions.openRun("run-1", { building: "b", part: "b-1", ring: 0, edge: 9 });
+    expect(state.run.value!.buildings.size).toBe(2);
+    expect(state.selection.value).toEqual({ building: "b", part: "b-1", ring: 0, edge: null });
+    await actions.openRun("run-1", { building: "gone", part: "b-1", ring: 0, edge: 1 });
+    expect(state.selection.value).toBeNull();
+  });
+
+  it("asked for last win, whichever answer comes last", async () => {
+    let late: (value: unknown) => void = () => {};
+    answers["GET /api/runs/run-1/buildings"] = () => new Promise((resolve) => (late = resolve));
+    answers["GET /api/runs/run-2/buildings"] = () => buildings(building("two"));
+    const first = actions.openRun("run-1");
+    await actions.openRun("run-2");
+    late(buildings(building("one")));
+    await first;
+    expect(state.run.value!.id).toBe("run-2");
+  });
+
+  it("started here are opened when done, even if the event comes before the answer", async () => {
+    open(building("a"));
+    answers["GET /api/runs/run-2/buildings"] = () => buildings(building("two"));
+    answers["POST /api/runs"] = () => {
+      actions.heard({ type: "job", job: job({ state: "done" }) });
+      return job({ state: "queued" });
+    };
+    await actions.startRun({ label: "", preset: "", options: {}, blocks: [] });
+    await vi.waitFor(() => expect(state.run.value!.id).toBe("run-2"));
+    expect(state.jobs.value).toEqual([job({ state: "done" })]);
+  });
+
+  it("started elsewhere do not take the place of the one that is open", () => {
+    open(building("a"));
+    actions.heard({ type: "job", job: job({ id: "job-7", state: "done" }) });
+    expect(state.opening.value).toBeNull();
+  });
+
+  it("that failed say why", () => {
+    const failure: api.Diagnostic = { severity: "error", code: "x", message: "no", subject: "" };
+    actions.heard({ type: "job", job: job({ state: "failed", failure }) });
+    expect(state.messages.value).toEqual([failure]);
+  });
+
+  it("deleted here are closed, and another is opened, though the project's list still has them", async () => {
+    state.run.value = { id: "run-2", buildings: new Map(), history: history(0) };
+    answers["DELETE /api/runs/run-2"] = () => ({});
+    answers["GET /api/runs/run-1/buildings"] = () => buildings(building("one"));
+    await actions.deleteRun("run-2");
+    await vi.waitFor(() => expect(state.run.value?.id).toBe("run-1"));
+    expect(state.messages.value).toEqual([]);
+  });
+
+  it("deleted elsewhere are closed, and another is opened", async () => {
+    open(building("a"));
+    answers["GET /api/runs/run-2/buildings"] = () => buildings(building("two"));
+    actions.heard({ type: "project", project: project(run("run-2")) });
+    await vi.waitFor(() => expect(state.run.value?.id).toBe("run-2"));
+  });
+});
+
+describe("edits", () => {
+  it("of others are shown, one's own events are not taken twice", () => {
+    open(building("a"));
+    const newer = building("a", { revision: 1 });
+    actions.heard({
+      type: "buildings",
+      run: "run-1",
+      client: actions.client.id,
+      buildings: [newer],
+      history: history(1, "x"),
+    });
+    expect(state.run.value!.buildings.get("a")!.revision).toBe(0);
+    actions.heard({ type: "buildings", run: "run-1", client: "another", buildings: [newer], history: history(1, "x") });
+    expect(state.run.value!.buildings.get("a")).toBe(newer);
+    expect(state.run.value!.history.done).toBe(1);
+  });
+
+  it("of others end a draft of the same building, and say so", () => {
+    open(building("a"), building("b"));
+    const draft = (id: string): state.Draft => ({
+      what: "",
+      changes: [{ building: id, revision: 0, parts: [] }],
+      raised: new Map(),
+      pending: false,
+      invalid: true,
+    });
+    const event = (id: string): api.Event => ({
+      type: "buildings",
+      run: "run-1",
+      client: "another",
+      buildings: [building(id, { revision: 1 })],
+      history: history(1, "x"),
+    });
+    state.draft.value = draft("b");
+    actions.heard(event("a"));
+    expect(state.draft.value).not.toBeNull();
+    actions.heard(event("b"));
+    expect(state.draft.value).toBeNull();
+    expect(state.messages.value[0]!.code).toBe("edit-stale");
+  });
+
+  it("never go back to an older revision", () => {
+    open(building("a", { revision: 3 }));
+    actions.take("run-1", { buildings: [building("a", { revision: 2 })], history: history(2, "x", "y") });
+    expect(state.run.value!.buildings.get("a")!.revision).toBe(3);
+  });
+
+  it("that take a part away leave its building selected", () => {
+    open(building("a"));
+    state.selection.value = { building: "a", part: "a-1", ring: 0, edge: 2 };
+    const part = { ...building("a").parts[0]!, id: "a-9" };
+    actions.take("run-1", { buildings: [building("a", { revision: 1, parts: [part] })], history: history(1, "x") });
+    expect(state.selection.value).toEqual({ building: "a", part: "a-9", ring: 0, edge: 2 });
+  });
+
+  it("are undone one by one, a held draft first and without the server", async () => {
+    open(building("a"));
+    state.run.value = { ...state.run.value!, history: history(1, "x") };
+    const undone = vi.fn(() => ({ buildings: [building("a", { revision: 2 })], history: history(0, "x") }));
+    answers["POST /api/runs/run-1/undo"] = undone;
+    state.draft.value = { what: "", changes: [], raised: new Map(), pending: false, invalid: true };
+    await actions.undo();
+    expect(undone).not.toHaveBeenCalled();
+    expect(state.draft.value).toBeNull();
+    await actions.undo();
+    expect(undone).toHaveBeenCalledOnce();
+    expect(state.run.value!.buildings.get("a")!.revision).toBe(2);
+    await actions.undo();
+    expect(undone).toHaveBeenCalledOnce();
+  });
+
+  it("refused say why", async () => {
+    open(building("a"));
+    state.run.value = { ...state.run.value!, history: history(0, "x") };
+    await actions.redo();
+    expect(state.messages.value[0]!.code).toBe("none");
+  });
+});
+
+describe("the selection", () => {
+  it("of a building is its first part", () => {
+    open(building("a"));
+    actions.select({ building: "a", part: null, ring: 0, edge: null });
+    expect(state.selection.value!.part).toBe("a-1");
+  });
+
+  it("takes more parts in and out again, and forgets them with the next one", () => {
+    open(building("a"), building("b"));
+    actions.select({ building: "a", part: "a-1", ring: 0, edge: null });
+    actions.selectAlso("b", "b-1");
+    actions.selectAlso("a", "a-1");
+    expect(state.also.value).toEqual([{ building: "b", part: "b-1" }]);
+    actions.selectAlso("b", "b-1");
+    expect(state.also.value).toEqual([]);
+    actions.selectAlso("b", "b-1");
+    actions.select({ building: "b", part: null, ring: 0, edge: null });
+    expect(state.also.value).toEqual([]);
+  });
+
+  it("goes through the list as it is sorted, round and round", () => {
+    open(building("a"), building("b"), building("c"));
+    state.order.value = ["c", "a"];
+    const next = (step: number) => {
+      actions.selectNext(step);
+      return state.selection.value!.building;
+    };
+    expect([next(1), next(1), next(1), next(-1)]).toEqual(["c", "a", "c", "a"]);
+    state.order.value = [];
+  });
+});
+
+describe("messages", () => {
+  it("are said once, the newest first, and not without end", () => {
+    for (const n of [1, 2, 1, 3, 4, 5, 6]) actions.say({ severity: "error", code: "c", message: `${n}`, subject: "" });
+    expect(state.messages.value.map((m) => m.message)).toEqual(["6", "5", "4", "3", "1"]);
+  });
+
+  it("of a server that is away are no different", async () => {
+    vi.stubGlobal("fetch", () => Promise.reject(new TypeError("failed to fetch")));
+    expect(await actions.attempt(actions.client.status())).toBeUndefined();
+    expect(state.messages.value[0]!.code).toBe("server-gone");
+  });
+});

@@ -1,0 +1,370 @@
+// All that changes the signals of state.ts, by the server's answers and events.
+import { batch } from "@preact/signals";
+import { Client, type InputsRequest, Refused, type RunRequest } from "./api/client";
+import type * as api from "./api/types";
+import { keep, kept } from "./keep";
+import * as state from "./state";
+
+/** The token comes in the link's fragment once, and is kept for reloads of this tab; the fragment is then taken away. */
+function tokenOf(): string {
+  if (typeof location === "undefined") return "";
+  const given = new URLSearchParams(location.hash.slice(1)).get("token");
+  if (given) {
+    keep("session", "token", given);
+    history.replaceState(null, "", location.pathname + location.search);
+  }
+  return given ?? kept("session", "token", "");
+}
+
+export const client = new Client(tokenOf());
+
+/** A new link opened in the same tab changes the fragment only: the page begins again with its token. */
+export function newLink() {
+  if (!location.hash.includes("token=")) return;
+  tokenOf();
+  location.reload();
+}
+
+// ---- messages
+
+const most_messages = 5;
+export function say(diagnostic: api.Diagnostic) {
+  const same = (m: api.Diagnostic) => m.code === diagnostic.code && m.message === diagnostic.message;
+  state.messages.value = [diagnostic, ...state.messages.value.filter((m) => !same(m))].slice(0, most_messages);
+}
+export function dismiss(diagnostic: api.Diagnostic) {
+  state.messages.value = state.messages.value.filter((m) => m !== diagnostic);
+}
+const tell = (code: string, message: string, subject = "") => say({ severity: "warning", code, message, subject });
+
+/** Good news, for some seconds. */
+function report(code: string, message: string) {
+  const diagnostic: api.Diagnostic = { severity: "warning", code, message, subject: "" };
+  say(diagnostic);
+  setTimeout(() => dismiss(diagnostic), 8000);
+}
+
+/** Waits for a call; what the server refuses becomes a message, and undefined. */
+export async function attempt<T>(call: Promise<T>): Promise<T | undefined> {
+  try {
+    return await call;
+  } catch (e) {
+    if (e instanceof Refused) say(e.diagnostic);
+    else if (!(e instanceof DOMException && e.name === "AbortError")) throw e;
+    return undefined;
+  }
+}
+
+// ---- the project
+
+/** What of a project was open, kept over a reload. */
+interface Open {
+  run: string | null;
+  other: string | null;
+  selection: state.Selection | null;
+}
+const openKey = () => `open ${state.project.value?.folder ?? ""}`;
+export function keepOpen() {
+  if (!state.project.value || state.opening.value) return;
+  const open: Open = {
+    run: state.run.value?.id ?? null,
+    other: state.other.value?.id ?? null,
+    selection: state.selection.value,
+  };
+  keep("local", openKey(), open);
+  keep("session", openKey(), open);
+}
+
+/** Loads what there is, then listens for events until aborted. */
+export async function begin(signal: AbortSignal) {
+  let away = false;
+  void client.events(
+    heard,
+    (there, status) => {
+      state.connected.value = there;
+      state.locked.value = status === 401 || status === 403;
+      if (there && away) void refresh();
+      away = !there;
+    },
+    signal,
+  );
+  await refresh();
+}
+
+/** Everything anew, as after the server was away: the run, selection and draft stay where they still exist. */
+export async function refresh() {
+  const [project, options, jobs] = await Promise.all([
+    attempt(client.project()),
+    state.options.value ? state.options.value : attempt(client.options()),
+    attempt(client.jobs()),
+  ]);
+  if (!project) return;
+  batch(() => {
+    state.project.value = project;
+    state.options.value = options ?? null;
+    state.jobs.value = jobs?.jobs ?? [];
+  });
+  void loadScene();
+  const open = kept<Open | null>("session", openKey(), null) ?? kept<Open | null>("local", openKey(), null);
+  const finished = project.runs.filter((r) => r.state === "done");
+  const there = (id: string | null | undefined) => finished.some((r) => r.id === id);
+  const wanted = state.run.value?.id ?? open?.run;
+  const id = there(wanted) ? wanted : finished.at(-1)?.id;
+  if (!id) {
+    state.run.value = state.other.value = null;
+    return;
+  }
+  await openRun(id, open?.selection ?? null);
+  const beside = state.other.value?.id ?? open?.other;
+  if (there(beside) && beside !== id) await compareWith(beside!);
+}
+
+export async function loadScene() {
+  if (!state.project.value?.inputs) return;
+  try {
+    const [scene, tiles] = await Promise.all([client.scene(), client.tiles()]);
+    batch(() => {
+      state.scene.value = scene;
+      state.tiles.value = tiles;
+    });
+  } catch (e) {
+    // It is being read: the event of that job brings it.
+    if (e instanceof Refused && e.diagnostic.code !== "server-no-scene") say(e.diagnostic);
+    else if (!(e instanceof Refused)) throw e;
+  }
+}
+
+export const openInputs = (request: InputsRequest) => took(client.open(request));
+export const openSample = () => took(client.openSample());
+
+/** Files dropped on the page, to the project's folder; their paths there, in the same order. */
+export async function upload(files: File[], told: (name: string) => void): Promise<string[] | undefined> {
+  const paths: string[] = [];
+  for (const file of files) {
+    told(file.name);
+    const answer = await attempt(client.upload(file.name, file));
+    if (!answer) return undefined;
+    paths.push(answer.path);
+  }
+  return paths;
+}
+
+// ---- runs
+
+export const startRun = (request: RunRequest) => took(client.start(request));
+export const cancelJob = (job: string) => attempt(client.cancel(job));
+export const renameRun = (run: string, label: string) => attempt(client.rename(run, label));
+
+export async function deleteRun(run: string) {
+  if ((await attempt(client.remove(run))) === undefined) return;
+  if (state.run.value?.id === run) closeRun();
+  if (state.other.value?.id === run) state.other.value = null;
+}
+
+async function fetchRun(id: string): Promise<state.OpenRun | undefined> {
+  const answer = await attempt(client.buildings(id));
+  if (!answer) return undefined;
+  return { id, buildings: new Map(answer.buildings.map((b) => [b.id, b])), history: answer.history };
+}
+
+export async function openRun(id: string, at: state.Selection | null = state.selection.value) {
+  state.opening.value = id;
+  const opened = await fetchRun(id);
+  if (state.opening.value !== id) return; // another was asked for meanwhile
+  batch(() => {
+    state.opening.value = null;
+    if (!opened) return;
+    if (state.run.value?.id !== id) state.draft.value = null;
+    if (state.other.value?.id === id) state.other.value = null;
+    state.run.value = opened;
+    state.selection.value = standing(opened, at);
+    state.also.value = [];
+  });
+  keepOpen();
+}
+
+function closeRun() {
+  const closed = state.run.value?.id; // the project may not know yet that it is gone
+  batch(() => {
+    state.run.value = state.other.value = state.selection.value = state.draft.value = null;
+    state.also.value = [];
+  });
+  const next = state.project.value?.runs.filter((r) => r.state === "done" && r.id !== closed).at(-1);
+  if (next) void openRun(next.id);
+}
+
+export async function compareWith(id: string | null) {
+  const opened = id ? await fetchRun(id) : null;
+  if (opened === undefined) return;
+  state.other.value = opened;
+  keepOpen();
+}
+
+/** Fetches why walls are where they are, once per run. */
+export async function needLayers(run: string) {
+  if (state.whys.value.has(run) || asked.has(`layers ${run}`)) return;
+  asked.add(`layers ${run}`);
+  const answer = await attempt(client.layers(run));
+  if (answer) state.whys.value = new Map(state.whys.value).set(run, answer);
+}
+
+/** Fetches the error maps of all blocks, once per run. */
+export async function needErrorMaps(run: string) {
+  if (state.errorMaps.value.has(run) || asked.has(`error ${run}`)) return;
+  asked.add(`error ${run}`);
+  const answer = await attempt(client.errorMaps(run));
+  if (!answer) return;
+  const cells = await attempt(Promise.all(answer.maps.map((map) => client.errorMap(run, map.block))));
+  if (!cells) return;
+  const maps = answer.maps.map((map, i) => ({ ...map, cells: cells[i]! }));
+  state.errorMaps.value = new Map(state.errorMaps.value).set(run, maps);
+}
+const asked = new Set<string>();
+
+// ---- selection
+
+function standing(run: state.OpenRun, at: state.Selection | null): state.Selection | null {
+  const building = at && run.buildings.get(at.building);
+  if (!building) return null;
+  const part = building.parts.find((p) => p.id === at.part) ?? (at.part ? building.parts[0] : undefined);
+  if (!part) return { building: building.id, part: null, ring: 0, edge: null };
+  const ring = at.ring === 0 ? part.plan.outer : part.plan.holes[at.ring - 1];
+  const whole = ring !== undefined && at.edge !== null && at.edge < ring.points.length;
+  return { building: building.id, part: part.id, ring: whole ? at.ring : 0, edge: whole ? at.edge : null };
+}
+
+/** Selects a place, or nothing. A building without a part selects its first one. */
+export function select(at: state.Selection | null) {
+  batch(() => {
+    const part = at && (at.part ?? state.run.value?.buildings.get(at.building)?.parts[0]?.id ?? null);
+    state.selection.value = at && { ...at, part };
+    state.also.value = [];
+  });
+  keepOpen();
+}
+
+/** Adds a part to those that a merge would take, or takes it away again. */
+export function selectAlso(building: string, part: string) {
+  const at = state.selection.value;
+  if (!at?.part) return select({ building, part, ring: 0, edge: null });
+  if (at.building === building && at.part === part) return;
+  const rest = state.also.value.filter((p) => p.building !== building || p.part !== part);
+  state.also.value = rest.length < state.also.value.length ? rest : [...rest, { building, part }];
+}
+
+let wishes = 0;
+export const fly = (to: state.Flight) => (state.flight.value = { to, at: ++wishes });
+
+/** The building `step` further in the list, as it is sorted and filtered there. */
+export function selectNext(step: number) {
+  const ids = state.order.value.length ? state.order.value : [...(state.run.value?.buildings.keys() ?? [])];
+  if (!ids.length) return;
+  const now = ids.indexOf(state.selection.value?.building ?? "");
+  const next = now < 0 ? (step > 0 ? 0 : ids.length - 1) : (now + step + ids.length) % ids.length;
+  select({ building: ids[next]!, part: null, ring: 0, edge: null });
+  fly("selection");
+}
+
+// ---- edits
+
+/** Takes buildings as the server has them now into the open runs. Older revisions than those known are left out. */
+export function take(run: string, answer: api.Applied) {
+  for (const opened of [state.run, state.other]) {
+    if (opened.value?.id !== run) continue;
+    const buildings = new Map(opened.value.buildings);
+    for (const building of answer.buildings) {
+      const known = buildings.get(building.id);
+      if (!known || known.revision <= building.revision) buildings.set(building.id, building);
+    }
+    opened.value = { id: run, buildings, history: answer.history };
+  }
+  if (state.run.value?.id === run) state.selection.value = standing(state.run.value, state.selection.value);
+}
+
+export const undo = () => step("undo");
+export const redo = () => step("redo");
+
+/** A held draft goes first: it is the last thing that was done. */
+async function step(which: "undo" | "redo") {
+  const open = state.run.value;
+  if (!open) return;
+  if (state.draft.value && which === "undo") {
+    state.draft.value = null;
+    return;
+  }
+  const { edits, done } = open.history;
+  if (which === "undo" ? done === 0 : done === edits.length) return;
+  const answer = await attempt(client[which](open.id));
+  if (answer) take(open.id, answer);
+}
+
+/** One file of the run as edited, saved by the browser. */
+export async function download(run: string, file: string) {
+  const bytes = await attempt(client.exported(run, file));
+  if (!bytes) return;
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([bytes]));
+  link.download = `${run}-${file}`;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+}
+
+/** All formats into the project's folder; told where. What is there already is only replaced when that was `agreed`. */
+export async function exportAll(run: string, agreed: () => boolean) {
+  let call = client.exportAll(run, false);
+  try {
+    await call;
+  } catch (e) {
+    if (e instanceof Refused && e.status === 409) {
+      if (!agreed()) return;
+      call = client.exportAll(run, true);
+    }
+  }
+  const answer = await attempt(call);
+  if (answer) report("exported", `${answer.files.length} files written to ${answer.folder}`);
+}
+
+// ---- events
+
+async function took(call: Promise<api.Job>) {
+  const job = await attempt(call);
+  if (!job) return undefined;
+  mine.add(job.id);
+  const overtaken = state.jobs.value.find((j) => j.id === job.id); // its events came before this answer
+  if (overtaken?.state === "done" && overtaken.run) void openRun(overtaken.run);
+  else if (!overtaken) heardJob(job);
+  return job;
+}
+const mine = new Set<string>(); // jobs that this tab asked for
+
+function heardJob(job: api.Job) {
+  const known = state.jobs.value.find((j) => j.id === job.id);
+  const ended = (j: api.Job) => j.state !== "queued" && j.state !== "running";
+  if (known && ended(known)) return; // an answer that was overtaken by an event
+  state.jobs.value = known ? state.jobs.value.map((j) => (j.id === job.id ? job : j)) : [...state.jobs.value, job];
+  if (job.failure && job.state === "failed") say(job.failure);
+  if (job.state !== "done") return;
+  if (job.kind === "read") void loadScene();
+  if (job.kind === "run" && job.run && (mine.has(job.id) || !state.run.value)) void openRun(job.run);
+}
+
+export function heard(event: api.Event) {
+  if (event.type === "job") heardJob(event.job);
+  else if (event.type === "project") {
+    state.project.value = event.project;
+    if (!event.project.inputs) state.scene.value = state.tiles.value = null;
+    const gone = (open: state.OpenRun | null) => open && !event.project.runs.some((r) => r.id === open.id);
+    if (gone(state.other.value)) state.other.value = null;
+    if (gone(state.run.value)) closeRun();
+  } else if (event.type === "buildings" && event.client !== client.id) {
+    const stale = state.draft.value?.changes.some((c) => event.buildings.some((b) => b.id === c.building));
+    take(event.run, event);
+    if (stale && state.run.value?.id === event.run) {
+      state.draft.value = null;
+      tell(
+        "edit-stale",
+        "someone else changed this building; it is shown as they left it, your unsaved change is gone",
+      );
+    }
+  }
+}

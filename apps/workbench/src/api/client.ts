@@ -1,0 +1,162 @@
+// The one place that talks to the server.
+import type * as api from "./types";
+
+/** A call that the server refused, or that never reached it ("server-gone"). */
+export class Refused extends Error {
+  constructor(
+    readonly status: number,
+    readonly diagnostic: api.Diagnostic,
+  ) {
+    super(diagnostic.message);
+  }
+}
+
+export interface InputsRequest {
+  meshes: string[];
+  footprints: string;
+  reading: Record<string, string>;
+}
+export interface RunRequest {
+  label: string;
+  preset: string;
+  options: Record<string, string>;
+  blocks: string[];
+}
+
+export class Client {
+  /** Of this tab: tells one's own edits from those of others. */
+  readonly id = Math.random().toString(36).slice(2);
+  constructor(
+    private readonly token: string,
+    private readonly base = "",
+  ) {}
+
+  status = () => this.json<{ version: string; busy: boolean }>("GET", "/api/status");
+  options = () => this.json<api.Options>("GET", "/api/options");
+  project = () => this.json<api.Project>("GET", "/api/project");
+  open = (request: InputsRequest) => this.json<api.Job>("POST", "/api/project/inputs", request);
+  openSample = () => this.json<api.Job>("POST", "/api/project/sample", {});
+  upload = (name: string, body: Blob) => this.send<{ path: string }>("PUT", `/api/uploads/${escaped(name)}`, body);
+  scene = () => this.json<api.Scene>("GET", "/api/scene");
+  tiles = () => this.json<api.TileIndex>("GET", "/api/scene/tiles");
+  tile = (id: string, signal?: AbortSignal) => this.bytes(`/api/scene/tiles/${escaped(id)}`, signal);
+  start = (request: RunRequest) => this.json<api.Job>("POST", "/api/runs", request);
+  remove = (run: string) => this.json<unknown>("DELETE", this.of(run));
+  rename = (run: string, label: string) => this.json<api.RunSummary>("PATCH", this.of(run), { label });
+  report = (run: string) => this.json<unknown>("GET", this.of(run, "/report"));
+  buildings = (run: string) =>
+    this.json<{ buildings: api.Building[]; history: api.History }>("GET", this.of(run, "/buildings"));
+  layers = (run: string) => this.json<api.Layers>("GET", this.of(run, "/layers"));
+  errorMaps = (run: string) => this.json<{ maps: api.ErrorMap[] }>("GET", this.of(run, "/error"));
+  errorMap = async (run: string, block: string) =>
+    new Float32Array(await this.bytes(this.of(run, `/error/${escaped(block)}`)));
+  section = (run: string, at: { building: string; part: string; ring: number; edge: number; share: number }) =>
+    this.json<api.Section>("GET", this.of(run, `/section?${new URLSearchParams(texts(at))}`));
+  sectionOf = (run: string, at: { plan: api.Plan; ring: number; edge: number; share: number }) =>
+    this.json<api.Section>("POST", this.of(run, "/section"), at);
+  preview = (run: string, changes: api.Change[], signal?: AbortSignal) =>
+    this.json<{ buildings: api.RaisedBuilding[] }>("POST", this.of(run, "/preview"), { changes }, signal);
+  split = (run: string, building: string, part: string, line: api.Point2[]) =>
+    this.json<api.Proposal>("POST", this.of(run, "/split"), { building, part, line });
+  merge = (run: string, parts: { building: string; part: string }[]) =>
+    this.json<api.Proposal>("POST", this.of(run, "/merge"), { parts });
+  edit = (run: string, edit: api.Edit) => this.json<api.Applied>("POST", this.of(run, "/edits"), edit);
+  undo = (run: string) => this.json<api.Applied>("POST", this.of(run, "/undo"), {});
+  redo = (run: string) => this.json<api.Applied>("POST", this.of(run, "/redo"), {});
+  exported = (run: string, file: string) => this.bytes(this.of(run, `/export/${escaped(file)}`));
+  exportAll = (run: string, overwrite: boolean) =>
+    this.json<{ folder: string; files: string[] }>("POST", this.of(run, "/export"), { overwrite });
+  jobs = () => this.json<{ jobs: api.Job[] }>("GET", "/api/jobs");
+  cancel = (job: string) => this.json<unknown>("DELETE", `/api/jobs/${escaped(job)}`);
+
+  /** Calls back for every event until aborted; connects again when the server was away, after telling so with the status
+   *  that it refused with: 0 where it does not answer at all. Gives up when the token is not taken. */
+  async events(
+    on: (event: api.Event) => void,
+    onConnection: (there: boolean, status: number) => void,
+    signal: AbortSignal,
+  ) {
+    while (!signal.aborted) {
+      let status = 0;
+      try {
+        const response = await fetch(this.base + "/api/events", { headers: this.headers(), signal });
+        if (!response.ok || !response.body) {
+          status = response.status;
+          throw new Error(response.statusText);
+        }
+        onConnection(true, response.status);
+        const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
+        let rest = "";
+        for (;;) {
+          const { value, done } = await reader.read();
+          if (done) break;
+          rest += value;
+          const blocks = rest.split("\n\n");
+          rest = blocks.pop() ?? "";
+          for (const block of blocks) {
+            const data = block
+              .split("\n")
+              .filter((line) => line.startsWith("data:"))
+              .map((line) => line.slice(5).trim())
+              .join("\n");
+            if (data) on(JSON.parse(data) as api.Event);
+          }
+        }
+      } catch {
+        // Said by onConnection below.
+      }
+      if (signal.aborted) return;
+      onConnection(false, status);
+      // Another token is needed: asking again would not help.
+      if (signal.aborted || status === 401 || status === 403) return;
+      await new Promise((resolve) => setTimeout(resolve, 1000));
+    }
+  }
+
+  private of = (run: string, rest = "") => `/api/runs/${escaped(run)}${rest}`;
+  private headers = () => ({ Authorization: `Bearer ${this.token}`, "X-Client": this.id });
+
+  private json<T>(method: string, path: string, body?: unknown, signal?: AbortSignal) {
+    const text = body === undefined ? undefined : JSON.stringify(body);
+    return this.send<T>(method, path, text, signal, text === undefined ? {} : { "Content-Type": "application/json" });
+  }
+  private async send<T>(
+    method: string,
+    path: string,
+    body?: BodyInit,
+    signal?: AbortSignal,
+    headers: Record<string, string> = {},
+  ): Promise<T> {
+    const response = await this.reach(path, { method, body, signal, headers: { ...this.headers(), ...headers } });
+    return (await response.json()) as T;
+  }
+  private async bytes(path: string, signal?: AbortSignal) {
+    return (await this.reach(path, { headers: this.headers(), signal })).arrayBuffer();
+  }
+  private async reach(path: string, init: RequestInit) {
+    let response: Response;
+    try {
+      response = await fetch(this.base + path, init);
+    } catch (e) {
+      if (init.signal?.aborted) throw e;
+      throw new Refused(0, gone);
+    }
+    if (response.ok) return response;
+    const refusal = (await response.json().catch(() => null)) as api.Refusal | null;
+    throw new Refused(
+      response.status,
+      refusal?.error ?? { ...gone, message: `the server answered ${response.status}` },
+    );
+  }
+}
+
+const gone: api.Diagnostic = {
+  severity: "error",
+  code: "server-gone",
+  message: "the server does not answer; start 'mansard serve' again with the same project",
+  subject: "",
+};
+
+const escaped = (text: string) => encodeURIComponent(text);
+const texts = (values: Record<string, string | number>) =>
+  Object.fromEntries(Object.entries(values).map(([key, value]) => [key, String(value)]));

@@ -1,0 +1,143 @@
+// The page: a bar on top, the view on the left, panels on the right.
+import { signal } from "@preact/signals";
+import { useEffect } from "preact/hooks";
+import { EditPanel } from "./edit/panel";
+import { keep, kept } from "./keep";
+import { BuildingsPanel } from "./panels/buildings";
+import { ComparePanel } from "./panels/compare_panel";
+import { HelpSheet, pressed } from "./panels/help";
+import { LayersTab } from "./panels/layers_tab";
+import { Messages } from "./panels/messages";
+import { PlotsPanel } from "./panels/plots_panel";
+import { Progress } from "./panels/progress";
+import { RunPanel } from "./panels/run";
+import { Start } from "./panels/start";
+import { TopBar } from "./panels/topbar";
+import * as state from "./state";
+import { View } from "./view/view";
+
+const tabs: { tab: state.Tab; name: string }[] = [
+  { tab: "edit", name: "Edit" },
+  { tab: "run", name: "Run" },
+  { tab: "buildings", name: "Buildings" },
+  { tab: "plots", name: "Plots" },
+  { tab: "layers", name: "Layers" },
+];
+
+const [narrowest, widest] = [340, 760];
+const width = signal(Math.max(narrowest, Math.min(widest, kept("local", "sidebar", 440))));
+
+export function App() {
+  useEffect(() => {
+    const listen = (e: KeyboardEvent) => pressed(e);
+    window.addEventListener("keydown", listen);
+    return () => window.removeEventListener("keydown", listen);
+  }, []);
+  const project = state.project.value;
+  const empty = project !== null && !project.inputs && !project.runs.length;
+  return (
+    <div class="page" style={{ "--sidebar": `${width.value}px` }}>
+      <TopBar />
+      {empty ? (
+        <main class="alone">
+          <Start />
+        </main>
+      ) : (
+        <>
+          <main>
+            <View />
+            {state.asksInputs.value && <Start />}
+            {state.opening.value && <div class="opening">Opening {state.opening.value} …</div>}
+            {state.busyJob.value && state.tab.value !== "run" && (
+              <div class="busy">
+                <Progress job={state.busyJob.value} />
+              </div>
+            )}
+          </main>
+          <Splitter />
+          <aside aria-label="Panels">
+            <Tabs />
+            <Panel />
+          </aside>
+        </>
+      )}
+      <Messages />
+      {state.sheet.value && <HelpSheet />}
+    </div>
+  );
+}
+
+function Tabs() {
+  const all = state.other.value ? [...tabs, { tab: "compare" as const, name: "Compare" }] : tabs;
+  const now = state.tab.value === "compare" && !state.other.value ? "run" : state.tab.value;
+  const step = (e: KeyboardEvent) => {
+    const way = { ArrowRight: 1, ArrowLeft: -1 }[e.key];
+    if (!way) return;
+    e.preventDefault();
+    const at = all.findIndex((t) => t.tab === now);
+    const next = all[(at + way + all.length) % all.length]!;
+    state.tab.value = next.tab;
+    document.getElementById(`tab-${next.tab}`)?.focus();
+  };
+  return (
+    <div class="tabs" role="tablist" aria-label="Panels" onKeyDown={step}>
+      {all.map(({ tab, name }) => (
+        <button
+          key={tab}
+          type="button"
+          role="tab"
+          id={`tab-${tab}`}
+          aria-selected={now === tab}
+          aria-controls="panel"
+          tabIndex={now === tab ? 0 : -1}
+          onClick={() => (state.tab.value = tab)}
+        >
+          {name}
+        </button>
+      ))}
+    </div>
+  );
+}
+
+function Panel() {
+  const tab = state.tab.value;
+  return (
+    <div class={`tab-panel ${tab}`} role="tabpanel" id="panel" aria-labelledby={`tab-${tab}`}>
+      {tab === "edit" && <EditPanel />}
+      {tab === "run" && <RunPanel />}
+      {tab === "buildings" && <BuildingsPanel />}
+      {tab === "plots" && <PlotsPanel />}
+      {tab === "layers" && <LayersTab />}
+      {tab === "compare" && (state.other.value ? <ComparePanel /> : <RunPanel />)}
+    </div>
+  );
+}
+
+function Splitter() {
+  const set = (w: number) => {
+    width.value = Math.max(narrowest, Math.min(widest, Math.round(w), window.innerWidth - 320));
+    keep("local", "sidebar", width.value);
+  };
+  return (
+    <div
+      class="splitter"
+      role="separator"
+      aria-orientation="vertical"
+      aria-label="Width of the panels"
+      aria-valuenow={width.value}
+      aria-valuemin={narrowest}
+      aria-valuemax={widest}
+      tabIndex={0}
+      onPointerDown={(e) => e.currentTarget.setPointerCapture(e.pointerId)}
+      onPointerMove={(e) => {
+        if (e.currentTarget.hasPointerCapture(e.pointerId)) set(window.innerWidth - e.clientX - 3);
+      }}
+      onKeyDown={(e) => {
+        const way = { ArrowLeft: 20, ArrowRight: -20 }[e.key];
+        if (!way) return;
+        e.preventDefault();
+        set(width.value + way);
+      }}
+    />
+  );
+}

@@ -1,0 +1,69 @@
+import { useSignal } from "@preact/signals";
+import { parsed, shownNumber } from "./numbers";
+
+interface NumberFieldProps {
+  label: string;
+  unit: string;
+  value: number | null;
+  /** Called with what was typed, never with what is merely shown rounded. */
+  onValue: (value: number) => void;
+  digits?: number;
+  disabled?: boolean;
+  title?: string;
+}
+
+/** A number to read and to type, with a comma or a point. Enter or leaving it takes it; Esc does not; arrows step. */
+export function NumberField({ label, unit, value, onValue, digits = 3, disabled, title }: NumberFieldProps) {
+  const typed = useSignal<string | null>(null);
+  const shown = value === null ? "" : shownNumber(value, digits, 2);
+  const text = typed.value ?? shown;
+  const wrong = typed.value !== null && typed.value !== shown && parsed(typed.value) === null;
+
+  const take = () => {
+    const now = typed.value;
+    if (now === null) return;
+    const number = parsed(now);
+    if (now === shown || number === null) {
+      if (number !== null) typed.value = null;
+      return;
+    }
+    typed.value = null;
+    if (number !== value) onValue(number);
+  };
+  const key = (event: KeyboardEvent) => {
+    if (event.key === "Enter") take();
+    else if (event.key === "Escape" && typed.value !== null) {
+      typed.value = null;
+      event.stopPropagation();
+    } else if ((event.key === "ArrowUp" || event.key === "ArrowDown") && value !== null) {
+      event.preventDefault();
+      const by = (event.key === "ArrowUp" ? 1 : -1) * (event.shiftKey ? 1 : event.altKey ? 0.01 : 0.1);
+      const from = typed.value === null ? value : (parsed(typed.value) ?? value);
+      typed.value = null;
+      onValue(Math.round((from + by) * 1e9) / 1e9);
+    }
+  };
+  return (
+    <label class="edit-number" title={title}>
+      <span>{label}</span>
+      <input
+        type="text"
+        inputMode="decimal"
+        autocomplete="off"
+        value={text}
+        disabled={disabled || value === null}
+        placeholder="–"
+        aria-invalid={wrong}
+        aria-label={`${label}, ${unit === "°" ? "degrees" : "metres"}`}
+        onInput={(event) => (typed.value = event.currentTarget.value)}
+        onFocus={(event) => event.currentTarget.select()}
+        onKeyDown={key}
+        onBlur={() => {
+          take();
+          typed.value = null;
+        }}
+      />
+      <span class="edit-unit">{unit}</span>
+    </label>
+  );
+}

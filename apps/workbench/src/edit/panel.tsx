@@ -1,0 +1,189 @@
+import { useSignal } from "@preact/signals";
+import { useEffect, useRef } from "preact/hooks";
+import { select } from "../actions";
+import { keep, kept } from "../keep";
+import * as state from "../state";
+import "./edit.css";
+import { selectEdge, shortId, shortName } from "./desk";
+import { session, showDraft } from "./here";
+import { PlanEditor } from "./plan_editor";
+import { ProfileEditor } from "./profile_editor";
+
+/** The editors of the selected part: its plan above, the profile of its selected edge below. */
+export function EditPanel() {
+  const share = useSignal(Math.min(0.8, Math.max(0.2, kept("local", "editSplit", 0.47))));
+  const box = useRef<HTMLDivElement | null>(null);
+  const dragging = useSignal(false);
+
+  useEffect(() => {
+    const escape = (event: KeyboardEvent) => {
+      // A drag is given up whatever has the focus; a held draft only where nothing else could be meant.
+      const free = event.target === document.body || box.current?.contains(event.target as Node);
+      if (event.key !== "Escape") return;
+      if (
+        session.phase.value === "changing"
+          ? session.cancel()
+          : free && event.target === document.body && session.cancel()
+      )
+        event.stopPropagation();
+    };
+    window.addEventListener("keydown", escape, true);
+    return () => window.removeEventListener("keydown", escape, true);
+  }, []);
+
+  const put = (value: number) => {
+    share.value = Math.min(0.8, Math.max(0.2, value));
+    keep("local", "editSplit", share.value);
+  };
+  const at = state.selection.value;
+  const building = state.selectedBuilding.value;
+  if (!at || !building)
+    return (
+      <section class="edit-panel empty">
+        {state.draft.value && (
+          <header class={`edit-bar${state.draft.value.invalid ? " invalid" : " held"}`}>
+            <Held />
+          </header>
+        )}
+        <p>
+          {state.run.value
+            ? "Pick a building in the 3D view or in the list to change its plan and its profiles."
+            : "Run a reconstruction first: its buildings can be changed here."}
+        </p>
+      </section>
+    );
+  if (!at.part || building.parts.length === 0)
+    return (
+      <section class="edit-panel empty">
+        <p>
+          {building.id} has no model{building.reasons[0] ? `: ${building.reasons[0].message}` : "."}
+        </p>
+      </section>
+    );
+  return (
+    <section class="edit-panel" aria-label="Plan and profile">
+      <EditBar />
+      <div class="edit-split" ref={box} style={{ gridTemplateRows: `${share.value}fr 9px ${1 - share.value}fr` }}>
+        <PlanEditor />
+        <div
+          class={`edit-splitter${dragging.value ? " dragging" : ""}`}
+          role="separator"
+          aria-orientation="horizontal"
+          aria-label="Height of the plan"
+          aria-valuenow={Math.round(share.value * 100)}
+          aria-valuemin={20}
+          aria-valuemax={80}
+          tabIndex={0}
+          onPointerDown={(event) => {
+            event.currentTarget.setPointerCapture(event.pointerId);
+            dragging.value = true;
+          }}
+          onPointerMove={(event) => {
+            const area = box.current?.getBoundingClientRect();
+            if (dragging.value && area) put((event.clientY - area.top) / area.height);
+          }}
+          onPointerUp={() => (dragging.value = false)}
+          onPointerCancel={() => (dragging.value = false)}
+          onKeyDown={(event) => {
+            if (event.key !== "ArrowUp" && event.key !== "ArrowDown") return;
+            event.preventDefault();
+            put(share.value + (event.key === "ArrowUp" ? -0.03 : 0.03));
+          }}
+        />
+        <ProfileEditor />
+      </div>
+    </section>
+  );
+}
+
+const words = {
+  idle: "",
+  changing: "",
+  checking: "checking …",
+  writing: "writing …",
+  held: "",
+};
+
+/** Which part it is, and what became of the change. */
+function EditBar() {
+  const at = state.selection.value!;
+  const building = state.selectedBuilding.value!;
+  const draft = state.draft.value;
+  const phase = session.phase.value;
+  const held = phase === "held";
+  return (
+    <header class={`edit-bar${draft?.invalid ? " invalid" : held ? " held" : ""}`}>
+      <div class="edit-what">
+        <b title={building.id}>{shortId(building.id)}</b>
+        {building.parts.length > 1 ? (
+          <select
+            aria-label="Part"
+            value={at.part ?? ""}
+            onChange={(event) => {
+              select({ building: at.building, part: event.currentTarget.value, ring: 0, edge: null });
+            }}
+          >
+            {building.parts.map((p) => (
+              <option key={p.id} value={p.id}>
+                {shortName(building.id, p.id)}
+              </option>
+            ))}
+          </select>
+        ) : (
+          <span title={at.part ?? undefined}>{shortName(building.id, at.part ?? "")}</span>
+        )}
+        {building.edited && <span class="edit-mark">edited</span>}
+        <span class="edit-state" aria-live="polite">
+          {words[phase]}
+        </span>
+        {at.edge !== null && (
+          <button type="button" class="edit-quiet" onClick={() => selectEdge(null)} title="Select no edge">
+            edge {at.edge} ×
+          </button>
+        )}
+      </div>
+      <Held />
+    </header>
+  );
+}
+
+/** Why a change is not written, and what can be done about it. */
+function Held() {
+  const draft = state.draft.value;
+  const reason = session.reason.value;
+  const held = session.phase.value === "held";
+  if (!draft || (!reason && !held)) return null;
+  const selected = state.selection.value?.building;
+  const elsewhere = draft.changes.every((c) => c.building !== selected);
+  return (
+    <div class="edit-reason" role="alert">
+      <span>
+        {elsewhere && <b>{draft.changes.map((c) => shortId(c.building)).join(", ")}: </b>}
+        {reason ? (
+          <>
+            {reason.message} <code>{reason.code}</code>
+          </>
+        ) : (
+          "Not written yet."
+        )}
+      </span>
+      {held && (
+        <span class="edit-group">
+          {elsewhere && (
+            <button type="button" onClick={() => showDraft()}>
+              Show
+            </button>
+          )}
+          {!draft.invalid && (
+            <button type="button" onClick={() => session.again()}>
+              Write
+            </button>
+          )}
+          <button type="button" onClick={() => session.cancel()} title="Drop the change (Esc)">
+            Drop
+          </button>
+        </span>
+      )}
+    </div>
+  );
+}

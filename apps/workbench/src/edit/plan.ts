@@ -1,0 +1,238 @@
+// What can be done to a plan. Nothing here changes what it is given: every function returns another plan.
+import type { Plan, PlanRing, Point2 } from "../api/types";
+import { same, type Profile } from "./profile";
+import {
+  area,
+  cross,
+  distance,
+  distanceToLine,
+  dot,
+  meeting,
+  minus,
+  plus,
+  times,
+  turnedLeft,
+  unit,
+  type Line,
+} from "./vector";
+
+/** An edge of a plan, or the corner where it begins. Ring 0 is the outline. */
+export interface EdgeAt {
+  ring: number;
+  edge: number;
+}
+/** Whom the profile of an edge is changed for. */
+export type Scope = "edge" | "sharing" | "part";
+
+export const ringsOf = (plan: Plan): PlanRing[] => [plan.outer, ...plan.holes];
+export const ringOf = (plan: Plan, ring: number): PlanRing | undefined =>
+  ring === 0 ? plan.outer : plan.holes[ring - 1];
+export const after = (ring: { points: unknown[] }, i: number) => (i + 1) % ring.points.length;
+export const before = (ring: { points: unknown[] }, i: number) => (i + ring.points.length - 1) % ring.points.length;
+
+export function edgesOf(plan: Plan): EdgeAt[] {
+  return ringsOf(plan).flatMap((r, ring) => r.points.map((_, edge) => ({ ring, edge })));
+}
+export function endsOf(plan: Plan, at: EdgeAt): [Point2, Point2] | null {
+  const ring = ringOf(plan, at.ring);
+  const from = ring?.points[at.edge];
+  return ring && from ? [from, ring.points[after(ring, at.edge)]!] : null;
+}
+export function profileOf(plan: Plan, at: EdgeAt): Profile | null {
+  const index = ringOf(plan, at.ring)?.profile_of_edge[at.edge];
+  return index === undefined ? null : (plan.profiles[index] ?? null);
+}
+export const sameEdge = (a: EdgeAt, b: EdgeAt) => a.ring === b.ring && a.edge === b.edge;
+
+/** Ground it covers, m². */
+export const planArea = (plan: Plan) =>
+  ringsOf(plan).reduce((sum, r, i) => sum + (i ? -1 : 1) * Math.abs(area(r.points)), 0);
+
+function withRing(plan: Plan, at: number, ring: PlanRing): Plan {
+  return at === 0 ? { ...plan, outer: ring } : { ...plan, holes: plan.holes.map((h, i) => (i === at - 1 ? ring : h)) };
+}
+const withPoints = (plan: Plan, at: number, change: (p: Point2, i: number) => Point2): Plan => {
+  const ring = ringOf(plan, at);
+  return ring ? withRing(plan, at, { ...ring, points: ring.points.map(change) }) : plan;
+};
+
+export function moveVertex(plan: Plan, at: EdgeAt, to: Point2): Plan {
+  return withPoints(plan, at.ring, (p, i) => (i === at.edge ? to : p));
+}
+
+/** The edge shifted to its left (inwards, for outline and holes alike); its neighbours keep their directions. */
+export function moveEdge(plan: Plan, at: EdgeAt, by: number): Plan {
+  const ring = ringOf(plan, at.ring);
+  const ends = endsOf(plan, at);
+  const along = ends && unit(minus(ends[1], ends[0]));
+  if (!ring || !ends || !along) return plan;
+  const shift = times(turnedLeft(along), by);
+  const moved: Line = { at: plus(ends[0], shift), along };
+  const next = after(ring, at.edge);
+  const slid = (corner: Point2, beyond: Point2): Point2 => {
+    const direction = unit(minus(corner, beyond));
+    // A neighbour that hardly turns away would carry the corner far off.
+    if (!direction || Math.abs(cross(direction, along)) < 0.3) return plus(corner, shift);
+    return meeting(moved, { at: beyond, along: direction }) ?? plus(corner, shift);
+  };
+  const first = slid(ends[0], ring.points[before(ring, at.edge)]!);
+  const second = slid(ends[1], ring.points[after(ring, next)]!);
+  return withPoints(plan, at.ring, (p, i) => (i === at.edge ? first : i === next ? second : p));
+}
+
+/** A corner on an edge; both halves keep its profile. */
+export function insertVertex(plan: Plan, at: EdgeAt, point: Point2): Plan {
+  const ring = ringOf(plan, at.ring);
+  if (!ring || at.edge >= ring.points.length) return plan;
+  return withRing(plan, at.ring, {
+    points: [...ring.points.slice(0, at.edge + 1), point, ...ring.points.slice(at.edge + 1)],
+    profile_of_edge: [
+      ...ring.profile_of_edge.slice(0, at.edge + 1),
+      ring.profile_of_edge[at.edge]!,
+      ...ring.profile_of_edge.slice(at.edge + 1),
+    ],
+  });
+}
+
+/** The two edges of the corner become one, with the profile of the longer. A hole of three corners goes with the
+ *  corner; an outline of three keeps it: nothing is returned. */
+export function deleteVertex(plan: Plan, at: EdgeAt): Plan | null {
+  const ring = ringOf(plan, at.ring);
+  if (!ring || at.edge >= ring.points.length) return null;
+  if (ring.points.length <= 3) return at.ring === 0 ? null : removeHole(plan, at.ring);
+  const previous = before(ring, at.edge);
+  const corner = ring.points[at.edge]!;
+  const keepsOwn = distance(corner, ring.points[after(ring, at.edge)]!) > distance(ring.points[previous]!, corner);
+  const profiles = ring.profile_of_edge.map((p, i) =>
+    i === previous && keepsOwn ? ring.profile_of_edge[at.edge]! : p,
+  );
+  const others = <T>(values: T[]) => values.filter((_, i) => i !== at.edge);
+  return withRing(plan, at.ring, { points: others(ring.points), profile_of_edge: others(profiles) });
+}
+
+/** A courtyard: walls all the way around. In any direction; kept clockwise. */
+export function addHole(plan: Plan, points: Point2[]): Plan {
+  const clockwise = area(points) > 0 ? [...points].reverse() : points;
+  const wall: Profile = [
+    [0, 0],
+    [0, plan.cap],
+  ];
+  const hole: PlanRing = { points: clockwise, profile_of_edge: clockwise.map(() => plan.profiles.length) };
+  return clean({ ...plan, holes: [...plan.holes, hole], profiles: [...plan.profiles, wall] });
+}
+export function removeHole(plan: Plan, ring: number): Plan {
+  return clean({ ...plan, holes: plan.holes.filter((_, i) => i !== ring - 1) });
+}
+
+/** The edges that a change of the profile of `at` is for. Equal profiles are shared, whatever the file says. */
+export function inScope(plan: Plan, at: EdgeAt, scope: Scope): EdgeAt[] {
+  const own = profileOf(plan, at);
+  if (scope === "edge" || !own) return [at];
+  if (scope === "part") return edgesOf(plan);
+  return edgesOf(plan).filter((e) => same(profileOf(plan, e) ?? [], own));
+}
+
+/** The edges get a profile of their own; edges that shared the old one with them keep it. */
+export function setProfile(plan: Plan, edges: EdgeAt[], profile: Profile): Plan {
+  const index = plan.profiles.length;
+  const changed = (ring: PlanRing, r: number): PlanRing => ({
+    ...ring,
+    profile_of_edge: ring.profile_of_edge.map((p, i) =>
+      edges.some((e) => sameEdge(e, { ring: r, edge: i })) ? index : p,
+    ),
+  });
+  return clean({
+    ...plan,
+    outer: changed(plan.outer, 0),
+    holes: plan.holes.map((h, i) => changed(h, i + 1)),
+    profiles: [...plan.profiles, profile],
+  });
+}
+
+/** Profiles that no edge has are dropped, equal ones are shared; numbered in the order of the edges that have them. */
+export function clean(plan: Plan): Plan {
+  const kept: Profile[] = [];
+  const renamed = (ring: PlanRing): PlanRing => ({
+    points: ring.points,
+    profile_of_edge: ring.profile_of_edge.map((p) => {
+      const profile = plan.profiles[p] ?? [];
+      const known = kept.findIndex((k) => same(k, profile));
+      return known >= 0 ? known : kept.push(profile) - 1;
+    }),
+  });
+  const outer = renamed(plan.outer);
+  const holes = plan.holes.map(renamed);
+  return { base: plan.base, cap: plan.cap, outer, holes, profiles: kept };
+}
+
+/** Outline counter-clockwise, holes clockwise, as a file has to have them: a corner dragged through its opposite edge
+ *  turns a triangle over. */
+export function oriented(plan: Plan): Plan {
+  const turned = (ring: PlanRing, r: number): PlanRing => {
+    if (area(ring.points) >= 0 === (r === 0)) return ring;
+    const profiles = [...ring.profile_of_edge].reverse();
+    // Edge i now runs from the old corner n − 1 − i to the one before it: the old edge n − 2 − i.
+    profiles.push(profiles.shift()!);
+    return { points: [...ring.points].reverse(), profile_of_edge: profiles };
+  };
+  return { ...plan, outer: turned(plan.outer, 0), holes: plan.holes.map((h, i) => turned(h, i + 1)) };
+}
+
+/** Edges that look the other way, within 10°, and lie across from this one. */
+export function opposite(plan: Plan, at: EdgeAt): EdgeAt[] {
+  const ends = endsOf(plan, at);
+  const along = ends && unit(minus(ends[1], ends[0]));
+  if (!ends || !along) return [];
+  return edgesOf(plan).filter((e) => {
+    const [a, b] = endsOf(plan, e)!;
+    const other = unit(minus(b, a));
+    if (!other || dot(other, along) > -0.985) return false;
+    const reach = (p: Point2) => dot(minus(p, ends[0]), along);
+    const low = Math.max(0, Math.min(reach(a), reach(b)));
+    const high = Math.min(distance(...ends), Math.max(reach(a), reach(b)));
+    return cross(along, minus(a, ends[0])) > 0 && high - low > 0.1;
+  });
+}
+
+/** Edges on the same line, within 0.1 m, looking the same way; not the edge itself. */
+export function collinear(plan: Plan, at: EdgeAt): EdgeAt[] {
+  const ends = endsOf(plan, at);
+  const along = ends && unit(minus(ends[1], ends[0]));
+  if (!ends || !along) return [];
+  const line: Line = { at: ends[0], along };
+  return edgesOf(plan).filter((e) => {
+    if (sameEdge(e, at)) return false;
+    const [a, b] = endsOf(plan, e)!;
+    const other = unit(minus(b, a));
+    return !!other && dot(other, along) > 0.98 && distanceToLine(a, line) < 0.1 && distanceToLine(b, line) < 0.1;
+  });
+}
+
+/** Length along which two plans stand against each other within 0.05 m, metres. */
+export function sharedWall(a: Plan, b: Plan): number {
+  let length = 0;
+  for (const e of edgesOf(a))
+    for (const f of edgesOf(b)) {
+      const [p, q] = endsOf(a, e)!;
+      const [r, s] = endsOf(b, f)!;
+      const along = unit(minus(q, p));
+      if (!along) continue;
+      const line: Line = { at: p, along };
+      if (distanceToLine(r, line) > 0.05 || distanceToLine(s, line) > 0.05) continue;
+      const low = Math.max(0, Math.min(dot(minus(r, p), along), dot(minus(s, p), along)));
+      const high = Math.min(distance(p, q), Math.max(dot(minus(r, p), along), dot(minus(s, p), along)));
+      if (high > low) length += high - low;
+    }
+  return length;
+}
+
+/** Every one of the edges gets its own profile changed; those for which `change` gives nothing keep theirs. */
+export function changeProfiles(plan: Plan, edges: EdgeAt[], change: (profile: Profile) => Profile | null): Plan {
+  let changed = plan;
+  for (const at of edges) {
+    const own = profileOf(plan, at);
+    const profile = own && change(own);
+    if (profile) changed = setProfile(changed, [at], profile);
+  }
+  return changed;
+}

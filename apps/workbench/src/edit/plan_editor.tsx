@@ -1,0 +1,501 @@
+import { useSignal, useSignalEffect } from "@preact/signals";
+import { useEffect, useRef } from "preact/hooks";
+import { attempt, client, needLayers, say, select, selectAlso } from "../actions";
+import type * as api from "../api/types";
+import type { Point2 } from "../api/types";
+import * as state from "../state";
+import {
+  arrow,
+  chosen,
+  edgeShown,
+  grid,
+  keyStep,
+  renumber,
+  selectEdge,
+  snapping,
+  toggleChosen,
+  withPlan,
+} from "./desk";
+import { session } from "./here";
+import { useNeighbours } from "./neighbours";
+import { metres } from "./numbers";
+import {
+  addHole,
+  after,
+  before,
+  deleteVertex,
+  edgesOf,
+  endsOf,
+  insertVertex,
+  moveEdge,
+  moveVertex,
+  planArea,
+  removeHole,
+  ringOf,
+  type EdgeAt,
+} from "./plan";
+import { Backdrop, Corners, Edges, Marks, ringPoints, ScaleBar, type Dimension, type Grips } from "./plan_layers";
+import { PlanHint, PlanTools, type Tool } from "./plan_tools";
+import { fitted, panned, ruling, toMetres, zoomed } from "./sheet";
+import { snapDrawn, snapEdge, snapVertex, surroundings, type Guide, type Snap, type Surroundings } from "./snap";
+import { useSheet } from "./use_sheet";
+import { cross, distance, dot, middle, minus, nearestOn, plus, turnedLeft, unit } from "./vector";
+
+interface Drag {
+  kind: "pan" | "corner" | "edge";
+  at: EdgeAt;
+  down: Point2; // pixels of the window: the drawing may move when messages come
+  last: Point2;
+  plan: api.Plan; // where it began
+  around: Surroundings;
+  began: boolean;
+}
+
+const reachPixels = 9;
+export function PlanEditor() {
+  const plan = state.selectedPlan.value;
+  const at = state.selection.value;
+  const run = state.run.value;
+  const tool = useSignal<Tool>("move");
+  const corner = useSignal<EdgeAt | null>(null);
+  const drag = useRef<Drag | null>(null);
+  const guides = useSignal<Guide[]>([]);
+  const dimensions = useSignal<Dimension[]>([]);
+  const spoken = useSignal("");
+  const drawn = useSignal<Point2[]>([]);
+  const cursor = useSignal<Point2 | null>(null);
+  const sweeps = useSignal(false);
+  const partner = useSignal("");
+  const nudging = useRef(false);
+  const key = `${run?.id} ${at?.building} ${at?.part}`;
+  const { svg, sheet, pixels } = useSheet(key, () => (plan ? ringPoints(plan).flat() : []), 44);
+
+  useEffect(() => {
+    corner.value = null;
+    chosen.value = [];
+    leaveDrawing();
+  }, [key]);
+  useSignalEffect(() => {
+    if (session.cancelled.value > 0) spoken.value = "";
+  });
+  useSignalEffect(() => {
+    if (sweeps.value && state.run.value) void needLayers(state.run.value.id);
+  });
+
+  const { all: others, touching } = useNeighbours(plan, key);
+
+  if (!plan || !at?.part || !run) return null;
+  const part = at.part;
+  const building = at.building;
+  const now = sheet.value;
+  const invalid = state.draft.value?.invalid ?? false;
+  const drafted = state.draft.value?.changes.some((c) => c.building === building) ?? false;
+
+  const snap = (event: { altKey: boolean }): Snap => ({
+    reach: snapping.value && !event.altKey ? reachPixels / now.scale : 0,
+    step: event.altKey ? 0.001 : 0.01,
+    grid: grid.value,
+  });
+
+  // ---- what changes the plan
+
+  const cornerMoved = (at: EdgeAt, moved: api.Plan, by: number, time: number) => {
+    session.change(`corner of ${part} moved by ${metres(by)}`, withPlan(moved), time);
+    describeCorner(moved, at);
+  };
+  const edgeMoved = (at: EdgeAt, moved: api.Plan, by: number, time: number) => {
+    session.change(`wall of ${part} moved by ${metres(Math.abs(by))}`, withPlan(moved), time);
+    describeEdge(moved, at, by);
+  };
+  const once = (what: string, changed: api.Plan) => session.propose(what, withPlan(changed));
+
+  const describeCorner = (moved: api.Plan, at: EdgeAt) => {
+    const ring = ringOf(moved, at.ring)!;
+    const p = ring.points[at.edge]!;
+    const a = ring.points[before(ring, at.edge)]!;
+    const b = ring.points[after(ring, at.edge)]!;
+    const turn = (Math.atan2(cross(minus(b, p), minus(a, p)), dot(minus(b, p), minus(a, p))) * 180) / Math.PI;
+    const angle = `${((turn + 360) % 360).toFixed(1)}°`;
+    dimensions.value = [
+      { at: middle(a, p), text: metres(distance(a, p)) },
+      { at: middle(p, b), text: metres(distance(p, b)) },
+      { at: p, text: angle },
+    ];
+    spoken.value = `corner ${at.edge}: edges ${metres(distance(a, p))} and ${metres(distance(p, b))}, angle ${angle}`;
+  };
+  const describeEdge = (moved: api.Plan, at: EdgeAt, by: number) => {
+    const ring = ringOf(moved, at.ring)!;
+    const [a, b] = endsOf(moved, at)!;
+    const [p] = endsOf(moved, { ring: at.ring, edge: before(ring, at.edge) })!;
+    const [, q] = endsOf(moved, { ring: at.ring, edge: after(ring, at.edge) })!;
+    const shift = `${by < 0 ? "out" : "in"} ${metres(Math.abs(by))}`;
+    dimensions.value = [
+      { at: middle(a, b), text: `${metres(distance(a, b))} · ${shift}` },
+      { at: middle(p, a), text: metres(distance(p, a)) },
+      { at: middle(b, q), text: metres(distance(b, q)) },
+    ];
+    spoken.value = `edge ${at.edge}: ${metres(distance(a, b))} long, moved ${shift}`;
+  };
+  const quiet = () => {
+    guides.value = [];
+    dimensions.value = [];
+  };
+
+  const cornersOf = (at: EdgeAt, kind: "corner" | "edge") => (e: EdgeAt) => {
+    const ring = ringOf(plan, at.ring)!;
+    return e.ring === at.ring && (e.edge === at.edge || (kind === "edge" && e.edge === after(ring, at.edge)));
+  };
+
+  // ---- pointer
+
+  const down = (event: PointerEvent, kind: Drag["kind"], at: EdgeAt) => {
+    if (event.button > 1) return;
+    const p: Point2 = [event.clientX, event.clientY];
+    const moves = event.button === 1 ? "pan" : kind;
+    if (moves !== "pan" && tool.value !== "move") return;
+    event.stopPropagation();
+    const around =
+      moves === "pan"
+        ? { corners: [], edges: [] }
+        : surroundings(
+            plan,
+            others.map((o) => o.plan),
+            cornersOf(at, moves),
+          );
+    drag.current = { kind: moves, at, down: p, last: p, plan, around, began: false };
+  };
+
+  // Only once something is dragged: a click and a double click belong to what they hit.
+  const capture = (event: PointerEvent) => {
+    if (!svg.current!.hasPointerCapture(event.pointerId)) svg.current!.setPointerCapture(event.pointerId);
+  };
+
+  const move = (event: PointerEvent) => {
+    const p: Point2 = [event.clientX, event.clientY];
+    const d = drag.current;
+    if (!d) {
+      if (tool.value !== "move") cursor.value = drawingPoint(event, toMetres(now, pixels(event)));
+      return;
+    }
+    if (d.kind === "pan") {
+      if (d.began || distance(p, d.down) > 3) {
+        d.began = true;
+        capture(event);
+        sheet.value = panned(now, minus(p, d.last));
+      }
+      d.last = p;
+      return;
+    }
+    if (!d.began) {
+      if (distance(p, d.down) <= 3) return;
+      if (!session.begin([building])) {
+        drag.current = null;
+        return;
+      }
+      d.began = true;
+      capture(event);
+      if (d.kind === "edge") selectEdge(d.at);
+    }
+    if (!session.active) {
+      drag.current = null; // given up with Esc, undone, or overtaken from another tab
+      spoken.value = "";
+      quiet();
+      return;
+    }
+    const by: Point2 = [(p[0] - d.down[0]) / now.scale, (d.down[1] - p[1]) / now.scale];
+    if (d.kind === "corner") {
+      const from = ringOf(d.plan, d.at.ring)!.points[d.at.edge]!;
+      const snapped = snapVertex(d.plan, d.at, plus(from, by), d.around, snap(event));
+      guides.value = snapped.guides;
+      cornerMoved(d.at, moveVertex(d.plan, d.at, snapped.at), distance(from, snapped.at), event.timeStamp);
+    } else {
+      const [a, b] = endsOf(d.plan, d.at)!;
+      const along = unit(minus(b, a));
+      if (!along) return;
+      const snapped = snapEdge(d.plan, d.at, dot(by, turnedLeft(along)), d.around, snap(event));
+      guides.value = snapped.guides;
+      edgeMoved(d.at, moveEdge(d.plan, d.at, snapped.by), snapped.by, event.timeStamp);
+    }
+  };
+
+  const up = (event: PointerEvent) => {
+    const d = drag.current;
+    drag.current = null;
+    if (!d) return;
+    if (d.kind === "pan") {
+      svg.current!.focus({ preventScroll: true }); // so that Esc and Enter are heard
+      if (!d.began && tool.value !== "move") place(drawingPoint(event, toMetres(now, pixels(event))));
+      return;
+    }
+    if (d.began) session.commit();
+    else if (d.kind === "edge") {
+      if (event.shiftKey || event.ctrlKey || event.metaKey) toggleChosen(d.at);
+      else selectEdge(d.at);
+      corner.value = null;
+    } else corner.value = d.at;
+    quiet();
+  };
+  const broken = () => {
+    if (drag.current?.began && drag.current.kind !== "pan") session.cancel();
+    drag.current = null;
+    quiet();
+  };
+
+  // ---- keyboard
+
+  const nudge = (event: KeyboardEvent, at: EdgeAt, kind: "corner" | "edge"): boolean => {
+    const by = arrow(event);
+    if (!by) return false;
+    event.preventDefault();
+    event.stopPropagation();
+    if (!nudging.current) {
+      if (!session.begin([building])) return true;
+      nudging.current = true;
+    }
+    if (kind === "corner") {
+      const p = ringOf(plan, at.ring)!.points[at.edge]!;
+      const to: Point2 = [Math.round((p[0] + by[0]) * 1e9) / 1e9, Math.round((p[1] + by[1]) * 1e9) / 1e9];
+      cornerMoved(at, moveVertex(plan, at, to), keyStep(event), event.timeStamp);
+      return true;
+    }
+    const [a, b] = endsOf(plan, at)!;
+    const along = unit(minus(b, a));
+    const inwards = along ? dot(by, turnedLeft(along)) / keyStep(event) : 0;
+    if (Math.abs(inwards) > 0.1) {
+      const distanceMoved = Math.sign(inwards) * keyStep(event);
+      edgeMoved(at, moveEdge(plan, at, distanceMoved), distanceMoved, event.timeStamp);
+    }
+    return true;
+  };
+  const settleNudge = () => {
+    if (!nudging.current) return;
+    nudging.current = false;
+    session.commit();
+    quiet();
+  };
+  const onKey = (event: KeyboardEvent, at: EdgeAt, kind: "corner" | "edge") => {
+    if (event.ctrlKey || event.metaKey || nudge(event, at, kind)) return;
+    const taken = () => {
+      event.preventDefault();
+      event.stopPropagation();
+    };
+    if ((event.key === "Delete" || event.key === "Backspace") && kind === "corner") {
+      taken();
+      removeCorner(at);
+    } else if (event.key === "Insert") {
+      taken();
+      insertAt(at, middle(...endsOf(plan, at)!));
+    } else if ((event.key === "Enter" || event.key === " ") && kind === "edge") {
+      taken();
+      if (event.key === " " && event.shiftKey) toggleChosen(at);
+      else selectEdge(at);
+    }
+  };
+  const onSheetKey = (event: KeyboardEvent) => {
+    if (event.key === "Escape") {
+      if (drag.current || nudging.current) {
+        event.stopPropagation();
+        nudging.current = false;
+        broken();
+        session.cancel();
+      } else if (tool.value !== "move") {
+        event.stopPropagation();
+        leaveDrawing();
+      } else if (session.cancel()) event.stopPropagation();
+      return;
+    }
+    if (tool.value === "move") {
+      if (event.key === "+" || event.key === "-") {
+        event.stopPropagation();
+        sheet.value = zoomed(now, [now.width / 2, now.height / 2], event.key === "+" ? 1.25 : 0.8);
+      }
+      return;
+    }
+    const by = arrow(event);
+    if (by) cursor.value = plus(cursor.value ?? now.centre, by);
+    else if (event.key === " ") place(cursor.value ?? now.centre);
+    else if (event.key === "Enter") finish();
+    else if (event.key === "Backspace") drawn.value = drawn.value.slice(0, -1);
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+    if (by) spoken.value = `at ${cursor.value!.map((v) => v.toFixed(2)).join(", ")}`;
+  };
+
+  // ---- corners, holes, cuts
+
+  const removeCorner = (at: EdgeAt) => {
+    const changed = deleteVertex(plan, at);
+    if (!changed)
+      say({
+        severity: "warning",
+        code: "edit-last-corners",
+        message: "an outline keeps three corners; merge the part with a neighbour to be rid of it",
+        subject: part,
+      });
+    else if (once(`corner of ${part} removed`, changed)) {
+      corner.value = null;
+      renumber(at, false, ringOf(plan, at.ring)!.points.length);
+      spoken.value = `corner ${at.edge} removed`;
+    }
+  };
+  const insertAt = (at: EdgeAt, point: Point2) => {
+    if (!once(`corner added to ${part}`, insertVertex(plan, at, point))) return;
+    corner.value = { ring: at.ring, edge: at.edge + 1 };
+    renumber(at, true, 0);
+    spoken.value = `corner ${at.edge + 1} added`;
+  };
+  const doubleClick = (event: MouseEvent, at: EdgeAt) => {
+    if (tool.value !== "move") return;
+    event.stopPropagation();
+    const [a, b] = endsOf(plan, at)!;
+    insertAt(at, nearestOn(toMetres(now, pixels(event)), a, b).at);
+  };
+  const drawingPoint = (event: { altKey: boolean }, p: Point2): Point2 => {
+    const first = drawn.value[0];
+    if (tool.value === "hole" && drawn.value.length > 2 && first && distance(first, p) < reachPixels / now.scale)
+      return first;
+    const around = surroundings(
+      plan,
+      others.map((o) => o.plan),
+      () => false,
+    );
+    const snapped = snapDrawn(plan, drawn.value, p, around, snap(event));
+    guides.value = snapped.guides;
+    return snapped.at;
+  };
+  const place = (p: Point2) => {
+    const first = drawn.value[0];
+    const last = drawn.value.at(-1);
+    if (tool.value === "hole" && first && drawn.value.length > 2 && distance(first, p) < 1e-6) return finish();
+    if (last && distance(last, p) < 1e-6) {
+      if (tool.value === "cut" && drawn.value.length > 1) finish(); // the second click of a double click
+      return;
+    }
+    drawn.value = [...drawn.value, p];
+    spoken.value = `${drawn.value.length} points drawn`;
+  };
+  const finish = () => {
+    const points = drawn.value;
+    const which = tool.value;
+    if (points.length < (which === "hole" ? 3 : 2)) return;
+    leaveDrawing();
+    if (which === "hole") once(`courtyard in ${part}`, addHole(plan, points));
+    else void cut(points);
+  };
+  function leaveDrawing() {
+    tool.value = "move";
+    drawn.value = [];
+    cursor.value = null;
+    guides.value = [];
+    spoken.value = "";
+  }
+  const fillHole = () => {
+    if (once(`courtyard of ${part} filled`, removeHole(plan, at.ring))) selectEdge(null);
+  };
+  const cut = async (line: Point2[]) => {
+    const proposal = await attempt(client.split(run.id, building, part, line));
+    if (proposal) session.propose(`${part} cut in two`, proposal.changes);
+  };
+  const mergeable = touching.find((o) => `${o.building} ${o.part}` === partner.value) ?? touching[0];
+  const merge = async () => {
+    if (!mergeable) return;
+    const proposal = await attempt(
+      client.merge(run.id, [
+        { building, part },
+        { building: mergeable.building, part: mergeable.part },
+      ]),
+    );
+    if (proposal && session.propose(`${part} and ${mergeable.part} merged`, proposal.changes)) state.also.value = [];
+  };
+
+  const choose = (next: Tool) => {
+    const same = tool.value === next;
+    leaveDrawing();
+    if (same) return;
+    tool.value = next;
+    svg.current?.focus();
+  };
+  const fit = () => (sheet.value = fitted(now, ringPoints(plan).flat(), 44));
+
+  // ---- drawing
+
+  const drawing = tool.value !== "move";
+  const preview = cursor.value && drawing ? [...drawn.value, cursor.value] : drawn.value;
+  const block = run.buildings.get(building)?.block;
+  const sweepEdges = sweeps.value ? (state.whys.value.get(run.id)?.sweep_edges ?? []) : [];
+  const measures = `${planArea(plan).toFixed(1)} m² · ${edgesOf(plan).length} edges`;
+  const hints: Record<Tool, string> = {
+    move: spoken.value || measures,
+    hole: "Click its corners; Enter closes, Esc gives up",
+    cut: "Click along the cut; Enter cuts, Esc gives up",
+  };
+  const instructions =
+    `Plan of ${part}. Tab goes from edge to edge, then from corner to corner; arrows move them by 0.1 metres, with ` +
+    "Shift by 1, with Alt by 0.01; Insert adds a corner, Delete removes one, Enter on an edge shows its profile, " +
+    "Escape gives up.";
+  const grips: Grips = { down, doubleClick, key: onKey, settle: settleNudge };
+
+  return (
+    <div class="edit-sheet">
+      <PlanTools
+        tool={tool.value}
+        building={building}
+        drafted={drafted}
+        hole={at.ring > 0}
+        touching={touching}
+        partner={mergeable}
+        onTool={choose}
+        onFill={fillHole}
+        onPartner={(n) => (partner.value = `${n.building} ${n.part}`)}
+        onMerge={() => void merge()}
+      />
+      <svg
+        ref={svg}
+        class={`edit-plan${drawing ? " drawing" : ""}${invalid && drafted ? " invalid" : ""}`}
+        role="application"
+        tabindex={0}
+        aria-label={instructions}
+        onPointerDown={(event) => down(event, "pan", { ring: 0, edge: 0 })}
+        onPointerMove={move}
+        onPointerUp={up}
+        onPointerCancel={broken}
+        onDblClick={() => drawing && finish()}
+        onKeyDown={onSheetKey}
+      >
+        <Backdrop
+          sheet={now}
+          building={building}
+          neighbours={others}
+          footprint={state.scene.value?.footprints.find((f) => f.id === building)}
+          sweepEdges={sweepEdges.filter((s) => s.block === block)}
+          onPick={(n) => {
+            if (!drawing) select({ building: n.building, part: n.part, ring: 0, edge: null });
+          }}
+          onAdd={(n) => selectAlso(n.building, n.part)}
+        />
+        <Edges
+          sheet={now}
+          plan={plan}
+          selected={edgeShown.value}
+          chosen={chosen.value}
+          labelled={dimensions.value.length === 0}
+          grips={grips}
+        />
+        <Corners sheet={now} plan={plan} selected={corner.value} onFocus={(at) => (corner.value = at)} grips={grips} />
+        <Marks
+          sheet={now}
+          guides={guides.value}
+          dimensions={dimensions.value}
+          drawn={preview}
+          closed={tool.value === "hole"}
+        />
+        <ScaleBar sheet={now} length={ruling(now.scale, 50)} />
+      </svg>
+      <button type="button" class="edit-fit" onClick={fit} title="Bring the part into view">
+        Fit
+      </button>
+      <PlanHint words={hints[tool.value]} sweeps={sweeps} />
+    </div>
+  );
+}

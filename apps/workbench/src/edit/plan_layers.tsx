@@ -1,0 +1,226 @@
+// What the plan editor draws, by layers.
+import type { Plan, Point2, SceneFootprint, SweepEdgeLine } from "../api/types";
+import * as state from "../state";
+import { metres } from "./numbers";
+import type { Neighbour } from "./neighbours";
+import { edgesOf, endsOf, profileOf, ringOf, ringsOf, sameEdge, type EdgeAt } from "./plan";
+import { degreesOf, kindOf, pitchOf } from "./profile";
+import { toPixels, type Sheet } from "./sheet";
+import type { Guide } from "./snap";
+import { distance, middle, minus, turnedLeft, unit } from "./vector";
+
+/** Words at a place: a length, an angle. */
+export interface Dimension {
+  at: Point2;
+  text: string;
+}
+
+/** What an edge or a corner answers to. */
+export interface Grips {
+  down(event: PointerEvent, kind: "corner" | "edge", at: EdgeAt): void;
+  doubleClick(event: MouseEvent, at: EdgeAt): void;
+  key(event: KeyboardEvent, at: EdgeAt, kind: "corner" | "edge"): void;
+  settle(): void;
+}
+
+export const ringPoints = (plan: Plan): Point2[][] => ringsOf(plan).map((r) => r.points);
+
+const pathOf = (sheet: Sheet, rings: Point2[][]) =>
+  rings.map((ring) => `M${ring.map((p) => pixelText(sheet, p, " ")).join("L")}Z`).join("");
+const pixelText = (sheet: Sheet, p: Point2, between: string) =>
+  toPixels(sheet, p)
+    .map((v) => v.toFixed(1))
+    .join(between);
+const lineOf = (sheet: Sheet, a: Point2, b: Point2) => {
+  const [x1, y1] = toPixels(sheet, a);
+  const [x2, y2] = toPixels(sheet, b);
+  return { x1, y1, x2, y2 };
+};
+
+function Label({ sheet, at, text, kind }: { sheet: Sheet; at: Point2; text: string; kind: string }) {
+  const [x, y] = toPixels(sheet, at);
+  return (
+    <text class={kind} x={x} y={y}>
+      {text}
+    </text>
+  );
+}
+
+export function Backdrop(props: {
+  sheet: Sheet;
+  building: string;
+  neighbours: Neighbour[];
+  footprint: SceneFootprint | undefined;
+  sweepEdges: SweepEdgeLine[];
+  onPick(neighbour: Neighbour): void;
+  onAdd(neighbour: Neighbour): void;
+}) {
+  const { sheet, building, neighbours, footprint, sweepEdges, onPick, onAdd } = props;
+  const kind = (n: Neighbour) => {
+    if (n.building === building) return "sibling";
+    return state.also.value.some((a) => a.building === n.building && a.part === n.part) ? "also" : "neighbour";
+  };
+  return (
+    <>
+      {neighbours.map((n) => (
+        <path
+          key={`${n.building} ${n.part}`}
+          class={kind(n)}
+          d={pathOf(sheet, ringPoints(n.plan))}
+          onClick={(event) => event.shiftKey && onAdd(n)}
+          onDblClick={() => onPick(n)}
+        >
+          <title>{`${n.part} – double-click to edit it, Shift and a click to merge with it`}</title>
+        </path>
+      ))}
+      {footprint?.polygons.map((p, i) => <path key={i} class="footprint" d={pathOf(sheet, [p.outer, ...p.holes])} />)}
+      {sweepEdges.map((s, i) => (
+        <line key={i} class="sweep-edge" {...lineOf(sheet, s.from, s.to)} />
+      ))}
+    </>
+  );
+}
+
+export function Edges(props: {
+  sheet: Sheet;
+  plan: Plan;
+  selected: EdgeAt | null;
+  chosen: EdgeAt[];
+  labelled: boolean;
+  grips: Grips;
+}) {
+  const { sheet, plan, selected, chosen, labelled, grips } = props;
+  return (
+    <>
+      <path class="part" d={pathOf(sheet, ringPoints(plan))} />
+      {edgesOf(plan).map((at) => {
+        const [a, b] = endsOf(plan, at)!;
+        const profile = profileOf(plan, at) ?? [];
+        const kind = kindOf(profile);
+        const pitch = kind === "pitched" ? degreesOf(pitchOf(profile)!) : 0;
+        const inwards = turnedLeft(unit(minus(b, a)) ?? [1, 0]);
+        const [x, y] = toPixels(sheet, middle(a, b));
+        const isSelected = selected !== null && sameEdge(selected, at);
+        const isChosen = chosen.some((c) => sameEdge(c, at));
+        const said = { pitched: `pitch ${pitch.toFixed(0)} degrees`, wall: "wall all the way", terrace: "terrace" }[
+          kind
+        ];
+        const seen = { pitched: `${pitch.toFixed(0)}°`, wall: "wall", terrace: "flat" }[kind];
+        const classes = `edge ${kind}${isSelected ? " selected" : ""}${isChosen ? " chosen" : ""}`;
+        return (
+          <g key={`${at.ring} ${at.edge}`} class={classes}>
+            <line class="seen" {...lineOf(sheet, a, b)} />
+            <line
+              class="grip"
+              {...lineOf(sheet, a, b)}
+              tabindex={0}
+              role="button"
+              aria-pressed={isSelected}
+              aria-label={`edge ${at.edge}${inHole(at)}, ${distance(a, b).toFixed(2)} metres, ${said}`}
+              onPointerDown={(event) => grips.down(event, "edge", at)}
+              onDblClick={(event) => grips.doubleClick(event, at)}
+              onKeyDown={(event) => grips.key(event, at, "edge")}
+              onKeyUp={grips.settle}
+              onBlur={grips.settle}
+            />
+            {labelled && distance(a, b) * sheet.scale > 34 && (
+              <text class="pitch" x={x + inwards[0] * 14} y={y - inwards[1] * 14}>
+                {seen}
+              </text>
+            )}
+          </g>
+        );
+      })}
+    </>
+  );
+}
+
+export function Corners(props: {
+  sheet: Sheet;
+  plan: Plan;
+  selected: EdgeAt | null;
+  onFocus(at: EdgeAt): void;
+  grips: Grips;
+}) {
+  const { sheet, plan, selected, onFocus, grips } = props;
+  return (
+    <>
+      {edgesOf(plan).map((at) => {
+        const p = ringOf(plan, at.ring)!.points[at.edge]!;
+        const [cx, cy] = toPixels(sheet, p);
+        const isSelected = selected !== null && sameEdge(selected, at);
+        return (
+          <g key={`${at.ring} ${at.edge}`} class={`corner${isSelected ? " selected" : ""}`}>
+            <circle class="seen" cx={cx} cy={cy} r={4} />
+            <circle
+              class="grip"
+              cx={cx}
+              cy={cy}
+              r={9}
+              tabindex={0}
+              role="button"
+              aria-label={`corner ${at.edge}${inHole(at)} at ${p[0].toFixed(2)}, ${p[1].toFixed(2)}`}
+              onPointerDown={(event) => grips.down(event, "corner", at)}
+              onFocus={() => onFocus(at)}
+              onKeyDown={(event) => grips.key(event, at, "corner")}
+              onKeyUp={grips.settle}
+              onBlur={grips.settle}
+            />
+          </g>
+        );
+      })}
+    </>
+  );
+}
+
+const inHole = (at: EdgeAt) => (at.ring > 0 ? ` of hole ${at.ring}` : "");
+
+/** What is being drawn, what it snapped to, and how long it is. */
+export function Marks(props: {
+  sheet: Sheet;
+  guides: Guide[];
+  dimensions: Dimension[];
+  drawn: Point2[];
+  closed: boolean;
+}) {
+  const { sheet, guides, dimensions, drawn, closed } = props;
+  const last = drawn.length > 1 ? ([drawn.at(-2)!, drawn.at(-1)!] as const) : null;
+  return (
+    <>
+      {guides.map((g, i) => (
+        <g key={i} class="guide">
+          <line {...lineOf(sheet, g.from, g.to)} />
+          <Label sheet={sheet} at={g.from} text={g.words} kind="guide-words" />
+        </g>
+      ))}
+      {drawn.length > 0 && (
+        <g class="drawn">
+          <polyline class={closed ? "hole" : "cut"} points={drawn.map((p) => pixelText(sheet, p, ",")).join(" ")} />
+          {drawn.map((p, i) => {
+            const [cx, cy] = toPixels(sheet, p);
+            return <circle key={i} cx={cx} cy={cy} r={3} />;
+          })}
+          {last && distance(...last) > 0 && (
+            <Label sheet={sheet} at={middle(...last)} text={metres(distance(...last))} kind="dimension" />
+          )}
+        </g>
+      )}
+      {dimensions.map((d, i) => (
+        <Label key={i} sheet={sheet} at={d.at} text={d.text} kind="dimension" />
+      ))}
+    </>
+  );
+}
+
+/** A bar of a whole length, at the lower left. */
+export function ScaleBar({ sheet, length }: { sheet: Sheet; length: number }) {
+  const long = length * sheet.scale;
+  return (
+    <g class="scale" transform={`translate(10 ${sheet.height - 10})`}>
+      <path d={`M0 -4V0H${long}V-4`} />
+      <text x={long + 5} y={1}>
+        {length} m
+      </text>
+    </g>
+  );
+}

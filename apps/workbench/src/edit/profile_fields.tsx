@@ -1,0 +1,107 @@
+import type { Plan, ProfilePoint } from "../api/types";
+import { NumberField } from "./fields";
+import { metres } from "./numbers";
+import { changeProfiles, type EdgeAt } from "./plan";
+import {
+  degreesOf,
+  gutterOf,
+  lastRoof,
+  pitchOf,
+  slopeOfDegrees,
+  slopeTo,
+  withGutter,
+  withSlope,
+  type Profile,
+} from "./profile";
+
+/** The numbers of a profile and its part, to read and to type. */
+export function ProfileFields(props: {
+  plan: Plan;
+  part: string;
+  profile: Profile;
+  edges: EdgeAt[]; // that a change is for
+  who: string; // they, in words
+  point: number | null;
+  share: number;
+  onShare(share: number): void;
+  onPlan(what: string, plan: Plan): void;
+  onProfile(what: string, profile: Profile): void;
+  onMove(i: number, to: ProfilePoint): void;
+  onRemove(i: number): void;
+}) {
+  const { plan, part, profile, edges, who, share, onPlan, onProfile } = props;
+  const i = props.point ?? 0;
+  const point = i > 0 ? profile[i] : undefined;
+  const slope = point ? slopeTo(profile, i) : null;
+  const pitch = pitchOf(profile);
+  const turn = (at: number, degrees: number) => {
+    if (degrees >= 0 && degrees < 90)
+      onProfile(`pitch of ${who} to ${degrees.toFixed(1)}°`, withSlope(profile, at, slopeOfDegrees(degrees)));
+  };
+  const raise = (height: number) => {
+    const raised = (p: Profile) => (gutterOf(p) === null ? null : withGutter(p, height));
+    onPlan(`gutter of ${who} to ${metres(height)}`, changeProfiles(plan, edges, raised));
+  };
+  return (
+    <div class="edit-fields">
+      <label class="edit-share" title="Where along the edge the mesh is cut">
+        Slice at
+        <input
+          type="range"
+          min={0}
+          max={1}
+          step={0.01}
+          value={share}
+          aria-valuetext={`${Math.round(share * 100)} % of the edge`}
+          onInput={(event) => props.onShare(Number(event.currentTarget.value))}
+        />
+        <output>{Math.round(share * 100)} %</output>
+      </label>
+      <NumberField
+        label="Gutter"
+        unit="m"
+        value={gutterOf(profile)}
+        title="Where the roof begins, above the base; what is above goes with it"
+        onValue={raise}
+      />
+      <NumberField
+        label="Pitch"
+        unit="°"
+        digits={2}
+        value={pitch === null ? null : degreesOf(pitch)}
+        title="Of the last roof part"
+        onValue={(degrees) => turn(lastRoof(profile), degrees)}
+      />
+      <NumberField
+        label="Cap"
+        unit="m"
+        value={plan.cap}
+        title="Height above the base at which everything is cut off flat"
+        onValue={(cap) => onPlan(`cap of ${part} to ${metres(cap)}`, { ...plan, cap })}
+      />
+      <NumberField
+        label="Base"
+        unit="m"
+        value={plan.base}
+        title="z of the ground floor"
+        onValue={(base) => onPlan(`base of ${part} to ${metres(base)}`, { ...plan, base })}
+      />
+      <span class="edit-point" role="group" aria-label="Selected point">
+        <b>{point ? `Point ${i}` : "No point"}</b>
+        <NumberField label="In" unit="m" value={point?.[0] ?? null} onValue={(v) => props.onMove(i, [v, point![1]])} />
+        <NumberField label="Up" unit="m" value={point?.[1] ?? null} onValue={(v) => props.onMove(i, [point![0], v])} />
+        <NumberField
+          label="Pitch"
+          unit="°"
+          digits={2}
+          title="Of the part that leads to the point"
+          value={slope === null || slope === Infinity ? null : degreesOf(slope)}
+          onValue={(degrees) => turn(i, degrees)}
+        />
+        <button type="button" onClick={() => props.onRemove(i)} disabled={!point || profile.length <= 2}>
+          Remove
+        </button>
+      </span>
+    </div>
+  );
+}

@@ -1,0 +1,499 @@
+import { signal } from "@preact/signals";
+import { beforeEach, describe, expect, it } from "vitest";
+import { Refused } from "../api/client";
+import type * as api from "../api/types";
+import type { Draft, OpenRun } from "../state";
+import { EditSession, type Calls, type Desk, type Kept } from "./session";
+
+const plan = (gutter: number): api.Plan => ({
+  base: 0,
+  cap: 12,
+  outer: {
+    points: [
+      [0, 0],
+      [10, 0],
+      [10, 8],
+      [0, 8],
+    ],
+    profile_of_edge: [0, 0, 0, 0],
+  },
+  holes: [],
+  profiles: [
+    [
+      [0, 0],
+      [0, gutter],
+      [4, gutter + 3],
+    ],
+  ],
+});
+const bowtie = (): api.Plan => ({
+  ...plan(6),
+  outer: {
+    points: [
+      [0, 0],
+      [10, 8],
+      [10, 0],
+      [0, 9],
+    ],
+    profile_of_edge: [0, 0, 0, 0],
+  },
+});
+const building = (id: string, revision: number, gutter: number): api.Building => ({
+  id,
+  revision,
+  valid: true,
+  parts: [
+    {
+      id: `${id}-1`,
+      plan: plan(gutter),
+      geometry: null,
+      outcome: "full",
+      diagnostics: [],
+      mse: 0.1,
+      volume: gutter * 80,
+    },
+  ],
+  diagnostics: [],
+  mse: 0.1,
+  block: "block-0",
+  outcome: "full",
+  reasons: [],
+  edited: false,
+  ground: 0,
+});
+const none: api.History = { edits: [], done: 0 };
+const gone = () =>
+  new Refused(0, { severity: "error", code: "server-gone", message: "the server does not answer", subject: "" });
+const stale = () => new Refused(409, { severity: "error", code: "edit-stale", message: "", subject: "" });
+const invalid = () => new Refused(422, { severity: "error", code: "edit-invalid", message: "not valid", subject: "a" });
+
+/** A call that is answered when the test says so. */
+interface Waiting<T> {
+  changes: api.Change[];
+  aborted: () => boolean;
+  answer: (value: T) => Promise<void>;
+  refuse: (e: unknown) => Promise<void>;
+}
+const turn = () => new Promise<void>((resolve) => setTimeout(resolve, 0));
+
+function table() {
+  const previews: Waiting<{ buildings: api.RaisedBuilding[] }>[] = [];
+  const edits: (Waiting<api.Applied> & { what: string })[] = [];
+  let undone = 0;
+  let now: api.Building[] = [];
+  const waiting = <T>(changes: api.Change[], into: (w: Waiting<T>) => void, signal?: AbortSignal) =>
+    new Promise<T>((resolve, reject) => {
+      signal?.addEventListener("abort", () => reject(new DOMException("aborted", "AbortError")));
+      into({
+        changes,
+        aborted: () => signal?.aborted ?? false,
+        answer: (value) => (resolve(value), turn()),
+        refuse: (e) => (reject(e as Error), turn()),
+      });
+    });
+  const calls: Calls = {
+    preview: (_run, changes, signal) => waiting(changes, (w) => previews.push(w), signal),
+    edit: (_run, edit) => waiting<api.Applied>(edit.changes, (w) => edits.push({ ...w, what: edit.what })),
+    undo: () => {
+      ++undone;
+      return Promise.resolve({ buildings: [building("a", 3, 6)], history: none });
+    },
+    buildings: () => Promise.resolve({ buildings: now, history: none }),
+  };
+  const run = signal<OpenRun | null>({
+    id: "run-1",
+    buildings: new Map([
+      ["a", building("a", 1, 6)],
+      ["b", building("b", 4, 5)],
+    ]),
+    history: none,
+  });
+  const draft = signal<Draft | null>(null);
+  const said: api.Diagnostic[] = [];
+  const shown: number[] = [];
+  let kept: Kept | null = null;
+  const desk: Desk = {
+    run,
+    draft,
+    take: (id, answer) => {
+      if (run.value?.id !== id) return;
+      const buildings = new Map(run.value.buildings);
+      for (const b of answer.buildings) buildings.set(b.id, b);
+      run.value = { id, buildings, history: answer.history };
+    },
+    say: (d) => said.push(d),
+    keep: (k) => (kept = k && (JSON.parse(JSON.stringify(k)) as Kept)),
+    kept: () => kept,
+    shown: (pointer) => shown.push(pointer),
+  };
+  const session = new EditSession(calls, desk);
+  return {
+    previews,
+    edits,
+    run,
+    draft,
+    said,
+    shown,
+    desk,
+    calls,
+    session,
+    undone: () => undone,
+    kept: () => kept,
+    setKept: (k: Kept | null) => (kept = k),
+    serverHas: (buildings: api.Building[]) => (now = buildings),
+  };
+}
+
+const parts = (id: string, p: api.Plan) => [{ building: id, parts: [{ id: `${id}-1`, plan: p }] }];
+const raised = (id: string, gutter: number, valid = true): { buildings: api.RaisedBuilding[] } => ({
+  buildings: [
+    {
+      ...building(id, 1, gutter),
+      valid,
+      diagnostics: valid ? [] : [{ severity: "error", code: "edit-overlap", message: "shares ground", subject: id }],
+    },
+  ],
+});
+const applied = (id: string, revision: number, gutter: number): api.Applied => ({
+  buildings: [{ ...building(id, revision, gutter), edited: true }],
+  history: { edits: ["gutter"], done: 1 },
+});
+const gutterOf = (p: api.Plan | undefined) => p?.profiles[0]?.[1]?.[1];
+
+let t: ReturnType<typeof table>;
+beforeEach(() => (t = table()));
+
+describe("a drag", () => {
+  it("is previewed, written on release, and leaves no draft", async () => {
+    expect(t.session.begin(["a"])).toBe(true);
+    t.session.change("gutter of a", parts("a", plan(7)), 120);
+    expect(t.draft.value?.pending).toBe(true);
+    await t.previews[0]!.answer(raised("a", 7));
+    expect(t.draft.value?.raised.get("a")?.parts[0]?.volume).toBe(560);
+    expect(t.draft.value?.pending).toBe(false);
+    expect(t.shown).toEqual([120]);
+    expect(t.edits).toHaveLength(0);
+    t.session.commit();
+    expect(t.edits[0]?.what).toBe("gutter of a");
+    expect(t.edits[0]?.changes[0]?.revision).toBe(1);
+    await t.edits[0]!.answer(applied("a", 2, 7));
+    expect(t.draft.value).toBeNull();
+    expect(t.run.value?.buildings.get("a")?.revision).toBe(2);
+    expect(t.session.phase.value).toBe("idle");
+    expect(t.kept()).toBeNull();
+  });
+
+  it("has one preview under way and asks for the newest plans next", async () => {
+    t.session.begin(["a"]);
+    for (let gutter = 7; gutter < 12; ++gutter) t.session.change("gutter", parts("a", plan(gutter)), gutter);
+    expect(t.previews).toHaveLength(1);
+    await t.previews[0]!.answer(raised("a", 7));
+    expect(t.previews).toHaveLength(2);
+    expect(gutterOf(t.previews[1]!.changes[0]!.parts[0]!.plan)).toBe(11);
+    expect(t.draft.value?.pending).toBe(true);
+    await t.previews[1]!.answer(raised("a", 11));
+    expect(t.shown).toEqual([7, 11]);
+    expect(t.draft.value?.pending).toBe(false);
+  });
+
+  it("released before its last preview came is written when that says valid", async () => {
+    t.session.begin(["a"]);
+    t.session.change("gutter", parts("a", plan(7)));
+    t.session.change("gutter", parts("a", plan(8)));
+    t.session.commit();
+    expect(t.session.phase.value).toBe("checking");
+    await t.previews[0]!.answer(raised("a", 7));
+    expect(t.edits).toHaveLength(0);
+    await t.previews[1]!.answer(raised("a", 8));
+    expect(gutterOf(t.edits[0]!.changes[0]!.parts[0]!.plan)).toBe(8);
+  });
+
+  it("that changes nothing in the end writes nothing", async () => {
+    t.session.begin(["a"]);
+    t.session.change("gutter", parts("a", plan(7)));
+    t.session.change("gutter", parts("a", plan(6)));
+    t.session.commit();
+    await turn();
+    expect(t.draft.value).toBeNull();
+    expect(t.edits).toHaveLength(0);
+    expect(t.previews[0]!.aborted()).toBe(true);
+  });
+
+  it("cancelled goes back to where it began, and a late answer is not shown", async () => {
+    t.session.begin(["a"]);
+    t.session.change("gutter", parts("a", plan(9)));
+    expect(t.session.cancel()).toBe(true);
+    expect(t.session.cancelled.value).toBe(1);
+    expect(t.session.cancel()).toBe(false);
+    expect(t.session.cancelled.value).toBe(1);
+    expect(t.previews[0]!.aborted()).toBe(true);
+    await t.previews[0]!.answer(raised("a", 9));
+    expect(t.draft.value).toBeNull();
+    expect(t.session.phase.value).toBe("idle");
+  });
+});
+
+describe("what is invalid", () => {
+  const hold = async () => {
+    t.session.begin(["a"]);
+    t.session.change("wall", parts("a", plan(9)));
+    t.session.commit();
+    await t.previews[0]!.answer(raised("a", 9, false));
+  };
+
+  it("is held with its reason, kept over a reload, and not written", async () => {
+    await hold();
+    expect(t.session.phase.value).toBe("held");
+    expect(t.draft.value?.invalid).toBe(true);
+    expect(t.session.reason.value?.code).toBe("edit-overlap");
+    expect(t.kept()?.changes[0]?.building).toBe("a");
+    expect(t.edits).toHaveLength(0);
+  });
+
+  it("can be dragged back to valid, and is written then", async () => {
+    await hold();
+    t.session.begin(["a"]);
+    t.session.change("wall", parts("a", plan(7)));
+    t.session.commit();
+    await t.previews[1]!.answer(raised("a", 7));
+    expect(t.edits).toHaveLength(1);
+    expect(t.session.reason.value).toBeNull();
+  });
+
+  it("is dropped by Esc and by an undo elsewhere", async () => {
+    await hold();
+    expect(t.session.cancel()).toBe(true);
+    expect(t.draft.value).toBeNull();
+    expect(t.kept()).toBeNull();
+    t.session.begin(["a"]);
+    t.session.change("wall", parts("a", plan(9)));
+    t.session.commit();
+    await t.previews[1]!.answer(raised("a", 9, false));
+    t.draft.value = null;
+    expect(t.session.phase.value).toBe("idle");
+    expect(t.kept()).toBeNull();
+    expect(t.undone()).toBe(0);
+  });
+
+  it("keeps other buildings from being changed, and says so", async () => {
+    await hold();
+    expect(t.session.begin(["b"])).toBe(false);
+    expect(t.said[0]?.code).toBe("edit-held");
+    expect(t.session.begin(["a"])).toBe(true);
+  });
+
+  it("is told without the server where a look is enough", async () => {
+    t.session.begin(["a"]);
+    t.session.change("corner", parts("a", bowtie()));
+    expect(t.previews).toHaveLength(0);
+    expect(t.draft.value?.invalid).toBe(true);
+    expect(t.session.reason.value?.code).toBe("extrude-not-simple");
+    t.session.commit();
+    await turn();
+    expect(t.session.phase.value).toBe("held");
+  });
+
+  it("a gesture on it that is cancelled goes back to the held draft", async () => {
+    await hold();
+    t.session.begin(["a"]);
+    t.session.change("wall", parts("a", plan(7)));
+    t.session.cancel();
+    expect(gutterOf(t.draft.value?.changes[0]?.parts[0]?.plan)).toBe(9);
+    await t.previews.at(-1)!.answer(raised("a", 9, false));
+    expect(t.session.phase.value).toBe("held");
+    expect(t.edits).toHaveLength(0);
+  });
+
+  it("is held too when only the edit was refused", async () => {
+    t.session.begin(["a"]);
+    t.session.change("wall", parts("a", plan(9)));
+    t.session.commit();
+    await t.previews[0]!.answer(raised("a", 9));
+    await t.edits[0]!.refuse(invalid());
+    expect(t.session.phase.value).toBe("held");
+    expect(t.draft.value?.invalid).toBe(true);
+    expect(t.session.reason.value?.message).toBe("not valid");
+  });
+});
+
+describe("when the server is gone", () => {
+  it("during the preview, the draft is held and can be sent again", async () => {
+    t.session.begin(["a"]);
+    t.session.change("gutter", parts("a", plan(7)));
+    t.session.commit();
+    await t.previews[0]!.refuse(gone());
+    expect(t.session.phase.value).toBe("held");
+    expect(t.session.reason.value?.code).toBe("server-gone");
+    expect(t.draft.value?.pending).toBe(false);
+    expect(t.kept()).not.toBeNull();
+    t.session.again();
+    await t.previews[1]!.answer(raised("a", 7));
+    await t.edits[0]!.answer(applied("a", 2, 7));
+    expect(t.draft.value).toBeNull();
+    expect(t.kept()).toBeNull();
+  });
+
+  it("during the edit, the draft is held and can be sent again", async () => {
+    t.session.begin(["a"]);
+    t.session.change("gutter", parts("a", plan(7)));
+    t.session.commit();
+    await t.previews[0]!.answer(raised("a", 7));
+    await t.edits[0]!.refuse(gone());
+    expect(t.session.phase.value).toBe("held");
+    expect(t.draft.value?.invalid).toBe(false);
+    t.session.again();
+    await t.edits[1]!.answer(applied("a", 2, 7));
+    expect(t.draft.value).toBeNull();
+  });
+
+  it("in the middle of a drag, the next move asks again", async () => {
+    t.session.begin(["a"]);
+    t.session.change("gutter", parts("a", plan(7)));
+    await t.previews[0]!.refuse(gone());
+    t.session.change("gutter", parts("a", plan(8)));
+    await t.previews[1]!.answer(raised("a", 8));
+    expect(t.session.reason.value).toBeNull();
+    expect(t.draft.value?.raised.get("a")?.parts[0]?.volume).toBe(640);
+  });
+
+  it("and the edit had arrived all the same, sending it again is no conflict", async () => {
+    t.session.begin(["a"]);
+    t.session.change("gutter", parts("a", plan(7)));
+    t.session.commit();
+    await t.previews[0]!.answer(raised("a", 7));
+    await t.edits[0]!.refuse(gone());
+    t.serverHas([building("a", 2, 7)]);
+    t.session.again();
+    await t.edits[1]!.refuse(stale());
+    await turn();
+    expect(t.said).toEqual([]);
+    expect(t.draft.value).toBeNull();
+    expect(t.run.value?.buildings.get("a")?.revision).toBe(2);
+  });
+});
+
+describe("when someone else was first", () => {
+  it("the server's buildings are taken, the draft is dropped, and that is said", async () => {
+    t.session.begin(["a"]);
+    t.session.change("gutter", parts("a", plan(7)));
+    t.session.commit();
+    await t.previews[0]!.answer(raised("a", 7));
+    t.serverHas([building("a", 5, 4)]);
+    await t.edits[0]!.refuse(stale());
+    await turn();
+    expect(t.draft.value).toBeNull();
+    expect(t.said.map((d) => d.code)).toEqual(["edit-stale"]);
+    expect(t.run.value?.buildings.get("a")?.revision).toBe(5);
+    expect(t.session.phase.value).toBe("idle");
+  });
+});
+
+describe("quick work", () => {
+  it("a second drag of the same building during the write is sent with the new revision", async () => {
+    t.session.propose("gutter", parts("a", plan(7)));
+    await t.previews[0]!.answer(raised("a", 7));
+    expect(t.session.phase.value).toBe("writing");
+    t.session.begin(["a"]);
+    t.session.change("gutter", parts("a", plan(8)));
+    t.session.commit();
+    await t.previews[1]!.answer(raised("a", 8));
+    expect(t.edits).toHaveLength(1);
+    await t.edits[0]!.answer(applied("a", 2, 7));
+    expect(t.edits).toHaveLength(2);
+    expect(t.edits[1]!.changes[0]!.revision).toBe(2);
+    await t.edits[1]!.answer(applied("a", 3, 8));
+    expect(t.draft.value).toBeNull();
+  });
+
+  it("a drag of another building during the write is a separate edit", async () => {
+    t.session.propose("gutter", parts("a", plan(7)));
+    await t.previews[0]!.answer(raised("a", 7));
+    expect(t.session.begin(["b"])).toBe(true);
+    t.session.change("gutter", parts("b", plan(8)));
+    await t.edits[0]!.answer(applied("a", 2, 7));
+    expect(t.draft.value?.changes.map((c) => c.building)).toEqual(["b"]);
+    t.session.commit();
+    await t.previews[1]!.answer(raised("b", 8));
+    expect(t.edits[1]!.changes.map((c) => [c.building, c.revision])).toEqual([["b", 4]]);
+  });
+
+  it("a gesture that began during the write and moved nothing yet goes on after it", async () => {
+    t.session.propose("gutter", parts("a", plan(7)));
+    await t.previews[0]!.answer(raised("a", 7));
+    t.session.begin(["a"]);
+    await t.edits[0]!.answer(applied("a", 2, 7));
+    expect(t.draft.value).toBeNull();
+    t.session.change("gutter", parts("a", plan(8)));
+    t.session.commit();
+    await t.previews[1]!.answer(raised("a", 8));
+    expect(t.edits[1]!.changes[0]!.revision).toBe(2);
+  });
+
+  it("a click during the check does not keep the change from being written", async () => {
+    t.session.propose("gutter", parts("a", plan(7)));
+    t.session.begin(["a"]);
+    t.session.commit();
+    await t.previews[0]!.answer(raised("a", 7));
+    expect(t.edits).toHaveLength(1);
+  });
+
+  it("an undo during the write takes the edit back once it has arrived", async () => {
+    t.session.propose("gutter", parts("a", plan(7)));
+    await t.previews[0]!.answer(raised("a", 7));
+    t.draft.value = null;
+    await t.edits[0]!.answer(applied("a", 2, 7));
+    await turn();
+    expect(t.undone()).toBe(1);
+    expect(t.run.value?.buildings.get("a")?.revision).toBe(3);
+    expect(t.session.phase.value).toBe("idle");
+  });
+
+  it("a hundred edits one after another all arrive with growing revisions", async () => {
+    for (let i = 0; i < 100; ++i) {
+      t.session.propose(`edit ${i}`, parts("a", plan(7 + (i % 5))));
+      await t.previews.at(-1)!.answer(raised("a", 7 + (i % 5)));
+      await t.edits.at(-1)!.answer(applied("a", 2 + i, 7 + (i % 5)));
+    }
+    expect(t.edits.map((e) => e.changes[0]!.revision)).toEqual(Array.from({ length: 100 }, (_, i) => i + 1));
+  });
+});
+
+describe("a reload", () => {
+  const kept = (revision: number, gutter = 9): Kept => ({
+    run: "run-1",
+    what: "wall",
+    changes: [{ building: "a", revision, parts: [{ id: "a-1", plan: plan(gutter) }] }],
+  });
+
+  it("brings the held draft back and asks for its preview, without writing it", async () => {
+    t.setKept(kept(1));
+    t.session.restore();
+    expect(t.session.phase.value).toBe("held");
+    await t.previews[0]!.answer(raised("a", 9));
+    expect(t.edits).toHaveLength(0);
+    t.session.again();
+    expect(t.edits).toHaveLength(1);
+  });
+
+  it("says so where the building was changed since", () => {
+    t.setKept(kept(0));
+    t.session.restore();
+    expect(t.draft.value).toBeNull();
+    expect(t.said[0]?.code).toBe("edit-stale");
+    expect(t.kept()).toBeNull();
+  });
+
+  it("says nothing where the draft had been written after all", () => {
+    t.setKept(kept(0, 6));
+    t.session.restore();
+    expect(t.draft.value).toBeNull();
+    expect(t.said).toEqual([]);
+  });
+
+  it("of another run is left for that run", () => {
+    t.setKept({ ...kept(1), run: "run-2" });
+    t.session.restore();
+    expect(t.draft.value).toBeNull();
+    expect(t.kept()?.run).toBe("run-2");
+  });
+});

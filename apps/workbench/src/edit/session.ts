@@ -1,0 +1,452 @@
+// The life of a draft: begun, changed while dragging, previewed, written on release where it is valid, held where it is
+// not. Knows neither the page nor the network: both are given. One preview is under way at a time, the newest plans
+// next.
+import { signal } from "@preact/signals";
+import type * as api from "../api/types";
+import type { Draft, OpenRun } from "../state";
+import { Refused } from "../api/client";
+import { planFault } from "./check";
+import { clean, oriented } from "./plan";
+
+export interface Calls {
+  preview(run: string, changes: api.Change[], signal?: AbortSignal): Promise<{ buildings: api.RaisedBuilding[] }>;
+  edit(run: string, edit: api.Edit): Promise<api.Applied>;
+  undo(run: string): Promise<api.Applied>;
+  buildings(run: string): Promise<{ buildings: api.Building[]; history: api.History }>;
+}
+
+/** What a reload of the page brings back. */
+export interface Kept {
+  run: string;
+  what: string;
+  changes: api.Change[];
+}
+
+interface Cell<T> {
+  value: T;
+  subscribe(listener: (value: T) => void): () => void;
+}
+export interface Desk {
+  run: Cell<OpenRun | null>;
+  draft: Cell<Draft | null>;
+  take(run: string, answer: api.Applied): void;
+  say(diagnostic: api.Diagnostic): void;
+  keep(draft: Kept | null): void;
+  kept(): Kept | null;
+  /** The geometry of a change is there; `pointer` is what the change was begun with. */
+  shown(pointer: number): void;
+}
+
+/** changing: the pointer is down · checking: released, its preview awaited · writing: sent · held: see `reason`. */
+export type Phase = "idle" | "changing" | "checking" | "writing" | "held";
+
+export interface Parts {
+  building: string;
+  parts: api.NamedPlan[];
+}
+
+const warning = (code: string, message: string, subject = ""): api.Diagnostic => ({
+  severity: "warning",
+  code,
+  message,
+  subject,
+});
+
+export class EditSession {
+  readonly phase = signal<Phase>("idle");
+  /** Why the draft is held, or why the last preview did not come. */
+  readonly reason = signal<api.Diagnostic | null>(null);
+
+  /** How often something was given up: what was said of it no longer holds. */
+  readonly cancelled = signal(0);
+
+  private version = 0; // of the draft's plans
+  private answered = 0; // the version that `raised` is of
+  private asking: AbortController | null = null;
+  private released = false; // to be written as soon as it is known to be valid
+  private open = false; // a gesture is under way
+  private before: Draft | null = null; // where it began
+  private wasReleased = false; // what was there was about to be written
+  private pointer = 0;
+  private touched = new Set<string>(); // buildings changed since the last edit was sent
+  private writing: { run: string; undo: boolean } | null = null;
+  private putting = false;
+
+  constructor(
+    private readonly calls: Calls,
+    private readonly desk: Desk,
+  ) {
+    let had = desk.draft.value;
+    desk.draft.subscribe((draft) => {
+      if (had && !draft && !this.putting) this.dropped();
+      had = draft;
+    });
+  }
+
+  /** A gesture is under way; it ends by itself when the draft is taken away. */
+  get active() {
+    return this.open;
+  }
+
+  /** Starts a gesture on some buildings. False, with a message, while a draft of others is held. */
+  begin(buildings: string[]): boolean {
+    if (!this.desk.run.value) return false;
+    const draft = this.desk.draft.value;
+    if (this.open) return true;
+    if (draft && !this.writing && !draft.changes.some((c) => buildings.includes(c.building))) {
+      const held = draft.changes.map((c) => c.building).join(", ");
+      this.desk.say(
+        warning("edit-held", `the change of ${held} is not written yet: put it right, or drop it with Esc`, held),
+      );
+      return false;
+    }
+    this.open = true;
+    this.wasReleased = this.released;
+    this.released = false;
+    this.before = draft;
+    return true;
+  }
+
+  /** The parts as they shall be, all of each building. `pointer` is the time of the event that asked for it, ms. */
+  change(what: string, changes: Parts[], pointer = 0) {
+    const run = this.desk.run.value;
+    if (!this.open || !run) return;
+    const draft = this.desk.draft.value;
+    const named = changes.map(({ building, parts }): api.Change => {
+      const known = draft?.changes.find((c) => c.building === building);
+      return { building, parts, revision: known?.revision ?? run.buildings.get(building)?.revision ?? 0 };
+    });
+    const others = draft?.changes.filter((c) => !changes.some((n) => n.building === c.building)) ?? [];
+    for (const { building } of changes) this.touched.add(building);
+    ++this.version;
+    this.pointer = pointer;
+    this.put({
+      what,
+      changes: [...others, ...named],
+      raised: draft?.raised ?? new Map(),
+      pending: true,
+      invalid: draft?.invalid ?? false,
+    });
+    this.phase.value = "changing";
+    this.pump();
+  }
+
+  /** The gesture is over: what is valid is written, what is not is held. */
+  commit() {
+    if (!this.open) return;
+    this.open = false;
+    const draft = this.desk.draft.value;
+    if (!draft || draft.changes === this.before?.changes) {
+      this.settle();
+      return;
+    }
+    if (this.unchanged(draft)) {
+      this.drop();
+      return;
+    }
+    this.put({
+      ...draft,
+      changes: draft.changes.map((c) => ({
+        ...c,
+        parts: c.parts.map((p) => ({ id: p.id, plan: clean(oriented(p.plan)) })),
+      })),
+    });
+    this.released = true;
+    this.phase.value = "checking";
+    this.pump();
+  }
+
+  /** A gesture goes back to where it began; without one, a held draft is dropped. True where there was something. */
+  cancel(): boolean {
+    if (this.open || (this.desk.draft.value && !this.writing)) ++this.cancelled.value;
+    if (this.open) {
+      this.open = false;
+      this.stopAsking();
+      ++this.version;
+      this.put(this.before && { ...this.before, pending: true });
+      this.settle();
+      return true;
+    }
+    if (!this.desk.draft.value || this.writing) return false;
+    this.drop();
+    return true;
+  }
+
+  /** Sends a held draft again. */
+  again() {
+    if (this.open || this.writing || !this.desk.draft.value) return;
+    this.released = true;
+    this.phase.value = "checking";
+    this.pump();
+  }
+
+  /** A whole change at once: typed, cut or merged. */
+  propose(what: string, changes: Parts[], pointer = 0): boolean {
+    if (!this.begin(changes.map((c) => c.building))) return false;
+    this.change(what, changes, pointer);
+    this.commit();
+    return true;
+  }
+
+  /** Brings back what was held when the page was left; call it when a run has been opened. */
+  restore() {
+    const run = this.desk.run.value;
+    const kept = this.desk.kept();
+    if (!run || !kept || kept.run !== run.id || this.desk.draft.value) return;
+    const draft: Draft = { what: kept.what, changes: kept.changes, raised: new Map(), pending: true, invalid: false };
+    if (this.unchanged(draft)) {
+      this.desk.keep(null); // it had been written after all
+      return;
+    }
+    if (kept.changes.some((c) => run.buildings.get(c.building)?.revision !== c.revision)) {
+      this.desk.keep(null);
+      this.desk.say(stale(kept.changes));
+      return;
+    }
+    ++this.version;
+    this.put(draft);
+    this.phase.value = "held";
+    this.pump();
+  }
+
+  private pump() {
+    const draft = this.desk.draft.value;
+    const run = this.desk.run.value;
+    if (!draft || !run || this.asking) return;
+    if (this.answered !== this.version) {
+      void this.ask(run.id, draft);
+      return;
+    }
+    if (this.open || this.writing) return;
+    if (this.released && !draft.invalid) void this.write(run.id, draft);
+    else this.hold(draft);
+  }
+
+  private async ask(run: string, draft: Draft) {
+    const version = this.version;
+    const pointer = this.pointer;
+    const refused = this.refusedHere(draft);
+    if (refused) {
+      this.answer(version, refused);
+      return;
+    }
+    const asking = new AbortController();
+    this.asking = asking;
+    let raised: api.RaisedBuilding[];
+    try {
+      raised = (await this.calls.preview(run, draft.changes, asking.signal)).buildings;
+    } catch (e) {
+      if (this.asking !== asking) return; // dropped meanwhile
+      this.asking = null;
+      this.failed(e, version);
+      return;
+    }
+    if (this.asking !== asking) return;
+    this.asking = null;
+    this.desk.shown(pointer);
+    this.answer(version, raised);
+  }
+
+  private answer(version: number, raised: api.RaisedBuilding[]) {
+    const draft = this.desk.draft.value;
+    if (!draft) return;
+    this.answered = version;
+    const all = new Map(draft.raised);
+    for (const building of raised) all.set(building.id, building);
+    const invalid = raised.some((b) => !b.valid);
+    this.reason.value = invalid ? firstError(raised) : null;
+    this.put({ ...draft, raised: all, invalid, pending: version !== this.version });
+    this.pump();
+  }
+
+  private failed(e: unknown, version: number) {
+    const diagnostic = diagnosticOf(e);
+    this.reason.value = diagnostic;
+    // Newer plans may fare better; the same ones are sent again when asked for.
+    if (version !== this.version) {
+      this.pump();
+      return;
+    }
+    const draft = this.desk.draft.value;
+    if (draft) this.put({ ...draft, pending: false });
+    if (!this.open && draft) this.hold(draft, diagnostic);
+  }
+
+  /** Faults that need no server; the last geometry stays. */
+  private refusedHere(draft: Draft): api.RaisedBuilding[] | null {
+    const found: api.RaisedBuilding[] = [];
+    let any = false;
+    for (const change of draft.changes) {
+      const last = draft.raised.get(change.building) ?? this.desk.run.value?.buildings.get(change.building);
+      const parts = change.parts.map(({ id, plan }): api.RaisedPart => {
+        const fault = planFault(plan, id);
+        const known = last?.parts.find((p) => p.id === id);
+        any ||= fault !== null;
+        return {
+          id,
+          plan,
+          geometry: known?.geometry ?? null,
+          outcome: known?.outcome ?? "full",
+          diagnostics: fault ? [fault] : [],
+          mse: fault ? null : (known?.mse ?? null),
+          volume: known?.volume ?? 0,
+        };
+      });
+      const valid = parts.every((p) => p.diagnostics.length === 0);
+      found.push({ id: change.building, revision: change.revision, valid, parts, diagnostics: [], mse: null });
+    }
+    return any ? found : null;
+  }
+
+  private async write(run: string, draft: Draft) {
+    const writing = { run, undo: false };
+    this.writing = writing;
+    this.released = false;
+    this.touched.clear();
+    this.phase.value = "writing";
+    this.keep(draft);
+    try {
+      const applied = await this.calls.edit(run, { what: draft.what, changes: draft.changes });
+      this.writing = null;
+      this.written(run, applied);
+      if (writing.undo) this.desk.take(run, await this.calls.undo(run));
+    } catch (e) {
+      this.writing = null;
+      const diagnostic = diagnosticOf(e);
+      if (e instanceof Refused && e.status === 409) await this.overtaken(run, draft);
+      else if (writing.undo) this.desk.say(diagnostic);
+      else this.unwritten(diagnostic);
+    }
+    if (this.desk.draft.value) this.pump();
+    else if (!this.open) this.reset();
+  }
+
+  private written(run: string, applied: api.Applied) {
+    this.desk.keep(null);
+    const draft = this.desk.draft.value;
+    this.desk.take(run, applied);
+    if (!draft || this.desk.run.value?.id !== run) return;
+    // A gesture that began meanwhile stands on the plans just written.
+    const rest = draft.changes.filter((c) => this.touched.has(c.building));
+    this.before = null;
+    this.wasReleased = false;
+    if (rest.length === 0) {
+      const open = this.open;
+      this.put(null);
+      this.reset();
+      this.open = open;
+      return;
+    }
+    const raised = new Map([...draft.raised].filter(([id]) => this.touched.has(id)));
+    const now = (id: string, otherwise: number) => applied.buildings.find((b) => b.id === id)?.revision ?? otherwise;
+    this.put({ ...draft, raised, changes: rest.map((c) => ({ ...c, revision: now(c.building, c.revision) })) });
+  }
+
+  private unwritten(diagnostic: api.Diagnostic) {
+    const draft = this.desk.draft.value;
+    if (!draft) return;
+    const invalid = diagnostic.code === "edit-invalid";
+    this.put({ ...draft, invalid: draft.invalid || invalid });
+    if (!this.open) this.hold(draft, diagnostic);
+    else this.reason.value = diagnostic;
+  }
+
+  /** Someone else was first – or this very edit had arrived, and its answer had not. */
+  private async overtaken(run: string, draft: Draft) {
+    this.drop();
+    let now: Awaited<ReturnType<Calls["buildings"]>>;
+    try {
+      now = await this.calls.buildings(run);
+    } catch (e) {
+      this.desk.say(diagnosticOf(e));
+      return;
+    }
+    this.desk.take(run, now);
+    if (!this.unchanged(draft)) this.desk.say(stale(draft.changes));
+  }
+
+  private unchanged(draft: Draft) {
+    return draft.changes.every((c) => {
+      const known = this.desk.run.value?.buildings.get(c.building)?.parts;
+      return known && samePlans(known, c.parts);
+    });
+  }
+
+  private hold(draft: Draft, reason?: api.Diagnostic) {
+    this.released = false;
+    this.phase.value = "held";
+    if (reason) this.reason.value = reason;
+    this.keep(draft);
+  }
+  private keep(draft: Draft) {
+    const run = this.desk.run.value;
+    if (run) this.desk.keep({ run: run.id, what: draft.what, changes: draft.changes });
+  }
+
+  /** After a gesture that changed nothing: on with what there was. */
+  private settle() {
+    if (!this.desk.draft.value) {
+      this.reset();
+      return;
+    }
+    this.released = this.wasReleased;
+    this.phase.value = this.writing ? "writing" : this.released ? "checking" : "held";
+    this.pump();
+  }
+
+  private drop() {
+    this.put(null);
+    this.desk.keep(null);
+    this.reset();
+  }
+  /** Somebody else took the draft away: an undo, another run, an edit in another tab. */
+  private dropped() {
+    if (this.writing && this.desk.run.value?.id === this.writing.run) this.writing.undo = true;
+    // What is held in a run that was left waits for it to be opened again.
+    if (this.desk.kept()?.run === this.desk.run.value?.id) this.desk.keep(null);
+    this.reset();
+  }
+  private reset() {
+    this.stopAsking();
+    this.open = false;
+    this.released = false;
+    this.before = null;
+    this.touched.clear();
+    this.answered = ++this.version;
+    this.reason.value = null;
+    this.phase.value = this.writing ? "writing" : "idle";
+  }
+  private stopAsking() {
+    this.asking?.abort();
+    this.asking = null;
+  }
+  private put(draft: Draft | null) {
+    this.putting = true;
+    this.desk.draft.value = draft;
+    this.putting = false;
+  }
+}
+
+function firstError(buildings: api.RaisedBuilding[]): api.Diagnostic | null {
+  const all = buildings.flatMap((b) => [...b.parts.flatMap((p) => p.diagnostics), ...b.diagnostics]);
+  return all.find((d) => d.severity === "error") ?? all[0] ?? null;
+}
+
+function diagnosticOf(e: unknown): api.Diagnostic {
+  if (e instanceof Refused) return e.diagnostic;
+  const message = e instanceof Error ? e.message : String(e);
+  return { severity: "error", code: "page-fault", message, subject: "" };
+}
+
+const stale = (changes: api.Change[]) =>
+  warning(
+    "edit-stale",
+    "someone else changed this building meanwhile; it is shown as they left it, your change of it was dropped",
+    changes.map((c) => c.building).join(", "),
+  );
+
+/** The same ids and the same plans, however their profiles are numbered. */
+function samePlans(a: api.NamedPlan[], b: api.NamedPlan[]): boolean {
+  const text = (parts: api.NamedPlan[]) => JSON.stringify(parts.map((p) => [p.id, clean(p.plan)]));
+  return text(a) === text(b);
+}

@@ -1,0 +1,165 @@
+// The buildings of the open run as a table: thousands of rows, of which only those in sight are made.
+import { computed, effect, signal } from "@preact/signals";
+import { useEffect, useRef, useState } from "preact/hooks";
+import { fly, select } from "../actions";
+import * as state from "../state";
+import { type Column, type Order, type Row, arranged, inSight, rowOf } from "./table";
+import { fixed, grouped } from "./words";
+
+const filter = signal("");
+const order = signal<Order>({ column: "id", down: false });
+const all = computed(() => [...(state.run.value?.buildings.values() ?? [])].map(rowOf));
+const rows = computed(() => arranged(all.value, filter.value, order.value));
+effect(() => {
+  state.order.value = rows.value.map((r) => r.id);
+});
+
+const rowHeight = 26;
+const columns: { column: Column; name: string; title: string; number?: boolean }[] = [
+  { column: "id", name: "Building", title: "Its id in the footprints" },
+  { column: "block", name: "Block", title: "Buildings that touch" },
+  { column: "outcome", name: "Outcome", title: "Of the run: in full, or something simpler" },
+  { column: "parts", name: "Parts", title: "Solids it is made of", number: true },
+  { column: "rmse", name: "RMSE m", title: "Root of the mean squared vertical error", number: true },
+  { column: "volume", name: "m³", title: "Volume", number: true },
+  { column: "edited", name: "✎", title: "Edited by hand" },
+];
+
+const go = (row: Row | undefined) => {
+  if (!row) return;
+  select({ building: row.id, part: null, ring: 0, edge: null });
+  fly("selection");
+};
+
+export function BuildingsPanel() {
+  const box = useRef<HTMLDivElement>(null);
+  const [window, setWindow] = useState({ top: 0, height: 600 });
+  const list = rows.value;
+  const at = list.findIndex((r) => r.id === state.selection.value?.building);
+
+  useEffect(() => {
+    const sized = new ResizeObserver(() =>
+      setWindow({ top: box.current?.scrollTop ?? 0, height: box.current?.clientHeight ?? 600 }),
+    );
+    if (box.current) sized.observe(box.current);
+    return () => sized.disconnect();
+  }, []);
+  useEffect(() => {
+    const element = box.current;
+    if (!element || at < 0) return;
+    const top = at * rowHeight;
+    if (top < element.scrollTop) element.scrollTop = top;
+    else if (top + 2 * rowHeight > element.scrollTop + element.clientHeight) {
+      element.scrollTop = top + 2 * rowHeight - element.clientHeight;
+    }
+  }, [at]);
+
+  const { from, to } = inSight(list.length, rowHeight, window.top, window.height);
+  const keys = (e: KeyboardEvent) => {
+    const page = Math.max(1, Math.floor(window.height / rowHeight) - 2);
+    const steps: Record<string, number> = {
+      ArrowDown: at + 1,
+      ArrowUp: at - 1,
+      PageDown: at + page,
+      PageUp: at - page,
+    };
+    const next = { ...steps, Home: 0, End: list.length - 1 }[e.key];
+    if (e.key === "Enter") return go(list[at]);
+    if (next === undefined || e.ctrlKey || e.metaKey) return;
+    e.preventDefault();
+    go(list[Math.max(0, Math.min(list.length - 1, next))]);
+  };
+  return (
+    <div class="panel fill">
+      <div class="table-head">
+        <input
+          type="search"
+          placeholder="Filter by id, block, outcome, “edited”"
+          aria-label="Filter buildings"
+          value={filter.value}
+          onInput={(e) => (filter.value = e.currentTarget.value)}
+        />
+        <span class="quiet">
+          {list.length === all.value.length
+            ? grouped(list.length)
+            : `${grouped(list.length)} of ${grouped(all.value.length)}`}
+        </span>
+      </div>
+      <div class="table" role="grid" aria-label="Buildings" aria-rowcount={list.length + 1}>
+        <div class="table-row heads" role="row">
+          {columns.map(({ column, name, title, number }) => {
+            const by = order.value.column === column;
+            return (
+              <div
+                role="columnheader"
+                key={column}
+                aria-sort={by ? (order.value.down ? "descending" : "ascending") : "none"}
+              >
+                <button
+                  type="button"
+                  class={"plain" + (number ? " number" : "")}
+                  title={title}
+                  onClick={() => (order.value = { column, down: by ? !order.value.down : !!number })}
+                >
+                  {name}
+                  {by && <span aria-hidden="true">{order.value.down ? " ▾" : " ▴"}</span>}
+                </button>
+              </div>
+            );
+          })}
+        </div>
+        <div
+          class="table-body"
+          ref={box}
+          tabIndex={0}
+          role="rowgroup"
+          aria-activedescendant={at >= 0 ? `building-${at}` : undefined}
+          onKeyDown={keys}
+          onScroll={(e) => setWindow({ top: e.currentTarget.scrollTop, height: e.currentTarget.clientHeight })}
+        >
+          <div style={{ height: `${list.length * rowHeight}px` }}>
+            <div style={{ transform: `translateY(${from * rowHeight}px)` }}>
+              {list.slice(from, to).map((row, i) => (
+                <TableRow key={row.id} row={row} index={from + i} selected={from + i === at} />
+              ))}
+            </div>
+          </div>
+          {list.length === 0 && (
+            <p class="quiet pad">{all.value.length ? "No building has these words." : "No run is open."}</p>
+          )}
+        </div>
+      </div>
+    </div>
+  );
+}
+
+function TableRow({ row, index, selected }: { row: Row; index: number; selected: boolean }) {
+  return (
+    <div
+      class={"table-row" + (selected ? " selected" : "")}
+      role="row"
+      id={`building-${index}`}
+      aria-rowindex={index + 2}
+      aria-selected={selected}
+      onClick={() => go(row)}
+    >
+      <div role="gridcell" title={row.id}>
+        {row.id}
+      </div>
+      <div role="gridcell">{row.block}</div>
+      <div role="gridcell" class={`outcome ${row.outcome}`}>
+        {row.outcome}
+      </div>
+      <div role="gridcell" class="number">
+        {row.parts}
+      </div>
+      <div role="gridcell" class="number">
+        {fixed(row.rmse, 2)}
+      </div>
+      <div role="gridcell" class="number">
+        {grouped(row.volume)}
+      </div>
+      <div role="gridcell">{row.edited ? <span aria-label="edited">✎</span> : ""}</div>
+    </div>
+  );
+}

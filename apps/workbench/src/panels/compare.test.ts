@@ -1,0 +1,57 @@
+import { describe, expect, it } from "vitest";
+import type { RunSummary } from "../api/types";
+import { building } from "../view/fixtures";
+import { buildingDifferences, difference, numbers } from "./compare";
+
+const run = (change: Partial<RunSummary>): RunSummary => ({
+  id: "run-1",
+  label: "",
+  state: "done",
+  failure: null,
+  created: "",
+  preset: "",
+  options: {},
+  blocks: [],
+  scores: null,
+  times: [],
+  buildings: 1,
+  full: 1,
+  parts: 1,
+  faces: 7,
+  edits: 0,
+  ...change,
+});
+
+describe("two runs", () => {
+  it("have the times of every stage that either has", () => {
+    const rows = numbers(
+      run({ times: [{ stage: "slice", seconds: 1 }] }),
+      run({ times: [{ stage: "sweep", seconds: 2 }] }),
+    );
+    const of = (name: string) => rows.find((r) => r.name === name)!;
+    expect(of("… slice")).toMatchObject({ first: 1, second: null });
+    expect(of("… sweep")).toMatchObject({ first: null, second: 2 });
+    expect(difference(of("Time"))).toBe(1);
+  });
+
+  it("have no difference where one was not measured", () => {
+    const [mse] = numbers(run({}), run({}));
+    expect(mse).toMatchObject({ first: null, second: null });
+    expect(difference(mse!)).toBeNull();
+  });
+
+  it("list the buildings whose error changed most first, and not those that are the same", () => {
+    const of = (...all: ReturnType<typeof building>[]) => new Map(all.map((b) => [b.id, b]));
+    const first = of(building("same"), building("little"), building("much"), building("left"));
+    const second = of(
+      building("same"),
+      building("little", { mse: 0.09 }),
+      building("much", { mse: 4 }),
+      building("right"),
+    );
+    const rows = buildingDifferences(first, second);
+    expect(rows.map((r) => r.id)).toEqual(["much", "little", "left", "right"]);
+    expect(rows[0]!.rmse).toEqual([0.2, 2]);
+    expect(rows.map((r) => r.only)).toEqual([null, null, "first", "second"]);
+  });
+});

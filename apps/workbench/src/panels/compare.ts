@@ -1,0 +1,79 @@
+// Two runs side by side, in numbers.
+import type { Building, RunSummary } from "../api/types";
+
+export interface NumberRow {
+  name: string;
+  unit: string;
+  digits: number;
+  first: number | null;
+  second: number | null;
+  less: boolean | null; // whether less is better; null: neither is
+}
+
+/** What a run's summary has in numbers, for both. */
+export function numbers(first: RunSummary, second: RunSummary): NumberRow[] {
+  const row = (
+    name: string,
+    unit: string,
+    digits: number,
+    of: (r: RunSummary) => number | null | undefined,
+    less: boolean | null = true,
+  ): NumberRow => ({ name, unit, digits, first: of(first) ?? null, second: of(second) ?? null, less });
+  const rows = [
+    row("Error, the paper's", "m²", 3, (r) => r.scores?.mse),
+    row("… over the footprints", "m²", 3, (r) => r.scores?.footprint_mse),
+    row("… inside them", "m²", 3, (r) => r.scores?.inside_mse),
+    row("Median difference", "m", 3, (r) => r.scores?.footprint_median_absolute),
+    row("Missed", "m²", 1, (r) => r.scores?.missed),
+    row("Invented", "m²", 1, (r) => r.scores?.invented),
+    row("Buildings", "", 0, (r) => r.buildings, null),
+    row("… in full", "", 0, (r) => r.full, false),
+    row("Parts", "", 0, (r) => r.parts, null),
+    row("Faces", "", 0, (r) => r.faces, null),
+    row("Edits that stand", "", 0, (r) => r.edits, null),
+    row("Time", "s", 1, (r) => r.times.reduce((sum, t) => sum + t.seconds, 0)),
+  ];
+  const stages = [...new Set([...first.times, ...second.times].map((t) => t.stage))];
+  const time = (r: RunSummary, stage: string) => r.times.find((t) => t.stage === stage)?.seconds;
+  return [...rows, ...stages.map((stage) => row(`… ${stage}`, "s", 1, (r) => time(r, stage)))];
+}
+
+/** Second less first; null where one is not known. */
+export const difference = ({ first, second }: Pick<NumberRow, "first" | "second">) =>
+  first === null || second === null ? null : second - first;
+
+export interface BuildingDifference {
+  id: string;
+  rmse: [number | null, number | null]; // m
+  parts: [number, number];
+  volume: [number, number]; // m³
+  only: "first" | "second" | null;
+}
+
+const volume = (b: Building | undefined) => b?.parts.reduce((sum, p) => sum + p.volume, 0) ?? 0;
+const rmse = (b: Building | undefined) => (b?.mse == null ? null : Math.sqrt(b.mse));
+
+/** Buildings in which two runs differ, those whose error changed most first. */
+export function buildingDifferences(
+  first: ReadonlyMap<string, Building>,
+  second: ReadonlyMap<string, Building>,
+): BuildingDifference[] {
+  const ids = [...new Set([...first.keys(), ...second.keys()])];
+  const rows = ids.map((id): BuildingDifference => {
+    const [a, b] = [first.get(id), second.get(id)];
+    return {
+      id,
+      rmse: [rmse(a), rmse(b)],
+      parts: [a?.parts.length ?? 0, b?.parts.length ?? 0],
+      volume: [volume(a), volume(b)],
+      only: !a ? "second" : !b ? "first" : null,
+    };
+  });
+  const change = (d: BuildingDifference) => {
+    const by = difference({ first: d.rmse[0], second: d.rmse[1] });
+    return by === null ? 0 : Math.abs(by);
+  };
+  const differs = (d: BuildingDifference) =>
+    d.only !== null || change(d) > 1e-6 || d.parts[0] !== d.parts[1] || Math.abs(d.volume[0] - d.volume[1]) > 1e-3;
+  return rows.filter(differs).sort((a, b) => change(b) - change(a) || (a.id < b.id ? -1 : 1));
+}

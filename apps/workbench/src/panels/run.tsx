@@ -1,0 +1,346 @@
+// Runs: starting one with its options, and the list of those there are.
+import { effect, signal } from "@preact/signals";
+import * as actions from "../actions";
+import type { RunSummary } from "../api/types";
+import { keep, kept } from "../keep";
+import * as state from "../state";
+import { Icon } from "./icons";
+import { OptionFields } from "./option_fields";
+import { changed, faulty, forRuns } from "./options";
+import { Progress } from "./progress";
+import { askInputs } from "./start";
+import { bytes, count, fixed, grouped, nameOf, seconds } from "./words";
+
+/** What the form holds; kept, so that a reload loses none of it. */
+interface Form {
+  label: string;
+  preset: string;
+  values: Record<string, string>;
+  some: boolean; // only the chosen blocks
+}
+const form = signal<Form>({
+  label: "",
+  preset: "",
+  values: {},
+  some: false,
+  ...kept<Partial<Form>>("session", "form", {}),
+});
+const search = signal("");
+effect(() => keep("session", "form", form.value));
+const change = (by: Partial<Form>) => (form.value = { ...form.value, ...by });
+
+export function RunPanel() {
+  return (
+    <div class="panel">
+      <Inputs />
+      <NewRun />
+      <RunList />
+    </div>
+  );
+}
+
+function Inputs() {
+  const inputs = state.project.value?.inputs;
+  const scene = state.scene.value;
+  if (!inputs) return null;
+  const files = [...inputs.meshes, ...inputs.footprints];
+  const changes = files.filter((f) => f.changed).length;
+  return (
+    <details class="card">
+      <summary>
+        Inputs
+        <span class="quiet">
+          {count(files.length, "file")}
+          {scene && ` · ${grouped(scene.triangles)} triangles · ${count(scene.footprints.length, "footprint")}`}
+        </span>
+        {changes > 0 && <span class="badge warn">{changes} changed on disk</span>}
+      </summary>
+      <ul class="files">
+        {files.map((f) => (
+          <li key={f.path}>
+            <span title={f.path}>{f.path.slice(f.path.lastIndexOf("/") + 1)}</span>
+            <span class="quiet">{bytes(f.bytes)}</span>
+            {f.changed && <span class="wrong">missing or changed since it was read</span>}
+          </li>
+        ))}
+      </ul>
+      {scene && (
+        <p class="quiet">
+          {scene.crs || "local frame"} · origin {scene.origin.join(", ")} m
+        </p>
+      )}
+      <button type="button" onClick={askInputs}>
+        Read others …
+      </button>
+    </details>
+  );
+}
+
+function NewRun() {
+  const { options = [], presets = [] } = state.options.value ?? {};
+  const { label, preset: name, values, some } = form.value;
+  const preset = presets.find((p) => p.name === name);
+  const usable = forRuns(options);
+  const given = changed(usable, values, preset);
+  const wrong = faulty(usable, values);
+  const blocks = state.scene.value?.blocks ?? [];
+  const chosen = [...state.chosenBlocks.value].filter((b) => blocks.some((known) => known.name === b));
+  const none = some && chosen.length === 0;
+  const job = state.busyJob.value;
+  const start = async (e: Event) => {
+    e.preventDefault();
+    const request = { label: label.trim(), preset: name, options: given, blocks: some ? chosen : [] };
+    if (!(await actions.startRun(request))) return;
+    state.choosing.value = false;
+    change({ label: "" });
+  };
+  return (
+    <form class="card" onSubmit={(e) => void start(e)}>
+      <h2>New run</h2>
+      <div class="two">
+        <label class="field">
+          Label
+          <input
+            type="text"
+            placeholder="optional"
+            value={label}
+            onInput={(e) => change({ label: e.currentTarget.value })}
+          />
+        </label>
+        <label class="field">
+          Preset
+          <select value={name} title={preset?.meaning} onChange={(e) => change({ preset: e.currentTarget.value })}>
+            <option value="">none: the defaults</option>
+            {presets.map((p) => (
+              <option key={p.name} value={p.name} title={p.meaning}>
+                {p.name}
+              </option>
+            ))}
+          </select>
+        </label>
+      </div>
+      <fieldset class="inline">
+        <legend>Blocks</legend>
+        <label>
+          <input
+            type="radio"
+            name="blocks"
+            checked={!some}
+            onChange={() => {
+              change({ some: false });
+              state.choosing.value = false;
+            }}
+          />
+          all {blocks.length > 0 && blocks.length}
+        </label>
+        <label>
+          <input
+            type="radio"
+            name="blocks"
+            checked={some}
+            onChange={() => {
+              change({ some: true });
+              state.choosing.value = true;
+            }}
+          />
+          chosen: {chosen.length}
+        </label>
+        {some && (
+          <button
+            type="button"
+            class="small"
+            aria-pressed={state.choosing.value}
+            onClick={() => (state.choosing.value = !state.choosing.value)}
+          >
+            {state.choosing.value ? "Done choosing" : "Choose in the view"}
+          </button>
+        )}
+        {some && (
+          <select
+            aria-label="Add or take away a block by name"
+            value=""
+            onChange={(e) => {
+              const set = new Set(state.chosenBlocks.value);
+              if (!set.delete(e.currentTarget.value)) set.add(e.currentTarget.value);
+              state.chosenBlocks.value = set;
+              e.currentTarget.value = "";
+            }}
+          >
+            <option value="">by name …</option>
+            {blocks.map((b) => (
+              <option key={b.name} value={b.name}>
+                {chosen.includes(b.name) ? "✓ " : ""}
+                {b.name} · {count(b.buildings.length, "building")}
+              </option>
+            ))}
+          </select>
+        )}
+      </fieldset>
+      <details>
+        <summary>
+          Options
+          {Object.keys(given).length > 0 && <span class="badge">{Object.keys(given).length} changed</span>}
+        </summary>
+        <div class="option-search">
+          <input
+            type="search"
+            placeholder="Search options"
+            aria-label="Search options"
+            value={search.value}
+            onInput={(e) => (search.value = e.currentTarget.value)}
+          />
+          <button
+            type="button"
+            class="small"
+            disabled={!Object.keys(given).length}
+            onClick={() => change({ values: {} })}
+          >
+            Reset all
+          </button>
+        </div>
+        <OptionFields
+          options={usable}
+          values={values}
+          preset={preset}
+          search={search.value}
+          onChange={(v) => change({ values: v })}
+        />
+      </details>
+      <div class="go">
+        <button type="submit" class="primary" disabled={!!wrong || none || !state.project.value?.inputs}>
+          Reconstruct
+        </button>
+        {wrong && <span class="wrong">{wrong}</span>}
+        {none && <span class="quiet">no block is chosen</span>}
+      </div>
+      {job && <Progress job={job} />}
+    </form>
+  );
+}
+
+function RunList() {
+  const runs = [...(state.project.value?.runs ?? [])].reverse();
+  if (!runs.length) return null;
+  return (
+    <section class="card">
+      <h2>Runs</h2>
+      <ul class="runs">
+        {runs.map((r) => (
+          <RunRow key={r.id} run={r} />
+        ))}
+      </ul>
+    </section>
+  );
+}
+
+const renaming = signal<string | null>(null);
+const deleting = signal<string | null>(null);
+
+function RunRow({ run }: { run: RunSummary }) {
+  const open = state.run.value?.id === run.id;
+  const total = run.times.reduce((sum, t) => sum + t.seconds, 0);
+  const settings = [
+    run.preset && `preset ${run.preset}`,
+    ...Object.entries(run.options).map(([k, v]) => `${k} = ${v}`),
+  ].filter(Boolean);
+  const name = nameOf(run);
+  return (
+    <li class={"run-row" + (open ? " open" : "")}>
+      <div class="run-head">
+        {renaming.value === run.id ? (
+          <RenameField run={run} />
+        ) : (
+          <button
+            type="button"
+            class="plain run-name"
+            disabled={run.state !== "done"}
+            aria-current={open || undefined}
+            onClick={() => void actions.openRun(run.id)}
+          >
+            {name}
+          </button>
+        )}
+        {name !== run.id && <span class="quiet">{run.id}</span>}
+        <span class={`state ${run.state}`}>{run.state}</span>
+        <span class="spring" />
+        <button
+          type="button"
+          class="plain"
+          title="Rename"
+          aria-label={`Rename ${name}`}
+          onClick={() => (renaming.value = run.id)}
+        >
+          <Icon name="pencil" />
+        </button>
+        <button
+          type="button"
+          class="plain"
+          title="Delete"
+          aria-label={`Delete ${name}`}
+          disabled={run.state === "running" || run.state === "queued"}
+          onClick={() => (deleting.value = run.id)}
+        >
+          <Icon name="bin" />
+        </button>
+      </div>
+      {deleting.value === run.id && (
+        <div class="ask" role="alertdialog" aria-label={`Delete ${name}?`}>
+          Move {name} and its {count(run.edits, "edit")} to the project's trash?
+          <button
+            type="button"
+            class="small danger"
+            onClick={() => {
+              deleting.value = null;
+              void actions.deleteRun(run.id);
+            }}
+          >
+            Delete
+          </button>
+          <button type="button" class="small" onClick={() => (deleting.value = null)}>
+            Keep
+          </button>
+        </div>
+      )}
+      {run.failure && <p class="wrong">{run.failure.message}</p>}
+      {run.state === "done" && (
+        <p class="run-numbers">
+          {run.scores && (
+            <span title="Mean squared vertical error: the paper's measure / over the footprints">
+              {fixed(run.scores.mse, 3)} / {fixed(run.scores.footprint_mse, 3)} m²
+            </span>
+          )}
+          <span>
+            {run.full} of {count(run.buildings, "building")} in full
+          </span>
+          <span>{count(run.parts, "part")}</span>
+          <span>{count(run.faces, "face")}</span>
+          <span>{seconds(total)}</span>
+          {run.edits > 0 && <span>{count(run.edits, "edit")}</span>}
+          {run.blocks.length > 0 && <span title={run.blocks.join(", ")}>{count(run.blocks.length, "block")} only</span>}
+        </p>
+      )}
+      {settings.length > 0 && <p class="run-options">{settings.join(" · ")}</p>}
+    </li>
+  );
+}
+
+function RenameField({ run }: { run: RunSummary }) {
+  const done = (text: string | null) => {
+    renaming.value = null;
+    if (text !== null && text.trim() !== nameOf(run)) void actions.renameRun(run.id, text.trim());
+  };
+  return (
+    <input
+      type="text"
+      aria-label={`New name of ${nameOf(run)}`}
+      defaultValue={nameOf(run)}
+      ref={(e) => e?.focus()}
+      onBlur={(e) => renaming.value === run.id && done(e.currentTarget.value)}
+      onKeyDown={(e) => {
+        e.stopPropagation();
+        if (e.key === "Enter") done(e.currentTarget.value);
+        if (e.key === "Escape") done(null);
+      }}
+    />
+  );
+}

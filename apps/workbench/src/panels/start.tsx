@@ -1,0 +1,163 @@
+// The first screen: a sample, paths on the server's disk, or files dropped here.
+import { signal } from "@preact/signals";
+import * as actions from "../actions";
+import * as state from "../state";
+import { Icon } from "./icons";
+import { OptionFields } from "./option_fields";
+import { faulty, forReading } from "./options";
+import { sorted } from "./inputs";
+import { Progress } from "./progress";
+
+const meshes = signal("");
+const footprints = signal("");
+const reading = signal<Record<string, string>>({});
+const sending = signal("");
+const over = signal(false);
+
+const lines = (text: string) =>
+  text
+    .split("\n")
+    .map((l) => l.trim())
+    .filter(Boolean);
+
+async function take(files: File[]) {
+  const kinds = sorted(files.map((f) => f.name));
+  if (kinds.unknown.length) {
+    actions.say({
+      severity: "error",
+      code: "input-kind",
+      message: `not a mesh (OBJ, PLY, OFF, GLB) nor footprints (GeoJSON, GeoPackage, Shapefile): ${kinds.unknown.join(", ")}`,
+      subject: "",
+    });
+    return;
+  }
+  const paths = await actions.upload(files, (name) => (sending.value = name));
+  sending.value = "";
+  if (!paths) return;
+  const pathOf = (name: string) => paths[files.findIndex((f) => f.name === name)]!;
+  if (kinds.meshes.length) meshes.value = [...lines(meshes.value), ...kinds.meshes.map(pathOf)].join("\n");
+  if (kinds.footprints.length) footprints.value = pathOf(kinds.footprints[0]!);
+}
+
+async function read(e: Event) {
+  e.preventDefault();
+  const job = await actions.openInputs({
+    meshes: lines(meshes.value),
+    footprints: footprints.value.trim(),
+    reading: reading.value,
+  });
+  if (job) state.asksInputs.value = false;
+}
+
+/** Starts from what the open project was read with. */
+export function askInputs() {
+  const { inputs, reading: given } = state.project.value ?? {};
+  meshes.value = inputs?.meshes.map((f) => f.path).join("\n") ?? "";
+  footprints.value = inputs?.footprints[0]?.path ?? "";
+  reading.value = { ...given };
+  state.asksInputs.value = true;
+}
+
+export function Start() {
+  const project = state.project.value;
+  const all = forReading(state.options.value?.options ?? []);
+  const wrong = faulty(all, reading.value);
+  const ready = lines(meshes.value).length > 0 && footprints.value.trim() !== "" && !wrong && !sending.value;
+  const job = state.jobs.value.find((j) => j.kind === "read" && (j.state === "running" || j.state === "queued"));
+  const drop = (e: DragEvent) => {
+    e.preventDefault();
+    over.value = false;
+    void take([...(e.dataTransfer?.files ?? [])]);
+  };
+  return (
+    <div class="start" role={state.asksInputs.value ? "dialog" : undefined} aria-label="Inputs">
+      <div class="start-card">
+        <header>
+          <div>
+            <h1>{project?.inputs ? "Read other inputs" : "A city mesh and its footprints"}</h1>
+            <p>
+              Give a photogrammetric mesh and building footprints: they become clean solids that you can edit as plan
+              and profiles.
+            </p>
+          </div>
+          {state.asksInputs.value && (
+            <button type="button" class="plain" aria-label="Close" onClick={() => (state.asksInputs.value = false)}>
+              <Icon name="close" />
+            </button>
+          )}
+        </header>
+        {job && <Progress job={job} />}
+        {project?.sample && !project.inputs && (
+          <p class="start-sample">
+            <button type="button" class="primary" disabled={!!job} onClick={() => void actions.openSample()}>
+              Open the sample
+            </button>
+            <span>A small scan with its footprints that comes with the program.</span>
+          </p>
+        )}
+        <form onSubmit={(e) => void read(e)}>
+          <div
+            class={"drop" + (over.value ? " over" : "")}
+            onDragOver={(e) => {
+              e.preventDefault();
+              over.value = true;
+            }}
+            onDragLeave={() => (over.value = false)}
+            onDrop={drop}
+          >
+            {sending.value ? (
+              <span role="status">Copying {sending.value} …</span>
+            ) : (
+              <label>
+                Drop mesh and footprints here, or <span class="link">choose files</span>
+                <input
+                  type="file"
+                  multiple
+                  class="unseen"
+                  onChange={(e) => {
+                    void take([...(e.currentTarget.files ?? [])]);
+                    e.currentTarget.value = "";
+                  }}
+                />
+              </label>
+            )}
+          </div>
+          <label class="field">
+            Mesh: paths of files or folders, one a line
+            <textarea
+              rows={3}
+              spellcheck={false}
+              placeholder="/data/city/tiles/"
+              value={meshes.value}
+              onInput={(e) => (meshes.value = e.currentTarget.value)}
+            />
+          </label>
+          <label class="field">
+            Footprints: path of any vector file that GDAL reads
+            <input
+              type="text"
+              spellcheck={false}
+              placeholder="/data/city/footprints.gpkg"
+              value={footprints.value}
+              onInput={(e) => (footprints.value = e.currentTarget.value)}
+            />
+          </label>
+          <details>
+            <summary>How to read them</summary>
+            <OptionFields options={all} values={reading.value} onChange={(v) => (reading.value = v)} plain />
+          </details>
+          <p class="start-go">
+            <button
+              type="submit"
+              class={project?.sample && !project.inputs ? "" : "primary"}
+              disabled={!ready || !!job}
+            >
+              Read
+            </button>
+            {wrong && <span class="wrong">{wrong}</span>}
+          </p>
+        </form>
+      </div>
+    </div>
+  );
+}

@@ -1,0 +1,51 @@
+// The list of buildings: what its columns are, its order, and which of its rows are in sight.
+import type { Building } from "../api/types";
+
+export type Column = "id" | "block" | "outcome" | "parts" | "rmse" | "volume" | "edited";
+export interface Order {
+  column: Column;
+  down: boolean;
+}
+export interface Row {
+  id: string;
+  block: string;
+  outcome: string;
+  parts: number;
+  rmse: number | null; // m
+  volume: number; // m³
+  edited: boolean;
+}
+
+export const rowOf = (b: Building): Row => ({
+  id: b.id,
+  block: b.block,
+  outcome: b.outcome,
+  parts: b.parts.length,
+  rmse: b.mse === null ? null : Math.sqrt(b.mse),
+  volume: b.parts.reduce((sum, p) => sum + p.volume, 0),
+  edited: b.edited,
+});
+
+const natural = new Intl.Collator("en", { numeric: true });
+
+/** Rows whose id, block or outcome has every word ("edited" counts as one); what is not known comes last either way. */
+export function arranged(rows: readonly Row[], filter: string, { column, down }: Order): Row[] {
+  const words = filter.toLowerCase().split(/\s+/).filter(Boolean);
+  const text = (r: Row) => `${r.id} ${r.block} ${r.outcome}${r.edited ? " edited" : ""}`.toLowerCase();
+  const way = down ? -1 : 1;
+  const compare = (a: Row, b: Row): number => {
+    const [x, y] = [a[column], b[column]];
+    if (x === null || y === null) return x === y ? 0 : x === null ? 1 : -1;
+    return way * (typeof x === "string" ? natural.compare(x, y as string) : Number(x) - Number(y));
+  };
+  return rows
+    .filter((r) => words.every((w) => text(r).includes(w)))
+    .sort((a, b) => compare(a, b) || natural.compare(a.id, b.id));
+}
+
+/** The rows to be made for a window of `height` pixels scrolled down by `top`, with some to spare. */
+export function inSight(rows: number, rowHeight: number, top: number, height: number, spare = 8) {
+  const from = Math.max(0, Math.floor(top / rowHeight) - spare);
+  const to = Math.min(rows, Math.ceil((top + height) / rowHeight) + spare);
+  return { from: Math.min(from, rows), to };
+}

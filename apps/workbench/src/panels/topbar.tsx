@@ -1,0 +1,166 @@
+// The bar on top: which run is seen, what it is compared with, undo and redo in words, files to take away.
+import { signal } from "@preact/signals";
+import * as actions from "../actions";
+import * as state from "../state";
+import { Icon } from "./icons";
+import { brief, fullNameOf } from "./words";
+
+const files: [file: string, what: string][] = [
+  ["model.city.json", "CityJSON 2.0"],
+  ["model.obj", "OBJ"],
+  ["model.mtl", "materials of the OBJ"],
+  ["model.glb", "glTF, binary"],
+  ["plans.json", "plan + profiles"],
+  ["segment.gpkg", "why walls are where they are, for a GIS"],
+];
+
+export function TopBar() {
+  const project = state.project.value;
+  const finished = project?.runs.filter((r) => r.state === "done") ?? [];
+  const run = state.run.value;
+  return (
+    <header class="topbar">
+      <span class="brand">
+        <img src="./icon.svg" alt="" width="20" height="20" /> mansard
+      </span>
+      <span class="project" title={project?.folder}>
+        {project?.name}
+      </span>
+      {finished.length > 0 && (
+        <>
+          <label>
+            Run
+            <select value={run?.id ?? ""} onChange={(e) => void actions.openRun(e.currentTarget.value)}>
+              {!run && <option value="">–</option>}
+              {finished.map((r) => (
+                <option key={r.id} value={r.id}>
+                  {fullNameOf(r)}
+                </option>
+              ))}
+            </select>
+          </label>
+          <label>
+            Compare with
+            <select
+              value={state.other.value?.id ?? ""}
+              disabled={finished.length < 2}
+              onChange={(e) => {
+                const id = e.currentTarget.value || null;
+                void actions.compareWith(id);
+                if (id) state.tab.value = "compare";
+              }}
+            >
+              <option value="">nothing</option>
+              {finished
+                .filter((r) => r.id !== run?.id)
+                .map((r) => (
+                  <option key={r.id} value={r.id}>
+                    {fullNameOf(r)}
+                  </option>
+                ))}
+            </select>
+          </label>
+        </>
+      )}
+      <span class="spring" />
+      {run && <History />}
+      {run && <Export run={run.id} />}
+      <button
+        type="button"
+        class="plain"
+        title="Keyboard (?)"
+        aria-label="Keyboard"
+        onClick={() => (state.sheet.value = true)}
+      >
+        <Icon name="help" />
+      </button>
+      <span
+        class={"dot" + (state.connected.value ? "" : " away")}
+        role="status"
+        aria-label={state.connected.value ? "Connected to the server" : "The server does not answer"}
+        title={state.connected.value ? "Connected" : "The server does not answer"}
+      />
+    </header>
+  );
+}
+
+function History() {
+  const { edits, done } = state.run.value!.history;
+  const [last, next] = [done > 0 ? edits[done - 1] : undefined, edits[done]];
+  const held = state.draft.value?.invalid;
+  return (
+    <div class="history">
+      <button
+        type="button"
+        disabled={last === undefined && !state.draft.value}
+        title={held ? "Drop the unsaved change (Ctrl+Z)" : last ? `Undo: ${last} (Ctrl+Z)` : "Nothing to undo"}
+        onClick={() => void actions.undo()}
+      >
+        <Icon name="undo" />
+        Undo
+        <span class="words">{held ? "unsaved change" : last && brief(last)}</span>
+      </button>
+      <button
+        type="button"
+        disabled={next === undefined}
+        title={next ? `Redo: ${next} (Ctrl+Shift+Z)` : "Nothing to redo"}
+        onClick={() => void actions.redo()}
+      >
+        <Icon name="redo" />
+        Redo
+        <span class="words">{next && brief(next)}</span>
+      </button>
+    </div>
+  );
+}
+
+const open = signal(false);
+
+function Export({ run }: { run: string }) {
+  const close = () => (open.value = false);
+  return (
+    <div
+      class="menu"
+      onKeyDown={(e) => {
+        if (e.key === "Escape") close();
+      }}
+      onFocusOut={(e) => {
+        if (!e.currentTarget.contains(e.relatedTarget as Node | null)) close();
+      }}
+    >
+      <button type="button" aria-haspopup="menu" aria-expanded={open.value} onClick={() => (open.value = !open.value)}>
+        Export
+      </button>
+      {open.value && (
+        <ul role="menu" aria-label="Export">
+          {files.map(([file, what]) => (
+            <li key={file} role="none">
+              <button
+                type="button"
+                role="menuitem"
+                onClick={() => {
+                  close();
+                  void actions.download(run, file);
+                }}
+              >
+                {file} <span class="quiet">{what}</span>
+              </button>
+            </li>
+          ))}
+          <li role="none" class="apart">
+            <button
+              type="button"
+              role="menuitem"
+              onClick={() => {
+                close();
+                void actions.exportAll(run, () => window.confirm("Files of this run are there already. Replace them?"));
+              }}
+            >
+              All of them <span class="quiet">into the project's folder</span>
+            </button>
+          </li>
+        </ul>
+      )}
+    </div>
+  );
+}

@@ -1,0 +1,30 @@
+import { expect, it } from "vitest";
+import { sorted } from "./inputs";
+import { brief, bytes, count, fullNameOf, fixed, grouped, seconds, signed } from "./words";
+
+it("numbers are written as they are read", () => {
+  expect(grouped(1234567)).toBe("1,234,567");
+  expect([count(1, "part"), count(2, "part")]).toEqual(["1 part", "2 parts"]);
+  expect([signed(0.5, 1), signed(-0.5, 1), signed(-0.001, 2), signed(null, 1)]).toEqual(["+0.5", "−0.5", "0.00", "–"]);
+  expect([fixed(null, 2), fixed(-1, 1), fixed(NaN, 1)]).toEqual(["–", "−1.0", "–"]);
+  expect([seconds(3.14), seconds(59.6), seconds(125)]).toEqual(["3.1 s", "60 s", "2 min 05 s"]);
+  expect([bytes(12), bytes(1_500), bytes(250_000_000)]).toEqual(["12 B", "1.5 kB", "250 MB"]);
+});
+
+it("long names are shortened, and runs named once", () => {
+  expect(brief("base of b31bbff4a-00ba-11e6-b420-2bdcc4ab5d7f-1 to −0.40 m")).toBe("base of b31bbff4a…7f-1 to −0.40 m");
+  expect([fullNameOf({ id: "run-1", label: "run-1" }), fullNameOf({ id: "run-1", label: "" })]).toEqual([
+    "run-1",
+    "run-1",
+  ]);
+  expect(fullNameOf({ id: "run-2", label: "gamma" })).toBe("gamma (run-2)");
+});
+
+it("files are meshes or footprints by their endings", () => {
+  expect(sorted(["a.PLY", "b.gpkg", "b.mtl", "c.docx", "d.geojson"])).toEqual({
+    meshes: ["a.PLY"],
+    footprints: ["b.gpkg", "d.geojson"],
+    beside: ["b.mtl"],
+    unknown: ["c.docx"],
+  });
+});

@@ -1,0 +1,38 @@
+// Numbers as they are read.
+export const metres = (x: number, digits = 2) => `${x.toFixed(digits)} m`;
+export const fixed = (x: number | null | undefined, digits: number) =>
+  x === null || x === undefined || Number.isNaN(x) ? "–" : x.toFixed(digits).replace("-", "−");
+/** With its sign; what rounds to nothing has none. */
+export function signed(x: number | null, digits: number): string {
+  if (x === null || Number.isNaN(x)) return "–";
+  const text = Math.abs(x).toFixed(digits);
+  return Number(text) === 0 ? text : `${x < 0 ? "−" : "+"}${text}`;
+}
+export const count = (n: number, one: string, many = `${one}s`) => `${grouped(n)} ${n === 1 ? one : many}`;
+/** 12345 → 12,345. */
+export const grouped = (n: number) =>
+  Math.round(n)
+    .toString()
+    .replace(/\B(?=(\d{3})+(?!\d))/g, ",");
+export function seconds(s: number): string {
+  if (s < 10) return `${s.toFixed(1)} s`;
+  if (s < 100) return `${Math.round(s)} s`;
+  const whole = Math.round(s);
+  return `${Math.floor(whole / 60)} min ${(whole % 60).toString().padStart(2, "0")} s`;
+}
+export function bytes(n: number): string {
+  const units = ["B", "kB", "MB", "GB", "TB"];
+  let i = 0;
+  while (n >= 1000 && i < units.length - 1) {
+    n /= 1000;
+    ++i;
+  }
+  return `${n.toFixed(i && n < 100 ? 1 : 0)} ${units[i]}`;
+}
+/** Long names within a sentence, such as ids of 36 characters, by their beginnings and ends. */
+export const brief = (text: string) => text.replace(/[^\s]{20,}/g, (name) => `${name.slice(0, 9)}…${name.slice(-4)}`);
+/** What a run is called: its label, or its id where it was given none. */
+export const nameOf = (run: { id: string; label: string }) => run.label || run.id;
+/** The same, with the id where they differ. */
+export const fullNameOf = (run: { id: string; label: string }) =>
+  run.label && run.label !== run.id ? `${run.label} (${run.id})` : run.id;

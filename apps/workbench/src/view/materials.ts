@@ -1,0 +1,170 @@
+// How things are coloured. Colours are those of the screen throughout: nothing is converted on the way.
+import * as THREE from "three";
+
+THREE.ColorManagement.enabled = false;
+
+export const colours = {
+  mesh: 0x7a9acc,
+  footprint: 0xf08c1e,
+  wall: 0xd8d4cc,
+  party: 0x96969e,
+  roof: 0xb06250,
+  ground: 0x787c78,
+  soffit: 0xc4beb4,
+  line: 0x26282e,
+  accent: 0x1d5fd0,
+  wrong: 0xd02020,
+};
+
+const light = /* glsl */ `
+  vec3 lit(vec3 colour, vec3 normal) {
+    const vec3 sun = normalize(vec3(-0.45, -0.7, 1.0));
+    float shade = 0.60 + 0.36 * max(dot(normal, sun), 0.0) + 0.08 * normal.z;
+    return colour * min(shade, 1.06);
+  }`;
+
+/** Shared by all models: one change counts for all. */
+export interface ModelLook {
+  opacities: { value: number[] }; // by kind
+  errorOn: { value: number }; // 0 … 1: how much of it shows
+  errorMap: { value: THREE.Texture | null };
+  errorFrame: { value: THREE.Vector4 }; // x, y of the map's corner; 1 / width, 1 / height
+  errorLimit: { value: number };
+}
+export const modelLook = (): ModelLook => ({
+  opacities: { value: [1, 1, 1, 1, 1] },
+  errorOn: { value: 0 },
+  errorMap: { value: null },
+  errorFrame: { value: new THREE.Vector4(0, 0, 1, 1) },
+  errorLimit: { value: 2 },
+});
+
+const kindColours = [colours.wall, colours.party, colours.roof, colours.ground, colours.soffit];
+
+/** Of solids: coloured by kind, the error map draped over what looks up. Cut open, their insides are dark. */
+export function modelMaterial(look: ModelLook) {
+  return new THREE.ShaderMaterial({
+    uniforms: {
+      ...(look as unknown as Record<string, THREE.IUniform>),
+      kindColours: { value: kindColours.map((c) => new THREE.Color(c)) },
+      tint: { value: new THREE.Vector4(0, 0, 0, 0) },
+    },
+    clipping: true,
+    side: THREE.DoubleSide,
+    polygonOffset: true,
+    polygonOffsetFactor: 1,
+    polygonOffsetUnits: 1,
+    vertexShader: /* glsl */ `
+      #include <clipping_planes_pars_vertex>
+      attribute float kind;
+      varying vec3 facing;
+      varying vec2 ground;
+      flat varying int which;
+      void main() {
+        which = int(kind + 0.5);
+        facing = normal;
+        ground = position.xy;
+        vec4 mvPosition = modelViewMatrix * vec4(position, 1.0);
+        gl_Position = projectionMatrix * mvPosition;
+        #include <clipping_planes_vertex>
+      }`,
+    fragmentShader: /* glsl */ `
+      #include <clipping_planes_pars_fragment>
+      uniform vec3 kindColours[5];
+      uniform float opacities[5];
+      uniform vec4 tint;
+      uniform float errorOn, errorLimit;
+      uniform sampler2D errorMap;
+      uniform vec4 errorFrame;
+      varying vec3 facing;
+      varying vec2 ground;
+      flat varying int which;
+      ${light}
+      vec3 ramp(float t) {
+        vec3 strong = t > 0.0 ? vec3(0.62, 0.05, 0.16) : vec3(0.08, 0.24, 0.60);
+        vec3 weak = t > 0.0 ? vec3(0.92, 0.60, 0.50) : vec3(0.50, 0.68, 0.88);
+        float s = min(abs(t), 1.0);
+        return s < 0.5 ? mix(vec3(0.97), weak, s * 2.0) : mix(weak, strong, s * 2.0 - 1.0);
+      }
+      void main() {
+        #include <clipping_planes_fragment>
+        float opacity = opacities[which];
+        if (opacity <= 0.0) discard;
+        vec3 colour = kindColours[which];
+        if (errorOn > 0.0 && facing.z > 0.02) {
+          vec2 at = (ground - errorFrame.xy) * errorFrame.zw;
+          if (all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(1.0)))) {
+            float error = texture2D(errorMap, at).r;
+            if (error < 10000.0) colour = mix(colour, ramp(error / errorLimit), errorOn);
+          }
+        }
+        colour = mix(colour, tint.rgb, tint.a);
+        gl_FragColor = gl_FrontFacing ? vec4(lit(colour, facing), opacity) : vec4(colour * 0.34, opacity);
+      }`,
+  });
+}
+
+export interface MeshLook {
+  opacity: { value: number };
+  mask: { value: THREE.Texture | null }; // where models stand
+  maskFrame: { value: THREE.Vector4 };
+  masked: { value: number };
+}
+export const meshLook = (): MeshLook => ({
+  opacity: { value: 1 },
+  mask: { value: null },
+  maskFrame: { value: new THREE.Vector4(0, 0, 1, 1) },
+  masked: { value: 0 },
+});
+
+/** Of the scan: flat-shaded without normals of its own, left out where models stand. */
+export function meshMaterial(look: MeshLook) {
+  return new THREE.ShaderMaterial({
+    uniforms: {
+      ...(look as unknown as Record<string, THREE.IUniform>),
+      colour: { value: new THREE.Color(colours.mesh) },
+    },
+    clipping: true,
+    side: THREE.DoubleSide,
+    polygonOffset: true,
+    polygonOffsetFactor: 2,
+    polygonOffsetUnits: 2,
+    vertexShader: /* glsl */ `
+      #include <clipping_planes_pars_vertex>
+      varying vec3 place;
+      void main() {
+        place = (modelMatrix * vec4(position, 1.0)).xyz;
+        vec4 mvPosition = modelViewMatrix * vec4(position, 1.0);
+        gl_Position = projectionMatrix * mvPosition;
+        #include <clipping_planes_vertex>
+      }`,
+    fragmentShader: /* glsl */ `
+      #include <clipping_planes_pars_fragment>
+      uniform vec3 colour;
+      uniform float opacity, masked;
+      uniform sampler2D mask;
+      uniform vec4 maskFrame;
+      varying vec3 place;
+      ${light}
+      void main() {
+        #include <clipping_planes_fragment>
+        if (masked > 0.5) {
+          vec2 at = (place.xy - maskFrame.xy) * maskFrame.zw;
+          if (all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(1.0))) && texture2D(mask, at).r > 0.5) discard;
+        }
+        vec3 normal = normalize(cross(dFdx(place), dFdy(place)));
+        gl_FragColor = vec4(lit(colour, normal), opacity);
+      }`,
+  });
+}
+
+/** Sets an opacity, and whether the material needs blending for it. */
+export function fade(material: THREE.Material, opacity: number) {
+  const blended = opacity < 1;
+  if (material.transparent !== blended) {
+    material.transparent = blended;
+    material.needsUpdate = true;
+  }
+  material.opacity = opacity;
+  material.depthWrite = opacity > 0.6;
+}

@@ -1,0 +1,235 @@
+// The models of one run: many buildings in few buffers, those that change in buffers of their own.
+import * as THREE from "three";
+import type { Building, RaisedBuilding } from "../api/types";
+import type { Vector } from "./camera";
+import { type Buffers, buffersOf, solidsOf } from "./geometry";
+import { colours, fade, modelLook, modelMaterial } from "./materials";
+
+const buildingsPerChunk = 48;
+
+interface Range {
+  from: number; // numbers of the position attributes
+  to: number;
+  lineFrom: number;
+  lineTo: number;
+}
+
+/** Buildings that are drawn at once and do not change. */
+class Chunk {
+  readonly ranges = new Map<string, Range>();
+  constructor(
+    readonly solid: THREE.Mesh,
+    readonly lines: THREE.LineSegments,
+  ) {}
+  /** Takes a building out: its triangles and lines become points. */
+  hide(id: string) {
+    const range = this.ranges.get(id);
+    if (!range) return;
+    blank(this.solid.geometry, range.from, range.to);
+    blank(this.lines.geometry, range.lineFrom, range.lineTo);
+    this.ranges.delete(id);
+  }
+}
+
+function blank(geometry: THREE.BufferGeometry, from: number, to: number) {
+  const position = geometry.getAttribute("position") as THREE.BufferAttribute;
+  (position.array as Float32Array).fill(0, from, to);
+  position.addUpdateRange(from, to - from);
+  position.needsUpdate = true;
+}
+
+/** A building in buffers that grow when needed and are used again for its next shape. */
+class Loose {
+  readonly solid: THREE.Mesh;
+  readonly lines: THREE.LineSegments;
+  constructor(
+    readonly material: THREE.ShaderMaterial,
+    lineMaterial: THREE.Material,
+  ) {
+    this.solid = new THREE.Mesh(new THREE.BufferGeometry(), material);
+    this.lines = new THREE.LineSegments(new THREE.BufferGeometry(), lineMaterial);
+    this.solid.frustumCulled = this.lines.frustumCulled = false;
+  }
+  set(buffers: Buffers) {
+    put(this.solid.geometry, "position", buffers.positions, 3);
+    put(this.solid.geometry, "normal", buffers.normals, 3);
+    put(this.solid.geometry, "kind", buffers.kinds, 1);
+    this.solid.geometry.setDrawRange(0, buffers.kinds.length);
+    put(this.lines.geometry, "position", buffers.lines, 3);
+    this.lines.geometry.setDrawRange(0, buffers.lines.length / 3);
+  }
+  dispose() {
+    this.solid.removeFromParent();
+    this.lines.removeFromParent();
+    this.solid.geometry.dispose();
+    this.lines.geometry.dispose();
+    this.material.dispose();
+  }
+}
+
+export function put(geometry: THREE.BufferGeometry, name: string, values: Float32Array, size: number) {
+  const known = geometry.getAttribute(name) as THREE.BufferAttribute | undefined;
+  if (known && known.array.length >= values.length) {
+    (known.array as Float32Array).set(values);
+    known.clearUpdateRanges();
+    known.addUpdateRange(0, values.length);
+    known.needsUpdate = true;
+    return;
+  }
+  // three.js keeps what belongs to attributes by geometry: a longer one needs the old buffers freed first.
+  if (known) geometry.dispose();
+  const room = new Float32Array(Math.ceil((values.length * (known ? 1.5 : 1)) / size) * size);
+  room.set(values);
+  geometry.setAttribute(name, new THREE.BufferAttribute(room, size).setUsage(THREE.DynamicDrawUsage));
+}
+
+export class Output {
+  readonly group = new THREE.Group();
+  readonly look = modelLook();
+  private readonly material = modelMaterial(this.look);
+  private readonly lineMaterial = new THREE.LineBasicMaterial({ color: colours.line });
+  private chunks: Chunk[] = [];
+  private readonly loose = new Map<string, Loose>();
+  private drawn = new Map<string, RaisedBuilding>(); // as it is in the buffers
+  private given: ReadonlyMap<string, Building> | null = null;
+
+  constructor(private centre: Vector) {}
+
+  /** Draws these buildings, with drafts in place of some. What did not change stays as it is. */
+  set(buildings: ReadonlyMap<string, Building>, drafts: ReadonlyMap<string, RaisedBuilding>, invalid: boolean) {
+    if (buildings !== this.given) {
+      const kept = [...buildings.keys()].filter((id) => this.drawn.has(id)).length;
+      if (!this.drawn.size || kept !== this.drawn.size || kept !== buildings.size) this.rebuild(buildings);
+      for (const [id, building] of buildings) this.show(drafts.get(id) ?? building);
+    } else {
+      // While something is dragged only drafts change, and those that are loose because of one.
+      for (const id of this.loose.keys()) this.show(drafts.get(id) ?? buildings.get(id)!);
+      for (const [id, building] of drafts) if (buildings.has(id)) this.show(building);
+    }
+    this.given = buildings;
+    for (const [id, loose] of this.loose) {
+      const wrong = invalid && drafts.has(id);
+      loose.material.uniforms.tint!.value.set(0.82, 0.12, 0.12, wrong ? 0.55 : 0);
+    }
+    if (this.loose.size > 60 && !drafts.size) this.rebuild(buildings);
+  }
+
+  /** One building, if it is not drawn so already. Only its buffers change. */
+  show(building: RaisedBuilding) {
+    if (this.drawn.get(building.id) === building) return;
+    this.drawn.set(building.id, building);
+    for (const chunk of this.chunks) chunk.hide(building.id);
+    let loose = this.loose.get(building.id);
+    if (!loose) {
+      loose = new Loose(modelMaterial(this.look), this.lineMaterial);
+      loose.material.transparent = this.material.transparent;
+      loose.material.depthWrite = this.material.depthWrite;
+      loose.lines.visible = this.linesShown;
+      this.loose.set(building.id, loose);
+      this.group.add(loose.solid, loose.lines);
+    }
+    loose.set(buffersOf(solidsOf(building.parts), this.centre));
+  }
+
+  fade(opacities: { walls: number; parties: number; roofs: number; outlines: number }) {
+    const { walls, parties, roofs, outlines } = opacities;
+    this.look.opacities.value = [walls, parties, roofs, walls, roofs];
+    const least = Math.min(...[walls, parties, roofs].filter((o) => o > 0), 1);
+    for (const material of [this.material, ...[...this.loose.values()].map((l) => l.material)]) fade(material, least);
+    fade(this.lineMaterial, outlines);
+    for (const { lines } of [...this.chunks, ...this.loose.values()]) lines.visible = outlines > 0;
+    this.linesShown = outlines > 0;
+  }
+  private linesShown = true;
+
+  /** Outlines fade as they come to lie close together: `size` is the metres from bottom to top of the picture. */
+  seenFrom(size: number, outlines: number) {
+    if (!this.linesShown) return;
+    const fine = Math.round(Math.min(1, Math.max(0.15, 260 / size)) * 20) / 20; // in steps: materials change rarely
+    if (this.lineMaterial.opacity !== fine * outlines) fade(this.lineMaterial, fine * outlines);
+  }
+
+  clear() {
+    for (const { solid, lines } of this.chunks) {
+      solid.geometry.dispose();
+      lines.geometry.dispose();
+      this.group.remove(solid, lines);
+    }
+    for (const loose of this.loose.values()) loose.dispose();
+    this.chunks = [];
+    this.loose.clear();
+    this.drawn.clear();
+    this.given = null;
+  }
+
+  dispose() {
+    this.clear();
+    this.material.dispose();
+    this.lineMaterial.dispose();
+    this.look.errorMap.value?.dispose();
+    this.group.removeFromParent();
+  }
+
+  private rebuild(buildings: ReadonlyMap<string, Building>) {
+    this.clear();
+    const all = [...buildings.values()];
+    for (let i = 0; i < all.length; i += buildingsPerChunk)
+      this.chunks.push(this.chunk(all.slice(i, i + buildingsPerChunk)));
+    for (const { solid, lines } of this.chunks) this.group.add(solid, lines);
+    this.drawn = new Map(buildings);
+  }
+
+  private chunk(buildings: Building[]): Chunk {
+    const pieces = buildings.map((b) => buffersOf(solidsOf(b.parts), this.centre));
+    const joined = (of: (b: Buffers) => Float32Array) => {
+      const whole = new Float32Array(pieces.reduce((sum, b) => sum + of(b).length, 0));
+      let at = 0;
+      for (const piece of pieces) {
+        whole.set(of(piece), at);
+        at += of(piece).length;
+      }
+      return whole;
+    };
+    const solid = new THREE.BufferGeometry();
+    solid.setAttribute(
+      "position",
+      new THREE.BufferAttribute(
+        joined((b) => b.positions),
+        3,
+      ),
+    );
+    solid.setAttribute(
+      "normal",
+      new THREE.BufferAttribute(
+        joined((b) => b.normals),
+        3,
+      ),
+    );
+    solid.setAttribute(
+      "kind",
+      new THREE.BufferAttribute(
+        joined((b) => b.kinds),
+        1,
+      ),
+    );
+    solid.computeBoundingSphere();
+    const lines = new THREE.BufferGeometry();
+    lines.setAttribute(
+      "position",
+      new THREE.BufferAttribute(
+        joined((b) => b.lines),
+        3,
+      ),
+    );
+    lines.computeBoundingSphere();
+    const chunk = new Chunk(new THREE.Mesh(solid, this.material), new THREE.LineSegments(lines, this.lineMaterial));
+    chunk.lines.visible = this.linesShown;
+    let [from, lineFrom] = [0, 0];
+    buildings.forEach((building, i) => {
+      const [to, lineTo] = [from + pieces[i]!.positions.length, lineFrom + pieces[i]!.lines.length];
+      chunk.ranges.set(building.id, { from, to, lineFrom, lineTo });
+      [from, lineFrom] = [to, lineTo];
+    });
+    return chunk;
+  }
+}

@@ -1,0 +1,240 @@
+// The 3D view as a component: hands what the signals say to the viewer, and what is done there to the actions.
+import { effect, signal } from "@preact/signals";
+import { useEffect, useRef } from "preact/hooks";
+import * as actions from "../actions";
+import type * as api from "../api/types";
+import { keep, kept } from "../keep";
+import * as state from "../state";
+import type { Pose } from "./camera";
+import { nameOf } from "../panels/words";
+import { viewer } from "./current";
+import type { RawClimbs } from "./highlight";
+import { choices, errorLimit, section } from "./layers";
+import { LayersPopover } from "./layers_panel";
+import { Legend } from "./legend";
+import type { Hit } from "./pick";
+import { Toolbar } from "./toolbar";
+import { Viewer } from "./viewer";
+
+/** For tests and screenshots: what `window.mansard.view` offers. */
+export interface ViewHandle {
+  project(building: string): { x: number; y: number } | null;
+  idle(): Promise<void>;
+}
+const failure = signal("");
+
+export const handle: ViewHandle = {
+  project: (building) => viewer.value?.project(building) ?? null,
+  idle: async () => {
+    while (state.opening.value || rawBusy) await new Promise((resolve) => setTimeout(resolve, 25));
+    await viewer.value?.idle();
+  },
+};
+
+const poseKey = () => `camera ${state.project.value?.folder ?? ""}`;
+
+function clicked(hit: Hit | null, footprint: api.SceneFootprint | null, more: boolean) {
+  if (state.choosing.value) {
+    const name = blockOf(hit?.building) ?? footprint?.block;
+    if (!name) return;
+    const blocks = new Set(state.chosenBlocks.value);
+    if (!blocks.delete(name)) blocks.add(name);
+    state.chosenBlocks.value = blocks;
+    return;
+  }
+  if (hit?.part && more) return actions.selectAlso(hit.building, hit.part);
+  if (hit) return actions.select({ building: hit.building, part: hit.part, ring: hit.ring, edge: hit.edge });
+  const known = footprint && state.run.value?.buildings.has(footprint.id);
+  actions.select(known ? { building: footprint.id, part: null, ring: 0, edge: null } : null);
+}
+const blockOf = (building: string | undefined) =>
+  building === undefined ? undefined : (state.run.value?.buildings.get(building)?.block ?? undefined);
+
+let rawBusy = false;
+
+/** What the scan shows across the edges of the selected part, edge by edge; stops when something else is wanted. */
+function watchRaw(to: Viewer) {
+  let last = "";
+  let stop = new AbortController();
+  return effect(() => {
+    const run = state.run.value;
+    const at = state.selection.value;
+    const building = at && run?.buildings.get(at.building);
+    const part = building?.parts.find((p) => p.id === at!.part);
+    const wanted =
+      choices.value.raw.shown && run && part ? `${run.id} ${building!.id} ${building!.revision} ${part.id}` : "";
+    if (wanted === last) return;
+    last = wanted;
+    stop.abort();
+    stop = new AbortController();
+    to.setRaw(undefined, []);
+    if (wanted) void fetchRaw(to, run!.id, building!.id, part!, stop.signal);
+  });
+}
+async function fetchRaw(to: Viewer, run: string, building: string, part: api.RaisedPart, stop: AbortSignal) {
+  rawBusy = true;
+  const climbs: RawClimbs[] = [];
+  const rings = [part.plan.outer, ...part.plan.holes];
+  const places = rings.flatMap((ring, r) => ring.points.map((_, edge) => ({ ring: r, edge }))).slice(0, 60);
+  for (const place of places) {
+    const answer = await actions.attempt(
+      actions.client.section(run, { building, part: part.id, ...place, share: 0.5 }),
+    );
+    if (stop.aborted) return;
+    if (!answer) break;
+    climbs.push({ ...place, climbs: answer.climbs });
+  }
+  rawBusy = false;
+  to.setRaw(part, climbs);
+}
+
+function connect(to: Viewer): () => void {
+  let placed = "";
+  let asked = state.flight.peek()?.at ?? 0;
+  const stops = [
+    effect(() => {
+      const key = poseKey();
+      if (!state.project.value || placed === key) return;
+      placed = key;
+      const pose = kept<Pose | null>("session", key, null) ?? kept<Pose | null>("local", key, null);
+      if (pose) to.look(pose);
+    }),
+    effect(() => to.setScene(state.scene.value)),
+    effect(() => to.setTiles(state.tiles.value)),
+    effect(() => {
+      const draft = state.draft.value;
+      to.setRun(0, state.run.value?.buildings ?? null, draft?.raised, draft?.invalid);
+    }),
+    effect(() => to.setRun(1, state.other.value?.buildings ?? null)),
+    ...([0, 1] as const).flatMap((which) => {
+      const id = () => (which ? state.other : state.run).value?.id;
+      const wantsWhys = () => choices.value.sweep.shown || choices.value.faces.shown || choices.value.cuts.shown;
+      return [
+        effect(() => {
+          const run = id();
+          if (run && wantsWhys()) void actions.needLayers(run);
+        }),
+        effect(() => {
+          const run = id();
+          if (run && choices.value.error.shown) void actions.needErrorMaps(run);
+        }),
+        effect(() => to.setWhys(which, state.whys.value.get(id() ?? "") ?? null)),
+        effect(() => to.setErrorMaps(which, state.errorMaps.value.get(id() ?? "") ?? null)),
+      ];
+    }),
+    effect(() => to.setChoices(choices.value)),
+    effect(() => to.setErrorLimit(errorLimit.value)),
+    effect(() => to.setSection(section.value)),
+    effect(() => to.setSelection(state.selection.value, state.also.value)),
+    effect(() => to.setHover(state.hovered.value)),
+    effect(() => {
+      void state.scene.value;
+      to.setChosen(state.choosing.value ? state.chosenBlocks.value : none);
+    }),
+    effect(() => {
+      const wish = state.flight.value;
+      if (!wish || wish.at === asked) return;
+      asked = wish.at;
+      if (wish.to === "home") to.home();
+      else if (wish.to === "top") to.top();
+      else if (state.selection.peek()) to.flyTo(state.selection.peek()!.building);
+    }),
+    watchRaw(to),
+  ];
+  return () => stops.forEach((stop) => stop());
+}
+const none: ReadonlySet<string> = new Set();
+
+export function View() {
+  const box = useRef<HTMLDivElement>(null);
+  const canvas = useRef<HTMLCanvasElement>(null);
+  useEffect(() => {
+    let made: Viewer;
+    try {
+      made = new Viewer(
+        canvas.current!,
+        {
+          click: clicked,
+          hover: (hit) => {
+            const was = state.hovered.peek();
+            if (hit?.building === was?.building && hit?.part === was?.part && hit?.edge === was?.edge) return;
+            state.hovered.value = hit && { building: hit.building, part: hit.part, ring: hit.ring, edge: hit.edge };
+          },
+          moved: (pose) => {
+            keep("session", poseKey(), pose);
+            keep("local", poseKey(), pose);
+          },
+          loadTile: (id, signal) => actions.client.tile(id, signal),
+        },
+        choices.peek(),
+      );
+    } catch {
+      failure.value = "This browser cannot draw in 3D (WebGL 2 is missing or switched off). All else works.";
+      return;
+    }
+    const sized = new ResizeObserver(() => made.resize(box.current!.clientWidth, box.current!.clientHeight));
+    sized.observe(box.current!);
+    made.resize(box.current!.clientWidth, box.current!.clientHeight);
+    const disconnect = connect(made);
+    viewer.value = made;
+    return () => {
+      viewer.value = null;
+      disconnect();
+      sized.disconnect();
+      made.dispose();
+    };
+  }, []);
+  return (
+    <div class={"view" + (state.choosing.value ? " choosing" : "")} ref={box}>
+      <canvas
+        ref={canvas}
+        tabIndex={0}
+        aria-label="3D view. Arrow keys move, with Shift they turn, plus and minus zoom. Buildings can also be chosen in the list of buildings."
+      />
+      {failure.value && <p class="view-failure">{failure.value}</p>}
+      <Toolbar />
+      {state.layersOpen.value && <LayersPopover />}
+      <Legend />
+      <Sides />
+      <Under />
+    </div>
+  );
+}
+
+/** Which run is left and which right. */
+function Sides() {
+  if (!state.other.value) return null;
+  const name = (id: string) => {
+    const run = state.runSummary(id);
+    return run ? nameOf(run) : id;
+  };
+  return (
+    <div class="sides" aria-hidden="true">
+      <span>{name(state.run.value?.id ?? "")}</span>
+      <span>{name(state.other.value.id)}</span>
+    </div>
+  );
+}
+
+/** In words what is under the pointer. */
+function Under() {
+  const at = state.hovered.value;
+  if (state.choosing.value) {
+    return (
+      <div class="under">Click blocks to choose them for the next run: {state.chosenBlocks.value.size} chosen</div>
+    );
+  }
+  if (!at) return null;
+  const building = state.run.value?.buildings.get(at.building);
+  const reasons = building ? [...building.reasons, ...building.diagnostics] : [];
+  return (
+    <div class="under">
+      <b>{at.building}</b>
+      {at.part && at.part !== at.building && ` · part ${at.part.replace(at.building, "").replace(/^-/, "")}`}
+      {at.edge !== null && ` · edge ${at.edge}${at.ring ? ` of hole ${at.ring}` : ""}`}
+      {reasons.map((r) => (
+        <div key={r.code + r.message}>{r.message}</div>
+      ))}
+    </div>
+  );
+}

@@ -1,0 +1,686 @@
+// The 3D view: owns the canvas and draws only when something changed. Knows nothing of signals; view.tsx tells it.
+import * as THREE from "three";
+import type * as api from "../api/types";
+import type { LoadedMap, Selection } from "../state";
+import * as camera from "./camera";
+import type { Pose, Vector } from "./camera";
+import { attach, type Gestures } from "./controls";
+import { combine, textureOf } from "./errormap";
+import { type Box, boxOf, emptyBox, grow, isEmpty } from "./geometry";
+import { Highlight, type RawClimbs } from "./highlight";
+import type { Choices, SectionPlane } from "./layers";
+import { Marks, Segments, Sheet, WideLines, flat } from "./lines";
+import { colours } from "./materials";
+import { Output } from "./output";
+import { type Hit, type Ray, pick, pickFootprint } from "./pick";
+import { Tiles } from "./tiles";
+import { Whys } from "./whys";
+
+export interface Listener {
+  click(hit: Hit | null, footprint: api.SceneFootprint | null, more: boolean): void;
+  hover(hit: Hit | null): void;
+  moved(pose: Pose): void; // came to rest; in the scene's frame
+  loadTile(id: string, signal: AbortSignal): Promise<ArrayBuffer>;
+}
+
+/** One run as it is drawn. */
+class Side {
+  whys: Whys | null = null;
+  maps: readonly LoadedMap[] | null = null;
+  buildings: ReadonlyMap<string, api.Building> = new Map();
+  drafts: ReadonlyMap<string, api.RaisedBuilding> = new Map();
+  constructor(readonly output: Output) {}
+  *shown(): Iterable<api.RaisedBuilding> {
+    for (const [id, building] of this.buildings) yield this.drafts.get(id) ?? building;
+  }
+  building = (id: string): api.RaisedBuilding | undefined => this.drafts.get(id) ?? this.buildings.get(id);
+  dispose() {
+    this.output.dispose();
+    this.whys?.dispose();
+  }
+}
+
+const followSeconds = 0.055; // the camera's delay behind the hand
+const flightSeconds = 0.6;
+const background = 0xf6f6f3;
+
+export class Viewer {
+  private readonly renderer: THREE.WebGLRenderer;
+  private readonly world = new THREE.Scene();
+  private readonly eye = new THREE.PerspectiveCamera();
+  private readonly gone = new AbortController();
+  private readonly marks = new Marks();
+  private readonly footprints = new WideLines(colours.footprint, 2);
+  private readonly buried = new WideLines(colours.footprint, 1.5, true); // the same, seen through the scan
+  private readonly chosen = new WideLines(colours.accent, 2.5, true);
+  private readonly chosenSheet = new Sheet(colours.accent, 0.25);
+  private highlight: Highlight;
+  private tiles: Tiles | null = null;
+  private sides: [Side, Side | null];
+  private scene: api.Scene | null = null;
+  private centre: Vector = [0, 0, 0];
+  private marked: { building: string; place: Vector }[] = [];
+  private plane: THREE.Plane | null = null;
+  private pose: Pose = camera.home([-50, -50, 0], [50, 50, 20], 1.5); // about the centre
+  private goal: Pose = this.pose;
+  private flight: { from: Pose; started: number } | null = null;
+  private framed = false; // whether the camera was ever placed
+  private frameAsked = 0;
+  private last = 0;
+  private moving = false;
+  private width = 1;
+  private height = 1;
+  private hoverAsked = false;
+  private choices: Choices;
+  private selected: { at: Selection | null; also: { building: string; part: string }[] } = { at: null, also: [] };
+
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    private readonly listener: Listener,
+    choices: Choices,
+  ) {
+    this.choices = choices;
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
+    this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace; // see materials.ts: nothing is converted
+    this.renderer.setClearColor(background);
+    this.renderer.autoClear = false;
+    this.highlight = new Highlight(this.centre);
+    this.sides = [new Side(new Output(this.centre)), null];
+    this.world.add(
+      this.footprints.object,
+      this.buried.object,
+      this.chosenSheet.object,
+      this.chosen.object,
+      this.marks.object,
+    );
+    this.world.add(this.highlight.group, this.sides[0].output.group);
+    attach(canvas, this.gestures, this.gone.signal);
+    canvas.addEventListener("webglcontextrestored", () => this.request(), { signal: this.gone.signal });
+  }
+
+  dispose() {
+    this.gone.abort();
+    cancelAnimationFrame(this.frameAsked);
+    this.tiles?.dispose();
+    for (const side of this.sides) side?.dispose();
+    this.renderer.dispose();
+  }
+
+  // ---- what there is
+
+  setScene(scene: api.Scene | null) {
+    const moved = scene && scene.origin.some((o, i) => o !== this.scene?.origin[i]);
+    this.scene = scene;
+    if (scene && (moved || !this.framed))
+      this.recentre(scene.low.map((l, i) => Math.round((l + scene.high[i]!) / 2)) as Vector);
+    const lines = new Segments(this.centre);
+    for (const footprint of scene?.footprints ?? []) {
+      for (const { outer, holes } of footprint.polygons) {
+        for (const ring of [outer, ...holes]) lines.ring(ring, footprint.ground + 0.05);
+      }
+    }
+    this.footprints.set(lines);
+    this.buried.set(lines);
+    this.place();
+    this.request();
+  }
+
+  setTiles(index: api.TileIndex | null) {
+    this.tiles?.dispose();
+    this.tiles = null;
+    if (index) {
+      this.tiles = new Tiles(index, this.centre, this.listener.loadTile, () => this.request());
+      this.world.add(this.tiles.group);
+      this.index = index;
+      this.showMesh();
+      this.maskMesh();
+    }
+    this.request();
+  }
+  private index: api.TileIndex | null = null;
+
+  setRun(
+    which: 0 | 1,
+    buildings: ReadonlyMap<string, api.Building> | null,
+    drafts: ReadonlyMap<string, api.RaisedBuilding> = new Map(),
+    invalid = false,
+  ) {
+    if (which === 1 && !buildings) {
+      this.sides[1]?.dispose();
+      this.sides[1] = null;
+      return this.request();
+    }
+    if (!this.sides[which]) {
+      this.sides[which] = new Side(new Output(this.centre));
+      this.world.add(this.sides[which]!.output.group);
+    }
+    const side = this.sides[which]!;
+    const another = side.buildings !== (buildings ?? empty);
+    side.buildings = buildings ?? empty;
+    side.drafts = drafts;
+    if (which === 0 && buildings?.size && !this.scene && !this.framed) {
+      const { low, high } = this.content();
+      this.recentre(low.map((l, i) => Math.round((l + high[i]!) / 2)) as Vector);
+    } else {
+      side.output.set(side.buildings, drafts, invalid);
+    }
+    this.fadeModels(this.sides[which]!.output);
+    if (another && which === 0) {
+      this.placeMarks();
+      this.maskMesh();
+    }
+    this.showBuried();
+    this.showSelection();
+    this.place();
+    this.request();
+  }
+
+  setWhys(which: 0 | 1, layers: api.Layers | null) {
+    const side = this.sides[which];
+    if (!side) return;
+    side.whys?.dispose();
+    side.whys = layers && new Whys(layers, this.centre, this.scene?.high[2] ?? 0);
+    if (side.whys) {
+      this.world.add(side.whys.group);
+      side.whys.show(this.choices);
+    }
+    this.layersOf[which] = layers;
+    this.request();
+  }
+  private layersOf: [api.Layers | null, api.Layers | null] = [null, null];
+
+  setErrorMaps(which: 0 | 1, maps: readonly LoadedMap[] | null) {
+    const side = this.sides[which];
+    if (!side || side.maps === maps) return;
+    side.maps = maps;
+    this.drapeError(side);
+    this.request();
+  }
+
+  private drapeError(side: Side) {
+    const { look } = side.output;
+    look.errorMap.value?.dispose();
+    const map = side.maps && combine(side.maps, Math.min(4096, this.renderer.capabilities.maxTextureSize));
+    look.errorMap.value = map && textureOf(map);
+    if (map) {
+      const [x, y] = [map.low[0] - this.centre[0], map.low[1] - this.centre[1]];
+      look.errorFrame.value.set(x, y, 1 / (map.columns * map.cell), 1 / (map.rows * map.cell));
+    }
+    this.fadeModels(side.output);
+  }
+
+  setErrorLimit(metres: number) {
+    for (const side of this.sides) if (side) side.output.look.errorLimit.value = metres;
+    this.errorLimit = metres;
+    this.request();
+  }
+  private errorLimit = 2;
+
+  setChoices(choices: Choices) {
+    this.choices = choices;
+    for (const side of this.sides) {
+      if (!side) continue;
+      this.fadeModels(side.output);
+      side.whys?.show(choices);
+    }
+    const { footprints, diagnostics } = choices;
+    this.footprints.opacity = footprints.shown ? footprints.opacity : 0;
+    this.showBuried();
+    this.marks.object.visible = diagnostics.shown && this.marked.length > 0;
+    this.showMesh();
+    this.maskMesh();
+    this.showSelection();
+    this.request();
+  }
+
+  setSelection(at: Selection | null, also: { building: string; part: string }[]) {
+    this.selected = { at, also };
+    this.showSelection();
+    this.request();
+  }
+
+  setHover(at: { building: string; part: string | null } | null) {
+    this.highlight.hover(at ? this.sides[0].building(at.building)?.parts.find((p) => p.id === at.part) : undefined);
+    this.request();
+  }
+
+  setRaw(part: api.RaisedPart | undefined, climbs: RawClimbs[]) {
+    this.highlight.showRaw(part, climbs);
+    this.request();
+  }
+
+  setChosen(blocks: ReadonlySet<string>) {
+    const lines = new Segments(this.centre);
+    const ground: number[] = [];
+    for (const footprint of this.scene?.footprints ?? []) {
+      if (!footprint.block || !blocks.has(footprint.block)) continue;
+      for (const { outer, holes } of footprint.polygons) {
+        for (const ring of [outer, ...holes]) lines.ring(ring, footprint.ground + 0.1);
+        for (const x of flat(outer, holes, footprint.ground + 0.1, this.centre)) ground.push(x);
+      }
+    }
+    this.chosen.set(lines);
+    this.chosenSheet.set(ground);
+    this.request();
+  }
+
+  setSection(section: SectionPlane | null) {
+    this.plane = null;
+    if (section) {
+      const { low, high } = this.content();
+      const i = { x: 0, y: 1, z: 2 }[section.axis];
+      const at = low[i]! - 0.5 + (high[i]! - low[i]! + 1) * section.share - this.centre[i]!;
+      const normal = new THREE.Vector3().setComponent(i, section.flipped ? 1 : -1);
+      this.plane = new THREE.Plane(normal, section.flipped ? -at : at);
+    }
+    this.renderer.clippingPlanes = this.plane ? [this.plane] : [];
+    this.request();
+  }
+
+  /** Metres along the axis at which a section of this share lies, in the scene's frame. */
+  sectionAt(section: SectionPlane): number {
+    const { low, high } = this.content();
+    const i = { x: 0, y: 1, z: 2 }[section.axis];
+    return low[i]! - 0.5 + (high[i]! - low[i]! + 1) * section.share;
+  }
+
+  resize(width: number, height: number) {
+    this.width = Math.max(1, width);
+    this.height = Math.max(1, height);
+    this.renderer.setPixelRatio(Math.min(2, globalThis.devicePixelRatio || 1));
+    this.renderer.setSize(this.width, this.height, false);
+    this.marks.material.uniforms.size!.value = 12 * this.renderer.getPixelRatio();
+    this.place();
+    this.draw(); // at once: a canvas that was resized is empty
+  }
+
+  // ---- the camera
+
+  /** In the scene's frame. */
+  look(pose: Pose) {
+    this.goal = this.pose = { ...pose, target: pose.target.map((t, i) => t - this.centre[i]!) as Vector };
+    this.framed = true;
+    this.request();
+  }
+  home() {
+    const { low, high } = this.centred(this.content());
+    this.fly(camera.home(low, high, this.aspect));
+  }
+  top() {
+    const flatPose = camera.top(this.goal);
+    if (camera.isTop(this.goal)) {
+      const { low, high } = this.centred(this.content());
+      this.fly(camera.frame(flatPose, low, high, this.aspect));
+    } else this.fly(flatPose);
+  }
+  flyTo(building: string) {
+    const found = this.sides[0].building(building);
+    const box = found ? boxOf(found) : this.footprintBox((f) => f.id === building);
+    if (isEmpty(box)) return;
+    const { low, high } = this.centred(box);
+    const wide = { low: low.map((x) => x - 3) as Vector, high: high.map((x) => x + 2) as Vector };
+    const tilted = camera.isTop(this.goal)
+      ? this.goal
+      : { ...this.goal, elevation: Math.max(this.goal.elevation, 0.5) };
+    this.fly(camera.frame(tilted, wide.low, wide.high, this.aspect));
+  }
+  private fly(to: Pose) {
+    const still = globalThis.matchMedia?.("(prefers-reduced-motion: reduce)").matches;
+    this.goal = to;
+    this.framed = true;
+    if (still) this.pose = to;
+    this.flight = still ? null : { from: this.pose, started: performance.now() };
+    this.request();
+  }
+
+  /** Where the top of a building is on the page; null where it is behind the eye or not there. */
+  project(building: string): { x: number; y: number } | null {
+    const found = this.sides[0].building(building);
+    if (!found) return null;
+    const { low, high } = this.centred(boxOf(found));
+    this.aim();
+    const p = new THREE.Vector3((low[0] + high[0]) / 2, (low[1] + high[1]) / 2, high[2]).project(this.eye);
+    if (p.z > 1) return null;
+    const box = this.canvas.getBoundingClientRect();
+    return { x: box.left + ((p.x + 1) / 2) * this.paneWidth, y: box.top + ((1 - p.y) / 2) * this.height };
+  }
+
+  /** Resolves when nothing moves, loads or waits to be drawn. */
+  async idle(): Promise<void> {
+    for (let calm = 0; calm < 3; ) {
+      await new Promise((resolve) => setTimeout(resolve, 25));
+      calm = this.frameAsked || this.tiles?.busy ? 0 : calm + 1;
+    }
+  }
+
+  // ---- picking
+
+  private readonly gestures: Gestures = {
+    orbit: (dx, dy) => this.move(camera.orbit(this.goal, dx, dy)),
+    pan: (dx, dy) => this.move(camera.pan(this.goal, dx, dy, this.height)),
+    zoom: (factor, x, y) => this.move(camera.zoom(this.goal, factor, this.under(x, y))),
+    click: (x, y, more) => {
+      const { ray, side } = this.rayAt(x, y);
+      const marked = this.markAt(x, y);
+      const hit = marked
+        ? { building: marked, part: null, ring: 0, edge: null, point: ray.origin, distance: 0 }
+        : this.hit(ray, side);
+      const footprint = pickFootprint(ray, this.scene?.footprints ?? [], this.keeps);
+      this.listener.click(
+        side === this.sides[0] || !hit ? hit : { ...hit, part: null, edge: null },
+        footprint?.footprint ?? null,
+        more,
+      );
+    },
+    hover: (x, y) => {
+      if (this.hoverAsked) return;
+      this.hoverAsked = true;
+      requestAnimationFrame(() => {
+        this.hoverAsked = false;
+        const { ray, side } = this.rayAt(x, y);
+        const marked = this.markAt(x, y);
+        this.listener.hover(
+          marked
+            ? { building: marked, part: null, ring: 0, edge: null, point: ray.origin, distance: 0 }
+            : this.hit(ray, side),
+        );
+      });
+    },
+    leave: () => this.listener.hover(null),
+  };
+
+  private move(goal: Pose) {
+    this.flight = null;
+    this.goal = goal;
+    this.framed = true;
+    this.request();
+  }
+
+  /** The point of the world under the pointer, about the centre: for zooming to it. */
+  private under(x: number, y: number): Vector | null {
+    const { ray, side } = this.rayAt(x, y);
+    const point = this.hit(ray, side)?.point ?? pickFootprint(ray, this.scene?.footprints ?? [])?.point;
+    if (point) return point.map((p, i) => p - this.centre[i]!) as Vector;
+    const level = this.goal.target[2] + this.centre[2];
+    const t = (level - ray.origin[2]) / ray.direction[2];
+    if (!(t > 0) || t > 20 * camera.distance(this.goal)) return null;
+    return ray.origin.map((o, i) => o + ray.direction[i]! * t - this.centre[i]!) as Vector;
+  }
+
+  private rayAt(x: number, y: number): { ray: Ray; side: Side } {
+    this.aim();
+    const right = this.sides[1] !== null && x > this.paneWidth;
+    const share = new THREE.Vector3(
+      ((right ? x - this.paneWidth : x) / this.paneWidth) * 2 - 1,
+      1 - (y / this.height) * 2,
+      0.5,
+    );
+    const towards = share.unproject(this.eye).sub(this.eye.position).normalize();
+    const origin = this.eye.position.toArray().map((o, i) => o + this.centre[i]!) as Vector;
+    return { ray: { origin, direction: towards.toArray() as Vector }, side: right ? this.sides[1]! : this.sides[0] };
+  }
+
+  private hit(ray: Ray, side: Side): Hit | null {
+    const { walls, roofs, parties } = this.choices;
+    const seen = { wall: walls, party_wall: parties, roof: roofs, ground: walls, soffit: roofs };
+    return pick(ray, side.shown(), (face) => seen[face.class].shown, this.keeps);
+  }
+  private readonly keeps = (point: Vector) =>
+    !this.plane ||
+    this.plane.distanceToPoint(new THREE.Vector3(...(point.map((p, i) => p - this.centre[i]!) as Vector))) >= 0;
+
+  private markAt(x: number, y: number): string | null {
+    if (!this.marks.object.visible) return null;
+    const local = this.sides[1] && x > this.paneWidth ? x - this.paneWidth : x;
+    for (const { building, place } of this.marked) {
+      const p = new THREE.Vector3(...place).project(this.eye);
+      const [px, py] = [((p.x + 1) / 2) * this.paneWidth, ((1 - p.y) / 2) * this.height];
+      if (p.z < 1 && Math.hypot(px - local, py - y) <= 8) return building;
+    }
+    return null;
+  }
+
+  // ---- keeping the picture true
+
+  private recentre(centre: Vector) {
+    const by = centre.map((c, i) => this.centre[i]! - c) as Vector;
+    const shift = (pose: Pose) => ({ ...pose, target: pose.target.map((t, i) => t + by[i]!) as Vector });
+    this.pose = shift(this.pose);
+    this.goal = shift(this.goal);
+    this.centre = centre;
+    this.highlight.dispose();
+    this.highlight = new Highlight(centre);
+    this.world.add(this.highlight.group);
+    this.sides.forEach((side, i) => {
+      if (!side) return;
+      const fresh = new Side(new Output(centre));
+      Object.assign(fresh, { buildings: side.buildings, drafts: side.drafts, maps: side.maps });
+      side.dispose();
+      this.sides[i as 0 | 1] = fresh;
+      this.world.add(fresh.output.group);
+      fresh.output.set(fresh.buildings, fresh.drafts, false);
+      fresh.output.look.errorLimit.value = this.errorLimit;
+      this.drapeError(fresh);
+      this.setWhys(i as 0 | 1, this.layersOf[i as 0 | 1]);
+    });
+    if (this.tiles) this.setTiles(this.index);
+    this.placeMarks();
+    this.showSelection();
+  }
+
+  private fadeModels(output: Output) {
+    const of = ({ shown, opacity }: { shown: boolean; opacity: number }) => (shown ? opacity : 0);
+    const { walls, parties, roofs, outlines, error } = this.choices;
+    output.fade({ walls: of(walls), parties: of(parties), roofs: of(roofs), outlines: of(outlines) });
+    output.look.errorOn.value = output.look.errorMap.value ? of(error) : 0;
+  }
+
+  private showMesh() {
+    const { mesh } = this.choices;
+    if (this.tiles) this.tiles.opacity = mesh.shown ? mesh.opacity : 0;
+  }
+
+  /** The ground, where footprints are, lies below the scan's roofs: as long as there are no models they shine through. */
+  private showBuried() {
+    const { footprints } = this.choices;
+    this.buried.opacity = footprints.shown && this.sides[0].buildings.size === 0 ? 0.75 * footprints.opacity : 0;
+  }
+
+  /** Where models stand the scan is left out, unless asked for. */
+  private maskMesh() {
+    const look = this.tiles?.look;
+    if (!look) return;
+    const { meshWithin, mesh, walls, roofs } = this.choices;
+    const box = this.centred(this.content());
+    const any = this.sides[0].buildings.size > 0 && (walls.shown || roofs.shown) && mesh.shown;
+    look.masked.value = any && !meshWithin.shown ? 1 : 0;
+    if (!look.masked.value || look.mask.value?.userData.of === this.sides[0].buildings) return;
+    const [wide, deep] = [box.high[0] - box.low[0] + 2, box.high[1] - box.low[1] + 2];
+    const scale = Math.min(5, 4096 / Math.max(wide, deep)); // cells of 0.2 m where there is room
+    const picture = document.createElement("canvas");
+    picture.width = Math.ceil(wide * scale);
+    picture.height = Math.ceil(deep * scale);
+    const draw = picture.getContext("2d")!;
+    const [left, bottom] = [box.low[0] - 1 + this.centre[0], box.low[1] - 1 + this.centre[1]];
+    draw.fillStyle = draw.strokeStyle = "#fff";
+    draw.lineWidth = 0.5 * scale;
+    for (const { parts } of this.sides[0].buildings.values()) {
+      for (const { plan } of parts) {
+        draw.beginPath();
+        for (const ring of [plan.outer, ...plan.holes]) {
+          ring.points.forEach(([x, y], i) => draw[i ? "lineTo" : "moveTo"]((x - left) * scale, (y - bottom) * scale));
+          draw.closePath();
+        }
+        draw.fill("evenodd");
+        draw.stroke();
+      }
+    }
+    look.mask.value?.dispose();
+    const texture = new THREE.CanvasTexture(picture);
+    texture.flipY = false;
+    texture.generateMipmaps = false;
+    texture.minFilter = THREE.LinearFilter;
+    texture.userData.of = this.sides[0].buildings;
+    look.mask.value = texture;
+    look.maskFrame.value.set(box.low[0] - 1, box.low[1] - 1, scale / picture.width, scale / picture.height);
+  }
+
+  private placeMarks() {
+    const [positions, tones]: [number[], number[]] = [[], []];
+    this.marked = [];
+    for (const building of this.sides[0].buildings.values()) {
+      const all = [...building.reasons, ...building.diagnostics, ...building.parts.flatMap((p) => p.diagnostics)];
+      if (!all.length) continue;
+      const { low, high } = this.centred(
+        building.parts.length ? boxOf(building) : this.footprintBox((f) => f.id === building.id),
+      );
+      if (!Number.isFinite(low[0])) continue;
+      const place: Vector = [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, high[2] + 1];
+      this.marked.push({ building: building.id, place });
+      positions.push(...place);
+      tones.push(...(all.some((d) => d.severity === "error") ? [0.82, 0.13, 0.13] : [0.85, 0.5, 0.05]));
+    }
+    this.marks.set(positions, tones);
+    this.marks.object.visible = this.choices.diagnostics.shown && this.marked.length > 0;
+  }
+
+  private showSelection() {
+    const { at, also } = this.selected;
+    const part = (p: { building: string; part: string }) =>
+      this.sides[0].building(p.building)?.parts.filter((q) => q.id === p.part) ?? [];
+    this.highlight.select(at, at ? this.sides[0].building(at.building) : undefined, this.choices);
+    this.highlight.selectAlso(also.flatMap(part));
+  }
+
+  /** All that matters: models, or footprints where there are none, or the scan. */
+  private content(): Box {
+    const box = emptyBox();
+    for (const building of this.sides[0].shown()) {
+      const { low, high } = boxOf(building);
+      if (low[0] > high[0]) continue;
+      grow(box, ...low);
+      grow(box, ...high);
+    }
+    if (!isEmpty(box)) return box;
+    const ground = this.footprintBox(() => true);
+    if (!isEmpty(ground)) return { low: ground.low, high: [ground.high[0], ground.high[1], ground.high[2] + 10] };
+    return this.scene ?? { low: [-50, -50, 0], high: [50, 50, 20] };
+  }
+  private footprintBox(which: (f: api.SceneFootprint) => boolean): Box {
+    const box = emptyBox();
+    for (const footprint of this.scene?.footprints.filter(which) ?? []) {
+      for (const { outer } of footprint.polygons) for (const [x, y] of outer) grow(box, x, y, footprint.ground);
+    }
+    return box;
+  }
+  private centred({ low, high }: Box): Box {
+    const about = (v: Vector) => v.map((x, i) => x - this.centre[i]!) as Vector;
+    return { low: about(low), high: about(high) };
+  }
+
+  /** Before anyone moved the camera it shows what there is. */
+  private place() {
+    if (this.framed || (!this.scene && !this.sides[0].buildings.size)) return;
+    const { low, high } = this.centred(this.content());
+    this.goal = this.pose = camera.home(low, high, this.aspect);
+  }
+
+  private get paneWidth() {
+    return this.sides[1] ? this.width / 2 : this.width;
+  }
+  private get aspect() {
+    return this.paneWidth / this.height;
+  }
+
+  // ---- drawing
+
+  request() {
+    if (!this.frameAsked && !this.gone.signal.aborted)
+      this.frameAsked = requestAnimationFrame((now) => this.frame(now));
+  }
+
+  private frame(now: number) {
+    this.frameAsked = 0;
+    const passed = Math.min(0.1, (now - this.last) / 1000 || 0.016);
+    if (this.moving) this.tiles?.budget.took(now - this.last);
+    this.last = now;
+    if (this.flight) {
+      const share = Math.min(1, Math.max(0, (now - this.flight.started) / 1000 / flightSeconds));
+      this.pose = camera.mixed(this.flight.from, this.goal, share * share * (3 - 2 * share));
+      if (share >= 1) this.flight = null;
+    } else if (!camera.same(this.pose, this.goal)) {
+      this.pose = camera.mixed(this.pose, this.goal, 1 - Math.exp(-passed / followSeconds));
+    }
+    const settled = !this.flight && camera.same(this.pose, this.goal);
+    if (settled && this.pose !== this.goal) {
+      this.pose = this.goal;
+      if (this.framed)
+        this.listener.moved({ ...this.pose, target: this.pose.target.map((t, i) => t + this.centre[i]!) as Vector });
+    }
+    this.draw();
+    this.moving = !settled; // then the next picture follows as soon as it can
+    if (!settled) this.request();
+  }
+
+  private aim() {
+    const { eye, pose } = this;
+    const at = camera.eye(pose);
+    const box = this.scene ? this.centred(this.scene) : this.centred(this.content());
+    const middle = box.low.map((l, i) => (l + box.high[i]!) / 2) as Vector;
+    const radius = Math.hypot(...box.low.map((l, i) => box.high[i]! - l)) / 2 + 20;
+    const away = Math.hypot(...at.map((p, i) => p - middle[i]!));
+    eye.fov = (pose.fov * 180) / Math.PI;
+    eye.aspect = this.aspect;
+    eye.near = Math.max(away - radius, camera.distance(pose) * 0.02, 0.05);
+    eye.far = away + radius + 10;
+    eye.position.set(...at);
+    eye.up.set(0, 0, 1);
+    eye.lookAt(...pose.target);
+    eye.updateProjectionMatrix();
+    eye.updateMatrixWorld();
+  }
+
+  private draw() {
+    this.aim();
+    this.stream();
+    this.highlight.detailed = this.pose.size < 150;
+    for (const side of this.sides) side?.output.seenFrom(this.pose.size, this.choices.outlines.opacity);
+    const [first, second] = this.sides;
+    this.renderer.setScissorTest(second !== null);
+    [first, second].forEach((side, i) => {
+      if (!side) return;
+      for (const other of this.sides) {
+        if (!other) continue;
+        other.output.group.visible = other === side;
+        if (other.whys) other.whys.group.visible = other === side;
+      }
+      this.highlight.group.visible = i === 0 || second !== null;
+      const left = i * this.paneWidth;
+      this.renderer.setViewport(left, 0, this.paneWidth, this.height);
+      this.renderer.setScissor(left, 0, this.paneWidth, this.height);
+      this.renderer.clear();
+      this.renderer.render(this.world, this.eye);
+    });
+  }
+
+  private stream() {
+    if (!this.tiles?.group.visible) return;
+    const frustum = new THREE.Frustum().setFromProjectionMatrix(
+      new THREE.Matrix4().multiplyMatrices(this.eye.projectionMatrix, this.eye.matrixWorldInverse),
+    );
+    const box = new THREE.Box3();
+    const about = (v: THREE.Vector3, p: Vector) =>
+      v.set(p[0] - this.centre[0], p[1] - this.centre[1], p[2] - this.centre[2]);
+    this.tiles.update({
+      position: this.eye.position.toArray().map((p, i) => p + this.centre[i]!) as Vector,
+      pixels: (this.height * this.renderer.getPixelRatio()) / 2 / Math.tan(this.pose.fov / 2),
+      sees: (tile) => {
+        about(box.min, tile.low);
+        about(box.max, tile.high);
+        return frustum.intersectsBox(box);
+      },
+    });
+  }
+}
+
+const empty: ReadonlyMap<string, api.Building> = new Map();

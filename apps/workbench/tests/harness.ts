@@ -1,0 +1,90 @@
+// Starts the real server on a project of its own, opens the page, and fails a test whose page wrote errors.
+import { type ChildProcess, execFileSync, spawn } from "node:child_process";
+import { mkdirSync, mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { type Page, test as base } from "@playwright/test";
+
+const binary = process.env.MANSARD_BINARY;
+if (!binary) throw new Error("MANSARD_BINARY names no program");
+export const data = process.env.MANSARD_DATA ?? join(__dirname, "../../../data");
+
+/** The command line; its standard output. */
+export const mansard = (...words: string[]) => execFileSync(binary, words, { encoding: "utf8" });
+
+export class Server {
+  link = "";
+  private child: ChildProcess | null = null;
+  constructor(readonly project: string) {}
+
+  async start() {
+    const child = spawn(binary!, ["serve", this.project, "--port", "0", "--sample", join(data, "delft")], {
+      stdio: ["ignore", "pipe", "inherit"],
+    });
+    this.child = child;
+    this.link = await new Promise<string>((resolve, reject) => {
+      let text = "";
+      child.stdout!.on("data", (bytes: Buffer) => {
+        text += bytes.toString();
+        const link = /http:\/\/\S+#token=\S+/.exec(text);
+        if (link) resolve(link[0]);
+      });
+      child.on("exit", (code) => reject(new Error(`the server ended with ${code} before it printed a link: ${text}`)));
+    });
+  }
+  get origin() {
+    return new URL(this.link).origin;
+  }
+  get token() {
+    return this.link.split("#token=")[1];
+  }
+  async stop(signal: NodeJS.Signals = "SIGTERM") {
+    const child = this.child;
+    this.child = null;
+    if (!child || child.exitCode !== null) return;
+    const gone = new Promise((resolve) => child.on("exit", resolve));
+    child.kill(signal);
+    await gone;
+  }
+  async get<T>(path: string) {
+    const response = await fetch(this.origin + path, { headers: { Authorization: `Bearer ${this.token}` } });
+    if (!response.ok) throw new Error(`${path}: ${response.status} ${await response.text()}`);
+    return (await response.json()) as T;
+  }
+}
+
+/** A server on an empty project, and a page whose console must stay clean. */
+export const test = base.extend<{ folder: string; server: Server; clean: Page }>({
+  folder: async ({}, use) => {
+    const folder = mkdtempSync(join(tmpdir(), "mansard-page-"));
+    await use(folder);
+    rmSync(folder, { recursive: true, force: true });
+  },
+  server: async ({ folder }, use) => {
+    const server = new Server(join(folder, "project"));
+    await server.start();
+    await use(server);
+    await server.stop();
+  },
+  clean: async ({ page }, use) => {
+    const wrong: string[] = [];
+    page.on("pageerror", (error) => wrong.push(String(error)));
+    page.on("console", (message) => {
+      // A server that ends, and an edit that is refused, make the browser say so.
+      if (message.type() === "error" && !/ERR_CONNECTION|ERR_INCOMPLETE|ERR_EMPTY|422|409|503/.test(message.text()))
+        wrong.push(message.text());
+    });
+    await use(page);
+    if (wrong.length > 0) throw new Error(`the page complained:\n${wrong.join("\n")}`);
+  },
+});
+export { expect } from "@playwright/test";
+
+/** A picture for whoever looks: into MANSARD_PICTURES where that is set, else beside the test's results. */
+export async function picture(page: Page, name: string, when: "when still" | "as it is" = "when still") {
+  const folder = process.env.MANSARD_PICTURES ?? join(process.env.MANSARD_TEST_RESULTS ?? tmpdir(), "pictures");
+  mkdirSync(folder, { recursive: true });
+  if (when === "when still")
+    await page.evaluate(() => (window as unknown as { mansard: { view: { idle(): Promise<void> } } }).mansard.view.idle());
+  await page.screenshot({ path: join(folder, `${name}.png`) });
+}

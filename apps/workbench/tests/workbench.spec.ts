@@ -1,0 +1,366 @@
+// The workbench as its users meet it: the real program, the shipped sample, a real browser.
+import { readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import type { Download, Page } from "@playwright/test";
+import type * as api from "../src/api/types";
+import { type Server, expect, mansard, picture, test } from "./harness";
+
+type Known = { window: { mansard: { state: typeof import("../src/state"); latency: number[] } } };
+
+async function openSample(page: Page, server: Server) {
+  await page.goto(server.link);
+  await page.getByRole("button", { name: "Open the sample" }).click();
+  await expect(page.getByRole("button", { name: "Reconstruct" })).toBeEnabled({ timeout: 60_000 });
+}
+
+/** One run of all blocks, or of the block named; its id. */
+async function reconstruct(page: Page, label: string) {
+  await page.getByRole("tab", { name: "Run" }).click();
+  await page.getByLabel("Label").fill(label);
+  await page.getByRole("button", { name: "Reconstruct" }).click();
+  await expect(page.getByRole("button", { name: label, exact: true })).toBeEnabled({ timeout: 150_000 });
+  await open(page, label);
+}
+
+/** Waits until the run of that label is the one seen. */
+async function open(page: Page, label: string) {
+  const seen = () =>
+    page.evaluate(() => {
+      const { state } = (window as unknown as Known["window"]).mansard;
+      return state.project.value?.runs.find((r) => r.id === state.run.value?.id)?.label;
+    });
+  await expect.poll(seen, { timeout: 90_000 }).toBe(label);
+}
+
+const buildings = (page: Page) =>
+  page.evaluate(() => [...(window as unknown as Known["window"]).mansard.state.run.value!.buildings.values()]);
+const buildingOf = async (page: Page, id: string) => (await buildings(page)).find((b) => b.id === id)!;
+const volume = (building: api.RaisedBuilding) => building.parts.reduce((sum, part) => sum + part.volume, 0);
+
+/** The edges of a plan that carry a roof: their profile has a slope. */
+const pitched = (plan: api.Plan) =>
+  plan.outer.profile_of_edge.flatMap((profile, edge) => {
+    const points = plan.profiles[profile]!;
+    return points.length === 3 && points[1]![0] === 0 && points[2]![0] > 0 && points[2]![1] > points[1]![1] ? [edge] : [];
+  });
+
+const shortest = (points: api.Point2[]) =>
+  Math.min(...points.map(([x, y], i) => Math.hypot(x - points.at(i - 1)![0], y - points.at(i - 1)![1])));
+
+/** A house of one part with a pitched roof, raised in full: what a first visitor would click. */
+async function aHouse(page: Page) {
+  const found = (await buildings(page))
+    .filter((b) => b.parts.length === 1 && b.parts[0]!.outcome === "full" && b.mse !== null)
+    .filter((b) => pitched(b.parts[0]!.plan).length > 0 && shortest(b.parts[0]!.plan.outer.points) > 1.5)
+    .sort((a, b) => a.id.localeCompare(b.id))[0];
+  expect(found, "the sample has a simple house").toBeTruthy();
+  return found!;
+}
+
+async function pick(page: Page, id: string) {
+  await page.getByRole("tab", { name: "Buildings" }).click();
+  await page.getByLabel("Filter buildings").fill(id);
+  await page.getByRole("row", { name: id }).click();
+  await page.getByRole("tab", { name: "Edit" }).click();
+  await expect(page.getByRole("application", { name: /^Profile of edge/ })).toBeVisible();
+}
+
+/** Makes the edge the one whose profile is shown. */
+async function pickEdge(page: Page, edge: number) {
+  await page.getByRole("button", { name: new RegExp(`^edge ${edge},`) }).focus();
+  await page.keyboard.press("Enter");
+  await expect(page.getByRole("application", { name: new RegExp(`^Profile of edge ${edge} of`) })).toBeVisible();
+}
+
+const canvas = (page: Page) => page.locator("main canvas").first();
+
+async function saved(download: Download, folder: string) {
+  const path = join(folder, download.suggestedFilename());
+  await download.saveAs(path);
+  return path;
+}
+
+test("the sample is read, run, looked at, changed by hand, undone and taken away", async ({ clean: page, server, folder }) => {
+  await page.goto(server.link);
+  await expect(page.getByRole("button", { name: "Open the sample" })).toBeVisible();
+  expect(new URL(page.url()).hash, "the token does not stay in the address").toBe("");
+  await picture(page, "start");
+  await openSample(page, server);
+
+  await test.step("progress is seen", async () => {
+    await page.getByLabel("Label").fill("first");
+    await page.getByRole("button", { name: "Reconstruct" }).click();
+    const progress = page.getByRole("status").filter({ hasText: "Reconstructing" }).first();
+    await expect(progress).toContainText(/\d+ %/);
+    await picture(page, "progress", "as it is");
+    await expect(page.getByRole("button", { name: "first", exact: true })).toBeEnabled({ timeout: 150_000 });
+    await open(page, "first");
+    await picture(page, "run");
+  });
+
+  const house = await aHouse(page);
+  const edge = pitched(house.parts[0]!.plan)[0]!;
+  await pick(page, house.id);
+  await pickEdge(page, edge);
+  await picture(page, "building");
+  const before = await buildingOf(page, house.id);
+  const seen = await canvas(page).screenshot();
+
+  await test.step("a point of the profile is dragged up by a metre", async () => {
+    const point = page.getByRole("button", { name: /^point 1,/ });
+    await point.hover(); // waits until it stands still
+    const box = (await point.boundingBox())!;
+    const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    for (let i = 1; i <= 12; ++i) await page.mouse.move(x, y - 2.5 * i);
+    // Live: the new solid is there before the button is let go, and nothing is written yet.
+    await expect
+      .poll(() =>
+        page.evaluate((id) => {
+          const { state } = (window as unknown as Known["window"]).mansard;
+          return state.draft.value?.raised.get(id)?.parts.reduce((sum, part) => sum + part.volume, 0) ?? 0;
+        }, house.id),
+      )
+      .toBeGreaterThan(volume(before) + 1);
+    expect((await buildingOf(page, house.id)).revision).toBe(before.revision);
+    await page.mouse.up();
+    await expect.poll(async () => (await buildingOf(page, house.id)).revision).toBeGreaterThan(before.revision);
+    const after = await buildingOf(page, house.id);
+    expect(volume(after)).toBeGreaterThan(volume(before) + 1);
+    expect(after.mse).not.toBe(before.mse);
+    await picture(page, "profile");
+    expect((await canvas(page).screenshot()).equals(seen), "the picture changed").toBe(false);
+    const latency = await page.evaluate(() => (window as unknown as Known["window"]).mansard.latency);
+    expect(latency.length).toBeGreaterThan(0);
+    const sorted = [...latency].sort((a, b) => a - b);
+    const report = `pointer to geometry, ms: median ${sorted[sorted.length >> 1]!.toFixed(1)}, worst ${sorted.at(-1)!.toFixed(1)} of ${sorted.length}`;
+    console.log(report);
+    if (process.env.MANSARD_PICTURES) writeFileSync(join(process.env.MANSARD_PICTURES, "latency.txt"), report + "\n");
+  });
+
+  await test.step("undo, redo", async () => {
+    await page.getByRole("button", { name: /^Undo/ }).click();
+    await expect.poll(async () => volume(await buildingOf(page, house.id))).toBeCloseTo(volume(before), 6);
+    await page.keyboard.press("Control+Shift+Z");
+    await expect.poll(async () => volume(await buildingOf(page, house.id))).toBeGreaterThan(volume(before) + 1);
+  });
+
+  await test.step("a reload loses nothing", async () => {
+    const now = await buildingOf(page, house.id);
+    await page.reload();
+    await open(page, "first");
+    await expect(page.getByRole("application", { name: new RegExp(`^Profile of edge ${edge} of`) })).toBeVisible();
+    expect((await buildingOf(page, house.id)).parts[0]!.plan).toEqual(now.parts[0]!.plan);
+  });
+
+  await test.step("what is taken away is what the command line makes of the plans", async () => {
+    const files: Record<string, string> = {};
+    for (const name of ["plans.json", "model.city.json", "model.obj", "model.glb"]) {
+      await page.getByRole("button", { name: "Export" }).click();
+      const [download] = await Promise.all([
+        page.waitForEvent("download"),
+        page.getByRole("menuitem", { name: new RegExp(`^${name.replaceAll(".", "\\.")}`) }).click(),
+      ]);
+      files[name] = await saved(download, folder);
+    }
+    const again = join(folder, "again");
+    mansard("extrude", files["plans.json"]!, "-o", again);
+    for (const name of ["model.city.json", "model.obj", "model.glb", "plans.json"])
+      expect(readFileSync(join(again, name)).equals(readFileSync(files[name]!)), `${name} is the same`).toBe(true);
+    const city = JSON.parse(readFileSync(files["model.city.json"]!, "utf8")) as {
+      CityObjects: Record<string, { attributes?: Record<string, unknown> }>;
+    };
+    const edited = Object.values(city.CityObjects).filter((o) => o.attributes?.["ms_edited"] === true);
+    expect(edited.length).toBeGreaterThan(0);
+  });
+});
+
+test("a footprint is cut along a drawn line, and made one again", async ({ clean: page, server }) => {
+  await openSample(page, server);
+  await reconstruct(page, "whole");
+  const house = await aHouse(page);
+  await pick(page, house.id);
+  const whole = await buildingOf(page, house.id);
+
+  // From outside to outside, through the middle of the first edge and that of the edge opposite.
+  await page.getByRole("button", { name: "Cut", exact: true }).click();
+  const sheet = page.getByRole("application", { name: /^Plan/ });
+  await page.getByRole("button", { name: /^corner 0 at/ }).hover(); // waits until the plan stands still
+  const corners = await page.getByRole("button", { name: /^corner \d+ at/ }).all();
+  const places = await Promise.all(
+    corners.map(async (corner) => {
+      const box = (await corner.boundingBox())!;
+      return [box.x + box.width / 2, box.y + box.height / 2] as const;
+    }),
+  );
+  const longest = places.map((p, i) => {
+    const q = places[(i + 1) % places.length]!;
+    return { i, length: Math.hypot(p[0] - q[0], p[1] - q[1]) };
+  }).sort((a, b) => b.length - a.length)[0]!.i;
+  const [a, b] = [places[longest]!, places[(longest + 1) % places.length]!];
+  const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
+  const [nx, ny] = [-(b[1] - a[1]) / length, (b[0] - a[0]) / length];
+  const [mx, my] = [a[0] + 0.45 * (b[0] - a[0]), a[1] + 0.45 * (b[1] - a[1])];
+  const box = (await sheet.boundingBox())!;
+  const clip = (x: number, y: number) => {
+    const inset = 6;
+    return [
+      Math.min(box.x + box.width - inset, Math.max(box.x + inset, x)),
+      Math.min(box.y + box.height - inset, Math.max(box.y + inset, y)),
+    ] as const;
+  };
+  const reach = Math.max(...places.map(([x, y]) => Math.abs((x - mx) * nx + (y - my) * ny))) + 14;
+  await page.mouse.click(...clip(mx - nx * reach, my - ny * reach));
+  await page.mouse.click(...clip(mx + nx * reach, my + ny * reach));
+  await page.keyboard.press("Enter");
+  await expect.poll(async () => (await buildingOf(page, house.id)).parts.length).toBe(2);
+  const cut = await buildingOf(page, house.id);
+  expect(cut.valid).toBe(true);
+  await picture(page, "split");
+
+  await page.getByRole("button", { name: "Merge with" }).click();
+  await expect.poll(async () => (await buildingOf(page, house.id)).parts.length).toBe(1);
+  const merged = await buildingOf(page, house.id);
+  expect(merged.valid).toBe(true);
+  expect(volume(merged)).toBeCloseTo(volume(whole), 0);
+
+  await page.keyboard.press("Control+z");
+  await expect.poll(async () => (await buildingOf(page, house.id)).parts.length).toBe(2);
+  await page.keyboard.press("Control+z");
+  await expect.poll(async () => (await buildingOf(page, house.id)).parts.map((p) => p.plan)).toEqual(whole.parts.map((p) => p.plan));
+});
+
+test("an invalid plan is shown and held, never written, and a reload keeps it", async ({ clean: page, server }) => {
+  await openSample(page, server);
+  await reconstruct(page, "held");
+  const house = await aHouse(page);
+  await pick(page, house.id);
+  const before = await buildingOf(page, house.id);
+
+  // A corner pulled across the edge opposite makes an outline that crosses itself.
+  const corner = page.getByRole("button", { name: /^corner 0 at/ });
+  await corner.hover(); // waits until it stands still
+  const places = await Promise.all(
+    (await page.getByRole("button", { name: /^corner \d+ at/ }).all()).map(async (c) => (await c.boundingBox())!),
+  );
+  const [from, to] = [(await corner.boundingBox())!, places[2]!];
+  const middle = (b: { x: number; y: number; width: number; height: number }) => [b.x + b.width / 2, b.y + b.height / 2];
+  const [[x0, y0], [x1, y1]] = [middle(from) as [number, number], middle(to) as [number, number]];
+  await page.mouse.move(x0, y0);
+  await page.mouse.down();
+  await page.mouse.move(x1 + 0.25 * (x1 - x0), y1 + 0.25 * (y1 - y0), { steps: 8 });
+  await page.mouse.up();
+  await expect(page.getByRole("alert")).toBeVisible();
+  await picture(page, "held");
+  const held = () => page.evaluate(() => (window as unknown as Known["window"]).mansard.state.draft.value?.invalid ?? false);
+  await expect.poll(held).toBe(true);
+  expect((await buildingOf(page, house.id)).revision).toBe(before.revision);
+
+  await page.reload();
+  await expect(page.getByRole("application", { name: /^Profile of edge/ })).toBeVisible();
+  await expect.poll(held).toBe(true);
+  await page.getByRole("button", { name: "Drop" }).click();
+  await expect.poll(held).toBe(false);
+  expect(await buildingOf(page, house.id)).toEqual(before);
+});
+
+test("two runs are compared side by side, with the error map, the plots and the list", async ({ clean: page, server }) => {
+  await openSample(page, server);
+  await reconstruct(page, "all that is supported");
+  await page.locator("summary").filter({ hasText: "Options" }).click();
+  await page.getByLabel("Search options").fill("quality");
+  await page.getByRole("combobox", { name: "quality" }).selectOption("simple");
+  await reconstruct(page, "walls alone");
+
+  await page.getByLabel("Compare with").selectOption({ label: "all that is supported (run-1)" });
+  await expect(page.getByRole("tab", { name: "Compare" })).toHaveAttribute("aria-selected", "true");
+  await expect(page.getByRole("tabpanel")).toContainText("profile.quality");
+  await picture(page, "compare");
+  await page.getByLabel("Compare with").selectOption({ label: "nothing" });
+
+  await page.getByRole("combobox", { name: "Run", exact: true }).selectOption("run-1");
+  await open(page, "all that is supported");
+  await page.getByRole("tab", { name: "Plots" }).click();
+  await expect(page.getByRole("img", { name: /profiles/ })).toBeVisible();
+  await expect(page.getByRole("img", { name: "Histogram of vertical errors" })).toBeVisible();
+  await picture(page, "plots");
+
+  await page.getByRole("tab", { name: "Buildings" }).click();
+  await page.getByRole("button", { name: "RMSE m" }).click();
+  const worst = page.getByRole("row").nth(1);
+  const id = (await worst.getByRole("gridcell").first().textContent())!;
+  await worst.click();
+  const selected = () => page.evaluate(() => (window as unknown as Known["window"]).mansard.state.selection.value?.building);
+  expect(await selected()).toBe(id);
+  await page.keyboard.press("l");
+  await page.getByRole("dialog", { name: "Layers" }).getByLabel(/error/i).first().check();
+  await picture(page, "error");
+});
+
+test("a click in the view picks the building that is seen there", async ({ clean: page, server }) => {
+  await openSample(page, server);
+  await reconstruct(page, "view");
+  const house = await aHouse(page);
+  await pick(page, house.id);
+  await page.getByRole("button", { name: "Fly to the selection" }).click();
+  await page.getByRole("button", { name: "From above" }).click();
+  const place = await page.evaluate(async (id) => {
+    const { view } = (window as unknown as { mansard: { view: import("../src/view/view").ViewHandle } }).mansard;
+    await view.idle();
+    return view.project(id);
+  }, house.id);
+  const area = (await canvas(page).boundingBox())!;
+  const selected = () => page.evaluate(() => (window as unknown as Known["window"]).mansard.state.selection.value?.building ?? null);
+  await page.mouse.click(area.x + 4, area.y + area.height - 4);
+  await expect.poll(selected).not.toBe(house.id);
+  await page.mouse.click(place!.x, place!.y);
+  await expect.poll(selected).toBe(house.id);
+});
+
+test("a server killed at work is started again, and nothing that was told is lost", async ({ clean: page, server }) => {
+  await openSample(page, server);
+  await reconstruct(page, "kept");
+  const house = await aHouse(page);
+  await pick(page, house.id);
+  const gutter = page.getByRole("textbox", { name: "Gutter, metres" });
+  await pickEdge(page, pitched(house.parts[0]!.plan)[0]!);
+  await gutter.fill((Number((await gutter.inputValue()).replace(",", ".")) + 0.5).toFixed(2));
+  await gutter.press("Enter");
+  await expect.poll(async () => (await buildingOf(page, house.id)).edited).toBe(true);
+  const edited = await buildingOf(page, house.id);
+
+  await page.getByRole("tab", { name: "Run" }).click();
+  await page.getByLabel("Label").fill("cut short");
+  await page.getByRole("button", { name: "Reconstruct" }).click();
+  await expect(page.getByRole("status").filter({ hasText: "Reconstructing" }).first()).toContainText(/\d+ %/);
+  await server.stop("SIGKILL");
+  await expect(page.getByRole("status", { name: "The server does not answer" })).toBeVisible();
+
+  await server.start();
+  await page.goto(server.link);
+  await page.getByRole("tab", { name: "Run" }).click();
+  const row = page.getByRole("listitem").filter({ hasText: "cut short" });
+  await expect(row).toContainText("interrupted");
+  await page.getByRole("button", { name: "kept", exact: true }).click();
+  await expect.poll(async () => (await buildingOf(page, house.id))?.parts[0]?.plan).toEqual(edited.parts[0]!.plan);
+  await page.getByRole("button", { name: /^Undo/ }).click();
+  await expect.poll(async () => (await buildingOf(page, house.id)).edited).toBe(false);
+});
+
+test("two tabs see each other's edits", async ({ clean: page, context, server }) => {
+  await openSample(page, server);
+  await reconstruct(page, "shared");
+  const house = await aHouse(page);
+  const second = await context.newPage();
+  await second.goto(server.link);
+  await second.getByRole("button", { name: "shared", exact: true }).click();
+  await open(second, "shared");
+  await pick(page, house.id);
+  const cap = page.getByRole("textbox", { name: "Cap, metres" });
+  await cap.fill("3.2");
+  await cap.press("Enter");
+  await expect.poll(async () => (await buildingOf(second, house.id)).parts[0]!.plan.cap).toBe(3.2);
+  await second.keyboard.press("Control+z");
+  await expect.poll(async () => (await buildingOf(page, house.id)).edited).toBe(false);
+});

@@ -1,0 +1,118 @@
+# What is installed, and the packages made of it: docs/packaging.md.
+#   component extrude    the extrusion kernel and what it stands on: libraries, doors, their part of the CMake package
+#   component engine     the same of every other room
+#   component program    mansard, its manual page, the shells' completions, the samples
+include(CMakePackageConfigHelpers)
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/mansard)
+get_property(rooms GLOBAL PROPERTY MANSARD_ROOM_LIST)
+
+# The room and those that it stands on.
+function(mansard_ground name result)
+  set(ground "")
+  set(open ${name})
+  while(open)
+    list(POP_FRONT open room)
+    if(NOT room IN_LIST ground)
+      list(APPEND ground ${room})
+      get_target_property(doors mansard_${room} MANSARD_DOORS)
+      list(APPEND open ${doors})
+    endif()
+  endwhile()
+  set(${result} ${ground} PARENT_SCOPE)
+endfunction()
+
+set(kernel "")
+if(TARGET mansard_extrude)
+  mansard_ground(extrude kernel)
+endif()
+foreach(room IN LISTS rooms)
+  set(component engine)
+  if(room IN_LIST kernel)  # an export belongs to one component
+    set(component extrude)
+  endif()
+  install(TARGETS mansard_${room} EXPORT mansard_${room} COMPONENT ${component})
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/mansard/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/mansard
+    COMPONENT ${component} FILES_MATCHING PATTERN *.hpp PATTERN detail EXCLUDE)
+  install(EXPORT mansard_${room} NAMESPACE mansard:: FILE mansard_${room}.cmake DESTINATION ${package_dir}
+    COMPONENT ${component})
+endforeach()
+
+# The package file knows every room's doors and libraries, whichever of them are installed.
+set(MANSARD_CONFIG_ROOMS "${rooms}")
+list(JOIN MANSARD_CONFIG_ROOMS " " MANSARD_CONFIG_ROOMS)
+set(MANSARD_CONFIG_DOORS "")
+foreach(room IN LISTS rooms)
+  get_target_property(doors mansard_${room} MANSARD_DOORS)
+  get_target_property(uses mansard_${room} MANSARD_USES)
+  list(JOIN doors " " doors)
+  list(JOIN uses " " uses)
+  string(APPEND MANSARD_CONFIG_DOORS "set(_mansard_doors_${room} ${doors})\nset(_mansard_uses_${room} ${uses})\n")
+endforeach()
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/mansardConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/mansardConfig.cmake INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/mansardConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+foreach(component IN ITEMS extrude engine)  # either may be installed without the other's files
+  install(FILES ${PROJECT_BINARY_DIR}/mansardConfig.cmake ${PROJECT_BINARY_DIR}/mansardConfigVersion.cmake
+    ${PROJECT_SOURCE_DIR}/cmake/mansard_libraries.cmake DESTINATION ${package_dir} COMPONENT ${component})
+endforeach()
+
+set(papers ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE ${PROJECT_SOURCE_DIR}/packaging/copyright)
+install(FILES ${papers} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libmansard-dev COMPONENT extrude)
+
+if(NOT TARGET mansard)
+  return()
+endif()
+
+# ---- the program, and what it says of itself
+install(TARGETS mansard COMPONENT program)
+set(made ${PROJECT_BINARY_DIR}/packaging)
+file(MAKE_DIRECTORY ${made})
+find_program(GZIP gzip REQUIRED)
+add_custom_command(OUTPUT ${made}/mansard.1.gz ${made}/mansard.bash ${made}/_mansard ${made}/mansard.fish
+  COMMAND mansard manual > ${made}/mansard.1
+  COMMAND ${GZIP} -9nf ${made}/mansard.1
+  COMMAND mansard completion bash > ${made}/mansard.bash
+  COMMAND mansard completion zsh > ${made}/_mansard
+  COMMAND mansard completion fish > ${made}/mansard.fish
+  DEPENDS mansard COMMENT "Asking mansard for its manual page and completions" VERBATIM)
+add_custom_target(mansard_manual ALL
+  DEPENDS ${made}/mansard.1.gz ${made}/mansard.bash ${made}/_mansard ${made}/mansard.fish)
+install(FILES ${made}/mansard.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+install(FILES ${made}/mansard.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME mansard
+  COMPONENT program)
+install(FILES ${made}/_mansard DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT program)
+install(FILES ${made}/mansard.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT program)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/data DESTINATION ${CMAKE_INSTALL_DATADIR}/mansard COMPONENT program)
+install(FILES ${papers} ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/mansard
+  COMPONENT program)
+
+# ---- Debian packages: cpack -G DEB
+set(CPACK_PACKAGE_NAME mansard)
+set(CPACK_PACKAGE_VENDOR "the mansard contributors")
+set(CPACK_PACKAGE_CONTACT "the mansard contributors <mansard@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "city mesh and footprints to labelled, watertight building models")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_PACKAGE_DIRECTORY ${made})
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
+  OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_COMPONENTS_ALL program extrude engine)
+set(CPACK_COMPONENT_EXTRUDE_GROUP dev)
+set(CPACK_COMPONENT_ENGINE_GROUP dev)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME mansard)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)  # the libraries of the machine that builds: Debian 12
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
+  "A noisy city mesh and its building footprints in; clean, watertight, wall-and-roof-labelled building models out,
+which stay editable as plan + profiles. With manual page, completions for bash, zsh and fish, and samples in
+/usr/share/mansard/data.")
+set(CPACK_DEBIAN_DEV_PACKAGE_NAME libmansard-dev)
+set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libtbb-dev, libgmp-dev, libgeos-dev, libembree-dev (>= 3.13), coinor-libcbc-dev, \
+libgdal-dev, libtinygltf-dev, libssl-dev, libpng-dev, pkg-config")
+set(CPACK_COMPONENT_GROUP_DEV_DESCRIPTION
+  "The rooms of mansard as static libraries with their doors, for find_package(mansard COMPONENTS pipeline).")
+include(CPack)

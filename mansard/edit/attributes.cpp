@@ -1,0 +1,10 @@
+#include "mansard/edit/attributes.hpp"
+
+namespace mansard::edit {
+
+auto attributes() -> std::vector<write::Attribute> {
+  return {{"ms_edited", "edit", {"Building", "BuildingPart"}, "flag", "",
+           "true where the plan is not that of the run any more; absent elsewhere."}};
+}
+
+}  // namespace mansard::edit

@@ -1,0 +1,118 @@
+// The journal: a line an edit, as JSON, only ever appended to.
+#include <algorithm>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+#include "mansard/edit/edit.hpp"
+
+namespace mansard::edit {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Thrown and caught inside this file.
+struct Defect {
+  std::string what;
+};
+
+auto quoted(const std::string& text) -> std::string {
+  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+auto member(const Json& object, const char* name) -> const Json& {
+  const auto found = object.find(name);
+  if (found == object.end()) throw Defect{std::string("there is no \"") + name + "\""};
+  return *found;
+}
+
+/// The members that an object may have, and no others.
+void only(const Json& object, std::initializer_list<std::string_view> names) {
+  if (!object.is_object()) throw Defect{"an object was expected"};
+  for (const auto& [key, value] : object.items())
+    if (std::find(names.begin(), names.end(), key) == names.end()) throw Defect{"\"" + key + "\" is not known"};
+}
+
+auto text_of(const Json& json) -> std::string {
+  if (!json.is_string()) throw Defect{"a text was expected"};
+  return json.get<std::string>();
+}
+
+auto items_of(const Json& json) -> const Json& {
+  if (!json.is_array()) throw Defect{"an array was expected"};
+  return json;
+}
+
+auto part_of(const Json& json) -> NamedPlan {
+  only(json, {"id", "plan"});
+  auto plan = write::read_plan(member(json, "plan").dump(), "plan");
+  if (!plan) throw Defect{plan.error().message};
+  return {text_of(member(json, "id")), std::move(*plan)};
+}
+
+auto change_of(const Json& json) -> Change {
+  only(json, {"building", "revision", "parts"});
+  Change change;
+  change.building = text_of(member(json, "building"));
+  if (!member(json, "revision").is_number_unsigned()) throw Defect{"a revision is a whole number"};
+  change.revision = member(json, "revision").get<std::uint64_t>();
+  for (const auto& part : items_of(member(json, "parts"))) change.parts.push_back(part_of(part));
+  return change;
+}
+
+auto edit_of(const Json& json) -> Edit {
+  only(json, {"what", "changes"});
+  Edit edit;
+  edit.what = text_of(member(json, "what"));
+  for (const auto& change : items_of(member(json, "changes"))) edit.changes.push_back(change_of(change));
+  return edit;
+}
+
+/// Does what the line says; what is wrong with it otherwise.
+auto fault_of(std::string_view line, History& history) -> std::optional<std::string> {
+  const auto fault = [](const auto& result) -> std::optional<std::string> {
+    if (result) return std::nullopt;
+    return result.error().message;
+  };
+  try {
+    if (line == undo_line) return fault(history.undo());
+    if (line == redo_line) return fault(history.redo());
+    return fault(history.apply(edit_of(Json::parse(line))));
+  } catch (const Json::exception&) {
+    return "it is not JSON";
+  } catch (const Defect& defect) {
+    return defect.what;
+  }
+}
+
+}  // namespace
+
+auto journal_line(const Edit& edit) -> std::string {
+  std::string line = "{\"what\":" + quoted(edit.what) + ",\"changes\":[";
+  for (const auto& change : edit.changes) {
+    line += std::string(&change != &edit.changes.front() ? "," : "") + "{\"building\":" + quoted(change.building) +
+            ",\"revision\":" + std::to_string(change.revision) + ",\"parts\":[";
+    for (const auto& part : change.parts)
+      line += std::string(&part != &change.parts.front() ? "," : "") + "{\"id\":" + quoted(part.id) +
+              ",\"plan\":" + write::plan_json(part.plan) + "}";
+    line += "]}";
+  }
+  return line + "]}";
+}
+
+auto replay(const write::City& city, std::string_view journal) -> base::Result<Replayed> {
+  Replayed out{History(city), 0};
+  for (std::size_t number = 1;; ++number) {
+    const auto end = journal.find('\n', out.kept);
+    if (end == std::string_view::npos) return out;
+    const auto line = journal.substr(out.kept, end - out.kept);
+    if (const auto fault = fault_of(line, out.history))
+      return base::error("edit-journal",
+                         "line " + std::to_string(number) + " cannot be done again: " + *fault +
+                             "; take out that line and those after it, or restore the file");
+    out.kept = end + 1;
+  }
+}
+
+}  // namespace mansard::edit

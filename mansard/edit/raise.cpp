@@ -1,0 +1,178 @@
+// A building's parts raised among their neighbours and held against the scan.
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "mansard/base/text.hpp"
+#include "mansard/edit/detail/trace.hpp"
+#include "mansard/edit/edit.hpp"
+
+namespace mansard::edit {
+namespace {
+
+using geometry::Box2;
+using geometry::Polygon;
+
+/// Solids of plans, by their order; none where a plan cannot be raised, with its reasons.
+struct Attempt {
+  std::optional<extrude::Solid> solid;
+  extrude::Outcome outcome = extrude::Outcome::full;
+  std::vector<base::Diagnostic> diagnostics;
+};
+
+auto attempt(const geometry::Plan& plan, const pipeline::Options& options, const base::Run& run) -> Attempt {
+  Attempt out;
+  auto raised = pipeline::raise_part(plan, options, run);
+  if (!raised) {
+    out.diagnostics.push_back(raised.error());
+    return out;
+  }
+  out.outcome = raised->outcome;
+  out.diagnostics = std::move(raised->warnings);
+  out.solid = std::move(raised->solid);
+  return out;
+}
+
+auto box_of(std::span<const NamedPlan> parts) -> Box2 {
+  Box2 box;
+  for (const auto& part : parts)
+    for (const auto p : part.plan.outer.points) box.add(p);
+  return box;
+}
+
+/// Ground that parts share, m², with neighbours or with each other.
+auto shared_with(std::span<const Polygon> parts, const Polygon& neighbour) -> double {
+  double sum = 0;
+  for (const auto& part : parts) sum += detail::overlap(part, neighbour);
+  return sum;
+}
+auto shared_among(std::span<const Polygon> parts) -> double {
+  double sum = 0;
+  for (std::size_t i = 0; i < parts.size(); ++i) sum += shared_with(parts.subspan(0, i), parts[i]);
+  return sum;
+}
+
+auto sound_polygons(std::span<const NamedPlan> parts) -> std::vector<Polygon> {
+  std::vector<Polygon> polygons;
+  for (const auto& part : parts)
+    if (auto polygon = geometry::polygon_of(part.plan); geometry::is_simple(polygon))
+      polygons.push_back(std::move(polygon));
+  return polygons;
+}
+
+auto overlap_of(const std::string& with, double area, const std::string& subject) -> base::Diagnostic {
+  return base::error("edit-overlap",
+                     "shares " + base::to_text(area, 2) + " m² of ground with " + with +
+                         "; move the corners back, or the neighbour's too",
+                     subject);
+}
+
+/// `parts` are those with a solid, and so with a sound outline.
+void find_overlaps(std::span<const NamedPlan* const> parts, std::span<const geometry::Plan* const> neighbours,
+                   std::span<const NamedPlan> before, std::vector<base::Diagnostic>& diagnostics) {
+  std::vector<Polygon> polygons;
+  for (const auto* part : parts) polygons.push_back(geometry::polygon_of(part->plan));
+  std::optional<std::vector<Polygon>> were;  // made only where there is something to excuse
+  const auto earlier = [&]() -> const std::vector<Polygon>& {
+    if (!were) were = sound_polygons(before);
+    return *were;
+  };
+
+  std::vector<base::Diagnostic> own;
+  double sum = 0;
+  for (std::size_t i = 0; i < polygons.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const double area = detail::overlap(polygons[i], polygons[j]);
+      sum += area;
+      if (area > detail::least_area) own.push_back(overlap_of("part " + parts[j]->id, area, parts[i]->id));
+    }
+  if (!own.empty() && sum > shared_among(earlier()) + detail::least_area)
+    diagnostics.insert(diagnostics.end(), own.begin(), own.end());
+
+  for (const auto* neighbour : neighbours) {
+    const auto polygon = geometry::polygon_of(*neighbour);
+    double total = 0, most = 0;
+    std::size_t worst = 0;
+    for (std::size_t i = 0; i < polygons.size(); ++i) {
+      const double area = detail::overlap(polygons[i], polygon);
+      total += area;
+      if (area <= most) continue;
+      most = area;
+      worst = i;
+    }
+    if (total > detail::least_area && total > shared_with(earlier(), polygon) + detail::least_area)
+      diagnostics.push_back(overlap_of("a neighbouring building", total, parts[worst]->id));
+  }
+}
+
+}  // namespace
+
+auto RaisedBuilding::valid() const -> bool {
+  const auto is_error = [](const base::Diagnostic& d) { return d.severity == base::Severity::error; };
+  return std::ranges::none_of(diagnostics, is_error) &&
+         std::ranges::all_of(parts, [](const auto& part) { return part.model.has_value(); });
+}
+
+auto raise(std::span<const NamedPlan> parts, const Site& site, const pipeline::Options& options, const base::Run& run)
+    -> RaisedBuilding {
+  base::Run inner = run;
+  inner.progress = nullptr;
+  const auto box = box_of(parts).grown(options.label.party_distance + detail::snap);
+  std::vector<const geometry::Plan*> near;
+  for (const auto& plan : site.neighbours)
+    if (box.overlaps(geometry::bounds(plan.outer.points))) near.push_back(&plan);
+
+  std::vector<Attempt> attempts(parts.size() + near.size());
+  base::parallel_for(attempts.size(), [&](std::size_t i) {
+    attempts[i] = attempt(i < parts.size() ? parts[i].plan : *near[i - parts.size()], options, inner);
+  });
+
+  // Neighbours come along for the party walls.
+  std::vector<extrude::Solid> solids;
+  for (auto& raised : attempts)
+    if (raised.solid) solids.push_back(std::move(*raised.solid));
+  auto labelled = label::classify(std::move(solids), options.label, inner);
+
+  RaisedBuilding out;
+  out.parts.resize(parts.size());
+  std::vector<const NamedPlan*> sound;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    auto& part = out.parts[i];
+    part.id = parts[i].id;
+    part.outcome = attempts[i].outcome;
+    part.diagnostics = std::move(attempts[i].diagnostics);
+    for (auto& diagnostic : part.diagnostics) diagnostic.subject = part.id;
+    if (!attempts[i].solid) continue;
+    part.model = std::move(labelled[sound.size()]);
+    sound.push_back(&parts[i]);
+  }
+  base::parallel_for(parts.size(), [&](std::size_t i) {
+    auto& part = out.parts[i];
+    if (!part.model) return;
+    part.volume = extrude::volume(part.model->solid);
+    if (site.mesh == nullptr) return;
+    const double mse = evaluate::error_over(part.model->solid, geometry::polygon_of(parts[i].plan), *site.mesh,
+                                            options.evaluate.grid);
+    if (std::isfinite(mse)) part.mse = mse;
+  });
+
+  double squared = 0, area = 0;
+  for (const auto& part : out.parts) {
+    if (!part.mse) continue;
+    const double ground = label::areas(*part.model).ground;
+    squared += *part.mse * ground;
+    area += ground;
+  }
+  if (area > 0) out.mse = squared / area;
+
+  std::set<std::string_view> ids;
+  for (const auto& part : parts)
+    if (!ids.insert(part.id).second)
+      out.diagnostics.push_back(
+          base::error("edit-duplicate-id", "two parts of the building have this id; give one of them another", part.id));
+  find_overlaps(sound, near, site.before, out.diagnostics);
+  return out;
+}
+
+}  // namespace mansard::edit

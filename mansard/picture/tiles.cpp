@@ -1,0 +1,217 @@
+// Levels by clustering vertices: every cell of a grid over the whole mesh becomes one vertex, whichever tile asks.
+#include "mansard/picture/tiles.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+namespace mansard::picture {
+namespace {
+
+using geometry::Mesh;
+using geometry::Point3;
+using geometry::Triangle;
+
+template <class Work>
+void in_pieces(std::size_t count, const Work& work) {
+  constexpr std::size_t size = 65'536;
+  base::parallel_for((count + size - 1) / size, [&](std::size_t piece) {
+    for (std::size_t i = piece * size; i < std::min(count, (piece + 1) * size); ++i) work(i);
+  });
+}
+
+struct Box {
+  Point3 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+             std::numeric_limits<double>::infinity()};
+  Point3 high{-low.x, -low.y, -low.z};
+  void add(Point3 p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+};
+
+auto box_of(const Mesh& mesh) -> Box {
+  Box box;
+  for (const auto& t : mesh.triangles)
+    for (const auto v : t) box.add(mesh.vertices[v]);
+  return box;
+}
+
+/// 21 bits an axis: cells of 1 cm over 20 km.
+auto key_of(Point3 p, Point3 low, double cell) -> std::uint64_t {
+  constexpr double most = (1 << 21) - 1;
+  const auto axis = [&](double v, double from) {
+    return static_cast<std::uint64_t>(std::clamp(std::floor((v - from) / cell), 0.0, most));
+  };
+  return axis(p.x, low.x) << 42U | axis(p.y, low.y) << 21U | axis(p.z, low.z);
+}
+
+/// Starts with the vertex of the lowest number, so that equal triangles look equal.
+auto turned(Triangle t) -> Triangle {
+  std::ranges::rotate(t, std::ranges::min_element(t));
+  return t;
+}
+
+/// The mesh with all vertices of one cell as their mean; triangles without three corners are gone, and repeated ones.
+auto clustered(const Mesh& mesh, Point3 low, double cell) -> Mesh {
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> order(mesh.vertices.size());
+  in_pieces(order.size(), [&](std::size_t v) {
+    order[v] = {key_of(mesh.vertices[v], low, cell), static_cast<std::uint32_t>(v)};
+  });
+  std::ranges::sort(order);
+
+  Mesh out;
+  std::vector<std::uint32_t> cluster(order.size());
+  for (std::size_t first = 0; first < order.size();) {
+    std::size_t end = first;
+    Point3 sum;
+    for (; end < order.size() && order[end].first == order[first].first; ++end) {
+      sum = sum + (mesh.vertices[order[end].second] - low);
+      cluster[order[end].second] = static_cast<std::uint32_t>(out.vertices.size());
+    }
+    out.vertices.push_back(low + (1 / static_cast<double>(end - first)) * sum);
+    first = end;
+  }
+  for (const auto& t : mesh.triangles) {
+    const Triangle moved{cluster[t[0]], cluster[t[1]], cluster[t[2]]};
+    if (moved[0] != moved[1] && moved[1] != moved[2] && moved[2] != moved[0]) out.triangles.push_back(turned(moved));
+  }
+  std::ranges::sort(out.triangles);
+  out.triangles.erase(std::ranges::unique(out.triangles).begin(), out.triangles.end());
+  return out;
+}
+
+/// Row and column of the tile that a triangle's centre is in, as one number that sorts by rows.
+using Place = std::uint64_t;
+auto place(std::size_t row, std::size_t column) -> Place { return std::uint64_t{row} << 32U | column; }
+auto row_of(Place p) -> std::size_t { return p >> 32U; }
+auto column_of(Place p) -> std::size_t { return p & 0xffffffffU; }
+
+auto places_of(const Mesh& mesh, Point3 low, double size) -> std::vector<Place> {
+  std::vector<Place> places(mesh.triangles.size());
+  in_pieces(places.size(), [&](std::size_t i) {
+    const auto& t = mesh.triangles[i];
+    const Point3 sum = mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]];
+    const auto axis = [&](double v, double from) {
+      return static_cast<std::size_t>(std::max(0.0, std::floor((v / 3 - from) / size)));
+    };
+    places[i] = place(axis(sum.y, low.y), axis(sum.x, low.x));
+  });
+  return places;
+}
+
+auto counts_of(const std::vector<Place>& places) -> std::map<Place, std::size_t> {
+  std::unordered_map<Place, std::size_t> counts;
+  for (const auto p : places) ++counts[p];
+  return {counts.begin(), counts.end()};
+}
+
+/// The side of level 0's tiles: halved until the fullest has few enough, or would be no bigger than a house.
+auto tile_size(const Mesh& mesh, const Box& box, std::size_t most) -> double {
+  constexpr double least = 16;  // m
+  double size = std::max({box.high.x - box.low.x, box.high.y - box.low.y, 1.0});
+  size = std::nextafter(size, 2 * size);  // the far side is inside
+  if (mesh.triangles.size() <= most) return size;
+  while (size > 2 * least) size /= 2;
+  // From the smallest up: four tiles make one, exactly, since sizes differ by powers of two.
+  auto counts = counts_of(places_of(mesh, box.low, size));
+  while (counts.size() > 1) {
+    std::map<Place, std::size_t> larger;
+    std::size_t fullest = 0;
+    for (const auto& [p, count] : counts)
+      fullest = std::max(fullest, larger[place(row_of(p) / 2, column_of(p) / 2)] += count);
+    if (fullest > most) break;
+    counts = std::move(larger);
+    size *= 2;
+  }
+  return size;
+}
+
+auto tile_of(const Mesh& mesh, std::span<const std::uint32_t> group) -> Tile {
+  Tile tile;
+  std::vector<std::uint32_t> used;
+  used.reserve(3 * group.size());
+  for (const auto t : group) used.insert(used.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+  std::ranges::sort(used);
+  used.erase(std::ranges::unique(used).begin(), used.end());
+  Box box;
+  for (const auto v : used) box.add(mesh.vertices[v]);
+  tile.low = box.low;
+  tile.high = box.high;
+  // A whole metre: what is added back is exact.
+  const Point3 middle = 0.5 * (box.low + box.high);
+  tile.centre = {std::round(middle.x), std::round(middle.y), std::round(middle.z)};
+  tile.positions.reserve(3 * used.size());
+  for (const auto v : used) {
+    const Point3 p = mesh.vertices[v] - tile.centre;
+    for (const double c : {p.x, p.y, p.z}) tile.positions.push_back(static_cast<float>(c));
+  }
+  tile.triangles.reserve(3 * group.size());
+  for (const auto t : group)
+    for (const auto v : mesh.triangles[t])
+      tile.triangles.push_back(static_cast<std::uint32_t>(std::ranges::lower_bound(used, v) - used.begin()));
+  return tile;
+}
+
+void add_level(const Mesh& mesh, Point3 low, double size, std::size_t level, double cell, std::vector<Tile>& out) {
+  const auto places = places_of(mesh, low, size);
+  const auto counts = counts_of(places);
+  std::unordered_map<Place, std::size_t> next;
+  std::vector<std::size_t> starts{0};
+  for (const auto& [p, count] : counts) {
+    next[p] = starts.back();
+    starts.push_back(starts.back() + count);
+  }
+  std::vector<std::uint32_t> order(places.size());
+  for (std::uint32_t t = 0; t < places.size(); ++t) order[next[places[t]]++] = t;
+
+  std::vector<Place> place_of_tile;
+  for (const auto& [p, count] : counts) place_of_tile.push_back(p);
+  const std::size_t first = out.size();
+  out.resize(first + counts.size());
+  base::parallel_for(counts.size(), [&](std::size_t i) {
+    Tile& tile = out[first + i] = tile_of(mesh, std::span(order).subspan(starts[i], starts[i + 1] - starts[i]));
+    tile.level = level;
+    tile.row = row_of(place_of_tile[i]);
+    tile.column = column_of(place_of_tile[i]);
+    tile.cell = cell;
+  });
+}
+
+}  // namespace
+
+auto tiles(const Mesh& mesh, const TileOptions& options, const base::Run& run) -> std::vector<Tile> {
+  std::vector<Tile> out;
+  if (mesh.triangles.empty()) return out;
+  const Box box = box_of(mesh);
+  double size = tile_size(mesh, box, options.most), cell = options.error;
+  run.report("tiles", "level 0", 0);
+  add_level(mesh, box.low, size, 0, 0, out);
+
+  std::size_t before = mesh.triangles.size();
+  const double extent = std::max({box.high.x - box.low.x, box.high.y - box.low.y, box.high.z - box.low.z});
+  for (std::size_t level = 1; before > options.coarsest && cell < extent; ++level) {
+    // Clustering the mesh itself, not the level before: a vertex moves within one cell, errors do not add up.
+    Mesh coarse;
+    for (;; cell *= 2) {
+      if (run.cancelled()) return {};
+      coarse = clustered(mesh, box.low, cell);
+      if (coarse.triangles.size() <= before / 2 || cell >= extent) break;  // else it is hardly worth a level
+    }
+    size *= 2;
+    run.report("tiles", "level " + std::to_string(level), 1 - static_cast<double>(coarse.triangles.size()) /
+                                                                  static_cast<double>(mesh.triangles.size()));
+    add_level(coarse, box.low, size, level, cell, out);
+    before = coarse.triangles.size();
+    cell *= 2;
+  }
+  return out;
+}
+
+}  // namespace mansard::picture

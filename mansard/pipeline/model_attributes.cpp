@@ -1,0 +1,175 @@
+// Attributes of models: those of a run, and those of parts and buildings whose plans were changed after it.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "mansard/pipeline/detail/model_attributes.hpp"
+
+namespace mansard::pipeline {
+namespace {
+
+/// Those that model_attributes() makes.
+constexpr std::array<std::string_view, 14> of_model{
+    "ms_h_ground",    "ms_h_roof_min",   "ms_h_roof_50p", "ms_h_roof_70p",     "ms_h_roof_max",
+    "ms_h_ridge",     "ms_roof_type",    "ms_volume_lod22", "ms_rmse_lod22",   "ms_area_roof_flat",
+    "ms_area_roof_sloped", "ms_area_wall", "ms_area_party_wall", "ms_fallback"};
+/// Those of a building that are its parts' together.
+constexpr std::array<std::string_view, 5> of_building{"ms_outcome", "ms_h_ground", "ms_h_roof_max", "ms_volume_lod22",
+                                                      "ms_rmse_lod22"};
+
+/// The attributes without those named, and the new ones where the first of them stood.
+auto with(const ingest::Attributes& before, std::span<const std::string_view> names, ingest::Attributes now)
+    -> ingest::Attributes {
+  ingest::Attributes out;
+  bool placed = false;
+  for (const auto& attribute : before) {
+    if (std::ranges::find(names, attribute.first) == names.end()) {
+      out.push_back(attribute);
+      continue;
+    }
+    if (!placed) out.insert(out.end(), now.begin(), now.end());
+    placed = true;
+  }
+  if (!placed) out.insert(out.end(), now.begin(), now.end());
+  return out;
+}
+
+template <class T>
+auto value_of(const ingest::Attributes& attributes, std::string_view name) -> const T* {
+  const auto found = std::ranges::find(attributes, name, &ingest::Attributes::value_type::first);
+  return found != attributes.end() ? std::get_if<T>(&found->second) : nullptr;
+}
+
+}  // namespace
+
+namespace detail {
+
+auto heights_over(const rays::Scene& surface, const geometry::Polygon& polygon, double grid) -> std::vector<double> {
+  constexpr double most_samples = 250'000;
+  const auto box = geometry::bounds(polygon.outer);
+  const geometry::Point2 extent = box.most - box.least;
+  grid = std::max(grid, std::sqrt(extent.x * extent.y / most_samples));
+  std::vector<double> heights;
+  for (double y = std::ceil(box.least.y / grid) * grid; y <= box.most.y; y += grid)
+    for (double x = std::ceil(box.least.x / grid) * grid; x <= box.most.x; x += grid)
+      if (geometry::contains(polygon, geometry::Point2{x, y}))
+        if (const auto z = surface.top({x, y})) heights.push_back(*z);
+  std::ranges::sort(heights);
+  return heights;
+}
+
+auto roof_heights(const label::LabelledSolid& model, const geometry::Plan& plan, double grid) -> std::vector<double> {
+  std::vector<double> heights;
+  if (const auto triangles = extrude::triangulate(model.solid)) {
+    const rays::Scene roof(geometry::Mesh{model.solid.vertices, triangles->triangles});
+    heights = heights_over(roof, geometry::polygon_of(plan), grid);
+  }
+  if (!heights.empty()) return heights;
+  for (const auto& v : model.solid.vertices)
+    if (v.z > plan.base) heights.push_back(v.z);
+  std::ranges::sort(heights);
+  return heights;
+}
+
+auto roof_type(const label::LabelledSolid& model) -> std::string {
+  constexpr double flat = 0.9962;  // cosine of 5°
+  double flat_area = 0, sloped_area = 0;
+  std::vector<double> levels;
+  for (std::size_t f = 0; f < model.solid.faces.size(); ++f) {
+    if (model.classes[f] != label::Class::roof) continue;
+    const auto& face = model.solid.faces[f];
+    const double area = extrude::area(model.solid, face);
+    if (face.normal.z < flat) {
+      sloped_area += area;
+      continue;
+    }
+    flat_area += area;
+    levels.push_back(model.solid.vertices[face.loops.front().front()].z);
+  }
+  if (sloped_area > 0.05 * (flat_area + sloped_area)) return "slanted";
+  std::ranges::sort(levels);
+  return !levels.empty() && levels.back() - levels.front() > 0.5 ? "multiple horizontal" : "horizontal";
+}
+
+auto ridge_height(const label::LabelledSolid& model) -> std::optional<double> {
+  std::optional<double> highest;
+  for (std::size_t f = 0; f < model.solid.faces.size(); ++f) {
+    const auto& face = model.solid.faces[f];
+    if (face.kind != extrude::FaceKind::side || model.classes[f] != label::Class::roof) continue;
+    for (const auto v : face.loops.front()) highest = std::max(highest.value_or(-1e9), model.solid.vertices[v].z);
+  }
+  return highest;
+}
+
+auto percentile(const std::vector<double>& sorted, double share) -> double {
+  return sorted[static_cast<std::size_t>(std::lround(share * static_cast<double>(sorted.size() - 1)))];
+}
+
+auto model_attributes(const label::LabelledSolid& model, const geometry::Plan& plan, const std::vector<double>& roof,
+                      const std::optional<double>& mse, const std::string& fallback, double z0)
+    -> ingest::Attributes {
+  const auto areas = label::areas(model);
+  ingest::Attributes out;
+  out.emplace_back("ms_h_ground", z0 + plan.base);
+  out.emplace_back("ms_h_roof_min", z0 + roof.front());
+  out.emplace_back("ms_h_roof_50p", z0 + percentile(roof, 0.5));
+  out.emplace_back("ms_h_roof_70p", z0 + percentile(roof, 0.7));
+  out.emplace_back("ms_h_roof_max", z0 + roof.back());
+  if (const auto ridge = ridge_height(model)) out.emplace_back("ms_h_ridge", z0 + *ridge);
+  out.emplace_back("ms_roof_type", roof_type(model));
+  out.emplace_back("ms_volume_lod22", extrude::volume(model.solid));
+  if (mse) out.emplace_back("ms_rmse_lod22", std::sqrt(*mse));
+  out.emplace_back("ms_area_roof_flat", areas.roof_flat);
+  out.emplace_back("ms_area_roof_sloped", areas.roof_sloped);
+  out.emplace_back("ms_area_wall", areas.wall);
+  out.emplace_back("ms_area_party_wall", areas.party_wall);
+  if (fallback.empty())
+    out.emplace_back("ms_fallback", std::monostate{});
+  else
+    out.emplace_back("ms_fallback", fallback);
+  return out;
+}
+
+}  // namespace detail
+
+auto part_attributes(const write::Part& part, const std::string& fallback, const rays::Scene* mesh, double z0,
+                     const Options& options) -> ingest::Attributes {
+  std::optional<double> mse;
+  if (mesh != nullptr) {
+    const double error =
+        evaluate::error_over(part.model.solid, geometry::polygon_of(part.plan), *mesh, options.evaluate.grid);
+    if (std::isfinite(error)) mse = error;
+  }
+  const auto roof = detail::roof_heights(part.model, part.plan, options.roof_grid);
+  return with(part.attributes, of_model, detail::model_attributes(part.model, part.plan, roof, mse, fallback, z0));
+}
+
+auto building_attributes(const write::Building& building, double z0) -> ingest::Attributes {
+  double volume = 0, squared = 0, area = 0;
+  std::optional<double> highest;
+  bool full = true;
+  for (const auto& part : building.parts) {
+    volume += extrude::volume(part.model.solid);
+    if (const auto* z = value_of<double>(part.attributes, "ms_h_roof_max"))
+      highest = std::max(highest.value_or(*z), *z);
+    if (const auto* rmse = value_of<double>(part.attributes, "ms_rmse_lod22")) {
+      const double ground = label::areas(part.model).ground;
+      squared += *rmse * *rmse * ground;
+      area += ground;
+    }
+    full = full && value_of<std::string>(part.attributes, "ms_fallback") == nullptr;
+  }
+  const auto outcome = building.parts.empty() ? Outcome::covered : full ? Outcome::full : Outcome::fallback;
+  ingest::Attributes now;
+  now.emplace_back("ms_outcome", std::string(to_string(outcome)));
+  if (!building.parts.empty()) {
+    now.emplace_back("ms_h_ground", z0 + building.ground);
+    if (highest) now.emplace_back("ms_h_roof_max", *highest);
+    now.emplace_back("ms_volume_lod22", volume);
+    if (area > 0) now.emplace_back("ms_rmse_lod22", std::sqrt(squared / area));
+  }
+  return with(building.attributes, of_building, std::move(now));
+}
+
+}  // namespace mansard::pipeline

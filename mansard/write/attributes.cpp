@@ -1,0 +1,16 @@
+#include "mansard/write/attributes.hpp"
+
+namespace mansard::write {
+
+auto attributes() -> std::vector<Attribute> {
+  return {
+      {"ms_plan", "write", {"BuildingPart"}, "object", "",
+       "The plan of the part as in a plans.json, with the origin that its coordinates are relative to."},
+      {"ms_party_wall", "write", {"WallSurface"}, "flag", "", "Whether another solid stands against the wall."},
+      {"ms_slope", "write", {"RoofSurface"}, "number", "°", "Angle from the horizontal."},
+      {"ms_azimuth", "write", {"RoofSurface"}, "number", "°",
+       "Where the surface looks, clockwise from north; absent below a slope of 0.5°."},
+  };
+}
+
+}  // namespace mansard::write

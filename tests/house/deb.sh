@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# Builds the Debian packages, looks into them, and runs the program from where it was unpacked.
+#   deb.sh REPOSITORY BUILD SCRATCH
+set -euo pipefail
+repository=$1 build=$2 scratch=$3
+rm -rf "$scratch"
+mkdir -p "$scratch/packages"
+fail() { echo "$*" >&2; exit 1; }
+
+(cd "$build" && cpack -G DEB -B "$scratch/packages") > "$scratch/cpack.log" 2>&1 ||
+  { cat "$scratch/cpack.log" >&2; exit 1; }
+program=$(echo "$scratch"/packages/mansard_*.deb)
+engine=$(echo "$scratch"/packages/libmansard-dev_*.deb)
+[[ -s $program && -s $engine ]] || fail "cpack made $(ls "$scratch/packages")"
+
+# It depends on the libraries it is linked with, and on none of a compiler's.
+depends=$(dpkg-deb -f "$program" Depends)
+for library in libgdal libgeos-c1 libgmp10 libtbb libembree coinor-libcbc libpng16 libc6; do
+  [[ $depends == *"$library"* ]] || fail "no dependency on $library: $depends"
+done
+[[ $depends != *-dev* ]] || fail "a program needs no headers: $depends"
+[[ $(dpkg-deb -f "$engine" Depends) == *libgdal-dev* ]] || fail "the engine needs the headers' packages"
+
+dpkg-deb -c "$program" | awk '{print $6}' > "$scratch/contents"
+for file in bin/mansard share/man/man1/mansard.1.gz share/bash-completion/completions/mansard \
+  share/zsh/vendor-completions/_mansard share/fish/vendor_completions.d/mansard.fish \
+  share/mansard/data/hall/mesh.off share/doc/mansard/copyright share/doc/mansard/NOTICE share/doc/mansard/LICENSE; do
+  grep -qx "./usr/$file" "$scratch/contents" || fail "no $file in the package"
+done
+! grep -vE '^\./(usr/)?$|^\./usr/(bin|share)/' "$scratch/contents" ||
+  fail "the package reaches beyond /usr/bin and /usr/share"
+dpkg-deb -c "$engine" | awk '{print $6}' > "$scratch/engine_contents"
+grep -qx './usr/include/mansard/pipeline/pipeline.hpp' "$scratch/engine_contents" ||
+  fail "no door in the package of the engine"
+! grep '/detail/' "$scratch/engine_contents" || fail "a detail/ in the package of the engine"
+
+dpkg-deb -x "$program" "$scratch/root"
+mansard=$scratch/root/usr/bin/mansard
+[[ $("$mansard" --version) == "mansard $(dpkg-deb -f "$program" Version)" ]] || fail "another version inside"
+! grep -aqF "$repository/data" "$mansard" || fail "the program knows the folder it was built from"
+zcat "$scratch/root/usr/share/man/man1/mansard.1.gz" | cmp -s - <("$mansard" manual) ||
+  fail "the manual is not the program's"
+"$mansard" completion bash | cmp -s - "$scratch/root/usr/share/bash-completion/completions/mansard" ||
+  fail "not its completion"
+data=$scratch/root/usr/share/mansard/data
+"$mansard" reconstruct -q "$data/hall/mesh.off" "$data/hall/footprints.geojson" -o "$scratch/hall" > /dev/null ||
+  fail "no hall"
+[[ -s $scratch/hall/model.city.json ]] || fail "no model"
+
+# What the page of the workbench ships is named with its licence.
+page=$repository/apps/workbench/package.json
+for package in $(node -p "Object.keys(require('$page').dependencies ?? {}).join(' ')"); do
+  grep -qF "$package" "$scratch/root/usr/share/doc/mansard/copyright" ||
+    fail "packaging/copyright does not name $package"
+done
+rm -rf "$scratch"

@@ -1,0 +1,98 @@
+// Runs of some blocks only, and plans raised again.
+#include <gmock/gmock.h>
+
+#include "mansard/pipeline/pipeline.hpp"
+#include "pipeline/houses.hpp"
+
+namespace mansard::pipeline {
+namespace {
+
+using test::footprint;
+using test::rectangle;
+using testing::HasSubstr;
+
+/// A terrace of two, a house behind it, and one that cannot be used.
+auto street() -> ingest::Scene {
+  auto scene = test::terrace();
+  ingest::Footprint bad;
+  bad.id = "bad";
+  bad.defect = base::error("ingest-footprint-geometry", "crosses itself", "bad");
+  scene.footprints.insert(scene.footprints.begin(), bad);
+  test::add_house(scene.mesh, 0, 24, 12, 32, 5, 8);
+  scene.footprints.push_back(footprint("behind", rectangle(0, 24, 12, 32)));
+  return scene;
+}
+
+auto run_of(const ingest::Scene& scene, const std::vector<std::string>& only) -> Reconstruction {
+  auto result = reconstruct(scene, {}, {}, Keep::segmentations, only);
+  EXPECT_TRUE(result) << base::to_string(result.error());
+  return std::move(*result);
+}
+
+TEST(SomeBlocks, come_out_as_in_a_run_of_all) {
+  const auto scene = street();
+  const auto all = run_of(scene, {});
+  ASSERT_EQ(all.blocks.size(), 2U);
+  ASSERT_EQ(all.blocks[1].name, "block-3");
+  for (std::size_t b = 0; b < 2; ++b) {
+    const auto some = run_of(scene, {all.blocks[b].name});
+    ASSERT_EQ(some.blocks.size(), 1U);
+    EXPECT_EQ(some.blocks[0].name, all.blocks[b].name);
+    EXPECT_EQ(some.blocks[0].scores.mse, all.blocks[b].scores.mse);
+    EXPECT_EQ(some.error_maps.size(), 1U);
+    ASSERT_EQ(some.segmented.size(), 1U);
+    EXPECT_EQ(some.segmented[0].features, all.segmented[b].features);
+    write::City expected{all.city.frame, all.city.made_by, {}};
+    std::vector<std::string> ids;
+    for (std::size_t i = 0; i < all.buildings.size(); ++i)
+      if (all.buildings[i].block == all.blocks[b].name) {
+        expected.buildings.push_back(all.city.buildings[i]);
+        ids.push_back(all.buildings[i].id);
+      }
+    ASSERT_EQ(some.buildings.size(), ids.size());
+    for (std::size_t i = 0; i < ids.size(); ++i) EXPECT_EQ(some.buildings[i].id, ids[i]);
+    EXPECT_EQ(*write::cityjson(some.city), *write::cityjson(expected));
+    EXPECT_EQ(write::plans(some.city), write::plans(expected));
+  }
+}
+
+TEST(SomeBlocks, refuse_a_name_that_no_block_has) {
+  const auto result = reconstruct(street(), {}, {}, Keep::models, std::vector<std::string>{"block-3", "blokc-1"});
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, "pipeline-block-unknown");
+  EXPECT_EQ(result.error().subject, "blokc-1");
+  EXPECT_THAT(result.error().message, HasSubstr("did you mean 'block-1'"));
+}
+
+TEST(RaisePlans, makes_the_models_of_the_run_again) {
+  const auto run = run_of(street(), {});
+  auto plans = run.city;
+  for (auto& building : plans.buildings)
+    for (auto& part : building.parts) part.model = {};
+  const auto raised = raise_plans(std::move(plans), {});
+  ASSERT_TRUE(raised);
+  EXPECT_TRUE(raised->fell_short.empty());
+  EXPECT_EQ(*write::cityjson(raised->city), *write::cityjson(run.city));
+  EXPECT_EQ(*write::glb(raised->city), *write::glb(run.city));
+}
+
+TEST(RaisePlans, names_the_part_that_has_no_solid) {
+  auto city = run_of(street(), {}).city;
+  for (auto& building : city.buildings)
+    if (building.id == "high") building.parts[0].plan.cap = -1;
+  const auto raised = raise_plans(std::move(city), {});
+  ASSERT_FALSE(raised);
+  EXPECT_EQ(raised.error().code, "extrude-cap");
+  EXPECT_EQ(raised.error().subject, "high-1");
+}
+
+TEST(RaisePlans, stops_on_request) {
+  base::Cancel cancel;
+  cancel.request();
+  base::Run run;
+  run.cancel = &cancel;
+  EXPECT_EQ(raise_plans(run_of(street(), {}).city, {}, run).error().code, "cancelled");
+}
+
+}  // namespace
+}  // namespace mansard::pipeline

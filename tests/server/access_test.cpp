@@ -1,0 +1,259 @@
+// Who gets in and who does not, over real sockets.
+#include <arpa/inet.h>
+#include <gmock/gmock.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include "server/running.hpp"
+
+namespace mansard::server {
+namespace {
+
+using testing::HasSubstr;
+
+/// Bytes sent as they are, and all that comes back until the server closes.
+auto raw(int port, const std::string& bytes) -> std::string {
+  const int s = ::socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in to{};
+  to.sin_family = AF_INET;
+  to.sin_port = htons(static_cast<std::uint16_t>(port));
+  to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  if (::connect(s, reinterpret_cast<sockaddr*>(&to), sizeof to) != 0) std::abort();
+  (void)!::write(s, bytes.data(), bytes.size());
+  std::string all;
+  std::array<char, 4096> piece{};
+  for (ssize_t n = 0; (n = ::read(s, piece.data(), piece.size())) > 0;) all.append(piece.data(), static_cast<std::size_t>(n));
+  ::close(s);
+  return all;
+}
+
+class Access : public testing::Test {
+ protected:
+  Folder folder_;
+  Running server_{folder_ / "project"};
+  [[nodiscard]] auto host() const -> std::string { return "127.0.0.1:" + std::to_string(server_.port()); }
+};
+
+TEST_F(Access, prints_a_link_and_answers_only_to_its_token) {
+  EXPECT_THAT(server_.link(), testing::MatchesRegex("http://127\\.0\\.0\\.1:[0-9]+/#token=[0-9a-f]{32}"));
+  EXPECT_EQ(server_.get("/api/status").status, 200);
+  for (const auto& headers :
+       {httplib::Headers{}, httplib::Headers{{"Authorization", "Bearer " + std::string(32, '0')}},
+        httplib::Headers{{"Authorization", server_.token()}}, httplib::Headers{{"Cookie", "token=" + server_.token()}}}) {
+    for (const auto* path : {"/api/status", "/api/project", "/api/events", "/api/openapi.json", "/api/nothing", "/api"}) {
+      const auto reply = server_.call("GET", path, {}, headers);
+      EXPECT_EQ(reply.status, 401) << path;
+      EXPECT_EQ(reply.code(), "server-token") << path;
+    }
+    EXPECT_EQ(server_.call("POST", "/api/runs", "{}", headers).status, 401);
+    EXPECT_EQ(server_.call("PUT", "/api/uploads/a.ply", "bytes", headers).status, 401);
+    EXPECT_EQ(server_.call("DELETE", "/api/runs/run-1", "", headers).status, 401);
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "project/inputs/a.ply"));
+  EXPECT_EQ(server_.call("GET", "/api/status?token=" + server_.token(), {}, {}).status, 401) << "links are logged";
+}
+
+TEST_F(Access, refuses_other_hosts_and_pages_from_elsewhere_even_with_the_token) {
+  auto with = [&](const char* name, const std::string& value) {
+    auto headers = server_.headers();
+    headers.emplace(name, value);
+    return server_.call("GET", "/api/status", {}, headers);
+  };
+  EXPECT_EQ(with("Host", "evil.example").code(), "server-host");
+  EXPECT_EQ(with("Host", "evil.example:" + std::to_string(server_.port())).status, 403);
+  EXPECT_EQ(with("Host", "localhost:" + std::to_string(server_.port())).status, 200);
+  EXPECT_EQ(with("Origin", "http://evil.example").code(), "server-origin");
+  EXPECT_EQ(with("Origin", "null").status, 403);
+  EXPECT_EQ(with("Origin", "http://" + host()).status, 200);
+  EXPECT_EQ(server_.call("GET", "/", {}, {{"Host", "evil.example"}}).status, 403) << "the page too";
+  const auto bearer = "Authorization: Bearer " + server_.token() + "\r\nConnection: close\r\n";
+  EXPECT_THAT(raw(server_.port(), "GET /api/status HTTP/1.1\r\n" + bearer + "\r\n"), HasSubstr("403")) << "no host";
+  EXPECT_THAT(raw(server_.port(), "GET /api/status HTTP/1.1\r\nHost: " + host() + "\r\nHost: evil\r\n" + bearer + "\r\n"),
+              HasSubstr("403"));
+}
+
+TEST_F(Access, says_nothing_that_lets_other_pages_read_or_frame_it) {
+  for (const auto* path : {"/", "/api/status"}) {
+    const auto reply = server_.get(path);
+    EXPECT_EQ(reply.status, 200);
+    const auto header = [&](const char* name) {
+      const auto at = reply.headers.find(name);
+      return at == reply.headers.end() ? std::string() : at->second;
+    };
+    EXPECT_THAT(header("Content-Security-Policy"), HasSubstr("default-src 'self'"));
+    EXPECT_THAT(header("Content-Security-Policy"), testing::Not(HasSubstr("unsafe-eval")));
+    EXPECT_EQ(header("X-Content-Type-Options"), "nosniff");
+    EXPECT_EQ(header("Referrer-Policy"), "no-referrer");
+    EXPECT_NE(header("Cache-Control"), "");
+    for (const auto& [name, value] : reply.headers) EXPECT_THAT(name, testing::Not(testing::StartsWith("Access-Control")));
+  }
+  EXPECT_EQ(server_.call("OPTIONS", "/api/status").status, 405);
+}
+
+TEST_F(Access, keeps_paths_inside) {
+  const std::string secret = "not yours";
+  write(folder_ / "secret.txt", secret);
+  for (const std::string name : {"..", "%2e%2e", "..%2f..%2fsecret.txt", "%2e%2e%2fsecret.txt", ".hidden", "a%00b", "a%2fb", "a%5cb",
+                                 "%20", "a%0ab"}) {
+    const auto put = server_.call("PUT", "/api/uploads/" + name, "bytes");
+    EXPECT_GE(put.status, 400) << name;
+    const auto got = server_.get("/api/runs/run-1/export/" + name);
+    EXPECT_GE(got.status, 400) << name;
+    EXPECT_GE(server_.get("/api/scene/tiles/" + name).status, 400) << name;
+    EXPECT_GE(server_.get("/api/runs/" + name + "/report").status, 400) << name;
+  }
+  EXPECT_EQ(server_.call("PUT", "/api/uploads/" + std::string(129, 'a'), "bytes").code(), "server-upload");
+  for (const std::string path : {"/../secret.txt", "/..%2fsecret.txt", "/%2e%2e/secret.txt", "/assets/../../secret.txt",
+                                 "//etc/passwd", "/assets/%2e%2e/%2e%2e/secret.txt"}) {
+    const auto answer = raw(server_.port(), "GET " + path + " HTTP/1.1\r\nHost: " + host() + "\r\nConnection: close\r\n\r\n");
+    EXPECT_THAT(answer, HasSubstr("HTTP/1.1 404")) << path;
+    EXPECT_THAT(answer, testing::Not(HasSubstr(secret))) << path;
+  }
+  EXPECT_EQ(read(folder_ / "secret.txt"), secret);
+  EXPECT_TRUE(fs::is_empty(folder_ / "project/inputs"));
+}
+
+TEST_F(Access, refuses_what_is_too_large_and_goes_on) {
+  const std::string large(17 << 20, ' ');
+  const auto reply = server_.call("POST", "/api/runs", large);
+  EXPECT_EQ(reply.status, 413);
+  EXPECT_EQ(reply.code(), "server-large");
+  EXPECT_GE(server_.get("/" + std::string(5000, 'a')).status, 400);
+  EXPECT_EQ(server_.get("/api/status").status, 200);
+}
+
+TEST_F(Access, refuses_uploads_beyond_their_limit_and_leaves_nothing_of_them) {
+  const Running small(folder_ / "small", {"--upload-limit", "1"});
+  const auto reply = small.call("PUT", "/api/uploads/mesh.ply", std::string(2 << 20, 'x'));
+  EXPECT_EQ(reply.status, 413) << reply.text;
+  EXPECT_TRUE(fs::is_empty(folder_ / "small/inputs"));
+  EXPECT_EQ(small.call("PUT", "/api/uploads/mesh.ply", std::string(1 << 20, 'x')).status, 200);
+  EXPECT_EQ(fs::file_size(folder_ / "small/inputs/mesh.ply"), 1U << 20);
+}
+
+TEST_F(Access, leaves_no_part_of_an_upload_that_breaks_off) {
+  {
+    const int s = ::socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in to{};
+    to.sin_family = AF_INET;
+    to.sin_port = htons(static_cast<std::uint16_t>(server_.port()));
+    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    ASSERT_EQ(::connect(s, reinterpret_cast<sockaddr*>(&to), sizeof to), 0);
+    const auto head = "PUT /api/uploads/mesh.ply HTTP/1.1\r\nHost: " + host() + "\r\nAuthorization: Bearer " + server_.token() +
+                      "\r\nContent-Length: 1000000\r\n\r\nonly this";
+    ASSERT_GT(::write(s, head.data(), head.size()), 0);
+    ::close(s);
+  }
+  for (int i = 0; i < 200 && !fs::is_empty(folder_ / "project/inputs"); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_EQ(server_.get("/api/status").status, 200);
+  EXPECT_FALSE(fs::exists(folder_ / "project/inputs/mesh.ply"));
+}
+
+TEST_F(Access, does_not_take_the_rest_of_a_refused_request_for_another_one) {
+  const auto inner = "GET /api/status HTTP/1.1\r\nHost: " + host() + "\r\nAuthorization: Bearer " + server_.token() +
+                     "\r\nConnection: close\r\n\r\n";
+  for (const std::string& head :
+       {"GET /api/status HTTP/1.1\r\nHost: " + host() + "\r\nContent-Length: " + std::to_string(inner.size()) + "\r\n\r\n",
+        "POST /api/runs HTTP/1.1\r\nHost: " + host() + "\r\nTransfer-Encoding: chunked\r\nContent-Length: 4\r\n\r\n",
+        "POST /api/runs HTTP/1.1\r\nHost: " + host() +
+            "\r\nContent-Type: multipart/form-data; boundary=b\r\nContent-Length: " + std::to_string(inner.size()) + "\r\n\r\n"}) {
+    const auto all = raw(server_.port(), head + inner);
+    EXPECT_THAT(all, testing::StartsWith("HTTP/1.1 4")) << head;
+    EXPECT_THAT(all, testing::Not(HasSubstr("HTTP/1.1 200"))) << head;
+  }
+}
+
+TEST_F(Access, refuses_what_is_no_http_and_goes_on) {
+  for (const std::string bytes : {"\r\n\r\n", "GARBAGE\r\n\r\n", "GET / HTTP/9.9\r\n\r\n", "GET\r\n\r\n"}) (void)raw(server_.port(), bytes);
+  EXPECT_EQ(server_.get("/api/status").status, 200);
+}
+
+TEST_F(Access, answers_malformed_json_with_its_place_and_unknown_things_with_their_name) {
+  const auto reply = server_.call("POST", "/api/runs", "{\"label\":");
+  EXPECT_EQ(reply.status, 400);
+  EXPECT_EQ(reply.code(), "server-body");
+  EXPECT_THAT(reply.text, HasSubstr("at byte"));
+  EXPECT_EQ(server_.get("/api/scene").code(), "server-no-scene");
+  EXPECT_EQ(server_.get("/api/scene").status, 404);
+  EXPECT_EQ(server_.post("/api/runs", Json::object()).code(), "server-no-scene");
+  for (const auto* path : {"/report", "/buildings", "/layers", "/error", "/error/block-1", "/export/model.obj",
+                           "/section?building=a&part=b&ring=0&edge=0&share=0.5"}) {
+    const auto gone = server_.get(std::string("/api/runs/run-9") + path);
+    EXPECT_EQ(gone.status, 404) << path;
+    EXPECT_EQ(gone.code(), "server-unknown") << path;
+  }
+  EXPECT_EQ(server_.call("DELETE", "/api/jobs/job-9").code(), "server-unknown");
+  EXPECT_EQ(server_.call("DELETE", "/api/runs/run-9").code(), "server-unknown");
+  EXPECT_EQ(server_.post("/api/project/inputs", {{"meshes", {"/no/such"}}, {"footprints", "/none"}}).code(), "file-missing");
+  EXPECT_EQ(server_.post("/api/project/inputs",
+                         {{"meshes", {"/"}}, {"footprints", "/"}, {"reading", {{"ingest.csr", "x"}}}}).code(),
+            "option-unknown");
+}
+
+TEST_F(Access, lets_twelve_pages_listen_and_no_more) {
+  std::vector<std::thread> pages;
+  std::atomic<int> pings{0};
+  std::atomic<bool> enough{false};
+  std::atomic<int> refused{0};
+  for (int i = 0; i < 13; ++i)
+    pages.emplace_back([&] {
+      httplib::Client client("127.0.0.1", server_.port());
+      client.set_read_timeout(30);
+      bool counted = false;
+      const auto result = client.Get("/api/events", server_.headers(), [&](const char*, std::size_t) {
+        if (!counted) ++pings;
+        counted = true;
+        return !enough;
+      });
+      if (result && result->status == 503) ++refused;
+    });
+  const auto upload = [&] { return server_.call("PATCH", "/api/runs/x", "{}").status; };
+  for (int i = 0; i < 3000 && (pings < 12 || refused < 1); ++i) {
+    EXPECT_EQ(upload(), 400);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  EXPECT_EQ(refused, 1);
+  EXPECT_GE(pings, 12);
+  enough = true;
+  EXPECT_EQ(server_.get("/api/status").status, 200) << "others are still answered";
+  EXPECT_EQ(server_.interrupt(), 0) << "and it ends although they listen";
+  for (auto& page : pages) page.join();
+}
+
+TEST(Serve, ends_at_once_and_cleanly_when_it_is_asked_to) {
+  const Folder folder;
+  for (const int signal : {SIGINT, SIGTERM}) {
+    Running server(folder / "project");
+    EXPECT_EQ(server.get("/api/status").status, 200);
+    EXPECT_EQ(server.interrupt(signal), 0);
+  }
+}
+
+TEST(Serve, says_why_it_does_not_start) {
+  const Folder folder;
+  Running first(folder / "project");
+  Running second(folder / "project");
+  EXPECT_THAT(second.complaint(), HasSubstr("error[server-locked]"));
+  EXPECT_EQ(second.wait(), 2);
+  Running taken(folder / "other", {"--port", std::to_string(first.port())});
+  EXPECT_THAT(taken.complaint(), HasSubstr("error[server-port]"));
+  EXPECT_EQ(taken.wait(), 2);
+  write(folder / "file", "");
+  Running file(folder / "file");
+  EXPECT_THAT(file.complaint(), HasSubstr("error[server-folder]"));
+  EXPECT_EQ(file.wait(), 2);
+  Running sample(folder / "third", {"--sample", (folder / "nowhere").string()});
+  EXPECT_THAT(sample.complaint(), HasSubstr("error[server-sample]"));
+  EXPECT_EQ(sample.wait(), 2);
+}
+
+TEST(Serve, warns_when_other_machines_can_reach_it) {
+  const Folder folder;
+  Running open(folder / "project", {"--address", "0.0.0.0"});
+  EXPECT_THAT(open.complaint(), HasSubstr("other machines"));
+  EXPECT_EQ(open.get("/api/status").status, 200);
+}
+
+}  // namespace
+}  // namespace mansard::server

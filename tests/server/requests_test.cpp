@@ -1,0 +1,72 @@
+#include <gmock/gmock.h>
+
+#include "apps/server/requests.hpp"
+
+namespace mansard::server {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* plan =
+    R"({"base":0,"cap":5,"outer":{"points":[[0,0],[4,0],[4,4],[0,4]],"profile_of_edge":[0,0,0,0]},"holes":[],"profiles":[[[0,0],[0,5]]]})";
+
+template <class T>
+void expect_refusal(const base::Result<T>& result, const std::string& code, const std::string& words) {
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, code);
+  EXPECT_THAT(result.error().message, HasSubstr(words));
+}
+
+TEST(Requests, say_where_json_ends_to_be_json) {
+  expect_refusal(read_changes(R"({"changes":[)"), "server-body", "at byte 13");
+  expect_refusal(read_changes(""), "server-body", "at byte 1");
+  expect_refusal(read_changes("\xff"), "server-body", "at byte 1");
+  expect_refusal(read_changes(R"({"changes":[1e999]})"), "server-body", "cannot be read");
+}
+
+TEST(Requests, say_which_member_is_wrong) {
+  expect_refusal(read_changes("[]"), "server-body", "the body must be an object");
+  expect_refusal(read_changes("{}"), "server-body", "no \"changes\"");
+  expect_refusal(read_changes(R"({"changes":[{"building":1,"revision":0,"parts":[]}]})"), "server-body",
+                 "changes[0].building must be a text");
+  expect_refusal(read_changes(R"({"changes":[{"building":"a","revision":-1,"parts":[]}]})"), "server-body",
+                 "changes[0].revision must be a whole number");
+  expect_refusal(read_changes(R"({"changes":[{"building":"a","revison":0,"parts":[]}]})"), "server-body", "did you mean");
+  expect_refusal(read_split(R"({"building":"a","part":"a-1","line":[[0,0],[1]]})"), "server-body",
+                 "line[1] must be an array of 2 numbers");
+  expect_refusal(read_merge(R"({"parts":[{"building":"a","part":"a-1"}]})"), "server-body", "two parts");
+  expect_refusal(read_nothing("{\"a\":1}"), "server-body", "unknown member");
+  expect_refusal(read_inputs(R"({"meshes":[],"footprints":"f"})"), "server-body", "one file");
+}
+
+TEST(Requests, refuse_plans_as_files_of_plans_do) {
+  const std::string broken = R"({"base":0,"cap":"5"})";
+  const auto read = read_changes(R"({"changes":[{"building":"a","revision":0,"parts":[{"id":"a-1","plan":)" + broken + "}]}]}");
+  ASSERT_FALSE(read);
+  EXPECT_THAT(read.error().code, HasSubstr("write-plan-"));
+}
+
+TEST(Requests, refuse_what_is_nested_beyond_use_without_reading_it) {
+  expect_refusal(read_changes(std::string(1'000'000, '[')), "server-body", "too deep");
+  const std::string brackets(100, '[');
+  EXPECT_TRUE(read_label("{\"label\":\"" + brackets + "\"}")) << "in a text they are nothing";
+}
+
+TEST(Requests, keep_names_on_one_line) {
+  const auto label = read_label("{\"label\":\"two\\nlines\"}");
+  ASSERT_TRUE(label);
+  EXPECT_EQ(*label, "two lines");
+}
+
+TEST(Requests, know_the_edges_of_a_plan) {
+  const auto request =
+      read_section(std::string(R"({"plan":)") + plan + R"(,"ring":0,"edge":3,"share":0.5})");
+  ASSERT_TRUE(request) << request.error().message;
+  EXPECT_TRUE(check_edge(request->plan, 0, 3, 0.5));
+  EXPECT_FALSE(check_edge(request->plan, 0, 4, 0.5));
+  EXPECT_FALSE(check_edge(request->plan, 1, 0, 0.5));
+  EXPECT_FALSE(check_edge(request->plan, 0, 0, 1.5));
+}
+
+}  // namespace
+}  // namespace mansard::server

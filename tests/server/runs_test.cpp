@@ -1,0 +1,237 @@
+// From inputs to results and files, as a page goes about it.
+#include <gmock/gmock.h>
+
+#include "server/running.hpp"
+
+namespace mansard::server {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Inputs, are_read_in_the_background_and_again_when_the_project_is_opened_again) {
+  const Folder folder;
+  const auto hall = std::string(MANSARD_DATA) + "/hall/";
+  fs::copy_file(hall + "mesh.off", folder / "mesh.off");
+  {
+    const Running server(folder / "project");
+    EXPECT_TRUE(server.get("/api/project").json()["inputs"].is_null());
+    const auto job = server.post("/api/project/inputs",
+                                 {{"meshes", {(folder / "mesh.off").string()}}, {"footprints", hall + "footprints.geojson"}});
+    EXPECT_EQ(job.json()["kind"], "read");
+    server.settle();
+    const auto scene = server.get("/api/scene").json();
+    EXPECT_GT(scene["triangles"], 1000);
+    EXPECT_FALSE(scene["blocks"].empty());
+    const auto index = server.get("/api/scene/tiles").json();
+    std::size_t triangles = 0;
+    for (const auto& tile : index["tiles"]) {
+      const auto bytes = server.get("/api/scene/tiles/" + tile["id"].get<std::string>()).text;
+      const auto vertices = tile["vertices"].get<std::size_t>(), count = tile["triangles"].get<std::size_t>();
+      EXPECT_EQ(bytes.size(), 8 + vertices * 12 + count * 12);
+      if (tile["level"] == 0) triangles += count;
+    }
+    EXPECT_EQ(triangles, scene["triangles"]);
+    const auto inputs = server.get("/api/project").json()["inputs"];
+    EXPECT_EQ(inputs["meshes"][0]["path"], (folder / "mesh.off").string());
+    EXPECT_EQ(inputs["meshes"][0]["changed"], false);
+    EXPECT_EQ(inputs["footprints"][0]["bytes"], fs::file_size(hall + "footprints.geojson"));
+  }
+  const Running again(folder / "project");
+  again.settle();
+  EXPECT_EQ(again.get("/api/scene").status, 200);
+  // Touched is not changed; other contents of the same size are.
+  fs::last_write_time(folder / "mesh.off", fs::last_write_time(folder / "mesh.off") + std::chrono::hours(1));
+  const auto changed = [&] { return again.get("/api/project").json()["inputs"]["meshes"][0]["changed"].get<bool>(); };
+  EXPECT_FALSE(changed());
+  auto bytes = read(folder / "mesh.off");
+  bytes[bytes.size() / 2] = bytes[bytes.size() / 2] == '1' ? '2' : '1';
+  write(folder / "mesh.off", bytes);
+  fs::last_write_time(folder / "mesh.off", fs::last_write_time(folder / "mesh.off") + std::chrono::hours(2));
+  EXPECT_TRUE(changed());
+  fs::remove(folder / "mesh.off");
+  EXPECT_TRUE(changed());
+}
+
+TEST(Inputs, that_cannot_be_read_say_why_and_leave_the_project_as_it_was) {
+  const Folder folder;
+  write(folder / "mesh.ply", "no mesh");
+  write(folder / "f.geojson", "no footprints");
+  const Running server(folder / "project");
+  const auto begun = server.post(
+      "/api/project/inputs",
+      {{"meshes", {(folder / "mesh.ply").string()}}, {"footprints", (folder / "f.geojson").string()}});
+  ASSERT_EQ(begun.status, 200) << begun.text;
+  server.settle();
+  const auto job = server.get("/api/jobs").json()["jobs"][0];
+  EXPECT_EQ(job["state"], "failed");
+  EXPECT_THAT(job["failure"]["code"].get<std::string>(), HasSubstr("ingest-"));
+  EXPECT_TRUE(server.get("/api/project").json()["inputs"].is_null());
+  EXPECT_THAT(server.get("/api/scene").text, HasSubstr("could not be read"));
+}
+
+TEST(Inputs, can_be_uploaded) {
+  const Folder folder;
+  const auto hall = fs::path(MANSARD_DATA) / "hall";
+  const Running server(folder / "project");
+  std::vector<std::string> paths;
+  for (const auto* name : {"mesh.off", "footprints.geojson"}) {
+    const auto reply = server.call("PUT", std::string("/api/uploads/") + name, read(hall / name));
+    ASSERT_EQ(reply.status, 200) << reply.text;
+    paths.push_back(reply.json()["path"]);
+    EXPECT_EQ(read(paths.back()), read(hall / name));
+  }
+  EXPECT_EQ(server.post("/api/project/inputs", {{"meshes", {paths[0]}}, {"footprints", paths[1]}}).status, 200);
+  server.settle();
+  EXPECT_EQ(server.get("/api/scene").status, 200);
+}
+
+TEST(Sample, is_read_with_the_options_that_lie_beside_it) {
+  const Folder folder;
+  const Running server(folder / "project", {"--sample", std::string(MANSARD_DATA) + "/delft"});
+  EXPECT_EQ(server.get("/api/project").json()["sample"], true);
+  ASSERT_EQ(server.call("POST", "/api/project/sample", "{}").status, 200);
+  server.settle();
+  EXPECT_EQ(server.get("/api/project").json()["reading"]["ingest.mesh_offset"], "84800 447400 0");
+  EXPECT_EQ(server.get("/api/scene").json()["footprints"].size(), 87U);
+}
+
+class Runs : public WithHall {};
+
+TEST_F(Runs, leave_results_that_are_there_after_a_restart) {
+  const Running server(project());
+  const auto summary = server.get("/api/project").json()["runs"][0];
+  EXPECT_EQ(summary["state"], "done");
+  EXPECT_GT(summary["parts"], 0);
+  EXPECT_LT(summary["scores"]["footprint_mse"], 1);
+  EXPECT_TRUE(summary["options"].empty()) << summary["options"];
+  const auto models = server.buildings("run-1");
+  ASSERT_EQ(models["buildings"].size(), summary["buildings"]);
+  for (const auto& building : models["buildings"]) {
+    EXPECT_TRUE(building["valid"].get<bool>());
+    EXPECT_FALSE(building["edited"].get<bool>());
+    for (const auto& part : building["parts"]) {
+      EXPECT_GT(part["volume"], 0);
+      EXPECT_FALSE(part["geometry"]["triangles"].empty());
+    }
+  }
+  EXPECT_FALSE(server.get("/api/runs/run-1/layers").json()["edges"].empty());
+  EXPECT_GT(server.get("/api/runs/run-1/report").json()["counts"]["full"], 0);
+  const auto maps = server.get("/api/runs/run-1/error").json()["maps"];
+  for (const auto& map : maps)
+    EXPECT_EQ(server.get("/api/runs/run-1/error/" + map["block"].get<std::string>()).text.size(),
+              map["columns"].get<std::size_t>() * map["rows"].get<std::size_t>() * 4);
+  EXPECT_EQ(server.get("/api/runs/run-1/error/block-99").code(), "server-unknown");
+}
+
+TEST_F(Runs, take_presets_options_and_blocks_and_remember_what_differs_from_the_defaults) {
+  const Running server(project());
+  server.settle();
+  const auto block = server.get("/api/scene").json()["blocks"][0]["name"];
+  const auto run = server.reconstruct(
+      {{"label", "a try"}, {"preset", "paper"}, {"options", {{"sweep.gamma", "12"}}}, {"blocks", {block}}});
+  EXPECT_EQ(run, "run-2");
+  const auto summary = server.get("/api/project").json()["runs"][1];
+  EXPECT_EQ(summary["state"], "done") << summary;
+  EXPECT_EQ(summary["label"], "a try");
+  EXPECT_EQ(summary["preset"], "paper");
+  EXPECT_EQ(summary["options"]["sweep.gamma"], "12");
+  EXPECT_EQ(summary["options"]["refine.effort"], "caps") << "of the preset";
+  EXPECT_EQ(summary["blocks"][0], block);
+  EXPECT_EQ(server.call("PATCH", "/api/runs/run-2", R"({"label":"kept"})").json()["label"], "kept");
+  EXPECT_EQ(server.post("/api/runs", {{"options", {{"sweep.gama", "1"}}}}).code(), "option-unknown");
+  EXPECT_EQ(server.post("/api/runs", {{"options", {{"sweep.gamma", "-1"}}}}).code(), "option-value");
+  EXPECT_EQ(server.post("/api/runs", {{"options", {{"ingest.crs", "local"}}}}).code(), "option-value");
+  EXPECT_EQ(server.post("/api/runs", {{"preset", "none such"}}).code(), "option-value");
+  EXPECT_EQ(server.post("/api/runs", {{"blocks", {"block-99"}}}).code(), "pipeline-block-unknown");
+}
+
+TEST_F(Runs, hold_the_project_to_their_inputs_until_they_are_deleted) {
+  const Running server(project());
+  server.settle();
+  const std::string b9 = std::string(MANSARD_DATA) + "/b9/";
+  const Json other{{"meshes", {b9 + "mesh.off"}}, {"footprints", b9 + "footprints.geojson"}};
+  EXPECT_EQ(server.post("/api/project/inputs", other).code(), "server-inputs");
+  EXPECT_EQ(server.call("DELETE", "/api/runs/run-1").status, 200);
+  EXPECT_TRUE(fs::exists(project() / "trash/run-1/plans.json"));
+  EXPECT_EQ(server.get("/api/runs/run-1/buildings").code(), "server-unknown");
+  EXPECT_EQ(server.post("/api/project/inputs", other).status, 200);
+  server.settle();
+}
+
+TEST_F(Runs, can_be_cancelled_waiting_or_running) {
+  const Running server(project());
+  server.settle();
+  const auto running = server.post("/api/runs", Json::object()).json();
+  const auto waiting = server.post("/api/runs", Json::object()).json();
+  EXPECT_EQ(server.call("DELETE", "/api/runs/" + waiting["run"].get<std::string>()).code(), "server-busy");
+  EXPECT_EQ(server.call("DELETE", "/api/jobs/" + waiting["id"].get<std::string>()).status, 200);
+  EXPECT_EQ(server.call("DELETE", "/api/jobs/" + running["id"].get<std::string>()).status, 200);
+  server.settle();
+  const auto runs = server.get("/api/project").json()["runs"];
+  EXPECT_EQ(runs[1]["state"], "cancelled") << runs.dump();
+  EXPECT_EQ(runs[2]["state"], "cancelled");
+  EXPECT_EQ(server.get("/api/runs/run-2/buildings").code(), "server-not-done");
+  EXPECT_EQ(server.get("/api/runs/run-1/buildings").status, 200);
+  EXPECT_FALSE(fs::exists(project() / "runs/run-2/plans.json"));
+}
+
+TEST_F(Runs, that_were_under_way_when_the_server_was_killed_are_interrupted) {
+  {
+    Running server(project());
+    server.settle();
+    ASSERT_EQ(server.post("/api/runs", Json::object()).status, 200);
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    server.kill();
+  }
+  const Running server(project());
+  const auto runs = server.get("/api/project").json()["runs"];
+  ASSERT_EQ(runs.size(), 2U);
+  EXPECT_THAT(runs[1]["state"], testing::AnyOf("interrupted", "done"));
+  EXPECT_EQ(server.buildings("run-1")["history"]["done"], 0);
+}
+
+TEST_F(Runs, export_what_extrude_makes_of_their_plans_to_the_byte) {
+  const Running server(project());
+  server.settle();
+  auto building = server.buildings("run-1")["buildings"][0];
+  ASSERT_EQ(server.post("/api/runs/run-1/edits", lift(building, 0.75)).status, 200);
+  const auto reply = server.post("/api/runs/run-1/export", {{"overwrite", false}});
+  ASSERT_EQ(reply.status, 200) << reply.text;
+  const fs::path folder(reply.json()["folder"].get<std::string>());
+  EXPECT_EQ(server.post("/api/runs/run-1/export", {{"overwrite", false}}).code(), "output-exists");
+  EXPECT_EQ(server.post("/api/runs/run-1/export", {{"overwrite", true}}).status, 200);
+
+  const auto again = folder_ / "extruded";
+  const auto command = std::string(MANSARD_BINARY) + " extrude -q " + (folder / "plans.json").string() + " -o " +
+                       again.string() + " >/dev/null";
+  const int status = std::system(command.c_str());
+  ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) <= 1);
+  for (const std::string name : {"model.city.json", "model.obj", "model.mtl", "model.glb", "plans.json"}) {
+    const auto bytes = read(folder / name);
+    EXPECT_GT(bytes.size(), 0U) << name;
+    EXPECT_EQ(read(again / name) == bytes, true) << name;
+    EXPECT_EQ(server.get("/api/runs/run-1/export/" + name).text == bytes, true) << name;
+  }
+  EXPECT_THAT(read(folder / "plans.json"), HasSubstr("ms_edited"));
+  EXPECT_THAT(server.get("/api/runs/run-1/export/segment.gpkg").text, testing::StartsWith("SQLite format 3"));
+  EXPECT_EQ(server.get("/api/runs/run-1/export/run.json").code(), "server-unknown");
+}
+
+TEST_F(Runs, show_the_mesh_across_an_edge) {
+  const Running server(project());
+  server.settle();
+  const auto part = server.buildings("run-1")["buildings"][0]["parts"][0];
+  const auto standing = server.get("/api/runs/run-1/section?building=" +
+                                   server.buildings("run-1")["buildings"][0]["id"].get<std::string>() + "&part=" +
+                                   part["id"].get<std::string>() + "&ring=0&edge=0&share=0.5");
+  ASSERT_EQ(standing.status, 200) << standing.text;
+  EXPECT_FALSE(standing.json()["pieces"].empty());
+  const auto drawn =
+      server.post("/api/runs/run-1/section", {{"plan", part["plan"]}, {"ring", 0}, {"edge", 0}, {"share", 0.5}});
+  EXPECT_EQ(drawn.text, standing.text);
+  EXPECT_EQ(server.post("/api/runs/run-1/section", {{"plan", part["plan"]}, {"ring", 0}, {"edge", 999}, {"share", 0.5}}).code(),
+            "server-body");
+}
+
+}  // namespace
+}  // namespace mansard::server

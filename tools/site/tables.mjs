@@ -1,0 +1,106 @@
+// The program's own lists as HTML: verbs, options, presets, codes, attributes.
+
+export const escape = (text) =>
+  text.replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;").replace(/"/g, "&quot;");
+const code = (text) => `<code>${escape(text)}</code>`;
+const dashed = (text) => text.replaceAll("_", "-");
+
+/// Rows are { id, cells }; cells are HTML.
+function table(header, rows) {
+  const head = header.map((cell) => `<th>${cell}</th>`).join("");
+  const body = rows.map(({ id, cells }) =>
+    `<tr${id ? ` id="${id}"` : ""}>${cells.map((cell) => `<td>${cell}</td>`).join("")}</tr>`);
+  return `<table class="made"><thead><tr>${head}</tr></thead><tbody>${body.join("\n")}</tbody></table>`;
+}
+
+function range_of(option) {
+  if (option.kind === "choice") return option.choices.map(code).join(", ");
+  if (option.kind === "flag") return "yes or no";
+  return option.least === null && option.most === null ? "" : `${option.least ?? "…"} to ${option.most ?? "…"}`;
+}
+
+const option_table = (options) =>
+  table(["option", "default", "unit", "range", "meaning"], options.map((option) => {
+    const names = [`${option.room}-${option.name}`, ...(option.alias ? [option.alias] : [])];
+    const typed = names.map((name) => code(`--${dashed(name)}`)).join(", ");
+    return {
+      id: `option-${option.room}-${option.name}`,
+      cells: [`${code(option.name)}<br><small>${typed}</small>`, option.default === "" ? "–" : code(option.default),
+        escape(option.unit), range_of(option), escape(option.meaning)],
+    };
+  }));
+
+const code_table = (codes) =>
+  table(["code", "means", "to do", "exit code"], codes.map((entry) => ({
+    id: `code-${entry.code}`,
+    cells: [code(entry.code), escape(entry.means), escape(entry.to_do), String(entry.exit_code)],
+  })));
+
+const attribute_table = (attributes) =>
+  table(["attribute", "of", "type", "unit", "meaning"], attributes.map((attribute) => ({
+    id: `attribute-${attribute.name}`,
+    cells: [code(attribute.name), attribute.of.map(code).join(", "), escape(attribute.type), escape(attribute.unit),
+      escape(attribute.meaning)],
+  })));
+
+const preset_table = (presets) =>
+  table(["preset", "meaning", "values"], presets.map((preset) => ({
+    cells: [code(preset.name), escape(preset.meaning),
+      Object.entries(preset.values).map(([option, value]) => code(`${option} = ${value}`)).join("<br>")],
+  })));
+
+const exit_table = (exits) =>
+  table(["exit code", "when"], exits.map((exit) => ({ cells: [String(exit.exit_code), escape(exit.when)] })));
+
+function verb_section(verb) {
+  const own = [...verb.arguments, ...verb.options.filter((entry) => entry.room === "")];
+  const rooms = [...new Set(verb.options.map((entry) => entry.room).filter((room) => room !== ""))];
+  const rows = own.map((entry) => ({
+    id: entry.names.length > 0 ? `${verb.verb}${entry.names[0]}` : undefined,
+    cells: [`${entry.names.map(code).join(", ")} ${escape(entry.value)}${entry.required ? " (required)" : ""}`.trim(),
+      escape(entry.meaning)],
+  }));
+  const links = rooms.map((room) => `<a href="options.html#${room}">${room}</a>`).join(", ");
+  return `<h2 id="${verb.verb}">mansard ${verb.verb}</h2><p>${escape(verb.meaning)}.</p>` +
+    table(["", "meaning"], rows) + (rooms.length > 0 ? `<p>And the options of ${links}.</p>` : "");
+}
+
+export class Tables {
+  constructor(rooms, known) {
+    this.rooms = rooms;
+    this.known = known;
+  }
+
+  /// What a code belongs to: the room that it begins with, else what is under all rooms.
+  #room_of(entry) { return this.rooms.find((room) => entry.code.startsWith(`${room}-`)) ?? "base"; }
+
+  /// By the heading of the section that each belongs to; nothing for what the room does not have.
+  of_room(room) {
+    const { options, codes, attributes } = this.known;
+    const own = {
+      Options: [option_table, options.filter((option) => option.room === room)],
+      Codes: [code_table, codes.filter((entry) => this.#room_of(entry) === room)],
+      Attributes: [attribute_table, attributes.filter((attribute) => attribute.room === room)],
+    };
+    return Object.fromEntries(Object.entries(own).filter(([, [, list]]) => list.length > 0)
+      .map(([heading, [make, list]]) => [heading, make(list)]));
+  }
+
+  /// The pages that are nothing else: title and body by address.
+  pages() {
+    const { verbs, options, presets, simulate_presets, attributes, codes, exit_codes } = this.known;
+    const of_options = [...new Set(options.map((option) => option.room))].map((room) =>
+      `<h2 id="${room}">${room}</h2>${option_table(options.filter((option) => option.room === room))}`);
+    return {
+      "verbs.html": ["Verbs", verbs.map(verb_section).join("\n")],
+      "options.html": ["Options", `<p>Option ${code("name")} of room ${code("room")} is ${code("--room-name")} on the
+        command line, and ${code("name")} in the table ${code("[room]")} of a file for ${code("--config")}.</p>
+        ${of_options.join("\n")}
+        <h2 id="presets">Presets</h2>${preset_table(presets)}
+        <h2 id="simulate_presets">Presets of simulate</h2>${preset_table(simulate_presets)}`],
+      "attributes.html": ["Attributes", `<p>What models carry, beside the attributes of their source.</p>
+        ${attribute_table(attributes)}`],
+      "codes.html": ["Diagnostic codes", exit_table(exit_codes) + code_table(codes)],
+    };
+  }
+}
