@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <filesystem>
 #include <httplib.h>
 #include <memory>
 #include <thread>
@@ -13,6 +14,7 @@
 #include "apps/server/json.hpp"
 #include "apps/server/routes.hpp"
 #include "apps/server/workspace.hpp"
+#include "mansard/base/text.hpp"
 
 namespace mansard::server {
 namespace {
@@ -94,6 +96,23 @@ class Body {
   bool rest_ = false;
 };
 
+/// Connections that wait for a next request end at once; answers under way are still sent. The library keeps its sockets
+/// to itself: they are known by the port they came in by.
+void hear_nothing_more(int port) {
+  std::error_code status;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", status)) {
+    const int file = static_cast<int>(base::to_whole(entry.path().filename().string()).value_or(-1));
+    sockaddr_storage address{};
+    socklen_t size = sizeof address;
+    if (::getsockname(file, reinterpret_cast<sockaddr*>(&address), &size) != 0) continue;  // NOLINT
+    const auto in = address.ss_family == AF_INET ? reinterpret_cast<const sockaddr_in*>(&address)->sin_port  // NOLINT
+                    : address.ss_family == AF_INET6
+                        ? reinterpret_cast<const sockaddr_in6*>(&address)->sin6_port  // NOLINT
+                        : in_port_t{0};
+    if (ntohs(in) == port) ::shutdown(file, SHUT_RD);
+  }
+}
+
 auto too_large(std::uint64_t limit) -> base::Diagnostic {
   return base::error("server-large", "more than " + std::to_string(limit >> 20) + " MB was sent; send less");
 }
@@ -109,7 +128,9 @@ class Web {
     });
     http_.set_tcp_nodelay(true);
     http_.set_keep_alive_max_count(100'000);
-    http_.set_keep_alive_timeout(2);  // s; each waiting connection holds a thread, and the end waits for them
+    // s. A browser keeps connections for later and may, when busy, send on one that was closed while it was not looking;
+    // each that waits holds a thread.
+    http_.set_keep_alive_timeout(15);
     http_.set_default_headers({{"Content-Security-Policy", content_security_policy},
                                {"X-Content-Type-Options", "nosniff"},
                                {"X-Frame-Options", "DENY"},
@@ -151,6 +172,7 @@ class Web {
     auto token = new_token();
     if (!token) return token.error();
     guard_ = std::make_unique<Guard>(options_.address, port, *token);
+    port_ = port;
     thread_ = std::thread([this] { http_.listen_after_bind(); });
     while (!http_.is_running()) std::this_thread::sleep_for(1ms);  // stop() before that would be forgotten
     const auto host = options_.address.find(':') == std::string::npos ? options_.address : "[" + options_.address + "]";
@@ -161,6 +183,7 @@ class Web {
     if (!thread_.joinable()) return;
     http_.stop();
     workspace_.stop();  // lets those go that wait for events
+    hear_nothing_more(port_);
     thread_.join();
   }
 
@@ -290,6 +313,7 @@ class Web {
   Workspace& workspace_;
   httplib::Server http_;
   std::unique_ptr<Guard> guard_;
+  int port_ = 0;
   std::thread thread_;
 };
 

@@ -364,3 +364,72 @@ test("two tabs see each other's edits", async ({ clean: page, context, server })
   await second.keyboard.press("Control+z");
   await expect.poll(async () => (await buildingOf(page, house.id)).edited).toBe(false);
 });
+
+/** Words that stand out less than 4.5 : 1 against the colour behind them (WCAG 2.1, AA); disabled controls may. */
+const faint = (page: Page) =>
+  page.evaluate(() => {
+    const numbers = (colour: string) => (colour.match(/[\d.]+/g) ?? []).map(Number);
+    const light = (rgb: number[]) => {
+      const [r, g, b] = rgb.map((v) => (v / 255 <= 0.04045 ? v / 255 / 12.92 : ((v / 255 + 0.055) / 1.055) ** 2.4));
+      return 0.2126 * r! + 0.7152 * g! + 0.0722 * b!;
+    };
+    const over = (front: number[], back: number[]) => {
+      const share = front[3] ?? 1;
+      return back.map((v, i) => share * front[i]! + (1 - share) * v);
+    };
+    const behind = (element: Element | null): number[] => {
+      if (!element) return [255, 255, 255];
+      const own = numbers(getComputedStyle(element).backgroundColor);
+      return own[3] === undefined ? own : own[3] === 0 ? behind(element.parentElement) : over(own, behind(element.parentElement));
+    };
+    const found: string[] = [];
+    for (const element of document.querySelectorAll<HTMLElement>("body *:not(svg *):not(option)")) {
+      const text = [...element.childNodes].filter((n) => n.nodeType === 3).map((n) => n.textContent!.trim()).join(" ").trim();
+      if (!text || !element.checkVisibility() || element.closest(":disabled, [aria-disabled=true]")) continue;
+      const back = behind(element);
+      const style = getComputedStyle(element);
+      const [a, b] = [light(over(numbers(style.color), back)), light(back)];
+      const contrast = (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
+      if (contrast < 4.5) found.push(`${contrast.toFixed(2)} “${text.slice(0, 40)}” ${style.color} .${element.className}`);
+    }
+    return found;
+  });
+
+test("words stand out, and a keyboard is enough", async ({ clean: page, server }) => {
+  await page.goto(server.link);
+  await expect(page.getByRole("button", { name: "Open the sample" })).toBeVisible();
+  expect(await faint(page)).toEqual([]);
+
+  const pressTo = async (name: string | RegExp, role: "button" | "tab" = "button") => {
+    for (let i = 0; i < 80; ++i) {
+      await page.keyboard.press("Tab");
+      if (await page.getByRole(role, { name, exact: true }).evaluateAll((all) => all.some((one) => one === document.activeElement))) return;
+    }
+    throw new Error(`Tab does not reach ${name}`);
+  };
+  await pressTo("Open the sample");
+  await page.keyboard.press("Enter");
+  await expect(page.getByRole("button", { name: "Reconstruct" })).toBeEnabled({ timeout: 60_000 });
+  await pressTo("Reconstruct");
+  await page.keyboard.press("Enter");
+  await expect.poll(() => page.evaluate(() => (window as unknown as Known["window"]).mansard.state.run.value?.id), { timeout: 150_000 }).toBe("run-1");
+  const house = await aHouse(page);
+
+  for (const tab of ["Run", "Buildings", "Plots", "Layers"]) {
+    await page.getByRole("tab", { name: tab }).click();
+    expect(await faint(page), tab).toEqual([]);
+  }
+  await pick(page, house.id);
+  expect(await faint(page), "Edit").toEqual([]);
+
+  // A gutter raised by 10 cm without a mouse.
+  await pickEdge(page, pitched(house.parts[0]!.plan)[0]!);
+  const before = await buildingOf(page, house.id);
+  await page.getByRole("button", { name: /^point 1,/ }).focus();
+  await page.keyboard.press("ArrowUp");
+  await expect.poll(async () => (await buildingOf(page, house.id)).revision).toBeGreaterThan(before.revision);
+  expect(volume(await buildingOf(page, house.id))).toBeGreaterThan(volume(before));
+  await page.keyboard.press("?");
+  await expect(page.getByRole("dialog", { name: "Keyboard" })).toBeVisible();
+  expect(await faint(page), "Keyboard").toEqual([]);
+});
