@@ -1,10 +1,19 @@
-// What sorted numbers have in common.
+// What numbers have in common.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 namespace mansard::base {
+
+/// Of the values, which are not empty, the one in the middle; of two the higher.
+[[nodiscard]] inline auto median(std::vector<double> values) -> double {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
 
 /// The middle of the window of that breadth that holds most of the sorted, non-empty values; of two as full the lower.
 [[nodiscard]] inline auto commonest(std::span<const double> sorted, double breadth) -> double {

@@ -66,18 +66,7 @@ auto with_corners(const std::vector<Edge>& edges, std::span<const Edge> others) 
     }
     if (best < edges.size()) on[best].push_back(other.from);
   }
-  std::vector<Edge> out;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const Segment2 s{edges[i].from, edges[i].to};
-    std::ranges::sort(on[i], {}, [&](Point2 p) { return std::pair(geometry::parameter(s, p), p); });
-    Point2 from = edges[i].from;
-    for (const Point2 p : on[i]) {
-      out.push_back({from, p, edges[i].label});
-      from = p;
-    }
-    out.push_back({from, edges[i].to, edges[i].label});
-  }
-  return out;
+  return detail::broken_at(edges, std::move(on));
 }
 
 /// Takes out the edges that both have, in opposite directions; their length, and `corners` at their ends.

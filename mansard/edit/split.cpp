@@ -121,18 +121,7 @@ auto with_corners(const std::vector<Edge>& edges, const std::vector<Stop>& stops
   for (const auto& stop : stops)
     if (stop.edge && stop.at != edges[*stop.edge].from && stop.at != edges[*stop.edge].to)
       on[*stop.edge].push_back(stop.at);
-  std::vector<Edge> out;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    std::ranges::sort(on[i], {}, [&](Point2 p) { return std::pair(geometry::parameter(segment_of(edges[i]), p), p); });
-    on[i].erase(std::ranges::unique(on[i]).begin(), on[i].end());
-    Point2 from = edges[i].from;
-    for (const Point2 p : on[i]) {
-      out.push_back({from, p, edges[i].label});
-      from = p;
-    }
-    out.push_back({from, edges[i].to, edges[i].label});
-  }
-  return out;
+  return detail::broken_at(edges, std::move(on));
 }
 
 /// Outline and chains in both directions; the label of these is `wall`. `first[c]` is the first edge of chain c.

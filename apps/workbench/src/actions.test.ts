@@ -2,26 +2,9 @@ import { beforeEach, describe, expect, it, vi } from "vitest";
 import * as actions from "./actions";
 import type * as api from "./api/types";
 import * as state from "./state";
-import { building } from "./view/fixtures";
+import { building, summary } from "./view/fixtures";
 
-const run = (id: string, change: Partial<api.RunSummary> = {}): api.RunSummary => ({
-  id,
-  label: "",
-  state: "done",
-  failure: null,
-  created: "",
-  preset: "",
-  options: {},
-  blocks: [],
-  scores: null,
-  times: [],
-  buildings: 2,
-  full: 2,
-  parts: 2,
-  faces: 14,
-  edits: 0,
-  ...change,
-});
+const run = (id: string, change: Partial<api.RunSummary> = {}) => summary({ id, ...change });
 const project = (...runs: api.RunSummary[]): api.Project => ({
   name: "p",
   folder: "/p",

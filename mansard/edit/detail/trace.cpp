@@ -127,6 +127,22 @@ auto edges_of(const geometry::Plan& plan) -> std::vector<Edge> {
   return edges;
 }
 
+auto broken_at(std::span<const Edge> edges, std::vector<std::vector<geometry::Point2>> on) -> std::vector<Edge> {
+  std::vector<Edge> out;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const geometry::Segment2 edge{edges[i].from, edges[i].to};
+    std::ranges::sort(on[i], {}, [&](geometry::Point2 p) { return std::pair(geometry::parameter(edge, p), p); });
+    on[i].erase(std::ranges::unique(on[i]).begin(), on[i].end());
+    geometry::Point2 from = edges[i].from;
+    for (const geometry::Point2 p : on[i]) {
+      out.push_back({from, p, edges[i].label});
+      from = p;
+    }
+    out.push_back({from, edges[i].to, edges[i].label});
+  }
+  return out;
+}
+
 auto overlap(const geometry::Polygon& a, const geometry::Polygon& b) -> double {
   if (!geometry::bounds(a.outer).overlaps(geometry::bounds(b.outer))) return 0;
   const auto common = geometry::intersect(a, b);

@@ -46,6 +46,10 @@ struct Outline {
 /// The edges of all rings of the plan, labelled by their profiles.
 [[nodiscard]] auto edges_of(const geometry::Plan& plan) -> std::vector<Edge>;
 
+/// The edges with corners at the points on each of them, in whatever order; the pieces keep their edge's label.
+[[nodiscard]] auto broken_at(std::span<const Edge> edges, std::vector<std::vector<geometry::Point2>> on)
+    -> std::vector<Edge>;
+
 /// m²; of what two polygons share once a centimetre is taken off all around.
 [[nodiscard]] auto overlap(const geometry::Polygon& a, const geometry::Polygon& b) -> double;
 

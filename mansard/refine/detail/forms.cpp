@@ -6,7 +6,9 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 
+#include "mansard/base/sorted.hpp"
 #include "mansard/refine/detail/lines.hpp"
 
 namespace mansard::refine::detail {
@@ -113,9 +115,7 @@ auto mansard_line(std::vector<Look> looks) -> std::optional<Profile> {
 auto middle_height(std::span<const Look> looks) -> double {
   std::vector<double> heights;
   for (const Look& look : looks) heights.push_back(look.height);
-  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-  std::ranges::nth_element(heights, middle);
-  return *middle;
+  return base::median(std::move(heights));
 }
 
 /// A level strip and what stands behind it, of whatever depth parts them best.

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "mansard/base/sorted.hpp"
 #include "mansard/refine/detail/lines.hpp"
 
 namespace mansard::refine::detail {
@@ -162,12 +163,6 @@ auto rebuilt(const Profile& profile, const std::vector<std::vector<Look>>& looks
   return out;
 }
 
-auto median(std::vector<double> values) -> double {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 }  // namespace
 
 auto refitted(const Judged& judged, const Site& site, Used used) -> Plan {
@@ -181,7 +176,7 @@ auto refitted(const Judged& judged, const Site& site, Used used) -> Plan {
   }
   constexpr std::size_t fewest = 8;
   constexpr double least_cap = 0.5;  // m
-  if (sorted.cap.size() >= fewest) plan.cap = std::max(least_cap, median(std::move(sorted.cap)));
+  if (sorted.cap.size() >= fewest) plan.cap = std::max(least_cap, base::median(std::move(sorted.cap)));
   return plan;
 }
 

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "mansard/base/sorted.hpp"
 #include "mansard/sweep/detail/line_index.hpp"
 #include "mansard/sweep/detail/steps_field.hpp"
 
@@ -131,12 +132,6 @@ class Field {
   std::vector<char> used_;
 };
 
-auto median(std::vector<double> values) -> double {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 using Line = HeightGrid::Line;
 
 /// Where the line of a stretch lies; turned off the grain only if it has to be.
@@ -144,7 +139,7 @@ auto line_of(const Stretch& stretch) -> Line {
   std::vector<double> at;
   double row = 0, n = 0;
   for (const Jump& j : stretch) at.push_back(j.across), row += static_cast<double>(j.row), n += 1;
-  Line line{median(at), 0, row / n};
+  Line line{base::median(at), 0, row / n};
   double mean = 0, moment = 0, spread = 0;
   for (const double a : at) mean += a / n;
   for (const Jump& j : stretch) {
@@ -184,7 +179,7 @@ auto step_of(const HeightGrid& grid, const Stretch& stretch, Line line) -> Step 
   const auto at = [&](double row) { return grid.point(line.at(row), (row + 0.5) * HeightGrid::cell); };
   std::vector<double> low, high;
   for (const Jump& j : stretch) low.push_back(j.low), high.push_back(j.high);
-  step.low = median(low), step.high = median(high);
+  step.low = base::median(low), step.high = base::median(high);
   const auto first = static_cast<double>(stretch.front().row), last = static_cast<double>(stretch.back().row);
   step.segment = {at(first - 0.5), at(last + 0.5)};
   const Point2 across = grid.point(1, 0) - grid.point(0, 0);

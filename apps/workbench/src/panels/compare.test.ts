@@ -1,32 +1,12 @@
 import { describe, expect, it } from "vitest";
-import type { RunSummary } from "../api/types";
-import { building } from "../view/fixtures";
+import { building, summary } from "../view/fixtures";
 import { buildingDifferences, difference, numbers } from "./compare";
-
-const run = (change: Partial<RunSummary>): RunSummary => ({
-  id: "run-1",
-  label: "",
-  state: "done",
-  failure: null,
-  created: "",
-  preset: "",
-  options: {},
-  blocks: [],
-  scores: null,
-  times: [],
-  buildings: 1,
-  full: 1,
-  parts: 1,
-  faces: 7,
-  edits: 0,
-  ...change,
-});
 
 describe("two runs", () => {
   it("have the times of every stage that either has", () => {
     const rows = numbers(
-      run({ times: [{ stage: "slice", seconds: 1 }] }),
-      run({ times: [{ stage: "sweep", seconds: 2 }] }),
+      summary({ times: [{ stage: "slice", seconds: 1 }] }),
+      summary({ times: [{ stage: "sweep", seconds: 2 }] }),
     );
     const of = (name: string) => rows.find((r) => r.name === name)!;
     expect(of("… slice")).toMatchObject({ first: 1, second: null });
@@ -35,7 +15,7 @@ describe("two runs", () => {
   });
 
   it("have no difference where one was not measured", () => {
-    const [mse] = numbers(run({}), run({}));
+    const [mse] = numbers(summary({}), summary({}));
     expect(mse).toMatchObject({ first: null, second: null });
     expect(difference(mse!)).toBeNull();
   });

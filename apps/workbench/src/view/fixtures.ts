@@ -1,5 +1,5 @@
 // A house for tests: 10 m by 6 m from (0, 0), eaves at 3 m, ridge along x at 6 m, gables at both ends.
-import type { Building, Geometry, Plan } from "../api/types";
+import type { Building, Geometry, Plan, RunSummary } from "../api/types";
 
 const positions = [
   [0, 0, 0], [10, 0, 0], [10, 6, 0], [0, 6, 0], // foot
@@ -68,5 +68,25 @@ export const building = (id: string, change: Partial<Building> = {}): Building =
   reasons: [],
   edited: false,
   ground: 0,
+  ...change,
+});
+
+/** A finished run of one house. */
+export const summary = (change: Partial<RunSummary> = {}): RunSummary => ({
+  id: "run-1",
+  label: "",
+  state: "done",
+  failure: null,
+  created: "",
+  preset: "",
+  options: {},
+  blocks: [],
+  scores: null,
+  times: [],
+  buildings: 1,
+  full: 1,
+  parts: 1,
+  faces: 7,
+  edits: 0,
   ...change,
 });
