@@ -112,7 +112,7 @@ which stay editable as plan + profiles. With manual page, completions for bash, 
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libmansard-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libtbb-dev, libgmp-dev, libgeos-dev, libembree-dev (>= 3.13), coinor-libcbc-dev, \
-libgdal-dev, libtinygltf-dev, libssl-dev, libpng-dev, pkg-config")
+libgdal-dev, libtinygltf-dev, libdraco-dev, libmeshoptimizer-dev, libssl-dev, libpng-dev, pkg-config")
 set(CPACK_COMPONENT_GROUP_DEV_DESCRIPTION
   "The rooms of mansard as static libraries with their doors, for find_package(mansard COMPONENTS pipeline).")
 include(CPack)

@@ -1,25 +1,27 @@
 #!/usr/bin/env bash
-# Installs what packages.txt lists and this machine lacks; when nothing is missing it takes no time and needs no root.
+# setup.sh [LIST]: installs what LIST (packages.txt) lists and this machine lacks; when nothing is missing it takes no time
+# and needs no root.
 # A line is a package, or `package unless:command`, which is skipped where that command can be found.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
+list=${1:-packages.txt}
 wanted=()
 while read -r package condition; do
   case $condition in
     '') ;;
     unless:?*) if command -v "${condition#unless:}" > /dev/null; then continue; fi ;;
-    *) echo "setup: packages.txt: $package: '$condition' is not unless:command" >&2; exit 1 ;;
+    *) echo "setup: $list: $package: '$condition' is not unless:command" >&2; exit 1 ;;
   esac
   [[ -z $package ]] || wanted+=("$package")
-done < <(sed -e 's/#.*//' packages.txt)
+done < <(sed -e 's/#.*//' "$list")
 if [[ ${#wanted[@]} -eq 0 ]]; then
-  echo "setup: packages.txt lists nothing" >&2
+  echo "setup: $list lists nothing" >&2
   exit 1
 fi
 
 if ! command -v dpkg-query > /dev/null || ! command -v apt-get > /dev/null; then
-  echo "setup: no apt on this machine; going on in the hope that the equivalents of packages.txt are installed" >&2
+  echo "setup: no apt on this machine; going on in the hope that the equivalents of $list are installed" >&2
   exit 0
 fi
 

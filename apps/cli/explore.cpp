@@ -193,7 +193,7 @@ auto explore_verb(CLI::App& app, std::vector<std::string> words, const base::Can
   std::string names;
   for (const auto& name : explore::experiment_names()) names += (names.empty() ? "" : ", ") + name;
   verb->add_option("EXPERIMENT", request->experiment, "One of " + names)->required()->type_name("");
-  add_to(*verb, request->scan);
+  add_to(*verb, request->scan, false);
   verb->remove_option(verb->get_option("--report"));  // the report is what it writes
   verb->remove_option(verb->get_option("--verbose"));
   verb->add_option("-o,--output", request->out, "Folder for the report")->required()->type_name("OUTDIR");

@@ -2,134 +2,150 @@
 #include "apps/cli/extrude.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
-#include <fstream>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "apps/cli/exit.hpp"
+#include "apps/cli/formats.hpp"
 #include "apps/cli/output.hpp"
 #include "apps/cli/settings.hpp"
 #include "apps/cli/verbs.hpp"
 #include "mansard/base/files.hpp"
+#include "mansard/pipeline/stored.hpp"
 
 namespace mansard::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether OUT names one file, by its ending; all formats go into a folder otherwise.
-auto is_file(const fs::path& out) -> bool {
-  return out.filename().string().ends_with(".json") || out.extension() == ".obj" || out.extension() == ".glb";
+/// Whether OUT names one result, by its ending; several formats go into a folder otherwise.
+auto is_one(const fs::path& out) -> bool {
+  const auto format = write::format_of(out);
+  if (!format) return false;
+  if (*format != write::Format::tiles) return true;
+  return out.extension() == ".3dtiles" || out.filename() == "tileset.json";
 }
 
-/// The files that OUT stands for.
-auto outputs(const fs::path& out) -> std::vector<fs::path> {
-  std::vector<fs::path> all;
-  if (!is_file(out)) {
-    for (const auto* name : result_names) all.push_back(out / name);
-    return all;
+auto targets_of(const ExtrudeRequest& request) -> base::Result<std::vector<Target>> {
+  if (!is_one(request.out)) {
+    const auto formats = formats_in(request.formats.empty() ? "default" : request.formats);
+    if (!formats) return formats.error();
+    return targets_in(request.out, *formats);
   }
-  all.push_back(out);
-  if (out.extension() == ".obj") all.push_back(fs::path(out).replace_extension(".mtl"));
-  return all;
+  if (!request.formats.empty())
+    return base::error("usage", "the ending of '" + request.out + "' says the format already; give a folder instead",
+                       "--formats");
+  auto target = target_at(request.out);
+  if (!target) return target.error();
+  return std::vector{*target};
 }
 
-auto extrude_plans(const ExtrudeRequest& request, const base::Cancel& cancel) -> int {
+auto extrude_plans(write::CityReader& reader, const ExtrudeRequest& request, const base::Cancel& cancel) -> int {
   if (!request.report.empty())
     return give_up(base::error("usage", "plans are raised without a report; --report is for footprints", "--report"));
   pipeline::Options options;
+  for (const auto& warning : pipeline::take_options(reader.header().made_by, options))
+    if (!request.quiet) std::fprintf(stderr, "mansard: %s\n", base::to_string(warning).c_str());
   if (auto applied = request.settings.apply(options); !applied) return give_up(applied.error());
-  auto city = write::read_plans(request.input);
+  auto city = write::read_whole(reader);
   if (!city) return give_up(city.error());
   if (auto ready = check_outputs(request); !ready) return give_up(ready.error());
   base::Run run;
   run.cancel = &cancel;
+  pipeline::note_options(options, city->made_by);
   const auto raised = pipeline::raise_plans(std::move(*city), options, run);
   if (!raised) return give_up(raised.error());
   for (const auto& part : raised->fell_short)
     for (const auto& reason : part.reasons)
       if (!request.quiet) std::fprintf(stderr, "mansard: %s\n", base::to_string(reason).c_str());
-  if (auto written = write_out(raised->city, {}, request, run); !written) return give_up(written.error());
+  if (auto written = write_out(raised->city, {}, options, request, run); !written) return give_up(written.error());
   std::printf("%s\n", request.out.c_str());
   return raised->fell_short.empty() ? all_done : some_fell_back;
 }
 
+/// JSON in which no member is what GeoJSON, TopoJSON, ESRI JSON or CityJSON have: a plan file that lacks its type, rather
+/// than footprints.
+auto looks_like_plans(const fs::path& path) -> bool {
+  const auto bytes = base::read_file(path);
+  if (!bytes) return false;
+  const auto json = nlohmann::json::parse(*bytes, nullptr, false);
+  if (!json.is_object()) return false;
+  const auto type = json.contains("type") && json["type"].is_string() ? json["type"].get<std::string>() : std::string();
+  return !json.contains("features") && !json.contains("coordinates") && !json.contains("geometry") &&
+         !json.contains("geometries") && type != "Topology" && type != "CityJSON";
+}
+
+auto extrude(const ExtrudeRequest& request, const base::Cancel& cancel) -> int {
+  auto reader = write::read_city(request.input);
+  if (reader) return extrude_plans(**reader, request, cancel);
+  const bool plans = write::format_of(request.input) == write::Format::plans;
+  if (!pipeline::is_foreign(reader.error()) && reader.error().code.starts_with("write-")) return give_up(reader.error());
+  if (plans && looks_like_plans(request.input)) return give_up(reader.error());
+  return extrude_footprints(request, cancel);
+}
+
 auto picture_file(const fs::path& out) -> fs::path {
-  return is_file(out) ? fs::path(out).replace_extension(".png") : out / "picture.png";
+  return is_one(out) ? fs::path(out).replace_extension(".png") : out / "picture.png";
 }
 
 }  // namespace
 
 auto check_outputs(const ExtrudeRequest& request) -> base::Result<void> {
-  const bool file = is_file(request.out);
-  auto all = outputs(request.out);
-  if (file && request.picture) all.push_back(picture_file(request.out));
-  std::vector<fs::path> single = file ? all : std::vector<fs::path>();
+  const bool one = is_one(request.out);
+  const auto targets = targets_of(request);
+  if (!targets) return targets.error();
+  std::vector<fs::path> all, single;
+  for (const auto& target : *targets)
+    for (const auto& place : places_of(target)) all.push_back(place);
+  if (request.picture || !one) all.push_back(picture_file(request.out));
+  if (!one) all.push_back(fs::path(request.out) / "run.json");
+  if (one && request.picture) single.push_back(picture_file(request.out));
   if (!request.report.empty()) single.emplace_back(request.report);
   all.insert(all.end(), single.begin(), single.end());
   if (auto spared = spare_inputs(all, {request.input}); !spared) return spared;
+  if (one)
+    if (auto usable = target_free(targets->front(), request.overwrite); !usable) return usable;
   for (const auto& path : single)
     if (auto usable = file_free(path, request.overwrite); !usable) return usable;
-  return file ? base::Result<void>() : prepare(request.out, request.overwrite);
+  return one ? base::Result<void>() : prepare(request.out, request.overwrite);
 }
 
-auto write_out(const write::City& city, const std::string& report, const ExtrudeRequest& request,
-               const base::Run& run) -> base::Result<void> {
+auto write_out(const write::City& city, const std::string& report, const pipeline::Options& options,
+               const ExtrudeRequest& request, const base::Run& run) -> base::Result<void> {
   const fs::path out(request.out);
-  std::vector<std::pair<fs::path, std::string>> files;
-  if (!is_file(out)) {
-    auto models = model_files(city);
-    if (!models) return models.error();
-    for (auto& [name, bytes] : *models) files.emplace_back(out / name, std::move(bytes));
-    if (!report.empty()) files.emplace_back(out / "run.json", report);
-  } else if (out.extension() == ".obj") {
-    const auto library = fs::path(out).replace_extension(".mtl");
-    auto models = write::obj(city, library.filename().string());
-    if (!models) return models.error();
-    files.emplace_back(library, std::move(models->mtl));
-    files.emplace_back(out, std::move(models->obj));
-  } else {
-    auto bytes = out.extension() == ".glb" ? write::glb(city) : write::cityjson(city);
-    if (!bytes) return bytes.error();
-    files.emplace_back(out, std::move(*bytes));
-  }
-  if (!request.report.empty()) files.emplace_back(request.report, report);
+  const auto targets = targets_of(request);
+  if (!targets) return targets.error();
+  base::Outputs outputs;
+  const auto warnings = write_models(city, *targets, options.write, outputs);
+  if (!warnings) return warnings.error();
+  for (const auto& warning : *warnings)
+    if (!request.quiet) std::fprintf(stderr, "mansard: %s\n", base::to_string(warning).c_str());
+  if (!is_one(out) && !report.empty())
+    if (auto written = write_bytes(out / "run.json", report, outputs); !written) return written;
+  if (!request.report.empty())
+    if (auto written = write_bytes(request.report, report, outputs); !written) return written;
   if (request.picture) {
     auto bytes = picture::png(pipeline::picture_of(city, {}, run));
     if (!bytes) return bytes.error();
-    files.emplace_back(picture_file(out), std::move(*bytes));
+    if (auto written = write_bytes(picture_file(out), *bytes, outputs); !written) return written;
   }
-  std::vector<base::FileToWrite> all;
-  for (const auto& [path, bytes] : files) all.push_back({path, bytes});
-  return base::write_files(all, run.cancel);
-}
-
-auto holds_plans(const fs::path& path) -> bool {
-  std::error_code status;
-  if (!fs::is_regular_file(path, status)) return false;
-  std::string head(1 << 16, '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(file.gcount()));
-  const auto first = head.find_first_not_of(" \t\r\n\xef\xbb\xbf");
-  if (first == std::string::npos || head[first] != '{') return false;
-  const auto has = [&](const char* word) { return head.find(word) != std::string::npos; };
-  if (has("\"mansard-plan\"") || has("\"CityJSON\"")) return true;
-  static constexpr std::array features{"\"Feature", "\"coordinates\"", "\"features\"", "\"Topology\"", "\"geometryType\""};
-  return std::ranges::none_of(features, has);
+  return outputs.commit(run.cancel);
 }
 
 auto extrude_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
   auto* verb = app.add_subcommand("extrude", "Footprints to solids without a mesh; or an edited plan raised again");
   auto request = std::make_shared<ExtrudeRequest>();
   verb->add_option("INPUT", request->input,
-                   "Footprints (any OGR vector file), raised by their attributes or by --profile; or a plans.json")
+                   "Footprints (any OGR vector file), raised by their attributes or by --profile; or a plans.json, or "
+                   "whatever else mansard wrote")
       ->required()
       ->type_name("FOOTPRINTS|PLAN.json");
-  verb->add_option("-o,--output", request->out, "A .city.json, .obj or .glb file, or a folder for all of them")
+  verb->add_option("-o,--output", request->out,
+                   "A file, whose ending says the format (" + endings() + "), or a folder for several of them")
       ->required()
       ->type_name("OUT");
+  verb->add_option("--formats", request->formats, formats_help())->type_name("FORMATS");
   verb->add_flag("--overwrite", request->overwrite, "Replace results that are there already");
   verb->add_flag("--picture", request->picture, "Also write a picture of the models");
   verb->add_option("--report", request->report, "Write the report (run.json) here too")->type_name("FILE");
@@ -141,7 +157,7 @@ auto extrude_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
   request->settings.add_to(*verb);
   return {verb, [request, &cancel] {
             base::limit_threads(request->jobs);
-            return holds_plans(request->input) ? extrude_plans(*request, cancel) : extrude_footprints(*request, cancel);
+            return extrude(*request, cancel);
           }};
 }
 

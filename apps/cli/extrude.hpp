@@ -13,7 +13,7 @@
 namespace mansard::cli {
 
 struct ExtrudeRequest {
-  std::string input, out, report;
+  std::string input, out, report, formats;
   bool overwrite = false, picture = false, quiet = false, verbose = false;
   std::size_t jobs = 0;
   Settings settings;
@@ -22,14 +22,10 @@ struct ExtrudeRequest {
 /// Whatever may be wrong with the outputs, before any work. Gives up with "output-…", "file-write".
 [[nodiscard]] auto check_outputs(const ExtrudeRequest& request) -> base::Result<void>;
 
-/// The models as OUT asks for them, with a picture if asked for, and the report (in a folder and where --report says;
-/// empty for none).
-[[nodiscard]] auto write_out(const write::City& city, const std::string& report, const ExtrudeRequest& request,
-                             const base::Run& run) -> base::Result<void>;
-
-/// Whether the file holds plan + profiles, by its contents, rather than footprints: JSON that says so, or JSON in which
-/// nothing looks like a feature.
-[[nodiscard]] auto holds_plans(const std::filesystem::path& path) -> bool;
+/// The models as OUT and --formats ask for them, with a picture if asked for, and the report (in a folder and where
+/// --report says; empty for none).
+[[nodiscard]] auto write_out(const write::City& city, const std::string& report, const pipeline::Options& options,
+                             const ExtrudeRequest& request, const base::Run& run) -> base::Result<void>;
 
 /// `mansard extrude FOOTPRINTS -o OUT`; the exit code.
 [[nodiscard]] auto extrude_footprints(const ExtrudeRequest& request, const base::Cancel& cancel) -> int;

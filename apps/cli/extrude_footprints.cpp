@@ -49,7 +49,7 @@ auto extrude_footprints(const ExtrudeRequest& request, const base::Cancel& cance
   for (const auto& warning : result->warnings) progress.say(base::to_string(warning));
   progress.show("write", request.out, 1);
   const auto report = pipeline::report_json(*result, *scene);
-  if (auto written = write_out(result->city, report, request, run); !written) return give_up(written.error());
+  if (auto written = write_out(result->city, report, options, request, run); !written) return give_up(written.error());
   summarise(*result, request, progress);
   std::printf("%s\n", request.out.c_str());
   return count(*result, pipeline::Outcome::full) == result->buildings.size() ? all_done : some_fell_back;

@@ -11,6 +11,7 @@
 #include "mansard/base/text.hpp"
 #include "mansard/label/scan.hpp"
 #include "mansard/pipeline/evaluation.hpp"
+#include "mansard/pipeline/stored.hpp"
 #include "mansard/write/scan.hpp"
 
 namespace mansard::cli {
@@ -47,7 +48,7 @@ struct Input {
 auto true_model_of(const Request& request, const Input& input) -> base::Result<std::optional<ingest::ModelSurface>> {
   std::optional<ingest::ModelSurface> none;
   if (request.truth.empty()) return none;
-  auto truth = ingest::read_model(request.truth, {request.lod, {}});
+  auto truth = pipeline::read_any_model(request.truth, {request.lod, {}});
   if (truth) truth = ingest::in_frame(std::move(*truth), input.frame);
   if (!truth) return truth.error();
   auto surface = ingest::surface_of(*truth);
@@ -74,7 +75,7 @@ auto truth_of(const Request& request, const Input& input, const ingest::Options&
 
 auto read(const Request& request, const pipeline::Options& options, const base::Run& run, Progress& progress)
     -> base::Result<Input> {
-  auto model = ingest::read_model(request.inputs.back(), {request.lod, options.ingest.crs});
+  auto model = pipeline::read_any_model(request.inputs.back(), {request.lod, options.ingest.crs}, run);
   if (!model) return model.error();
   Input input;
   input.frame = model->frame;

@@ -41,7 +41,8 @@ auto run(int argc, char** argv) -> int {
   const std::vector<Verb> verbs{reconstruct_verb(app, cancel), segment_verb(app, cancel),
                                 extrude_verb(app, cancel), simulate_verb(app, cancel),
                                 evaluate_verb(app, cancel), label_verb(app, cancel),
-                                explore_verb(app, {argv, argv + argc}, cancel), serve_verb(app, cancel),
+                                explore_verb(app, {argv, argv + argc}, cancel), convert_verb(app, cancel),
+                                info_verb(app, cancel), serve_verb(app, cancel),
                                 options_verb(app), explain_verb(app),
                                 completion_verb(app), manual_verb(app)};
   for (const auto& verb : verbs) verb.app->allow_extras();  // so that we can suggest the right one

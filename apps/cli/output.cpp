@@ -54,17 +54,24 @@ auto leftovers(const fs::path& folder, const std::string& always, const std::fun
     return fs::symlink_status(path, status).type() == fs::file_type::regular;
   };
   if (!ordinary(folder / always)) return left;
+  const auto tiles = [&](const fs::path& path) { return path.extension() == ".3dtiles" && ordinary(path / "tileset.json"); };
   for (const auto& entry : fs::directory_iterator(folder, status))
-    if (own(entry.path().filename().string()) && ordinary(entry.path())) left.push_back(entry.path());
+    if (own(entry.path().filename().string()) && (ordinary(entry.path()) || tiles(entry.path())))
+      left.push_back(entry.path());
   return left;
 }
 
-void remove_stale(const std::vector<fs::path>& left, const std::vector<base::FileToWrite>& written) {
+void remove_stale(const std::vector<fs::path>& left, const std::vector<fs::path>& written) {
   for (const auto& path : left) {
     std::error_code status;
-    const auto same = [&](const base::FileToWrite& file) { return file.path == path; };
-    if (std::ranges::none_of(written, same)) fs::remove(path, status);
+    if (std::ranges::find(written, path) == written.end()) fs::remove_all(path, status);
   }
+}
+
+void remove_stale(const std::vector<fs::path>& left, const std::vector<base::FileToWrite>& written) {
+  std::vector<fs::path> paths;
+  for (const auto& file : written) paths.push_back(file.path);
+  remove_stale(left, paths);
 }
 
 auto file_free(const fs::path& path, bool overwrite) -> base::Result<void> {
@@ -90,22 +97,6 @@ auto in_folder(const fs::path& folder, const std::vector<std::pair<std::string, 
     -> std::vector<base::FileToWrite> {
   std::vector<base::FileToWrite> files;
   for (const auto& [name, bytes] : named) files.push_back({folder / name, bytes});
-  return files;
-}
-
-auto model_files(const write::City& city) -> base::Result<std::vector<std::pair<std::string, std::string>>> {
-  std::vector<std::pair<std::string, std::string>> files;
-  auto cityjson = write::cityjson(city);
-  if (!cityjson) return cityjson.error();
-  files.emplace_back("model.city.json", std::move(*cityjson));
-  auto obj = write::obj(city, "model.mtl");
-  if (!obj) return obj.error();
-  files.emplace_back("model.obj", std::move(obj->obj));
-  files.emplace_back("model.mtl", std::move(obj->mtl));
-  auto glb = write::glb(city);
-  if (!glb) return glb.error();
-  files.emplace_back("model.glb", std::move(*glb));
-  files.emplace_back("plans.json", write::plans(city));
   return files;
 }
 

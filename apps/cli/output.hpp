@@ -22,11 +22,12 @@ namespace mansard::cli {
 [[nodiscard]] auto spare_inputs(const std::vector<std::filesystem::path>& outputs,
                                 const std::vector<std::filesystem::path>& inputs) -> base::Result<void>;
 
-/// Ordinary files in the folder that an earlier run of a verb left there: those that are its own by name, where the file
-/// is there that it always writes. To be asked before that is written again.
+/// Ordinary files, and folders of tiles, that an earlier run of a verb left in the folder: those that are its own by name,
+/// where the file is there that it always writes. To be asked before that is written again.
 [[nodiscard]] auto leftovers(const std::filesystem::path& folder, const std::string& always,
                              const std::function<bool(const std::string&)>& own) -> std::vector<std::filesystem::path>;
 /// Takes away those of them that have not been written again, so that no folder has results of two runs.
+void remove_stale(const std::vector<std::filesystem::path>& left, const std::vector<std::filesystem::path>& written);
 void remove_stale(const std::vector<std::filesystem::path>& left, const std::vector<base::FileToWrite>& written);
 
 /// Checks that a file can be written there and replaces nothing unasked. Gives up with "output-exists", "file-write".
@@ -37,12 +38,6 @@ void remove_stale(const std::vector<std::filesystem::path>& left, const std::vec
                              const std::vector<std::pair<std::string, std::string>>& named)
     -> std::vector<base::FileToWrite>;
 
-/// Every name that a folder of results may have.
-inline constexpr std::array result_names{"model.city.json", "model.obj",   "model.mtl", "model.glb", "plans.json",
-                                         "run.json",        "picture.png", "above.png", "error.png", "segment.gpkg"};
-
-/// Names and contents of the model files: model.city.json, model.obj, model.mtl, model.glb, plans.json.
-[[nodiscard]] auto model_files(const write::City& city)
-    -> base::Result<std::vector<std::pair<std::string, std::string>>>;
+inline constexpr std::array picture_names{"picture.png", "above.png", "error.png"};
 
 }  // namespace mansard::cli

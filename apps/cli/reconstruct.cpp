@@ -1,8 +1,10 @@
 // `mansard reconstruct MESH… FOOTPRINTS -o OUTDIR`.
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
 #include "apps/cli/exit.hpp"
+#include "apps/cli/formats.hpp"
 #include "apps/cli/output.hpp"
 #include "apps/cli/scan.hpp"
 #include "apps/cli/verbs.hpp"
@@ -17,6 +19,7 @@ namespace fs = std::filesystem;
 struct Request {
   ScanRequest scan;
   std::string out;
+  std::string formats = "default";
   bool picture = false, layers = false;
   double error_limit = 2.0;
 };
@@ -40,51 +43,83 @@ void summarise(const pipeline::Reconstruction& r, const Request& request, Progre
       for (const auto& reason : building.reasons) progress.say(base::to_string(reason));
 }
 
-auto write_all(const Request& request, const pipeline::Reconstruction& result, const ingest::Scene& scene,
-               const base::Run& run, Progress& progress) -> base::Result<void> {
-  auto files = model_files(result.city);
-  if (!files) return files.error();
+/// What `--formats` and `--layers` ask for.
+auto targets_of(const Request& request) -> base::Result<std::vector<Target>> {
+  auto formats = formats_in(request.formats + (request.layers ? ",geopackage" : ""));
+  if (!formats) return formats.error();
+  return targets_in(request.out, *formats);
+}
+
+auto write_pictures(const Request& request, const pipeline::Reconstruction& result, const ingest::Scene& scene,
+                    const base::Run& run, base::Outputs& outputs) -> base::Result<void> {
+  const auto pictures = pipeline::pictures(result, scene, request.error_limit, run);
+  for (const auto& [name, image] : {std::pair{"picture.png", &pictures.angle}, std::pair{"above.png", &pictures.above},
+                                    std::pair{"error.png", &pictures.error}}) {
+    const auto bytes = picture::png(*image);
+    if (!bytes) return bytes.error();
+    if (auto written = write_bytes(fs::path(request.out) / name, *bytes, outputs); !written) return written;
+  }
+  return {};
+}
+
+/// Every name that a run of any formats may leave in its folder; others are the user's own.
+auto is_result(const std::string& name) -> bool {
+  const auto& own = all_results();
+  return std::ranges::find(own, name) != own.end();
+}
+
+auto write_all(const Request& request, const std::vector<Target>& targets, const pipeline::Options& options,
+               const pipeline::Reconstruction& result, const ingest::Scene& scene, const base::Run& run,
+               Progress& progress) -> base::Result<void> {
+  base::Outputs outputs;
+  std::vector<write::Layer> layers;
+  if (request.layers) {
+    layers = pipeline::segment_layers(scene, result.segmented, result.city.made_by);
+    layers.push_back(pipeline::diagnostics_layer(result, scene));
+  }
+  progress.show("write", "", 1);
+  const auto warnings = write_models(result.city, targets, options.write, outputs, layers);
+  if (!warnings) return warnings.error();
+  for (const auto& warning : *warnings) progress.say(base::to_string(warning));
   const std::string report = pipeline::report_json(result, scene);
-  files->emplace_back("run.json", report);
+  const auto report_path = fs::path(request.out) / "run.json";
+  if (auto written = write_bytes(report_path, report, outputs); !written) return written;
+  if (!request.scan.report.empty())
+    if (auto written = write_bytes(request.scan.report, report, outputs); !written) return written;
   if (request.picture) {
     progress.show("picture", "", 1);
-    const auto pictures = pipeline::pictures(result, scene, request.error_limit, run);
-    for (const auto& [name, image] : {std::pair{"picture.png", &pictures.angle}, std::pair{"above.png", &pictures.above},
-                                      std::pair{"error.png", &pictures.error}}) {
-      auto bytes = picture::png(*image);
-      if (!bytes) return bytes.error();
-      files->emplace_back(name, std::move(*bytes));
-    }
+    if (auto written = write_pictures(request, result, scene, run, outputs); !written) return written;
   }
-  if (request.layers) {
-    auto layers = write::geopackage(pipeline::segment_layers(scene, result.segmented, result.city.made_by), scene.frame);
-    if (!layers) return layers.error();
-    files->emplace_back("segment.gpkg", std::move(*layers));
-  }
-  auto all = in_folder(request.out, *files);
-  if (!request.scan.report.empty()) all.push_back({request.scan.report, report});
-  const auto left = leftovers(request.out, "run.json", [](const auto& name) {
-    return name == "picture.png" || name == "above.png" || name == "error.png";
-  });
-  if (auto written = base::write_files(all, run.cancel); !written) return written;
-  remove_stale(left, all);
+  const auto left = leftovers(request.out, "run.json", is_result);
+  if (auto written = outputs.commit(run.cancel); !written) return written;
+  std::vector<fs::path> made{report_path};
+  for (const auto& target : targets)
+    for (const auto& place : places_of(target)) made.push_back(place);
+  if (request.picture)
+    for (const auto* name : picture_names) made.push_back(fs::path(request.out) / name);
+  remove_stale(left, made);
   return {};
 }
 
 /// Whatever may be wrong with the outputs, before any work.
-auto check_outputs(const Request& request) -> base::Result<void> {
+auto check_outputs(const Request& request, const std::vector<Target>& targets) -> base::Result<void> {
   std::vector<fs::path> results;
-  for (const auto* name : result_names) results.push_back(fs::path(request.out) / name);
+  for (const auto& name : all_results()) results.push_back(fs::path(request.out) / name);
   if (auto spared = spare_inputs(results, {request.scan.inputs.begin(), request.scan.inputs.end()}); !spared)
     return spared;
   if (auto usable = files_free(request.scan, {}); !usable) return usable;
-  return prepare(request.out, request.scan.overwrite);
+  if (auto ready = prepare(request.out, request.scan.overwrite); !ready) return ready;
+  for (const auto& target : targets)
+    if (auto usable = target_free(target, request.scan.overwrite); !usable) return usable;
+  return {};
 }
 
 auto reconstruct(const Request& request, const base::Cancel& cancel) -> int {
   const auto options = options_of(request.scan);
   if (!options) return give_up(options.error());
-  if (auto ready = check_outputs(request); !ready) return give_up(ready.error());
+  const auto targets = targets_of(request);
+  if (!targets) return give_up(targets.error());
+  if (auto ready = check_outputs(request, *targets); !ready) return give_up(ready.error());
   Progress progress(request.scan.quiet);
   const auto run = start(request.scan, options->seed, cancel, progress);
   const auto scene = read_scan(request.scan, *options, run, progress);
@@ -93,12 +128,12 @@ auto reconstruct(const Request& request, const base::Cancel& cancel) -> int {
   const auto keep = request.layers ? pipeline::Keep::segmentations : pipeline::Keep::models;
   const auto result = pipeline::reconstruct(*scene, *options, run, keep);
   if (!result) return give_up(result.error());
-  if (auto written = write_all(request, *result, *scene, run, progress); !written) return give_up(written.error());
+  if (auto written = write_all(request, *targets, *options, *result, *scene, run, progress); !written) return give_up(written.error());
   summarise(*result, request, progress);
 
-  std::printf("%s\n", (fs::path(request.out) / "model.city.json").c_str());
+  std::printf("%s\n", targets->front().path.c_str());
   if (request.picture) std::printf("%s\n", (fs::path(request.out) / "picture.png").c_str());
-  if (request.layers) std::printf("%s\n", (fs::path(request.out) / "segment.gpkg").c_str());
+  if (request.layers) std::printf("%s\n", (fs::path(request.out) / "model.gpkg").c_str());
   return count(*result, pipeline::Outcome::full) == result->buildings.size() ? all_done : some_fell_back;
 }
 
@@ -110,7 +145,8 @@ auto reconstruct_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
   add_to(*verb, request->scan);
   verb->add_option("-o,--output", request->out, "Folder for the results")->required()->type_name("OUTDIR");
   verb->add_flag("--picture", request->picture, "Also write picture.png, above.png and error.png");
-  verb->add_flag("--layers", request->layers, "Also write segment.gpkg, as 'mansard segment' does");
+  verb->add_flag("--layers", request->layers, "The layers of 'mansard segment', and all diagnostics, in model.gpkg too");
+  verb->add_option("--formats", request->formats, formats_help())->type_name("FORMATS");
   verb->add_option("--error-limit", request->error_limit, "Ends of the error map's colour scale [m]")
       ->check(CLI::Range(0.01, 1000.0));
   return {verb, [request, &cancel] { return reconstruct(*request, cancel); }};

@@ -1,6 +1,7 @@
 #include "apps/cli/scan.hpp"
 
 #include "apps/cli/output.hpp"
+#include "mansard/pipeline/inputs.hpp"
 
 namespace mansard::cli {
 
@@ -28,17 +29,23 @@ void add_common(CLI::App& verb, Common& common, const std::string& silenced, con
   common.settings.add_to(verb, menu);
 }
 
-void add_to(CLI::App& verb, ScanRequest& request) {
+void add_to(CLI::App& verb, ScanRequest& request, bool may_derive) {
   verb.add_option("INPUTS", request.inputs,
                   "Meshes (OBJ, PLY, OFF, GLB, or folders of them), then the footprints (any OGR vector file)")
       ->type_name("MESH… FOOTPRINTS");
+  if (may_derive)
+    verb.add_flag("--derive-footprints", request.derive_footprints,
+                  "All INPUTS are meshes: draw the footprints from them, where there is no survey");
   verb.add_option("--report", request.report, "Write the report (run.json) here")->type_name("FILE");
   verb.add_flag("-v,--verbose", request.verbose, "Name every reason and warning, however many there are");
   add_common(verb, request, "summary");
 }
 
 auto options_of(const ScanRequest& request) -> base::Result<pipeline::Options> {
-  if (request.inputs.size() < 2) return base::error("usage", "give one mesh or more, then the footprints");
+  if (request.inputs.size() < (request.derive_footprints ? 1 : 2))
+    return base::error("usage", request.derive_footprints ? "give one mesh or more"
+                                                          : "give one mesh or more, then the footprints; without any, "
+                                                            "--derive-footprints draws them from the mesh");
   pipeline::Options options;
   if (auto applied = request.settings.apply(options); !applied) return applied.error();
   return options;
@@ -64,10 +71,16 @@ auto start(const Common& common, std::int64_t seed, const base::Cancel& cancel, 
 auto read_scan(const ScanRequest& request, const pipeline::Options& options, const base::Run& run, Progress& progress)
     -> base::Result<ingest::Scene> {
   progress.show("ingest", request.inputs.front(), 0);
-  const std::vector<fs::path> meshes(request.inputs.begin(), request.inputs.end() - 1);
-  auto scene = ingest::read_scene(meshes, request.inputs.back(), options.ingest, run);
-  if (scene)
-    for (const auto& warning : scene->warnings) progress.say(base::to_string(warning));
+  pipeline::InputPaths paths{{request.inputs.begin(), request.inputs.end()}, {}, request.derive_footprints};
+  if (!request.derive_footprints) {
+    paths.footprints = std::move(paths.meshes.back());
+    paths.meshes.pop_back();
+  }
+  auto scene = pipeline::read_inputs(paths, options, run);
+  if (!scene) return scene;
+  for (const auto& warning : scene->warnings) progress.say(base::to_string(warning));
+  if (request.derive_footprints)
+    progress.say(std::to_string(scene->footprints.size()) + " footprints were drawn from the mesh");
   return scene;
 }
 

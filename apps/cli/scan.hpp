@@ -29,12 +29,13 @@ void add_common(CLI::App& verb, Common& common, const std::string& silenced, con
 
 struct ScanRequest : Common {
   std::vector<std::string> inputs;  // meshes, then the footprints
+  bool derive_footprints = false;   // then all inputs are meshes
   std::string report;
   bool verbose = false;
 };
 
-/// Inputs and the options that every room and both verbs have.
-void add_to(CLI::App& verb, ScanRequest& request);
+/// Inputs and the options that every room and both verbs have; --derive-footprints where the verb `may_derive`.
+void add_to(CLI::App& verb, ScanRequest& request, bool may_derive = true);
 
 /// Gives up with "usage" where footprints or meshes are missing, and as Settings::apply.
 [[nodiscard]] auto options_of(const ScanRequest& request) -> base::Result<pipeline::Options>;
@@ -44,7 +45,7 @@ void add_to(CLI::App& verb, ScanRequest& request);
 [[nodiscard]] auto files_free(const ScanRequest& request, std::vector<std::filesystem::path> files)
     -> base::Result<void>;
 
-/// Reads meshes and footprints and says their warnings.
+/// Reads meshes and footprints, or draws these from the mesh, and says warnings.
 [[nodiscard]] auto read_scan(const ScanRequest& request, const pipeline::Options& options, const base::Run& run,
                              Progress& progress) -> base::Result<ingest::Scene>;
 

@@ -11,6 +11,7 @@
 #include "apps/cli/scan.hpp"
 #include "apps/cli/verbs.hpp"
 #include "mansard/picture/picture.hpp"
+#include "mansard/pipeline/stored.hpp"
 
 namespace mansard::cli {
 namespace {
@@ -55,10 +56,14 @@ auto with_surface(base::Result<simulate::Truth> truth) -> base::Result<Known> {
 
 /// Plans where the file has them: of a model of another maker less is known.
 auto known_of_model(const Request& request, const base::Run& run, Progress& progress) -> base::Result<Known> {
-  auto plans = write::read_plans(request.model);
-  if (plans) return with_surface(simulate::truth_of(std::move(*plans), run));
-  if (const auto& code = plans.error().code; code != "write-plan-type" && code != "write-plan-json")
-    return plans.error();
+  auto reader = write::read_city(request.model);
+  if (reader) {
+    auto plans = write::read_whole(**reader);
+    if (!plans) return plans.error();
+    return with_surface(simulate::truth_of(std::move(*plans), run));
+  }
+  if (const auto& code = reader.error().code; !pipeline::is_foreign(reader.error()) && code != "write-plan-json")
+    return reader.error();
   auto model = ingest::read_model(request.model, {request.lod, {}});
   if (!model) return model.error();
   if (!request.box.empty())

@@ -23,6 +23,8 @@ struct Verb {
 [[nodiscard]] auto label_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
 /// `words` are the whole command line, which the report repeats.
 [[nodiscard]] auto explore_verb(CLI::App& app, std::vector<std::string> words, const base::Cancel& cancel) -> Verb;
+[[nodiscard]] auto convert_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
+[[nodiscard]] auto info_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
 [[nodiscard]] auto serve_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
 [[nodiscard]] auto options_verb(CLI::App& app) -> Verb;
 [[nodiscard]] auto explain_verb(CLI::App& app) -> Verb;

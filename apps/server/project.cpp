@@ -24,6 +24,7 @@ constexpr const char *project_file = "project.json", *run_file = "run.json";
 
 /// What lies in the project is named from there, so that its folder can be moved.
 auto from_project(const fs::path& folder, const std::string& path) -> std::string {
+  if (path.empty()) return path;
   const auto relative = fs::path(path).lexically_relative(folder);
   return relative.empty() || *relative.begin() == ".." ? path : relative.string();
 }
@@ -59,7 +60,8 @@ auto inputs_json(const fs::path& folder, const Inputs& inputs) -> Json {
 auto inputs_of(const fs::path& folder, const Json& json) -> Inputs {
   Inputs inputs;
   for (const auto& mesh : json.at("meshes")) inputs.meshes.push_back((folder / mesh.get<std::string>()).string());
-  inputs.footprints = (folder / json.at("footprints").get<std::string>()).string();
+  if (const auto footprints = json.at("footprints").get<std::string>(); !footprints.empty())
+    inputs.footprints = (folder / footprints).string();
   inputs.reading = json.at("reading").get<Texts>();
   inputs.mesh_files = files_of(folder, json.at("mesh_files"));
   inputs.footprint_files = files_of(folder, json.at("footprint_files"));

@@ -37,8 +37,8 @@ struct KnownFile {
 
 struct Inputs {
   std::vector<std::string> meshes;  ///< as given: files or folders; absolute
-  std::string footprints;
-  Texts reading;  ///< options of "ingest" and "block"
+  std::string footprints;           ///< empty: drawn from the mesh
+  Texts reading;                    ///< options of "ingest", "derive" and "block"
   std::vector<KnownFile> mesh_files, footprint_files;
   [[nodiscard]] auto same_request(const Inputs& other) const -> bool {
     return meshes == other.meshes && footprints == other.footprints && reading == other.reading;

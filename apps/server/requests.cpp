@@ -169,6 +169,15 @@ auto read_run(std::string_view body) -> base::Result<RunRequest> {
   });
 }
 
+auto read_import(std::string_view body) -> base::Result<ImportRequest> {
+  return reading(body, [](const Item& item) {
+    item.object({"path", "label"});
+    ImportRequest request{item.member("path").text(), {}};
+    if (item.has("label")) request.label = base::on_one_line(item.member("label").text());
+    return request;
+  });
+}
+
 auto read_label(std::string_view body) -> base::Result<std::string> {
   return reading(body, [](const Item& item) { return base::on_one_line(item.object({"label"}).member("label").text()); });
 }

@@ -18,6 +18,9 @@ struct InputsRequest {
   std::string footprints;
   Texts reading;
 };
+struct ImportRequest {
+  std::string path, label;
+};
 struct RunRequest {
   std::string label, preset;
   Texts options;
@@ -40,6 +43,7 @@ using MergeRequest = std::pair<PartName, PartName>;
 /// All give up with "server-body", and with "write-plan-…" for plans.
 [[nodiscard]] auto read_inputs(std::string_view body) -> base::Result<InputsRequest>;
 [[nodiscard]] auto read_run(std::string_view body) -> base::Result<RunRequest>;
+[[nodiscard]] auto read_import(std::string_view body) -> base::Result<ImportRequest>;
 [[nodiscard]] auto read_label(std::string_view body) -> base::Result<std::string>;
 [[nodiscard]] auto read_section(std::string_view body) -> base::Result<SectionRequest>;
 [[nodiscard]] auto read_changes(std::string_view body) -> base::Result<std::vector<edit::Change>>;

@@ -76,6 +76,8 @@ auto table() -> std::vector<Route> {
        [](auto& w, const auto& call) { return w.tile(call.captured.at("id")); }},
       {"POST", "/api/runs", sends, gives,
        with(read_run, [](auto& w, const auto&, auto request) { return w.start_run(request); })},
+      {"POST", "/api/runs/import", sends, gives,
+       with(read_import, [](auto& w, const auto&, auto request) { return w.import_model(request); })},
       {"DELETE", "/api/runs/{run}", nothing, gives, [](auto& w, const auto& call) { return w.remove_run(run_of(call)); }},
       {"PATCH", "/api/runs/{run}", sends, gives,
        with(read_label, [](auto& w, const auto& call, auto label) { return w.rename_run(run_of(call), label); })},
@@ -149,7 +151,7 @@ auto status_of(std::string_view code) -> int {
   }};
   const auto at = std::ranges::find(known, code, &std::pair<std::string_view, int>::first);
   if (at != known.end()) return at->second;
-  if (code.starts_with("write-plan-")) return 400;
+  if (code.starts_with("write-plan-") || code.starts_with("write-read-")) return 400;
   if (code.starts_with("edit-")) return 422;
   return 500;
 }

@@ -4,6 +4,8 @@
 #include <cstring>
 #include <limits>
 
+#include "mansard/pipeline/inputs.hpp"
+
 namespace mansard::server {
 namespace {
 
@@ -24,11 +26,23 @@ auto set_all(pipeline::Options& options, const Texts& values) -> base::Result<vo
   return {};
 }
 
+auto differing(pipeline::Options options) -> Texts {
+  pipeline::Options defaults;
+  const auto own = pipeline::option_lists(options), usual = pipeline::option_lists(defaults);
+  Texts out;
+  for (std::size_t l = 0; l < own.size(); ++l)
+    for (std::size_t o = 0; o < own[l].options().size(); ++o) {
+      const auto value = own[l].options()[o].get();
+      if (value != usual[l].options()[o].get()) out[own[l].room() + "." + own[l].options()[o].name] = value;
+    }
+  return out;
+}
+
 auto OpenScene::read(const Inputs& inputs, const base::Run& run) -> base::Result<std::shared_ptr<const OpenScene>> {
   pipeline::Options options;
   if (auto set = set_all(options, inputs.reading); !set) return set.error();
   const std::vector<std::filesystem::path> meshes(inputs.meshes.begin(), inputs.meshes.end());
-  auto scene = ingest::read_scene(meshes, inputs.footprints, options.ingest, run);
+  auto scene = pipeline::read_inputs({meshes, inputs.footprints, inputs.footprints.empty()}, options, run);
   if (!scene) return scene.error();
   const std::shared_ptr<OpenScene> out(new OpenScene);
   out->scene_ = std::move(*scene);

@@ -26,6 +26,8 @@ namespace mansard::server {
 
 /// Sets options by name. Gives up with "option-unknown", "option-value".
 [[nodiscard]] auto set_all(pipeline::Options& options, const Texts& values) -> base::Result<void>;
+/// Values that are not the defaults'.
+[[nodiscard]] auto differing(pipeline::Options options) -> Texts;
 
 /// Does not change once it is read; queries may run on any thread.
 class OpenScene {

@@ -4,6 +4,7 @@
 #include <array>
 #include <set>
 
+#include "apps/server/import.hpp"
 #include "apps/server/outcome.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/ingest/input_file.hpp"
@@ -56,27 +57,16 @@ auto with_files(Inputs inputs, const std::vector<ingest::InputFile>& read) -> In
   inputs.footprint_files.clear();
   for (const auto& file : read) {
     const bool given = std::ranges::find(inputs.meshes, file.path) != inputs.meshes.end();
-    const bool mesh = given || (file.path != inputs.footprints && is_mesh(file.path));
+    const bool mesh = given || inputs.footprints.empty() || (file.path != inputs.footprints && is_mesh(file.path));
     (mesh ? inputs.mesh_files : inputs.footprint_files)
         .push_back({file.path, file.bytes, file.sha256, stamp_of(file.path).value_or(Stamp{}).modified});
   }
   return inputs;
 }
 
-/// Values that are not the defaults'.
-auto differing(pipeline::Options options) -> Texts {
-  pipeline::Options defaults;
-  const auto own = pipeline::option_lists(options), usual = pipeline::option_lists(defaults);
-  Texts out;
-  for (std::size_t l = 0; l < own.size(); ++l)
-    for (std::size_t o = 0; o < own[l].options().size(); ++o) {
-      const auto value = own[l].options()[o].get();
-      if (value != usual[l].options()[o].get()) out[own[l].room() + "." + own[l].options()[o].name] = value;
-    }
-  return out;
+auto of_reading(const std::string& key) -> bool {
+  return key.starts_with("ingest.") || key.starts_with("derive.") || key.starts_with("block.");
 }
-
-auto of_reading(const std::string& key) -> bool { return key.starts_with("ingest.") || key.starts_with("block."); }
 
 /// Reading, preset, then the run's own.
 auto options_of(const RunRequest& request, const Texts& reading) -> base::Result<pipeline::Options> {
@@ -191,20 +181,25 @@ auto Workspace::cancel(const std::string& job) -> Text {
 auto Workspace::open_inputs(const InputsRequest& request) -> Text {
   Inputs inputs;
   for (const auto& mesh : request.meshes) inputs.meshes.push_back(absolute(mesh));
-  inputs.footprints = absolute(request.footprints);
+  if (!request.footprints.empty()) inputs.footprints = absolute(request.footprints);
   inputs.reading = request.reading;
   pipeline::Options tried;
   if (auto set = set_all(tried, inputs.reading); !set) return set.error();
   for (const auto& [key, value] : inputs.reading)
     if (!of_reading(key))
-      return refuse("option-value", "only options of 'ingest' and 'block' say how inputs are read; give it to a run", key);
+      return refuse("option-value", "only options of 'ingest', 'derive' and 'block' say how inputs are read; give it to a run", key);
   for (const auto& path : inputs.meshes)
     if (std::error_code status; !fs::exists(path, status))
       return refuse("file-missing", "no such file; check the path", path);
-  if (std::error_code status; !fs::exists(inputs.footprints, status))
+  if (std::error_code status; !inputs.footprints.empty() && !fs::exists(inputs.footprints, status))
     return refuse("file-missing", "no such file; check the path", inputs.footprints);
   {
     const std::scoped_lock lock(mutex_);
+    // Models that were imported before there was a scene are in a frame of their own.
+    if (!runs_.empty() && !project_.inputs())
+      return refuse("server-inputs",
+                    "the project has models that were opened without a scan; delete them, or start 'mansard serve' "
+                    "with another folder, read the scan, and open them there");
     if (!runs_.empty() && project_.inputs() && !project_.inputs()->same_request(inputs))
       return refuse("server-inputs",
                     "the project has runs of other inputs; delete them, or start 'mansard serve' with another folder");
@@ -396,30 +391,55 @@ auto Workspace::start_run(const RunRequest& request) -> Text {
     for (const auto& block : request.blocks)
       if (!(*scene)->has_block(block)) return refuse("pipeline-block-unknown", "the scene has no such block", block);
   Run run;
+  run.record.label = request.label;
+  run.record.preset = request.preset;
+  run.record.options = differing(*options);
+  run.record.blocks = request.blocks;
+  return submit(std::move(run), [this](RunRecord record, const base::Run& how) -> base::Result<RunOutcome> {
+    const auto now = scene_or_why();
+    if (!now) return now.error();
+    return reconstruct(**now, std::move(record), how);
+  });
+}
+
+auto Workspace::import_model(const ImportRequest& request) -> Text {
+  const auto path = absolute(request.path);
+  if (auto known = check_import(path); !known) return known.error();
+  if (jobs_.pending("read")) return refuse("server-busy", "the inputs are being read; wait for the job to end");
+  {
+    const std::scoped_lock lock(mutex_);
+    if (project_.inputs() && !scene_)
+      return refuse("server-no-scene", "the project's inputs are not there, and the model could not be put beside them");
+  }
+  Run run;
+  run.record.label = request.label.empty() ? fs::path(path).filename().string() : request.label;
+  return submit(std::move(run), [this, path](RunRecord record, const base::Run& how) -> base::Result<RunOutcome> {
+    std::optional<ingest::Frame> frame;
+    if (const auto scene = scene_now()) frame = scene->scene().frame;
+    return import_city(path, frame, std::move(record), how);
+  });
+}
+
+auto Workspace::submit(Run run, Make make) -> Text {
   {
     const std::scoped_lock lock(mutex_);
     auto id = project_.new_run();
     if (!id) return id.error();
     run.record.id = *id;
-    run.record.label = request.label.empty() ? *id : request.label;
+    if (run.record.label.empty()) run.record.label = *id;
     run.record.created = now_as_text();
-    run.record.preset = request.preset;
-    run.record.options = differing(*options);
-    run.record.blocks = request.blocks;
     if (auto saved = project_.save(run.record); !saved) return saved.error();
     runs_.push_back(run);
   }
   const auto id = run.record.id;
   const auto job = jobs_.submit(
-      "run", id, [this, id](const base::Run& how) { return carry_out(id, how); },
+      "run", id, [this, id, make = std::move(make)](const base::Run& how) { return carry_out(id, make, how); },
       [this, id](State state, const std::optional<base::Diagnostic>& failure) { ended(id, state, failure); });
   tell_project();
   return text_of(json_of(job));
 }
 
-auto Workspace::carry_out(const std::string& id, const base::Run& how) -> base::Result<void> {
-  const auto scene = scene_or_why();
-  if (!scene) return scene.error();
+auto Workspace::carry_out(const std::string& id, const Make& make, const base::Run& how) -> base::Result<void> {
   RunRecord record;
   fs::path folder;
   {
@@ -432,7 +452,7 @@ auto Workspace::carry_out(const std::string& id, const base::Run& how) -> base::
     folder = project_.run_folder(id);
   }
   tell_project();
-  auto outcome = reconstruct(**scene, record, how);
+  auto outcome = make(std::move(record), how);
   if (!outcome) return outcome.error();
   for (const auto& [name, bytes] : outcome->files)
     if (auto written = write_durably(folder / name, bytes); !written) return written;
@@ -601,7 +621,12 @@ auto Workspace::redo(const std::string& run, const std::string& client) -> Text 
 auto Workspace::export_file(const std::string& run, const std::string& file) -> Text {
   const auto open = models(run);
   if (!open) return open.error();
-  if (file == run_layers) return base::read_file(project_.run_folder(run) / run_layers);
+  if (file == run_layers) {
+    std::error_code status;
+    if (!fs::exists(project_.run_folder(run) / run_layers, status))
+      return refuse("server-unknown", "the run has no layers: its models were opened, not reconstructed", file);
+    return base::read_file(project_.run_folder(run) / run_layers);
+  }
   return (*open)->exported(file, scene_now());
 }
 
@@ -610,9 +635,12 @@ auto Workspace::export_all(const std::string& run, bool overwrite) -> Text {
   if (!open) return open.error();
   auto files = (*open)->exported(scene_now());
   if (!files) return files.error();
-  auto layers = base::read_file(project_.run_folder(run) / run_layers);
-  if (!layers) return layers.error();
-  (*files)[run_layers] = std::move(*layers);
+  // Models that were imported have none.
+  if (std::error_code status; fs::exists(project_.run_folder(run) / run_layers, status)) {
+    auto layers = base::read_file(project_.run_folder(run) / run_layers);
+    if (!layers) return layers.error();
+    (*files)[run_layers] = std::move(*layers);
+  }
   const auto folder = project_.folder() / "exports" / run;
   std::error_code status;
   if (!overwrite && fs::exists(folder, status) && !fs::is_empty(folder, status))

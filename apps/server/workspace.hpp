@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -12,6 +13,7 @@
 #include "apps/server/events.hpp"
 #include "apps/server/jobs.hpp"
 #include "apps/server/models.hpp"
+#include "apps/server/outcome.hpp"
 #include "apps/server/project.hpp"
 #include "apps/server/requests.hpp"
 #include "apps/server/scene.hpp"
@@ -49,6 +51,8 @@ class Workspace {
   [[nodiscard]] auto tile(const std::string& id) const -> Text;
 
   [[nodiscard]] auto start_run(const RunRequest& request) -> Text;
+  /// Models that mansard wrote, as a run of their own. They are in the frame of the scene where there is one.
+  [[nodiscard]] auto import_model(const ImportRequest& request) -> Text;
   [[nodiscard]] auto remove_run(const std::string& run) -> Text;
   [[nodiscard]] auto rename_run(const std::string& run, const std::string& label) -> Text;
   [[nodiscard]] auto report(const std::string& run) const -> Text;
@@ -85,7 +89,10 @@ class Workspace {
   Workspace(Project project, std::filesystem::path sample);
   auto read_again(const Inputs& inputs, bool save) -> Job;
   [[nodiscard]] auto read_scene(Inputs inputs, bool save, const base::Run& run) -> base::Result<void>;
-  [[nodiscard]] auto carry_out(const std::string& id, const base::Run& run) -> base::Result<void>;
+  /// The outcome of a run, of the record that it has now.
+  using Make = std::function<base::Result<RunOutcome>(RunRecord, const base::Run&)>;
+  [[nodiscard]] auto submit(Run run, Make make) -> Text;
+  [[nodiscard]] auto carry_out(const std::string& id, const Make& make, const base::Run& run) -> base::Result<void>;
   void ended(const std::string& id, State state, const std::optional<base::Diagnostic>& failure);
   void measure_what_was_edited();
 

@@ -37,9 +37,11 @@ auto median(std::vector<double> values) -> double {
   return n == 0 ? 0 : (values[(n - 1) / 2] + values[n / 2]) / 2;
 }
 
-/// Ground of each member: around itself, else around the block, else the low end of what mesh there is. Never NaN.
-void set_ground(Block& block, const std::vector<std::vector<detail::Sample>>& around,
-                const std::vector<std::size_t>& members, double whole_mesh, const Options& options) {
+/// Ground of each member: by the terrain, else around itself, else around the block, else the low end of what mesh
+/// there is. Never NaN.
+void set_ground(Block& block, const std::optional<ingest::HeightGrid>& terrain,
+                const std::vector<std::vector<detail::Sample>>& around, const std::vector<std::size_t>& members,
+                double whole_mesh, const Options& options) {
   const double share = options.ground_percentile / 100;
   std::optional<double> of_block;
   const auto fall_back = [&]() -> double {
@@ -53,7 +55,8 @@ void set_ground(Block& block, const std::vector<std::vector<detail::Sample>>& ar
   };
   std::vector<double> heights;
   for (std::size_t i = 0; i < members.size(); ++i) {
-    const auto own = detail::percentile(around[members[i]], share, enough_ground);
+    auto own = terrain ? detail::terrain_along(*terrain, block.members[i].polygons) : std::nullopt;
+    if (!own) own = detail::percentile(around[members[i]], share, enough_ground);
     block.members[i].ground = own ? *own : fall_back();
     heights.push_back(block.members[i].ground);
   }
@@ -116,7 +119,9 @@ auto partition(const ingest::Scene& scene, const Options& options, const base::R
   const auto around = detail::ground_samples(scene.mesh, shapes, options.ground_ring);
   const bool bare = std::ranges::any_of(blocks, [](const Block& block) { return block.mesh.triangles.empty(); });
   const double whole = bare ? detail::percentile(detail::surface_samples(scene.mesh), 0.02, 0).value_or(0) : 0;
-  base::parallel_for(blocks.size(), [&](std::size_t b) { set_ground(blocks[b], around, groups[b], whole, options); });
+  base::parallel_for(blocks.size(), [&](std::size_t b) {
+    set_ground(blocks[b], scene.terrain, around, groups[b], whole, options);
+  });
   run.report("block", "", 1);
   return blocks;
 }

@@ -17,7 +17,7 @@ namespace mansard::block {
 struct Member {
   std::size_t feature = 0;  ///< index into Scene::footprints
   std::vector<geometry::Polygon> polygons;
-  double ground = 0;  ///< z of the terrain around it, metres
+  double ground = 0;  ///< z of the ground around it, metres
 };
 
 struct Block {
@@ -36,10 +36,11 @@ struct Options {
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 
-/// Footprints with a defect are left out. Guarantees: 1 every usable footprint is in exactly one block · 2 blocks and
-/// members are ordered by feature index, whatever the thread count · 3 every triangle of the scene within the padding
-/// of a block's outline is in that block's mesh, and none entirely farther away.
-/// Cost: O((n + m) log m) for n triangles, m footprints.
+/// The ground is the scene's terrain where that is known along a footprint's outline, else what the mesh shows around
+/// it. Footprints with a defect are left out. Guarantees: 1 every usable footprint is in exactly one block · 2 blocks
+/// and members are ordered by feature index, whatever the thread count · 3 every triangle of the scene within the
+/// padding of a block's outline is in that block's mesh, and none entirely farther away. Cost: O((n + m) log m) for n
+/// triangles, m footprints.
 [[nodiscard]] auto partition(const ingest::Scene& scene, const Options& options, const base::Run& run = {})
     -> std::vector<Block>;
 

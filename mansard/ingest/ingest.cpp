@@ -12,7 +12,9 @@
 #include "mansard/ingest/detail/crs.hpp"
 #include "mansard/ingest/detail/features.hpp"
 #include "mansard/ingest/detail/mesh_files.hpp"
+#include "mansard/ingest/detail/raster.hpp"
 #include "mansard/ingest/detail/rings.hpp"
+#include "mansard/ingest/input_file.hpp"
 
 namespace mansard::ingest {
 namespace {
@@ -147,16 +149,88 @@ void take(std::vector<Finished> finished, Scene& scene) {
   }
 }
 
-auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::filesystem::path& footprint_path,
-          const Options& options, const base::Run& run) -> base::Result<Scene> {
-  const std::string subject = footprint_path.string();
-  const std::string mesh_name = mesh_paths.empty() ? std::string() : mesh_paths.front().string();
-  Scene scene;
+/// The footprints in the working CRS, and what it is.
+struct Ground {
+  detail::FeatureFile file;  ///< without features where no footprints are given
+  detail::Way way;
+  Box2 box;                  ///< of the features; empty for none
+  std::optional<Box2> kept;  ///< what of the mesh is to be read; nothing for all of it
+};
+
+auto read_ground(const std::filesystem::path& path, const Options& options, const detail::MeshReading& meshes,
+                 const base::Run& run) -> base::Result<Ground> {
+  const std::string subject = detail::shown_name(path);
   const auto wanted = wanted_box(options);
   if (!wanted) return wanted.error();
+  Ground out;
+  if (path.empty()) {
+    auto way = detail::way_without_features(options.crs, meshes.own_crs_or_zone());
+    if (!way) return way.error();
+    out.way = std::move(*way);
+  } else {
+    auto file = detail::read_features(path, options, run);
+    if (!file) return file.error();
+    auto way = detail::choose_way(*file, options.crs, meshes.plan(), meshes.own_crs(), subject);
+    if (!way) return way.error();
+    if (auto gone = detail::go(*way, file->features, subject); !gone) return gone.error();
+    if (*wanted)
+      if (auto kept = keep_within(file->features, **wanted, subject); !kept) return kept.error();
+    out.file = std::move(*file);
+    out.way = std::move(*way);
+    out.box = bounds(out.file.features);
+  }
+  if (*wanted) {
+    out.kept = **wanted;
+    if (!out.box.empty()) {
+      out.kept->add(out.box.least);
+      out.kept->add(out.box.most);
+    }
+    out.kept = out.kept->grown(mesh_margin);
+  }
+  return out;
+}
 
+auto check_overlap(const Ground& ground, const Box2& mesh, const std::string& subject) -> base::Result<void> {
+  if (ground.box.empty() || ground.box.overlaps(mesh)) return {};
+  const std::string& crs = ground.way.name;
+  return base::error("ingest-no-overlap",
+                     "mesh and footprints do not overlap: the mesh lies in " + in_words(mesh) + ", the footprints in " +
+                         in_words(ground.box) + (crs.empty() ? "" : " (" + crs.substr(0, crs.find('[')) + ")") +
+                         "; give --mesh-offset or --crs",
+                     subject);
+}
+
+/// The ground's heights, where they are given, around what is kept of the mesh.
+auto take_terrain(const Options& options, const Box2& around, Scene& scene) -> base::Result<void> {
+  if (options.terrain.empty()) return {};
+  auto terrain = detail::read_terrain(options.terrain, scene.frame, around);
+  if (!terrain) return terrain.error();
+  scene.terrain = std::move(*terrain);
+  auto input = input_file(options.terrain);
+  if (!input) return input.error();
+  scene.inputs.push_back(std::move(*input));
+  return {};
+}
+
+auto plan_of(const geometry::Mesh& mesh) -> Box2 {
+  Box2 box;
+  for (const auto& v : mesh.vertices) box.add(xy(v));
+  return box;
+}
+
+auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::filesystem::path& footprint_path,
+          const Options& options, const base::Run& run) -> base::Result<Scene> {
+  const std::string subject = detail::shown_name(footprint_path);
+  const std::string mesh_name = mesh_paths.empty() ? std::string() : mesh_paths.front().string();
+  if (const auto wanted = wanted_box(options); !wanted) return wanted.error();
   run.report("ingest", mesh_name, 0);
-  auto meshes = detail::read_meshes(mesh_paths, options.up, run);
+  auto reading = detail::MeshReading::open(mesh_paths, options, run);
+  if (!reading) return reading.error();
+  run.report("ingest", subject, 0.4);
+  auto ground = read_ground(footprint_path, options, *reading, run);
+  if (!ground) return ground.error();
+  run.report("ingest", mesh_name, 0.5);
+  auto meshes = reading->finish(ground->way.name, ground->kept, run);
   if (!meshes) return meshes.error();
   const detail::Box3 mesh_box = detail::bounds(meshes->mesh, options.mesh_offset);
   if (mesh_box.plan.empty())
@@ -164,38 +238,17 @@ auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::files
                        "none of the " + std::to_string(meshes->mesh.triangles.size()) +
                            " triangles has finite corners that exist; export the mesh again",
                        mesh_name);
-
-  run.report("ingest", subject, 0.5);
-  auto file = detail::read_features(footprint_path, options, run);
-  if (!file) return file.error();
-  const auto way = detail::choose_way(*file, options.crs, mesh_box.plan, subject);
-  if (!way) return way.error();
-  if (auto gone = detail::go(*way, file->features, subject); !gone) return gone.error();
-  if (*wanted)
-    if (auto kept = keep_within(file->features, **wanted, subject); !kept) return kept.error();
-
-  const Box2 box = bounds(file->features);
-  if (!box.empty() && !box.overlaps(mesh_box.plan))
-    return base::error("ingest-no-overlap",
-                       "mesh and footprints do not overlap: the mesh lies in " + in_words(mesh_box.plan) +
-                           ", the footprints in " + in_words(box) +
-                           (way->name.empty() ? "" : " (" + way->name.substr(0, way->name.find('[')) + ")") +
-                           "; give --mesh-offset or --crs",
-                       subject);
-  scene.frame.crs = way->name;
-  scene.frame.origin = choose_origin(box.empty() ? mesh_box.plan : box, mesh_box);
+  if (auto met = check_overlap(*ground, mesh_box.plan, subject); !met) return met.error();
+  Scene scene;
+  scene.frame.crs = ground->way.name;
+  scene.frame.origin = choose_origin(!ground->box.empty() ? ground->box : ground->kept.value_or(mesh_box.plan), mesh_box);
 
   run.report("ingest", mesh_name, 0.7);
   std::array<double, 3> shift{};
   for (std::size_t i = 0; i < 3; ++i) shift[i] = options.mesh_offset[i] - static_cast<double>(scene.frame.origin[i]);
   const Point2 origin{static_cast<double>(scene.frame.origin[0]), static_cast<double>(scene.frame.origin[1])};
   std::optional<Box2> within;
-  if (*wanted) {
-    Box2 kept = **wanted;
-    kept.add(box.least);
-    kept.add(box.most);
-    within = Box2{kept.least - origin, kept.most - origin}.grown(mesh_margin);
-  }
+  if (ground->kept) within = Box2{ground->kept->least - origin, ground->kept->most - origin};
   auto clean = detail::clean(std::move(meshes->mesh), shift, within);
   if (clean.mesh.triangles.empty())
     return base::error("ingest-mesh-unusable", "no triangle has an area; export the mesh again", mesh_name);
@@ -203,31 +256,32 @@ auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::files
 
   run.report("ingest", subject, 0.9);
   const Box2 local{mesh_box.plan.least - origin, mesh_box.plan.most - origin};
-  auto finished = finish_all(*file, options, scene.frame, local, subject);
+  auto finished = finish_all(ground->file, options, scene.frame, local, subject);
   if (!finished) return finished.error();
 
   scene.mesh = std::move(clean.mesh);
   scene.mesh_counts = clean.counts;
   scene.inputs = std::move(meshes->inputs);
-  scene.inputs.insert(scene.inputs.end(), file->inputs.begin(), file->inputs.end());
+  if (auto taken = take_terrain(options, plan_of(scene.mesh), scene); !taken) return taken.error();
+  scene.inputs.insert(scene.inputs.end(), ground->file.inputs.begin(), ground->file.inputs.end());
   append(scene.warnings, std::move(meshes->warnings));
   append(scene.warnings, detail::warnings_of(scene.mesh_counts, mesh_name));
-  append(scene.warnings, std::move(file->warnings));
-  append(scene.warnings, way->warnings);
+  append(scene.warnings, std::move(ground->file.warnings));
+  append(scene.warnings, ground->way.warnings);
   take(std::move(*finished), scene);
   run.report("ingest", subject, 1);
   return scene;
 }
 
 auto read_alone(const std::filesystem::path& path, const Options& options, const base::Run& run) -> base::Result<Scene> {
-  const std::string subject = path.string();
+  const std::string subject = detail::shown_name(path);
   const auto wanted = wanted_box(options);
   if (!wanted) return wanted.error();
   run.report("ingest", subject, 0);
   auto file = detail::read_features(path, options, run);
   if (!file) return file.error();
   // Without a mesh to lie on, the footprints' own place stands for it.
-  const auto way = detail::choose_way(*file, options.crs, bounds(file->features), subject);
+  const auto way = detail::choose_way(*file, options.crs, bounds(file->features), {}, subject);
   if (!way) return way.error();
   if (auto gone = detail::go(*way, file->features, subject); !gone) return gone.error();
   if (*wanted)
@@ -258,7 +312,7 @@ auto option_list(Options& o) -> base::OptionList {
           .choice("up", o.up, {{"automatic", UpAxis::automatic}, {"z", UpAxis::z}, {"y", UpAxis::y}},
                   "Which axis of the mesh is up; automatic means y for glTF and z for the rest.")
           .alias("up")
-          .text("crs", o.crs, "CRS to work in: EPSG:n, or local; empty for the footprints', or their UTM zone.")
+          .text("crs", o.crs, "CRS to work in: EPSG:n, or local; empty for the footprints', the mesh's, or the UTM zone.")
           .alias("crs")
           .text("id_attribute", o.id_attribute, "Attribute that names a footprint; empty to look for a well-known one.")
           .alias("id_attribute")
@@ -268,7 +322,11 @@ auto option_list(Options& o) -> base::OptionList {
           .alias("where")
           .numbers("bbox", o.bbox, "m", {-far, far},
                    "Only footprints that meet the box xmin ymin xmax ymax in the working CRS; four zeros for all.")
-          .alias("bbox"));
+          .alias("bbox")
+          .number("tile_error", o.tile_error, "m", {0, far},
+                  "Of a 3D Tiles tileset, take tiles once their geometric error is no more; 0 for the finest.")
+          .text("terrain", o.terrain, "Raster with the ground's heights; empty to find the ground in the mesh.")
+          .alias("dtm"));
 }
 
 auto read_scene(const std::vector<std::filesystem::path>& meshes, const std::filesystem::path& footprints,
@@ -281,7 +339,7 @@ auto read_scene(const std::vector<std::filesystem::path>& meshes, const std::fil
   } catch (const std::exception& e) {
     // What a library throws on bad files must not get past this room.
     return base::error("ingest-footprints-format", std::string("cannot be read (") + e.what() + "); check what it is",
-                       footprints.string());
+                       detail::shown_name(footprints));
   }
 }
 
@@ -291,10 +349,10 @@ auto read_footprints(const std::filesystem::path& footprints, const Options& opt
     return read_alone(footprints, options, run);
   } catch (const std::bad_alloc&) {
     return base::error("ingest-memory", "the footprints do not fit into memory; read a part with --bbox or --where",
-                       footprints.string());
+                       detail::shown_name(footprints));
   } catch (const std::exception& e) {
     return base::error("ingest-footprints-format", std::string("cannot be read (") + e.what() + "); check what it is",
-                       footprints.string());
+                       detail::shown_name(footprints));
   }
 }
 

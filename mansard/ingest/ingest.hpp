@@ -30,6 +30,7 @@ struct Footprint {
   std::vector<geometry::Polygon> polygons;  ///< local frame, simple, oriented, one per part of a MultiPolygon
   Attributes attributes;
   std::optional<base::Diagnostic> defect;
+  bool derived = false;  ///< drawn from the mesh, by no surveyor
 };
 
 /// From local to file coordinates: add the origin. The origin is whole metres, so that adding and taking off is exact
@@ -59,9 +60,20 @@ struct MeshCounts {
   std::uint64_t vertices_read = 0, triangles_read = 0;  ///< what the files hold; more than kept where things repeat
 };
 
+/// Heights at the centres of square cells.
+struct HeightGrid {
+  geometry::Point2 centre;  ///< of cell (0, 0), the south-west one; local frame, metres
+  double cell = 1;          ///< m
+  std::size_t columns = 0, rows = 0;
+  std::vector<float> values;  ///< z, metres, local frame; row by row from the south; NaN for none
+  /// Between the four nearest centres; none beyond them, or where one of them has no value.
+  [[nodiscard]] auto at(geometry::Point2 p) const -> std::optional<double>;
+};
+
 struct Scene {
   geometry::Mesh mesh;  ///< local frame
   std::vector<Footprint> footprints;
+  std::optional<HeightGrid> terrain;  ///< the ground, where it was given; else blocks look for it in the mesh
   Frame frame;
   std::vector<InputFile> inputs;
   MeshCounts mesh_counts;
@@ -73,21 +85,26 @@ enum class UpAxis { automatic, z, y };  ///< automatic: y for glTF, z for the re
 struct Options {
   std::array<double, 3> mesh_offset{0, 0, 0};  ///< metres, added to mesh coordinates once they are z up
   UpAxis up = UpAxis::automatic;
-  std::string crs;           ///< the CRS to work in ("EPSG:n", or "local"); empty: the footprints', or their UTM zone
+  /// The CRS to work in ("EPSG:n", or "local"); empty: the footprints', else the mesh's own, else the UTM zone.
+  std::string crs;
   std::string id_attribute;  ///< empty: gml_id, id, fid … whichever the source has, else its feature number
   std::string layer;         ///< of the vector source; empty: its only or first one
   std::string where;         ///< OGR SQL attribute filter
   /// xmin ymin xmax ymax in the working CRS: footprints whose box meets it, and the mesh around them; all zero:
   /// everything.
   std::array<double, 4> bbox{0, 0, 0, 0};
+  double tile_error = 0;  ///< metres; of a tileset, tiles are taken once their geometric error is no more; 0: the finest
+  std::string terrain;    ///< path of a raster with the ground's heights; empty: none
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 
-/// Reads every mesh file (a folder means all meshes in it and below, by name) as one mesh, corners at the same place
-/// made one, and one vector source of footprints. A mesh has no CRS: with its offset it is taken to be in the working
-/// one. Guarantees: 1 all coordinates are finite and local · 2 every triangle has area and names existing vertices · 3
-/// polygons are simple and oriented, or the feature has a defect · 4 ids are unique · 5 the order of features is the
-/// source's. Gives up with: see codes().
+/// Reads every mesh as one, corners at the same place made one, and one vector source of footprints. A mesh is a file
+/// (OBJ, PLY, OFF, GLB, glTF), a folder or archive of them, a tileset of 3D Tiles, or a raster of heights. One that says
+/// where it is – a tileset on the earth, a raster's CRS, metadata.xml beside files – is brought to the working CRS; of
+/// others, with the offset, it is taken that they are in it. With an empty path for `footprints` there are none, and the
+/// working CRS is the option's, else the mesh's own or its UTM zone, else none. Guarantees: 1 all coordinates are finite
+/// and local · 2 every triangle has area and names existing vertices · 3 polygons are simple and oriented, or the feature
+/// has a defect · 4 ids are unique · 5 the order of features is the source's. Gives up with: see codes().
 [[nodiscard]] auto read_scene(const std::vector<std::filesystem::path>& meshes, const std::filesystem::path& footprints,
                               const Options& options, const base::Run& run = {}) -> base::Result<Scene>;
 

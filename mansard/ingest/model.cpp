@@ -273,7 +273,9 @@ auto read_mesh(const std::vector<std::filesystem::path>& paths, const Frame& fra
                const base::Run& run) -> base::Result<ScannedMesh> {
   const std::string subject = paths.empty() ? std::string() : paths.front().string();
   run.report("ingest", subject, 0);
-  auto files = detail::read_meshes(paths, options.up, run);
+  auto reading = detail::MeshReading::open(paths, options, run);
+  if (!reading) return reading.error();
+  auto files = reading->finish(frame.crs, std::nullopt, run);
   if (!files) return files.error();
   std::array<double, 3> by{};
   for (std::size_t i = 0; i < 3; ++i) by[i] = options.mesh_offset[i] - static_cast<double>(frame.origin[i]);

@@ -39,6 +39,14 @@ auto attributes() -> std::vector<write::Attribute> {
   add("ms_opt_status", part, "text", "",
       "How the block's integer program ended: optimal, stopped, empty or failed; only with a mesh.");
   add("ms_opt_gap", part, "number", "", "What of the block's objective is not proven, in its units; only with a mesh.");
+  const auto derived = [&all](const char* name, const char* type, const char* unit, const char* meaning) {
+    all.push_back({name, "derive", {"Building"}, type, unit, meaning});
+  };
+  derived("ms_derived", "flag", "",
+          "true: the footprint was drawn from the mesh, by no surveyor; absent from buildings with a footprint that was given.");
+  derived("ms_derived_height", "number", "m", "Median height of the mesh above the ground over a derived footprint.");
+  derived("ms_derived_planes", "number", "",
+          "Share of a derived footprint's roof that lies in planes, 0 to 1: below 0.4 look whether it is a building.");
   return all;
 }
 

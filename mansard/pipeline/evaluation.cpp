@@ -7,6 +7,7 @@
 
 #include "mansard/base/text.hpp"
 #include "mansard/block/block.hpp"
+#include "mansard/pipeline/stored.hpp"
 
 namespace mansard::pipeline {
 namespace {
@@ -272,7 +273,7 @@ auto worse_than_prism_from_truth(const BuildingScores& building) -> bool {
 auto read_evaluation(const EvaluationFiles& files, const ingest::Options& options, const base::Run& run)
     -> base::Result<EvaluationInput> {
   EvaluationInput input;
-  auto model = ingest::read_model(files.model, {files.lod, options.crs});
+  auto model = read_any_model(files.model, {files.lod, options.crs}, run);
   if (!model) return model.error();
   input.model = std::move(*model);
   auto& scene = input.scene;
@@ -295,7 +296,7 @@ auto read_evaluation(const EvaluationFiles& files, const ingest::Options& option
   append(scene.warnings, mesh->warnings);
 
   if (!files.truth.empty()) {
-    auto truth = ingest::read_model(files.truth, {files.lod, {}});
+    auto truth = read_any_model(files.truth, {files.lod, {}}, run);
     if (truth) truth = ingest::in_frame(std::move(*truth), scene.frame);
     if (!truth) return truth.error();
     if (auto met = ingest::check_overlap(surface.mesh, ingest::surface_of(*truth).mesh, {"model", "truth"}, scene.frame,

@@ -10,7 +10,8 @@ namespace mansard::pipeline {
 namespace {
 
 using enum write::FieldType;
-using Values = std::vector<ingest::Value>;
+using ingest::Value;
+using Values = std::vector<Value>;
 using Lines = std::vector<std::vector<geometry::Point2>>;
 
 auto as_whole(std::size_t number) -> ingest::Value { return static_cast<std::int64_t>(number); }
@@ -291,6 +292,30 @@ auto segment_layers(const ingest::Scene& scene, const std::vector<SegmentedBlock
   }
   return {gis_footprints(scene, blocks), std::move(sweep_edges), std::move(faces),      std::move(edges),
           std::move(conflicts),          std::move(footprints),  made_by_layer(made_by)};
+}
+
+auto diagnostics_layer(const Reconstruction& reconstruction, const ingest::Scene& scene) -> write::Layer {
+  write::Layer layer{"diagnostics",
+                     "What went otherwise than it should, and why: a row for each reason of each feature, and for each "
+                     "warning of the run, which has no place.",
+                     write::Shape::polygons,
+                     {{"feature", text}, {"block", text}, {"outcome", text}, {"severity", text}, {"code", text},
+                      {"subject", text}, {"message", text}},
+                     {}};
+  const auto add = [&](const base::Diagnostic& reason, Values where, const std::vector<geometry::Polygon>& polygons) {
+    where.insert(where.end(), {Value(std::string(reason.severity == base::Severity::error ? "error" : "warning")),
+                               Value(reason.code), Value(reason.subject), Value(reason.message)});
+    layer.features.push_back({{}, polygons, std::move(where)});
+  };
+  for (std::size_t i = 0; i < reconstruction.buildings.size(); ++i) {
+    const auto& building = reconstruction.buildings[i];
+    for (const auto& reason : building.reasons)
+      add(reason, {Value(building.id), Value(building.block), Value(std::string(to_string(building.outcome)))},
+          scene.footprints[i].polygons);
+  }
+  for (const auto* warnings : {&scene.warnings, &reconstruction.warnings})
+    for (const auto& warning : *warnings) add(warning, {Value(), Value(), Value()}, {});
+  return layer;
 }
 
 }  // namespace mansard::pipeline

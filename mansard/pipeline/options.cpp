@@ -8,6 +8,7 @@ namespace mansard::pipeline {
 auto option_lists(Options& options) -> std::vector<base::OptionList> {
   std::vector<base::OptionList> lists;
   lists.push_back(ingest::option_list(options.ingest));
+  lists.push_back(derive::option_list(options.derive));
   lists.push_back(block::option_list(options.block));
   lists.push_back(slice::option_list(options.slice));
   lists.push_back(sweep::option_list(options.sweep));
@@ -19,6 +20,7 @@ auto option_lists(Options& options) -> std::vector<base::OptionList> {
   lists.push_back(roof::option_list(options.roof));
   lists.push_back(label::option_list(options.label));
   lists.push_back(evaluate::option_list(options.evaluate));
+  lists.push_back(write::option_list(options.write));
   base::OptionList own("pipeline");
   own.whole("seed", options.seed, "", {0, 9e15}, "Seed of all sampling; the same seed gives the same bytes.")
       .alias("seed")
@@ -103,6 +105,7 @@ auto codes() -> std::vector<base::Code> {
   add(geometry::codes());
   add(solver::codes());
   add(ingest::codes());
+  add(derive::codes());
   add(fracture::codes());
   add(segment::codes());
   add(extrude::codes());
@@ -112,6 +115,8 @@ auto codes() -> std::vector<base::Code> {
   add({
       {"pipeline-nothing", "No footprint of the input could be used.",
        "The report lists the reason of each; repair the footprints.", 5},
+      {"pipeline-footprints", "Footprints are missing, or both given and to be derived.",
+       "Give footprints after the meshes, or --derive-footprints and meshes alone.", 2},
       {"pipeline-no-mesh", "The mesh shows no surface over this footprint, so its height is assumed.",
        "Use a mesh that covers the footprint, or set pipeline.assumed_height.", 1},
       {"pipeline-low", "The mesh over this footprint is lower than segment.min_height above the ground.",

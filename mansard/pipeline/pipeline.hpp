@@ -13,6 +13,7 @@
 #include "mansard/base/result.hpp"
 #include "mansard/base/run.hpp"
 #include "mansard/block/block.hpp"
+#include "mansard/derive/derive.hpp"
 #include "mansard/evaluate/evaluate.hpp"
 #include "mansard/extrude/extrude.hpp"
 #include "mansard/fracture/fracture.hpp"
@@ -25,6 +26,7 @@
 #include "mansard/segment/segment.hpp"
 #include "mansard/slice/slice.hpp"
 #include "mansard/sweep/sweep.hpp"
+#include "mansard/write/stream.hpp"
 #include "mansard/write/write.hpp"
 
 namespace mansard::pipeline {
@@ -32,6 +34,7 @@ namespace mansard::pipeline {
 /// The options of every room. What a run means is these and its inputs.
 struct Options {
   ingest::Options ingest;
+  derive::Options derive;
   block::Options block;
   slice::Options slice;
   sweep::Options sweep;
@@ -43,6 +46,7 @@ struct Options {
   roof::Options roof;
   label::Options label;
   evaluate::Options evaluate;
+  write::WriteOptions write;
 
   std::int64_t seed = 1;
   double assumed_height = 3.0;  ///< m; of the prism of a footprint over which the mesh shows nothing
@@ -112,6 +116,7 @@ enum class Outcome : std::uint8_t {
 struct BuildingReport {
   std::string id, block;
   Outcome outcome = Outcome::full;
+  bool derived = false;  ///< its footprint was drawn from the mesh
   std::vector<base::Diagnostic> reasons;
   std::size_t parts = 0;
   double ground = 0, roof_min = 0, roof_max = 0;  ///< z, metres, file frame
@@ -165,6 +170,10 @@ struct Segmented {
 /// footprints, made_by. Their fields are listed in docs/pipeline.md. Heights are z of the file frame.
 [[nodiscard]] auto segment_layers(const ingest::Scene& scene, const std::vector<SegmentedBlock>& blocks,
                                   const write::MadeBy& made_by) -> std::vector<write::Layer>;
+
+/// What went otherwise than it should, as one more layer: `diagnostics`, a row per reason of a building and per warning.
+/// `reconstruction` must be of the whole scene.
+[[nodiscard]] auto diagnostics_layer(const Reconstruction& reconstruction, const ingest::Scene& scene) -> write::Layer;
 
 /// Footprints without a mesh: each raised by its attributes, or along options.roof.profile. No blocks, no scores.
 /// Guarantees: 1 to 4 of reconstruct · 5 a building is `full` only with the roof its attributes ask for; values that

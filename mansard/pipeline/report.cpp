@@ -89,6 +89,7 @@ auto json_of(const std::vector<BlockReport>& blocks, bool with_scores) -> Json {
 auto json_of(const BuildingReport& b) -> Json {
   Json out{{"id", b.id}, {"block", b.block}, {"outcome", to_string(b.outcome)}, {"reasons", json_of(b.reasons)},
            {"parts", b.parts}};
+  if (b.derived) out["derived"] = true;
   if (b.parts > 0) {
     out["ground_m"] = b.ground;
     out["roof_min_m"] = b.roof_min;
@@ -126,6 +127,7 @@ auto head(const write::MadeBy& made_by, const ingest::Scene& scene) -> Json {
   Json options = Json::object();
   for (const auto& [name, value] : made_by.options) options[name] = value;
   out["options"] = options;
+  out["footprints_derived"] = std::ranges::any_of(scene.footprints, &ingest::Footprint::derived);
   const auto& m = scene.mesh_counts;
   if (!scene.mesh.triangles.empty())
     out["mesh"] = {{"vertices", m.vertices},

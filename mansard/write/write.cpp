@@ -21,15 +21,27 @@ auto checked_keys(const City& city) -> base::Result<detail::Keys> {
 auto cityjson(const City& city) -> base::Result<std::string> {
   const auto keys = checked_keys(city);
   if (!keys) return keys.error();
-  return detail::cityjson_text(city, *keys);
+  const Header header{city.frame, city.made_by};
+  base::TextSink vertices;
+  detail::CityObjects text(header, vertices, 0);
+  for (std::size_t b = 0; b < city.buildings.size(); ++b)
+    text.add(city.buildings[b], {keys->buildings[b], keys->parts[b]});
+  std::string out = detail::cityjson_head(header, text.extent(), 0) + text.end();
+  return out.append(detail::cityjson_waist).append(vertices.text).append(detail::cityjson_foot);
 }
 
 auto obj(const City& city, const std::string& mtl_name) -> base::Result<ObjFiles> {
   const auto keys = checked_keys(city);
   if (!keys) return keys.error();
-  auto text = detail::obj_text(city, *keys, mtl_name);
-  if (!text) return text.error();
-  return ObjFiles{*std::move(text), detail::mtl_text()};
+  const Header header{city.frame, city.made_by};
+  detail::ObjText text(header);
+  ObjFiles files{detail::ObjText::head(header, mtl_name), detail::mtl_text()};
+  for (std::size_t b = 0; b < city.buildings.size(); ++b) {
+    const auto more = text.of(city.buildings[b], {keys->buildings[b], keys->parts[b]});
+    if (!more) return more.error();
+    files.obj += *more;
+  }
+  return files;
 }
 
 auto glb(const City& city) -> base::Result<std::string> {
@@ -38,7 +50,13 @@ auto glb(const City& city) -> base::Result<std::string> {
   return detail::glb_bytes(city, *keys);
 }
 
-auto plans(const City& city) -> std::string { return detail::plan_text(city); }
+auto plans(const City& city) -> std::string {
+  base::TextSink sink;
+  detail::PlansText text({city.frame, city.made_by}, sink);
+  for (const Building& building : city.buildings) text.add(building);
+  text.end();
+  return std::move(sink.text);
+}
 
 auto read_plans(const std::filesystem::path& path) -> base::Result<City> {
   const auto text = base::read_file(path);
@@ -64,7 +82,15 @@ auto codes() -> std::vector<base::Code> {
        "This is a bug: please report it with the input.", 70},
       {"write-triangulate", "A face of a model could not be cut into triangles for OBJ or GLB.",
        "This is a bug: please report it with the input; CityJSON keeps whole polygons and is not affected.", 70},
-      {"write-glb-size", "The model is larger than the 4 GB a GLB file can hold.", "Run smaller areas (--bbox).", 2},
+      {"write-glb-size", "The model is larger than the 4 GB, or the 16 million surfaces, that a GLB can hold.",
+       "Write 3D Tiles, or run smaller areas (--bbox).", 2},
+      {"write-tiles-crs", "PROJ knows no way from the coordinate system to WGS 84, where 3D Tiles are.",
+       "Work in a projected coordinate system of EPSG (--ingest-crs), or in none (local): tiles are not placed on Earth then.",
+       3},
+      {"write-read-format", "A file is in no format that buildings can be read back from.",
+       "Give CityJSON, CityJSONSeq, OBJ, GLB, 3D Tiles, a GeoPackage, GeoJSON or plans that mansard wrote.", 3},
+      {"write-read-plans", "A file of buildings carries none of the plans that mansard's own files do.",
+       "Give a file that mansard wrote and no other program has stripped.", 3},
       {"write-plan-json", "A plan file is not JSON, or is cut short, or has a number no double can hold.",
        "Look at the byte that is named, or write the file again.", 3},
       {"write-plan-type",
@@ -87,6 +113,13 @@ auto codes() -> std::vector<base::Code> {
        "This is a bug: please report it with the input.", 70},
       {"write-geopackage", "GDAL could not make a GeoPackage.",
        "The message has GDAL's words; its GPKG driver and PROJ's data must be installed, and there must be memory.", 3},
+      {"write-stl-shell", "Parts that touch cannot be one closed shell of an STL: where towers meet at a corner, or outlines "
+       "overlap. They are several sound shells with walls between them.",
+       "Change the plans at the place that is named, or take the shells as they are.", 0},
+      {"write-stl-size", "There are more triangles than the 4,294,967,295 that an STL can count.",
+       "Run smaller areas (--bbox).", 2},
+      {"write-geojson", "Footprints cannot be brought to longitude and latitude, which GeoJSON is in.",
+       "Give the CRS that the coordinates are in with --ingest-crs; PROJ's data must be installed.", 3},
       {"write-geotiff", "GDAL could not make a GeoTIFF, or there is nothing to put into it.",
        "The message has GDAL's words; its GTiff driver and PROJ's data must be installed, and there must be memory.", 3},
   };

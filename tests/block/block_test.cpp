@@ -286,6 +286,28 @@ TEST(Ground, of_a_house_without_a_street_is_its_neighbours_or_the_foot_of_the_me
   EXPECT_EQ(partition(scene_of({}, {{box(0, 0, 10, 10)}}), {})[0].ground, 0);
 }
 
+TEST(Ground, is_the_terrain_where_that_is_known_along_the_outline) {
+  // The mesh says 3, the terrain rises by 1 m in 10 to the east and ends in the middle of the third house.
+  std::vector<std::vector<Polygon>> shapes;
+  for (const double x : {10.0, 40.0, 65.0}) shapes.push_back({box(x, 10, x + 10, 20)});
+  shapes.push_back({{box(10, 40, 50, 80).outer, {{{12, 42}, {12, 78}, {48, 78}, {48, 42}}}}});
+  auto scene = scene_of(field(0, 0, 100, 100, 1, level(3)), shapes);
+  ingest::HeightGrid grid{{0, 0}, 0.5, 141, 201, {}};
+  for (std::size_t r = 0; r < grid.rows; ++r)
+    for (std::size_t c = 0; c < grid.columns; ++c) grid.values.push_back(0.05F * static_cast<float>(c));
+  // A mistake of the terrain beside the first house that its outline only touches.
+  for (std::size_t c = 20; c < 26; ++c) grid.values[20 * grid.columns + c] = -50;
+  scene.terrain = grid;
+  const auto blocks = partition(scene, {});
+  ASSERT_EQ(blocks.size(), 4U);
+  EXPECT_NEAR(blocks[0].members[0].ground, 1.5, 0.11);
+  EXPECT_NEAR(blocks[1].ground, 4.5, 0.11);
+  EXPECT_EQ(blocks[2].ground, 3);  // half of its outline has no terrain
+  EXPECT_NEAR(blocks[3].ground, 3, 0.11);
+  scene.terrain->values.assign(grid.values.size(), std::numeric_limits<float>::quiet_NaN());
+  EXPECT_EQ(partition(scene, {})[0].ground, 3);
+}
+
 TEST(Blocks, of_delft_cover_all_footprints_and_stay_above_the_sea) {
   ingest::Options reading;
   reading.mesh_offset = {84800, 447400, 0};

@@ -148,7 +148,7 @@ TEST_F(Command, tells_plans_from_footprints_by_their_contents) {
   expect_refusal(run("extrude -q " + at("none.gpkg") + " -o " + at("out")), 3, "file-missing");
   EXPECT_EQ(run("extrude -q " + put("plan-like-name.json", geojson(polygon(square))) + " -o " + at("ok")).exit, 0);
   const auto own = put("own.geojson", two_houses);
-  expect_refusal(run("extrude -q " + own + " -o " + own), 2, "output-exists");
+  expect_refusal(run("extrude -q " + own + " -o " + own), 2, "output-input");
   expect_refusal(run("extrude -q " + own + " -o " + at("x.obj") + " --report " + own + " --overwrite"), 2, "output-input");
   EXPECT_EQ(read(own), two_houses);
 }

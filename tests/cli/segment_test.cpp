@@ -1,6 +1,7 @@
 // `mansard segment`: layers, programs and a report, and `mansard reconstruct --layers`.
 #include <sys/stat.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
@@ -141,12 +142,22 @@ TEST_F(Segment, refuses_what_reconstruct_refuses) {
   EXPECT_THAT(results(), testing::IsEmpty());
 }
 
-TEST_F(Segment, is_what_reconstruct_writes_with_layers) {
+TEST_F(Segment, has_its_layers_in_what_reconstruct_writes_with_layers) {
   ASSERT_EQ(segment(at("house.geojson"), "-q").exit, 0);
-  const auto outcome = reconstruct(at("house.obj"), at("house.geojson"), "--layers");
+  const auto outcome = reconstruct(at("house.obj"), at("house.geojson"), "--layers --formats cityjson");
   EXPECT_EQ(outcome.exit, 0) << outcome.err;
-  EXPECT_EQ(outcome.out, at("out") + "/model.city.json\n" + at("out") + "/segment.gpkg\n");
-  EXPECT_TRUE(read(at("out") + "/segment.gpkg") == read(at("out.gpkg")));
+  EXPECT_EQ(outcome.out, at("out") + "/model.city.json\n" + at("out") + "/model.gpkg\n");
+  const auto layers_of = [&](const std::string& file) {
+    std::map<std::string, nlohmann::json> layers;
+    const auto told = nlohmann::json::parse(run("info --json " + file).out);
+    for (const auto& layer : told[0]["layers"]) layers[layer["name"]] = layer;
+    return layers;
+  };
+  const auto own = layers_of(at("out.gpkg")), both = layers_of(at("out") + "/model.gpkg");
+  for (const auto* name : {"sweep_edges", "faces", "conflicts"}) {
+    ASSERT_TRUE(both.contains(name)) << name;
+    EXPECT_EQ(both.at(name), own.at(name)) << name;
+  }
 }
 
 }  // namespace

@@ -149,6 +149,26 @@ TEST(SegmentLayers, give_heights_in_the_frame_of_the_file) {
   for (const double low : column_of<double>(named(layers, "sweep_edges"), "low")) EXPECT_GE(low, 99.9);
 }
 
+TEST(DiagnosticsLayer, has_a_row_for_every_reason_with_the_footprint_it_is_about) {
+  auto scene = town();
+  ingest::Footprint bad = test::footprint("bad", {{{50, 0}, {60, 0}, {60, 10}}, {}});
+  bad.polygons.clear();
+  bad.defect = base::error("ingest-footprint-empty", "it has no geometry", "bad");
+  scene.footprints.push_back(bad);
+  scene.warnings.push_back(base::warning("ingest-mesh-duplicate", "two triangles are there twice", "mesh.ply"));
+  const auto result = reconstruct(scene, {});
+  ASSERT_TRUE(result) << base::to_string(result.error());
+  const auto layer = diagnostics_layer(*result, scene);
+  std::size_t reasons = scene.warnings.size() + result->warnings.size();
+  for (const auto& building : result->buildings) reasons += building.reasons.size();
+  EXPECT_EQ(layer.features.size(), reasons);
+  EXPECT_THAT(column(layer, "code"), testing::Contains(Value(std::string("ingest-footprint-empty"))));
+  EXPECT_THAT(column(layer, "feature"), testing::Contains(Value(std::string("bad"))));
+  EXPECT_THAT(column(layer, "subject"), testing::Contains(Value(std::string("mesh.ply"))));
+  for (const auto& feature : layer.features) EXPECT_EQ(feature.values.size(), layer.fields.size());
+  EXPECT_TRUE(write::geopackage({layer}, scene.frame));
+}
+
 TEST(SegmentLayers, name_variables_as_the_exported_program_does) {
   const auto scene = town();
   const auto result = segmented(scene);

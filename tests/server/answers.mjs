@@ -199,6 +199,12 @@ const two = split.changes[0].parts.slice(0, 2).map(({ id }) => ({ building: buil
 await call("post", "/api/runs/{run}/merge", { at: of, body: { parts: two } });
 await call("post", "/api/runs/{run}/export", { at: of, body: { overwrite: false } });
 await call("get", "/api/runs/{run}/export/{file}", { at: { ...of, file: "model.glb" } });
+await call("post", "/api/runs/import", { body: { path: join(folder, "project/exports/run-1/plans.json"), label: "again" } });
+await settled();
+await call("get", "/api/runs/{run}/buildings", { at: { run: "run-3" } });
+await call("get", "/api/runs/{run}/layers", { at: { run: "run-3" } });
+await call("get", "/api/runs/{run}/error", { at: { run: "run-3" } });
+await call("post", "/api/runs/import", { body: { path: openapi }, expect: 400 });
 await call("patch", "/api/runs/{run}", { at: of, body: { label: "renamed" } });
 await call("delete", "/api/runs/{run}", { at: { run: "run-2" } });
 await call("post", "/api/runs/{run}/undo", { at: { run: "run-2" }, body: {}, expect: 404 });

@@ -52,6 +52,25 @@ TEST(Inputs, are_read_in_the_background_and_again_when_the_project_is_opened_aga
   EXPECT_TRUE(changed());
 }
 
+TEST(Inputs, without_footprints_have_them_drawn_from_the_mesh) {
+  const Folder folder;
+  const auto hall = std::string(MANSARD_DATA) + "/hall/";
+  {
+    const Running server(folder / "project");
+    const auto job = server.post("/api/project/inputs", {{"meshes", {hall + "mesh.off"}}, {"footprints", ""},
+                                                         {"reading", {{"derive.cell", "1"}}}});
+    EXPECT_EQ(job.json()["kind"], "read") << job.text;
+    server.settle();
+    const auto scene = server.get("/api/scene").json();
+    ASSERT_EQ(scene["footprints"].size(), 1U);
+    EXPECT_EQ(scene["footprints"][0]["id"], "derived-1");
+    EXPECT_TRUE(server.get("/api/project").json()["inputs"]["footprints"].empty());
+  }
+  const Running again(folder / "project");
+  again.settle();
+  EXPECT_EQ(again.get("/api/scene").json()["footprints"].size(), 1U);
+}
+
 TEST(Inputs, that_cannot_be_read_say_why_and_leave_the_project_as_it_was) {
   const Folder folder;
   write(folder / "mesh.ply", "no mesh");

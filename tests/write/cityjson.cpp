@@ -99,7 +99,7 @@ TEST(CityJson, says_its_version_transform_and_reference_system) {
 }
 
 TEST(CityJson, says_how_it_was_made) {
-  const Json made = parsed(street())["metadata"]["mansard"];
+  const Json made = parsed(street())["+mansard"]["made_by"];
   EXPECT_EQ(made["version"], "0.1.0");
   EXPECT_EQ(made["options"]["segment.alpha"], "40");
   EXPECT_EQ(made["inputs"][0]["sha256"], "abc0");
@@ -107,7 +107,8 @@ TEST(CityJson, says_how_it_was_made) {
 
 TEST(CityJson, has_only_members_that_the_specification_knows) {
   const Json file = parsed(street());
-  const std::set<std::string> root{"type", "version", "transform", "metadata", "CityObjects", "vertices"};
+  const std::set<std::string> root{"type",     "version",     "extensions", "transform",
+                                    "metadata", "CityObjects", "vertices",   "+mansard"};
   for (const auto& [key, value] : file.items()) EXPECT_TRUE(root.contains(key)) << key;
   const std::set<std::string> object{"type", "attributes", "children", "parents", "geometry"};
   const std::set<std::string> geometry{"type", "lod", "boundaries", "semantics"};
@@ -239,7 +240,7 @@ TEST(CityJson, marks_party_walls_at_both_levels_of_detail) {
 }
 
 TEST(CityJson, carries_the_plan_of_every_part) {
-  const Json plan = parsed(street())["CityObjects"]["block-1"]["attributes"]["ms_plan"];
+  const Json plan = parsed(street())["CityObjects"]["block-1"]["attributes"]["+ms_plan"];
   EXPECT_EQ(plan["type"], "mansard-plan");
   EXPECT_EQ(plan["version"], 1);
   EXPECT_EQ(plan["origin"], Json({84800, 447400, 0}));

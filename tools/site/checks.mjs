@@ -94,7 +94,7 @@ export class Checks {
     if (suite && this.suites.has(suite) && !this.tests.has(full) &&
         !(begins && [...this.tests].some((known) => known.startsWith(full))))
       this.complain(name, `there is no test ${decoded}`);
-    const attribute = /^ms_[a-z0-9_]+$/.exec(decoded)?.[0];
+    const attribute = /^\+?ms_[a-z0-9_]+$/.exec(decoded)?.[0];
     if (attribute && !this.attributes.has(attribute))
       this.complain(name, `the attribute ${attribute} is none of the program's`);
     if (/^[a-z]+(-[a-z0-9]+)+$/.test(decoded) && this.rooms.includes(decoded.split("-")[0]) &&
@@ -167,7 +167,7 @@ export class Checks {
       if (!pages.includes(name)) this.complain(name, "is no page of the site");
     const used = new Set();
     for (const file of this.find("mansard", /\.[ch]pp$/))
-      for (const match of fs.readFileSync(path.join(this.root, file), "utf8").matchAll(/"(ms_[a-z0-9_]+)"/g)) {
+      for (const match of fs.readFileSync(path.join(this.root, file), "utf8").matchAll(/"(\+?ms_[a-z0-9_]+)"/g)) {
         used.add(match[1]);
         if (!this.attributes.has(match[1])) this.complain(file, `the attribute ${match[1]} is not in the list`);
       }

@@ -301,6 +301,28 @@ void surfaces(const Figures& to, const ingest::Scene& scene, const pipeline::Opt
   to.put("label.png", pipeline::picture_of(need(pipeline::reconstruct(scene, options)).city, view));
 }
 
+/// The scan from above with the footprints that are drawn of it.
+void derived(const Figures& to, const ingest::Scene& scene) {
+  double highest = -1e30;
+  for (const auto& v : scene.mesh.vertices) highest = std::max(highest, v.z);
+  picture::Lines outlines;
+  outlines.colour = {214, 40, 40};
+  outlines.width = 3;
+  const auto add = [&](const Ring& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const auto a = ring[i], b = ring[(i + 1) % ring.size()];
+      outlines.segments.push_back({{{a.x, a.y, highest + 1}, {b.x, b.y, highest + 1}}});
+    }
+  };
+  for (const auto& footprint : need(derive::footprints(scene, {})))
+    for (const auto& polygon : footprint.polygons) {
+      add(polygon.outer);
+      for (const auto& hole : polygon.holes) add(hole);
+    }
+  const picture::View view{.kind = picture::View::Kind::above, .width = 560, .height = 560};
+  to.put("derive.png", picture::draw(std::vector<picture::Layer>{{scene.mesh, {picture::mesh_blue}}}, std::vector{outlines}, view));
+}
+
 void polygons(const Figures& to) {
   const Polygon a{{{0, 0}, {8, 0}, {8, 5}, {0, 5}}, {}}, b{{{5, 2}, {11, 2}, {11, 8}, {5, 8}}, {}};
   Drawing drawing({{-1, -2}, {47, 9}}, 860);
@@ -363,4 +385,5 @@ auto main(int count, char** words) -> int {
   program(to);
   rooms_in_plan(to, delft, options);
   surfaces(to, hall, options);
+  derived(to, delft);
 }

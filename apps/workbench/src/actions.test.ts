@@ -80,6 +80,18 @@ describe("runs", () => {
     expect(state.jobs.value).toEqual([job({ state: "done" })]);
   });
 
+  it("of models from a file are opened when they are there", async () => {
+    open(building("a"));
+    answers["GET /api/runs/run-2/buildings"] = () => buildings(building("opened"));
+    answers["POST /api/runs/import"] = (body) => {
+      expect(body).toEqual({ path: "/data/model.glb" });
+      return job({ state: "queued", id: "job-3" });
+    };
+    await actions.openModel("/data/model.glb");
+    actions.heard({ type: "job", job: job({ id: "job-3", state: "done" }) });
+    await vi.waitFor(() => expect(state.run.value!.buildings.has("opened")).toBe(true));
+  });
+
   it("started elsewhere do not take the place of the one that is open", () => {
     open(building("a"));
     actions.heard({ type: "job", job: job({ id: "job-7", state: "done" }) });

@@ -152,6 +152,8 @@ export async function upload(files: File[], told: (name: string) => void): Promi
 // ---- runs
 
 export const startRun = (request: RunRequest) => took(client.start(request));
+/** What mansard wrote, as a run of its own. */
+export const openModel = (path: string) => took(client.importModel(path));
 export const cancelJob = (job: string) => attempt(client.cancel(job));
 export const renameRun = (run: string, label: string) => attempt(client.rename(run, label));
 

@@ -6,6 +6,7 @@
 
 #include "mansard/geometry/mesh.hpp"
 #include "mansard/geometry/polygon.hpp"
+#include "mansard/ingest/ingest.hpp"
 
 namespace mansard::block::detail {
 
@@ -22,6 +23,11 @@ struct Sample {
 /// not steep, outside all shapes. One list per shape, in the order of the mesh.
 [[nodiscard]] auto ground_samples(const geometry::Mesh& mesh, const std::vector<std::vector<geometry::Polygon>>& shapes,
                                   double reach) -> std::vector<std::vector<Sample>>;
+
+/// The median of a terrain's heights along the outlines, holes too, a metre apart at most, weighted by length. Nothing
+/// where the terrain is known along less than nine tenths of them.
+[[nodiscard]] auto terrain_along(const ingest::HeightGrid& terrain, const std::vector<geometry::Polygon>& shape)
+    -> std::optional<double>;
 
 /// One sample per triangle of the whole mesh, by its area in space: walls count too.
 [[nodiscard]] auto surface_samples(const geometry::Mesh& mesh) -> std::vector<Sample>;

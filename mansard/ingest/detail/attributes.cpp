@@ -130,12 +130,34 @@ auto text_of(const Value& value) -> std::string {
   return {};
 }
 
-/// The attribute's texts, empty where it is null.
-auto column(const std::vector<RawFeature>& features, std::size_t attribute) -> std::vector<std::string> {
+/// The attribute's texts, empty where it is null or missing. Most sources have the same attributes at the same places.
+auto column(const std::vector<RawFeature>& features, const std::string& name) -> std::vector<std::string> {
   std::vector<std::string> out;
   out.reserve(features.size());
-  for (const auto& feature : features) out.push_back(text_of(feature.attributes[attribute].second));
+  std::size_t place = 0;
+  for (const auto& feature : features) {
+    const auto& all = feature.attributes;
+    if (place >= all.size() || all[place].first != name)
+      place = static_cast<std::size_t>(std::ranges::find(all, name, &Attributes::value_type::first) - all.begin());
+    out.push_back(place < all.size() ? text_of(all[place].second) : std::string());
+  }
   return out;
+}
+
+/// Of all features, in the order in which they come first.
+auto names_of(const std::vector<RawFeature>& features) -> std::vector<std::string> {
+  std::vector<std::string> names;
+  std::set<std::string, std::less<>> known;
+  const Attributes* before = nullptr;
+  for (const auto& feature : features) {
+    const auto& own = feature.attributes;
+    if (before == nullptr ||
+        !std::ranges::equal(own, *before, {}, &Attributes::value_type::first, &Attributes::value_type::first))
+      for (const auto& [name, value] : own)
+        if (known.insert(name).second) names.push_back(name);
+    before = &own;
+  }
+  return names;
 }
 
 auto all_different(const std::vector<std::string>& ids) -> bool {
@@ -181,12 +203,10 @@ auto attributes_of(const OGRFeature& feature) -> Attributes {
 
 auto ids_of(const std::vector<RawFeature>& features, const std::string& attribute, const std::string& subject,
             std::vector<base::Diagnostic>& warnings) -> base::Result<std::vector<std::string>> {
-  std::vector<std::string> names;
-  if (!features.empty())
-    for (const auto& [name, value] : features.front().attributes) names.push_back(name);
-  const auto find = [&names](std::string_view wanted) -> std::optional<std::size_t> {
-    for (std::size_t i = 0; i < names.size(); ++i)
-      if (lower(names[i]) == lower(wanted)) return i;
+  const std::vector<std::string> names = names_of(features);
+  const auto find = [&names](std::string_view wanted) -> std::optional<std::string> {
+    for (const auto& name : names)
+      if (lower(name) == lower(wanted)) return name;
     return std::nullopt;
   };
 
@@ -222,6 +242,11 @@ auto ids_of(const std::vector<RawFeature>& features, const std::string& attribut
                                        subject));
     return ids;
   }
+
+  std::vector<std::string> own;
+  own.reserve(features.size());
+  for (const auto& feature : features) own.push_back(feature.own_id);
+  if (all_different(own)) return own;
 
   // Names under which GML, Dutch registers, OpenStreetMap and common tools keep identities; the last one is what a
   // Shapefile makes of "identificatie".

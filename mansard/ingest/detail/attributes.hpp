@@ -14,8 +14,9 @@ namespace mansard::ingest::detail {
 /// Every field in order. Dates become ISO 8601 text, lists JSON text, binary data base 64; unset, null and NaN nothing.
 [[nodiscard]] auto attributes_of(const OGRFeature& feature) -> Attributes;
 
-/// One id per feature, all different: the attribute asked for, else the first well-known one that is there for all and
-/// different for all, else the feature numbers. Warns "ingest-id-duplicate", gives up with "ingest-id-attribute".
+/// One id per feature, all different: the attribute asked for, else the source's own names, else the first well-known
+/// attribute that is there for all and different for all, else the feature numbers. Warns "ingest-id-duplicate", gives
+/// up with "ingest-id-attribute".
 [[nodiscard]] auto ids_of(const std::vector<RawFeature>& features, const std::string& attribute,
                           const std::string& subject, std::vector<base::Diagnostic>& warnings)
     -> base::Result<std::vector<std::string>>;

@@ -1,8 +1,13 @@
 #include "mansard/ingest/detail/clean.hpp"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <bit>
 #include <cmath>
+#include <span>
+
+#include "mansard/base/run.hpp"
 
 namespace mansard::ingest::detail {
 namespace {
@@ -23,21 +28,63 @@ auto moved(Point3 p, const std::array<double, 3>& shift) -> Point3 {
   return {p.x + shift[0], p.y + shift[1], p.z + shift[2]};
 }
 
-/// For each vertex the first one at the same place, found by an open hash table.
+/// Work on `count` items in blocks that never depend on the number of threads.
+constexpr std::size_t block_size = std::size_t{1} << 16;
+auto blocks_of(std::size_t count) -> std::size_t { return (count + block_size - 1) / block_size; }
+template <class Work>
+void each_block(std::size_t count, const Work& work) {
+  if (count == 0) return;
+  if (count <= block_size) return work(0, 0, count);
+  base::parallel_for(blocks_of(count),
+                     [&](std::size_t b) { work(b, b * block_size, std::min(count, (b + 1) * block_size)); });
+}
+
+/// For each usable vertex the first one at the same place; no_vertex for the others. The places are in an open hash
+/// table that all threads fill at once: a slot belongs to a place for good, and in the end holds the least of its
+/// vertices, whoever came first.
 class Welder {
  public:
-  explicit Welder(const std::vector<Point3>& points) : points_(points) {
-    slots_.assign(std::bit_ceil(2 * points.size() + 2), no_vertex);
-  }
-  auto first_at(std::uint32_t v) -> std::uint32_t {
-    const std::size_t mask = slots_.size() - 1;
-    for (std::size_t at = hash(points_[v]) & mask;; at = (at + 1) & mask) {
-      if (slots_[at] == no_vertex) return slots_[at] = v;
-      if (points_[slots_[at]] == points_[v]) return slots_[at];
-    }
+  static auto weld(const std::vector<Point3>& points) -> std::vector<std::uint32_t> {
+    const Welder welder(points);
+    std::vector<std::uint32_t> place(points.size());
+    each_block(points.size(), [&](std::size_t, std::size_t first, std::size_t end) {
+      // Slots lie anywhere in memory: those of the next few vertices are on their way while one is looked at.
+      constexpr std::size_t ahead = 16;
+      std::array<std::size_t, ahead> start{};
+      for (std::size_t v = first; v < end + ahead; ++v) {
+        if (v >= first + ahead) {
+          const auto now = static_cast<std::uint32_t>(v - ahead);
+          place[now] = usable(points[now]) ? welder.slot_of(now, start[now % ahead]) : no_vertex;
+        }
+        if (v >= end) continue;
+        start[v % ahead] = hash(points[v]) & welder.mask_;
+        __builtin_prefetch(&welder.slots_[start[v % ahead]], 1);
+      }
+    });
+    each_block(points.size(), [&](std::size_t, std::size_t first, std::size_t end) {
+      for (std::size_t v = first; v < end; ++v)
+        if (place[v] != no_vertex) place[v] = welder.slots_[place[v]];
+    });
+    return place;
   }
 
  private:
+  explicit Welder(const std::vector<Point3>& points)
+      : points_(points),
+        mask_(std::min(std::bit_ceil(points.size() + points.size() / 2 + 2), std::size_t{no_vertex} + 1) - 1),
+        slots_(mask_ + 1, no_vertex) {}
+
+  auto slot_of(std::uint32_t v, std::size_t start) const -> std::uint32_t {
+    for (std::size_t at = start;; at = (at + 1) & mask_) {
+      if (at == no_vertex) continue;  // stands for a vertex that cannot be used
+      const std::atomic_ref slot(slots_[at]);
+      std::uint32_t there = slot.load(std::memory_order_relaxed);
+      while (there == no_vertex || points_[there] == points_[v]) {
+        if (there <= v && there != no_vertex) return static_cast<std::uint32_t>(at);
+        if (slot.compare_exchange_weak(there, v, std::memory_order_relaxed)) return static_cast<std::uint32_t>(at);
+      }
+    }
+  }
   static auto hash(Point3 p) -> std::size_t {
     std::uint64_t h = 0;
     for (const double c : {p.x, p.y, p.z}) {
@@ -47,7 +94,8 @@ class Welder {
     return h;
   }
   const std::vector<Point3>& points_;
-  std::vector<std::uint32_t> slots_;
+  std::size_t mask_;
+  mutable std::vector<std::uint32_t> slots_;
 };
 
 /// A needle whose height is below a ten-thousand-millionth of its longest side has no normal worth the name.
@@ -57,112 +105,204 @@ auto has_area(Point3 a, Point3 b, Point3 c) -> bool {
   return length(cross(u, v)) > 1e-10 * longest;
 }
 
-/// Items put together by a key below `count`, in their order: the items of key k are items[start[k] … start[k + 1]).
-template <class Item>
-struct Buckets {
-  std::vector<std::size_t> start;
-  std::vector<Item> items;
+/// The corners in order of their numbers.
+auto sorted(Triangle t) -> Triangle {
+  if (t[0] > t[1]) std::swap(t[0], t[1]);
+  if (t[1] > t[2]) std::swap(t[1], t[2]);
+  if (t[0] > t[1]) std::swap(t[0], t[1]);
+  return t;
+}
 
-  /// `each` calls its argument with (key, item), for the same pairs in both of its calls.
-  template <class Each>
-  Buckets(std::size_t count, Each each) : start(count + 1, 0) {
-    each([this](std::uint32_t key, const Item&) { ++start[key + 1]; });
-    for (std::size_t k = 0; k < count; ++k) start[k + 1] += start[k];
-    items.resize(start.back());
-    std::vector<std::size_t> next(start.begin(), start.end() - 1);
-    each([this, &next](std::uint32_t key, const Item& item) { items[next[key]++] = item; });
+/// For each vertex the triangles of which it is the least or the middle corner, in no particular order. Every triangle
+/// is with its least corner once, and every edge of it with the lesser of the edge's ends.
+/// Index is as wide as twice the number of triangles needs: half the memory for all but the largest meshes.
+template <class Index>
+struct Around {
+  std::vector<Index> start;  ///< of vertex v: triangles[start[v] … start[v + 1])
+  std::vector<Index> triangles;
+
+  Around(const std::vector<Triangle>& all, std::size_t vertices) : start(vertices + 1, 0), triangles(2 * all.size()) {
+    each_block(all.size(), [&](std::size_t, std::size_t first, std::size_t end) {
+      for (std::size_t i = first; i < end; ++i) {
+        const Triangle t = sorted(all[i]);
+        for (const auto v : {t[0], t[1]}) std::atomic_ref(start[v]).fetch_add(1, std::memory_order_relaxed);
+      }
+    });
+    Index sum = 0;
+    for (auto& own : start) own = sum += own;  // now where the next vertex starts; counted down while filling
+    each_block(all.size(), [&](std::size_t, std::size_t first, std::size_t end) {
+      for (std::size_t i = first; i < end; ++i) {
+        const Triangle t = sorted(all[i]);
+        for (const auto v : {t[0], t[1]})
+          triangles[std::atomic_ref(start[v]).fetch_sub(1, std::memory_order_relaxed) - 1] = static_cast<Index>(i);
+      }
+    });
+  }
+  [[nodiscard]] auto of(std::size_t v) const -> std::span<const Index> {
+    return std::span(triangles).subspan(start[v], start[v + 1] - start[v]);
   }
 };
 
-/// Takes out triangles that have the corners of an earlier one, whichever way round.
-auto drop_repeated(std::vector<Triangle>& triangles, std::vector<std::uint8_t>& classes, std::size_t vertices)
-    -> std::uint64_t {
+/// Marks triangles that have the corners of an earlier one, whichever way round.
+template <class Index>
+auto find_repeated(const std::vector<Triangle>& triangles, const Around<Index>& around, std::size_t vertices)
+    -> std::vector<char> {
   struct Item {
     std::uint32_t middle = 0, last = 0;
-    std::size_t triangle = 0;
+    Index triangle = 0;
     auto operator<=>(const Item&) const = default;
   };
-  Buckets<Item> by_least(vertices, [&](auto put) {
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-      Triangle t = triangles[i];
-      std::ranges::sort(t);
-      put(t[0], {t[1], t[2], i});
+  std::vector<char> repeated(triangles.size(), 0);
+  each_block(vertices, [&](std::size_t, std::size_t first, std::size_t end) {
+    std::vector<Item> own;
+    for (std::size_t v = first; v < end; ++v) {
+      own.clear();
+      for (const Index i : around.of(v))
+        if (const Triangle t = sorted(triangles[i]); t[0] == v) own.push_back({t[1], t[2], i});
+      std::ranges::sort(own);
+      for (std::size_t i = 1; i < own.size(); ++i)
+        if (own[i].middle == own[i - 1].middle && own[i].last == own[i - 1].last) repeated[own[i].triangle] = 1;
     }
   });
-  std::vector<char> repeated(triangles.size(), 0);
-  for (std::size_t v = 0; v < vertices; ++v) {
-    const auto own = std::span(by_least.items).subspan(by_least.start[v], by_least.start[v + 1] - by_least.start[v]);
-    std::ranges::sort(own);
-    for (std::size_t i = 1; i < own.size(); ++i)
-      repeated[own[i].triangle] = own[i].middle == own[i - 1].middle && own[i].last == own[i - 1].last ? 1 : 0;
-  }
-  const std::size_t before = triangles.size();
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < before; ++i)
-    if (repeated[i] == 0) {
-      if (!classes.empty()) classes[kept] = classes[i];
-      triangles[kept++] = triangles[i];
-    }
-  triangles.resize(kept);
-  if (!classes.empty()) classes.resize(kept);
-  return before - kept;
+  return repeated;
 }
 
-void count_edges(const std::vector<Triangle>& triangles, std::size_t vertices, MeshCounts& counts) {
-  // The other end of each edge, doubled, plus one when the triangle runs along it downwards.
-  Buckets<std::uint64_t> by_least(vertices, [&](auto put) {
-    for (const auto& t : triangles)
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t a = t[k], b = t[(k + 1) % 3];
-        put(std::min(a, b), 2 * std::uint64_t{std::max(a, b)} + (a > b ? 1U : 0U));
+/// Of the triangles that are not repeated.
+template <class Index>
+void count_edges(const std::vector<Triangle>& triangles, const std::vector<char>& repeated, const Around<Index>& around,
+                 std::size_t vertices, MeshCounts& counts) {
+  struct Found {
+    std::uint64_t boundary = 0, flipped = 0, non_manifold = 0;
+  };
+  std::vector<Found> found(blocks_of(vertices));
+  each_block(vertices, [&](std::size_t block, std::size_t first, std::size_t end) {
+    // The other end of each edge, doubled, plus one when the triangle runs along it downwards.
+    std::vector<std::uint64_t> own;
+    Found sum;
+    for (std::size_t v = first; v < end; ++v) {
+      own.clear();
+      for (const Index i : around.of(v)) {
+        if (repeated[i] != 0) continue;
+        const Triangle& t = triangles[i];
+        for (std::size_t k = 0; k < 3; ++k) {
+          const std::uint32_t a = t[k], b = t[(k + 1) % 3];
+          if (std::min(a, b) == v) own.push_back(2 * std::uint64_t{std::max(a, b)} + (a > b ? 1U : 0U));
+        }
       }
-  });
-  for (std::size_t v = 0; v < vertices; ++v) {
-    const auto own = std::span(by_least.items).subspan(by_least.start[v], by_least.start[v + 1] - by_least.start[v]);
-    std::ranges::sort(own);
-    for (std::size_t i = 0, j = 0; i < own.size(); i = j) {
-      while (j < own.size() && own[j] / 2 == own[i] / 2) ++j;
-      if (j - i == 1) ++counts.boundary_edges;
-      if (j - i == 2 && own[i] == own[i + 1]) ++counts.flipped_edges;
-      if (j - i > 2) ++counts.non_manifold_edges;
+      std::ranges::sort(own);
+      for (std::size_t i = 0, j = 0; i < own.size(); i = j) {
+        while (j < own.size() && own[j] / 2 == own[i] / 2) ++j;
+        if (j - i == 1) ++sum.boundary;
+        if (j - i == 2 && own[i] == own[i + 1]) ++sum.flipped;
+        if (j - i > 2) ++sum.non_manifold;
+      }
     }
+    found[block] = sum;
+  });
+  for (const Found& one : found) {
+    counts.boundary_edges += one.boundary;
+    counts.flipped_edges += one.flipped;
+    counts.non_manifold_edges += one.non_manifold;
   }
+}
+
+/// Keeps triangles (and their classes, where there are any) that `wanted(i)` wants, in their order. Every block moves
+/// its own to its front, then the blocks close up: no second copy.
+template <class Wanted>
+void keep(std::vector<Triangle>& triangles, std::vector<std::uint8_t>& classes, const Wanted& wanted) {
+  std::vector<std::size_t> kept(blocks_of(triangles.size()), 0);
+  each_block(triangles.size(), [&](std::size_t block, std::size_t first, std::size_t end) {
+    std::size_t to = first;
+    for (std::size_t i = first; i < end; ++i) {
+      if (!wanted(block, i)) continue;
+      if (!classes.empty()) classes[to] = classes[i];
+      triangles[to++] = triangles[i];
+    }
+    kept[block] = to - first;
+  });
+  std::size_t to = 0;
+  for (std::size_t block = 0; block < kept.size(); ++block) {
+    const std::size_t first = block * block_size;
+    if (to != first) {
+      std::copy_n(triangles.begin() + static_cast<std::ptrdiff_t>(first), kept[block],
+                  triangles.begin() + static_cast<std::ptrdiff_t>(to));
+      if (!classes.empty())
+        std::copy_n(classes.begin() + static_cast<std::ptrdiff_t>(first), kept[block],
+                    classes.begin() + static_cast<std::ptrdiff_t>(to));
+    }
+    to += kept[block];
+  }
+  triangles.resize(to);
+  if (!classes.empty()) classes.resize(to);
+}
+
+/// Takes out triangles that are there twice, and counts what is odd about the edges of the others.
+template <class Index>
+void look_at_neighbours(CleanMesh& mesh, std::size_t vertices) {
+  auto& triangles = mesh.mesh.triangles;
+  std::vector<char> repeated;
+  {
+    const Around<Index> around(triangles, vertices);
+    repeated = find_repeated(triangles, around, vertices);
+    count_edges(triangles, repeated, around, vertices, mesh.counts);
+  }
+  const std::size_t before = triangles.size();
+  keep(triangles, mesh.classes, [&](std::size_t, std::size_t i) { return repeated[i] == 0; });
+  mesh.counts.duplicate = before - triangles.size();
 }
 
 /// Keeps the vertices that triangles name, in their order.
 void compact(geometry::Mesh& mesh) {
   std::vector<std::uint32_t> place(mesh.vertices.size(), no_vertex);
-  for (const auto& t : mesh.triangles)
-    for (const auto v : t) place[v] = 0;
+  each_block(mesh.triangles.size(), [&](std::size_t, std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i)
+      for (const auto v : mesh.triangles[i]) std::atomic_ref(place[v]).store(0, std::memory_order_relaxed);
+  });
   std::uint32_t kept = 0;
   for (std::size_t v = 0; v < place.size(); ++v) {
     if (place[v] == no_vertex) continue;
     mesh.vertices[kept] = mesh.vertices[v];
     place[v] = kept++;
   }
+  if (kept == mesh.vertices.size()) return;
   mesh.vertices.resize(kept);
   mesh.vertices.shrink_to_fit();
-  for (auto& t : mesh.triangles)
-    for (auto& v : t) v = place[v];
+  each_block(mesh.triangles.size(), [&](std::size_t, std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i)
+      for (auto& v : mesh.triangles[i]) v = place[v];
+  });
 }
 
 }  // namespace
 
 auto bounds(const RawMesh& raw, const std::array<double, 3>& offset) -> Box3 {
-  Box3 box;
-  for (const auto& t : raw.triangles) {
-    if (!in_range(t, raw.vertices.size())) continue;
-    const std::array<Point3, 3> p{moved(raw.vertices[t[0]], offset), moved(raw.vertices[t[1]], offset),
-                                  moved(raw.vertices[t[2]], offset)};
-    if (!usable(p[0]) || !usable(p[1]) || !usable(p[2])) continue;
-    if (box.plan.empty()) box.low = box.high = p[0].z;
-    for (const auto& corner : p) {
-      box.plan.add(xy(corner));
-      box.low = std::min(box.low, corner.z);
-      box.high = std::max(box.high, corner.z);
+  std::vector<Box3> boxes(blocks_of(raw.triangles.size()));
+  each_block(raw.triangles.size(), [&](std::size_t block, std::size_t first, std::size_t end) {
+    Box3 box;
+    for (std::size_t i = first; i < end; ++i) {
+      const Triangle& t = raw.triangles[i];
+      if (!in_range(t, raw.vertices.size())) continue;
+      const std::array<Point3, 3> p{moved(raw.vertices[t[0]], offset), moved(raw.vertices[t[1]], offset),
+                                    moved(raw.vertices[t[2]], offset)};
+      if (!usable(p[0]) || !usable(p[1]) || !usable(p[2])) continue;
+      if (box.plan.empty()) box.low = box.high = p[0].z;
+      for (const auto& corner : p) {
+        box.plan.add(xy(corner));
+        box.low = std::min(box.low, corner.z);
+        box.high = std::max(box.high, corner.z);
+      }
     }
+    boxes[block] = box;
+  });
+  Box3 all;
+  for (const Box3& box : boxes) {
+    if (box.plan.empty()) continue;
+    all.low = all.plan.empty() ? box.low : std::min(all.low, box.low);
+    all.high = all.plan.empty() ? box.high : std::max(all.high, box.high);
+    all.plan.add(box.plan.least);
+    all.plan.add(box.plan.most);
   }
-  return box;
+  return all;
 }
 
 auto clean(RawMesh raw, const std::array<double, 3>& shift, const std::optional<geometry::Box2>& within) -> CleanMesh {
@@ -171,43 +311,43 @@ auto clean(RawMesh raw, const std::array<double, 3>& shift, const std::optional<
   counts.vertices_read = raw.vertices.size();
   counts.triangles_read = raw.triangles.size() + raw.short_faces;
   counts.degenerate = raw.short_faces;
-  for (auto& v : raw.vertices) v = moved(v, shift);
+  each_block(raw.vertices.size(), [&](std::size_t, std::size_t first, std::size_t end) {
+    for (std::size_t v = first; v < end; ++v) raw.vertices[v] = moved(raw.vertices[v], shift);
+  });
 
-  Welder welder(raw.vertices);
   auto& triangles = out.mesh.triangles;
-  triangles.reserve(raw.triangles.size());
-  std::vector<std::uint32_t> place(raw.vertices.size(), no_vertex);
-  for (std::uint32_t v = 0; v < raw.vertices.size(); ++v)
-    if (usable(raw.vertices[v])) place[v] = welder.first_at(v);
-  for (std::size_t i = 0; i < raw.triangles.size(); ++i) {
-    const Triangle& t = raw.triangles[i];
-    if (!in_range(t, raw.vertices.size())) {
-      ++counts.out_of_range;
-      continue;
-    }
-    const Triangle welded{place[t[0]], place[t[1]], place[t[2]]};
-    if (std::ranges::find(welded, no_vertex) != welded.end()) {
-      ++counts.not_finite;
-      continue;
-    }
-    const Point3 a = raw.vertices[welded[0]], b = raw.vertices[welded[1]], c = raw.vertices[welded[2]];
-    if (within) {
-      geometry::Box2 box;
-      for (const Point3 p : {a, b, c}) box.add(xy(p));
-      if (!box.overlaps(*within)) continue;
-    }
-    if (!has_area(a, b, c)) {
-      ++counts.degenerate;
-      continue;
-    }
-    triangles.push_back(welded);
-    if (!raw.classes.empty()) out.classes.push_back(raw.classes[i]);
+  triangles = std::move(raw.triangles);
+  out.classes = std::move(raw.classes);
+  struct Found {
+    std::uint64_t out_of_range = 0, not_finite = 0, degenerate = 0;
+  };
+  std::vector<Found> found(blocks_of(triangles.size()));
+  {
+    const auto place = Welder::weld(raw.vertices);
+    keep(triangles, out.classes, [&](std::size_t block, std::size_t i) {
+      Triangle& t = triangles[i];
+      if (!in_range(t, raw.vertices.size())) return ++found[block].out_of_range, false;
+      t = {place[t[0]], place[t[1]], place[t[2]]};
+      if (std::ranges::find(t, no_vertex) != t.end()) return ++found[block].not_finite, false;
+      const Point3 a = raw.vertices[t[0]], b = raw.vertices[t[1]], c = raw.vertices[t[2]];
+      if (within) {
+        geometry::Box2 box;
+        for (const Point3 p : {a, b, c}) box.add(xy(p));
+        if (!box.overlaps(*within)) return false;
+      }
+      return has_area(a, b, c) || (++found[block].degenerate, false);
+    });
   }
-  counts.duplicate = drop_repeated(triangles, out.classes, raw.vertices.size());
+  for (const Found& one : found) {
+    counts.out_of_range += one.out_of_range;
+    counts.not_finite += one.not_finite;
+    counts.degenerate += one.degenerate;
+  }
+  if (2 * triangles.size() < no_vertex) look_at_neighbours<std::uint32_t>(out, raw.vertices.size());
+  else look_at_neighbours<std::uint64_t>(out, raw.vertices.size());
   out.mesh.vertices = std::move(raw.vertices);
   compact(out.mesh);
   triangles.shrink_to_fit();
-  count_edges(triangles, out.mesh.vertices.size(), counts);
   counts.vertices = out.mesh.vertices.size();
   counts.triangles = triangles.size();
   return out;

@@ -1,6 +1,5 @@
 #include "mansard/ingest/detail/crs.hpp"
 
-#include <ogr_spatialref.h>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -8,84 +7,10 @@
 
 #include "mansard/base/text.hpp"
 #include "mansard/ingest/detail/gdal_messages.hpp"
+#include "mansard/ingest/detail/spatial_reference.hpp"
 
 namespace mansard::ingest::detail {
 namespace {
-
-/// A CRS whose coordinates are always x (east, longitude) before y, as files keep them and as this engine works,
-/// whatever the authority's axis order.
-struct Crs {
-  OGRSpatialReference system;
-  Crs() { system.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER); }
-};
-
-auto from_wkt(const std::string& wkt) -> std::optional<Crs> {
-  Crs crs;
-  if (crs.system.importFromWkt(wkt.c_str()) != OGRERR_NONE) return std::nullopt;
-  return crs;
-}
-
-auto from_words(const std::string& words) -> std::optional<Crs> {
-  Crs crs;
-  if (crs.system.SetFromUserInput(words.c_str(), OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get()) !=
-      OGRERR_NONE)
-    return std::nullopt;
-  return crs;
-}
-
-auto wkt_of(const OGRSpatialReference& system) -> std::string {
-  char* text = nullptr;
-  const char* options[] = {"FORMAT=WKT2_2019", "MULTILINE=NO", nullptr};
-  const OGRErr failed = system.exportToWkt(&text, options);
-  std::string wkt = failed == OGRERR_NONE && text != nullptr ? text : "";
-  CPLFree(text);
-  return wkt;
-}
-
-auto authority_code(const OGRSpatialReference& system) -> std::optional<std::string> {
-  const char* authority = system.GetAuthorityName(nullptr);
-  const char* code = system.GetAuthorityCode(nullptr);
-  if (authority == nullptr || code == nullptr || std::string_view(authority) != "EPSG") return std::nullopt;
-  return "EPSG:" + std::string(code);
-}
-
-/// "EPSG:n" as the CRS says, or as the register recognises it, else its WKT.
-auto name_of(const OGRSpatialReference& system) -> std::string {
-  if (auto code = authority_code(system)) return *code;
-  OGRSpatialReference copy(system);
-  if (copy.AutoIdentifyEPSG() == OGRERR_NONE)
-    if (auto code = authority_code(copy)) return *code;
-  int count = 0;
-  int* confidences = nullptr;
-  OGRSpatialReferenceH* matches = OSRFindMatches(OGRSpatialReference::ToHandle(&copy), nullptr, &count, &confidences);
-  std::optional<std::string> found;
-  // 90 %: equal but for the names.
-  if (count > 0 && confidences[0] >= 90) found = authority_code(*OGRSpatialReference::FromHandle(matches[0]));
-  OSRFreeSRSArray(matches);
-  CPLFree(confidences);
-  return found ? *found : wkt_of(system);
-}
-
-auto in_metres(const OGRSpatialReference& system) -> bool { return std::abs(system.GetLinearUnits() - 1) < 1e-9; }
-
-auto title_of(const OGRSpatialReference& system) -> std::string {
-  const auto code = authority_code(system);
-  const char* name = system.GetName();
-  return (code ? *code + " " : std::string()) + (name != nullptr ? name : "");
-}
-
-/// The CRS the user asked for: projected and metric, since the engine measures in metres.
-auto wanted_crs(const std::string& option) -> base::Result<Crs> {
-  auto crs = from_words(option);
-  if (!crs)
-    return base::error("ingest-crs-option",
-                       "'" + option + "' is not a known CRS; write EPSG:28992, a WKT text, or local", "ingest.crs");
-  if (crs->system.IsProjected() == 0 || !in_metres(crs->system))
-    return base::error("ingest-crs-option",
-                       "'" + option + "' (" + title_of(crs->system) + ") is not a projected CRS in metres; give one",
-                       "ingest.crs");
-  return std::move(*crs);
-}
 
 auto largest_side(const std::vector<RawFeature>& features) -> double {
   double largest = 0;
@@ -111,16 +36,6 @@ auto utm_crs(const OGRSpatialReference& geographic, const geometry::Box2& box) -
   const int zone = utm_zone(centre.x, centre.y, static_cast<int>(number));
   Crs crs;
   if (zone == 0 || crs.system.importFromEPSG(zone) != OGRERR_NONE) return std::nullopt;
-  return crs;
-}
-
-/// Without a vertical part: footprints are flat, and their heights are not used.
-auto flat(const OGRSpatialReference& system) -> Crs {
-  Crs crs;
-  crs.system = system;
-  crs.system.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  if (crs.system.IsCompound() != 0) crs.system.StripVertical();
-  crs.system.DemoteTo2D(nullptr);
   return crs;
 }
 
@@ -156,7 +71,7 @@ auto utm_zone(double longitude, double latitude, int geographic) -> int {
 }
 
 auto choose_way(const FeatureFile& file, const std::string& option, const geometry::Box2& mesh,
-                const std::string& subject) -> base::Result<Way> {
+                const std::string& mesh_crs, const std::string& subject) -> base::Result<Way> {
   const GdalMessages messages;
   if (option == "local") return Way{};
   if (!file.crs_failure.empty() && option.empty())
@@ -179,14 +94,15 @@ auto choose_way(const FeatureFile& file, const std::string& option, const geomet
     auto wanted = wanted_crs(option);
     if (!wanted) return wanted.error();
     target = std::move(*wanted);
-  } else if (source->system.IsProjected() != 0) {
-    if (!in_metres(source->system))
-      return base::error(
-          "ingest-crs-unit",
-          "the CRS of the footprints (" + title_of(source->system) +
-              ") is not in metres; say --crs EPSG:n with a projected CRS that is, and bring the mesh there",
-          subject);
+  } else if (source->system.IsProjected() != 0 && in_metres(source->system)) {
     return Way{name_of(source->system), {}, {}, {}};
+  } else if (!mesh_crs.empty()) {
+    target = from_words(mesh_crs);
+  } else if (source->system.IsProjected() != 0) {
+    return base::error("ingest-crs-unit",
+                       "the CRS of the footprints (" + title_of(source->system) +
+                           ") is not in metres; say --crs EPSG:n with a projected CRS that is, and bring the mesh there",
+                       subject);
   } else {
     target = utm_crs(flat(source->system).system, bounds(file.features));
     if (!target)
@@ -194,6 +110,7 @@ auto choose_way(const FeatureFile& file, const std::string& option, const geomet
                          "the footprints are in degrees where there is no UTM zone; say --crs EPSG:n", subject);
   }
 
+  if (!target) return base::error("ingest-crs-unknown", "the mesh's CRS is not known; say --crs EPSG:n", subject);
   Way way;
   way.name = name_of(target->system);
   const Crs from = flat(source->system), to = flat(target->system);
@@ -203,13 +120,23 @@ auto choose_way(const FeatureFile& file, const std::string& option, const geomet
   return way;
 }
 
+auto way_without_features(const std::string& option, const std::string& mesh_crs) -> base::Result<Way> {
+  const GdalMessages messages;
+  Way way;
+  if (option.empty()) way.name = mesh_crs;
+  if (option.empty() || option == "local") return way;
+  const auto wanted = wanted_crs(option);
+  if (!wanted) return wanted.error();
+  way.name = name_of(wanted->system);
+  return way;
+}
+
 auto go(const Way& way, std::vector<RawFeature>& features, const std::string& subject) -> base::Result<void> {
   if (way.to.empty()) return {};
   const GdalMessages messages;
   const auto from = from_wkt(way.from), to = from_wkt(way.to);
-  std::unique_ptr<OGRCoordinateTransformation> transformation;
-  if (from && to) transformation.reset(OGRCreateCoordinateTransformation(&from->system, &to->system));
-  if (!transformation)
+  const auto way_there = from && to ? transformation(*from, *to) : Transformation();
+  if (!way_there)
     return base::error("ingest-crs-unknown",
                        "there is no way from the footprints' CRS to " + way.name + " (" + messages.failure() +
                            "); say --crs EPSG:n with another one",
@@ -228,7 +155,7 @@ auto go(const Way& way, std::vector<RawFeature>& features, const std::string& su
         }
         done.assign(ring.size(), 0);
         if (!ring.empty())
-          transformation->Transform(static_cast<int>(ring.size()), x.data(), y.data(), nullptr, nullptr, done.data());
+          way_there->Transform(static_cast<int>(ring.size()), x.data(), y.data(), nullptr, nullptr, done.data());
         for (std::size_t i = 0; i < ring.size(); ++i)
           ring[i] = done[i] != 0 ? geometry::Point2{x[i], y[i]} : geometry::Point2{lost, lost};
       }

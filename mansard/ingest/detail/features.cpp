@@ -4,44 +4,96 @@
 #include <algorithm>
 #include <mutex>
 
-#include "mansard/base/files.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/ingest/detail/attributes.hpp"
+#include "mansard/ingest/detail/footprint_cityjson.hpp"
 #include "mansard/ingest/detail/gdal_messages.hpp"
 #include "mansard/ingest/detail/geojson.hpp"
 #include "mansard/ingest/detail/hash.hpp"
+#include "mansard/ingest/detail/osm.hpp"
+#include "mansard/ingest/detail/spatial_reference.hpp"
+#include "mansard/ingest/detail/virtual_files.hpp"
 
 namespace mansard::ingest::detail {
 namespace {
 
 namespace fs = std::filesystem;
 
-auto open(const fs::path& path) -> GDALDatasetUniquePtr {
+auto open(const std::string& name) -> GDALDatasetUniquePtr {
   static std::once_flag registered;
   std::call_once(registered, [] { GDALAllRegister(); });
   // The GML driver would write a .gfs file beside its input.
   const CPLStringList quiet(CSLSetNameValue(nullptr, "WRITE_GFS", "NO"));
   const CPLStringList none;
-  GDALDriverH driver = GDALIdentifyDriverEx(path.c_str(), GDAL_OF_VECTOR, nullptr, nullptr);
+  GDALDriverH driver = GDALIdentifyDriverEx(name.c_str(), GDAL_OF_VECTOR, nullptr, nullptr);
   const bool gml = driver != nullptr && std::string_view(GDALGetDescription(driver)) == "GML";
-  return GDALDatasetUniquePtr(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
+  return GDALDatasetUniquePtr(GDALDataset::Open(name.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
                                                 nullptr, gml ? quiet.List() : none.List(), nullptr));
+}
+
+/// Where the password stands in a database's address; nothing where there is none.
+auto password_in(const std::string& words) -> std::pair<std::size_t, std::size_t> {
+  constexpr std::string_view key = "password=";
+  if (const auto at = words.find(key); at != words.npos) {
+    const std::size_t start = at + key.size();
+    const bool quoted = start < words.size() && words[start] == '\'';
+    std::size_t end = start + (quoted ? 1 : 0);
+    while (end < words.size() && (quoted ? words[end] != '\'' : words[end] != ' ' && words[end] != '&'))
+      end += quoted && words[end] == '\\' ? 2 : 1;
+    return {start, std::min(words.size(), end + (quoted ? 1 : 0)) - start};
+  }
+  const auto slashes = words.find("://");
+  if (slashes == words.npos) return {};
+  const auto host = words.find('@', slashes), colon = words.find(':', slashes + 3);
+  return colon < host && host != words.npos ? std::pair{colon + 1, host - colon - 1}
+                                            : std::pair<std::size_t, std::size_t>{};
+}
+
+/// Far away or not a file at all: its bytes are not fetched again to be hashed.
+auto is_elsewhere(const fs::path& path) -> bool {
+  const std::string name = path.string();
+  return is_database(path) || name.find("/vsicurl/") != name.npos || name.starts_with("/vsis3/") ||
+         name.starts_with("/vsigs/") || name.starts_with("/vsiaz/") || name.starts_with("/vsiadls/") ||
+         name.starts_with("/vsiswift/") || name.starts_with("/vsioss/");
+}
+
+/// Everything that was read of the features, as bytes that differ where they differ.
+auto input_of(const std::vector<RawFeature>& features, const std::string& name) -> InputFile {
+  std::string text;
+  for (const auto& feature : features) {
+    text += std::to_string(feature.number) + "\n";
+    for (const auto& [key, value] : feature.attributes) {
+      text += std::to_string(key.size()) + ":" + key + std::to_string(value.index());
+      if (const auto* words = std::get_if<std::string>(&value)) text += std::to_string(words->size()) + ":" + *words;
+      if (const auto* whole = std::get_if<std::int64_t>(&value)) text += std::to_string(*whole);
+      if (const auto* number = std::get_if<double>(&value)) text += base::to_text(*number);
+      if (const auto* flag = std::get_if<bool>(&value)) text += *flag ? "1" : "0";
+      text += ";";
+    }
+    for (const auto& part : feature.parts)
+      for (const auto& ring : part)
+        for (const auto p : ring) text += base::to_text(p.x) + " " + base::to_text(p.y) + ",";
+  }
+  return {name, text.size(), sha256(text)};
 }
 
 /// The files a source consists of (a Shapefile is three or more), by name; folders among them are looked into.
 auto inputs_of(GDALDataset& dataset, const fs::path& path) -> base::Result<std::vector<InputFile>> {
   const CPLStringList listed(dataset.GetFileList());
+  const bool archive = name_for_gdal(path).starts_with("/vsizip/");
   std::vector<std::string> names;
-  for (int i = 0; i < listed.Count(); ++i) names.emplace_back(listed[i]);
+  // A packed file is known by the name it was asked for by.
+  for (int i = 0; i < listed.Count() && (archive || !is_virtual(path)); ++i) names.emplace_back(listed[i]);
   if (names.empty()) names.push_back(path.string());
   std::ranges::sort(names);
   std::vector<InputFile> out;
   for (const auto& name : names) {
     std::error_code failure;
-    if (!fs::is_regular_file(name, failure)) continue;
-    const auto bytes = base::read_file(name);
+    if (!is_virtual(name) && !fs::is_regular_file(name, failure)) continue;
+    const auto bytes = Bytes::of(name);
+    if (!bytes && is_virtual(name)) continue;  // a folder in an archive
     if (!bytes) return bytes.error();
-    out.push_back({name, bytes->size(), sha256(*bytes)});
+    out.push_back({name, bytes->view().size(), sha256(bytes->view())});
   }
   return out;
 }
@@ -51,6 +103,8 @@ auto polygons_possible(OGRLayer& layer) -> bool {
   return type == wkbUnknown || type == wkbGeometryCollection || OGR_GT_IsSubClassOf(type, wkbCurvePolygon) != 0 ||
          OGR_GT_IsSubClassOf(type, wkbMultiSurface) != 0;
 }
+
+auto is_osm(GDALDataset& dataset) -> bool { return std::string_view(dataset.GetDriverName()) == "OSM"; }
 
 auto choose_layer(GDALDataset& dataset, const Options& options, const std::string& subject,
                   std::vector<base::Diagnostic>& warnings) -> base::Result<OGRLayer*> {
@@ -66,7 +120,9 @@ auto choose_layer(GDALDataset& dataset, const Options& options, const std::strin
                            base::did_you_mean(nearest) + "; the file has: " + all,
                        subject);
   }
-  OGRLayer* chosen = nullptr;
+  // Of OpenStreetMap's layers, which are the same in every file, buildings are in one.
+  OGRLayer* chosen = is_osm(dataset) ? dataset.GetLayerByName("multipolygons") : nullptr;
+  if (chosen != nullptr) return chosen;
   for (auto* layer : dataset.GetLayers())
     if (chosen == nullptr && polygons_possible(*layer)) chosen = layer;
   if (names.empty())
@@ -120,93 +176,285 @@ auto to_raw(const OGRFeature& given) -> RawFeature {
   return feature;
 }
 
-auto wkt_of(const OGRSpatialReference* crs) -> std::string {
+auto crs_of(const OGRSpatialReference* crs) -> std::string {
   if (crs == nullptr) return {};
   // GeoPackage has two "undefined" systems of its own; an engineering one is a local frame by another name.
   const char* name = crs->GetName();
   if (crs->IsLocal() || (name != nullptr && std::string_view(name).starts_with("Undefined "))) return {};
-  char* text = nullptr;
-  const char* options[] = {"FORMAT=WKT2_2019", "MULTILINE=NO", nullptr};
-  const OGRErr failed = crs->exportToWkt(&text, options);
-  std::string wkt = failed == OGRERR_NONE && text != nullptr ? text : "";
-  CPLFree(text);
-  return wkt;
+  return wkt_of(*crs);
+}
+
+/// A box in the layer's coordinates beyond which nothing meets `options.bbox`; nothing where that is not known before
+/// all is read. Drivers test shapes where here boxes of shapes count: a building's length around the box, they agree.
+auto box_in(OGRLayer& layer, const Options& options) -> std::optional<geometry::Box2> {
+  if (std::ranges::all_of(options.bbox, [](double c) { return c == 0; }) || !layer.TestCapability(OLCFastSpatialFilter))
+    return std::nullopt;
+  constexpr double around = 10000;  // m; what is longer than 5 km is refused as a footprint
+  const auto& b = options.bbox;
+  const geometry::Box2 box = geometry::Box2{{b[0], b[1]}, {b[2], b[3]}}.grown(around);
+  const OGRSpatialReference* crs = layer.GetSpatialRef();
+  if (crs == nullptr || crs->IsLocal() || options.crs == "local") return box;
+  const Crs own = flat(*crs);
+  if (options.crs.empty()) return crs->IsProjected() != 0 && in_metres(*crs) ? std::optional(box) : std::nullopt;
+  const auto wanted = from_words(options.crs);
+  if (!wanted) return std::nullopt;
+  const Crs working = flat(wanted->system);
+  if (working.system.IsSame(&own.system) != 0) return box;
+  const auto way = transformation(working, own);
+  if (!way) return std::nullopt;
+  geometry::Box2 out;
+  constexpr int steps = 16;
+  for (int i = 0; i <= steps; ++i)
+    for (int j = 0; j <= steps; ++j) {
+      double x = box.least.x + (box.most.x - box.least.x) * i / steps;
+      double y = box.least.y + (box.most.y - box.least.y) * j / steps;
+      if (way->Transform(1, &x, &y) == 0) return std::nullopt;
+      out.add({x, y});
+    }
+  return out;
+}
+
+/// Reads one source from its opening to its last feature.
+class Source {
+ public:
+  Source(const fs::path& path, const Options& options, const base::Run& run)
+      : path_(path), subject_(shown_name(path)), options_(options), run_(run) {}
+
+  auto read() -> base::Result<FeatureFile> {
+    dataset_ = open(name_for_gdal(path_));
+    if (!dataset_) return not_opened();
+    at_opening_ = messages_.failure();
+    if (!is_elsewhere(path_)) {
+      auto inputs = inputs_of(*dataset_, path_);
+      if (!inputs) return inputs.error();
+      out_.inputs = std::move(*inputs);
+    }
+    auto chosen = choose_layer(*dataset_, options_, subject_, out_.warnings);
+    if (!chosen) return chosen.error();
+    OGRLayer& layer = **chosen;
+    out_.crs = crs_of(layer.GetSpatialRef());
+    if (auto done = look_at_geojson(); !done) return done.error();
+    if (!options_.where.empty() && layer.SetAttributeFilter(options_.where.c_str()) != OGRERR_NONE) return bad_filter();
+    const auto box = box_in(layer, options_);
+    if (box) layer.SetSpatialFilterRect(box->least.x, box->least.y, box->most.x, box->most.y);
+    if (auto done = take_all(layer); !done) return done.error();
+    if (box && out_.features.empty() && messages_.failure().empty()) {
+      // Where nothing is near, the message says where all the others are.
+      layer.SetSpatialFilter(nullptr);
+      if (auto done = take_all(layer); !done) return done.error();
+    }
+    if (auto sound = check(layer, box.has_value()); !sound) return sound.error();
+    if (is_database(path_)) std::ranges::sort(out_.features, {}, &RawFeature::number);
+    if (is_elsewhere(path_)) out_.inputs = {input_of(out_.features, subject_)};
+    return std::move(out_);
+  }
+
+ private:
+  auto unreadable(const std::string& why) const -> base::Diagnostic {
+    return base::error("ingest-footprints-format",
+                       "not a readable vector file" + (why.empty() ? std::string() : " (" + why + ")") +
+                           "; check what it is, or export the footprints again",
+                       subject_);
+  }
+
+  auto bad_filter() const -> base::Diagnostic {
+    return base::error("ingest-where",
+                       "'" + options_.where + "' is no filter this layer takes (" + messages_.failure() +
+                           "); write it as in SQL after WHERE",
+                       subject_);
+  }
+
+  auto not_opened() const -> base::Diagnostic {
+    const std::string& why = messages_.failure();
+    if (is_database(path_))
+      return base::error("file-read",
+                         "the database cannot be reached" + (why.empty() ? std::string() : " (" + why + ")") +
+                             "; check its address, the user's rights, and whether GDAL here has its driver",
+                         subject_);
+    if (name_for_gdal(path_).starts_with("/vsizip/"))
+      return unreadable((why.empty() ? std::string() : why + "; ") +
+                        "of an archive that holds more than one source, name one: /vsizip/ARCHIVE/MEMBER");
+    return unreadable(why);
+  }
+
+  auto look_at_geojson() -> base::Result<void> {
+    if (std::string_view(dataset_->GetDriverName()) != "GeoJSON" || is_elsewhere(path_)) return {};
+    const CPLStringList files(dataset_->GetFileList());
+    const auto text = Bytes::of(files.Count() > 0 && !is_virtual(path_) ? fs::path(files[0]) : path_);
+    if (!text) return text.error();
+    out_.assumed_crs = !has_top_level_member(text->view(), "crs");
+    // GDAL complains, and takes degrees instead.
+    if (!out_.assumed_crs && at_opening_.find("crs") != std::string::npos) out_.crs_failure = at_opening_;
+    return {};
+  }
+
+  auto take_all(OGRLayer& layer) -> base::Result<void> {
+    // Features of OpenStreetMap come from all layers as they lie in the file.
+    const bool osm = is_osm(*dataset_);
+    layer.ResetReading();
+    if (osm) dataset_->ResetReading();
+    for (;;) {
+      if (run_.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+      messages_.forget();
+      OGRLayer* of = &layer;
+      const OGRFeatureUniquePtr feature{osm ? dataset_->GetNextFeature(&of, nullptr, nullptr, nullptr)
+                                            : layer.GetNextFeature()};
+      if (!feature) return {};
+      if (of != &layer) continue;
+      RawFeature raw = to_raw(*feature);
+      raw.failure = messages_.failure();
+      if (osm) {
+        split_tags(raw.attributes);
+        raw.own_id = osm_name(raw.attributes);
+        if (!is_building(raw.attributes)) {
+          ++no_buildings_;
+          continue;
+        }
+      }
+      out_.features.push_back(std::move(raw));
+    }
+  }
+
+  auto check(OGRLayer& layer, bool boxed) const -> base::Result<void> {
+    const auto& features = out_.features;
+    // A source that breaks off says so; databases only look at the filter now.
+    if (!messages_.failure().empty())
+      return !options_.where.empty() && features.empty() ? bad_filter() : unreadable(messages_.failure());
+    if (features.empty() && !at_opening_.empty()) return unreadable(at_opening_);
+    // FlatGeobuf's reader stops without a word where the file does, but the header has the number of features.
+    const bool counted =
+        std::string_view(dataset_->GetDriverName()) == "FlatGeobuf" && options_.where.empty() && !boxed;
+    if (const auto count = counted ? layer.GetFeatureCount(FALSE) : 0; count > static_cast<GIntBig>(features.size()))
+      return unreadable("it holds " + std::to_string(features.size()) + " of the " + std::to_string(count) +
+                        " features it promises");
+    if (features.empty() && no_buildings_ > 0)
+      return base::error("ingest-footprints-none",
+                         "none of the " + std::to_string(no_buildings_) +
+                             " areas is tagged as a building; give a file with buildings, or check --ingest-where",
+                         subject_);
+    return check_features(features, options_, subject_);
+  }
+
+ public:
+  /// What holds for every kind of source.
+  static auto check_features(const std::vector<RawFeature>& features, const Options& options,
+                             const std::string& subject) -> base::Result<void> {
+    if (features.empty())
+      return base::error("ingest-footprints-none",
+                         options.where.empty() ? "there are no features; give a file with building footprints"
+                                               : "no feature passes the filter '" + options.where + "'",
+                         subject);
+    if (std::ranges::any_of(features, [](const auto& feature) { return !feature.parts.empty(); })) return {};
+    for (const auto& feature : features)
+      if (!feature.failure.empty())
+        return base::error("ingest-footprints-format",
+                           "not a readable vector file (" + feature.failure +
+                               "); check what it is, or export the footprints again",
+                           subject);
+    return base::error("ingest-footprints-geometry",
+                       "none of the " + std::to_string(features.size()) + " features is a polygon (the first is " +
+                           features.front().geometry + "); give footprints as polygons",
+                       subject);
+  }
+
+ private:
+  fs::path path_;
+  std::string subject_;
+  const Options& options_;
+  const base::Run& run_;
+  GdalMessages messages_;
+  std::string at_opening_;
+  GDALDatasetUniquePtr dataset_;  // after the messages: closing may say something too
+  FeatureFile out_;
+  std::size_t no_buildings_ = 0;
+};
+
+/// Only those that pass `where`: their attributes as a table in memory, which SQL is asked of.
+auto keep_where(std::vector<RawFeature>& features, const std::string& where, const std::string& subject)
+    -> base::Result<void> {
+  const GdalMessages messages;
+  GDALAllRegister();
+  GDALDriver* maker = GetGDALDriverManager()->GetDriverByName("Memory");
+  const GDALDatasetUniquePtr made(maker->Create("", 0, 0, 0, GDT_Unknown, nullptr));
+  OGRLayer* table = made->CreateLayer("buildings", nullptr, wkbNone, nullptr);
+  for (const auto& feature : features)
+    for (const auto& [name, value] : feature.attributes) {
+      if (table->GetLayerDefn()->GetFieldIndex(name.c_str()) >= 0 || value.index() == 0) continue;
+      OGRFieldDefn field(name.c_str(), std::holds_alternative<double>(value)         ? OFTReal
+                                       : std::holds_alternative<std::string>(value) ? OFTString
+                                                                                    : OFTInteger64);
+      table->CreateField(&field);
+    }
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    const OGRFeatureUniquePtr row(OGRFeature::CreateFeature(table->GetLayerDefn()));
+    row->SetFID(static_cast<GIntBig>(i));
+    for (const auto& [name, value] : features[i].attributes) {
+      const char* field = name.c_str();
+      if (const auto* words = std::get_if<std::string>(&value)) row->SetField(field, words->c_str());
+      if (const auto* whole = std::get_if<std::int64_t>(&value)) row->SetField(field, static_cast<GIntBig>(*whole));
+      if (const auto* number = std::get_if<double>(&value)) row->SetField(field, *number);
+      if (const auto* flag = std::get_if<bool>(&value)) row->SetField(field, *flag ? 1 : 0);
+    }
+    if (table->CreateFeature(row.get()) != OGRERR_NONE) break;
+  }
+  if (table->SetAttributeFilter(where.c_str()) != OGRERR_NONE)
+    return base::error("ingest-where",
+                       "'" + where + "' is no filter these attributes take (" + messages.failure() +
+                           "); write it as in SQL after WHERE",
+                       subject);
+  std::vector<RawFeature> kept;
+  table->ResetReading();
+  while (const OGRFeatureUniquePtr row{table->GetNextFeature()})
+    kept.push_back(std::move(features[static_cast<std::size_t>(row->GetFID())]));
+  features = std::move(kept);
+  return {};
+}
+
+/// A city model as a source; nothing where the file is none.
+auto read_city_model(const fs::path& path, const Options& options) -> base::Result<std::optional<FeatureFile>> {
+  const std::string ending = plain_name(path).extension().string(), subject = path.string();
+  if (ending != ".json" && ending != ".jsonl" && ending != ".cityjson" && ending != ".cityjsonl")
+    return std::optional<FeatureFile>();
+  const auto bytes = Bytes::of(path);
+  if (!bytes) return bytes.error();
+  if (!looks_like_cityjson(bytes->view())) return std::optional<FeatureFile>();
+  if (!options.layer.empty() && options.layer != "buildings")
+    return base::error("ingest-layer", "there is no layer '" + options.layer + "'; the file has: buildings", subject);
+  auto file = read_cityjson_footprints(bytes->view(), subject);
+  if (!file) return file.error();
+  if (!options.where.empty())
+    if (auto kept = keep_where(file->features, options.where, subject); !kept) return kept.error();
+  if (auto sound = Source::check_features(file->features, options, subject); !sound) return sound.error();
+  file->inputs = {{subject, bytes->view().size(), sha256(bytes->view())}};
+  return std::optional(std::move(*file));
 }
 
 }  // namespace
 
+auto is_database(const fs::path& path) -> bool {
+  const std::string name = path.string();
+  return name.starts_with("PG:") || name.starts_with("postgresql://");
+}
+
+auto shown_name(const fs::path& path) -> std::string {
+  std::string name = path.string();
+  if (!is_database(path)) return name;
+  const auto [start, size] = password_in(name);
+  return size == 0 ? name : name.replace(start, size, "***");
+}
+
 auto read_features(const fs::path& path, const Options& options, const base::Run& run) -> base::Result<FeatureFile> {
   const std::string subject = path.string();
   std::error_code failure;
-  if (!fs::exists(path, failure)) return base::error("file-missing", "no such file; check the path", subject);
-  if (fs::is_regular_file(path, failure) && fs::file_size(path, failure) == 0)
-    return base::error("ingest-footprints-format", "the file is empty; export the footprints again", subject);
-
-  GdalMessages messages;
-  const auto unreadable = [&](const std::string& why) {
-    return base::error("ingest-footprints-format",
-                       "not a readable vector file" + (why.empty() ? std::string() : " (" + why + ")") +
-                           "; check what it is, or export the footprints again",
-                       subject);
-  };
-  const auto dataset = open(path);
-  if (!dataset) return unreadable(messages.failure());
-  const std::string at_opening = messages.failure();
-  FeatureFile out;
-  auto inputs = inputs_of(*dataset, path);
-  if (!inputs) return inputs.error();
-  out.inputs = std::move(*inputs);
-  auto chosen = choose_layer(*dataset, options, subject, out.warnings);
-  if (!chosen) return chosen.error();
-  OGRLayer& layer = **chosen;
-  out.crs = wkt_of(layer.GetSpatialRef());
-  if (std::string_view(dataset->GetDriverName()) == "GeoJSON") {
-    const auto text = base::read_file(path);
-    if (!text) return text.error();
-    out.assumed_crs = !has_top_level_member(*text, "crs");
-    // GDAL complains, and takes degrees instead.
-    if (!out.assumed_crs && at_opening.find("crs") != std::string::npos) out.crs_failure = at_opening;
+  if (!is_database(path)) {
+    if (!is_there(path)) return why_missing(path);
+    if (fs::is_regular_file(path, failure) && fs::file_size(path, failure) == 0)
+      return base::error("ingest-footprints-format", "the file is empty; export the footprints again", subject);
+    auto model = read_city_model(path, options);
+    if (!model) return model.error();
+    if (*model) return **std::move(model);
   }
-  const auto bad_filter = [&] {
-    return base::error("ingest-where",
-                       "'" + options.where + "' is no filter this layer takes (" + messages.failure() +
-                           "); write it as in SQL after WHERE",
-                       subject);
-  };
-  if (!options.where.empty() && layer.SetAttributeFilter(options.where.c_str()) != OGRERR_NONE) return bad_filter();
-
-  layer.ResetReading();
-  for (;;) {
-    if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
-    messages.forget();
-    const OGRFeatureUniquePtr feature{layer.GetNextFeature()};
-    if (!feature) break;
-    out.features.push_back(to_raw(*feature));
-    out.features.back().failure = messages.failure();
-  }
-  // A source that breaks off says so; databases only look at the filter now.
-  if (!messages.failure().empty())
-    return !options.where.empty() && out.features.empty() ? bad_filter() : unreadable(messages.failure());
-  if (out.features.empty() && !at_opening.empty()) return unreadable(at_opening);
-  // FlatGeobuf's reader stops without a word where the file does, but the header has the number of features.
-  const bool counted = std::string_view(dataset->GetDriverName()) == "FlatGeobuf" && options.where.empty();
-  if (const auto count = counted ? layer.GetFeatureCount(FALSE) : 0; count > static_cast<GIntBig>(out.features.size()))
-    return unreadable("it holds " + std::to_string(out.features.size()) + " of the " + std::to_string(count) +
-                      " features it promises");
-  if (out.features.empty())
-    return base::error("ingest-footprints-none",
-                       options.where.empty() ? "there are no features; give a file with building footprints"
-                                             : "no feature passes the filter '" + options.where + "'",
-                       subject);
-  if (std::ranges::none_of(out.features, [](const auto& feature) { return !feature.parts.empty(); })) {
-    for (const auto& feature : out.features)
-      if (!feature.failure.empty()) return unreadable(feature.failure);
-    return base::error("ingest-footprints-geometry",
-                       "none of the " + std::to_string(out.features.size()) + " features is a polygon (the first is " +
-                           out.features.front().geometry + "); give footprints as polygons",
-                       subject);
-  }
-  return out;
+  return Source(path, options, run).read();
 }
 
 auto bounds(const RawFeature& feature) -> geometry::Box2 {

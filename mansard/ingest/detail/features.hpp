@@ -17,6 +17,7 @@ using RawPolygon = std::vector<geometry::Ring>;
 
 struct RawFeature {
   std::int64_t number = 0;  ///< the source's own number of the feature (OGR's FID)
+  std::string own_id;  ///< where the kind of source itself has names for its features; else empty
   Attributes attributes;
   std::vector<RawPolygon> parts;
   std::string geometry;         ///< what kind it has in the source, "NONE" for none
@@ -34,7 +35,15 @@ struct FeatureFile {
   std::vector<base::Diagnostic> warnings;
 };
 
-/// Reads the chosen layer of any OGR vector source: polygons with curves as segments and without heights.
+/// The source as it may be shown: the words of a database's address without its password.
+[[nodiscard]] auto shown_name(const std::filesystem::path& path) -> std::string;
+
+/// Whether the words are the address of a database rather than the name of a file: "PG:…", "postgresql://…".
+[[nodiscard]] auto is_database(const std::filesystem::path& path) -> bool;
+
+/// Reads the chosen layer of any OGR vector source: polygons with curves as segments and without heights. With
+/// `options.bbox`, features that cannot meet it may be left out already, but never all. A database and what lies on a
+/// server is known by the hash of its features, in the order of their numbers.
 /// Gives up with "file-missing", "file-read", "ingest-footprints-format", "ingest-footprints-none",
 /// "ingest-footprints-geometry", "ingest-layer", "ingest-where", "cancelled".
 [[nodiscard]] auto read_features(const std::filesystem::path& path, const Options& options, const base::Run& run)

@@ -1,48 +1,21 @@
-#include <tiny_gltf.h>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <optional>
 #include <string>
 
+#include "mansard/ingest/detail/draco.hpp"
+#include "mansard/ingest/detail/gltf_file.hpp"
 #include "mansard/ingest/detail/mesh_formats.hpp"
+#include "mansard/ingest/detail/transform.hpp"
 
 namespace mansard::ingest::detail {
 namespace {
 
 using geometry::Point3;
 
-/// An affine map: three rows of a 3 × 4 matrix.
-struct Transform {
-  std::array<std::array<double, 4>, 3> row{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
-
-  [[nodiscard]] auto operator()(Point3 p) const -> Point3 {
-    const auto along = [&p](const std::array<double, 4>& r) { return r[0] * p.x + r[1] * p.y + r[2] * p.z + r[3]; };
-    return {along(row[0]), along(row[1]), along(row[2])};
-  }
-  /// First `inner`, then this.
-  [[nodiscard]] auto after(const Transform& inner) const -> Transform {
-    Transform out;
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 4; ++j) {
-        out.row[i][j] = j == 3 ? row[i][3] : 0;
-        for (std::size_t k = 0; k < 3; ++k) out.row[i][j] += row[i][k] * inner.row[k][j];
-      }
-    return out;
-  }
-  [[nodiscard]] auto mirrors() const -> bool {
-    const auto column = [this](std::size_t j) { return Point3{row[0][j], row[1][j], row[2][j]}; };
-    return dot(cross(column(0), column(1)), column(2)) < 0;
-  }
-};
-
 auto transform_of(const tinygltf::Node& node) -> Transform {
-  Transform t;
-  if (node.matrix.size() == 16) {
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 4; ++j) t.row[i][j] = node.matrix[4 * j + i];  // stored by columns
-    return t;
-  }
+  if (node.matrix.size() == 16) return Transform::by_columns(node.matrix);
   const auto part = [](const std::vector<double>& given, std::array<double, 4> value, std::size_t size) {
     if (given.size() == size) std::copy(given.begin(), given.end(), value.begin());
     return value;
@@ -54,6 +27,7 @@ auto transform_of(const tinygltf::Node& node) -> Transform {
       {{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
        {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
        {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}}};
+  Transform t;
   for (std::size_t i = 0; i < 3; ++i)
     t.row[i] = {turn[i][0] * scale[0], turn[i][1] * scale[1], turn[i][2] * scale[2], shift[i]};
   return t;
@@ -90,7 +64,7 @@ struct View {
 
 class GltfReader {
  public:
-  GltfReader(const tinygltf::Model& model, const std::string& name) : model_(model), name_(name) {}
+  GltfReader(const tinygltf::Model& model, std::string name) : model_(model), name_(std::move(name)) {}
 
   auto read() -> base::Result<RawMesh> {
     std::vector<int> roots;
@@ -190,6 +164,42 @@ class GltfReader {
     return points;
   }
 
+  /// The corners of the triangles of a primitive, as numbers of its own points; one beyond them where it says so.
+  auto corners_of(const tinygltf::Primitive& primitive, std::size_t points) const
+      -> std::optional<std::vector<std::uint32_t>> {
+    std::vector<std::uint32_t> corners;
+    if (primitive.indices < 0) {
+      for (std::size_t i = 0; i < points; ++i) corners.push_back(static_cast<std::uint32_t>(i));
+      return corners;
+    }
+    const auto* list = accessor(primitive.indices);
+    const auto view = list == nullptr ? std::nullopt
+                                      : view_of(list->bufferView, list->byteOffset, list->count, list->componentType,
+                                                TINYGLTF_TYPE_SCALAR);
+    if (!view) return std::nullopt;
+    corners.reserve(view->count);
+    for (std::size_t i = 0; i < view->count; ++i) {
+      const double corner = view->value(i, 0);
+      corners.push_back(corner < static_cast<double>(points) ? static_cast<std::uint32_t>(corner) : no_vertex);
+    }
+    return corners;
+  }
+
+  auto packed_primitive(const tinygltf::Value& packed, const tinygltf::Accessor& given) const
+      -> base::Result<geometry::Mesh> {
+    const auto whole = [](const tinygltf::Value& object, const char* key) {
+      return object.Has(key) && object.Get(key).IsInt() ? object.Get(key).GetNumberAsInt() : -1;
+    };
+    const int position = packed.Has("attributes") ? whole(packed.Get("attributes"), "POSITION") : -1;
+    const int piece = whole(packed, "bufferView");
+    if (position < 0 || piece < 0 || static_cast<std::size_t>(piece) >= model_.bufferViews.size())
+      return bad("a primitive packed with Draco does not say where it is");
+    const auto bytes = model_.bufferViews[static_cast<std::size_t>(piece)].byteLength;
+    const auto view = view_of(piece, 0, bytes, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_SCALAR);
+    if (!view) return bad("a primitive packed with Draco reaches beyond its buffer");
+    return unpack_draco({view->data, bytes}, static_cast<std::uint32_t>(position), given.normalized, name_);
+  }
+
   auto take_primitive(const tinygltf::Primitive& primitive, const Transform& here) -> base::Result<void> {
     const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
     if (mode != TINYGLTF_MODE_TRIANGLES && mode != TINYGLTF_MODE_TRIANGLE_STRIP && mode != TINYGLTF_MODE_TRIANGLE_FAN)
@@ -197,29 +207,28 @@ class GltfReader {
     const auto at = primitive.attributes.find("POSITION");
     const auto* given = at == primitive.attributes.end() ? nullptr : accessor(at->second);
     if (given == nullptr) return bad("a primitive has no positions");
+    if (const auto packed = primitive.extensions.find("KHR_draco_mesh_compression");
+        packed != primitive.extensions.end()) {
+      auto mesh = packed_primitive(packed->second, *given);
+      if (!mesh) return mesh.error();
+      std::vector<std::uint32_t> corners;
+      for (const auto& triangle : mesh->triangles) corners.insert(corners.end(), triangle.begin(), triangle.end());
+      return add(mesh->vertices, corners, TINYGLTF_MODE_TRIANGLES, here);
+    }
     const auto points = positions_of(*given);
     if (!points) return bad("the positions of a primitive reach beyond their buffer");
+    auto corners = corners_of(primitive, points->size());
+    if (!corners) return bad("the indices of a primitive reach beyond their buffer");
+    return add(*points, *corners, mode, here);
+  }
 
+  auto add(const std::vector<Point3>& points, std::vector<std::uint32_t>& corners, int mode, const Transform& here)
+      -> base::Result<void> {
     const std::size_t first = mesh_.vertices.size();
-    if (first + points->size() >= no_vertex) return bad("more than 4 thousand million vertices");
-    for (const Point3 p : *points) mesh_.vertices.push_back(here(p));
-    std::vector<std::uint32_t> corners;
-    const auto name_corner = [&](double i) {
-      corners.push_back(i < static_cast<double>(points->size())
-                            ? static_cast<std::uint32_t>(first + static_cast<std::size_t>(i))
-                            : no_vertex);
-    };
-    if (primitive.indices >= 0) {
-      const auto* list = accessor(primitive.indices);
-      const auto view = list == nullptr ? std::nullopt
-                                        : view_of(list->bufferView, list->byteOffset, list->count, list->componentType,
-                                                  TINYGLTF_TYPE_SCALAR);
-      if (!view) return bad("the indices of a primitive reach beyond their buffer");
-      for (std::size_t i = 0; i < view->count; ++i) name_corner(view->value(i, 0));
-    } else {
-      for (std::size_t i = 0; i < points->size(); ++i) name_corner(static_cast<double>(i));
-    }
-
+    if (first + points.size() >= no_vertex) return bad("more than 4 thousand million vertices");
+    for (const Point3 p : points) mesh_.vertices.push_back(here(p));
+    for (auto& corner : corners)
+      if (corner != no_vertex) corner += static_cast<std::uint32_t>(first);
     const std::size_t before = mesh_.triangles.size();
     if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) add_strip(mesh_, corners);
     if (mode == TINYGLTF_MODE_TRIANGLE_FAN) add_face(mesh_, corners);
@@ -232,66 +241,31 @@ class GltfReader {
   }
 
   const tinygltf::Model& model_;
-  const std::string& name_;
+  const std::string name_;
   RawMesh mesh_;
   std::size_t visits_ = 0;
 };
 
-/// A required extension this reader cannot do without knowing it; those about looks change no geometry.
-auto unknown_extension(const tinygltf::Model& model) -> std::optional<std::string> {
-  for (const std::string& name : model.extensionsRequired)
-    if (!name.starts_with("KHR_materials_") && !name.starts_with("KHR_texture_") && !name.starts_with("EXT_texture_") &&
-        !name.starts_with("MSFT_texture_") && name != "KHR_mesh_quantization" && name != "KHR_lights_punctual")
-      return name;
-  return std::nullopt;
-}
-
-auto skip_image(tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int, void*)
-    -> bool {
-  return true;
+/// CESIUM_RTC: where the origin of the file's coordinates lies, on the z-up axes of the tileset around it.
+auto centre_of(const tinygltf::Model& model) -> std::optional<Point3> {
+  const auto found = model.extensions.find("CESIUM_RTC");
+  if (found == model.extensions.end() || !found->second.Has("center")) return std::nullopt;
+  const auto& numbers = found->second.Get("center");
+  if (!numbers.IsArray() || numbers.ArrayLen() != 3) return std::nullopt;
+  const auto at = [&numbers](std::size_t i) {
+    return numbers.Get(static_cast<int>(i)).IsNumber() ? numbers.Get(static_cast<int>(i)).GetNumberAsDouble() : 0.0;
+  };
+  return Point3{at(0), at(1), at(2)};
 }
 
 }  // namespace
 
-auto read_gltf(std::string_view bytes, const std::filesystem::path& path) -> base::Result<RawMesh> {
-  const std::string name = path.string();
-  const bool binary = bytes.starts_with("glTF");
-  if (binary) {
-    // The header's third word is the length of the whole file, little endian.
-    std::uint32_t length = 0;
-    for (std::size_t i = 0; i < 4 && bytes.size() >= 12; ++i)
-      length |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[8 + i])) << (8 * i);
-    if (bytes.size() < 20 || length > bytes.size())
-      return base::error("ingest-mesh-truncated",
-                         "the file has " + std::to_string(bytes.size()) + " bytes of the " + std::to_string(length) +
-                             " it promises; copy or export it again",
-                         name);
-  }
-  tinygltf::TinyGLTF loader;
-  loader.SetImageLoader(&skip_image, nullptr);
-  tinygltf::Model model;
-  std::string errors, warnings;
-  const std::string folder = path.parent_path().string();
-  const auto size = static_cast<unsigned int>(bytes.size());
-  if (bytes.size() > std::numeric_limits<unsigned int>::max())
-    return base::error("ingest-mesh-format", "glTF files end at 4 GB; cut the mesh into tiles", name);
-  const bool loaded =
-      binary ? loader.LoadBinaryFromMemory(&model, &errors, &warnings,
-                                           reinterpret_cast<const unsigned char*>(bytes.data()), size, folder)
-             : loader.LoadASCIIFromString(&model, &errors, &warnings, bytes.data(), size, folder);
-  if (const auto extension = unknown_extension(model)) {
-    const bool packed = extension->find("draco") != extension->npos || extension->find("meshopt") != extension->npos;
-    return base::error("ingest-mesh-format",
-                       packed
-                           ? "the mesh is compressed (" + *extension + "), which is not read; write it uncompressed"
-                           : "the file requires the extension " + *extension + ", which is not read; write it without",
-                       name);
-  }
-  if (!loaded) {
-    for (char& c : errors) c = c == '\n' ? ' ' : c;
-    return base::error("ingest-mesh-format", "not a readable glTF file (" + errors + "); export the mesh again", name);
-  }
-  return GltfReader(model, name).read();
+auto read_gltf(std::string_view bytes, const std::filesystem::path& path) -> base::Result<GltfMesh> {
+  auto file = load_gltf(bytes, path);
+  if (!file) return file.error();
+  auto mesh = GltfReader(file->model, path.string()).read();
+  if (!mesh) return mesh.error();
+  return GltfMesh{std::move(*mesh), centre_of(file->model), std::move(file->buffers)};
 }
 
 }  // namespace mansard::ingest::detail

@@ -1,147 +1,340 @@
 #include "mansard/ingest/detail/mesh_files.hpp"
 
+#include <cpl_string.h>
+#include <cpl_vsi.h>
+#include <gdal.h>
 #include <algorithm>
-#include <array>
-#include <exception>
-#include <new>
+#include <map>
 
-#include "mansard/base/files.hpp"
-#include "mansard/ingest/detail/hash.hpp"
-#include "mansard/ingest/detail/mesh_formats.hpp"
+#include "mansard/ingest/detail/append.hpp"
+#include "mansard/ingest/detail/clean.hpp"
+#include "mansard/ingest/detail/context_capture.hpp"
+#include "mansard/ingest/detail/gdal_messages.hpp"
+#include "mansard/ingest/detail/mesh_file.hpp"
+#include "mansard/ingest/detail/raster.hpp"
+#include "mansard/ingest/detail/spatial_reference.hpp"
+#include "mansard/ingest/detail/virtual_files.hpp"
+#include "mansard/ingest/input_file.hpp"
 
 namespace mansard::ingest::detail {
 namespace {
 
 namespace fs = std::filesystem;
+using geometry::Box2;
+using geometry::Point2;
+using geometry::Point3;
 
-constexpr std::array<std::string_view, 5> mesh_endings{".obj", ".ply", ".off", ".glb", ".gltf"};
+constexpr const char* tileset_name = "tileset.json";
 
-auto ending_of(const fs::path& path) -> std::string {
-  std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(),
-                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  return ending;
+auto cancelled() -> base::Diagnostic { return base::error("cancelled", "stopped on request; nothing was written"); }
+
+/// Archives are folders; the ending .3tz is that of a zipped tileset.
+auto unpacked_name(const fs::path& path) -> fs::path {
+  if (is_virtual(path)) return path;
+  const std::string ending = ending_of(path);
+  if (ending == ".3tz") return "/vsizip/{" + path.string() + "}";
+  return ending == ".zip" ? fs::path("/vsizip/" + path.string()) : path;
 }
 
-/// The meshes in a folder and those below it (oblique photogrammetry writes a folder per tile), by their whole path.
-auto meshes_in(const fs::path& folder) -> base::Result<std::vector<fs::path>> {
+auto is_folder(const fs::path& path) -> bool {
+  if (!is_virtual(path)) {
+    std::error_code failure;
+    return fs::is_directory(path, failure);
+  }
+  const GdalMessages messages;
+  VSIStatBufL found{};
+  return VSIStatL(path.string().c_str(), &found) == 0 && VSI_ISDIR(found.st_mode);
+}
+
+/// All files in a folder and below it, in no order; folders too, which end in '/'.
+auto files_below(const fs::path& folder) -> base::Result<std::vector<fs::path>> {
   std::vector<fs::path> found;
+  if (is_virtual(folder)) {
+    const GdalMessages messages;
+    const CPLStringList names(VSIReadDirRecursive(folder.string().c_str()));
+    for (int i = 0; i < names.size(); ++i) found.push_back(folder / names[i]);
+    return found;
+  }
   std::error_code failure;
   for (fs::recursive_directory_iterator at(folder, failure), end; !failure && at != end; at.increment(failure))
-    // Hidden files are not the user's: macOS leaves a ._name beside every name it copies.
-    if (at->is_regular_file(failure) && !at->path().filename().string().starts_with('.') &&
-        std::ranges::find(mesh_endings, ending_of(at->path())) != mesh_endings.end())
-      found.push_back(at->path());
+    if (at->is_regular_file(failure)) found.push_back(at->path());
   if (failure) return base::error("file-read", "cannot list the folder: " + failure.message(), folder.string());
-  if (found.empty())
-    return base::error("ingest-mesh-empty", "the folder holds no meshes; they end in .obj, .ply, .off, .glb or .gltf",
-                       folder.string());
-  std::ranges::sort(found, {}, [](const fs::path& path) { return path.generic_string(); });
   return found;
 }
 
-struct OneFile {
-  RawMesh mesh;
-  InputFile input;
-  std::optional<base::Diagnostic> failure;
-};
-
-/// By what the file starts with, where formats say so themselves, else by its name.
-auto parse(std::string_view bytes, const fs::path& path, bool& y_up) -> base::Result<RawMesh> {
-  const std::string name = path.string(), ending = ending_of(path);
-  if (bytes.empty()) return base::error("ingest-mesh-empty", "the file is empty; copy or export it again", name);
-  if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return read_ply(bytes, name);
-  y_up = bytes.starts_with("glTF") || ending == ".gltf";
-  if (y_up) return read_gltf(bytes, path);
-  if (ending == ".obj") return read_obj(bytes, name);
-  if (ending == ".off" || bytes.starts_with("OFF")) return read_off(bytes, name);
-  if (ending == ".ply" || ending == ".glb")
-    return base::error("ingest-mesh-format", "the file is not what its name says (" + ending + "); check what it is",
-                       name);
-  return base::error("ingest-mesh-format", "not a mesh that is read here; give OBJ, PLY, OFF, GLB or glTF", name);
+auto is_below(const fs::path& file, const std::vector<std::string>& folders) -> bool {
+  const std::string name = file.string();  // generic_string() would make "/vsizip//tmp" another name
+  return std::ranges::any_of(folders, [&](const std::string& folder) { return name.starts_with(folder); });
 }
 
-auto read_one(const fs::path& path, UpAxis up) -> OneFile {
-  OneFile out;
-  const std::string name = path.string();
-  try {
-    const auto bytes = base::read_file(path);
-    if (!bytes) return out.failure = bytes.error(), out;
-    out.input = {name, bytes->size(), sha256(*bytes)};
-    bool y_up = false;
-    auto mesh = parse(*bytes, path, y_up);
-    if (!mesh) return out.failure = mesh.error(), out;
-    out.mesh = std::move(*mesh);
-    if (up == UpAxis::y || (up == UpAxis::automatic && y_up))
-      for (auto& v : out.mesh.vertices) v = {v.x, -v.z, v.y};
-  } catch (const std::bad_alloc&) {
-    out.mesh = {};
-    out.failure = base::error("ingest-memory", "the mesh does not fit into memory; cut it into tiles", name);
-  } catch (const std::exception& e) {
-    out.failure =
-        base::error("ingest-mesh-format", std::string("cannot be read (") + e.what() + "); check what it is", name);
+auto crs_of_raster(const fs::path& path) -> std::optional<MeshCrs> {
+  const GdalMessages messages;
+  GDALAllRegister();
+  GDALDatasetH data =
+      GDALOpenEx(name_for_gdal(path).c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr, nullptr, nullptr);
+  if (data == nullptr) return std::nullopt;  // why, reading it says
+  std::optional<MeshCrs> crs;
+  const auto* system = OGRSpatialReference::FromHandle(GDALGetSpatialRef(data));
+  if (system != nullptr && (system->IsProjected() != 0 || system->IsGeographic() != 0)) {
+    crs.emplace();
+    crs->wkt = wkt_of(flat(*system).system);
   }
-  return out;
+  GDALClose(data);
+  return crs;
+}
+
+void warn_of_skipped(const std::map<std::string, std::size_t>& skipped, const std::string& subject,
+                     std::vector<base::Diagnostic>& warnings) {
+  for (const auto& [kind, count] : skipped)
+    warnings.push_back(base::warning("ingest-tile-skipped",
+                                     std::to_string(count) + " tiles hold " + kind +
+                                         ", of which no surface is read (points, instances or vectors)",
+                                     subject));
 }
 
 }  // namespace
 
-auto read_meshes(const std::vector<fs::path>& paths, UpAxis up, const base::Run& run) -> base::Result<MeshFiles> {
-  std::vector<fs::path> files;
-  for (const auto& path : paths) {
-    std::error_code failure;
-    if (!fs::is_directory(path, failure)) {
-      files.push_back(path);
+auto MeshReading::list_folder(const fs::path& folder) -> base::Result<void> {
+  const auto below = files_below(folder);
+  if (!below) return below.error();
+  // What is in the folder of a tileset belongs to it, and is placed by it only.
+  std::vector<std::string> tilesets;
+  std::vector<fs::path> found;
+  for (const auto& path : *below)
+    if (path.filename() == tileset_name) tilesets.push_back(path.parent_path().string() + "/");
+  std::ranges::sort(tilesets);
+  for (std::size_t i = 0; i < tilesets.size(); ++i) {
+    const std::vector<std::string> before(tilesets.begin(), tilesets.begin() + static_cast<std::ptrdiff_t>(i));
+    if (!is_below(tilesets[i], before)) found.emplace_back(tilesets[i] + tileset_name);
+  }
+  for (const auto& path : *below)
+    if (is_mesh_name(path) && !is_below(path, tilesets)) found.push_back(path);
+  if (found.empty())
+    return base::error("ingest-mesh-empty",
+                       "the folder holds no meshes; they end in .obj, .ply, .off, .glb or .gltf, or are a tileset.json",
+                       folder.string());
+  std::ranges::sort(found, {}, [](const fs::path& path) { return path.generic_string(); });
+  for (auto& path : found) {
+    auto& source = sources_.emplace_back();
+    source.kind = path.filename() == tileset_name ? Kind::tileset : Kind::file;
+    source.path = std::move(path);
+  }
+  return {};
+}
+
+auto MeshReading::list(const std::vector<fs::path>& paths) -> base::Result<void> {
+  for (const auto& given : paths) {
+    const fs::path path = unpacked_name(given);
+    if (is_folder(path)) {
+      if (auto done = list_folder(path); !done) return done;
       continue;
     }
-    auto inside = meshes_in(path);
-    if (!inside) return inside.error();
-    files.insert(files.end(), inside->begin(), inside->end());
+    auto& source = sources_.emplace_back();
+    source.path = path;
+    const auto ending = ending_of(path);
+    if (ending.starts_with(".json")) source.kind = Kind::tileset;  // maybe with a server's "?key=…"
+    else if (is_raster(path)) source.kind = Kind::raster;
   }
-  if (files.empty()) return base::error("ingest-mesh-empty", "no mesh was given; name one file or folder at least");
+  if (sources_.empty()) return base::error("ingest-mesh-empty", "no mesh was given; name one file or folder at least");
+  return {};
+}
 
-  std::vector<OneFile> read(files.size());
-  base::parallel_for(files.size(), [&](std::size_t i) {
-    if (!run.cancelled()) read[i] = read_one(files[i], up);
+auto MeshReading::moved_by_option() const -> bool {
+  return options_.mesh_offset[0] != 0 || options_.mesh_offset[1] != 0;
+}
+
+auto MeshReading::find_places() -> base::Result<void> {
+  std::map<fs::path, std::optional<Georeference>> known;
+  for (auto& source : sources_) {
+    if (source.kind == Kind::raster) {
+      source.crs = crs_of_raster(source.path);
+      continue;
+    }
+    if (source.kind == Kind::tileset) {
+      auto tileset = Tileset::open(source.path);
+      if (!tileset) return tileset.error();
+      source.tileset = std::move(*tileset);
+      if (source.tileset->is_geocentric()) {
+        source.crs.emplace().kind = MeshCrs::Kind::geocentric;
+        continue;
+      }
+    }
+    // Whoever moves the mesh in plan says where it is, and so does whoever says that it is nowhere.
+    if (moved_by_option() || options_.crs == "local") continue;
+    const fs::path folder = source.path.parent_path();
+    auto found = known.find(folder);
+    if (found == known.end()) {
+      auto read = georeference_of(folder.empty() ? fs::path(".") : folder);
+      if (!read) return read.error();
+      found = known.emplace(folder, std::move(*read)).first;
+      if (found->second) metadata_.emplace(found->second->input.path, found->second->input);
+    }
+    if (!found->second) continue;
+    source.crs = found->second->crs;
+    source.by_metadata = true;
+  }
+  return {};
+}
+
+auto MeshReading::open(const std::vector<fs::path>& paths, const Options& options, const base::Run& run)
+    -> base::Result<MeshReading> {
+  MeshReading reading(options);
+  if (auto done = reading.list(paths); !done) return done.error();
+  if (auto done = reading.find_places(); !done) return done.error();
+  auto& sources = reading.sources_;
+  base::parallel_for(sources.size(), [&](std::size_t i) {
+    if (sources[i].kind != Kind::file || run.cancelled()) return;
+    sources[i].piece = read_mesh_file(sources[i].path, options.up);
   });
-  if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+  if (run.cancelled()) return cancelled();
+  for (const auto& source : sources)
+    if (source.piece.failure) return *source.piece.failure;
+  return reading;
+}
 
-  MeshFiles out;
-  std::size_t vertices = 0, triangles = 0;
-  for (const auto& one : read) {
-    if (one.failure) return *one.failure;
-    vertices += one.mesh.vertices.size();
-    triangles += one.mesh.triangles.size();
+auto MeshReading::plan() const -> Box2 {
+  Box2 out;
+  const Point2 offset{options_.mesh_offset[0], options_.mesh_offset[1]};
+  for (const auto& source : sources_) {
+    Box2 box;
+    if (source.kind == Kind::file) box = bounds(source.piece.mesh, {0, 0, 0}).plan;
+    if (source.tileset) box = source.tileset->plan();
+    if (box.empty()) continue;
+    out.add(box.least + offset);
+    out.add(box.most + offset);
   }
-  const std::string subject = files.size() == 1 ? files.front().string() : files.front().string() + " and others";
+  return out;
+}
+
+/// A point of the mesh, as its file has it.
+auto MeshReading::place_of(const Source& source) const -> std::optional<Point3> {
+  if (source.tileset) return source.tileset->middle();
+  if (source.kind == Kind::file) return Point3{};  // beside the origin that metadata.xml says
+  return std::nullopt;
+}
+
+auto MeshReading::own_crs() const -> std::string {
+  const GdalMessages messages;
+  for (const auto& source : sources_) {
+    if (!source.crs || source.crs->kind != MeshCrs::Kind::plane) continue;
+    const auto system = from_wkt(source.crs->wkt);
+    if (system && system->system.IsProjected() != 0 && in_metres(system->system)) return name_of(system->system);
+  }
+  return {};
+}
+
+auto MeshReading::own_crs_or_zone() const -> std::string {
+  auto own = own_crs();
+  for (auto source = sources_.begin(); own.empty() && source != sources_.end(); ++source)
+    if (const auto place = place_of(*source); place && source->crs) own = working_crs_of(*source->crs, *place);
+  return own;
+}
+
+auto MeshReading::choose_ways(const std::string& working) -> base::Result<void> {
+  for (auto& source : sources_) {
+    // In a local frame a mesh keeps its own numbers, but for those that count from the middle of the earth.
+    const bool on_earth = source.crs && source.crs->kind == MeshCrs::Kind::geocentric && !source.by_metadata;
+    if (!source.crs || (working.empty() && !on_earth)) continue;
+    auto way = WayOfMesh::between(*source.crs, working, source.path.string());
+    if (!way) return way.error();
+    source.way = std::move(*way);
+  }
+  return {};
+}
+
+auto MeshReading::list_tiles(const std::optional<Box2>& within, const base::Run& run) -> base::Result<void> {
+  for (auto& source : sources_) {
+    if (!source.tileset) continue;
+    const bool on_earth = source.tileset->is_geocentric();
+    const auto box = within && source.way && !on_earth ? source.way->back(*within) : within;
+    const TileFilter filter(box, on_earth && source.way ? &*source.way : nullptr);
+    auto tiles = source.tileset->tiles(options_.tile_error, options_.up, filter, run);
+    if (!tiles) return tiles.error();
+    source.tiles = std::move(tiles->files);
+    source.piece.inputs = std::move(tiles->inputs);
+    tiles_beside_ += tiles->beside;
+  }
+  return {};
+}
+
+/// All pieces of a source, on their way to the working CRS.
+auto MeshReading::read_placed(Source& source, const std::optional<Box2>& within, const base::Run& run)
+    -> std::vector<MeshPiece> {
+  std::vector<MeshPiece> pieces;
+  if (source.kind == Kind::raster) {
+    auto& piece = pieces.emplace_back();
+    const auto box = within && source.way ? source.way->back(*within) : within;
+    auto raster = read_raster(source.path, box);
+    if (!raster) return piece.failure = raster.error(), pieces;
+    piece.mesh = std::move(raster->mesh);
+    warnings_.insert(warnings_.end(), raster->warnings.begin(), raster->warnings.end());
+    auto input = input_file(source.path);
+    if (input) piece.inputs.push_back(std::move(*input));
+  } else {
+    pieces.push_back(std::move(source.piece));
+  }
+  const std::size_t first = source.tileset ? 1 : 0;
+  pieces.resize(pieces.size() + source.tiles.size());
+  base::parallel_for(pieces.size(), [&](std::size_t i) {
+    if (run.cancelled()) return;
+    if (source.tileset && i >= first) pieces[i] = read_tile_file(source.tiles[i - first]);
+    if (source.way) source.way->take(pieces[i].mesh.vertices);
+  });
+  return pieces;
+}
+
+auto MeshReading::finish(const std::string& working, const std::optional<Box2>& within, const base::Run& run)
+    -> base::Result<MeshFiles> {
+  const std::string name = sources_.front().path.string();
+  const std::string subject = sources_.size() == 1 ? name : name + " and others";
+  std::optional<Box2> raw = within;
+  if (raw) {
+    const Point2 offset{options_.mesh_offset[0], options_.mesh_offset[1]};
+    raw = Box2{raw->least - offset, raw->most - offset};
+  }
+  if (auto done = choose_ways(working); !done) return done.error();
+  if (auto done = list_tiles(raw, run); !done) return done.error();
+
+  std::vector<MeshPiece> pieces;
+  std::map<std::string, std::size_t> skipped;
+  std::size_t vertices = 0, triangles = 0;
+  for (auto& source : sources_) {
+    auto some = read_placed(source, raw, run);
+    if (run.cancelled()) return cancelled();
+    for (auto& piece : some) {
+      if (piece.failure) return *piece.failure;
+      vertices += piece.mesh.vertices.size();
+      triangles += piece.mesh.triangles.size();
+      for (const auto& kind : piece.skipped) ++skipped[kind];
+      if (source.kind == Kind::file && piece.mesh.triangles.empty() && sources_.size() > 1)
+        warnings_.push_back(base::warning("ingest-mesh-no-faces", "the file adds no faces", piece.inputs.front().path));
+      pieces.push_back(std::move(piece));
+    }
+  }
+  warn_of_skipped(skipped, subject, warnings_);
   if (vertices >= no_vertex)
     return base::error("ingest-memory", "more than 4 thousand million vertices; reconstruct part after part", subject);
+  if (triangles == 0 && tiles_beside_ > 0)
+    return base::error("ingest-no-overlap",
+                       "no tile of the tileset reaches into the box asked for; check --bbox, --crs and --mesh-offset",
+                       subject);
   if (triangles == 0)
     return base::error("ingest-mesh-unusable",
                        "there are " + std::to_string(vertices) + " vertices but no faces; give a surface, not points",
                        subject);
-  if (read.size() == 1) {
-    out.mesh = std::move(read.front().mesh);
-    out.inputs.push_back(std::move(read.front().input));
-    return out;
+  MeshFiles out;
+  if (pieces.size() > 1) {
+    out.mesh.vertices.reserve(vertices);
+    out.mesh.triangles.reserve(triangles);
   }
-  out.mesh.vertices.reserve(vertices);
-  out.mesh.triangles.reserve(triangles);
-  for (auto& one : read) {
-    const auto first = static_cast<std::uint32_t>(out.mesh.vertices.size());
-    const auto own = static_cast<std::uint32_t>(one.mesh.vertices.size());
-    if (one.mesh.triangles.empty())
-      out.warnings.push_back(base::warning("ingest-mesh-no-faces", "the file adds no faces", one.input.path));
-    out.mesh.vertices.insert(out.mesh.vertices.end(), one.mesh.vertices.begin(), one.mesh.vertices.end());
-    for (const auto& triangle : one.mesh.triangles) {
-      auto& moved = out.mesh.triangles.emplace_back(triangle);
-      // An index beyond its own file must not come to name a vertex of the next one.
-      for (auto& corner : moved) corner = corner < own ? first + corner : no_vertex;
-    }
-    out.mesh.short_faces += one.mesh.short_faces;
-    out.inputs.push_back(std::move(one.input));
-    one = {};
+  for (auto& piece : pieces) {
+    append(out.mesh, std::move(piece.mesh));
+    out.inputs.insert(out.inputs.end(), piece.inputs.begin(), piece.inputs.end());
+    piece = {};
   }
+  if (!working.empty())
+    for (const auto& [folder, input] : metadata_) out.inputs.push_back(input);
+  out.warnings = std::move(warnings_);
   return out;
 }
 

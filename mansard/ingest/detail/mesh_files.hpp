@@ -1,25 +1,90 @@
-// From the paths on the command line to one raw mesh.
+// From the paths on the command line to one raw mesh in the working CRS.
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "mansard/base/result.hpp"
 #include "mansard/base/run.hpp"
+#include "mansard/ingest/detail/mesh_crs.hpp"
 #include "mansard/ingest/detail/raw_mesh.hpp"
+#include "mansard/ingest/detail/tiles3d.hpp"
 #include "mansard/ingest/ingest.hpp"
 
 namespace mansard::ingest::detail {
 
 struct MeshFiles {
-  RawMesh mesh;  ///< of all files, z up, without offset
+  RawMesh mesh;  ///< of all files, z up, in the working CRS but for the offset
   std::vector<InputFile> inputs;
   std::vector<base::Diagnostic> warnings;
 };
 
-/// Gives up with "ingest-mesh-empty", "ingest-mesh-format", "ingest-mesh-truncated", "ingest-mesh-unusable",
-/// "ingest-memory", "file-missing", "file-read", "cancelled".
-[[nodiscard]] auto read_meshes(const std::vector<std::filesystem::path>& paths, UpAxis up, const base::Run& run)
-    -> base::Result<MeshFiles>;
+/// A mesh, with what was read of it.
+struct MeshPiece {
+  RawMesh mesh;
+  std::vector<InputFile> inputs;
+  std::set<std::string> skipped;  ///< kinds of tiles that were not read
+  std::optional<base::Diagnostic> failure;
+};
+
+/// Reading in two steps, since the working CRS is chosen between them: files that say where they are only by their
+/// numbers are read first, tilesets and rasters once it is known where to.
+class MeshReading {
+ public:
+  /// Lists folders, reads mesh files, opens tilesets and rasters. Gives up with "ingest-mesh-empty",
+  /// "ingest-mesh-format", "ingest-mesh-truncated", "ingest-mesh-metadata", "ingest-memory", "file-missing",
+  /// "file-read", "cancelled".
+  [[nodiscard]] static auto open(const std::vector<std::filesystem::path>& paths, const Options& options,
+                                 const base::Run& run) -> base::Result<MeshReading>;
+
+  /// Box in plan, with the offset, of what is not placed on the earth, as its files have it; empty for none.
+  [[nodiscard]] auto plan() const -> geometry::Box2;
+  /// The first projected CRS in metres that a mesh says it is in; empty for none.
+  [[nodiscard]] auto own_crs() const -> std::string;
+  /// The same, or else the UTM zone of the first mesh that is placed on the earth.
+  [[nodiscard]] auto own_crs_or_zone() const -> std::string;
+
+  /// `working` names the CRS, empty for a local frame; `within` is a box in it: what lies beside it need not be read.
+  /// Gives up as `open` does, and with "ingest-mesh-unusable", "ingest-no-overlap", "ingest-crs-unknown",
+  /// "ingest-raster". Can be called once.
+  [[nodiscard]] auto finish(const std::string& working, const std::optional<geometry::Box2>& within,
+                            const base::Run& run) -> base::Result<MeshFiles>;
+
+ private:
+  enum class Kind { file, tileset, raster };
+  struct Source {
+    Kind kind = Kind::file;
+    std::filesystem::path path;
+    std::optional<MeshCrs> crs;          ///< what it says of itself, or metadata.xml says for it
+    bool by_metadata = false;            ///< … the latter
+    std::optional<Tileset> tileset;      ///< of a tileset
+    MeshPiece piece;                     ///< of a file
+    std::vector<TileFile> tiles;         ///< of a tileset
+    std::optional<WayOfMesh> way;        ///< to the working CRS; none where coordinates stay
+  };
+
+  explicit MeshReading(const Options& options) : options_(options) {}
+  [[nodiscard]] auto list(const std::vector<std::filesystem::path>& paths) -> base::Result<void>;
+  [[nodiscard]] auto list_folder(const std::filesystem::path& folder) -> base::Result<void>;
+  [[nodiscard]] auto find_places() -> base::Result<void>;
+  [[nodiscard]] auto moved_by_option() const -> bool;
+  [[nodiscard]] auto place_of(const Source& source) const -> std::optional<geometry::Point3>;
+  [[nodiscard]] auto choose_ways(const std::string& working) -> base::Result<void>;
+  [[nodiscard]] auto list_tiles(const std::optional<geometry::Box2>& within, const base::Run& run)
+      -> base::Result<void>;
+  [[nodiscard]] auto read_placed(Source& source, const std::optional<geometry::Box2>& within, const base::Run& run)
+      -> std::vector<MeshPiece>;
+
+  Options options_;
+  std::vector<Source> sources_;
+  std::map<std::filesystem::path, InputFile> metadata_;  ///< by folder
+  std::vector<InputFile> inputs_;
+  std::vector<base::Diagnostic> warnings_;
+  std::size_t tiles_beside_ = 0;
+};
 
 }  // namespace mansard::ingest::detail

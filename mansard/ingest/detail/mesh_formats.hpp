@@ -3,11 +3,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "mansard/base/result.hpp"
 #include "mansard/ingest/detail/raw_mesh.hpp"
+#include "mansard/ingest/ingest.hpp"
 
 namespace mansard::ingest::detail {
 
@@ -17,7 +19,14 @@ namespace mansard::ingest::detail {
 [[nodiscard]] auto read_ply(std::string_view bytes, const std::string& name) -> base::Result<RawMesh>;
 /// OFF with its C, N and ST variants, as text.
 [[nodiscard]] auto read_off(std::string_view bytes, const std::string& name) -> base::Result<RawMesh>;
-/// glTF 2.0, binary or JSON; `path` leads to the buffers beside it. Coordinates stay y up.
-[[nodiscard]] auto read_gltf(std::string_view bytes, const std::filesystem::path& path) -> base::Result<RawMesh>;
+
+struct GltfMesh {
+  RawMesh mesh;                            ///< y up, as the file has it
+  std::optional<geometry::Point3> centre;  ///< CESIUM_RTC: to be added once z is up
+  std::vector<InputFile> buffers;          ///< files beside it that were read
+};
+/// glTF 2.0, binary or JSON, plain or packed with Draco or meshopt; `path` leads to the buffers beside it. Gives up with
+/// "file-missing" and "file-read" for those too.
+[[nodiscard]] auto read_gltf(std::string_view bytes, const std::filesystem::path& path) -> base::Result<GltfMesh>;
 
 }  // namespace mansard::ingest::detail

@@ -1,31 +1,48 @@
+// Pieces of the file are read side by side, each as if it stood alone; what goes wrong is what the first of them says.
+#include <algorithm>
+#include <optional>
 #include <string>
 
+#include "mansard/base/run.hpp"
 #include "mansard/ingest/detail/mesh_formats.hpp"
+#include "mansard/ingest/detail/text_chunks.hpp"
 #include "mansard/ingest/detail/words.hpp"
 
 namespace mansard::ingest::detail {
 namespace {
 
+/// What a piece of the file gave.
+struct Piece {
+  RawMesh mesh;
+  std::size_t lines = 0;     ///< up to where it was read
+  bool known = false;        ///< some line starts as OBJ's do
+  bool counts_back = false;  ///< some index is negative
+  bool binary = false;       ///< there is a zero byte in it
+  bool truncated = false;    ///< the failure is at the very end of the file
+  std::optional<std::string> failure;
+};
+
 class ObjReader {
  public:
-  ObjReader(std::string_view bytes, const std::string& name)
-      : rest_(bytes), name_(name), whole_(bytes.ends_with('\n')) {}
+  /// `first`: vertices before this piece. `at_end`: whether the file ends with it.
+  ObjReader(std::string_view bytes, std::size_t first, bool at_end)
+      : rest_(bytes), first_(first), breaks_off_(at_end && !bytes.ends_with('\n')) {}
 
-  auto read() -> base::Result<RawMesh> {
-    while (!rest_.empty()) {
+  auto read() -> Piece {
+    // So much that few pieces need more; what is not used costs no memory.
+    out_.mesh.vertices.reserve(rest_.size() / 24 + 1);
+    out_.mesh.triangles.reserve(rest_.size() / 16 + 1);
+    while (!rest_.empty() && !out_.failure) {
       std::string_view line = take_statement();
+      if (line.size() > 2 && line[0] == 'v' && line[1] == ' ' && took_plain_vertex(line)) continue;
+      if (line.size() > 2 && line[0] == 'f' && line[1] == ' ' && took_plain_triangle(line)) continue;
       const std::string_view keyword = take_word(line);
       if (keyword.empty() || keyword.front() == '#') continue;
-      known_ = known_ || is_keyword(keyword);
-      if (keyword == "v") {
-        if (auto done = take_vertex(line); !done) return done.error();
-      } else if (keyword == "f") {
-        if (auto done = take_face(line); !done) return done.error();
-      }
+      out_.known = out_.known || is_keyword(keyword);
+      if (keyword == "v") take_vertex(line);
+      else if (keyword == "f") take_face(line);
     }
-    if (!known_ && count_ > 0)
-      return base::error("ingest-mesh-format", "not an OBJ file: no line starts with v or f; check what it is", name_);
-    return std::move(mesh_);
+    return std::move(out_);
   }
 
  private:
@@ -35,65 +52,123 @@ class ObjReader {
 
   /// A line, with the lines a backslash at its end continues it on.
   auto take_statement() -> std::string_view {
-    ++count_;
+    ++out_.lines;
     std::string_view line = take_line(rest_);
     if (!line.ends_with('\\')) return line;
     joined_.clear();
     while (line.ends_with('\\') && !rest_.empty()) {
       joined_.append(line.substr(0, line.size() - 1)).push_back(' ');
       line = take_line(rest_);
-      ++count_;
+      ++out_.lines;
     }
     joined_.append(line.ends_with('\\') ? line.substr(0, line.size() - 1) : line);
     return joined_;
   }
 
-  auto bad(const std::string& what) const -> base::Diagnostic {
-    if (rest_.empty() && !whole_)
-      return base::error("ingest-mesh-truncated",
-                         "the file breaks off in line " + std::to_string(count_) + "; copy or export it again", name_);
-    return base::error("ingest-mesh-format", "line " + std::to_string(count_) + ": " + what + "; export the mesh again",
-                       name_);
+  void fail(std::string what) {
+    out_.truncated = rest_.empty() && breaks_off_;
+    out_.failure = std::move(what);
   }
 
-  auto take_vertex(std::string_view line) -> base::Result<void> {
+  /// What nearly every vertex is: three plain numbers at the front. Nothing happens where it is not.
+  auto took_plain_vertex(std::string_view line) -> bool {
+    const char *at = line.data() + 2, *end = line.data() + line.size();
+    geometry::Point3 p;
+    if (!take_plain_number(at, end, p.x) || !take_plain_number(at, end, p.y) || !take_plain_number(at, end, p.z))
+      return false;
+    out_.mesh.vertices.push_back(p);
+    return out_.known = true;
+  }
+
+  /// What nearly every face is: three indices from 1 upwards and no more.
+  auto took_plain_triangle(std::string_view line) -> bool {
+    const char *at = line.data() + 2, *end = line.data() + line.size();
+    geometry::Triangle t;
+    for (auto& corner : t)
+      if (!take_plain_index(at, end, corner)) return false;
+    skip_blanks(at, end);
+    if (at != end) return false;
+    for (auto& corner : t) corner = corner > 0 ? corner - 1 : no_vertex;
+    out_.mesh.triangles.push_back(t);
+    return out_.known = true;
+  }
+
+  void take_vertex(std::string_view line) {
     const auto x = to_coordinate(take_word(line)), y = to_coordinate(take_word(line)),
                z = to_coordinate(take_word(line));
-    if (!x || !y || !z) return bad("a vertex needs three numbers");
-    mesh_.vertices.push_back({*x, *y, *z});
-    return {};
+    if (!x || !y || !z) return fail("a vertex needs three numbers");
+    out_.mesh.vertices.push_back({*x, *y, *z});
   }
 
-  auto take_face(std::string_view line) -> base::Result<void> {
+  void take_face(std::string_view line) {
     corners_.clear();
     for (std::string_view word = take_word(line); !word.empty() && word.front() != '#'; word = take_word(line)) {
       const auto corner = to_corner(word);
-      if (!corner) return bad("'" + std::string(word) + "' is not the index of a corner");
+      if (!corner) return fail("'" + std::string(word) + "' is not the index of a corner");
+      out_.counts_back = out_.counts_back || *corner < 0;
       // From 1 upwards, or from −1 backwards among the vertices so far; 0 names none.
-      const auto so_far = static_cast<std::int64_t>(mesh_.vertices.size());
+      const auto so_far = static_cast<std::int64_t>(first_ + out_.mesh.vertices.size());
       corners_.push_back(to_index(*corner > 0 ? *corner - 1 : *corner < 0 ? so_far + *corner : -1));
     }
-    if (corners_.size() < 3 && rest_.empty() && !whole_) return bad("");
-    add_face(mesh_, corners_);
-    return {};
+    if (corners_.size() < 3 && rest_.empty() && breaks_off_) return fail("");
+    add_face(out_.mesh, corners_);
   }
 
   std::string_view rest_;
-  const std::string& name_;
-  bool whole_;  // whether the last line has its end
-  std::size_t count_ = 0;
-  bool known_ = false;
-  RawMesh mesh_;
+  std::size_t first_;
+  bool breaks_off_;  // the file's last line has no end
+  Piece out_;
   std::vector<std::uint32_t> corners_;
   std::string joined_;
 };
 
+auto read_pieces(std::string_view bytes) -> std::vector<Piece> {
+  const auto chunks = chunks_of(bytes, true);
+  std::vector<Piece> pieces(chunks.size());
+  const auto read = [&](std::size_t i, std::size_t first) {
+    pieces[i] = ObjReader(chunks[i], first, i + 1 == chunks.size()).read();
+    pieces[i].binary = chunks[i].find('\0') != std::string_view::npos;
+  };
+  base::parallel_for(chunks.size(), [&](std::size_t i) { read(i, 0); });
+  // Where indices count back, the number of vertices before the piece is needed: only now is it known.
+  std::vector<std::size_t> first(pieces.size(), 0);
+  for (std::size_t i = 1; i < pieces.size(); ++i) first[i] = first[i - 1] + pieces[i - 1].mesh.vertices.size();
+  base::parallel_for(chunks.size(), [&](std::size_t i) {
+    if (pieces[i].counts_back && i > 0) read(i, first[i]);
+  });
+  return pieces;
+}
+
 }  // namespace
 
 auto read_obj(std::string_view bytes, const std::string& name) -> base::Result<RawMesh> {
-  if (bytes.find('\0') != bytes.npos)
+  auto pieces = read_pieces(bytes);
+  std::size_t lines = 0;
+  bool known = false;
+  const Piece* broken = nullptr;
+  for (const auto& piece : pieces) {
+    lines += piece.lines;
+    known = known || piece.known;
+    if (piece.failure) {
+      broken = &piece;
+      break;
+    }
+  }
+  // First of all, wherever it is: what lines of binary data seem to lack helps nobody.
+  if (std::ranges::any_of(pieces, &Piece::binary))
     return base::error("ingest-mesh-format", "not an OBJ file: it holds binary data; check what it is", name);
-  return ObjReader(bytes, name).read();
+  if (broken != nullptr && broken->truncated)
+    return base::error("ingest-mesh-truncated",
+                       "the file breaks off in line " + std::to_string(lines) + "; copy or export it again", name);
+  if (broken != nullptr)
+    return base::error("ingest-mesh-format",
+                       "line " + std::to_string(lines) + ": " + *broken->failure + "; export the mesh again", name);
+  if (!known && lines > 0)
+    return base::error("ingest-mesh-format", "not an OBJ file: no line starts with v or f; check what it is", name);
+  std::vector<RawMesh> meshes;
+  meshes.reserve(pieces.size());
+  for (auto& piece : pieces) meshes.push_back(std::move(piece.mesh));
+  return join(meshes);
 }
 
 }  // namespace mansard::ingest::detail

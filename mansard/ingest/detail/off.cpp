@@ -1,7 +1,10 @@
+#include <array>
+#include <span>
 #include <string>
 
 #include "mansard/base/text.hpp"
 #include "mansard/ingest/detail/mesh_formats.hpp"
+#include "mansard/ingest/detail/text_chunks.hpp"
 #include "mansard/ingest/detail/words.hpp"
 
 namespace mansard::ingest::detail {
@@ -23,6 +26,37 @@ auto is_keyword(std::string_view word) -> bool {
   for (const std::string_view prefix : {"ST", "C", "N"})
     if (word.starts_with(prefix)) word.remove_prefix(prefix.size());
   return word == "OFF";
+}
+
+/// The next word as a coordinate.
+auto take_coordinate(std::string_view& line, double& value) -> bool {
+  const char *at = line.data(), *end = line.data() + line.size();
+  if (take_plain_number(at, end, value)) {
+    line.remove_prefix(static_cast<std::size_t>(at - line.data()));
+    return true;
+  }
+  const auto number = to_coordinate(take_word(line));
+  value = number.value_or(0);
+  return number.has_value();
+}
+
+auto add_vertex(std::string_view line, RawMesh& mesh) -> bool {
+  geometry::Point3 p;
+  if (!take_coordinate(line, p.x) || !take_coordinate(line, p.y) || !take_coordinate(line, p.z)) return false;
+  mesh.vertices.push_back(p);
+  return true;
+}
+
+/// Only faces of plain indices, and of no more corners than have room.
+auto add_plain_face(std::string_view line, RawMesh& mesh) -> bool {
+  const char *at = line.data(), *end = line.data() + line.size();
+  std::uint32_t size = 0;
+  std::array<std::uint32_t, 16> corners{};
+  if (!take_plain_index(at, end, size) || !is_digit(at[-1]) || size > corners.size()) return false;
+  for (std::uint32_t k = 0; k < size; ++k)
+    if (!take_plain_index(at, end, corners[k])) return false;
+  add_face(mesh, std::span(corners).first(size));
+  return true;
 }
 
 }  // namespace
@@ -58,8 +92,16 @@ auto read_off(std::string_view bytes, const std::string& name) -> base::Result<R
     return truncated("the " + std::to_string(*vertices) + " vertices and " + std::to_string(*faces) +
                      " faces it promises");
 
+  const auto points = static_cast<std::size_t>(*vertices);
+  if (auto side_by_side = read_lines(bytes, points + static_cast<std::size_t>(*faces), '#',
+                                     [&](std::string_view text, std::size_t number, RawMesh& piece) {
+                                       text = text.substr(0, text.find('#'));
+                                       return number < points ? add_vertex(text, piece) : add_plain_face(text, piece);
+                                     }))
+    return *std::move(side_by_side);
+
   RawMesh mesh;
-  mesh.vertices.reserve(static_cast<std::size_t>(*vertices));
+  mesh.vertices.reserve(points);
   mesh.triangles.reserve(static_cast<std::size_t>(*faces));
   for (std::int64_t i = 0; i < *vertices; ++i) {
     line = take_content(bytes, count);

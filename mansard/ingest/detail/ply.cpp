@@ -4,10 +4,13 @@
 #include <cmath>
 #include <cstring>
 #include <optional>
+#include <span>
 #include <string>
 
+#include "mansard/base/run.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/ingest/detail/mesh_formats.hpp"
+#include "mansard/ingest/detail/text_chunks.hpp"
 #include "mansard/ingest/detail/words.hpp"
 
 namespace mansard::ingest::detail {
@@ -135,6 +138,226 @@ void take_strip(RawMesh& mesh, const std::vector<double>& list, std::vector<std:
   }
 }
 
+auto is_indices(const Property& property) -> bool {
+  return property.count && (property.name == "vertex_indices" || property.name == "vertex_index");
+}
+
+// ---- Bodies as nearly all files have them, read side by side. Each says whether the body is like that; where not, it
+// is taken value by value below, which also finds out what is wrong with it.
+
+template <class T, std::endian order>
+auto load(const char* at) -> T {
+  std::array<char, sizeof(T)> bytes{};
+  std::memcpy(bytes.data(), at, sizeof(T));
+  if constexpr (order != std::endian::native) std::ranges::reverse(bytes);
+  return std::bit_cast<T>(bytes);
+}
+
+/// Work on `count` elements in blocks that never depend on the number of threads.
+constexpr std::size_t block_size = std::size_t{1} << 16;
+template <class Work>
+void each_block(std::size_t count, const Work& work) {
+  if (count == 0) return;
+  if (count <= block_size) return work(0, 0, count);
+  base::parallel_for((count + block_size - 1) / block_size,
+                     [&](std::size_t b) { work(b, b * block_size, std::min(count, (b + 1) * block_size)); });
+}
+
+/// Vertices without lists whose x, y and z are all of type T.
+template <class T, std::endian order>
+void load_vertices(const char* start, std::size_t stride, const std::array<std::size_t, 3>& at,
+                   std::span<geometry::Point3> out) {
+  each_block(out.size(), [&](std::size_t, std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
+      const char* vertex = start + i * stride;
+      out[i] = {static_cast<double>(load<T, order>(vertex + at[0])),
+                static_cast<double>(load<T, order>(vertex + at[1])),
+                static_cast<double>(load<T, order>(vertex + at[2]))};
+    }
+  });
+}
+
+template <std::endian order>
+auto took_vertices(std::string_view& rest, const Element& element, RawMesh& mesh) -> bool {
+  std::size_t stride = 0, found = 0;
+  std::array<std::size_t, 3> at{};
+  std::array<Type, 3> type{};
+  for (const Property& property : element.properties) {
+    if (property.count) return false;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (property.name == std::string_view("xyz").substr(axis, 1)) {
+        at[axis] = stride;
+        type[axis] = property.type;
+        ++found;
+      }
+    stride += size_of(property.type);
+  }
+  const auto count = static_cast<std::size_t>(element.count);
+  if (found != 3 || type[0] != type[1] || type[0] != type[2] || count > rest.size() / stride) return false;
+  if (type[0] != Type::float32 && type[0] != Type::float64) return false;
+  const std::size_t before = mesh.vertices.size();
+  mesh.vertices.resize(before + count);
+  const auto out = std::span(mesh.vertices).subspan(before);
+  if (type[0] == Type::float32) load_vertices<float, order>(rest.data(), stride, at, out);
+  else load_vertices<double, order>(rest.data(), stride, at, out);
+  rest.remove_prefix(stride * count);
+  return true;
+}
+
+/// Where things are in a face that has one list of 8-bit length, of indices of 32 bits.
+struct FaceLayout {
+  std::size_t before = 0, after = 0;  ///< bytes of other properties
+  bool is_signed = false;
+  std::optional<std::size_t> class_before, class_after;  ///< byte of an 8-bit class among them
+
+  static auto of(const Element& element) -> std::optional<FaceLayout> {
+    FaceLayout out;
+    bool listed = false;
+    for (const Property& property : element.properties) {
+      std::size_t& bytes = listed ? out.after : out.before;
+      if (property.count) {
+        if (listed || !is_indices(property) || property.count != Type::uint8) return std::nullopt;
+        if (property.type != Type::int32 && property.type != Type::uint32) return std::nullopt;
+        out.is_signed = property.type == Type::int32;
+        listed = true;
+        continue;
+      }
+      if (is_class(property)) {
+        if (property.type != Type::uint8) return std::nullopt;
+        (listed ? out.class_after : out.class_before) = bytes;
+      }
+      bytes += size_of(property.type);
+    }
+    if (!listed || (out.class_before && out.class_after)) return std::nullopt;
+    return out;
+  }
+};
+
+template <std::endian order>
+auto took_faces(std::string_view& rest, const Element& element, RawMesh& mesh) -> bool {
+  const auto layout = FaceLayout::of(element);
+  if (!layout || !mesh.triangles.empty()) return false;
+  struct Start {
+    std::size_t byte = 0, triangle = 0;
+  };
+  // Faces differ in length: hop over all, and remember where every block starts.
+  std::vector<Start> starts;
+  std::size_t byte = 0, triangles = 0, short_faces = 0;
+  const auto count = static_cast<std::size_t>(element.count);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i % block_size == 0) starts.push_back({byte, triangles});
+    const std::size_t at = byte + layout->before;
+    if (at >= rest.size()) return false;
+    const auto size = static_cast<unsigned char>(rest[at]);
+    byte = at + 1 + 4 * std::size_t{size} + layout->after;
+    if (byte > rest.size()) return false;
+    if (size < 3) ++short_faces;
+    else triangles += size - 2U;
+  }
+  mesh.triangles.resize(triangles);
+  const bool classed = layout->class_before || layout->class_after;
+  if (classed) mesh.classes.resize(triangles);
+  each_block(count, [&](std::size_t block, std::size_t first, std::size_t end) {
+    const char* at = rest.data() + starts[block].byte;
+    std::size_t out = starts[block].triangle;
+    const auto corner = [&](std::size_t k) {
+      const auto index = load<std::uint32_t, order>(at + layout->before + 1 + 4 * k);
+      return layout->is_signed && index > 0x7fffffffU ? no_vertex : index;
+    };
+    for (std::size_t i = first; i < end; ++i) {
+      const std::size_t size = static_cast<unsigned char>(at[layout->before]);
+      const char* behind = at + layout->before + 1 + 4 * size;
+      const char* kind = layout->class_before ? at + *layout->class_before
+                         : layout->class_after ? behind + *layout->class_after
+                                               : nullptr;
+      for (std::size_t k = 1; k + 1 < size; ++k, ++out) {
+        mesh.triangles[out] = {corner(0), corner(k), corner(k + 1)};
+        if (kind != nullptr) mesh.classes[out] = to_class(static_cast<unsigned char>(*kind));
+      }
+      at = behind + layout->after;
+    }
+  });
+  mesh.short_faces += short_faces;
+  rest.remove_prefix(byte);
+  return true;
+}
+
+/// One element of a text as a line of it: every value, and nothing behind them.
+auto took_line(std::string_view line, const Element& element, bool classed, RawMesh& mesh) -> bool {
+  const char *at = line.data(), *end = line.data() + line.size();
+  const auto take = [&](double& value) {
+    if (take_plain_number(at, end, value)) return true;
+    std::string_view rest(at, static_cast<std::size_t>(end - at));
+    const auto number = to_coordinate(take_word(rest));
+    at = end - rest.size();
+    value = number.value_or(0);
+    return number.has_value();
+  };
+  const bool vertices = element.name == "vertex", faces = element.name == "face";
+  geometry::Point3 point;
+  double of_face = 0;
+  std::array<std::uint32_t, 16> corners{};
+  for (const Property& property : element.properties) {
+    double value = 0;
+    if (!take(value)) return false;
+    if (property.count) {
+      if (!(value >= 0 && value <= 16) || value != std::floor(value)) return false;
+      const auto size = static_cast<std::size_t>(value);
+      for (std::size_t k = 0; k < size; ++k) {
+        if (!take(value)) return false;
+        corners[k] = corner_of(value);
+      }
+      if (faces && is_indices(property)) add_face(mesh, std::span(corners).first(size));
+    } else if (property.name == "x") {
+      point.x = value;
+    } else if (property.name == "y") {
+      point.y = value;
+    } else if (property.name == "z") {
+      point.z = value;
+    } else if (classed && is_class(property)) {
+      of_face = value;
+    }
+  }
+  skip_blanks(at, end);
+  if (at != end) return false;
+  if (vertices) mesh.vertices.push_back(point);
+  if (classed) mesh.classes.resize(mesh.triangles.size(), to_class(of_face));
+  return true;
+}
+
+auto read_text_lines(std::string_view body, const Header& header) -> std::optional<RawMesh> {
+  std::size_t lines = 0;
+  std::vector<std::pair<std::size_t, const Element*>> ends;  // the line after each element's last
+  bool any_class = false;
+  std::size_t face_elements = 0;
+  for (const Element& element : header.elements) {
+    if (element.properties.empty()) continue;
+    if (element.name == "tristrips" || static_cast<std::size_t>(element.count) > body.size()) return std::nullopt;
+    if (element.name == "face") {
+      ++face_elements;
+      any_class = any_class || std::ranges::any_of(element.properties, is_class);
+    }
+    ends.emplace_back(lines += static_cast<std::size_t>(element.count), &element);
+  }
+  if (face_elements > 1) return std::nullopt;
+  return read_lines(body, lines, 0, [&](std::string_view line, std::size_t number, RawMesh& piece) {
+    const auto at = std::ranges::find_if(ends, [&](const auto& end) { return number < end.first; });
+    return took_line(line, *at->second, any_class && at->second->name == "face", piece);
+  });
+}
+
+// ---- Any body, value by value.
+
+template <class Values>
+auto took_side_by_side(Values&, const Element&, RawMesh&) -> bool {
+  return false;
+}
+template <std::endian order>
+auto took_side_by_side(BinaryValues<order>& values, const Element& element, RawMesh& mesh) -> bool {
+  if (element.name == "vertex") return took_vertices<order>(values.rest, element, mesh);
+  return element.name == "face" && took_faces<order>(values.rest, element, mesh);
+}
+
 template <class Values>
 auto take_elements(Values values, const Header& header, const std::string& name) -> base::Result<RawMesh> {
   RawMesh mesh;
@@ -149,6 +372,7 @@ auto take_elements(Values values, const Header& header, const std::string& name)
     if (least * static_cast<double>(element.count) > static_cast<double>(values.rest.size()) + 1)
       return truncated("the " + std::to_string(element.count) + " elements '" + element.name + "' it promises", name);
 
+    if (took_side_by_side(values, element, mesh)) continue;
     const bool vertices = element.name == "vertex", faces = element.name == "face",
                strips = element.name == "tristrips";
     const bool classed = faces && std::ranges::any_of(element.properties, is_class);
@@ -175,7 +399,7 @@ auto take_elements(Values values, const Header& header, const std::string& name)
             size * static_cast<double>(values.least(property.type)) > static_cast<double>(values.rest.size()) + 1)
           values.failed = true;
         if (values.failed) break;
-        const bool indices = property.name == "vertex_indices" || property.name == "vertex_index";
+        const bool indices = is_indices(property);
         list.clear();
         for (double k = 0; k < size; ++k) list.push_back(values.take(property.type));
         if (strips && indices) take_strip(mesh, list, corners);
@@ -267,7 +491,9 @@ auto read_ply(std::string_view bytes, const std::string& name) -> base::Result<R
   switch (header->format) {
     case Format::little: return take_elements(BinaryValues<std::endian::little>{bytes}, *header, name);
     case Format::big: return take_elements(BinaryValues<std::endian::big>{bytes}, *header, name);
-    default: return take_elements(TextValues{bytes}, *header, name);
+    default:
+      if (auto lines = read_text_lines(bytes, *header)) return *std::move(lines);
+      return take_elements(TextValues{bytes}, *header, name);
   }
 }
 

@@ -83,6 +83,7 @@ auto assemble(const ingest::Scene& scene, const std::vector<block::Block>& block
   for (std::size_t i = 0; i < count; ++i) {
     const auto& footprint = scene.footprints[i];
     buildings[i].id = reports[i].id = footprint.id;
+    reports[i].derived = footprint.derived;
     buildings[i].attributes = footprint.attributes;
     buildings[i].footprint = footprint.polygons;
     if (footprint.defect) {

@@ -1,11 +1,60 @@
-// A city as CityJSON 2.0 (https://www.cityjson.org/specs/2.0.1/).
+// Buildings as CityJSON 2.0 and CityJSONSeq (https://www.cityjson.org/specs/2.0.1/), and back.
 #pragma once
 
-#include "mansard/write/detail/parts.hpp"
+#include "mansard/write/detail/json_item.hpp"
+#include "mansard/write/detail/vertex_pool.hpp"
+#include "mansard/write/detail/writers.hpp"
 
 namespace mansard::write::detail {
 
-/// Keys and models must have passed keys_of() and check_models().
-[[nodiscard]] auto cityjson_text(const City& city, const Keys& keys) -> std::string;
+/// The extension that declares what is ours, docs/mansard.ext.json: "+mansard" at the root, "+ms_footprint" of buildings,
+/// "+ms_plan" of their parts.
+inline constexpr std::string_view extension_name = "Mansard";
+inline constexpr std::string_view extension_version = "1.0";
+/// Version 0.1 had no extension, and the plan without the '+'.
+inline constexpr std::string_view plan_name = "+ms_plan", old_plan_name = plan_name.substr(1);
+inline constexpr std::string_view footprint_name = "+ms_footprint";
+
+/// The member "CityObjects" and the vertices of a CityJSON object or feature, building by building. Buildings must have
+/// passed a Gate.
+class CityObjects {
+ public:
+  /// Objects on lines of that level, or on one line when negative.
+  CityObjects(const Header& header, base::Sink& vertices, int level)
+      : frame_(header.frame), level_(level), pool_(vertices) {
+    json_.begin_object();
+  }
+  void add(const Building& building, const Gate::Keyed& keys);
+  /// What was not taken yet.
+  [[nodiscard]] auto take() -> std::string { return json_.take(); }
+  [[nodiscard]] auto end() -> std::string;
+  [[nodiscard]] auto extent() const -> const std::optional<std::array<Vertex, 2>>& { return pool_.extent(); }
+
+ private:
+  void append_part(const Part& part, const std::string& key, const std::string& parent);
+  void append_footprint(const Building& building);
+  void append_solid(std::string_view lod, const std::vector<Surface>& surfaces);
+  void append_loops(const Loops& loops);
+
+  const ingest::Frame frame_;
+  const int level_;
+  VertexPool pool_;
+  JsonText json_;
+};
+
+/// A CityJSON object up to the value of "CityObjects"; its members on lines of that level, or on one line when negative.
+[[nodiscard]] auto cityjson_head(const Header& header, const std::optional<std::array<Vertex, 2>>& extent, int level)
+    -> std::string;
+/// Between the city objects and the vertices of a file, and after these.
+inline constexpr std::string_view cityjson_waist = ",\n\"vertices\":[";
+inline constexpr std::string_view cityjson_foot = "]\n}\n";
+
+/// A building as a CityJSONFeature on one line.
+[[nodiscard]] auto cityjson_feature(const Building& building, const Gate::Keyed& keys, const Header& header)
+    -> std::string;
+
+/// The plans that travel in a CityJSON file as mansard wrote it, without models. Throws a Defect: "write-plan-type", and
+/// those of plans.
+[[nodiscard]] auto read_cityjson_plans(const Item& file) -> City;
 
 }  // namespace mansard::write::detail

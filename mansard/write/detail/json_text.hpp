@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace mansard::write::detail {
 
@@ -32,6 +33,8 @@ class JsonText {
   auto line(int level = 0) -> JsonText&;
 
   [[nodiscard]] auto str() const& -> const std::string& { return text_; }
+  /// What there is so far, to be written by now; what is told next goes on from there.
+  [[nodiscard]] auto take() -> std::string { return std::exchange(text_, {}); }
   [[nodiscard]] auto str() && -> std::string { return std::move(text_); }
 
  private:

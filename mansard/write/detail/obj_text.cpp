@@ -3,6 +3,7 @@
 #include <map>
 
 #include "mansard/base/text.hpp"
+#include "mansard/write/detail/records.hpp"
 #include "mansard/write/detail/triangles.hpp"
 
 namespace mansard::write::detail {
@@ -22,28 +23,15 @@ auto one_line(std::string_view words) -> std::string {
   return line;
 }
 
-auto header(const City& city) -> std::string {
-  std::string out = "# mansard " + one_line(city.made_by.version) + "\n";
-  if (!city.frame.crs.empty()) out += "# crs " + one_line(city.frame.crs) + "\n";
-  out += "# metres, z up, coordinates in full: nothing was taken off\n";
-  for (const auto& input : city.made_by.inputs)
-    out += "# input " + one_line(input.path) + " sha256 " + one_line(input.sha256) + "\n";
-  for (const auto& [name, value] : city.made_by.options)
-    out += "# option " + one_line(name) + " = " + one_line(value) + "\n";
-  return out;
-}
-
 /// The faces of a part as corners: whole where they have no holes, as triangles where they have.
-struct Facets {
-  std::array<std::vector<std::vector<std::uint32_t>>, class_count> by_class;
-};
+using Facets = std::array<std::vector<std::vector<std::uint32_t>>, class_count>;
 
 auto facets_of(const Part& part) -> base::Result<Facets> {
   const auto& solid = part.model.solid;
   Facets facets;
   std::optional<extrude::Triangulated> triangulated;
   for (std::size_t f = 0; f < solid.faces.size(); ++f) {
-    auto& list = facets.by_class[static_cast<std::size_t>(part.model.classes[f])];
+    auto& list = facets[static_cast<std::size_t>(part.model.classes[f])];
     if (solid.faces[f].loops.size() == 1) {
       list.push_back(solid.faces[f].loops[0]);
       continue;
@@ -64,42 +52,53 @@ auto facets_of(const Part& part) -> base::Result<Facets> {
 
 }  // namespace
 
-auto obj_text(const City& city, const Keys& keys, const std::string& mtl_name) -> base::Result<std::string> {
-  std::string out = header(city) + "mtllib " + one_line(mtl_name) + "\n";
-  std::size_t written = 0;  // vertices; OBJ counts them through the whole file, from 1
-  for (std::size_t b = 0; b < city.buildings.size(); ++b)
-    for (std::size_t p = 0; p < city.buildings[b].parts.size(); ++p) {
-      const Part& part = city.buildings[b].parts[p];
-      const auto facets = facets_of(part);
-      if (!facets) return facets.error();
+auto ObjText::head(const Header& header, const std::string& mtl_name) -> std::string {
+  std::string out = "# mansard " + one_line(header.made_by.version) + "\n";
+  if (!header.frame.crs.empty()) out += "# crs " + one_line(header.frame.crs) + "\n";
+  out += "# metres, z up, coordinates in full: nothing was taken off\n";
+  for (const auto& input : header.made_by.inputs)
+    out += "# input " + one_line(input.path) + " sha256 " + one_line(input.sha256) + "\n";
+  for (const auto& [name, value] : header.made_by.options)
+    out += "# option " + one_line(name) + " = " + one_line(value) + "\n";
+  out += std::string(obj_header) + header_record(header) + "\n";
+  return out + "mtllib " + one_line(mtl_name) + "\n";
+}
 
-      if (p == 0) out += "o " + one_word(keys.buildings[b]) + "\n";
-      out += "g " + one_word(keys.parts[b][p]) + "\n";
-      std::map<geometry::Point3, std::size_t> number_of;
-      std::string faces;
-      for (std::size_t c = 0; c < class_count; ++c) {
-        const auto& list = facets->by_class[c];
-        if (list.empty()) continue;
-        faces += "usemtl ";
-        faces += class_name(static_cast<label::Class>(c));
-        faces += '\n';
-        for (const auto& corners : list) {
-          faces += 'f';
-          for (const auto corner : corners) {
-            const auto v = in_file_frame(city.frame, part.model.solid.vertices[corner]);
-            const auto [entry, added] = number_of.try_emplace(v, written + 1);
-            if (added) {
-              ++written;
-              out += "v " + base::to_text(v.x) + " " + base::to_text(v.y) + " " + base::to_text(v.z) + "\n";
-            }
-            faces += ' ' + std::to_string(entry->second);
-          }
-          faces += '\n';
-        }
-      }
-      out += faces;
-    }
+auto ObjText::of(const Building& building, const Gate::Keyed& keys) -> base::Result<std::string> {
+  std::string out = std::string(obj_building) + building_record(building) + "\n";
+  for (std::size_t p = 0; p < building.parts.size(); ++p) {
+    const auto facets = facets_of(building.parts[p]);
+    if (!facets) return facets.error();
+    if (p == 0) out += "o " + one_word(keys.building) + "\n";
+    out += "g " + one_word(keys.parts[p]) + "\n";
+    append_part(out, building.parts[p], *facets);
+  }
   return out;
+}
+
+void ObjText::append_part(std::string& out, const Part& part, const Facets& facets) {
+  std::map<geometry::Point3, std::size_t> number_of;
+  std::string faces;
+  for (std::size_t c = 0; c < class_count; ++c) {
+    if (facets[c].empty()) continue;
+    faces += "usemtl ";
+    faces += class_name(static_cast<label::Class>(c));
+    faces += '\n';
+    for (const auto& corners : facets[c]) {
+      faces += 'f';
+      for (const auto corner : corners) {
+        const auto v = in_file_frame(frame_, part.model.solid.vertices[corner]);
+        const auto [entry, added] = number_of.try_emplace(v, written_ + 1);
+        if (added) {
+          ++written_;
+          out += "v " + base::to_text(v.x) + " " + base::to_text(v.y) + " " + base::to_text(v.z) + "\n";
+        }
+        faces += ' ' + std::to_string(entry->second);
+      }
+      faces += '\n';
+    }
+  }
+  out += faces;
 }
 
 auto mtl_text() -> std::string {

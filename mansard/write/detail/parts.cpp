@@ -28,28 +28,33 @@ auto keys_of(const City& city) -> base::Result<Keys> {
 }
 
 auto check_models(const City& city) -> base::Result<void> {
+  for (const Building& building : city.buildings)
+    if (auto sound = check_model(building); !sound) return sound;
+  return {};
+}
+
+auto check_model(const Building& building) -> base::Result<void> {
   // Beyond this, quantising to 0.1 mm would leave the range where doubles are that fine.
   constexpr double far = 1e7;
   const auto sound = [&](double v) { return std::abs(v) <= far; };
-  for (const Building& building : city.buildings)
-    for (const Part& part : building.parts) {
-      const auto& [vertices, faces] = part.model.solid;
-      const auto give_up = [&](const char* what) {
-        return base::error("write-model", std::string("the model ") + what + "; this is a bug, please report it",
-                           part.id);
-      };
-      for (const Point3& v : vertices)
-        if (!sound(v.x) || !sound(v.y) || !sound(v.z)) return give_up("has a coordinate that is not finite or too far");
-      if (part.model.classes.size() != faces.size()) return give_up("does not have one class per face");
-      for (const auto& face : faces) {
-        if (face.loops.empty()) return give_up("has a face without a loop");
-        if (!(std::abs(geometry::length(face.normal) - 1) < 1e-3))
-          return give_up("has a normal that is not of length 1");
-        for (const auto& loop : face.loops)
-          for (const auto vertex : loop)
-            if (vertex >= vertices.size()) return give_up("names a vertex that does not exist");
-      }
+  for (const Part& part : building.parts) {
+    const auto& [vertices, faces] = part.model.solid;
+    const auto give_up = [&](const char* what) {
+      return base::error("write-model", std::string("the model ") + what + "; this is a bug, please report it",
+                         part.id);
+    };
+    for (const Point3& v : vertices)
+      if (!sound(v.x) || !sound(v.y) || !sound(v.z)) return give_up("has a coordinate that is not finite or too far");
+    if (part.model.classes.size() != faces.size()) return give_up("does not have one class per face");
+    for (const auto& face : faces) {
+      if (face.loops.empty()) return give_up("has a face without a loop");
+      if (!(std::abs(geometry::length(face.normal) - 1) < 1e-3))
+        return give_up("has a normal that is not of length 1");
+      for (const auto& loop : face.loops)
+        for (const auto vertex : loop)
+          if (vertex >= vertices.size()) return give_up("names a vertex that does not exist");
     }
+  }
   return {};
 }
 

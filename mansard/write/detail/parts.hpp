@@ -27,6 +27,7 @@ struct Keys {
 /// Holds every model against what a writer relies on: finite coordinates within 10,000 km, loops that name vertices, a
 /// class per face, unit normals. Gives up with "write-model".
 [[nodiscard]] auto check_models(const City& city) -> base::Result<void>;
+[[nodiscard]] auto check_model(const Building& building) -> base::Result<void>;
 
 /// wall, party_wall, roof, ground, soffit: the names of materials, in the order of label::Class.
 [[nodiscard]] auto class_name(label::Class c) -> std::string_view;

@@ -1,7 +1,6 @@
 #include "mansard/write/detail/plan_text.hpp"
 
 namespace mansard::write::detail {
-namespace {
 
 void append_frame(JsonText& json, const ingest::Frame& frame) {
   json.begin_object().key("origin").begin_array();
@@ -20,30 +19,50 @@ void append_footprint(JsonText& json, const std::vector<geometry::Polygon>& foot
   json.end_array();
 }
 
+namespace {
+
+/// What follows starts `deeper` levels below `level`, or goes on where that is negative.
+auto line(JsonText& json, int level, int deeper) -> JsonText& { return json.line(level < 0 ? -1 : level + deeper); }
+
 }  // namespace
 
-auto plan_text(const City& city) -> std::string {
-  JsonText json;
-  json.begin_object().line(1).key("type").text(plan_type).line(1).key("version").whole(plan_version);
-  append_made_by(json.line(1).key("made_by"), city.made_by);
-  append_frame(json.line(1).key("frame"), city.frame);
-  json.line(1).key("buildings").begin_array();
-  for (const Building& building : city.buildings) {
-    json.line(2).begin_object().line(3).key("id").text(building.id);
-    append_attributes(json.line(3).key("attributes").begin_object(), building.attributes);
-    json.end_object().line(3).key("ground").number(building.ground);
-    append_footprint(json.line(3).key("footprint"), building.footprint);
-    json.line(3).key("parts").begin_array();
-    for (const Part& part : building.parts) {
-      json.line(4).begin_object().line(5).key("id").text(part.id);
-      append_attributes(json.line(5).key("attributes").begin_object(), part.attributes);
-      append_plan(json.end_object().line(5).key("plan").begin_object(), part.plan, 6);
-      json.line(5).end_object().line(4).end_object();
-    }
-    json.line(3).end_array().line(2).end_object();
+void append_header(JsonText& json, const Header& header, int level) {
+  line(json, level, 0).key("type").text(plan_type);
+  line(json, level, 0).key("version").whole(plan_version);
+  append_made_by(line(json, level, 0).key("made_by"), header.made_by);
+  append_frame(line(json, level, 0).key("frame"), header.frame);
+}
+
+void append_building(JsonText& json, const Building& building, int level) {
+  line(json, level, 0).begin_object();
+  line(json, level, 1).key("id").text(building.id);
+  append_attributes(line(json, level, 1).key("attributes").begin_object(), building.attributes);
+  line(json.end_object(), level, 1).key("ground").number(building.ground);
+  append_footprint(line(json, level, 1).key("footprint"), building.footprint);
+  line(json, level, 1).key("parts").begin_array();
+  for (const Part& part : building.parts) {
+    line(json, level, 2).begin_object();
+    line(json, level, 3).key("id").text(part.id);
+    append_attributes(line(json, level, 3).key("attributes").begin_object(), part.attributes);
+    append_plan(line(json.end_object(), level, 3).key("plan").begin_object(), part.plan, level < 0 ? -1 : level + 4);
+    line(line(json, level, 3).end_object(), level, 2).end_object();
   }
-  json.line(1).end_array().line(0).end_object();
-  return std::move(json).str() + "\n";
+  line(line(json, level, 1).end_array(), level, 0).end_object();
+}
+
+PlansText::PlansText(const Header& header, base::Sink& sink) : sink_(sink) {
+  append_header(json_.begin_object(), header, 1);
+  json_.line(1).key("buildings").begin_array();
+}
+
+void PlansText::add(const Building& building) {
+  append_building(json_, building, 2);
+  sink_.append(json_.take());
+}
+
+void PlansText::end() {
+  json_.line(1).end_array().line(0).end_object();
+  sink_.append(json_.take() + "\n");
 }
 
 }  // namespace mansard::write::detail

@@ -5,10 +5,32 @@
 #include <string_view>
 
 #include "mansard/write/detail/parts.hpp"
+#include "mansard/write/stream.hpp"
 
 namespace mansard::write::detail {
 
-[[nodiscard]] auto plan_text(const City& city) -> std::string;
+/// The members "type", "version", "made_by" and "frame" of a file of plans; on lines of that level, or on one line when
+/// negative.
+void append_header(JsonText& json, const Header& header, int level = -1);
+/// One of its "buildings", without models; its brackets at that level, or on one line when negative.
+void append_building(JsonText& json, const Building& building, int level = -1);
+
+/// {"origin", "crs"}.
+void append_frame(JsonText& json, const ingest::Frame& frame);
+/// [{"outer", "holes"}, …].
+void append_footprint(JsonText& json, const std::vector<geometry::Polygon>& footprint);
+
+/// A file of plans, building by building.
+class PlansText {
+ public:
+  PlansText(const Header& header, base::Sink& sink);
+  void add(const Building& building);
+  void end();
+
+ private:
+  JsonText json_;
+  base::Sink& sink_;
+};
 
 /// `name` is the file's, for messages. Gives up with the "write-plan-…" codes.
 [[nodiscard]] auto parse_plans(std::string_view text, const std::string& name) -> base::Result<City>;

@@ -41,6 +41,7 @@ export class Client {
   tiles = () => this.json<api.TileIndex>("GET", "/api/scene/tiles");
   tile = (id: string, signal?: AbortSignal) => this.bytes(`/api/scene/tiles/${escaped(id)}`, signal);
   start = (request: RunRequest) => this.json<api.Job>("POST", "/api/runs", request);
+  importModel = (path: string) => this.json<api.Job>("POST", "/api/runs/import", { path });
   remove = (run: string) => this.json<unknown>("DELETE", this.of(run));
   rename = (run: string, label: string) => this.json<api.RunSummary>("PATCH", this.of(run), { label });
   report = (run: string) => this.json<unknown>("GET", this.of(run, "/report"));

@@ -4,7 +4,7 @@ import type { Option, Preset, RunSummary } from "../api/types";
 export const key = (o: Pick<Option, "room" | "name">) => `${o.room}.${o.name}`;
 
 /** Rooms whose options say how a scene is read; a run takes the scene as it is. */
-export const readingRooms: readonly string[] = ["ingest", "block"];
+export const readingRooms: readonly string[] = ["ingest", "derive", "block"];
 /** Rooms that no run passes through. */
 const elsewhere: readonly string[] = ["roof", "simulate", "explore", "picture"];
 

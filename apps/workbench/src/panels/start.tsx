@@ -11,6 +11,7 @@ import { Progress } from "./progress";
 const meshes = signal("");
 const footprints = signal("");
 const reading = signal<Record<string, string>>({});
+const model = signal("");
 const sending = signal("");
 const over = signal(false);
 
@@ -49,6 +50,19 @@ async function read(e: Event) {
   if (job) state.asksInputs.value = false;
 }
 
+async function openModel(e: Event) {
+  e.preventDefault();
+  const job = await actions.openModel(model.value.trim());
+  if (job) state.asksInputs.value = false;
+}
+
+async function takeModel(file: File | undefined) {
+  if (!file) return;
+  const paths = await actions.upload([file], (name) => (sending.value = name));
+  sending.value = "";
+  if (paths) model.value = paths[0]!;
+}
+
 /** Starts from what the open project was read with. */
 export function askInputs() {
   const { inputs, reading: given } = state.project.value ?? {};
@@ -62,7 +76,7 @@ export function Start() {
   const project = state.project.value;
   const all = forReading(state.options.value?.options ?? []);
   const wrong = faulty(all, reading.value);
-  const ready = lines(meshes.value).length > 0 && footprints.value.trim() !== "" && !wrong && !sending.value;
+  const ready = lines(meshes.value).length > 0 && !wrong && !sending.value;
   const job = state.jobs.value.find((j) => j.kind === "read" && (j.state === "running" || j.state === "queued"));
   const drop = (e: DragEvent) => {
     e.preventDefault();
@@ -77,7 +91,7 @@ export function Start() {
             <h1>{project?.inputs ? "Read other inputs" : "A city mesh and its footprints"}</h1>
             <p>
               Give a photogrammetric mesh and building footprints: they become clean solids that you can edit as plan
-              and profiles.
+              and profiles. Without footprints, they are drawn from the mesh.
             </p>
           </div>
           {state.asksInputs.value && (
@@ -133,7 +147,7 @@ export function Start() {
             />
           </label>
           <label class="field">
-            Footprints: path of any vector file that GDAL reads
+            Footprints: path of any vector file that GDAL reads; empty to draw them from the mesh
             <input
               type="text"
               spellcheck={false}
@@ -157,7 +171,42 @@ export function Start() {
             {wrong && <span class="wrong">{wrong}</span>}
           </p>
         </form>
+        <OpenModel />
       </div>
     </div>
+  );
+}
+
+/** Models from an earlier run, with a mesh beside them or without. */
+function OpenModel() {
+  return (
+    <form class="start-model" onSubmit={(e) => void openModel(e)}>
+      <label class="field">
+        Or models that mansard wrote, in any format but STL: path of the file
+        <input
+          type="text"
+          spellcheck={false}
+          placeholder="/data/city/model.glb"
+          value={model.value}
+          onInput={(e) => (model.value = e.currentTarget.value)}
+        />
+      </label>
+      <p class="start-go">
+        <button type="submit" disabled={model.value.trim() === "" || sending.value !== ""}>
+          Open a model…
+        </button>
+        <label>
+          or <span class="link">choose its file</span>
+          <input
+            type="file"
+            class="unseen"
+            onChange={(e) => {
+              void takeModel(e.currentTarget.files?.[0]);
+              e.currentTarget.value = "";
+            }}
+          />
+        </label>
+      </p>
+    </form>
   );
 }

@@ -1,0 +1,140 @@
+// `mansard convert INPUT -o OUT`: whatever mansard wrote, in any other format that it writes.
+#include <cstdio>
+#include <memory>
+#include <set>
+
+#include "apps/cli/exit.hpp"
+#include "apps/cli/formats.hpp"
+#include "apps/cli/output.hpp"
+#include "apps/cli/scan.hpp"
+#include "apps/cli/verbs.hpp"
+#include "mansard/pipeline/stored.hpp"
+
+namespace mansard::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Request : Common {
+  std::string input, to;
+  std::vector<std::string> outs;
+};
+
+auto targets_of(const Request& request) -> base::Result<std::vector<Target>> {
+  std::vector<Target> targets;
+  if (!request.to.empty() && request.outs.size() != 1)
+    return base::error("usage", "with several outputs the ending of each says its format", "--to");
+  for (const auto& out : request.outs) {
+    if (request.to.empty()) {
+      auto target = target_at(out);
+      if (!target) return target.error();
+      targets.push_back(std::move(*target));
+    } else {
+      const auto format = format_named(request.to);
+      if (!format) return format.error();
+      targets.push_back({*format, out});
+    }
+  }
+  return targets;
+}
+
+auto check_outputs(const Request& request, const std::vector<Target>& targets) -> base::Result<void> {
+  std::vector<fs::path> places;
+  std::set<fs::path> taken;
+  for (const auto& target : targets)
+    for (const auto& place : places_of(target)) {
+      std::error_code status;
+      const auto whole = fs::weakly_canonical(fs::absolute(place, status), status);
+      if (!status && !taken.insert(whole).second)
+        return base::error("usage", "two results would be written here; give each a name of its own", place.string());
+      places.push_back(place);
+    }
+  if (auto spared = spare_inputs(places, {request.input}); !spared) return spared;
+  for (const auto& target : targets)
+    if (auto usable = target_free(target, request.overwrite); !usable) return usable;
+  return {};
+}
+
+/// What can be done instead with a file that has no plans in it.
+auto explained(base::Diagnostic why, const std::string& input) -> base::Diagnostic {
+  if (pipeline::is_foreign(why))
+    why.message += "; mansard converts what it wrote itself. Of other makers' models it measures any CityJSON or OBJ "
+                   "('mansard evaluate'), and raises anew what has footprints ('mansard extrude " +
+                   base::on_one_line(input) + "')";
+  return why;
+}
+
+/// Building after building: memory does not grow with their number.
+auto pass_on(write::CityReader& reader, const Writers& writers, const base::Run& run) -> base::Result<void> {
+  for (;;) {
+    if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+    const auto building = reader.next();
+    if (!building) return building.error();
+    if (!*building) break;
+    for (const auto& writer : writers)
+      if (auto added = writer->add(**building); !added) return added;
+  }
+  for (const auto& writer : writers)
+    if (auto finished = writer->finish(); !finished) return finished;
+  return {};
+}
+
+auto convert(const Request& request, const base::Cancel& cancel) -> int {
+  const auto targets = targets_of(request);
+  if (!targets) return give_up(targets.error());
+  auto reader = open_city(request.input);
+  if (!reader) return give_up(explained(reader.error(), request.input));
+  write::Header header = (*reader)->header();
+  pipeline::Options options;
+  auto warnings = pipeline::take_options(header.made_by, options);
+  if (auto applied = request.settings.apply(options); !applied) return give_up(applied.error());
+  if (auto ready = check_outputs(request, *targets); !ready) return give_up(ready.error());
+
+  Progress progress(request.quiet);
+  const auto run = start(request, options.seed, cancel, progress);
+  for (const auto& warning : warnings) progress.say(base::to_string(warning));
+  base::Outputs outputs;
+  bool all_full = true;
+  if ((*reader)->has_models() && pipeline::same_options(header.made_by, options)) {
+    const auto writers = open_writers(*targets, header, options.write, outputs);
+    if (!writers) return give_up(writers.error());
+    if (auto passed = pass_on(**reader, *writers, run); !passed) return give_up(passed.error());
+    for (const auto& writer : *writers)
+      for (const auto& warning : writer->warnings()) progress.say(base::to_string(warning));
+  } else {
+    progress.show("extrude", request.input, 0);
+    const auto raised = pipeline::read_raised(**reader, options, run);
+    if (!raised) return give_up(raised.error());
+    for (const auto& part : raised->fell_short)
+      for (const auto& reason : part.reasons) progress.say(base::to_string(reason));
+    all_full = raised->fell_short.empty();
+    const auto written = write_models(raised->city, *targets, options.write, outputs);
+    if (!written) return give_up(written.error());
+    for (const auto& warning : *written) progress.say(base::to_string(warning));
+  }
+  if (auto committed = outputs.commit(run.cancel); !committed) return give_up(committed.error());
+  for (const auto& target : *targets) std::printf("%s\n", target.path.c_str());
+  return all_full ? all_done : some_fell_back;
+}
+
+}  // namespace
+
+auto convert_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
+  auto* verb = app.add_subcommand("convert", "Models that mansard wrote, in any other format that it writes");
+  auto request = std::make_shared<Request>();
+  verb->add_option("INPUT", request->input, "A file or folder of tiles that mansard wrote, in any format but STL")
+      ->required()
+      ->type_name("MODEL");
+  verb->add_option("-o,--output", request->outs,
+                   "Where to; the ending says the format (" + endings() + "). Once for each result")
+      ->required()
+      ->expected(1, 1000)
+      ->allow_extra_args(false)
+      ->type_name("OUT");
+  verb->add_option("--to", request->to, "The format, where the ending does not say it: " + format_names())
+      ->type_name("FORMAT");
+  add_common(*verb, *request, "warnings");
+  return {verb, [request, &cancel] { return convert(*request, cancel); }};
+}
+
+}  // namespace mansard::cli

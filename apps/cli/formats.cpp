@@ -1,0 +1,184 @@
+#include "apps/cli/formats.hpp"
+
+#include <algorithm>
+#include <unistd.h>
+
+#include "apps/cli/output.hpp"
+
+namespace mansard::cli {
+
+namespace fs = std::filesystem;
+using write::Format;
+
+namespace {
+
+auto split(const std::string& list) -> std::vector<std::string> {
+  std::vector<std::string> words;
+  for (std::size_t at = 0; at <= list.size();) {
+    const auto end = std::min(list.find(',', at), list.size());
+    words.push_back(list.substr(at, end - at));
+    at = end + 1;
+  }
+  return words;
+}
+
+auto holds_a_tileset(const fs::path& folder) -> bool {
+  std::error_code status;
+  return fs::is_regular_file(folder / "tileset.json", status);
+}
+
+auto folder_free(const fs::path& folder, bool overwrite) -> base::Result<void> {
+  std::error_code status;
+  if (fs::exists(folder, status) && !fs::is_directory(folder, status))
+    return base::error("output-exists", "this is a file, and tiles are a folder; choose another name", folder.string());
+  const bool taken = fs::exists(folder, status) && !fs::is_empty(folder, status);
+  if (taken && !overwrite)
+    return base::error("output-exists", "the folder is not empty; choose another, or say --overwrite", folder.string());
+  if (taken && !holds_a_tileset(folder))
+    return base::error("output-exists",
+                       "the folder holds something else than tiles, which would be lost; choose another name",
+                       folder.string());
+  const auto above = fs::absolute(folder, status).lexically_normal();
+  const auto parent = (above.has_filename() ? above : above.parent_path()).parent_path();
+  if (!fs::is_directory(parent, status))
+    return base::error("file-write", "there is no folder '" + parent.string() + "' for it; make it, or choose another place",
+                       folder.string());
+  if (::access(parent.c_str(), W_OK) != 0)
+    return base::error("file-write", "cannot write into its folder; choose a place that can be written", folder.string());
+  return {};
+}
+
+}  // namespace
+
+auto format_names() -> std::string {
+  std::string all;
+  for (const auto& format : write::formats()) all += (all.empty() ? "" : ", ") + std::string(format.name);
+  return all;
+}
+
+auto endings() -> std::string {
+  std::string all;
+  for (const auto& format : write::formats()) all += (all.empty() ? "" : ", ") + std::string(format.ending);
+  return all;
+}
+
+auto format_named(const std::string& name) -> base::Result<Format> {
+  std::vector<std::string> known;
+  for (const auto& format : write::formats()) {
+    if (format.name == name) return format.format;
+    known.emplace_back(format.name);
+  }
+  return base::error("option-value",
+                     "'" + name + "' is no format" + base::did_you_mean(base::nearest_word(name, known)) +
+                         "; there are " + format_names(),
+                     name);
+}
+
+auto formats_in(const std::string& list) -> base::Result<std::vector<Format>> {
+  std::vector<Format> asked;
+  for (const auto& word : split(list)) {
+    if (word == "all") {
+      for (const auto& format : write::formats()) asked.push_back(format.format);
+    } else if (word == "default") {
+      for (const auto& name : split(default_formats)) asked.push_back(*format_named(name));
+    } else {
+      const auto format = format_named(word);
+      if (!format) return format.error();
+      asked.push_back(*format);
+    }
+  }
+  std::vector<Format> out;
+  for (const auto& format : write::formats())
+    if (std::ranges::find(asked, format.format) != asked.end()) out.push_back(format.format);
+  return out;
+}
+
+auto formats_help() -> std::string {
+  return "The models' formats, with commas between: " + format_names() + "; 'default' (" + default_formats +
+         "), or 'all'";
+}
+
+auto name_in_folder(Format format) -> std::string {
+  if (format == Format::plans) return "plans.json";
+  const auto at = std::ranges::find(write::formats(), format, &write::FormatName::format);
+  return "model" + std::string(at->ending);
+}
+
+auto targets_in(const fs::path& folder, const std::vector<Format>& formats) -> std::vector<Target> {
+  std::vector<Target> out;
+  for (const auto format : formats) out.push_back({format, folder / name_in_folder(format)});
+  return out;
+}
+
+auto all_results() -> const std::vector<std::string>& {
+  static const std::vector<std::string> all = [] {
+    std::vector<std::string> names{"run.json"};
+    names.insert(names.end(), picture_names.begin(), picture_names.end());
+    for (const auto& format : write::formats())
+      for (const auto& place : places_of({format.format, name_in_folder(format.format)})) names.push_back(place.string());
+    return names;
+  }();
+  return all;
+}
+
+auto target_at(const fs::path& path) -> base::Result<Target> {
+  const auto format = write::format_of(path);
+  if (!format)
+    return base::error("usage", "no format has this ending; there are " + endings(), path.string());
+  // Of tiles the folder is written, not the one file that names the others.
+  return Target{*format, path.filename() == "tileset.json" ? path.parent_path() : path};
+}
+
+auto open_city(const fs::path& path) -> base::Result<std::unique_ptr<write::CityReader>> {
+  std::error_code status;
+  if (!path.string().starts_with("/vsi") && !fs::exists(path, status))
+    return base::error("file-missing", "no such file; check the path", path.string());
+  return write::read_city(path);
+}
+
+auto places_of(const Target& target) -> std::vector<fs::path> {
+  if (target.format == Format::obj) return {target.path, fs::path(target.path).replace_extension(".mtl")};
+  return {target.path};
+}
+
+auto target_free(const Target& target, bool overwrite) -> base::Result<void> {
+  if (target.format == Format::tiles) return folder_free(target.path, overwrite);
+  for (const auto& path : places_of(target))
+    if (auto usable = file_free(path, overwrite); !usable) return usable;
+  return {};
+}
+
+auto open_writers(const std::vector<Target>& targets, const write::Header& header, const write::WriteOptions& options,
+                  base::Outputs& outputs, const std::vector<write::Layer>& more) -> base::Result<Writers> {
+  Writers writers;
+  for (const auto& target : targets) {
+    auto writer = write::open_writer(target.format, target.path, header, options, outputs, more);
+    if (!writer) return writer.error();
+    writers.push_back(std::move(*writer));
+  }
+  return writers;
+}
+
+auto write_models(const write::City& city, const std::vector<Target>& targets, const write::WriteOptions& options,
+                  base::Outputs& outputs, const std::vector<write::Layer>& more)
+    -> base::Result<std::vector<base::Diagnostic>> {
+  const write::Header header{city.frame, city.made_by};
+  std::vector<base::Diagnostic> warnings;
+  for (const auto& target : targets) {  // one after the other: each may put bytes aside
+    auto writer = write::open_writer(target.format, target.path, header, options, outputs, more);
+    if (!writer) return writer.error();
+    if (auto written = write::write_city(city, **writer); !written) return written.error();
+    const auto own = (*writer)->warnings();
+    warnings.insert(warnings.end(), own.begin(), own.end());
+  }
+  return warnings;
+}
+
+auto write_bytes(const fs::path& path, std::string_view bytes, base::Outputs& outputs) -> base::Result<void> {
+  auto sink = outputs.file(path);
+  if (!sink) return sink.error();
+  (*sink)->append(bytes);
+  return {};
+}
+
+}  // namespace mansard::cli

@@ -1,0 +1,46 @@
+// What `mansard info` says of a file: as JSON, from which its text is made. docs/cli.md lists the members.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "mansard/base/run.hpp"
+#include "mansard/write/stream.hpp"
+
+namespace mansard::cli {
+
+using Json = nlohmann::ordered_json;
+
+/// xmin ymin zmin xmax ymax zmax in file coordinates, metres; null for nothing.
+class Extent3 {
+ public:
+  void add(geometry::Point3 p, const ingest::Frame& frame);
+  [[nodiscard]] auto json() const -> Json;
+
+ private:
+  std::array<double, 3> least_{}, most_{};
+  bool empty_ = true;
+};
+
+/// A file of models that mansard wrote. `all_options`: those at their defaults too.
+[[nodiscard]] auto info_of_city(const std::filesystem::path& path, write::CityReader& reader, bool all_options,
+                                const base::Run& run) -> base::Result<Json>;
+
+/// Anything else: models of other makers, STL, tilesets, meshes, rasters, footprint sources. `why`: why it is none of
+/// mansard's.
+[[nodiscard]] auto info_of_other(const std::filesystem::path& path, const base::Diagnostic& why, const base::Run& run)
+    -> base::Result<Json>;
+
+/// What a tileset.json says: its version, and per level how many tiles and what geometric errors; null where there is
+/// none in the folder.
+[[nodiscard]] auto info_of_tileset(const std::filesystem::path& path) -> Json;
+
+/// The layers of a vector source, with geometry, CRS, number of features, extent and fields. Gives up with "file-missing",
+/// "ingest-footprints-format".
+[[nodiscard]] auto info_of_layers(const std::filesystem::path& path) -> base::Result<Json>;
+
+/// For a person, within 80 columns.
+[[nodiscard]] auto info_text(const Json& info) -> std::string;
+
+}  // namespace mansard::cli

@@ -1,0 +1,265 @@
+// Of what others made: models, shells, tilesets, meshes, rasters, footprint sources.
+#include <algorithm>
+#include <array>
+#include <fstream>
+
+#include "apps/cli/info.hpp"
+#include "mansard/base/files.hpp"
+#include "mansard/base/text.hpp"
+#include "mansard/ingest/model.hpp"
+#include "mansard/ingest/source.hpp"
+
+namespace mansard::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+auto head(const fs::path& path, const char* kind, const std::string& format) -> Json {
+  Json out;
+  out["file"] = path.string();
+  out["kind"] = kind;
+  out["format"] = format;
+  std::error_code status;
+  if (fs::is_regular_file(path, status)) out["bytes"] = fs::file_size(path, status);
+  return out;
+}
+
+auto lower(std::string text) -> std::string {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
+  return text;
+}
+
+/// Without the dot, and without that of a compressed file.
+auto ending_of(const fs::path& path) -> std::string {
+  auto name = path.filename();
+  if (lower(name.extension().string()) == ".gz") name = name.stem();
+  const auto ending = lower(name.extension().string());
+  return ending.empty() ? ending : ending.substr(1);
+}
+
+auto warnings_json(const std::vector<base::Diagnostic>& warnings) -> Json {
+  Json out = Json::array();
+  for (const auto& warning : warnings) out.push_back({{"code", warning.code}, {"message", warning.message}});
+  return out;
+}
+
+// ---- models of other makers
+
+auto info_of_model(const fs::path& path, const ingest::Model& model) -> Json {
+  const auto surface = ingest::surface_of(model);
+  Extent3 extent;
+  for (const auto p : surface.mesh.vertices) extent.add(p, model.frame);
+  std::size_t parts = 0, faces = 0;
+  std::array<std::size_t, ingest::surface_class_count> classes{};
+  for (const auto& building : model.buildings) {
+    parts += building.parts.size();
+    for (const auto& part : building.parts) {
+      faces += part.faces.size();
+      for (const auto& face : part.faces) ++classes[static_cast<std::size_t>(face.kind)];
+    }
+  }
+  Json out = head(path, "models", ending_of(path) == "obj" ? "obj" : "cityjson");
+  out["by"] = "others";
+  out["crs"] = model.frame.crs;
+  out["extent"] = extent.json();
+  out["counts"] = {{"buildings", model.buildings.size()}, {"parts", parts}, {"faces", faces},
+                   {"triangles", surface.mesh.triangles.size()}, {"vertices", surface.mesh.vertices.size()}};
+  if (!model.lod.empty()) out["lods"] = Json::array({model.lod});
+  for (std::size_t i = 0; i < classes.size(); ++i)
+    out["classes"][std::string(ingest::to_string(static_cast<ingest::SurfaceClass>(i)))] = classes[i];
+  out["warnings"] = warnings_json(model.warnings);
+  return out;
+}
+
+// ---- STL
+
+/// Binary: 80 bytes of text, the number of triangles, 50 bytes for each.
+auto info_of_stl(const fs::path& path) -> base::Result<Json> {
+  const auto bytes = base::read_file(path);
+  if (!bytes) return bytes.error();
+  Json out = head(path, "shells", "stl");
+  const auto at = [&](std::size_t offset) { return static_cast<std::uint32_t>(static_cast<unsigned char>((*bytes)[offset])); };
+  const std::size_t count =
+      bytes->size() < 84 ? 0 : at(80) | at(81) << 8 | at(82) << 16 | static_cast<std::size_t>(at(83)) << 24;
+  if (bytes->size() < 84 || bytes->size() != 84 + 50 * count) {
+    if (bytes->starts_with("solid")) out["text"] = true;
+    else return base::error("ingest-mesh-truncated", "this is no whole binary STL; copy or export it again", path.string());
+    return out;
+  }
+  std::string text = bytes->substr(0, std::min<std::size_t>(80, bytes->find('\0')));
+  out["header"] = base::on_one_line(text);
+  out["counts"] = {{"triangles", count}};
+  return out;
+}
+
+// ---- tilesets
+
+struct Level {
+  std::size_t tiles = 0, contents = 0;
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+};
+
+void walk(const Json& tile, std::size_t depth, std::vector<Level>& levels) {
+  if (!tile.is_object() || depth > 100) return;
+  if (levels.size() <= depth) levels.resize(depth + 1);
+  auto& level = levels[depth];
+  ++level.tiles;
+  level.contents += tile.contains("content") ? 1 : tile.contains("contents") ? tile["contents"].size() : 0;
+  if (tile.contains("geometricError") && tile["geometricError"].is_number()) {
+    level.least = std::min(level.least, tile["geometricError"].get<double>());
+    level.most = std::max(level.most, tile["geometricError"].get<double>());
+  }
+  if (tile.contains("children"))
+    for (const auto& child : tile["children"]) walk(child, depth + 1, levels);
+}
+
+auto tileset_file(const fs::path& path) -> fs::path {
+  std::error_code status;
+  return fs::is_directory(path, status) ? path / "tileset.json" : path;
+}
+
+// ---- meshes
+
+auto info_of_mesh(const fs::path& path, const base::Run& run) -> base::Result<Json> {
+  // A y-up glTF is told z up, as `reconstruct` takes it.
+  const auto mesh = ingest::read_mesh({path}, {}, {}, run);
+  if (!mesh) return mesh.error();
+  std::error_code status;
+  Json out = head(path, "mesh", fs::is_directory(path, status) ? "folder" : ending_of(path));
+  Extent3 extent;
+  for (const auto p : mesh->mesh.vertices) extent.add(p, {});
+  out["extent"] = extent.json();
+  const auto& c = mesh->counts;
+  out["counts"] = {{"triangles", c.triangles},
+                   {"vertices", c.vertices},
+                   {"triangles_read", c.triangles_read},
+                   {"vertices_read", c.vertices_read},
+                   {"not_finite", c.not_finite},
+                   {"out_of_range", c.out_of_range},
+                   {"degenerate", c.degenerate},
+                   {"duplicate", c.duplicate},
+                   {"non_manifold_edges", c.non_manifold_edges},
+                   {"boundary_edges", c.boundary_edges},
+                   {"flipped_edges", c.flipped_edges}};
+  if (!mesh->classes.empty()) {
+    std::array<std::size_t, ingest::surface_class_count> classes{};
+    for (const auto kind : mesh->classes) ++classes[static_cast<std::size_t>(kind)];
+    for (std::size_t i = 0; i < classes.size(); ++i)
+      out["classes"][std::string(ingest::to_string(static_cast<ingest::SurfaceClass>(i)))] = classes[i];
+  }
+  Json files = Json::array();
+  for (const auto& input : mesh->inputs)
+    files.push_back({{"path", input.path}, {"bytes", input.bytes}, {"sha256", input.sha256}});
+  out["files"] = std::move(files);
+  out["warnings"] = warnings_json(mesh->warnings);
+  return out;
+}
+
+// ---- what GDAL reads
+
+auto info_of_raster(const fs::path& path) -> base::Result<Json> {
+  const auto source = ingest::raster_source(path);
+  if (!source) return source.error();
+  Json out = head(path, "raster", source->driver);
+  out["crs"] = source->crs;
+  out["extent"] = source->extent;
+  out["columns"] = source->columns;
+  out["rows"] = source->rows;
+  out["bands"] = source->bands;
+  out["cell"] = source->cell;
+  out["nodata"] = source->nodata && std::isfinite(*source->nodata) ? Json(*source->nodata) : Json(nullptr);
+  out["unit"] = source->unit;
+  return out;
+}
+
+auto layers_of(const ingest::VectorSource& source) -> Json {
+  Json out = Json::array();
+  for (const auto& layer : source.layers) {
+    Json one;
+    one["name"] = layer.name;
+    one["geometry"] = layer.geometry;
+    one["crs"] = layer.crs;
+    one["features"] = layer.features ? Json(*layer.features) : Json(nullptr);
+    one["extent"] = layer.extent ? Json(*layer.extent) : Json(nullptr);
+    one["fields"] = Json::array();
+    for (const auto& [name, type] : layer.fields) one["fields"].push_back({{"name", name}, {"type", type}});
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+auto info_of_source(const fs::path& path) -> base::Result<Json> {
+  const auto source = ingest::vector_source(path);
+  if (!source) return source.error();
+  Json out = head(path, "footprints", source->driver);
+  out["layers"] = layers_of(*source);
+  return out;
+}
+
+auto is_mesh(const fs::path& path) -> bool {
+  static constexpr std::array endings{"obj", "ply", "off", "glb", "gltf"};
+  std::error_code status;
+  return fs::is_directory(path, status) || std::ranges::find(endings, ending_of(path)) != endings.end();
+}
+
+/// JSON that ends like CityJSON, or says that it is.
+auto may_be_cityjson(const fs::path& path) -> bool {
+  const auto ending = ending_of(path);
+  if (ending == "jsonl") return true;
+  if (ending != "json") return false;
+  const auto bytes = base::read_file(path);
+  return bytes && bytes->find("\"CityJSON\"") != std::string::npos;
+}
+
+}  // namespace
+
+auto info_of_tileset(const fs::path& path) -> Json {
+  const auto bytes = base::read_file(tileset_file(path));
+  if (!bytes) return nullptr;
+  const auto json = Json::parse(*bytes, nullptr, false);
+  if (!json.is_object() || !json.contains("root") || !json.contains("asset")) return nullptr;
+  std::vector<Level> levels;
+  walk(json["root"], 0, levels);
+  Json out;
+  out["version"] = json["asset"].value("version", "");
+  out["geometric_error_m"] = json.contains("geometricError") ? json["geometricError"] : Json(nullptr);
+  out["placed_on_the_earth"] = json["root"].contains("transform");
+  if (json["root"].contains("boundingVolume")) out["bounding_volume"] = json["root"]["boundingVolume"];
+  out["levels"] = Json::array();
+  for (const auto& level : levels)
+    out["levels"].push_back({{"tiles", level.tiles},
+                             {"contents", level.contents},
+                             {"geometric_error_m", level.most < level.least ? Json(nullptr) : Json::array({level.least, level.most})}});
+  return out;
+}
+
+auto info_of_layers(const fs::path& path) -> base::Result<Json> {
+  const auto source = ingest::vector_source(path);
+  if (!source) return source.error();
+  return layers_of(*source);
+}
+
+auto info_of_other(const fs::path& path, const base::Diagnostic& why, const base::Run& run) -> base::Result<Json> {
+  if (ending_of(path) == "stl") return info_of_stl(path);
+  if (auto tileset = info_of_tileset(path); !tileset.is_null()) {
+    Json out = head(path, "tileset", "tiles");
+    out["tileset"] = std::move(tileset);
+    return out;
+  }
+  if (may_be_cityjson(path) || ending_of(path) == "obj") {
+    const auto model = ingest::read_model(path);
+    // An OBJ that does not say what its faces are is a mesh like any other.
+    const auto guessed = [](const base::Diagnostic& warning) { return warning.code == "ingest-model-semantics"; };
+    const bool says = model && (ending_of(path) != "obj" || std::ranges::none_of(model->warnings, guessed));
+    if (says) return info_of_model(path, *model);
+    if (!model && ending_of(path) != "obj") return model.error();
+  }
+  if (is_mesh(path)) return info_of_mesh(path, run);
+  if (ingest::named_as_raster(path)) return info_of_raster(path);
+  auto source = info_of_source(path);
+  // A broken file of plans is better told as one.
+  return !source && why.code.starts_with("write-plan") ? base::Result<Json>(why) : source;
+}
+
+}  // namespace mansard::cli

@@ -1,0 +1,204 @@
+// Of models that mansard wrote: counts, validity, and how they were made.
+#include <algorithm>
+#include <map>
+
+#include "apps/cli/info.hpp"
+#include "mansard/base/text.hpp"
+#include "mansard/ingest/input_file.hpp"
+#include "mansard/pipeline/stored.hpp"
+
+namespace mansard::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+auto attribute(const ingest::Attributes& attributes, std::string_view name) -> const ingest::Value* {
+  for (const auto& [key, value] : attributes)
+    if (key == name) return &value;
+  return nullptr;
+}
+
+/// What adds up building by building.
+class Tally {
+ public:
+  explicit Tally(const ingest::Frame& frame) : frame_(frame) {}
+
+  void add(const write::Building& building) {
+    ++buildings_;
+    const auto* derived = attribute(building.attributes, "ms_derived");
+    derived_ += derived != nullptr && std::get_if<bool>(derived) != nullptr && std::get<bool>(*derived) ? 1 : 0;
+    for (const auto& polygon : building.footprint)
+      for (const auto p : polygon.outer) extent_.add({p.x, p.y, building.ground}, frame_);
+    std::vector<std::vector<base::Diagnostic>> wrong(building.parts.size());
+    base::parallel_for(wrong.size(), [&](std::size_t p) {
+      if (const auto& solid = building.parts[p].model.solid; !solid.faces.empty()) wrong[p] = extrude::check(solid);
+    });
+    for (std::size_t p = 0; p < wrong.size(); ++p) add(building, building.parts[p], wrong[p]);
+  }
+
+  [[nodiscard]] auto counts() const -> Json {
+    return {{"buildings", buildings_}, {"parts", parts_}, {"faces", faces_}, {"triangles", triangles_},
+            {"vertices", vertices_}};
+  }
+  [[nodiscard]] auto extent() const -> Json { return extent_.json(); }
+  [[nodiscard]] auto validity() const -> Json {
+    return {{"planarity_m", 1e-4}, {"solids", solids_}, {"valid", solids_ - invalid_.size()}, {"invalid", invalid_}};
+  }
+  [[nodiscard]] auto fallbacks() const -> Json {
+    Json out = Json::object();
+    for (const auto& [code, count] : fallbacks_) out[code] = count;
+    return out;
+  }
+  [[nodiscard]] auto footprints() const -> Json {
+    return {{"surveyed", buildings_ - derived_}, {"derived", derived_}};
+  }
+
+ private:
+  void add(const write::Building& building, const write::Part& part, const std::vector<base::Diagnostic>& wrong) {
+    ++parts_;
+    const auto* fallback = attribute(part.attributes, "ms_fallback");
+    if (const auto* code = fallback == nullptr ? nullptr : std::get_if<std::string>(fallback)) ++fallbacks_[*code];
+    const auto& solid = part.model.solid;
+    if (solid.faces.empty()) return;
+    ++solids_;
+    faces_ += solid.faces.size();
+    vertices_ += solid.vertices.size();
+    // A polygon of n corners with h holes is n + 2 h − 2 triangles.
+    for (const auto& face : solid.faces) {
+      std::size_t corners = 0;
+      for (const auto& loop : face.loops) corners += loop.size();
+      triangles_ += corners + 2 * (face.loops.size() - 1) - 2;
+    }
+    for (const auto p : solid.vertices) extent_.add(p, frame_);
+    if (wrong.empty()) return;
+    Json reasons = Json::array();
+    for (const auto& reason : wrong) reasons.push_back({{"code", reason.code}, {"message", reason.message}});
+    invalid_.push_back({{"building", building.id}, {"part", part.id}, {"reasons", std::move(reasons)}});
+  }
+
+  ingest::Frame frame_;
+  Extent3 extent_;
+  std::size_t buildings_ = 0, derived_ = 0, parts_ = 0, solids_ = 0, faces_ = 0, triangles_ = 0, vertices_ = 0;
+  Json invalid_ = Json::array();
+  std::map<std::string, std::size_t> fallbacks_;
+};
+
+auto options_json(const write::MadeBy& made_by, bool all) -> Json {
+  pipeline::Options defaults;
+  std::map<std::string, std::string> usual;
+  for (const auto& list : pipeline::option_lists(defaults))
+    for (const auto& option : list.options()) usual[list.room() + "." + option.name] = option.get();
+  Json out = Json::object();
+  for (const auto& [name, value] : made_by.options) {
+    const auto at = usual.find(name);
+    if (all || at == usual.end() || at->second != value) out[name] = value;
+  }
+  return out;
+}
+
+auto made_by_json(const write::MadeBy& made_by, bool all_options) -> Json {
+  Json inputs = Json::array();
+  for (const auto& input : made_by.inputs)
+    inputs.push_back({{"path", input.path}, {"bytes", input.bytes}, {"sha256", input.sha256}});
+  return {{"version", made_by.version},
+          {all_options ? "options" : "options_not_default", options_json(made_by, all_options)},
+          {"inputs", std::move(inputs)}};
+}
+
+/// What levels of detail a format keeps of a model.
+auto lods_of(write::Format format) -> std::vector<std::string> {
+  switch (format) {
+    case write::Format::cityjson:
+    case write::Format::cityjsonseq: return {"0", "1.2", "2.2"};
+    case write::Format::tiles: return {"1.2", "2.2"};
+    case write::Format::geopackage: return {"0", "2.2"};
+    case write::Format::geojson: return {"0"};
+    case write::Format::plans: return {};
+    case write::Format::obj:
+    case write::Format::glb:
+    case write::Format::stl: break;
+  }
+  return {"2.2"};
+}
+
+auto size_of(const fs::path& path) -> std::uintmax_t {
+  std::error_code status;
+  if (!fs::is_directory(path, status)) return fs::file_size(path, status);
+  std::uintmax_t sum = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(path, status))
+    if (entry.is_regular_file(status)) sum += entry.file_size(status);
+  return sum;
+}
+
+/// Adds every building, its model raised where the file has none. Whether there were models.
+auto add_all(write::CityReader& reader, const base::Run& run, Tally& tally) -> base::Result<bool> {
+  if (!reader.has_models()) {
+    pipeline::Options options;
+    (void)pipeline::take_options(reader.header().made_by, options);
+    const auto raised = pipeline::read_raised(reader, options, run);
+    if (!raised) return raised.error();
+    for (const auto& building : raised->city.buildings) tally.add(building);
+    return false;
+  }
+  for (;;) {
+    if (run.cancelled()) return base::error("cancelled", "stopped on request");
+    const auto building = reader.next();
+    if (!building) return building.error();
+    if (!*building) return true;
+    tally.add(**building);
+  }
+}
+
+}  // namespace
+
+void Extent3::add(geometry::Point3 p, const ingest::Frame& frame) {
+  const std::array at{p.x + static_cast<double>(frame.origin[0]), p.y + static_cast<double>(frame.origin[1]),
+                      p.z + static_cast<double>(frame.origin[2])};
+  for (std::size_t i = 0; i < 3; ++i) {
+    least_[i] = empty_ ? at[i] : std::min(least_[i], at[i]);
+    most_[i] = empty_ ? at[i] : std::max(most_[i], at[i]);
+  }
+  empty_ = false;
+}
+
+auto Extent3::json() const -> Json {
+  if (empty_) return nullptr;
+  return {least_[0], least_[1], least_[2], most_[0], most_[1], most_[2]};
+}
+
+auto info_of_city(const fs::path& path, write::CityReader& reader, bool all_options, const base::Run& run)
+    -> base::Result<Json> {
+  // The header stays while buildings are read.
+  const write::Header header = reader.header();
+  Tally tally(header.frame);
+  const auto has_models = add_all(reader, run, tally);
+  if (!has_models) return has_models.error();
+  // By its name; what is in it tells CityJSON from plans, which both may end in ".json".
+  auto format = write::format_of(path).value_or(write::Format::plans);
+  if (*has_models && format == write::Format::plans) format = write::Format::cityjson;
+  const auto name = std::ranges::find(write::formats(), format, &write::FormatName::format);
+  Json out;
+  out["file"] = path.string();
+  out["kind"] = "models";
+  out["format"] = name->name;
+  out["bytes"] = size_of(path);
+  out["by"] = "mansard";
+  out["crs"] = header.frame.crs;
+  out["extent"] = tally.extent();
+  out["counts"] = tally.counts();
+  out["lods"] = lods_of(format);
+  out["raised"] = !*has_models;
+  out["validity"] = tally.validity();
+  out["fallbacks"] = tally.fallbacks();
+  out["footprints"] = tally.footprints();
+  out["made_by"] = made_by_json(header.made_by, all_options);
+  if (format == write::Format::tiles) out["tileset"] = info_of_tileset(path);
+  if (format == write::Format::geopackage) {
+    auto layers = info_of_layers(path);
+    if (!layers) return layers.error();
+    out["layers"] = std::move(*layers);
+  }
+  return out;
+}
+
+}  // namespace mansard::cli

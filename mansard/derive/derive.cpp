@@ -1,0 +1,284 @@
+// The story of drawing footprints: heights, ground, what stands, what of it is a building, its outline, straight walls.
+#include "mansard/derive/derive.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "mansard/derive/detail/buildings.hpp"
+#include "mansard/derive/detail/ground.hpp"
+#include "mansard/derive/detail/outline.hpp"
+#include "mansard/derive/detail/regular.hpp"
+
+namespace mansard::derive {
+namespace {
+
+using detail::Heights;
+using detail::Mask;
+using detail::Place;
+using geometry::Polygon;
+
+/// The wall between two buildings is drawn once, by the higher one, whose roof shows it; the outline of the lower one
+/// is drawn
+/// as if it went on so far under it.
+constexpr double under = 2.0;  // m
+/// What is narrower where two footprints were parted is a slip of the outlines.
+constexpr double slip = 0.8;  // m
+/// More cells than this are refused.
+constexpr double most_cells = 4e8;
+
+/// The cells of one building, with a rim.
+struct Cutting {
+  Place place;
+  Mask mask;
+  double height = 0, planes = 0;  ///< m above the ground, median; share of the cells that lie in planes
+  geometry::Box2 within;          ///< the mesh ends there
+};
+
+struct Extent {
+  std::size_t left = SIZE_MAX, right = 0, low = SIZE_MAX, high = 0;
+};
+
+auto extents_of(const Place& place, const detail::Cut& cut) -> std::vector<Extent> {
+  std::vector<Extent> out(cut.height.size());
+  for (std::size_t i = 0; i < cut.of.size(); ++i) {
+    if (cut.of[i] == 0) continue;
+    auto& extent = out[static_cast<std::size_t>(cut.of[i])];
+    const std::size_t column = i % place.columns, row = i / place.columns;
+    extent.left = std::min(extent.left, column), extent.right = std::max(extent.right, column);
+    extent.low = std::min(extent.low, row), extent.high = std::max(extent.high, row);
+  }
+  return out;
+}
+
+/// Building `number` out of the whole grid, gone on a little under the higher ones that it touches.
+auto cut_out(const Place& place, const detail::Cut& cut, std::size_t number, const Extent& extent) -> Cutting {
+  const std::size_t rim = place.cells(under) + 1;
+  const std::size_t left = extent.left - std::min(rim, extent.left), low = extent.low - std::min(rim, extent.low);
+  const std::size_t right = std::min(place.columns - 1, extent.right + rim), high = std::min(place.rows - 1, extent.high + rim);
+  Cutting out;
+  out.place = {place.corner + place.cell * geometry::Point2{static_cast<double>(left), static_cast<double>(low)}, place.cell,
+               right - left + 1, high - low + 1};
+  std::vector<std::size_t> of(out.place.size());
+  for (std::size_t row = low; row <= high; ++row)
+    for (std::size_t column = left; column <= right; ++column)
+      of[out.place.index(column - left, row - low)] = static_cast<std::size_t>(cut.of[place.index(column, row)]);
+  out.mask.resize(of.size());
+  std::vector<bool> higher(cut.height.size(), false);
+  bool any = false;
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    out.mask[i] = of[i] == number ? 1 : 0;
+    if (out.mask[i] == 0) continue;
+    detail::for_neighbours(out.place, i, [&](std::size_t next) {
+      const std::size_t other = of[next];
+      if (other == 0 || other == number || cut.height[other] <= cut.height[number]) return;
+      higher[other] = any = true;
+    });
+  }
+  if (!any) return out;
+  const auto wide = detail::grown(out.place, out.mask, under / place.cell);
+  for (std::size_t i = 0; i < of.size(); ++i)
+    if (wide[i] != 0 && higher[of[i]]) out.mask[i] = 1;
+  return out;
+}
+
+/// What a straight wall would add beyond the end of the mesh is taken off.
+auto clipped(const Polygon& polygon, const geometry::Box2& to) -> std::vector<Polygon> {
+  const auto box = geometry::bounds(polygon.outer);
+  if (to.contains(box.least) && to.contains(box.most)) return {polygon};
+  const Polygon frame{{to.least, {to.most.x, to.least.y}, to.most, {to.least.x, to.most.y}}, {}};
+  auto common = geometry::intersect(polygon, frame);
+  return common ? std::move(*common) : std::vector<Polygon>{};
+}
+
+auto outline_of(const Cutting& cutting, const Options& options) -> base::Result<std::vector<Polygon>> {
+  const std::vector<std::int32_t> numbers(cutting.mask.begin(), cutting.mask.end());
+  auto drawn = detail::polygons_of(cutting.place, numbers, 2);
+  if (!drawn) return drawn.error();
+  const detail::Regularity how{options.cell, options.tolerance, options.shortest};
+  std::vector<Polygon> out;
+  for (auto& polygon : (*drawn)[1]) {
+    std::erase_if(polygon.holes, [&](const auto& hole) { return -geometry::signed_area(hole) < options.least_area; });
+    if (geometry::area(polygon) < options.least_area) continue;
+    for (const auto& straight : detail::regularised(polygon, how))
+      for (auto& piece : clipped(straight, cutting.within)) out.push_back(std::move(piece));
+  }
+  return out;
+}
+
+auto box_of(const Polygon& polygon) -> geometry::Box2 { return geometry::bounds(polygon.outer); }
+
+/// What of the polygons is not in those drawn before, without the slivers that are left of it.
+auto parted(std::vector<Polygon> polygons, const std::vector<Polygon>& before) -> std::vector<Polygon> {
+  for (const auto& other : before) {
+    std::vector<Polygon> rest;
+    for (auto& polygon : polygons) {
+      if (!box_of(polygon).overlaps(box_of(other))) {
+        rest.push_back(std::move(polygon));
+        continue;
+      }
+      const auto common = geometry::intersect(polygon, other);
+      if (common && common->empty()) {
+        rest.push_back(std::move(polygon));
+        continue;
+      }
+      auto left = geometry::subtract(polygon, other);
+      if (!left) continue;
+      for (const auto& piece : *left) {
+        auto core = geometry::buffer(piece, -slip / 2);
+        if (!core) continue;
+        for (const auto& part : *core) {
+          const auto whole = geometry::buffer(part, slip / 2);
+          if (!whole) continue;
+          for (const auto& one : *whole)
+            if (auto apart = geometry::subtract(one, other)) rest.insert(rest.end(), apart->begin(), apart->end());
+        }
+      }
+    }
+    polygons = std::move(rest);
+  }
+  return polygons;
+}
+
+/// One footprint before it has a name.
+struct Drawn {
+  Polygon polygon;
+  double height = 0, planes = 0;
+};
+
+auto named(std::vector<Drawn> drawn) -> std::vector<ingest::Footprint> {
+  const auto along = [](const Drawn& one) {
+    const auto box = box_of(one.polygon);
+    return std::tuple(box.least.x + box.most.x - box.least.y - box.most.y, box.least.x, box.least.y);
+  };
+  std::ranges::stable_sort(drawn, {}, along);
+  std::vector<ingest::Footprint> out;
+  for (auto& one : drawn) {
+    ingest::Footprint footprint;
+    footprint.id = "derived-" + std::to_string(out.size() + 1);
+    footprint.derived = true;
+    footprint.attributes = {{"ms_derived", true},
+                            {"ms_derived_height", std::round(one.height * 100) / 100},
+                            {"ms_derived_planes", std::round(one.planes * 1000) / 1000}};
+    footprint.polygons.push_back(std::move(one.polygon));
+    out.push_back(std::move(footprint));
+  }
+  return out;
+}
+
+/// Median height above the ground, and share of cells in planes, of each building.
+void measure(const detail::Cut& cut, const Heights& top, const Heights& ground, const Mask& planes,
+             std::vector<Cutting>& cuttings) {
+  std::vector<std::vector<float>> heights(cuttings.size());
+  std::vector<double> in(cuttings.size(), 0);
+  for (std::size_t i = 0; i < cut.of.size(); ++i) {
+    const auto b = static_cast<std::size_t>(cut.of[i]);
+    if (b == 0 || std::isnan(top[i])) continue;
+    heights[b].push_back(top[i] - ground[i]);
+    in[b] += planes[i];
+  }
+  for (std::size_t b = 1; b < cuttings.size(); ++b) {
+    if (heights[b].empty()) continue;
+    const auto middle = heights[b].begin() + static_cast<std::ptrdiff_t>(heights[b].size() / 2);
+    std::ranges::nth_element(heights[b], middle);
+    cuttings[b].height = *middle;
+    cuttings[b].planes = in[b] / static_cast<double>(heights[b].size());
+  }
+}
+
+auto nothing() -> base::Diagnostic {
+  return base::error("derive-nothing",
+                     "nothing in the mesh stands high, wide and smooth enough to be a building; see derive.above_ground, "
+                     "derive.least_area and derive.smooth, or give footprints");
+}
+
+auto stopped() -> base::Diagnostic { return base::error("cancelled", "stopped on request; nothing was written"); }
+
+}  // namespace
+
+auto option_list(Options& o) -> base::OptionList {
+  return std::move(
+      base::OptionList("derive")
+          .number("cell", o.cell, "m", {0.1, 5}, "Cell of the grid of heights that footprints are drawn from.")
+          .number("above_ground", o.above_ground, "m", {0.5, 100}, "What stands less high above the ground is no building.")
+          .number("least_area", o.least_area, "m²", {1, 1e5}, "Smaller buildings are left out, smaller courtyards closed.")
+          .number("widest", o.widest, "m", {10, 2000},
+                  "The lowest surface in any square so wide is ground: wider than any roof, and than what is built around.")
+          .number("smooth", o.smooth, "", {0, 1},
+                  "Least share of a roof, around each place, that lies in planes; trees have next to none.")
+          .number("step", o.step, "m", {0, 500},
+                  "What stands so much above what it touches is a building of its own; 0 for never.")
+          .number("tolerance", o.tolerance, "m", {0.1, 20}, "What is nearer to the line of a wall than this is that wall.")
+          .number("shortest", o.shortest, "m", {0, 50}, "Shorter sides are not drawn."));
+}
+
+auto footprints(const ingest::Scene& scene, const Options& options, const base::Run& run)
+    -> base::Result<std::vector<ingest::Footprint>> {
+  run.report("derive", "heights", 0);
+  const Place place = detail::place_of(scene.mesh, options.cell);
+  if (place.size() == 0) return nothing();
+  if (static_cast<double>(place.columns) * static_cast<double>(place.rows) > most_cells)
+    return base::error("derive-size",
+                       "the grid of heights would have more than 400 million cells; raise derive.cell, or take less of the "
+                       "mesh with --bbox");
+  const auto top = detail::top_heights(scene.mesh, place);
+  if (run.cancelled()) return stopped();
+
+  run.report("derive", "ground", 0.3);
+  const auto ground = scene.terrain ? detail::ground_of(place, *scene.terrain) : detail::ground_of(place, top, options.widest);
+  if (run.cancelled()) return stopped();
+
+  run.report("derive", "buildings", 0.5);
+  const auto standing = detail::standing(top, ground, options.above_ground);
+  const auto planes = detail::in_planes(place, top, standing);
+  const auto cut = detail::cut_at_steps(place, top, detail::buildings(place, top, standing, planes, options), options);
+  if (run.cancelled()) return stopped();
+
+  run.report("derive", "outlines", 0.7);
+  const auto extents = extents_of(place, cut);
+  std::vector<Cutting> cuttings(extents.size());
+  std::vector<std::vector<Polygon>> outlines(extents.size());
+  std::vector<std::optional<base::Diagnostic>> failures(extents.size());
+  measure(cut, top, ground, planes, cuttings);
+  geometry::Box2 end;
+  for (const auto& vertex : scene.mesh.vertices) end.add(geometry::xy(vertex));
+  base::parallel_for(extents.size(), [&](std::size_t b) {
+    if (b == 0 || run.cancelled()) return;
+    auto cutting = cut_out(place, cut, b, extents[b]);
+    cutting.within = end;
+    auto outline = outline_of(cutting, options);
+    if (outline) outlines[b] = std::move(*outline);
+    else failures[b] = outline.error();
+  });
+  for (const auto& failure : failures)
+    if (failure) return *failure;
+  if (run.cancelled()) return stopped();
+
+  run.report("derive", "outlines", 0.9);
+  std::vector<std::size_t> order(extents.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, std::greater(), [&](std::size_t b) { return cut.height[b]; });
+  std::vector<Drawn> drawn;
+  std::vector<Polygon> before;
+  for (const std::size_t b : order)
+    for (auto& polygon : parted(std::move(outlines[b]), before)) {
+      if (geometry::area(polygon) < options.least_area || !geometry::is_simple(polygon)) continue;
+      before.push_back(polygon);
+      drawn.push_back({std::move(polygon), cuttings[b].height, cuttings[b].planes});
+    }
+  if (drawn.empty()) return nothing();
+  run.report("derive", "outlines", 1);
+  return named(std::move(drawn));
+}
+
+auto codes() -> std::vector<base::Code> {
+  return {
+      {"derive-nothing", "No footprint could be drawn from the mesh: nothing stands high, wide and smooth enough.",
+       "Lower derive.above_ground, derive.least_area or derive.smooth, or give footprints.", 5},
+      {"derive-size", "The mesh is too large for a grid of heights with this cell.",
+       "Raise derive.cell, or take less of the mesh with --bbox.", 4},
+      {"derive-outline", "The outlines of the buildings could not be drawn from the grid.",
+       "The message has the library's words; raise derive.cell, and please report it.", 5},
+  };
+}
+
+}  // namespace mansard::derive

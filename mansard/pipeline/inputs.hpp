@@ -1,0 +1,24 @@
+// Meshes in, with footprints or without: what reconstruct and segment begin with.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "mansard/pipeline/pipeline.hpp"
+
+namespace mansard::pipeline {
+
+struct InputPaths {
+  std::vector<std::filesystem::path> meshes;
+  std::filesystem::path footprints;  ///< empty: none
+  bool derive_footprints = false;    ///< draw them from the mesh: only where none are given
+};
+
+/// The scene of these files; its footprints are those of the file, or derive::footprints of the mesh.
+/// Gives up as ingest::read_scene and derive::footprints do, and with "pipeline-footprints" where footprints are
+/// neither given nor to
+/// be derived, or both.
+[[nodiscard]] auto read_inputs(const InputPaths& paths, const Options& options, const base::Run& run = {})
+    -> base::Result<ingest::Scene>;
+
+}  // namespace mansard::pipeline

@@ -1,0 +1,180 @@
+#include "mansard/pipeline/stored.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "mansard/ingest/input_file.hpp"
+
+namespace mansard::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What is made of a plan depends on nothing else.
+auto raises(std::string_view name) -> bool { return name.starts_with("extrude.") || name.starts_with("label."); }
+
+auto raising_options(const Options& options) -> std::vector<std::pair<std::string, std::string>> {
+  Options copy = options;
+  std::vector<std::pair<std::string, std::string>> out;
+  for (const auto& list : {extrude::option_list(copy.extrude), label::option_list(copy.label)})
+    for (const auto& option : list.options()) out.emplace_back(list.room() + "." + option.name, option.get());
+  return out;
+}
+
+auto value_of(const write::MadeBy& made_by, std::string_view name) -> const std::string* {
+  for (const auto& [key, value] : made_by.options)
+    if (key == name) return &value;
+  return nullptr;
+}
+
+auto class_of(label::Class kind) -> ingest::SurfaceClass {
+  switch (kind) {
+    case label::Class::wall:
+    case label::Class::party_wall: return ingest::SurfaceClass::wall;
+    case label::Class::roof: return ingest::SurfaceClass::roof;
+    case label::Class::ground: return ingest::SurfaceClass::ground;
+    case label::Class::soffit: break;
+  }
+  return ingest::SurfaceClass::other;
+}
+
+auto part_of(const write::Part& part) -> ingest::ModelPart {
+  ingest::ModelPart out{part.id, {}};
+  const auto& solid = part.model.solid;
+  for (std::size_t f = 0; f < solid.faces.size(); ++f) {
+    auto& face = out.faces.emplace_back();
+    face.kind = class_of(part.model.classes[f]);
+    for (const auto& loop : solid.faces[f].loops) {
+      auto& points = face.loops.emplace_back();
+      for (const auto v : loop) points.push_back(solid.vertices[v]);
+    }
+  }
+  return out;
+}
+
+/// The file, or every file of a folder of tiles, by name.
+auto inputs_of(const fs::path& path) -> base::Result<std::vector<ingest::InputFile>> {
+  std::vector<fs::path> files;
+  std::error_code status;
+  if (fs::is_directory(path, status)) {
+    for (const auto& entry : fs::recursive_directory_iterator(path, status))
+      if (entry.is_regular_file(status)) files.push_back(entry.path());
+    std::ranges::sort(files);
+  } else {
+    files.push_back(path);
+  }
+  std::vector<ingest::InputFile> out;
+  for (const auto& file : files) {
+    auto input = ingest::input_file(file);
+    if (!input) return input.error();
+    out.push_back(std::move(*input));
+  }
+  return out;
+}
+
+/// A plans.json ends like any JSON, CityJSON among it; read_model reads that, of whatever maker.
+auto read_model_knows(const fs::path& path) -> bool {
+  const auto format = write::format_of(path);
+  if (format == write::Format::plans) {
+    const auto opened = write::read_city(path);
+    return opened ? (*opened)->has_models() : is_foreign(opened.error());
+  }
+  return format == write::Format::cityjson || format == write::Format::cityjsonseq || format == write::Format::obj;
+}
+
+}  // namespace
+
+auto is_foreign(const base::Diagnostic& why) -> bool {
+  static constexpr std::array codes{"write-read-format", "write-read-plans", "write-plan-type"};
+  return std::ranges::find(codes, why.code) != codes.end();
+}
+
+auto take_options(const write::MadeBy& made_by, Options& options) -> std::vector<base::Diagnostic> {
+  std::vector<base::Diagnostic> warnings;
+  auto lists = option_lists(options);
+  for (const auto& [name, value] : made_by.options) {
+    if (!raises(name)) continue;
+    if (auto set = set_option(lists, name, value); !set) {
+      auto why = set.error();
+      warnings.push_back(base::warning(why.code, why.message + "; the default is used", name));
+    }
+  }
+  return warnings;
+}
+
+void note_options(const Options& options, write::MadeBy& made_by) {
+  const auto defaults = raising_options({});
+  const auto used = raising_options(options);
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    const auto at = std::ranges::find(made_by.options, used[i].first, &std::pair<std::string, std::string>::first);
+    if (at != made_by.options.end())
+      at->second = used[i].second;
+    else if (used[i] != defaults[i])
+      made_by.options.push_back(used[i]);
+  }
+}
+
+auto same_options(const write::MadeBy& made_by, const Options& options) -> bool {
+  const auto defaults = raising_options({});
+  const auto used = raising_options(options);
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    const auto* before = value_of(made_by, used[i].first);
+    if (used[i].second != (before != nullptr ? *before : defaults[i].second)) return false;
+  }
+  return true;
+}
+
+auto read_raised(write::CityReader& reader, const Options& options, const base::Run& run) -> base::Result<RaisedPlans> {
+  auto city = write::read_whole(reader);
+  if (!city) return city.error();
+  const bool as_made = same_options(city->made_by, options);
+  note_options(options, city->made_by);
+  if (reader.has_models() && as_made) return RaisedPlans{std::move(*city), {}};
+  return raise_plans(std::move(*city), options, run);
+}
+
+auto model_of(const write::City& city) -> ingest::Model {
+  ingest::Model model;
+  model.frame = city.frame;
+  model.lod = "2.2";
+  for (const auto& building : city.buildings) {
+    ingest::ModelBuilding out{building.id, {}};
+    for (const auto& part : building.parts)
+      if (!part.model.solid.faces.empty()) out.parts.push_back(part_of(part));
+    if (!out.parts.empty()) model.buildings.push_back(std::move(out));
+  }
+  return model;
+}
+
+auto read_any_model(const fs::path& path, const ingest::ModelOptions& wanted, const base::Run& run)
+    -> base::Result<ingest::Model> {
+  if (read_model_knows(path)) return ingest::read_model(path, wanted);
+  auto reader = write::read_city(path);
+  if (!reader) return reader.error();
+  const std::string subject = path.string();
+  if (!wanted.lod.empty() && !std::string("2.2").starts_with(wanted.lod))
+    return base::error("ingest-model-lod", "there is no LoD " + wanted.lod + " in it, but 2.2", subject);
+  Options options;
+  auto warnings = take_options((*reader)->header().made_by, options);
+  auto raised = read_raised(**reader, options, run);
+  if (!raised) return raised.error();
+  auto model = model_of(raised->city);
+  if (model.buildings.empty())
+    return base::error("ingest-model-empty", "there is no building with a surface in it", subject);
+  if (wanted.crs == "local") {
+    model.frame.crs.clear();
+  } else if (!wanted.crs.empty()) {
+    auto frame = model.frame;
+    frame.crs = wanted.crs;
+    auto checked = ingest::in_frame(std::move(model), frame);
+    if (!checked) return checked.error();
+    model = std::move(*checked);
+  }
+  auto inputs = inputs_of(path);
+  if (!inputs) return inputs.error();
+  model.inputs = std::move(*inputs);
+  model.warnings = std::move(warnings);
+  return model;
+}
+
+}  // namespace mansard::pipeline

@@ -1,0 +1,31 @@
+#include "mansard/write/detail/gdal_frame.hpp"
+
+#include <algorithm>
+#include <gdal_priv.h>
+#include <mutex>
+
+namespace mansard::write::detail {
+
+void register_gdal() {
+  static std::once_flag registered;
+  std::call_once(registered, [] { GDALAllRegister(); });
+}
+
+auto gdal_words() -> std::string {
+  std::string words = CPLGetLastErrorMsg();
+  std::ranges::replace(words, '\n', ' ');
+  return words.empty() ? "" : " (" + words + ")";
+}
+
+auto crs_of(const ingest::Frame& frame) -> std::optional<OGRSpatialReference> {
+  OGRSpatialReference crs;
+  crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  const OGRErr failure =
+      frame.crs.empty()
+          ? crs.SetLocalCS("Undefined Cartesian SRS")
+          : crs.SetFromUserInput(frame.crs.c_str(), OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get());
+  if (failure != OGRERR_NONE) return std::nullopt;
+  return crs;
+}
+
+}  // namespace mansard::write::detail

@@ -1,0 +1,255 @@
+// Every format into every other, and models back in: convert, and the verbs that take what mansard wrote.
+#include <array>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "cli/command.hpp"
+
+namespace mansard::cli {
+namespace {
+
+using testing::HasSubstr;
+
+struct Kind {
+  std::string format, file;
+  bool readable = true;
+};
+const std::vector<Kind> kinds{{"cityjson", "model.city.json"},
+                              {"cityjsonseq", "model.city.jsonl"},
+                              {"obj", "model.obj"},
+                              {"glb", "model.glb"},
+                              {"tiles", "model.3dtiles"},
+                              {"geopackage", "model.gpkg"},
+                              {"stl", "model.stl", false},
+                              {"geojson", "model.geojson"},
+                              {"plans", "plans.json"}};
+
+/// A file's bytes, or those of all files of a folder, by name.
+auto bytes_of(const fs::path& path) -> std::map<std::string, std::string> {
+  if (!fs::is_directory(path)) return {{"", read(path)}};
+  std::map<std::string, std::string> all;
+  for (const auto& entry : fs::recursive_directory_iterator(path))
+    if (entry.is_regular_file()) all[fs::relative(entry.path(), path).string()] = read(entry.path());
+  return all;
+}
+
+class Convert : public Command {
+ protected:
+  /// The house in every format, in the folder "out".
+  void make_all(const std::string& more = "") {
+    const auto made = reconstruct(at("house.obj"), at("house.geojson"), "--formats all " + more);
+    ASSERT_EQ(made.exit, 0) << made.err;
+  }
+  [[nodiscard]] auto out(const std::string& name) const -> std::string { return at("out") + "/" + name; }
+  auto convert(const std::string& from, const std::string& to, const std::string& more = "") const -> Outcome {
+    return run("convert -q " + from + " -o " + to + " " + more);
+  }
+  /// From each that can be read, all of them in one run, each compared to the byte with what was reconstructed.
+  void expect_all_pairs(const std::string& folder) {
+    for (const auto& from : kinds) {
+      if (!from.readable) continue;
+      const auto to = at("from-" + from.format);
+      fs::create_directory(to);
+      std::string outputs;
+      for (const auto& kind : kinds) outputs += " -o " + to + "/" + kind.file;
+      const auto outcome = run("convert -q " + folder + "/" + from.file + outputs);
+      ASSERT_EQ(outcome.exit, 0) << from.format << ": " << outcome.err;
+      for (const auto& kind : kinds) {
+        // CityJSON gives its own faces, rounded to 0.1 mm: what is computed of their normals has other last digits.
+        const bool computed = kind.format == "glb" || kind.format == "tiles" || kind.format == "geopackage";
+        if (computed && from.format.starts_with("cityjson")) {
+          EXPECT_TRUE(fs::exists(to + "/" + kind.file));
+          continue;
+        }
+        EXPECT_TRUE(bytes_of(to + "/" + kind.file) == bytes_of(folder + "/" + kind.file))
+            << from.format << " to " << kind.format;
+      }
+      EXPECT_EQ(read(to + "/model.mtl"), read(folder + "/model.mtl")) << from.format;
+      fs::remove_all(to);
+    }
+  }
+};
+
+TEST_F(Convert, the_table_of_this_test_has_every_format) {
+  std::string names;
+  for (const auto& kind : kinds) names += (names.empty() ? "" : ", ") + kind.format;
+  const auto listed = nlohmann::json::parse(run("options --json").out);
+  for (const auto& verb : listed["verbs"])
+    if (verb["verb"] == "convert")
+      for (const auto& option : verb["options"])
+        if (option["names"][0] == "--to") {
+          EXPECT_THAT(option["meaning"].get<std::string>(), HasSubstr(names));
+        }
+}
+
+TEST_F(Convert, all_formats_of_a_house_become_all_others_to_the_byte) {
+  make_all();
+  for (const auto& kind : kinds) ASSERT_TRUE(fs::exists(out(kind.file))) << kind.file;
+  expect_all_pairs(at("out"));
+}
+
+TEST_F(Convert, all_formats_of_the_hall_become_all_others_to_the_byte) {
+  const std::string hall = MANSARD_DATA "/hall/";
+  const auto made = reconstruct(hall + "mesh.off", hall + "footprints.geojson", "--formats all");
+  ASSERT_LE(made.exit, 1) << made.err;
+  expect_all_pairs(at("out"));
+}
+
+TEST_F(Convert, names_each_result_on_stdout) {
+  make_all();
+  const auto outcome = convert(out("plans.json"), at("a.glb") + " -o " + at("b.gpkg"));
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, at("a.glb") + "\n" + at("b.gpkg") + "\n");
+  EXPECT_EQ(outcome.err, "");
+}
+
+TEST_F(Convert, takes_the_format_from_to_where_the_name_does_not_say_it) {
+  make_all();
+  ASSERT_EQ(convert(out("model.glb"), at("model.data"), "--to obj").exit, 0);
+  EXPECT_THAT(read(at("model.data")), HasSubstr("\nv "));
+  fs::rename(out("model.glb"), at("own.glb"));
+  fs::remove_all(at("out"));
+  expect_refusal(convert(at("own.glb"), at("model.fbx")), 2, "usage", ".gpkg");
+  expect_refusal(convert(at("own.glb"), at("model.data"), "--to geopakage"), 4, "option-value", "'geopackage'");
+  expect_refusal(convert(at("own.glb"), at("a.obj") + " -o " + at("b.obj"), "--to obj"), 2, "usage");
+}
+
+TEST_F(Convert, raises_models_by_the_options_that_the_file_was_made_with) {
+  make_all("--extrude-overhang 0.4");
+  for (const auto* name : {"same", "bare", "raised"}) fs::create_directory(at(name));
+  for (const auto* from : {"plans.json", "model.glb", "model.city.json"}) {
+    ASSERT_EQ(convert(out(from), at("same/model.obj"), "--overwrite").exit, 0) << from;
+    EXPECT_EQ(read(at("same/model.obj")), read(out("model.obj"))) << from;
+    // The command line goes before the file, and is in what comes out.
+    ASSERT_EQ(convert(out(from), at("bare/model.obj") + " -o " + at("bare.json"), "--extrude-overhang 0 --overwrite").exit, 0);
+    EXPECT_NE(read(at("bare/model.obj")), read(out("model.obj"))) << from;
+    const auto plans = nlohmann::json::parse(read(at("bare.json")));
+    EXPECT_EQ(plans["made_by"]["options"]["extrude.overhang"], "0") << from;
+  }
+  ASSERT_EQ(run("extrude -q " + out("plans.json") + " -o " + at("raised/model.obj")).exit, 0);
+  EXPECT_EQ(read(at("raised/model.obj")), read(out("model.obj")));
+}
+
+TEST_F(Convert, overwrites_nothing_silently_and_no_input_at_all) {
+  make_all();
+  const auto before = read(out("model.glb"));
+  fs::copy_file(out("model.glb"), at("own.glb"));
+  const auto there = convert(out("plans.json"), at("own.glb"));
+  EXPECT_EQ(there.exit, 2);
+  EXPECT_THAT(there.err, HasSubstr("output-exists"));
+  EXPECT_EQ(convert(out("plans.json"), at("own.glb"), "--overwrite").exit, 0);
+  const auto over = convert(out("model.glb"), out("model.glb"), "--overwrite");
+  EXPECT_EQ(over.exit, 2);
+  EXPECT_THAT(over.err, HasSubstr("output-input"));
+  EXPECT_EQ(read(out("model.glb")), before);
+  const auto twice = convert(out("plans.json"), at("x.obj") + " -o " + at("x.obj"));
+  EXPECT_EQ(twice.exit, 2);
+  EXPECT_THAT(twice.err, HasSubstr("two results"));
+}
+
+TEST_F(Convert, replaces_a_folder_of_tiles_alone) {
+  make_all();
+  ASSERT_EQ(convert(out("plans.json"), at("t.3dtiles")).exit, 0);
+  EXPECT_THAT(convert(out("plans.json"), at("t.3dtiles")).err, HasSubstr("output-exists"));
+  EXPECT_EQ(convert(out("plans.json"), at("t.3dtiles"), "--overwrite").exit, 0);
+  fs::create_directory(at("mine"));
+  put("mine/thesis.txt", "years of work");
+  const auto outcome = convert(out("plans.json"), at("mine"), "--overwrite");
+  EXPECT_EQ(outcome.exit, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("would be lost"));
+  EXPECT_EQ(read(at("mine/thesis.txt")), "years of work");
+}
+
+TEST_F(Convert, writes_nothing_where_one_result_cannot_be) {
+  make_all();
+  const auto outcome = convert(out("plans.json"), at("good.obj") + " -o " + at("nowhere/x.glb"));
+  EXPECT_EQ(outcome.exit, 3) << outcome.err;
+  EXPECT_FALSE(fs::exists(at("good.obj")));
+  EXPECT_FALSE(fs::exists(at("good.mtl")));
+}
+
+TEST_F(Convert, says_what_can_be_done_with_files_without_plans) {
+  const auto foreign = put("foreign.city.json", R"({"type":"CityJSON","version":"2.0","transform":{"scale":[1,1,1],
+      "translate":[0,0,0]},"CityObjects":{},"vertices":[]})");
+  expect_refusal(convert(foreign, at("x.glb")), 3, "write-read-plans", "mansard evaluate");
+  expect_refusal(convert(at("house.obj"), at("x.glb")), 3, "write-read-plans", "mansard extrude");
+  expect_refusal(convert(at("house.geojson"), at("x.glb")), 3, "write-read-plans", "mansard extrude");
+  expect_refusal(convert(at("none.glb"), at("x.obj")), 3, "file-missing");
+  expect_refusal(convert(put("x.fbx", "?"), at("x.obj")), 3, "write-read-format");
+  make_all();
+  const auto stl = convert(out("model.stl"), at("x.glb"));
+  EXPECT_EQ(stl.exit, 3);
+  EXPECT_THAT(stl.err, HasSubstr("error[write-read-format]"));
+}
+
+TEST_F(Convert, tells_where_a_plan_is_broken) {
+  make_all();
+  auto plans = nlohmann::json::parse(read(out("plans.json")));
+  plans["buildings"][0]["parts"][0]["plan"]["profiles"][0][0] = {0.5, 0.5};
+  const auto outcome = convert(put("broken.json", plans.dump()), at("x.glb"));
+  EXPECT_EQ(outcome.exit, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("error[write-plan-profile]"));
+  EXPECT_FALSE(fs::exists(at("x.glb")));
+}
+
+// ---- the other verbs
+
+TEST_F(Convert, extrude_raises_whatever_has_plans) {
+  make_all();
+  for (const auto& from : kinds) {
+    if (!from.readable) continue;
+    const auto outcome = run("extrude -q " + out(from.file) + " -o " + at(from.format + ".city.json"));
+    EXPECT_EQ(outcome.exit, 0) << from.format << ": " << outcome.err;
+    EXPECT_EQ(read(at(from.format + ".city.json")), read(out("model.city.json"))) << from.format;
+  }
+}
+
+TEST_F(Convert, extrude_writes_any_format_by_its_ending) {
+  make_all();
+  for (const auto& kind : kinds) {
+    const auto place = at("again-" + kind.file);
+    const auto outcome = run("extrude -q " + out("plans.json") + " -o " + place);
+    ASSERT_EQ(outcome.exit, 0) << kind.format << ": " << outcome.err;
+    EXPECT_EQ(outcome.out, place + "\n");
+    if (kind.format != "obj") {
+      EXPECT_TRUE(bytes_of(place) == bytes_of(out(kind.file))) << kind.format;
+    }
+  }
+}
+
+TEST_F(Convert, formats_say_what_a_folder_of_results_has) {
+  ASSERT_EQ(reconstruct(at("house.obj"), at("house.geojson"), "--formats plans,stl").exit, 0);
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(at("out"))) names.insert(entry.path().filename());
+  EXPECT_THAT(names, testing::ElementsAre("model.stl", "plans.json", "run.json"));
+  // Another run with other formats leaves nothing of this one, but what is not its own.
+  put("out/notes.txt", "mine");
+  ASSERT_EQ(reconstruct(at("house.obj"), at("house.geojson"), "--formats obj --overwrite").exit, 0);
+  names.clear();
+  for (const auto& entry : fs::directory_iterator(at("out"))) names.insert(entry.path().filename());
+  EXPECT_THAT(names, testing::ElementsAre("model.mtl", "model.obj", "notes.txt", "run.json"));
+  fs::remove_all(at("out"));
+  expect_refusal(reconstruct(at("house.obj"), at("house.geojson"), "--formats obj,geopakage"), 4, "option-value", "'geopackage'");
+  ASSERT_EQ(run("extrude -q --profile '0,0 0,6' " + at("house.geojson") + " -o " + at("e") + " --formats geojson").exit, 0);
+  EXPECT_TRUE(fs::exists(at("e/model.geojson")));
+  EXPECT_FALSE(fs::exists(at("e/model.glb")));
+}
+
+TEST_F(Convert, evaluate_gives_the_same_numbers_for_every_format) {
+  make_all();
+  std::string first;
+  for (const auto& kind : kinds) {
+    if (!kind.readable || kind.format == "obj") continue;
+    const auto report = at(kind.format + ".report.json");
+    const auto outcome = run("evaluate -q " + out(kind.file) + " " + at("house.obj") + " --footprints " +
+                             at("house.geojson") + " -o " + report);
+    ASSERT_EQ(outcome.exit, 0) << kind.format << ": " << outcome.err;
+    auto scores = nlohmann::json::parse(read(report))["scores"].dump();
+    if (first.empty()) first = scores;
+    EXPECT_EQ(scores, first) << kind.format;
+  }
+}
+
+}  // namespace
+}  // namespace mansard::cli

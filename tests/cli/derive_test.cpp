@@ -1,0 +1,49 @@
+// --derive-footprints: meshes alone, and models that say where their footprints are from.
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+
+namespace mansard::cli {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class Derive : public Command {};
+
+TEST_F(Derive, reconstructs_a_mesh_without_footprints_and_says_so_in_every_format) {
+  const auto outcome = run("reconstruct " + at("house.obj") + " --derive-footprints --formats all -o " + at("out"));
+  EXPECT_LE(outcome.exit, 1) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("1 footprints were drawn from the mesh"));
+  const auto report = nlohmann::json::parse(read(at("out") + "/run.json"));
+  EXPECT_EQ(report["footprints_derived"], true);
+  EXPECT_EQ(report["buildings"][0]["id"], "derived-1");
+  EXPECT_EQ(report["buildings"][0]["derived"], true);
+  EXPECT_NEAR(report["buildings"][0]["areas_m2"]["ground"].get<double>(), 96, 12);
+  for (const auto* name : {"model.city.json", "model.city.jsonl", "model.obj", "model.glb", "model.gpkg", "model.geojson",
+                           "plans.json"})
+    EXPECT_THAT(read(at("out") + "/" + name), HasSubstr("ms_derived")) << name;
+}
+
+TEST_F(Derive, shows_why_walls_were_drawn_without_footprints_too) {
+  const auto outcome = run("segment " + at("house.obj") + " --derive-footprints -o " + at("out.gpkg"));
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_THAT(read(at("out.gpkg")), HasSubstr("derived-1"));
+}
+
+TEST_F(Derive, is_named_where_footprints_are_missing) {
+  const auto outcome = run("reconstruct " + at("house.obj") + " -o " + at("out"));
+  EXPECT_EQ(outcome.exit, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("--derive-footprints"));
+  EXPECT_THAT(run("explore --help").out, Not(HasSubstr("--derive-footprints")));
+}
+
+TEST_F(Derive, gives_up_with_a_reason_where_nothing_stands) {
+  const auto outcome = run("reconstruct " + at("house.obj") + " --derive-footprints --derive-above-ground 50 -o " + at("out"));
+  EXPECT_EQ(outcome.exit, 5);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("derive-nothing"), HasSubstr("give footprints")));
+}
+
+}  // namespace
+}  // namespace mansard::cli

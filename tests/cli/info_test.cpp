@@ -1,0 +1,137 @@
+// What `mansard info` says of files of every kind.
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "cli/command.hpp"
+
+namespace mansard::cli {
+namespace {
+
+using testing::HasSubstr;
+using Json = nlohmann::json;
+
+class Info : public Command {
+ protected:
+  auto info(const std::string& files) const -> Json {
+    const auto outcome = run("info --json " + files);
+    EXPECT_EQ(outcome.exit, 0) << outcome.err;
+    return Json::parse(outcome.out, nullptr, false);
+  }
+  /// No line of the text is longer than a terminal's; letters are counted, not bytes.
+  static void expect_narrow(const std::string& text, std::size_t not_counted) {
+    std::istringstream in(text);
+    std::size_t number = 0;
+    for (std::string line; std::getline(in, line); ++number) {
+      const auto letters = std::ranges::count_if(line, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
+      if (number >= not_counted) {
+        EXPECT_LE(letters, 80) << line;
+      }
+    }
+  }
+};
+
+TEST_F(Info, says_of_models_in_every_format_how_many_there_are_and_that_they_are_valid) {
+  ASSERT_EQ(reconstruct(at("house.obj"), at("house.geojson"), "--formats all --sweep-gamma 7").exit, 0);
+  for (const auto* name : {"model.city.json", "model.city.jsonl", "model.obj", "model.glb", "model.3dtiles", "model.gpkg",
+                           "model.geojson", "plans.json"}) {
+    const auto told = info(at("out") + "/" + name);
+    ASSERT_EQ(told.size(), 1U) << name;
+    const auto& it = told[0];
+    EXPECT_EQ(it["kind"], "models") << name;
+    EXPECT_EQ(it["by"], "mansard") << name;
+    EXPECT_EQ(it["crs"], "EPSG:28992") << name;
+    EXPECT_EQ(it["counts"], Json::parse(R"({"buildings":1,"parts":1,"faces":7,"triangles":16,"vertices":10})")) << name;
+    EXPECT_EQ(it["validity"]["solids"], 1) << name;
+    EXPECT_EQ(it["validity"]["valid"], 1) << name;
+    EXPECT_EQ(it["footprints"], Json::parse(R"({"surveyed":1,"derived":0})")) << name;
+    EXPECT_EQ(it["made_by"]["options_not_default"], Json::parse(R"({"sweep.gamma":"7"})")) << name;
+    EXPECT_EQ(it["made_by"]["inputs"].size(), 2U) << name;
+    EXPECT_EQ(it["made_by"]["inputs"][0]["sha256"].get<std::string>().size(), 64U) << name;
+    EXPECT_NEAR(it["extent"][0].get<double>(), 0, 0.3) << name;
+    EXPECT_NEAR(it["extent"][5].get<double>(), 8, 0.3) << name;
+    const auto text = run("info " + at("out") + "/" + name).out;
+    EXPECT_THAT(text, HasSubstr("1 of 1 solids, at 0.1 mm")) << name;
+    EXPECT_THAT(text, HasSubstr("sweep.gamma = 7")) << name;
+    expect_narrow(text, 1);
+  }
+  const auto all = Json::parse(run("info --json -v " + at("out") + "/plans.json").out);
+  EXPECT_GT(all[0]["made_by"]["options"].size(), 50U);
+}
+
+TEST_F(Info, says_why_a_solid_is_not_valid) {
+  const std::string hall = MANSARD_DATA "/hall/";
+  ASSERT_LE(reconstruct(hall + "mesh.off", hall + "footprints.geojson", "--formats cityjson").exit, 1);
+  auto model = Json::parse(read(at("out") + "/model.city.json"));
+  // Two of the three parts lose a face.
+  std::size_t torn = 0;
+  for (auto& object : model["CityObjects"])
+    for (auto& geometry : object["geometry"])
+      if (geometry["lod"] == "2.2" && torn < 2) {
+        auto& shell = geometry["boundaries"][0];
+        auto& values = geometry["semantics"]["values"][0];
+        shell.erase(shell.size() - 1);
+        values.erase(values.size() - 1);
+        ++torn;
+      }
+  const auto told = info(put("torn.city.json", model.dump()));
+  EXPECT_EQ(told[0]["validity"]["solids"], 3);
+  EXPECT_EQ(told[0]["validity"]["valid"], 1);
+  ASSERT_EQ(told[0]["validity"]["invalid"].size(), 2U);
+  EXPECT_EQ(told[0]["validity"]["invalid"][0]["reasons"][0]["code"], "solid-open");
+  EXPECT_THAT(run("info " + at("torn.city.json")).out, HasSubstr("1 of 3 solids"));
+}
+
+TEST_F(Info, says_what_a_mesh_and_footprints_hold) {
+  const auto told = info(at("house.obj") + " " + at("house.geojson"));
+  ASSERT_EQ(told.size(), 2U);
+  EXPECT_EQ(told[0]["kind"], "mesh");
+  EXPECT_EQ(told[0]["counts"]["triangles"], 2 + 2 + 3 + 2 + 3 + 2 + 2);
+  EXPECT_EQ(told[0]["extent"], Json::parse("[-20.0,-20.0,0.0,40.0,40.0,8.0]"));
+  EXPECT_EQ(told[1]["kind"], "footprints");
+  EXPECT_EQ(told[1]["format"], "GeoJSON");
+  EXPECT_EQ(told[1]["layers"][0]["crs"], "EPSG:28992");
+  EXPECT_EQ(told[1]["layers"][0]["features"], 1);
+  EXPECT_EQ(told[1]["layers"][0]["fields"][0]["name"], "id");
+  const auto text = run("info " + at("house.obj") + " " + at("house.geojson"));
+  EXPECT_THAT(text.out, testing::AllOf(HasSubstr("x -20.00 to 40.00"), HasSubstr("1 features, Polygon")));
+  expect_narrow(text.out, 1);
+}
+
+TEST_F(Info, says_what_it_can_of_other_makers_models_tilesets_and_shells) {
+  const auto cube = put("other.city.json", R"({"type":"CityJSON","version":"1.1","transform":{"scale":[1,1,1],
+      "translate":[0,0,0]},"CityObjects":{"h":{"type":"Building","geometry":[{"type":"MultiSurface","lod":"2",
+      "boundaries":[[[0,1,2]],[[0,2,3]]]}]}},"vertices":[[0,0,0],[5,0,0],[5,5,1],[0,5,1]]})");
+  const auto model = info(cube);
+  EXPECT_EQ(model[0]["by"], "others");
+  EXPECT_EQ(model[0]["counts"]["faces"], 2);
+  EXPECT_EQ(model[0]["lods"], Json::parse(R"(["2"])"));
+  fs::create_directory(at("tiles"));
+  put("tiles/tileset.json", R"({"asset":{"version":"1.0"},"geometricError":40,"root":{"geometricError":20,
+      "boundingVolume":{"sphere":[0,0,0,9]},"children":[{"geometricError":0,"content":{"uri":"a.b3dm"}},
+      {"geometricError":1,"content":{"uri":"b.b3dm"}}]}})");
+  for (const auto* path : {"tiles", "tiles/tileset.json"}) {
+    const auto tileset = info(at(path));
+    EXPECT_EQ(tileset[0]["kind"], "tileset") << path;
+    EXPECT_EQ(tileset[0]["tileset"]["levels"][1], Json::parse(R"({"tiles":2,"contents":2,"geometric_error_m":[0.0,1.0]})"));
+  }
+  EXPECT_THAT(run("info " + at("tiles")).out, HasSubstr("2 tiles, 2 with content, geometric error 0.00 to 1.00 m"));
+  std::string stl = "shells" + std::string(74, '\0') + std::string("\1\0\0\0", 4) + std::string(50, '\0');
+  const auto shells = info(put("a.stl", stl));
+  EXPECT_EQ(shells[0]["counts"]["triangles"], 1);
+  EXPECT_EQ(shells[0]["header"], "shells");
+}
+
+TEST_F(Info, tells_of_the_others_where_one_file_is_missing_or_broken) {
+  const auto outcome = run("info " + at("none.glb") + " " + at("house.obj"));
+  EXPECT_EQ(outcome.exit, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("error[file-missing]"));
+  EXPECT_THAT(outcome.out, HasSubstr("mesh, obj"));
+  EXPECT_EQ(run("info " + put("x.ply", "ply\n")).exit, 3);
+  EXPECT_EQ(run("info " + put("x.bin", "nothing known")).exit, 3);
+  EXPECT_EQ(run("info " + put("x.json", R"({"type":"mansard-plan"})")).exit, 3);
+  EXPECT_EQ(run("info " + put("x.stl", "short")).exit, 3);
+  EXPECT_EQ(run("info").exit, 2);
+}
+
+}  // namespace
+}  // namespace mansard::cli

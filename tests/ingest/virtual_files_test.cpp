@@ -1,0 +1,92 @@
+// Files in archives, compressed, and not there at all.
+#include "mansard/ingest/detail/virtual_files.hpp"
+
+#include <gdal/cpl_string.h>
+#include <gdal/cpl_vsi.h>
+#include <gmock/gmock.h>
+
+#include "ingest/workshop.hpp"
+
+namespace mansard::ingest::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+class VirtualFiles : public Workshop {
+ protected:
+  /// Writes through GDAL: "/vsizip/…" and "/vsigzip/…" pack.
+  static void pack(const std::string& name, std::string_view bytes) {
+    VSILFILE* file = VSIFOpenL(name.c_str(), "wb");
+    ASSERT_NE(file, nullptr) << name;
+    ASSERT_EQ(VSIFWriteL(bytes.data(), 1, bytes.size(), file), bytes.size());
+    VSIFCloseL(file);
+  }
+  static auto text_of(const fs::path& path) -> std::string {
+    const auto bytes = detail::Bytes::of(path);
+    return bytes ? std::string(bytes->view()) : base::to_string(bytes.error());
+  }
+};
+
+constexpr std::string_view triangle = "v 0 0 0\nv 10 0 0\nv 0 10 0\nf 1 2 3\n";
+
+TEST_F(VirtualFiles, on_disk_are_mapped_and_those_packed_are_unpacked) {
+  EXPECT_EQ(text_of(file("t.obj", triangle)), triangle);
+  EXPECT_EQ(text_of(file("none.obj", "")), "");
+  pack("/vsigzip/" + at("t.obj.gz").string(), triangle);
+  EXPECT_LT(base::read_file(at("t.obj.gz")).value().substr(0, 2), triangle);
+  EXPECT_EQ(text_of(at("t.obj.gz")), triangle);
+  EXPECT_EQ(text_of("/vsigzip/" + at("t.obj.gz").string()), triangle);
+  EXPECT_FALSE(fs::exists(at("t.obj.gz.properties")));
+  const std::string zip = "/vsizip/" + at("t.zip").string();
+  pack(zip + "/folder/t.obj", triangle);
+  EXPECT_EQ(text_of(zip + "/folder/t.obj"), triangle);
+  const std::string large(5000000, 'x');
+  pack("/vsigzip/" + at("large.gz").string(), large);
+  EXPECT_EQ(text_of(at("large.gz")), large);
+}
+
+TEST_F(VirtualFiles, are_called_what_gdal_calls_them) {
+  using detail::name_for_gdal;
+  EXPECT_EQ(name_for_gdal("a/b.geojson.GZ"), "/vsigzip/a/b.geojson.GZ");
+  EXPECT_EQ(name_for_gdal("/a/b.zip"), "/vsizip//a/b.zip");
+  EXPECT_EQ(name_for_gdal("/vsizip/a.zip/b.shp"), "/vsizip/a.zip/b.shp");
+  EXPECT_EQ(name_for_gdal("a.gpkg"), "a.gpkg");
+  EXPECT_EQ(detail::plain_name("a/b.obj.gz"), "a/b.obj");
+  EXPECT_EQ(detail::plain_name("a/b.obj"), "a/b.obj");
+  EXPECT_TRUE(detail::is_virtual("/vsicurl/https://host/a.obj"));
+  EXPECT_FALSE(detail::is_virtual("a.zip"));
+}
+
+TEST_F(VirtualFiles, that_are_missing_say_what_there_is) {
+  pack("/vsizip/" + at("t.zip").string() + "/folder/t.obj", triangle);
+  const std::string zip = "/vsizip/" + at("t.zip").string();
+  const auto why = [](const std::string& path) {
+    const auto bytes = detail::Bytes::of(path);
+    EXPECT_FALSE(bytes) << path;
+    return bytes ? std::string() : bytes.error().code + ": " + bytes.error().message;
+  };
+  EXPECT_THAT(why(zip + "/folder/u.obj"), HasSubstr("file-missing: the archive has no 'folder/u.obj'; it has: folder"));
+  EXPECT_THAT(why("/vsizip/" + at("u.zip").string() + "/t.obj"), HasSubstr("file-missing: no such archive"));
+  EXPECT_THAT(why(at("u.obj.gz").string()), HasSubstr("file-missing: no such file"));
+  EXPECT_THAT(why("/vsinothing/a"), HasSubstr("file-missing: GDAL here knows no files under '/vsinothing/'"));
+  file("broken.zip", "PK\3\4 and no more");
+  EXPECT_THAT(why("/vsizip/" + at("broken.zip").string() + "/t.obj"), HasSubstr("file-read: "));
+  file("broken.obj.gz", "not packed at all");
+  EXPECT_THAT(why(at("broken.obj.gz").string()), HasSubstr("file-read: "));
+  pack("/vsigzip/" + at("cut.obj.gz").string(), std::string(100000, 'v'));
+  const auto whole = base::read_file(at("cut.obj.gz")).value();
+  file("cut.obj.gz", whole.substr(0, whole.size() / 2));
+  EXPECT_THAT(why(at("cut.obj.gz").string()), HasSubstr("file-read: "));
+}
+
+TEST_F(VirtualFiles, on_a_server_that_does_not_answer_give_gdals_words) {
+  // Port 9 of this machine: no network is needed to be refused.
+  const auto bytes = detail::Bytes::of("/vsicurl/http://127.0.0.1:9/t.obj");
+  ASSERT_FALSE(bytes);
+  EXPECT_EQ(bytes.error().code, "file-read");
+  EXPECT_THAT(bytes.error().message, HasSubstr("the server does not give it"));
+  EXPECT_FALSE(detail::is_there("/vsicurl/http://127.0.0.1:9/t.obj"));
+}
+
+}  // namespace
+}  // namespace mansard::ingest::test

@@ -1,0 +1,216 @@
+// node cityjson.mjs SAMPLES MANSARD DATA EXTENSION: holds every CityJSON object and feature of the samples, and of runs of
+// MANSARD over DATA, against the schemas beside this script, against our extension, and against what the specification
+// asks beyond a schema; then reads them with cityjson-threejs-loader. Copies that were spoilt must be refused.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, readdirSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import Ajv2020 from 'ajv/dist/2020.js';
+import { readWithLoader } from './cityjson_loader.mjs';
+
+const [samples, mansard, data, extensionFile] = process.argv.slice(2);
+const scratch = mkdtempSync(join(tmpdir(), 'mansard-cityjson-'));
+process.on('exit', () => rmSync(scratch, { recursive: true, force: true }));
+const json = (path) => JSON.parse(readFileSync(path, 'utf8'));
+
+// ---- the schemas: of the core, and of what the extension declares
+
+const ajv = new Ajv2020.default({ strict: false, allErrors: false });
+const schema = (name) => json(new URL(`./schemas/${name}.schema.json`, import.meta.url));
+const core = ajv.compile(schema('cityjson'));
+const feature = ajv.compile(schema('cityjsonfeature'));
+const extensionRules = ajv.compile(schema('cityjsonextension'));
+const extension = json(extensionFile);
+assert(extensionRules(extension), `the extension: ${ajv.errorsText(extensionRules.errors)}`);
+
+// What the extension says of plans is what docs/plan.schema.json says.
+const plans = JSON.parse(
+  JSON.stringify(json(join(data, '../docs/plan.schema.json'))).replaceAll('#/$defs/', '#/definitions/'),
+);
+for (const name of ['plan_ring', 'profile', 'polygon', 'ring', 'pair'])
+  assert.deepEqual(extension.definitions[name], plans.$defs[name], name);
+for (const [name, rule] of Object.entries(plans.$defs.plan.properties))
+  assert.deepEqual(extension.definitions.plan.properties[name], rule, name);
+const made = extension.extraRootProperties['+mansard'].properties;
+assert.deepEqual(made.made_by, plans.properties.made_by);
+
+const declared = (rule) => ajv.compile({ definitions: extension.definitions, ...rule });
+const declaredAll = (rules) => new Map(Object.entries(rules).map(([name, rule]) => [name, declared(rule)]));
+const declaredRoot = declaredAll(extension.extraRootProperties);
+const declaredAttributes = new Map(
+  Object.entries(extension.extraAttributes).map(([type, rules]) => [type, declaredAll(rules)]),
+);
+
+function* extensionFaults(members, rules, place) {
+  for (const [name, value] of Object.entries(members ?? {})) {
+    if (!name.startsWith('+')) continue;
+    const rule = rules?.get(name);
+    if (rule === undefined) yield `${place} ${name} is declared by no extension`;
+    else if (!rule(value)) yield `${place} ${name}: ${ajv.errorsText(rule.errors)}`;
+  }
+}
+
+// ---- what a schema cannot say (sections 2, 3 and 8 of the specification)
+
+const vertexNumbers = (boundaries) => boundaries.flat(Infinity);
+
+function* structureFaults(objects, vertices) {
+  const used = new Set();
+  for (const [id, object] of Object.entries(objects)) {
+    for (const child of object.children ?? [])
+      if (!objects[child]?.parents?.includes(id)) yield `${id}: the child ${child} does not name it as parent`;
+    for (const parent of object.parents ?? [])
+      if (!objects[parent]?.children?.includes(id)) yield `${id}: the parent ${parent} does not name it as child`;
+    for (const geometry of object.geometry ?? []) {
+      for (const v of vertexNumbers(geometry.boundaries)) {
+        if (v >= vertices.length) yield `${id}: vertex ${v} of ${vertices.length}`;
+        used.add(v);
+      }
+      if (geometry.semantics === undefined) continue;
+      const { surfaces, values } = geometry.semantics;
+      const shells = geometry.type === 'Solid' ? geometry.boundaries : [geometry.boundaries];
+      const named = geometry.type === 'Solid' ? values : [values];
+      if (shells.length !== named.length || shells.some((shell, s) => shell.length !== named[s].length))
+        yield `${id}: semantics.values are not of the shape of the boundaries`;
+      if (vertexNumbers(values).some((v) => v !== null && v >= surfaces.length))
+        yield `${id}: semantics name no surface`;
+    }
+  }
+  if (used.size !== vertices.length) yield `${vertices.length - used.size} vertices are not used`;
+  if (new Set(vertices.map(String)).size !== vertices.length) yield 'a vertex is there twice';
+}
+
+function* objectFaults(objects, vertices) {
+  for (const [id, object] of Object.entries(objects))
+    yield* extensionFaults(object.attributes, declaredAttributes.get(object.type), id);
+  yield* structureFaults(objects, vertices);
+}
+
+/** The first fault of a CityJSON object; undefined when there is none. */
+function faultOfFile(file) {
+  if (!core(file)) return ajv.errorsText(core.errors);
+  for (const name of Object.keys(file).filter((key) => key.startsWith('+')))
+    if (file.extensions?.[extension.name] === undefined) return `${name}, but no extension ${extension.name}`;
+  if (file.extensions[extension.name].version !== extension.version) return 'another version of the extension';
+  if (file.extensions[extension.name].url !== extension.url) return 'the extension has another url';
+  for (const fault of extensionFaults(file, declaredRoot, 'root')) return fault;
+  for (const fault of objectFaults(file.CityObjects, file.vertices)) return fault;
+  return undefined;
+}
+
+function faultOfFeature(line) {
+  if (!feature(line)) return ajv.errorsText(feature.errors);
+  if (line.CityObjects[line.id]?.type !== 'Building') return `${line.id} is no building of its objects`;
+  for (const fault of objectFaults(line.CityObjects, line.vertices)) return fault;
+  return undefined;
+}
+
+const linesOf = (path) => readFileSync(path, 'utf8').trimEnd().split('\n').map((line) => JSON.parse(line));
+
+function faultOfSequence(lines) {
+  const [head, ...features] = lines;
+  if (Object.keys(head.CityObjects).length > 0 || head.vertices.length > 0) return 'the first line has objects';
+  const fault = faultOfFile(head);
+  if (fault !== undefined) return fault;
+  const ids = features.flatMap((line) => Object.keys(line.CityObjects));
+  if (new Set(ids).size !== ids.length) return 'an id is there twice';
+  return features.map(faultOfFeature).find((found) => found !== undefined);
+}
+
+// ---- the files: those of the samples, and runs over real data, each as a sequence too
+
+const files = readdirSync(samples, { recursive: true }).map((name) => join(samples, String(name)));
+const run = (...args) => {
+  try {
+    execFileSync(mansard, [...args, '-q'], { stdio: ['ignore', 'ignore', 'pipe'] });
+  } catch (e) {
+    if (e.status !== 1) throw new Error(`mansard ${args.join(' ')}: ${e.stderr}`);  // 1: some buildings fell back
+  }
+};
+const runs = {
+  hall: ['reconstruct', join(data, 'hall/mesh.off'), join(data, 'hall/footprints.geojson')],
+  delft: ['reconstruct', join(data, 'delft/mesh.ply'), join(data, 'delft/footprints.geojson'),
+    '--mesh-offset', '84800', '447400', '0', '--bbox', '84880', '447500', '84920', '447550'],
+  regent_street: ['extrude', join(data, 'regent_street/footprints.geojson')],
+};
+for (const [name, args] of Object.entries(runs)) {
+  run(...args, '-o', join(scratch, name));
+  const whole = join(scratch, name, 'model.city.json');
+  run('convert', whole, '-o', join(scratch, `${name}.city.jsonl`));
+  run('convert', join(scratch, `${name}.city.jsonl`), '-o', join(scratch, `${name}.city.json`));
+  assert(readFileSync(whole).equals(readFileSync(join(scratch, `${name}.city.json`))), `${name}: not the bytes it had`);
+  files.push(join(scratch, `${name}.city.json`), join(scratch, `${name}.city.jsonl`));
+}
+
+let objects = 0, sequences = 0, triangles = 0, volumes = 0, wrong = 0;
+for (const path of files) {
+  const whole = path.endsWith('.city.json'), sequence = path.endsWith('.city.jsonl');
+  if (!whole && !sequence) continue;
+  const fault = whole ? faultOfFile(json(path)) : faultOfSequence(linesOf(path));
+  if (fault !== undefined) console.error(`${path}: ${fault}`), wrong++;
+  if (sequence) sequences++;
+  if (whole) {
+    const read = readWithLoader(json(path));
+    objects += read.objects;
+    triangles += read.triangles;
+    volumes += read.volumes;
+  }
+}
+console.log(`${objects} objects, ${triangles} triangles, ${volumes} volumes, ${sequences} sequences: ${wrong} with faults`);
+assert(sequences >= 3 && objects > 200 && triangles > 2000 && volumes > 5, 'too little was looked at');
+
+// ---- no rubber stamp
+
+const hall = json(join(scratch, 'hall.city.json'));
+const part = Object.keys(hall.CityObjects).find((id) => hall.CityObjects[id].type === 'BuildingPart');
+const building = Object.keys(hall.CityObjects).find((id) => hall.CityObjects[id].children?.length > 0);
+const solidOf = (f) => f.CityObjects[part].geometry.find((g) => g.lod === '2.2');
+const spoilt = {
+  'another version': (f) => (f.version = '1.1'),
+  'no transform': (f) => delete f.transform,
+  'an unknown member': (f) => (f.mansard = {}),
+  'metadata of ours': (f) => (f.metadata.mansard = {}),
+  'a vertex with decimals': (f) => (f.vertices[0][0] += 0.5),
+  'a part without parents': (f) => delete f.CityObjects[part].parents,
+  'a parent that does not know': (f) => (f.CityObjects[building].children = []),
+  'an unknown type': (f) => (f.CityObjects[part].type = 'House'),
+  'a level of detail as a number': (f) => (solidOf(f).lod = 2.2),
+  'a ring of two': (f) => solidOf(f).boundaries[0][0][0].splice(2),
+  'a surface where a ring belongs': (f) => (solidOf(f).boundaries[0][0] = solidOf(f).boundaries[0][0][0]),
+  'a vertex beyond the end': (f) => (solidOf(f).boundaries[0][0][0][0] = f.vertices.length),
+  'a vertex nobody names': (f) => f.vertices.push([1, 2, 3]),
+  'a vertex twice': (f) => (f.vertices[0] = f.vertices[1]),
+  'an unknown surface': (f) => (solidOf(f).semantics.surfaces[0].type = 'Wall'),
+  'one semantic value too few': (f) => solidOf(f).semantics.values[0].pop(),
+  'a semantic value beyond the end': (f) => (solidOf(f).semantics.values[0][0] = 99),
+  'no extension named': (f) => delete f.extensions.Mansard,
+  'an undeclared attribute': (f) => (f.CityObjects[part].attributes['+other'] = 1),
+  'an undeclared member': (f) => (f['+other'] = 1),
+  'a plan on the wrong object': (f) =>
+    (f.CityObjects[building].attributes['+ms_plan'] = f.CityObjects[part].attributes['+ms_plan']),
+  'a plan without profiles': (f) => delete f.CityObjects[part].attributes['+ms_plan'].profiles,
+  'a reference system that is none': (f) => (f.metadata.referenceSystem = 'EPSG:28992'),
+};
+assert.equal(faultOfFile(hall), undefined);
+for (const [what, change] of Object.entries(spoilt)) {
+  const copy = structuredClone(hall);
+  change(copy);
+  assert.notEqual(faultOfFile(copy), undefined, `not complained of: ${what}`);
+}
+const lines = linesOf(join(scratch, 'hall.city.jsonl'));
+for (const [what, change] of Object.entries({
+  'a feature with a transform': (l) => (l[1].transform = l[0].transform),
+  'a feature without id': (l) => delete l[1].id,
+  'an id that names nothing': (l) => (l[1].id = 'gone'),
+  'two features of one id': (l) => l.push(structuredClone(l[1])),
+  'objects in the first line': (l) => (l[0].CityObjects = l[1].CityObjects),
+})) {
+  const copy = structuredClone(lines);
+  change(copy);
+  assert.notEqual(faultOfSequence(copy), undefined, `not complained of: ${what}`);
+}
+const copy = structuredClone(extension);
+copy.extraAttributes.Building.plain = {};
+assert(!extensionRules(copy), 'an extension that declares a name without +');
+process.exit(wrong === 0 ? 0 : 1);

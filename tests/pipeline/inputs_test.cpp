@@ -1,0 +1,67 @@
+#include "mansard/pipeline/inputs.hpp"
+
+#include <gmock/gmock.h>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "pipeline/houses.hpp"
+
+namespace mansard::pipeline {
+namespace {
+
+const std::filesystem::path hall = std::filesystem::path(MANSARD_DATA) / "hall";
+
+auto values_of(const ingest::Attributes& attributes, const std::string& name) -> std::vector<ingest::Value> {
+  std::vector<ingest::Value> out;
+  for (const auto& [key, value] : attributes)
+    if (key == name) out.push_back(value);
+  return out;
+}
+
+TEST(ReadInputs, takes_footprints_or_draws_them_but_not_both) {
+  const auto given = read_inputs({{hall / "mesh.off"}, hall / "footprints.geojson", false}, {});
+  ASSERT_TRUE(given) << given.error().message;
+  EXPECT_EQ(given->footprints.size(), 2U);
+  EXPECT_FALSE(given->footprints[0].derived);
+  EXPECT_EQ(read_inputs({{hall / "mesh.off"}, hall / "footprints.geojson", true}, {}).error().code, "pipeline-footprints");
+  EXPECT_EQ(read_inputs({{hall / "mesh.off"}, {}, false}, {}).error().code, "pipeline-footprints");
+}
+
+TEST(ReadInputs, draws_footprints_of_a_mesh_alone) {
+  const auto scene = read_inputs({{hall / "mesh.off"}, {}, true}, {});
+  ASSERT_TRUE(scene) << scene.error().message;
+  ASSERT_EQ(scene->footprints.size(), 1U);
+  EXPECT_TRUE(scene->footprints[0].derived);
+  EXPECT_EQ(scene->inputs.size(), 1U);
+}
+
+TEST(Reconstruct, tells_of_derived_footprints_in_city_and_report) {
+  const Options options;
+  auto scene = test::lone_house();
+  const auto drawn = derive::footprints(scene, options.derive);
+  ASSERT_TRUE(drawn) << drawn.error().message;
+  ASSERT_EQ(drawn->size(), 1U);
+  scene.footprints = *drawn;
+
+  const auto made = reconstruct(scene, options);
+  ASSERT_TRUE(made) << made.error().message;
+  ASSERT_EQ(made->city.buildings.size(), 1U);
+  EXPECT_THAT(values_of(made->city.buildings[0].attributes, "ms_derived"), ::testing::ElementsAre(ingest::Value(true)));
+  EXPECT_GT(made->buildings[0].parts, 0U);
+
+  const auto report = nlohmann::json::parse(report_json(*made, scene));
+  EXPECT_EQ(report["footprints_derived"], true);
+  EXPECT_EQ(report["buildings"][0]["derived"], true);
+  EXPECT_EQ(report["options"]["derive.cell"], "0.5");
+}
+
+TEST(ReadInputs, says_why_nothing_can_be_drawn) {
+  Options options;
+  options.derive.above_ground = 50;
+  const auto scene = read_inputs({{hall / "mesh.off"}, {}, true}, options);
+  ASSERT_FALSE(scene);
+  EXPECT_EQ(scene.error().code, "derive-nothing");
+}
+
+}  // namespace
+}  // namespace mansard::pipeline
