@@ -60,8 +60,10 @@ auto guarded(const fs::path& path, Take take) -> MeshPiece {
   try {
     const auto bytes = Bytes::of(path);
     if (!bytes) return out.failure = bytes.error(), out;
-    out.inputs.push_back({name, bytes->view().size(), sha256(bytes->view())});
-    if (base::Result<void> done = take(bytes->view(), out); !done) out.failure = done.error();
+    out.inputs.push_back({name, bytes->view().size(), {}});
+    base::Result<void> done;
+    out.inputs.front().sha256 = sha256_beside(bytes->view(), [&] { done = take(bytes->view(), out); });
+    if (!done) out.failure = done.error();
   } catch (const std::bad_alloc&) {
     out.mesh = {};
     out.failure = base::error("ingest-memory", "the mesh does not fit into memory; cut it into tiles", name);
