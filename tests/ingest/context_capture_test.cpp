@@ -19,16 +19,6 @@ class ContextCapture : public Workshop {
   auto tile(const std::string& name) const -> fs::path {
     return file(name, "v 0 0 0\nv 100 0 1\nv 0 100 2\nf 1 2 3\n");
   }
-  static auto corner(const Scene& scene, std::size_t v = 0) -> Point3 {
-    const auto& o = scene.frame.origin;
-    return scene.mesh.vertices.at(v) +
-           Point3{static_cast<double>(o[0]), static_cast<double>(o[1]), static_cast<double>(o[2])};
-  }
-  static void expect_near(Point3 a, Point3 b, double tolerance) {
-    EXPECT_NEAR(a.x, b.x, tolerance);
-    EXPECT_NEAR(a.y, b.y, tolerance);
-    EXPECT_NEAR(a.z, b.z, tolerance);
-  }
 };
 
 TEST_F(ContextCapture, the_origin_is_added_and_the_crs_known) {
@@ -38,7 +28,7 @@ TEST_F(ContextCapture, the_origin_is_added_and_the_crs_known) {
   const auto scene = read_scene({folder}, {}, {});
   ASSERT_TRUE(scene) << base::to_string(scene.error());
   EXPECT_EQ(scene->frame.crs, "EPSG:32631");
-  EXPECT_EQ(corner(*scene), (Point3{593139, 5763220, -1.5}));
+  EXPECT_EQ(in_file(*scene), (Point3{593139, 5763220, -1.5}));
   ASSERT_EQ(scene->inputs.size(), 2U);
   EXPECT_THAT(scene->inputs[1].path, HasSubstr("metadata.xml"));
   // A single file of it too, and footprints in degrees come to the mesh rather than to another zone.
@@ -46,7 +36,7 @@ TEST_F(ContextCapture, the_origin_is_added_and_the_crs_known) {
                         polygons({"[[[4.3571,52.0116],[4.3574,52.0116],[4.3574,52.0118],[4.3571,52.0116]]]"}));
   ASSERT_TRUE(far) << base::to_string(far.error());
   EXPECT_EQ(far->frame.crs, "EPSG:32631");
-  EXPECT_EQ(corner(*far), (Point3{593139, 5763220, -1.5}));
+  EXPECT_EQ(in_file(*far), (Point3{593139, 5763220, -1.5}));
 }
 
 TEST_F(ContextCapture, the_mesh_is_projected_to_the_footprints_crs_and_keeps_its_heights) {
@@ -54,8 +44,8 @@ TEST_F(ContextCapture, the_mesh_is_projected_to_the_footprints_crs_and_keeps_its
   const auto scene = read({tile("a.obj")}, polygons({square(84270, 447540)}, "EPSG:28992"));
   ASSERT_TRUE(scene) << base::to_string(scene.error());
   EXPECT_EQ(scene->frame.crs, "EPSG:28992");
-  expect_near(corner(*scene), {84279.5, 447548, 10}, 3);  // by the polynomials of Schreutelkamp and Strang van Hees
-  EXPECT_EQ(corner(*scene, 1).z, 11);
+  expect_near(in_file(*scene), {84279.5, 447548, 10}, 3);  // by the polynomials of Schreutelkamp and Strang van Hees
+  EXPECT_EQ(in_file(*scene, 1).z, 11);
 }
 
 TEST_F(ContextCapture, a_tangent_plane_touches_the_ellipsoid) {
@@ -63,11 +53,11 @@ TEST_F(ContextCapture, a_tangent_plane_touches_the_ellipsoid) {
   const auto scene = read_scene({tile("a.obj")}, {}, {});
   ASSERT_TRUE(scene) << base::to_string(scene.error());
   EXPECT_EQ(scene->frame.crs, "EPSG:32631");
-  expect_near(corner(*scene), {593139.054, 5763220.062, 0}, 2e-3);  // by Krüger's series
-  const auto along = corner(*scene, 1) - corner(*scene, 0);
+  expect_near(in_file(*scene), {593139.054, 5763220.062, 0}, 2e-3);  // by Krüger's series
+  const auto along = in_file(*scene, 1) - in_file(*scene, 0);
   EXPECT_NEAR(std::hypot(along.x, along.y), 99.970, 0.01);
   // 100 m away the ellipsoid is 100² / 2R = 0.8 mm below the plane.
-  EXPECT_NEAR(corner(*scene, 1).z, 1.0008, 1e-4);
+  EXPECT_NEAR(in_file(*scene, 1).z, 1.0008, 1e-4);
 }
 
 TEST_F(ContextCapture, an_altered_projection_is_not_taken_for_the_number_left_on_it) {
@@ -83,12 +73,12 @@ TEST_F(ContextCapture, an_altered_projection_is_not_taken_for_the_number_left_on
   };
   const auto scene = with("90");
   ASSERT_TRUE(scene) << base::to_string(scene.error());
-  expect_near(corner(*scene), {593139.054, 5763220.062, 0}, 1e-6);
+  expect_near(in_file(*scene), {593139.054, 5763220.062, 0}, 1e-6);
   const auto alone = read_scene({at("a.obj")}, {}, {});
   ASSERT_TRUE(alone);
   EXPECT_THAT(alone->frame.crs, HasSubstr("LOCAL"));
   EXPECT_EQ(alone->frame.crs.find("32631"), std::string::npos);
-  EXPECT_EQ(corner(*alone), (Point3{593139.054, 5763310.062, 0}));
+  EXPECT_EQ(in_file(*alone), (Point3{593139.054, 5763310.062, 0}));
   ASSERT_EQ(code(with("0")), "");
   EXPECT_EQ(read_scene({at("a.obj")}, {}, {})->frame.crs, "EPSG:32631");
 }
@@ -99,21 +89,21 @@ TEST_F(ContextCapture, local_footprints_an_offset_in_plan_or_local_leave_the_mes
   const auto local = read({mesh}, polygons({square()}));
   ASSERT_TRUE(local) << base::to_string(local.error());
   EXPECT_EQ(local->frame.crs, "");
-  EXPECT_EQ(corner(*local, 1), (Point3{100, 0, 1}));
+  EXPECT_EQ(in_file(*local, 1), (Point3{100, 0, 1}));
   EXPECT_EQ(local->inputs.size(), 2U);
   Options options;
   options.mesh_offset = {593000, 5763000, 0};
   const auto moved = read({mesh}, polygons({square(593000, 5763000)}, "EPSG:32631"), options);
   ASSERT_TRUE(moved) << base::to_string(moved.error());
-  EXPECT_EQ(corner(*moved), (Point3{593000, 5763000, 0}));
+  EXPECT_EQ(in_file(*moved), (Point3{593000, 5763000, 0}));
   // An offset in height is added to what the mesh says.
   options.mesh_offset = {0, 0, -43};
   const auto lowered = read({mesh}, polygons({square(593139, 5763220)}, "EPSG:32631"), options);
   ASSERT_TRUE(lowered) << base::to_string(lowered.error());
-  EXPECT_EQ(corner(*lowered), (Point3{593139, 5763220, -43}));
+  EXPECT_EQ(in_file(*lowered), (Point3{593139, 5763220, -43}));
   Options as_is;
   as_is.crs = "local";
-  EXPECT_EQ(corner(*read({mesh}, polygons({square()}), as_is), 1), (Point3{100, 0, 1}));
+  EXPECT_EQ(in_file(*read({mesh}, polygons({square()}), as_is), 1), (Point3{100, 0, 1}));
   EXPECT_EQ(read_mesh({mesh}, {}, {})->mesh.vertices[1], (Point3{100, 0, 1}));
   EXPECT_EQ(read_mesh({mesh}, {{593139, 5763220, 0}, "EPSG:32631"}, {})->mesh.vertices[1], (Point3{100, 0, 1}));
 }
@@ -124,7 +114,7 @@ TEST_F(ContextCapture, a_tileset_of_its_local_frame_is_placed_too) {
   file("a.glb", plain_glb(triangle_at(1, 2, 3)));
   const auto scene = read_scene({file("tileset.json", tileset(root))}, {}, {});
   ASSERT_TRUE(scene) << base::to_string(scene.error());
-  EXPECT_EQ(corner(*scene), (Point3{593140, 5763222, 3}));
+  EXPECT_EQ(in_file(*scene), (Point3{593140, 5763222, 3}));
 }
 
 TEST_F(ContextCapture, what_is_not_understood_is_an_error_and_what_is_not_meant_nothing) {

@@ -16,16 +16,6 @@ constexpr double longitude = 4.3571, latitude = 52.0118, east = 593139.054, nort
 
 class Tiles : public Workshop {
  protected:
-  static auto in_file(const Scene& scene, std::size_t v = 0) -> Point3 {
-    const auto& o = scene.frame.origin;
-    return scene.mesh.vertices.at(v) +
-           Point3{static_cast<double>(o[0]), static_cast<double>(o[1]), static_cast<double>(o[2])};
-  }
-  static void expect_near(Point3 a, Point3 b, double tolerance) {
-    EXPECT_NEAR(a.x, b.x, tolerance);
-    EXPECT_NEAR(a.y, b.y, tolerance);
-    EXPECT_NEAR(a.z, b.z, tolerance);
-  }
   /// Without footprints.
   static auto alone(const fs::path& path, const Options& options = {}) -> base::Result<Scene> {
     return read_scene({path}, {}, options);

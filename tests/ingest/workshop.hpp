@@ -15,6 +15,18 @@ namespace mansard::ingest::test {
 
 namespace fs = std::filesystem;
 
+/// A corner of the mesh in file coordinates.
+inline auto in_file(const Scene& scene, std::size_t v = 0) -> geometry::Point3 {
+  const auto& o = scene.frame.origin;
+  return scene.mesh.vertices.at(v) +
+         geometry::Point3{static_cast<double>(o[0]), static_cast<double>(o[1]), static_cast<double>(o[2])};
+}
+inline void expect_near(geometry::Point3 a, geometry::Point3 b, double tolerance) {
+  EXPECT_NEAR(a.x, b.x, tolerance);
+  EXPECT_NEAR(a.y, b.y, tolerance);
+  EXPECT_NEAR(a.z, b.z, tolerance);
+}
+
 class Workshop : public ::testing::Test {
  protected:
   Workshop() {

@@ -8,33 +8,17 @@
 #include <set>
 
 #include "mansard/base/text.hpp"
+#include "mansard/ingest/detail/json_access.hpp"
 #include "mansard/ingest/detail/model_files.hpp"
 #include "mansard/ingest/detail/words.hpp"
 
 namespace mansard::ingest::detail {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using geometry::Point3;
 
 auto bad(const std::string& what, const std::string& name) -> base::Diagnostic {
   return base::error("ingest-model-format", what + "; check what the file is, or export it again", name);
-}
-
-/// A member, or null.
-auto member(const Json& object, const char* key) -> const Json& {
-  static const Json null;
-  if (!object.is_object()) return null;
-  const auto at = object.find(key);
-  return at == object.end() ? null : *at;
-}
-
-auto text_of(const Json& value) -> std::string { return value.is_string() ? value.get<std::string>() : std::string(); }
-
-/// The item of an array, or null: semantics may be shorter than what they are of.
-auto item(const Json& array, std::size_t i) -> const Json& {
-  static const Json null;
-  return array.is_array() && i < array.size() ? array[i] : null;
 }
 
 /// An array to go through; an empty one for anything else.

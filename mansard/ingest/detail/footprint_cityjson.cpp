@@ -9,32 +9,18 @@
 #include "mansard/base/text.hpp"
 #include "mansard/geometry/points.hpp"
 #include "mansard/ingest/detail/gdal_messages.hpp"
+#include "mansard/ingest/detail/json_access.hpp"
 #include "mansard/ingest/detail/spatial_reference.hpp"
 #include "mansard/ingest/detail/words.hpp"
 
 namespace mansard::ingest::detail {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using geometry::Point3;
 
 auto bad(const std::string& what, const std::string& subject) -> base::Diagnostic {
   return base::error("ingest-footprints-format", what + "; check what the file is, or export it again", subject);
 }
-
-/// A member, or null.
-auto member(const Json& object, const char* key) -> const Json& {
-  static const Json null;
-  if (!object.is_object()) return null;
-  const auto at = object.find(key);
-  return at == object.end() ? null : *at;
-}
-/// The item of an array, or null.
-auto item(const Json& array, std::size_t i) -> const Json& {
-  static const Json null;
-  return array.is_array() && i < array.size() ? array[i] : null;
-}
-auto text_of(const Json& value) -> std::string { return value.is_string() ? value.get<std::string>() : std::string(); }
 
 /// A surface in space with what it says it is.
 struct Surface {

@@ -156,23 +156,6 @@ auto read_whole_file(const Item& file, bool models, const std::string& code) -> 
   return city;
 }
 
-class ReadCityJson : public CityReader {
- public:
-  explicit ReadCityJson(City city)
-      : header_{std::move(city.frame), std::move(city.made_by)}, left_(std::move(city.buildings)) {}
-  [[nodiscard]] auto header() const -> const Header& override { return header_; }
-  [[nodiscard]] auto has_models() const -> bool override { return true; }
-  [[nodiscard]] auto next() -> base::Result<std::optional<Building>> override {
-    if (at_ == left_.size()) return std::optional<Building>();
-    return std::optional<Building>(std::move(left_[at_++]));
-  }
-
- private:
-  Header header_;
-  std::vector<Building> left_;
-  std::size_t at_ = 0;
-};
-
 /// A feature a line; no more than one line is in memory.
 class ReadFeatures : public CityReader {
  public:
@@ -259,7 +242,7 @@ auto cityjson_reader(const Path& path) -> ReaderResult {
     return read_whole_file(file, true, "write-read-plans");
   });
   if (!city) return city.error();
-  return ReaderResult(std::make_unique<ReadCityJson>(*std::move(city)));
+  return ReaderResult(whole_reader(*std::move(city), true));
 }
 
 }  // namespace mansard::write::detail

@@ -112,24 +112,6 @@ auto read_city(const Item& file) -> City {
   return city;
 }
 
-/// The buildings of a file in memory, one after the other.
-class ReadPlans : public CityReader {
- public:
-  explicit ReadPlans(City city)
-      : header_{std::move(city.frame), std::move(city.made_by)}, left_(std::move(city.buildings)) {}
-  [[nodiscard]] auto header() const -> const Header& override { return header_; }
-  [[nodiscard]] auto has_models() const -> bool override { return false; }
-  [[nodiscard]] auto next() -> base::Result<std::optional<Building>> override {
-    if (at_ == left_.size()) return std::optional<Building>();
-    return std::optional<Building>(std::move(left_[at_++]));
-  }
-
- private:
-  Header header_;
-  std::vector<Building> left_;
-  std::size_t at_ = 0;
-};
-
 }  // namespace
 
 auto read_attributes(const Item& item) -> ingest::Attributes {
@@ -268,7 +250,7 @@ auto parse_plan(std::string_view text, const std::string& name) -> base::Result<
 auto plans_reader(const Path& path) -> ReaderResult {
   auto city = read_plans(path);
   if (!city) return city.error();
-  return ReaderResult(std::make_unique<ReadPlans>(*std::move(city)));
+  return ReaderResult(whole_reader(*std::move(city), false));
 }
 
 }  // namespace mansard::write::detail
