@@ -1,7 +1,6 @@
 #include "apps/cli/formats.hpp"
 
 #include <algorithm>
-#include <unistd.h>
 
 #include "apps/cli/output.hpp"
 
@@ -40,12 +39,7 @@ auto folder_free(const fs::path& folder, bool overwrite) -> base::Result<void> {
                        folder.string());
   const auto above = fs::absolute(folder, status).lexically_normal();
   const auto parent = (above.has_filename() ? above : above.parent_path()).parent_path();
-  if (!fs::is_directory(parent, status))
-    return base::error("file-write", "there is no folder '" + parent.string() + "' for it; make it, or choose another place",
-                       folder.string());
-  if (::access(parent.c_str(), W_OK) != 0)
-    return base::error("file-write", "cannot write into its folder; choose a place that can be written", folder.string());
-  return {};
+  return can_be_made_in(parent, folder);
 }
 
 }  // namespace

@@ -74,6 +74,16 @@ void remove_stale(const std::vector<fs::path>& left, const std::vector<base::Fil
   remove_stale(left, paths);
 }
 
+auto can_be_made_in(const fs::path& folder, const fs::path& path) -> base::Result<void> {
+  std::error_code status;
+  if (!fs::is_directory(folder, status))
+    return base::error("file-write", "there is no folder '" + folder.string() + "' for it; make it, or choose another place",
+                       path.string());
+  if (::access(folder.c_str(), W_OK) != 0)
+    return base::error("file-write", "cannot write into its folder; choose a place that can be written", path.string());
+  return {};
+}
+
 auto file_free(const fs::path& path, bool overwrite) -> base::Result<void> {
   std::error_code status;
   if (fs::is_directory(path, status))
@@ -83,14 +93,8 @@ auto file_free(const fs::path& path, bool overwrite) -> base::Result<void> {
                        path.string());
   if (fs::exists(path, status) && !overwrite)
     return base::error("output-exists", "this file is there already; choose another, or say --overwrite", path.string());
-  auto folder = path.parent_path();
-  if (folder.empty()) folder = ".";
-  if (!fs::is_directory(folder, status))
-    return base::error("file-write", "there is no folder '" + folder.string() + "' for it; make it, or choose another place",
-                       path.string());
-  if (::access(folder.c_str(), W_OK) != 0)
-    return base::error("file-write", "cannot write into its folder; choose a place that can be written", path.string());
-  return {};
+  const auto folder = path.parent_path();
+  return can_be_made_in(folder.empty() ? "." : folder, path);
 }
 
 auto in_folder(const fs::path& folder, const std::vector<std::pair<std::string, std::string>>& named)

@@ -30,6 +30,10 @@ namespace mansard::cli {
 void remove_stale(const std::vector<std::filesystem::path>& left, const std::vector<std::filesystem::path>& written);
 void remove_stale(const std::vector<std::filesystem::path>& left, const std::vector<base::FileToWrite>& written);
 
+/// Checks that `path`, a file or a folder, can be made in `folder`. Gives up with "file-write".
+[[nodiscard]] auto can_be_made_in(const std::filesystem::path& folder, const std::filesystem::path& path)
+    -> base::Result<void>;
+
 /// Checks that a file can be written there and replaces nothing unasked. Gives up with "output-exists", "file-write".
 [[nodiscard]] auto file_free(const std::filesystem::path& path, bool overwrite) -> base::Result<void>;
 
