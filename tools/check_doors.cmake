@@ -5,6 +5,7 @@
 #   tests/<room>/    may include what its room stands on, by any number of doors, with those rooms' libraries and
 #                    the helpers of their tests
 #   tests/<other>/, apps/, bench/  stand outside: every door, and the libraries named for them below
+# And nobody but ingest/gdal.cpp registers GDAL's drivers.
 # detail/ is its own room's, and that room's tests'. A door that is missing belongs in rooms.cmake or nowhere.
 cmake_minimum_required(VERSION 3.25)
 
@@ -162,6 +163,19 @@ function(check_file file folder place open_rooms open_libraries)
   set(complaints ${complaints} PARENT_SCOPE)
 endfunction()
 
+# ---- what only one file may do
+# Two threads in GDALAllRegister at once damage the heap (mansard/ingest/gdal.hpp).
+function(check_registering file)
+  if(file STREQUAL "mansard/ingest/gdal.cpp")
+    return()
+  endif()
+  file(STRINGS ${ROOT}/${file} lines REGEX "(GDALAllRegister|OGRRegisterAll)[ \t]*[(]")
+  foreach(line IN LISTS lines)
+    complain(${file} "registers GDAL's drivers, which ingest::register_gdal() does")
+  endforeach()
+  set(complaints ${complaints} PARENT_SCOPE)
+endfunction()
+
 # ---- every file
 file(GLOB_RECURSE files RELATIVE ${ROOT}
   ${ROOT}/mansard/*.[ch]pp ${ROOT}/apps/*.[ch]pp ${ROOT}/bench/*.[ch]pp ${ROOT}/tests/*.[ch]pp
@@ -174,6 +188,7 @@ foreach(file IN LISTS files)
   endif()
   set(wing ${CMAKE_MATCH_1})
   set(folder ${CMAKE_MATCH_2})
+  check_registering(${file})
   if(wing STREQUAL mansard)
     if(folder IN_LIST rooms)  # if not, the folder itself has been complained of
       check_file(${file} ${folder} "'${folder}'" "${doors_of_${folder}}" "${uses_of_${folder}}")

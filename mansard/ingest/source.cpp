@@ -4,11 +4,11 @@
 #include <ogrsf_frmts.h>
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 
 #include "mansard/ingest/detail/gdal_messages.hpp"
 #include "mansard/ingest/detail/raster.hpp"
 #include "mansard/ingest/detail/virtual_files.hpp"
+#include "mansard/ingest/gdal.hpp"
 
 namespace mansard::ingest {
 namespace {
@@ -16,8 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 auto open(const fs::path& path, unsigned int kind) -> GDALDatasetUniquePtr {
-  static std::once_flag registered;
-  std::call_once(registered, [] { GDALAllRegister(); });
+  register_gdal();
   // The GML driver would write a .gfs file beside its input.
   const CPLStringList quiet(CSLSetNameValue(nullptr, "WRITE_GFS", "NO"));
   const CPLStringList none;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "mansard/ingest/gdal.hpp"
 #include "mansard/write/detail/geopackage_tables.hpp"
 
 namespace mansard::write {
@@ -84,7 +85,7 @@ class MemoryFile {
 
 auto geopackage(const std::vector<Layer>& layers, const ingest::Frame& frame) -> base::Result<std::string> {
   if (const auto sound = detail::check_layers(layers); !sound) return sound.error();
-  detail::register_gdal();
+  ingest::register_gdal();
   const detail::GeopackageManners manners;
   const auto crs = detail::crs_of(frame);
   if (!crs) return detail::geopackage_failure("understand the CRS " + frame.crs);

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
-#include <mutex>
 
+#include "mansard/ingest/gdal.hpp"
 #include "mansard/write/scan.hpp"
 
 namespace mansard::write {
@@ -68,8 +68,7 @@ auto geotiff(const Raster& raster, const ingest::Frame& frame) -> base::Result<s
   constexpr std::size_t most = 1U << 20U;  // cells a side
   if (raster.columns == 0 || raster.rows == 0 || raster.columns > most || raster.rows > most)
     return base::error("write-geotiff", "there are no cells, or more than a million along a side");
-  static std::once_flag registered;
-  std::call_once(registered, [] { GDALAllRegister(); });
+  ingest::register_gdal();
   static std::atomic<unsigned> count{0};
   const std::string name = "/vsimem/mansard-" + std::to_string(count++) + ".tif";
   const CPLErrorHandlerPusher quiet(CPLQuietErrorHandler);

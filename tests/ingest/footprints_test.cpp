@@ -4,6 +4,7 @@
 
 #include "ingest/workshop.hpp"
 #include "mansard/geometry/polygon.hpp"
+#include "mansard/ingest/gdal.hpp"
 
 namespace mansard::ingest::test {
 namespace {
@@ -19,7 +20,7 @@ struct Shape {
 
 class Sources : public Workshop {
  protected:
-  static void SetUpTestSuite() { GDALAllRegister(); }
+  static void SetUpTestSuite() { register_gdal(); }
 
   /// A layer "roofs" with the fields name, floors, height, built; epsg 0 for none.
   void write(const std::string& driver, const fs::path& path, int epsg, const std::vector<Shape>& shapes,

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "ingest/workshop.hpp"
+#include "mansard/ingest/gdal.hpp"
 
 namespace mansard::ingest::test {
 namespace {
@@ -29,7 +30,7 @@ struct Made {
 
 class Rasters : public Workshop {
  protected:
-  static void SetUpTestSuite() { GDALAllRegister(); }
+  static void SetUpTestSuite() { register_gdal(); }
 
   template <class Height>
   auto tiff(const std::string& name, const Made& as, Height height) const -> fs::path {

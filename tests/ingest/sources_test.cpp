@@ -6,6 +6,7 @@
 #include "ingest/workshop.hpp"
 #include "mansard/geometry/polygon.hpp"
 #include "mansard/ingest/detail/features.hpp"
+#include "mansard/ingest/gdal.hpp"
 
 namespace mansard::ingest::test {
 namespace {
@@ -16,7 +17,7 @@ using ::testing::UnorderedElementsAre;
 
 class MoreSources : public Workshop {
  protected:
-  static void SetUpTestSuite() { GDALAllRegister(); }
+  static void SetUpTestSuite() { register_gdal(); }
 
   static void pack(const std::string& name, std::string_view bytes) {
     VSILFILE* file = VSIFOpenL(name.c_str(), "wb");

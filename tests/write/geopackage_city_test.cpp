@@ -6,6 +6,7 @@
 
 #include "cities.hpp"
 #include "mansard/base/files.hpp"
+#include "mansard/ingest/gdal.hpp"
 #include "mansard/write/stream.hpp"
 
 namespace {
@@ -31,7 +32,7 @@ void write(const City& city, const std::filesystem::path& path, const std::vecto
 }
 
 auto open(const std::filesystem::path& path) -> GDALDatasetUniquePtr {
-  GDALAllRegister();
+  mansard::ingest::register_gdal();
   return GDALDatasetUniquePtr(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
 }
 

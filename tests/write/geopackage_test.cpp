@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "mansard/base/run.hpp"
+#include "mansard/ingest/gdal.hpp"
 #include "mansard/write/write.hpp"
 
 namespace mansard::write {
@@ -54,7 +55,7 @@ class Opened {
   explicit Opened(const base::Result<std::string>& made) {
     EXPECT_TRUE(made) << base::to_string(made.error());
     bytes_ = made ? *made : std::string();
-    GDALAllRegister();
+    ingest::register_gdal();
     VSIFCloseL(VSIFileFromMemBuffer(name_, reinterpret_cast<GByte*>(bytes_.data()), bytes_.size(), FALSE));
     file_.reset(GDALDataset::Open(name_, GDAL_OF_VECTOR));
     EXPECT_NE(file_, nullptr);

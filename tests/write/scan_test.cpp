@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mansard/base/files.hpp"
+#include "mansard/ingest/gdal.hpp"
 
 namespace mansard::write {
 namespace {
@@ -42,7 +43,7 @@ TEST_F(Scans, write_fields_where_they_lie_north_up) {
   ASSERT_TRUE(bytes) << bytes.error().message;
   EXPECT_EQ(*bytes, *geotiff(raster, frame_));
 
-  GDALAllRegister();
+  ingest::register_gdal();
   const auto path = file("field.tif", *bytes);
   GDALDatasetUniquePtr read(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER));
   ASSERT_TRUE(read);

@@ -6,6 +6,8 @@
 #include <memory>
 #include <ogrsf_frmts.h>
 
+#include "mansard/ingest/gdal.hpp"
+
 namespace mansard::derive::detail {
 namespace {
 
@@ -54,7 +56,7 @@ auto polygon_of(const OGRPolygon& polygon, const Place& place) -> geometry::Poly
 auto polygons_of(const Place& place, const std::vector<std::int32_t>& of, std::size_t count)
     -> base::Result<std::vector<std::vector<geometry::Polygon>>> {
   const Quiet quiet;
-  GDALAllRegister();
+  ingest::register_gdal();
   const auto raster = created("MEM", place, 1), vector = created("Memory", place, 0);
   if (!raster || !vector) return failed();
   auto* band = raster->GetRasterBand(1);

@@ -2,7 +2,6 @@
 
 #include <ogrsf_frmts.h>
 #include <algorithm>
-#include <mutex>
 
 #include "mansard/base/text.hpp"
 #include "mansard/ingest/detail/attributes.hpp"
@@ -13,6 +12,7 @@
 #include "mansard/ingest/detail/osm.hpp"
 #include "mansard/ingest/detail/spatial_reference.hpp"
 #include "mansard/ingest/detail/virtual_files.hpp"
+#include "mansard/ingest/gdal.hpp"
 
 namespace mansard::ingest::detail {
 namespace {
@@ -20,8 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 auto open(const std::string& name) -> GDALDatasetUniquePtr {
-  static std::once_flag registered;
-  std::call_once(registered, [] { GDALAllRegister(); });
+  register_gdal();
   // The GML driver would write a .gfs file beside its input.
   const CPLStringList quiet(CSLSetNameValue(nullptr, "WRITE_GFS", "NO"));
   const CPLStringList none;
@@ -373,7 +372,7 @@ class Source {
 auto keep_where(std::vector<RawFeature>& features, const std::string& where, const std::string& subject)
     -> base::Result<void> {
   const GdalMessages messages;
-  GDALAllRegister();
+  register_gdal();
   GDALDriver* maker = GetGDALDriverManager()->GetDriverByName("Memory");
   const GDALDatasetUniquePtr made(maker->Create("", 0, 0, 0, GDT_Unknown, nullptr));
   OGRLayer* table = made->CreateLayer("buildings", nullptr, wkbNone, nullptr);

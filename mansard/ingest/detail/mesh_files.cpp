@@ -14,6 +14,7 @@
 #include "mansard/ingest/detail/raster.hpp"
 #include "mansard/ingest/detail/spatial_reference.hpp"
 #include "mansard/ingest/detail/virtual_files.hpp"
+#include "mansard/ingest/gdal.hpp"
 #include "mansard/ingest/input_file.hpp"
 
 namespace mansard::ingest::detail {
@@ -69,7 +70,7 @@ auto is_below(const fs::path& file, const std::vector<std::string>& folders) -> 
 
 auto crs_of_raster(const fs::path& path) -> std::optional<MeshCrs> {
   const GdalMessages messages;
-  GDALAllRegister();
+  register_gdal();
   GDALDatasetH data =
       GDALOpenEx(name_for_gdal(path).c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr, nullptr, nullptr);
   if (data == nullptr) return std::nullopt;  // why, reading it says

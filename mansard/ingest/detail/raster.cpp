@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <mutex>
 
 #include "mansard/base/text.hpp"
 #include "mansard/ingest/detail/gdal_messages.hpp"
 #include "mansard/ingest/detail/virtual_files.hpp"
+#include "mansard/ingest/gdal.hpp"
 
 namespace mansard::ingest::detail {
 namespace {
@@ -87,8 +87,7 @@ class Raster {
 };
 
 auto Raster::open(const fs::path& path) -> base::Result<Raster> {
-  static std::once_flag registered;
-  std::call_once(registered, [] { GDALAllRegister(); });
+  register_gdal();
   if (!is_there(path)) return why_missing(path);
   const GdalMessages messages;
   Raster out;

@@ -2,14 +2,8 @@
 
 #include <algorithm>
 #include <gdal_priv.h>
-#include <mutex>
 
 namespace mansard::write::detail {
-
-void register_gdal() {
-  static std::once_flag registered;
-  std::call_once(registered, [] { GDALAllRegister(); });
-}
 
 auto gdal_words() -> std::string {
   std::string words = CPLGetLastErrorMsg();

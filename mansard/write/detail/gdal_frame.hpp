@@ -9,9 +9,6 @@
 
 namespace mansard::write::detail {
 
-/// Makes GDAL's drivers known, once.
-void register_gdal();
-
 /// The library's last complaint in brackets, on one line, with a blank before it; nothing where there is none.
 [[nodiscard]] auto gdal_words() -> std::string;
 

@@ -2,6 +2,7 @@
 #include <map>
 #include <numbers>
 
+#include "mansard/ingest/gdal.hpp"
 #include "mansard/write/detail/geopackage_tables.hpp"
 #include "mansard/write/detail/records.hpp"
 #include "mansard/write/detail/writers.hpp"
@@ -333,7 +334,7 @@ auto geopackage_writer(const Path& path, const Header& header, const std::vector
   if (!records) return records.error();
   const auto place = outputs.place(path);
   if (!place) return place.error();
-  register_gdal();
+  ingest::register_gdal();
   auto writer = std::make_unique<GeoPackageWriter>(header, std::move(layers), std::move(*records));
   if (auto begun = writer->begin(*place); !begun) return begun.error();
   return WriterResult(std::move(writer));
@@ -343,7 +344,7 @@ auto geopackage_reader(const Path& path) -> ReaderResult {
   std::error_code status;
   if (!std::filesystem::exists(path, status))
     return base::error("file-missing", "no such file; check the path", path.string());
-  register_gdal();
+  ingest::register_gdal();
   const GeopackageManners manners;
   GDALDatasetUniquePtr file(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
   if (!file)

@@ -1,0 +1,13 @@
+#include "mansard/ingest/gdal.hpp"
+
+#include <gdal.h>
+#include <mutex>
+
+namespace mansard::ingest {
+
+void register_gdal() {
+  static std::once_flag registered;
+  std::call_once(registered, [] { GDALAllRegister(); });
+}
+
+}  // namespace mansard::ingest
