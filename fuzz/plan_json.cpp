@@ -1,14 +1,11 @@
 // Bytes → the reader of plan + profiles. It must not throw, must give an error with a code of its room or a city, and a
 // city that was read must come back the same from its own text.
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <exception>
 #include <string>
 #include <string_view>
 
-#include "fuzz/fuzz.hpp"
+#include "fuzz/files.hpp"
 #include "mansard/write/write.hpp"
 
 namespace {
@@ -16,27 +13,8 @@ namespace {
 using namespace mansard;
 using fuzz::promise;
 
-/// A file in memory, whose content can be replaced.
-class MemoryFile {
- public:
-  MemoryFile() : descriptor_(memfd_create("plan", 0)), path_("/proc/self/fd/" + std::to_string(descriptor_)) {}
-  ~MemoryFile() { close(descriptor_); }
-  MemoryFile(const MemoryFile&) = delete;
-  auto operator=(const MemoryFile&) -> MemoryFile& = delete;
-
-  void hold(std::string_view bytes) const {
-    promise(ftruncate(descriptor_, 0) == 0, "no file in memory");
-    promise(pwrite(descriptor_, bytes.data(), bytes.size(), 0) == static_cast<ssize_t>(bytes.size()), "no memory");
-  }
-  [[nodiscard]] auto path() const -> const std::string& { return path_; }
-
- private:
-  int descriptor_;
-  std::string path_;
-};
-
 auto read(std::string_view bytes) -> base::Result<write::City> {
-  static const MemoryFile file;
+  static const fuzz::MemoryFile file;
   file.hold(bytes);
   return write::read_plans(file.path());
 }

@@ -49,7 +49,7 @@ library(tinyobjloader "^tiny_obj_loader[.]h$")
 set(used_outside CLI11 tomlplusplus nlohmann_json httplib fmt)
 set(used_by_tests gtest rapidcheck CGAL nlohmann_json)
 set(used_by_bench benchmark CGAL assimp tinyobjloader)
-set(system_headers "^((unistd|signal|fcntl|termios|fenv|malloc)[.]h|(sys|netinet|arpa)/[a-z]+[.]h)$")
+set(system_headers "^((unistd|poll|signal|fcntl|termios|fenv|malloc)[.]h|(sys|netinet|arpa)/[a-z]+[.]h)$")
 
 # ---- complaints
 set(complaints "")

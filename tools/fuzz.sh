@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Fuzzes the reader of plans and the extrusion kernel, each for SECONDS, from fuzz/corpus and what earlier runs have found.
-#   tools/fuzz.sh SECONDS [plan_json|extrude]
+# Fuzzes the extrusion kernel and what reads files, each for SECONDS, from fuzz/corpus and what earlier runs have found.
+#   tools/fuzz.sh SECONDS [plan_json|extrude|mesh_files|tilesets|models]
 # A failure is made smaller and its path printed; copied into fuzz/corpus/<name>/ it is replayed by every test run.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 seconds=${1:?"SECONDS for each fuzzer"}
-targets=(plan_json extrude)
+targets=(plan_json extrude mesh_files tilesets models)
 [[ $# -lt 2 ]] || targets=("${@:2}")
 
 # clang is needed here and nowhere else, so packages.txt does not ask for it. Before 16 it cannot take the ranges of the
@@ -27,13 +27,15 @@ for target in "${targets[@]}"; do
   program=build/fuzz/bin/fuzz_$target
   grown=build/fuzz/corpus/$target  # what is new goes here, not into the repository
   mkdir -p "$grown"
+  length=2000
+  [[ $target == plan_json || $target == extrude ]] || length=20000  # as large as a file with all its parts
   options=(-timeout=60 -rss_limit_mb=4096 -artifact_prefix="$findings/$target-")
   [[ ! -f fuzz/$target.dict ]] || options+=(-dict="fuzz/$target.dict")
-  if "$program" "$grown" "fuzz/corpus/$target" -max_total_time="$seconds" -max_len=2000 -print_final_stats=1 "${options[@]}"; then
+  if "$program" "$grown" "fuzz/corpus/$target" -max_total_time="$seconds" -max_len=$length -print_final_stats=1 "${options[@]}"; then
     continue
   fi
   code=1
-  for crash in "$findings/$target"-crash-*; do
+  for crash in "$findings/$target"-{crash,oom,timeout}-*; do
     [[ -e $crash ]] || continue
     "$program" -minimize_crash=1 -max_total_time=60 -exact_artifact_path="$crash.small" "$crash" > /dev/null 2>&1 || true
     [[ -s $crash.small ]] || cp "$crash" "$crash.small"

@@ -1,4 +1,5 @@
 // `mansard convert INPUT -o OUT`: whatever mansard wrote, in any other format that it writes.
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <set>
@@ -64,19 +65,53 @@ auto explained(base::Diagnostic why, const std::string& input) -> base::Diagnost
   return why;
 }
 
-/// Building after building: memory does not grow with their number.
-auto pass_on(write::CityReader& reader, const Writers& writers, const base::Run& run) -> base::Result<void> {
-  for (;;) {
+/// Whether a format tells more of a face than where its corners are and which class it has.
+auto tells_of_faces(const Target& target) -> bool {
+  using enum write::Format;
+  return target.format == glb || target.format == tiles || target.format == geopackage;
+}
+
+/// A few buildings after the other, so that threads have work: memory does not grow with their number.
+auto pass_on(write::CityReader& reader, const std::vector<Target>& targets, const Writers& writers,
+             const pipeline::Options& options, const base::Run& run) -> base::Result<void> {
+  constexpr std::size_t few = 64;
+  const bool completed = std::ranges::any_of(targets, tells_of_faces);
+  for (bool more = true; more;) {
+    std::vector<write::Building> buildings;
+    while (more && buildings.size() < few) {
+      auto building = reader.next();
+      if (!building) return building.error();
+      more = building->has_value();
+      if (more) buildings.push_back(**std::move(building));
+    }
+    if (completed) pipeline::complete(buildings, options, run);
     if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
-    const auto building = reader.next();
-    if (!building) return building.error();
-    if (!*building) break;
-    for (const auto& writer : writers)
-      if (auto added = writer->add(**building); !added) return added;
+    for (const auto& building : buildings)
+      for (const auto& writer : writers)
+        if (auto added = writer->add(building); !added) return added;
   }
   for (const auto& writer : writers)
     if (auto finished = writer->finish(); !finished) return finished;
   return {};
+}
+
+/// The layers beside the buildings, where a result can have them; else it is told once that they stay behind.
+auto layers_beside(write::CityReader& reader, const Request& request, const std::vector<Target>& targets,
+                   Progress& progress) -> base::Result<std::vector<write::Layer>> {
+  auto beside = reader.beside();
+  if (!beside) return beside.error();
+  if (std::ranges::find(targets, write::Format::geopackage, &Target::format) != targets.end()) {
+    for (const auto& warning : beside->warnings) progress.say(base::to_string(warning));
+    return std::move(beside->layers);
+  }
+  std::string names;
+  for (const auto& layer : beside->layers) names += (names.empty() ? "" : ", ") + layer.name;
+  for (const auto& left : beside->warnings) names += (names.empty() ? "" : ", ") + left.subject;
+  if (!names.empty())
+    progress.say(base::to_string(base::warning(
+        "write-layer-left", "these layers stay behind, since only a GeoPackage has a place for them: " + names,
+        request.input)));
+  return std::vector<write::Layer>();
 }
 
 auto convert(const Request& request, const base::Cancel& cancel) -> int {
@@ -93,12 +128,14 @@ auto convert(const Request& request, const base::Cancel& cancel) -> int {
   Progress progress(request.quiet);
   const auto run = start(request, options.seed, cancel, progress);
   for (const auto& warning : warnings) progress.say(base::to_string(warning));
+  const auto layers = layers_beside(**reader, request, *targets, progress);
+  if (!layers) return give_up(layers.error());
   base::Outputs outputs;
   bool all_full = true;
   if ((*reader)->has_models() && pipeline::same_options(header.made_by, options)) {
-    const auto writers = open_writers(*targets, header, options.write, outputs);
+    const auto writers = open_writers(*targets, header, options.write, outputs, *layers);
     if (!writers) return give_up(writers.error());
-    if (auto passed = pass_on(**reader, *writers, run); !passed) return give_up(passed.error());
+    if (auto passed = pass_on(**reader, *targets, *writers, options, run); !passed) return give_up(passed.error());
     for (const auto& writer : *writers)
       for (const auto& warning : writer->warnings()) progress.say(base::to_string(warning));
   } else {
@@ -108,7 +145,7 @@ auto convert(const Request& request, const base::Cancel& cancel) -> int {
     for (const auto& part : raised->fell_short)
       for (const auto& reason : part.reasons) progress.say(base::to_string(reason));
     all_full = raised->fell_short.empty();
-    const auto written = write_models(raised->city, *targets, options.write, outputs);
+    const auto written = write_models(raised->city, *targets, options.write, outputs, *layers);
     if (!written) return give_up(written.error());
     for (const auto& warning : *written) progress.say(base::to_string(warning));
   }

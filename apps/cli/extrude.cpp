@@ -101,14 +101,18 @@ auto check_outputs(const ExtrudeRequest& request) -> base::Result<void> {
   if (request.picture || !one) all.push_back(picture_file(request.out));
   if (!one) all.push_back(fs::path(request.out) / "run.json");
   if (one && request.picture) single.push_back(picture_file(request.out));
-  if (!request.report.empty()) single.emplace_back(request.report);
+  if (!request.report.empty()) {
+    if (auto apart = spare_results(request.report, all); !apart) return apart;
+    single.emplace_back(request.report);
+  }
   all.insert(all.end(), single.begin(), single.end());
   if (auto spared = spare_inputs(all, {request.input}); !spared) return spared;
-  if (one)
-    if (auto usable = target_free(targets->front(), request.overwrite); !usable) return usable;
+  const auto ready =
+      one ? target_free(targets->front(), request.overwrite) : prepare(request.out, request.overwrite);
+  if (!ready) return ready;
   for (const auto& path : single)
     if (auto usable = file_free(path, request.overwrite); !usable) return usable;
-  return one ? base::Result<void>() : prepare(request.out, request.overwrite);
+  return {};
 }
 
 auto write_out(const write::City& city, const std::string& report, const pipeline::Options& options,

@@ -92,18 +92,6 @@ auto formats_help() -> std::string {
          "), or 'all'";
 }
 
-auto name_in_folder(Format format) -> std::string {
-  if (format == Format::plans) return "plans.json";
-  const auto at = std::ranges::find(write::formats(), format, &write::FormatName::format);
-  return "model" + std::string(at->ending);
-}
-
-auto targets_in(const fs::path& folder, const std::vector<Format>& formats) -> std::vector<Target> {
-  std::vector<Target> out;
-  for (const auto format : formats) out.push_back({format, folder / name_in_folder(format)});
-  return out;
-}
-
 auto all_results() -> const std::vector<std::string>& {
   static const std::vector<std::string> all = [] {
     std::vector<std::string> names{"run.json"};
@@ -130,11 +118,6 @@ auto open_city(const fs::path& path) -> base::Result<std::unique_ptr<write::City
   return write::read_city(path);
 }
 
-auto places_of(const Target& target) -> std::vector<fs::path> {
-  if (target.format == Format::obj) return {target.path, fs::path(target.path).replace_extension(".mtl")};
-  return {target.path};
-}
-
 auto target_free(const Target& target, bool overwrite) -> base::Result<void> {
   if (target.format == Format::tiles) return folder_free(target.path, overwrite);
   for (const auto& path : places_of(target))
@@ -151,21 +134,6 @@ auto open_writers(const std::vector<Target>& targets, const write::Header& heade
     writers.push_back(std::move(*writer));
   }
   return writers;
-}
-
-auto write_models(const write::City& city, const std::vector<Target>& targets, const write::WriteOptions& options,
-                  base::Outputs& outputs, const std::vector<write::Layer>& more)
-    -> base::Result<std::vector<base::Diagnostic>> {
-  const write::Header header{city.frame, city.made_by};
-  std::vector<base::Diagnostic> warnings;
-  for (const auto& target : targets) {  // one after the other: each may put bytes aside
-    auto writer = write::open_writer(target.format, target.path, header, options, outputs, more);
-    if (!writer) return writer.error();
-    if (auto written = write::write_city(city, **writer); !written) return written.error();
-    const auto own = (*writer)->warnings();
-    warnings.insert(warnings.end(), own.begin(), own.end());
-  }
-  return warnings;
 }
 
 auto write_bytes(const fs::path& path, std::string_view bytes, base::Outputs& outputs) -> base::Result<void> {

@@ -28,6 +28,10 @@ auto info_of(const fs::path& path, const Request& request, const base::Run& run)
   const auto& why = reader.error();
   // A database or a file in an archive is told by who reads it; what mansard wrote and is broken, by the reader.
   const bool broken = why.code.starts_with("write-") && !pipeline::is_foreign(why);
+  // Of a folder the reader says no more than that it is no tileset.
+  std::error_code status;
+  const bool other_folder = fs::is_directory(path, status) && !fs::exists(path / "tileset.json", status);
+  if (other_folder) return info_of_other(path, why, run);
   if (broken || (why.code == "file-missing" && path.string().find(':') == std::string::npos)) return why;
   return info_of_other(path, why, run);
 }

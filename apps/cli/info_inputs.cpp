@@ -255,9 +255,17 @@ auto info_of_other(const fs::path& path, const base::Diagnostic& why, const base
     if (says) return info_of_model(path, *model);
     if (!model && ending_of(path) != "obj") return model.error();
   }
-  if (is_mesh(path)) return info_of_mesh(path, run);
+  if (is_mesh(path)) {
+    auto mesh = info_of_mesh(path, run);
+    // A folder without meshes may be one of Shapefiles, or a geodatabase.
+    if (mesh || mesh.error().code != "ingest-mesh-empty") return mesh;
+    auto source = info_of_source(path);
+    return source ? std::move(source) : std::move(mesh);
+  }
   if (ingest::named_as_raster(path)) return info_of_raster(path);
   auto source = info_of_source(path);
+  if (!source && ending_of(path) == "zip")
+    if (auto mesh = info_of_mesh(path, run)) return mesh;
   // A broken file of plans is better told as one.
   return !source && why.code.starts_with("write-plan") ? base::Result<Json>(why) : source;
 }

@@ -1,11 +1,16 @@
 // mansard: verb, inputs, -o OUTPUT.
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <new>
-#include <unistd.h>
 #include <vector>
 
 #include "apps/cli/exit.hpp"
+#include "apps/cli/output.hpp"
 #include "apps/cli/settings.hpp"
 #include "apps/cli/verbs.hpp"
 
@@ -17,6 +22,27 @@ base::Cancel cancel;  // NOLINT: a signal handler can only reach a global
 void on_interrupt(int) {
   if (cancel.requested()) ::_exit(cancelled);  // the second Ctrl-C ends it at once
   cancel.request();
+}
+
+/// A standard stream that whoever called has closed would give its number to the first file that is opened, and what
+/// is printed would go into it.
+void hold_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(stream, F_GETFD) == -1 && errno == EBADF) (void)!::open("/dev/null", O_RDWR);
+}
+
+/// What was printed is a result too: a full disk must not pass for success. A reader that had enough, as `head` has, is
+/// no failure.
+auto printed(int code) -> int {
+  const bool failed = std::fflush(stdout) != 0;
+  const std::string why = failed ? std::strerror(errno) : "";
+  if (!failed && std::ferror(stdout) == 0) return code;
+  pollfd out{STDOUT_FILENO, 0, 0};
+  if (::poll(&out, 1, 0) == 1 && (out.revents & POLLERR) != 0) return code;
+  return give_up(base::error("file-write",
+                             "cannot print everything" + (why.empty() ? why : ": " + why) +
+                                 "; choose a place that can be written and has room",
+                             "standard output"));
 }
 
 /// A misspelt option, with the nearest known one.
@@ -82,11 +108,17 @@ auto run(int argc, char** argv) -> int {
 auto main(int argc, char** argv) -> int {
   namespace base = mansard::base;
   namespace cli = mansard::cli;
+  cli::hold_standard_streams();
+  // `mansard … 2>&1 | head` must not end a run between two files.
+  std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGINT, cli::on_interrupt);
   std::signal(SIGTERM, cli::on_interrupt);
   std::signal(SIGHUP, cli::on_interrupt);
+  const struct Tidy {
+    ~Tidy() { cli::remove_folders_left_empty(); }
+  } tidy;
   try {
-    return cli::run(argc, argv);
+    return cli::printed(cli::run(argc, argv));
   } catch (const std::bad_alloc&) {
     return cli::give_up(base::error("memory", "out of memory; use a smaller piece of the mesh (--bbox)"));
   } catch (const std::exception& e) {

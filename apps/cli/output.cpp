@@ -7,6 +7,16 @@ namespace mansard::cli {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Made by this run, the innermost last.
+auto made() -> std::vector<fs::path>& {
+  static std::vector<fs::path> folders;
+  return folders;
+}
+
+}  // namespace
+
 auto prepare(const fs::path& folder, bool overwrite) -> base::Result<void> {
   std::error_code status;
   if (fs::exists(folder, status)) {
@@ -15,6 +25,10 @@ auto prepare(const fs::path& folder, bool overwrite) -> base::Result<void> {
     if (!overwrite && !fs::is_empty(folder, status))
       return base::error("output-exists", "the folder is not empty; choose another, or say --overwrite", folder.string());
   } else {
+    std::vector<fs::path> missing;
+    for (fs::path at = fs::absolute(folder, status); !at.empty() && !fs::exists(at, status); at = at.parent_path())
+      missing.push_back(at);
+    made().insert(made().end(), missing.rbegin(), missing.rend());
     fs::create_directories(folder, status);
     if (status)
       return base::error("file-write", "cannot make this folder: " + status.message() + "; choose a place that can be written",
@@ -25,6 +39,12 @@ auto prepare(const fs::path& folder, bool overwrite) -> base::Result<void> {
     return base::error("file-write", "cannot write into this folder; choose a place that can be written", folder.string());
   fs::remove(probe, status);
   return {};
+}
+
+void remove_folders_left_empty() {
+  std::error_code status;
+  for (; !made().empty(); made().pop_back())
+    if (fs::is_directory(made().back(), status)) fs::remove(made().back(), status);  // only where it is empty
 }
 
 auto spare_inputs(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) -> base::Result<void> {
@@ -44,6 +64,16 @@ auto spare_inputs(const std::vector<fs::path>& outputs, const std::vector<fs::pa
                            output.string());
     }
   return {};
+}
+
+auto spare_results(const fs::path& result, const std::vector<fs::path>& others) -> base::Result<void> {
+  const auto whole = [](const fs::path& path) {
+    std::error_code status;
+    return fs::weakly_canonical(fs::absolute(path, status), status);
+  };
+  const auto same = [&, place = whole(result)](const fs::path& other) { return whole(other) == place; };
+  if (std::ranges::none_of(others, same)) return {};
+  return base::error("usage", "two results would be written here; give each a name of its own", result.string());
 }
 
 auto leftovers(const fs::path& folder, const std::string& always, const std::function<bool(const std::string&)>& own)

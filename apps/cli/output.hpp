@@ -18,9 +18,16 @@ namespace mansard::cli {
 /// Gives up with "output-exists", "file-write".
 [[nodiscard]] auto prepare(const std::filesystem::path& folder, bool overwrite) -> base::Result<void>;
 
+/// Takes away the folders that `prepare` made and nothing was written into: a run that failed leaves nothing.
+void remove_folders_left_empty();
+
 /// Gives up with "output-input" where an output would replace an input, or lie in a folder that is one.
 [[nodiscard]] auto spare_inputs(const std::vector<std::filesystem::path>& outputs,
                                 const std::vector<std::filesystem::path>& inputs) -> base::Result<void>;
+
+/// Gives up with "usage" where a result has the place of another one.
+[[nodiscard]] auto spare_results(const std::filesystem::path& result, const std::vector<std::filesystem::path>& others)
+    -> base::Result<void>;
 
 /// Ordinary files, and folders of tiles, that an earlier run of a verb left in the folder: those that are its own by name,
 /// where the file is there that it always writes. To be asked before that is written again.

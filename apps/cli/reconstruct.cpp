@@ -107,8 +107,10 @@ auto check_outputs(const Request& request, const std::vector<Target>& targets) -
   for (const auto& name : all_results()) results.push_back(fs::path(request.out) / name);
   if (auto spared = spare_inputs(results, {request.scan.inputs.begin(), request.scan.inputs.end()}); !spared)
     return spared;
-  if (auto usable = files_free(request.scan, {}); !usable) return usable;
+  if (!request.scan.report.empty())
+    if (auto apart = spare_results(request.scan.report, results); !apart) return apart;
   if (auto ready = prepare(request.out, request.scan.overwrite); !ready) return ready;
+  if (auto usable = files_free(request.scan, {}); !usable) return usable;
   for (const auto& target : targets)
     if (auto usable = target_free(target, request.scan.overwrite); !usable) return usable;
   return {};

@@ -4,6 +4,7 @@
 
 #include "apps/server/json.hpp"
 #include "mansard/ingest/input_file.hpp"
+#include "mansard/ingest/input_name.hpp"
 #include "mansard/pipeline/stored.hpp"
 
 namespace mansard::server {
@@ -12,8 +13,10 @@ namespace {
 namespace fs = std::filesystem;
 
 auto read(const fs::path& path) -> base::Result<std::unique_ptr<write::CityReader>> {
-  std::error_code status;
-  if (!fs::exists(path, status)) return base::error("file-missing", "no such file; check the path", path.string());
+  if (ingest::is_database_name(path))
+    return base::error("write-read-format", "this is a database; name a file that mansard wrote",
+                       ingest::name_to_show(path));
+  if (auto there = ingest::check_input(path); !there) return there.error();
   return write::read_city(path);
 }
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "apps/server/exports.hpp"
+
 namespace mansard::server {
 namespace {
 
@@ -205,7 +207,7 @@ auto options_json() -> Json {
     for (const auto& [key, value] : preset.values) values[key] = value;
     presets.push_back({{"name", preset.name}, {"meaning", preset.meaning}, {"values", values}});
   }
-  return {{"options", options}, {"presets", presets}};
+  return {{"options", options}, {"presets", presets}, {"formats", formats_json()}};
 }
 
 auto layers_json(const std::vector<pipeline::SegmentedBlock>& blocks) -> Json {

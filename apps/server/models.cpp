@@ -381,41 +381,21 @@ auto Models::measure(const OpenScene& scene) -> std::optional<Changed> {
   return publish(unmeasured, &scene);
 }
 
-auto Models::exported(const SceneOrNone& scene) -> base::Result<Texts> {
+auto Models::edited(const SceneOrNone& scene) -> base::Result<std::shared_ptr<const write::City>> {
   const std::scoped_lock lock(export_mutex_);
   std::optional<edit::History> history;
   std::uint64_t number = 0;
   {
     const std::scoped_lock edits(edits_);
     number = view()->number;
-    if (export_ && export_->number == number && export_->with_scene == (scene != nullptr)) return export_->files;
+    if (export_ && export_->number == number && export_->with_scene == (scene != nullptr)) return export_->city;
     history = history_;
   }
   const auto mesh_of = [&](std::string_view id) { return scene ? scene->rays_of(id) : nullptr; };
-  const auto city = edit::edited_city(city_, *history, mesh_of, options_);
+  auto city = edit::edited_city(city_, *history, mesh_of, options_);
   if (!city) return city.error();
-  Export made{number, scene != nullptr, {}};
-  auto cityjson = write::cityjson(*city);
-  if (!cityjson) return cityjson.error();
-  auto obj = write::obj(*city, "model.mtl");
-  if (!obj) return obj.error();
-  auto glb = write::glb(*city);
-  if (!glb) return glb.error();
-  made.files["model.city.json"] = std::move(*cityjson);
-  made.files["model.obj"] = std::move(obj->obj);
-  made.files["model.mtl"] = std::move(obj->mtl);
-  made.files["model.glb"] = std::move(*glb);
-  made.files["plans.json"] = write::plans(*city);
-  export_ = std::move(made);
-  return export_->files;
-}
-
-auto Models::exported(const std::string& file, const SceneOrNone& scene) -> base::Result<std::string> {
-  auto files = exported(scene);
-  if (!files) return files.error();
-  const auto at = files->find(file);
-  if (at == files->end()) return base::error("server-unknown", "there is no such file to export", file);
-  return std::move(at->second);
+  export_ = Export{number, scene != nullptr, std::make_shared<const write::City>(std::move(*city))};
+  return export_->city;
 }
 
 }  // namespace mansard::server

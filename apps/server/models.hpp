@@ -57,9 +57,8 @@ class Models {
   /// Measures what was edited while there was no scene; nothing where there was nothing to measure.
   [[nodiscard]] auto measure(const OpenScene& scene) -> std::optional<Changed>;
 
-  /// The bytes of one of model_files, of the edited state. Gives up as the writers do, and with "server-unknown".
-  [[nodiscard]] auto exported(const std::string& file, const SceneOrNone& scene) -> base::Result<std::string>;
-  [[nodiscard]] auto exported(const SceneOrNone& scene) -> base::Result<Texts>;
+  /// The city as edited, for export. Gives up as edit::edited_city does.
+  [[nodiscard]] auto edited(const SceneOrNone& scene) -> base::Result<std::shared_ptr<const write::City>>;
 
   [[nodiscard]] auto options() const -> const pipeline::Options& { return options_; }
 
@@ -111,7 +110,7 @@ class Models {
   struct Export {
     std::uint64_t number = 0;
     bool with_scene = false;
-    Texts files;
+    std::shared_ptr<const write::City> city;
   };
   std::mutex export_mutex_;
   std::optional<Export> export_;  // of the last state that was asked for

@@ -12,6 +12,7 @@
 #include "mansard/base/files.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/edit/edit.hpp"
+#include "mansard/ingest/input_name.hpp"
 
 namespace mansard::server {
 namespace {
@@ -22,11 +23,15 @@ constexpr int format = 1;
 constexpr const char* kind = "mansard-project";
 constexpr const char *project_file = "project.json", *run_file = "run.json";
 
-/// What lies in the project is named from there, so that its folder can be moved.
-auto from_project(const fs::path& folder, const std::string& path) -> std::string {
-  if (path.empty()) return path;
-  const auto relative = fs::path(path).lexically_relative(folder);
-  return relative.empty() || *relative.begin() == ".." ? path : relative.string();
+/// What lies in the project is named from there, so that its folder can be moved. Passwords stay out.
+auto from_project(const fs::path& folder, const std::string& name) -> std::string {
+  if (name.empty() || !ingest::is_disk_name(name)) return ingest::name_to_keep(name);
+  const auto relative = fs::path(name).lexically_relative(folder);
+  return relative.empty() || *relative.begin() == ".." ? name : relative.string();
+}
+
+auto to_project(const fs::path& folder, const std::string& name) -> std::string {
+  return name.empty() || !ingest::is_disk_name(name) ? name : (folder / name).string();
 }
 
 auto files_json(const fs::path& folder, const std::vector<KnownFile>& files) -> Json {
@@ -35,16 +40,28 @@ auto files_json(const fs::path& folder, const std::vector<KnownFile>& files) -> 
     out.push_back({{"path", from_project(folder, file.path)},
                    {"bytes", file.bytes},
                    {"sha256", file.sha256},
-                   {"modified_ns", file.modified}});
+                   {"bytes_on_disk", file.stamp.bytes},
+                   {"modified_ns", file.stamp.modified}});
   return out;
 }
 
 auto files_of(const fs::path& folder, const Json& json) -> std::vector<KnownFile> {
   std::vector<KnownFile> files;
-  for (const auto& file : json)
-    files.push_back({(folder / file.at("path").get<std::string>()).string(), file.at("bytes").get<std::uint64_t>(),
-                     file.at("sha256").get<std::string>(), file.at("modified_ns").get<std::int64_t>()});
+  for (const auto& file : json) {
+    const auto bytes = file.at("bytes").get<std::uint64_t>();
+    const Stamp stamp{file.value("bytes_on_disk", bytes), file.at("modified_ns").get<std::int64_t>()};
+    files.push_back({to_project(folder, file.at("path").get<std::string>()), bytes,
+                     file.at("sha256").get<std::string>(), stamp});
+  }
   return files;
+}
+
+/// The one option of reading that names a file.
+auto with_terrain(Texts reading, const fs::path& folder, std::string (*named)(const fs::path&, const std::string&))
+    -> Texts {
+  if (const auto terrain = reading.find(terrain_option); terrain != reading.end())
+    terrain->second = named(folder, terrain->second);
+  return reading;
 }
 
 auto inputs_json(const fs::path& folder, const Inputs& inputs) -> Json {
@@ -52,18 +69,19 @@ auto inputs_json(const fs::path& folder, const Inputs& inputs) -> Json {
   for (const auto& mesh : inputs.meshes) meshes.push_back(from_project(folder, mesh));
   return {{"meshes", meshes},
           {"footprints", from_project(folder, inputs.footprints)},
-          {"reading", inputs.reading},
+          {"reading", with_terrain(inputs.reading, folder, from_project)},
           {"mesh_files", files_json(folder, inputs.mesh_files)},
+          {"terrain_files", files_json(folder, inputs.terrain_files)},
           {"footprint_files", files_json(folder, inputs.footprint_files)}};
 }
 
 auto inputs_of(const fs::path& folder, const Json& json) -> Inputs {
   Inputs inputs;
-  for (const auto& mesh : json.at("meshes")) inputs.meshes.push_back((folder / mesh.get<std::string>()).string());
-  if (const auto footprints = json.at("footprints").get<std::string>(); !footprints.empty())
-    inputs.footprints = (folder / footprints).string();
-  inputs.reading = json.at("reading").get<Texts>();
+  for (const auto& mesh : json.at("meshes")) inputs.meshes.push_back(to_project(folder, mesh.get<std::string>()));
+  inputs.footprints = to_project(folder, json.at("footprints").get<std::string>());
+  inputs.reading = with_terrain(json.at("reading").get<Texts>(), folder, to_project);
   inputs.mesh_files = files_of(folder, json.at("mesh_files"));
+  if (json.contains("terrain_files")) inputs.terrain_files = files_of(folder, json.at("terrain_files"));
   inputs.footprint_files = files_of(folder, json.at("footprint_files"));
   return inputs;
 }
@@ -166,6 +184,11 @@ auto lock_of(const fs::path& folder) -> base::Result<Descriptor> {
 }
 
 }  // namespace
+
+auto Inputs::same_request(const Inputs& other) const -> bool {
+  return meshes == other.meshes && reading == other.reading &&
+         ingest::name_to_keep(footprints) == ingest::name_to_keep(other.footprints);
+}
 
 auto stamp_of(const fs::path& path) -> std::optional<Stamp> {
   struct stat status {};

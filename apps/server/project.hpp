@@ -26,23 +26,31 @@ namespace mansard::server {
 
 using Texts = std::map<std::string, std::string>;  ///< "room.name" → value
 
+/// A file as the file system tells of it.
+struct Stamp {
+  std::uint64_t bytes = 0;
+  std::int64_t modified = 0;  ///< ns since the file system's epoch
+  friend auto operator==(const Stamp&, const Stamp&) -> bool = default;
+};
+
 /// An input as it was when it was read.
 struct KnownFile {
-  std::string path;  ///< absolute
+  std::string path;  ///< absolute where it is on disk; without its password where it is in a database
   std::uint64_t bytes = 0;
   std::string sha256;
-  std::int64_t modified = 0;  ///< ns since the file system's epoch
+  Stamp stamp;  ///< of the file on disk: the archive that it is in, the packed file; nothing for what is elsewhere
   friend auto operator==(const KnownFile&, const KnownFile&) -> bool = default;
 };
 
+inline constexpr const char* terrain_option = "ingest.terrain";
+
 struct Inputs {
-  std::vector<std::string> meshes;  ///< as given: files or folders; absolute
-  std::string footprints;           ///< empty: drawn from the mesh
+  std::vector<std::string> meshes;  ///< as given: files or folders, absolute, or what GDAL alone understands
+  std::string footprints;           ///< the same, or a database with its password; empty: drawn from the mesh
   Texts reading;                    ///< options of "ingest", "derive" and "block"
-  std::vector<KnownFile> mesh_files, footprint_files;
-  [[nodiscard]] auto same_request(const Inputs& other) const -> bool {
-    return meshes == other.meshes && footprints == other.footprints && reading == other.reading;
-  }
+  std::vector<KnownFile> mesh_files, terrain_files, footprint_files;
+  /// A password makes no other request.
+  [[nodiscard]] auto same_request(const Inputs& other) const -> bool;
 };
 
 /// Of one block; its values are in a file of its own.
@@ -82,6 +90,7 @@ class Project {
   [[nodiscard]] auto name() const -> std::string;
 
   [[nodiscard]] auto inputs() const -> const std::optional<Inputs>& { return inputs_; }
+  /// Passwords are known until the end of the program, and not written down.
   [[nodiscard]] auto save(const Inputs& inputs) -> base::Result<void>;
 
   /// By number. Runs that had not ended when the last server did are interrupted, on the disk too. A folder without a
@@ -103,10 +112,6 @@ class Project {
 };
 
 /// The file as it is; nothing where it is missing.
-struct Stamp {
-  std::uint64_t bytes = 0;
-  std::int64_t modified = 0;
-};
 [[nodiscard]] auto stamp_of(const std::filesystem::path& path) -> std::optional<Stamp>;
 
 /// How many edits of a journal stand, without looking into them.

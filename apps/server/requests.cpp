@@ -221,8 +221,13 @@ auto read_merge(std::string_view body) -> base::Result<MergeRequest> {
   });
 }
 
-auto read_overwrite(std::string_view body) -> base::Result<bool> {
-  return reading(body, [](const Item& item) { return item.object({"overwrite"}).member("overwrite").flag(); });
+auto read_export(std::string_view body) -> base::Result<ExportRequest> {
+  return reading(body, [](const Item& item) {
+    item.object({"overwrite", "formats"});
+    ExportRequest request{item.member("overwrite").flag(), {}};
+    if (item.has("formats")) request.formats = item.member("formats").texts();
+    return request;
+  });
 }
 
 auto read_nothing(std::string_view body) -> base::Result<void> {

@@ -26,6 +26,10 @@ struct RunRequest {
   Texts options;
   std::vector<std::string> blocks;
 };
+struct ExportRequest {
+  bool overwrite = false;
+  std::vector<std::string> formats;  ///< by their names; empty: all
+};
 struct SectionRequest {
   geometry::Plan plan;
   std::size_t ring = 0, edge = 0;
@@ -50,7 +54,7 @@ using MergeRequest = std::pair<PartName, PartName>;
 [[nodiscard]] auto read_edit(std::string_view body) -> base::Result<edit::Edit>;
 [[nodiscard]] auto read_split(std::string_view body) -> base::Result<SplitRequest>;
 [[nodiscard]] auto read_merge(std::string_view body) -> base::Result<MergeRequest>;
-[[nodiscard]] auto read_overwrite(std::string_view body) -> base::Result<bool>;
+[[nodiscard]] auto read_export(std::string_view body) -> base::Result<ExportRequest>;
 /// For calls that say nothing: an empty body, or {}.
 [[nodiscard]] auto read_nothing(std::string_view body) -> base::Result<void>;
 

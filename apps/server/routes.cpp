@@ -108,7 +108,7 @@ auto table() -> std::vector<Route> {
       {"GET", "/api/runs/{run}/export/{file}", nothing, bytes,
        [](auto& w, const auto& call) { return w.export_file(run_of(call), call.captured.at("file")); }},
       {"POST", "/api/runs/{run}/export", sends, gives,
-       with(read_overwrite, [](auto& w, const auto& call, auto may) { return w.export_all(run_of(call), may); })},
+       with(read_export, [](auto& w, const auto& call, auto request) { return w.export_all(run_of(call), request); })},
       {"GET", "/api/jobs", nothing, gives, [](auto& w, const auto&) { return w.jobs(); }},
       {"DELETE", "/api/jobs/{id}", nothing, gives,
        [](auto& w, const auto& call) { return w.cancel(call.captured.at("id")); }},
@@ -141,12 +141,13 @@ auto matches(const Route& route, const std::vector<std::string_view>& words, Wor
 
 /// The code says what went wrong; HTTP only has classes for it.
 auto status_of(std::string_view code) -> int {
-  static constexpr std::array<std::pair<std::string_view, int>, 24> known{{
+  static constexpr std::array<std::pair<std::string_view, int>, 26> known{{
       {"server-body", 400},   {"option-value", 400},    {"option-unknown", 400}, {"file-missing", 400},
       {"server-upload", 400}, {"server-token", 401},    {"server-host", 403},    {"server-origin", 403},
       {"server-path", 404},   {"server-unknown", 404},  {"server-no-scene", 404}, {"server-sample", 404},
       {"edit-building", 404}, {"edit-part", 404},       {"pipeline-block-unknown", 404}, {"server-method", 405},
       {"edit-stale", 409},    {"edit-nothing", 409},    {"server-busy", 409},    {"server-inputs", 409},
+      {"server-input", 400},  {"file-read", 400},
       {"server-not-done", 409}, {"output-exists", 409}, {"server-large", 413},   {"server-listeners", 503},
   }};
   const auto at = std::ranges::find(known, code, &std::pair<std::string_view, int>::first);

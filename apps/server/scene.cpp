@@ -4,6 +4,7 @@
 #include <cstring>
 #include <limits>
 
+#include "mansard/ingest/input_name.hpp"
 #include "mansard/pipeline/inputs.hpp"
 
 namespace mansard::server {
@@ -46,7 +47,7 @@ auto OpenScene::read(const Inputs& inputs, const base::Run& run) -> base::Result
   if (!scene) return scene.error();
   const std::shared_ptr<OpenScene> out(new OpenScene);
   out->scene_ = std::move(*scene);
-  run.report("block", inputs.footprints, 0.9);
+  run.report("block", ingest::name_to_show(inputs.footprints), 0.9);
   out->blocks_ = block::partition(out->scene_, options.block, run);
   run.report("tiles", inputs.meshes.front(), 0.95);
   out->tiles_ = picture::tiles(out->scene_.mesh, {}, run);

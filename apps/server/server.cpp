@@ -373,6 +373,8 @@ auto codes() -> std::vector<base::Code> {
       {"server-busy", "A run that has not ended cannot be deleted.", "Cancel its job first.", usage},
       {"server-inputs", "The project has runs of other inputs, and results of two inputs cannot stand beside each other.",
        "Delete the runs, or start 'mansard serve' with another folder.", usage},
+      {"server-input", "A database is named where a mesh or a raster belongs.",
+       "Name it for the footprints; a mesh is a file, a folder, an archive or a tileset.", usage},
       {"server-import", "Models that are to be opened are in another CRS than the scan of the project.",
        "Open them in a project of their own, or convert one of them.", usage},
       {"server-listeners", "Too many pages listen to the server at once.", "Close some of them.", usage},

@@ -4,18 +4,21 @@
 #include <array>
 #include <set>
 
+#include "apps/server/exports.hpp"
 #include "apps/server/import.hpp"
+#include "apps/server/inputs.hpp"
 #include "apps/server/outcome.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/ingest/input_file.hpp"
+#include "mansard/ingest/input_name.hpp"
 
 namespace mansard::server {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array mesh_endings{".obj", ".ply", ".off", ".glb", ".gltf"};
-constexpr const char* run_layers = "segment.gpkg";
+/// Of folders in which exports are made; one that ended in the midst of it leaves them.
+constexpr std::string_view work_name = ".work-";
 
 auto refuse(const char* code, std::string message, std::string subject = {}) -> base::Diagnostic {
   return base::error(code, std::move(message), std::move(subject));
@@ -23,18 +26,6 @@ auto refuse(const char* code, std::string message, std::string subject = {}) -> 
 
 auto unknown_run(const std::string& run) -> base::Diagnostic {
   return refuse("server-unknown", "the project has no such run; it may have been deleted", run);
-}
-
-auto is_mesh(const fs::path& path) -> bool {
-  auto ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return std::ranges::find(mesh_endings, ending) != mesh_endings.end();
-}
-
-auto absolute(const std::string& path) -> std::string {
-  std::error_code status;
-  const auto whole = fs::absolute(path, status).lexically_normal();
-  return whole.has_filename() ? whole.string() : whole.parent_path().string();
 }
 
 /// A name that cannot leave its folder, nor hide in it.
@@ -49,23 +40,6 @@ auto now_as_text() -> std::string {
   ::gmtime_r(&now, &parts);
   std::array<char, 32> text{};
   return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts)};
-}
-
-/// What was read, mesh files apart from those of the footprints.
-auto with_files(Inputs inputs, const std::vector<ingest::InputFile>& read) -> Inputs {
-  inputs.mesh_files.clear();
-  inputs.footprint_files.clear();
-  for (const auto& file : read) {
-    const bool given = std::ranges::find(inputs.meshes, file.path) != inputs.meshes.end();
-    const bool mesh = given || inputs.footprints.empty() || (file.path != inputs.footprints && is_mesh(file.path));
-    (mesh ? inputs.mesh_files : inputs.footprint_files)
-        .push_back({file.path, file.bytes, file.sha256, stamp_of(file.path).value_or(Stamp{}).modified});
-  }
-  return inputs;
-}
-
-auto of_reading(const std::string& key) -> bool {
-  return key.starts_with("ingest.") || key.starts_with("derive.") || key.starts_with("block.");
 }
 
 /// Reading, preset, then the run's own.
@@ -90,6 +64,9 @@ auto options_of(const RunRequest& request, const Texts& reading) -> base::Result
 auto Workspace::open(Project project, fs::path sample) -> base::Result<std::unique_ptr<Workspace>> {
   auto runs = project.runs();
   if (!runs) return runs.error();
+  std::error_code status;
+  for (const auto& left : fs::directory_iterator(project.folder() / "exports", status))
+    if (left.path().filename().string().starts_with(work_name)) fs::remove_all(left.path(), status);
   std::unique_ptr<Workspace> workspace(new Workspace(std::move(project), std::move(sample)));
   for (auto& run : *runs) {
     const auto edits = standing_edits(workspace->project_.run_folder(run.id) / "journal.jsonl");
@@ -121,12 +98,14 @@ auto Workspace::status() const -> Text {
 
 /// Size and time are looked at; the contents only where these differ.
 auto Workspace::changed(const KnownFile& file) const -> bool {
-  const auto stamp = stamp_of(file.path);
-  if (!stamp || stamp->bytes != file.bytes) return true;
-  if (stamp->modified == file.modified) return false;
+  const auto place = ingest::disk_place_of(file.path);
+  if (!place) return false;  // a database or a server: they are asked when they are read
+  const auto stamp = stamp_of(*place);
+  if (!stamp) return true;
+  if (*stamp == file.stamp) return false;
   const std::scoped_lock lock(inputs_mutex_);
   auto& known = input_states_[file.path + " " + file.sha256];
-  if (known.stamp.modified != stamp->modified || known.stamp.bytes != stamp->bytes) {
+  if (known.stamp != *stamp) {
     const auto now = ingest::input_file(file.path);
     known = {*stamp, !now || now->sha256 != file.sha256};
   }
@@ -150,7 +129,11 @@ auto Workspace::project_json() const -> Json {
     for (const auto& run : runs_) runs.push_back(json_of(run.record, run.edits));
   }
   Json files = nullptr;
-  if (inputs) files = {{"meshes", files_json(inputs->mesh_files)}, {"footprints", files_json(inputs->footprint_files)}};
+  if (inputs)
+    files = {{"given", shown_json(*inputs)},
+             {"meshes", files_json(inputs->mesh_files)},
+             {"terrain", files_json(inputs->terrain_files)},
+             {"footprints", files_json(inputs->footprint_files)}};
   return {{"name", project_.name()},
           {"folder", project_.folder().string()},
           {"inputs", std::move(files)},
@@ -179,20 +162,14 @@ auto Workspace::cancel(const std::string& job) -> Text {
 // ---- the scene
 
 auto Workspace::open_inputs(const InputsRequest& request) -> Text {
-  Inputs inputs;
-  for (const auto& mesh : request.meshes) inputs.meshes.push_back(absolute(mesh));
-  if (!request.footprints.empty()) inputs.footprints = absolute(request.footprints);
-  inputs.reading = request.reading;
-  pipeline::Options tried;
-  if (auto set = set_all(tried, inputs.reading); !set) return set.error();
-  for (const auto& [key, value] : inputs.reading)
-    if (!of_reading(key))
-      return refuse("option-value", "only options of 'ingest', 'derive' and 'block' say how inputs are read; give it to a run", key);
-  for (const auto& path : inputs.meshes)
-    if (std::error_code status; !fs::exists(path, status))
-      return refuse("file-missing", "no such file; check the path", path);
-  if (std::error_code status; !inputs.footprints.empty() && !fs::exists(inputs.footprints, status))
-    return refuse("file-missing", "no such file; check the path", inputs.footprints);
+  std::optional<Inputs> known;
+  {
+    const std::scoped_lock lock(mutex_);
+    known = project_.inputs();
+  }
+  auto asked = inputs_asked_for(request, known);
+  if (!asked) return asked.error();
+  const auto& inputs = *asked;
   {
     const std::scoped_lock lock(mutex_);
     // Models that were imported before there was a scene are in a frame of their own.
@@ -227,7 +204,7 @@ auto Workspace::open_sample() -> Text {
       if (!json.is_object()) return refuse("server-sample", "the options of the sample cannot be read", name);
       for (const auto& [key, value] : json.items())
         if (value.is_string()) request.reading[key] = value.get<std::string>();
-    } else if (is_mesh(path)) {
+    } else if (named_as_mesh(path)) {
       request.meshes.push_back(name);
     } else if (path.stem() == "footprints" && request.footprints.empty()) {
       request.footprints = name;
@@ -257,7 +234,7 @@ auto Workspace::read_again(const Inputs& inputs, bool save) -> Job {
 
 auto Workspace::read_scene(Inputs inputs, bool save, const base::Run& run) -> base::Result<void> {
   auto scene = OpenScene::read(inputs, run);
-  if (!scene) return scene.error();
+  if (!scene) return explained(scene.error(), inputs);
   inputs = with_files(std::move(inputs), (*scene)->scene().inputs);
   {
     const std::scoped_lock lock(mutex_);
@@ -403,7 +380,7 @@ auto Workspace::start_run(const RunRequest& request) -> Text {
 }
 
 auto Workspace::import_model(const ImportRequest& request) -> Text {
-  const auto path = absolute(request.path);
+  const auto path = whole_name(request.path);
   if (auto known = check_import(path); !known) return known.error();
   if (jobs_.pending("read")) return refuse("server-busy", "the inputs are being read; wait for the job to end");
   {
@@ -622,38 +599,45 @@ auto Workspace::export_file(const std::string& run, const std::string& file) -> 
   const auto open = models(run);
   if (!open) return open.error();
   if (file == run_layers) {
-    std::error_code status;
-    if (!fs::exists(project_.run_folder(run) / run_layers, status))
+    auto layers = layers_of(run);
+    if (!layers) return layers.error();
+    if (!*layers)
       return refuse("server-unknown", "the run has no layers: its models were opened, not reconstructed", file);
-    return base::read_file(project_.run_folder(run) / run_layers);
+    return std::move(**layers);
   }
-  return (*open)->exported(file, scene_now());
+  const auto city = (*open)->edited(scene_now());
+  if (!city) return city.error();
+  const auto work = project_.folder() / "exports" / (std::string(work_name) + std::to_string(next_work_++));
+  return exported(**city, (*open)->options().write, file, work);
 }
 
-auto Workspace::export_all(const std::string& run, bool overwrite) -> Text {
+/// Models that were imported have none.
+auto Workspace::layers_of(const std::string& run) const -> base::Result<std::optional<std::string>> {
+  const auto path = project_.run_folder(run) / run_layers;
+  if (std::error_code status; !fs::exists(path, status)) return std::optional<std::string>();
+  auto layers = base::read_file(path);
+  if (!layers) return layers.error();
+  return std::optional(std::move(*layers));
+}
+
+auto Workspace::export_all(const std::string& run, const ExportRequest& request) -> Text {
+  const auto formats = formats_named(request.formats);
+  if (!formats) return formats.error();
   const auto open = models(run);
   if (!open) return open.error();
-  auto files = (*open)->exported(scene_now());
-  if (!files) return files.error();
-  // Models that were imported have none.
-  if (std::error_code status; fs::exists(project_.run_folder(run) / run_layers, status)) {
-    auto layers = base::read_file(project_.run_folder(run) / run_layers);
-    if (!layers) return layers.error();
-    (*files)[run_layers] = std::move(*layers);
-  }
+  const auto layers = layers_of(run);
+  if (!layers) return layers.error();
+  const auto city = (*open)->edited(scene_now());
+  if (!city) return city.error();
+  const std::scoped_lock only_one(exports_mutex_);
   const auto folder = project_.folder() / "exports" / run;
   std::error_code status;
-  if (!overwrite && fs::exists(folder, status) && !fs::is_empty(folder, status))
+  if (!request.overwrite && fs::exists(folder, status) && !fs::is_empty(folder, status))
     return refuse("output-exists", "the folder is not empty; say that it may be overwritten", folder.string());
   if (auto made = make_folder(folder); !made) return made.error();
-  std::vector<base::FileToWrite> to_write;
-  std::vector<std::string> names;
-  for (const auto& [name, bytes] : *files) {
-    to_write.push_back({folder / name, bytes});
-    names.push_back(name);
-  }
-  if (auto written = base::write_files(to_write); !written) return written.error();
-  return text_of({{"folder", folder.string()}, {"files", names}});
+  const auto written = export_to(folder, **city, (*open)->options().write, *formats, *layers);
+  if (!written) return written.error();
+  return text_of({{"folder", folder.string()}, {"files", written->files}, {"warnings", json_of(written->warnings)}});
 }
 
 }  // namespace mansard::server

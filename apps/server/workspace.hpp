@@ -1,6 +1,8 @@
 // The project while it is served: the scene, the runs, the jobs, and what the pages are told.
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -72,7 +74,7 @@ class Workspace {
   [[nodiscard]] auto redo(const std::string& run, const std::string& client) -> Text;
 
   [[nodiscard]] auto export_file(const std::string& run, const std::string& file) -> Text;
-  [[nodiscard]] auto export_all(const std::string& run, bool overwrite) -> Text;
+  [[nodiscard]] auto export_all(const std::string& run, const ExportRequest& request) -> Text;
 
  private:
   struct Run {
@@ -107,18 +109,21 @@ class Workspace {
   [[nodiscard]] auto record(const std::string& run) const -> base::Result<RunRecord>;
   [[nodiscard]] auto done(const std::string& run) const -> base::Result<RunRecord>;
   [[nodiscard]] auto models(const std::string& run) -> base::Result<std::shared_ptr<Models>>;
+  [[nodiscard]] auto layers_of(const std::string& run) const -> base::Result<std::optional<std::string>>;
   [[nodiscard]] auto find(const std::string& run) const -> const Run*;
   [[nodiscard]] auto find(const std::string& run) -> Run*;
   [[nodiscard]] auto answer(const std::string& run, const Changed& changed, const std::string& client) -> std::string;
 
   std::filesystem::path sample_;
-  mutable std::mutex mutex_;  // of what follows, but the last two; held for moments
+  mutable std::mutex mutex_;  // of what follows until the next one; held for moments
   Project project_;
   std::vector<Run> runs_;
   SceneOrNone scene_;
   std::optional<base::Diagnostic> scene_failure_;
   mutable std::mutex inputs_mutex_;
   mutable std::map<std::string, InputState> input_states_;
+  std::mutex exports_mutex_;
+  std::atomic<std::uint64_t> next_work_ = 1;
   Events events_;
   Jobs jobs_;  // last: its thread uses the others
 };

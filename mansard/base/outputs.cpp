@@ -47,7 +47,10 @@ auto put(const fs::path& beside, const fs::path& path, std::error_code& failure)
 void take_back(const Placed& placed) {
   std::error_code ignored;
   if (placed.there) fs::remove_all(placed.path, ignored);
-  if (placed.replaced) fs::rename(placed.old, placed.path, ignored);
+  if (!placed.replaced) return;
+  // Where nothing came to its place, what stood there still does, by both names: renaming one to the other does nothing.
+  if (!placed.there && fs::equivalent(placed.old, placed.path, ignored)) fs::remove(placed.old, ignored);
+  else fs::rename(placed.old, placed.path, ignored);
 }
 
 }  // namespace

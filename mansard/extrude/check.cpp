@@ -33,6 +33,7 @@ class Check {
     find_bent_faces();
     find_inside_out();
     find_intersections();
+    find_needles();
     return std::move(faults_);
   }
 
@@ -146,24 +147,38 @@ class Check {
   }
 
   void find_intersections() {
-    std::vector<detail::Corners> triangles;
-    std::vector<std::uint32_t> face_of;
     detail::Triangulator triangulator(solid_);
     for (std::uint32_t f = 0; f < solid_.faces.size(); ++f) {
-      if (!triangulator.append(solid_.faces[f], areas_[f], triangles))
+      if (!triangulator.append(solid_.faces[f], areas_[f], triangles_))
         fault("solid-self-intersection", "the boundary of face " + std::to_string(f) + " crosses itself");
-      face_of.resize(triangles.size(), f);
+      face_of_.resize(triangles_.size(), f);
     }
-    const auto [p, q] = detail::first_intersection(solid_, triangles, face_of);
-    if (p < triangles.size())
-      fault("solid-self-intersection", "faces " + std::to_string(face_of[p]) + " and " + std::to_string(face_of[q]) +
-                                           " meet near " + place(solid_.vertices[triangles[p][0]]));
+    const auto [p, q] = detail::first_intersection(solid_, triangles_, face_of_);
+    if (p < triangles_.size())
+      fault("solid-self-intersection", "faces " + std::to_string(face_of_[p]) + " and " + std::to_string(face_of_[q]) +
+                                           " meet near " + place(solid_.vertices[triangles_[p][0]]));
+  }
+
+  /// A face may be flat within tolerance and yet have triangles, as wide as that tolerance, that look anywhere. Viewers
+  /// shade them, and val3dity refuses them (204). Of faces that are allowed to bend more, nothing is asked.
+  void find_needles() {
+    constexpr double flat = 1e-4, least_cosine = 0.93969262;  // of 20°, val3dity's
+    if (planar_ > flat) return;
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      const auto& [a, b, c] = triangles_[t];
+      const Point3 o = solid_.vertices[a], n = cross(solid_.vertices[b] - o, solid_.vertices[c] - o);
+      const Point3 area = areas_[face_of_[t]];
+      if (!(dot(n, area) >= least_cosine * length(n) * length(area)))
+        fault("solid-needle", "a triangle of face " + std::to_string(face_of_[t]) + " looks aside near " + place(o));
+    }
   }
 
   const Solid& solid_;
   const double planar_;
   detail::Connectivity connectivity_;
   std::vector<Point3> areas_;  ///< Newell's vectors of the faces
+  std::vector<detail::Corners> triangles_;
+  std::vector<std::uint32_t> face_of_;  ///< of each triangle
   std::vector<base::Diagnostic> faults_;
 };
 

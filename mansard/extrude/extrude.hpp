@@ -89,7 +89,8 @@ struct Raised {
     -> base::Result<Solid>;
 
 /// Everything wrong with a solid: "solid-open", "solid-non-manifold", "solid-orientation", "solid-not-planar" (a vertex
-/// more than `planar` metres off its face's plane), "solid-self-intersection", "solid-degenerate". Empty means valid.
+/// more than `planar` metres off its face's plane), "solid-self-intersection", "solid-needle" (a triangle that looks
+/// aside by more than 20°; not asked where `planar` is over 1e-4), "solid-degenerate". Empty means valid.
 /// Cost: O(n log n) for faces of bounded size.
 [[nodiscard]] auto check(const Solid& solid, double planar = 1e-4) -> std::vector<base::Diagnostic>;
 

@@ -67,6 +67,8 @@ auto codes() -> std::vector<base::Code> {
       {"ingest-mesh-no-faces", "One of several mesh files has no faces.", "Check whether it should.", 0},
       {"ingest-crs-local", "The footprints have no CRS, so none is written.",
        "Say --crs EPSG:n if it is known; --crs local if there is none.", 0},
+      {"ingest-crs-scale", "Lengths in the working CRS are not those on the ground, as in the Mercator of web maps.",
+       "Say --crs EPSG:n with a system made for the place: the UTM zone, or the country's own.", 0},
       {"ingest-layers", "The vector file has several layers, of which one was read.", "--ingest-layer chooses.", 0},
       {"ingest-model-format", "A building model is neither CityJSON nor OBJ, or it is damaged.",
        "Give CityJSON 1.0 to 2.0, CityJSONSeq, or OBJ; export the model again.", 3},

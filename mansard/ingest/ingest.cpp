@@ -193,10 +193,12 @@ auto read_ground(const std::filesystem::path& path, const Options& options, cons
 auto check_overlap(const Ground& ground, const Box2& mesh, const std::string& subject) -> base::Result<void> {
   if (ground.box.empty() || ground.box.overlaps(mesh)) return {};
   const std::string& crs = ground.way.name;
+  const Box2 turned{{ground.box.least.y, ground.box.least.x}, {ground.box.most.y, ground.box.most.x}};
   return base::error("ingest-no-overlap",
                      "mesh and footprints do not overlap: the mesh lies in " + in_words(mesh) + ", the footprints in " +
                          in_words(ground.box) + (crs.empty() ? "" : " (" + crs.substr(0, crs.find('[')) + ")") +
-                         "; give --mesh-offset or --crs",
+                         (turned.overlaps(mesh) ? "; with x and y of one swapped they do: correct its axis order"
+                                                : "; give --mesh-offset or --crs"),
                      subject);
 }
 

@@ -269,7 +269,9 @@ auto part_of(const ModelSurface& surface, const std::vector<bool>& buildings) ->
   return out;
 }
 
-auto read_mesh(const std::vector<std::filesystem::path>& paths, const Frame& frame, const Options& options,
+namespace {
+
+auto read_into(const Frame& frame, const std::vector<std::filesystem::path>& paths, const Options& options,
                const base::Run& run) -> base::Result<ScannedMesh> {
   const std::string subject = paths.empty() ? std::string() : paths.front().string();
   run.report("ingest", subject, 0);
@@ -292,6 +294,21 @@ auto read_mesh(const std::vector<std::filesystem::path>& paths, const Frame& fra
   out.warnings.insert(out.warnings.end(), more.begin(), more.end());
   run.report("ingest", subject, 1);
   return out;
+}
+
+}  // namespace
+
+auto read_mesh(const std::vector<std::filesystem::path>& paths, const Frame& frame, const Options& options,
+               const base::Run& run) -> base::Result<ScannedMesh> {
+  const std::string subject = paths.empty() ? std::string() : paths.front().string();
+  try {
+    return read_into(frame, paths, options, run);
+  } catch (const std::bad_alloc&) {
+    return base::error("ingest-memory", "the mesh does not fit into memory; cut it into tiles", subject);
+  } catch (const std::exception& e) {
+    return base::error("ingest-mesh-format", std::string("cannot be read (") + e.what() + "); check what it is",
+                       subject);
+  }
 }
 
 auto check_overlap(const geometry::Mesh& first, const geometry::Mesh& second,

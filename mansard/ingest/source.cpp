@@ -20,7 +20,7 @@ auto open(const fs::path& path, unsigned int kind) -> GDALDatasetUniquePtr {
   // The GML driver would write a .gfs file beside its input.
   const CPLStringList quiet(CSLSetNameValue(nullptr, "WRITE_GFS", "NO"));
   const CPLStringList none;
-  const std::string name = detail::name_for_gdal(path);
+  const std::string name = detail::inside_of(detail::name_for_gdal(path));
   GDALDriverH driver = GDALIdentifyDriverEx(name.c_str(), kind, nullptr, nullptr);
   const bool gml = driver != nullptr && std::string_view(GDALGetDescription(driver)) == "GML";
   return GDALDatasetUniquePtr(GDALDataset::Open(name.c_str(), kind | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr,
@@ -63,7 +63,14 @@ auto vector_source(const fs::path& path) -> base::Result<VectorSource> {
                        "not a readable vector file (" + messages.failure() + "); check what it is", path.string());
   VectorSource out;
   out.driver = dataset->GetDriverName();
-  for (auto* layer : dataset->GetLayers()) out.layers.push_back(layer_of(*layer));
+  for (auto* layer : dataset->GetLayers()) {
+    auto& one = out.layers.emplace_back(layer_of(*layer));
+    // Degrees are only GDAL's guess where a GeoJSON names no CRS; reading it makes nothing of them beyond the earth.
+    const auto& box = one.extent;
+    if (out.driver == "GeoJSON" && one.crs == "EPSG:4326" && box &&
+        ((*box)[0] < -180 || (*box)[2] > 180 || (*box)[1] < -90 || (*box)[3] > 90))
+      one.crs.clear();
+  }
   return out;
 }
 

@@ -4,8 +4,10 @@
 #include <mutex>
 
 #include "mansard/base/text.hpp"
+#include "mansard/extrude/align.hpp"
 #include "mansard/pipeline/detail/assemble.hpp"
 #include "mansard/pipeline/detail/model_attributes.hpp"
+#include "mansard/pipeline/detail/overlaps.hpp"
 #include "mansard/pipeline/pipeline.hpp"
 
 namespace mansard::pipeline {
@@ -31,6 +33,25 @@ auto top_of(const extrude::Solid& solid) -> double {
   return top;
 }
 
+/// How far the top lies from where the plan was made to have it, m.
+auto missed(const extrude::Solid& solid, const roof::Planned& planned) -> double {
+  return std::abs(top_of(solid) - planned.plan.base - planned.top);
+}
+constexpr double far_off = 0.05;  // m
+
+/// The plan with the walls that it shares with others on one line, as a checked solid. False where that would cost the
+/// roof.
+auto raise_aligned(Raising& job, geometry::Plan aligned, bool ridge_known, const Options& options,
+                   const base::Run& run) -> bool {
+  auto raised = raise_part(aligned, options, run);
+  if (!raised || raised->outcome != extrude::Outcome::full) return false;
+  constexpr double near = 0.01;  // m; a wider house has a higher ridge
+  if (ridge_known && missed(raised->solid, job.planned) > near) return false;
+  job.planned.plan = std::move(aligned);
+  job.solid = std::move(raised->solid);
+  return true;
+}
+
 /// The plan as a checked solid; what the ladder did, and a ridge that is not where it should be, are reasons.
 void raise(Raising& job, bool ridge_known, const Options& options, const base::Run& run) {
   auto& plan = job.planned.plan;
@@ -48,10 +69,9 @@ void raise(Raising& job, bool ridge_known, const Options& options, const base::R
     job.full = false;
     append(job.reasons, raised->warnings);
   }
-  constexpr double far_off = 0.05;  // m
-  const double top = top_of(raised->solid) - plan.base;
-  if (ridge_known && raised->outcome != extrude::Outcome::prism && std::abs(top - job.planned.top) > far_off) {
+  if (ridge_known && raised->outcome != extrude::Outcome::prism && missed(raised->solid, job.planned) > far_off) {
     job.full = false;
+    const double top = top_of(raised->solid) - plan.base;
     job.reasons.push_back(base::warning("roof-missed", "its ridge is " + base::to_text(top, 2) +
                                                            " m above its base instead of " +
                                                            base::to_text(job.planned.top, 2) + " m"));
@@ -177,11 +197,9 @@ auto raise_footprints(const ingest::Scene& scene, const Options& options, const 
     }
   }
 
-  std::mutex progress;
-  std::size_t done = 0;
   base::Run inner = run;
   inner.progress = nullptr;
-  run.report("extrude", {}, 0);
+  run.report("roof", {}, 0);
   base::parallel_for(jobs.size(), [&](std::size_t i) {
     if (run.cancelled()) return;
     Raising& job = jobs[i];
@@ -195,13 +213,28 @@ auto raise_footprints(const ingest::Scene& scene, const Options& options, const 
       job.full = false;
       job.reasons.push_back(base::warning(planned.error().code, planned.error().message));
     } else {
-      const detail::Watch raising;
       job.planned = std::move(*planned);
       job.full = job.planned.as_asked;
       job.reasons = job.planned.warnings;
-      raise(job, by_attributes, options, inner);
-      job.raising = raising.seconds();
     }
+  });
+  const detail::Watch aligning;
+  std::vector<geometry::Plan> plans;
+  for (const auto& job : jobs) plans.push_back(job.planned.plan);
+  const auto aligned = extrude::align(plans, options.extrude);
+  const double aligned_in = aligning.seconds();
+
+  std::mutex progress;
+  std::size_t done = 0;
+  run.report("extrude", {}, 0);
+  base::parallel_for(jobs.size(), [&](std::size_t i) {
+    Raising& job = jobs[i];
+    if (run.cancelled()) return;
+    const detail::Watch raising;
+    const bool is_planned = !job.planned.plan.outer.points.empty();
+    if (is_planned && !(aligned[i] && raise_aligned(job, *aligned[i], by_attributes, options, inner)))
+      raise(job, by_attributes, options, inner);
+    job.raising = raising.seconds();
     const std::scoped_lock lock(progress);
     if (++done % 64 == 0 || done == jobs.size())
       run.report("extrude", {}, static_cast<double>(done) / static_cast<double>(jobs.size()));
@@ -218,7 +251,7 @@ auto raise_footprints(const ingest::Scene& scene, const Options& options, const 
   out.city.frame = scene.frame;
   out.city.made_by = detail::made_by(scene, options);
   begin(scene, read, by_attributes, out);
-  StageTime planning{"roof", 0}, raising{"extrude", 0};
+  StageTime planning{"roof", 0}, raising{"extrude", aligned_in};
   std::size_t next = 0;
   for (auto& job : jobs) {
     planning.seconds += job.planning;
@@ -232,6 +265,7 @@ auto raise_footprints(const ingest::Scene& scene, const Options& options, const 
   for (auto& report : out.buildings)
     if (report.parts == 0) report.outcome = Outcome::refused;
   out.times = {planning, raising, {"label", labelling.seconds()}};
+  detail::report_overlaps(out);
   finish(scene, out);
   return out;
 }

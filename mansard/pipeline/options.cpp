@@ -127,6 +127,8 @@ auto codes() -> std::vector<base::Code> {
        "Check whether the input repeats a building; segment.gis_edges = hard keeps features apart.", 1},
       {"pipeline-block", "The segmentation of a block failed, so its footprints became prisms.",
        "The message says why; please report it.", 1},
+      {"pipeline-overlap", "Two solids share more ground than strips a millimetre wide: they stand in each other.",
+       "Look whether the input's footprints overlap, or repeat a building.", 0},
       {"pipeline-block-unknown", "A run of some blocks names one that there is not.",
        "Take a name from the report of a whole run, or of 'mansard segment'.", 4},
   });

@@ -7,6 +7,7 @@
 
 #include "mansard/pipeline/detail/assemble.hpp"
 #include "mansard/pipeline/detail/block_run.hpp"
+#include "mansard/pipeline/detail/overlaps.hpp"
 
 namespace mansard::pipeline {
 namespace {
@@ -143,6 +144,7 @@ auto reconstruct(const ingest::Scene& scene, const Options& options, const base:
   out.segmented = std::move(segmented);
   out.times = summed(division->time, out.blocks);
   out.scores = combined(out.blocks);
+  detail::report_overlaps(out);
   return out;
 }
 

@@ -52,6 +52,15 @@ auto part_of(const write::Part& part) -> ingest::ModelPart {
   return out;
 }
 
+/// Whether both have the same corners in the same order, face by face.
+auto same_corners(const extrude::Solid& a, const extrude::Solid& b) -> bool {
+  const auto same = [&](std::uint32_t u, std::uint32_t v) { return a.vertices[u] == b.vertices[v]; };
+  return std::ranges::equal(a.faces, b.faces, [&](const extrude::Face& f, const extrude::Face& g) {
+    return std::ranges::equal(f.loops, g.loops,
+                              [&](const auto& x, const auto& y) { return std::ranges::equal(x, y, same); });
+  });
+}
+
 /// The file, or every file of a folder of tiles, by name.
 auto inputs_of(const fs::path& path) -> base::Result<std::vector<ingest::InputFile>> {
   std::vector<fs::path> files;
@@ -122,6 +131,21 @@ auto same_options(const write::MadeBy& made_by, const Options& options) -> bool 
     if (used[i].second != (before != nullptr ? *before : defaults[i].second)) return false;
   }
   return true;
+}
+
+void complete(std::span<write::Building> buildings, const Options& options, const base::Run& run) {
+  std::vector<write::Part*> parts;
+  for (auto& building : buildings)
+    for (auto& part : building.parts)
+      if (!part.model.solid.faces.empty()) parts.push_back(&part);
+  base::Run inner = run;
+  inner.progress = nullptr;
+  base::parallel_for(parts.size(), [&](std::size_t i) {
+    if (run.cancelled()) return;
+    auto raised = raise_part(parts[i]->plan, options, inner);
+    auto& solid = parts[i]->model.solid;
+    if (raised && same_corners(raised->solid, solid)) solid = std::move(raised->solid);
+  });
 }
 
 auto read_raised(write::CityReader& reader, const Options& options, const base::Run& run) -> base::Result<RaisedPlans> {

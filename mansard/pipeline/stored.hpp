@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,11 @@ namespace mansard::pipeline {
 void note_options(const Options& options, write::MadeBy& made_by);
 /// Whether they are what the file was made with.
 [[nodiscard]] auto same_options(const write::MadeBy& made_by, const Options& options) -> bool;
+
+/// Gives models that were read what CityJSON has no place for: the edge and the part of the profile that each face comes
+/// from, and its normal to the last digit. It raises their plans, by the options that they were made with. Where that
+/// gives other corners than were read, since another program or version had its hand in, a model stays as it is.
+void complete(std::span<write::Building> buildings, const Options& options, const base::Run& run = {});
 
 /// All that is left in a file, with models: the file's own, or raised with `options` where there are none or where it was
 /// made with others. Gives up as the reader and raise_plans do.

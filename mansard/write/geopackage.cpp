@@ -6,6 +6,7 @@
 
 #include "mansard/ingest/gdal.hpp"
 #include "mansard/write/detail/geopackage_tables.hpp"
+#include "mansard/write/detail/qgis_styles.hpp"
 
 namespace mansard::write {
 namespace {
@@ -97,6 +98,7 @@ auto geopackage(const std::vector<Layer>& layers, const ingest::Frame& frame) ->
   const detail::Pen pen(frame);
   for (const Layer& layer : layers)
     if (const auto added = detail::add_layer(layer, pen, *crs, *file); !added) return added.error();
+  if (const auto styled = detail::add_styles(*file); !styled) return styled.error();
   if (file->CommitTransaction() != OGRERR_NONE) return detail::geopackage_failure("finish the file");
   CPLErrorReset();
   file.reset();  // writes the extents, and the spatial indexes that are still due

@@ -78,6 +78,12 @@ class CityWriter {
 /// The whole city into an open writer, then finish().
 [[nodiscard]] auto write_city(const City& city, CityWriter& writer) -> base::Result<void>;
 
+/// What a file has beside its city, and what of that cannot be taken along.
+struct Beside {
+  std::vector<Layer> layers;
+  std::vector<base::Diagnostic> warnings;  ///< "write-layer-left"; the subject is the layer's name
+};
+
 /// A file of buildings that mansard wrote, read one after the other, in the order they were written in.
 class CityReader {
  public:
@@ -91,6 +97,9 @@ class CityReader {
   [[nodiscard]] virtual auto has_models() const -> bool = 0;
   /// None after the last one.
   [[nodiscard]] virtual auto next() -> base::Result<std::optional<Building>> = 0;
+  /// The layers of a GeoPackage that are not of the city's making, for open_writer to take: those of a segmentation, and
+  /// what others put in, all in memory. Nothing of other formats. Before the first next(), or after it.
+  [[nodiscard]] virtual auto beside() -> base::Result<Beside> { return Beside(); }
 };
 
 /// Opens a file, or a folder of tiles, that mansard wrote in any format but STL. Guarantees: writing what was read, its

@@ -111,6 +111,9 @@ auto codes() -> std::vector<base::Code> {
       {"write-layer", "A layer that was to be written is broken: values that do not fit its fields, or coordinates that "
        "are not finite.",
        "This is a bug: please report it with the input.", 70},
+      {"write-layer-left", "A layer of a GeoPackage beside the buildings cannot be taken into another file.",
+       "Nothing, or copy it with ogr2ogr; the original file still has it. A GeoPackage as the result takes all layers of "
+       "mansard's.", 0},
       {"write-geopackage", "GDAL could not make a GeoPackage.",
        "The message has GDAL's words; its GPKG driver and PROJ's data must be installed, and there must be memory.", 3},
       {"write-stl-shell", "Parts that touch cannot be one closed shell of an STL: where towers meet at a corner, or outlines "

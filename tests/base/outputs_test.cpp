@@ -97,6 +97,15 @@ TEST_F(OutputsTest, put_everything_back_when_one_cannot_take_its_place) {
   EXPECT_FALSE(fs::exists(folder_ / "tiles/other"));
 }
 
+TEST_F(OutputsTest, leave_no_second_name_of_what_could_not_be_replaced) {
+  write("a", "old");
+  Outputs outputs;
+  ASSERT_TRUE(outputs.place(folder_ / "a"));  // and never made
+  ASSERT_FALSE(outputs.commit());
+  EXPECT_EQ(read("a"), "old");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
+}
+
 TEST_F(OutputsTest, are_not_written_when_cancelled) {
   write("a", "old");
   Cancel cancel;

@@ -359,6 +359,14 @@ TEST_F(Command, leaves_no_file_behind_when_one_of_them_cannot_be_written) {
   EXPECT_TRUE(!fs::exists(at("out")) || fs::is_empty(at("out")));
 }
 
+TEST_F(Command, leaves_no_folder_behind_when_nothing_was_made) {
+  EXPECT_EQ(run("reconstruct " + at("none.obj") + " " + at("house.geojson") + " -o " + at("new/deep/out")).exit, 3);
+  EXPECT_FALSE(fs::exists(at("new")));
+  fs::create_directories(at("mine"));
+  EXPECT_EQ(run("reconstruct " + at("none.obj") + " " + at("house.geojson") + " -o " + at("mine")).exit, 3);
+  EXPECT_TRUE(fs::is_directory(at("mine")));
+}
+
 TEST_F(Command, refuses_a_footprint_source_whose_crs_is_unknown) {
   const auto outcome = reconstruct(at("house.obj"), put("odd.geojson", geojson(polygon(square), "EPSG::999999")));
   expect_refusal(outcome, 3, "ingest-crs-unknown");
@@ -430,7 +438,7 @@ TEST_F(Command, stops_cleanly_on_interrupt) {
   ::waitpid(child, &status, 0);
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 6) << read(at("stderr"));
-  EXPECT_TRUE(fs::is_empty(at("out")));
+  EXPECT_FALSE(fs::exists(at("out")));
 }
 
 }  // namespace

@@ -55,16 +55,9 @@ class Convert : public Command {
       for (const auto& kind : kinds) outputs += " -o " + to + "/" + kind.file;
       const auto outcome = run("convert -q " + folder + "/" + from.file + outputs);
       ASSERT_EQ(outcome.exit, 0) << from.format << ": " << outcome.err;
-      for (const auto& kind : kinds) {
-        // CityJSON gives its own faces, rounded to 0.1 mm: what is computed of their normals has other last digits.
-        const bool computed = kind.format == "glb" || kind.format == "tiles" || kind.format == "geopackage";
-        if (computed && from.format.starts_with("cityjson")) {
-          EXPECT_TRUE(fs::exists(to + "/" + kind.file));
-          continue;
-        }
+      for (const auto& kind : kinds)
         EXPECT_TRUE(bytes_of(to + "/" + kind.file) == bytes_of(folder + "/" + kind.file))
             << from.format << " to " << kind.format;
-      }
       EXPECT_EQ(read(to + "/model.mtl"), read(folder + "/model.mtl")) << from.format;
       fs::remove_all(to);
     }
@@ -94,6 +87,57 @@ TEST_F(Convert, all_formats_of_the_hall_become_all_others_to_the_byte) {
   const auto made = reconstruct(hall + "mesh.off", hall + "footprints.geojson", "--formats all");
   ASSERT_LE(made.exit, 1) << made.err;
   expect_all_pairs(at("out"));
+}
+
+TEST_F(Convert, a_geopackage_with_layers_of_the_segmentation_keeps_them_to_the_byte) {
+  make_all("--layers");
+  const auto outcome = run("convert " + out("model.gpkg") + " -o " + at("again.gpkg") + " -o " + at("model.obj"));
+  ASSERT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, testing::Not(HasSubstr("write-layer-left")));
+  EXPECT_TRUE(read(at("again.gpkg")) == read(out("model.gpkg")));
+  const auto info = nlohmann::json::parse(run("info --json " + at("again.gpkg")).out)[0];
+  std::set<std::string> layers;
+  for (const auto& layer : info["layers"]) layers.insert(layer["name"]);
+  for (const auto* name : {"sweep_edges", "segment_edges", "diagnostics", "layer_styles"})
+    EXPECT_TRUE(layers.contains(name)) << name;
+}
+
+TEST_F(Convert, says_once_which_layers_stay_behind_where_none_can_take_them) {
+  make_all("--layers");
+  const auto outcome = run("convert " + out("model.gpkg") + " -o " + at("model.obj") + " -o " + at("model.glb"));
+  ASSERT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("sweep_edges, faces, segment_edges, conflicts, segment_footprints, diagnostics"));
+  const auto first = outcome.err.find("write-layer-left");
+  ASSERT_NE(first, std::string::npos);
+  EXPECT_EQ(outcome.err.find("write-layer-left", first + 1), std::string::npos) << outcome.err;
+  EXPECT_EQ(run("convert -q " + out("model.gpkg") + " -o " + at("quiet.obj")).err, "");
+  EXPECT_THAT(run("convert " + out("model.city.json") + " -o " + at("other.obj")).err,
+              testing::Not(HasSubstr("write-layer-left")));
+}
+
+TEST_F(Convert, leaves_a_model_that_another_program_changed_as_it_is) {
+  make_all();
+  auto file = nlohmann::ordered_json::parse(read(out("model.city.json")));
+  for (auto& vertex : file["vertices"]) vertex[2] = vertex[2].get<std::int64_t>() + 10000;  // 1 m up, the plans stay
+  put("moved.city.json", file.dump());
+  ASSERT_EQ(convert(at("moved.city.json"), at("moved.obj") + " -o " + at("moved.glb")).exit, 0);
+  const auto extent = [&](const std::string& name) {
+    return nlohmann::json::parse(run("info --json " + name).out)[0]["extent"];
+  };
+  const double top = extent(out("model.city.json"))[5];
+  EXPECT_NEAR(extent(at("moved.city.json"))[5].get<double>() - top, 1, 1e-9);
+  const auto before = read(out("model.glb")), after = read(at("moved.glb"));
+  EXPECT_NE(before, after);
+  const auto greatest_y = [](const std::string& glb) {
+    const auto end = glb.find("BIN", 20) - 4;
+    const auto json = nlohmann::json::parse(glb.substr(20, end - 20));
+    double most = -1e9;
+    for (const auto& accessor : json["accessors"])
+      if (accessor.contains("max") && accessor["max"].size() == 3)
+        most = std::max(most, accessor["max"][1].get<double>());
+    return most;
+  };
+  EXPECT_NEAR(greatest_y(after) - greatest_y(before), 1, 1e-3);
 }
 
 TEST_F(Convert, names_each_result_on_stdout) {

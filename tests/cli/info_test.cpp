@@ -121,6 +121,18 @@ TEST_F(Info, says_what_it_can_of_other_makers_models_tilesets_and_shells) {
   EXPECT_EQ(shells[0]["header"], "shells");
 }
 
+TEST_F(Info, looks_into_folders_of_meshes_and_of_sources) {
+  fs::create_directories(folder_ / "meshes");
+  put("meshes/house.obj", house);
+  const auto told = run("info --json " + at("meshes"));
+  ASSERT_EQ(told.exit, 0) << told.err;
+  EXPECT_EQ(Json::parse(told.out)[0]["kind"], "mesh");
+  fs::create_directories(folder_ / "none");
+  const auto nothing = run("info " + at("none"));
+  EXPECT_EQ(nothing.exit, 3);
+  EXPECT_THAT(nothing.err, HasSubstr("error[ingest-mesh-empty] " + at("none")));
+}
+
 TEST_F(Info, tells_of_the_others_where_one_file_is_missing_or_broken) {
   const auto outcome = run("info " + at("none.glb") + " " + at("house.obj"));
   EXPECT_EQ(outcome.exit, 3);

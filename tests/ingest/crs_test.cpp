@@ -128,6 +128,39 @@ TEST_F(Frames, a_crs_that_is_unknown_or_not_metric_is_refused_with_a_way_out) {
   }
 }
 
+TEST_F(Frames, metres_that_are_none_on_the_ground_are_told) {
+  const auto warning_of = [&](const std::string& crs, double x, double y, const Options& options = {}) -> std::string {
+    const auto scene = read_footprints(polygons({square(x, y)}, crs), options);
+    EXPECT_TRUE(scene) << base::to_string(scene.error());
+    if (!scene) return {};
+    for (const auto& warning : scene->warnings)
+      if (warning.code == "ingest-crs-scale") return warning.message;
+    return {};
+  };
+  // cos 52.01° times what Mercator on a sphere leaves out; and the same place in systems made for it.
+  EXPECT_THAT(warning_of("EPSG:3857", 485030, 6802600), HasSubstr("is 0.62 m on the ground"));
+  EXPECT_THAT(warning_of("EPSG:3857", 485030, 6802600), HasSubstr("EPSG:32631"));
+  EXPECT_EQ(warning_of("EPSG:28992", 84910, 447510), "");
+  EXPECT_EQ(warning_of("EPSG:32631", 593139, 5763220), "");
+  EXPECT_EQ(warning_of("EPSG:25832", 181000, 5772500), "");  // the next zone still serves
+  EXPECT_EQ(warning_of("EPSG:27700", 529015, 181455), "");
+  EXPECT_EQ(warning_of("EPSG:2154", 652000, 6862000), "");
+  EXPECT_EQ(warning_of("EPSG:3857", 10, 10), "");  // on the equator
+  Options options;
+  options.crs = "EPSG:28992";
+  EXPECT_EQ(warning_of("EPSG:3857", 485030, 6802600, options), "");
+  options.crs = "EPSG:3857";
+  EXPECT_THAT(warning_of("EPSG:28992", 84910, 447510, options), HasSubstr("is 0.62 m on the ground"));
+  options.crs = "EPSG:32635";  // four zones off
+  EXPECT_NE(warning_of("EPSG:28992", 84910, 447510, options), "");
+}
+
+TEST_F(Frames, swapped_axes_are_recognised) {
+  const auto scene = read({ground(84900, 447500, 85000, 447600)}, polygons({square(447510, 84910)}, "EPSG:28992"));
+  ASSERT_EQ(code(scene), "ingest-no-overlap");
+  EXPECT_THAT(scene.error().message, HasSubstr("axis order"));
+}
+
 TEST_F(Frames, mesh_and_footprints_apart_are_told_where_each_lies) {
   const auto scene = read({ground()}, polygons({square(84910, 447510)}, "EPSG:28992"));
   ASSERT_EQ(code(scene), "ingest-no-overlap");

@@ -186,6 +186,13 @@ TEST_F(Sources, ids_come_from_the_attribute_asked_for_and_are_made_different) {
   for (const auto& f : scene->footprints) ids.push_back(f.id);
   EXPECT_THAT(ids, ElementsAre("a", "b", "a-3", "a-2"));
   EXPECT_TRUE(has_warning(*scene, "ingest-id-duplicate"));
+  // GeoPackage's own column, which its driver keeps apart.
+  options.id_attribute = "FID";
+  const auto numbered = read({ground()}, at("f.gpkg"), options);
+  ASSERT_TRUE(numbered) << base::to_string(numbered.error());
+  ids.clear();
+  for (const auto& f : numbered->footprints) ids.push_back(f.id);
+  EXPECT_THAT(ids, ElementsAre("1", "2", "3", "4"));
   options.id_attribute = "nmae";
   const auto misspelt = read({ground()}, at("f.gpkg"), options);
   ASSERT_EQ(code(misspelt), "ingest-id-attribute");
@@ -234,7 +241,9 @@ TEST_F(Sources, layers_and_filters_choose) {
   options.where = "floors > 9";
   EXPECT_EQ(code(read({ground()}, at("f.gpkg"), options)), "ingest-footprints-none");
   options.where = "floors >>> 9";
-  EXPECT_EQ(code(read({ground()}, at("f.gpkg"), options)), "ingest-where");
+  const auto unknown = read({ground()}, at("f.gpkg"), options);
+  ASSERT_EQ(code(unknown), "ingest-where");
+  EXPECT_THAT(unknown.error().message, HasSubstr("the layer has: name, floors"));
 }
 
 TEST_F(Sources, a_box_keeps_what_meets_it_and_the_mesh_around) {

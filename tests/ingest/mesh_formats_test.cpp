@@ -66,6 +66,13 @@ TEST_F(Obj, reads_slashes_colours_and_windows_line_ends) {
   EXPECT_THAT(scene->mesh.triangles, ElementsAre(Triangle{0, 1, 2}));
 }
 
+TEST_F(Obj, starts_after_the_mark_that_editors_put_before_utf8) {
+  const auto scene = mesh(file("m.obj", "\xef\xbb\xbfv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 2 1\nf 1 2 3\nf 1 2 4\n"));
+  ASSERT_TRUE(scene) << base::to_string(scene.error());
+  EXPECT_THAT(scene->mesh.triangles, ElementsAre(Triangle{0, 1, 2}, Triangle{0, 1, 3}));
+  EXPECT_EQ(scene->mesh.vertices.at(0), (Point3{0, 0, 0}));
+}
+
 TEST_F(Obj, counts_negative_indices_back_from_where_the_face_stands) {
   const auto scene =
       mesh(file("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 5 5 5\nv 6 5 5\nv 5 6 5\nf -3 -2 -1\n"));

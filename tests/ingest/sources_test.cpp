@@ -7,6 +7,7 @@
 #include "mansard/geometry/polygon.hpp"
 #include "mansard/ingest/detail/features.hpp"
 #include "mansard/ingest/gdal.hpp"
+#include "mansard/ingest/source.hpp"
 
 namespace mansard::ingest::test {
 namespace {
@@ -94,6 +95,32 @@ TEST_F(MoreSources, of_a_zipped_shapefile_name_all_its_members) {
   EXPECT_EQ(scene->frame.crs, "EPSG:28992");
   EXPECT_EQ(scene->inputs.size(), 4U);
   for (const auto& input : scene->inputs) EXPECT_THAT(input.path, HasSubstr("s.zip/s."));
+}
+
+TEST_F(MoreSources, are_found_in_an_archive_of_a_folder) {
+  const auto scene_of = [](const fs::path& path) {
+    const auto scene = read_footprints(path, {});
+    EXPECT_TRUE(scene) << base::to_string(scene.error());
+    return scene ? scene->footprints.size() : 0;
+  };
+  const auto houses = row_of_houses(3);
+  const auto gpkg = base::read_file(houses).value();
+  const std::string name = houses.filename().string();
+  // As macOS packs one file, and as everybody packs a folder.
+  pack("/vsizip/" + at("mac.zip").string() + "/" + name, gpkg);
+  pack("/vsizip/" + at("mac.zip").string() + "/__MACOSX/._" + name, "not for others");
+  EXPECT_EQ(scene_of(at("mac.zip")), 3U);
+  pack("/vsizip/" + at("folder.zip").string() + "/city/houses/" + name, gpkg);
+  pack("/vsizip/" + at("folder.zip").string() + "/.DS_Store", "not for others");
+  EXPECT_EQ(scene_of(at("folder.zip")), 3U);
+  EXPECT_TRUE(vector_source(at("folder.zip")));
+}
+
+TEST_F(MoreSources, of_geojson_without_crs_are_no_degrees_beyond_the_earth) {
+  EXPECT_EQ(vector_source(polygons({square(500, 300)})).value().layers.at(0).crs, "");
+  EXPECT_EQ(vector_source(polygons({square(4, 52, 0.001)})).value().layers.at(0).crs, "EPSG:4326");
+  EXPECT_EQ(vector_source(polygons({square(500, 300)}, "urn:ogc:def:crs:EPSG::28992")).value().layers.at(0).crs,
+            "EPSG:28992");
 }
 
 TEST_F(MoreSources, with_a_box_are_the_same_whether_the_driver_knows_boxes_or_not) {

@@ -68,6 +68,7 @@ TEST_F(VirtualFiles, that_are_missing_say_what_there_is) {
   EXPECT_THAT(why(zip + "/folder/u.obj"), HasSubstr("file-missing: the archive has no 'folder/u.obj'; it has: folder"));
   EXPECT_THAT(why("/vsizip/" + at("u.zip").string() + "/t.obj"), HasSubstr("file-missing: no such archive"));
   EXPECT_THAT(why(at("u.obj.gz").string()), HasSubstr("file-missing: no such file"));
+  EXPECT_THAT(why("https://host/u.obj"), HasSubstr("by the name /vsicurl/https://host/u.obj"));
   EXPECT_THAT(why("/vsinothing/a"), HasSubstr("file-missing: GDAL here knows no files under '/vsinothing/'"));
   file("broken.zip", "PK\3\4 and no more");
   EXPECT_THAT(why("/vsizip/" + at("broken.zip").string() + "/t.obj"), HasSubstr("file-read: "));
@@ -77,6 +78,23 @@ TEST_F(VirtualFiles, that_are_missing_say_what_there_is) {
   const auto whole = base::read_file(at("cut.obj.gz")).value();
   file("cut.obj.gz", whole.substr(0, whole.size() / 2));
   EXPECT_THAT(why(at("cut.obj.gz").string()), HasSubstr("file-read: "));
+}
+
+TEST_F(VirtualFiles, a_mesh_is_found_in_its_archive_alone_or_among_others) {
+  pack("/vsizip/" + at("one.zip").string() + "/t.obj", triangle);
+  pack("/vsizip/" + at("deep.zip").string() + "/city/t.obj", triangle);
+  pack("/vsizip/" + at("two.zip").string() + "/t.obj", triangle);
+  pack("/vsizip/" + at("two.zip").string() + "/read.me", "words");
+  for (const char* name : {"one.zip", "deep.zip", "two.zip"}) {
+    const auto scene = mesh(at(name));
+    ASSERT_TRUE(scene) << name << ": " << base::to_string(scene.error());
+    EXPECT_EQ(scene->mesh.triangles.size(), 1U);
+    EXPECT_THAT(scene->inputs.at(0).path, HasSubstr("/t.obj"));
+  }
+  pack("/vsizip/" + at("none.zip").string() + "/read.me", "words");
+  EXPECT_EQ(code(mesh(at("none.zip"))), "ingest-mesh-empty");
+  file("broken.zip", "PK\3\4 and no more");
+  EXPECT_EQ(code(mesh(at("broken.zip"))), "file-read");
 }
 
 TEST_F(VirtualFiles, on_a_server_that_does_not_answer_give_gdals_words) {

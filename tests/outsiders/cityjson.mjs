@@ -1,6 +1,7 @@
-// node cityjson.mjs SAMPLES MANSARD DATA EXTENSION: holds every CityJSON object and feature of the samples, and of runs of
-// MANSARD over DATA, against the schemas beside this script, against our extension, and against what the specification
-// asks beyond a schema; then reads them with cityjson-threejs-loader. Copies that were spoilt must be refused.
+// node cityjson.mjs SAMPLES MANSARD DATA EXTENSION: holds every CityJSON object and feature of the samples, and of runs
+// of MANSARD over DATA, against the schemas beside this script, against our extension, and against what the
+// specification asks beyond a schema; then reads them with cityjson-threejs-loader. Copies that were spoilt must be
+// refused.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, readdirSync, rmSync } from 'node:fs';
@@ -12,7 +13,9 @@ import { readWithLoader } from './cityjson_loader.mjs';
 const [samples, mansard, data, extensionFile] = process.argv.slice(2);
 const scratch = mkdtempSync(join(tmpdir(), 'mansard-cityjson-'));
 process.on('exit', () => rmSync(scratch, { recursive: true, force: true }));
-const json = (path) => JSON.parse(readFileSync(path, 'utf8'));
+const utf8 = new TextDecoder('utf-8', { fatal: true, ignoreBOM: true });
+const textOf = (path) => utf8.decode(readFileSync(path));
+const json = (path) => JSON.parse(textOf(path));
 
 // ---- the schemas: of the core, and of what the extension declares
 
@@ -55,6 +58,19 @@ function* extensionFaults(members, rules, place) {
 
 const vertexNumbers = (boundaries) => boundaries.flat(Infinity);
 
+/** The names that stand twice in one object of the text: JSON.parse keeps the last of them and says nothing. */
+function* doubledNames(text) {
+  const open = [];
+  let last;
+  for (const [token] of text.matchAll(/"(?:[^"\\]|\\.)*"|[{}[\]:]/g)) {
+    if (token === '{') open.push(new Set());
+    else if (token === '[') open.push(null);
+    else if (token === '}' || token === ']') open.pop();
+    else if (token !== ':') last = token;
+    else if (open.at(-1).size === open.at(-1).add(JSON.parse(last)).size) yield `${last} is there twice`;
+  }
+}
+
 function* structureFaults(objects, vertices) {
   const used = new Set();
   for (const [id, object] of Object.entries(objects)) {
@@ -63,6 +79,9 @@ function* structureFaults(objects, vertices) {
     for (const parent of object.parents ?? [])
       if (!objects[parent]?.children?.includes(id)) yield `${id}: the parent ${parent} does not name it as child`;
     for (const geometry of object.geometry ?? []) {
+      const faces = geometry.type === 'Solid' ? geometry.boundaries.flat() : geometry.boundaries;
+      if (faces.flat().some((ring) => ring.some((v, i) => v === ring.at(i - 1))))
+        yield `${id}: a vertex follows itself`;
       for (const v of vertexNumbers(geometry.boundaries)) {
         if (v >= vertices.length) yield `${id}: vertex ${v} of ${vertices.length}`;
         used.add(v);
@@ -81,10 +100,29 @@ function* structureFaults(objects, vertices) {
   if (new Set(vertices.map(String)).size !== vertices.length) yield 'a vertex is there twice';
 }
 
-function* objectFaults(objects, vertices) {
+/** Whether an extent is not the box of these vertices. */
+function isOff(extent, numbers, vertices, { scale, translate }) {
+  const at = (v, axis) => (vertices[v]?.[axis] ?? NaN) * scale[axis] + translate[axis];
+  const box = [Math.min, Math.max].flatMap((far) =>
+    [0, 1, 2].map((axis) => numbers.reduce((all, v) => far(all, at(v, axis)), at(numbers[0], axis))));
+  return extent === undefined || !box.every((x, i) => Math.abs(x - extent[i]) <= 1e-6);
+}
+
+/** A building's geographicalExtent must be the box of its geometry and that of its parts. */
+function* extentFaults(objects, vertices, transform) {
+  for (const [id, object] of Object.entries(objects)) {
+    if (object.type !== 'Building') continue;
+    const family = [object, ...(object.children ?? []).map((child) => objects[child])];
+    const numbers = family.flatMap((one) => (one?.geometry ?? []).flatMap((g) => vertexNumbers(g.boundaries)));
+    if (numbers.length > 0 && isOff(object.geographicalExtent, numbers, vertices, transform)) yield `${id}: its extent`;
+  }
+}
+
+function* objectFaults(objects, vertices, transform) {
   for (const [id, object] of Object.entries(objects))
     yield* extensionFaults(object.attributes, declaredAttributes.get(object.type), id);
   yield* structureFaults(objects, vertices);
+  yield* extentFaults(objects, vertices, transform);
 }
 
 /** The first fault of a CityJSON object; undefined when there is none. */
@@ -95,27 +133,32 @@ function faultOfFile(file) {
   if (file.extensions[extension.name].version !== extension.version) return 'another version of the extension';
   if (file.extensions[extension.name].url !== extension.url) return 'the extension has another url';
   for (const fault of extensionFaults(file, declaredRoot, 'root')) return fault;
-  for (const fault of objectFaults(file.CityObjects, file.vertices)) return fault;
+  for (const fault of objectFaults(file.CityObjects, file.vertices, file.transform)) return fault;
+  const all = [...file.vertices.keys()];
+  if (all.length > 0 && isOff(file.metadata?.geographicalExtent, all, file.vertices, file.transform))
+    return 'the extent of all';
   return undefined;
 }
 
-function faultOfFeature(line) {
+function faultOfFeature(line, transform) {
   if (!feature(line)) return ajv.errorsText(feature.errors);
-  if (line.CityObjects[line.id]?.type !== 'Building') return `${line.id} is no building of its objects`;
-  for (const fault of objectFaults(line.CityObjects, line.vertices)) return fault;
+  const buildings = Object.keys(line.CityObjects).filter((id) => line.CityObjects[id].type === 'Building');
+  if (buildings.length !== 1 || buildings[0] !== line.id) return `the buildings of ${line.id} are ${buildings}`;
+  for (const fault of objectFaults(line.CityObjects, line.vertices, transform)) return fault;
   return undefined;
 }
 
-const linesOf = (path) => readFileSync(path, 'utf8').trimEnd().split('\n').map((line) => JSON.parse(line));
+const linesIn = (path) => textOf(path).replace(/\n$/, '').split('\n');
+const linesOf = (path) => linesIn(path).map((line) => JSON.parse(line));
 
 function faultOfSequence(lines) {
   const [head, ...features] = lines;
-  if (Object.keys(head.CityObjects).length > 0 || head.vertices.length > 0) return 'the first line has objects';
   const fault = faultOfFile(head);
   if (fault !== undefined) return fault;
+  if (Object.keys(head.CityObjects).length > 0 || head.vertices.length > 0) return 'the first line has objects';
   const ids = features.flatMap((line) => Object.keys(line.CityObjects));
   if (new Set(ids).size !== ids.length) return 'an id is there twice';
-  return features.map(faultOfFeature).find((found) => found !== undefined);
+  return features.map((line) => faultOfFeature(line, head.transform)).find((found) => found !== undefined);
 }
 
 // ---- the files: those of the samples, and runs over real data, each as a sequence too
@@ -147,7 +190,8 @@ let objects = 0, sequences = 0, triangles = 0, volumes = 0, wrong = 0;
 for (const path of files) {
   const whole = path.endsWith('.city.json'), sequence = path.endsWith('.city.jsonl');
   if (!whole && !sequence) continue;
-  const fault = whole ? faultOfFile(json(path)) : faultOfSequence(linesOf(path));
+  const [doubled] = (whole ? [textOf(path)] : linesIn(path)).flatMap((text) => [...doubledNames(text)]);
+  const fault = doubled ?? (whole ? faultOfFile(json(path)) : faultOfSequence(linesOf(path)));
   if (fault !== undefined) console.error(`${path}: ${fault}`), wrong++;
   if (sequence) sequences++;
   if (whole) {
@@ -173,7 +217,17 @@ const spoilt = {
   'metadata of ours': (f) => (f.metadata.mansard = {}),
   'a vertex with decimals': (f) => (f.vertices[0][0] += 0.5),
   'a part without parents': (f) => delete f.CityObjects[part].parents,
-  'a parent that does not know': (f) => (f.CityObjects[building].children = []),
+  'two parents': (f) => {
+    f.CityObjects.other = { type: 'Building', children: [part] };
+    f.CityObjects[part].parents.push('other');
+  },
+  'a parent that does not know': (f) => delete f.CityObjects[building].children,
+  'children that are none': (f) => (f.CityObjects.other = { type: 'Building', children: [] }),
+  'a child that is not there': (f) => f.CityObjects[building].children.push('gone'),
+  'a part of a part': (f) => {
+    f.CityObjects.other = { type: 'BuildingPart', parents: [part] };
+    f.CityObjects[part].children = ['other'];
+  },
   'an unknown type': (f) => (f.CityObjects[part].type = 'House'),
   'a level of detail as a number': (f) => (solidOf(f).lod = 2.2),
   'a ring of two': (f) => solidOf(f).boundaries[0][0][0].splice(2),
@@ -181,15 +235,24 @@ const spoilt = {
   'a vertex beyond the end': (f) => (solidOf(f).boundaries[0][0][0][0] = f.vertices.length),
   'a vertex nobody names': (f) => f.vertices.push([1, 2, 3]),
   'a vertex twice': (f) => (f.vertices[0] = f.vertices[1]),
+  'a ring that is closed': (f) => solidOf(f).boundaries[0][0][0].push(solidOf(f).boundaries[0][0][0][0]),
+  'an appearance': (f) => (f.appearance = {}),
+  'an attribute with members': (f) => (f.CityObjects[part].attributes.size = { value: 3, uom: 'm' }),
   'an unknown surface': (f) => (solidOf(f).semantics.surfaces[0].type = 'Wall'),
   'one semantic value too few': (f) => solidOf(f).semantics.values[0].pop(),
+  'a semantic value too deep': (f) => (solidOf(f).semantics.values = [solidOf(f).semantics.values]),
+  'a semantic surface with members': (f) => (solidOf(f).semantics.surfaces[0].ms_slope = { value: 3 }),
   'a semantic value beyond the end': (f) => (solidOf(f).semantics.values[0][0] = 99),
+  'an extension of version 1.0.0': (f) => (f.extensions.Mansard.version = '1.0.0'),
   'no extension named': (f) => delete f.extensions.Mansard,
   'an undeclared attribute': (f) => (f.CityObjects[part].attributes['+other'] = 1),
   'an undeclared member': (f) => (f['+other'] = 1),
   'a plan on the wrong object': (f) =>
     (f.CityObjects[building].attributes['+ms_plan'] = f.CityObjects[part].attributes['+ms_plan']),
   'a plan without profiles': (f) => delete f.CityObjects[part].attributes['+ms_plan'].profiles,
+  'an extent of others': (f) => (f.CityObjects[building].geographicalExtent[5] += 1),
+  'no extent': (f) => delete f.CityObjects[building].geographicalExtent,
+  'an extent of less than all': (f) => (f.metadata.geographicalExtent[0] += 1),
   'a reference system that is none': (f) => (f.metadata.referenceSystem = 'EPSG:28992'),
 };
 assert.equal(faultOfFile(hall), undefined);
@@ -204,13 +267,31 @@ for (const [what, change] of Object.entries({
   'a feature without id': (l) => delete l[1].id,
   'an id that names nothing': (l) => (l[1].id = 'gone'),
   'two features of one id': (l) => l.push(structuredClone(l[1])),
-  'objects in the first line': (l) => (l[0].CityObjects = l[1].CityObjects),
+  'objects in the first line': (l) => (l[0].CityObjects = { other: { type: 'Building' } }),
+  'vertices in the first line': (l) => {
+    l[0].vertices = [[0, 0, 0]];
+    l[0].metadata.geographicalExtent = [...l[0].transform.translate, ...l[0].transform.translate];
+  },
+  'no first line': (l) => l.shift(),
+  'another building in a feature': (l) => (l[1].CityObjects.other = { type: 'Building' }),
+  'a part that is left out': (l) => delete l[1].CityObjects[part],
 })) {
   const copy = structuredClone(lines);
   change(copy);
   assert.notEqual(faultOfSequence(copy), undefined, `not complained of: ${what}`);
 }
-const copy = structuredClone(extension);
-copy.extraAttributes.Building.plain = {};
-assert(!extensionRules(copy), 'an extension that declares a name without +');
+for (const change of [
+  (e) => (e.extraAttributes.Building.plain = {}),
+  (e) => (e.extraAttributes.House = {}),
+  (e) => (e.version = '1.0.0'),
+  (e) => (e.versionCityJSON = '1.1'),
+  (e) => delete e.extraSemanticSurfaces,
+]) {
+  const copy = structuredClone(extension);
+  change(copy);
+  assert(!extensionRules(copy), `not complained of in the extension: ${change}`);
+}
+const doubled = [...doubledNames('{"a":{"b":1,"c":"b"},"b":[{"d":"\\"d"},{"d":2}],"\\u0061":3}')];
+assert.deepEqual(doubled, ['"\\u0061" is there twice']);
+assert.throws(() => utf8.decode(Buffer.from([0x22, 0xff, 0x22])));
 process.exit(wrong === 0 ? 0 : 1);

@@ -26,6 +26,7 @@ auto odd() -> write::City {
                                   {"", 1.5},
                                   {"class", std::string("a")},
                                   {"record", std::string("b")},
+                                  {"+noise", std::int64_t{48}},
                                   {"mixed", std::int64_t{3}},
                                   {"big", std::int64_t{503100000012869}},
                                   {"nan", std::numeric_limits<double>::quiet_NaN()},

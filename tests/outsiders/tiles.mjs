@@ -1,6 +1,7 @@
-// node tiles.mjs DIR: holds every tileset of DIR, and the metadata of every GLB, against schemas/ (ajv, strict) and against
-// what the specifications say beyond a schema: sizes and places of columns, feature ids that name a row, boxes within
-// boxes, errors that fall, content that exists. Each check is then shown a file with that very fault.
+// node tiles.mjs DIR: holds every tileset of DIR, and the metadata of every GLB, against schemas/ (ajv, strict) and
+// against what the specifications say beyond a schema: sizes and places of columns, feature ids that name a row, enums,
+// boxes within boxes, content that is there and within its box, errors that fall. Each check is then shown a file with
+// that very fault.
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -17,8 +18,25 @@ const times = (a, b) => Array.from({ length: 16 }, (_, i) =>
 const apply = (m, p) => [0, 1, 2].map((r) => m[r] * p[0] + m[4 + r] * p[1] + m[8 + r] * p[2] + m[12 + r]);
 const identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 
-/** Faults of a tileset.json; `exists` says whether a content is there. */
-function faultsOfTileset(tileset, exists) {
+/**
+ * The corners of what a GLB shows, in the axes of its tile: glTF has y up, tiles have z up. By the bounds that it says
+ * of its positions, which Khronos's validator holds against these.
+ */
+function* cornersOf({ nodes, meshes, accessors }) {
+  for (const { mesh } of nodes ?? [])
+    for (const { attributes } of meshes?.[mesh]?.primitives ?? []) {
+      const { min, max } = accessors[attributes.POSITION];
+      for (let i = 0; i < 8; ++i) {
+        const [x, y, z] = [0, 1, 2].map((axis) => (i >> axis & 1 ? max : min)[axis]);
+        yield [x, -z, y];
+      }
+    }
+}
+
+const moves = ['matrix', 'translation', 'rotation', 'scale'];
+
+/** Faults of a tileset.json; `contentAt` gives the JSON of a GLB, or nothing where there is none. */
+function faultsOfTileset(tileset, contentAt) {
   if (!isTileset(tileset)) return [words(isTileset)];
   const faults = [];
   const walk = (tile, outer, parent) => {
@@ -27,9 +45,13 @@ function faultsOfTileset(tileset, exists) {
       const dot = [0, 1, 2].reduce((sum, r) => sum + here[4 * u + r] * here[4 * v + r], 0);
       if (Math.abs(dot) > 1e-9) faults.push('a transform is no rotation');
     }
+    if ([3, 7, 11, 15].some((i) => here[i] !== identity[i])) faults.push('a transform is not affine');
     const b = tile.boundingVolume.box;
     const half = [b.slice(3, 6), b.slice(6, 9), b.slice(9, 12)];
     if (half.some((axis) => Math.hypot(...axis) === 0)) faults.push('a box without extent');
+    const [u, v, w] = half;
+    if ([[u, v], [u, w], [v, w]].some(([p, q]) => Math.abs(p.reduce((sum, c, r) => sum + c * q[r], 0)) > 1e-9))
+      faults.push('a box that is not right-angled');
     const corners = [...Array(8).keys()].map((i) => apply(here, [0, 1, 2].map((r) =>
       b[r] + half.reduce((sum, axis, a) => sum + (i >> a & 1 ? axis[r] : -axis[r]), 0))));
     if (parent) {
@@ -44,7 +66,14 @@ function faultsOfTileset(tileset, exists) {
     } else if (tile.geometricError > tileset.geometricError) {
       faults.push('an error larger than the tileset’s');
     }
-    if (tile.content && !exists(tile.content.uri)) faults.push(`no ${tile.content.uri}`);
+    const content = tile.content && contentAt(tile.content.uri);
+    if (tile.content && !content) faults.push(`no ${tile.content.uri}`);
+    if (content?.nodes?.some((node) => moves.some((move) => node[move]))) faults.push('a node that moves its mesh');
+    for (const corner of content ? cornersOf(content) : [])
+      for (const axis of half) {
+        const along = axis.reduce((sum, c, r) => sum + c * (corner[r] - b[r]), 0);
+        if (Math.abs(along) > axis.reduce((sum, c) => sum + c * c, 0)) faults.push('content outside of its box');
+      }
     for (const child of tile.children ?? []) walk(child, here, { here, box: b, error: tile.geometricError });
   };
   walk(tileset.root, identity, null);
@@ -54,6 +83,21 @@ function faultsOfTileset(tileset, exists) {
 function parts(bytes) {
   const length = bytes.readUInt32LE(12);
   return { json: JSON.parse(bytes.toString('utf8', 20, 20 + length)), start: 28 + length, bytes };
+}
+
+const twice = (list) => new Set(list).size !== list.length;
+
+/** What must agree within a schema of metadata. */
+function* faultsOfClasses({ classes = {}, enums = {} }) {
+  for (const [id, { values }] of Object.entries(enums))
+    if (twice(values.map((v) => v.name)) || twice(values.map((v) => v.value))) yield `${id}: a name or value twice`;
+  for (const of of Object.values(classes))
+    for (const [name, { type, enumType, noData }] of Object.entries(of.properties ?? {})) {
+      if (type !== 'ENUM') continue;
+      if (!enums[enumType]) yield `${name} is of an unknown enum`;
+      else if (noData !== undefined && !enums[enumType].values.some((v) => v.name === noData))
+        yield `${name} has noData that is none of its enum`;
+    }
 }
 
 const sizes = { INT8: 1, UINT8: 1, INT16: 2, UINT16: 2, INT32: 4, UINT32: 4, INT64: 8, UINT64: 8, FLOAT32: 4, FLOAT64: 8 };
@@ -98,7 +142,9 @@ function faultsOfGlb({ json, start, bytes }) {
   const metadata = json.extensions?.EXT_structural_metadata;
   if (!metadata) return json.meshes ? ['no metadata'] : [];
   if (!isMetadata(metadata)) return [words(isMetadata)];
-  const faults = metadata.propertyTables.flatMap((table) => faultsOfTable(table, metadata, json, bytes, start));
+  const faults = [...faultsOfClasses(metadata.schema)];
+  if (faults.length > 0) return faults;
+  for (const table of metadata.propertyTables) faults.push(...faultsOfTable(table, metadata, json, bytes, start));
   for (const primitive of (json.meshes ?? []).flatMap((mesh) => mesh.primitives)) {
     const features = primitive.extensions?.EXT_mesh_features;
     if (!isFeatures(features)) { faults.push(words(isFeatures)); continue; }
@@ -132,14 +178,19 @@ const tilesets = names.filter((name) => name.endsWith('tileset.json'));
 const glbs = names.filter((name) => name.endsWith('.glb') && !name.startsWith('labelled'));
 if (tilesets.length < 10 || glbs.length < 50) throw new Error(`only ${tilesets.length} tilesets and ${glbs.length} GLB`);
 const tilesetAt = (name) => JSON.parse(readFileSync(join(folder, name), 'utf8'));
-for (const name of tilesets)
-  say(name, faultsOfTileset(tilesetAt(name), (uri) => existsSync(join(folder, dirname(name), uri))));
+const contentOf = (name) => (uri) => {
+  const path = join(folder, dirname(name), uri);
+  return existsSync(path) ? parts(readFileSync(path)).json : undefined;
+};
+for (const name of tilesets) say(name, faultsOfTileset(tilesetAt(name), contentOf(name)));
 for (const name of glbs) say(name, faultsOfGlb(parts(readFileSync(join(folder, name)))));
 console.log(`${tilesets.length} tilesets and ${glbs.length} GLB, ${wrong} faults`);
 
 // No rubber stamp: one fault each.
 const blind = (what, faults) => { if (faults.length === 0) { console.error(`${what} is not seen`); ++wrong; } };
 const wide = 'wide/tileset.json';
+const boundsOf = ({ accessors }) => accessors.filter((accessor) => accessor.max?.length === 3);
+const leafOf = (tile) => (tile.children ? leafOf(tile.children[0]) : tile);
 for (const [what, change] of [
   ['an unknown member', (t) => { t.root.colour = 'red'; }],
   ['a box of 11 numbers', (t) => { t.root.boundingVolume.box.pop(); }],
@@ -148,14 +199,34 @@ for (const [what, change] of [
   ['a growing error', (t) => { t.root.children[0].geometricError = 1e6; }],
   ['a box that is too small', (t) => { t.root.boundingVolume.box[3] /= 2; }],
   ['a sheared transform', (t) => { t.root.transform[4] += 0.1; }],
+  ['a transform with perspective', (t) => { t.root.transform[3] = 0.1; }],
+  ['a box larger than its parent’s', (t) => { t.root.children[0].boundingVolume.box[3] *= 100; }],
+  ['a box that leans', (t) => { t.root.boundingVolume.box[6] = 1; }],
+  ['children that are the same', (t) => { t.root.children[1] = t.root.children[0]; }],
+  ['a leaf whose box is too low', (t) => { leafOf(t.root).boundingVolume.box[11] /= 2; }],
   ['missing content', (t) => { t.root.content.uri = 'tiles/none.glb'; }],
 ]) {
   const tileset = tilesetAt(wide);
   change(tileset);
-  blind(what, faultsOfTileset(tileset, (uri) => existsSync(join(folder, 'wide', uri))));
+  blind(what, faultsOfTileset(tileset, contentOf(wide)));
+}
+for (const [what, change] of [
+  ['content that is larger', (j) => { for (const bounds of boundsOf(j)) bounds.max[0] += 9; }],
+  ['content with z up', (j) => {
+    for (const { min, max } of boundsOf(j)) for (const m of [min, max]) m.splice(1, 2, m[2], m[1]);
+  }],
+  ['content that is moved', (j) => { j.nodes[0].translation = [0, 0, 1]; }],
+]) {
+  const spoil = (uri) => {
+    const content = contentOf(wide)(uri);
+    change(content);
+    return content;
+  };
+  blind(what, faultsOfTileset(tilesetAt(wide), spoil));
 }
 const street = readFileSync(join(folder, 'street.glb'));
 const columns = (j) => j.extensions.EXT_structural_metadata;
+const kinds = (j) => columns(j).schema.enums.surface_class.values;
 for (const [what, change] of [
   ['a name with a blank', (j) => { const p = columns(j).schema.classes.part.properties; p['a b'] = p.name; }],
   ['a flag with noData', (j) => { columns(j).schema.classes.part.properties.x = { type: 'BOOLEAN', noData: false }; }],
@@ -165,7 +236,13 @@ for (const [what, change] of [
   ['a view off its place', (j) => { j.bufferViews[columns(j).propertyTables[0].properties.order.values].byteOffset += 4; }],
   ['a wrong count of features', (j) => { j.meshes[0].primitives[0].extensions.EXT_mesh_features.featureIds[1].featureCount += 1; }],
   ['ids beyond the table', (j) => { columns(j).propertyTables[1].count = 1; }],
-  ['an unknown enum value', (j) => { columns(j).schema.enums.surface_class.values.pop(); columns(j).schema.enums.surface_class.values.shift(); }],
+  ['an unknown enum value', (j) => { kinds(j).pop(); kinds(j).shift(); }],
+  ['an enum with a name twice', (j) => { kinds(j).push({ name: kinds(j)[0].name, value: 200 }); }],
+  ['an enum with a value twice', (j) => { kinds(j).push({ name: 'other', value: kinds(j)[0].value }); }],
+  ['an enum without a name', (j) => { kinds(j)[0].name = ''; }],
+  ['an unknown enum', (j) => { delete columns(j).schema.enums.surface_class; }],
+  ['noData of no enum', (j) => { columns(j).schema.classes.surface.properties.class.noData = 'none'; }],
+  ['a table of no class', (j) => { columns(j).propertyTables[0].class = 'other'; }],
   ['no features', (j) => { delete j.meshes[0].primitives[0].extensions; }],
 ]) {
   const glb = parts(street);

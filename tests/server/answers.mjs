@@ -137,7 +137,7 @@ async function settled() {
 
 const of = { run: "run-1" };
 await call("get", "/api/openapi.json");
-await call("get", "/api/options");
+const { formats } = await call("get", "/api/options");
 await call("get", "/api/project");
 await call("get", "/api/scene", { expect: 404 });
 await call("post", "/api/runs", { body: {}, expect: 404 });
@@ -147,8 +147,7 @@ await settled();
 const project = await call("get", "/api/project");
 await call("post", "/api/project/inputs", {
   body: {
-    meshes: project.inputs.meshes.map((f) => f.path),
-    footprints: project.inputs.footprints[0].path,
+    ...project.inputs.given,
     reading: project.reading,
   },
 });
@@ -198,7 +197,9 @@ await call("post", "/api/runs/{run}/edits", { at: of, body: { what: "split", cha
 const two = split.changes[0].parts.slice(0, 2).map(({ id }) => ({ building: building.id, part: id }));
 await call("post", "/api/runs/{run}/merge", { at: of, body: { parts: two } });
 await call("post", "/api/runs/{run}/export", { at: of, body: { overwrite: false } });
-await call("get", "/api/runs/{run}/export/{file}", { at: { ...of, file: "model.glb" } });
+await call("post", "/api/runs/{run}/export", { at: of, body: { overwrite: true, formats: ["plans", "glb"] } });
+for (const file of formats.flatMap((f) => f.files))
+  await call("get", "/api/runs/{run}/export/{file}", { at: { ...of, file } });
 await call("post", "/api/runs/import", { body: { path: join(folder, "project/exports/run-1/plans.json"), label: "again" } });
 await settled();
 await call("get", "/api/runs/{run}/buildings", { at: { run: "run-3" } });

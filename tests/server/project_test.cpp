@@ -45,8 +45,13 @@ TEST(Project, refuses_files_that_it_cannot_read) {
 
 TEST(Project, keeps_inputs_and_runs) {
   const Folder folder;
-  Inputs inputs{{(folder / "p/inputs/mesh.ply").string(), "/elsewhere/tiles"}, "/elsewhere/f.shp", {{"ingest.crs", "local"}},
-                {{(folder / "p/inputs/mesh.ply").string(), 5, "ab", 17}}, {{"/elsewhere/f.shp", 6, "cd", 18}}};
+  const std::string archive = "/vsizip//elsewhere/f.zip/f.shp";
+  Inputs inputs{{(folder / "p/inputs/mesh.ply").string(), "/elsewhere/tiles"},
+                archive,
+                {{"ingest.crs", "local"}, {terrain_option, (folder / "p/inputs/dtm.tif").string()}},
+                {{(folder / "p/inputs/mesh.ply").string(), 5, "ab", {5, 17}}},
+                {{(folder / "p/inputs/dtm.tif").string(), 7, "ef", {7, 19}}},
+                {{archive, 6, "cd", {60, 18}}}};
   RunRecord run{"run-1", "first", State::done, base::error("code", "message", "subject"), "2024-01-01T00:00:00Z", "paper",
                 {{"sweep.gamma", "15"}}, {"block-1"}, RunScores{1, 2, 3, 4, 5, 6}, {{"block", 0.5}}, 7, 6, 9, 80,
                 {{"block-1", {1, 2}, 0.25, 3, 4}}};
@@ -64,7 +69,11 @@ TEST(Project, keeps_inputs_and_runs) {
   ASSERT_TRUE(project->inputs());
   EXPECT_EQ(project->inputs()->meshes.front(), (folder / "q/inputs/mesh.ply").string());
   EXPECT_EQ(project->inputs()->meshes.back(), "/elsewhere/tiles");
-  EXPECT_EQ(project->inputs()->reading, inputs.reading);
+  EXPECT_EQ(project->inputs()->reading.at("ingest.crs"), "local");
+  EXPECT_EQ(project->inputs()->reading.at(terrain_option), (folder / "q/inputs/dtm.tif").string());
+  ASSERT_EQ(project->inputs()->terrain_files.size(), 1U);
+  EXPECT_EQ(project->inputs()->terrain_files.front().path, (folder / "q/inputs/dtm.tif").string());
+  EXPECT_EQ(project->inputs()->footprints, archive);
   EXPECT_EQ(project->inputs()->footprint_files, inputs.footprint_files);
   const auto runs = project->runs();
   ASSERT_TRUE(runs) << runs.error().message;
@@ -79,6 +88,27 @@ TEST(Project, keeps_inputs_and_runs) {
   EXPECT_EQ(kept.times.front().seconds, 0.5);
   EXPECT_EQ(kept.faces, 80U);
   EXPECT_EQ(kept.maps.front().columns, 3U);
+}
+
+TEST(Project, reads_files_of_earlier_versions_and_writes_no_password) {
+  const Folder folder;
+  fs::create_directories(folder / "p");
+  write(folder / "p/project.json", R"({"type":"mansard-project","version":1,"inputs":{"meshes":["/a.ply"],"footprints":"/f.shp",
+    "reading":{},"mesh_files":[{"path":"/a.ply","bytes":5,"sha256":"ab","modified_ns":17}],"footprint_files":[]}})");
+  auto project = Project::open(folder / "p");
+  ASSERT_TRUE(project) << project.error().message;
+  EXPECT_EQ(project->inputs()->mesh_files.front().stamp, (Stamp{5, 17}));
+  EXPECT_TRUE(project->inputs()->terrain_files.empty());
+  auto inputs = *project->inputs();
+  inputs.footprints = "PG:host=h password=sesame";
+  inputs.footprint_files = {{"PG:host=h password=***", 5, "ab", {}}};
+  ASSERT_TRUE(project->save(inputs));
+  EXPECT_EQ(project->inputs()->footprints, inputs.footprints) << "as long as it is open";
+  EXPECT_THAT(read(folder / "p/project.json"), testing::Not(testing::HasSubstr("password")));
+  EXPECT_THAT(read(folder / "p/project.json"), testing::HasSubstr("PG:host=h"));
+  auto kept = inputs;
+  kept.footprints = "PG:host=h";
+  EXPECT_TRUE(inputs.same_request(kept));
 }
 
 TEST(Project, calls_runs_interrupted_that_had_not_ended_and_counts_on_past_deleted_ones) {

@@ -37,6 +37,7 @@ TEST(Requests, say_which_member_is_wrong) {
   expect_refusal(read_merge(R"({"parts":[{"building":"a","part":"a-1"}]})"), "server-body", "two parts");
   expect_refusal(read_nothing("{\"a\":1}"), "server-body", "unknown member");
   expect_refusal(read_inputs(R"({"meshes":[],"footprints":"f"})"), "server-body", "one file");
+  expect_refusal(read_export(R"({"overwrite":true,"formats":"stl"})"), "server-body", "formats must be");
 }
 
 TEST(Requests, refuse_plans_as_files_of_plans_do) {

@@ -1,6 +1,10 @@
 // From inputs to results and files, as a page goes about it.
 #include <gmock/gmock.h>
 
+#include <set>
+
+#include "apps/server/exports.hpp"
+#include "apps/server/zip.hpp"
 #include "server/running.hpp"
 
 namespace mansard::server {
@@ -221,19 +225,54 @@ TEST_F(Runs, export_what_extrude_makes_of_their_plans_to_the_byte) {
   EXPECT_EQ(server.post("/api/runs/run-1/export", {{"overwrite", true}}).status, 200);
 
   const auto again = folder_ / "extruded";
-  const auto command = std::string(MANSARD_BINARY) + " extrude -q " + (folder / "plans.json").string() + " -o " +
-                       again.string() + " >/dev/null";
+  const auto command = std::string(MANSARD_BINARY) + " extrude -q " + (folder / "plans.json").string() +
+                       " --formats all -o " + again.string() + " >/dev/null";
   const int status = std::system(command.c_str());
   ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) <= 1);
-  for (const std::string name : {"model.city.json", "model.obj", "model.mtl", "model.glb", "plans.json"}) {
-    const auto bytes = read(folder / name);
-    EXPECT_GT(bytes.size(), 0U) << name;
-    EXPECT_EQ(read(again / name) == bytes, true) << name;
-    EXPECT_EQ(server.get("/api/runs/run-1/export/" + name).text == bytes, true) << name;
-  }
+  // Every file of every format, and nothing else.
+  std::set<std::string> made, wanted{run_layers};
+  for (const auto& file : fs::recursive_directory_iterator(folder))
+    if (file.is_regular_file()) made.insert(file.path().lexically_relative(folder).string());
+  for (const auto& file : fs::recursive_directory_iterator(again))
+    if (file.is_regular_file()) wanted.insert(file.path().lexically_relative(again).string());
+  EXPECT_EQ(made, wanted);
+  EXPECT_GE(wanted.size(), write::formats().size() + 2);
+  for (const auto& name : wanted)
+    if (name != run_layers) {
+      EXPECT_EQ(read(again / name) == read(folder / name), true) << name;
+    }
+  // One by one they are the same.
+  std::size_t fetched = 0;
+  const auto formats = server.get("/api/options").json()["formats"];
+  for (const auto& format : formats)
+    for (const auto& file : format["files"]) {
+      const auto name = file.get<std::string>();
+      const auto bytes = server.get("/api/runs/run-1/export/" + name).text;
+      ++fetched;
+      if (!name.ends_with(".zip")) {
+        EXPECT_EQ(bytes == read(folder / name), true) << name;
+        continue;
+      }
+      const auto packed = zip_of(folder / name.substr(0, name.size() - 4));
+      ASSERT_TRUE(packed);
+      EXPECT_EQ(bytes == *packed, true) << name;
+    }
+  EXPECT_EQ(fetched, write::formats().size() + 1) << "an OBJ has its materials";
   EXPECT_THAT(read(folder / "plans.json"), HasSubstr("ms_edited"));
   EXPECT_THAT(server.get("/api/runs/run-1/export/segment.gpkg").text, testing::StartsWith("SQLite format 3"));
   EXPECT_EQ(server.get("/api/runs/run-1/export/run.json").code(), "server-unknown");
+  EXPECT_EQ(server.get("/api/runs/run-1/export/model.3dtiles").code(), "server-unknown");
+
+  // Some formats alone: what the others left would be of an older state.
+  write(folder / "notes.txt", "mine");
+  const auto some = server.post("/api/runs/run-1/export", {{"overwrite", true}, {"formats", {"stl", "plans"}}});
+  EXPECT_THAT(some.json()["files"].get<std::vector<std::string>>(),
+              testing::ElementsAre("model.stl", "plans.json", "segment.gpkg"));
+  std::set<std::string> left;
+  for (const auto& file : fs::directory_iterator(folder)) left.insert(file.path().filename().string());
+  EXPECT_THAT(left, testing::ElementsAre("model.stl", "notes.txt", "plans.json", "segment.gpkg"));
+  EXPECT_EQ(server.post("/api/runs/run-1/export", {{"overwrite", true}, {"formats", {"stp"}}}).code(), "option-value");
+  EXPECT_EQ(std::distance(fs::directory_iterator(project() / "exports"), {}), 1) << "folders to work in are gone";
 }
 
 TEST_F(Runs, show_the_mesh_across_an_edge) {

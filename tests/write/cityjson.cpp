@@ -98,6 +98,56 @@ TEST(CityJson, says_its_version_transform_and_reference_system) {
   EXPECT_EQ(file["metadata"]["geographicalExtent"], Json({84801.0625, 447400.0, 0.5, 84845.0, 447420.0, 12.5}));
 }
 
+TEST(CityJson, keeps_a_plus_for_what_its_extension_declares) {
+  City city = street();
+  city.buildings[0].attributes = {{"+noise", std::int64_t{48}}, {"_+noise", std::int64_t{49}}, {"_", std::int64_t{50}}};
+  const Json attributes = parsed(city)["CityObjects"]["house"]["attributes"];
+  EXPECT_FALSE(attributes.contains("+noise"));
+  EXPECT_EQ(attributes["_+noise"], 48);
+  EXPECT_EQ(attributes["__+noise"], 49);
+  EXPECT_EQ(attributes["_"], 50);
+}
+
+TEST(CityJson, tells_the_extent_of_every_building_with_its_parts) {
+  const Json file = parsed(street());
+  const Json& objects = file["CityObjects"];
+  for (const auto& [id, object] : objects.items()) {
+    if (object["type"] != "Building") {
+      EXPECT_FALSE(object.contains("geographicalExtent")) << id;
+      continue;
+    }
+    constexpr double most = 1e9;
+    std::array<double, 6> found{most, most, most, -most, -most, -most};
+    const auto look_at = [&](const Json& boundaries, const auto& self) -> void {
+      if (boundaries.is_array()) {
+        for (const auto& inner : boundaries) self(inner, self);
+        return;
+      }
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double at = file["vertices"][boundaries.get<std::size_t>()][axis].get<double>() / 10000 +
+                          file["transform"]["translate"][axis].get<double>();
+        found[axis] = std::min(found[axis], at);
+        found[axis + 3] = std::max(found[axis + 3], at);
+      }
+    };
+    std::vector<std::string> family{id};
+    for (const auto& child : object["children"]) family.push_back(child);
+    for (const auto& member : family)
+      for (const auto& geometry : objects[member]["geometry"]) look_at(geometry["boundaries"], look_at);
+    ASSERT_EQ(object["geographicalExtent"].size(), 6U) << id;
+    for (std::size_t i = 0; i < 6; ++i)
+      EXPECT_NEAR(object["geographicalExtent"][i].get<double>(), found[i], 1e-6) << id;
+  }
+}
+
+TEST(CityJson, tells_no_extent_of_a_building_without_geometry) {
+  City city = street();
+  city.buildings.resize(1);
+  city.buildings[0].footprint.clear();
+  city.buildings[0].parts.clear();
+  EXPECT_FALSE(parsed(city)["CityObjects"]["house"].contains("geographicalExtent"));
+}
+
 TEST(CityJson, says_how_it_was_made) {
   const Json made = parsed(street())["+mansard"]["made_by"];
   EXPECT_EQ(made["version"], "0.1.0");
@@ -110,7 +160,8 @@ TEST(CityJson, has_only_members_that_the_specification_knows) {
   const std::set<std::string> root{"type",     "version",     "extensions", "transform",
                                     "metadata", "CityObjects", "vertices",   "+mansard"};
   for (const auto& [key, value] : file.items()) EXPECT_TRUE(root.contains(key)) << key;
-  const std::set<std::string> object{"type", "attributes", "children", "parents", "geometry"};
+  const std::set<std::string> object{"type",     "attributes", "geographicalExtent",
+                                      "children", "parents",    "geometry"};
   const std::set<std::string> geometry{"type", "lod", "boundaries", "semantics"};
   for (const auto& [id, each] : file["CityObjects"].items()) {
     for (const auto& [key, value] : each.items()) EXPECT_TRUE(object.contains(key)) << key;

@@ -54,7 +54,7 @@ TEST(GeoPackageCity, has_its_layers_with_a_row_for_every_thing) {
   // A gabled house (4 edges, 2 roofs, 4 walls), a court (8 edges and walls, one roof) and an annex (4 and 1).
   EXPECT_EQ(counts, (std::map<std::string, GIntBig>{{"gis_footprints", 2}, {"footprints", 3}, {"edges", 16},
                                                     {"roof_planes", 4}, {"walls", 16}, {"profiles", 6}, {"made_by", 4},
-                                                    {"mansard_records", 3}}));
+                                                    {"mansard_records", 3}, {"layer_styles", 5}}));
 }
 
 TEST(GeoPackageCity, begins_with_the_footprints_which_programs_open_first) {
@@ -63,7 +63,7 @@ TEST(GeoPackageCity, begins_with_the_footprints_which_programs_open_first) {
   std::vector<std::string> names;
   for (auto* layer : file->GetLayers()) names.emplace_back(layer->GetName());
   EXPECT_THAT(names, ElementsAre("gis_footprints", "footprints", "edges", "roof_planes", "walls", "profiles", "made_by",
-                                 "mansard_records"));
+                                 "mansard_records", "layer_styles"));
 }
 
 TEST(GeoPackageCity, has_valid_geometry_in_the_frame_of_the_file_with_an_index) {
@@ -140,7 +140,73 @@ TEST(GeoPackageCity, takes_further_layers_beside_its_own) {
   EXPECT_EQ(rows(*file, "segment_edges").size(), 1U);
   EXPECT_EQ(rows(*file, "edges").size(), 16U);
   EXPECT_EQ(rows(*file, "gis_footprints").size(), 2U);
-  EXPECT_EQ(file->GetLayerCount(), 10);
+  EXPECT_EQ(file->GetLayerCount(), 11);
+}
+
+/// Every shape, type and emptiness that a layer may have.
+auto others() -> std::vector<Layer> {
+  using enum FieldType;
+  const std::vector<mansard::ingest::Value> values{std::int64_t{1} << 40, 0.1, std::string("\xC3\xA9"), true};
+  const std::vector<mansard::ingest::Value> nothing(4);
+  const std::vector<Field> fields{{"count", whole}, {"share", real}, {"why"}, {"chosen", flag}};
+  Polygon holed = rectangle(1. / 3, 0, 10, 10);
+  holed.holes = {{{2, 2}, {2, 4}, {4, 4}, {4, 2}}};
+  return {{"sweep_edges", "lines & more", Shape::line, fields, {{{{{0.1, 0.2}, {3.3, 4.4}}}, {}, values}}},
+          {"edges", "", Shape::lines, fields,
+           {{{{{0, 0}, {1, 1}}, {{5, 5}, {6, 6}, {7, 5}}}, {}, values}, {{}, {}, nothing}}},
+          {"faces", "", Shape::polygon, fields, {{{}, {holed}, values}, {{}, {}, values}}},
+          {"conflicts", "none", Shape::lines, fields, {}},
+          {"diagnostics", "why", Shape::polygons, fields, {{{}, {holed, rectangle(20, 0, 1, 1)}, nothing}}},
+          {"notes", "", Shape::none, fields, {{{}, {}, values}}}};
+}
+
+TEST(GeoPackageCity, gives_the_layers_beside_it_back_to_be_written_as_the_same_bytes) {
+  for (const char* crs : {"EPSG:28992", ""}) {
+    City city = street();
+    city.frame.crs = crs;
+    write(city, place("beside.gpkg"), others());
+    auto reader = read_city(place("beside.gpkg"));
+    ASSERT_TRUE(reader) << base::to_string(reader.error());
+    const auto beside = (*reader)->beside();
+    ASSERT_TRUE(beside) << base::to_string(beside.error());
+    EXPECT_TRUE(beside->warnings.empty());
+    ASSERT_EQ(beside->layers.size(), others().size());
+    EXPECT_EQ(beside->layers[1].name, "segment_edges");
+    EXPECT_EQ(beside->layers[0].meaning, "lines & more");
+    EXPECT_EQ(read_whole(**reader)->buildings.size(), 2U) << "buildings are read as well";
+    write(city, place("beside-again.gpkg"), beside->layers);
+    EXPECT_TRUE(*base::read_file(place("beside.gpkg")) == *base::read_file(place("beside-again.gpkg"))) << crs;
+  }
+}
+
+TEST(GeoPackageCity, says_which_layers_of_others_it_cannot_take_along) {
+  write(street(), place("foreign.gpkg"), others());
+  {
+    mansard::ingest::register_gdal();
+    const GDALDatasetUniquePtr file(GDALDataset::Open(place("foreign.gpkg").c_str(), GDAL_OF_VECTOR | GDAL_OF_UPDATE));
+    OGRSpatialReference same, other;
+    same.importFromEPSG(28992);
+    other.importFromEPSG(4326);
+    file->CreateLayer("trees", &same, wkbPoint);
+    file->CreateLayer("cables", &same, wkbLineString25D);
+    file->CreateLayer("abroad", &other, wkbPolygon);
+    OGRFieldDefn day("day", OFTDate);
+    ASSERT_EQ(file->CreateLayer("visits", nullptr, wkbNone)->CreateField(&day), OGRERR_NONE);
+    OGRLayer* plots = file->CreateLayer("plots", &same, wkbPolygon);
+    OGRFeature row(plots->GetLayerDefn());
+    ASSERT_EQ(plots->CreateFeature(&row), OGRERR_NONE);
+  }
+  auto reader = read_city(place("foreign.gpkg"));
+  ASSERT_TRUE(reader) << base::to_string(reader.error());
+  const auto beside = (*reader)->beside();
+  ASSERT_TRUE(beside) << base::to_string(beside.error());
+  EXPECT_EQ(beside->layers.size(), others().size() + 1) << "with the plots";
+  std::vector<std::string> left;
+  for (const auto& warning : beside->warnings) {
+    EXPECT_EQ(warning.code, "write-layer-left");
+    left.push_back(warning.subject);
+  }
+  EXPECT_THAT(left, ElementsAre("trees", "cables", "abroad", "visits"));
 }
 
 TEST(GeoPackageCity, comes_back_and_is_the_same_to_the_byte_when_written_again) {

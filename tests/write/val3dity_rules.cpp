@@ -479,11 +479,16 @@ auto overlaps(const Json& city, const std::string& lod, double least) -> std::ve
       const double height = std::min(all[i].high, all[k].high) - std::max(all[i].low, all[k].low);
       if (height <= 0 || !all[i].box.overlaps(all[k].box)) continue;
       const auto shared = mansard::geometry::intersect(all[i].plan, all[k].plan);
-      double area = 0;
+      double area = 0, width = 0;
       if (shared)
-        for (const auto& polygon : *shared) area += mansard::geometry::area(polygon);
+        for (const auto& polygon : *shared) {
+          const double one = mansard::geometry::area(polygon);
+          area += one;
+          width = std::max(width, 2 * one / mansard::geometry::perimeter(polygon.outer));
+        }
       if (area * height > least)
-        found.push_back({all[i].building == all[k].building ? 601 : 501, all[i].key, all[k].key, area, area * height});
+        found.push_back(
+            {all[i].building == all[k].building ? 601 : 501, all[i].key, all[k].key, area, area * height, width});
     }
   return found;
 }

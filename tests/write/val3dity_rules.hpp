@@ -30,6 +30,7 @@ struct Overlap {
   int code = 0;  ///< 601 within a building, 501 between buildings
   std::string first, second;
   double area = 0, volume = 0;  ///< m², m³
+  double width = 0;             ///< m; of the widest place that they share: its area over half of its perimeter
 };
 /// Pairs with more than `least` m³, by that bound. The solids must stand on GroundSurfaces that are their plans.
 [[nodiscard]] auto overlaps(const nlohmann::json& city, const std::string& lod, double least) -> std::vector<Overlap>;

@@ -323,7 +323,9 @@ export async function exportAll(run: string, agreed: () => boolean) {
     }
   }
   const answer = await attempt(call);
-  if (answer) report("exported", `${answer.files.length} files written to ${answer.folder}`);
+  if (!answer) return;
+  for (const warning of answer.warnings) say(warning);
+  report("exported", `${answer.files.length} files written to ${answer.folder}`);
 }
 
 // ---- events

@@ -1,5 +1,5 @@
 // The workbench as its users meet it: the real program, the shipped sample, a real browser.
-import { readFileSync, writeFileSync } from "node:fs";
+import { readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import type { Download, Page } from "@playwright/test";
 import type * as api from "../src/api/types";
@@ -73,6 +73,10 @@ async function pickEdge(page: Page, edge: number) {
 }
 
 const canvas = (page: Page) => page.locator("main canvas").first();
+
+/** Of the menu "Export"; the name of another file may begin with this one's. */
+const menuItem = (page: Page, file: string) =>
+  page.getByRole("menuitem", { name: new RegExp(`^${file.replaceAll(".", "\\.")}\\s`) });
 
 async function saved(download: Download, folder: string) {
   const path = join(folder, download.suggestedFilename());
@@ -156,24 +160,85 @@ test("the sample is read, run, looked at, changed by hand, undone and taken away
 
   await test.step("what is taken away is what the command line makes of the plans", async () => {
     const files: Record<string, string> = {};
-    for (const name of ["plans.json", "model.city.json", "model.obj", "model.glb"]) {
+    for (const name of ["plans.json", "model.city.json", "model.obj", "model.glb", "model.gpkg", "model.stl"]) {
       await page.getByRole("button", { name: "Export" }).click();
       const [download] = await Promise.all([
         page.waitForEvent("download"),
-        page.getByRole("menuitem", { name: new RegExp(`^${name.replaceAll(".", "\\.")}`) }).click(),
+        menuItem(page, name).click(),
       ]);
       files[name] = await saved(download, folder);
     }
     const again = join(folder, "again");
-    mansard("extrude", files["plans.json"]!, "-o", again);
-    for (const name of ["model.city.json", "model.obj", "model.glb", "plans.json"])
-      expect(readFileSync(join(again, name)).equals(readFileSync(files[name]!)), `${name} is the same`).toBe(true);
+    mansard("extrude", files["plans.json"]!, "--formats", "all", "-o", again);
+    for (const [name, file] of Object.entries(files))
+      expect(readFileSync(join(again, name)).equals(readFileSync(file)), `${name} is the same`).toBe(true);
     const city = JSON.parse(readFileSync(files["model.city.json"]!, "utf8")) as {
       CityObjects: Record<string, { attributes?: Record<string, unknown> }>;
     };
     const edited = Object.values(city.CityObjects).filter((o) => o.attributes?.["ms_edited"] === true);
     expect(edited.length).toBeGreaterThan(0);
   });
+});
+
+/** Three houses of one roof, as the command line writes them. */
+function someModel(folder: string) {
+  const house = (id: string, x: number) => ({
+    type: "Feature",
+    properties: { id },
+    geometry: {
+      type: "Polygon",
+      coordinates: [[[x, 447000], [x + 8, 447000], [x + 8, 447012], [x, 447012], [x, 447000]]],
+    },
+  });
+  const footprints = join(folder, "houses.geojson");
+  const crs = { type: "name", properties: { name: "EPSG:28992" } };
+  const features = [house("left", 85000), house("middle", 85008), house("right", 85020)];
+  writeFileSync(footprints, JSON.stringify({ type: "FeatureCollection", crs, features }));
+  const model = join(folder, "street.city.json");
+  mansard("extrude", "-q", footprints, "--profile", "0,0 0,6 4,9", "-o", model);
+  return model;
+}
+
+test("a model of an earlier run is opened, looked at, changed and taken away", async ({ clean: page, server, folder }) => {
+  const model = someModel(folder);
+  await page.goto(server.link);
+  const openIt = page.getByRole("button", { name: "Open a model…" });
+  await expect(openIt).toBeDisabled();
+  await page.getByLabel("choose its file").setInputFiles(model);
+  await expect(page.getByLabel("Or models that mansard wrote")).toHaveValue(/inputs\/street\.city\.json$/);
+  await openIt.click();
+  await open(page, "street.city.json");
+
+  await page.getByRole("tab", { name: "Buildings" }).click();
+  await expect(page.getByRole("row")).toHaveCount(4); // three, and what the columns are
+  for (const id of ["left", "middle", "right"]) await expect(page.getByRole("row", { name: id })).toBeVisible();
+  await pick(page, "middle");
+  await page.getByRole("tab", { name: "Buildings" }).click();
+  await page.getByLabel("Filter buildings").fill("");
+  await picture(page, "model");
+
+  const taken = async (name: string) => {
+    await page.getByRole("button", { name: "Export" }).click();
+    const [download] = await Promise.all([page.waitForEvent("download"), menuItem(page, name).click()]);
+    return readFileSync(await saved(download, folder));
+  };
+  expect((await taken("model.city.json")).equals(readFileSync(model)), "nothing was changed yet").toBe(true);
+
+  await page.getByRole("tab", { name: "Edit" }).click();
+  const cap = page.getByRole("textbox", { name: "Cap, metres" });
+  await cap.fill("7.5");
+  await cap.press("Enter");
+  await expect.poll(async () => (await buildingOf(page, "middle")).edited).toBe(true);
+  expect((await taken("model.city.json")).equals(readFileSync(model))).toBe(false);
+  expect((await taken("model.3dtiles.zip")).subarray(0, 2).toString()).toBe("PK");
+
+  await page.getByRole("button", { name: "Export" }).click();
+  await expect(menuItem(page, "segment.gpkg"), "there are no layers without a run").toHaveCount(0);
+  await picture(page, "export");
+  await page.getByRole("menuitem", { name: /^All of them/ }).click();
+  await expect(page.getByText(/10 files written to/)).toBeVisible();
+  const exports = readdirSync(join(folder, "project/exports/run-1"));
+  expect(exports.sort()).toContain("model.3dtiles");
 });
 
 test("a footprint is cut along a drawn line, and made one again", async ({ clean: page, server }) => {
@@ -244,8 +309,11 @@ test("an invalid plan is shown and held, never written, and a reload keeps it", 
   const places = await Promise.all(
     (await page.getByRole("button", { name: /^corner \d+ at/ }).all()).map(async (c) => (await c.boundingBox())!),
   );
-  const [from, to] = [(await corner.boundingBox())!, places[2]!];
-  const middle = (b: { x: number; y: number; width: number; height: number }) => [b.x + b.width / 2, b.y + b.height / 2];
+  type Box = { x: number; y: number; width: number; height: number };
+  const from = (await corner.boundingBox())!;
+  const away = (b: Box) => Math.hypot(b.x - from.x, b.y - from.y);
+  const to = places.reduce((a, b) => (away(b) > away(a) ? b : a)); // the opposite one, whatever corners lie on the walls
+  const middle = (b: Box) => [b.x + b.width / 2, b.y + b.height / 2];
   const [[x0, y0], [x1, y1]] = [middle(from) as [number, number], middle(to) as [number, number]];
   await page.mouse.move(x0, y0);
   await page.mouse.down();

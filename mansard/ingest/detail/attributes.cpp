@@ -212,6 +212,9 @@ auto ids_of(const std::vector<RawFeature>& features, const std::string& attribut
 
   if (!attribute.empty()) {
     const auto at = find(attribute);
+    // Drivers keep the number of a feature apart from its attributes, where others show it as a column.
+    if (!at && lower(attribute) == "fid")
+      if (auto numbers = numbers_of(features); all_different(numbers)) return numbers;
     if (!at) {
       const auto nearest = base::nearest_word(attribute, names);
       std::string all;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "mansard/base/nesting.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/ingest/detail/json_access.hpp"
 #include "mansard/ingest/detail/model_files.hpp"
@@ -283,6 +284,7 @@ auto read_lines(std::string_view bytes, Reader& reader, Json& head, const std::s
 }  // namespace
 
 auto read_cityjson(std::string_view bytes, const std::string& lod, const std::string& name) -> base::Result<RawModel> {
+  if (base::nests_too_deep(bytes)) return bad("its JSON nests too deep", name);
   Reader reader(lod, name);
   Json document = Json::parse(bytes, nullptr, false);
   if (document.is_discarded()) {

@@ -1,8 +1,10 @@
 #include "mansard/ingest/detail/crs.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <optional>
 
 #include "mansard/base/text.hpp"
@@ -55,6 +57,67 @@ auto without_crs(const std::string& option, const std::string& subject, bool geo
   return way;
 }
 
+/// A place in a projected CRS, as its metres are on the ground there.
+struct Scale {
+  double along_x = 1, along_y = 1;     ///< metres on the ground per metre of the CRS
+  double longitude = 0, latitude = 0;  ///< degrees
+};
+
+/// From half a hundred metres to all four sides; nothing where the projection does not reach.
+auto scale_at(const Crs& projected, geometry::Point2 place) -> std::optional<Scale> {
+  Crs earth;
+  if (earth.system.CopyGeogCSFrom(&projected.system) != OGRERR_NONE) return std::nullopt;
+  earth.system.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  const auto way = transformation(projected, earth);
+  if (!way) return std::nullopt;
+  constexpr double step = 50;
+  std::array<double, 4> x{place.x - step, place.x + step, place.x, place.x};
+  std::array<double, 4> y{place.y, place.y, place.y - step, place.y + step};
+  if (way->Transform(4, x.data(), y.data()) == 0) return std::nullopt;
+  const double unit = earth.system.GetAngularUnits();  // degrees, grads
+  for (auto& c : x) c *= unit;
+  for (auto& c : y) c *= unit;
+  const double flattening = earth.system.GetInvFlattening() == 0 ? 0 : 1 / earth.system.GetInvFlattening();
+  const double squared = flattening * (2 - flattening);
+  const double latitude = 0.5 * (y[2] + y[3]), sine = std::sin(latitude);
+  const double across = earth.system.GetSemiMajor() / std::sqrt(1 - squared * sine * sine);
+  const double along = across * (1 - squared) / (1 - squared * sine * sine);
+  const auto distance = [&](int a, int b) {
+    const double turned = std::remainder(x[b] - x[a], 2 * std::numbers::pi);
+    return std::hypot(across * std::cos(latitude) * turned, along * (y[b] - y[a]));
+  };
+  const double degree = std::numbers::pi / 180;
+  const Scale scale{distance(0, 1) / (2 * step), distance(2, 3) / (2 * step), x[2] / degree, latitude / degree};
+  if (!std::isfinite(scale.along_x) || !std::isfinite(scale.along_y)) return std::nullopt;
+  return scale;
+}
+
+/// Web maps' Mercator, and zones far from where they are made for: lengths in plan are not those of heights.
+void warn_of_scale(const FeatureFile& file, const Crs& source, const Crs& working, const std::string& subject,
+                   Way& way) {
+  constexpr double tolerable = 0.01;  // no survey's projection is off by a tenth of that where it is used
+  const auto first = std::ranges::find_if(file.features, [](const auto& feature) { return !bounds(feature).empty(); });
+  if (first == file.features.end()) return;
+  const geometry::Box2 box = bounds(*first);
+  geometry::Point2 place = 0.5 * (box.least + box.most);
+  if (!way.to.empty()) {
+    const auto there = transformation(source, working);
+    if (!there || there->Transform(1, &place.x, &place.y) == 0) return;
+  }
+  const auto scale = scale_at(working, place);
+  if (!scale) return;
+  const bool worse = std::abs(scale->along_x - 1) > std::abs(scale->along_y - 1);
+  const double metre = worse ? scale->along_x : scale->along_y;
+  if (std::abs(metre - 1) <= tolerable) return;
+  const int zone = utm_zone(scale->longitude, scale->latitude, 4326);
+  way.warnings.push_back(base::warning(
+      "ingest-crs-scale",
+      "a metre of " + title_of(working.system) + " is " + base::to_text(metre, 2) +
+          " m on the ground here, and heights are true metres: shapes come out distorted; say --crs with a system made "
+          "for the place" + (zone == 0 ? std::string() : ", as EPSG:" + std::to_string(zone)),
+      subject));
+}
+
 }  // namespace
 
 auto utm_zone(double longitude, double latitude, int geographic) -> int {
@@ -95,7 +158,10 @@ auto choose_way(const FeatureFile& file, const std::string& option, const geomet
     if (!wanted) return wanted.error();
     target = std::move(*wanted);
   } else if (source->system.IsProjected() != 0 && in_metres(source->system)) {
-    return Way{name_of(source->system), {}, {}, {}};
+    Way way{name_of(source->system), {}, {}, {}};
+    const Crs stays = flat(source->system);
+    warn_of_scale(file, stays, stays, subject, way);
+    return way;
   } else if (!mesh_crs.empty()) {
     target = from_words(mesh_crs);
   } else if (source->system.IsProjected() != 0) {
@@ -114,9 +180,11 @@ auto choose_way(const FeatureFile& file, const std::string& option, const geomet
   Way way;
   way.name = name_of(target->system);
   const Crs from = flat(source->system), to = flat(target->system);
-  if (from.system.IsSame(&to.system) != 0) return way;
-  way.from = wkt_of(from.system);
-  way.to = wkt_of(to.system);
+  if (from.system.IsSame(&to.system) == 0) {
+    way.from = wkt_of(from.system);
+    way.to = wkt_of(to.system);
+  }
+  warn_of_scale(file, from, to, subject, way);
   return way;
 }
 

@@ -30,32 +30,6 @@ auto open(const std::string& name) -> GDALDatasetUniquePtr {
                                                 nullptr, gml ? quiet.List() : none.List(), nullptr));
 }
 
-/// Where the password stands in a database's address; nothing where there is none.
-auto password_in(const std::string& words) -> std::pair<std::size_t, std::size_t> {
-  constexpr std::string_view key = "password=";
-  if (const auto at = words.find(key); at != words.npos) {
-    const std::size_t start = at + key.size();
-    const bool quoted = start < words.size() && words[start] == '\'';
-    std::size_t end = start + (quoted ? 1 : 0);
-    while (end < words.size() && (quoted ? words[end] != '\'' : words[end] != ' ' && words[end] != '&'))
-      end += quoted && words[end] == '\\' ? 2 : 1;
-    return {start, std::min(words.size(), end + (quoted ? 1 : 0)) - start};
-  }
-  const auto slashes = words.find("://");
-  if (slashes == words.npos) return {};
-  const auto host = words.find('@', slashes), colon = words.find(':', slashes + 3);
-  return colon < host && host != words.npos ? std::pair{colon + 1, host - colon - 1}
-                                            : std::pair<std::size_t, std::size_t>{};
-}
-
-/// Far away or not a file at all: its bytes are not fetched again to be hashed.
-auto is_elsewhere(const fs::path& path) -> bool {
-  const std::string name = path.string();
-  return is_database(path) || name.find("/vsicurl/") != name.npos || name.starts_with("/vsis3/") ||
-         name.starts_with("/vsigs/") || name.starts_with("/vsiaz/") || name.starts_with("/vsiadls/") ||
-         name.starts_with("/vsiswift/") || name.starts_with("/vsioss/");
-}
-
 /// Everything that was read of the features, as bytes that differ where they differ.
 auto input_of(const std::vector<RawFeature>& features, const std::string& name) -> InputFile {
   std::string text;
@@ -220,7 +194,7 @@ class Source {
       : path_(path), subject_(shown_name(path)), options_(options), run_(run) {}
 
   auto read() -> base::Result<FeatureFile> {
-    dataset_ = open(name_for_gdal(path_));
+    dataset_ = open(inside_of(name_for_gdal(path_)));
     if (!dataset_) return not_opened();
     at_opening_ = messages_.failure();
     if (!is_elsewhere(path_)) {
@@ -233,7 +207,8 @@ class Source {
     OGRLayer& layer = **chosen;
     out_.crs = crs_of(layer.GetSpatialRef());
     if (auto done = look_at_geojson(); !done) return done.error();
-    if (!options_.where.empty() && layer.SetAttributeFilter(options_.where.c_str()) != OGRERR_NONE) return bad_filter();
+    if (!options_.where.empty() && layer.SetAttributeFilter(options_.where.c_str()) != OGRERR_NONE)
+      return bad_filter(layer);
     const auto box = box_in(layer, options_);
     if (box) layer.SetSpatialFilterRect(box->least.x, box->least.y, box->most.x, box->most.y);
     if (auto done = take_all(layer); !done) return done.error();
@@ -256,15 +231,19 @@ class Source {
                        subject_);
   }
 
-  auto bad_filter() const -> base::Diagnostic {
+  auto bad_filter(OGRLayer& layer) const -> base::Diagnostic {
+    std::string fields;
+    const OGRFeatureDefn& of = *layer.GetLayerDefn();
+    for (int i = 0; i < of.GetFieldCount(); ++i)
+      fields += (i > 0 ? ", " : "") + std::string(of.GetFieldDefn(i)->GetNameRef());
     return base::error("ingest-where",
                        "'" + options_.where + "' is no filter this layer takes (" + messages_.failure() +
-                           "); write it as in SQL after WHERE",
+                           "); write it as in SQL after WHERE; the layer has: " + fields,
                        subject_);
   }
 
   auto not_opened() const -> base::Diagnostic {
-    const std::string& why = messages_.failure();
+    const std::string why = shown_text(messages_.failure(), path_);
     if (is_database(path_))
       return base::error("file-read",
                          "the database cannot be reached" + (why.empty() ? std::string() : " (" + why + ")") +
@@ -277,7 +256,7 @@ class Source {
   }
 
   auto look_at_geojson() -> base::Result<void> {
-    if (std::string_view(dataset_->GetDriverName()) != "GeoJSON" || is_elsewhere(path_)) return {};
+    if (std::string_view(dataset_->GetDriverName()) != "GeoJSON" || is_database(path_)) return {};
     const CPLStringList files(dataset_->GetFileList());
     const auto text = Bytes::of(files.Count() > 0 && !is_virtual(path_) ? fs::path(files[0]) : path_);
     if (!text) return text.error();
@@ -318,7 +297,7 @@ class Source {
     const auto& features = out_.features;
     // A source that breaks off says so; databases only look at the filter now.
     if (!messages_.failure().empty())
-      return !options_.where.empty() && features.empty() ? bad_filter() : unreadable(messages_.failure());
+      return !options_.where.empty() && features.empty() ? bad_filter(layer) : unreadable(messages_.failure());
     if (features.empty() && !at_opening_.empty()) return unreadable(at_opening_);
     // FlatGeobuf's reader stops without a word where the file does, but the header has the number of features.
     const bool counted =
@@ -429,18 +408,6 @@ auto read_city_model(const fs::path& path, const Options& options) -> base::Resu
 }
 
 }  // namespace
-
-auto is_database(const fs::path& path) -> bool {
-  const std::string name = path.string();
-  return name.starts_with("PG:") || name.starts_with("postgresql://");
-}
-
-auto shown_name(const fs::path& path) -> std::string {
-  std::string name = path.string();
-  if (!is_database(path)) return name;
-  const auto [start, size] = password_in(name);
-  return size == 0 ? name : name.replace(start, size, "***");
-}
 
 auto read_features(const fs::path& path, const Options& options, const base::Run& run) -> base::Result<FeatureFile> {
   const std::string subject = path.string();

@@ -8,6 +8,7 @@
 
 #include "mansard/base/result.hpp"
 #include "mansard/base/run.hpp"
+#include "mansard/ingest/detail/address.hpp"
 #include "mansard/ingest/ingest.hpp"
 
 namespace mansard::ingest::detail {
@@ -34,12 +35,6 @@ struct FeatureFile {
   std::vector<InputFile> inputs;
   std::vector<base::Diagnostic> warnings;
 };
-
-/// The source as it may be shown: the words of a database's address without its password.
-[[nodiscard]] auto shown_name(const std::filesystem::path& path) -> std::string;
-
-/// Whether the words are the address of a database rather than the name of a file: "PG:…", "postgresql://…".
-[[nodiscard]] auto is_database(const std::filesystem::path& path) -> bool;
 
 /// Reads the chosen layer of any OGR vector source: polygons with curves as segments and without heights. With
 /// `options.bbox`, features that cannot meet it may be left out already, but never all. A database and what lies on a

@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "mansard/base/nesting.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/geometry/points.hpp"
 #include "mansard/ingest/detail/gdal_messages.hpp"
@@ -85,7 +86,7 @@ class Reader {
       std::array<double, 3> c{};
       for (std::size_t axis = 0; axis < 3; ++axis)
         c[axis] =
-            number(item(vertices[v], axis), std::numeric_limits<double>::quiet_NaN()) * number(item(scale, axis), 1) +
+            number(item(item(vertices, v), axis), std::numeric_limits<double>::quiet_NaN()) * number(item(scale, axis), 1) +
             number(item(translate, axis), 0);
       vertices_.push_back({c[0], c[1], c[2]});
     }
@@ -132,7 +133,7 @@ class Reader {
       std::vector<std::pair<double, std::vector<Surface>>> by_lod;
       const Json& geometries = member(*object, "geometry");
       for (std::size_t i = 0; i < geometries.size(); ++i)
-        by_lod.emplace_back(lod_of(geometries[i]), surfaces_of(geometries[i]));
+        by_lod.emplace_back(lod_of(item(geometries, i)), surfaces_of(item(geometries, i)));
       std::ranges::stable_sort(by_lod, std::ranges::greater(), [](const auto& one) { return one.first; });
       add_flat(by_lod, flat);
       add_ground(by_lod, ground);
@@ -258,6 +259,7 @@ auto looks_like_cityjson(std::string_view bytes) -> bool {
 }
 
 auto read_cityjson_footprints(std::string_view bytes, const std::string& subject) -> base::Result<FeatureFile> {
+  if (base::nests_too_deep(bytes)) return bad("its JSON nests too deep", subject);
   Reader reader(subject);
   Json head = Json::parse(bytes, nullptr, false);
   if (head.is_discarded()) {

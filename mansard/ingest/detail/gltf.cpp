@@ -133,6 +133,12 @@ class GltfReader {
     return exists ? &model_.accessors[static_cast<std::size_t>(index)] : nullptr;
   }
 
+  auto bytes_of_all() const -> std::size_t {
+    std::size_t bytes = 0;
+    for (const auto& buffer : model_.buffers) bytes += buffer.data.size();
+    return bytes;
+  }
+
   auto positions_of(const tinygltf::Accessor& given) const -> std::optional<std::vector<Point3>> {
     std::vector<Point3> points;
     if (given.bufferView >= 0) {
@@ -143,8 +149,9 @@ class GltfReader {
       for (std::size_t i = 0; i < view->count; ++i)
         points.push_back({view->value(i, 0), view->value(i, 1), view->value(i, 2)});
     } else {
-      // All zero but for what the sparse part says; which cannot be more than the buffers hold.
-      if (!given.sparse.isSparse || given.count > 1'000'000'000) return std::nullopt;
+      // All zero but for what the sparse part says. A corner that any triangle names takes a byte somewhere, so that more
+      // of them than bytes is a count to fill the memory with.
+      if (!given.sparse.isSparse || given.count > bytes_of_all()) return std::nullopt;
       points.resize(given.count);
     }
     if (!given.sparse.isSparse || given.sparse.count <= 0) return points;
@@ -157,9 +164,9 @@ class GltfReader {
     if (!where || !what || what->components != 3) return std::nullopt;
     what->normalised = given.normalized;
     for (std::size_t i = 0; i < size; ++i) {
-      const auto at = static_cast<std::size_t>(where->value(i, 0));
-      if (at >= points.size()) return std::nullopt;
-      points[at] = {what->value(i, 0), what->value(i, 1), what->value(i, 2)};
+      const double at = where->value(i, 0);
+      if (!(at >= 0 && at < static_cast<double>(points.size()))) return std::nullopt;
+      points[static_cast<std::size_t>(at)] = {what->value(i, 0), what->value(i, 1), what->value(i, 2)};
     }
     return points;
   }
@@ -180,7 +187,8 @@ class GltfReader {
     corners.reserve(view->count);
     for (std::size_t i = 0; i < view->count; ++i) {
       const double corner = view->value(i, 0);
-      corners.push_back(corner < static_cast<double>(points) ? static_cast<std::uint32_t>(corner) : no_vertex);
+      const bool names_one = corner >= 0 && corner < static_cast<double>(points);
+      corners.push_back(names_one ? static_cast<std::uint32_t>(corner) : no_vertex);
     }
     return corners;
   }
@@ -212,7 +220,8 @@ class GltfReader {
       auto mesh = packed_primitive(packed->second, *given);
       if (!mesh) return mesh.error();
       std::vector<std::uint32_t> corners;
-      for (const auto& triangle : mesh->triangles) corners.insert(corners.end(), triangle.begin(), triangle.end());
+      for (const auto& triangle : mesh->triangles)
+        for (const auto corner : triangle) corners.push_back(corner < mesh->vertices.size() ? corner : no_vertex);
       return add(mesh->vertices, corners, TINYGLTF_MODE_TRIANGLES, here);
     }
     const auto points = positions_of(*given);

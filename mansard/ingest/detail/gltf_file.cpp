@@ -7,10 +7,10 @@
 #include <optional>
 #include <string>
 
-#include "mansard/base/text.hpp"
+#include "mansard/base/nesting.hpp"
 #include "mansard/ingest/detail/hash.hpp"
 #include "mansard/ingest/detail/meshopt.hpp"
-#include "mansard/ingest/detail/virtual_files.hpp"
+#include "mansard/ingest/detail/named_file.hpp"
 
 namespace mansard::ingest::detail {
 namespace {
@@ -20,7 +20,7 @@ using Json = nlohmann::json;
 constexpr const char* meshopt = "EXT_meshopt_compression";
 constexpr const char* draco = "KHR_draco_mesh_compression";
 /// Names that no file has, for buffers that are in no file: the binary part of a GLB, and room to unpack into.
-constexpr std::string_view binary_part = "mansard:binary-part", room = "mansard:room:";
+constexpr std::string_view binary_part = "mansard:binary-part", room = "mansard:room";
 
 /// What tinygltf asks for while it reads a file.
 struct Surroundings {
@@ -50,13 +50,11 @@ auto read_buffer(std::vector<unsigned char>* out, std::string* errors, const std
     out->assign(around.binary.begin(), around.binary.end());
     return true;
   }
-  if (const auto at = name.rfind(room); at != name.npos) {
-    const auto size = base::to_whole(name.substr(at + room.size()));
-    if (!size || *size < 0) return false;
-    out->assign(static_cast<std::size_t>(*size), 0);
+  if (name.ends_with(room)) {
+    out->assign(1, 0);  // give_room has the rest
     return true;
   }
-  const auto bytes = Bytes::of(name);
+  const auto bytes = bytes_of_named(name);
   if (!bytes) {
     around.failure = bytes.error();
     *errors = bytes.error().message;
@@ -108,9 +106,21 @@ auto parts_of(std::string_view bytes, const std::string& name) -> base::Result<P
   return parts;
 }
 
+/// A buffer that exists only to be unpacked into, and how large it says it is.
+struct Room {
+  std::size_t buffer = 0;
+  std::uint64_t size = 0;
+};
+
+/// The JSON part in a form that tinygltf reads.
+struct Rewritten {
+  std::string json;
+  std::vector<Room> rooms;
+};
+
 /// Buffers that exist only to be unpacked into have no bytes in any file, which tinygltf does not know. They get a name
-/// each, and so does the binary part, since what comes out is JSON.
-void name_buffers(Json& json, std::size_t binary) {
+/// and a byte each, and so does the binary part get a name, since what comes out is JSON.
+void name_buffers(Json& json, std::size_t binary, std::vector<Room>& rooms) {
   for (std::size_t i = 0; i < json["buffers"].size(); ++i) {
     auto& buffer = json["buffers"][i];
     if (!buffer.is_object() || buffer.contains("uri")) continue;
@@ -119,7 +129,9 @@ void name_buffers(Json& json, std::size_t binary) {
       buffer["uri"] = binary_part;
       buffer["byteLength"] = binary;
     } else {
-      buffer["uri"] = std::string(room) + std::to_string(size);
+      buffer["uri"] = room;
+      buffer["byteLength"] = 1;
+      rooms.push_back({i, size});
     }
   }
 }
@@ -137,19 +149,19 @@ void place_indices(Json& json) {
     }
 }
 
-/// The JSON part in a form that tinygltf reads.
-auto rewritten(const Parts& parts, const std::string& name) -> base::Result<std::string> {
+auto rewritten(const Parts& parts, const std::string& name) -> base::Result<Rewritten> {
   const auto bad = [&name] {
     return base::error("ingest-mesh-format", "its JSON is damaged; export the mesh again", name);
   };
   auto json = Json::parse(parts.json, nullptr, false);
   if (!json.is_object()) return bad();
   try {  // members of another kind than the standard says
-    name_buffers(json, parts.binary.size());
+    std::vector<Room> rooms;
+    name_buffers(json, parts.binary.size(), rooms);
     place_indices(json);
     for (const char* list : {"buffers", "meshes", "accessors"})
       if (json[list].is_null()) json.erase(list);  // looking for one makes one
-    return json.dump();
+    return Rewritten{json.dump(), std::move(rooms)};
   } catch (const Json::exception&) {
     return bad();
   }
@@ -172,6 +184,24 @@ auto stretch(tinygltf::Model& model, std::size_t buffer, std::size_t offset, std
   auto& bytes = model.buffers[buffer].data;
   if (offset > bytes.size() || size > bytes.size() - offset) return {};
   return std::span(bytes).subspan(offset, size);
+}
+
+/// Before it is taken from memory: a file can promise what it does not hold. The codecs make 64 bytes of one at most (a
+/// group of 16 equal ones has two bits).
+auto give_room(tinygltf::Model& model, const std::vector<Room>& rooms, const std::string& name) -> base::Result<void> {
+  constexpr std::uint64_t most = 64;
+  std::uint64_t left = 0;
+  for (const auto& buffer : model.buffers) left += most * buffer.data.size();
+  for (const Room& wanted : rooms) {
+    if (wanted.buffer >= model.buffers.size() || wanted.size > left)
+      return base::error("ingest-mesh-format",
+                         "its buffer " + std::to_string(wanted.buffer) + " is to hold " + std::to_string(wanted.size) +
+                             " bytes, more than can be unpacked from the file; export the mesh again",
+                         name);
+    left -= wanted.size;
+    model.buffers[wanted.buffer].data.assign(static_cast<std::size_t>(wanted.size), 0);
+  }
+  return {};
 }
 
 auto unpack_view(tinygltf::Model& model, const tinygltf::BufferView& view, const tinygltf::Value& packed) -> bool {
@@ -222,12 +252,17 @@ auto load_gltf(std::string_view bytes, const std::filesystem::path& path) -> bas
     if (!cut) return cut.error();
     parts = *cut;
   }
-  std::string kept;
+  if (base::nests_too_deep(parts.json))  // tinygltf calls itself for each level
+    return base::error("ingest-mesh-format",
+                       "its JSON nests more than " + std::to_string(base::deepest_json) +
+                           " levels deep; export the mesh again",
+                       name);
+  Rewritten kept;
   if (parts.json.find(meshopt) != parts.json.npos || parts.json.find(draco) != parts.json.npos) {
     auto text = rewritten(parts, name);
     if (!text) return text.error();
     kept = std::move(*text);
-    bytes = kept;
+    bytes = kept.json;
     binary = false;
   }
   if (bytes.size() > std::numeric_limits<unsigned int>::max())
@@ -253,6 +288,7 @@ auto load_gltf(std::string_view bytes, const std::filesystem::path& path) -> bas
     for (char& c : errors) c = c == '\n' ? ' ' : c;
     return base::error("ingest-mesh-format", "not a readable glTF file (" + errors + "); export the mesh again", name);
   }
+  if (auto given = give_room(file.model, kept.rooms, name); !given) return given.error();
   if (auto unpacked = unpack_views(file.model, name); !unpacked) return unpacked.error();
   file.buffers = std::move(around.read);
   return file;

@@ -136,7 +136,7 @@ class Reader {
 }  // namespace
 
 auto read_labelled_obj(std::string_view bytes, const std::string& name) -> base::Result<RawModel> {
-  return Reader(bytes, name).read();
+  return Reader(without_mark(bytes), name).read();
 }
 
 }  // namespace mansard::ingest::detail

@@ -7,8 +7,10 @@
 
 #include "mansard/ingest/detail/hash.hpp"
 #include "mansard/ingest/detail/mesh_formats.hpp"
+#include "mansard/ingest/detail/named_file.hpp"
 #include "mansard/ingest/detail/tile_content.hpp"
 #include "mansard/ingest/detail/virtual_files.hpp"
+#include "mansard/ingest/detail/words.hpp"
 
 namespace mansard::ingest::detail {
 namespace {
@@ -32,6 +34,7 @@ auto take_gltf(std::string_view bytes, const fs::path& path, UpAxis up, MeshPiec
 
 auto parse(std::string_view bytes, const fs::path& path, UpAxis up, MeshPiece& piece) -> base::Result<RawMesh> {
   const std::string name = path.string(), ending = ending_of(path);
+  bytes = without_mark(bytes);
   if (bytes.empty()) return base::error("ingest-mesh-empty", "the file is empty; copy or export it again", name);
   const auto turned = [up](base::Result<RawMesh> mesh) {
     if (mesh && up == UpAxis::y)
@@ -53,12 +56,12 @@ auto parse(std::string_view bytes, const fs::path& path, UpAxis up, MeshPiece& p
 }
 
 /// Reads the bytes and has them taken; whatever goes wrong is the file's.
-template <class Take>
-auto guarded(const fs::path& path, Take take) -> MeshPiece {
+template <class Open, class Take>
+auto guarded(const fs::path& path, Open open, Take take) -> MeshPiece {
   MeshPiece out;
   const std::string name = path.string();
   try {
-    const auto bytes = Bytes::of(path);
+    const auto bytes = open(path);
     if (!bytes) return out.failure = bytes.error(), out;
     out.inputs.push_back({name, bytes->view().size(), {}});
     base::Result<void> done;
@@ -90,7 +93,7 @@ auto is_mesh_name(const fs::path& path) -> bool {
 }
 
 auto read_mesh_file(const fs::path& path, UpAxis up) -> MeshPiece {
-  return guarded(path, [&](std::string_view bytes, MeshPiece& piece) -> base::Result<void> {
+  return guarded(path, &Bytes::of, [&](std::string_view bytes, MeshPiece& piece) -> base::Result<void> {
     auto mesh = parse(bytes, path, up, piece);
     if (!mesh) return mesh.error();
     piece.mesh = std::move(*mesh);
@@ -99,7 +102,7 @@ auto read_mesh_file(const fs::path& path, UpAxis up) -> MeshPiece {
 }
 
 auto read_tile_file(const TileFile& tile) -> MeshPiece {
-  return guarded(tile.path, [&](std::string_view bytes, MeshPiece& piece) -> base::Result<void> {
+  return guarded(tile.path, &bytes_of_named, [&](std::string_view bytes, MeshPiece& piece) -> base::Result<void> {
     auto content = read_tile_content(bytes, tile.path, tile.turn, tile.place);
     if (!content) return content.error();
     piece.mesh = std::move(content->mesh);

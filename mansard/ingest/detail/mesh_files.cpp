@@ -63,6 +63,15 @@ auto files_below(const fs::path& folder) -> base::Result<std::vector<fs::path>> 
   return found;
 }
 
+/// Whether the name is that of an archive as such, not of a member, and it can be looked into.
+auto is_whole_archive(const fs::path& path) -> bool {
+  if (!path.string().starts_with("/vsizip/")) return false;
+  const auto [archive, member] = archive_of(path.string());
+  if (archive.empty() || !member.empty()) return false;
+  const auto members = files_below(path);
+  return members && !members->empty();
+}
+
 auto is_below(const fs::path& file, const std::vector<std::string>& folders) -> bool {
   const std::string name = file.string();  // generic_string() would make "/vsizip//tmp" another name
   return std::ranges::any_of(folders, [&](const std::string& folder) { return name.starts_with(folder); });
@@ -126,7 +135,8 @@ auto MeshReading::list_folder(const fs::path& folder) -> base::Result<void> {
 auto MeshReading::list(const std::vector<fs::path>& paths) -> base::Result<void> {
   for (const auto& given : paths) {
     const fs::path path = unpacked_name(given);
-    if (is_folder(path)) {
+    // An archive of a single file is that file to GDAL, whatever its name.
+    if (is_folder(path) || is_whole_archive(path)) {
       if (auto done = list_folder(path); !done) return done;
       continue;
     }

@@ -4,9 +4,10 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "mansard/base/nesting.hpp"
 #include "mansard/ingest/detail/hash.hpp"
+#include "mansard/ingest/detail/named_file.hpp"
 #include "mansard/ingest/detail/tiles3d.hpp"
-#include "mansard/ingest/detail/virtual_files.hpp"
 
 namespace mansard::ingest::detail {
 
@@ -67,7 +68,7 @@ class SubtreeReader {
   }
 
   auto load(const std::filesystem::path& path, Bytes& bytes) -> base::Result<void> {
-    auto read = Bytes::of(path);
+    auto read = bytes_of_named(path);
     if (!read) return read.error();
     bytes = std::move(*read);
     inputs_.push_back({path.string(), bytes.view().size(), sha256(bytes.view())});
@@ -88,6 +89,7 @@ class SubtreeReader {
       text = bytes.substr(header, json);
       binary_ = bytes.substr(header + json, binary);
     }
+    if (base::nests_too_deep(text)) return bad("nests too deep");
     json_ = Json::parse(text, nullptr, false);
     if (!json_.is_object()) return bad("is damaged");
     return {};

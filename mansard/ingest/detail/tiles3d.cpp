@@ -7,9 +7,10 @@
 #include <numbers>
 #include <string_view>
 
+#include "mansard/base/nesting.hpp"
 #include "mansard/ingest/detail/hash.hpp"
+#include "mansard/ingest/detail/named_file.hpp"
 #include "mansard/ingest/detail/tile_subtree.hpp"
-#include "mansard/ingest/detail/virtual_files.hpp"
 
 namespace mansard::ingest::detail {
 namespace {
@@ -84,6 +85,10 @@ auto contents_of(const Json& tile) -> std::vector<Content> {
 }
 
 auto parse_tileset(std::string_view bytes, const std::string& name) -> base::Result<Json> {
+  if (base::nests_too_deep(bytes))
+    return bad("its JSON nests more than " + std::to_string(base::deepest_json) +
+                   " levels deep; export the tileset again",
+               name);
   auto json = Json::parse(bytes, nullptr, false);
   if (!json.is_object() || object_in(json, "asset").empty() || object_in(json, "root").empty())
     return bad("the file is no tileset of 3D Tiles: it has no asset and root; check what it is", name);
@@ -131,18 +136,7 @@ class Walk {
   Walk(double error, UpAxis up, const TileFilter& filter, const base::Run& run)
       : error_(error), up_(up), filter_(filter), run_(run) {}
 
-  auto take_file(const fs::path& path, const Transform& outer, int depth) -> base::Result<void> {
-    const std::string name = path.string();
-    if (depth > 64) return bad("tilesets are nested more than 64 deep, as if they held one another", name);
-    if (run_.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
-    const auto bytes = Bytes::of(path);
-    if (!bytes) return bytes.error();
-    const auto json = parse_tileset(bytes->view(), name);
-    if (!json) return json.error();
-    list_.inputs.push_back({name, bytes->view().size(), sha256(bytes->view())});
-    const Sheet sheet{path, turn_of(*json, up_), depth};
-    return take_tile((*json)["root"], sheet, outer, false, 0);
-  }
+  auto take_root(const fs::path& path) -> base::Result<void> { return take_file(path, {}, nullptr, 0); }
 
   auto list() -> TileList { return std::move(list_); }
 
@@ -151,7 +145,7 @@ class Walk {
   struct Sheet {
     const fs::path& path;
     Transform turn;
-    int depth;
+    const Sheet* within;  ///< none for the first one
   };
   /// A tree that follows from its root.
   struct Implicit {
@@ -162,7 +156,33 @@ class Walk {
     std::uint32_t subtree_levels = 0, levels = 0;
     std::string subtrees;  ///< template
     std::vector<Content> contents;
+    int depth = 0;  ///< of the root
   };
+
+  auto take_file(const fs::path& path, const Transform& outer, const Sheet* within, int depth) -> base::Result<void> {
+    const std::string name = path.string();
+    int files = 0;
+    for (const Sheet* sheet = within; sheet != nullptr; sheet = sheet->within, ++files)
+      if (sheet->path == path) return bad("the tileset is nested in itself; export it again", name);
+    if (files > 64) return bad("tilesets are nested more than 64 deep, as if they held one another", name);
+    if (run_.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+    const auto bytes = within == nullptr ? Bytes::of(path) : bytes_of_named(path);
+    if (!bytes) return bytes.error();
+    const auto json = parse_tileset(bytes->view(), name);
+    if (!json) return json.error();
+    list_.inputs.push_back({name, bytes->view().size(), sha256(bytes->view())});
+    const Sheet sheet{path, turn_of(*json, up_), within};
+    return take_tile((*json)["root"], sheet, outer, false, depth);
+  }
+
+  /// Tiles can name the same file again and again, and an implicit tiling all tiles of thirty levels in a few words:
+  /// what follows from so little must not go on for ever.
+  auto count_tile(const Sheet& sheet) -> base::Result<void> {
+    constexpr std::size_t most = 1'000'000;
+    if (++tiles_ <= most) return {};
+    return bad("the tileset has more than a million tiles to look at; take fewer, with --bbox or --ingest-tile-error",
+               sheet.path.string());
+  }
 
   auto take_tile(const Json& tile, const Sheet& sheet, const Transform& outer, bool add, int depth)
       -> base::Result<void> {
@@ -174,6 +194,7 @@ class Walk {
     const Transform place = outer.after(*own);
     const Volume volume = placed(volume_of(object_in(tile, "boundingVolume")), place);
     if (!filter_.passes(volume)) return ++list_.beside, base::Result<void>();
+    if (auto counted = count_tile(sheet); !counted) return counted;
     // Kept on the way down where a tile does not say; in capitals since 1.0.
     if (const auto refine = text_in(tile, "refine"); !refine.empty()) add = refine == "ADD" || refine == "add";
     const double error = number_in(tile, "geometricError").value_or(0);
@@ -181,25 +202,27 @@ class Walk {
     const Json& implicit = tile.contains("implicitTiling")
                                ? object_in(tile, "implicitTiling")
                                : object_in(object_in(tile, "extensions"), "3DTILES_implicit_tiling");
-    if (!implicit.empty()) return take_implicit(tile, implicit, sheet, {place, volume, error, add, false, 0, 0, "", {}});
+    if (!implicit.empty()) return take_implicit(tile, implicit, sheet, {place, volume, error, add, false, 0, 0, "", {}, depth});
     const auto contents = contents_of(tile);
     const auto children = tile.find("children");
     const bool has_children = children != tile.end() && children->is_array() && !children->empty();
     const bool descend = has_children && (error > error_ || contents.empty());
     if (add || !descend)
       for (const auto& content : contents)
-        if (auto done = take_content(content, sheet, place); !done) return done;
+        if (auto done = take_content(content, sheet, place, depth); !done) return done;
     if (descend)
       for (const Json& child : *children)
         if (auto done = take_tile(child, sheet, place, add, depth + 1); !done) return done;
     return {};
   }
 
-  auto take_content(const Content& content, const Sheet& sheet, const Transform& place) -> base::Result<void> {
+  auto take_content(const Content& content, const Sheet& sheet, const Transform& place, int depth)
+      -> base::Result<void> {
     if (!filter_.passes(placed(content.volume, place))) return {};
     const fs::path path = address_beside(sheet.path, content.uri);
     std::string ending = path.extension().string();
-    if (ending.starts_with(".json")) return take_file(path, place, sheet.depth + 1);  // maybe with a server's "?key=…"
+    if (ending.starts_with(".json"))  // maybe with a server's "?key=…"
+      return take_file(path, place, &sheet, depth + 1);
     list_.files.push_back({path, sheet.turn, place});
     return {};
   }
@@ -217,7 +240,19 @@ class Walk {
     if (tree.subtree_levels == 0 || tree.subtree_levels > (tree.octree ? 7U : 10U) || tree.subtrees.empty())
       return bad("the implicit tiling does not say its subtrees' levels and address; export the tileset again",
                  sheet.path.string());
+    bool apart = tree.levels <= tree.subtree_levels || tells_apart(tree.subtrees, tree.octree);
+    for (const auto& content : tree.contents)
+      apart = apart && (tree.levels <= 1 || tells_apart(content.uri, tree.octree));
+    if (!apart)
+      return bad("the implicit tiling has one address for several tiles, without {level}, {x} and {y}; export the "
+                 "tileset again",
+                 sheet.path.string());
     return take_subtree(tree, sheet, {});
+  }
+
+  static auto tells_apart(const std::string& address, bool octree) -> bool {
+    const auto has = [&address](const char* what) { return address.find(what) != address.npos; };
+    return has("{level}") && has("{x}") && has("{y}") && (!octree || has("{z}"));
   }
 
   auto take_subtree(const Implicit& tree, const Sheet& sheet, const TileIndex& root) -> base::Result<void> {
@@ -240,6 +275,7 @@ class Walk {
     if (index.level >= tree.levels || !subtree.has_tile(local)) return {};
     if (!filter_.passes(part_of(tree.volume, index, tree.octree))) return ++list_.beside, base::Result<void>();
     if (local.level == tree.subtree_levels) return take_subtree(tree, sheet, index);
+    if (auto counted = count_tile(sheet); !counted) return counted;
     const unsigned ways = tree.octree ? 8 : 4;
     bool has_children = false, has_content = false;
     for (unsigned i = 0; i < ways && index.level + 1 < tree.levels; ++i)
@@ -250,7 +286,8 @@ class Walk {
     if (tree.add || !descend)
       for (std::size_t i = 0; i < tree.contents.size(); ++i)
         if (subtree.has_content(i, local))
-          if (auto done = take_content({filled_in(tree.contents[i].uri, index), {}}, sheet, tree.place); !done)
+          if (auto done = take_content({filled_in(tree.contents[i].uri, index), {}}, sheet, tree.place, tree.depth);
+              !done)
             return done;
     for (unsigned i = 0; i < ways && descend; ++i)
       if (auto done = take_index(tree, sheet, subtree, child_of(index, i), child_of(local, i)); !done) return done;
@@ -262,6 +299,7 @@ class Walk {
   const TileFilter& filter_;
   const base::Run& run_;
   TileList list_;
+  std::size_t tiles_ = 0;
 };
 
 auto without_percent(const std::string& uri) -> std::string {
@@ -339,7 +377,7 @@ auto Tileset::open(const fs::path& path) -> base::Result<Tileset> {
 auto Tileset::tiles(double error, UpAxis up, const TileFilter& filter, const base::Run& run) const
     -> base::Result<TileList> {
   Walk walk(error, up, filter, run);
-  if (auto done = walk.take_file(path_, {}, 0); !done) return done.error();
+  if (auto done = walk.take_root(path_); !done) return done.error();
   return walk.list();
 }
 

@@ -35,24 +35,6 @@ class NothingBeside {
   ~NothingBeside() { CPLSetThreadLocalConfigOption("CPL_VSIL_GZIP_WRITE_PROPERTIES", nullptr); }
 };
 
-/// The archive on disk that a virtual name leads into, and the name of its member; both empty where there is none.
-auto archive_of(const std::string& name) -> std::pair<fs::path, std::string> {
-  std::string rest = name;
-  while (rest.starts_with("/vsi")) {
-    const std::size_t end = rest.find('/', 1);
-    if (end == rest.npos) return {};
-    rest.erase(0, end + 1);
-  }
-  for (fs::path at = rest; !at.empty() && at != at.root_path(); at = at.parent_path()) {
-    std::error_code failure;
-    if (fs::is_regular_file(at, failure)) {
-      const std::string archive = at.string();
-      return {at, rest.size() > archive.size() ? rest.substr(archive.size() + 1) : std::string()};
-    }
-  }
-  return {};
-}
-
 /// The first few names in an archive.
 auto members_of(const std::string& name, const std::string& member) -> std::string {
   const std::string archive = name.substr(0, name.size() - member.size());
@@ -145,6 +127,47 @@ auto is_there(const fs::path& path) -> bool {
   return VSIStatExL(path.c_str(), &status, VSI_STAT_EXISTS_FLAG) == 0;
 }
 
+auto archive_of(const std::string& name) -> std::pair<fs::path, std::string> {
+  std::string rest = name;
+  while (rest.starts_with("/vsi")) {
+    const std::size_t end = rest.find('/', 1);
+    if (end == rest.npos) return {};
+    rest.erase(0, end + 1);
+  }
+  // "/vsizip/{ARCHIVE}/MEMBER", where the archive's own ending does not say what it is.
+  if (const auto brace = rest.find('}'); rest.starts_with('{') && brace != rest.npos) {
+    rest.erase(brace, 1);
+    rest.erase(0, 1);
+  }
+  for (fs::path at = rest; !at.empty() && at != at.root_path(); at = at.parent_path()) {
+    std::error_code failure;
+    if (fs::is_regular_file(at, failure)) {
+      const std::string archive = at.string();
+      return {at, rest.size() > archive.size() ? rest.substr(archive.size() + 1) : std::string()};
+    }
+  }
+  return {};
+}
+
+auto inside_of(std::string name) -> std::string {
+  if (!name.starts_with("/vsizip/")) return name;
+  const auto [archive, member] = archive_of(name);
+  if (archive.empty() || !member.empty()) return name;
+  const GdalMessages messages;
+  for (;;) {
+    const CPLStringList listed(VSIReadDir(name.c_str()));
+    std::string only;
+    for (int i = 0; i < listed.Count(); ++i) {
+      const std::string_view entry = listed[i];
+      if (entry.starts_with('.') || entry == "__MACOSX") continue;
+      if (!only.empty()) return name;
+      only = entry;
+    }
+    if (only.empty()) return name;
+    name += "/" + only;
+  }
+}
+
 auto why_missing(const fs::path& path) -> base::Diagnostic {
   const std::string name = path.string();
   const GdalMessages messages;
@@ -154,6 +177,8 @@ auto why_missing(const fs::path& path) -> base::Diagnostic {
       return base::error("file-read", "this is a folder, not a file; name a file in it", name);
     if (fs::exists(path, failure))
       return base::error("file-read", "cannot be unpacked; check what it is, or its permissions", name);
+    if (name.starts_with("http://") || name.starts_with("https://"))
+      return base::error("file-missing", "what lies on a server is read by the name /vsicurl/" + name, name);
     return base::error("file-missing", "no such file; check the path", name);
   }
   const std::size_t end = name.find('/', 1);
@@ -195,7 +220,7 @@ auto Bytes::of(const fs::path& path) -> base::Result<Bytes> {
       return bytes;
     }
   auto text = is_virtual(path) ? unpacked(path) : base::read_file(path);
-  if (!text) return text.error();
+  if (!text) return !is_virtual(path) && text.error().code == "file-missing" ? why_missing(path) : text.error();
   auto kept = std::make_shared<const std::string>(*std::move(text));
   bytes.view_ = *kept;
   bytes.owner_ = std::move(kept);

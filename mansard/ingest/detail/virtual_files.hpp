@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "mansard/base/result.hpp"
 
@@ -22,6 +23,13 @@ namespace mansard::ingest::detail {
 
 /// Whether there is a file or folder of that name. Of servers this asks; nothing is said where they do not answer.
 [[nodiscard]] auto is_there(const std::filesystem::path& path) -> bool;
+
+/// The archive on disk that a virtual name leads into, and the name of its member; both empty where there is none.
+[[nodiscard]] auto archive_of(const std::string& name) -> std::pair<std::filesystem::path, std::string>;
+
+/// What of a whole archive on disk is to be opened: packing a folder makes an archive with that folder alone in it, and
+/// macOS adds one of its own beside it. All other names stay as they are.
+[[nodiscard]] auto inside_of(std::string name) -> std::string;
 
 /// Why there is no such file, in an archive, on a server or on disk: "file-missing", or "file-read" with GDAL's words
 /// where a server or a damaged archive does not give it.

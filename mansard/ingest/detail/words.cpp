@@ -10,6 +10,11 @@ auto is_blank(char c) -> bool { return c == ' ' || c == '\t' || c == '\n' || c =
 
 }  // namespace
 
+auto without_mark(std::string_view text) -> std::string_view {
+  constexpr std::string_view mark = "\xef\xbb\xbf";
+  return text.starts_with(mark) ? text.substr(mark.size()) : text;
+}
+
 auto take_line(std::string_view& text) -> std::string_view {
   const std::size_t end = text.find('\n');
   std::string_view line = text.substr(0, end);

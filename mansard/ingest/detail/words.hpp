@@ -7,6 +7,9 @@
 
 namespace mansard::ingest::detail {
 
+/// Without the byte order mark that editors put before text in UTF-8: it would make the first word another one.
+[[nodiscard]] auto without_mark(std::string_view text) -> std::string_view;
+
 /// Takes the next line off the front, without its end ("\n" or "\r\n").
 [[nodiscard]] auto take_line(std::string_view& text) -> std::string_view;
 

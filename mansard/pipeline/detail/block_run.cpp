@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "mansard/extrude/align.hpp"
+
 namespace mansard::pipeline::detail {
 namespace {
 
@@ -142,6 +144,22 @@ void fill_in(const block::Block& block, const rays::Scene& mesh, const Options& 
   std::ranges::stable_sort(parts, {}, &PartResult::feature);
 }
 
+/// Parts with the walls that they share on one line. Where that would cost a part its roof, it stays as it was raised.
+void align(std::vector<PartResult>& parts, const Options& options, const base::Run& run) {
+  std::vector<geometry::Plan> plans;
+  for (const auto& part : parts) plans.push_back(part.plan);
+  const auto aligned = extrude::align(plans, options.extrude);
+  base::parallel_for(parts.size(), [&](std::size_t i) {
+    if (!aligned[i] || run.cancelled()) return;
+    auto raised = raise_part(*aligned[i], options, run);
+    if (!raised || raised->outcome != extrude::Outcome::full) return;
+    auto& part = parts[i];
+    if (raised->solid.faces.size() > part.model.solid.faces.size()) return;
+    part.plan = *aligned[i];
+    part.model.solid = std::move(raised->solid);
+  });
+}
+
 void classify(std::vector<PartResult>& parts, const Options& options, const base::Run& run) {
   std::vector<extrude::Solid> solids;
   for (auto& part : parts) solids.push_back(std::move(part.model.solid));
@@ -164,6 +182,7 @@ auto run_block(const block::Block& block, const Options& options, const base::Ru
     parts = raise_parts(*segmented.segmentation, block, mesh, options, run, out);
   }
   fill_in(block, mesh, options, segmented.failure, parts, out, run);
+  align(parts, options, run);
   if (keep == Keep::segmentations) out.segmented = std::move(segmented);
   tell("label");
   {

@@ -63,14 +63,22 @@ void append_transform(JsonText& json, const ingest::Frame& frame) {
   json.end_array().end_object();
 }
 
-void append_metadata(JsonText& json, const ingest::Frame& frame, const std::optional<std::array<Vertex, 2>>& extent) {
+void append_extent(JsonText& json, const ingest::Frame& frame, const Extent& extent) {
+  if (!extent) return;
+  json.key("geographicalExtent").begin_array();
+  for (const Vertex& corner : *extent)
+    for (std::size_t axis = 0; axis < 3; ++axis) json.raw(quanta_in_file_frame(corner[axis], frame.origin[axis]));
+  json.end_array();
+}
+
+void widen(Extent& extent, const Loops& loops) {
+  for (const auto& loop : loops)
+    for (const Vertex& v : loop) detail::widen(extent, v);
+}
+
+void append_metadata(JsonText& json, const ingest::Frame& frame, const Extent& extent) {
   json.key("metadata").begin_object();
-  if (extent) {
-    json.key("geographicalExtent").begin_array();
-    for (const Vertex& corner : *extent)
-      for (std::size_t axis = 0; axis < 3; ++axis) json.raw(quanta_in_file_frame(corner[axis], frame.origin[axis]));
-    json.end_array();
-  }
+  append_extent(json, frame, extent);
   if (const std::string code = epsg_code(frame.crs); !code.empty())
     json.key("referenceSystem").text("https://www.opengis.net/def/crs/EPSG/0/" + code);
   json.end_object();
@@ -87,8 +95,9 @@ void append_origin(JsonText& json, const ingest::Frame& frame) {
 auto without(const ingest::Attributes& attributes, std::initializer_list<std::string_view> names)
     -> ingest::Attributes {
   ingest::Attributes kept;
-  for (const auto& attribute : attributes)
-    if (std::ranges::find(names, attribute.first) == names.end()) kept.push_back(attribute);
+  for (const auto& [name, value] : attributes)
+    if (std::ranges::find(names, name) == names.end())
+      kept.emplace_back(undeclared(name), value);
   return kept;
 }
 
@@ -116,8 +125,32 @@ auto roof_height(const std::vector<Surface>& surfaces, const ingest::Attributes&
 
 }  // namespace
 
+auto undeclared(const std::string& name) -> std::string {
+  const auto start = name.find_first_not_of('_');
+  return start != std::string::npos && name[start] == '+' ? "_" + name : name;
+}
+
+auto from_undeclared(const std::string& name) -> std::string {
+  return name.starts_with('_') && undeclared(name) != name ? name.substr(1) : name;
+}
+
 void CityObjects::add(const Building& building, const Gate::Keyed& keys) {
+  std::vector<Loops> footprint;
+  for (const auto& polygon : building.footprint)
+    if (auto loops = quantised(polygon, building.ground); !loops.empty()) footprint.push_back(std::move(loops));
+  std::vector<Drawn> drawn;
+  for (const Part& part : building.parts) {
+    auto fine = quantised(part.model);
+    drawn.push_back({flat_prism(fine, roof_height(fine, part.attributes, frame_.origin[2])), std::move(fine)});
+  }
+  Extent extent;  // of the building with its parts, whose objects come after its own
+  for (const auto& loops : footprint) widen(extent, loops);
+  for (const auto& [flat, fine] : drawn)
+    for (const auto* surfaces : {&flat, &fine})
+      for (const Surface& surface : *surfaces) widen(extent, surface.loops);
+
   json_.line(level_).key(keys.building).begin_object().key("type").text("Building");
+  append_extent(json_, frame_, extent);
   append_attributes(json_.key("attributes").begin_object(), without(building.attributes, {footprint_name}));
   append_origin(json_.key(footprint_name).begin_object(), frame_);
   detail::append_footprint(json_.key("ground").number(building.ground).key("polygons"), building.footprint);
@@ -128,10 +161,10 @@ void CityObjects::add(const Building& building, const Gate::Keyed& keys) {
     json_.end_array();
   }
   json_.key("geometry").begin_array();
-  append_footprint(building);
+  append_footprint(footprint);
   json_.end_array().end_object();
   for (std::size_t p = 0; p < building.parts.size(); ++p)
-    append_part(building.parts[p], keys.parts[p], keys.building);
+    append_part(building.parts[p], drawn[p], keys.parts[p], keys.building);
 }
 
 auto CityObjects::end() -> std::string {
@@ -139,17 +172,14 @@ auto CityObjects::end() -> std::string {
   return json_.take();
 }
 
-void CityObjects::append_footprint(const Building& building) {
-  std::vector<Loops> surfaces;
-  for (const auto& polygon : building.footprint)
-    if (auto loops = quantised(polygon, building.ground); !loops.empty()) surfaces.push_back(std::move(loops));
+void CityObjects::append_footprint(const std::vector<Loops>& surfaces) {
   if (surfaces.empty()) return;
   json_.begin_object().key("type").text("MultiSurface").key("lod").text("0").key("boundaries").begin_array();
   for (const auto& loops : surfaces) append_loops(loops);
   json_.end_array().end_object();
 }
 
-void CityObjects::append_part(const Part& part, const std::string& key, const std::string& parent) {
+void CityObjects::append_part(const Part& part, const Drawn& drawn, const std::string& key, const std::string& parent) {
   json_.line(level_).key(key).begin_object().key("type").text("BuildingPart");
   append_attributes(json_.key("attributes").begin_object(), without(part.attributes, {plan_name, old_plan_name}));
   json_.key(plan_name).begin_object().key("type").text(plan_type).key("version").whole(plan_version);
@@ -158,9 +188,8 @@ void CityObjects::append_part(const Part& part, const std::string& key, const st
   json_.end_object().end_object();
   json_.key("parents").begin_array().text(parent).end_array();
   json_.key("geometry").begin_array();
-  const auto surfaces = quantised(part.model);
-  append_solid("1.2", flat_prism(surfaces, roof_height(surfaces, part.attributes, frame_.origin[2])));
-  append_solid("2.2", surfaces);
+  append_solid("1.2", drawn.flat);
+  append_solid("2.2", drawn.fine);
   json_.end_array().end_object();
 }
 
@@ -196,8 +225,7 @@ void CityObjects::append_loops(const Loops& loops) {
   json_.end_array();
 }
 
-auto cityjson_head(const Header& header, const std::optional<std::array<Vertex, 2>>& extent, int level)
-    -> std::string {
+auto cityjson_head(const Header& header, const Extent& extent, int level) -> std::string {
   JsonText json;
   json.begin_object().key("type").text("CityJSON").key("version").text("2.0");
   json.line(level).key("extensions").begin_object().key(extension_name).begin_object();

@@ -15,6 +15,11 @@ inline constexpr std::string_view extension_version = "1.0";
 inline constexpr std::string_view plan_name = "+ms_plan", old_plan_name = plan_name.substr(1);
 inline constexpr std::string_view footprint_name = "+ms_footprint";
 
+/// A '+' in front is for what an extension declares. A source's own attribute of such a name gets a '_' before it, as does
+/// one that has some there already, so that each comes back as it was.
+[[nodiscard]] auto undeclared(const std::string& name) -> std::string;
+[[nodiscard]] auto from_undeclared(const std::string& name) -> std::string;
+
 /// The member "CityObjects" and the vertices of a CityJSON object or feature, building by building. Buildings must have
 /// passed a Gate.
 class CityObjects {
@@ -28,11 +33,15 @@ class CityObjects {
   /// What was not taken yet.
   [[nodiscard]] auto take() -> std::string { return json_.take(); }
   [[nodiscard]] auto end() -> std::string;
-  [[nodiscard]] auto extent() const -> const std::optional<std::array<Vertex, 2>>& { return pool_.extent(); }
+  [[nodiscard]] auto extent() const -> const Extent& { return pool_.extent(); }
 
  private:
-  void append_part(const Part& part, const std::string& key, const std::string& parent);
-  void append_footprint(const Building& building);
+  /// The surfaces of a part, at the two levels of detail.
+  struct Drawn {
+    std::vector<Surface> flat, fine;
+  };
+  void append_part(const Part& part, const Drawn& drawn, const std::string& key, const std::string& parent);
+  void append_footprint(const std::vector<Loops>& surfaces);
   void append_solid(std::string_view lod, const std::vector<Surface>& surfaces);
   void append_loops(const Loops& loops);
 
@@ -43,8 +52,7 @@ class CityObjects {
 };
 
 /// A CityJSON object up to the value of "CityObjects"; its members on lines of that level, or on one line when negative.
-[[nodiscard]] auto cityjson_head(const Header& header, const std::optional<std::array<Vertex, 2>>& extent, int level)
-    -> std::string;
+[[nodiscard]] auto cityjson_head(const Header& header, const Extent& extent, int level) -> std::string;
 /// Between the city objects and the vertices of a file, and after these.
 inline constexpr std::string_view cityjson_waist = ",\n\"vertices\":[";
 inline constexpr std::string_view cityjson_foot = "]\n}\n";

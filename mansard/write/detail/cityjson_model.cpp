@@ -149,6 +149,7 @@ void each_geometry(const Item& object, std::string_view lod, std::string_view ty
 
 Vertices::Vertices(const Item& transform, const Item& list, const std::array<std::int64_t, 3>& origin)
     : list_(list), scale_(transform.member("scale").numbers<3>()), shift_(transform.member("translate").numbers<3>()) {
+  if (!list.json.is_array()) list.refuse("an array");
   for (std::size_t axis = 0; axis < 3; ++axis) shift_[axis] -= static_cast<double>(origin[axis]);
 }
 

@@ -2,6 +2,7 @@
 // attribute without '+' and "metadata" said how the file was made.
 #include <fstream>
 #include <map>
+#include <set>
 #include <span>
 
 #include "mansard/base/files.hpp"
@@ -30,7 +31,7 @@ auto read_plain_attributes(const Json& object) -> ingest::Attributes {
   Json plain = Json::object();
   if (const auto found = object.find("attributes"); found != object.end() && found->is_object())
     for (const auto& [key, value] : found->items())
-      if (!value.is_structured()) plain[key] = value;
+      if (!value.is_structured()) plain[from_undeclared(key)] = value;
   return read_attributes({plain, {}});
 }
 
@@ -90,7 +91,7 @@ class Objects {
     for (const auto& [id, object] : objects.json.items()) object_of_.emplace(id, &object);
   }
 
-  [[nodiscard]] auto building(const std::string& id, const Json& json) const -> Building {
+  [[nodiscard]] auto building(const std::string& id, const Json& json) -> Building {
     const Item object{json, {&objects_.place, id, 0}};
     Building building;
     building.id = id;
@@ -104,6 +105,8 @@ class Objects {
       object.member("children").each([&](const Item& child) {
         const auto found = object_of_.find(child.text());
         if (found == object_of_.end()) child.refuse("the id of a city object");
+        // Of a plan that is named a thousand times there would be a thousand.
+        if (!taken_.insert(found->first).second) child.refuse("the id of a city object that is named once");
         if (auto part = read_part(found->first, *found->second)) building.parts.push_back(*std::move(part));
       });
     return building;
@@ -142,6 +145,7 @@ class Objects {
   const std::array<std::int64_t, 3> origin_;
   const bool models_;
   std::map<std::string_view, const Json*> object_of_;
+  std::set<std::string_view> taken_;  ///< as children
 };
 
 auto read_whole_file(const Item& file, bool models, const std::string& code) -> City {
@@ -150,7 +154,7 @@ auto read_whole_file(const Item& file, bool models, const std::string& code) -> 
   City city{header->frame, header->made_by, {}};
   const Item transform = file.member("transform"), list = file.member("vertices"), all = file.member("CityObjects");
   const Vertices vertices(transform, list, city.frame.origin);
-  const Objects objects(all, &vertices, city.frame, models);
+  Objects objects(all, &vertices, city.frame, models);
   for (const auto& [id, object] : all.json.items())
     if (Objects::is_building(object)) city.buildings.push_back(objects.building(id, object));
   return city;
@@ -184,7 +188,7 @@ class ReadFeatures : public CityReader {
     const Json at = parse_json(transform_);
     const Item transform{at, {}}, list = feature.member("vertices"), all = feature.member("CityObjects");
     const Vertices vertices(transform, list, header_.frame.origin);
-    const Objects objects(all, &vertices, header_.frame, true);
+    Objects objects(all, &vertices, header_.frame, true);
     const std::string id = feature.member("id").text();
     const auto found = all.json.find(id);
     if (found == all.json.end() || !Objects::is_building(*found))

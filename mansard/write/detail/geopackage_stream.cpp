@@ -1,9 +1,12 @@
 // A city as a GeoPackage, written building by building into one transaction, and read back.
+#include <algorithm>
+#include <array>
 #include <map>
 #include <numbers>
 
 #include "mansard/ingest/gdal.hpp"
 #include "mansard/write/detail/geopackage_tables.hpp"
+#include "mansard/write/detail/qgis_styles.hpp"
 #include "mansard/write/detail/records.hpp"
 #include "mansard/write/detail/writers.hpp"
 
@@ -16,6 +19,11 @@ using Values = std::vector<Value>;
 using label::Class;
 
 constexpr const char* records_name = "mansard_records";
+/// The layers that a city makes, in their order.
+constexpr std::array<std::string_view, 8> own_layers{"gis_footprints", "footprints", "edges",   "roof_planes",
+                                                     "walls",          "profiles",   "made_by", records_name};
+
+auto is_own(std::string_view layer) -> bool { return std::ranges::find(own_layers, layer) != own_layers.end(); }
 
 auto as_whole(std::size_t number) -> Value { return static_cast<std::int64_t>(number); }
 
@@ -94,6 +102,7 @@ class GeoPackageWriter : public CityWriter {
     if (auto done = add_footprints(); !done) return done;
     for (const Layer& layer : more_)
       if (auto done = add_layer(layer, pen_, *crs_, *file_); !done) return done;
+    if (auto done = add_styles(*file_); !done) return done;
     if (file_->CommitTransaction() != OGRERR_NONE) return geopackage_failure("finish the file");
     CPLErrorReset();
     file_.reset();  // writes the extents, and the spatial indexes that are still due
@@ -274,8 +283,7 @@ class GeoPackageWriter : public CityWriter {
 auto beside_ours(std::vector<Layer> more) -> std::vector<Layer> {
   std::erase_if(more, [](const Layer& layer) { return layer.name == "gis_footprints" || layer.name == "made_by"; });
   for (Layer& layer : more)
-    for (const char* taken : {"footprints", "edges", "roof_planes", "walls", "profiles", records_name})
-      if (layer.name == taken) layer.name = "segment_" + layer.name;
+    if (is_own(layer.name)) layer.name = "segment_" + layer.name;
   return more;
 }
 
@@ -309,6 +317,21 @@ class GeoPackageReader : public CityReader {
     auto building = read_building_record(row->GetFieldAsString(columns_.second), name_);
     if (!building) return building.error();
     return std::optional(*std::move(building));
+  }
+  auto beside() -> base::Result<Beside> override {
+    const GeopackageManners manners;
+    Beside out;
+    for (auto* layer : file_->GetLayers()) {
+      const std::string_view name = layer->GetName();
+      if (is_own(name) || name == styles_name) continue;
+      CPLErrorReset();
+      auto read = read_layer(*layer, header_.frame);
+      if (CPLGetLastErrorType() >= CE_Failure)
+        return no_plans("its layer " + std::string(name) + " cannot be read" + gdal_words());
+      if (read) out.layers.push_back(*std::move(read));
+      else out.warnings.push_back(read.error());
+    }
+    return out;
   }
 
   [[nodiscard]] auto no_plans(const std::string& what) const -> base::Diagnostic {

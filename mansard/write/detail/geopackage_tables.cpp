@@ -157,6 +157,7 @@ auto add_layer(const Layer& layer, const Pen& pen, const OGRSpatialReference& cr
   auto table = GeopackageTable::make(file, layer.name, layer.meaning, geometry_type(layer.shape), crs);
   if (!table) return table.error();
   if (auto made = table->add_fields(layer.fields); !made) return made;
+  table->take_place();  // without rows it would come after those with some
   for (const Feature& feature : layer.features)
     if (auto added = table->add_row(feature.values, pen.geometry_of(feature, layer.shape)); !added) return added;
   return {};

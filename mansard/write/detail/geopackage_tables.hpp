@@ -76,6 +76,10 @@ class GeopackageTable {
 [[nodiscard]] auto add_layer(const Layer& layer, const Pen& pen, const OGRSpatialReference& crs, GDALDataset& file)
     -> base::Result<void>;
 
+/// Such a layer of a file, in the local frame. Gives up with "write-layer-left", a warning: it is more than a Layer
+/// holds.
+[[nodiscard]] auto read_layer(OGRLayer& table, const ingest::Frame& frame) -> base::Result<Layer>;
+
 /// Columns for attributes that come object by object: those of any object, in the order of their first appearance.
 /// Whole and real numbers under one name make real ones, any other mixture texts.
 class AttributeColumns {

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "mansard/base/nesting.hpp"
 #include "mansard/write/detail/records.hpp"
 
 namespace mansard::write::detail {
@@ -49,7 +50,7 @@ class File {
 template <class T>
 auto numbers(const std::string& bytes) -> std::vector<T> {
   std::vector<T> out(bytes.size() / sizeof(T));
-  std::memcpy(out.data(), bytes.data(), out.size() * sizeof(T));
+  if (!out.empty()) std::memcpy(out.data(), bytes.data(), out.size() * sizeof(T));
   return out;
 }
 
@@ -67,7 +68,7 @@ auto chunks_of(File& file, const Path& path) -> base::Result<Chunks> {
   const std::uint64_t json_size = numbers<std::uint32_t>(head->substr(12, 4))[0];
   const auto text = file.read(20, json_size);
   if (!text) return text.error();
-  Chunks chunks{Json::parse(*text, nullptr, false), 0, 0};
+  Chunks chunks{base::nests_too_deep(*text) ? Json() : Json::parse(*text, nullptr, false), 0, 0};
   if (!chunks.json.is_object()) return no_glb(path, "the JSON of this GLB is broken");
   if (file.size() >= 28 + json_size) {
     const auto binary = file.read(20 + json_size, 4);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "mansard/base/nesting.hpp"
 #include "mansard/base/options.hpp"
 
 namespace mansard::write::detail {
@@ -59,7 +60,8 @@ auto Item::text() const -> std::string {
 
 auto Item::number() const -> double {
   if (!json.is_number()) refuse("a number");
-  return json.get<double>();
+  // Of the two zeros always the one: "-0", as the other is written, reads back as a whole number.
+  return json.get<double>() + 0.0;
 }
 
 auto Item::whole() const -> std::int64_t {
@@ -72,6 +74,10 @@ auto Item::whole() const -> std::int64_t {
 }
 
 auto parse_json(std::string_view text) -> Json {
+  if (base::nests_too_deep(text))
+    throw Defect{"write-plan-json",
+                 "this JSON nests more than " + std::to_string(base::deepest_json) +
+                     " levels deep, which no file of mansard's does; check what it is"};
   try {
     return Json::parse(text);
   } catch (const Json::parse_error& e) {

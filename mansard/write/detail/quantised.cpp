@@ -119,6 +119,15 @@ auto flat_prism(const std::vector<Surface>& solid, double z) -> std::vector<Surf
   return prism;
 }
 
+void widen(Extent& extent, const Vertex& v) {
+  if (!extent) extent = {v, v};
+  auto& [least, most] = *extent;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    least[axis] = std::min(least[axis], v[axis]);
+    most[axis] = std::max(most[axis], v[axis]);
+  }
+}
+
 auto quanta_in_file_frame(std::int64_t quanta, std::int64_t origin) -> std::string {
   constexpr auto per_metre = static_cast<std::int64_t>(quanta_per_metre);
   const std::int64_t all = quanta + origin * per_metre;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ inline constexpr double quanta_per_metre = 10000;
 
 using Vertex = std::array<std::int64_t, 3>;  ///< quanta from the local origin
 using Loops = std::vector<std::vector<Vertex>>;
+using Extent = std::optional<std::array<Vertex, 2>>;  ///< the least and the greatest of each coordinate; none of nothing
+void widen(Extent& extent, const Vertex& v);
 
 struct Surface {
   Loops loops;  ///< outer first, counter-clockwise from outside, at least three distinct vertices each

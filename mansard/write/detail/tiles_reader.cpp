@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "mansard/base/files.hpp"
+#include "mansard/base/nesting.hpp"
 #include "mansard/write/detail/glb_reader.hpp"
 #include "mansard/write/detail/records.hpp"
 #include "mansard/write/detail/writers.hpp"
@@ -78,7 +80,7 @@ auto tiles_reader(const Path& folder) -> ReaderResult {
   const Path path = std::filesystem::is_directory(folder, failure) ? folder / "tileset.json" : folder;
   const auto text = base::read_file(path);
   if (!text) return text.error();
-  const Json tileset = Json::parse(*text, nullptr, false);
+  const Json tileset = base::nests_too_deep(*text) ? Json() : Json::parse(*text, nullptr, false);
   const Json::json_pointer to_header("/asset/extras/header");
   if (!tileset.is_object() || !tileset.contains("root"))
     return base::error("write-read-format", "this is no tileset.json; give a folder of 3D Tiles", path.string());
@@ -89,7 +91,9 @@ auto tiles_reader(const Path& folder) -> ReaderResult {
   std::vector<std::string> uris;
   append_leaves(tileset["root"], uris);
   std::vector<Path> files;
+  std::set<std::string> named;  // a tile has its content for itself: what is named again has been read
   for (const auto& uri : uris) {
+    if (!named.insert(uri).second) continue;
     if (!is_within(uri))
       return base::error("write-read-format",
                          "a tile lies outside of the folder of its tileset; give one that mansard wrote",

@@ -52,11 +52,7 @@ auto VertexPool::index_of(const Vertex& v) -> std::uint64_t {
 void VertexPool::write(const Vertex& v) {
   sink_.append((count_ == 1 ? "[" : ",[") + std::to_string(v[0]) + "," + std::to_string(v[1]) + "," +
                std::to_string(v[2]) + "]");
-  if (!extent_) extent_ = {v, v};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    (*extent_)[0][axis] = std::min((*extent_)[0][axis], v[axis]);
-    (*extent_)[1][axis] = std::max((*extent_)[1][axis], v[axis]);
-  }
+  widen(extent_, v);
 }
 
 }  // namespace mansard::write::detail

@@ -41,8 +41,7 @@ class VertexPool {
 
   explicit VertexPool(base::Sink& sink) : young_(generation), old_(generation), sink_(sink) {}
   auto index_of(const Vertex& v) -> std::uint64_t;
-  /// The least and the greatest of each coordinate; none without vertices.
-  [[nodiscard]] auto extent() const -> const std::optional<std::array<Vertex, 2>>& { return extent_; }
+  [[nodiscard]] auto extent() const -> const Extent& { return extent_; }
 
  private:
   void write(const Vertex& v);
@@ -50,7 +49,7 @@ class VertexPool {
   VertexTable young_, old_;
   base::Sink& sink_;
   std::uint64_t count_ = 0;
-  std::optional<std::array<Vertex, 2>> extent_;
+  Extent extent_;
 };
 
 }  // namespace mansard::write::detail

@@ -66,7 +66,7 @@ export class Client {
   redo = (run: string) => this.json<api.Applied>("POST", this.of(run, "/redo"), {});
   exported = (run: string, file: string) => this.bytes(this.of(run, `/export/${escaped(file)}`));
   exportAll = (run: string, overwrite: boolean) =>
-    this.json<{ folder: string; files: string[] }>("POST", this.of(run, "/export"), { overwrite });
+    this.json<{ folder: string; files: string[]; warnings: api.Diagnostic[] }>("POST", this.of(run, "/export"), { overwrite });
   jobs = () => this.json<{ jobs: api.Job[] }>("GET", "/api/jobs");
   cancel = (job: string) => this.json<unknown>("DELETE", `/api/jobs/${escaped(job)}`);
 

@@ -117,7 +117,12 @@ export interface RunSummary {
 export interface Project {
   name: string;
   folder: string;
-  inputs: { meshes: InputFile[]; footprints: InputFile[] } | null;
+  inputs: {
+    given: { meshes: string[]; footprints: string }; // as asked for; a database's password is ***
+    meshes: InputFile[];
+    terrain: InputFile[];
+    footprints: InputFile[];
+  } | null;
   reading: Record<string, string>; // options of "ingest" and "block" the scene is read with, those given
   runs: RunSummary[];
   sample: boolean; // a sample is at hand: POST /api/project/sample
@@ -140,9 +145,16 @@ export interface Preset {
   meaning: string;
   values: Record<string, string>;
 }
+/** Models can be taken away in it. */
+export interface Format {
+  name: string; // "cityjson", as on the command line
+  files: string[]; // GET /api/runs/{run}/export/{file}; of a folder, a ZIP of it
+  meaning: string;
+}
 export interface Options {
   options: Option[];
   presets: Preset[];
+  formats: Format[];
 }
 
 export interface SceneBlock {

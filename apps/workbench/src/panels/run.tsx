@@ -43,7 +43,7 @@ function Inputs() {
   const inputs = state.project.value?.inputs;
   const scene = state.scene.value;
   if (!inputs) return null;
-  const files = [...inputs.meshes, ...inputs.footprints];
+  const files = [...inputs.meshes, ...inputs.terrain, ...inputs.footprints];
   const changes = files.filter((f) => f.changed).length;
   return (
     <details class="card">

@@ -4,12 +4,13 @@ import * as actions from "../actions";
 import * as state from "../state";
 import { Icon } from "./icons";
 import { OptionFields } from "./option_fields";
-import { faulty, forReading } from "./options";
+import { faulty, forReading, key } from "./options";
 import { sorted } from "./inputs";
 import { Progress } from "./progress";
 
 const meshes = signal("");
 const footprints = signal("");
+const draw = signal(false); // there are no footprints
 const reading = signal<Record<string, string>>({});
 const model = signal("");
 const sending = signal("");
@@ -21,13 +22,23 @@ const lines = (text: string) =>
     .map((l) => l.trim())
     .filter(Boolean);
 
+/** The one option of reading that names a file has a field of its own. */
+const terrainKey = "ingest.terrain";
+function setTerrain(path: string) {
+  const { [terrainKey]: _, ...rest } = reading.value;
+  reading.value = path.trim() ? { ...rest, [terrainKey]: path } : rest;
+}
+
 async function take(files: File[]) {
-  const kinds = sorted(files.map((f) => f.name));
+  const kinds = sorted(
+    files.map((f) => f.name),
+    lines(meshes.value).length > 0,
+  );
   if (kinds.unknown.length) {
     actions.say({
       severity: "error",
       code: "input-kind",
-      message: `not a mesh (OBJ, PLY, OFF, GLB) nor footprints (GeoJSON, GeoPackage, Shapefile): ${kinds.unknown.join(", ")}`,
+      message: `not a mesh (OBJ, PLY, OFF, GLB), a raster (GeoTIFF) nor footprints (GeoJSON, GeoPackage, Shapefile): ${kinds.unknown.join(", ")}`,
       subject: "",
     });
     return;
@@ -37,15 +48,20 @@ async function take(files: File[]) {
   if (!paths) return;
   const pathOf = (name: string) => paths[files.findIndex((f) => f.name === name)]!;
   if (kinds.meshes.length) meshes.value = [...lines(meshes.value), ...kinds.meshes.map(pathOf)].join("\n");
-  if (kinds.footprints.length) footprints.value = pathOf(kinds.footprints[0]!);
+  if (kinds.terrain.length) setTerrain(pathOf(kinds.terrain[0]!));
+  if (kinds.footprints.length) {
+    footprints.value = pathOf(kinds.footprints[0]!);
+    draw.value = false;
+  }
 }
 
 async function read(e: Event) {
   e.preventDefault();
+  const terrain = reading.value[terrainKey]?.trim();
   const job = await actions.openInputs({
     meshes: lines(meshes.value),
-    footprints: footprints.value.trim(),
-    reading: reading.value,
+    footprints: draw.value ? "" : footprints.value.trim(),
+    reading: { ...reading.value, ...(terrain ? { [terrainKey]: terrain } : {}) },
   });
   if (job) state.asksInputs.value = false;
 }
@@ -66,8 +82,9 @@ async function takeModel(file: File | undefined) {
 /** Starts from what the open project was read with. */
 export function askInputs() {
   const { inputs, reading: given } = state.project.value ?? {};
-  meshes.value = inputs?.meshes.map((f) => f.path).join("\n") ?? "";
-  footprints.value = inputs?.footprints[0]?.path ?? "";
+  meshes.value = inputs?.given.meshes.join("\n") ?? "";
+  footprints.value = inputs?.given.footprints ?? "";
+  draw.value = inputs?.given.footprints === "";
   reading.value = { ...given };
   state.asksInputs.value = true;
 }
@@ -76,7 +93,8 @@ export function Start() {
   const project = state.project.value;
   const all = forReading(state.options.value?.options ?? []);
   const wrong = faulty(all, reading.value);
-  const ready = lines(meshes.value).length > 0 && !wrong && !sending.value;
+  const outlines = draw.value || footprints.value.trim() !== "";
+  const ready = lines(meshes.value).length > 0 && outlines && !wrong && !sending.value;
   const job = state.jobs.value.find((j) => j.kind === "read" && (j.state === "running" || j.state === "queued"));
   const drop = (e: DragEvent) => {
     e.preventDefault();
@@ -137,28 +155,44 @@ export function Start() {
             )}
           </div>
           <label class="field">
-            Mesh: paths of files or folders, one a line
+            Mesh: files, folders of tiles, a tileset.json or a raster of heights, one a line
             <textarea
               rows={3}
               spellcheck={false}
-              placeholder="/data/city/tiles/"
+              placeholder={"/data/city/tiles/\n/vsizip//data/city.zip/mesh.obj"}
               value={meshes.value}
               onInput={(e) => (meshes.value = e.currentTarget.value)}
             />
           </label>
           <label class="field">
-            Footprints: path of any vector file that GDAL reads; empty to draw them from the mesh
+            Footprints: any vector source that GDAL reads, a database too
             <input
               type="text"
               spellcheck={false}
-              placeholder="/data/city/footprints.gpkg"
-              value={footprints.value}
+              autocomplete="off"
+              placeholder="/data/city/footprints.gpkg or PG:host=… dbname=…"
+              disabled={draw.value}
+              value={draw.value ? "" : footprints.value}
               onInput={(e) => (footprints.value = e.currentTarget.value)}
+            />
+          </label>
+          <label class="start-draw">
+            <input type="checkbox" checked={draw.value} onChange={(e) => (draw.value = e.currentTarget.checked)} />
+            There are none: draw them from the mesh
+          </label>
+          <label class="field">
+            Terrain: a raster with the ground's heights, if there is one
+            <input
+              type="text"
+              spellcheck={false}
+              placeholder="/data/city/dtm.tif"
+              value={reading.value[terrainKey] ?? ""}
+              onInput={(e) => setTerrain(e.currentTarget.value)}
             />
           </label>
           <details>
             <summary>How to read them</summary>
-            <OptionFields options={all} values={reading.value} onChange={(v) => (reading.value = v)} plain />
+            <OptionFields options={all.filter((o) => key(o) !== terrainKey)} values={reading.value} onChange={(v) => (reading.value = v)} plain />
           </details>
           <p class="start-go">
             <button
@@ -182,7 +216,7 @@ function OpenModel() {
   return (
     <form class="start-model" onSubmit={(e) => void openModel(e)}>
       <label class="field">
-        Or models that mansard wrote, in any format but STL: path of the file
+        Or models that mansard wrote, in any format but STL: a file, or a folder of tiles
         <input
           type="text"
           spellcheck={false}

@@ -5,14 +5,7 @@ import * as state from "../state";
 import { Icon } from "./icons";
 import { brief, fullNameOf } from "./words";
 
-const files: [file: string, what: string][] = [
-  ["model.city.json", "CityJSON 2.0"],
-  ["model.obj", "OBJ"],
-  ["model.mtl", "materials of the OBJ"],
-  ["model.glb", "glTF, binary"],
-  ["plans.json", "plan + profiles"],
-  ["segment.gpkg", "why walls are where they are, for a GIS"],
-];
+const layersOfRun = "segment.gpkg"; // of runs that reconstructed something
 
 export function TopBar() {
   const project = state.project.value;
@@ -118,6 +111,10 @@ const open = signal(false);
 
 function Export({ run }: { run: string }) {
   const close = () => (open.value = false);
+  const files = (state.options.value?.formats ?? []).flatMap((f) =>
+    f.files.map((file, i): [file: string, what: string] => [file, i ? `beside ${f.files[0]}` : f.meaning]),
+  );
+  if (state.runSummary(run)?.scores) files.push([layersOfRun, "Why walls are where they are, for a GIS; before edits."]);
   return (
     <div
       class="menu"

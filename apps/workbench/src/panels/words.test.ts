@@ -1,5 +1,4 @@
 import { expect, it } from "vitest";
-import { sorted } from "./inputs";
 import { brief, bytes, count, fullNameOf, fixed, grouped, seconds, signed } from "./words";
 
 it("numbers are written as they are read", () => {
@@ -18,13 +17,4 @@ it("long names are shortened, and runs named once", () => {
     "run-1",
   ]);
   expect(fullNameOf({ id: "run-2", label: "gamma" })).toBe("gamma (run-2)");
-});
-
-it("files are meshes or footprints by their endings", () => {
-  expect(sorted(["a.PLY", "b.gpkg", "b.mtl", "c.docx", "d.geojson"])).toEqual({
-    meshes: ["a.PLY"],
-    footprints: ["b.gpkg", "d.geojson"],
-    beside: ["b.mtl"],
-    unknown: ["c.docx"],
-  });
 });

@@ -1,0 +1,111 @@
+#include "apps/server/exports.hpp"
+
+#include <algorithm>
+
+#include "apps/server/disk.hpp"
+#include "apps/server/zip.hpp"
+#include "mansard/base/files.hpp"
+#include "mansard/base/text.hpp"
+
+namespace mansard::server {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view packed = ".zip";
+
+/// Goes with everything in it.
+class WorkFolder {
+ public:
+  explicit WorkFolder(fs::path path) : path_(std::move(path)) {}
+  WorkFolder(const WorkFolder&) = delete;
+  auto operator=(const WorkFolder&) -> WorkFolder& = delete;
+  ~WorkFolder() {
+    std::error_code status;
+    fs::remove_all(path_, status);
+  }
+  [[nodiscard]] auto path() const -> const fs::path& { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// Every name that an export leaves in its folder.
+auto own_names() -> std::vector<std::string> {
+  std::vector<std::string> names{run_layers};
+  for (const auto& format : write::formats())
+    for (const auto& place : write::places_of({format.format, write::name_in_folder(format.format)}))
+      names.push_back(place.string());
+  return names;
+}
+
+}  // namespace
+
+auto files_of(write::Format format) -> std::vector<std::string> {
+  std::vector<std::string> names;
+  for (const auto& place : write::places_of({format, write::name_in_folder(format)}))
+    names.push_back(place.string() + std::string(format == write::Format::tiles ? packed : ""));
+  return names;
+}
+
+auto formats_json() -> Json {
+  Json all = Json::array();
+  for (const auto& format : write::formats())
+    all.push_back({{"name", format.name}, {"files", files_of(format.format)}, {"meaning", format.meaning}});
+  return all;
+}
+
+auto formats_named(const std::vector<std::string>& names) -> base::Result<std::vector<write::Format>> {
+  std::vector<std::string> known;
+  for (const auto& format : write::formats()) known.emplace_back(format.name);
+  for (const auto& name : names)
+    if (std::ranges::find(known, name) == known.end())
+      return base::error("option-value", "this is no format" + base::did_you_mean(base::nearest_word(name, known)),
+                         base::on_one_line(name));
+  std::vector<write::Format> out;
+  for (const auto& format : write::formats())
+    if (names.empty() || std::ranges::find(names, format.name) != names.end()) out.push_back(format.format);
+  return out;
+}
+
+auto exported(const write::City& city, const write::WriteOptions& options, std::string_view file, const fs::path& work)
+    -> base::Result<std::string> {
+  for (const auto& [format, name, ending, meaning] : write::formats()) {
+    if (const auto own = files_of(format); std::ranges::find(own, file) == own.end()) continue;
+    const WorkFolder folder(work);
+    if (auto made = make_folder(folder.path()); !made) return made.error();
+    const auto targets = write::targets_in(folder.path(), {format});
+    base::Outputs outputs;
+    if (auto written = write::write_models(city, targets, options, outputs); !written) return written.error();
+    if (auto committed = outputs.commit(); !committed) return committed.error();
+    return format == write::Format::tiles ? zip_of(targets.front().path) : base::read_file(folder.path() / file);
+  }
+  return base::error("server-unknown", "there is no such file to export", base::on_one_line(std::string(file)));
+}
+
+auto export_to(const fs::path& folder, const write::City& city, const write::WriteOptions& options,
+               const std::vector<write::Format>& formats, const std::optional<std::string>& layers)
+    -> base::Result<Exported> {
+  const auto targets = write::targets_in(folder, formats);
+  Exported out;
+  base::Outputs outputs;
+  auto warnings = write::write_models(city, targets, options, outputs);
+  if (!warnings) return warnings.error();
+  out.warnings = std::move(*warnings);
+  for (const auto& target : targets)
+    for (const auto& place : write::places_of(target)) out.files.push_back(place.filename().string());
+  if (layers) {
+    auto sink = outputs.file(folder / run_layers);
+    if (!sink) return sink.error();
+    (*sink)->append(*layers);
+    out.files.emplace_back(run_layers);
+  }
+  if (auto committed = outputs.commit(); !committed) return committed.error();
+  for (const auto& name : own_names()) {
+    std::error_code status;
+    if (std::ranges::find(out.files, name) == out.files.end()) fs::remove_all(folder / name, status);
+  }
+  return out;
+}
+
+}  // namespace mansard::server

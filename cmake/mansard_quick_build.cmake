@@ -1,0 +1,46 @@
+# A quicker build from nothing, for the preset `release`: `make demo`, `make test` and continuous integration. Rooms and
+# programs are optimised as without it. What is different:
+#   Headers of the standard library, and GoogleTest in tests, are parsed once, not once a source. Those of the house are
+#   not among them: to change one costs those who include it, no more. Nor is nlohmann/json: g++ instantiates again in
+#   every source what such a header leaves open, which costs as much as parsing it.
+#   Tests are compiled with -O1. They spend their time in the rooms.
+# A source that forgets an #include of these still compiles, and g++ 12 warns of strings that it does not understand. So
+# a build without, of the same sources with all warnings, is what the presets debug and asan are, and any folder
+# configured by hand.
+option(MANSARD_QUICK_BUILD "Precompiled headers, and tests less optimised (g++): a quick build from nothing" OFF)
+if(NOT PROJECT_IS_TOP_LEVEL OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  set(MANSARD_QUICK_BUILD OFF)
+endif()
+
+if(MANSARD_QUICK_BUILD)
+  # Warnings of what is left after inlining, which differs: -Wstringop-overflow at "text" + std::string is a false alarm
+  # akin to -Wrestrict in CMakeLists.txt; the others are its relatives.
+  add_compile_options(-Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds -Wno-maybe-uninitialized)
+  if(CMAKE_CXX_COMPILER_LAUNCHER)
+    # ccache takes precompiled headers on these terms. Paths below the build folder count from there, so that build
+    # folders share what they compiled.
+    add_compile_options(-fpch-preprocess)
+    list(PREPEND CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros
+      CCACHE_BASEDIR=${CMAKE_BINARY_DIR})
+  endif()
+endif()
+
+# mansard_precompiled(target rooms|tests): `target` uses the precompiled headers of rooms, or those of tests.
+function(mansard_precompiled target what)
+  if(NOT MANSARD_QUICK_BUILD)
+    return()
+  endif()
+  set(owner mansard_precompiled_${what})
+  if(NOT TARGET ${owner})  # a library of one empty source, since CMake wants one
+    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/precompiled/${what}.cpp CONTENT "" @ONLY)
+    add_library(${owner} OBJECT EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/precompiled/${what}.cpp)
+    target_precompile_headers(${owner} PRIVATE <algorithm> <array> <chrono> <cmath> <filesystem> <fstream> <functional>
+      <limits> <map> <memory> <mutex> <numeric> <optional> <random> <set> <span> <sstream> <string> <tuple> <utility>
+      <variant> <vector>)
+    if(what STREQUAL "tests")
+      target_precompile_headers(${owner} PRIVATE <gmock/gmock.h> <gtest/gtest.h>)
+      target_link_libraries(${owner} PRIVATE GTest::gmock GTest::gtest)
+    endif()
+  endif()
+  target_precompile_headers(${target} REUSE_FROM ${owner})
+endfunction()

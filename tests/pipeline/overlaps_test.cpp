@@ -1,0 +1,47 @@
+// Solids that stand in each other are reported, and neighbours do not.
+#include <gmock/gmock.h>
+
+#include "mansard/pipeline/pipeline.hpp"
+#include "pipeline/houses.hpp"
+
+namespace mansard::pipeline {
+namespace {
+
+using test::rectangle;
+using testing::HasSubstr;
+
+auto codes_of(const std::vector<base::Diagnostic>& all) -> std::vector<std::string> {
+  std::vector<std::string> out;
+  for (const auto& d : all) out.push_back(d.code);
+  return out;
+}
+
+TEST(Overlaps, are_told_in_both_buildings_and_once) {
+  ingest::Scene scene;
+  scene.footprints.push_back(test::footprint("a", rectangle(0, 0, 10, 8)));
+  scene.footprints.push_back(test::footprint("b", rectangle(9, 0, 19, 8)));  // 8 m² in a
+  scene.footprints.push_back(test::footprint("c", rectangle(19, 0, 30, 8)));
+  const auto r = raise_footprints(scene, {});
+  ASSERT_TRUE(r);
+  EXPECT_THAT(codes_of(r->warnings), testing::Contains("pipeline-overlap").Times(1));
+  EXPECT_THAT(codes_of(r->buildings[0].reasons), testing::Contains("pipeline-overlap").Times(1));
+  EXPECT_THAT(codes_of(r->buildings[1].reasons), testing::Contains("pipeline-overlap").Times(1));
+  EXPECT_THAT(codes_of(r->buildings[2].reasons), testing::Not(testing::Contains("pipeline-overlap")));
+  EXPECT_THAT(r->buildings[0].reasons.back().message, HasSubstr("8.000 m² of ground"));
+  EXPECT_THAT(r->buildings[0].reasons.back().message, HasSubstr("with b-1"));
+  EXPECT_EQ(r->buildings[0].outcome, Outcome::full);
+}
+
+TEST(Overlaps, are_none_between_neighbours_that_straighten_their_wall_by_themselves) {
+  ingest::Scene scene;
+  scene.footprints.push_back(test::footprint("a", rectangle(0, -9, 20, 0)));
+  scene.footprints.push_back(test::footprint("b", {{{0, 0}, {11, -0.008}, {11, 9}, {0, 9}}, {}}));
+  scene.footprints.push_back(test::footprint("c", {{{11, -0.008}, {20, 0}, {20, 9}, {11, 9}}, {}}));
+  const auto r = raise_footprints(scene, {});
+  ASSERT_TRUE(r);
+  EXPECT_THAT(codes_of(r->warnings), testing::Not(testing::Contains("pipeline-overlap")));
+  EXPECT_NEAR(r->city.buildings[1].parts[0].plan.outer.points[1].y, 0, 1e-4);
+}
+
+}  // namespace
+}  // namespace mansard::pipeline
