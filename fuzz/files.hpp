@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "fuzz/fuzz.hpp"
+#include "mansard/base/files.hpp"
 #include "mansard/base/result.hpp"
 #include "mansard/base/run.hpp"
 
@@ -65,6 +66,13 @@ class Folder {
   std::filesystem::path path_;
   MemoryFile file_;
 };
+
+/// A room's codes, and those that all rooms have in common.
+inline auto with_common(std::vector<base::Code> codes) -> std::vector<base::Code> {
+  const auto more = base::codes();
+  codes.insert(codes.end(), more.begin(), more.end());
+  return codes;
+}
 
 /// An error must be one that the rooms list, on one line, and say something.
 inline void check_error(const base::Diagnostic& error, const std::vector<base::Code>& codes) {

@@ -87,12 +87,7 @@ struct Tilesets {
 };
 
 auto codes() -> const std::vector<base::Code>& {
-  static const auto all = [] {
-    auto codes = ingest::codes();
-    const auto more = base::codes();
-    codes.insert(codes.end(), more.begin(), more.end());
-    return codes;
-  }();
+  static const auto all = fuzz::with_common(ingest::codes());
   return all;
 }
 
