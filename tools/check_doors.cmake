@@ -5,7 +5,7 @@
 #   tests/<room>/    may include what its room stands on, by any number of doors, with those rooms' libraries and
 #                    the helpers of their tests
 #   tests/<other>/, apps/, bench/  stand outside: every door, and the libraries named for them below
-# And nobody but ingest/gdal.cpp registers GDAL's drivers.
+# And nobody but ingest/gdal.cpp registers GDAL's drivers; tests write where tests/base/scratch.hpp lets them.
 # detail/ is its own room's, and that room's tests'. A door that is missing belongs in rooms.cmake or nowhere.
 cmake_minimum_required(VERSION 3.25)
 
@@ -164,14 +164,14 @@ function(check_file file folder place open_rooms open_libraries)
 endfunction()
 
 # ---- what only one file may do
-# Two threads in GDALAllRegister at once damage the heap (mansard/ingest/gdal.hpp).
-function(check_registering file)
-  if(file STREQUAL "mansard/ingest/gdal.cpp")
+# Two threads in GDALAllRegister at once damage the heap (mansard/ingest/gdal.hpp); two tests in one file meet.
+function(check_reserved file may pattern complaint)
+  if(file STREQUAL may)
     return()
   endif()
-  file(STRINGS ${ROOT}/${file} lines REGEX "(GDALAllRegister|OGRRegisterAll)[ \t]*[(]")
+  file(STRINGS ${ROOT}/${file} lines REGEX "${pattern}")
   foreach(line IN LISTS lines)
-    complain(${file} "registers GDAL's drivers, which ingest::register_gdal() does")
+    complain(${file} "${complaint}")
   endforeach()
   set(complaints ${complaints} PARENT_SCOPE)
 endfunction()
@@ -188,7 +188,12 @@ foreach(file IN LISTS files)
   endif()
   set(wing ${CMAKE_MATCH_1})
   set(folder ${CMAKE_MATCH_2})
-  check_registering(${file})
+  check_reserved(${file} mansard/ingest/gdal.cpp "(GDALAllRegister|OGRRegisterAll)[ \t]*[(]"
+    "registers GDAL's drivers, which ingest::register_gdal() does")
+  if(wing STREQUAL tests)
+    check_reserved(${file} tests/base/scratch.hpp "(temp_directory_path|TempDir|tmpnam|mkdtemp|mkstemp)[ \t]*[(]"
+      "names a place to write of its own, where a test::Scratch is one that no other test meets")
+  endif()
   if(wing STREQUAL mansard)
     if(folder IN_LIST rooms)  # if not, the folder itself has been complained of
       check_file(${file} ${folder} "'${folder}'" "${doors_of_${folder}}" "${uses_of_${folder}}")

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <unistd.h>
+#include "base/scratch.hpp"
 
 namespace mansard::base {
 namespace {
@@ -11,9 +11,7 @@ namespace fs = std::filesystem;
 
 class Files : public testing::Test {
  protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
-  fs::path folder_ = fs::temp_directory_path() / ("mansard-files-" + std::to_string(::getpid()));
+  mansard::test::Scratch folder_;
 };
 
 TEST_F(Files, come_back_as_they_were_written) {

@@ -1,12 +1,13 @@
 // Files and folders that appear together or not at all.
 #include "mansard/base/outputs.hpp"
+#include "base/scratch.hpp"
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <set>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <fstream>
+#include <set>
 
 #include "mansard/base/files.hpp"
 
@@ -17,11 +18,6 @@ using namespace mansard::base;
 
 class OutputsTest : public testing::Test {
  protected:
-  OutputsTest() : folder_(fs::temp_directory_path() / ("mansard-outputs-" + std::to_string(::getpid()))) {
-    fs::create_directories(folder_);
-  }
-  ~OutputsTest() override { fs::remove_all(folder_); }
-
   void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
   [[nodiscard]] auto read(const std::string& name) const -> std::string {
     const auto text = read_file(folder_ / name);
@@ -34,7 +30,7 @@ class OutputsTest : public testing::Test {
     return all;
   }
 
-  fs::path folder_;
+  mansard::test::Scratch folder_;
 };
 
 using Names = std::set<std::string>;

@@ -10,6 +10,8 @@
 #include <fstream>
 #include <string>
 
+#include "base/scratch.hpp"
+
 namespace mansard::cli {
 
 namespace fs = std::filesystem;
@@ -45,11 +47,9 @@ inline const std::string square = "[0,0],[12,0],[12,8],[0,8],[0,0]";
 class Command : public testing::Test {
  protected:
   void SetUp() override {
-    fs::create_directories(folder_);
     put("house.obj", house);
     put("house.geojson", geojson(polygon(square)));
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   auto put(const std::string& name, const std::string& bytes) -> std::string {
     std::ofstream(folder_ / name, std::ios::binary) << bytes;
@@ -80,7 +80,7 @@ class Command : public testing::Test {
     }
   }
 
-  fs::path folder_ = fs::temp_directory_path() / ("mansard-command-" + std::to_string(::getpid()));
+  test::Scratch folder_;
 };
 
 }  // namespace mansard::cli

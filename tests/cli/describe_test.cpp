@@ -29,7 +29,7 @@ class Describe : public Command {
   }
   /// What bash offers for the last of these words, as a terminal's Tab does.
   auto bash_offers(const std::string& words) -> std::vector<std::string> {
-    put("ask.bash", "source " + completion_for("bash") + "\ncd " + folder_.string() + "\nCOMP_WORDS=(" + words +
+    put("ask.bash", "source " + completion_for("bash") + "\ncd " + at("") + "\nCOMP_WORDS=(" + words +
                         ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n_mansard\nprintf '%s\\n' \"${COMPREPLY[@]}\"\n");
     const auto answer = shell("bash --norc " + at("ask.bash"));
     EXPECT_EQ(answer.exit, 0) << answer.err;
@@ -96,7 +96,7 @@ TEST_F(Describe, zsh_and_fish_take_their_scripts) {
   }
   if (!has("fish")) GTEST_SKIP() << "no fish on this machine";
   put("ask.fish", "source " + at("completion.fish") + "\ncomplete -C 'mansard reconstruct --sweep-gam'\n");
-  const auto offered = shell("HOME=" + folder_.string() + " fish --no-config " + at("ask.fish"));
+  const auto offered = shell("HOME=" + at("") + " fish --no-config " + at("ask.fish"));
   EXPECT_THAT(offered.out, testing::StartsWith("--sweep-gamma\t")) << offered.err;
 }
 

@@ -2,8 +2,8 @@
 
 #include <filesystem>
 #include <map>
-#include <unistd.h>
 
+#include "base/scratch.hpp"
 #include "edit/plans.hpp"
 #include "mansard/base/files.hpp"
 #include "pipeline/houses.hpp"
@@ -42,7 +42,8 @@ struct Town {
   History history{run.city};
 
   [[nodiscard]] auto exported() const -> write::City {
-    auto city = edited_city(run.city, history, [&](auto) { return &mesh; }, options);
+    auto city = edited_city(
+        run.city, history, [&](auto) { return &mesh; }, options);
     EXPECT_TRUE(city) << base::to_string(city.error());
     return std::move(*city);
   }
@@ -101,10 +102,10 @@ TEST(EditedCity, comes_back_from_its_plans_to_the_byte) {
   EXPECT_EQ(value<std::string>(city.buildings[1].attributes, "ms_outcome"), "covered");
   EXPECT_FALSE(value<double>(city.buildings[1].attributes, "ms_volume_lod22"));
 
-  const auto path = std::filesystem::temp_directory_path() / ("mansard-edited-" + std::to_string(::getpid()) + ".json");
+  const mansard::test::Scratch folder;
+  const auto path = folder / "plans.json";
   ASSERT_TRUE(base::write_file(path, write::plans(city)));
   auto read = write::read_plans(path);
-  std::filesystem::remove(path);
   ASSERT_TRUE(read) << base::to_string(read.error());
   const auto again = pipeline::raise_plans(std::move(*read), town.options);
   ASSERT_TRUE(again);

@@ -1,8 +1,6 @@
 // A strict reader of XML as far as the reports use it, and two houses as files.
 #pragma once
 
-#include <unistd.h>
-
 #include <array>
 #include <cctype>
 #include <filesystem>
@@ -11,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/scratch.hpp"
 #include "mansard/explore/explore.hpp"
 
 namespace mansard::test {
@@ -141,7 +140,6 @@ class Xml {
 class Houses {
  public:
   Houses() {
-    std::filesystem::create_directories(folder_);
     std::ofstream mesh(folder_ / "mesh.obj");
     mesh << "v -20 -20 0\nv 44 -20 0\nv 44 40 0\nv -20 40 0\nf 1 2 3 4\n";
     const auto house = [&](int first, double x, double eaves) {
@@ -167,7 +165,6 @@ class Houses {
         << R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::28992"}},)"
         << R"("features":[)" << feature("low", "0", "12") << ',' << feature("high", "12", "24") << "]}";
   }
-  ~Houses() { std::filesystem::remove_all(folder_); }
   Houses(const Houses&) = delete;
   auto operator=(const Houses&) -> Houses& = delete;
 
@@ -176,8 +173,7 @@ class Houses {
   }
 
  private:
-  std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("mansard-explore-" + std::to_string(::getpid()));
+  Scratch folder_;
 };
 
 }  // namespace mansard::test

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/scratch.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/ingest/ingest.hpp"
@@ -29,17 +30,6 @@ inline void expect_near(geometry::Point3 a, geometry::Point3 b, double tolerance
 
 class Workshop : public ::testing::Test {
  protected:
-  Workshop() {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / ("mansard-ingest-" + std::to_string(::getpid()) + "-" + info->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~Workshop() override {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
-
   auto at(const std::string& name) const -> fs::path { return folder_ / name; }
 
   auto file(const std::string& name, std::string_view bytes) const -> fs::path {
@@ -93,7 +83,7 @@ class Workshop : public ::testing::Test {
   }
 
  private:
-  fs::path folder_;
+  mansard::test::Scratch folder_;
 };
 
 }  // namespace mansard::ingest::test

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
+#include <httplib.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,12 +13,13 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <httplib.h>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
 #include <vector>
+
+#include "base/scratch.hpp"
 
 namespace mansard::server {
 
@@ -29,28 +31,9 @@ inline auto read(const fs::path& path) -> std::string {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-inline void write(const fs::path& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary) << bytes;
-}
+inline void write(const fs::path& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
 
-/// A folder that goes with its owner.
-class Folder {
- public:
-  Folder() : path_(fs::temp_directory_path() / ("mansard-serve-" + std::to_string(::getpid()) + "-" + number())) {
-    fs::create_directories(path_);
-  }
-  ~Folder() { fs::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  auto operator=(const Folder&) -> Folder& = delete;
-  auto operator/(const std::string& name) const -> fs::path { return path_ / name; }
-
- private:
-  static auto number() -> std::string {
-    static int count = 0;
-    return std::to_string(count++);
-  }
-  fs::path path_;
-};
+using Folder = test::Scratch;
 
 struct Reply {
   int status = 0;
@@ -190,8 +173,9 @@ inline auto lift(const Json& building, double by, const std::string& what = "lif
   plan["cap"] = plan["cap"].get<double>() + by;
   for (auto& profile : plan["profiles"])
     for (std::size_t i = 1; i < profile.size(); ++i) profile[i][1] = profile[i][1].get<double>() + by;
-  return {{"what", what},
-          {"changes", Json::array({{{"building", building["id"]}, {"revision", building["revision"]}, {"parts", parts}}})}};
+  return {
+      {"what", what},
+      {"changes", Json::array({{{"building", building["id"]}, {"revision", building["revision"]}, {"parts", parts}}})}};
 }
 
 /// A folder with a project in which the hall has been reconstructed: "run-1".

@@ -1,9 +1,9 @@
 #include <gmock/gmock.h>
-#include <unistd.h>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "base/scratch.hpp"
 #include "mansard/ingest/ingest.hpp"
 #include "mansard/simulate/detail/noise.hpp"
 #include "simulate/houses.hpp"
@@ -15,13 +15,11 @@ namespace fs = std::filesystem;
 
 class Files : public testing::Test {
  protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
   auto put(const std::string& name, const std::string& bytes) const -> fs::path {
     std::ofstream(folder_ / name, std::ios::binary) << bytes;
     return folder_ / name;
   }
-  fs::path folder_ = fs::temp_directory_path() / ("mansard-simulate-" + std::to_string(::getpid()));
+  mansard::test::Scratch folder_;
 };
 
 TEST_F(Files, are_read_back_as_they_were) {

@@ -1,8 +1,8 @@
 // Models of other makers as truth: what is scanned of them, and what is said of them.
 #include "mansard/ingest/model.hpp"
+#include "base/scratch.hpp"
 
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -79,9 +79,8 @@ class ModelTruths : public testing::Test {
   std::vector<base::Diagnostic> warnings_;
 
  private:
-  [[nodiscard]] auto path() const -> std::filesystem::path {
-    return std::filesystem::temp_directory_path() / ("mansard-truth-" + std::to_string(::getpid()) + ending_);
-  }
+  [[nodiscard]] auto path() const -> std::filesystem::path { return folder_ / ("truth" + ending_); }
+  test::Scratch folder_;
   std::string ending_ = ".obj";
 };
 

@@ -1,7 +1,6 @@
 // Programs as MPS: by hand, read back by CBC's own reader, and solved by CBC from there.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <limits>
 #include <map>
 
+#include "base/scratch.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/base/run.hpp"
 #include "mansard/solver/solver.hpp"
@@ -40,13 +40,12 @@ auto from_coin(double value) -> double {
 
 /// What CBC's reader makes of the text; rows that were left out are missing.
 auto read_back(const std::string& text) -> Program {
-  const auto folder = std::filesystem::temp_directory_path();
-  const std::string path = folder / ("mps_test." + std::to_string(::getpid()) + ".mps");
+  const test::Scratch folder;
+  const std::string path = folder / "program.mps";
   EXPECT_TRUE(base::write_file(path, text));
   CoinMpsIO reader;
   reader.messageHandler()->setLogLevel(0);
   EXPECT_EQ(reader.readMps(path.c_str(), ""), 0) << text;
-  std::filesystem::remove(path);
   Program program;
   program.constant = -reader.objectiveOffset();
   for (int i = 0; i < reader.getNumCols(); ++i)

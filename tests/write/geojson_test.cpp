@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "base/scratch.hpp"
 #include "cities.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/write/stream.hpp"
@@ -16,9 +17,11 @@ using namespace mansard::write;
 namespace base = mansard::base;
 using Json = nlohmann::json;
 
-auto place(const std::string& name) -> std::filesystem::path {
-  return std::filesystem::path(testing::TempDir()) / name;
+auto folder() -> const std::filesystem::path& {
+  static const mansard::test::Scratch scratch;
+  return scratch;
 }
+auto place(const std::string& name) -> std::filesystem::path { return folder() / name; }
 
 auto written(const City& city, const std::string& name = "footprints.geojson") -> std::string {
   base::Outputs outputs;

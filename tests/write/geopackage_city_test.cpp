@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "base/scratch.hpp"
 #include "cities.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/ingest/gdal.hpp"
@@ -17,9 +18,11 @@ namespace base = mansard::base;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-auto place(const std::string& name) -> std::filesystem::path {
-  return std::filesystem::path(testing::TempDir()) / name;
+auto folder() -> const std::filesystem::path& {
+  static const mansard::test::Scratch scratch;
+  return scratch;
 }
+auto place(const std::string& name) -> std::filesystem::path { return folder() / name; }
 
 void write(const City& city, const std::filesystem::path& path, const std::vector<Layer>& more = {}) {
   base::Outputs outputs;
@@ -52,9 +55,15 @@ TEST(GeoPackageCity, has_its_layers_with_a_row_for_every_thing) {
   std::map<std::string, GIntBig> counts;
   for (auto* layer : file->GetLayers()) counts[layer->GetName()] = layer->GetFeatureCount();
   // A gabled house (4 edges, 2 roofs, 4 walls), a court (8 edges and walls, one roof) and an annex (4 and 1).
-  EXPECT_EQ(counts, (std::map<std::string, GIntBig>{{"gis_footprints", 2}, {"footprints", 3}, {"edges", 16},
-                                                    {"roof_planes", 4}, {"walls", 16}, {"profiles", 6}, {"made_by", 4},
-                                                    {"mansard_records", 3}, {"layer_styles", 5}}));
+  EXPECT_EQ(counts, (std::map<std::string, GIntBig>{{"gis_footprints", 2},
+                                                    {"footprints", 3},
+                                                    {"edges", 16},
+                                                    {"roof_planes", 4},
+                                                    {"walls", 16},
+                                                    {"profiles", 6},
+                                                    {"made_by", 4},
+                                                    {"mansard_records", 3},
+                                                    {"layer_styles", 5}}));
 }
 
 TEST(GeoPackageCity, begins_with_the_footprints_which_programs_open_first) {
@@ -152,7 +161,10 @@ auto others() -> std::vector<Layer> {
   Polygon holed = rectangle(1. / 3, 0, 10, 10);
   holed.holes = {{{2, 2}, {2, 4}, {4, 4}, {4, 2}}};
   return {{"sweep_edges", "lines & more", Shape::line, fields, {{{{{0.1, 0.2}, {3.3, 4.4}}}, {}, values}}},
-          {"edges", "", Shape::lines, fields,
+          {"edges",
+           "",
+           Shape::lines,
+           fields,
            {{{{{0, 0}, {1, 1}}, {{5, 5}, {6, 6}, {7, 5}}}, {}, values}, {{}, {}, nothing}}},
           {"faces", "", Shape::polygon, fields, {{{}, {holed}, values}, {{}, {}, values}}},
           {"conflicts", "none", Shape::lines, fields, {}},
@@ -248,7 +260,7 @@ TEST(GeoPackageCity, leaves_nothing_where_it_was_not_finished) {
     EXPECT_EQ((*writer)->add(street().buildings[0]).error().code, "write-duplicate-id");
   }
   EXPECT_FALSE(std::filesystem::exists(path));
-  for (const auto& entry : std::filesystem::directory_iterator(testing::TempDir()))
+  for (const auto& entry : std::filesystem::directory_iterator(folder()))
     EXPECT_THAT(entry.path().filename().string(), testing::Not(HasSubstr("broken.gpkg")));
 }
 

@@ -1,9 +1,9 @@
 // What a GLB says of its parts and surfaces; compressed; read back.
 #include "gltf.hpp"
+#include "base/scratch.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -22,9 +22,6 @@ using testing::ElementsAre;
 
 class Gltf : public testing::Test {
  protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   auto written(const City& city, bool compress = false) const -> std::string {
     write::WriteOptions options;
     options.compress = compress;
@@ -37,8 +34,7 @@ class Gltf : public testing::Test {
     return *base::read_file(path_);
   }
 
-  std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("mansard-gltf-" + std::to_string(::getpid()));
+  test::Scratch folder_;
   std::filesystem::path path_ = folder_ / "city.glb";
 };
 
@@ -68,8 +64,7 @@ TEST_F(Gltf, names_part_and_surface_of_every_vertex) {
         EXPECT_NEAR(std::cos(slopes.at(s) * M_PI / 180), std::abs(normals[i][1]), 1e-3);
         if (azimuths.at(s) >= 0)
           EXPECT_NEAR(std::sin(azimuths[s] * M_PI / 180) * std::sin(slopes[s] * M_PI / 180), normals[i][0], 1e-3);
-        else
-          EXPECT_LT(slopes[s], 0.5F);
+        else EXPECT_LT(slopes[s], 0.5F);
         seen.insert(surface[i]);
         seen_parts.insert(part[i]);
       }
@@ -92,8 +87,8 @@ TEST_F(Gltf, gives_every_attribute_a_column_of_one_type) {
   city.buildings[1].attributes = {{"mixed", std::string("two")}, {"all", true}, {"year_built", std::int64_t{7}}};
   const Glb glb(written(city));
   const auto& properties = glb.metadata()["schema"]["classes"]["part"]["properties"];
-  EXPECT_EQ(properties["year_built"], Json({{"name", "year built"}, {"type", "SCALAR"}, {"componentType", "INT32"},
-                                            {"noData", -2147483648LL}}));
+  EXPECT_EQ(properties["year_built"],
+            Json({{"name", "year built"}, {"type", "SCALAR"}, {"componentType", "INT32"}, {"noData", -2147483648LL}}));
   EXPECT_EQ(properties["year_built_2"]["name"], "year_built");
   EXPECT_EQ(properties["big"]["componentType"], "INT64");
   EXPECT_EQ(properties["mixed"]["type"], "STRING");
@@ -194,7 +189,8 @@ TEST_F(Gltf, of_others_or_broken_is_refused) {
   EXPECT_EQ(refused(whole), "");
   EXPECT_EQ(refused(whole.substr(0, 19)), "write-read-format");
   EXPECT_EQ(refused("solid of triangles, in no way a glTF"), "write-read-format");
-  const std::string json = R"({"asset":{"version":"2.0"}})" "     ";
+  const std::string json = R"({"asset":{"version":"2.0"}})"
+                           "     ";
   std::string foreign("glTF\2\0\0\0\64\0\0\0\40\0\0\0JSON", 20);
   EXPECT_EQ(refused(foreign + json), "write-read-plans");
   for (std::size_t size = 0; size < whole.size(); size += 97)

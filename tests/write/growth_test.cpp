@@ -1,11 +1,11 @@
 // Writers do not keep what they have written: the heap grows by a bounded number of bytes a building (docs/write.md).
 #include <gtest/gtest.h>
 
+#include <malloc.h>
 #include <algorithm>
 #include <filesystem>
-#include <malloc.h>
-#include <unistd.h>
 
+#include "base/scratch.hpp"
 #include "cities.hpp"
 #include "mansard/write/stream.hpp"
 
@@ -28,15 +28,16 @@ auto house(std::size_t n) -> Building {
   building.id = "a building with a name of some length, number " + std::to_string(n);
   building.attributes = {{"street", std::string(200, 's')}, {"number", static_cast<std::int64_t>(n)}};
   building.footprint = {rectangle(x, y, 10, 8)};
-  building.parts.push_back({building.id + ", part 1", plan_of(building.footprint[0], 0, 9),
-                            gable(x, y, 10, 8, 0, 5, 9), {{"ms_h_roof_70p", 8.0}}});
+  building.parts.push_back({building.id + ", part 1",
+                            plan_of(building.footprint[0], 0, 9),
+                            gable(x, y, 10, 8, 0, 5, 9),
+                            {{"ms_h_roof_70p", 8.0}}});
   return building;
 }
 
 /// The most that writing `count` houses adds to the heap, the houses themselves aside.
 auto most_while_writing(Format format, std::size_t count) -> double {
-  const auto folder = std::filesystem::temp_directory_path() / ("mansard-growth-" + std::to_string(::getpid()));
-  std::filesystem::create_directories(folder);
+  const test::Scratch folder;
   double most = 0;
   {
     const double before = live_heap();
@@ -55,7 +56,6 @@ auto most_while_writing(Format format, std::size_t count) -> double {
     }
     most = std::max(most, live_heap() - before);
   }  // not committed: nothing stays
-  std::filesystem::remove_all(folder);
   return most;
 }
 
@@ -63,7 +63,7 @@ auto most_while_writing(Format format, std::size_t count) -> double {
 struct Bound {
   Format format;
   const char* name;
-  double once, a_building;  ///< bytes
+  double once, a_building;   ///< bytes
   std::size_t many = 20000;  ///< buildings, against a tenth of them
 };
 
@@ -72,7 +72,8 @@ class Growth : public testing::TestWithParam<Bound> {};
 TEST_P(Growth, is_bounded_by_what_the_documentation_says) {
   const Bound& bound = GetParam();
   most_while_writing(bound.format, 10);  // libraries set themselves up
-  const double growth = most_while_writing(bound.format, bound.many) - most_while_writing(bound.format, bound.many / 10);
+  const double growth =
+      most_while_writing(bound.format, bound.many) - most_while_writing(bound.format, bound.many / 10);
   const auto more = static_cast<double>(bound.many - bound.many / 10);
   RecordProperty("bytes_a_building", std::to_string(growth / more));
   EXPECT_LT(growth, bound.once + bound.a_building * more) << growth / more << " bytes a building";

@@ -1,11 +1,11 @@
 // Files of buildings that were made to do harm, or were changed by hand without care.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstring>
 #include <filesystem>
 
+#include "base/scratch.hpp"
 #include "cities.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/write/stream.hpp"
@@ -18,11 +18,6 @@ using testing::HasSubstr;
 
 class HostileCity : public testing::Test {
  protected:
-  HostileCity() : folder_(std::filesystem::temp_directory_path() / ("mansard-hostile-" + std::to_string(::getpid()))) {
-    std::filesystem::create_directories(folder_);
-  }
-  ~HostileCity() override { std::filesystem::remove_all(folder_); }
-
   auto error(const std::string& name, const std::string& text) const -> base::Diagnostic {
     EXPECT_TRUE(base::write_file(folder_ / name, text));
     auto reader = write::read_city(folder_ / name);
@@ -40,7 +35,7 @@ class HostileCity : public testing::Test {
     return text.replace(at, what.size(), by);
   }
 
-  std::filesystem::path folder_;
+  mansard::test::Scratch folder_;
 };
 
 TEST_F(HostileCity, json_of_a_million_levels_is_refused_by_every_reader) {

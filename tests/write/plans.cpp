@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
+#include "base/scratch.hpp"
 #include "cities.hpp"
 #include "mansard/base/files.hpp"
 #include "schema.hpp"
@@ -20,11 +20,6 @@ using testing::HasSubstr;
 
 class Plans : public testing::Test {
  protected:
-  Plans() : folder_(std::filesystem::temp_directory_path() / ("mansard-plans-" + std::to_string(::getpid()))) {
-    std::filesystem::create_directories(folder_);
-  }
-  ~Plans() override { std::filesystem::remove_all(folder_); }
-
   auto file(const std::string& text) -> std::filesystem::path {
     const auto path = folder_ / "plan.json";
     EXPECT_TRUE(mansard::base::write_file(path, text));
@@ -32,7 +27,7 @@ class Plans : public testing::Test {
   }
   auto read(const std::string& text) { return mansard::write::read_plans(file(text)); }
 
-  std::filesystem::path folder_;
+  mansard::test::Scratch folder_;
 };
 
 void expect_same(const City& a, const City& b) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <set>
 
+#include "base/scratch.hpp"
 #include "cities.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/ingest/gdal.hpp"
@@ -22,7 +23,7 @@ using Shape = mansard::write::Shape;
 
 class QgisStyles : public testing::Test {
  protected:
-  QgisStyles() : path_(std::filesystem::path(testing::TempDir()) / "styles.gpkg") { mansard::ingest::register_gdal(); }
+  QgisStyles() : path_(folder_ / "styles.gpkg") { mansard::ingest::register_gdal(); }
 
   void open() {
     file_.reset(GDALDataset::Open(path_.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
@@ -70,6 +71,7 @@ class QgisStyles : public testing::Test {
     return value;
   }
 
+  mansard::test::Scratch folder_;
   std::filesystem::path path_;
   GDALDatasetUniquePtr file_;
 };
@@ -179,10 +181,15 @@ TEST_F(QgisStyles, know_every_class_and_every_outcome_that_is_written) {
   city.buildings[0].attributes.emplace_back("ms_outcome", std::string("full"));
   city.buildings[1].attributes.emplace_back("ms_outcome", std::string("fallback"));
   write(city, segment_layers());
-  for (const auto& [name, field] : std::map<std::string, std::string>{
-           {"gis_footprints", "ms_outcome"}, {"roof_planes", "class"}, {"walls", "class"}, {"edges", "party"},
-           {"sweep_edges", "evidence"}, {"faces", "inside"}, {"segment_edges", "chosen"}, {"conflicts", "paid"},
-           {"diagnostics", "severity"}}) {
+  for (const auto& [name, field] : std::map<std::string, std::string>{{"gis_footprints", "ms_outcome"},
+                                                                      {"roof_planes", "class"},
+                                                                      {"walls", "class"},
+                                                                      {"edges", "party"},
+                                                                      {"sweep_edges", "evidence"},
+                                                                      {"faces", "inside"},
+                                                                      {"segment_edges", "chosen"},
+                                                                      {"conflicts", "paid"},
+                                                                      {"diagnostics", "severity"}}) {
     const auto qml = xml(style(name)->GetFieldAsString("styleQML"));
     EXPECT_EQ(get(all(qml, "renderer-v2").at(0), "attr"), field);
     std::set<std::string> known;
@@ -223,8 +230,7 @@ TEST_F(QgisStyles, have_the_colours_of_the_materials) {
 
 TEST_F(QgisStyles, are_those_of_a_segmentation_alone_too) {
   write(segment_layers());
-  EXPECT_THAT(styled(),
-              ElementsAre("sweep_edges", "faces", "edges", "conflicts", "footprints", "diagnostics"));
+  EXPECT_THAT(styled(), ElementsAre("sweep_edges", "faces", "edges", "conflicts", "footprints", "diagnostics"));
   EXPECT_EQ(get(all(xml(style("edges")->GetFieldAsString("styleQML")), "renderer-v2").at(0), "attr"), "chosen");
 }
 

@@ -1,9 +1,9 @@
 // Fields and labelled meshes, read back by the libraries and rooms that users read them with.
 #include "mansard/write/scan.hpp"
+#include "base/scratch.hpp"
 
 #include <gdal_priv.h>
 #include <gmock/gmock.h>
-#include <unistd.h>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -18,16 +18,12 @@ using ingest::SurfaceClass;
 
 class Scans : public testing::Test {
  protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   auto file(const std::string& name, const std::string& bytes) const -> std::filesystem::path {
     EXPECT_TRUE(base::write_file(folder_ / name, bytes));
     return folder_ / name;
   }
 
-  std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("mansard-write-scan-" + std::to_string(::getpid()));
+  test::Scratch folder_;
   ingest::Frame frame_{{85000, 447000, 2}, "EPSG:28992"};
   /// Two squares of two triangles each.
   geometry::Mesh mesh_{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0.25}, {2, 1, 0.25}},

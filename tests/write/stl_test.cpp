@@ -4,6 +4,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "base/scratch.hpp"
 #include "cities.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/write/stream.hpp"
@@ -24,7 +25,8 @@ struct Stl {
 };
 
 auto written(const City& city, Shell shell) -> Stl {
-  const auto path = std::filesystem::path(testing::TempDir()) / "shells.stl";
+  const mansard::test::Scratch folder;
+  const auto path = folder / "shells.stl";
   base::Outputs outputs;
   WriteOptions options;
   options.stl_shell = shell;

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
+#include "base/scratch.hpp"
 #include "cities.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/write/detail/records.hpp"
@@ -22,11 +22,6 @@ using write::Format;
 
 class Stream : public testing::Test {
  protected:
-  Stream() : folder_(std::filesystem::temp_directory_path() / ("mansard-stream-" + std::to_string(::getpid()))) {
-    std::filesystem::create_directories(folder_);
-  }
-  ~Stream() override { std::filesystem::remove_all(folder_); }
-
   static auto ending(Format format) -> std::string {
     for (const auto& each : write::formats())
       if (each.format == format) return std::string(each.ending);
@@ -57,7 +52,7 @@ class Stream : public testing::Test {
     return write::read_whole(**reader);
   }
 
-  std::filesystem::path folder_;
+  mansard::test::Scratch folder_;
 };
 
 /// The street, on the kernel's grid of 0.1 mm like everything that the kernel makes, with a building that has no parts,
@@ -183,7 +178,8 @@ TEST_F(Stream, refuses_what_mansard_did_not_write_with_the_place) {
   };
   EXPECT_EQ(code("a.obj", "v 0 0 0\n"), "write-read-plans");
   EXPECT_EQ(code("a.city.json", R"({"type":"CityJSON","version":"2.0","transform":{"scale":[1,1,1],"translate":[0,0,0]},
-    "CityObjects":{"a":{"type":"Building","geometry":[]}},"vertices":[]})"), "write-read-plans");
+    "CityObjects":{"a":{"type":"Building","geometry":[]}},"vertices":[]})"),
+            "write-read-plans");
   EXPECT_EQ(code("a.stl", "solid"), "write-read-format");
   EXPECT_EQ(code("a.doc", "words"), "write-read-format");
   EXPECT_EQ(code("a.city.json", "{\"type\": \"Feature\"}"), "write-read-format");

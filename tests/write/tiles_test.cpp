@@ -2,12 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <ogr_spatialref.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
 #include <functional>
 
+#include "base/scratch.hpp"
 #include "cities.hpp"
 #include "gltf.hpp"
 #include "mansard/base/files.hpp"
@@ -59,8 +59,6 @@ struct Tile {
 
 class Tiles : public testing::Test {
  protected:
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   void write(const City& city, double triangles = 20000, bool compress = false) const {
     write::WriteOptions options;
     options.tile_triangles = triangles;
@@ -96,8 +94,8 @@ class Tiles : public testing::Test {
     return out;
   }
 
-  std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("mansard-tiles-" + std::to_string(::getpid()));
+  test::Scratch scratch_;
+  std::filesystem::path folder_ = scratch_ / "tiles";
 };
 
 /// Earth-centred by PROJ alone, all the way.
