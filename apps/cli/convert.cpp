@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <set>
 
 #include "apps/cli/exit.hpp"
 #include "apps/cli/formats.hpp"
@@ -41,13 +40,9 @@ auto targets_of(const Request& request) -> base::Result<std::vector<Target>> {
 
 auto check_outputs(const Request& request, const std::vector<Target>& targets) -> base::Result<void> {
   std::vector<fs::path> places;
-  std::set<fs::path> taken;
   for (const auto& target : targets)
     for (const auto& place : places_of(target)) {
-      std::error_code status;
-      const auto whole = fs::weakly_canonical(fs::absolute(place, status), status);
-      if (!status && !taken.insert(whole).second)
-        return base::error("usage", "two results would be written here; give each a name of its own", place.string());
+      if (auto apart = spare_results(place, places); !apart) return apart;
       places.push_back(place);
     }
   if (auto spared = spare_inputs(places, {request.input}); !spared) return spared;
@@ -95,25 +90,6 @@ auto pass_on(write::CityReader& reader, const std::vector<Target>& targets, cons
   return {};
 }
 
-/// The layers beside the buildings, where a result can have them; else it is told once that they stay behind.
-auto layers_beside(write::CityReader& reader, const Request& request, const std::vector<Target>& targets,
-                   Progress& progress) -> base::Result<std::vector<write::Layer>> {
-  auto beside = reader.beside();
-  if (!beside) return beside.error();
-  if (std::ranges::find(targets, write::Format::geopackage, &Target::format) != targets.end()) {
-    for (const auto& warning : beside->warnings) progress.say(base::to_string(warning));
-    return std::move(beside->layers);
-  }
-  std::string names;
-  for (const auto& layer : beside->layers) names += (names.empty() ? "" : ", ") + layer.name;
-  for (const auto& left : beside->warnings) names += (names.empty() ? "" : ", ") + left.subject;
-  if (!names.empty())
-    progress.say(base::to_string(base::warning(
-        "write-layer-left", "these layers stay behind, since only a GeoPackage has a place for them: " + names,
-        request.input)));
-  return std::vector<write::Layer>();
-}
-
 auto convert(const Request& request, const base::Cancel& cancel) -> int {
   const auto targets = targets_of(request);
   if (!targets) return give_up(targets.error());
@@ -128,12 +104,13 @@ auto convert(const Request& request, const base::Cancel& cancel) -> int {
   Progress progress(request.quiet);
   const auto run = start(request, options.seed, cancel, progress);
   for (const auto& warning : warnings) progress.say(base::to_string(warning));
-  const auto layers = layers_beside(**reader, request, *targets, progress);
-  if (!layers) return give_up(layers.error());
+  auto beside = layers_beside(**reader, request.input, *targets);
+  if (!beside) return give_up(beside.error());
+  for (const auto& warning : beside->warnings) progress.say(base::to_string(warning));
   base::Outputs outputs;
   bool all_full = true;
   if ((*reader)->has_models() && pipeline::same_options(header.made_by, options)) {
-    const auto writers = open_writers(*targets, header, options.write, outputs, *layers);
+    const auto writers = open_writers(*targets, header, options.write, outputs, beside->layers);
     if (!writers) return give_up(writers.error());
     if (auto passed = pass_on(**reader, *targets, *writers, options, run); !passed) return give_up(passed.error());
     for (const auto& writer : *writers)
@@ -145,7 +122,7 @@ auto convert(const Request& request, const base::Cancel& cancel) -> int {
     for (const auto& part : raised->fell_short)
       for (const auto& reason : part.reasons) progress.say(base::to_string(reason));
     all_full = raised->fell_short.empty();
-    const auto written = write_models(raised->city, *targets, options.write, outputs, *layers);
+    const auto written = write_models(raised->city, *targets, options.write, outputs, beside->layers);
     if (!written) return give_up(written.error());
     for (const auto& warning : *written) progress.say(base::to_string(warning));
   }

@@ -50,6 +50,10 @@ auto extrude_plans(write::CityReader& reader, const ExtrudeRequest& request, con
   if (auto applied = request.settings.apply(options); !applied) return give_up(applied.error());
   auto city = write::read_whole(reader);
   if (!city) return give_up(city.error());
+  const auto targets = targets_of(request);
+  if (!targets) return give_up(targets.error());
+  const auto beside = layers_beside(reader, request.input, *targets);
+  if (!beside) return give_up(beside.error());
   if (auto ready = check_outputs(request); !ready) return give_up(ready.error());
   base::Run run;
   run.cancel = &cancel;
@@ -59,7 +63,10 @@ auto extrude_plans(write::CityReader& reader, const ExtrudeRequest& request, con
   for (const auto& part : raised->fell_short)
     for (const auto& reason : part.reasons)
       if (!request.quiet) std::fprintf(stderr, "mansard: %s\n", base::to_string(reason).c_str());
-  if (auto written = write_out(raised->city, {}, options, request, run); !written) return give_up(written.error());
+  for (const auto& warning : beside->warnings)
+    if (!request.quiet) std::fprintf(stderr, "mansard: %s\n", base::to_string(warning).c_str());
+  if (auto written = write_out(raised->city, {}, options, request, run, beside->layers); !written)
+    return give_up(written.error());
   std::printf("%s\n", request.out.c_str());
   return raised->fell_short.empty() ? all_done : some_fell_back;
 }
@@ -116,12 +123,13 @@ auto check_outputs(const ExtrudeRequest& request) -> base::Result<void> {
 }
 
 auto write_out(const write::City& city, const std::string& report, const pipeline::Options& options,
-               const ExtrudeRequest& request, const base::Run& run) -> base::Result<void> {
+               const ExtrudeRequest& request, const base::Run& run, const std::vector<write::Layer>& more)
+    -> base::Result<void> {
   const fs::path out(request.out);
   const auto targets = targets_of(request);
   if (!targets) return targets.error();
   base::Outputs outputs;
-  const auto warnings = write_models(city, *targets, options.write, outputs);
+  const auto warnings = write_models(city, *targets, options.write, outputs, more);
   if (!warnings) return warnings.error();
   for (const auto& warning : *warnings)
     if (!request.quiet) std::fprintf(stderr, "mansard: %s\n", base::to_string(warning).c_str());

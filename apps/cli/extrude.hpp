@@ -23,9 +23,10 @@ struct ExtrudeRequest {
 [[nodiscard]] auto check_outputs(const ExtrudeRequest& request) -> base::Result<void>;
 
 /// The models as OUT and --formats ask for them, with a picture if asked for, and the report (in a folder and where
-/// --report says; empty for none).
+/// --report says; empty for none). `more` are layers for a GeoPackage beside those of the city.
 [[nodiscard]] auto write_out(const write::City& city, const std::string& report, const pipeline::Options& options,
-                             const ExtrudeRequest& request, const base::Run& run) -> base::Result<void>;
+                             const ExtrudeRequest& request, const base::Run& run,
+                             const std::vector<write::Layer>& more = {}) -> base::Result<void>;
 
 /// `mansard extrude FOOTPRINTS -o OUT`; the exit code.
 [[nodiscard]] auto extrude_footprints(const ExtrudeRequest& request, const base::Cancel& cancel) -> int;

@@ -118,6 +118,20 @@ auto open_city(const fs::path& path) -> base::Result<std::unique_ptr<write::City
   return write::read_city(path);
 }
 
+auto layers_beside(write::CityReader& reader, const std::string& input, const std::vector<Target>& targets)
+    -> base::Result<write::Beside> {
+  auto beside = reader.beside();
+  if (!beside || std::ranges::find(targets, Format::geopackage, &Target::format) != targets.end()) return beside;
+  std::string names;
+  for (const auto& layer : beside->layers) names += (names.empty() ? "" : ", ") + layer.name;
+  for (const auto& left : beside->warnings) names += (names.empty() ? "" : ", ") + left.subject;
+  *beside = {};
+  if (!names.empty())
+    beside->warnings.push_back(base::warning(
+        "write-layer-left", "these layers stay behind, since only a GeoPackage has a place for them: " + names, input));
+  return beside;
+}
+
 auto target_free(const Target& target, bool overwrite) -> base::Result<void> {
   if (target.format == Format::tiles) return folder_free(target.path, overwrite);
   for (const auto& path : places_of(target))

@@ -39,6 +39,11 @@ inline constexpr auto default_formats = "cityjson,obj,glb,geopackage,plans";
 /// "file-missing" and as that does.
 [[nodiscard]] auto open_city(const std::filesystem::path& path) -> base::Result<std::unique_ptr<write::CityReader>>;
 
+/// What the input has beside its city, for those of the results that have a place for it: GeoPackages. Where none has,
+/// one warning names what stays behind. Gives up as CityReader::beside does.
+[[nodiscard]] auto layers_beside(write::CityReader& reader, const std::string& input, const std::vector<Target>& targets)
+    -> base::Result<write::Beside>;
+
 /// As file_free, and of tiles: a folder that is not there, empty, or with `overwrite` an older tileset and nothing else
 /// that would be lost. Gives up with "output-exists", "file-write".
 [[nodiscard]] auto target_free(const Target& target, bool overwrite) -> base::Result<void>;

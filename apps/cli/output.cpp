@@ -15,6 +15,12 @@ auto made() -> std::vector<fs::path>& {
   return folders;
 }
 
+/// One name of a place, whatever it is called by. A name alone would stay relative where nothing is there yet.
+auto place_of(const fs::path& path) -> fs::path {
+  std::error_code status;
+  return fs::weakly_canonical(fs::absolute(path, status), status);
+}
+
 }  // namespace
 
 auto prepare(const fs::path& folder, bool overwrite) -> base::Result<void> {
@@ -51,9 +57,7 @@ auto spare_inputs(const std::vector<fs::path>& outputs, const std::vector<fs::pa
   for (const auto& output : outputs)
     for (const auto& input : inputs) {
       std::error_code status;
-      // A name alone would stay relative where nothing is there yet.
-      const auto from = fs::weakly_canonical(fs::absolute(input, status), status);
-      const auto to = fs::weakly_canonical(fs::absolute(output, status), status);
+      const auto from = place_of(input), to = place_of(output);
       const bool same = from == to || fs::equivalent(input, output, status);
       const auto [end, ignored] = std::mismatch(from.begin(), from.end(), to.begin(), to.end());
       if (same || (fs::is_directory(input, status) && end == from.end()))
@@ -67,11 +71,7 @@ auto spare_inputs(const std::vector<fs::path>& outputs, const std::vector<fs::pa
 }
 
 auto spare_results(const fs::path& result, const std::vector<fs::path>& others) -> base::Result<void> {
-  const auto whole = [](const fs::path& path) {
-    std::error_code status;
-    return fs::weakly_canonical(fs::absolute(path, status), status);
-  };
-  const auto same = [&, place = whole(result)](const fs::path& other) { return whole(other) == place; };
+  const auto same = [place = place_of(result)](const fs::path& other) { return place_of(other) == place; };
   if (std::ranges::none_of(others, same)) return {};
   return base::error("usage", "two results would be written here; give each a name of its own", result.string());
 }

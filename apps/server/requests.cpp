@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 
+#include "mansard/base/nesting.hpp"
 #include "mansard/base/options.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/write/write.hpp"
@@ -14,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Nobody needs more, and each level costs memory.
-constexpr int deepest = 64;
+constexpr std::size_t deepest = 64;
 
 /// Thrown and caught inside this file.
 struct Refused {
@@ -92,30 +93,10 @@ struct Item {
   }
 };
 
-/// Whether brackets are nested too deep, texts left aside.
-auto too_deep(std::string_view body) -> bool {
-  int depth = 0;
-  bool in_text = false;
-  for (std::size_t i = 0; i < body.size(); ++i) {
-    const char c = body[i];
-    if (in_text) {
-      if (c == '\\') ++i;
-      if (c == '"') in_text = false;
-    } else if (c == '"') {
-      in_text = true;
-    } else if (c == '[' || c == '{') {
-      if (++depth > deepest) return true;
-    } else if (c == ']' || c == '}') {
-      --depth;
-    }
-  }
-  return false;
-}
-
 template <class Work>
 auto reading(std::string_view body, Work work) -> base::Result<decltype(work(std::declval<const Item&>()))> {
   try {
-    if (too_deep(body)) return bad("the body is nested too deep");
+    if (base::nests_too_deep(body, deepest)) return bad("the body is nested too deep");
     const auto json = Json::parse(body);
     return work(Item{json, {}});
   } catch (const Json::parse_error& e) {

@@ -2,7 +2,7 @@
 
 namespace mansard::base {
 
-auto nests_too_deep(std::string_view json) -> bool {
+auto nests_too_deep(std::string_view json, std::size_t levels) -> bool {
   std::size_t depth = 0;
   for (std::size_t i = 0; i < json.size(); ++i) {
     const char c = json[i];
@@ -10,7 +10,7 @@ auto nests_too_deep(std::string_view json) -> bool {
       for (++i; i < json.size() && json[i] != '"' && json[i] != '\n'; ++i)
         if (json[i] == '\\') ++i;
     } else if (c == '[' || c == '{') {
-      if (++depth > deepest_json) return true;
+      if (++depth > levels) return true;
     } else if ((c == ']' || c == '}') && depth > 0) {
       --depth;
     }

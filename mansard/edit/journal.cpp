@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "mansard/base/nesting.hpp"
 #include "mansard/edit/edit.hpp"
 
 namespace mansard::edit {
@@ -75,6 +76,7 @@ auto fault_of(std::string_view line, History& history) -> std::optional<std::str
     if (result) return std::nullopt;
     return result.error().message;
   };
+  if (base::nests_too_deep(line)) return "it is nested too deep";
   try {
     if (line == undo_line) return fault(history.undo());
     if (line == redo_line) return fault(history.redo());

@@ -16,6 +16,11 @@ TEST(Nesting, counts_arrays_and_objects_in_one_another) {
   EXPECT_TRUE(nests_too_deep("{\"a\":" + open + close + "}"));
 }
 
+TEST(Nesting, may_be_held_to_less) {
+  EXPECT_FALSE(nests_too_deep("[{}]", 2));
+  EXPECT_TRUE(nests_too_deep("[{}]", 1));
+}
+
 TEST(Nesting, is_not_that_of_neighbours) {
   std::string many;
   for (std::size_t i = 0; i < 3 * deepest_json; ++i) many += "[{}],";

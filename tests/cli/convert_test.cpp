@@ -115,6 +115,15 @@ TEST_F(Convert, says_once_which_layers_stay_behind_where_none_can_take_them) {
               testing::Not(HasSubstr("write-layer-left")));
 }
 
+TEST_F(Convert, extrude_keeps_those_layers_too) {
+  make_all("--layers");
+  const auto outcome = run("extrude " + out("model.gpkg") + " -o " + at("raised.gpkg"));
+  ASSERT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, testing::Not(HasSubstr("write-layer-left")));
+  EXPECT_TRUE(read(at("raised.gpkg")) == read(out("model.gpkg")));
+  EXPECT_THAT(run("extrude " + out("model.gpkg") + " -o " + at("raised.obj")).err, HasSubstr("write-layer-left"));
+}
+
 TEST_F(Convert, leaves_a_model_that_another_program_changed_as_it_is) {
   make_all();
   auto file = nlohmann::ordered_json::parse(read(out("model.city.json")));

@@ -5,6 +5,7 @@ import { spawn } from "node:child_process";
 import fs from "node:fs";
 import http from "node:http";
 import path from "node:path";
+import zlib from "node:zlib";
 
 const [program, data, scratch] = process.argv.slice(2).map((word) => path.resolve(word));
 fs.rmSync(scratch, { recursive: true, force: true });
@@ -75,6 +76,13 @@ try {
   const hall = ["/bucket/hall/mesh.off", "/bucket/hall/footprints.geojson"];
   same(await models("web", `${web}/hall/mesh.off`, `${web}/hall/footprints.geojson`, hall), disk, "a web server");
   same(await models("s3", "/vsis3/bucket/hall/mesh.off", "/vsis3/bucket/hall/footprints.geojson", hall), disk, "a bucket");
+
+  // Packed ones are unpacked by their ending, wherever they lie.
+  const packed = (name, to) => fs.writeFileSync(path.join(scratch, "bucket", to), zlib.gzipSync(fs.readFileSync(path.join(data, name))));
+  packed("hall/mesh.off", "mesh.off.gz");
+  packed("hall/footprints.geojson", "footprints.geojson.gz");
+  const gz = ["/bucket/mesh.off.gz", "/bucket/footprints.geojson.gz"];
+  same(await models("gz", `${web}/mesh.off.gz`, `${web}/footprints.geojson.gz`, gz), disk, "packed on a web server");
 
   // A tileset with what it leads to, by its own relative addresses.
   fs.cpSync(path.join(scratch, "disk/model.3dtiles"), path.join(scratch, "bucket/tiles"), { recursive: true });

@@ -82,6 +82,7 @@ TEST(Journal, names_the_line_that_cannot_be_done_again) {
   };
   EXPECT_THAT(refused("{\"what\":"), HasSubstr("not JSON"));
   EXPECT_THAT(refused(""), HasSubstr("not JSON"));
+  EXPECT_THAT(refused(std::string(1'000'000, '[')), HasSubstr("nested too deep"));
   EXPECT_THAT(refused("{}"), HasSubstr("\"what\""));
   EXPECT_THAT(refused(R"({"what":"x","changes":[],"by":"me"})"), HasSubstr("\"by\""));
   EXPECT_THAT(refused(R"({"what":"x","changes":[{"building":"a","revision":-1,"parts":[]}]})"), HasSubstr("revision"));

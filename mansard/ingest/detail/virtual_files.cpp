@@ -112,10 +112,12 @@ auto plain_name(const fs::path& path) -> fs::path {
 }
 
 auto name_for_gdal(const fs::path& path) -> std::string {
-  if (is_gdals(path)) return path.string();
-  if (ends_with(path, ".gz")) return "/vsigzip/" + path.string();
-  if (ends_with(path, ".zip")) return "/vsizip/" + path.string();
-  return path.string();
+  std::string name = path.string();
+  // On a server or in an archive too, unless the name says already how it is opened.
+  const auto says = [&](const char* opener) { return name.find(opener) != name.npos; };
+  if (ends_with(path, ".gz") && !says("/vsigzip/") && !says("/vsitar/")) return "/vsigzip/" + name;
+  if (ends_with(path, ".zip") && !says("/vsizip/")) return "/vsizip/" + name;
+  return name;
 }
 
 auto is_there(const fs::path& path) -> bool {

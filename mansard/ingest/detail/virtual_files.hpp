@@ -18,7 +18,8 @@ namespace mansard::ingest::detail {
 /// The name that tells the format: without ".gz".
 [[nodiscard]] auto plain_name(const std::filesystem::path& path) -> std::filesystem::path;
 
-/// What GDAL calls the file: "x.gz" on disk is "/vsigzip/x.gz", "x.zip" is "/vsizip/x.zip"; all else keeps its name.
+/// What GDAL calls the file: "x.gz" is "/vsigzip/x.gz", "x.zip" is "/vsizip/x.zip", on a server too; all else, and what
+/// says already how it is opened, keeps its name.
 [[nodiscard]] auto name_for_gdal(const std::filesystem::path& path) -> std::string;
 
 /// Whether there is a file or folder of that name. Of servers this asks; nothing is said where they do not answer.

@@ -71,7 +71,11 @@ auto as_text(const ingest::Value& value) -> ingest::Value {
 }  // namespace
 
 auto geopackage_failure(const std::string& what) -> base::Diagnostic {
-  return base::error("write-geopackage", "GDAL cannot " + what + gdal_words());
+  const std::string words = gdal_words();
+  // SQLite: "database or disk is full", "disk I/O error"
+  const bool disk = words.find("disk") != words.npos;
+  return base::error("write-geopackage",
+                     "GDAL cannot " + what + words + (disk ? "; choose a place that can be written and has room" : ""));
 }
 
 auto Pen::line(const std::vector<geometry::Point2>& points) const -> std::unique_ptr<OGRLineString> {
