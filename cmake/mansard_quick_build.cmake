@@ -1,6 +1,6 @@
 # A quicker build from nothing, for the preset `release`: `make demo`, `make test` and continuous integration. Rooms and
 # programs are optimised as without it. What is different:
-#   Headers of the standard library, and GoogleTest in tests, are parsed once, not once a source. Those of the house are
+#   Headers of the standard library, GoogleTest in tests and CLI11 in the command line are parsed once, not once a source. Those of the house are
 #   not among them: to change one costs those who include it, no more. Nor is nlohmann/json: g++ instantiates again in
 #   every source what such a header leaves open, which costs as much as parsing it.
 #   Tests are compiled with -O1. They spend their time in the rooms.
@@ -25,7 +25,8 @@ if(MANSARD_QUICK_BUILD)
   endif()
 endif()
 
-# mansard_precompiled(target rooms|tests): `target` uses the precompiled headers of rooms, or those of tests.
+# mansard_precompiled(target rooms|tests|commands): `target` uses the precompiled headers of rooms, those of tests, or those
+# of the command line, which is compiled as its own target is.
 function(mansard_precompiled target what)
   if(NOT MANSARD_QUICK_BUILD)
     return()
@@ -40,6 +41,11 @@ function(mansard_precompiled target what)
     if(what STREQUAL "tests")
       target_precompile_headers(${owner} PRIVATE <gmock/gmock.h> <gtest/gtest.h>)
       target_link_libraries(${owner} PRIVATE GTest::gmock GTest::gtest)
+    elseif(what STREQUAL "commands")
+      target_precompile_headers(${owner} PRIVATE <CLI/CLI.hpp>)
+      target_link_libraries(${owner} PRIVATE CLI11::CLI11)
+      get_target_property(options ${target} COMPILE_OPTIONS)
+      target_compile_options(${owner} PRIVATE ${options})
     endif()
   endif()
   target_precompile_headers(${target} REUSE_FROM ${owner})
