@@ -1,7 +1,8 @@
 #include "apps/cli/output.hpp"
 
-#include <algorithm>
 #include <unistd.h>
+#include <algorithm>
+#include <array>
 
 namespace mansard::cli {
 
@@ -13,6 +14,17 @@ namespace {
 auto made() -> std::vector<fs::path>& {
   static std::vector<fs::path> folders;
   return folders;
+}
+
+/// Whether it is named as files are that hold models, maps, tables or pictures, so that a folder is hardly meant.
+auto named_as_file(const fs::path& path) -> bool {
+  constexpr std::array endings{".3ds",     ".b3dm", ".blend", ".csv", ".dae",  ".dwg", ".dxf",  ".fbx",  ".fgb",
+                               ".geojson", ".glb",  ".gltf",  ".gml", ".gpkg", ".gz",  ".html", ".ifc",  ".json",
+                               ".jsonl",   ".kml",  ".las",   ".laz", ".obj",  ".off", ".ply",  ".png",  ".shp",
+                               ".skp",     ".stl",  ".svg",   ".tif", ".tiff", ".txt", ".usd",  ".usdz", ".zip"};
+  std::string own = path.extension().string();
+  std::ranges::transform(own, own.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  return std::ranges::find(endings, own) != endings.end();
 }
 
 /// One name of a place, whatever it is called by. A name alone would stay relative where nothing is there yet.
@@ -27,9 +39,14 @@ auto prepare(const fs::path& folder, bool overwrite) -> base::Result<void> {
   std::error_code status;
   if (fs::exists(folder, status)) {
     if (!fs::is_directory(folder, status))
-      return base::error("output-exists", "this is a file, and the output is a folder; choose another name", folder.string());
+      return base::error("output-exists", "this is a file, and the output is a folder; choose another name",
+                         folder.string());
     if (!overwrite && !fs::is_empty(folder, status))
-      return base::error("output-exists", "the folder is not empty; choose another, or say --overwrite", folder.string());
+      return base::error("output-exists", "the folder is not empty; choose another, or say --overwrite",
+                         folder.string());
+  } else if (named_as_file(folder)) {
+    return base::error("usage", "the results go into a folder, and this is the name of a file; leave its ending off",
+                       folder.string());
   } else {
     std::vector<fs::path> missing;
     for (fs::path at = fs::absolute(folder, status); !at.empty() && !fs::exists(at, status); at = at.parent_path())
@@ -37,12 +54,14 @@ auto prepare(const fs::path& folder, bool overwrite) -> base::Result<void> {
     made().insert(made().end(), missing.rbegin(), missing.rend());
     fs::create_directories(folder, status);
     if (status)
-      return base::error("file-write", "cannot make this folder: " + status.message() + "; choose a place that can be written",
+      return base::error("file-write",
+                         "cannot make this folder: " + status.message() + "; choose a place that can be written",
                          folder.string());
   }
   const auto probe = folder / ".mansard-probe";
   if (auto written = base::write_file(probe, ""); !written)
-    return base::error("file-write", "cannot write into this folder; choose a place that can be written", folder.string());
+    return base::error("file-write", "cannot write into this folder; choose a place that can be written",
+                       folder.string());
   fs::remove(probe, status);
   return {};
 }
@@ -84,7 +103,9 @@ auto leftovers(const fs::path& folder, const std::string& always, const std::fun
     return fs::symlink_status(path, status).type() == fs::file_type::regular;
   };
   if (!ordinary(folder / always)) return left;
-  const auto tiles = [&](const fs::path& path) { return path.extension() == ".3dtiles" && ordinary(path / "tileset.json"); };
+  const auto tiles = [&](const fs::path& path) {
+    return path.extension() == ".3dtiles" && ordinary(path / "tileset.json");
+  };
   for (const auto& entry : fs::directory_iterator(folder, status))
     if (own(entry.path().filename().string()) && (ordinary(entry.path()) || tiles(entry.path())))
       left.push_back(entry.path());
@@ -107,7 +128,8 @@ void remove_stale(const std::vector<fs::path>& left, const std::vector<base::Fil
 auto can_be_made_in(const fs::path& folder, const fs::path& path) -> base::Result<void> {
   std::error_code status;
   if (!fs::is_directory(folder, status))
-    return base::error("file-write", "there is no folder '" + folder.string() + "' for it; make it, or choose another place",
+    return base::error("file-write",
+                       "there is no folder '" + folder.string() + "' for it; make it, or choose another place",
                        path.string());
   if (::access(folder.c_str(), W_OK) != 0)
     return base::error("file-write", "cannot write into its folder; choose a place that can be written", path.string());
@@ -117,12 +139,14 @@ auto can_be_made_in(const fs::path& folder, const fs::path& path) -> base::Resul
 auto file_free(const fs::path& path, bool overwrite) -> base::Result<void> {
   std::error_code status;
   if (fs::is_directory(path, status))
-    return base::error("output-exists", "this is a folder, and the output is a file; choose another name", path.string());
+    return base::error("output-exists", "this is a folder, and the output is a file; choose another name",
+                       path.string());
   if (fs::exists(path, status) && !fs::is_regular_file(path, status))
     return base::error("output-exists", "this is no ordinary file, and would be replaced by one; choose another name",
                        path.string());
   if (fs::exists(path, status) && !overwrite)
-    return base::error("output-exists", "this file is there already; choose another, or say --overwrite", path.string());
+    return base::error("output-exists", "this file is there already; choose another, or say --overwrite",
+                       path.string());
   const auto folder = path.parent_path();
   return can_be_made_in(folder.empty() ? "." : folder, path);
 }

@@ -15,7 +15,7 @@
 namespace mansard::cli {
 
 /// Checks that the folder is empty or may be overwritten, makes it, and checks that it can be written, before any work.
-/// Gives up with "output-exists", "file-write".
+/// Gives up with "output-exists", "file-write", and "usage" where a new folder would have a file's name ("city.gpkg").
 [[nodiscard]] auto prepare(const std::filesystem::path& folder, bool overwrite) -> base::Result<void>;
 
 /// Takes away the folders that `prepare` made and nothing was written into: a run that failed leaves nothing.

@@ -19,6 +19,11 @@ auto failed(const std::string& what, int why, const fs::path& path = {}) -> Diag
                path.string());
 }
 
+/// Nothing may lie at a null address, which fwrite must not be given.
+auto written(std::string_view bytes, std::FILE& file) -> bool {
+  return bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), &file) == bytes.size();
+}
+
 /// One file or folder on its way: where it goes, and where what stood there is kept until all are in place.
 struct Placed {
   fs::path path, old;
@@ -68,7 +73,7 @@ auto Spool::open() -> Result<std::unique_ptr<Spool>> {
 }
 
 void Spool::append(std::string_view bytes) {
-  if (failure_ == 0 && std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) failure_ = errno;
+  if (failure_ == 0 && !written(bytes, *file_)) failure_ = errno;
   size_ += bytes.size();
 }
 
@@ -96,7 +101,7 @@ class Outputs::File : public Sink {
  public:
   explicit File(OpenFile file) : file_(std::move(file)) {}
   void append(std::string_view bytes) override {
-    if (failure_ == 0 && std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) failure_ = errno;
+    if (failure_ == 0 && !written(bytes, *file_)) failure_ = errno;
   }
   /// 0, or what the system says went wrong.
   auto close() -> int {

@@ -87,6 +87,8 @@ auto codes() -> std::vector<base::Code> {
       {"write-tiles-crs", "PROJ knows no way from the coordinate system to WGS 84, where 3D Tiles are.",
        "Work in a projected coordinate system of EPSG (--ingest-crs), or in none (local): tiles are not placed on Earth then.",
        3},
+      {"write-tiles-grid", "PROJ lacks a geoid or a grid on the way to WGS 84, so a tileset stands less exactly than it could.",
+       "Install PROJ's grids for the region (https://cdn.proj.org), or set PROJ_NETWORK=ON so that it fetches them.", 0},
       {"write-read-format", "A file is in no format that buildings can be read back from.",
        "Give CityJSON, CityJSONSeq, OBJ, GLB, 3D Tiles, a GeoPackage, GeoJSON or plans that mansard wrote.", 3},
       {"write-read-plans", "A file of buildings carries none of the plans that mansard's own files do.",

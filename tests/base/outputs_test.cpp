@@ -40,6 +40,7 @@ TEST_F(OutputsTest, appear_with_the_commit_and_not_before) {
   const auto a = outputs.file(folder_ / "a"), b = outputs.file(folder_ / "b");
   ASSERT_TRUE(a && b);
   (*a)->append("one ");
+  (*a)->append({});
   (*b)->append("three");
   (*a)->append("two");
   EXPECT_FALSE(fs::exists(folder_ / "a"));

@@ -395,6 +395,14 @@ TEST_F(Command, refuses_an_output_folder_that_cannot_be_made) {
   expect_refusal(run("reconstruct -q " + at("house.obj") + " " + at("house.geojson") + " -o " + at("house.obj")), 2, "output-exists");
 }
 
+TEST_F(Command, refuses_a_folder_that_is_named_as_a_file) {
+  const auto inputs = at("house.obj") + " " + at("house.geojson");
+  expect_refusal(run("reconstruct -q " + inputs + " -o " + at("city.gpkg")), 2, "usage", "leave its ending off");
+  expect_refusal(run("extrude -q " + at("house.geojson") + " -o " + at("city.SHP")), 2, "usage", "leave its ending off");
+  EXPECT_FALSE(fs::exists(at("city.gpkg")));
+  EXPECT_EQ(run("extrude -q " + at("house.geojson") + " -o " + at("city.v2")).exit, 0) << "an ending of no kind of file";
+}
+
 TEST_F(Command, gives_one_line_when_memory_runs_out) {
   // A mesh as large as it says (a sparse file), and a process that may not have that much memory.
   const std::string header =

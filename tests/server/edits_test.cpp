@@ -209,7 +209,7 @@ TEST_F(Terrace, tells_every_page_of_an_edit_and_whose_it_was) {
     const std::scoped_lock lock(mutex);
     return heard.find(text) != std::string::npos;
   };
-  for (int i = 0; i < 500 && !has("\"told\""); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  for (int i = 0; i < 3000 && !has("\"told\""); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   EXPECT_TRUE(has(R"("type":"buildings")"));
   EXPECT_TRUE(has(R"("client":"tab-7")"));
   EXPECT_TRUE(has("\"told\""));

@@ -59,7 +59,7 @@ struct Tile {
 
 class Tiles : public testing::Test {
  protected:
-  void write(const City& city, double triangles = 20000, bool compress = false) const {
+  void write(const City& city, double triangles = 20000, bool compress = false) {
     write::WriteOptions options;
     options.tile_triangles = triangles;
     options.compress = compress;
@@ -69,6 +69,7 @@ class Tiles : public testing::Test {
     const auto done = write::write_city(city, **writer);
     ASSERT_TRUE(done) << to_string(done.error());
     ASSERT_TRUE(outputs.commit());
+    warnings_ = (*writer)->warnings();
   }
   auto tileset() const -> Json { return Json::parse(*base::read_file(folder_ / "tileset.json")); }
   auto all() const -> std::vector<Tile> {
@@ -96,6 +97,7 @@ class Tiles : public testing::Test {
 
   test::Scratch scratch_;
   std::filesystem::path folder_ = scratch_ / "tiles";
+  std::vector<base::Diagnostic> warnings_;
 };
 
 /// Earth-centred by PROJ alone, all the way.
@@ -144,6 +146,36 @@ TEST_F(Tiles, stand_where_proj_says_over_twenty_kilometres) {
   }
   EXPECT_GT(leaves, 9U);
   EXPECT_LT(worst, 0.002);
+}
+
+TEST_F(Tiles, stand_in_one_place_whether_the_crs_has_heights_or_not) {
+  City city = street();
+  const auto longitude_and_latitude = [&](const char* crs) {
+    city.frame.crs = crs;
+    write(city);
+    const auto root = tileset()["root"]["transform"].get<Matrix>();
+    OGRSpatialReference earth, angles;
+    earth.importFromEPSG(4978);
+    angles.importFromEPSG(4979);
+    angles.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    Point3 p{root[12], root[13], root[14]};
+    OGRCoordinateTransformation* t = OGRCreateCoordinateTransformation(&earth, &angles);
+    EXPECT_TRUE(t != nullptr && t->Transform(1, &p.x, &p.y, &p.z));
+    OGRCoordinateTransformation::DestroyCT(t);
+    return p;
+  };
+  const Point3 plane = longitude_and_latitude("EPSG:28992"), with_heights = longitude_and_latitude("EPSG:7415");
+  const std::string said = tileset()["asset"]["extras"]["heights"];
+  EXPECT_NEAR(plane.x, with_heights.x, 1e-5) << "degrees";
+  EXPECT_NEAR(plane.y, with_heights.y, 1e-5);
+  // The geoid is 43 m above the ellipsoid there, if this machine has it.
+  const bool raised = with_heights.z - plane.z > 40;
+  EXPECT_NEAR(with_heights.z - plane.z, raised ? 43 : 0, 1);
+  ASSERT_EQ(warnings_.size(), raised ? 0U : 1U);
+  EXPECT_THAT(said, testing::HasSubstr(raised ? "are those of the coordinate system" : "no geoid"));
+  if (!raised) {
+    EXPECT_EQ(warnings_[0].code, "write-tiles-grid");
+  }
 }
 
 TEST_F(Tiles, hold_their_contents_and_children_in_their_boxes) {

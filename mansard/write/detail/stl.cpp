@@ -81,7 +81,7 @@ class StlWriter : public CityWriter {
             "write-stl-shell",
             std::to_string(group.of.size()) + " parts that touch became " + std::to_string(group.shells.size()) +
                 " shells with walls between them, since one would not be sound (" + group.why +
-                "); change their plans there, or take the shells as they are",
+                "); change their plans there, or take the shells as they are, each sound, but wall against wall",
             building));
       for (const Solid& shell : group.shells)
         if (auto put = append(shell, building); !put) return put;

@@ -196,6 +196,9 @@ class TilesWriter : public CityWriter {
       if (auto written = write_tile(t); !written) return written;
     return base::write_file(folder_ / "tileset.json", tileset());
   }
+  [[nodiscard]] auto warnings() const -> std::vector<base::Diagnostic> override {
+    return globe_ ? globe_->warnings() : std::vector<base::Diagnostic>();
+  }
 
  private:
   struct Made {
@@ -346,12 +349,14 @@ class TilesWriter : public CityWriter {
 
   auto tileset() const -> std::string {
     const Box& box = made_[0].box;
+    using enum Globe::Heights;
     JsonText heights, json;
-    heights.text(
-        !globe_ ? "There is no coordinate system: the tileset is in the local frame, not on Earth."
-        : globe_->has_heights()
-            ? "Heights are those of the coordinate system."
-            : "The coordinate system has no heights: they are taken as heights above the ellipsoid of WGS 84.");
+    heights.text(!globe_ ? "There is no coordinate system: the tileset is in the local frame, not on Earth."
+                 : globe_->heights() == of_the_crs ? "Heights are those of the coordinate system."
+                 : globe_->heights() == without_geoid
+                     ? "There was no geoid for the heights of the coordinate system: they are taken as heights above the "
+                       "ellipsoid of WGS 84."
+                     : "The coordinate system has no heights: they are taken as heights above the ellipsoid of WGS 84.");
     json.begin_object().key("asset").begin_object().key("version").text("1.1").key("extras");
     json.raw(file_extras(header_, "\"generator\":" + detail::quoted("mansard " + header_.made_by.version) +
                                       ",\"heights\":" + heights.str())).end_object();

@@ -59,22 +59,49 @@ struct Globe::Projection {
     void operator()(OGRCoordinateTransformation* t) const { OGRCoordinateTransformation::DestroyCT(t); }
   };
   std::unique_ptr<OGRCoordinateTransformation, Destroy> transformation;
+
+  /// To longitude and latitude of WGS 84, with heights above its ellipsoid if they are asked for. False for no way.
+  auto find(OGRSpatialReference from, bool heights, bool guess) -> bool {
+    OGRSpatialReference to;
+    if (to.importFromEPSG(heights ? 4979 : 4326) != OGRERR_NONE) return false;
+    if (!heights) {
+      if (from.IsCompound() != 0) from.StripVertical();
+      from.DemoteTo2D(nullptr);
+    }
+    from.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    to.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    // PROJ's guess, where it lacks a geoid or a grid, leaves out what it lacks and the shift of the datum with it.
+    OGRCoordinateTransformationOptions options;
+    options.SetBallparkAllowed(guess);
+    transformation.reset(OGRCreateCoordinateTransformation(&from, &to, options));
+    return transformation != nullptr;
+  }
 };
 
 auto Globe::of(const ingest::Frame& frame) -> base::Result<std::optional<Globe>> {
   if (frame.crs.empty()) return std::optional<Globe>();
   const Quiet quiet;
-  OGRSpatialReference from, to;
+  OGRSpatialReference from;
   if (from.SetFromUserInput(frame.crs.c_str()) != OGRERR_NONE) return no_way(frame.crs);
   Globe globe;
   globe.frame_ = frame;
-  globe.has_heights_ = from.IsCompound() != 0 || from.GetAxesCount() == 3;
-  if (to.importFromEPSG(globe.has_heights_ ? 4979 : 4326) != OGRERR_NONE) return no_way(frame.crs);
-  from.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  to.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   globe.projection_ = std::make_shared<Projection>();
-  globe.projection_->transformation.reset(OGRCreateCoordinateTransformation(&from, &to));
-  if (!globe.projection_->transformation) return no_way(frame.crs);
+  Projection& way = *globe.projection_;
+  const auto warn = [&](const std::string& what) {
+    globe.warnings_.push_back(base::warning(
+        "write-tiles-grid", what + "; install PROJ's grids for the region, or let it fetch them (PROJ_NETWORK=ON)",
+        frame.crs.substr(0, 100)));
+  };
+  if (from.IsCompound() != 0 || from.GetAxesCount() == 3) {
+    globe.heights_ = Heights::of_the_crs;
+    if (way.find(from, true, false)) return std::optional<Globe>(std::move(globe));
+    globe.heights_ = Heights::without_geoid;
+    warn("PROJ has no geoid here for the heights of this coordinate system, so they are taken as heights above the "
+         "ellipsoid: the tileset may stand some ten metres too low or too high on a globe");
+  }
+  if (way.find(from, false, false)) return std::optional<Globe>(std::move(globe));
+  if (!way.find(from, false, true)) return no_way(frame.crs);
+  warn("PROJ has no grid here for the datum of this coordinate system: the tileset may stand a hundred metres away");
   return std::optional<Globe>(std::move(globe));
 }
 

@@ -22,10 +22,12 @@ struct Place {
 };
 
 /// From the local frame to the Earth-centred one (EPSG:4978): to longitude, latitude and height by PROJ through GDAL,
-/// then by the definition of the WGS 84 ellipsoid. Heights of a CRS that has none are taken as heights above the
-/// ellipsoid.
+/// then by the definition of the WGS 84 ellipsoid. Heights of a CRS that has none, or one whose geoid PROJ lacks, are
+/// taken as heights above the ellipsoid.
 class Globe {
  public:
+  enum class Heights { not_of_the_crs, of_the_crs, without_geoid };
+
   /// None for a frame without CRS. Gives up with "write-tiles-crs" where PROJ cannot go from there to WGS 84.
   [[nodiscard]] static auto of(const ingest::Frame& frame) -> base::Result<std::optional<Globe>>;
 
@@ -33,8 +35,9 @@ class Globe {
   [[nodiscard]] auto to_earth(std::vector<geometry::Point3>& points) const -> base::Result<void>;
   /// East, north and up there.
   [[nodiscard]] auto place(geometry::Point3 local) const -> base::Result<Place>;
-  /// Whether the CRS says what its heights are above.
-  [[nodiscard]] auto has_heights() const -> bool { return has_heights_; }
+  [[nodiscard]] auto heights() const -> Heights { return heights_; }
+  /// "write-tiles-grid", where what PROJ has does not suffice.
+  [[nodiscard]] auto warnings() const -> const std::vector<base::Diagnostic>& { return warnings_; }
 
  private:
   struct Projection;
@@ -42,7 +45,8 @@ class Globe {
   [[nodiscard]] auto to_angles(std::vector<geometry::Point3>& points) const -> base::Result<void>;
 
   ingest::Frame frame_;
-  bool has_heights_ = false;
+  Heights heights_ = Heights::not_of_the_crs;
+  std::vector<base::Diagnostic> warnings_;
   std::shared_ptr<Projection> projection_;
 };
 
