@@ -199,6 +199,10 @@ TEST_F(Convert, overwrites_nothing_silently_and_no_input_at_all) {
   const auto twice = convert(out("plans.json"), at("x.obj") + " -o " + at("x.obj"));
   EXPECT_EQ(twice.exit, 2);
   EXPECT_THAT(twice.err, HasSubstr("two results"));
+  const auto long_name = [this](char c) { return at(std::string(300, c) + ".obj"); };  // longer than any file's
+  const auto apart = convert(out("plans.json"), long_name('x') + " -o " + long_name('y'));
+  EXPECT_EQ(apart.exit, 3) << apart.err;
+  EXPECT_THAT(apart.err, testing::Not(HasSubstr("two results")));
 }
 
 TEST_F(Convert, replaces_a_folder_of_tiles_alone) {

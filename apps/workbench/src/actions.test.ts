@@ -47,6 +47,48 @@ const buildings = (...all: api.Building[]) => ({ buildings: all, history: histor
 const open = (...all: api.Building[]) =>
   (state.run.value = { id: "run-1", buildings: new Map(all.map((b) => [b.id, b])), history: history(0) });
 
+describe("the scene", () => {
+  const asked: string[] = [];
+  const scene = { name: "read" } as unknown as api.Scene;
+  const read = (change: Partial<api.Job>) => job({ kind: "read", run: null, ...change });
+  beforeEach(() => {
+    asked.length = 0;
+    state.scene.value = state.tiles.value = null;
+    answers["GET /api/project"] = () => ({ ...project(), inputs: {} });
+    answers["GET /api/options"] = () => ({ options: [], presets: [], formats: [] });
+    answers["GET /api/scene"] = () => (asked.push("scene"), scene);
+    answers["GET /api/scene/tiles"] = () => ({ tiles: [] });
+  });
+
+  it("is asked for once it has been read, not before", async () => {
+    answers["GET /api/jobs"] = () => ({ jobs: [read({})] });
+    await actions.refresh();
+    expect(asked).toEqual([]);
+    actions.heard({ type: "job", job: read({ state: "done" }) });
+    await vi.waitFor(() => expect(state.scene.value).toEqual(scene));
+    expect(asked).toEqual(["scene"]);
+  });
+
+  it("is asked for too when the end of reading it overtakes the list of jobs", async () => {
+    state.project.value = null;
+    answers["GET /api/jobs"] = () => {
+      actions.heard({ type: "job", job: read({ state: "done" }) });
+      return { jobs: [read({})] };
+    };
+    await actions.refresh();
+    await vi.waitFor(() => expect(state.scene.value).toEqual(scene));
+    expect(state.jobs.value).toEqual([read({ state: "done" })]);
+  });
+
+  it("of a server that was started again is not taken for read because the last one's was", async () => {
+    state.jobs.value = [read({ state: "done" })];
+    answers["GET /api/jobs"] = () => ({ jobs: [read({})] });
+    await actions.refresh();
+    expect(state.jobs.value).toEqual([read({})]);
+    expect(asked).toEqual([]);
+  });
+});
+
 describe("runs", () => {
   it("are opened with the selection where it still stands", async () => {
     answers["GET /api/runs/run-1/buildings"] = () => buildings(building("a"), building("b"));

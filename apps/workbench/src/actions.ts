@@ -93,18 +93,24 @@ export async function begin(signal: AbortSignal) {
 
 /** Everything anew, as after the server was away: the run, selection and draft stay where they still exist. */
 export async function refresh() {
+  state.jobs.value = []; // what is in it below was heard since then; numbers begin anew with every server
   const [project, options, jobs] = await Promise.all([
     attempt(client.project()),
     state.options.value ? state.options.value : attempt(client.options()),
     attempt(client.jobs()),
   ]);
   if (!project) return;
+  const told = jobs?.jobs ?? [], heard = state.jobs.value;
   batch(() => {
     state.project.value = project;
     state.options.value = options ?? null;
-    state.jobs.value = jobs?.jobs ?? [];
+    state.jobs.value = [
+      ...told.map((j) => heard.find((h) => h.id === j.id && ended(h)) ?? j), // its event came before the answer
+      ...heard.filter((h) => !told.some((j) => j.id === h.id)),
+    ];
   });
-  void loadScene();
+  // While it is being read there is none: the event of that job brings it.
+  if (!state.jobs.value.some((j) => j.kind === "read" && !ended(j))) void loadScene();
   const open = kept<Open | null>("session", openKey(), null) ?? kept<Open | null>("local", openKey(), null);
   const finished = project.runs.filter((r) => r.state === "done");
   const there = (id: string | null | undefined) => finished.some((r) => r.id === id);
@@ -128,7 +134,7 @@ export async function loadScene() {
       state.tiles.value = tiles;
     });
   } catch (e) {
-    // It is being read: the event of that job brings it.
+    // It has been asked for too early after all.
     if (e instanceof Refused && e.diagnostic.code !== "server-no-scene") say(e.diagnostic);
     else if (!(e instanceof Refused)) throw e;
   }
@@ -340,10 +346,10 @@ async function took(call: Promise<api.Job>) {
   return job;
 }
 const mine = new Set<string>(); // jobs that this tab asked for
+const ended = (job: api.Job) => job.state !== "queued" && job.state !== "running";
 
 function heardJob(job: api.Job) {
   const known = state.jobs.value.find((j) => j.id === job.id);
-  const ended = (j: api.Job) => j.state !== "queued" && j.state !== "running";
   if (known && ended(known)) return; // an answer that was overtaken by an event
   state.jobs.value = known ? state.jobs.value.map((j) => (j.id === job.id ? job : j)) : [...state.jobs.value, job];
   if (job.failure && job.state === "failed") say(job.failure);

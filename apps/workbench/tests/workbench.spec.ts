@@ -32,8 +32,11 @@ async function open(page: Page, label: string) {
   await expect.poll(seen, { timeout: 90_000 }).toBe(label);
 }
 
-const buildings = (page: Page) =>
-  page.evaluate(() => [...(window as unknown as Known["window"]).mansard.state.run.value!.buildings.values()]);
+/** Those of the run that is seen, as soon as one is. */
+const buildings = async (page: Page) => {
+  await page.waitForFunction(() => (window as unknown as Known["window"]).mansard?.state.run.value);
+  return page.evaluate(() => [...(window as unknown as Known["window"]).mansard.state.run.value!.buildings.values()]);
+};
 const buildingOf = async (page: Page, id: string) => (await buildings(page)).find((b) => b.id === id)!;
 const volume = (building: api.RaisedBuilding) => building.parts.reduce((sum, part) => sum + part.volume, 0);
 
