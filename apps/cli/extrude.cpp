@@ -41,12 +41,16 @@ auto targets_of(const ExtrudeRequest& request) -> base::Result<std::vector<Targe
   return std::vector{*target};
 }
 
+void tell(const std::vector<base::Diagnostic>& diagnostics, const ExtrudeRequest& request) {
+  for (const auto& diagnostic : diagnostics)
+    if (!request.quiet) std::fprintf(stderr, "mansard: %s\n", base::to_string(diagnostic).c_str());
+}
+
 auto extrude_plans(write::CityReader& reader, const ExtrudeRequest& request, const base::Cancel& cancel) -> int {
   if (!request.report.empty())
     return give_up(base::error("usage", "plans are raised without a report; --report is for footprints", "--report"));
   pipeline::Options options;
-  for (const auto& warning : pipeline::take_options(reader.header().made_by, options))
-    if (!request.quiet) std::fprintf(stderr, "mansard: %s\n", base::to_string(warning).c_str());
+  tell(pipeline::take_options(reader.header().made_by, options), request);
   if (auto applied = request.settings.apply(options); !applied) return give_up(applied.error());
   auto city = write::read_whole(reader);
   if (!city) return give_up(city.error());
@@ -60,11 +64,8 @@ auto extrude_plans(write::CityReader& reader, const ExtrudeRequest& request, con
   pipeline::note_options(options, city->made_by);
   const auto raised = pipeline::raise_plans(std::move(*city), options, run);
   if (!raised) return give_up(raised.error());
-  for (const auto& part : raised->fell_short)
-    for (const auto& reason : part.reasons)
-      if (!request.quiet) std::fprintf(stderr, "mansard: %s\n", base::to_string(reason).c_str());
-  for (const auto& warning : beside->warnings)
-    if (!request.quiet) std::fprintf(stderr, "mansard: %s\n", base::to_string(warning).c_str());
+  for (const auto& part : raised->fell_short) tell(part.reasons, request);
+  tell(beside->warnings, request);
   if (auto written = write_out(raised->city, {}, options, request, run, beside->layers); !written)
     return give_up(written.error());
   std::printf("%s\n", request.out.c_str());
@@ -131,8 +132,7 @@ auto write_out(const write::City& city, const std::string& report, const pipelin
   base::Outputs outputs;
   const auto warnings = write_models(city, *targets, options.write, outputs, more);
   if (!warnings) return warnings.error();
-  for (const auto& warning : *warnings)
-    if (!request.quiet) std::fprintf(stderr, "mansard: %s\n", base::to_string(warning).c_str());
+  tell(*warnings, request);
   if (!is_one(out) && !report.empty())
     if (auto written = write_bytes(out / "run.json", report, outputs); !written) return written;
   if (!request.report.empty())
