@@ -17,11 +17,11 @@ if(MANSARD_QUICK_BUILD)
   # akin to -Wrestrict in CMakeLists.txt; the others are its relatives.
   add_compile_options(-Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds -Wno-maybe-uninitialized)
   if(CMAKE_CXX_COMPILER_LAUNCHER)
-    # ccache takes precompiled headers on these terms. Paths below the build folder count from there, so that build
-    # folders share what they compiled.
+    # ccache accepts precompiled headers on these terms. Paths below the source folder are relative to it, so that
+    # checkouts share what they compiled.
     add_compile_options(-fpch-preprocess)
     list(PREPEND CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros
-      CCACHE_BASEDIR=${CMAKE_BINARY_DIR})
+      CCACHE_BASEDIR=${PROJECT_SOURCE_DIR})
   endif()
 endif()
 

@@ -32,7 +32,7 @@ auto codes() -> const std::vector<base::Code>& {
 
 auto LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) -> int {
   static const fuzz::Folder folder("mesh");
-  static const std::array paths{folder.name("mesh.obj"), folder.name("mesh.ply"),  folder.name("mesh.off"),
+  static const std::array paths{folder.name("mesh.obj"), folder.name("mesh.ply"), folder.name("mesh.off"),
                                 folder.name("mesh.glb"), folder.name("mesh.gltf"), folder.name("mesh"),
                                 // What says where the meshes beside it are: these bytes are both.
                                 folder.name("placed/metadata.xml")};

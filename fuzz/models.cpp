@@ -27,10 +27,10 @@ auto codes() -> const std::vector<base::Code>& {
 /// The names that a city is read by, what is beside it being sound: the leaf of a tileset is a GLB with no buildings.
 struct Names {
   fuzz::Folder folder{"models"};
-  std::array<std::filesystem::path, 8> paths{
-      folder.name("model.city.json"), folder.name("model.city.jsonl"), folder.name("model.json"),
-      folder.name("model.glb"),       folder.name("model.obj"),        folder.name("model.geojson"),
-      folder.name("tiles/tileset.json"), folder.name("leaf/content.glb")};
+  std::array<std::filesystem::path, 8> paths{folder.name("model.city.json"),    folder.name("model.city.jsonl"),
+                                             folder.name("model.json"),         folder.name("model.glb"),
+                                             folder.name("model.obj"),          folder.name("model.geojson"),
+                                             folder.name("tiles/tileset.json"), folder.name("leaf/content.glb")};
   fuzz::MemoryFile again;
 
   Names() {

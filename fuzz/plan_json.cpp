@@ -34,9 +34,9 @@ auto LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) -> int 
     const auto again = read(text);
     promise(again.has_value(), "what was written is not read", [&] { return base::to_string(again.error()) + text; });
     promise(write::plans(*again) == text, "what was written and read is written differently", [&] { return text; });
-    promise(std::ranges::equal(city->buildings, again->buildings, {},
-                               [](const auto& building) { return building.parts.size(); },
-                               [](const auto& building) { return building.parts.size(); }),
+    promise(std::ranges::equal(
+                city->buildings, again->buildings, {}, [](const auto& building) { return building.parts.size(); },
+                [](const auto& building) { return building.parts.size(); }),
             "parts were lost");
     for (std::size_t b = 0; b < city->buildings.size(); ++b)
       for (std::size_t p = 0; p < city->buildings[b].parts.size(); ++p)

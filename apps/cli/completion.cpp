@@ -73,16 +73,16 @@ _mansard() {
   if ((COMP_CWORD == 1)); then
     _mansard_words ')";
   for (const auto& form : forms) text += form.verb + " ";
-  text += "--help --version'\n    return\n  fi\n  case $verb:$before in\n" + bash_values(forms) + "  esac\n  case $verb in\n";
+  text += "--help --version'\n    return\n  fi\n  case $verb:$before in\n" + bash_values(forms) +
+          "  esac\n  case $verb in\n";
   for (const auto& form : forms) {
     std::vector<std::string> names;
     for (const auto& term : form.options) names.insert(names.end(), term.names.begin(), term.names.end());
     text += "    " + form.verb + ")\n      if [[ $word == -* ]]; then\n        _mansard_words '" + joined(names) +
             "'\n        return\n      fi\n";
     // Arguments of several kinds stand one after the other; where any of them is a path, paths are offered.
-    const auto paths = std::ranges::find_if(form.arguments, [](const auto& term) {
-      return term.takes == Takes::path || term.takes == Takes::folder;
-    });
+    const auto paths = std::ranges::find_if(
+        form.arguments, [](const auto& term) { return term.takes == Takes::path || term.takes == Takes::folder; });
     const auto words = std::ranges::find(form.arguments, Takes::words, &Term::takes);
     if (words != form.arguments.end())
       text += "      if ((COMP_CWORD == 2)); then\n        " + bash_action(*words) + "\n        return\n      fi\n";
@@ -142,7 +142,9 @@ auto zsh(const std::vector<Form>& forms) -> std::string {
     }
     text += "\n      ;;\n";
   }
-  return text + "  esac\n}\nif [[ $funcstack[1] == _mansard ]]; then\n  _mansard \"$@\"\nelse\n  compdef _mansard mansard\nfi\n";
+  return text +
+         "  esac\n}\nif [[ $funcstack[1] == _mansard ]]; then\n  _mansard \"$@\"\nelse\n  compdef _mansard "
+         "mansard\nfi\n";
 }
 
 // ---- fish
@@ -162,12 +164,14 @@ auto fish(const std::vector<Form>& forms) -> std::string {
   for (const auto* word : {"help", "version"})
     text += std::string("complete -c mansard -n __fish_use_subcommand -f -l ") + word + "\n";
   for (const auto& form : forms)
-    text += "complete -c mansard -n __fish_use_subcommand -f -a " + form.verb + " -d " + fish_quoted(form.meaning) + "\n";
+    text +=
+        "complete -c mansard -n __fish_use_subcommand -f -a " + form.verb + " -d " + fish_quoted(form.meaning) + "\n";
   for (const auto& form : forms) {
     const std::string start = "complete -c mansard -n '__fish_seen_subcommand_from " + form.verb + "'";
     for (const auto& term : form.options) {
       text += start;
-      for (const auto& name : term.names) text += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
+      for (const auto& name : term.names)
+        text += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
       text += fish_value(term) + " -d " + fish_quoted(term.meaning) + "\n";
     }
     const bool paths = std::ranges::any_of(
@@ -182,7 +186,8 @@ auto fish(const std::vector<Form>& forms) -> std::string {
 }  // namespace
 
 auto completion_verb(CLI::App& app) -> Verb {
-  auto* verb = app.add_subcommand("completion", "Print a script that completes verbs, options and their values in a shell");
+  auto* verb =
+      app.add_subcommand("completion", "Print a script that completes verbs, options and their values in a shell");
   auto shell = std::make_shared<std::string>();
   verb->add_option("SHELL", *shell, "bash, zsh or fish")->required();
   return {verb, [shell, &app] {

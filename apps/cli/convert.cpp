@@ -54,9 +54,10 @@ auto check_outputs(const Request& request, const std::vector<Target>& targets) -
 /// What can be done instead with a file that has no plans in it.
 auto explained(base::Diagnostic why, const std::string& input) -> base::Diagnostic {
   if (pipeline::is_foreign(why))
-    why.message += "; mansard converts what it wrote itself. Of other makers' models it measures any CityJSON or OBJ "
-                   "('mansard evaluate'), and raises anew what has footprints ('mansard extrude " +
-                   base::on_one_line(input) + "')";
+    why.message +=
+        "; mansard converts what it wrote itself. Of other makers' models it measures any CityJSON or OBJ "
+        "('mansard evaluate'), and raises anew what has footprints ('mansard extrude " +
+        base::on_one_line(input) + "')";
   return why;
 }
 

@@ -88,14 +88,18 @@ auto json_of(const std::vector<pipeline::Preset>& presets) -> Json {
 }
 
 auto json_of(const Term& term) -> Json {
-  return {{"names", term.names}, {"value", term.value}, {"required", term.required}, {"meaning", term.meaning},
+  return {{"names", term.names},
+          {"value", term.value},
+          {"required", term.required},
+          {"meaning", term.meaning},
           {"room", term.room}};
 }
 
 auto json_of(const std::vector<Form>& forms) -> Json {
   Json out = Json::array();
   for (const auto& form : forms) {
-    Json entry{{"verb", form.verb}, {"meaning", form.meaning}, {"arguments", Json::array()}, {"options", Json::array()}};
+    Json entry{
+        {"verb", form.verb}, {"meaning", form.meaning}, {"arguments", Json::array()}, {"options", Json::array()}};
     for (const auto& term : form.arguments) entry["arguments"].push_back(json_of(term));
     for (const auto& term : form.options) entry["options"].push_back(json_of(term));
     out.push_back(std::move(entry));
@@ -171,12 +175,10 @@ auto explain(const std::string& word) -> int {
     std::vector<std::string> known;
     for (const auto& code : codes) known.push_back(code.code);
     const auto nearest = base::nearest_word(word, known);
-    return give_up(base::error("code-unknown",
-                               "there is no such code" + base::did_you_mean(nearest),
-                               word));
+    return give_up(base::error("code-unknown", "there is no such code" + base::did_you_mean(nearest), word));
   }
-  std::printf("%s\n  means: %s\n  to do: %s\n  exit code: %d\n", at->code.c_str(), at->cause.c_str(), at->remedy.c_str(),
-              at->exit_code);
+  std::printf("%s\n  means: %s\n  to do: %s\n  exit code: %d\n", at->code.c_str(), at->cause.c_str(),
+              at->remedy.c_str(), at->exit_code);
   return all_done;
 }
 
@@ -189,12 +191,9 @@ auto options_verb(CLI::App& app) -> Verb {
   verb->add_flag("--attributes", *attributes, "The attributes of models instead, with type, unit and meaning");
   return {verb, [json, attributes, &app] {
             const Known known;
-            if (*attributes)
-              print_attributes(*json);
-            else if (*json)
-              print_json(known, app);
-            else
-              print_text(known);
+            if (*attributes) print_attributes(*json);
+            else if (*json) print_json(known, app);
+            else print_text(known);
             return static_cast<int>(all_done);
           }};
 }

@@ -20,8 +20,8 @@ auto give_up(const base::Diagnostic& diagnostic) -> int {
 
 auto codes() -> std::vector<base::Code> {
   return {
-      {"usage", "The command line could not be understood.", "'mansard --help' and 'mansard VERB --help' show the forms.",
-       usage},
+      {"usage", "The command line could not be understood.",
+       "'mansard --help' and 'mansard VERB --help' show the forms.", usage},
       {"output-exists", "The output folder holds results already, and nothing is overwritten silently.",
        "Choose another folder, or say --overwrite.", usage},
       {"output-input", "A result would take the place of an input, or lie among the meshes of an input folder.",

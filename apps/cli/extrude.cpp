@@ -72,8 +72,8 @@ auto extrude_plans(write::CityReader& reader, const ExtrudeRequest& request, con
   return raised->fell_short.empty() ? all_done : some_fell_back;
 }
 
-/// JSON in which no member is what GeoJSON, TopoJSON, ESRI JSON or CityJSON have: a plan file that lacks its type, rather
-/// than footprints.
+/// JSON in which no member is what GeoJSON, TopoJSON, ESRI JSON or CityJSON have: a plan file that lacks its type,
+/// rather than footprints.
 auto looks_like_plans(const fs::path& path) -> bool {
   const auto bytes = base::read_file(path);
   if (!bytes) return false;
@@ -88,7 +88,8 @@ auto extrude(const ExtrudeRequest& request, const base::Cancel& cancel) -> int {
   auto reader = write::read_city(request.input);
   if (reader) return extrude_plans(**reader, request, cancel);
   const bool plans = write::format_of(request.input) == write::Format::plans;
-  if (!pipeline::is_foreign(reader.error()) && reader.error().code.starts_with("write-")) return give_up(reader.error());
+  if (!pipeline::is_foreign(reader.error()) && reader.error().code.starts_with("write-"))
+    return give_up(reader.error());
   if (plans && looks_like_plans(request.input)) return give_up(reader.error());
   return extrude_footprints(request, cancel);
 }
@@ -115,8 +116,7 @@ auto check_outputs(const ExtrudeRequest& request) -> base::Result<void> {
   }
   all.insert(all.end(), single.begin(), single.end());
   if (auto spared = spare_inputs(all, {request.input}); !spared) return spared;
-  const auto ready =
-      one ? target_free(targets->front(), request.overwrite) : prepare(request.out, request.overwrite);
+  const auto ready = one ? target_free(targets->front(), request.overwrite) : prepare(request.out, request.overwrite);
   if (!ready) return ready;
   for (const auto& path : single)
     if (auto usable = file_free(path, request.overwrite); !usable) return usable;

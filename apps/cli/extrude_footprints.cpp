@@ -14,9 +14,8 @@ auto count(const pipeline::Reconstruction& r, pipeline::Outcome outcome) -> std:
 }
 
 void summarise(const pipeline::Reconstruction& r, const ExtrudeRequest& request, Progress& progress) {
-  const auto remarks = std::ranges::count_if(r.buildings, [](const auto& b) {
-    return b.outcome == pipeline::Outcome::full && !b.reasons.empty();
-  });
+  const auto remarks = std::ranges::count_if(
+      r.buildings, [](const auto& b) { return b.outcome == pipeline::Outcome::full && !b.reasons.empty(); });
   progress.say(std::to_string(count(r, pipeline::Outcome::full)) + " of " + std::to_string(r.buildings.size()) +
                " buildings in full (" + std::to_string(remarks) + " of them with remarks), " +
                std::to_string(count(r, pipeline::Outcome::fallback)) + " fell back, " +

@@ -97,7 +97,8 @@ auto all_results() -> const std::vector<std::string>& {
     std::vector<std::string> names{"run.json"};
     names.insert(names.end(), picture_names.begin(), picture_names.end());
     for (const auto& format : write::formats())
-      for (const auto& place : places_of({format.format, name_in_folder(format.format)})) names.push_back(place.string());
+      for (const auto& place : places_of({format.format, name_in_folder(format.format)}))
+        names.push_back(place.string());
     return names;
   }();
   return all;
@@ -105,8 +106,7 @@ auto all_results() -> const std::vector<std::string>& {
 
 auto target_at(const fs::path& path) -> base::Result<Target> {
   const auto format = write::format_of(path);
-  if (!format)
-    return base::error("usage", "no format has this ending; there are " + endings(), path.string());
+  if (!format) return base::error("usage", "no format has this ending; there are " + endings(), path.string());
   // Of tiles the folder is written, not the one file that names the others.
   return Target{*format, path.filename() == "tileset.json" ? path.parent_path() : path};
 }

@@ -41,8 +41,8 @@ inline constexpr auto default_formats = "cityjson,obj,glb,geopackage,plans";
 
 /// What the input has beside its city, for those of the results that have a place for it: GeoPackages. Where none has,
 /// one warning names what stays behind. Gives up as CityReader::beside does.
-[[nodiscard]] auto layers_beside(write::CityReader& reader, const std::string& input, const std::vector<Target>& targets)
-    -> base::Result<write::Beside>;
+[[nodiscard]] auto layers_beside(write::CityReader& reader, const std::string& input,
+                                 const std::vector<Target>& targets) -> base::Result<write::Beside>;
 
 /// As file_free, and of tiles: a folder that is not there, empty, or with `overwrite` an older tileset and nothing else
 /// that would be lost. Gives up with "output-exists", "file-write".

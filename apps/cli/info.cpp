@@ -64,7 +64,8 @@ auto info_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
   auto request = std::make_shared<Request>();
   verb->add_option("FILES", request->files, "Whatever mansard reads or writes")->required()->type_name("FILE…");
   verb->add_flag("--json", request->json, "As JSON: an array with an object per file");
-  verb->add_flag("-v,--verbose", request->verbose, "Every option that models were made with, those at their defaults too");
+  verb->add_flag("-v,--verbose", request->verbose,
+                 "Every option that models were made with, those at their defaults too");
   verb->add_option("-j,--jobs", request->jobs, "Threads; 0 for one per core. The result is the same at any number")
       ->check(CLI::Range(0, 1024));
   return {verb, [request, &cancel] { return info(*request, cancel); }};

@@ -36,8 +36,8 @@ class Extent3 {
 /// none in the folder.
 [[nodiscard]] auto info_of_tileset(const std::filesystem::path& path) -> Json;
 
-/// The layers of a vector source, with geometry, CRS, number of features, extent and fields. Gives up with "file-missing",
-/// "ingest-footprints-format".
+/// The layers of a vector source, with geometry, CRS, number of features, extent and fields. Gives up with
+/// "file-missing", "ingest-footprints-format".
 [[nodiscard]] auto info_of_layers(const std::filesystem::path& path) -> base::Result<Json>;
 
 /// For a person, within 80 columns.

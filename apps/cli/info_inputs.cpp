@@ -63,8 +63,11 @@ auto info_of_model(const fs::path& path, const ingest::Model& model) -> Json {
   out["by"] = "others";
   out["crs"] = model.frame.crs;
   out["extent"] = extent.json();
-  out["counts"] = {{"buildings", model.buildings.size()}, {"parts", parts}, {"faces", faces},
-                   {"triangles", surface.mesh.triangles.size()}, {"vertices", surface.mesh.vertices.size()}};
+  out["counts"] = {{"buildings", model.buildings.size()},
+                   {"parts", parts},
+                   {"faces", faces},
+                   {"triangles", surface.mesh.triangles.size()},
+                   {"vertices", surface.mesh.vertices.size()}};
   if (!model.lod.empty()) out["lods"] = Json::array({model.lod});
   for (std::size_t i = 0; i < classes.size(); ++i)
     out["classes"][std::string(ingest::to_string(static_cast<ingest::SurfaceClass>(i)))] = classes[i];
@@ -79,12 +82,16 @@ auto info_of_stl(const fs::path& path) -> base::Result<Json> {
   const auto bytes = base::read_file(path);
   if (!bytes) return bytes.error();
   Json out = head(path, "shells", "stl");
-  const auto at = [&](std::size_t offset) { return static_cast<std::uint32_t>(static_cast<unsigned char>((*bytes)[offset])); };
+  const auto at = [&](std::size_t offset) {
+    return static_cast<std::uint32_t>(static_cast<unsigned char>((*bytes)[offset]));
+  };
   const std::size_t count =
       bytes->size() < 84 ? 0 : at(80) | at(81) << 8 | at(82) << 16 | static_cast<std::size_t>(at(83)) << 24;
   if (bytes->size() < 84 || bytes->size() != 84 + 50 * count) {
     if (bytes->starts_with("solid")) out["text"] = true;
-    else return base::error("ingest-mesh-truncated", "this is no whole binary STL; copy or export it again", path.string());
+    else
+      return base::error("ingest-mesh-truncated", "this is no whole binary STL; copy or export it again",
+                         path.string());
     return out;
   }
   std::string text = bytes->substr(0, std::min<std::size_t>(80, bytes->find('\0')));
@@ -228,9 +235,10 @@ auto info_of_tileset(const fs::path& path) -> Json {
   if (json["root"].contains("boundingVolume")) out["bounding_volume"] = json["root"]["boundingVolume"];
   out["levels"] = Json::array();
   for (const auto& level : levels)
-    out["levels"].push_back({{"tiles", level.tiles},
-                             {"contents", level.contents},
-                             {"geometric_error_m", level.most < level.least ? Json(nullptr) : Json::array({level.least, level.most})}});
+    out["levels"].push_back(
+        {{"tiles", level.tiles},
+         {"contents", level.contents},
+         {"geometric_error_m", level.most < level.least ? Json(nullptr) : Json::array({level.least, level.most})}});
   return out;
 }
 

@@ -37,7 +37,10 @@ class Tally {
   }
 
   [[nodiscard]] auto counts() const -> Json {
-    return {{"buildings", buildings_}, {"parts", parts_}, {"faces", faces_}, {"triangles", triangles_},
+    return {{"buildings", buildings_},
+            {"parts", parts_},
+            {"faces", faces_},
+            {"triangles", triangles_},
             {"vertices", vertices_}};
   }
   [[nodiscard]] auto extent() const -> Json { return extent_.json(); }
@@ -49,9 +52,7 @@ class Tally {
     for (const auto& [code, count] : fallbacks_) out[code] = count;
     return out;
   }
-  [[nodiscard]] auto footprints() const -> Json {
-    return {{"surveyed", buildings_ - derived_}, {"derived", derived_}};
-  }
+  [[nodiscard]] auto footprints() const -> Json { return {{"surveyed", buildings_ - derived_}, {"derived", derived_}}; }
 
  private:
   void add(const write::Building& building, const write::Part& part, const std::vector<base::Diagnostic>& wrong) {

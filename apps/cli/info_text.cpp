@@ -53,8 +53,8 @@ auto extent_in_words(const Json& extent) -> std::string {
   const int decimals = largest <= 180 && axes == 2 ? 5 : 2;
   std::string words;
   for (std::size_t i = 0; i < axes; ++i)
-    words += std::string(i > 0 ? ", " : "") + "xyz"[i] + " " + base::to_text(extent[i].get<double>(), decimals) + " to " +
-             base::to_text(extent[i + axes].get<double>(), decimals);
+    words += std::string(i > 0 ? ", " : "") + "xyz"[i] + " " + base::to_text(extent[i].get<double>(), decimals) +
+             " to " + base::to_text(extent[i + axes].get<double>(), decimals);
   return words;
 }
 
@@ -93,7 +93,8 @@ void add_counts(const Json& counts, Lines& lines) {
   for (const auto& [name, label] :
        {std::pair{"not_finite", "not finite"}, std::pair{"out_of_range", "with corners that are not there"},
         std::pair{"degenerate", "without area"}, std::pair{"duplicate", "repeated"}})
-    if (counts.contains(name) && counts[name] > 0) faults += (faults.empty() ? "" : ", ") + whole(counts[name]) + " " + label;
+    if (counts.contains(name) && counts[name] > 0)
+      faults += (faults.empty() ? "" : ", ") + whole(counts[name]) + " " + label;
   if (!faults.empty()) lines.add("left out", faults);
   if (counts.contains("boundary_edges"))
     lines.add("edges", whole(counts["boundary_edges"]) + " at the boundary, " + whole(counts["non_manifold_edges"]) +
@@ -132,8 +133,9 @@ void add_made_by(const Json& made_by, Lines& lines) {
 }
 
 void add_tileset(const Json& tileset, Lines& lines) {
-  lines.add("tileset", "3D Tiles " + tileset["version"].get<std::string>() +
-                           (tileset["placed_on_the_earth"] == true ? ", placed on the earth" : ", without a transform"));
+  lines.add("tileset",
+            "3D Tiles " + tileset["version"].get<std::string>() +
+                (tileset["placed_on_the_earth"] == true ? ", placed on the earth" : ", without a transform"));
   std::size_t depth = 0;
   for (const auto& level : tileset["levels"]) {
     const auto& errors = level["geometric_error_m"];
@@ -156,7 +158,8 @@ void add_layer(const Json& layer, Lines& lines) {
   if (!layer["extent"].is_null()) lines.add("  extent", extent_in_words(layer["extent"]));
   std::string fields;
   for (const auto& field : layer["fields"])
-    fields += (fields.empty() ? "" : ", ") + field["name"].get<std::string>() + " (" + field["type"].get<std::string>() + ")";
+    fields +=
+        (fields.empty() ? "" : ", ") + field["name"].get<std::string>() + " (" + field["type"].get<std::string>() + ")";
   if (!fields.empty()) lines.add("  fields", fields);
 }
 
@@ -199,8 +202,7 @@ auto info_text(const Json& info) -> std::string {
   else if (info.contains("layers"))
     for (const auto& layer : info["layers"]) add_layer(layer, lines);
   if (info.contains("made_by")) add_made_by(info["made_by"], lines);
-  if (info.contains("files") && info["files"].size() > 1)
-    lines.add("files", std::to_string(info["files"].size()));
+  if (info.contains("files") && info["files"].size() > 1) lines.add("files", std::to_string(info["files"].size()));
   if (info.contains("warnings"))
     for (const auto& warning : info["warnings"]) lines.add("warning", warning["message"].get<std::string>());
   return lines.text();

@@ -129,9 +129,10 @@ void print_walls_and_roofs(const Input& input, const Classes& classes, const lab
   };
   const std::string nearest = share(label::nearest_wall_or_roof(mesh, input.model)), labelled = share(classes),
                     normal = share(label::wall_or_roof_by_normal(mesh));
-  std::printf("wall or roof as by the true model, of %s m²: by the nearest wall or roof of this one %s, as labelled %s, "
-              "by the normal alone %s\n",
-              base::to_text(all, 0).c_str(), nearest.c_str(), labelled.c_str(), normal.c_str());
+  std::printf(
+      "wall or roof as by the true model, of %s m²: by the nearest wall or roof of this one %s, as labelled %s, "
+      "by the normal alone %s\n",
+      base::to_text(all, 0).c_str(), nearest.c_str(), labelled.c_str(), normal.c_str());
 }
 
 void print(const Input& input, const Classes& classes) {

@@ -51,10 +51,10 @@ auto unknown_option(const CLI::App& verb) -> std::optional<base::Diagnostic> {
     if (!word.starts_with("-") || word.size() < 2) continue;
     const auto name = word.substr(0, word.find('='));
     const auto nearest = base::nearest_word(name, Settings::names(verb));
-    return base::error("option-unknown",
-                       "there is no such option" + base::did_you_mean(nearest) +
-                           "; see 'mansard " + verb.get_name() + " --help-all'",
-                       name);
+    return base::error(
+        "option-unknown",
+        "there is no such option" + base::did_you_mean(nearest) + "; see 'mansard " + verb.get_name() + " --help-all'",
+        name);
   }
   return std::nullopt;
 }
@@ -64,13 +64,20 @@ auto run(int argc, char** argv) -> int {
   app.set_version_flag("--version", std::string("mansard ") + MANSARD_VERSION);
   app.require_subcommand(1);
   app.footer("'mansard VERB --help' shows a verb's options; 'mansard explain CODE' what a diagnostic means.");
-  const std::vector<Verb> verbs{reconstruct_verb(app, cancel), segment_verb(app, cancel),
-                                extrude_verb(app, cancel), simulate_verb(app, cancel),
-                                evaluate_verb(app, cancel), label_verb(app, cancel),
-                                explore_verb(app, {argv, argv + argc}, cancel), convert_verb(app, cancel),
-                                info_verb(app, cancel), serve_verb(app, cancel),
-                                options_verb(app), explain_verb(app),
-                                completion_verb(app), manual_verb(app)};
+  const std::vector<Verb> verbs{reconstruct_verb(app, cancel),
+                                segment_verb(app, cancel),
+                                extrude_verb(app, cancel),
+                                simulate_verb(app, cancel),
+                                evaluate_verb(app, cancel),
+                                label_verb(app, cancel),
+                                explore_verb(app, {argv, argv + argc}, cancel),
+                                convert_verb(app, cancel),
+                                info_verb(app, cancel),
+                                serve_verb(app, cancel),
+                                options_verb(app),
+                                explain_verb(app),
+                                completion_verb(app),
+                                manual_verb(app)};
   for (const auto& verb : verbs) verb.app->allow_extras();  // so that we can suggest the right one
   try {
     app.parse(argc, argv);
@@ -86,7 +93,8 @@ auto run(int argc, char** argv) -> int {
     const auto* verb = app.get_subcommands().empty() ? nullptr : app.get_subcommands().front();
     if (verb != nullptr && (dynamic_cast<const CLI::ValidationError*>(&e) != nullptr ||
                             dynamic_cast<const CLI::ConversionError*>(&e) != nullptr))
-      return give_up(base::error("option-value", std::string(e.what()) + "; see 'mansard " + verb->get_name() + " --help'"));
+      return give_up(
+          base::error("option-value", std::string(e.what()) + "; see 'mansard " + verb->get_name() + " --help'"));
     const std::string what = verb == nullptr && !first.empty() ? "'" + first + "' is no verb" : std::string(e.what());
     return give_up(base::error("usage", what + base::did_you_mean(nearest) + "; see 'mansard " +
                                             (verb != nullptr ? verb->get_name() + " " : "") + "--help'"));

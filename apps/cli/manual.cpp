@@ -17,7 +17,8 @@ auto next_code(std::string_view text, std::size_t& at) -> unsigned {
   const auto first = static_cast<unsigned char>(text[at++]);
   const int more = first >= 0xF0 ? 3 : first >= 0xE0 ? 2 : first >= 0xC0 ? 1 : 0;
   unsigned code = more == 3 ? first & 0x07U : more == 2 ? first & 0x0FU : more == 1 ? first & 0x1FU : first;
-  for (int i = 0; i < more && at < text.size(); ++i) code = code << 6U | (static_cast<unsigned char>(text[at++]) & 0x3FU);
+  for (int i = 0; i < more && at < text.size(); ++i)
+    code = code << 6U | (static_cast<unsigned char>(text[at++]) & 0x3FU);
   return first >= 0x80 && more == 0 ? '?' : code;
 }
 
@@ -66,7 +67,7 @@ auto form_text(const Form& form) -> std::string {
   std::string text = ".B mansard " + roff(form.verb) + "\n";
   for (const auto& term : form.arguments)
     text += term.required || term.value.find(' ') != std::string::npos ? ".I " + roff(term.value) + "\n"
-                                                                      : ".RI [ " + roff(term.value) + " ]\n";
+                                                                       : ".RI [ " + roff(term.value) + " ]\n";
   bool more = false;
   for (const auto& term : form.options) {
     if (!term.required) {
@@ -107,9 +108,10 @@ auto listed(const std::vector<std::string>& words) -> std::string {
 
 auto page(const CLI::App& app) -> std::string {
   const auto forms = forms_of(app);
-  std::string text = ".\\\" Made by 'mansard manual' of the lists of options in the program.\n.TH MANSARD 1 \"\" \"mansard " +
-                     std::string(MANSARD_VERSION) + "\" \"User Commands\"\n.SH NAME\nmansard \\- " +
-                     "city mesh and footprints to clean, labelled, watertight building models\n.SH SYNOPSIS\n";
+  std::string text =
+      ".\\\" Made by 'mansard manual' of the lists of options in the program.\n.TH MANSARD 1 \"\" \"mansard " +
+      std::string(MANSARD_VERSION) + "\" \"User Commands\"\n.SH NAME\nmansard \\- " +
+      "city mesh and footprints to clean, labelled, watertight building models\n.SH SYNOPSIS\n";
   for (const auto& form : forms) text += form_text(form) + ".br\n";
   text +=
       ".B mansard \\-\\-version\n.SH DESCRIPTION\nA noisy city mesh and its building footprints in; clean, watertight, "
@@ -123,8 +125,10 @@ auto page(const CLI::App& app) -> std::string {
       if (term.room.empty()) text += term_text(term);
   }
   text +=
-      ".SH OPTIONS OF THE ROOMS\nOption \\fIname\\fR of room \\fIroom\\fR is \\fB\\-\\-room\\-name\\fR, with dashes for "
-      "underscores; in the file of \\fB\\-\\-config\\fR, which is TOML, it is \\fIname\\fR in the table [\\fIroom\\fR].\n"
+      ".SH OPTIONS OF THE ROOMS\nOption \\fIname\\fR of room \\fIroom\\fR is \\fB\\-\\-room\\-name\\fR, with dashes "
+      "for "
+      "underscores; in the file of \\fB\\-\\-config\\fR, which is TOML, it is \\fIname\\fR in the table "
+      "[\\fIroom\\fR].\n"
       "The command line goes before the file, the file before the preset, the preset before the defaults.\n";
   for (const auto& [name, room] : rooms_of(forms)) {
     text += ".SS " + roff(name) + "\nOf " + listed(room.verbs) + ".\n";
@@ -134,7 +138,8 @@ auto page(const CLI::App& app) -> std::string {
   for (const auto& exit : exits()) text += ".TP\n\\fB" + std::to_string(exit.code) + "\\fR\n" + roff(exit.when) + "\n";
   text +=
       ".SH DIAGNOSTICS\nAn error is one line on standard error: \\fBmansard: error[\\fIcode\\fB] \\fIsubject\\fB: "
-      "\\fImessage\\fR.\n\\fBmansard explain\\fR \\fIcode\\fR says what it means and what to do; without a code, it lists "
+      "\\fImessage\\fR.\n\\fBmansard explain\\fR \\fIcode\\fR says what it means and what to do; without a code, it "
+      "lists "
       "them all.\n.SH EXAMPLES\n.nf\nmansard reconstruct mesh.obj footprints.geojson \\-o out \\-\\-picture\n"
       "mansard extrude out/plans.json \\-o edited.city.json\n"
       "mansard simulate \\-\\-block terrace \\-\\-preset oblique\\-aerial \\-o terrace\n.fi\n";

@@ -27,8 +27,8 @@ auto named_as_file(const fs::path& path) -> bool {
   return std::ranges::find(endings, own) != endings.end();
 }
 
-/// One name of a place, whatever it is called by; what cannot be followed (a name too long, links in a circle) keeps its
-/// own. A name alone would stay relative where nothing is there yet.
+/// One name of a place, whatever it is called by; what cannot be followed (a name too long, links in a circle) keeps
+/// its own. A name alone would stay relative where nothing is there yet.
 auto place_of(const fs::path& path) -> fs::path {
   std::error_code status;
   const auto whole = fs::absolute(path, status);

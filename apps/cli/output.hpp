@@ -29,8 +29,8 @@ void remove_folders_left_empty();
 [[nodiscard]] auto spare_results(const std::filesystem::path& result, const std::vector<std::filesystem::path>& others)
     -> base::Result<void>;
 
-/// Ordinary files, and folders of tiles, that an earlier run of a verb left in the folder: those that are its own by name,
-/// where the file is there that it always writes. To be asked before that is written again.
+/// Ordinary files, and folders of tiles, that an earlier run of a verb left in the folder: those that are its own by
+/// name, where the file is there that it always writes. To be asked before that is written again.
 [[nodiscard]] auto leftovers(const std::filesystem::path& folder, const std::string& always,
                              const std::function<bool(const std::string&)>& own) -> std::vector<std::filesystem::path>;
 /// Takes away those of them that have not been written again, so that no folder has results of two runs.

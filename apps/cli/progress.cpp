@@ -1,9 +1,9 @@
 #include "apps/cli/progress.hpp"
 
-#include <algorithm>
-#include <cstdio>
 #include <sys/ioctl.h>
 #include <unistd.h>
+#include <algorithm>
+#include <cstdio>
 
 #include "mansard/base/text.hpp"
 

@@ -130,7 +130,8 @@ auto reconstruct(const Request& request, const base::Cancel& cancel) -> int {
   const auto keep = request.layers ? pipeline::Keep::segmentations : pipeline::Keep::models;
   const auto result = pipeline::reconstruct(*scene, *options, run, keep);
   if (!result) return give_up(result.error());
-  if (auto written = write_all(request, *targets, *options, *result, *scene, run, progress); !written) return give_up(written.error());
+  if (auto written = write_all(request, *targets, *options, *result, *scene, run, progress); !written)
+    return give_up(written.error());
   summarise(*result, request, progress);
 
   std::printf("%s\n", targets->front().path.c_str());
@@ -147,7 +148,8 @@ auto reconstruct_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
   add_to(*verb, request->scan);
   verb->add_option("-o,--output", request->out, "Folder for the results")->required()->type_name("OUTDIR");
   verb->add_flag("--picture", request->picture, "Also write picture.png, above.png and error.png");
-  verb->add_flag("--layers", request->layers, "The layers of 'mansard segment', and all diagnostics, in model.gpkg too");
+  verb->add_flag("--layers", request->layers,
+                 "The layers of 'mansard segment', and all diagnostics, in model.gpkg too");
   verb->add_option("--formats", request->formats, formats_help())->type_name("FORMATS");
   verb->add_option("--error-limit", request->error_limit, "Ends of the error map's colour scale [m]")
       ->check(CLI::Range(0.01, 1000.0));

@@ -1,11 +1,11 @@
 // `mansard serve [PROJECT]`: the workbench in a browser.
-#include <cstdio>
 #include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "apps/cli/exit.hpp"
 #include "apps/cli/verbs.hpp"

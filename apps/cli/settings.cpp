@@ -1,7 +1,7 @@
 #include "apps/cli/settings.hpp"
 
-#include <algorithm>
 #include <toml++/toml.h>
+#include <algorithm>
 
 #include "mansard/base/files.hpp"
 #include "mansard/base/text.hpp"
@@ -80,8 +80,8 @@ auto apply_config(Menu& menu, const std::string& path) -> base::Result<void> {
     if (room.str() == "preset") continue;
     const auto* keys = node.as_table();
     if (keys == nullptr)
-      return base::error("config", "'" + std::string(room.str()) + "' is not a room's table; write [room] and its keys below",
-                         path);
+      return base::error(
+          "config", "'" + std::string(room.str()) + "' is not a room's table; write [room] and its keys below", path);
     for (const auto& [key, value] : *keys) {
       const std::string name = std::string(room.str()) + "." + std::string(key.str());
       const auto word = text_of(value);

@@ -25,9 +25,9 @@ struct Request : Common {
 };
 
 /// Every name that this verb may give a file, but for truth.json, which is always there.
-constexpr std::array file_names{"mesh.ply",         "footprints.geojson", "truth.geojson", "truth.city.json",
-                                "truth.city.jsonl", "truth.obj",          "truth.mtl",     "plans.json",
-                                "picture.png"};
+constexpr std::array file_names{"mesh.ply",        "footprints.geojson", "truth.geojson",
+                                "truth.city.json", "truth.city.jsonl",   "truth.obj",
+                                "truth.mtl",       "plans.json",         "picture.png"};
 
 auto menu_of(simulate::Options& options) -> Menu {
   Menu menu{{simulate::option_list(options)}, {}};
@@ -152,9 +152,8 @@ auto write_all(const Request& request, const simulate::Options& options, const K
     files.emplace_back("picture.png", std::move(*picture));
   }
   const auto all = in_folder(request.out, files);
-  const auto left = leftovers(request.out, "truth.json", [](const auto& name) {
-    return std::ranges::find(file_names, name) != file_names.end();
-  });
+  const auto left = leftovers(request.out, "truth.json",
+                              [](const auto& name) { return std::ranges::find(file_names, name) != file_names.end(); });
   if (auto written = base::write_files(all, run.cancel); !written) return written;
   remove_stale(left, all);
   progress.say(std::to_string(truth.city.buildings.size()) + " buildings, " + std::to_string(truth.party_walls.size()) +
@@ -170,7 +169,8 @@ auto simulate_block(const Request& request, const base::Cancel& cancel) -> int {
     return give_up(base::error("option-value", "there are the blocks terrace, perimeter, courtyard, towers, detached",
                                request.block));
   if (!request.box.empty() && !request.block.empty())
-    return give_up(base::error("usage", "--bbox keeps a part of a MODEL or of --footprints; a --block has --simulate-size"));
+    return give_up(
+        base::error("usage", "--bbox keeps a part of a MODEL or of --footprints; a --block has --simulate-size"));
   simulate::Options options;
   if (auto applied = request.settings.apply(menu_of(options)); !applied) return give_up(applied.error());
   std::vector<fs::path> results{fs::path(request.out) / "truth.json"}, given;
@@ -209,8 +209,9 @@ auto simulate_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
   verb->add_option("--lod", request->lod,
                    "Read this LoD of a MODEL without plans; without it, the highest of each object");
   verb->add_option("-o,--output", request->out, "Folder for the results")->required()->type_name("OUTDIR");
-  verb->add_option("--bbox", request->box,
-                   "Keep the buildings of a MODEL, or the footprints, that meet the box, in the file's or the working CRS")
+  verb->add_option(
+          "--bbox", request->box,
+          "Keep the buildings of a MODEL, or the footprints, that meet the box, in the file's or the working CRS")
       ->type_name("XMIN YMIN XMAX YMAX")
       ->expected(4);
   verb->add_flag("--picture", request->picture, "Also write picture.png: the scan, coloured by class");

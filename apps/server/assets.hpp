@@ -7,10 +7,10 @@
 namespace mansard::server {
 
 struct Asset {
-  std::string_view name;   ///< "index.html", "assets/index-Bw3kX.js"
+  std::string_view name;  ///< "index.html", "assets/index-Bw3kX.js"
   std::string_view bytes;
   std::string_view mime;
-  std::string_view hash;   ///< of the bytes
+  std::string_view hash;  ///< of the bytes
 };
 
 /// By name.

@@ -1,11 +1,11 @@
 #include "apps/server/disk.hpp"
 
-#include <atomic>
-#include <cerrno>
-#include <cstring>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
 #include <utility>
 
 namespace mansard::server {
@@ -14,9 +14,10 @@ namespace {
 namespace fs = std::filesystem;
 
 auto cannot(const std::string& what, const fs::path& path) -> base::Diagnostic {
-  return base::error("file-write",
-                     "cannot " + what + ": " + std::strerror(errno) + "; choose a place that can be written and has room",
-                     path.string());
+  return base::error(
+      "file-write",
+      "cannot " + what + ": " + std::strerror(errno) + "; choose a place that can be written and has room",
+      path.string());
 }
 
 auto write_all(int file, std::string_view bytes) -> bool {

@@ -32,8 +32,8 @@ struct Exported {
   std::vector<std::string> files;
   std::vector<base::Diagnostic> warnings;
 };
-/// All of these formats into a folder, and the run's layers where there are some; what an earlier export left there, and
-/// this one does not have, is taken away. All of it or nothing. Gives up as the writers do.
+/// All of these formats into a folder, and the run's layers where there are some; what an earlier export left there,
+/// and this one does not have, is taken away. All of it or nothing. Gives up as the writers do.
 [[nodiscard]] auto export_to(const std::filesystem::path& folder, const write::City& city,
                              const write::WriteOptions& options, const std::vector<write::Format>& formats,
                              const std::optional<std::string>& layers) -> base::Result<Exported>;

@@ -1,9 +1,9 @@
 #include "apps/server/guard.hpp"
 
+#include <sys/random.h>
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <sys/random.h>
 
 namespace mansard::server {
 namespace {
@@ -41,7 +41,8 @@ auto same_secret(std::string_view a, std::string_view b) -> bool {
   if (a.size() != b.size()) return false;  // the length is no secret
   volatile unsigned char difference = 0;
   for (std::size_t i = 0; i < a.size(); ++i)
-    difference = static_cast<unsigned char>(difference | (static_cast<unsigned char>(a[i]) ^ static_cast<unsigned char>(b[i])));
+    difference =
+        static_cast<unsigned char>(difference | (static_cast<unsigned char>(a[i]) ^ static_cast<unsigned char>(b[i])));
   return difference == 0;
 }
 
@@ -71,7 +72,8 @@ auto Guard::check(std::string_view host, const std::optional<std::string>& origi
     return base::error("server-host", "this server does not answer to that name; open the link that it printed");
   constexpr std::string_view scheme = "http://";
   if (origin && (!origin->starts_with(scheme) || !ours(std::string_view(*origin).substr(scheme.size()))))
-    return base::error("server-origin", "a page from elsewhere must not call this server; open the link that it printed");
+    return base::error("server-origin",
+                       "a page from elsewhere must not call this server; open the link that it printed");
   return {};
 }
 

@@ -23,8 +23,7 @@ class Guard {
   [[nodiscard]] auto token() const -> const std::string& { return token_; }
   /// Whether a request for the page may be answered. A name that was pointed at this machine by somebody else (DNS
   /// rebinding) is in `host`, and is refused. Gives up with "server-host", "server-origin".
-  [[nodiscard]] auto check(std::string_view host, const std::optional<std::string>& origin) const
-      -> base::Result<void>;
+  [[nodiscard]] auto check(std::string_view host, const std::optional<std::string>& origin) const -> base::Result<void>;
   /// Of what is under /api. Gives up with "server-token".
   [[nodiscard]] auto check_token(std::string_view authorization) const -> base::Result<void>;
 

@@ -16,8 +16,9 @@ constexpr std::array mesh_endings{".obj", ".ply", ".off", ".glb", ".gltf"};
 
 auto no_database(const std::string& name, const char* what) -> base::Result<void> {
   if (!ingest::is_database_name(name)) return {};
-  return base::error("server-input", std::string("this is a database, which has footprints and no ") + what +
-                                         "; name a file, a folder, or what GDAL calls '/vsi…'",
+  return base::error("server-input",
+                     std::string("this is a database, which has footprints and no ") + what +
+                         "; name a file, a folder, or what GDAL calls '/vsi…'",
                      ingest::name_to_show(name));
 }
 
@@ -34,7 +35,8 @@ auto check(const Inputs& inputs) -> base::Result<void> {
   return inputs.footprints.empty() ? base::Result<void>() : ingest::check_input(inputs.footprints);
 }
 
-/// Whether the file is the source, lies in it (a folder, an archive), or beside it under its name (as a Shapefile's do).
+/// Whether the file is the source, lies in it (a folder, an archive), or beside it under its name (as a Shapefile's
+/// do).
 auto belongs_to(const std::string& file, const std::string& source) -> bool {
   if (file == ingest::name_to_show(source)) return true;
   if (ingest::is_disk_name(source)) {
@@ -77,7 +79,8 @@ auto inputs_asked_for(const InputsRequest& request, const std::optional<Inputs>&
   for (const auto& [key, value] : inputs.reading)
     if (!of_reading(key))
       return base::error("option-value",
-                         "only options of 'ingest', 'derive' and 'block' say how inputs are read; give it to a run", key);
+                         "only options of 'ingest', 'derive' and 'block' say how inputs are read; give it to a run",
+                         key);
   const auto terrain = inputs.reading.find(terrain_option);
   if (terrain != inputs.reading.end() && !terrain->second.empty()) terrain->second = whole_name(terrain->second);
   if (auto checked = check(inputs); !checked) return checked.error();

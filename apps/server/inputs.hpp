@@ -23,8 +23,8 @@ namespace mansard::server {
 /// Whether an option says how inputs are read, so that all runs have it in common.
 [[nodiscard]] auto of_reading(const std::string& key) -> bool;
 
-/// The request with whole names. `known`, the inputs of the project, have the password where the page names a database as
-/// it was shown. Gives up with "option-…", "server-input" (a database in place of a mesh or of the terrain), and as
+/// The request with whole names. `known`, the inputs of the project, have the password where the page names a database
+/// as it was shown. Gives up with "option-…", "server-input" (a database in place of a mesh or of the terrain), and as
 /// ingest::check_input does.
 [[nodiscard]] auto inputs_asked_for(const InputsRequest& request, const std::optional<Inputs>& known)
     -> base::Result<Inputs>;

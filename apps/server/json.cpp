@@ -98,9 +98,9 @@ auto json_of(std::span<const base::Diagnostic> diagnostics) -> Json {
 }
 
 auto json_of(const Job& job) -> Json {
-  return {{"id", job.id},           {"kind", job.kind},         {"run", or_null(job.run)},
-          {"state", to_string(job.state)}, {"stage", job.stage}, {"subject", job.subject},
-          {"fraction", job.fraction}, {"failure", or_null(job.failure)}};
+  return {
+      {"id", job.id},       {"kind", job.kind},       {"run", or_null(job.run)},  {"state", to_string(job.state)},
+      {"stage", job.stage}, {"subject", job.subject}, {"fraction", job.fraction}, {"failure", or_null(job.failure)}};
 }
 
 auto json_of(const MapInfo& map) -> Json {
@@ -122,11 +122,21 @@ auto json_of(const RunRecord& run, std::size_t edits) -> Json {
               {"invented", run.scores->invented}};
   Json times = Json::array();
   for (const auto& time : run.times) times.push_back({{"stage", time.stage}, {"seconds", time.seconds}});
-  return {{"id", run.id},           {"label", run.label},   {"state", to_string(run.state)},
-          {"failure", or_null(run.failure)}, {"created", run.created}, {"preset", run.preset},
-          {"options", run.options}, {"blocks", run.blocks}, {"scores", scores},
-          {"times", times},         {"buildings", run.buildings}, {"full", run.full},
-          {"parts", run.parts},     {"faces", run.faces},   {"edits", edits}};
+  return {{"id", run.id},
+          {"label", run.label},
+          {"state", to_string(run.state)},
+          {"failure", or_null(run.failure)},
+          {"created", run.created},
+          {"preset", run.preset},
+          {"options", run.options},
+          {"blocks", run.blocks},
+          {"scores", scores},
+          {"times", times},
+          {"buildings", run.buildings},
+          {"full", run.full},
+          {"parts", run.parts},
+          {"faces", run.faces},
+          {"edits", edits}};
 }
 
 /// The writer of plans says what a plan looks like, here as in a file.

@@ -134,9 +134,10 @@ auto Models::read_reports(const std::filesystem::path& path) -> base::Result<voi
         return base::error("server-project", "the report says nothing of a building of plans.json; delete the run",
                            city_.buildings[b].id);
   } catch (const Json::exception& e) {
-    return base::error("server-project",
-                       std::string("the report of a run cannot be read: ") + e.what() + "; restore it, or delete the run",
-                       path.string());
+    return base::error(
+        "server-project",
+        std::string("the report of a run cannot be read: ") + e.what() + "; restore it, or delete the run",
+        path.string());
   }
   return {};
 }
@@ -282,8 +283,8 @@ auto Models::seen(const std::string& id, const edit::RaisedBuilding& raised, boo
   out->box = box_of(out->parts);
   out->measured = measured;
   out->json = "{" + without_braces(json_of(id, out->revision, out->parts, raised)) + "," +
-              reports_[index_.find(id)->second].fixed + R"(,"edited":)" +
-              (history_.edited(id) ? "true" : "false") + "}";
+              reports_[index_.find(id)->second].fixed + R"(,"edited":)" + (history_.edited(id) ? "true" : "false") +
+              "}";
   return out;
 }
 

@@ -11,8 +11,7 @@ auto bytes_of(const std::vector<float>& values) -> std::string {
 
 void count(const pipeline::Reconstruction& result, RunRecord& record) {
   const auto& s = result.scores;
-  record.scores = RunScores{s.mse,        s.footprint_mse, s.footprint_median_absolute,
-                            s.inside.mse, s.missed,        s.invented};
+  record.scores = RunScores{s.mse, s.footprint_mse, s.footprint_median_absolute, s.inside.mse, s.missed, s.invented};
   record.times = result.times;
   record.buildings = result.buildings.size();
   record.full = static_cast<std::size_t>(
@@ -34,12 +33,11 @@ auto reconstruct(const OpenScene& scene, RunRecord record, const base::Run& how)
   if (auto set = set_all(options, record.options); !set) return set.error();
   auto run = how;
   run.seed = static_cast<std::uint64_t>(options.seed);
-  const auto result =
-      pipeline::reconstruct(scene.scene(), options, run, pipeline::Keep::segmentations, record.blocks);
+  const auto result = pipeline::reconstruct(scene.scene(), options, run, pipeline::Keep::segmentations, record.blocks);
   if (!result) return result.error();
   run.report("write", "", 1);
-  auto layers = write::geopackage(
-      pipeline::segment_layers(scene.scene(), result->segmented, result->city.made_by), scene.scene().frame);
+  auto layers = write::geopackage(pipeline::segment_layers(scene.scene(), result->segmented, result->city.made_by),
+                                  scene.scene().frame);
   if (!layers) return layers.error();
   RunOutcome out{std::move(record), {}};
   count(*result, out.record);

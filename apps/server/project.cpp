@@ -1,12 +1,12 @@
 #include "apps/server/project.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fcntl.h>
 #include <nlohmann/json.hpp>
-#include <sys/file.h>
-#include <sys/stat.h>
 
 #include "apps/server/json.hpp"
 #include "mansard/base/files.hpp"
@@ -50,8 +50,8 @@ auto files_of(const fs::path& folder, const Json& json) -> std::vector<KnownFile
   for (const auto& file : json) {
     const auto bytes = file.at("bytes").get<std::uint64_t>();
     const Stamp stamp{file.value("bytes_on_disk", bytes), file.at("modified_ns").get<std::int64_t>()};
-    files.push_back({to_project(folder, file.at("path").get<std::string>()), bytes,
-                     file.at("sha256").get<std::string>(), stamp});
+    files.push_back(
+        {to_project(folder, file.at("path").get<std::string>()), bytes, file.at("sha256").get<std::string>(), stamp});
   }
   return files;
 }
@@ -114,7 +114,7 @@ auto record_of(const Json& json) -> RunRecord {
   run.options = json.at("options").get<Texts>();
   run.blocks = json.at("blocks").get<std::vector<std::string>>();
   if (const auto& s = json.at("scores"); !s.is_null())
-    run.scores = RunScores{s.at("mse"),       s.at("footprint_mse"), s.at("footprint_median_absolute"),
+    run.scores = RunScores{s.at("mse"),        s.at("footprint_mse"), s.at("footprint_median_absolute"),
                            s.at("inside_mse"), s.at("missed"),        s.at("invented")};
   for (const auto& time : json.at("times")) run.times.push_back({time.at("stage"), time.at("seconds")});
   run.buildings = json.at("buildings");
@@ -122,8 +122,11 @@ auto record_of(const Json& json) -> RunRecord {
   run.parts = json.at("parts");
   run.faces = json.at("faces");
   for (const auto& map : json.at("maps"))
-    run.maps.push_back({map.at("block"), {map.at("origin").at(0), map.at("origin").at(1)}, map.at("grid"),
-                        map.at("columns"), map.at("rows")});
+    run.maps.push_back({map.at("block"),
+                        {map.at("origin").at(0), map.at("origin").at(1)},
+                        map.at("grid"),
+                        map.at("columns"),
+                        map.at("rows")});
   return run;
 }
 
@@ -173,10 +176,10 @@ auto lock_of(const fs::path& folder) -> base::Result<Descriptor> {
   const auto path = folder / "lock";
   Descriptor lock(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
   if (!lock.there())
-    return base::error("file-write",
-                       std::string("cannot write into this folder: ") + std::strerror(errno) +
-                           "; choose a place that can be written",
-                       folder.string());
+    return base::error(
+        "file-write",
+        std::string("cannot write into this folder: ") + std::strerror(errno) + "; choose a place that can be written",
+        folder.string());
   if (::flock(lock.number(), LOCK_EX | LOCK_NB) != 0)
     return base::error("server-locked", "another 'mansard serve' has this project open; use its page, or end it first",
                        folder.string());
@@ -204,10 +207,8 @@ auto standing_edits(const fs::path& journal) -> std::size_t {
   for (std::size_t from = 0;;) {
     const auto end = text->find('\n', from);
     if (end == std::string::npos) return standing;
-    if (std::string_view(*text).substr(from, end - from) == edit::undo_line)
-      standing -= standing > 0 ? 1 : 0;
-    else
-      ++standing;
+    if (std::string_view(*text).substr(from, end - from) == edit::undo_line) standing -= standing > 0 ? 1 : 0;
+    else ++standing;
     from = end + 1;
   }
 }

@@ -2,7 +2,8 @@
 //
 //   project.json            inputs by path, size and SHA-256, and the options they are read with
 //   inputs/                 what was uploaded
-//   runs/run-3/run.json     label, state, options, numbers; written last, so that a run that is done has all of the rest
+//   runs/run-3/run.json     label, state, options, numbers; written last, so that a run that is done has all of the
+//   rest
 //             report.json, plans.json, layers.json, segment.gpkg, error-0.bin …
 //             journal.jsonl the edits
 //   exports/, trash/        what was exported; runs that were deleted
@@ -81,8 +82,8 @@ struct RunRecord {
 
 class Project {
  public:
-  /// Makes it where the folder is missing or empty. Nobody else can open it as long as this lives: the kernel lets go of
-  /// the lock with the process. Gives up with "server-folder" (it holds something else), "server-locked",
+  /// Makes it where the folder is missing or empty. Nobody else can open it as long as this lives: the kernel lets go
+  /// of the lock with the process. Gives up with "server-folder" (it holds something else), "server-locked",
   /// "server-project" (project.json cannot be read), "file-write".
   [[nodiscard]] static auto open(const std::filesystem::path& folder) -> base::Result<Project>;
 

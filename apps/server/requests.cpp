@@ -32,7 +32,9 @@ struct Item {
   std::string place;
 
   [[nodiscard]] auto where() const -> std::string { return place.empty() ? "the body" : place; }
-  [[noreturn]] void refuse(const std::string& wanted) const { throw Refused{bad(where() + " must be " + wanted, place)}; }
+  [[noreturn]] void refuse(const std::string& wanted) const {
+    throw Refused{bad(where() + " must be " + wanted, place)};
+  }
 
   auto object(std::initializer_list<const char*> names) const -> const Item& {
     if (!json.is_object()) refuse("an object");
@@ -160,7 +162,8 @@ auto read_import(std::string_view body) -> base::Result<ImportRequest> {
 }
 
 auto read_label(std::string_view body) -> base::Result<std::string> {
-  return reading(body, [](const Item& item) { return base::on_one_line(item.object({"label"}).member("label").text()); });
+  return reading(body,
+                 [](const Item& item) { return base::on_one_line(item.object({"label"}).member("label").text()); });
 }
 
 auto read_section(std::string_view body) -> base::Result<SectionRequest> {
@@ -218,8 +221,7 @@ auto read_nothing(std::string_view body) -> base::Result<void> {
 }
 
 auto check_edge(const geometry::Plan& plan, std::size_t ring, std::size_t edge, double share) -> base::Result<void> {
-  if (ring > plan.holes.size())
-    return bad("ring must be at most " + std::to_string(plan.holes.size()), "ring");
+  if (ring > plan.holes.size()) return bad("ring must be at most " + std::to_string(plan.holes.size()), "ring");
   const auto edges = (ring == 0 ? plan.outer : plan.holes[ring - 1]).points.size();
   if (edge >= edges) return bad("edge must be less than " + std::to_string(edges), "edge");
   if (!(share >= 0 && share <= 1)) return bad("share must be from 0 to 1", "share");

@@ -78,7 +78,8 @@ auto table() -> std::vector<Route> {
        with(read_run, [](auto& w, const auto&, auto request) { return w.start_run(request); })},
       {"POST", "/api/runs/import", sends, gives,
        with(read_import, [](auto& w, const auto&, auto request) { return w.import_model(request); })},
-      {"DELETE", "/api/runs/{run}", nothing, gives, [](auto& w, const auto& call) { return w.remove_run(run_of(call)); }},
+      {"DELETE", "/api/runs/{run}", nothing, gives,
+       [](auto& w, const auto& call) { return w.remove_run(run_of(call)); }},
       {"PATCH", "/api/runs/{run}", sends, gives,
        with(read_label, [](auto& w, const auto& call, auto label) { return w.rename_run(run_of(call), label); })},
       {"GET", "/api/runs/{run}/report", nothing, gives,
@@ -131,10 +132,8 @@ auto matches(const Route& route, const std::vector<std::string_view>& words, Wor
   if (pattern.size() != words.size()) return false;
   captured.clear();
   for (std::size_t i = 0; i < words.size(); ++i) {
-    if (pattern[i].starts_with('{'))
-      captured.emplace(pattern[i].substr(1, pattern[i].size() - 2), words[i]);
-    else if (pattern[i] != words[i])
-      return false;
+    if (pattern[i].starts_with('{')) captured.emplace(pattern[i].substr(1, pattern[i].size() - 2), words[i]);
+    else if (pattern[i] != words[i]) return false;
   }
   return true;
 }
@@ -142,13 +141,15 @@ auto matches(const Route& route, const std::vector<std::string_view>& words, Wor
 /// The code says what went wrong; HTTP only has classes for it.
 auto status_of(std::string_view code) -> int {
   static constexpr std::array<std::pair<std::string_view, int>, 26> known{{
-      {"server-body", 400},   {"option-value", 400},    {"option-unknown", 400}, {"file-missing", 400},
-      {"server-upload", 400}, {"server-token", 401},    {"server-host", 403},    {"server-origin", 403},
-      {"server-path", 404},   {"server-unknown", 404},  {"server-no-scene", 404}, {"server-sample", 404},
-      {"edit-building", 404}, {"edit-part", 404},       {"pipeline-block-unknown", 404}, {"server-method", 405},
-      {"edit-stale", 409},    {"edit-nothing", 409},    {"server-busy", 409},    {"server-inputs", 409},
-      {"server-input", 400},  {"file-read", 400},
-      {"server-not-done", 409}, {"output-exists", 409}, {"server-large", 413},   {"server-listeners", 503},
+      {"server-body", 400},    {"option-value", 400},     {"option-unknown", 400},
+      {"file-missing", 400},   {"server-upload", 400},    {"server-token", 401},
+      {"server-host", 403},    {"server-origin", 403},    {"server-path", 404},
+      {"server-unknown", 404}, {"server-no-scene", 404},  {"server-sample", 404},
+      {"edit-building", 404},  {"edit-part", 404},        {"pipeline-block-unknown", 404},
+      {"server-method", 405},  {"edit-stale", 409},       {"edit-nothing", 409},
+      {"server-busy", 409},    {"server-inputs", 409},    {"server-input", 400},
+      {"file-read", 400},      {"server-not-done", 409},  {"output-exists", 409},
+      {"server-large", 413},   {"server-listeners", 503},
   }};
   const auto at = std::ranges::find(known, code, &std::pair<std::string_view, int>::first);
   if (at != known.end()) return at->second;
@@ -206,11 +207,10 @@ auto page(std::string_view path, std::string_view known_hash) -> Answer {
   const auto tag = "\"" + std::string(asset->hash) + "\"";
   // Names under assets/ have a hash of what they hold; the page itself does not.
   Answer out{200, std::string(asset->mime), {}, {{"ETag", tag}}};
-  out.headers["Cache-Control"] = asset->name.starts_with("assets/") ? "private, max-age=31536000, immutable" : "no-cache";
-  if (known_hash == tag)
-    out.status = 304;
-  else
-    out.body = asset->bytes;
+  out.headers["Cache-Control"] =
+      asset->name.starts_with("assets/") ? "private, max-age=31536000, immutable" : "no-cache";
+  if (known_hash == tag) out.status = 304;
+  else out.body = asset->bytes;
   return out;
 }
 

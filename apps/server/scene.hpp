@@ -48,7 +48,8 @@ class OpenScene {
   [[nodiscard]] auto rays_of(std::string_view building) const -> const rays::Scene*;
   /// Across an edge of a plan. Where the building is not known, the block that is nearest counts.
   [[nodiscard]] auto section(const geometry::Plan& plan, std::size_t ring, std::size_t edge, double share,
-                             const std::optional<std::string>& building, const pipeline::Options& options) const -> Json;
+                             const std::optional<std::string>& building, const pipeline::Options& options) const
+      -> Json;
 
  private:
   OpenScene() = default;

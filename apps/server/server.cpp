@@ -2,11 +2,11 @@
 // is in routes.cpp.
 #include "apps/server/server.hpp"
 
+#include <httplib.h>
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <filesystem>
-#include <httplib.h>
 #include <memory>
 #include <thread>
 
@@ -36,9 +36,7 @@ constexpr const char* content_security_policy =
 constexpr auto answered = httplib::Server::HandlerResponse::Handled;
 constexpr auto goes_on = httplib::Server::HandlerResponse::Unhandled;
 
-auto header(const httplib::Request& request, const char* name) -> std::string {
-  return request.get_header_value(name);
-}
+auto header(const httplib::Request& request, const char* name) -> std::string { return request.get_header_value(name); }
 
 auto has_body(const httplib::Request& request) -> bool {
   const auto length = header(request, "Content-Length");
@@ -96,15 +94,15 @@ class Body {
   bool rest_ = false;
 };
 
-/// Connections that wait for a next request end at once; answers under way are still sent. The library keeps its sockets
-/// to itself: they are known by the port they came in by.
+/// Connections that wait for a next request end at once; answers under way are still sent. The library keeps its
+/// sockets to itself: they are known by the port they came in by.
 void hear_nothing_more(int port) {
   std::error_code status;
   for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", status)) {
     const int file = static_cast<int>(base::to_whole(entry.path().filename().string()).value_or(-1));
     sockaddr_storage address{};
     socklen_t size = sizeof address;
-    if (::getsockname(file, reinterpret_cast<sockaddr*>(&address), &size) != 0) continue;  // NOLINT
+    if (::getsockname(file, reinterpret_cast<sockaddr*>(&address), &size) != 0) continue;                    // NOLINT
     const auto in = address.ss_family == AF_INET ? reinterpret_cast<const sockaddr_in*>(&address)->sin_port  // NOLINT
                     : address.ss_family == AF_INET6
                         ? reinterpret_cast<const sockaddr_in6*>(&address)->sin6_port  // NOLINT
@@ -128,8 +126,8 @@ class Web {
     });
     http_.set_tcp_nodelay(true);
     http_.set_keep_alive_max_count(100'000);
-    // s. A browser keeps connections for later and may, when busy, send on one that was closed while it was not looking;
-    // each that waits holds a thread.
+    // s. A browser keeps connections for later and may, when busy, send on one that was closed while it was not
+    // looking; each that waits holds a thread.
     http_.set_keep_alive_timeout(15);
     http_.set_default_headers({{"Content-Security-Policy", content_security_policy},
                                {"X-Content-Type-Options", "nosniff"},
@@ -161,7 +159,7 @@ class Web {
 
   /// Listens from now on. Gives up with "server-port", "server-random".
   auto start() -> base::Result<std::string> {
-    const int port = options_.port == 0              ? http_.bind_to_any_port(options_.address)
+    const int port = options_.port == 0                                    ? http_.bind_to_any_port(options_.address)
                      : http_.bind_to_port(options_.address, options_.port) ? options_.port
                                                                            : -1;
     if (port < 0)
@@ -237,8 +235,9 @@ class Web {
     }
     const auto route = route_of(request, call);
     if (sends || has_body(request)) {
-      put_and_close(refusal(route ? base::error("server-body", "a body of this kind is not taken here") : route.error()),
-                    response);
+      put_and_close(
+          refusal(route ? base::error("server-body", "a body of this kind is not taken here") : route.error()),
+          response);
     } else if (!route) {
       put(refusal(route.error()), response);
     } else if ((*route)->gives == Gives::events) {
@@ -282,10 +281,8 @@ class Web {
     }
     std::optional<base::Diagnostic> why;
     const bool whole = body.read([&](std::string_view piece) {
-      if (file->size() + piece.size() > options_.upload_limit)
-        why = too_large(options_.upload_limit);
-      else if (auto added = file->add(piece); !added)
-        why = added.error();
+      if (file->size() + piece.size() > options_.upload_limit) why = too_large(options_.upload_limit);
+      else if (auto added = file->add(piece); !added) why = added.error();
       return !why;
     });
     if (why) return refusal(*why);
@@ -371,7 +368,8 @@ auto codes() -> std::vector<base::Code> {
       {"server-not-done", "A run is asked for results that it does not have.",
        "Wait until it is done, or start it again.", usage},
       {"server-busy", "A run that has not ended cannot be deleted.", "Cancel its job first.", usage},
-      {"server-inputs", "The project has runs of other inputs, and results of two inputs cannot stand beside each other.",
+      {"server-inputs",
+       "The project has runs of other inputs, and results of two inputs cannot stand beside each other.",
        "Delete the runs, or start 'mansard serve' with another folder.", usage},
       {"server-input", "A database is named where a mesh or a raster belongs.",
        "Name it for the footprints; a mesh is a file, a folder, an archive or a tileset.", usage},

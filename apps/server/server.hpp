@@ -13,10 +13,10 @@
 namespace mansard::server {
 
 struct Options {
-  std::filesystem::path project = "mansard-project";  ///< made if it is missing
-  std::string address = "127.0.0.1";                  ///< of the machine, to listen on
-  int port = 8642;                                    ///< 0: any that is free
-  std::filesystem::path sample;                       ///< a folder with meshes and footprints; empty: none
+  std::filesystem::path project = "mansard-project";    ///< made if it is missing
+  std::string address = "127.0.0.1";                    ///< of the machine, to listen on
+  int port = 8642;                                      ///< 0: any that is free
+  std::filesystem::path sample;                         ///< a folder with meshes and footprints; empty: none
   std::uint64_t upload_limit = std::uint64_t{4} << 30;  ///< bytes of one uploaded file
 };
 

@@ -92,9 +92,7 @@ void Workspace::stop() {
 
 // ---- the project
 
-auto Workspace::status() const -> Text {
-  return text_of({{"version", MANSARD_VERSION}, {"busy", jobs_.busy()}});
-}
+auto Workspace::status() const -> Text { return text_of({{"version", MANSARD_VERSION}, {"busy", jobs_.busy()}}); }
 
 /// Size and time are looked at; the contents only where these differ.
 auto Workspace::changed(const KnownFile& file) const -> bool {
@@ -115,8 +113,7 @@ auto Workspace::changed(const KnownFile& file) const -> bool {
 auto Workspace::files_json(const std::vector<KnownFile>& files) const -> Json {
   Json out = Json::array();
   for (const auto& file : files)
-    out.push_back(
-        {{"path", file.path}, {"bytes", file.bytes}, {"sha256", file.sha256}, {"changed", changed(file)}});
+    out.push_back({{"path", file.path}, {"bytes", file.bytes}, {"sha256", file.sha256}, {"changed", changed(file)}});
   return out;
 }
 
@@ -134,19 +131,14 @@ auto Workspace::project_json() const -> Json {
              {"meshes", files_json(inputs->mesh_files)},
              {"terrain", files_json(inputs->terrain_files)},
              {"footprints", files_json(inputs->footprint_files)}};
-  return {{"name", project_.name()},
-          {"folder", project_.folder().string()},
-          {"inputs", std::move(files)},
-          {"reading", inputs ? Json(inputs->reading) : Json::object()},
-          {"runs", std::move(runs)},
-          {"sample", sample_at_hand()}};
+  return {{"name", project_.name()},    {"folder", project_.folder().string()},
+          {"inputs", std::move(files)}, {"reading", inputs ? Json(inputs->reading) : Json::object()},
+          {"runs", std::move(runs)},    {"sample", sample_at_hand()}};
 }
 
 auto Workspace::project() const -> Text { return text_of(project_json()); }
 
-void Workspace::tell_project() {
-  events_.tell(text_of({{"type", "project"}, {"project", project_json()}}), "project");
-}
+void Workspace::tell_project() { events_.tell(text_of({{"type", "project"}, {"project", project_json()}}), "project"); }
 
 auto Workspace::jobs() const -> Text {
   Json all = Json::array();
@@ -211,14 +203,17 @@ auto Workspace::open_sample() -> Text {
     }
   }
   if (request.meshes.empty() || request.footprints.empty())
-    return refuse("server-sample", "there is no sample at hand; start 'mansard serve' with --sample DIR, a folder with "
-                                   "meshes and a file 'footprints'", sample_.string());
+    return refuse("server-sample",
+                  "there is no sample at hand; start 'mansard serve' with --sample DIR, a folder with "
+                  "meshes and a file 'footprints'",
+                  sample_.string());
   return open_inputs(request);
 }
 
 auto Workspace::upload_path(const std::string& name) const -> base::Result<fs::path> {
   if (!plain_name(name))
-    return refuse("server-upload", "a file name has 1 to 128 letters, digits, '.', '_', '-', and does not begin with a dot",
+    return refuse("server-upload",
+                  "a file name has 1 to 128 letters, digits, '.', '_', '-', and does not begin with a dot",
                   base::on_one_line(name.substr(0, 128)));
   return project_.folder() / "inputs" / name;
 }
@@ -296,7 +291,8 @@ auto Workspace::tile(const std::string& id) const -> Text {
 // ---- runs
 
 auto Workspace::find(const std::string& run) const -> const Run* {
-  const auto at = std::ranges::find(runs_, run, [](const auto& known) -> const auto& { return known.record.id; });
+  const auto at = std::ranges::find(
+      runs_, run, [](const auto& known) -> const auto& { return known.record.id; });
   return at == runs_.end() ? nullptr : &*at;
 }
 
@@ -386,7 +382,8 @@ auto Workspace::import_model(const ImportRequest& request) -> Text {
   {
     const std::scoped_lock lock(mutex_);
     if (project_.inputs() && !scene_)
-      return refuse("server-no-scene", "the project's inputs are not there, and the model could not be put beside them");
+      return refuse("server-no-scene",
+                    "the project's inputs are not there, and the model could not be put beside them");
   }
   Run run;
   run.record.label = request.label.empty() ? fs::path(path).filename().string() : request.label;
@@ -540,8 +537,8 @@ auto Workspace::section(const std::string& run, const SectionRequest& request) -
   if (!scene) return scene.error();
   if (auto checked = check_edge(request.plan, request.ring, request.edge, request.share); !checked)
     return checked.error();
-  return text_of((*scene)->section(request.plan, request.ring, request.edge, request.share, std::nullopt,
-                                   (*open)->options()));
+  return text_of(
+      (*scene)->section(request.plan, request.ring, request.edge, request.share, std::nullopt, (*open)->options()));
 }
 
 auto Workspace::preview(const std::string& run, const std::vector<edit::Change>& changes) -> Text {
@@ -567,7 +564,8 @@ auto Workspace::answer(const std::string& run, const Changed& changed, const std
     if (auto* found = find(run)) found->edits = changed.standing;
   }
   const auto both = R"("buildings":)" + changed.buildings + R"(,"history":)" + changed.history + "}";
-  events_.tell(R"({"type":"buildings","run":)" + text_of(Json(run)) + R"(,"client":)" + text_of(Json(client)) + "," + both);
+  events_.tell(R"({"type":"buildings","run":)" + text_of(Json(run)) + R"(,"client":)" + text_of(Json(client)) + "," +
+               both);
   return "{" + both;
 }
 

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t longest = std::numeric_limits<std::uint32_t>::max() - 1, most = 65'534;
-constexpr std::uint16_t needed = 20;               // 2.0: files in folders
+constexpr std::uint16_t needed = 20;                    // 2.0: files in folders
 constexpr std::uint16_t day = (0 << 9) | (1 << 5) | 1;  // 1980-01-01, the first there is
 
 auto crc_table() -> std::array<std::uint32_t, 256> {

@@ -1,5 +1,5 @@
-// How long an edit takes: every building of a scan raised and measured among its neighbours, as the workbench does while
-// a corner is dragged; and the tiles of its mesh.
+// How long an edit takes: every building of a scan raised and measured among its neighbours, as the workbench does
+// while a corner is dragged; and the tiles of its mesh.
 //   bench_edit MESH FOOTPRINTS [ROOM.OPTION=VALUE…]
 //   bench_edit TRIANGLES        tiles of so many triangles of hills
 #include <algorithm>
@@ -143,9 +143,8 @@ auto main(int argc, char** argv) -> int {
     const double took = best([&] { (void)edit::raise(parts, site, options); });
     all.push_back(took);
     if (corners <= 10) small.push_back(took);
-    without_mesh.push_back(best([&] {
-      (void)edit::raise(parts, {.neighbours = neighbours, .before = {}, .mesh = nullptr}, options);
-    }));
+    without_mesh.push_back(
+        best([&] { (void)edit::raise(parts, {.neighbours = neighbours, .before = {}, .mesh = nullptr}, options); }));
     base::limit_threads(1);
     one_thread.push_back(best([&] { (void)edit::raise(parts, site, options); }));
     base::limit_threads(0);
@@ -175,8 +174,7 @@ auto main(int argc, char** argv) -> int {
         continue;
       }
       ++parts_split;
-      const auto raised =
-          edit::raise(*after, {.neighbours = neighbours, .before = before, .mesh = nullptr}, options);
+      const auto raised = edit::raise(*after, {.neighbours = neighbours, .before = before, .mesh = nullptr}, options);
       split_valid += raised.valid() ? 1 : 0;
       for (const auto& diagnostic : raised.diagnostics) std::puts(base::to_string(diagnostic).c_str());
       for (const auto& piece : raised.parts) raised_less += piece.outcome == extrude::Outcome::full ? 0 : 1;

@@ -38,8 +38,8 @@ void describe(benchmark::State& state, const Plans& plans) {
   const auto count = static_cast<double>(plans.size());
   state.counters["polygons"] = count;
   state.counters["corners"] = corners_of(plans);
-  state.counters["each"] = benchmark::Counter(count, benchmark::Counter::kIsIterationInvariantRate |
-                                                         benchmark::Counter::kInvert);  // s
+  state.counters["each"] =
+      benchmark::Counter(count, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);  // s
 }
 
 /// The whole door: canonical footprint, sweep, rounding, check.
@@ -126,7 +126,8 @@ using Work = void (*)(benchmark::State&, const Plans&);
 
 /// Plans are made when the benchmark runs, so that a filter does not pay for the others.
 void add(const std::string& name, Work work, const std::function<Plans()>& make, bool wall_clock = false) {
-  auto* made = benchmark::RegisterBenchmark(name.c_str(), [work, make](benchmark::State& state) { work(state, make()); });
+  auto* made =
+      benchmark::RegisterBenchmark(name.c_str(), [work, make](benchmark::State& state) { work(state, make()); });
   made->Unit(benchmark::kMillisecond);
   if (wall_clock) made->UseRealTime();
 }

@@ -65,7 +65,8 @@ auto outline(const Cells& cells) -> Ring {
   Cell before = start, at = next[start];
   do {
     const Cell to = next[at];
-    const bool straight = to.first - at.first == at.first - before.first && to.second - at.second == at.second - before.second;
+    const bool straight =
+        to.first - at.first == at.first - before.first && to.second - at.second == at.second - before.second;
     if (!straight) ring.push_back({cell_size * at.first, cell_size * at.second});
     before = at;
     at = to;
@@ -157,7 +158,9 @@ auto small_footprint(base::Random& random) -> Ring {
     case 0: ring = {{0, 0}, {w, 0}, {w, d}, {0, d}}; break;
     case 1: ring = {{0, 0}, {w, 0}, {w, b}, {a, b}, {a, d}, {0, d}}; break;
     case 2: ring = {{0, 0}, {w, 0}, {w, b}, {c, b}, {c, d}, {a, d}, {a, b}, {0, b}}; break;
-    default: ring = {{0, 0}, {a, 0}, {a, -1.5}, {c, -1.5}, {c, 0}, {w, 0}, {w, b}, {w + 2, b}, {w + 2, d}, {0, d}}; break;
+    default:
+      ring = {{0, 0}, {a, 0}, {a, -1.5}, {c, -1.5}, {c, 0}, {w, 0}, {w, b}, {w + 2, b}, {w + 2, d}, {0, d}};
+      break;
   }
   for (Point2& p : ring) p = p + Point2{random.uniform(-0.03, 0.03), random.uniform(-0.03, 0.03)};
   return turned(ring, random.uniform(0, 6));

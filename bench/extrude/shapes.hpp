@@ -12,8 +12,8 @@
 namespace mansard::bench {
 
 /// A star around the origin with spikes of very different lengths: no ties, half its corners reflex. Corners lie
-/// between a third of and the whole radius, 12 m at 16 corners and growing with their number to the power of 3/4, so that
-/// the gaps between the spikes stay wider than the tolerance of a canonical footprint.
+/// between a third of and the whole radius, 12 m at 16 corners and growing with their number to the power of 3/4, so
+/// that the gaps between the spikes stay wider than the tolerance of a canonical footprint.
 [[nodiscard]] auto star(base::Random& random, std::size_t corners) -> geometry::Ring;
 
 /// The outline of a branching set of cells of 3 m without holes: at least that many corners, all edges along the axes

@@ -1,9 +1,9 @@
 // How well the readings of the model recover what was planted. Prints a table, a line for every combination:
 //   bench_readings FIRST_SEED LAST_SEED [OPTION=VALUE,VALUE…]…     bench_readings 1 5 height_weight=1,8,16
 //   thin_rule=all
-// OPTION is one of segment's, or step_height or step_length of sweep's: roof steps are looked for in the planted scan only
-// where step_height is given.
-// Every kind of block with every seed, once with a feature for each house and once with one feature for all.
+// OPTION is one of segment's, or step_height or step_length of sweep's: roof steps are looked for in the planted scan
+// only where step_height is given. Every kind of block with every seed, once with a feature for each house and once
+// with one feature for all.
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>

@@ -1,10 +1,10 @@
 #include "mansard/base/files.hpp"
 
+#include <unistd.h>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <memory>
-#include <unistd.h>
 
 namespace mansard::base {
 namespace {

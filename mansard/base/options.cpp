@@ -44,8 +44,15 @@ auto OptionList::find(std::string_view name) const -> const Option* {
 }
 
 auto OptionList::flag(std::string name, bool& member, std::string meaning) -> OptionList& {
-  Option option{.name = std::move(name), .meaning = std::move(meaning), .unit = {}, .kind = Option::Kind::flag,
-                .range = {}, .choices = {"true", "false"}, .alias = {}, .get = {}, .set = {}};
+  Option option{.name = std::move(name),
+                .meaning = std::move(meaning),
+                .unit = {},
+                .kind = Option::Kind::flag,
+                .range = {},
+                .choices = {"true", "false"},
+                .alias = {},
+                .get = {},
+                .set = {}};
   option.get = [&member] { return std::string(member ? "true" : "false"); };
   option.set = [&member, room = room_, option](std::string_view given) -> Result<void> {
     if (given != "true" && given != "false") return bad_value(room, option, given, "true or false");
@@ -57,8 +64,15 @@ auto OptionList::flag(std::string name, bool& member, std::string meaning) -> Op
 
 auto OptionList::whole(std::string name, std::int64_t& member, std::string unit, Range range, std::string meaning)
     -> OptionList& {
-  Option option{.name = std::move(name), .meaning = std::move(meaning), .unit = std::move(unit),
-                .kind = Option::Kind::whole, .range = range, .choices = {}, .alias = {}, .get = {}, .set = {}};
+  Option option{.name = std::move(name),
+                .meaning = std::move(meaning),
+                .unit = std::move(unit),
+                .kind = Option::Kind::whole,
+                .range = range,
+                .choices = {},
+                .alias = {},
+                .get = {},
+                .set = {}};
   option.get = [&member] { return std::to_string(member); };
   option.set = [&member, room = room_, option](std::string_view given) -> Result<void> {
     const auto value = to_whole(given);
@@ -72,8 +86,15 @@ auto OptionList::whole(std::string name, std::int64_t& member, std::string unit,
 
 auto OptionList::number(std::string name, double& member, std::string unit, Range range, std::string meaning)
     -> OptionList& {
-  Option option{.name = std::move(name), .meaning = std::move(meaning), .unit = std::move(unit),
-                .kind = Option::Kind::number, .range = range, .choices = {}, .alias = {}, .get = {}, .set = {}};
+  Option option{.name = std::move(name),
+                .meaning = std::move(meaning),
+                .unit = std::move(unit),
+                .kind = Option::Kind::number,
+                .range = range,
+                .choices = {},
+                .alias = {},
+                .get = {},
+                .set = {}};
   option.get = [&member] { return to_text(member); };
   option.set = [&member, room = room_, option](std::string_view given) -> Result<void> {
     const auto value = to_number(given);
@@ -87,8 +108,15 @@ auto OptionList::number(std::string name, double& member, std::string unit, Rang
 
 auto OptionList::number(std::string name, std::optional<double>& member, std::string unit, Range range,
                         std::string meaning) -> OptionList& {
-  Option option{.name = std::move(name), .meaning = std::move(meaning), .unit = std::move(unit),
-                .kind = Option::Kind::number, .range = range, .choices = {}, .alias = {}, .get = {}, .set = {}};
+  Option option{.name = std::move(name),
+                .meaning = std::move(meaning),
+                .unit = std::move(unit),
+                .kind = Option::Kind::number,
+                .range = range,
+                .choices = {},
+                .alias = {},
+                .get = {},
+                .set = {}};
   option.get = [&member] { return member ? to_text(*member) : std::string(); };
   option.set = [&member, room = room_, option](std::string_view given) -> Result<void> {
     if (given.empty()) return member.reset(), Result<void>{};
@@ -103,8 +131,15 @@ auto OptionList::number(std::string name, std::optional<double>& member, std::st
 
 auto OptionList::numbers(std::string name, std::span<double> members, std::string unit, Range range,
                          std::string meaning) -> OptionList& {
-  Option option{.name = std::move(name), .meaning = std::move(meaning), .unit = std::move(unit),
-                .kind = Option::Kind::text, .range = range, .choices = {}, .alias = {}, .get = {}, .set = {}};
+  Option option{.name = std::move(name),
+                .meaning = std::move(meaning),
+                .unit = std::move(unit),
+                .kind = Option::Kind::text,
+                .range = range,
+                .choices = {},
+                .alias = {},
+                .get = {},
+                .set = {}};
   option.get = [members] {
     std::string all;
     for (const double member : members) all += (all.empty() ? "" : " ") + to_text(member);
@@ -128,8 +163,15 @@ auto OptionList::numbers(std::string name, std::span<double> members, std::strin
 }
 
 auto OptionList::text(std::string name, std::string& member, std::string meaning) -> OptionList& {
-  Option option{.name = std::move(name), .meaning = std::move(meaning), .unit = {}, .kind = Option::Kind::text,
-                .range = {}, .choices = {}, .alias = {}, .get = {}, .set = {}};
+  Option option{.name = std::move(name),
+                .meaning = std::move(meaning),
+                .unit = {},
+                .kind = Option::Kind::text,
+                .range = {},
+                .choices = {},
+                .alias = {},
+                .get = {},
+                .set = {}};
   option.get = [&member] { return member; };
   option.set = [&member](std::string_view given) -> Result<void> {
     member = std::string(given);
@@ -141,8 +183,15 @@ auto OptionList::text(std::string name, std::string& member, std::string meaning
 auto OptionList::add_choice(std::string name, std::vector<std::string> words, std::string meaning,
                             std::function<std::string()> get, std::function<bool(std::string_view)> put)
     -> OptionList& {
-  Option option{.name = std::move(name), .meaning = std::move(meaning), .unit = {}, .kind = Option::Kind::choice,
-                .range = {}, .choices = std::move(words), .alias = {}, .get = std::move(get), .set = {}};
+  Option option{.name = std::move(name),
+                .meaning = std::move(meaning),
+                .unit = {},
+                .kind = Option::Kind::choice,
+                .range = {},
+                .choices = std::move(words),
+                .alias = {},
+                .get = std::move(get),
+                .set = {}};
   option.set = [put = std::move(put), room = room_, option](std::string_view given) -> Result<void> {
     if (put(given)) return {};
     std::string wanted = "one of";

@@ -34,7 +34,7 @@ struct Option {
   std::vector<std::string> choices;
   std::string alias;  ///< a short command line name without dashes ("gamma"); empty for none
 
-  std::function<std::string()> get;  ///< the present value as text; "" when absent
+  std::function<std::string()> get;                   ///< the present value as text; "" when absent
   std::function<Result<void>(std::string_view)> set;  ///< error code "option-value" when it cannot be taken
 };
 
@@ -89,7 +89,8 @@ class OptionList {
 };
 
 /// The known word nearest to a misspelt one (edit distance at most a third of its length), if any.
-[[nodiscard]] auto nearest_word(std::string_view word, const std::vector<std::string>& known) -> std::optional<std::string>;
+[[nodiscard]] auto nearest_word(std::string_view word, const std::vector<std::string>& known)
+    -> std::optional<std::string>;
 
 /// "; did you mean 'word'?" for the end of a message; nothing for nothing.
 [[nodiscard]] auto did_you_mean(const std::optional<std::string>& word) -> std::string;

@@ -1,10 +1,10 @@
 #include "mansard/base/outputs.hpp"
 
+#include <unistd.h>
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <unistd.h>
 
 namespace mansard::base {
 namespace {
@@ -53,7 +53,8 @@ void take_back(const Placed& placed) {
   std::error_code ignored;
   if (placed.there) fs::remove_all(placed.path, ignored);
   if (!placed.replaced) return;
-  // Where nothing came to its place, what stood there still does, by both names: renaming one to the other does nothing.
+  // Where nothing came to its place, what stood there still does, by both names: renaming one to the other does
+  // nothing.
   if (!placed.there && fs::equivalent(placed.old, placed.path, ignored)) fs::remove(placed.old, ignored);
   else fs::rename(placed.old, placed.path, ignored);
 }

@@ -45,10 +45,22 @@ class [[nodiscard]] Result {
   [[nodiscard]] auto has_value() const -> bool { return state_.index() == 0; }
   explicit operator bool() const { return has_value(); }
 
-  [[nodiscard]] auto value() & -> T& { assert(has_value()); return *std::get_if<0>(&state_); }
-  [[nodiscard]] auto value() const& -> const T& { assert(has_value()); return *std::get_if<0>(&state_); }
-  [[nodiscard]] auto value() && -> T&& { assert(has_value()); return std::move(*std::get_if<0>(&state_)); }
-  [[nodiscard]] auto error() const -> const Diagnostic& { assert(!has_value()); return *std::get_if<1>(&state_); }
+  [[nodiscard]] auto value() & -> T& {
+    assert(has_value());
+    return *std::get_if<0>(&state_);
+  }
+  [[nodiscard]] auto value() const& -> const T& {
+    assert(has_value());
+    return *std::get_if<0>(&state_);
+  }
+  [[nodiscard]] auto value() && -> T&& {
+    assert(has_value());
+    return std::move(*std::get_if<0>(&state_));
+  }
+  [[nodiscard]] auto error() const -> const Diagnostic& {
+    assert(!has_value());
+    return *std::get_if<1>(&state_);
+  }
 
   auto operator*() & -> T& { return value(); }
   auto operator*() const& -> const T& { return value(); }
@@ -69,7 +81,10 @@ class [[nodiscard]] Result<void> {
 
   [[nodiscard]] auto has_value() const -> bool { return !error_.has_value(); }
   explicit operator bool() const { return has_value(); }
-  [[nodiscard]] auto error() const -> const Diagnostic& { assert(error_.has_value()); return *error_; }
+  [[nodiscard]] auto error() const -> const Diagnostic& {
+    assert(error_.has_value());
+    return *error_;
+  }
 
  private:
   std::optional<Diagnostic> error_;

@@ -1,8 +1,8 @@
 #include "mansard/base/run.hpp"
 
-#include <memory>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <memory>
 
 namespace mansard::base {
 
@@ -13,8 +13,7 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& wor
 void limit_threads(std::size_t threads) {
   static std::unique_ptr<tbb::global_control> limit;
   limit.reset();
-  if (threads > 0)
-    limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, threads);
+  if (threads > 0) limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, threads);
 }
 
 }  // namespace mansard::base

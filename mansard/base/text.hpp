@@ -17,8 +17,8 @@ namespace mansard::base {
 [[nodiscard]] auto to_number(std::string_view text) -> std::optional<double>;
 [[nodiscard]] auto to_whole(std::string_view text) -> std::optional<std::int64_t>;
 
-/// Control characters as spaces. Names come from files: a line break in one must not make two lines of one, nor an escape
-/// code reach a terminal.
+/// Control characters as spaces. Names come from files: a line break in one must not make two lines of one, nor an
+/// escape code reach a terminal.
 [[nodiscard]] auto on_one_line(std::string text) -> std::string;
 
 }  // namespace mansard::base

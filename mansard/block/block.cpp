@@ -119,9 +119,8 @@ auto partition(const ingest::Scene& scene, const Options& options, const base::R
   const auto around = detail::ground_samples(scene.mesh, shapes, options.ground_ring);
   const bool bare = std::ranges::any_of(blocks, [](const Block& block) { return block.mesh.triangles.empty(); });
   const double whole = bare ? detail::percentile(detail::surface_samples(scene.mesh), 0.02, 0).value_or(0) : 0;
-  base::parallel_for(blocks.size(), [&](std::size_t b) {
-    set_ground(blocks[b], scene.terrain, around, groups[b], whole, options);
-  });
+  base::parallel_for(blocks.size(),
+                     [&](std::size_t b) { set_ground(blocks[b], scene.terrain, around, groups[b], whole, options); });
   run.report("block", "", 1);
   return blocks;
 }

@@ -54,10 +54,11 @@ auto extents_of(const Place& place, const detail::Cut& cut) -> std::vector<Exten
 auto cut_out(const Place& place, const detail::Cut& cut, std::size_t number, const Extent& extent) -> Cutting {
   const std::size_t rim = place.cells(under) + 1;
   const std::size_t left = extent.left - std::min(rim, extent.left), low = extent.low - std::min(rim, extent.low);
-  const std::size_t right = std::min(place.columns - 1, extent.right + rim), high = std::min(place.rows - 1, extent.high + rim);
+  const std::size_t right = std::min(place.columns - 1, extent.right + rim),
+                    high = std::min(place.rows - 1, extent.high + rim);
   Cutting out;
-  out.place = {place.corner + place.cell * geometry::Point2{static_cast<double>(left), static_cast<double>(low)}, place.cell,
-               right - left + 1, high - low + 1};
+  out.place = {place.corner + place.cell * geometry::Point2{static_cast<double>(left), static_cast<double>(low)},
+               place.cell, right - left + 1, high - low + 1};
   std::vector<std::size_t> of(out.place.size());
   for (std::size_t row = low; row <= high; ++row)
     for (std::size_t column = left; column <= right; ++column)
@@ -186,9 +187,10 @@ void measure(const detail::Cut& cut, const Heights& top, const Heights& ground, 
 }
 
 auto nothing() -> base::Diagnostic {
-  return base::error("derive-nothing",
-                     "nothing in the mesh stands high, wide and smooth enough to be a building; see derive.above_ground, "
-                     "derive.least_area and derive.smooth, or give footprints");
+  return base::error(
+      "derive-nothing",
+      "nothing in the mesh stands high, wide and smooth enough to be a building; see derive.above_ground, "
+      "derive.least_area and derive.smooth, or give footprints");
 }
 
 auto stopped() -> base::Diagnostic { return base::error("cancelled", "stopped on request; nothing was written"); }
@@ -199,15 +201,19 @@ auto option_list(Options& o) -> base::OptionList {
   return std::move(
       base::OptionList("derive")
           .number("cell", o.cell, "m", {0.1, 5}, "Cell of the grid of heights that footprints are drawn from.")
-          .number("above_ground", o.above_ground, "m", {0.5, 100}, "What stands less high above the ground is no building.")
-          .number("least_area", o.least_area, "m²", {1, 1e5}, "Smaller buildings are left out, smaller courtyards closed.")
-          .number("widest", o.widest, "m", {10, 2000},
-                  "The lowest surface in any square so wide is ground: wider than any roof, and than what is built around.")
+          .number("above_ground", o.above_ground, "m", {0.5, 100},
+                  "What stands less high above the ground is no building.")
+          .number("least_area", o.least_area, "m²", {1, 1e5},
+                  "Smaller buildings are left out, smaller courtyards closed.")
+          .number(
+              "widest", o.widest, "m", {10, 2000},
+              "The lowest surface in any square so wide is ground: wider than any roof, and than what is built around.")
           .number("smooth", o.smooth, "", {0, 1},
                   "Least share of a roof, around each place, that lies in planes; trees have next to none.")
           .number("step", o.step, "m", {0, 500},
                   "What stands so much above what it touches is a building of its own; 0 for never.")
-          .number("tolerance", o.tolerance, "m", {0.1, 20}, "What is nearer to the line of a wall than this is that wall.")
+          .number("tolerance", o.tolerance, "m", {0.1, 20},
+                  "What is nearer to the line of a wall than this is that wall.")
           .number("shortest", o.shortest, "m", {0, 50}, "Shorter sides are not drawn."));
 }
 
@@ -217,14 +223,16 @@ auto footprints(const ingest::Scene& scene, const Options& options, const base::
   const Place place = detail::place_of(scene.mesh, options.cell);
   if (place.size() == 0) return nothing();
   if (static_cast<double>(place.columns) * static_cast<double>(place.rows) > most_cells)
-    return base::error("derive-size",
-                       "the grid of heights would have more than 400 million cells; raise derive.cell, or take less of the "
-                       "mesh with --bbox");
+    return base::error(
+        "derive-size",
+        "the grid of heights would have more than 400 million cells; raise derive.cell, or take less of the "
+        "mesh with --bbox");
   const auto top = detail::top_heights(scene.mesh, place);
   if (run.cancelled()) return stopped();
 
   run.report("derive", "ground", 0.3);
-  const auto ground = scene.terrain ? detail::ground_of(place, *scene.terrain) : detail::ground_of(place, top, options.widest);
+  const auto ground =
+      scene.terrain ? detail::ground_of(place, *scene.terrain) : detail::ground_of(place, top, options.widest);
   if (run.cancelled()) return stopped();
 
   run.report("derive", "buildings", 0.5);

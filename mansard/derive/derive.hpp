@@ -12,14 +12,14 @@
 namespace mansard::derive {
 
 struct Options {
-  double cell = 0.5;          ///< m; of the grid of heights
-  double above_ground = 2;    ///< m; what stands less high is no building
-  double least_area = 25;     ///< m²; of a building, and of a courtyard
-  double widest = 100;        ///< m; a square so wide holds some ground
-  double smooth = 0.25;       ///< 0 … 1; the least share of a roof that lies in planes
-  double step = 8;            ///< m; what stands so much above what it touches is a building of its own; 0: never
-  double tolerance = 1;       ///< m; what is nearer to a wall's line is that wall
-  double shortest = 1.5;      ///< m; of the sides that are drawn
+  double cell = 0.5;        ///< m; of the grid of heights
+  double above_ground = 2;  ///< m; what stands less high is no building
+  double least_area = 25;   ///< m²; of a building, and of a courtyard
+  double widest = 100;      ///< m; a square so wide holds some ground
+  double smooth = 0.25;     ///< 0 … 1; the least share of a roof that lies in planes
+  double step = 8;          ///< m; what stands so much above what it touches is a building of its own; 0: never
+  double tolerance = 1;     ///< m; what is nearer to a wall's line is that wall
+  double shortest = 1.5;    ///< m; of the sides that are drawn
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 

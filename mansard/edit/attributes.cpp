@@ -3,7 +3,11 @@
 namespace mansard::edit {
 
 auto attributes() -> std::vector<write::Attribute> {
-  return {{"ms_edited", "edit", {"Building", "BuildingPart"}, "flag", "",
+  return {{"ms_edited",
+           "edit",
+           {"Building", "BuildingPart"},
+           "flag",
+           "",
            "true where the plan is not that of the run any more; absent elsewhere."}};
 }
 

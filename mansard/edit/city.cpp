@@ -14,10 +14,8 @@ using ingest::Attributes;
 
 void set(Attributes& attributes, std::string_view name, ingest::Value value) {
   const auto found = std::ranges::find(attributes, name, &Attributes::value_type::first);
-  if (found != attributes.end())
-    found->second = std::move(value);
-  else
-    attributes.emplace_back(name, std::move(value));
+  if (found != attributes.end()) found->second = std::move(value);
+  else attributes.emplace_back(name, std::move(value));
 }
 
 /// What a part that the run did not make may say of the run: its building's block.

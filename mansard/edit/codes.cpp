@@ -18,7 +18,8 @@ auto codes() -> std::vector<base::Code> {
        "Move the corners back, or move the neighbour's too.", 2},
       {"edit-split", "A line does not divide a part: it ends inside, crosses itself, or cuts off next to nothing.",
        "Draw it from outside the part to the outside again.", 2},
-      {"edit-merge", "Two parts cannot become one: they do not share a wall of 0.1 m, overlap, or would touch in a point.",
+      {"edit-merge",
+       "Two parts cannot become one: they do not share a wall of 0.1 m, overlap, or would touch in a point.",
        "Move their corners together first, or merge them with the part between them.", 2},
   };
 }

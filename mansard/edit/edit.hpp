@@ -1,4 +1,5 @@
-// A city being edited by hand: plans changed, split and merged, raised again and measured at once, undone without limit.
+// A city being edited by hand: plans changed, split and merged, raised again and measured at once, undone without
+// limit.
 #pragma once
 
 #include <array>
@@ -88,9 +89,9 @@ class History {
 /// One line of a journal, without its line break: an edit, or "undo", or "redo".
 [[nodiscard]] auto journal_line(const Edit& edit) -> std::string;
 inline constexpr std::string_view undo_line = R"({"undo":true})", redo_line = R"({"redo":true})";
-/// Replays a journal. A last line that is cut short (no line break) is dropped, as a crash leaves it. Anything else that
-/// cannot be read gives up with "edit-journal" and the number of the line.
-/// `kept` is how many bytes of the journal count: the file is to be cut there before more is appended.
+/// Replays a journal. A last line that is cut short (no line break) is dropped, as a crash leaves it. Anything else
+/// that cannot be read gives up with "edit-journal" and the number of the line. `kept` is how many bytes of the journal
+/// count: the file is to be cut there before more is appended.
 struct Replayed {
   History history;
   std::size_t kept = 0;
@@ -130,9 +131,9 @@ struct Site {
                          const base::Run& run = {}) -> RaisedBuilding;
 
 /// The plan cut along a polyline that crosses its polygon: two plans or more, largest first. Edges keep their profiles;
-/// those along the cut rise as a wall, all the way. Ends that stop within a centimetre of the outline are moved onto it,
-/// crossings that near to a corner into the corner. What of the line divides nothing is left out.
-/// Gives up with "edit-split" (the line does not divide the polygon, crosses itself, or cuts off less than 0.01 m²).
+/// those along the cut rise as a wall, all the way. Ends that stop within a centimetre of the outline are moved onto
+/// it, crossings that near to a corner into the corner. What of the line divides nothing is left out. Gives up with
+/// "edit-split" (the line does not divide the polygon, crosses itself, or cuts off less than 0.01 m²).
 [[nodiscard]] auto split(const geometry::Plan& plan, std::span<const geometry::Point2> line)
     -> base::Result<std::vector<geometry::Plan>>;
 
@@ -143,12 +144,12 @@ struct Site {
 
 /// Two plans that share a wall as one. Edges keep their profiles, lifted where the bases differ: the lower base counts,
 /// as does the higher cap. Corners that lie within a centimetre of the other's outline are taken to be on it; a corner
-/// that only the wall needed goes. Gives up with "edit-merge" (they do not touch along 0.1 m, overlap, or touch elsewhere
-/// in a single point).
+/// that only the wall needed goes. Gives up with "edit-merge" (they do not touch along 0.1 m, overlap, or touch
+/// elsewhere in a single point).
 [[nodiscard]] auto merge(const geometry::Plan& first, const geometry::Plan& second) -> base::Result<geometry::Plan>;
 
-/// The mesh cut by a vertical plane: pieces as (inward, height) of the foot's frame, metres, those with |inward| at most
-/// `reach` and heights at most `reach` below it.
+/// The mesh cut by a vertical plane: pieces as (inward, height) of the foot's frame, metres, those with |inward| at
+/// most `reach` and heights at most `reach` below it.
 struct Section {
   std::vector<std::array<geometry::ProfilePoint, 2>> pieces;
 };
@@ -159,10 +160,10 @@ struct Section {
 /// The scan around a building, by its id; may be null. Called from several threads.
 using MeshOf = std::function<const rays::Scene*(std::string_view)>;
 
-/// The city of a run as it was edited, for export: every plan raised anew and all labelled together, as `mansard extrude`
-/// does with its plans.json, and attributes that are true of it. Parts whose plans are not those of the run, and their
-/// buildings, have `ms_edited`; the others keep their attributes but for what a neighbour's edit changes, the areas of
-/// walls and party walls. Without edits it is the run's city. Gives up as pipeline::raise_plans does.
+/// The city of a run as it was edited, for export: every plan raised anew and all labelled together, as `mansard
+/// extrude` does with its plans.json, and attributes that are true of it. Parts whose plans are not those of the run,
+/// and their buildings, have `ms_edited`; the others keep their attributes but for what a neighbour's edit changes, the
+/// areas of walls and party walls. Without edits it is the run's city. Gives up as pipeline::raise_plans does.
 [[nodiscard]] auto edited_city(const write::City& city, const History& history, const MeshOf& mesh_of,
                                const pipeline::Options& options, const base::Run& run = {})
     -> base::Result<write::City>;

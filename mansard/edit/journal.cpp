@@ -110,9 +110,8 @@ auto replay(const write::City& city, std::string_view journal) -> base::Result<R
     if (end == std::string_view::npos) return out;
     const auto line = journal.substr(out.kept, end - out.kept);
     if (const auto fault = fault_of(line, out.history))
-      return base::error("edit-journal",
-                         "line " + std::to_string(number) + " cannot be done again: " + *fault +
-                             "; take out that line and those after it, or restore the file");
+      return base::error("edit-journal", "line " + std::to_string(number) + " cannot be done again: " + *fault +
+                                             "; take out that line and those after it, or restore the file");
     out.kept = end + 1;
   }
 }

@@ -24,10 +24,8 @@ auto lifted(const Profile& profile, double by) -> Profile {
   Profile out{{0, 0}, {0, by}};
   for (std::size_t i = 1; i < profile.size(); ++i) {
     const geometry::ProfilePoint next{profile[i].inward, profile[i].height + by};
-    if (next.inward == 0)
-      out.back() = next;
-    else
-      out.push_back(next);
+    if (next.inward == 0) out.back() = next;
+    else out.push_back(next);
   }
   return out;
 }
@@ -103,8 +101,8 @@ auto is_straight(const geometry::PlanRing& ring, std::size_t i) -> bool {
   return dot(b - a, c - b) > 0 && geometry::distance(Segment2{a, c}, b) <= straight;
 }
 
-/// Profiles of the second (from `own` on) that are the same as one of the first get its number: where a straight edge of
-/// both goes on along one and the same profile first, then each that is left the first one still free.
+/// Profiles of the second (from `own` on) that are the same as one of the first get its number: where a straight edge
+/// of both goes on along one and the same profile first, then each that is left the first one still free.
 auto joined_numbers(const detail::Outline& outline, const std::set<Point2>& corners,
                     const std::vector<Profile>& profiles, std::size_t own) -> std::vector<std::uint32_t> {
   std::vector<std::uint32_t> number_of(profiles.size());
@@ -183,8 +181,7 @@ auto merge(const geometry::Plan& first, const geometry::Plan& second) -> base::R
   const auto cycles = detail::cycles_of(edges);
   auto outlines = cycles ? detail::outlines_of(edges, *cycles) : std::nullopt;
   if (outlines)
-    std::erase_if(*outlines,
-                  [](const auto& o) { return geometry::signed_area(o.outer.points) < detail::least_area; });
+    std::erase_if(*outlines, [](const auto& o) { return geometry::signed_area(o.outer.points) < detail::least_area; });
   if (!outlines || outlines->size() != 1)
     return refusal("the parts would not be one outline; merge what lies between them first");
   auto& outline = outlines->front();
@@ -193,8 +190,7 @@ auto merge(const geometry::Plan& first, const geometry::Plan& second) -> base::R
   const auto number_of = joined_numbers(outline, corners, profiles, first.profiles.size());
   outline.outer = without(corners, number_of, std::move(outline.outer));
   for (auto& hole : outline.holes) hole = without(corners, number_of, std::move(hole));
-  auto plan = detail::plan_of(std::move(outline), profiles, base,
-                              std::max(first.cap + rise, second.cap + other_rise));
+  auto plan = detail::plan_of(std::move(outline), profiles, base, std::max(first.cap + rise, second.cap + other_rise));
   if (!geometry::is_simple(geometry::polygon_of(plan)))
     return refusal("the outline of both would touch itself; merge what lies between them first, or move the corner");
   return plan;

@@ -152,8 +152,8 @@ auto raise(std::span<const NamedPlan> parts, const Site& site, const pipeline::O
     if (!part.model) return;
     part.volume = extrude::volume(part.model->solid);
     if (site.mesh == nullptr) return;
-    const double mse = evaluate::error_over(part.model->solid, geometry::polygon_of(parts[i].plan), *site.mesh,
-                                            options.evaluate.grid);
+    const double mse =
+        evaluate::error_over(part.model->solid, geometry::polygon_of(parts[i].plan), *site.mesh, options.evaluate.grid);
     if (std::isfinite(mse)) part.mse = mse;
   });
 
@@ -169,8 +169,8 @@ auto raise(std::span<const NamedPlan> parts, const Site& site, const pipeline::O
   std::set<std::string_view> ids;
   for (const auto& part : parts)
     if (!ids.insert(part.id).second)
-      out.diagnostics.push_back(
-          base::error("edit-duplicate-id", "two parts of the building have this id; give one of them another", part.id));
+      out.diagnostics.push_back(base::error(
+          "edit-duplicate-id", "two parts of the building have this id; give one of them another", part.id));
   find_overlaps(sound, near, site.before, out.diagnostics);
   return out;
 }

@@ -20,7 +20,8 @@ using geometry::Segment2;
 /// A place of the line: on the outline or within it.
 struct Stop {
   Point2 at;
-  std::optional<std::size_t> edge;  ///< of the plan, that the place lies on (at its start, or within); none: not on the outline
+  std::optional<std::size_t>
+      edge;  ///< of the plan, that the place lies on (at its start, or within); none: not on the outline
 };
 
 auto segment_of(const Edge& edge) -> Segment2 { return {edge.from, edge.to}; }
@@ -199,7 +200,8 @@ auto split(const geometry::Plan& plan, std::span<const Point2> line) -> base::Re
   }
   if (std::abs(sum - geometry::area(polygon)) > 1e-6)
     return refusal("the line runs along the outline; move it away from it");
-  std::ranges::stable_sort(plans, std::greater(), [](const auto& p) { return geometry::area(geometry::polygon_of(p)); });
+  std::ranges::stable_sort(plans, std::greater(),
+                           [](const auto& p) { return geometry::area(geometry::polygon_of(p)); });
   return plans;
 }
 

@@ -17,9 +17,9 @@
 namespace mansard::evaluate {
 
 struct Options {
-  double grid = 0.25;  ///< m between samples
-  double margin = 0.0; ///< m around the bounding box
-  double inset = 0.75; ///< m; how deep inside the footprints the scores `inside` begin; 0: they are not measured
+  double grid = 0.25;   ///< m between samples
+  double margin = 0.0;  ///< m around the bounding box
+  double inset = 0.75;  ///< m; how deep inside the footprints the scores `inside` begin; 0: they are not measured
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 
@@ -29,7 +29,9 @@ struct ErrorMap {
   double grid = 0.25;       ///< m
   std::size_t columns = 0, rows = 0;
   std::vector<float> difference;  ///< m, row by row from the south
-  [[nodiscard]] auto at(std::size_t column, std::size_t row) const -> float { return difference[row * columns + column]; }
+  [[nodiscard]] auto at(std::size_t column, std::size_t row) const -> float {
+    return difference[row * columns + column];
+  }
 };
 
 /// The error over the footprints, but for a strip along their boundary, where a scan's melted corners and the survey's
@@ -46,8 +48,8 @@ struct Scores {
   double footprint_mse = 0;  ///< m²; over the GIS footprints only; where the model misses, its height is the ground's
   std::size_t footprint_cells = 0;
   double footprint_median_absolute = 0;  ///< m; over the same cells, misses counted
-  /// More than Options::inset from the boundary of the footprints' union: where footprints touch (are closer than 0.1 m)
-  /// there is no boundary, so that party walls do not count as one.
+  /// More than Options::inset from the boundary of the footprints' union: where footprints touch (are closer than 0.1
+  /// m) there is no boundary, so that party walls do not count as one.
   InsideScores inside;
   InsideScores inside_each;    ///< more than that from the boundary of each footprint, party walls or not
   double median = 0;           ///< m, signed

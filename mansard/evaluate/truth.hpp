@@ -45,7 +45,7 @@ inline constexpr double party_near = 0.5;   ///< m; so near by is found
 
 /// Roof planes of the truth of 2 m² or more, looked at from above on a grid; shares are of the places seen.
 struct Roofs {
-  std::size_t planes = 0, found = 0;                    ///< found: at least half of its places within both limits
+  std::size_t planes = 0, found = 0;  ///< found: at least half of its places within both limits
   /// Of those at least three places wide somewhere, both ways: narrower ones (parapets, gutters) melt away in a scan.
   std::size_t broad = 0, broad_found = 0;
   std::size_t places = 0, bare = 0;                     ///< bare: the model has nothing there

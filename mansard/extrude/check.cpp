@@ -86,8 +86,7 @@ class Check {
       const auto [from, to] = ends(h);
       return "at the edge from " + place(solid_.vertices[from]) + " to " + place(solid_.vertices[to]);
     };
-    const bool open_first =
-        !open.empty() && (crowded.empty() || ends(open.front()) < ends(crowded.front()));
+    const bool open_first = !open.empty() && (crowded.empty() || ends(open.front()) < ends(crowded.front()));
     if (open_first) fault("solid-open", "a face has no neighbour " + where(open.front()));
     if (!crowded.empty()) fault("solid-non-manifold", "more than two faces meet " + where(crowded.front()));
     if (!open.empty()) fault("solid-open", "a face has no neighbour " + where(open.front()));

@@ -55,8 +55,8 @@ auto last_rung(const detail::Source& source, const geometry::Plan& plan, const O
 }
 
 /// The same without exceptions: nothing, and why, where an invariant of the sweep broke too.
-auto tried(const detail::Footprint& footprint, const geometry::Plan& plan, const Options& options,
-           const base::Run& run, const detail::Eaves* eaves, std::string& why) -> std::optional<Sound> {
+auto tried(const detail::Footprint& footprint, const geometry::Plan& plan, const Options& options, const base::Run& run,
+           const detail::Eaves* eaves, std::string& why) -> std::optional<Sound> {
   try {
     auto solid = solid_of(footprint, plan, options, run, eaves);
     if (solid) return std::move(*solid);

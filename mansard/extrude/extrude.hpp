@@ -52,8 +52,8 @@ struct Solid {
 enum class Outcome : std::uint8_t { full, simplified, two_part, prism };
 
 struct Options {
-  double merge_angle = 0.0087;   ///< rad; turns under this are straightened
-  double tolerance = 0.05;       ///< m; the canonical footprint lies within this of the input
+  double merge_angle = 0.0087;  ///< rad; turns under this are straightened
+  double tolerance = 0.05;      ///< m; the canonical footprint lies within this of the input
   /// m; how far the eaves overhang, with a level soffit below. Only where a roof rises from the lowest eaves; 0: none.
   double overhang = 0;
   /// m; vertices are rounded to multiples of this before the check, for files with that many decimals; 0: not at all.
@@ -69,13 +69,14 @@ struct Raised {
 };
 
 /// Raises the plan. Speeds are never negative, so the roof is a height field above vertical walls.
-/// Guarantees: the numbers of docs/extrude.md; the solid passes check(). Never fails for a simple polygon with area: the
-/// ladder ends at the prism, or at that of the outline without its details. Gives up with: "extrude-not-simple", "extrude-no-area", "extrude-profile", "extrude-cap".
+/// Guarantees: the numbers of docs/extrude.md; the solid passes check(). Never fails for a simple polygon with area:
+/// the ladder ends at the prism, or at that of the outline without its details. Gives up with: "extrude-not-simple",
+/// "extrude-no-area", "extrude-profile", "extrude-cap".
 [[nodiscard]] auto raise(const geometry::Plan& plan, const Options& options = {}, const base::Run& run = {})
     -> base::Result<Raised>;
 
-/// The flat-roofed prism of the plan's polygon, base to cap: the last rung of the ladder. Checked, like raise() and with
-/// the same errors.
+/// The flat-roofed prism of the plan's polygon, base to cap: the last rung of the ladder. Checked, like raise() and
+/// with the same errors.
 [[nodiscard]] auto prism(const geometry::Plan& plan, const Options& options = {}) -> base::Result<Solid>;
 
 /// The height above the base at which the sweep of the plan ends, in metres: its ridge, or the cap. Costs no solid and
@@ -83,8 +84,8 @@ struct Raised {
 [[nodiscard]] auto crest(const geometry::Plan& plan, const Options& options = {}, const base::Run& run = {})
     -> base::Result<double>;
 
-/// The solid as the sweep leaves it, neither rounded nor checked, and without overhang: for looking at many roofs before
-/// one is raised. Cost: about a third of raise(). Gives up as crest() does.
+/// The solid as the sweep leaves it, neither rounded nor checked, and without overhang: for looking at many roofs
+/// before one is raised. Cost: about a third of raise(). Gives up as crest() does.
 [[nodiscard]] auto sketch(const geometry::Plan& plan, const Options& options = {}, const base::Run& run = {})
     -> base::Result<Solid>;
 

@@ -59,8 +59,7 @@ auto kind_of(const Face& left, const Face& right, Point3 along) -> LineKind {
 auto half_edges(const Solid& solid) -> base::Result<HalfEdges> {
   for (const Face& face : solid.faces)
     for (const auto& loop : face.loops) {
-      if (loop.size() < 3)
-        return base::error("solid-degenerate", "a face has a loop of fewer than three vertices");
+      if (loop.size() < 3) return base::error("solid-degenerate", "a face has a loop of fewer than three vertices");
       for (const std::uint32_t v : loop)
         if (v >= solid.vertices.size())
           return base::error("solid-degenerate", "a face names a vertex that is not there");

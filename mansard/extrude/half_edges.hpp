@@ -10,9 +10,9 @@
 
 namespace mansard::extrude {
 
-/// The half-edges of a solid: one per corner of a loop, numbered face by face, loop by loop, corner by corner. Half-edge
-/// h goes from origin[h] to origin[next[h]] with its face on the left, seen from outside. The exact plane of a face is
-/// that of its provenance: the plan's edge moved in and up along the profile part (docs/extrude.md).
+/// The half-edges of a solid: one per corner of a loop, numbered face by face, loop by loop, corner by corner.
+/// Half-edge h goes from origin[h] to origin[next[h]] with its face on the left, seen from outside. The exact plane of
+/// a face is that of its provenance: the plan's edge moved in and up along the profile part (docs/extrude.md).
 struct HalfEdges {
   static constexpr std::uint32_t none = UINT32_MAX;
 
@@ -21,7 +21,7 @@ struct HalfEdges {
   std::vector<std::uint32_t> next;    ///< half-edge
   std::vector<std::uint32_t> twin;    ///< half-edge: the same line walked by the face on the other side
 
-  std::vector<std::uint32_t> first_of_loop;       ///< loop k is half-edges first_of_loop[k] … first_of_loop[k + 1] − 1
+  std::vector<std::uint32_t> first_of_loop;  ///< loop k is half-edges first_of_loop[k] … first_of_loop[k + 1] − 1
   std::vector<std::uint32_t> first_loop_of_face;  ///< face f has loops first_loop_of_face[f] … [f + 1] − 1, outer first
   std::vector<std::uint32_t> leaving;             ///< a half-edge that leaves the vertex; none where no face comes
 
@@ -34,8 +34,9 @@ struct HalfEdges {
 [[nodiscard]] auto half_edges(const Solid& solid) -> base::Result<HalfEdges>;
 
 /// What a line of a building is called, by the two faces that meet in it. These are *base*; *wall* (a connector, or a
-/// side that stands upright); *roof* (a side that leans inward); *flat* (terrace or cap); *soffit*. A line is *level* when their
-/// planes meet in a horizontal line; *convex* when the solid fills less than half a turn about it, *reflex* when more.
+/// side that stands upright); *roof* (a side that leans inward); *flat* (terrace or cap); *soffit*. A line is *level*
+/// when their planes meet in a horizontal line; *convex* when the solid fills less than half a turn about it, *reflex*
+/// when more.
 enum class LineKind : std::uint8_t {
   foot,          ///< base with anything: where the building stands on the ground
   corner,        ///< wall with wall, convex
@@ -47,7 +48,8 @@ enum class LineKind : std::uint8_t {
   ridge,         ///< roof with roof, level, both falling from it: convex
   hip,           ///< roof with roof, sloping and convex
   valley,        ///< roof with roof, reflex: sloping, or level with both rising from it
-  pitch_break,   ///< roof with roof, level, one rising and one falling from it: convex on a mansard, reflex on a bell-cast
+  pitch_break,   ///< roof with roof, level, one rising and one falling from it: convex on a mansard, reflex on a
+                 ///< bell-cast
   flat_edge,     ///< flat with wall, convex: the outer edge of a terrace or flat roof
   flat_break,    ///< flat with roof, convex: the slopes end in a flat top
   upstand,       ///< flat with wall or roof, reflex: the foot of what stands back from it
@@ -60,7 +62,7 @@ enum class LineKind : std::uint8_t {
 
 /// One edge of a solid, seen from outside.
 struct Line {
-  std::uint32_t from = 0, to = 0;                ///< vertices
+  std::uint32_t from = 0, to = 0;  ///< vertices
   std::uint32_t left_face = 0, right_face = 0;
   LineKind kind = LineKind::foot;
   friend auto operator==(const Line&, const Line&) -> bool = default;

@@ -43,8 +43,7 @@ auto rectangle_of(const std::vector<Cut>& cuts, const Box2& region, const Option
 /// What is tried for one cut, best first: as asked; drawn to vertices from farther away; laid down a little beside its
 /// place, first on the side of the rectangle's middle (so that a mirrored plane takes the mirrored choice); the same
 /// with no continuation but to the next edge.
-auto attempts_for(const detail::Line& line, Point2 middle, double asked, double merge)
-    -> std::vector<detail::Attempt> {
+auto attempts_for(const detail::Line& line, Point2 middle, double asked, double merge) -> std::vector<detail::Attempt> {
   const double inwards = geometry::orientation(line.hard.start, line.hard.end, middle) < 0 ? -merge : merge;
   std::vector<detail::Attempt> attempts;
   for (const double continuation : {asked, 0.0}) {
@@ -79,8 +78,8 @@ auto insert_all(const std::vector<Cut>& cuts, const Box2& rectangle, const Optio
   std::vector<base::Diagnostic> warnings;
   for (std::uint32_t i = 0; i < cuts.size() && !run.cancelled(); ++i) {
     if (detail::squared_distance(lines[i].hard.start, lines[i].hard.end) < square(options.snap)) {
-      warnings.push_back(base::warning("fracture-cut-short", "shorter than the snapping distance; ignored",
-                                       name_of(cuts[i])));
+      warnings.push_back(
+          base::warning("fracture-cut-short", "shorter than the snapping distance; ignored", name_of(cuts[i])));
       continue;
     }
     const auto mark = graph.mark();
@@ -131,8 +130,7 @@ auto option_list(Options& options) -> base::OptionList {
   return std::move(base::OptionList("fracture")
                        .number("continuation", options.continuation, "m", {0, 1000},
                                "A line goes on for this far beyond both ends, then to the next edge.")
-                       .number("snap", options.snap, "m", {0.001, 1},
-                               "Vertices and lines nearer than this become one.")
+                       .number("snap", options.snap, "m", {0.001, 1}, "Vertices and lines nearer than this become one.")
                        .number("margin", options.margin, "m", {0, 1000},
                                "Distance from the lines to the rectangle that bounds the fractured ground."));
 }

@@ -72,12 +72,12 @@ struct Options {
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 
 /// Guarantees: 1 faces are simple, disjoint and cover the rectangle exactly · 2 no two vertices are nearer than `snap`,
-/// nor a vertex to an edge it is not on, and no point of a cut lies farther than 2·snap from the edges that come of it ·
-/// 3 every half-edge but the border's knows its origins · 4 the same cuts in the same order give the same arrangement,
-/// and shifted by whole metres, the shifted one.
-/// A cut shorter than `snap` is ignored ("fracture-cut-short"); one that cannot go in without breaking guarantee 1 or 2
-/// is left out ("fracture-cut-left-out"). A run that is cancelled leaves out the cuts not yet reached.
-/// Gives up with: "fracture-not-finite". Cost: O(cuts × crossed faces).
+/// nor a vertex to an edge it is not on, and no point of a cut lies farther than 2·snap from the edges that come of it
+/// · 3 every half-edge but the border's knows its origins · 4 the same cuts in the same order give the same
+/// arrangement, and shifted by whole metres, the shifted one. A cut shorter than `snap` is ignored
+/// ("fracture-cut-short"); one that cannot go in without breaking guarantee 1 or 2 is left out
+/// ("fracture-cut-left-out"). A run that is cancelled leaves out the cuts not yet reached. Gives up with:
+/// "fracture-not-finite". Cost: O(cuts × crossed faces).
 [[nodiscard]] auto arrange(const std::vector<Cut>& cuts, const geometry::Box2& region, const Options& options,
                            const base::Run& run = {}) -> base::Result<Arrangement>;
 

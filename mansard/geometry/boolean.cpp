@@ -1,7 +1,7 @@
 // Boolean operations and triangulation by GEOS, through its re-entrant C interface.
+#include <geos_c.h>
 #include <algorithm>
 #include <functional>
-#include <geos_c.h>
 #include <map>
 #include <memory>
 #include <string>

@@ -110,9 +110,11 @@ auto finish(detail::RawFeature feature, std::string id, const Frame& frame, cons
   auto repaired = detail::repair(feature.parts, origin);
   if (repaired.defect) {
     refuse(std::move(*repaired.defect));
-  } else if (const double side = std::max(box.most.x - box.least.x, box.most.y - box.least.y); side > largest_building) {
-    refuse(base::error("ingest-footprint-size", "it is " + base::to_text(side, 0) +
-                                                    " m long, longer than any building; check its coordinates and CRS"));
+  } else if (const double side = std::max(box.most.x - box.least.x, box.most.y - box.least.y);
+             side > largest_building) {
+    refuse(base::error(
+        "ingest-footprint-size",
+        "it is " + base::to_text(side, 0) + " m long, longer than any building; check its coordinates and CRS"));
   } else if (!box.overlaps(mesh)) {
     refuse(
         base::error("ingest-footprint-outside", "it lies outside the mesh; give the mesh there, or cut with --bbox"));
@@ -243,7 +245,8 @@ auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::files
   if (auto met = check_overlap(*ground, mesh_box.plan, subject); !met) return met.error();
   Scene scene;
   scene.frame.crs = ground->way.name;
-  scene.frame.origin = choose_origin(!ground->box.empty() ? ground->box : ground->kept.value_or(mesh_box.plan), mesh_box);
+  scene.frame.origin =
+      choose_origin(!ground->box.empty() ? ground->box : ground->kept.value_or(mesh_box.plan), mesh_box);
 
   run.report("ingest", mesh_name, 0.7);
   std::array<double, 3> shift{};
@@ -275,7 +278,8 @@ auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::files
   return scene;
 }
 
-auto read_alone(const std::filesystem::path& path, const Options& options, const base::Run& run) -> base::Result<Scene> {
+auto read_alone(const std::filesystem::path& path, const Options& options, const base::Run& run)
+    -> base::Result<Scene> {
   const std::string subject = detail::shown_name(path);
   const auto wanted = wanted_box(options);
   if (!wanted) return wanted.error();
@@ -314,7 +318,8 @@ auto option_list(Options& o) -> base::OptionList {
           .choice("up", o.up, {{"automatic", UpAxis::automatic}, {"z", UpAxis::z}, {"y", UpAxis::y}},
                   "Which axis of the mesh is up; automatic means y for glTF and z for the rest.")
           .alias("up")
-          .text("crs", o.crs, "CRS to work in: EPSG:n, or local; empty for the footprints', the mesh's, or the UTM zone.")
+          .text("crs", o.crs,
+                "CRS to work in: EPSG:n, or local; empty for the footprints', the mesh's, or the UTM zone.")
           .alias("crs")
           .text("id_attribute", o.id_attribute, "Attribute that names a footprint; empty to look for a well-known one.")
           .alias("id_attribute")

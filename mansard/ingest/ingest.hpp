@@ -93,23 +93,25 @@ struct Options {
   /// xmin ymin xmax ymax in the working CRS: footprints whose box meets it, and the mesh around them; all zero:
   /// everything.
   std::array<double, 4> bbox{0, 0, 0, 0};
-  double tile_error = 0;  ///< metres; of a tileset, tiles are taken once their geometric error is no more; 0: the finest
-  std::string terrain;    ///< path of a raster with the ground's heights; empty: none
+  double tile_error =
+      0;                ///< metres; of a tileset, tiles are taken once their geometric error is no more; 0: the finest
+  std::string terrain;  ///< path of a raster with the ground's heights; empty: none
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 
 /// Reads every mesh as one, corners at the same place made one, and one vector source of footprints. A mesh is a file
-/// (OBJ, PLY, OFF, GLB, glTF), a folder or archive of them, a tileset of 3D Tiles, or a raster of heights. One that says
-/// where it is – a tileset on the earth, a raster's CRS, metadata.xml beside files – is brought to the working CRS; of
-/// others, with the offset, it is taken that they are in it. With an empty path for `footprints` there are none, and the
-/// working CRS is the option's, else the mesh's own or its UTM zone, else none. Guarantees: 1 all coordinates are finite
-/// and local · 2 every triangle has area and names existing vertices · 3 polygons are simple and oriented, or the feature
-/// has a defect · 4 ids are unique · 5 the order of features is the source's. Gives up with: see codes().
+/// (OBJ, PLY, OFF, GLB, glTF), a folder or archive of them, a tileset of 3D Tiles, or a raster of heights. One that
+/// says where it is – a tileset on the earth, a raster's CRS, metadata.xml beside files – is brought to the working
+/// CRS; of others, with the offset, it is taken that they are in it. With an empty path for `footprints` there are
+/// none, and the working CRS is the option's, else the mesh's own or its UTM zone, else none. Guarantees: 1 all
+/// coordinates are finite and local · 2 every triangle has area and names existing vertices · 3 polygons are simple and
+/// oriented, or the feature has a defect · 4 ids are unique · 5 the order of features is the source's. Gives up with:
+/// see codes().
 [[nodiscard]] auto read_scene(const std::vector<std::filesystem::path>& meshes, const std::filesystem::path& footprints,
                               const Options& options, const base::Run& run = {}) -> base::Result<Scene>;
 
-/// Footprints alone, where there is no mesh: as read_scene, with an empty mesh and z from 0. GeoJSON that says no CRS is
-/// taken to be in metres where it cannot be in degrees, or where a building would be longer than a degree.
+/// Footprints alone, where there is no mesh: as read_scene, with an empty mesh and z from 0. GeoJSON that says no CRS
+/// is taken to be in metres where it cannot be in degrees, or where a building would be longer than a degree.
 [[nodiscard]] auto read_footprints(const std::filesystem::path& footprints, const Options& options,
                                    const base::Run& run = {}) -> base::Result<Scene>;
 

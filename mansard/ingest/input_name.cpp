@@ -36,9 +36,7 @@ auto without_passwords(std::string name) -> std::string {
 
 auto is_database_name(const fs::path& path) -> bool { return detail::is_database(path); }
 
-auto is_disk_name(const fs::path& path) -> bool {
-  return !is_database_name(path) && !path.string().starts_with(gdals);
-}
+auto is_disk_name(const fs::path& path) -> bool { return !is_database_name(path) && !path.string().starts_with(gdals); }
 
 auto disk_place_of(const fs::path& path) -> std::optional<fs::path> {
   if (is_disk_name(path)) return path;
@@ -61,9 +59,8 @@ auto name_to_keep(const fs::path& path) -> std::string {
 auto meant_by(const std::string& name, const std::string& known) -> std::string {
   if (!is_database_name(name)) return name;
   const auto spans = detail::passwords_in(name);
-  const bool shown = std::ranges::any_of(spans, [&](const auto& span) {
-    return name.compare(span.first, span.second, "***") == 0;
-  });
+  const bool shown =
+      std::ranges::any_of(spans, [&](const auto& span) { return name.compare(span.first, span.second, "***") == 0; });
   if (!shown) return name;
   return name_to_show(known) == name ? known : name_to_keep(name);
 }

@@ -78,8 +78,8 @@ struct ScannedMesh {
   std::vector<base::Diagnostic> warnings;
 };
 
-/// Reads meshes as read_scene does, into a frame that is known already: what says where it is goes to its CRS, the rest is
-/// taken to be in it, with `options.mesh_offset`. Guarantees 1 and 2 of read_scene. Gives up with "ingest-mesh-…",
+/// Reads meshes as read_scene does, into a frame that is known already: what says where it is goes to its CRS, the rest
+/// is taken to be in it, with `options.mesh_offset`. Guarantees 1 and 2 of read_scene. Gives up with "ingest-mesh-…",
 /// "ingest-crs-unknown", "ingest-raster", "file-…", "cancelled".
 [[nodiscard]] auto read_mesh(const std::vector<std::filesystem::path>& paths, const Frame& frame,
                              const Options& options, const base::Run& run = {}) -> base::Result<ScannedMesh>;

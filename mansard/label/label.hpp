@@ -20,14 +20,14 @@ struct LabelledSolid {
 };
 
 struct Options {
-  double wall_angle = 0.2;    ///< rad from vertical; a side leaning more is roof
+  double wall_angle = 0.2;      ///< rad from vertical; a side leaning more is roof
   double party_distance = 0.1;  ///< m; walls this near a neighbour's opposite wall are party walls
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 
-/// Side faces within `wall_angle` of vertical and connectors are walls, the base is ground, soffits are soffits, all else roof. A wall is a
-/// party wall where more than half of its area faces a wall of another solid of the block, opposite and within
-/// `party_distance`. Guarantees: 1 one class per face · 2 the order of solids does not matter.
+/// Side faces within `wall_angle` of vertical and connectors are walls, the base is ground, soffits are soffits, all
+/// else roof. A wall is a party wall where more than half of its area faces a wall of another solid of the block,
+/// opposite and within `party_distance`. Guarantees: 1 one class per face · 2 the order of solids does not matter.
 [[nodiscard]] auto classify(std::vector<extrude::Solid> solids, const Options& options, const base::Run& run = {})
     -> std::vector<LabelledSolid>;
 

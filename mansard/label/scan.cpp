@@ -109,7 +109,7 @@ auto wall_or_roof_by_normal(const geometry::Mesh& scan) -> std::vector<SurfaceCl
   classes.reserve(scan.triangles.size());
   for (const auto& t : scan.triangles)
     classes.push_back(std::abs(normalised(detail::area_vector(scan, t)).z) < steep ? SurfaceClass::wall
-                                                                                    : SurfaceClass::roof);
+                                                                                   : SurfaceClass::roof);
   return classes;
 }
 

@@ -36,8 +36,8 @@ struct Lines {
 
 struct View {
   enum class Kind : std::uint8_t { above, angle } kind = Kind::angle;  ///< orthographic from above, or at an angle
-  double azimuth = 0.6;    ///< rad; where the camera stands, clockwise from south
-  double elevation = 0.7;  ///< rad above the horizon
+  double azimuth = 0.6;                     ///< rad; where the camera stands, clockwise from south
+  double elevation = 0.7;                   ///< rad above the horizon
   std::size_t width = 1600, height = 1200;  ///< pixels
 };
 

@@ -205,8 +205,8 @@ auto tiles(const Mesh& mesh, const TileOptions& options, const base::Run& run) -
       if (coarse.triangles.size() <= before / 2 || cell >= extent) break;  // else it is hardly worth a level
     }
     size *= 2;
-    run.report("tiles", "level " + std::to_string(level), 1 - static_cast<double>(coarse.triangles.size()) /
-                                                                  static_cast<double>(mesh.triangles.size()));
+    run.report("tiles", "level " + std::to_string(level),
+               1 - static_cast<double>(coarse.triangles.size()) / static_cast<double>(mesh.triangles.size()));
     add_level(coarse, box.low, size, level, cell, out);
     before = coarse.triangles.size();
     cell *= 2;

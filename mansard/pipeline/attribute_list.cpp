@@ -6,7 +6,8 @@ auto attributes() -> std::vector<write::Attribute> {
   using Objects = std::vector<std::string>;
   const Objects both{"Building", "BuildingPart"}, building{"Building"}, part{"BuildingPart"};
   auto all = write::attributes();
-  const auto add = [&all](const char* name, const Objects& of, const char* type, const char* unit, const char* meaning) {
+  const auto add = [&all](const char* name, const Objects& of, const char* type, const char* unit,
+                          const char* meaning) {
     all.push_back({name, "pipeline", of, type, unit, meaning});
   };
   add("ms_outcome", building, "text", "",
@@ -21,20 +22,24 @@ auto attributes() -> std::vector<write::Attribute> {
       "z of the roof's highest sample; without a mesh, of its highest corner; of a building where it has parts.");
   add("ms_h_ridge", part, "number", "m", "z of the highest corner of a pitched face; absent where there is none.");
   add("ms_roof_type", part, "text", "",
-      "slanted: more than 5 % of the roof's area is steeper than 5°; multiple horizontal: levels more than 0.5 m apart; "
+      "slanted: more than 5 % of the roof's area is steeper than 5°; multiple horizontal: levels more than 0.5 m "
+      "apart; "
       "horizontal.");
   add("ms_roof_shape", part, "text", "", "The shape that was made; only of models without a mesh.");
   add("ms_height_from", part, "text", "",
       "What gave the height: height, levels, assumed or profile; only of models without a mesh.");
-  add("ms_volume_lod22", both, "number", "m³", "Volume of the LoD 2.2 solid; of a building over its parts, where it has some.");
+  add("ms_volume_lod22", both, "number", "m³",
+      "Volume of the LoD 2.2 solid; of a building over its parts, where it has some.");
   add("ms_rmse_lod22", both, "number", "m",
       "Root mean square of the vertical distance to the mesh; absent where the mesh shows nothing.");
   add("ms_area_roof_flat", part, "number", "m²", "Area of roof that is level within 5°.");
   add("ms_area_roof_sloped", part, "number", "m²", "Area of the other roof.");
   add("ms_area_wall", part, "number", "m²", "Area of walls in the open.");
   add("ms_area_party_wall", part, "number", "m²", "Area of walls against another solid.");
-  add("ms_fallback", part, "text?", "", "The code of the first reason why the part is simpler than its profiles; null where it is not.");
-  add("ms_refined", part, "text", "", "What measured error changed of the part's plan, in words; absent where nothing was.");
+  add("ms_fallback", part, "text?", "",
+      "The code of the first reason why the part is simpler than its profiles; null where it is not.");
+  add("ms_refined", part, "text", "",
+      "What measured error changed of the part's plan, in words; absent where nothing was.");
   add("ms_block", part, "text", "", "The block; only with a mesh.");
   add("ms_opt_status", part, "text", "",
       "How the block's integer program ended: optimal, stopped, empty or failed; only with a mesh.");
@@ -43,7 +48,8 @@ auto attributes() -> std::vector<write::Attribute> {
     all.push_back({name, "derive", {"Building"}, type, unit, meaning});
   };
   derived("ms_derived", "flag", "",
-          "true: the footprint was drawn from the mesh, by no surveyor; absent from buildings with a footprint that was given.");
+          "true: the footprint was drawn from the mesh, by no surveyor; absent from buildings with a footprint that "
+          "was given.");
   derived("ms_derived_height", "number", "m", "Median height of the mesh above the ground over a derived footprint.");
   derived("ms_derived_planes", "number", "",
           "Share of a derived footprint's roof that lies in planes, 0 to 1: below 0.4 look whether it is a building.");

@@ -185,8 +185,7 @@ auto work_on(const block::Block& block, const ingest::ModelSurface& model, const
   out.block.scores = comparison.scores;
   out.map = std::move(comparison.map);
   if (truth)
-    totals.model_from_truth.add(
-        evaluate::compare(model.mesh, *truth, footprints, block.ground, options.evaluate, run));
+    totals.model_from_truth.add(evaluate::compare(model.mesh, *truth, footprints, block.ground, options.evaluate, run));
   for (const auto& member : block.members) {
     auto building = building_scores(member, top, scan, truth, options.evaluate, totals);
     building.id = scene.footprints[member.feature].id;
@@ -267,7 +266,8 @@ auto worse_than_prism(const BuildingScores& building) -> bool {
 }
 
 auto worse_than_prism_from_truth(const BuildingScores& building) -> bool {
-  return building.from_truth && building.from_truth->footprint_mse > building.prism_from_truth->footprint_mse + worse_by;
+  return building.from_truth &&
+         building.from_truth->footprint_mse > building.prism_from_truth->footprint_mse + worse_by;
 }
 
 auto read_evaluation(const EvaluationFiles& files, const ingest::Options& options, const base::Run& run)

@@ -66,8 +66,12 @@ auto json_of(const BuildingScores& b, bool independent) -> Json {
   };
   Json prism = json_of_prism(b.prism.scores);
   prism["height_m"] = b.prism.height;
-  Json out{{"id", b.id}, {"block", b.block}, {"modelled", b.modelled}, {"scores", own(b.scores)},
-           {"prism", std::move(prism)}, {"worse_than_prism", worse_than_prism(b)}};
+  Json out{{"id", b.id},
+           {"block", b.block},
+           {"modelled", b.modelled},
+           {"scores", own(b.scores)},
+           {"prism", std::move(prism)},
+           {"worse_than_prism", worse_than_prism(b)}};
   if (b.from_truth) {
     Json truth = own(*b.from_truth);
     truth["prism_footprint_mse_m2"] = b.prism_from_truth->footprint_mse;
@@ -185,8 +189,8 @@ auto prism_lines(const evaluate::Scores& prism, const std::vector<BuildingScores
   std::string named;
   for (const auto& id : ids) named += (named.empty() ? ": " : ", ") + id;
   return line("  flat prisms in its place", to_text(prism.footprint_mse, 4) + " m²") +
-         line("  worse than their prism", std::to_string(ids.size()) + " of " + std::to_string(buildings.size()) +
-                                              " buildings" + named);
+         line("  worse than their prism",
+              std::to_string(ids.size()) + " of " + std::to_string(buildings.size()) + " buildings" + named);
 }
 
 auto table_of(const Evaluation& e, double inset) -> std::string {

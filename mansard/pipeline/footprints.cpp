@@ -41,8 +41,8 @@ constexpr double far_off = 0.05;  // m
 
 /// The plan with the walls that it shares with others on one line, as a checked solid. False where that would cost the
 /// roof.
-auto raise_aligned(Raising& job, geometry::Plan aligned, bool ridge_known, const Options& options,
-                   const base::Run& run) -> bool {
+auto raise_aligned(Raising& job, geometry::Plan aligned, bool ridge_known, const Options& options, const base::Run& run)
+    -> bool {
   auto raised = raise_part(aligned, options, run);
   if (!raised || raised->outcome != extrude::Outcome::full) return false;
   constexpr double near = 0.01;  // m; a wider house has a higher ridge
@@ -171,11 +171,11 @@ auto raise_footprints(const ingest::Scene& scene, const Options& options, const 
     -> base::Result<Reconstruction> {
   const auto usable = std::ranges::find_if(scene.footprints, [](const auto& f) { return !f.defect.has_value(); });
   if (usable == scene.footprints.end())
-    return base::error("pipeline-nothing", scene.footprints.empty()
-                                               ? "there are no footprints"
-                                               : "none of the " + std::to_string(scene.footprints.size()) +
-                                                     " footprints can be used; the first: " +
-                                                     scene.footprints.front().defect->message);
+    return base::error("pipeline-nothing",
+                       scene.footprints.empty()
+                           ? "there are no footprints"
+                           : "none of the " + std::to_string(scene.footprints.size()) +
+                                 " footprints can be used; the first: " + scene.footprints.front().defect->message);
   if (auto known = roof::check_attributes(usable->attributes, options.roof); !known) return known.error();
   const bool by_attributes = options.roof.profile.empty();
   geometry::Profile profile;

@@ -5,9 +5,10 @@ namespace mansard::pipeline {
 auto read_inputs(const InputPaths& paths, const Options& options, const base::Run& run) -> base::Result<ingest::Scene> {
   if (paths.footprints.empty() != paths.derive_footprints)
     return base::error("pipeline-footprints",
-                       paths.derive_footprints ? "footprints are given, and are to be drawn from the mesh too; leave one of the two"
-                                               : "there are no footprints; give some, or have them drawn from the mesh with "
-                                                 "--derive-footprints",
+                       paths.derive_footprints
+                           ? "footprints are given, and are to be drawn from the mesh too; leave one of the two"
+                           : "there are no footprints; give some, or have them drawn from the mesh with "
+                             "--derive-footprints",
                        paths.footprints.string());
   auto scene = ingest::read_scene(paths.meshes, paths.footprints, options.ingest, run);
   if (!scene || !paths.derive_footprints) return scene;

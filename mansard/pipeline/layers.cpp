@@ -116,11 +116,10 @@ auto empty_sweep_edges() -> write::Layer {
 void add_sweep_edges(const SegmentedBlock& block, double z0, write::Layer& layer) {
   for (std::size_t i = 0; i < block.sweep_edges.size(); ++i) {
     const auto& edge = block.sweep_edges[i];
-    layer.features.push_back(
-        {{{edge.segment.start, edge.segment.end}},
-         {},
-         {block.name, as_whole(i), edge.evidence == sweep::Evidence::wall ? "wall" : "roof step", edge.area,
-          z0 + edge.low, z0 + edge.high, length_of(edge.segment), edge.step}});
+    layer.features.push_back({{{edge.segment.start, edge.segment.end}},
+                              {},
+                              {block.name, as_whole(i), edge.evidence == sweep::Evidence::wall ? "wall" : "roof step",
+                               edge.area, z0 + edge.low, z0 + edge.high, length_of(edge.segment), edge.step}});
   }
 }
 
@@ -299,8 +298,13 @@ auto diagnostics_layer(const Reconstruction& reconstruction, const ingest::Scene
                      "What went otherwise than it should, and why: a row for each reason of each feature, and for each "
                      "warning of the run, which has no place.",
                      write::Shape::polygons,
-                     {{"feature", text}, {"block", text}, {"outcome", text}, {"severity", text}, {"code", text},
-                      {"subject", text}, {"message", text}},
+                     {{"feature", text},
+                      {"block", text},
+                      {"outcome", text},
+                      {"severity", text},
+                      {"code", text},
+                      {"subject", text},
+                      {"message", text}},
                      {}};
   const auto add = [&](const base::Diagnostic& reason, Values where, const std::vector<geometry::Polygon>& polygons) {
     where.insert(where.end(), {Value(std::string(reason.severity == base::Severity::error ? "error" : "warning")),

@@ -11,9 +11,9 @@ namespace {
 
 /// Those that model_attributes() makes.
 constexpr std::array<std::string_view, 14> of_model{
-    "ms_h_ground",    "ms_h_roof_min",   "ms_h_roof_50p", "ms_h_roof_70p",     "ms_h_roof_max",
-    "ms_h_ridge",     "ms_roof_type",    "ms_volume_lod22", "ms_rmse_lod22",   "ms_area_roof_flat",
-    "ms_area_roof_sloped", "ms_area_wall", "ms_area_party_wall", "ms_fallback"};
+    "ms_h_ground",         "ms_h_roof_min", "ms_h_roof_50p",      "ms_h_roof_70p", "ms_h_roof_max",
+    "ms_h_ridge",          "ms_roof_type",  "ms_volume_lod22",    "ms_rmse_lod22", "ms_area_roof_flat",
+    "ms_area_roof_sloped", "ms_area_wall",  "ms_area_party_wall", "ms_fallback"};
 /// Those of a building that are its parts' together.
 constexpr std::array<std::string_view, 5> of_building{"ms_outcome", "ms_h_ground", "ms_h_roof_max", "ms_volume_lod22",
                                                       "ms_rmse_lod22"};
@@ -107,8 +107,7 @@ auto percentile(const std::vector<double>& sorted, double share) -> double {
 }
 
 auto model_attributes(const label::LabelledSolid& model, const geometry::Plan& plan, const std::vector<double>& roof,
-                      const std::optional<double>& mse, const std::string& fallback, double z0)
-    -> ingest::Attributes {
+                      const std::optional<double>& mse, const std::string& fallback, double z0) -> ingest::Attributes {
   const auto areas = label::areas(model);
   ingest::Attributes out;
   out.emplace_back("ms_h_ground", z0 + plan.base);
@@ -124,10 +123,8 @@ auto model_attributes(const label::LabelledSolid& model, const geometry::Plan& p
   out.emplace_back("ms_area_roof_sloped", areas.roof_sloped);
   out.emplace_back("ms_area_wall", areas.wall);
   out.emplace_back("ms_area_party_wall", areas.party_wall);
-  if (fallback.empty())
-    out.emplace_back("ms_fallback", std::monostate{});
-  else
-    out.emplace_back("ms_fallback", fallback);
+  if (fallback.empty()) out.emplace_back("ms_fallback", std::monostate{});
+  else out.emplace_back("ms_fallback", fallback);
   return out;
 }
 

@@ -94,8 +94,7 @@ auto set_option(std::vector<base::OptionList>& lists, std::string_view key, std:
     }
   const auto nearest = base::nearest_word(key, known);
   return base::error("option-unknown",
-                     "there is no such option" + base::did_you_mean(nearest) +
-                         "; see 'mansard options'",
+                     "there is no such option" + base::did_you_mean(nearest) + "; see 'mansard options'",
                      std::string(key));
 }
 

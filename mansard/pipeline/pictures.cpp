@@ -103,13 +103,15 @@ auto pictures(const Reconstruction& reconstruction, const ingest::Scene& scene, 
   const auto in_footprint = [&](Point3 p) {
     return std::ranges::any_of(scene.footprints, [&](const auto& footprint) {
       return std::ranges::any_of(footprint.polygons, [&](const auto& polygon) {
-        return geometry::bounds(polygon.outer).contains(geometry::xy(p)) && geometry::contains(polygon, geometry::xy(p));
+        return geometry::bounds(polygon.outer).contains(geometry::xy(p)) &&
+               geometry::contains(polygon, geometry::xy(p));
       });
     });
   };
   const picture::Layer scan{part_of(scene.mesh, frame, [](Point3) { return true; }), {picture::mesh_blue}};
   // The street of the scan stays in the second picture, for scale, in a quieter blue; the scan's buildings go.
-  const picture::Layer street{part_of(scene.mesh, frame, [&](Point3 p) { return !in_footprint(p); }), {{206, 216, 232}}};
+  const picture::Layer street{part_of(scene.mesh, frame, [&](Point3 p) { return !in_footprint(p); }),
+                              {{206, 216, 232}}};
   const auto models = models_of(reconstruction.city);
 
   const auto pair = [&](picture::View view) {

@@ -24,10 +24,8 @@ auto summed(const StageTime& before, const std::vector<BlockReport>& blocks) -> 
   for (const auto& block : blocks)
     for (const auto& time : block.times) {
       const auto at = std::ranges::find(sum, time.stage, &StageTime::stage);
-      if (at == sum.end())
-        sum.push_back(time);
-      else
-        at->seconds += time.seconds;
+      if (at == sum.end()) sum.push_back(time);
+      else at->seconds += time.seconds;
     }
   return sum;
 }
@@ -41,10 +39,10 @@ auto divide(const ingest::Scene& scene, const Options& options, const base::Run&
   const bool usable = std::ranges::any_of(scene.footprints, [](const auto& f) { return !f.defect.has_value(); });
   if (!usable)
     return base::error("pipeline-nothing",
-                       scene.footprints.empty() ? "there are no footprints"
-                                                : "none of the " + std::to_string(scene.footprints.size()) +
-                                                      " footprints can be used; the first: " +
-                                                      scene.footprints.front().defect->message);
+                       scene.footprints.empty()
+                           ? "there are no footprints"
+                           : "none of the " + std::to_string(scene.footprints.size()) +
+                                 " footprints can be used; the first: " + scene.footprints.front().defect->message);
   const detail::Watch watch;
   auto blocks = block::partition(scene, options.block, run);
   return Division{std::move(blocks), {"block", watch.seconds()}};

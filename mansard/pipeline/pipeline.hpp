@@ -122,14 +122,14 @@ struct BuildingReport {
   double ground = 0, roof_min = 0, roof_max = 0;  ///< z, metres, file frame
   double volume = 0;                              ///< m³
   label::Areas areas;
-  std::optional<double> rmse;  ///< m, vertical, over its parts; none where the mesh shows nothing
+  std::optional<double> rmse;     ///< m, vertical, over its parts; none where the mesh shows nothing
   std::string roof, height_from;  ///< the shape made and where its height comes from; of raise_footprints only
 };
 
 struct Reconstruction {
   write::City city;
   std::vector<BlockReport> blocks;
-  std::vector<BuildingReport> buildings;  ///< every input feature, in the source's order
+  std::vector<BuildingReport> buildings;       ///< every input feature, in the source's order
   std::vector<evaluate::ErrorMap> error_maps;  ///< per block
   std::vector<StageTime> times;
   evaluate::Scores scores;  ///< over all blocks, weighted by cells
@@ -140,9 +140,9 @@ struct Reconstruction {
 /// Guarantees: 1 every usable footprint ends in a valid solid, its own or (`covered`) a neighbour's · 2 every solid
 /// passed extrude::check · 3 one failing building or block leaves the others as they would be without it · 4 the same
 /// scene, options and seed give the same city at any thread count.
-/// With `only`, the names of some blocks, nothing else is reconstructed and no other feature is in the city or the report;
-/// these blocks come out as in a run of all.
-/// Gives up with "cancelled", "pipeline-nothing" (no usable footprint), "pipeline-block-unknown".
+/// With `only`, the names of some blocks, nothing else is reconstructed and no other feature is in the city or the
+/// report; these blocks come out as in a run of all. Gives up with "cancelled", "pipeline-nothing" (no usable
+/// footprint), "pipeline-block-unknown".
 [[nodiscard]] auto reconstruct(const ingest::Scene& scene, const Options& options, const base::Run& run = {},
                                Keep keep = Keep::models, std::span<const std::string> only = {})
     -> base::Result<Reconstruction>;
@@ -171,8 +171,8 @@ struct Segmented {
 [[nodiscard]] auto segment_layers(const ingest::Scene& scene, const std::vector<SegmentedBlock>& blocks,
                                   const write::MadeBy& made_by) -> std::vector<write::Layer>;
 
-/// What went otherwise than it should, as one more layer: `diagnostics`, a row per reason of a building and per warning.
-/// `reconstruction` must be of the whole scene.
+/// What went otherwise than it should, as one more layer: `diagnostics`, a row per reason of a building and per
+/// warning. `reconstruction` must be of the whole scene.
 [[nodiscard]] auto diagnostics_layer(const Reconstruction& reconstruction, const ingest::Scene& scene) -> write::Layer;
 
 /// Footprints without a mesh: each raised by its attributes, or along options.roof.profile. No blocks, no scores.
@@ -190,20 +190,20 @@ struct Segmented {
 struct RaisedPlans {
   write::City city;  ///< as given, with every model in place; made by this version
   struct Short {
-    std::size_t building = 0, part = 0;     ///< of the city
+    std::size_t building = 0, part = 0;  ///< of the city
     extrude::Outcome outcome = extrude::Outcome::full;
     std::vector<base::Diagnostic> reasons;  ///< the subject is the part's id
   };
   std::vector<Short> fell_short;  ///< the parts that are simpler than their plans, in order
 };
-/// The same plans and options give the same models at any thread count. Gives up with "cancelled", and as raise_part does
-/// with the first part that has no solid.
+/// The same plans and options give the same models at any thread count. Gives up with "cancelled", and as raise_part
+/// does with the first part that has no solid.
 [[nodiscard]] auto raise_plans(write::City city, const Options& options, const base::Run& run = {})
     -> base::Result<RaisedPlans>;
 
-/// The attributes of a part that speak of its model (heights, roof type, volume, areas, error, fallback), measured anew;
-/// all others stay as `part` has them. `mesh` may be null: no error then. `fallback`: the code of the reason why the
-/// model is simpler than its plan; empty when it is not. `z0`: z of the frame's origin, metres.
+/// The attributes of a part that speak of its model (heights, roof type, volume, areas, error, fallback), measured
+/// anew; all others stay as `part` has them. `mesh` may be null: no error then. `fallback`: the code of the reason why
+/// the model is simpler than its plan; empty when it is not. `z0`: z of the frame's origin, metres.
 [[nodiscard]] auto part_attributes(const write::Part& part, const std::string& fallback, const rays::Scene* mesh,
                                    double z0, const Options& options) -> ingest::Attributes;
 /// The same for a building, of the attributes of its parts.

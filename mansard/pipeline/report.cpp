@@ -51,30 +51,30 @@ auto json_of(const evaluate::Scores& s) -> Json {
 /// Scores are of models; blocks that are only segmented have none.
 auto json_of(const BlockReport& b, bool with_scores) -> Json {
   Json out{{"name", b.name},
-          {"buildings", b.buildings},
-          {"parts", b.parts},
-          {"triangles", b.triangles},
-          {"slices", b.slices},
-          {"slice_segments", b.slice_segments},
-          {"sweep_edges", b.sweep_edges},
-          {"faces", b.faces},
-          {"inside_faces", b.inside_faces},
-          {"candidate_edges", b.candidates},
-          {"variables", b.variables},
-          {"conflicts", b.conflicts},
-          {"objective",
-           {{"sweep_unused", b.terms.sweep_unused},
-            {"unsupported", b.terms.unsupported},
-            {"height", b.terms.height},
-            {"thin", b.terms.thin},
-            {"gis_unused", b.terms.gis_unused},
-            {"total", b.objective},
-            {"bound", b.bound},
-            {"gap", b.objective - b.bound},
-            {"relative_gap", relative_gap(b)},
-            {"status", b.status},
-            {"rounds", b.rounds},
-            {"nodes", b.nodes}}}};
+           {"buildings", b.buildings},
+           {"parts", b.parts},
+           {"triangles", b.triangles},
+           {"slices", b.slices},
+           {"slice_segments", b.slice_segments},
+           {"sweep_edges", b.sweep_edges},
+           {"faces", b.faces},
+           {"inside_faces", b.inside_faces},
+           {"candidate_edges", b.candidates},
+           {"variables", b.variables},
+           {"conflicts", b.conflicts},
+           {"objective",
+            {{"sweep_unused", b.terms.sweep_unused},
+             {"unsupported", b.terms.unsupported},
+             {"height", b.terms.height},
+             {"thin", b.terms.thin},
+             {"gis_unused", b.terms.gis_unused},
+             {"total", b.objective},
+             {"bound", b.bound},
+             {"gap", b.objective - b.bound},
+             {"relative_gap", relative_gap(b)},
+             {"status", b.status},
+             {"rounds", b.rounds},
+             {"nodes", b.nodes}}}};
   if (with_scores) out["scores"] = json_of(b.scores);
   out["seconds"] = json_of(b.times);
   return out;
@@ -87,7 +87,10 @@ auto json_of(const std::vector<BlockReport>& blocks, bool with_scores) -> Json {
 }
 
 auto json_of(const BuildingReport& b) -> Json {
-  Json out{{"id", b.id}, {"block", b.block}, {"outcome", to_string(b.outcome)}, {"reasons", json_of(b.reasons)},
+  Json out{{"id", b.id},
+           {"block", b.block},
+           {"outcome", to_string(b.outcome)},
+           {"reasons", json_of(b.reasons)},
            {"parts", b.parts}};
   if (b.derived) out["derived"] = true;
   if (b.parts > 0) {
@@ -95,12 +98,9 @@ auto json_of(const BuildingReport& b) -> Json {
     out["roof_min_m"] = b.roof_min;
     out["roof_max_m"] = b.roof_max;
     out["volume_m3"] = b.volume;
-    out["areas_m2"] = {{"wall", b.areas.wall},
-                       {"party_wall", b.areas.party_wall},
-                       {"roof_flat", b.areas.roof_flat},
-                       {"roof_sloped", b.areas.roof_sloped},
-                       {"soffit", b.areas.soffit},
-                       {"ground", b.areas.ground}};
+    out["areas_m2"] = {{"wall", b.areas.wall},           {"party_wall", b.areas.party_wall},
+                       {"roof_flat", b.areas.roof_flat}, {"roof_sloped", b.areas.roof_sloped},
+                       {"soffit", b.areas.soffit},       {"ground", b.areas.ground}};
   }
   if (!b.roof.empty()) out["roof"] = b.roof;
   if (!b.height_from.empty()) out["height_from"] = b.height_from;
@@ -158,7 +158,7 @@ auto text_of(const Json& report) -> std::string {
 auto report_json(const Reconstruction& r, const ingest::Scene& scene) -> std::string {
   Json out = head(r.city.made_by, scene);
   const bool scanned = !scene.mesh.triangles.empty();
-  out["counts"] = {{"footprints", r.buildings.size()},       {"full", count(r, Outcome::full)},
+  out["counts"] = {{"footprints", r.buildings.size()},        {"full", count(r, Outcome::full)},
                    {"fallback", count(r, Outcome::fallback)}, {"covered", count(r, Outcome::covered)},
                    {"refused", count(r, Outcome::refused)},   {"blocks", r.blocks.size()}};
   if (scanned) out["scores"] = json_of(r.scores);

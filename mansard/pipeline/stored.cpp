@@ -116,10 +116,8 @@ void note_options(const Options& options, write::MadeBy& made_by) {
   const auto used = raising_options(options);
   for (std::size_t i = 0; i < used.size(); ++i) {
     const auto at = std::ranges::find(made_by.options, used[i].first, &std::pair<std::string, std::string>::first);
-    if (at != made_by.options.end())
-      at->second = used[i].second;
-    else if (used[i] != defaults[i])
-      made_by.options.push_back(used[i]);
+    if (at != made_by.options.end()) at->second = used[i].second;
+    else if (used[i] != defaults[i]) made_by.options.push_back(used[i]);
   }
 }
 

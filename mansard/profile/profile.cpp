@@ -156,10 +156,8 @@ auto prepare(const segment::Part& part, const block::Block& block, const rays::S
   std::ranges::sort(work.heights);
   constexpr double assumed = 3.0;  // m; one storey, where nothing was seen at all
   constexpr double least = 0.5;    // m
-  if (!work.heights.empty())
-    work.height = std::max(least, work.heights[work.heights.size() / 2]);
-  else
-    work.height = part.height - work.base > least ? part.height - work.base : assumed;
+  if (!work.heights.empty()) work.height = std::max(least, work.heights[work.heights.size() / 2]);
+  else work.height = part.height - work.base > least ? part.height - work.base : assumed;
   return work;
 }
 

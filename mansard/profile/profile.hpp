@@ -19,13 +19,13 @@ enum class Quality : std::uint8_t { simple, moderate, high };
 
 struct Options {
   Quality quality = Quality::high;
-  double spacing = 0.2;        ///< m between perpendicular slices along an edge
-  double step = 1.0;           ///< m; the climb goes on to a piece this near
-  double jump = 3.0;           ///< m; failing that, over a hole or parapet this wide
-  double support = 0.2;        ///< share of an edge's slices that must support a line
-  double vertical_angle = 0.1; ///< rad; lines this near to vertical become vertical
-  double run_angle = 0.1;      ///< rad; edges turning less than this share a profile
-  double low_height = 2.0;     ///< m above ground; below, tolerances are five times wider (cars, hedges, shops)
+  double spacing = 0.2;         ///< m between perpendicular slices along an edge
+  double step = 1.0;            ///< m; the climb goes on to a piece this near
+  double jump = 3.0;            ///< m; failing that, over a hole or parapet this wide
+  double support = 0.2;         ///< share of an edge's slices that must support a line
+  double vertical_angle = 0.1;  ///< rad; lines this near to vertical become vertical
+  double run_angle = 0.1;       ///< rad; edges turning less than this share a profile
+  double low_height = 2.0;      ///< m above ground; below, tolerances are five times wider (cars, hedges, shops)
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 
@@ -37,8 +37,8 @@ struct Evidence {
 };
 
 struct ProfiledFootprint {
-  geometry::Plan plan;  ///< base = ground; cap = caps.front()
-  std::vector<Evidence> evidence;       ///< per profile of the plan
+  geometry::Plan plan;             ///< base = ground; cap = caps.front()
+  std::vector<Evidence> evidence;  ///< per profile of the plan
   /// Per profile of the plan: the others that its slices suggest, each as a profile is; may be empty.
   std::vector<std::vector<geometry::Profile>> alternatives;
   std::vector<double> caps;  ///< candidate heights above base at which to end the roof, m, the likeliest first; all > 0

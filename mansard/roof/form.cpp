@@ -70,7 +70,8 @@ class Reader {
       at = end + 1;
     }
     if (!best || *best < least || *best > most) {
-      warn("roof-value", *tag, (best && *best < least ? "is too little for " : "is too much for ") + kind + "; it is left out");
+      warn("roof-value", *tag,
+           (best && *best < least ? "is too little for " : "is too much for ") + kind + "; it is left out");
       return std::nullopt;
     }
     if (parts > 1) warn("roof-value", *tag, "has several values; the greatest was taken");
@@ -97,8 +98,9 @@ class Reader {
     const auto height = value(keys::height(), detail::length_of, "a height", least_height, highest, true);
     // Zero levels are a roof that stands on the ground; with a flat one, nothing would be left.
     const double least_levels = form.shape == Shape::flat ? 0.1 : 0;
-    const auto levels = height ? std::nullopt
-                               : value(keys::levels(), detail::count_of, "a number of levels", least_levels, most_levels, true);
+    const auto levels =
+        height ? std::nullopt
+               : value(keys::levels(), detail::count_of, "a number of levels", least_levels, most_levels, true);
     if (height) {
       form.height = *height;
       form.source = Source::height;

@@ -83,8 +83,8 @@ auto check_attributes(const ingest::Attributes& attributes, const Options& given
     std::string all;
     for (const auto& name : known) all += (all.empty() ? "" : ", ") + name;
     return base::error("roof-attribute",
-                       "there is no attribute '" + wanted + "'" + base::did_you_mean(base::nearest_word(wanted, known)) +
-                           "; the layer has: " + all,
+                       "there is no attribute '" + wanted + "'" +
+                           base::did_you_mean(base::nearest_word(wanted, known)) + "; the layer has: " + all,
                        "roof." + option.name);
   }
   return {};
@@ -94,7 +94,8 @@ auto codes() -> std::vector<base::Code> {
   return {
       {"roof-profile", "The profile cannot be read, leans outwards or goes down.",
        "Write pairs inward,height in metres that never decrease, from 0,0: \"0,0 0,6 4,9\".", 4},
-      {"roof-attribute", "An attribute that an option names is not in the layer.", "The message lists those that are.", 4},
+      {"roof-attribute", "An attribute that an option names is not in the layer.", "The message lists those that are.",
+       4},
       {"roof-form", "A building has nothing between its base and its top, or a value that is not finite.",
        "Correct its height.", 1},
       {"roof-value", "A tag's value is no height, number, angle or word that it may have; it was left out.",

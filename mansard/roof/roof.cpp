@@ -1,4 +1,5 @@
-// The story of a roof: what its sides do, how high that comes at unit slope, and the profiles that bring it to its height.
+// The story of a roof: what its sides do, how high that comes at unit slope, and the profiles that bring it to its
+// height.
 #include "mansard/roof/roof.hpp"
 
 #include <algorithm>
@@ -31,8 +32,7 @@ class Draft {
     if (at == plan_.profiles.end()) at = plan_.profiles.insert(at, profile);
     auto& of = side.ring == 0 ? plan_.outer : plan_.holes[side.ring - 1];
     for (std::size_t k = 0; k < side.count; ++k)
-      of.profile_of_edge[(side.first + k) % of.points.size()] =
-          static_cast<std::uint32_t>(at - plan_.profiles.begin());
+      of.profile_of_edge[(side.first + k) % of.points.size()] = static_cast<std::uint32_t>(at - plan_.profiles.begin());
   }
   [[nodiscard]] auto plan(double cap) && -> geometry::Plan {
     plan_.cap = cap;
@@ -74,9 +74,10 @@ auto heights_of(const Form& form, double run, Planned& out) -> Heights {
   if (rise > room + thin) {
     const double lower = room * form.most_share;
     out.as_asked = false;
-    out.warnings.push_back(base::warning(
-        "roof-height", "a roof of this pitch would be " + base::to_text(rise, 1) + " m high, more than the building's " +
-                           base::to_text(room, 1) + " m; it was made " + base::to_text(lower, 1) + " m high"));
+    out.warnings.push_back(base::warning("roof-height", "a roof of this pitch would be " + base::to_text(rise, 1) +
+                                                            " m high, more than the building's " +
+                                                            base::to_text(room, 1) + " m; it was made " +
+                                                            base::to_text(lower, 1) + " m high"));
     rise = lower;
   }
   if (room - rise < thin) rise = room;  // no wall a centimetre high
@@ -94,8 +95,9 @@ void make_skillion(const geometry::Polygon& polygon, const Form& form, Planned& 
   const auto [wall, rise] = heights_of(form, slope.run, out);
   if (rise < thin) return make_flat(polygon, wall + rise, out);
   if (slope.cut > 0)
-    out.warnings.push_back(base::warning(
-        "roof-corner-cut", std::to_string(slope.cut) + " low corners were cut off by 8 cm, for the plane to start from"));
+    out.warnings.push_back(
+        base::warning("roof-corner-cut",
+                      std::to_string(slope.cut) + " low corners were cut off by 8 cm, for the plane to start from"));
   const double steep = rise / slope.run;
   Draft draft(slope.polygon, out.plan.base, upright(wall + rise));
   const auto sides = detail::sides_of(slope.polygon);
@@ -197,8 +199,7 @@ auto plan_of(const geometry::Polygon& polygon, const Form& form, const Options& 
     make_swept(polygon, sides, form, options, run, out);
   }
   if (out.shape != Shape::flat) out.top = out.flat_top = out.plan.cap - above_top;
-  if (out.top <= 0)
-    return base::error("roof-form", "neither walls nor roof have a height");
+  if (out.top <= 0) return base::error("roof-form", "neither walls nor roof have a height");
   return out;
 }
 
@@ -218,8 +219,10 @@ auto profile_of(std::string_view text) -> base::Result<Profile> {
     const geometry::ProfilePoint point{*inward, *height};
     if (profile.empty() && point != geometry::ProfilePoint{}) profile.push_back({});
     if (!profile.empty() && point == profile.back()) return refuse("repeats '" + std::string(pair) + "'");
-    if (!profile.empty() && point.inward < profile.back().inward) return refuse("goes outward at '" + std::string(pair) + "'");
-    if (!profile.empty() && point.height < profile.back().height) return refuse("goes down at '" + std::string(pair) + "'");
+    if (!profile.empty() && point.inward < profile.back().inward)
+      return refuse("goes outward at '" + std::string(pair) + "'");
+    if (!profile.empty() && point.height < profile.back().height)
+      return refuse("goes down at '" + std::string(pair) + "'");
     profile.push_back(point);
     at = end;
   }

@@ -45,15 +45,15 @@ struct Form {
 };
 
 struct Options {
-  std::string profile;  ///< "inward,height inward,height …" in metres for every edge; empty: by attributes
-  std::optional<double> cap;     ///< m above the base; where a roof from `profile` is cut off flat
-  Shape shape = Shape::flat;     ///< where there is no roof:shape
-  double default_height = 6;     ///< m, roof included; where neither height nor levels are given
-  double level_height = 3;       ///< m
-  double pitch = 0.5236;         ///< rad; where neither roof:height nor roof:angle is given (30°)
-  double most_share = 0.5;       ///< of the height; a roof without roof:height or roof:angle is no higher
-  double half_hip = 0.5;         ///< of a half-hipped end's height; upright below it
-  double ground = 0;             ///< m; z of the ground where no attribute says it
+  std::string profile;        ///< "inward,height inward,height …" in metres for every edge; empty: by attributes
+  std::optional<double> cap;  ///< m above the base; where a roof from `profile` is cut off flat
+  Shape shape = Shape::flat;  ///< where there is no roof:shape
+  double default_height = 6;  ///< m, roof included; where neither height nor levels are given
+  double level_height = 3;    ///< m
+  double pitch = 0.5236;      ///< rad; where neither roof:height nor roof:angle is given (30°)
+  double most_share = 0.5;    ///< of the height; a roof without roof:height or roof:angle is no higher
+  double half_hip = 0.5;      ///< of a half-hipped end's height; upright below it
+  double ground = 0;          ///< m; z of the ground where no attribute says it
 
   /// Attributes to take instead of the well-known names.
   std::string building_height_attribute, building_levels_attribute, min_height_attribute, min_level_attribute,
@@ -76,9 +76,9 @@ struct Read {
 /// A plan whose extrusion has the form's roof.
 struct Planned {
   geometry::Plan plan;
-  double top = 0;        ///< m above plan.base: where the highest ridge will be
-  double flat_top = 0;   ///< m above plan.base: of the prism, where nothing else can be raised
-  bool as_asked = true;  ///< false where the outline or the height does not take the form; a warning says why
+  double top = 0;             ///< m above plan.base: where the highest ridge will be
+  double flat_top = 0;        ///< m above plan.base: of the prism, where nothing else can be raised
+  bool as_asked = true;       ///< false where the outline or the height does not take the form; a warning says why
   Shape shape = Shape::flat;  ///< what it became
   std::vector<base::Diagnostic> warnings;
 };

@@ -32,10 +32,13 @@ auto is_sound(const fracture::Arrangement& arrangement, const sweep::SweepEdges&
     return o.kind == fracture::Kind::border || o.source >= gis_source || o.source < edges.edges.size();
   };
   return n % 2 == 0 &&
-         std::ranges::all_of(arrangement.half_edges, [&](const fracture::HalfEdge& h) {
-           return h.twin < n && h.next < n && h.previous < n && h.from < arrangement.vertices.size() &&
-                  (!h.face || *h.face < arrangement.faces.size()) && std::ranges::all_of(h.origins, is_known);
-         }) &&
+         std::ranges::all_of(arrangement.half_edges,
+                             [&](const fracture::HalfEdge& h) {
+                               return h.twin < n && h.next < n && h.previous < n &&
+                                      h.from < arrangement.vertices.size() &&
+                                      (!h.face || *h.face < arrangement.faces.size()) &&
+                                      std::ranges::all_of(h.origins, is_known);
+                             }) &&
          std::ranges::all_of(arrangement.faces, [&](const fracture::Face& f) { return f.edge < n; });
 }
 
@@ -81,8 +84,8 @@ auto choose(const fracture::Arrangement& arrangement, const sweep::SweepEdges& e
   segmentation.conflicts = detail::conflicts_of(arrangement, evidence.faces, candidate_of, options);
   segmentation.phi = detail::phi_of(arrangement, evidence.faces, options);
   detail::price(segmentation.candidates, segmentation.conflicts, segmentation.phi, options);
-  const detail::Problem problem = detail::problem_of(arrangement, evidence.faces, segmentation.candidates,
-                                                     candidate_of, segmentation.conflicts, segmentation.phi);
+  const detail::Problem problem = detail::problem_of(arrangement, evidence.faces, segmentation.candidates, candidate_of,
+                                                     segmentation.conflicts, segmentation.phi);
   run.report("segment", block.name, 0.3);
   const auto start = std::chrono::steady_clock::now();
   detail::MulticutAnswer answer = detail::solve(
@@ -103,8 +106,7 @@ auto choose(const fracture::Arrangement& arrangement, const sweep::SweepEdges& e
   if (std::abs(whole - segmentation.objective) > rounding + 1e-9 * std::abs(whole))
     return base::error("segment-failed", "the program's objective is not that of its labels", block.name);
   segmentation.bound = segmentation.objective;
-  if (!answer.optimal)
-    segmentation.bound -= static_cast<double>(answer.objective - answer.bound) / 1000 + 2 * rounding;
+  if (!answer.optimal) segmentation.bound -= static_cast<double>(answer.objective - answer.bound) / 1000 + 2 * rounding;
   segmentation.status = problem.multicut.nodes == 0 ? "empty" : answer.optimal ? "optimal" : "stopped";
   segmentation.rounds = answer.rounds;
   segmentation.nodes = answer.nodes;
@@ -132,8 +134,7 @@ auto option_list(Options& o) -> base::OptionList {
                   "Cost of a pair of edges that make a sliver or a needle, as a share of the total edge length.")
           .number("thin_distance", o.thin_distance, "m", {0, 100}, "Opposite edges nearer than this make a sliver.")
           .number("thin_angle", o.thin_angle, "rad", {0, 1.5}, "Adjacent edges under this angle make a needle.")
-          .choice("continuations", o.continuations,
-                  {{"sweep", Continuations::sweep}, {"plain", Continuations::plain}},
+          .choice("continuations", o.continuations, {{"sweep", Continuations::sweep}, {"plain", Continuations::plain}},
                   "Whether the continuations of sweep-edges count as sweep-edges.")
           .choice("thin_rule", o.thin_rule, {{"all", ThinRule::all}, {"unsupported", ThinRule::unsupported}},
                   "Whether walls that were seen from both sides can make a sliver too.")
@@ -154,8 +155,9 @@ auto option_list(Options& o) -> base::OptionList {
           .number("min_height", o.min_height, "m", {0, 1000}, "… and its median height above ground is at least this.")
           .number("exposed", o.exposed, "", {0, 1e6},
                   "Faces with more wall-less boundary than this share of the rest are peeled off.")
-          .number("narrow", o.narrow, "m", {0, 100},
-                  "Parts of less mean width go to their neighbour, or are left out as strips outside a wall; 0 keeps them.")
+          .number(
+              "narrow", o.narrow, "m", {0, 100},
+              "Parts of less mean width go to their neighbour, or are left out as strips outside a wall; 0 keeps them.")
           .whole("samples", o.samples, "", {9, 100000}, "Height samples per face, at most.")
           .number("seconds", o.seconds, "s", {0, 1e6}, "Time limit per block; none: until proven optimal.")
           .whole("nodes", o.nodes, "", {0, 1e9}, "Limit of branch-and-bound nodes per solve.")

@@ -47,14 +47,14 @@ struct Options {
   ThinRule thin_rule = ThinRule::unsupported;
   ThinReach thin_reach = ThinReach::face;
   HeightMeasure height_measure = HeightMeasure::median;
-  double height_offset = 0.6;   ///< m; how far to both sides of an edge heights are sampled along it
+  double height_offset = 0.6;  ///< m; how far to both sides of an edge heights are sampled along it
   GisEdges gis_edges = GisEdges::hard;
-  double gis_alpha = 10.0;      ///< per metre of GIS edge left unused, with gis_edges = candidate
-  double gis_ratio = 0.44;      ///< a face is inside when at least this part of it is inside the footprints …
-  double min_height = 2.0;      ///< m; … and its median height above ground at least this
-  double exposed = 0.4;         ///< faces with more wall-less boundary than this share of the rest are peeled off
-  double narrow = 1.0;          ///< m; parts of less mean width go to their neighbour, or out; 0 keeps them
-  std::int64_t samples = 64;    ///< height samples per face, at least 9
+  double gis_alpha = 10.0;        ///< per metre of GIS edge left unused, with gis_edges = candidate
+  double gis_ratio = 0.44;        ///< a face is inside when at least this part of it is inside the footprints …
+  double min_height = 2.0;        ///< m; … and its median height above ground at least this
+  double exposed = 0.4;           ///< faces with more wall-less boundary than this share of the rest are peeled off
+  double narrow = 1.0;            ///< m; parts of less mean width go to their neighbour, or out; 0 keeps them
+  std::int64_t samples = 64;      ///< height samples per face, at least 9
   std::optional<double> seconds;  ///< time limit per block; none: until proven optimal or the node limit
   std::int64_t nodes = 100000;    ///< branch-and-bound nodes per solve
   bool cliques = false;           ///< give the solver a row for every clique of conflicts as well
@@ -69,30 +69,30 @@ struct Options {
 /// What was measured of a face.
 struct FaceEvidence {
   bool inside = false;
-  double height = 0;    ///< median z of the mesh's top surface, metres; meaningful when `seen`
+  double height = 0;  ///< median z of the mesh's top surface, metres; meaningful when `seen`
   bool seen = false;
-  double gis_share = 0; ///< of its area inside the footprints
+  double gis_share = 0;                ///< of its area inside the footprints
   std::optional<std::size_t> feature;  ///< index into Scene::footprints of the feature with the largest share
 };
 
 /// What an interior edge costs, in the objective's units.
 struct Costs {
-  double unsupported = 0, outline_conflict = 0;           ///< if it is cut: β; φ for each conflict with the outline
-  double sweep_unused = 0, height = 0, gis_unused = 0;    ///< if it is not: α; O2; gis_alpha
+  double unsupported = 0, outline_conflict = 0;         ///< if it is cut: β; φ for each conflict with the outline
+  double sweep_unused = 0, height = 0, gis_unused = 0;  ///< if it is not: α; O2; gis_alpha
   [[nodiscard]] auto cut() const -> double { return unsupported + outline_conflict; }
   [[nodiscard]] auto uncut() const -> double { return sweep_unused + height + gis_unused; }
 };
 
 /// One interior edge of the program: a run of half-edges between two faces.
 struct Candidate {
-  std::uint32_t left = 0, right = 0;      ///< faces
-  std::vector<std::uint32_t> half_edges;  ///< those with `left` on their left
-  double length = 0, height_difference = 0;  ///< m
+  std::uint32_t left = 0, right = 0;                                ///< faces
+  std::vector<std::uint32_t> half_edges;                            ///< those with `left` on their left
+  double length = 0, height_difference = 0;                         ///< m
   double sweep_length = 0, unsupported_length = 0, gis_length = 0;  ///< m that pay α uncut (of a low roof
-                                                                     ///< step its share); β cut; gis_alpha uncut
-  bool sweep = false;   ///< isSweepEdge, most of it
-  bool forced = false;  ///< between two features, with gis_edges = hard
-  bool solved = false;  ///< cut by the program's answer
+                                                                    ///< step its share); β cut; gis_alpha uncut
+  bool sweep = false;                                               ///< isSweepEdge, most of it
+  bool forced = false;                                              ///< between two features, with gis_edges = hard
+  bool solved = false;                                              ///< cut by the program's answer
   bool chosen = false;  ///< between two parts, after small and narrow parts were joined
   Costs costs;
 };
@@ -122,25 +122,25 @@ struct Terms {
 
 /// Where a footprint's edge comes from.
 struct EdgeOrigin {
-  std::vector<std::uint32_t> sweep_edges;   ///< hard parts only, those that face outwards here, by number
-  std::optional<std::uint32_t> neighbour;   ///< the part on the other side, if any
+  std::vector<std::uint32_t> sweep_edges;  ///< hard parts only, those that face outwards here, by number
+  std::optional<std::uint32_t> neighbour;  ///< the part on the other side, if any
 };
 
 /// One output footprint.
 struct Part {
-  geometry::Polygon polygon;  ///< simple, no vertex visited twice, collinear points removed
+  geometry::Polygon polygon;                   ///< simple, no vertex visited twice, collinear points removed
   std::vector<std::vector<EdgeOrigin>> edges;  ///< per ring (outer, then holes), per edge
   std::vector<std::uint32_t> faces;
   std::optional<std::size_t> feature;  ///< index into Scene::footprints it overlaps most
-  double height = 0;  ///< z, median of the mesh's top surface, metres
+  double height = 0;                   ///< z, median of the mesh's top surface, metres
 };
 
 struct Segmentation {
   std::vector<FaceEvidence> faces;
   std::vector<Candidate> candidates;
-  std::vector<Conflict> conflicts;   ///< ascending
-  double phi = 0;                    ///< what a conflict costs when both are cut
-  std::vector<CycleRow> rows;        ///< those of the start (stars), then those that the rounds added
+  std::vector<Conflict> conflicts;  ///< ascending
+  double phi = 0;                   ///< what a conflict costs when both are cut
+  std::vector<CycleRow> rows;       ///< those of the start (stars), then those that the rounds added
   std::vector<std::optional<std::uint32_t>> part_of_face;
   std::vector<Part> parts;  ///< ordered by feature, then by lowest face
 
@@ -165,8 +165,8 @@ struct Segmentation {
 /// The integer program that was solved, whole and with every row it took but those of cliques, which only say again
 /// what is known of whole points: variable i is s of candidate i, then comes a y
 /// for every conflict of two candidates. Costs and constant are whole, in thousandths of the objective. Every cut of
-/// the plane into parts satisfies the rows, so whatever any solver proves of it bounds the segmentation; when the status
-/// is "optimal", its optimum is 1000 × objective but for one unit of rounding a candidate.
+/// the plane into parts satisfies the rows, so whatever any solver proves of it bounds the segmentation; when the
+/// status is "optimal", its optimum is 1000 × objective but for one unit of rounding a candidate.
 [[nodiscard]] auto program_of(const Segmentation& segmentation) -> solver::Program;
 
 [[nodiscard]] auto codes() -> std::vector<base::Code>;

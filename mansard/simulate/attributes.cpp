@@ -3,7 +3,11 @@
 namespace mansard::simulate {
 
 auto attributes() -> std::vector<write::Attribute> {
-  return {{"ms_role", "simulate", {"BuildingPart"}, "text", "",
+  return {{"ms_role",
+           "simulate",
+           {"BuildingPart"},
+           "text",
+           "",
            "What the part is to its building: house, annex, wing, podium, tower, garage or parapet."},
           {"ms_eaves", "simulate", {"BuildingPart"}, "number", "m", "z at which the roof begins."}};
 }

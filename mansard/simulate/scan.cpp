@@ -28,8 +28,8 @@ auto check_size(const Surface& surface, const geometry::Box2& area, double resol
   const auto extent = (1 / resolution) * size;
   const double columns = extent.x * extent.y;
   if (columns < most_columns && std::max(extent.x, extent.y) < most_along && high / resolution < most_levels) return {};
-  const double coarser = std::max({std::sqrt(size.x * size.y / most_columns), std::max(size.x, size.y) / most_along,
-                                   high / most_levels});
+  const double coarser =
+      std::max({std::sqrt(size.x * size.y / most_columns), std::max(size.x, size.y) / most_along, high / most_levels});
   constexpr double tenth = 10;  // the advice is rounded up to 0.1 m
   return base::error("simulate-size",
                      "the scan would have too many cells: " + base::to_text(size.x, 0) + " × " +

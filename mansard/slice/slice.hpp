@@ -11,7 +11,7 @@
 namespace mansard::slice {
 
 struct Slice {
-  double height = 0;  ///< z, metres, local frame
+  double height = 0;                         ///< z, metres, local frame
   std::vector<geometry::Segment2> segments;  ///< directed so that outside is on the left (for outward triangles)
 };
 

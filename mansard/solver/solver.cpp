@@ -21,8 +21,8 @@ auto broken(const Program& program) -> bool {
   };
   const auto bad_row = [&](const Row& row) {
     return !number(row.least) || !number(row.most) || std::ranges::any_of(row.terms, [&](const auto& term) {
-             return term.first >= program.variables.size() || !std::isfinite(term.second);
-           });
+      return term.first >= program.variables.size() || !std::isfinite(term.second);
+    });
   };
   return !std::isfinite(program.constant) || std::ranges::any_of(program.variables, bad_variable) ||
          std::ranges::any_of(program.rows, bad_row);

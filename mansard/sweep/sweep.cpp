@@ -39,8 +39,8 @@ auto option_list(Options& options) -> base::OptionList {
   return list;
 }
 
-auto find_edges(const slice::SliceStack& stack, const block::Block& block, const Options& options,
-                const base::Run& run) -> SweepEdges {
+auto find_edges(const slice::SliceStack& stack, const block::Block& block, const Options& options, const base::Run& run)
+    -> SweepEdges {
   const detail::GisEdges gis(block, options);
   detail::LineStack lines(stack.slices.size());
   base::parallel_for(stack.slices.size(), [&](std::size_t i) {

@@ -37,7 +37,7 @@ struct SweepEdge {
   double low = 0, high = 0;    ///< z between which the wall was seen, metres
   std::size_t cluster = 0;     ///< index into SweepEdges::clusters; of a roof step, a cluster without lines
   Evidence evidence = Evidence::wall;
-  double step = 0;             ///< m; mean height of a roof step beyond what the slopes beside it explain
+  double step = 0;  ///< m; mean height of a roof step beyond what the slopes beside it explain
 };
 
 /// How the block's footprints lie beside the walls of the mesh.
@@ -47,25 +47,25 @@ struct Registration {
 };
 
 struct SweepEdges {
-  std::vector<SweepEdge> edges;    ///< longest first; ties by coordinates
+  std::vector<SweepEdge> edges;  ///< longest first; ties by coordinates
   std::vector<Cluster> clusters;
   Registration registration;
 };
 
 struct Options {
-  double gamma = 10.0;            ///< m²; clusters with less mesh area are dropped
-  double line_distance = 0.3;     ///< m; segments this near a line belong to it
-  double line_gap = 0.6;          ///< m; gaps up to this are closed along a line
-  double gis_angle = 0.39;        ///< rad; lines turn to a GIS edge within this angle; 0 leaves them alone
-  double gis_distance = 3.0;      ///< m; … when the GIS edge is this near
-  double gis_offset = 0.75;       ///< m; edges seen up to this far outside a footprint's stand on it; 0: where seen
-  double gis_inward = 0.25;       ///< m; … and up to this far inside: a scan sees eaves, but nothing through a wall
-  double cluster_step = 0.8;      ///< m; greatest lateral step between neighbouring slices
-  double low_height = 4.0;        ///< m above ground; lines below weigh a tenth (cars, hedges)
-  double thin_distance = 4.0;     ///< m; lines lose weight for anti-parallel lines this near (buses, fences)
-  double setback = 1.0;           ///< m; wall feet this far off the median become sweep-edges of their own
-  double step_height = 0.35;      ///< m; roofs that jump by this along a straight line make sweep-edges; 0: none do
-  double step_length = 2.5;       ///< m; … of this length
+  double gamma = 10.0;         ///< m²; clusters with less mesh area are dropped
+  double line_distance = 0.3;  ///< m; segments this near a line belong to it
+  double line_gap = 0.6;       ///< m; gaps up to this are closed along a line
+  double gis_angle = 0.39;     ///< rad; lines turn to a GIS edge within this angle; 0 leaves them alone
+  double gis_distance = 3.0;   ///< m; … when the GIS edge is this near
+  double gis_offset = 0.75;    ///< m; edges seen up to this far outside a footprint's stand on it; 0: where seen
+  double gis_inward = 0.25;    ///< m; … and up to this far inside: a scan sees eaves, but nothing through a wall
+  double cluster_step = 0.8;   ///< m; greatest lateral step between neighbouring slices
+  double low_height = 4.0;     ///< m above ground; lines below weigh a tenth (cars, hedges)
+  double thin_distance = 4.0;  ///< m; lines lose weight for anti-parallel lines this near (buses, fences)
+  double setback = 1.0;        ///< m; wall feet this far off the median become sweep-edges of their own
+  double step_height = 0.35;   ///< m; roofs that jump by this along a straight line make sweep-edges; 0: none do
+  double step_length = 2.5;    ///< m; … of this length
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 

@@ -35,13 +35,13 @@ auto format_of(const std::filesystem::path& path) -> std::optional<Format> {
 }
 
 auto option_list(WriteOptions& o) -> base::OptionList {
-  return std::move(base::OptionList("write")
-                       .choice("stl_shell", o.stl_shell,
-                               {{"part", Shell::part}, {"building", Shell::building}, {"block", Shell::block}},
-                               "What one closed shell of an STL stands for.")
-                       .flag("compress", o.compress, "Compress the meshes of GLB and 3D Tiles (meshopt, quantised).")
-                       .number("tile_triangles", o.tile_triangles, "", {100, 1e7},
-                               "Triangles of a leaf of a tileset, at most."));
+  return std::move(
+      base::OptionList("write")
+          .choice("stl_shell", o.stl_shell,
+                  {{"part", Shell::part}, {"building", Shell::building}, {"block", Shell::block}},
+                  "What one closed shell of an STL stands for.")
+          .flag("compress", o.compress, "Compress the meshes of GLB and 3D Tiles (meshopt, quantised).")
+          .number("tile_triangles", o.tile_triangles, "", {100, 1e7}, "Triangles of a leaf of a tileset, at most."));
 }
 
 auto open_writer(Format format, const std::filesystem::path& path, const Header& header, const WriteOptions& options,
@@ -94,10 +94,9 @@ auto format_in(const std::filesystem::path& path) -> std::optional<Format> {
   const auto first = start.find_first_not_of(" \t\r\n");
   if (first == std::string::npos || start[first] != '{') return std::nullopt;
   // The name of its own type comes before what it may speak of. Whether CityJSON is a sequence its reader sees.
-  const std::initializer_list<std::pair<std::string_view, Format>> types{
-      {"\"CityJSON\"", Format::cityjson},
-      {"\"mansard-plan\"", Format::plans},
-      {"\"FeatureCollection\"", Format::geojson}};
+  const std::initializer_list<std::pair<std::string_view, Format>> types{{"\"CityJSON\"", Format::cityjson},
+                                                                         {"\"mansard-plan\"", Format::plans},
+                                                                         {"\"FeatureCollection\"", Format::geojson}};
   std::optional<Format> found;
   auto least = std::string::npos;
   for (const auto& [type, format] : types)

@@ -18,11 +18,11 @@ enum class Format : std::uint8_t {
   cityjsonseq,  ///< a feature a line, ".city.jsonl"
   obj,          ///< with its library ".mtl" beside it
   glb,
-  tiles,        ///< a folder with a tileset.json and its GLB: 3D Tiles 1.1
+  tiles,  ///< a folder with a tileset.json and its GLB: 3D Tiles 1.1
   geopackage,
   stl,
-  geojson,      ///< the footprints alone
-  plans,        ///< plan + profiles, ".json"
+  geojson,  ///< the footprints alone
+  plans,    ///< plan + profiles, ".json"
 };
 
 /// How a format is called on the command line ("cityjson", "cityjsonseq", "obj", …), what its files end in (".gpkg"; of
@@ -47,21 +47,21 @@ enum class Shell : std::uint8_t { part, building, block };
 
 struct WriteOptions {
   Shell stl_shell = Shell::building;
-  bool compress = false;             ///< meshes of glb and tiles: EXT_meshopt_compression and KHR_mesh_quantization
-  double tile_triangles = 20000;     ///< of a leaf of a tileset, at most, where one building has not more
+  bool compress = false;          ///< meshes of glb and tiles: EXT_meshopt_compression and KHR_mesh_quantization
+  double tile_triangles = 20000;  ///< of a leaf of a tileset, at most, where one building has not more
 };
 [[nodiscard]] auto option_list(WriteOptions& options) -> base::OptionList;
 
-/// Takes buildings one after the other. Memory does not grow with their number, but where docs/write.md says by how much.
-/// The same header, options and buildings give the same bytes.
+/// Takes buildings one after the other. Memory does not grow with their number, but where docs/write.md says by how
+/// much. The same header, options and buildings give the same bytes.
 class CityWriter {
  public:
   CityWriter() = default;
   CityWriter(const CityWriter&) = delete;
   auto operator=(const CityWriter&) -> CityWriter& = delete;
   virtual ~CityWriter() = default;
-  /// Gives up with "write-duplicate-id", "write-model", "write-triangulate" and those of the format; the writer is of no
-  /// use then.
+  /// Gives up with "write-duplicate-id", "write-model", "write-triangulate" and those of the format; the writer is of
+  /// no use then.
   [[nodiscard]] virtual auto add(const Building& building) -> base::Result<void> = 0;
   /// After the last one: the files are whole, and take their places with Outputs::commit.
   [[nodiscard]] virtual auto finish() -> base::Result<void> = 0;
@@ -72,8 +72,8 @@ class CityWriter {
 /// A writer of that format at that place. `outputs` must outlive it. `more` are layers for a GeoPackage beside those of
 /// the city; other formats leave them out.
 [[nodiscard]] auto open_writer(Format format, const std::filesystem::path& path, const Header& header,
-                               const WriteOptions& options, base::Outputs& outputs,
-                               const std::vector<Layer>& more = {}) -> base::Result<std::unique_ptr<CityWriter>>;
+                               const WriteOptions& options, base::Outputs& outputs, const std::vector<Layer>& more = {})
+    -> base::Result<std::unique_ptr<CityWriter>>;
 
 /// The whole city into an open writer, then finish().
 [[nodiscard]] auto write_city(const City& city, CityWriter& writer) -> base::Result<void>;
@@ -97,15 +97,15 @@ class CityReader {
   [[nodiscard]] virtual auto has_models() const -> bool = 0;
   /// None after the last one.
   [[nodiscard]] virtual auto next() -> base::Result<std::optional<Building>> = 0;
-  /// The layers of a GeoPackage that are not of the city's making, for open_writer to take: those of a segmentation, and
-  /// what others put in, all in memory. Nothing of other formats. Before the first next(), or after it.
+  /// The layers of a GeoPackage that are not of the city's making, for open_writer to take: those of a segmentation,
+  /// and what others put in, all in memory. Nothing of other formats. Before the first next(), or after it.
   [[nodiscard]] virtual auto beside() -> base::Result<Beside> { return Beside(); }
 };
 
 /// Opens a file, or a folder of tiles, that mansard wrote in any format but STL. Guarantees: writing what was read, its
-/// models raised again where there were none, gives the same bytes in the format it was read from, with the same options.
-/// Gives up with "write-read-format" (what it is instead), "write-read-plans" (there are no plans in it), "write-plan-…",
-/// "file-…".
+/// models raised again where there were none, gives the same bytes in the format it was read from, with the same
+/// options. Gives up with "write-read-format" (what it is instead), "write-read-plans" (there are no plans in it),
+/// "write-plan-…", "file-…".
 [[nodiscard]] auto read_city(const std::filesystem::path& path) -> base::Result<std::unique_ptr<CityReader>>;
 
 /// All that a file has.

@@ -85,10 +85,13 @@ auto codes() -> std::vector<base::Code> {
       {"write-glb-size", "The model is larger than the 4 GB, or the 16 million surfaces, that a GLB can hold.",
        "Write 3D Tiles, or run smaller areas (--bbox).", 2},
       {"write-tiles-crs", "PROJ knows no way from the coordinate system to WGS 84, where 3D Tiles are.",
-       "Work in a projected coordinate system of EPSG (--ingest-crs), or in none (local): tiles are not placed on Earth then.",
+       "Work in a projected coordinate system of EPSG (--ingest-crs), or in none (local): tiles are not placed on "
+       "Earth then.",
        3},
-      {"write-tiles-grid", "PROJ lacks a geoid or a grid on the way to WGS 84, so a tileset stands less exactly than it could.",
-       "Install PROJ's grids for the region (https://cdn.proj.org), or set PROJ_NETWORK=ON so that it fetches them.", 0},
+      {"write-tiles-grid",
+       "PROJ lacks a geoid or a grid on the way to WGS 84, so a tileset stands less exactly than it could.",
+       "Install PROJ's grids for the region (https://cdn.proj.org), or set PROJ_NETWORK=ON so that it fetches them.",
+       0},
       {"write-read-format", "A file is in no format that buildings can be read back from.",
        "Give CityJSON, CityJSONSeq, OBJ, GLB, 3D Tiles, a GeoPackage, GeoJSON or plans that mansard wrote.", 3},
       {"write-read-plans", "A file of buildings carries none of the plans that mansard's own files do.",
@@ -110,15 +113,19 @@ auto codes() -> std::vector<base::Code> {
        "A profile does not start at [0, 0], goes outward or down, repeats a point, or an edge names one that is "
        "missing.",
        "Correct the profile or the edge's number; profiles are numbered from 0.", 3},
-      {"write-layer", "A layer that was to be written is broken: values that do not fit its fields, or coordinates that "
+      {"write-layer",
+       "A layer that was to be written is broken: values that do not fit its fields, or coordinates that "
        "are not finite.",
        "This is a bug: please report it with the input.", 70},
       {"write-layer-left", "A layer of a GeoPackage beside the buildings cannot be taken into another file.",
-       "Nothing, or copy it with ogr2ogr; the original file still has it. A GeoPackage as the result takes all layers of "
-       "mansard's.", 0},
+       "Nothing, or copy it with ogr2ogr; the original file still has it. A GeoPackage as the result takes all layers "
+       "of "
+       "mansard's.",
+       0},
       {"write-geopackage", "GDAL could not make a GeoPackage.",
        "The message has GDAL's words; its GPKG driver and PROJ's data must be installed, and there must be memory.", 3},
-      {"write-stl-shell", "Parts that touch cannot be one closed shell of an STL: where towers meet at a corner, or outlines "
+      {"write-stl-shell",
+       "Parts that touch cannot be one closed shell of an STL: where towers meet at a corner, or outlines "
        "overlap. They are several sound shells with walls between them.",
        "Change the plans at the place that is named, or take the shells as they are.", 0},
       {"write-stl-size", "There are more triangles than the 4,294,967,295 that an STL can count.",
@@ -126,7 +133,8 @@ auto codes() -> std::vector<base::Code> {
       {"write-geojson", "Footprints cannot be brought to longitude and latitude, which GeoJSON is in.",
        "Give the CRS that the coordinates are in with --ingest-crs; PROJ's data must be installed.", 3},
       {"write-geotiff", "GDAL could not make a GeoTIFF, or there is nothing to put into it.",
-       "The message has GDAL's words; its GTiff driver and PROJ's data must be installed, and there must be memory.", 3},
+       "The message has GDAL's words; its GTiff driver and PROJ's data must be installed, and there must be memory.",
+       3},
   };
 }
 

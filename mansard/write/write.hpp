@@ -28,7 +28,7 @@ struct Part {
 /// One GIS feature with the parts that overlap it most.
 struct Building {
   std::string id;
-  ingest::Attributes attributes;  ///< the source's own, then those with prefix ms_
+  ingest::Attributes attributes;             ///< the source's own, then those with prefix ms_
   std::vector<geometry::Polygon> footprint;  ///< the GIS polygons, for LoD 0
   double ground = 0;                         ///< z, metres
   std::vector<Part> parts;
@@ -95,9 +95,9 @@ struct Layer {
   std::vector<Feature> features;
 };
 
-/// The bytes of a GeoPackage (OGC 12-128) with these layers in this order, in the frame's file coordinates and CRS, each
-/// with a spatial index. A field whose name is taken already ("fid", "geom", or an earlier one in any case) gets "_2" or
-/// the next number free. The same layers give the same bytes at any time: the date of change is 1970-01-01.
+/// The bytes of a GeoPackage (OGC 12-128) with these layers in this order, in the frame's file coordinates and CRS,
+/// each with a spatial index. A field whose name is taken already ("fid", "geom", or an earlier one in any case) gets
+/// "_2" or the next number free. The same layers give the same bytes at any time: the date of change is 1970-01-01.
 /// Gives up with "write-layer" (the layers are inconsistent), "write-geopackage" (the library's words).
 [[nodiscard]] auto geopackage(const std::vector<Layer>& layers, const ingest::Frame& frame)
     -> base::Result<std::string>;

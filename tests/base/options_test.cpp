@@ -62,9 +62,16 @@ TEST(OptionList, sets_the_members_from_text) {
 TEST(OptionList, refuses_what_is_out_of_range_and_leaves_the_member_alone) {
   Sample s;
   const auto list = list_of(s);
-  for (const auto& [name, value] : std::vector<std::pair<std::string, std::string>>{
-           {"on", "yes"}, {"count", "11"}, {"count", "2.5"}, {"count", ""}, {"size", "0.05"}, {"size", "nan"},
-           {"size", "inf"}, {"size", "1m"}, {"limit", "-1"}, {"mood", "Wild"}}) {
+  for (const auto& [name, value] : std::vector<std::pair<std::string, std::string>>{{"on", "yes"},
+                                                                                    {"count", "11"},
+                                                                                    {"count", "2.5"},
+                                                                                    {"count", ""},
+                                                                                    {"size", "0.05"},
+                                                                                    {"size", "nan"},
+                                                                                    {"size", "inf"},
+                                                                                    {"size", "1m"},
+                                                                                    {"limit", "-1"},
+                                                                                    {"mood", "Wild"}}) {
     const auto set = list.find(name)->set(value);
     ASSERT_FALSE(set) << name << " = " << value;
     EXPECT_EQ(set.error().code, "option-value");

@@ -19,7 +19,11 @@ TEST(ParallelFor, does_every_piece_once_at_any_thread_count) {
 }
 
 TEST(ParallelFor, passes_an_exception_on) {
-  EXPECT_THROW(parallel_for(10, [](std::size_t i) { if (i == 7) throw std::runtime_error("seven"); }), std::runtime_error);
+  EXPECT_THROW(parallel_for(10,
+                            [](std::size_t i) {
+                              if (i == 7) throw std::runtime_error("seven");
+                            }),
+               std::runtime_error);
 }
 
 TEST(Random, is_the_same_everywhere_and_differs_by_stream) {

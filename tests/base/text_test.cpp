@@ -1,7 +1,7 @@
 #include "mansard/base/text.hpp"
 
-#include <clocale>
 #include <gtest/gtest.h>
+#include <clocale>
 
 namespace mansard::base {
 namespace {

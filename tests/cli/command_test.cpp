@@ -69,11 +69,13 @@ auto feature(const std::string& properties, const std::string& ring) -> std::str
   return R"({"type":"Feature","properties":{)" + properties + R"(},"geometry":)" + polygon(ring) + "}";
 }
 auto collection(const std::string& features) -> std::string {
-  return R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:28992"}},"features":[)" + features + "]}";
+  return R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:28992"}},"features":[)" +
+         features + "]}";
 }
-const std::string two_houses = collection(
-    feature(R"("id":"gabled","roof:shape":"gabled","height":"9 m","roof:height":"3")", square) + "," +
-    feature(R"("id":"odd","roof:shape":"hipped","height":"tall","building:levels":2)", "[20,0],[32,0],[32,8],[20,8],[20,0]"));
+const std::string two_houses =
+    collection(feature(R"("id":"gabled","roof:shape":"gabled","height":"9 m","roof:height":"3")", square) + "," +
+               feature(R"("id":"odd","roof:shape":"hipped","height":"tall","building:levels":2)",
+                       "[20,0],[32,0],[32,8],[20,8],[20,0]"));
 
 TEST_F(Command, raises_footprints_by_their_attributes) {
   const auto file = put("two.geojson", two_houses);
@@ -82,7 +84,8 @@ TEST_F(Command, raises_footprints_by_their_attributes) {
   EXPECT_EQ(outcome.out, at("out") + "\n");
   EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("2 of 2 buildings in full (1 of them with remarks)"),
                                           HasSubstr("warning[roof-value] odd: height = \"tall\"")));
-  for (const auto* name : {"model.city.json", "model.obj", "model.mtl", "model.glb", "plans.json", "run.json", "picture.png"})
+  for (const auto* name :
+       {"model.city.json", "model.obj", "model.mtl", "model.glb", "plans.json", "run.json", "picture.png"})
     EXPECT_GT(fs::file_size(folder_ / "out" / name), 100U) << name;
   EXPECT_EQ(read(at("copy.json")), read(at("out") + "/run.json"));
   const auto report = nlohmann::json::parse(read(at("copy.json")));
@@ -98,9 +101,12 @@ TEST_F(Command, raises_footprints_by_their_attributes) {
 }
 
 TEST_F(Command, raises_footprints_in_degrees_with_hstore_tags_in_their_utm_zone) {
-  const auto file = put("osm.geojson", R"({"type":"FeatureCollection","features":[)" +
-      feature(R"("osm_way_id":"7","other_tags":"\"roof:shape\"=>\"hipped\",\"building:levels\"=>\"3\"")",
-              "[4.36,52.0],[4.3602,52.0],[4.3602,52.0001],[4.36,52.0001],[4.36,52.0]") + "]}");
+  const auto file =
+      put("osm.geojson",
+          R"({"type":"FeatureCollection","features":[)" +
+              feature(R"("osm_way_id":"7","other_tags":"\"roof:shape\"=>\"hipped\",\"building:levels\"=>\"3\"")",
+                      "[4.36,52.0],[4.3602,52.0],[4.3602,52.0001],[4.36,52.0001],[4.36,52.0]") +
+              "]}");
   const auto outcome = run("extrude -q " + file + " -o " + at("out"));
   EXPECT_EQ(outcome.exit, 0) << outcome.err;
   const auto report = nlohmann::json::parse(read(at("out") + "/run.json"));
@@ -113,12 +119,15 @@ TEST_F(Command, raises_footprints_in_degrees_with_hstore_tags_in_their_utm_zone)
 
 TEST_F(Command, raises_footprints_along_one_profile_to_one_file) {
   const auto file = put("two.geojson", two_houses);
-  const auto outcome = run("extrude -q " + file + " -o " + at("p.obj") + " --profile '0,0 0,6 4,9' --where \"id = 'odd'\"");
+  const auto outcome =
+      run("extrude -q " + file + " -o " + at("p.obj") + " --profile '0,0 0,6 4,9' --where \"id = 'odd'\"");
   EXPECT_EQ(outcome.exit, 0) << outcome.err;
   EXPECT_GT(fs::file_size(at("p.obj")), 100U);
   EXPECT_EQ(std::ranges::count(read(at("p.obj")), 'v') > 10, true);
-  expect_refusal(run("extrude -q " + file + " -o " + at("out") + " --profile '0,0 0,6 -4,9'"), 4, "roof-profile", "-4,9");
-  expect_refusal(run("extrude -q " + file + " -o " + at("out") + " --height-attribute hight"), 4, "roof-attribute", "'height'");
+  expect_refusal(run("extrude -q " + file + " -o " + at("out") + " --profile '0,0 0,6 -4,9'"), 4, "roof-profile",
+                 "-4,9");
+  expect_refusal(run("extrude -q " + file + " -o " + at("out") + " --height-attribute hight"), 4, "roof-attribute",
+                 "'height'");
   expect_refusal(run("extrude -q " + file + " -o " + at("out") + " --roof-shape onion"), 4, "option-value", "mansard");
 }
 
@@ -142,14 +151,16 @@ TEST_F(Command, lets_a_bad_footprint_cost_only_itself_without_a_mesh_too) {
 }
 
 TEST_F(Command, tells_plans_from_footprints_by_their_contents) {
-  expect_refusal(run("extrude " + put("a.json", R"({"type":"mansard-plan"})") + " -o " + at("out")), 3, "write-plan-missing");
+  expect_refusal(run("extrude " + put("a.json", R"({"type":"mansard-plan"})") + " -o " + at("out")), 3,
+                 "write-plan-missing");
   expect_refusal(run("extrude " + put("b.json", R"({"type":"recipe"})") + " -o " + at("out")), 3, "write-plan-type");
   expect_refusal(run("extrude -q " + put("c.shp", "no shapes") + " -o " + at("out")), 3, "ingest-footprints-format");
   expect_refusal(run("extrude -q " + at("none.gpkg") + " -o " + at("out")), 3, "file-missing");
   EXPECT_EQ(run("extrude -q " + put("plan-like-name.json", geojson(polygon(square))) + " -o " + at("ok")).exit, 0);
   const auto own = put("own.geojson", two_houses);
   expect_refusal(run("extrude -q " + own + " -o " + own), 2, "output-input");
-  expect_refusal(run("extrude -q " + own + " -o " + at("x.obj") + " --report " + own + " --overwrite"), 2, "output-input");
+  expect_refusal(run("extrude -q " + own + " -o " + at("x.obj") + " --report " + own + " --overwrite"), 2,
+                 "output-input");
   EXPECT_EQ(read(own), two_houses);
 }
 
@@ -191,7 +202,8 @@ TEST_F(Command, leaves_no_pictures_of_an_earlier_run) {
   ASSERT_TRUE(fs::exists(at("out/picture.png")));
   put("out/mine.png", "mine");
   ASSERT_EQ(reconstruct(at("house.obj"), at("house.geojson"), "--overwrite").exit, 0);
-  for (const auto* name : {"picture.png", "above.png", "error.png"}) EXPECT_FALSE(fs::exists(at("out/") + name)) << name;
+  for (const auto* name : {"picture.png", "above.png", "error.png"})
+    EXPECT_FALSE(fs::exists(at("out/") + name)) << name;
   EXPECT_TRUE(fs::exists(at("out/mine.png")));
   EXPECT_TRUE(fs::exists(at("out/model.glb")));
 }
@@ -219,10 +231,13 @@ TEST_F(Command, refuses_bad_usage) {
 }
 
 TEST_F(Command, refuses_bad_options) {
-  expect_refusal(reconstruct(at("house.obj"), at("house.geojson"), "--sweep-gama 5"), 4, "option-unknown", "--sweep-gamma");
-  expect_refusal(reconstruct(at("house.obj"), at("house.geojson"), "--slice-interval -1"), 4, "option-value", "slice.interval");
+  expect_refusal(reconstruct(at("house.obj"), at("house.geojson"), "--sweep-gama 5"), 4, "option-unknown",
+                 "--sweep-gamma");
+  expect_refusal(reconstruct(at("house.obj"), at("house.geojson"), "--slice-interval -1"), 4, "option-value",
+                 "slice.interval");
   expect_refusal(reconstruct(at("house.obj"), at("house.geojson"), "--slice-interval abc"), 4, "option-value");
-  expect_refusal(reconstruct(at("house.obj"), at("house.geojson"), "--profile-quality best"), 4, "option-value", "moderate");
+  expect_refusal(reconstruct(at("house.obj"), at("house.geojson"), "--profile-quality best"), 4, "option-value",
+                 "moderate");
   expect_refusal(reconstruct(at("house.obj"), at("house.geojson"), "--preset london"), 4, "option-value", "chordatlas");
 }
 
@@ -249,10 +264,12 @@ TEST_F(Command, refuses_missing_empty_truncated_and_foreign_meshes) {
   }
   for (const auto& [name, bytes] : std::vector<std::pair<std::string, std::string>>{
            {"cut.off", "OFF\n4 2 0\n0 0 0\n1 0"},
-           {"cut.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 9\nproperty float x\nproperty float y\n"
-                       "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n\1\2\3"},
-           {"huge.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 99999999999\nproperty float x\n"
-                        "property float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"},
+           {"cut.ply",
+            "ply\nformat binary_little_endian 1.0\nelement vertex 9\nproperty float x\nproperty float y\n"
+            "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n\1\2\3"},
+           {"huge.ply",
+            "ply\nformat binary_little_endian 1.0\nelement vertex 99999999999\nproperty float x\n"
+            "property float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"},
            {"text.glb", "this is no glTF"},
            {"mesh.docx", "PK"}}) {
     const auto outcome = with(name, bytes);
@@ -302,7 +319,8 @@ TEST_F(Command, refuses_footprint_files_that_hold_none) {
 }
 
 TEST_F(Command, lets_a_bad_footprint_cost_only_itself) {
-  for (const auto* ring : {"[0,0],[12,8],[12,0],[0,8],[0,0]", "[20,20],[30,20],[20,20],[20,20]", "[1,1],[1,1],[1,1],[1,1]"}) {
+  for (const auto* ring :
+       {"[0,0],[12,8],[12,0],[0,8],[0,0]", "[20,20],[30,20],[20,20],[20,20]", "[1,1],[1,1],[1,1],[1,1]"}) {
     const auto outcome = reconstruct(at("house.obj"), put("two.geojson", beside_a_good_one(ring)), "--overwrite");
     EXPECT_EQ(outcome.exit, 1) << outcome.err;
     const auto buildings = nlohmann::json::parse(read(at("out") + "/run.json"))["buildings"];
@@ -326,7 +344,8 @@ TEST_F(Command, refuses_an_unknown_crs) {
 }
 
 TEST_F(Command, says_where_mesh_and_footprints_lie_when_they_do_not_overlap) {
-  const auto outcome = reconstruct(at("house.obj"), put("far.geojson", geojson(polygon("[5000,5000],[5010,5000],[5010,5010],[5000,5000]"))));
+  const auto outcome = reconstruct(
+      at("house.obj"), put("far.geojson", geojson(polygon("[5000,5000],[5010,5000],[5010,5010],[5000,5000]"))));
   EXPECT_EQ(outcome.exit, 3) << outcome.err;
   EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("error["), HasSubstr("5000"), HasSubstr("-20")));
 }
@@ -344,7 +363,8 @@ TEST_F(Command, overwrites_nothing_silently) {
 TEST_F(Command, never_writes_over_its_inputs) {
   fs::create_directory(at("tiles"));
   fs::copy_file(at("house.obj"), at("tiles") + "/model.obj");
-  const auto over = run("reconstruct -q " + at("tiles") + "/model.obj " + at("house.geojson") + " -o " + at("tiles") + " --overwrite");
+  const auto over = run("reconstruct -q " + at("tiles") + "/model.obj " + at("house.geojson") + " -o " + at("tiles") +
+                        " --overwrite");
   EXPECT_EQ(over.exit, 2) << over.err;
   EXPECT_THAT(over.err, HasSubstr("output-input"));
   EXPECT_EQ(read(at("tiles") + "/model.obj"), house);
@@ -353,7 +373,8 @@ TEST_F(Command, never_writes_over_its_inputs) {
 }
 
 TEST_F(Command, leaves_no_file_behind_when_one_of_them_cannot_be_written) {
-  const auto outcome = reconstruct(at("house.obj"), at("house.geojson"), "--report " + at("no such folder") + "/run.json");
+  const auto outcome =
+      reconstruct(at("house.obj"), at("house.geojson"), "--report " + at("no such folder") + "/run.json");
   EXPECT_EQ(outcome.exit, 3) << outcome.err;
   EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
   EXPECT_TRUE(!fs::exists(at("out")) || fs::is_empty(at("out")));
@@ -389,18 +410,22 @@ TEST_F(Command, refuses_a_negative_number_of_jobs) {
 }
 
 TEST_F(Command, refuses_an_output_folder_that_cannot_be_made) {
-  const auto outcome = run("reconstruct -q " + at("house.obj") + " " + at("house.geojson") + " -o " + at("house.obj") + "/out");
+  const auto outcome =
+      run("reconstruct -q " + at("house.obj") + " " + at("house.geojson") + " -o " + at("house.obj") + "/out");
   EXPECT_EQ(outcome.exit, 3) << outcome.err;
   EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1);
-  expect_refusal(run("reconstruct -q " + at("house.obj") + " " + at("house.geojson") + " -o " + at("house.obj")), 2, "output-exists");
+  expect_refusal(run("reconstruct -q " + at("house.obj") + " " + at("house.geojson") + " -o " + at("house.obj")), 2,
+                 "output-exists");
 }
 
 TEST_F(Command, refuses_a_folder_that_is_named_as_a_file) {
   const auto inputs = at("house.obj") + " " + at("house.geojson");
   expect_refusal(run("reconstruct -q " + inputs + " -o " + at("city.gpkg")), 2, "usage", "leave its ending off");
-  expect_refusal(run("extrude -q " + at("house.geojson") + " -o " + at("city.SHP")), 2, "usage", "leave its ending off");
+  expect_refusal(run("extrude -q " + at("house.geojson") + " -o " + at("city.SHP")), 2, "usage",
+                 "leave its ending off");
   EXPECT_FALSE(fs::exists(at("city.gpkg")));
-  EXPECT_EQ(run("extrude -q " + at("house.geojson") + " -o " + at("city.v2")).exit, 0) << "an ending of no kind of file";
+  EXPECT_EQ(run("extrude -q " + at("house.geojson") + " -o " + at("city.v2")).exit, 0)
+      << "an ending of no kind of file";
 }
 
 TEST_F(Command, gives_one_line_when_memory_runs_out) {
@@ -410,9 +435,10 @@ TEST_F(Command, gives_one_line_when_memory_runs_out) {
       "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
   const auto mesh = put("huge.ply", header);
   fs::resize_file(mesh, header.size() + 60000000ULL * 12 + 13);
-  const int status = std::system(("bash -c 'ulimit -v 700000; exec " + std::string(MANSARD_BINARY) + " reconstruct -q -j 1 " +
-                                  mesh + " " + at("house.geojson") + " -o " + at("out") + "' 2>" + at("stderr"))
-                                     .c_str());
+  const int status =
+      std::system(("bash -c 'ulimit -v 700000; exec " + std::string(MANSARD_BINARY) + " reconstruct -q -j 1 " + mesh +
+                   " " + at("house.geojson") + " -o " + at("out") + "' 2>" + at("stderr"))
+                      .c_str());
   ASSERT_TRUE(WIFEXITED(status));
   expect_refusal({WEXITSTATUS(status), "", read(at("stderr"))}, 3, "ingest-memory", "huge.ply");
 }
@@ -424,20 +450,36 @@ TEST_F(Command, stops_cleanly_on_interrupt) {
   for (int i = 0; i < 400; ++i) {
     const double x = 30.0 * (i % 20), y = 30.0 * (i / 20);
     const std::string shift[2] = {std::to_string(x), std::to_string(y)};
-    for (const auto& [dx, dy, z] : std::vector<std::array<double, 3>>{{0, 0, 0}, {12, 0, 0}, {12, 8, 0}, {0, 8, 0}, {0, 0, 5}, {12, 0, 5}, {12, 8, 5}, {0, 8, 5}, {0, 4, 8}, {12, 4, 8}})
+    for (const auto& [dx, dy, z] : std::vector<std::array<double, 3>>{{0, 0, 0},
+                                                                      {12, 0, 0},
+                                                                      {12, 8, 0},
+                                                                      {0, 8, 0},
+                                                                      {0, 0, 5},
+                                                                      {12, 0, 5},
+                                                                      {12, 8, 5},
+                                                                      {0, 8, 5},
+                                                                      {0, 4, 8},
+                                                                      {12, 4, 8}})
       mesh += "v " + std::to_string(x + dx) + " " + std::to_string(y + dy) + " " + std::to_string(z) + "\n";
     mesh += "f -10 -9 -5 -6\nf -9 -8 -4 -1 -5\nf -8 -7 -3 -4\nf -7 -10 -6 -2 -3\nf -6 -5 -1 -2\nf -4 -3 -2 -1\n";
-    const auto corner = [&](double dx, double dy) { return "[" + std::to_string(x + dx) + "," + std::to_string(y + dy) + "]"; };
-    features += std::string(i > 0 ? "," : "") + R"({"type":"Feature","properties":{},"geometry":)" +
-                polygon(corner(0, 0) + "," + corner(12, 0) + "," + corner(12, 8) + "," + corner(0, 8) + "," + corner(0, 0)) + "}";
+    const auto corner = [&](double dx, double dy) {
+      return "[" + std::to_string(x + dx) + "," + std::to_string(y + dy) + "]";
+    };
+    features +=
+        std::string(i > 0 ? "," : "") + R"({"type":"Feature","properties":{},"geometry":)" +
+        polygon(corner(0, 0) + "," + corner(12, 0) + "," + corner(12, 8) + "," + corner(0, 8) + "," + corner(0, 0)) +
+        "}";
   }
   put("town.obj", mesh);
-  put("town.geojson", R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:28992"}},"features":[)" + features + "]}");
+  put("town.geojson",
+      R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:28992"}},"features":[)" +
+          features + "]}");
   const pid_t child = ::fork();
   if (child == 0) {
     std::freopen(at("stderr").c_str(), "w", stderr);
     std::freopen("/dev/null", "w", stdout);
-    ::execl(MANSARD_BINARY, "mansard", "reconstruct", "-q", at("town.obj").c_str(), at("town.geojson").c_str(), "-o", at("out").c_str(), nullptr);
+    ::execl(MANSARD_BINARY, "mansard", "reconstruct", "-q", at("town.obj").c_str(), at("town.geojson").c_str(), "-o",
+            at("out").c_str(), nullptr);
     ::_exit(127);
   }
   while (!fs::exists(at("out"))) std::this_thread::sleep_for(std::chrono::milliseconds(2));

@@ -175,7 +175,9 @@ TEST_F(Convert, raises_models_by_the_options_that_the_file_was_made_with) {
     ASSERT_EQ(convert(out(from), at("same/model.obj"), "--overwrite").exit, 0) << from;
     EXPECT_EQ(read(at("same/model.obj")), read(out("model.obj"))) << from;
     // The command line goes before the file, and is in what comes out.
-    ASSERT_EQ(convert(out(from), at("bare/model.obj") + " -o " + at("bare.json"), "--extrude-overhang 0 --overwrite").exit, 0);
+    ASSERT_EQ(
+        convert(out(from), at("bare/model.obj") + " -o " + at("bare.json"), "--extrude-overhang 0 --overwrite").exit,
+        0);
     EXPECT_NE(read(at("bare/model.obj")), read(out("model.obj"))) << from;
     const auto plans = nlohmann::json::parse(read(at("bare.json")));
     EXPECT_EQ(plans["made_by"]["options"]["extrude.overhang"], "0") << from;
@@ -287,8 +289,10 @@ TEST_F(Convert, formats_say_what_a_folder_of_results_has) {
   for (const auto& entry : fs::directory_iterator(at("out"))) names.insert(entry.path().filename());
   EXPECT_THAT(names, testing::ElementsAre("model.mtl", "model.obj", "notes.txt", "run.json"));
   fs::remove_all(at("out"));
-  expect_refusal(reconstruct(at("house.obj"), at("house.geojson"), "--formats obj,geopakage"), 4, "option-value", "'geopackage'");
-  ASSERT_EQ(run("extrude -q --profile '0,0 0,6' " + at("house.geojson") + " -o " + at("e") + " --formats geojson").exit, 0);
+  expect_refusal(reconstruct(at("house.obj"), at("house.geojson"), "--formats obj,geopakage"), 4, "option-value",
+                 "'geopackage'");
+  ASSERT_EQ(run("extrude -q --profile '0,0 0,6' " + at("house.geojson") + " -o " + at("e") + " --formats geojson").exit,
+            0);
   EXPECT_TRUE(fs::exists(at("e/model.geojson")));
   EXPECT_FALSE(fs::exists(at("e/model.glb")));
 }

@@ -21,8 +21,8 @@ TEST_F(Derive, reconstructs_a_mesh_without_footprints_and_says_so_in_every_forma
   EXPECT_EQ(report["buildings"][0]["id"], "derived-1");
   EXPECT_EQ(report["buildings"][0]["derived"], true);
   EXPECT_NEAR(report["buildings"][0]["areas_m2"]["ground"].get<double>(), 96, 12);
-  for (const auto* name : {"model.city.json", "model.city.jsonl", "model.obj", "model.glb", "model.gpkg", "model.geojson",
-                           "plans.json"})
+  for (const auto* name :
+       {"model.city.json", "model.city.jsonl", "model.obj", "model.glb", "model.gpkg", "model.geojson", "plans.json"})
     EXPECT_THAT(read(at("out") + "/" + name), HasSubstr("ms_derived")) << name;
 }
 
@@ -40,7 +40,8 @@ TEST_F(Derive, is_named_where_footprints_are_missing) {
 }
 
 TEST_F(Derive, gives_up_with_a_reason_where_nothing_stands) {
-  const auto outcome = run("reconstruct " + at("house.obj") + " --derive-footprints --derive-above-ground 50 -o " + at("out"));
+  const auto outcome =
+      run("reconstruct " + at("house.obj") + " --derive-footprints --derive-above-ground 50 -o " + at("out"));
   EXPECT_EQ(outcome.exit, 5);
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("derive-nothing"), HasSubstr("give footprints")));
 }

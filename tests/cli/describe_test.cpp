@@ -19,9 +19,7 @@ class Describe : public Command {
     const int status = std::system((command + " >" + at("stdout") + " 2>" + at("stderr") + " </dev/null").c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(at("stdout")), read(at("stderr"))};
   }
-  [[nodiscard]] auto has(const std::string& program) const -> bool {
-    return shell("command -v " + program).exit == 0;
-  }
+  [[nodiscard]] auto has(const std::string& program) const -> bool { return shell("command -v " + program).exit == 0; }
   auto completion_for(const std::string& name) -> std::string {
     const auto script = run("completion " + name);
     EXPECT_EQ(script.exit, 0) << script.err;
@@ -78,7 +76,8 @@ TEST_F(Describe, bash_completes_files_for_arguments_and_folders_for_outputs) {
 }
 
 TEST_F(Describe, bash_offers_every_option_that_the_help_of_a_verb_names) {
-  for (const auto* verb : {"reconstruct", "segment", "extrude", "simulate", "evaluate", "label", "explore", "options"}) {
+  for (const auto* verb :
+       {"reconstruct", "segment", "extrude", "simulate", "evaluate", "label", "explore", "options"}) {
     const auto offered = bash_offers(std::string("mansard ") + verb + " --");
     const auto named = options_in_help(verb);
     EXPECT_FALSE(named.empty()) << verb;
@@ -185,9 +184,9 @@ TEST_F(Describe, every_attribute_in_the_models_is_in_the_list_with_its_object_an
     }
   for (const auto& attribute : found) EXPECT_THAT(listed, Contains(attribute));
   // And what one simple house has is there: nothing is listed that is never written.
-  for (const auto* name : {"ms_h_ground", "ms_h_roof_50p", "ms_h_ridge", "ms_volume_lod22", "ms_rmse_lod22", "ms_opt_gap",
-                           "ms_fallback", "ms_slope", "ms_party_wall", "+ms_plan", "+ms_footprint", "ms_role",
-                           "ms_roof_shape"})
+  for (const auto* name :
+       {"ms_h_ground", "ms_h_roof_50p", "ms_h_ridge", "ms_volume_lod22", "ms_rmse_lod22", "ms_opt_gap", "ms_fallback",
+        "ms_slope", "ms_party_wall", "+ms_plan", "+ms_footprint", "ms_role", "ms_roof_shape"})
     EXPECT_TRUE(std::ranges::any_of(found, [&](const auto& entry) { return entry[1] == name; })) << name;
 }
 

@@ -55,9 +55,10 @@ TEST_F(Evaluate, finds_a_box_that_is_off_by_a_metre) {
 
 TEST_F(Evaluate, holds_models_against_flat_prisms) {
   // A box of 12 × 8 whose east half is 2 m lower in the scan, and a model of it that is 3 m too high.
-  put("scan.obj", "v -20 -20 0\nv 40 -20 0\nv 40 40 0\nv -20 40 0\nf 1 2 3 4\n" +
-                      std::string("v 0 0 6\nv 6 0 6\nv 6 8 6\nv 0 8 6\nf 5 6 7 8\nv 6 0 4\nv 12 0 4\nv 12 8 4\nv 6 8 4\n"
-                                  "f 9 10 11 12\n"));
+  put("scan.obj",
+      "v -20 -20 0\nv 40 -20 0\nv 40 40 0\nv -20 40 0\nf 1 2 3 4\n" +
+          std::string("v 0 0 6\nv 6 0 6\nv 6 8 6\nv 0 8 6\nf 5 6 7 8\nv 6 0 4\nv 12 0 4\nv 12 8 4\nv 6 8 4\n"
+                      "f 9 10 11 12\n"));
   const auto outcome = evaluate(box("a", 0, 9), "--truth " + put("truth.obj", box("a", 0, 6)));
   EXPECT_EQ(outcome.exit, 0) << outcome.err;
   const auto r = report();
@@ -174,7 +175,8 @@ TEST_F(Evaluate, labels_the_scan_and_counts_what_is_right) {
   const auto truth = put("higher.obj", box("a", 0, 12));
   const auto held = run("label -q " + at("scan.obj") + " " + model + " -o " + at("third.ply") + " --truth " + truth);
   EXPECT_EQ(held.exit, 0) << held.err;
-  EXPECT_THAT(held.out, HasSubstr("wall or roof as by the true model, of 336 m²: by the nearest wall or roof of this one "));
+  EXPECT_THAT(held.out,
+              HasSubstr("wall or roof as by the true model, of 336 m²: by the nearest wall or roof of this one "));
   EXPECT_THAT(held.out, HasSubstr("by the normal alone "));
   const auto same = run("label -q " + at("scan.obj") + " " + model + " -o " + at("fourth.ply") + " --truth " + model);
   EXPECT_THAT(same.out, HasSubstr("of this one 100.0 %, as labelled 100.0 %, by the normal alone 100.0 %"));

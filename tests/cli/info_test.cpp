@@ -22,7 +22,8 @@ class Info : public Command {
     std::istringstream in(text);
     std::size_t number = 0;
     for (std::string line; std::getline(in, line); ++number) {
-      const auto letters = std::ranges::count_if(line, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
+      const auto letters =
+          std::ranges::count_if(line, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
       if (number >= not_counted) {
         EXPECT_LE(letters, 80) << line;
       }
@@ -32,8 +33,8 @@ class Info : public Command {
 
 TEST_F(Info, says_of_models_in_every_format_how_many_there_are_and_that_they_are_valid) {
   ASSERT_EQ(reconstruct(at("house.obj"), at("house.geojson"), "--formats all --sweep-gamma 7").exit, 0);
-  for (const auto* name : {"model.city.json", "model.city.jsonl", "model.obj", "model.glb", "model.3dtiles", "model.gpkg",
-                           "model.geojson", "plans.json"}) {
+  for (const auto* name : {"model.city.json", "model.city.jsonl", "model.obj", "model.glb", "model.3dtiles",
+                           "model.gpkg", "model.geojson", "plans.json"}) {
     const auto told = info(at("out") + "/" + name);
     ASSERT_EQ(told.size(), 1U) << name;
     const auto& it = told[0];
@@ -112,7 +113,8 @@ TEST_F(Info, says_what_it_can_of_other_makers_models_tilesets_and_shells) {
   for (const auto* path : {"tiles", "tiles/tileset.json"}) {
     const auto tileset = info(at(path));
     EXPECT_EQ(tileset[0]["kind"], "tileset") << path;
-    EXPECT_EQ(tileset[0]["tileset"]["levels"][1], Json::parse(R"({"tiles":2,"contents":2,"geometric_error_m":[0.0,1.0]})"));
+    EXPECT_EQ(tileset[0]["tileset"]["levels"][1],
+              Json::parse(R"({"tiles":2,"contents":2,"geometric_error_m":[0.0,1.0]})"));
   }
   EXPECT_THAT(run("info " + at("tiles")).out, HasSubstr("2 tiles, 2 with content, geometric error 0.00 to 1.00 m"));
   std::string stl = "shells" + std::string(74, '\0') + std::string("\1\0\0\0", 4) + std::string(50, '\0');

@@ -18,7 +18,8 @@ TEST_F(Report, takes_the_place_of_no_other_result) {
 TEST_F(Report, may_lie_in_the_folder_that_is_made_for_the_results) {
   EXPECT_EQ(reconstruct(at("house.obj"), at("house.geojson"), "--report " + at("out/report.json")).exit, 0);
   EXPECT_EQ(read(at("out/report.json")), read(at("out/run.json")));
-  EXPECT_EQ(run("extrude -q " + at("house.geojson") + " -o " + at("more") + " --report " + at("more/report.json")).exit, 0);
+  EXPECT_EQ(run("extrude -q " + at("house.geojson") + " -o " + at("more") + " --report " + at("more/report.json")).exit,
+            0);
   EXPECT_TRUE(fs::exists(at("more/report.json")));
 }
 

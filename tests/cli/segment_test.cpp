@@ -106,7 +106,8 @@ TEST_F(Segment, writes_nothing_into_a_folder_of_meshes_by_whatever_name) {
   fs::copy(at("house.obj"), at("tiles/house.obj"));
   for (const std::string out : {"why.gpkg", "./why.gpkg"}) {
     const std::string inside = "cd " + at("tiles") + " && " + MANSARD_BINARY;
-    const int status = std::system((inside + " segment -q . " + at("house.geojson") + " -o " + out + " 2>/dev/null").c_str());
+    const int status =
+        std::system((inside + " segment -q . " + at("house.geojson") + " -o " + out + " 2>/dev/null").c_str());
     EXPECT_EQ(WEXITSTATUS(status), 2) << out;
   }
   EXPECT_FALSE(fs::exists(at("tiles/why.gpkg")));

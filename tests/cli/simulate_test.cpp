@@ -100,8 +100,9 @@ TEST_F(Simulate, keeps_what_is_in_a_box_and_says_how_much_is_too_much) {
     };
     std::string text = "o at_" + std::to_string(west) + "\n";
     for (const int z : {0, 6}) text += v(0, 0, z) + v(4, 0, z) + v(4, 4, z) + v(0, 4, z);
-    return text + "g wall\nf -8 -7 -3 -4\nf -7 -6 -2 -3\nf -6 -5 -1 -2\nf -5 -8 -4 -1\ng roof\nf -4 -3 -2 -1\ng ground\n"
-                  "f -5 -6 -7 -8\n";
+    return text +
+           "g wall\nf -8 -7 -3 -4\nf -7 -6 -2 -3\nf -6 -5 -1 -2\nf -5 -8 -4 -1\ng roof\nf -4 -3 -2 -1\ng ground\n"
+           "f -5 -6 -7 -8\n";
   };
   const auto town = put("town.obj", box(0) + box(2000000));
   expect_refusal(run("simulate -q " + town + " -o " + at("out")), 4, "simulate-size", "keep a part of it with --bbox");

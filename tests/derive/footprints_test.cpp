@@ -122,8 +122,8 @@ TEST(Footprints, of_a_box_on_level_ground_are_its_four_walls) {
 TEST(Footprints, of_houses_on_a_slope_leave_the_slope_and_the_trees_out) {
   const auto gable = [](Point2 p) { return 5 + 3 - std::abs(p.y - 16) * 0.5; };
   const auto first = box(10, 10, 26, 22), second = box(44, 34, 58, 44);
-  const auto scene = scan(70, slope, {{first, gable}, {second, level(4)}, crown({30, 50}, 5), crown({60, 15}, 4),
-                                      crown({29, 16}, 4)});
+  const auto scene =
+      scan(70, slope, {{first, gable}, {second, level(4)}, crown({30, 50}, 5), crown({60, 15}, 4), crown({29, 16}, 4)});
   const auto found = drawn(scene);
   ASSERT_EQ(found.size(), 2U);
   EXPECT_GT(overlap(found[0].polygons[0], {first, {}}), 0.85);
@@ -208,7 +208,8 @@ TEST(Footprints, stand_on_the_terrain_that_is_given) {
 }
 
 TEST(Footprints, are_the_same_at_any_number_of_threads) {
-  const auto scene = scan(70, slope, {{box(10, 10, 26, 22), level(6)}, {box(30, 34, 58, 44), level(4)}, crown({30, 50}, 5)});
+  const auto scene =
+      scan(70, slope, {{box(10, 10, 26, 22), level(6)}, {box(30, 34, 58, 44), level(4)}, crown({30, 50}, 5)});
   base::limit_threads(1);
   const auto one = drawn(scene);
   base::limit_threads(0);
@@ -246,7 +247,8 @@ TEST(Footprints, of_the_hall_cover_what_was_drawn_by_hand) {
   auto scene = ingest::read_scene({data / "hall"}, data / "hall" / "footprints.geojson", {});
   ASSERT_TRUE(scene) << scene.error().message;
   std::vector<Polygon> known;
-  for (const auto& footprint : scene->footprints) known.insert(known.end(), footprint.polygons.begin(), footprint.polygons.end());
+  for (const auto& footprint : scene->footprints)
+    known.insert(known.end(), footprint.polygons.begin(), footprint.polygons.end());
   scene->footprints.clear();
   const auto found = drawn(*scene);
   ASSERT_EQ(found.size(), 1U);

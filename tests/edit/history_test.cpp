@@ -58,8 +58,9 @@ TEST(History, forgets_what_could_be_redone_when_something_else_is_done) {
 
 TEST(History, does_and_undoes_the_changes_of_one_edit_together) {
   auto history = start();
-  Edit edit{"merge", {{"a", 0, {{"a-1", test::plan_of(test::rectangle(0, 0, 20, 8), {test::pitch, test::wall})}}},
-                      {"b", 0, {}}}};
+  Edit edit{
+      "merge",
+      {{"a", 0, {{"a-1", test::plan_of(test::rectangle(0, 0, 20, 8), {test::pitch, test::wall})}}}, {"b", 0, {}}}};
   ASSERT_TRUE(history.apply(edit));
   EXPECT_TRUE(history.parts("b")->empty());
   const auto changed = history.undo();

@@ -86,8 +86,9 @@ TEST(Journal, names_the_line_that_cannot_be_done_again) {
   EXPECT_THAT(refused("{}"), HasSubstr("\"what\""));
   EXPECT_THAT(refused(R"({"what":"x","changes":[],"by":"me"})"), HasSubstr("\"by\""));
   EXPECT_THAT(refused(R"({"what":"x","changes":[{"building":"a","revision":-1,"parts":[]}]})"), HasSubstr("revision"));
-  EXPECT_THAT(refused(R"({"what":"x","changes":[{"building":"a","revision":1,"parts":[{"id":"p","plan":{"base":0}}]}]})"),
-              HasSubstr("cap"));
+  EXPECT_THAT(
+      refused(R"({"what":"x","changes":[{"building":"a","revision":1,"parts":[{"id":"p","plan":{"base":0}}]}]})"),
+      HasSubstr("cap"));
   EXPECT_THAT(refused(journal_line(edit)), HasSubstr("changed elsewhere"));  // of revision 0, again
   EXPECT_THAT(refused(std::string(redo_line)), HasSubstr("done again"));
 }

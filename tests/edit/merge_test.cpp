@@ -61,8 +61,10 @@ TEST(Merge, takes_corners_within_a_centimetre_of_the_other_outline_to_be_on_it) 
 }
 
 TEST(Merge, closes_a_courtyard) {
-  const auto left = test::plan_of({{{0, 0}, {5, 0}, {5, 3}, {3, 3}, {3, 7}, {5, 7}, {5, 10}, {0, 10}}, {}}, {test::wall});
-  const auto right = test::plan_of({{{5, 0}, {10, 0}, {10, 10}, {5, 10}, {5, 7}, {7, 7}, {7, 3}, {5, 3}}, {}}, {test::wall});
+  const auto left =
+      test::plan_of({{{0, 0}, {5, 0}, {5, 3}, {3, 3}, {3, 7}, {5, 7}, {5, 10}, {0, 10}}, {}}, {test::wall});
+  const auto right =
+      test::plan_of({{{5, 0}, {10, 0}, {10, 10}, {5, 10}, {5, 7}, {7, 7}, {7, 3}, {5, 3}}, {}}, {test::wall});
   const auto one = one_of(left, right);
   EXPECT_EQ(one.outer.points.size(), 4U);
   ASSERT_EQ(one.holes.size(), 1U);
@@ -72,7 +74,8 @@ TEST(Merge, closes_a_courtyard) {
 }
 
 TEST(Merge, fills_a_courtyard) {
-  const auto around = test::plan_of({test::rectangle(0, 0, 12, 12).outer, {{{4, 4}, {4, 8}, {8, 8}, {8, 4}}}}, {test::pitch});
+  const auto around =
+      test::plan_of({test::rectangle(0, 0, 12, 12).outer, {{{4, 4}, {4, 8}, {8, 8}, {8, 4}}}}, {test::pitch});
   const auto one = one_of(around, test::plan_of(test::rectangle(4, 4, 8, 8), {test::wall}));
   EXPECT_TRUE(one.holes.empty());
   EXPECT_NEAR(test::area_of(one), 144, 1e-12);

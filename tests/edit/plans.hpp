@@ -47,9 +47,7 @@ inline auto rectangle(double x0, double y0, double x1, double y1) -> Polygon {
 }
 
 /// A house of 10 by 8 m, ridge along x: eaves south and north, gables east and west.
-inline auto house(double x = 0, double y = 0) -> Plan {
-  return plan_of(rectangle(x, y, x + 10, y + 8), {pitch, wall});
-}
+inline auto house(double x = 0, double y = 0) -> Plan { return plan_of(rectangle(x, y, x + 10, y + 8), {pitch, wall}); }
 
 /// Around the origin, every corner in a direction of its own: simple, mostly concave.
 inline auto star(base::Random& random, std::size_t corners) -> Polygon {

@@ -72,7 +72,8 @@ TEST(Raise, raises_the_pieces_of_a_split_with_a_party_wall_between_them) {
 TEST(Raise, knows_party_walls_with_neighbouring_buildings) {
   const std::vector<NamedPlan> parts{{"a-1", test::house()}};
   const std::vector<Plan> beside{test::house(10)}, away{test::house(30)};
-  EXPECT_NEAR(party_walls(raise(parts, {.neighbours = beside, .before = {}, .mesh = nullptr}, {}).parts[0]), 8 * 5 + 8 * 4 / 2, 0.1);
+  EXPECT_NEAR(party_walls(raise(parts, {.neighbours = beside, .before = {}, .mesh = nullptr}, {}).parts[0]),
+              8 * 5 + 8 * 4 / 2, 0.1);
   EXPECT_EQ(party_walls(raise(parts, {.neighbours = away, .before = {}, .mesh = nullptr}, {}).parts[0]), 0);
 }
 
@@ -86,7 +87,8 @@ TEST(Raise, finds_ground_that_is_claimed_twice) {
   EXPECT_FALSE(raised.valid());
 
   const std::vector<Plan> neighbours{test::house(0, 7.9), test::house(0, 30)};
-  const auto against = raise(std::span(parts).subspan(0, 1), {.neighbours = neighbours, .before = {}, .mesh = nullptr}, {});
+  const auto against =
+      raise(std::span(parts).subspan(0, 1), {.neighbours = neighbours, .before = {}, .mesh = nullptr}, {});
   ASSERT_EQ(against.diagnostics.size(), 1U);
   EXPECT_THAT(against.diagnostics[0].message, HasSubstr("neighbouring building"));
 }

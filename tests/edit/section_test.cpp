@@ -29,9 +29,8 @@ TEST(Section, shows_the_wall_and_the_roof_behind_an_edge) {
 TEST(Section, measures_inward_to_the_left_of_the_edge_and_up_from_the_base) {
   const auto cut = section(scan(), {12, 8}, {0, 8}, 0.5, 2, 20);
   const auto at_ridge = std::ranges::any_of(cut.pieces, [](const auto& piece) {
-    return std::ranges::any_of(piece, [](const auto& p) {
-      return std::abs(p.inward - 4) < 1e-9 && std::abs(p.height - 6) < 1e-9;
-    });
+    return std::ranges::any_of(
+        piece, [](const auto& p) { return std::abs(p.inward - 4) < 1e-9 && std::abs(p.height - 6) < 1e-9; });
   });
   EXPECT_TRUE(at_ridge);
 }

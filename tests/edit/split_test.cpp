@@ -48,8 +48,8 @@ TEST(Split, follows_a_line_with_corners) {
 }
 
 TEST(Split, makes_as_many_plans_as_the_line_divides_off_largest_first) {
-  const auto comb = test::plan_of({{{0, 0}, {12, 0}, {12, 6}, {9, 6}, {9, 2}, {6, 2}, {6, 5}, {3, 5}, {3, 2}, {0, 2}}, {}},
-                                  {test::pitch});
+  const auto comb = test::plan_of(
+      {{{0, 0}, {12, 0}, {12, 6}, {9, 6}, {9, 2}, {6, 2}, {6, 5}, {3, 5}, {3, 2}, {0, 2}}, {}}, {test::pitch});
   const auto pieces = split_at(comb, {{-1, 4}, {13, 4}});
   ASSERT_EQ(pieces.size(), 3U);
   EXPECT_NEAR(test::area_of(pieces[0]), 24 + 3 * 2 + 3 * 2, 1e-12);
@@ -58,8 +58,8 @@ TEST(Split, makes_as_many_plans_as_the_line_divides_off_largest_first) {
 }
 
 TEST(Split, goes_through_a_courtyard_but_not_into_one) {
-  const auto around = test::plan_of({test::rectangle(0, 0, 12, 12).outer, {{{4, 4}, {4, 8}, {8, 8}, {8, 4}}}},
-                                    {test::pitch});
+  const auto around =
+      test::plan_of({test::rectangle(0, 0, 12, 12).outer, {{{4, 4}, {4, 8}, {8, 8}, {8, 4}}}}, {test::pitch});
   const auto pieces = split_at(around, {{-1, 6}, {13, 6}});
   ASSERT_EQ(pieces.size(), 2U);
   for (const auto& piece : pieces) {
@@ -71,8 +71,8 @@ TEST(Split, goes_through_a_courtyard_but_not_into_one) {
 }
 
 TEST(Split, leaves_courtyards_that_it_does_not_touch_where_they_are) {
-  const auto around = test::plan_of({test::rectangle(0, 0, 20, 12).outer, {{{4, 4}, {4, 8}, {8, 8}, {8, 4}}}},
-                                    {test::pitch});
+  const auto around =
+      test::plan_of({test::rectangle(0, 0, 20, 12).outer, {{{4, 4}, {4, 8}, {8, 8}, {8, 4}}}}, {test::pitch});
   const auto pieces = split_at(around, {{12, -1}, {12, 13}});
   ASSERT_EQ(pieces.size(), 2U);
   EXPECT_EQ(pieces[0].holes.size(), 1U);
@@ -134,7 +134,8 @@ auto random_line(base::Random& random) -> std::vector<Point2> {
   return line;
 }
 
-/// No corner within 3 cm of another, or of an edge that is not its own: merge takes what is within a centimetre for one.
+/// No corner within 3 cm of another, or of an edge that is not its own: merge takes what is within a centimetre for
+/// one.
 auto well_apart(const std::vector<Plan>& pieces) -> bool {
   std::vector<geometry::Segment2> edges;
   for (const auto& piece : pieces)

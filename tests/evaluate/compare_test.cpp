@@ -91,7 +91,7 @@ TEST(Compare, counts_missed_ground_and_takes_it_for_the_error_of_footprints) {
   const auto result = compare(labelled({box({0, 0}, {10, 8}, 0, 6)}), Scene(scan), footprints, 3, {});
   EXPECT_NEAR(result.scores.missed, 80, 1e-9);
   EXPECT_EQ(result.scores.invented, 0);
-  EXPECT_NEAR(result.scores.mse, 1, 1e-4);                        // the paper's error does not see what is missing
+  EXPECT_NEAR(result.scores.mse, 1, 1e-4);                         // the paper's error does not see what is missing
   EXPECT_NEAR(result.scores.footprint_mse, (1 + 16) / 2.0, 1e-4);  // ground at 3 under a scan at 7
   EXPECT_EQ(result.scores.cells, 40U * 32U);
   EXPECT_TRUE(std::isnan(result.map.at(60, 4)));
@@ -99,8 +99,8 @@ TEST(Compare, counts_missed_ground_and_takes_it_for_the_error_of_footprints) {
 }
 
 TEST(Compare, counts_what_is_invented_even_outside_the_bounding_box) {
-  const auto result = compare(labelled({box({-5, 0}, {15, 8}, 0, 6)}), Scene(plain(6)),
-                              std::vector{rectangle({0, 0}, {10, 8})}, 0, {});
+  const auto result =
+      compare(labelled({box({-5, 0}, {15, 8}, 0, 6)}), Scene(plain(6)), std::vector{rectangle({0, 0}, {10, 8})}, 0, {});
   EXPECT_NEAR(result.scores.invented, 10 * 8, 1e-9);
   EXPECT_EQ(result.map.columns, 40U);
   EXPECT_EQ(result.scores.cells, 40U * 32U);

@@ -117,10 +117,9 @@ TEST(Align, puts_a_shared_wall_on_one_line) {
 }
 
 TEST(Align, leaves_alone_what_touches_nothing) {
-  const auto made = extrude::align(
-      std::vector{plan({{0, 0}, {10, 0.004}, {20, 0}, {20, 9}, {0, 9}}, {hip}),
-                  shifted(plan(box(9, 9), {hip}), {0, 9.1}),
-                  plan({{40, 0}, {50, 10}, {50, 0}, {40, 10}}, {hip})});  // crosses itself
+  const auto made = extrude::align(std::vector{plan({{0, 0}, {10, 0.004}, {20, 0}, {20, 9}, {0, 9}}, {hip}),
+                                               shifted(plan(box(9, 9), {hip}), {0, 9.1}),
+                                               plan({{40, 0}, {50, 10}, {50, 0}, {40, 10}}, {hip})});  // crosses itself
   EXPECT_THAT(made, testing::Each(testing::Eq(std::nullopt)));
 }
 

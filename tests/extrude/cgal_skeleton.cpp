@@ -174,7 +174,8 @@ TEST(CgalSkeleton, agrees_on_polygons_with_holes) {
       const double angle = random.index(2) == 0 ? 0 : random.uniform(0, 3);
       const Point2 centre{i % 2 == 0 ? 15.0 : 45.0, i < 2 ? 13.0 : 37.0};
       for (Point2& v : hole)
-        v = centre + Point2{std::cos(angle) * v.x - std::sin(angle) * v.y, std::sin(angle) * v.x + std::cos(angle) * v.y};
+        v = centre +
+            Point2{std::cos(angle) * v.x - std::sin(angle) * v.y, std::sin(angle) * v.x + std::cos(angle) * v.y};
       holes.push_back(std::move(hole));
     }
     expect_agreement(turned(tent_over(box(60, 50), holes), 0.1 * static_cast<double>(random.index(5))),

@@ -194,10 +194,10 @@ TEST(Check, finds_what_pierces_or_touches_a_large_level_face) {
   EXPECT_THAT(codes_of(together(large, cube({0, 0, 6}))), testing::IsEmpty());
   EXPECT_THAT(codes_of(together(large, cube({0, 0, 1}))), testing::IsEmpty());  // a second shell inside
   const auto crossing = testing::ElementsAre("solid-self-intersection");
-  EXPECT_THAT(codes_of(together(large, cube({0, 0, 4}))), crossing);            // through the lid
-  EXPECT_THAT(codes_of(together(large, cube({0, 0, 5}))), crossing);            // stands on the lid
-  EXPECT_THAT(codes_of(together(large, cube({0, 0, 3}))), crossing);            // hangs from it
-  EXPECT_THAT(codes_of(together(large, drum(150, 5))), crossing);               // floor in floor
+  EXPECT_THAT(codes_of(together(large, cube({0, 0, 4}))), crossing);  // through the lid
+  EXPECT_THAT(codes_of(together(large, cube({0, 0, 5}))), crossing);  // stands on the lid
+  EXPECT_THAT(codes_of(together(large, cube({0, 0, 3}))), crossing);  // hangs from it
+  EXPECT_THAT(codes_of(together(large, drum(150, 5))), crossing);     // floor in floor
   auto above = drum(150, 5);
   for (Point3& p : above.vertices) p.z += 5;
   EXPECT_THAT(codes_of(together(large, above)), crossing);  // floor on lid
@@ -226,9 +226,9 @@ TEST(Check, finds_holes_outside_across_and_within_holes) {
     return solid;
   };
   EXPECT_THAT(codes_of(moved(5, -6)), testing::IsEmpty());
-  EXPECT_THAT(codes_of(moved(10, 0)), testing::ElementsAre("solid-self-intersection"));     // over the outline
-  EXPECT_THAT(codes_of(moved(30, 0)), testing::ElementsAre("solid-self-intersection"));    // outside of it
-  EXPECT_THAT(codes_of(moved(-5, -7)), testing::ElementsAre("solid-self-intersection"));   // over the other hole
+  EXPECT_THAT(codes_of(moved(10, 0)), testing::ElementsAre("solid-self-intersection"));   // over the outline
+  EXPECT_THAT(codes_of(moved(30, 0)), testing::ElementsAre("solid-self-intersection"));   // outside of it
+  EXPECT_THAT(codes_of(moved(-5, -7)), testing::ElementsAre("solid-self-intersection"));  // over the other hole
 }
 
 TEST(Check, finds_an_edge_that_touches_an_edge) {

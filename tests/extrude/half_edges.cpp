@@ -226,8 +226,8 @@ TEST(Lines, name_an_M_roof_by_its_level_valley) {
 
 TEST(Lines, name_the_valleys_between_three_wings) {
   // A comb with three teeth under one pitch: a valley from each of the four inner corners, sloping; they meet in pairs.
-  const Ring comb{{0, 0}, {20, 0}, {20, 12}, {16, 12}, {16, 6}, {12, 6}, {12, 12},
-                  {8, 12}, {8, 6}, {4, 6}, {4, 12}, {0, 12}};
+  const Ring comb{{0, 0},   {20, 0}, {20, 12}, {16, 12}, {16, 6}, {12, 6},
+                  {12, 12}, {8, 12}, {8, 6},   {4, 6},   {4, 12}, {0, 12}};
   EXPECT_THAT(roof_lines(plan(comb, {hip})),
               ElementsAre(Pair("eave", 12), Pair("hip", 10), Pair("ridge", 4), Pair("valley", 4)));
 }
@@ -240,15 +240,15 @@ TEST(Lines, name_the_roof_round_a_courtyard) {
   //  | | |___| | |
   //  | |/_____\| |
   //  +-----------+
-  EXPECT_THAT(
-      turned_or_not(plan(box(20, 20), {hip}, {}, 100, {turned_in({{6, 6}, {14, 6}, {14, 14}, {6, 14}})})),
-      ElementsAre(Pair("eave", 8), Pair("hip", 4), Pair("ridge", 4), Pair("valley", 4)));
+  EXPECT_THAT(turned_or_not(plan(box(20, 20), {hip}, {}, 100, {turned_in({{6, 6}, {14, 6}, {14, 14}, {6, 14}})})),
+              ElementsAre(Pair("eave", 8), Pair("hip", 4), Pair("ridge", 4), Pair("valley", 4)));
 }
 
 TEST(Lines, name_the_edges_and_feet_of_terraces_and_flat_roofs) {
   EXPECT_THAT(turned_or_not(plan(box(10, 6), {wall}, {}, 5)), ElementsAre(Pair("flat edge", 4)));
   // A tower set back: the terrace's outer edge, the tower's foot, the tower's top.
-  EXPECT_THAT(turned_or_not(plan(box(12, 12), {setback}, {}, 9)), ElementsAre(Pair("flat edge", 8), Pair("upstand", 4)));
+  EXPECT_THAT(turned_or_not(plan(box(12, 12), {setback}, {}, 9)),
+              ElementsAre(Pair("flat edge", 8), Pair("upstand", 4)));
   // A hip cut off flat.
   EXPECT_THAT(turned_or_not(plan(box(10, 10), {hip}, {}, 5)),
               ElementsAre(Pair("eave", 4), Pair("flat break", 4), Pair("hip", 4)));

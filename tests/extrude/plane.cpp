@@ -94,8 +94,7 @@ TEST(Predicate, gives_the_same_sign_in_every_tier_as_rational_arithmetic) {
     const Triple at{ids[0], ids[1], ids[2]};
     const int convergence = planes.convergence(at);
     if (convergence == 0) continue;
-    for (int i = 3; i < 6; ++i)
-      EXPECT_EQ(planes.side(ids[i], at), side_by_rationals(planes, planes[ids[i]], at)) << i;
+    for (int i = 3; i < 6; ++i) EXPECT_EQ(planes.side(ids[i], at), side_by_rationals(planes, planes[ids[i]], at)) << i;
     const auto e = planes.exact(at);
     const auto place = planes.nearest(at);
     // mpq truncates: within one unit in the last place of the nearest.

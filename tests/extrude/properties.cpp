@@ -198,7 +198,8 @@ TEST(Guarantee, eight_a_shifted_plan_gives_the_same_solid) {
 
 TEST(Guarantee, eight_a_turned_plan_of_one_slope_gives_the_same_volume) {
   // Turning rounds the outline anew. With several profiles a tie that then falls the other way can cost a neighbour its
-  // run (fixtures/eight_a_tie_that_…); with one slope it cannot. Exact turns, of every plan, are in exact_properties.cpp.
+  // run (fixtures/eight_a_tie_that_…); with one slope it cannot. Exact turns, of every plan, are in
+  // exact_properties.cpp.
   for_all_plans(30, 16, [](Plan p) -> std::string {
     for (Profile& profile : p.profiles) profile = {profile.front(), profile.back()};
     std::ranges::fill(p.outer.profile_of_edge, p.outer.profile_of_edge[0]);

@@ -9,9 +9,9 @@ namespace mansard::fracture {
 namespace {
 
 using geometry::Point2;
+using testing::DoubleNear;
 using testing::ElementsAre;
 using testing::Pointwise;
-using testing::DoubleNear;
 using testing::SizeIs;
 
 /// The region as drawn is the rectangle.
@@ -55,7 +55,8 @@ TEST(Arrange, lets_one_cut_split_the_rectangle) {
 ...........
 ..a----b...
 ...........
-...........)", "ab");
+...........)",
+                            "ab");
   const auto a = arranged(cuts, box(10, 3), flush());
   EXPECT_THAT(areas(a), ElementsAre(10.0, 20.0));
   EXPECT_DOUBLE_EQ(length_of(a, Kind::hard, 0), 5);
@@ -66,7 +67,8 @@ TEST(Arrange, remembers_direction_and_source) {
   const auto cuts = cuts_in(R"(
 b....
 .....
-a....)", "ab");
+a....)",
+                            "ab");
   const auto a = arranged({{cuts[0].segment, 77}}, box(4, 2), {.continuation = 2, .snap = 0.05, .margin = 1});
   int found = 0;
   for (std::uint32_t h = 0; h < a.half_edges.size(); ++h) {
@@ -95,7 +97,8 @@ TEST(Arrange, ends_a_cut_at_the_next_edge) {
 ....c....
 ....|....
 ....d....
-.........)", "ab cd");
+.........)",
+                            "ab cd");
   const auto a = arranged(cuts, box(8, 6), flush(2));
   EXPECT_THAT(areas(a), ElementsAre(8.0, 20.0, 20.0));
   EXPECT_DOUBLE_EQ(length_of(a, Kind::hard, 1), 2);
@@ -108,7 +111,8 @@ TEST(Arrange, makes_a_cross_of_two_cuts_that_cross) {
 ....|....
 a---+---b
 ....|....
-....d....)", "ab cd");
+....d....)",
+                            "ab cd");
   const auto a = arranged(cuts, box(8, 4), flush());
   EXPECT_THAT(areas(a), ElementsAre(8.0, 8.0, 8.0, 8.0));
   EXPECT_THAT(a.vertices, SizeIs(9));
@@ -160,7 +164,8 @@ TEST(Arrange, carries_a_cut_on_from_a_vertex) {
 a----e----b
 .....|\....
 .....d.\...
-........f..)", "ab cd ef");
+........f..)",
+                            "ab cd ef");
   const auto a = arranged(cuts, box(10, 5), flush(2));
   EXPECT_THAT(areas(a), SizeIs(6));
   EXPECT_GT(length_of(a, Kind::continuation, 2), 2);

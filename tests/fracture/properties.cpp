@@ -94,18 +94,20 @@ TEST(Guarantees, two_leaves_no_cut_out_but_in_hostile_bundles) {
 }
 
 TEST(Guarantees, four_the_same_cuts_give_the_same_arrangement) {
-  everywhere([](const auto& cuts) {
-    const auto a = arranged(cuts), b = arranged(cuts);
-    EXPECT_EQ(a.vertices, b.vertices);
-    ASSERT_EQ(a.half_edges.size(), b.half_edges.size());
-    for (std::size_t h = 0; h < a.half_edges.size(); ++h) {
-      EXPECT_EQ(a.half_edges[h].from, b.half_edges[h].from);
-      EXPECT_EQ(a.half_edges[h].next, b.half_edges[h].next);
-      EXPECT_EQ(a.half_edges[h].face, b.half_edges[h].face);
-      EXPECT_EQ(a.half_edges[h].origins, b.half_edges[h].origins);
-    }
-    EXPECT_EQ(a.warnings, b.warnings);
-  }, many, 4);
+  everywhere(
+      [](const auto& cuts) {
+        const auto a = arranged(cuts), b = arranged(cuts);
+        EXPECT_EQ(a.vertices, b.vertices);
+        ASSERT_EQ(a.half_edges.size(), b.half_edges.size());
+        for (std::size_t h = 0; h < a.half_edges.size(); ++h) {
+          EXPECT_EQ(a.half_edges[h].from, b.half_edges[h].from);
+          EXPECT_EQ(a.half_edges[h].next, b.half_edges[h].next);
+          EXPECT_EQ(a.half_edges[h].face, b.half_edges[h].face);
+          EXPECT_EQ(a.half_edges[h].origins, b.half_edges[h].origins);
+        }
+        EXPECT_EQ(a.warnings, b.warnings);
+      },
+      many, 4);
 }
 
 TEST(Guarantees, four_shifted_by_whole_metres_everything_is_shifted) {
@@ -134,20 +136,22 @@ TEST(Arrange, mirrored_gives_everything_mirrored) {
 }
 
 TEST(Arrange, changes_nothing_when_its_own_edges_are_inserted_again) {
-  everywhere([](auto cuts) {
-    const Options options{.continuation = 0, .snap = 0.05, .margin = 0};
-    const geometry::Box2 region{{-70, -70}, {130, 130}};
-    const auto once = arranged(cuts, options, region);
-    const auto source = static_cast<std::uint32_t>(cuts.size());
-    for (std::uint32_t h = 0; h < once.half_edges.size(); h += 2)
-      if (once.half_edges[h].origins[0].kind != Kind::border) cuts.push_back({once.segment(h), source});
-    const auto twice = arranged(cuts, options, region);
-    expect_same(shape_of(once), shape_of(twice));
-    for (const HalfEdge& edge : twice.half_edges)
-      EXPECT_TRUE(std::ranges::any_of(edge.origins, [&](const Origin& o) {
-        return o.kind == Kind::border || (o.kind == Kind::hard && o.source == source);
-      }));
-  }, many, 6);
+  everywhere(
+      [](auto cuts) {
+        const Options options{.continuation = 0, .snap = 0.05, .margin = 0};
+        const geometry::Box2 region{{-70, -70}, {130, 130}};
+        const auto once = arranged(cuts, options, region);
+        const auto source = static_cast<std::uint32_t>(cuts.size());
+        for (std::uint32_t h = 0; h < once.half_edges.size(); h += 2)
+          if (once.half_edges[h].origins[0].kind != Kind::border) cuts.push_back({once.segment(h), source});
+        const auto twice = arranged(cuts, options, region);
+        expect_same(shape_of(once), shape_of(twice));
+        for (const HalfEdge& edge : twice.half_edges)
+          EXPECT_TRUE(std::ranges::any_of(edge.origins, [&](const Origin& o) {
+            return o.kind == Kind::border || (o.kind == Kind::hard && o.source == source);
+          }));
+      },
+      many, 6);
 }
 
 // Lines in general position that run from border to border make one face more each, and one more at each crossing.

@@ -40,10 +40,10 @@ TEST(Distance, is_to_the_segment_not_to_its_line) {
 
 TEST(IsSimple, refuses_what_touches_itself) {
   EXPECT_TRUE(is_simple(courtyard));
-  EXPECT_FALSE(is_simple({{{0, 0}, {4, 4}, {4, 0}, {0, 4}}, {}}));                    // bow-tie
-  EXPECT_FALSE(is_simple({{{0, 0}, {4, 0}, {2, 0}, {2, 3}}, {}}));                    // folds back
-  EXPECT_FALSE(is_simple({{{0, 0}, {4, 0}, {4, 4}, {4, 4}, {0, 4}}, {}}));            // repeats a point
-  EXPECT_FALSE(is_simple({{{0, 0}, {4, 0}, {2, 2}, {4, 4}, {0, 4}, {2, 2}}, {}}));    // pinched
+  EXPECT_FALSE(is_simple({{{0, 0}, {4, 4}, {4, 0}, {0, 4}}, {}}));                          // bow-tie
+  EXPECT_FALSE(is_simple({{{0, 0}, {4, 0}, {2, 0}, {2, 3}}, {}}));                          // folds back
+  EXPECT_FALSE(is_simple({{{0, 0}, {4, 0}, {4, 4}, {4, 4}, {0, 4}}, {}}));                  // repeats a point
+  EXPECT_FALSE(is_simple({{{0, 0}, {4, 0}, {2, 2}, {4, 4}, {0, 4}, {2, 2}}, {}}));          // pinched
   EXPECT_FALSE(is_simple({{{0, 0}, {9, 0}, {9, 9}, {0, 9}}, {{{0, 3}, {2, 4}, {2, 3}}}}));  // a hole on the outside
   EXPECT_FALSE(is_simple({{{0, 0}, {1, 1}}, {}}));
   EXPECT_TRUE(is_simple({{{0, 0}, {2, 0}, {4, 0}, {4, 4}}, {}}));  // a straight corner is no fault

@@ -13,8 +13,10 @@ using ::testing::HasSubstr;
 class ContextCapture : public Workshop {
  protected:
   void metadata(const std::string& name, const std::string& srs, const std::string& origin) const {
-    file(name, "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<ModelMetadata version=\"1\">\n  <!--Spatial Reference System-->\n  <SRS>" +
-                   srs + "</SRS>\n  <SRSOrigin>" + origin + "</SRSOrigin>\n</ModelMetadata>\n");
+    file(name,
+         "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<ModelMetadata version=\"1\">\n  <!--Spatial Reference "
+         "System-->\n  <SRS>" +
+             srs + "</SRS>\n  <SRSOrigin>" + origin + "</SRSOrigin>\n</ModelMetadata>\n");
   }
   auto tile(const std::string& name) const -> fs::path {
     return file(name, "v 0 0 0\nv 100 0 1\nv 0 100 2\nf 1 2 3\n");

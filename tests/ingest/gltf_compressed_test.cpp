@@ -17,7 +17,9 @@ auto packed_with_draco(const Surface& surface, int method) -> std::string {
   builder.Start(faces);
   const int attribute = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
   for (int f = 0; f < faces; ++f) {
-    const auto corner = [&](int k) { return surface.points[surface.corners[static_cast<std::size_t>(3 * f + k)]].data(); };
+    const auto corner = [&](int k) {
+      return surface.points[surface.corners[static_cast<std::size_t>(3 * f + k)]].data();
+    };
     builder.SetAttributeValuesForFace(attribute, draco::FaceIndex(static_cast<std::uint32_t>(f)), corner(0), corner(1),
                                       corner(2));
   }
@@ -107,11 +109,12 @@ auto meshopt_file(const Surface& surface, bool exponential) -> MeshoptFile {
                      {{"byteLength", all}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}}};
   for (auto& view : json["bufferViews"]) view["buffer"] = 1;
   json["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = {
-      {"buffer", 0}, {"byteLength", positions.size()}, {"byteStride", 12},
-      {"mode", "ATTRIBUTES"}, {"count", count}, {"filter", exponential ? "EXPONENTIAL" : "NONE"}};
+      {"buffer", 0},      {"byteLength", positions.size()},
+      {"byteStride", 12}, {"mode", "ATTRIBUTES"},
+      {"count", count},   {"filter", exponential ? "EXPONENTIAL" : "NONE"}};
   json["bufferViews"][1]["extensions"]["EXT_meshopt_compression"] = {
-      {"buffer", 0}, {"byteOffset", positions.size()}, {"byteLength", indices.size()},
-      {"byteStride", 4}, {"mode", "TRIANGLES"}, {"count", surface.corners.size()}};
+      {"buffer", 0},         {"byteOffset", positions.size()}, {"byteLength", indices.size()}, {"byteStride", 4},
+      {"mode", "TRIANGLES"}, {"count", surface.corners.size()}};
   return out;
 }
 

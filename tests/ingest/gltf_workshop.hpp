@@ -88,7 +88,8 @@ inline auto grid(std::uint32_t n) -> Surface {
   Surface out;
   for (std::uint32_t i = 0; i <= n; ++i)
     for (std::uint32_t j = 0; j <= n; ++j)
-      out.points.push_back({static_cast<float>(i), static_cast<float>((i * 7 + j * 3) % 5) / 4, -static_cast<float>(j)});
+      out.points.push_back(
+          {static_cast<float>(i), static_cast<float>((i * 7 + j * 3) % 5) / 4, -static_cast<float>(j)});
   for (std::uint32_t i = 0; i < n; ++i)
     for (std::uint32_t j = 0; j < n; ++j) {
       const std::uint32_t a = i * (n + 1) + j, b = a + n + 1;
@@ -98,8 +99,8 @@ inline auto grid(std::uint32_t n) -> Surface {
 }
 
 /// Header, tables and glTF of a batched model.
-inline auto b3dm(const std::string& model, std::string table = "", std::string table_binary = "", std::string batch = "")
-    -> std::string {
+inline auto b3dm(const std::string& model, std::string table = "", std::string table_binary = "",
+                 std::string batch = "") -> std::string {
   pad(table, ' ');
   pad(batch, ' ');
   std::string out = "b3dm";
@@ -132,18 +133,31 @@ inline auto geocentric(double longitude, double latitude, double height) -> Poin
 inline auto east_north_up(double longitude, double latitude, double height) -> Json {
   const double l = longitude * std::numbers::pi / 180, b = latitude * std::numbers::pi / 180;
   const Point3 p = geocentric(longitude, latitude, height);
-  return {-std::sin(l), std::cos(l), 0, 0, -std::sin(b) * std::cos(l), -std::sin(b) * std::sin(l), std::cos(b), 0,
-          std::cos(b) * std::cos(l), std::cos(b) * std::sin(l), std::sin(b), 0, p.x, p.y, p.z, 1};
+  return {-std::sin(l),
+          std::cos(l),
+          0,
+          0,
+          -std::sin(b) * std::cos(l),
+          -std::sin(b) * std::sin(l),
+          std::cos(b),
+          0,
+          std::cos(b) * std::cos(l),
+          std::cos(b) * std::sin(l),
+          std::sin(b),
+          0,
+          p.x,
+          p.y,
+          p.z,
+          1};
 }
 
-inline auto moved_by(double x, double y, double z) -> Json {
-  return {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, y, z, 1};
-}
+inline auto moved_by(double x, double y, double z) -> Json { return {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, y, z, 1}; }
 
 /// An upright box in the tile's coordinates.
 inline auto box(double x0, double y0, double x1, double y1, double z0 = -50, double z1 = 50) -> Json {
-  return {{"box",
-           {(x0 + x1) / 2, (y0 + y1) / 2, (z0 + z1) / 2, (x1 - x0) / 2, 0, 0, 0, (y1 - y0) / 2, 0, 0, 0, (z1 - z0) / 2}}};
+  return {
+      {"box",
+       {(x0 + x1) / 2, (y0 + y1) / 2, (z0 + z1) / 2, (x1 - x0) / 2, 0, 0, 0, (y1 - y0) / 2, 0, 0, 0, (z1 - z0) / 2}}};
 }
 
 inline auto tileset(const Json& root) -> std::string {

@@ -64,9 +64,8 @@ TEST_F(Hostile, a_sparse_accessor_cannot_have_more_points_than_the_file_bytes) {
   const auto bytes = bytes_of(triangle_at(0, 0));
   json["accessors"][0].erase("bufferView");
   json["accessors"][0]["count"] = 900'000'000;
-  json["accessors"][0]["sparse"] = {{"count", 1},
-                                    {"indices", {{"bufferView", 1}, {"componentType", 5125}}},
-                                    {"values", {{"bufferView", 0}}}};
+  json["accessors"][0]["sparse"] = {
+      {"count", 1}, {"indices", {{"bufferView", 1}, {"componentType", 5125}}}, {"values", {{"bufferView", 0}}}};
   expect_format(file("a.glb", glb(json, bytes)), "positions");
   json["accessors"][0]["count"] = 3;
   EXPECT_EQ(scan(file("b.glb", glb(json, bytes))).code, "ingest-mesh-unusable");  // read, and all in one place
@@ -79,9 +78,8 @@ TEST_F(Hostile, indices_below_zero_name_no_point) {
   bytes[36] = bytes[37] = bytes[38] = '\xff';
   EXPECT_EQ(scan(file("a.glb", glb(json, bytes))).code, "ingest-mesh-unusable");
   json["accessors"][0].erase("bufferView");
-  json["accessors"][0]["sparse"] = {{"count", 1},
-                                    {"indices", {{"bufferView", 1}, {"componentType", 5120}}},
-                                    {"values", {{"bufferView", 0}}}};
+  json["accessors"][0]["sparse"] = {
+      {"count", 1}, {"indices", {{"bufferView", 1}, {"componentType", 5120}}}, {"values", {{"bufferView", 0}}}};
   expect_format(file("b.glb", glb(json, bytes)), "positions");
 }
 
@@ -103,8 +101,8 @@ TEST_F(Hostile, room_to_unpack_into_is_no_more_than_the_codecs_can_fill) {
 auto with_draco(const std::string& packed) -> std::string {
   auto json = plain_gltf(3, 3);
   json["extensionsUsed"] = {"KHR_draco_mesh_compression"};
-  json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"] = {
-      {"bufferView", 0}, {"attributes", {{"POSITION", 0}}}};
+  json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0},
+                                                                                    {"attributes", {{"POSITION", 0}}}};
   for (auto& accessor : json["accessors"]) accessor.erase("bufferView");
   json["bufferViews"] = {{{"buffer", 0}, {"byteLength", packed.size()}}};
   json["buffers"] = {{{"byteLength", packed.size()}}};
@@ -127,8 +125,7 @@ TEST_F(Hostile, draco_is_not_asked_for_more_faces_than_bytes_can_hold) {
   expect_format(file("edgebreaker.glb", with_draco(mesh(1, 0) + vertices + faces + more)), "400000000 faces in");
   expect_format(file("sequential.glb", with_draco(mesh(0, 0) + faces + faces + rest)), "400000000 faces in");
   // Of one attribute, with a block in a block; then of the mesh: a name of three letters with five bytes.
-  const std::string metadata =
-      std::string("\1\7\0\1\3abc\1\2no\5bytes\0", 19) + std::string("\1\3abc\5bytes\0", 12);
+  const std::string metadata = std::string("\1\7\0\1\3abc\1\2no\5bytes\0", 19) + std::string("\1\3abc\5bytes\0", 12);
   expect_format(file("told.glb", with_draco(mesh(1, '\x80') + metadata + vertices + faces + more)),
                 "400000000 faces in");
 }

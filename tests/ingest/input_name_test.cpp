@@ -19,14 +19,16 @@ TEST(InputName, hides_every_password_that_a_database_takes) {
       {"PG:sslpassword=a password=b", "PG:sslpassword=*** password=***"},
       {"PG:host=h passfile=f user=password", "PG:host=h passfile=f user=password"},
       {"PG:postgresql://me:secret@host/a", "PG:postgresql://me:***@host/a"},
-      {"postgresql://me:s@cret@host/a?sslpassword=b&password=c", "postgresql://me:***@host/a?sslpassword=***&password=***"},
+      {"postgresql://me:s@cret@host/a?sslpassword=b&password=c",
+       "postgresql://me:***@host/a?sslpassword=***&password=***"},
       {"postgresql://host:5432/a@b", "postgresql://host:5432/a@b"},
       {"PG:dbname='a://b:c@d'", "PG:dbname='a://b:c@d'"},
       {"PG:password=", "PG:password="},
       {"PG:password=\\", "PG:password=***"},
       {"PG:=", "PG:="}};
   for (const auto& [name, text] : shown) EXPECT_EQ(name_to_show(name), text) << name;
-  EXPECT_EQ(detail::shown_text("`PG:dbname=a password='se cret'' was refused: no \"se cret\"", "PG:dbname=a password='se cret'"),
+  EXPECT_EQ(detail::shown_text("`PG:dbname=a password='se cret'' was refused: no \"se cret\"",
+                               "PG:dbname=a password='se cret'"),
             "`PG:dbname=a password=***' was refused: no \"***\"");
 }
 

@@ -211,8 +211,13 @@ TEST_F(Tiles, beside_the_box_are_not_read_at_all) {
   options.crs = "EPSG:32631";
   for (const char* kind : {"region", "box", "sphere"}) {
     auto root = tile(kind == std::string("region") ? region(-500, -500) : box(-1000, -1000, 1000, 1000), 100);
-    if (kind == std::string("region")) root["boundingVolume"]["region"] = {
-        radians(longitude - 0.02), radians(latitude - 0.02), radians(longitude + 0.02), radians(latitude + 0.02), 0, 100};
+    if (kind == std::string("region"))
+      root["boundingVolume"]["region"] = {radians(longitude - 0.02),
+                                          radians(latitude - 0.02),
+                                          radians(longitude + 0.02),
+                                          radians(latitude + 0.02),
+                                          0,
+                                          100};
     root["transform"] = east_north_up(longitude, latitude, 0);
     root["refine"] = "REPLACE";
     root["content"] = {{"uri", "poison.glb"}};
@@ -324,12 +329,13 @@ TEST_F(Tiles, of_an_implicit_tree_are_found_by_their_bits) {
   };
   // Tiles: root, (0,0), (1,0) → bits 0, 1, 2; below (1,0), at (3,1) of level 2: index by Morton 4 + 3 = 7.
   std::string bits{'\x07', '\0', '\0', '\0', '\0', '\0', '\0', '\0', '\x80', '\0'};
-  const Json first = {{"buffers", {{{"byteLength", 10}}}},
-                      {"bufferViews", {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 1}},
-                                       {{"buffer", 0}, {"byteOffset", 8}, {"byteLength", 2}}}},
-                      {"tileAvailability", {{"bitstream", 0}}},
-                      {"contentAvailability", Json::array({Json{{"bitstream", 0}}})},
-                      {"childSubtreeAvailability", {{"bitstream", 1}}}};
+  const Json first = {
+      {"buffers", {{{"byteLength", 10}}}},
+      {"bufferViews",
+       {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 1}}, {{"buffer", 0}, {"byteOffset", 8}, {"byteLength", 2}}}},
+      {"tileAvailability", {{"bitstream", 0}}},
+      {"contentAvailability", Json::array({Json{{"bitstream", 0}}})},
+      {"childSubtreeAvailability", {{"bitstream", 1}}}};
   file("s/0-0-0.subtree", subtree(first, bits));
   const Json last = {{"tileAvailability", {{"constant", 1}}},
                      {"contentAvailability", Json::array({Json{{"constant", 1}}})},

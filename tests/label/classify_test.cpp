@@ -69,12 +69,12 @@ TEST(Classify, wants_more_than_half_of_the_wall_covered) {
 }
 
 TEST(Classify, adds_up_the_neighbours_along_one_wall) {
-  const auto labelled = classify(
-      {box({0, 0}, {10, 10}, 0, 6), box({10, 0}, {20, 3}, 0, 6), box({10, 3}, {20, 6}, 0, 6)}, {});
+  const auto labelled =
+      classify({box({0, 0}, {10, 10}, 0, 6), box({10, 0}, {20, 3}, 0, 6), box({10, 3}, {20, 6}, 0, 6)}, {});
   EXPECT_EQ(labelled[0].classes[east], party);
   // The same three metres twice are not six.
-  const auto twice = classify(
-      {box({0, 0}, {10, 10}, 0, 6), box({10, 0}, {20, 3}, 0, 6), box({10, 0}, {18, 3}, 0, 6)}, {});
+  const auto twice =
+      classify({box({0, 0}, {10, 10}, 0, 6), box({10, 0}, {20, 3}, 0, 6), box({10, 0}, {18, 3}, 0, 6)}, {});
   EXPECT_EQ(twice[0].classes[east], wall);
 }
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <png.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,7 +12,6 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <png.h>
 #include <set>
 
 #include "mansard/base/result.hpp"
@@ -247,8 +247,10 @@ TEST(Lines, show_their_visible_part_only) {
 
 TEST(Lines, along_the_foot_of_walls_show_all_around_from_above) {
   const std::vector<Layer> layers{{box({0, 0, 0}, {10, 10, 10}), {blue}}};
-  for (const auto& [from, to] : {std::pair<Point3, Point3>{{0, 0, 0}, {10, 0, 0}}, {{10, 0, 0}, {10, 10, 0}},
-                                 {{10, 10, 0}, {0, 10, 0}}, {{0, 10, 0}, {0, 0, 0}}}) {
+  for (const auto& [from, to] : {std::pair<Point3, Point3>{{0, 0, 0}, {10, 0, 0}},
+                                 {{10, 0, 0}, {10, 10, 0}},
+                                 {{10, 10, 0}, {0, 10, 0}},
+                                 {{0, 10, 0}, {0, 0, 0}}}) {
     const std::vector<Lines> lines{{{{from, to}}, footprint_orange, 3}};
     EXPECT_GT(count(draw(layers, lines, view(View::Kind::above, 120, 120)), orangish), 200U);
   }

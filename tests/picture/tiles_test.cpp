@@ -84,7 +84,8 @@ auto sorted(const Mesh& mesh) -> std::vector<Corners> {
 
 TEST(Tiles, have_every_triangle_of_the_mesh_once_at_level_0) {
   auto mesh = hills(80, 1.6);
-  for (auto& v : mesh.vertices) v = {std::round(v.x * 128) / 128, std::round(v.y * 128) / 128, std::round(v.z * 128) / 128};
+  for (auto& v : mesh.vertices)
+    v = {std::round(v.x * 128) / 128, std::round(v.y * 128) / 128, std::round(v.z * 128) / 128};
   const auto all = tiles(mesh, small);
   EXPECT_EQ(sorted(mesh_of(all, 0)), sorted(mesh));
   EXPECT_GT(std::ranges::count(all, 0U, &Tile::level), 4);

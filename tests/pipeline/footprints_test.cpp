@@ -24,8 +24,7 @@ auto raised(const ingest::Scene& scene, const Options& options = {}) -> Reconstr
   auto result = raise_footprints(scene, options);
   EXPECT_TRUE(result) << base::to_string(result.error());
   for (const auto& building : result->city.buildings)
-    for (const auto& part : building.parts)
-      EXPECT_THAT(extrude::check(part.model.solid), IsEmpty()) << part.id;
+    for (const auto& part : building.parts) EXPECT_THAT(extrude::check(part.model.solid), IsEmpty()) << part.id;
   return std::move(*result);
 }
 
@@ -79,9 +78,10 @@ TEST(RaiseFootprints, lets_a_bad_building_cost_only_itself_and_names_building_an
   scene.footprints.push_back(tagged("hole", {}, {{"height", 5.0}}));
   scene.footprints.back().polygons.clear();
   scene.footprints.back().defect = base::error("ingest-footprint-empty", "it has no geometry", "hole");
+  scene.footprints.push_back(tagged("barn", rectangle(20, 0, 32, 8),
+                                    {{"height", 6.0}, {"roof:shape", text("gabled")}, {"roof:height", text("9")}}));
   scene.footprints.push_back(
-      tagged("barn", rectangle(20, 0, 32, 8), {{"height", 6.0}, {"roof:shape", text("gabled")}, {"roof:height", text("9")}}));
-  scene.footprints.push_back(tagged("kiosk", rectangle(40, 0, 44, 4), {{"height", text("-3")}, {"roof:shape", text("dome")}}));
+      tagged("kiosk", rectangle(40, 0, 44, 4), {{"height", text("-3")}, {"roof:shape", text("dome")}}));
   geometry::Polygon yard = rectangle(60, 0, 80, 20);
   yard.holes.push_back({{66, 6}, {66, 14}, {74, 14}, {74, 6}});
   scene.footprints.push_back(tagged("yard", yard, {{"height", 9.0}, {"roof:shape", text("pyramidal")}}));

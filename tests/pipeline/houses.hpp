@@ -5,7 +5,8 @@
 
 namespace mansard::test {
 
-inline void add_quad(geometry::Mesh& mesh, geometry::Point3 a, geometry::Point3 b, geometry::Point3 c, geometry::Point3 d) {
+inline void add_quad(geometry::Mesh& mesh, geometry::Point3 a, geometry::Point3 b, geometry::Point3 c,
+                     geometry::Point3 d) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   for (const auto& p : {a, b, c, d}) mesh.vertices.push_back(p);
   mesh.triangles.push_back({first, first + 1, first + 2});

@@ -23,7 +23,8 @@ TEST(ReadInputs, takes_footprints_or_draws_them_but_not_both) {
   ASSERT_TRUE(given) << given.error().message;
   EXPECT_EQ(given->footprints.size(), 2U);
   EXPECT_FALSE(given->footprints[0].derived);
-  EXPECT_EQ(read_inputs({{hall / "mesh.off"}, hall / "footprints.geojson", true}, {}).error().code, "pipeline-footprints");
+  EXPECT_EQ(read_inputs({{hall / "mesh.off"}, hall / "footprints.geojson", true}, {}).error().code,
+            "pipeline-footprints");
   EXPECT_EQ(read_inputs({{hall / "mesh.off"}, {}, false}, {}).error().code, "pipeline-footprints");
 }
 

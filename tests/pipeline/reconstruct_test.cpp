@@ -141,7 +141,8 @@ TEST(Report, counts_every_footprint_and_every_term) {
   EXPECT_EQ(report["counts"]["full"], 2);
   EXPECT_EQ(report["buildings"].size(), 2U);
   const auto& block = report["blocks"][0];
-  for (const auto* key : {"triangles", "slices", "slice_segments", "sweep_edges", "faces"}) EXPECT_GT(block[key], 0) << key;
+  for (const auto* key : {"triangles", "slices", "slice_segments", "sweep_edges", "faces"})
+    EXPECT_GT(block[key], 0) << key;
   const auto& o = block["objective"];
   EXPECT_NEAR(o["total"].get<double>(),
               o["sweep_unused"].get<double>() + o["unsupported"].get<double>() + o["height"].get<double>() +

@@ -57,7 +57,8 @@ TEST(Climb, goes_up_the_wall_and_the_roof_to_the_ridge_and_down_to_the_ground) {
                                R"(      |         |  )",
                                R"(______|         |__)",
                                R"(      ^            )",
-                           }), {});
+                           }),
+                           {});
   ASSERT_TRUE(found);
   expect_rising(*found);
   EXPECT_EQ(found->points.front().height, 0);
@@ -68,21 +69,10 @@ TEST(Climb, goes_up_the_wall_and_the_roof_to_the_ridge_and_down_to_the_ground) {
 }
 
 TEST(Climb, jumps_a_hole_of_up_to_three_metres) {
-  const std::vector<std::string> section{
-      R"(            /)",
-      R"(           / )",
-      R"(          /  )",
-      R"(             )",
-      R"(             )",
-      R"(             )",
-      R"(      /      )",
-      R"(      |      )",
-      R"(      |      )",
-      R"(      |      )",
-      R"(      |      )",
-      R"(      |      )",
-      R"(______|      )",
-      R"(      ^      )"};
+  const std::vector<std::string> section{R"(            /)", R"(           / )", R"(          /  )", R"(             )",
+                                         R"(             )", R"(             )", R"(      /      )", R"(      |      )",
+                                         R"(      |      )", R"(      |      )", R"(      |      )", R"(      |      )",
+                                         R"(______|      )", R"(      ^      )"};
   const auto found = climb(drawn(section), {});
   ASSERT_TRUE(found);
   EXPECT_EQ(found->top(), 6.5);
@@ -105,7 +95,8 @@ TEST(Climb, passes_the_parapet_to_the_roof_behind) {
                                R"(      |         )",
                                R"(______|         )",
                                R"(      ^         )",
-                           }), {});
+                           }),
+                           {});
   ASSERT_TRUE(found);
   expect_rising(*found);
   EXPECT_EQ(found->top(), 5.5);
@@ -113,22 +104,10 @@ TEST(Climb, passes_the_parapet_to_the_roof_behind) {
 }
 
 TEST(Climb, starts_from_the_roof_where_the_wall_is_missing_or_only_a_hedge_shows) {
-  const std::vector<std::string> bare{
-      R"(         /)",
-      R"(        / )",
-      R"(       /  )",
-      R"(      /   )",
-      R"(          )",
-      R"(          )",
-      R"(          )",
-      R"(          )",
-      R"(          )",
-      R"(          )",
-      R"(          )",
-      R"(          )",
-      R"(          )",
-      R"(______    )",
-      R"(      ^   )"};
+  const std::vector<std::string> bare{R"(         /)", R"(        / )", R"(       /  )", R"(      /   )",
+                                      R"(          )", R"(          )", R"(          )", R"(          )",
+                                      R"(          )", R"(          )", R"(          )", R"(          )",
+                                      R"(          )", R"(______    )", R"(      ^   )"};
   auto hedge = bare;
   hedge[11] = R"(   __     )";
   hedge[12] = R"(  |  |    )";
@@ -147,13 +126,8 @@ TEST(Climb, finds_nothing_over_bare_ground) {
 }
 
 TEST(Climb, measures_heights_from_the_ground_it_is_told) {
-  auto pieces = drawn({R"(      |   )",
-  R"(      |   )",
-  R"(      |   )",
-  R"(      |   )",
-  R"(      |   )",
-  R"(______|   )",
-  R"(      ^   )"});
+  auto pieces = drawn({R"(      |   )", R"(      |   )", R"(      |   )", R"(      |   )", R"(      |   )",
+                       R"(______|   )", R"(      ^   )"});
   for (auto& p : pieces) p.low.height += 40, p.high.height += 40;
   ClimbOptions options;
   options.ground = 40;

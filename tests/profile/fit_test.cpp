@@ -326,8 +326,12 @@ TEST(Fit, keeps_its_guarantees_on_random_houses) {
         EXPECT_GE(profile[i + 1].height, profile[i].height);
         EXPECT_FALSE(profile[i + 1] == profile[i]);
       }
-      if (options.quality == Quality::simple) { EXPECT_EQ(profile.size(), 2U); }
-      if (options.quality == Quality::moderate) { EXPECT_LE(profile.size(), 3U); }
+      if (options.quality == Quality::simple) {
+        EXPECT_EQ(profile.size(), 2U);
+      }
+      if (options.quality == Quality::moderate) {
+        EXPECT_LE(profile.size(), 3U);
+      }
     }
     ASSERT_FALSE(footprint.caps.empty());
     EXPECT_EQ(footprint.caps.front(), footprint.plan.cap);

@@ -46,9 +46,9 @@ inline auto shed(double pitch) -> Roof {
 struct House {
   double length = 14, width = 9;  ///< m, along x and y
   Roof roof;
-  double noise = 0.05;   ///< m, uniform in ± this, every coordinate
+  double noise = 0.05;  ///< m, uniform in ± this, every coordinate
   bool walls = true;
-  double turned = 0.4;   ///< rad
+  double turned = 0.4;  ///< rad
   Point2 at{100, 50};
   double ground = 12.5;  ///< z
   double edge = 0.4;     ///< m; of the scan's triangles
@@ -100,15 +100,19 @@ inline auto cells(double size, double edge) -> std::size_t {
 inline auto scan(const House& house) -> Mesh {
   Scan scan(house);
   const double l = house.length, w = house.width, e = house.edge;
-  scan.sheet(cells(l, e), cells(w, e),
-             [&](double s, double t) { return Point3{s * l, t * w, house.roof(s * l, t * w)}; });
+  scan.sheet(cells(l, e), cells(w, e), [&](double s, double t) {
+    return Point3{s * l, t * w, house.roof(s * l, t * w)};
+  });
   constexpr double yard = 5;
-  scan.sheet(cells(l + 2 * yard, 1.0), cells(w + 2 * yard, 1.0),
-             [&](double s, double t) { return Point3{s * (l + 2 * yard) - yard, t * (w + 2 * yard) - yard, 0}; },
-             [&](double s, double t) {
-               const double x = s * (l + 2 * yard) - yard, y = t * (w + 2 * yard) - yard;
-               return x > 0 && x < l && y > 0 && y < w;
-             });
+  scan.sheet(
+      cells(l + 2 * yard, 1.0), cells(w + 2 * yard, 1.0),
+      [&](double s, double t) {
+        return Point3{s * (l + 2 * yard) - yard, t * (w + 2 * yard) - yard, 0};
+      },
+      [&](double s, double t) {
+        const double x = s * (l + 2 * yard) - yard, y = t * (w + 2 * yard) - yard;
+        return x > 0 && x < l && y > 0 && y < w;
+      });
   if (!house.walls) return scan.mesh;
   const auto wall = [&](Point2 a, Point2 b) {
     const double size = mansard::geometry::length(b - a);

@@ -27,7 +27,9 @@ auto columns(std::size_t count, double (*height)(double), double noise = 0, std:
 
 TEST(Fit_line, finds_one_pitch_and_no_more_under_noise) {
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
-    const auto line = fit_line(columns(25, [](double u) { return 6 + 0.8 * u; }, 0.1, seed), 3);
+    const auto line = fit_line(columns(
+                                   25, [](double u) { return 6 + 0.8 * u; }, 0.1, seed),
+                               3);
     ASSERT_EQ(line.size(), 2U) << seed;
     EXPECT_NEAR(line[0].height, 6, 0.15);
     EXPECT_NEAR((line[1].height - line[0].height) / line[1].inward, 0.8, 0.05);
@@ -35,14 +37,20 @@ TEST(Fit_line, finds_one_pitch_and_no_more_under_noise) {
 }
 
 TEST(Fit_line, finds_the_knots_of_two_and_three_pitches) {
-  const auto two = fit_line(columns(30, [](double u) {
-    return 6 + 2 * std::min(u, 2.0) + 0.4 * std::max(0.0, u - 2);
-  }, 0.05), 3);
+  const auto two =
+      fit_line(columns(
+                   30, [](double u) { return 6 + 2 * std::min(u, 2.0) + 0.4 * std::max(0.0, u - 2); }, 0.05),
+               3);
   ASSERT_EQ(two.size(), 3U);
   EXPECT_NEAR(two[1].inward, 2, 0.25);
-  const auto three = fit_line(columns(40, [](double u) {
-    return 6 + 2.5 * std::min(u, 2.0) + 1.0 * std::clamp(u - 2, 0.0, 3.0) + 0.2 * std::max(0.0, u - 5);
-  }, 0.03), 3);
+  const auto three =
+      fit_line(columns(
+                   40,
+                   [](double u) {
+                     return 6 + 2.5 * std::min(u, 2.0) + 1.0 * std::clamp(u - 2, 0.0, 3.0) + 0.2 * std::max(0.0, u - 5);
+                   },
+                   0.03),
+               3);
   ASSERT_EQ(three.size(), 4U);
   EXPECT_NEAR(three[1].inward, 2, 0.3);
   EXPECT_NEAR(three[2].inward, 5, 0.4);
@@ -70,7 +78,9 @@ TEST(Fit_line, is_the_least_squares_line_of_a_slow_solution) {
     for (const double ds : {-1e-3, 0.0, 1e-3}) EXPECT_GE(error(a + da, s + ds), error(a, s) - 1e-12);
 }
 
-TEST(Fit_line, refuses_too_few_columns) { EXPECT_TRUE(fit_line(columns(3, [](double u) { return u; }), 3).empty()); }
+TEST(Fit_line, refuses_too_few_columns) {
+  EXPECT_TRUE(fit_line(columns(3, [](double u) { return u; }), 3).empty());
+}
 
 TEST(Profile_from, makes_a_wall_and_pitches) {
   EXPECT_EQ(profile_from({{0, 6}, {2, 10}, {5, 11}}, 0.1), (Profile{{0, 0}, {0, 6}, {2, 10}, {5, 11}}));
@@ -211,9 +221,7 @@ TEST(Caps, let_pitched_roofs_close_first) {
     for (std::size_t j = 0; j < i; ++j) EXPECT_GE(std::abs(caps[i] - caps[j]), 0.1);
 }
 
-TEST(Caps, assume_a_height_where_nothing_was_seen) {
-  EXPECT_EQ(caps_from({}, {}, false, 3), std::vector<double>{3});
-}
+TEST(Caps, assume_a_height_where_nothing_was_seen) { EXPECT_EQ(caps_from({}, {}, false, 3), std::vector<double>{3}); }
 
 TEST(Runs, join_edges_that_hardly_turn_and_start_at_a_corner) {
   //   5---4---3

@@ -59,7 +59,9 @@ auto sampled_distance(geometry::Point3 p, geometry::Point3 a, geometry::Point3 b
 
 TEST(Nearest, is_on_a_corner_an_edge_or_inside_as_a_search_over_many_places_says) {
   base::Random random(7);
-  const auto any = [&] { return geometry::Point3{random.uniform(-5, 5), random.uniform(-5, 5), random.uniform(-5, 5)}; };
+  const auto any = [&] {
+    return geometry::Point3{random.uniform(-5, 5), random.uniform(-5, 5), random.uniform(-5, 5)};
+  };
   for (int round = 0; round < 40; ++round) {
     const geometry::Point3 shift{80000, 400000, 12};
     const geometry::Point3 a = any(), b = any(), c = any(), p = any();

@@ -19,11 +19,11 @@ using mansard::refine::detail::Heights;
 using Roof = std::function<double(Point2)>;  // height above base, m, at a place of the part before it was turned
 
 struct Scan {
-  double noise = 0.08;   // m, standard deviation
-  double melt = 0.3;     // m, standard deviation of the blur
-  double turn = 0;       // radians about the origin, of part and roof together
-  double spacing = 0.25; // m
-  double unseen = 0;     // share of cells
+  double noise = 0.08;    // m, standard deviation
+  double melt = 0.3;      // m, standard deviation of the blur
+  double turn = 0;        // radians about the origin, of part and roof together
+  double spacing = 0.25;  // m
+  double unseen = 0;      // share of cells
   unsigned seed = 1;
 };
 
@@ -87,9 +87,7 @@ inline auto flat(double height) -> Roof {
 
 /// Another height in a box.
 inline auto with_box(Roof roof, Point2 least, Point2 most, double height) -> Roof {
-  return [=](Point2 p) {
-    return p.x > least.x && p.x < most.x && p.y > least.y && p.y < most.y ? height : roof(p);
-  };
+  return [=](Point2 p) { return p.x > least.x && p.x < most.x && p.y > least.y && p.y < most.y ? height : roof(p); };
 }
 
 inline auto rectangle(Point2 least, Point2 most) -> Polygon {

@@ -19,8 +19,8 @@ namespace {
 
 using namespace fields;
 using mansard::geometry::area;
-using mansard::refine::detail::propose;
 using mansard::refine::detail::Proposal;
+using mansard::refine::detail::propose;
 using mansard::refine::detail::ProposeOptions;
 
 const Polygon house = rectangle({0, 0}, {20, 12});

@@ -90,7 +90,8 @@ TEST(Refine, pays_no_more_for_faces_than_they_are_worth) {
 }
 
 TEST(Refine, joins_two_parts_under_one_roof) {
-  const std::vector<refine::Draft> halves{flat_draft(rectangle(10, 20, 5, 8), 6), flat_draft(rectangle(15, 20, 7, 8), 6)};
+  const std::vector<refine::Draft> halves{flat_draft(rectangle(10, 20, 5, 8), 6),
+                                          flat_draft(rectangle(15, 20, 7, 8), 6)};
   const auto parts = refined(halves, scan({gabled()}));
   ASSERT_EQ(parts.size(), 1U);
   EXPECT_NEAR(geometry::area(geometry::polygon_of(parts[0].plan)), 96, 1e-6);
@@ -131,8 +132,8 @@ TEST(Refine, gives_a_tower_a_plan_of_its_own) {
 TEST(Refine, moves_a_wall_that_stands_in_the_wrong_place) {
   const Plan low = plan(rectangle(10, 20, 5, 8), std::vector<Profile>(4, wall(6)), 6);
   const Plan high = plan(rectangle(15, 20, 7, 8), std::vector<Profile>(4, wall(9)), 9);
-  const auto parts =
-      refined({flat_draft(rectangle(10, 20, 6.2, 8), 6), flat_draft(rectangle(16.2, 20, 5.8, 8), 9)}, scan({low, high}));
+  const auto parts = refined({flat_draft(rectangle(10, 20, 6.2, 8), 6), flat_draft(rectangle(16.2, 20, 5.8, 8), 9)},
+                             scan({low, high}));
   ASSERT_EQ(parts.size(), 2U);
   std::vector<double> areas;
   for (const auto& part : parts) areas.push_back(geometry::area(geometry::polygon_of(part.plan)));

@@ -99,8 +99,7 @@ inline auto difference(const std::vector<refine::Part>& parts, const std::vector
       const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
       mesh.vertices.insert(mesh.vertices.end(), solid.vertices.begin(), solid.vertices.end());
       const auto pieces = extrude::triangulate(solid);
-      for (const auto& t : pieces->triangles)
-        mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+      for (const auto& t : pieces->triangles) mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
     }
     return rays::Scene(mesh);
   };
@@ -115,7 +114,8 @@ inline auto difference(const std::vector<refine::Part>& parts, const std::vector
     const auto box = geometry::bounds(polygon.outer);
     for (double y = box.least.y; y < box.most.y; y += 0.25)
       for (double x = box.least.x; x < box.most.x; x += 0.25) {
-        if (!geometry::contains(polygon, Point2{x, y}) || geometry::boundary_distance(polygon, {x, y}) < margin) continue;
+        if (!geometry::contains(polygon, Point2{x, y}) || geometry::boundary_distance(polygon, {x, y}) < margin)
+          continue;
         const double d = a.top({x, y}).value_or(ground) - b.top({x, y}).value_or(ground);
         sum += d * d;
         ++count;

@@ -20,11 +20,24 @@ auto height_of(const char* value) -> std::optional<double> {
 }
 
 TEST(Values, of_heights_are_read_as_mappers_write_them) {
-  const std::vector<std::pair<const char*, double>> table{
-      {"12", 12},           {"12.5", 12.5},       {"12 m", 12},         {"12m", 12},       {" 12.5 metres ", 12.5},
-      {"12,5", 12.5},       {"+3", 3},            {"1250 cm", 12.5},    {"0.1 km", 100},   {"40 ft", 12.192},
-      {"39'4\"", 11.9888},  {"39' 4\"", 11.9888}, {"39'", 11.8872},     {"39 ft 4 in", 11.9888},
-      {"39′4″", 11.9888},   {"472\"", 11.9888},   {"3;4", 4},           {"10 m; 12 m", 12}};
+  const std::vector<std::pair<const char*, double>> table{{"12", 12},
+                                                          {"12.5", 12.5},
+                                                          {"12 m", 12},
+                                                          {"12m", 12},
+                                                          {" 12.5 metres ", 12.5},
+                                                          {"12,5", 12.5},
+                                                          {"+3", 3},
+                                                          {"1250 cm", 12.5},
+                                                          {"0.1 km", 100},
+                                                          {"40 ft", 12.192},
+                                                          {"39'4\"", 11.9888},
+                                                          {"39' 4\"", 11.9888},
+                                                          {"39'", 11.8872},
+                                                          {"39 ft 4 in", 11.9888},
+                                                          {"39′4″", 11.9888},
+                                                          {"472\"", 11.9888},
+                                                          {"3;4", 4},
+                                                          {"10 m; 12 m", 12}};
   for (const auto& [given, metres] : table) {
     const auto height = height_of(given);
     ASSERT_TRUE(height) << given;
@@ -52,7 +65,7 @@ TEST(Values, of_several_take_the_greatest_and_say_so) {
 
 TEST(Values, of_directions_are_degrees_and_points_of_the_compass) {
   const std::vector<std::pair<const char*, double>> table{
-      {"0", 0},   {"90", 90},    {"135°", 135}, {"-90", 270}, {"360", 0},     {"450", 90},         {"N", 0},
+      {"0", 0},   {"90", 90},     {"135°", 135}, {"-90", 270},   {"360", 0},          {"450", 90},        {"N", 0},
       {"ne", 45}, {"ESE", 112.5}, {"SE", 135},   {"south", 180}, {"North-West", 315}, {"south east", 135}};
   for (const auto& [given, degrees] : table) {
     const auto read = form_of({{"roof:shape", text("skillion")}, {"roof:direction", text(given)}}, {});
@@ -67,13 +80,22 @@ TEST(Values, of_directions_are_degrees_and_points_of_the_compass) {
 }
 
 TEST(Shape, is_read_in_all_spellings_and_the_nearest_is_taken_of_others) {
-  const std::vector<std::tuple<const char*, Shape, bool>> table{
-      {"flat", Shape::flat, true},          {"gabled", Shape::gabled, true},       {"Hipped", Shape::hipped, true},
-      {"half-hipped", Shape::half_hipped, true}, {"half_hipped", Shape::half_hipped, true},
-      {"mansard", Shape::mansard, true},    {"gambrel", Shape::gambrel, true},     {"pyramidal", Shape::pyramidal, true},
-      {"skillion", Shape::skillion, true},  {"lean_to", Shape::skillion, true},    {"dome", Shape::pyramidal, false},
-      {"onion", Shape::pyramidal, false},   {"round", Shape::gambrel, false},      {"side_hipped", Shape::hipped, false},
-      {"quadruple_saltbox", Shape::mansard, false}, {"wavy", Shape::hipped, false}};
+  const std::vector<std::tuple<const char*, Shape, bool>> table{{"flat", Shape::flat, true},
+                                                                {"gabled", Shape::gabled, true},
+                                                                {"Hipped", Shape::hipped, true},
+                                                                {"half-hipped", Shape::half_hipped, true},
+                                                                {"half_hipped", Shape::half_hipped, true},
+                                                                {"mansard", Shape::mansard, true},
+                                                                {"gambrel", Shape::gambrel, true},
+                                                                {"pyramidal", Shape::pyramidal, true},
+                                                                {"skillion", Shape::skillion, true},
+                                                                {"lean_to", Shape::skillion, true},
+                                                                {"dome", Shape::pyramidal, false},
+                                                                {"onion", Shape::pyramidal, false},
+                                                                {"round", Shape::gambrel, false},
+                                                                {"side_hipped", Shape::hipped, false},
+                                                                {"quadruple_saltbox", Shape::mansard, false},
+                                                                {"wavy", Shape::hipped, false}};
   Options options;
   options.shape = Shape::hipped;
   for (const auto& [given, shape, exact] : table) {
@@ -95,9 +117,11 @@ TEST(Attributes, are_found_under_the_names_that_drivers_give_them) {
       {{"BUILDING_L", std::int64_t{3}}, {"ROOF_SHAPE", text("gabled")}, {"ROOF_HEIGH", 2.0}},
       {{"building:l", 3.0}, {"roof:shape", text("gabled")}, {"roof:heigh", text("2 m")}},
       {{"num_floors", std::int64_t{3}}, {"roof_shape", text("gabled")}, {"roof_height", 2.0}},
-      {{"other_tags", text(R"("building:levels"=>"3","roof:shape"=>"gabled", "roof:height"=>"2","name"=>"a \"b\", c")")}},
+      {{"other_tags",
+        text(R"("building:levels"=>"3","roof:shape"=>"gabled", "roof:height"=>"2","name"=>"a \"b\", c")")}},
       {{"tags", text(R"({"building:levels": 3, "roof:shape": "gabled", "roof:height":"2"})")}},
-      {{"building:levels", {}}, {"roof_shape", text(" ")},
+      {{"building:levels", {}},
+       {"roof_shape", text(" ")},
        {"other_tags", text(R"("building:levels"=>"3","roof:shape"=>"gabled","roof:height"=>"2")")}}};
   for (std::size_t i = 0; i < same.size(); ++i) {
     const auto [form, warnings] = form_of(same[i], {});
@@ -115,7 +139,8 @@ TEST(Attributes, are_the_ones_that_options_name) {
   options.building_height_attribute = "h_dak";
   options.shape_attribute = "dakvorm";
   options.ground_attribute = "maaiveld";
-  const auto read = form_of({{"height", 50.0}, {"H_DAK", 7.5}, {"dakvorm", text("hipped")}, {"maaiveld", -1.25}}, options);
+  const auto read =
+      form_of({{"height", 50.0}, {"H_DAK", 7.5}, {"dakvorm", text("hipped")}, {"maaiveld", -1.25}}, options);
   EXPECT_EQ(read.form.height, 7.5);
   EXPECT_EQ(read.form.shape, Shape::hipped);
   EXPECT_EQ(read.form.ground, -1.25);
@@ -162,9 +187,9 @@ TEST(Heights, that_contradict_each_other_are_left_out_with_a_warning) {
   const auto stilts = form_of({{"height", 6.0}, {"min_height", 6.0}}, {});
   EXPECT_EQ(stilts.form.base, 0);
   EXPECT_THAT(codes_of(stilts.warnings), ElementsAre("roof-conflict"));
-  for (const auto& [key, value] : {std::pair{"roof:angle", "95"}, std::pair{"roof:angle", "steep"},
-                                   std::pair{"roof:orientation", "diagonal"}, std::pair{"roof:height", "-1"},
-                                   std::pair{"min_height", "-2"}, std::pair{"roof:levels", "attic"}}) {
+  for (const auto& [key, value] :
+       {std::pair{"roof:angle", "95"}, std::pair{"roof:angle", "steep"}, std::pair{"roof:orientation", "diagonal"},
+        std::pair{"roof:height", "-1"}, std::pair{"min_height", "-2"}, std::pair{"roof:levels", "attic"}}) {
     const auto read = form_of({{"roof:shape", text("gabled")}, {"height", 6.0}, {key, text(value)}}, {});
     ASSERT_THAT(codes_of(read.warnings), ElementsAre("roof-value")) << key;
     EXPECT_THAT(read.warnings[0].message, testing::AllOf(HasSubstr(key), HasSubstr(value)));

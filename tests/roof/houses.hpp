@@ -22,7 +22,9 @@ inline auto tee() -> Polygon { return {{{0, 8}, {6, 8}, {6, 0}, {10, 0}, {10, 8}
 /// Legs of 4 m on a back of 5 m.
 inline auto you() -> Polygon { return {{{0, 0}, {4, 0}, {4, 9}, {10, 9}, {10, 0}, {14, 0}, {14, 14}, {0, 14}}, {}}; }
 /// Wings of 6 m around a yard of 8 × 8 m.
-inline auto courtyard() -> Polygon { return {{{0, 0}, {20, 0}, {20, 20}, {0, 20}}, {{{6, 6}, {6, 14}, {14, 14}, {14, 6}}}}; }
+inline auto courtyard() -> Polygon {
+  return {{{0, 0}, {20, 0}, {20, 20}, {0, 20}}, {{{6, 6}, {6, 14}, {14, 14}, {14, 6}}}};
+}
 inline auto tower(std::size_t corners, double radius) -> Polygon {
   Polygon polygon;
   for (std::size_t i = 0; i < corners; ++i) {

@@ -23,11 +23,11 @@ TEST(Shapes, over_a_box_have_the_volume_and_the_faces_of_the_textbook) {
     double roof;
     std::size_t faces, roofs;
   };
-  for (const auto& c : {Case{Shape::flat, 12 * 8 * 3, 6, 1}, Case{Shape::skillion, 144, 6, 1},
-                        Case{Shape::gabled, 144, 7, 2}, Case{Shape::half_hipped, 144 - 2 * 2, 9, 4},
-                        Case{Shape::hipped, hip(12, 8, 3), 9, 4}, Case{Shape::pyramidal, 96, 9, 4},
-                        Case{Shape::gambrel, 12 * ((8 + 5.2) / 2 * 1.95 + 5.2 * 1.05 / 2), 9, 4},
-                        Case{Shape::mansard, mansard, 13, 8}})
+  for (const auto& c :
+       {Case{Shape::flat, 12 * 8 * 3, 6, 1}, Case{Shape::skillion, 144, 6, 1}, Case{Shape::gabled, 144, 7, 2},
+        Case{Shape::half_hipped, 144 - 2 * 2, 9, 4}, Case{Shape::hipped, hip(12, 8, 3), 9, 4},
+        Case{Shape::pyramidal, 96, 9, 4}, Case{Shape::gambrel, 12 * ((8 + 5.2) / 2 * 1.95 + 5.2 * 1.05 / 2), 9, 4},
+        Case{Shape::mansard, mansard, 13, 8}})
     for (const double turn : {0.0, 0.5, 2.2}) {
       const auto house = built(moved(box(12, 8), turn, {300, -200}), form(c.shape));
       SCOPED_TRACE(std::string(to_string(c.shape)) + " turned by " + std::to_string(turn));
@@ -48,9 +48,9 @@ TEST(Shapes, over_an_L_have_the_volume_worked_out_by_hand) {
     double roof;
     std::size_t roofs;
   };
-  for (const auto& c : {Case{Shape::hipped, hipped * 3 / 2.5, 6}, Case{Shape::gabled, (hipped + 2 * gable) * 3 / 2.5, 4},
-                        Case{Shape::pyramidal, 95, 6}, Case{Shape::flat, 95 * 3, 1},
-                        Case{Shape::skillion, 3.0 / 12 * (60 * 2.5 + 35 * 8.5), 1},
+  for (const auto& c : {Case{Shape::hipped, hipped * 3 / 2.5, 6},
+                        Case{Shape::gabled, (hipped + 2 * gable) * 3 / 2.5, 4}, Case{Shape::pyramidal, 95, 6},
+                        Case{Shape::flat, 95 * 3, 1}, Case{Shape::skillion, 3.0 / 12 * (60 * 2.5 + 35 * 8.5), 1},
                         Case{Shape::half_hipped, (hipped + 2 * gable * 7 / 8) * 3 / 2.5, 6}})
     for (const double turn : {0.0, 1.0}) {
       SCOPED_TRACE(std::string(to_string(c.shape)) + " turned by " + std::to_string(turn));
@@ -101,7 +101,8 @@ TEST(Shapes, put_a_spire_on_a_tower) {
     EXPECT_EQ(roofs(house.solid), corners);
   }
   EXPECT_NEAR(built(tower(64, 5), form(Shape::hipped)).top, 9, 1e-3);
-  EXPECT_THAT(codes_of(built(tower(8, 5), form(Shape::gabled), false).planned.warnings), ElementsAre("roof-shape-here"));
+  EXPECT_THAT(codes_of(built(tower(8, 5), form(Shape::gabled), false).planned.warnings),
+              ElementsAre("roof-shape-here"));
 }
 
 TEST(Ridge, goes_along_the_longer_side_or_as_orientation_and_direction_say) {
@@ -238,7 +239,8 @@ TEST(Plans, of_random_outlines_are_raised_to_their_top_under_every_shape) {
     Polygon star;
     const std::size_t corners = 4 + random.index(9);
     for (std::size_t k = 0; k < corners; ++k) {
-      const double a = 2 * std::numbers::pi * (static_cast<double>(k) + random.uniform(0.1, 0.9)) / static_cast<double>(corners);
+      const double a =
+          2 * std::numbers::pi * (static_cast<double>(k) + random.uniform(0.1, 0.9)) / static_cast<double>(corners);
       star.outer.push_back(random.uniform(4, 12) * Point2{std::cos(a), std::sin(a)});
     }
     SCOPED_TRACE("MANSARD_SEED=" + std::to_string(seed) + " case " + std::to_string(i));
@@ -263,7 +265,8 @@ TEST(Plans, of_random_outlines_are_raised_to_their_top_under_every_shape) {
 TEST(Profiles, are_read_from_pairs) {
   const auto profile = profile_of("0,0 0,6  4,9");
   ASSERT_TRUE(profile);
-  EXPECT_THAT(*profile, ElementsAre(geometry::ProfilePoint{0, 0}, geometry::ProfilePoint{0, 6}, geometry::ProfilePoint{4, 9}));
+  EXPECT_THAT(*profile,
+              ElementsAre(geometry::ProfilePoint{0, 0}, geometry::ProfilePoint{0, 6}, geometry::ProfilePoint{4, 9}));
   EXPECT_EQ(*profile_of("0,6 4,9"), *profile);  // 0,0 goes without saying
   for (const auto* bad : {"", "0,0", "0,0 1", "0,0 0,6 x,9", "0,0 0,6 -1,7", "0,0 0,6 1,5", "0,0 0,6 0,6", "0,0 4,0",
                           "0,0 0,nan", "0,0 0,1e9"}) {

@@ -53,8 +53,8 @@ AsciiMap::AsciiMap(std::vector<std::string> drawing, double cell_size) : rows(st
   };
   for (int y = 0; y <= height; ++y)
     for (int x = 0; x <= width; ++x) {
-      if (at(x, y) != at(x, y - 1)) add(x, y, 0, at(x, y), at(x, y - 1));      // eastwards: north is left
-      if (at(x - 1, y) != at(x, y)) add(x, y, 1, at(x - 1, y), at(x, y));      // northwards: west is left
+      if (at(x, y) != at(x, y - 1)) add(x, y, 0, at(x, y), at(x, y - 1));  // eastwards: north is left
+      if (at(x - 1, y) != at(x, y)) add(x, y, 1, at(x - 1, y), at(x, y));  // northwards: west is left
     }
   // The next half-edge of a face turns left as sharply as it can.
   for (const auto& [key, h] : leaving) {

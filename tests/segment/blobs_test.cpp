@@ -135,7 +135,9 @@ TEST(Parts, chosen_on_random_blocks_keep_every_guarantee_and_come_out_the_same_t
     for (const Candidate& c : one->candidates) {
       EXPECT_EQ(c.chosen, one->part_of_face[c.left] != one->part_of_face[c.right]);
       EXPECT_EQ(c.forced, one->faces[c.left].feature != one->faces[c.right].feature);
-      if (c.forced) { EXPECT_TRUE(c.chosen); }
+      if (c.forced) {
+        EXPECT_TRUE(c.chosen);
+      }
     }
     for (std::size_t p = 1; p < one->parts.size(); ++p) {
       const auto key = [](const Part& part) {
@@ -171,8 +173,8 @@ TEST(Rings, do_not_drift_by_dropping_one_corner_after_another) {
   for (const auto& corner : ring) {
     double nearest = 1e300;
     for (std::size_t i = 0; i < straight.size(); ++i)
-      nearest = std::min(nearest,
-                         geometry::distance({straight[i].at, straight[(i + 1) % straight.size()].at}, corner.at));
+      nearest =
+          std::min(nearest, geometry::distance({straight[i].at, straight[(i + 1) % straight.size()].at}, corner.at));
     EXPECT_LE(nearest, 0.01 + 1e-12);
   }
 }

@@ -24,9 +24,7 @@ auto back_to_back(std::size_t houses, std::uint64_t seed) -> planted::Block {
 }
 
 /// Of a rectangular house.
-auto middle(const planted::House& house) -> Point2 {
-  return 0.5 * (house.polygon.outer[0] + house.polygon.outer[2]);
-}
+auto middle(const planted::House& house) -> Point2 { return 0.5 * (house.polygon.outer[0] + house.polygon.outer[2]); }
 
 TEST(MadeBlock, gives_every_house_its_feature_and_every_guarantee) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
@@ -38,9 +36,12 @@ TEST(MadeBlock, gives_every_house_its_feature_and_every_guarantee) {
     EXPECT_EQ(s->status, "optimal");
     EXPECT_EQ(s->bound, s->objective);
     for (const planted::House& house : made.houses)
-      EXPECT_TRUE(std::ranges::any_of(s->parts, [&](const Part& part) {
-        return part.feature == house.feature && geometry::contains(part.polygon, middle(house));
-      })) << "house " << house.feature << " of seed " << seed;
+      EXPECT_TRUE(std::ranges::any_of(s->parts,
+                                      [&](const Part& part) {
+                                        return part.feature == house.feature &&
+                                               geometry::contains(part.polygon, middle(house));
+                                      }))
+          << "house " << house.feature << " of seed " << seed;
     for (const Part& part : s->parts) EXPECT_TRUE(geometry::is_simple(part.polygon));
     for (const Candidate& c : s->candidates) EXPECT_EQ(c.chosen, s->part_of_face[c.left] != s->part_of_face[c.right]);
     // Straightening may let neighbours overlap by a centimetre along a wall.

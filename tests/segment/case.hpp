@@ -41,10 +41,14 @@ inline void expect_guarantees(const fracture::Arrangement& arrangement, const Se
   for (const Candidate& c : s.candidates) {
     ASSERT_TRUE(s.faces[c.left].inside && s.faces[c.right].inside);
     EXPECT_EQ(c.chosen, s.part_of_face[c.left] != s.part_of_face[c.right]);
-    if (c.forced) { EXPECT_TRUE(c.chosen); }
+    if (c.forced) {
+      EXPECT_TRUE(c.chosen);
+    }
   }
   EXPECT_LE(s.bound, s.objective);
-  if (s.status == "optimal") { EXPECT_EQ(s.bound, s.objective); }
+  if (s.status == "optimal") {
+    EXPECT_EQ(s.bound, s.objective);
+  }
   EXPECT_DOUBLE_EQ(s.objective, s.terms.sum());
   for (std::uint32_t p = 0; p < s.parts.size(); ++p) {
     const Part& part = s.parts[p];
@@ -67,7 +71,8 @@ inline void expect_guarantees(const fracture::Arrangement& arrangement, const Se
   }
 }
 
-inline auto plain(std::vector<std::string> rows, std::map<char, double> heights, std::vector<std::string> features) -> Case {
+inline auto plain(std::vector<std::string> rows, std::map<char, double> heights, std::vector<std::string> features)
+    -> Case {
   Case c{AsciiMap(std::move(rows)), std::move(heights), std::move(features), {}};
   return c;
 }

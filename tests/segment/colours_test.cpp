@@ -19,8 +19,8 @@ auto problem_of(const Segmentation& segmentation, const solver::Program& program
     if (segmentation.faces[f].inside) node_of_face.emplace(f, problem.nodes++);
   for (std::size_t i = 0; i < segmentation.candidates.size(); ++i) {
     const Candidate& c = segmentation.candidates[i];
-    problem.edges.push_back({node_of_face.at(c.left), node_of_face.at(c.right),
-                             std::llround(program.variables[i].cost), c.forced});
+    problem.edges.push_back(
+        {node_of_face.at(c.left), node_of_face.at(c.right), std::llround(program.variables[i].cost), c.forced});
   }
   for (const Conflict& conflict : segmentation.conflicts)
     if (conflict.second)

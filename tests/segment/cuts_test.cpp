@@ -115,8 +115,8 @@ TEST(TornLines, are_the_whole_outline_where_the_mesh_shows_no_wall) {
 TEST(TornLines, are_only_the_stretches_that_no_sweep_edge_stands_on) {
   block::Block block;
   block.members = {member(0, rectangle(0, 0, 12, 8))};
-  const auto lines = detail::torn_lines(
-      block, walls({{{0, 0.1}, {7, 0.1}}, {{12, 8}, {0, 8}}, {{0, 8}, {0, 0}}, {{14, 0}, {14, 8}}}));
+  const auto lines =
+      detail::torn_lines(block, walls({{{0, 0.1}, {7, 0.1}}, {{12, 8}, {0, 8}}, {{0, 8}, {0, 0}}, {{14, 0}, {14, 8}}}));
   ASSERT_EQ(lines.size(), 2U) << "what is left of the south wall, and the east wall, which was seen 2 m off";
   EXPECT_EQ(lines[0], (Segment2{{12, 0}, {12, 8}}));
   EXPECT_EQ(lines[1], (Segment2{{7, 0}, {12, 0}}));

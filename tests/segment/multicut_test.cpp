@@ -133,7 +133,9 @@ TEST(Multicut, splits_at_forced_edges_and_keeps_them_cut) {
   expect_sound(problem, answer);
   EXPECT_TRUE(answer.optimal);
   for (const auto& e : problem.edges)
-    if (e.forced) { EXPECT_NE(answer.labels[e.a], answer.labels[e.b]); }
+    if (e.forced) {
+      EXPECT_NE(answer.labels[e.a], answer.labels[e.b]);
+    }
 }
 
 TEST(Multicut, is_valid_with_a_true_bound_when_given_no_time) {

@@ -9,10 +9,10 @@
 namespace mansard::segment::testing {
 
 struct Weights {
-  std::int64_t cost = 1000;       ///< edge costs lie between −cost and cost
+  std::int64_t cost = 1000;  ///< edge costs lie between −cost and cost
   std::int64_t penalty = 1500;
-  double pairs = 0.5;             ///< per edge
-  double forced = 0;              ///< share of edges
+  double pairs = 0.5;  ///< per edge
+  double forced = 0;   ///< share of edges
 };
 
 /// A grid of faces, some of its edges taken out by joining faces beforehand, with stars around its inner vertices.

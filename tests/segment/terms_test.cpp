@@ -174,7 +174,8 @@ TEST(Program, has_the_objective_as_its_optimum_whatever_the_options) {
     const double rounding = static_cast<double>(s.candidates.size() + 1);
     EXPECT_NEAR(solution->objective, 1000 * s.objective, rounding) << "round " << round;
     double costs = program.constant;
-    for (std::size_t i = 0; i < s.candidates.size(); ++i) costs += s.candidates[i].solved ? program.variables[i].cost : 0;
+    for (std::size_t i = 0; i < s.candidates.size(); ++i)
+      costs += s.candidates[i].solved ? program.variables[i].cost : 0;
     for (const Conflict& conflict : s.conflicts)
       if (conflict.second && s.candidates[conflict.first].solved && s.candidates[*conflict.second].solved)
         costs += 1000 * s.phi;

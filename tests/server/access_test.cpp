@@ -22,7 +22,8 @@ auto raw(int port, const std::string& bytes) -> std::string {
   (void)!::write(s, bytes.data(), bytes.size());
   std::string all;
   std::array<char, 4096> piece{};
-  for (ssize_t n = 0; (n = ::read(s, piece.data(), piece.size())) > 0;) all.append(piece.data(), static_cast<std::size_t>(n));
+  for (ssize_t n = 0; (n = ::read(s, piece.data(), piece.size())) > 0;)
+    all.append(piece.data(), static_cast<std::size_t>(n));
   ::close(s);
   return all;
 }
@@ -37,10 +38,11 @@ class Access : public testing::Test {
 TEST_F(Access, prints_a_link_and_answers_only_to_its_token) {
   EXPECT_THAT(server_.link(), testing::MatchesRegex("http://127\\.0\\.0\\.1:[0-9]+/#token=[0-9a-f]{32}"));
   EXPECT_EQ(server_.get("/api/status").status, 200);
-  for (const auto& headers :
-       {httplib::Headers{}, httplib::Headers{{"Authorization", "Bearer " + std::string(32, '0')}},
-        httplib::Headers{{"Authorization", server_.token()}}, httplib::Headers{{"Cookie", "token=" + server_.token()}}}) {
-    for (const auto* path : {"/api/status", "/api/project", "/api/events", "/api/openapi.json", "/api/nothing", "/api"}) {
+  for (const auto& headers : {httplib::Headers{}, httplib::Headers{{"Authorization", "Bearer " + std::string(32, '0')}},
+                              httplib::Headers{{"Authorization", server_.token()}},
+                              httplib::Headers{{"Cookie", "token=" + server_.token()}}}) {
+    for (const auto* path :
+         {"/api/status", "/api/project", "/api/events", "/api/openapi.json", "/api/nothing", "/api"}) {
       const auto reply = server_.call("GET", path, {}, headers);
       EXPECT_EQ(reply.status, 401) << path;
       EXPECT_EQ(reply.code(), "server-token") << path;
@@ -68,8 +70,9 @@ TEST_F(Access, refuses_other_hosts_and_pages_from_elsewhere_even_with_the_token)
   EXPECT_EQ(server_.call("GET", "/", {}, {{"Host", "evil.example"}}).status, 403) << "the page too";
   const auto bearer = "Authorization: Bearer " + server_.token() + "\r\nConnection: close\r\n";
   EXPECT_THAT(raw(server_.port(), "GET /api/status HTTP/1.1\r\n" + bearer + "\r\n"), HasSubstr("403")) << "no host";
-  EXPECT_THAT(raw(server_.port(), "GET /api/status HTTP/1.1\r\nHost: " + host() + "\r\nHost: evil\r\n" + bearer + "\r\n"),
-              HasSubstr("403"));
+  EXPECT_THAT(
+      raw(server_.port(), "GET /api/status HTTP/1.1\r\nHost: " + host() + "\r\nHost: evil\r\n" + bearer + "\r\n"),
+      HasSubstr("403"));
 }
 
 TEST_F(Access, says_nothing_that_lets_other_pages_read_or_frame_it) {
@@ -85,7 +88,8 @@ TEST_F(Access, says_nothing_that_lets_other_pages_read_or_frame_it) {
     EXPECT_EQ(header("X-Content-Type-Options"), "nosniff");
     EXPECT_EQ(header("Referrer-Policy"), "no-referrer");
     EXPECT_NE(header("Cache-Control"), "");
-    for (const auto& [name, value] : reply.headers) EXPECT_THAT(name, testing::Not(testing::StartsWith("Access-Control")));
+    for (const auto& [name, value] : reply.headers)
+      EXPECT_THAT(name, testing::Not(testing::StartsWith("Access-Control")));
   }
   EXPECT_EQ(server_.call("OPTIONS", "/api/status").status, 405);
 }
@@ -93,8 +97,8 @@ TEST_F(Access, says_nothing_that_lets_other_pages_read_or_frame_it) {
 TEST_F(Access, keeps_paths_inside) {
   const std::string secret = "not yours";
   write(folder_ / "secret.txt", secret);
-  for (const std::string name : {"..", "%2e%2e", "..%2f..%2fsecret.txt", "%2e%2e%2fsecret.txt", ".hidden", "a%00b", "a%2fb", "a%5cb",
-                                 "%20", "a%0ab"}) {
+  for (const std::string name : {"..", "%2e%2e", "..%2f..%2fsecret.txt", "%2e%2e%2fsecret.txt", ".hidden", "a%00b",
+                                 "a%2fb", "a%5cb", "%20", "a%0ab"}) {
     const auto put = server_.call("PUT", "/api/uploads/" + name, "bytes");
     EXPECT_GE(put.status, 400) << name;
     const auto got = server_.get("/api/runs/run-1/export/" + name);
@@ -105,7 +109,8 @@ TEST_F(Access, keeps_paths_inside) {
   EXPECT_EQ(server_.call("PUT", "/api/uploads/" + std::string(129, 'a'), "bytes").code(), "server-upload");
   for (const std::string path : {"/../secret.txt", "/..%2fsecret.txt", "/%2e%2e/secret.txt", "/assets/../../secret.txt",
                                  "//etc/passwd", "/assets/%2e%2e/%2e%2e/secret.txt"}) {
-    const auto answer = raw(server_.port(), "GET " + path + " HTTP/1.1\r\nHost: " + host() + "\r\nConnection: close\r\n\r\n");
+    const auto answer =
+        raw(server_.port(), "GET " + path + " HTTP/1.1\r\nHost: " + host() + "\r\nConnection: close\r\n\r\n");
     EXPECT_THAT(answer, HasSubstr("HTTP/1.1 404")) << path;
     EXPECT_THAT(answer, testing::Not(HasSubstr(secret))) << path;
   }
@@ -139,8 +144,8 @@ TEST_F(Access, leaves_no_part_of_an_upload_that_breaks_off) {
     to.sin_port = htons(static_cast<std::uint16_t>(server_.port()));
     to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     ASSERT_EQ(::connect(s, reinterpret_cast<sockaddr*>(&to), sizeof to), 0);
-    const auto head = "PUT /api/uploads/mesh.ply HTTP/1.1\r\nHost: " + host() + "\r\nAuthorization: Bearer " + server_.token() +
-                      "\r\nContent-Length: 1000000\r\n\r\nonly this";
+    const auto head = "PUT /api/uploads/mesh.ply HTTP/1.1\r\nHost: " + host() + "\r\nAuthorization: Bearer " +
+                      server_.token() + "\r\nContent-Length: 1000000\r\n\r\nonly this";
     ASSERT_GT(::write(s, head.data(), head.size()), 0);
     ::close(s);
   }
@@ -154,10 +159,12 @@ TEST_F(Access, does_not_take_the_rest_of_a_refused_request_for_another_one) {
   const auto inner = "GET /api/status HTTP/1.1\r\nHost: " + host() + "\r\nAuthorization: Bearer " + server_.token() +
                      "\r\nConnection: close\r\n\r\n";
   for (const std::string& head :
-       {"GET /api/status HTTP/1.1\r\nHost: " + host() + "\r\nContent-Length: " + std::to_string(inner.size()) + "\r\n\r\n",
+       {"GET /api/status HTTP/1.1\r\nHost: " + host() + "\r\nContent-Length: " + std::to_string(inner.size()) +
+            "\r\n\r\n",
         "POST /api/runs HTTP/1.1\r\nHost: " + host() + "\r\nTransfer-Encoding: chunked\r\nContent-Length: 4\r\n\r\n",
         "POST /api/runs HTTP/1.1\r\nHost: " + host() +
-            "\r\nContent-Type: multipart/form-data; boundary=b\r\nContent-Length: " + std::to_string(inner.size()) + "\r\n\r\n"}) {
+            "\r\nContent-Type: multipart/form-data; boundary=b\r\nContent-Length: " + std::to_string(inner.size()) +
+            "\r\n\r\n"}) {
     const auto all = raw(server_.port(), head + inner);
     EXPECT_THAT(all, testing::StartsWith("HTTP/1.1 4")) << head;
     EXPECT_THAT(all, testing::Not(HasSubstr("HTTP/1.1 200"))) << head;
@@ -165,7 +172,8 @@ TEST_F(Access, does_not_take_the_rest_of_a_refused_request_for_another_one) {
 }
 
 TEST_F(Access, refuses_what_is_no_http_and_goes_on) {
-  for (const std::string bytes : {"\r\n\r\n", "GARBAGE\r\n\r\n", "GET / HTTP/9.9\r\n\r\n", "GET\r\n\r\n"}) (void)raw(server_.port(), bytes);
+  for (const std::string bytes : {"\r\n\r\n", "GARBAGE\r\n\r\n", "GET / HTTP/9.9\r\n\r\n", "GET\r\n\r\n"})
+    (void)raw(server_.port(), bytes);
   EXPECT_EQ(server_.get("/api/status").status, 200);
 }
 
@@ -185,10 +193,12 @@ TEST_F(Access, answers_malformed_json_with_its_place_and_unknown_things_with_the
   }
   EXPECT_EQ(server_.call("DELETE", "/api/jobs/job-9").code(), "server-unknown");
   EXPECT_EQ(server_.call("DELETE", "/api/runs/run-9").code(), "server-unknown");
-  EXPECT_EQ(server_.post("/api/project/inputs", {{"meshes", {"/no/such"}}, {"footprints", "/none"}}).code(), "file-missing");
-  EXPECT_EQ(server_.post("/api/project/inputs",
-                         {{"meshes", {"/"}}, {"footprints", "/"}, {"reading", {{"ingest.csr", "x"}}}}).code(),
-            "option-unknown");
+  EXPECT_EQ(server_.post("/api/project/inputs", {{"meshes", {"/no/such"}}, {"footprints", "/none"}}).code(),
+            "file-missing");
+  EXPECT_EQ(
+      server_.post("/api/project/inputs", {{"meshes", {"/"}}, {"footprints", "/"}, {"reading", {{"ingest.csr", "x"}}}})
+          .code(),
+      "option-unknown");
 }
 
 TEST_F(Access, lets_twelve_pages_listen_and_no_more) {

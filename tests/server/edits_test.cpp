@@ -35,14 +35,15 @@ void put_terrace(const Folder& folder, int houses) {
   }
   for (int h = 0; h < houses; ++h) {
     const auto from = std::to_string(8 * h), to = std::to_string(8 * h + 8);
-    features += std::string(h == 0 ? "" : ",") + R"({"type":"Feature","properties":{"id":")" + static_cast<char>('a' + h) +
-                R"("},"geometry":{"type":"Polygon","coordinates":[[[)" + from + ",0],[" + to + ",0],[" + to + ",10],[" + from +
-                ",10],[" + from + ",0]]]}}";
+    features += std::string(h == 0 ? "" : ",") + R"({"type":"Feature","properties":{"id":")" +
+                static_cast<char>('a' + h) + R"("},"geometry":{"type":"Polygon","coordinates":[[[)" + from + ",0],[" +
+                to + ",0],[" + to + ",10],[" + from + ",10],[" + from + ",0]]]}}";
   }
   write(folder / "terrace.obj", vertices + faces);
-  write(folder / "terrace.geojson",
-        R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::28992"}},"features":[)" +
-            features + "]}");
+  write(
+      folder / "terrace.geojson",
+      R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::28992"}},"features":[)" +
+          features + "]}");
 }
 
 class Terrace : public testing::Test {
@@ -50,15 +51,18 @@ class Terrace : public testing::Test {
   void SetUp() override {
     put_terrace(folder_, 3);
     start();
-    ASSERT_EQ(server_->post("/api/project/inputs", {{"meshes", {(folder_ / "terrace.obj").string()}},
-                                                    {"footprints", (folder_ / "terrace.geojson").string()}})
+    ASSERT_EQ(server_
+                  ->post("/api/project/inputs", {{"meshes", {(folder_ / "terrace.obj").string()}},
+                                                 {"footprints", (folder_ / "terrace.geojson").string()}})
                   .status,
               200);
     server_->settle();
     ASSERT_EQ(server_->reconstruct(), "run-1");
   }
   void start() { server_ = std::make_unique<Running>(folder_ / "project"); }
-  [[nodiscard]] auto building(std::size_t number) const -> Json { return server_->buildings("run-1")["buildings"][number]; }
+  [[nodiscard]] auto building(std::size_t number) const -> Json {
+    return server_->buildings("run-1")["buildings"][number];
+  }
   [[nodiscard]] auto send(const Json& edit) const -> Reply { return server_->post("/api/runs/run-1/edits", edit); }
 
   Folder folder_;
@@ -78,7 +82,10 @@ TEST_F(Terrace, previews_without_writing) {
   EXPECT_NEAR(raised["mse"].get<double>(), 1, 0.3);
   EXPECT_EQ(building(0), before);
   EXPECT_EQ(server_->get("/api/project").json()["runs"][0]["edits"], 0);
-  EXPECT_EQ(server_->post("/api/runs/run-1/preview", {{"changes", Json::array({{{"building", "z"}, {"revision", 0}, {"parts", Json::array()}}})}}).code(),
+  EXPECT_EQ(server_
+                ->post("/api/runs/run-1/preview",
+                       {{"changes", Json::array({{{"building", "z"}, {"revision", 0}, {"parts", Json::array()}}})}})
+                .code(),
             "edit-building");
 }
 
@@ -159,32 +166,37 @@ TEST_F(Terrace, splits_and_merges) {
       most[c] = std::max(most[c].get<double>(), p[c].get<double>());
     }
   const double middle = (least[1].get<double>() + most[1].get<double>()) / 2;
-  const Json across = Json::array({Json::array({least[0].get<double>() - 1, middle}), Json::array({most[0].get<double>() + 1, middle})});
-  const auto proposed = server_->post("/api/runs/run-1/split", {{"building", id}, {"part", before["parts"][0]["id"]}, {"line", across}});
+  const Json across = Json::array(
+      {Json::array({least[0].get<double>() - 1, middle}), Json::array({most[0].get<double>() + 1, middle})});
+  const auto proposed =
+      server_->post("/api/runs/run-1/split", {{"building", id}, {"part", before["parts"][0]["id"]}, {"line", across}});
   ASSERT_EQ(proposed.status, 200) << proposed.text;
   EXPECT_EQ(building(0), before) << "a proposal changes nothing";
   const auto split = send({{"what", "split"}, {"changes", proposed.json()["changes"]}});
   ASSERT_EQ(split.status, 200) << split.text;
   const auto halves = building(0)["parts"];
   ASSERT_EQ(halves.size(), 2U);
-  const auto merged = server_->post(
-      "/api/runs/run-1/merge", {{"parts", Json::array({{{"building", id}, {"part", halves[0]["id"]}}, {{"building", id}, {"part", halves[1]["id"]}}})}});
+  const auto merged =
+      server_->post("/api/runs/run-1/merge", {{"parts", Json::array({{{"building", id}, {"part", halves[0]["id"]}},
+                                                                     {{"building", id}, {"part", halves[1]["id"]}}})}});
   ASSERT_EQ(merged.status, 200) << merged.text;
   ASSERT_EQ(send({{"what", "merge"}, {"changes", merged.json()["changes"]}}).status, 200);
   EXPECT_EQ(building(0)["parts"].size(), 1U);
 
   // Of two houses: the second loses its part.
   const auto other = building(1);
-  const auto both = server_->post("/api/runs/run-1/merge",
-                                  {{"parts", Json::array({{{"building", id}, {"part", building(0)["parts"][0]["id"]}},
-                                                          {{"building", other["id"]}, {"part", other["parts"][0]["id"]}}})}});
+  const auto both =
+      server_->post("/api/runs/run-1/merge",
+                    {{"parts", Json::array({{{"building", id}, {"part", building(0)["parts"][0]["id"]}},
+                                            {{"building", other["id"]}, {"part", other["parts"][0]["id"]}}})}});
   ASSERT_EQ(both.status, 200) << both.text;
   EXPECT_EQ(both.json()["changes"].size(), 2U);
   ASSERT_EQ(send({{"what", "merge"}, {"changes", both.json()["changes"]}}).status, 200);
   EXPECT_TRUE(building(1)["parts"].empty());
   ASSERT_EQ(server_->post("/api/runs/run-1/undo", Json::object()).status, 200);
   EXPECT_EQ(building(1)["parts"].size(), 1U);
-  EXPECT_EQ(server_->post("/api/runs/run-1/split", {{"building", id}, {"part", "none"}, {"line", across}}).code(), "edit-part");
+  EXPECT_EQ(server_->post("/api/runs/run-1/split", {{"building", id}, {"part", "none"}, {"line", across}}).code(),
+            "edit-part");
 }
 
 TEST_F(Terrace, tells_every_page_of_an_edit_and_whose_it_was) {
@@ -194,12 +206,13 @@ TEST_F(Terrace, tells_every_page_of_an_edit_and_whose_it_was) {
   std::thread page([&] {
     httplib::Client client("127.0.0.1", server_->port());
     client.set_read_timeout(60);
-    (void)client.Get("/api/events", server_->headers(), [&](const httplib::Response&) { return listening = true; },
-                     [&](const char* data, std::size_t length) {
-                       const std::scoped_lock lock(mutex);
-                       heard.append(data, length);
-                       return !enough;
-                     });
+    (void)client.Get(
+        "/api/events", server_->headers(), [&](const httplib::Response&) { return listening = true; },
+        [&](const char* data, std::size_t length) {
+          const std::scoped_lock lock(mutex);
+          heard.append(data, length);
+          return !enough;
+        });
   });
   while (!listening) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   auto headers = server_->headers();
@@ -225,7 +238,8 @@ TEST_F(Terrace, takes_a_thousand_edits_from_four_pages_without_losing_one) {
     pages.emplace_back([&, p] {
       auto seen = building(static_cast<std::size_t>(p % 3));
       for (int i = 0; i < 250;) {
-        const auto reply = send(lift(seen, i % 2 == 0 ? 0.1 : -0.1, "page " + std::to_string(p) + " edit " + std::to_string(i)));
+        const auto reply =
+            send(lift(seen, i % 2 == 0 ? 0.1 : -0.1, "page " + std::to_string(p) + " edit " + std::to_string(i)));
         if (reply.status == 200) {
           ++accepted;
           ++i;
@@ -286,7 +300,8 @@ TEST_F(Terrace, keeps_every_acknowledged_edit_however_it_is_killed) {
     const auto done = now["history"]["done"].get<int>();
     EXPECT_GE(done, acknowledged);
     EXPECT_LE(done, acknowledged + 1) << "one may have been written but not answered";
-    for (int i = 0; i < acknowledged; ++i) EXPECT_EQ(now["history"]["edits"][static_cast<std::size_t>(i)], "edit " + std::to_string(i));
+    for (int i = 0; i < acknowledged; ++i)
+      EXPECT_EQ(now["history"]["edits"][static_cast<std::size_t>(i)], "edit " + std::to_string(i));
     EXPECT_EQ(now["buildings"][0]["revision"].get<int>(), done);
     if (done == acknowledged) {
       EXPECT_EQ(now["buildings"][0]["parts"][0]["plan"], last["parts"][0]["plan"]);

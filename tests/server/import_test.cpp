@@ -57,7 +57,8 @@ TEST(Import, takes_every_format_with_plans_and_refuses_what_has_none) {
   const Folder folder;
   const Running server(folder / "project");
   std::string first;
-  for (const auto* name : {"m.city.json", "m.city.jsonl", "m.obj", "m.glb", "m.gpkg", "m.3dtiles", "m.geojson", "m.json"}) {
+  for (const auto* name :
+       {"m.city.json", "m.city.jsonl", "m.obj", "m.glb", "m.gpkg", "m.3dtiles", "m.geojson", "m.json"}) {
     const auto reply = server.post("/api/runs/import", {{"path", made(folder, name)}});
     ASSERT_EQ(reply.status, 200) << name << reply.text;
     server.settle();
@@ -85,15 +86,19 @@ TEST(Import, is_moved_into_the_frame_of_the_scan) {
     [[[84950,447000],[85090,447000],[85090,447008],[84950,447008],[84950,447000]]]}}]})";
   write(folder / "large.geojson", large);
   const Running server(folder / "project");
-  ASSERT_EQ(server.post("/api/project/inputs", {{"meshes", {(folder / "field.obj").string()}},
-                                                {"footprints", (folder / "large.geojson").string()}}).status, 200);
+  ASSERT_EQ(server
+                .post("/api/project/inputs", {{"meshes", {(folder / "field.obj").string()}},
+                                              {"footprints", (folder / "large.geojson").string()}})
+                .status,
+            200);
   server.settle();
   const auto origin = server.get("/api/scene").json()["origin"];
   ASSERT_EQ(server.post("/api/runs/import", {{"path", model}}).status, 200);
   server.settle();
   const auto run = server.get("/api/project").json()["runs"][0];
   ASSERT_EQ(run["state"], "done") << run;
-  const auto point = server.get("/api/runs/run-1/buildings").json()["buildings"][0]["parts"][0]["plan"]["outer"]["points"][0];
+  const auto point =
+      server.get("/api/runs/run-1/buildings").json()["buildings"][0]["parts"][0]["plan"]["outer"]["points"][0];
   const double x = point[0].get<double>() + origin[0].get<double>();
   EXPECT_TRUE(x == 85000 || x == 85012) << x;
   // Another CRS than the scan's stays out.

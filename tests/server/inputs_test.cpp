@@ -99,8 +99,11 @@ TEST(Inputs, are_read_out_of_archives_and_packed_files_and_known_again) {
   fs::copy_file(hall + "mesh.off", folder / "mesh.off");
   ASSERT_EQ(std::system(("gzip " + (folder / "mesh.off").string()).c_str()), 0);
   const Running packed(folder / "packed");
-  ASSERT_EQ(packed.post("/api/project/inputs", {{"meshes", {(folder / "mesh.off.gz").string()}},
-                                                {"footprints", hall + "footprints.geojson"}}).status, 200);
+  ASSERT_EQ(packed
+                .post("/api/project/inputs",
+                      {{"meshes", {(folder / "mesh.off.gz").string()}}, {"footprints", hall + "footprints.geojson"}})
+                .status,
+            200);
   EXPECT_FALSE(some_changed(inputs_of(packed)));
   EXPECT_EQ(packed.get("/api/scene").json()["triangles"], Json::parse(scene)["triangles"]);
 }
@@ -125,8 +128,8 @@ TEST(Inputs, may_be_rasters_with_a_terrain_and_footprints_drawn_from_them) {
     ASSERT_EQ(server.call("PUT", "/api/uploads/dtm.asc", raster(40, 2, 2)).status, 200);
     write(folder / "dsm.asc", raster(40, 3, 11));
     const Json reading{{"ingest.crs", "EPSG:28992"}, {"ingest.terrain", (folder / "project/inputs/dtm.asc").string()}};
-    const auto job = server.post("/api/project/inputs",
-                                 {{"meshes", {(folder / "dsm.asc").string()}}, {"footprints", ""}, {"reading", reading}});
+    const auto job = server.post(
+        "/api/project/inputs", {{"meshes", {(folder / "dsm.asc").string()}}, {"footprints", ""}, {"reading", reading}});
     ASSERT_EQ(job.status, 200) << job.text;
     const auto inputs = inputs_of(server);
     ASSERT_EQ(inputs["meshes"].size(), 1U) << inputs;

@@ -52,8 +52,20 @@ TEST(Project, keeps_inputs_and_runs) {
                 {{(folder / "p/inputs/mesh.ply").string(), 5, "ab", {5, 17}}},
                 {{(folder / "p/inputs/dtm.tif").string(), 7, "ef", {7, 19}}},
                 {{archive, 6, "cd", {60, 18}}}};
-  RunRecord run{"run-1", "first", State::done, base::error("code", "message", "subject"), "2024-01-01T00:00:00Z", "paper",
-                {{"sweep.gamma", "15"}}, {"block-1"}, RunScores{1, 2, 3, 4, 5, 6}, {{"block", 0.5}}, 7, 6, 9, 80,
+  RunRecord run{"run-1",
+                "first",
+                State::done,
+                base::error("code", "message", "subject"),
+                "2024-01-01T00:00:00Z",
+                "paper",
+                {{"sweep.gamma", "15"}},
+                {"block-1"},
+                RunScores{1, 2, 3, 4, 5, 6},
+                {{"block", 0.5}},
+                7,
+                6,
+                9,
+                80,
                 {{"block-1", {1, 2}, 0.25, 3, 4}}};
   {
     auto project = Project::open(folder / "p");
@@ -93,7 +105,8 @@ TEST(Project, keeps_inputs_and_runs) {
 TEST(Project, reads_files_of_earlier_versions_and_writes_no_password) {
   const Folder folder;
   fs::create_directories(folder / "p");
-  write(folder / "p/project.json", R"({"type":"mansard-project","version":1,"inputs":{"meshes":["/a.ply"],"footprints":"/f.shp",
+  write(folder / "p/project.json",
+        R"({"type":"mansard-project","version":1,"inputs":{"meshes":["/a.ply"],"footprints":"/f.shp",
     "reading":{},"mesh_files":[{"path":"/a.ply","bytes":5,"sha256":"ab","modified_ns":17}],"footprint_files":[]}})");
   auto project = Project::open(folder / "p");
   ASSERT_TRUE(project) << project.error().message;

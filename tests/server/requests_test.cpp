@@ -31,7 +31,8 @@ TEST(Requests, say_which_member_is_wrong) {
                  "changes[0].building must be a text");
   expect_refusal(read_changes(R"({"changes":[{"building":"a","revision":-1,"parts":[]}]})"), "server-body",
                  "changes[0].revision must be a whole number");
-  expect_refusal(read_changes(R"({"changes":[{"building":"a","revison":0,"parts":[]}]})"), "server-body", "did you mean");
+  expect_refusal(read_changes(R"({"changes":[{"building":"a","revison":0,"parts":[]}]})"), "server-body",
+                 "did you mean");
   expect_refusal(read_split(R"({"building":"a","part":"a-1","line":[[0,0],[1]]})"), "server-body",
                  "line[1] must be an array of 2 numbers");
   expect_refusal(read_merge(R"({"parts":[{"building":"a","part":"a-1"}]})"), "server-body", "two parts");
@@ -42,7 +43,8 @@ TEST(Requests, say_which_member_is_wrong) {
 
 TEST(Requests, refuse_plans_as_files_of_plans_do) {
   const std::string broken = R"({"base":0,"cap":"5"})";
-  const auto read = read_changes(R"({"changes":[{"building":"a","revision":0,"parts":[{"id":"a-1","plan":)" + broken + "}]}]}");
+  const auto read =
+      read_changes(R"({"changes":[{"building":"a","revision":0,"parts":[{"id":"a-1","plan":)" + broken + "}]}]}");
   ASSERT_FALSE(read);
   EXPECT_THAT(read.error().code, HasSubstr("write-plan-"));
 }
@@ -60,8 +62,7 @@ TEST(Requests, keep_names_on_one_line) {
 }
 
 TEST(Requests, know_the_edges_of_a_plan) {
-  const auto request =
-      read_section(std::string(R"({"plan":)") + plan + R"(,"ring":0,"edge":3,"share":0.5})");
+  const auto request = read_section(std::string(R"({"plan":)") + plan + R"(,"ring":0,"edge":3,"share":0.5})");
   ASSERT_TRUE(request) << request.error().message;
   EXPECT_TRUE(check_edge(request->plan, 0, 3, 0.5));
   EXPECT_FALSE(check_edge(request->plan, 0, 4, 0.5));

@@ -66,7 +66,8 @@ TEST(Page, is_found_by_its_names_only) {
   EXPECT_EQ(page("/", "").status, 200);
   EXPECT_THAT(page("/", "").body, testing::HasSubstr("<!doctype html>"));
   EXPECT_EQ(page("/index.html", "").status, 200);
-  for (const auto* path : {"", "index.html", "/../server.cpp", "/..", "//etc/passwd", "/assets/", "/assets/../index.html", "/%2e%2e"})
+  for (const auto* path :
+       {"", "index.html", "/../server.cpp", "/..", "//etc/passwd", "/assets/", "/assets/../index.html", "/%2e%2e"})
     EXPECT_EQ(page(path, "").status, 404) << path;
   const auto tag = page("/", "").headers.at("ETag");
   EXPECT_EQ(page("/", tag).status, 304);

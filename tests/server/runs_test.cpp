@@ -19,8 +19,8 @@ TEST(Inputs, are_read_in_the_background_and_again_when_the_project_is_opened_aga
   {
     const Running server(folder / "project");
     EXPECT_TRUE(server.get("/api/project").json()["inputs"].is_null());
-    const auto job = server.post("/api/project/inputs",
-                                 {{"meshes", {(folder / "mesh.off").string()}}, {"footprints", hall + "footprints.geojson"}});
+    const auto job = server.post("/api/project/inputs", {{"meshes", {(folder / "mesh.off").string()}},
+                                                         {"footprints", hall + "footprints.geojson"}});
     EXPECT_EQ(job.json()["kind"], "read");
     server.settle();
     const auto scene = server.get("/api/scene").json();
@@ -61,8 +61,9 @@ TEST(Inputs, without_footprints_have_them_drawn_from_the_mesh) {
   const auto hall = std::string(MANSARD_DATA) + "/hall/";
   {
     const Running server(folder / "project");
-    const auto job = server.post("/api/project/inputs", {{"meshes", {hall + "mesh.off"}}, {"footprints", ""},
-                                                         {"reading", {{"derive.cell", "1"}}}});
+    const auto job =
+        server.post("/api/project/inputs",
+                    {{"meshes", {hall + "mesh.off"}}, {"footprints", ""}, {"reading", {{"derive.cell", "1"}}}});
     EXPECT_EQ(job.json()["kind"], "read") << job.text;
     server.settle();
     const auto scene = server.get("/api/scene").json();
@@ -80,9 +81,8 @@ TEST(Inputs, that_cannot_be_read_say_why_and_leave_the_project_as_it_was) {
   write(folder / "mesh.ply", "no mesh");
   write(folder / "f.geojson", "no footprints");
   const Running server(folder / "project");
-  const auto begun = server.post(
-      "/api/project/inputs",
-      {{"meshes", {(folder / "mesh.ply").string()}}, {"footprints", (folder / "f.geojson").string()}});
+  const auto begun = server.post("/api/project/inputs", {{"meshes", {(folder / "mesh.ply").string()}},
+                                                         {"footprints", (folder / "f.geojson").string()}});
   ASSERT_EQ(begun.status, 200) << begun.text;
   server.settle();
   const auto job = server.get("/api/jobs").json()["jobs"][0];
@@ -279,15 +279,16 @@ TEST_F(Runs, show_the_mesh_across_an_edge) {
   const Running server(project());
   server.settle();
   const auto part = server.buildings("run-1")["buildings"][0]["parts"][0];
-  const auto standing = server.get("/api/runs/run-1/section?building=" +
-                                   server.buildings("run-1")["buildings"][0]["id"].get<std::string>() + "&part=" +
-                                   part["id"].get<std::string>() + "&ring=0&edge=0&share=0.5");
+  const auto standing = server.get(
+      "/api/runs/run-1/section?building=" + server.buildings("run-1")["buildings"][0]["id"].get<std::string>() +
+      "&part=" + part["id"].get<std::string>() + "&ring=0&edge=0&share=0.5");
   ASSERT_EQ(standing.status, 200) << standing.text;
   EXPECT_FALSE(standing.json()["pieces"].empty());
   const auto drawn =
       server.post("/api/runs/run-1/section", {{"plan", part["plan"]}, {"ring", 0}, {"edge", 0}, {"share", 0.5}});
   EXPECT_EQ(drawn.text, standing.text);
-  EXPECT_EQ(server.post("/api/runs/run-1/section", {{"plan", part["plan"]}, {"ring", 0}, {"edge", 999}, {"share", 0.5}}).code(),
+  EXPECT_EQ(server.post("/api/runs/run-1/section", {{"plan", part["plan"]}, {"ring", 0}, {"edge", 999}, {"share", 0.5}})
+                .code(),
             "server-body");
 }
 

@@ -15,7 +15,8 @@ TEST(Zip, has_the_files_of_a_folder_and_is_the_same_whenever_it_is_made) {
   write(folder / "a/empty", "");
   const auto zip = zip_of(folder / "a");
   ASSERT_TRUE(zip);
-  fs::last_write_time(folder / "a/tileset.json", fs::last_write_time(folder / "a/tileset.json") - std::chrono::hours(50));
+  fs::last_write_time(folder / "a/tileset.json",
+                      fs::last_write_time(folder / "a/tileset.json") - std::chrono::hours(50));
   EXPECT_EQ(*zip_of(folder / "a") == *zip, true);
   // CMake unpacks with libarchive.
   write(folder / "a.zip", *zip);

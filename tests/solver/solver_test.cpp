@@ -137,7 +137,9 @@ TEST(Solver, never_gives_a_bound_above_the_optimum_when_stopped_early) {
       ASSERT_FALSE(early->values.empty());
       EXPECT_LE(early->bound, full->objective + 1e-6) << seed << " after " << nodes;
       EXPECT_GE(early->objective, full->objective - 1e-6) << seed << " after " << nodes;
-      if (early->status == Status::optimal) { EXPECT_NEAR(early->objective, full->objective, 1e-6); }
+      if (early->status == Status::optimal) {
+        EXPECT_NEAR(early->objective, full->objective, 1e-6);
+      }
     }
   }
 }

@@ -42,9 +42,8 @@ TEST(Lines, of_a_noisy_rectangle_are_its_four_sides) {
     ASSERT_EQ(lines.size(), 4u) << "seed " << seed;
     for (std::size_t i = 0; i < 4; ++i) {
       const Point2 a = rectangle[i], b = rectangle[(i + 1) % 4], d = normalised(b - a);
-      const auto line = std::find_if(lines.begin(), lines.end(), [&](const Segment2& s) {
-        return dot(normalised(s.end - s.start), d) > 0.9;
-      });
+      const auto line = std::find_if(lines.begin(), lines.end(),
+                                     [&](const Segment2& s) { return dot(normalised(s.end - s.start), d) > 0.9; });
       ASSERT_NE(line, lines.end());
       const double degree = std::numbers::pi / 180;
       EXPECT_LT(std::abs(cross(d, normalised(line->end - line->start))), std::sin(degree)) << "seed " << seed;
@@ -134,7 +133,7 @@ TEST(Lines, survive_a_soup_of_segments) {
 TEST(Chains, hold_every_segment_once) {
   auto segments = noisy(rectangle, 0.1, 1);
   const auto count = segments.size();
-  segments.push_back(segments.front());           // a duplicate
+  segments.push_back(segments.front());             // a duplicate
   segments.push_back({segments[3].end, {99, 99}});  // a branch
   const auto chains = join(segments);
   std::size_t found = 0;

@@ -12,9 +12,7 @@ namespace {
 using testing::Each;
 using testing::Field;
 
-auto rectangle(Point2 low, Point2 high) -> geometry::Ring {
-  return {low, {high.x, low.y}, high, {low.x, high.y}};
-}
+auto rectangle(Point2 low, Point2 high) -> geometry::Ring { return {low, {high.x, low.y}, high, {low.x, high.y}}; }
 
 auto block_of(std::vector<geometry::Ring> footprints) -> block::Block {
   block::Block block;
@@ -163,15 +161,14 @@ TEST(OnFootprints, nothing_moves_when_it_is_switched_off) {
 TEST(OnFootprints, they_are_displaced_first) {
   geometry::Ring drawn = house;
   for (auto& p : drawn) p = p + Point2{0.5, 0.5};
-  const auto edges =
-      put_on_footprints(walls_of(house, 0.03), block_of({drawn}), {.shift = {-0.5, -0.5}}, {});
+  const auto edges = put_on_footprints(walls_of(house, 0.03), block_of({drawn}), {.shift = {-0.5, -0.5}}, {});
   EXPECT_LT(farthest_from(edges, walls_of(house)), 1e-9);
 }
 
 TEST(OnFootprints, a_wall_far_off_or_turned_or_inside_out_stays) {
-  const std::vector<SweepEdge> walls{{{{1, -3}, {9, -3}}, 40, 0, 5, 0},    // inside out, as seen from the south wall
-                                     {{{9, -1}, {1, -1}}, 40, 0, 5, 1},    // a metre outside
-                                     {{{2, 1}, {5, 7}}, 30, 0, 5, 2}};     // oblique, in the middle
+  const std::vector<SweepEdge> walls{{{{1, -3}, {9, -3}}, 40, 0, 5, 0},  // inside out, as seen from the south wall
+                                     {{{9, -1}, {1, -1}}, 40, 0, 5, 1},  // a metre outside
+                                     {{{2, 1}, {5, 7}}, 30, 0, 5, 2}};   // oblique, in the middle
   const auto edges = put_on_footprints(walls, block_of({house}), {}, {});
   ASSERT_EQ(edges.size(), 3U);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(edges[i].segment, walls[i].segment);

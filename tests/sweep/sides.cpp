@@ -190,7 +190,7 @@ TEST(Bases, part_where_columns_stand_off_by_a_setback) {
   std::vector<WeighedLine> lines;
   for (std::size_t i = 0; i < 40; ++i) {
     lines.push_back(weighed({{0, 0}, {12, 0}}, i));
-    lines.push_back(weighed({{12, 1.3}, {16, 1.3}}, i));   // outward
+    lines.push_back(weighed({{12, 1.3}, {16, 1.3}}, i));    // outward
     lines.push_back(weighed({{16, -1.3}, {19, -1.3}}, i));  // inward
   }
   const auto bases = find_bases(lines, planes(40), 0, {});

@@ -139,9 +139,9 @@ TEST(FindEdges, gives_the_same_at_any_number_of_threads) {  // guarantee 2
 
 TEST(FindEdges, is_not_led_astray_by_buses_cars_and_fences) {
   auto town = house();
-  town.box({2, -4.5}, {10, -2.2}, 0, 3.2);   // a bus before the house
-  town.box({-2.5, 1}, {-0.9, 5}, 0, 1.5);    // a car beside it
-  town.wall({14, 9.5}, {0, 9.5}, 0, 1.8);    // a fence behind it
+  town.box({2, -4.5}, {10, -2.2}, 0, 3.2);  // a bus before the house
+  town.box({-2.5, 1}, {-0.9, 5}, 0, 1.5);   // a car beside it
+  town.wall({14, 9.5}, {0, 9.5}, 0, 1.8);   // a fence behind it
   town.wall({0, 9.3}, {14, 9.3}, 0, 1.8);
   const auto found = edges_of(town.block());
   EXPECT_EQ(found.edges.size(), 4u);

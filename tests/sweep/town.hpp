@@ -70,9 +70,7 @@ class Town {
     patch({low.x, high.y, eaves}, {low.x, low.y, eaves}, {low.x, m, ridge}, {low.x, m, ridge});
   }
   void ground(Point2 low, Point2 high) { flat(low, high, 0); }
-  void footprint(Point2 low, Point2 high) {
-    rings_.push_back({low, {high.x, low.y}, high, {low.x, high.y}});
-  }
+  void footprint(Point2 low, Point2 high) { rings_.push_back({low, {high.x, low.y}, high, {low.x, high.y}}); }
 
   /// Everything turned about the origin, then moved.
   [[nodiscard]] auto block(double turn = 0, Point2 move = {}) const -> block::Block {

@@ -73,10 +73,10 @@ inline auto gable(double x, double y, double width, double depth, double base, d
     -> LabelledSolid {
   LabelledSolid model;
   const double middle = y + depth / 2;
-  model.solid.vertices = {{x, y, base},          {x + width, y, base},  {x + width, y + depth, base},
-                          {x, y + depth, base},  {x, y, eaves},         {x + width, y, eaves},
-                          {x + width, y + depth, eaves}, {x, y + depth, eaves}, {x, middle, ridge},
-                          {x + width, middle, ridge}};
+  model.solid.vertices = {
+      {x, y, base},       {x + width, y, base},      {x + width, y + depth, base},  {x, y + depth, base},
+      {x, y, eaves},      {x + width, y, eaves},     {x + width, y + depth, eaves}, {x, y + depth, eaves},
+      {x, middle, ridge}, {x + width, middle, ridge}};
   add_face(model, {{3, 2, 1, 0}}, Class::ground);
   add_face(model, {{0, 1, 5, 4}}, Class::wall);
   add_face(model, {{1, 2, 6, 9, 5}}, Class::wall);
@@ -105,8 +105,11 @@ inline auto street() -> City {
 
   Building house;
   house.id = "house";
-  house.attributes = {{"name", std::string("Haus \"Zur Rose\"")}, {"year", std::int64_t{1893}}, {"listed", true},
-                      {"height", 12.0}, {"none", std::monostate{}}};
+  house.attributes = {{"name", std::string("Haus \"Zur Rose\"")},
+                      {"year", std::int64_t{1893}},
+                      {"listed", true},
+                      {"height", 12.0},
+                      {"none", std::monostate{}}};
   house.ground = 1.25;
   house.footprint = {rectangle(1.0625, 2.125, 10, 8)};
   Part gabled{"house-1", plan_of(house.footprint[0], 1.25, 10), gable(1.0625, 2.125, 10, 8, 1.25, 7.25, 11.25), {}};

@@ -67,8 +67,7 @@ void expect_valid_solid(const Json& file, const Json& solid, double volume) {
     }
     const Point3 n = normalised(area2);
     for (const auto& loop : shell[f])
-      for (const auto& v : loop)
-        EXPECT_NEAR(dot(n, point(file, v) - point(file, shell[f][0][0])), 0, 1e-4) << "planar";
+      for (const auto& v : loop) EXPECT_NEAR(dot(n, point(file, v) - point(file, shell[f][0][0])), 0, 1e-4) << "planar";
 
     const auto& semantic = solid["semantics"]["surfaces"][solid["semantics"]["values"][0][f].get<std::size_t>()];
     if (semantic["type"] == "GroundSurface") {
@@ -158,10 +157,9 @@ TEST(CityJson, says_how_it_was_made) {
 TEST(CityJson, has_only_members_that_the_specification_knows) {
   const Json file = parsed(street());
   const std::set<std::string> root{"type",     "version",     "extensions", "transform",
-                                    "metadata", "CityObjects", "vertices",   "+mansard"};
+                                   "metadata", "CityObjects", "vertices",   "+mansard"};
   for (const auto& [key, value] : file.items()) EXPECT_TRUE(root.contains(key)) << key;
-  const std::set<std::string> object{"type",     "attributes", "geographicalExtent",
-                                      "children", "parents",    "geometry"};
+  const std::set<std::string> object{"type", "attributes", "geographicalExtent", "children", "parents", "geometry"};
   const std::set<std::string> geometry{"type", "lod", "boundaries", "semantics"};
   for (const auto& [id, each] : file["CityObjects"].items()) {
     for (const auto& [key, value] : each.items()) EXPECT_TRUE(object.contains(key)) << key;
@@ -202,8 +200,7 @@ TEST(CityJson, holds_every_vertex_once_and_uses_all) {
   const std::function<void(const Json&)> walk = [&](const Json& boundaries) {
     if (boundaries.is_array())
       for (const auto& inner : boundaries) walk(inner);
-    else
-      used.insert(boundaries.get<std::size_t>());
+    else used.insert(boundaries.get<std::size_t>());
   };
   for (const auto& [id, object] : file["CityObjects"].items())
     for (const auto& geometry : object["geometry"]) walk(geometry["boundaries"]);
@@ -271,8 +268,7 @@ TEST(CityJson, gives_slope_and_azimuth_of_roofs_in_degrees) {
     }
   EXPECT_EQ(azimuths, (std::set<double>{0, 180}));
   const auto flat = geometry_of(file, "house-1", "1.2");
-  for (const auto& surface : flat["semantics"]["surfaces"])
-    EXPECT_FALSE(surface.contains("ms_azimuth")) << "flat";
+  for (const auto& surface : flat["semantics"]["surfaces"]) EXPECT_FALSE(surface.contains("ms_azimuth")) << "flat";
 }
 
 TEST(CityJson, marks_party_walls_at_both_levels_of_detail) {

@@ -259,8 +259,8 @@ TEST(Glb, colours_by_class) {
     const auto indices = glb.accessor<std::uint32_t>(primitive["indices"]);
     const std::string name = glb.json["materials"][primitive["material"].get<std::size_t>()]["name"];
     for (std::size_t i = 0; i < indices.size(); i += 3)
-      areas[name] += length(area_of({z_up(positions[indices[i]]), z_up(positions[indices[i + 1]]),
-                                     z_up(positions[indices[i + 2]])}));
+      areas[name] += length(
+          area_of({z_up(positions[indices[i]]), z_up(positions[indices[i + 1]]), z_up(positions[indices[i + 2]])}));
   }
   EXPECT_NEAR(areas["party_wall"], 80, 1e-3);
   EXPECT_NEAR(areas["wall"], 120, 1e-3);

@@ -72,8 +72,8 @@ TEST(Shell, of_three_around_a_corner) {
 }
 
 TEST(Shell, around_a_courtyard_is_one_with_a_hole) {
-  const Solid shell = one_shell({box(0, 0, 30, 10, 0, 9), box(0, 20, 30, 10, 0, 9), box(0, 10, 10, 10, 0, 6),
-                                 box(20, 10, 10, 10, 0, 12)});
+  const Solid shell = one_shell(
+      {box(0, 0, 30, 10, 0, 9), box(0, 20, 30, 10, 0, 9), box(0, 10, 10, 10, 0, 6), box(20, 10, 10, 10, 0, 12)});
   EXPECT_NEAR(area_towards(shell, down), 800, 1e-9);
   EXPECT_NEAR(area_towards(shell, east), 10 * 9 * 2 + 10 * 12 + 10 * 6, 1e-9) << "the east end, and into the court";
 }
@@ -142,7 +142,8 @@ TEST(Shell, joins_walls_turned_any_way_and_of_uneven_coordinates) {
     };
     SCOPED_TRACE(i);
     one_shell({turn(gable(0, 0, 10, 8, 0, 3, 7).solid), turn(gable(10, 1, 10, 5, 0.5, 4.2, 6.3).solid),
-               turn(box(3, 8, 12, 4, 0, 2.5))}, 0.3);
+               turn(box(3, 8, 12, 4, 0, 2.5))},
+              0.3);
   }
 }
 

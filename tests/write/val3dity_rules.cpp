@@ -169,7 +169,7 @@ class Judge {
       : tolerances_(tolerances), scale_(city["transform"]["scale"][0]) {
     for (const auto& v : city["vertices"]) points_.push_back(v.get<Point>());
     if (!points_.empty())
-      for (const Point first = points_.front(); Point& p : points_)
+      for (const Point first = points_.front(); Point & p : points_)
         for (std::size_t i = 0; i < 3; ++i) p[i] -= first[i];
   }
 

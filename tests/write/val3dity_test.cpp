@@ -76,16 +76,21 @@ auto with_needle() -> Solid {
     return points;
   };
   Solid s;
-  for (const auto& points : {up({{0, 0}, {5, 0}, {10, 0}, {10, 10}, {5, 10}, {0, 10}}, 0),
-                             up({{0, 0}, {4.9999, 0.0001}, {5, 10}, {0, 10}}, 5),
-                             up({{5, 0}, {10, 0}, {10, 10}, {5, 10}}, 10)})
+  for (const auto& points :
+       {up({{0, 0}, {5, 0}, {10, 0}, {10, 10}, {5, 10}, {0, 10}}, 0),
+        up({{0, 0}, {4.9999, 0.0001}, {5, 10}, {0, 10}}, 5), up({{5, 0}, {10, 0}, {10, 10}, {5, 10}}, 10)})
     s.vertices.insert(s.vertices.end(), points.begin(), points.end());
-  for (const std::vector<std::uint32_t>& loop : std::vector<std::vector<std::uint32_t>>{
-           {0, 5, 4, 3, 2, 1},  // the floor
-           {6, 7, 8, 9}, {10, 11, 12, 13},                                    // the roofs
-           {0, 1, 10, 7, 6}, {1, 2, 11, 10},                                  // fronts: lower, higher
-           {2, 3, 12, 11}, {3, 4, 8, 13, 12}, {4, 5, 9, 8}, {5, 0, 6, 9},     // right, backs, left
-           {7, 10, 13, 8}})                                                   // the higher one's above the lower roof
+  for (const std::vector<std::uint32_t>& loop :
+       std::vector<std::vector<std::uint32_t>>{{0, 5, 4, 3, 2, 1},  // the floor
+                                               {6, 7, 8, 9},
+                                               {10, 11, 12, 13},  // the roofs
+                                               {0, 1, 10, 7, 6},
+                                               {1, 2, 11, 10},  // fronts: lower, higher
+                                               {2, 3, 12, 11},
+                                               {3, 4, 8, 13, 12},
+                                               {4, 5, 9, 8},
+                                               {5, 0, 6, 9},     // right, backs, left
+                                               {7, 10, 13, 8}})  // the higher one's above the lower roof
     s.faces.push_back({{loop}, FaceKind::side, {}, {}});
   return with(s, [](Solid&) {});
 }
@@ -104,8 +109,8 @@ auto with_hole(const Ring& hole) -> Solid {
 struct Case {
   std::string name;
   Solid solid;
-  std::set<int> codes;             ///< of the rules
-  std::set<std::string> faults;    ///< of extrude::check()
+  std::set<int> codes;           ///< of the rules
+  std::set<std::string> faults;  ///< of extrude::check()
 };
 
 auto spoilt() -> std::vector<Case> {
@@ -172,17 +177,23 @@ auto spoilt() -> std::vector<Case> {
       for (auto& v : face.loops[0])
         for (std::uint32_t w = 0; w < v; ++w)
           if (pair.vertices[w] == pair.vertices[v]) v = w;
-    cases.push_back({z == 0 ? "an edge of four faces" : "a corner of two", pair,
-                     z == 0 ? std::set<int>{303} : std::set<int>{305}, {"solid-non-manifold"}});
+    cases.push_back({z == 0 ? "an edge of four faces" : "a corner of two",
+                     pair,
+                     z == 0 ? std::set<int>{303} : std::set<int>{305},
+                     {"solid-non-manifold"}});
   }
   // A box whose top is pushed down through its floor.
-  cases.push_back({"a spike through the floor", with(house(), [](S s) {
-                     s.faces.pop_back();
-                     s.vertices.push_back({5, 6, -3});  // 10, over the face 6 7 8 9
-                     const std::vector<std::uint32_t> ring{6, 7, 8, 9};
-                     for (std::size_t i = 0; i < 4; ++i)
-                       s.faces.push_back({{{ring[i], ring[(i + 1) % 4], 10}}, FaceKind::side, {}, {}});
-                   }), {306}, {"solid-self-intersection"}});
+  cases.push_back({"a spike through the floor",
+                   with(house(),
+                        [](S s) {
+                          s.faces.pop_back();
+                          s.vertices.push_back({5, 6, -3});  // 10, over the face 6 7 8 9
+                          const std::vector<std::uint32_t> ring{6, 7, 8, 9};
+                          for (std::size_t i = 0; i < 4; ++i)
+                            s.faces.push_back({{{ring[i], ring[(i + 1) % 4], 10}}, FaceKind::side, {}, {}});
+                        }),
+                   {306},
+                   {"solid-self-intersection"}});
   return cases;
 }
 

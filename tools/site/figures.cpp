@@ -320,7 +320,8 @@ void derived(const Figures& to, const ingest::Scene& scene) {
       for (const auto& hole : polygon.holes) add(hole);
     }
   const picture::View view{.kind = picture::View::Kind::above, .width = 560, .height = 560};
-  to.put("derive.png", picture::draw(std::vector<picture::Layer>{{scene.mesh, {picture::mesh_blue}}}, std::vector{outlines}, view));
+  to.put("derive.png",
+         picture::draw(std::vector<picture::Layer>{{scene.mesh, {picture::mesh_blue}}}, std::vector{outlines}, view));
 }
 
 void polygons(const Figures& to) {

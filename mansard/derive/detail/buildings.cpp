@@ -12,9 +12,9 @@ constexpr double off_plane = 0.25;    // m; off a plane by more is not in it
 constexpr double most_turned = 0.94;  // cosine of 20°: what looks elsewhere is not in it either
 constexpr double steepest = 1.75;     // rise for 1: what is steeper (60°) is no roof
 constexpr double least_patch = 6.0;   // m²; the crowns of trees have no planes so large
-constexpr double average = 2.0;    // m; half the width of the squares over which smoothness is averaged
-constexpr double rise = 2.0;       // m; cells side by side that differ by more are of two pieces
-constexpr double clutter = 3.0;    // m; half the width of a cluttered place on a roof
+constexpr double average = 2.0;       // m; half the width of the squares over which smoothness is averaged
+constexpr double rise = 2.0;          // m; cells side by side that differ by more are of two pieces
+constexpr double clutter = 3.0;       // m; half the width of a cluttered place on a roof
 constexpr double narrow_rim = 1.0, wide_rim = 3.0;  // m
 constexpr double judged = 8.0;     // m²; smaller pieces (chimneys, cells of walls) are what they stand on
 constexpr double narrowest = 2.0;  // m; what is narrower is no building
@@ -25,7 +25,8 @@ struct Plane {
 };
 
 /// Through the cell and those of its eight neighbours that stand too, by least squares.
-auto plane_at(const Place& place, const Heights& top, const Mask& standing, std::size_t column, std::size_t row) -> Plane {
+auto plane_at(const Place& place, const Heights& top, const Mask& standing, std::size_t column, std::size_t row)
+    -> Plane {
   double n = 0, sx = 0, sy = 0, sz = 0, sxx = 0, sxy = 0, syy = 0, sxz = 0, syz = 0;
   for (int dy = -1; dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx) {
@@ -84,7 +85,8 @@ class Patch {
 };
 
 /// How far the cell and its neighbours are off their plane, m²: the order in which cells are seeds.
-auto unevenness(const Place& place, const Heights& top, const Mask& standing, const Plane& plane, std::size_t cell) -> double {
+auto unevenness(const Place& place, const Heights& top, const Mask& standing, const Plane& plane, std::size_t cell)
+    -> double {
   double sum = 0;
   for_neighbours(place, cell, [&](std::size_t next) {
     if (standing[next] == 0) return;
@@ -141,7 +143,9 @@ void reclaim(const Place& place, const Blobs& pieces, const std::vector<double>&
       const auto piece = static_cast<std::size_t>(pieces.of[i]);
       if (building[i] != 0 || piece == 0 || (round >= narrow && mean[piece] < 1.5 * smooth)) continue;
       bool beside = false;
-      for_neighbours(place, i, [&](std::size_t next) { beside = beside || (building[next] != 0 && pieces.of[next] == pieces.of[i]); });
+      for_neighbours(place, i, [&](std::size_t next) {
+        beside = beside || (building[next] != 0 && pieces.of[next] == pieces.of[i]);
+      });
       if (beside) found.push_back(i);
     }
     for (const std::size_t cell : found) building[cell] = 1;
@@ -228,7 +232,8 @@ auto joined(const Place& place, const std::vector<std::int32_t>& of, const std::
       if (of[i] != 0 && of[i] < of[next]) ++touching[{of[i], of[next]}];
     });
   for (const auto& [pair, sides] : touching) {
-    const double difference = height[static_cast<std::size_t>(pair.first)] - height[static_cast<std::size_t>(pair.second)];
+    const double difference =
+        height[static_cast<std::size_t>(pair.first)] - height[static_cast<std::size_t>(pair.second)];
     if (std::abs(difference) >= step) continue;
     const auto a = find(pair.first), b = find(pair.second);
     root[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);

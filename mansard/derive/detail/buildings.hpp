@@ -33,6 +33,7 @@ struct Cut {
   std::vector<std::int32_t> of;
   std::vector<double> height{0};  ///< z, median, of each
 };
-[[nodiscard]] auto cut_at_steps(const Place& place, const Heights& top, const Mask& mask, const Options& options) -> Cut;
+[[nodiscard]] auto cut_at_steps(const Place& place, const Heights& top, const Mask& mask, const Options& options)
+    -> Cut;
 
 }  // namespace mansard::derive::detail

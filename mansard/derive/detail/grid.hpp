@@ -29,7 +29,7 @@ struct Place {
   }
 };
 
-using Heights = std::vector<float>;       ///< z or m; NaN for none
+using Heights = std::vector<float>;      ///< z or m; NaN for none
 using Mask = std::vector<std::uint8_t>;  ///< 0 or 1
 
 inline constexpr float none = std::numeric_limits<float>::quiet_NaN();
@@ -46,7 +46,7 @@ void for_neighbours(const Place& place, std::size_t cell, Visit&& visit) {
 
 /// Cells with a side in common, numbered from 1 in the order of their first cell; 0 outside the mask.
 struct Blobs {
-  std::vector<std::int32_t> of;     ///< per cell
+  std::vector<std::int32_t> of;      ///< per cell
   std::vector<std::size_t> size{0};  ///< cells of each; size[0] is not used
 };
 [[nodiscard]] auto blobs_of(const Place& place, const Mask& mask) -> Blobs;

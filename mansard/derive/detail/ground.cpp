@@ -108,7 +108,8 @@ auto filled(const Place& place, const Heights& heights) -> Heights {
     }
   pulled = filled(coarse, pulled);
   Heights out = heights;
-  const auto near = [](std::size_t at, std::size_t count) {  // the coarse cell of `at`, and the one that is next nearest
+  const auto near = [](std::size_t at,
+                       std::size_t count) {  // the coarse cell of `at`, and the one that is next nearest
     const std::size_t own = at / 2, other = at % 2 == 0 ? (own > 0 ? own - 1 : own) : std::min(own + 1, count - 1);
     return std::pair{own, other};
   };
@@ -178,7 +179,8 @@ auto ground_of(const Place& place, const ingest::HeightGrid& terrain) -> Heights
   Heights ground(place.size(), none);
   base::parallel_for(place.rows, [&](std::size_t row) {
     for (std::size_t column = 0; column < place.columns; ++column)
-      if (const auto z = terrain.at(place.centre(column, row))) ground[place.index(column, row)] = static_cast<float>(*z);
+      if (const auto z = terrain.at(place.centre(column, row)))
+        ground[place.index(column, row)] = static_cast<float>(*z);
   });
   return filled(place, ground);
 }

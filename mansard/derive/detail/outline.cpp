@@ -3,8 +3,8 @@
 #include <cpl_error.h>
 #include <gdal_alg.h>
 #include <gdal_priv.h>
-#include <memory>
 #include <ogrsf_frmts.h>
+#include <memory>
 
 #include "mansard/ingest/gdal.hpp"
 
@@ -34,8 +34,9 @@ auto created(const char* driver_name, const Place& place, int bands) -> Dataset 
   auto* driver = GetGDALDriverManager()->GetDriverByName(driver_name);
   if (driver == nullptr) return nullptr;
   const bool raster = bands > 0;
-  return Dataset(driver->Create("", raster ? static_cast<int>(place.columns) : 0, raster ? static_cast<int>(place.rows) : 0,
-                                bands, raster ? GDT_Int32 : GDT_Unknown, nullptr));
+  return Dataset(driver->Create("", raster ? static_cast<int>(place.columns) : 0,
+                                raster ? static_cast<int>(place.rows) : 0, bands, raster ? GDT_Int32 : GDT_Unknown,
+                                nullptr));
 }
 
 auto ring_of(const OGRLinearRing& ring, const Place& place) -> geometry::Ring {
@@ -47,7 +48,8 @@ auto ring_of(const OGRLinearRing& ring, const Place& place) -> geometry::Ring {
 
 auto polygon_of(const OGRPolygon& polygon, const Place& place) -> geometry::Polygon {
   geometry::Polygon out{ring_of(*polygon.getExteriorRing(), place), {}};
-  for (int i = 0; i < polygon.getNumInteriorRings(); ++i) out.holes.push_back(ring_of(*polygon.getInteriorRing(i), place));
+  for (int i = 0; i < polygon.getNumInteriorRings(); ++i)
+    out.holes.push_back(ring_of(*polygon.getInteriorRing(i), place));
   return geometry::oriented(std::move(out));
 }
 

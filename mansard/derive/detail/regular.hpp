@@ -8,9 +8,9 @@
 namespace mansard::derive::detail {
 
 struct Regularity {
-  double cell = 0.5;        ///< m; of the outline's steps
-  double tolerance = 1.0;   ///< m; what is nearer to a wall than this is that wall
-  double shortest = 1.5;    ///< m; of the sides that are left
+  double cell = 0.5;       ///< m; of the outline's steps
+  double tolerance = 1.0;  ///< m; what is nearer to a wall than this is that wall
+  double shortest = 1.5;   ///< m; of the sides that are left
 };
 
 /// Directions of walls, radians from east, 0 … π/2: each stands for itself and those at right angles to it. The one
@@ -19,6 +19,7 @@ struct Regularity {
 [[nodiscard]] auto directions_of(const geometry::Polygon& outline, const Regularity& how) -> std::vector<double>;
 
 /// Simple polygons near the outline; the outline itself, simplified, where no straight walls are.
-[[nodiscard]] auto regularised(const geometry::Polygon& outline, const Regularity& how) -> std::vector<geometry::Polygon>;
+[[nodiscard]] auto regularised(const geometry::Polygon& outline, const Regularity& how)
+    -> std::vector<geometry::Polygon>;
 
 }  // namespace mansard::derive::detail

@@ -71,10 +71,8 @@ auto outlines_of(std::span<const Edge> edges, const std::vector<Cycle>& cycles) 
   std::vector<geometry::PlanRing> holes;
   for (const auto& cycle : cycles) {
     auto ring = ring_of(edges, cycle);
-    if (geometry::signed_area(ring.points) > 0)
-      outlines.push_back({std::move(ring), {}});
-    else
-      holes.push_back(std::move(ring));
+    if (geometry::signed_area(ring.points) > 0) outlines.push_back({std::move(ring), {}});
+    else holes.push_back(std::move(ring));
   }
   for (auto& hole : holes) {
     Outline* around = nullptr;

@@ -24,8 +24,8 @@ struct Edge {
 /// Indices of edges, each beginning where the one before ends.
 using Cycle = std::vector<std::size_t>;
 
-/// Goes from every edge to the sharpest turn to the left at its end, so that every cycle has nothing but interior on its
-/// left. By first edge. Nothing where an end has no edge that goes on.
+/// Goes from every edge to the sharpest turn to the left at its end, so that every cycle has nothing but interior on
+/// its left. By first edge. Nothing where an end has no edge that goes on.
 [[nodiscard]] auto cycles_of(std::span<const Edge> edges) -> std::optional<std::vector<Cycle>>;
 
 /// The cycle's points; the labels of its edges are in `profile_of_edge`.

@@ -13,8 +13,8 @@ namespace mansard::evaluate::detail {
 
 /// Cell (i, j) is [i, i + 1]·spacing × [j, j + 1]·spacing and is sampled at its centre.
 struct Grid {
-  double spacing = 0.25;  ///< m
-  std::int64_t column = 0, row = 0;   ///< of the south-west cell
+  double spacing = 0.25;             ///< m
+  std::int64_t column = 0, row = 0;  ///< of the south-west cell
   std::int64_t columns = 0, rows = 0;
 
   [[nodiscard]] auto centre(std::int64_t i, std::int64_t j) const -> geometry::Point2 {

@@ -48,9 +48,8 @@ auto connectivity(const Solid& solid) -> Connectivity {
     const auto here = from(v);
     if (here.empty()) continue;
     e.leaving[v] = here.front();
-    std::ranges::sort(here, [&](std::uint32_t g, std::uint32_t h) {
-      return target(g) != target(h) ? target(g) < target(h) : g < h;
-    });
+    std::ranges::sort(
+        here, [&](std::uint32_t g, std::uint32_t h) { return target(g) != target(h) ? target(g) < target(h) : g < h; });
   }
   e.twin.assign(size, HalfEdges::none);
   for (std::size_t i = 0; i < size; ++i) {

@@ -107,8 +107,8 @@ auto above(Point3 a, Point3 b, Point3 c, Point3 d) -> int {
   }
   auto v = whole({a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z, d.x, d.y, d.z});
   for (std::size_t i = 0; i < 9; ++i) v[i] -= v[9 + i % 3];
-  const mpz_class exact = v[8] * (v[0] * v[4] - v[1] * v[3]) + v[2] * (v[3] * v[7] - v[4] * v[6]) +
-                          v[5] * (v[6] * v[1] - v[7] * v[0]);
+  const mpz_class exact =
+      v[8] * (v[0] * v[4] - v[1] * v[3]) + v[2] * (v[3] * v[7] - v[4] * v[6]) + v[5] * (v[6] * v[1] - v[7] * v[0]);
   return -sgn(exact);
 }
 

@@ -54,12 +54,12 @@ class Triangulator {
 
   const Solid& solid_;
   std::vector<Corner> corners_;
-  std::vector<std::uint32_t> first_;   ///< of each loop, and the end
+  std::vector<std::uint32_t> first_;  ///< of each loop, and the end
   std::vector<Triangle> triangles_;
   std::vector<std::uint32_t> reflex_;  ///< sorted along `long_axis_`, with those that have become convex in between
   std::vector<std::uint32_t> order_, open_;
-  std::uint32_t at_ = 0;   ///< a corner still on the loop
-  std::size_t dead_ = 0;   ///< in reflex_
+  std::uint32_t at_ = 0;  ///< a corner still on the loop
+  std::size_t dead_ = 0;  ///< in reflex_
   int long_axis_ = 0;
 };
 

@@ -118,7 +118,8 @@ auto Insertion::anchor(Point2 p, bool loose) -> std::optional<std::uint32_t> {
   const Segment2 segment = graph_.segment(nearest), line = lines_[cut_].whole;
   Point2 place = at(segment, foot_parameter(segment, p));
   if (geometry::orientation(line.start, line.end, segment.start) *
-          geometry::orientation(line.start, line.end, segment.end) < 0) {
+          geometry::orientation(line.start, line.end, segment.end) <
+      0) {
     const Point2 crossing = at(segment, crossing_parameter(segment, line));
     if (squared_distance(crossing, p) < square(tolerances_.merge)) place = crossing;
   }
@@ -158,9 +159,8 @@ auto Insertion::settle() -> bool {
     }
     auto across = graph_.edges_across(segment);
     if (across.empty()) continue;
-    std::ranges::sort(across, {}, [&](std::uint32_t e) {
-      return std::pair(crossing_parameter(segment, graph_.segment(e)), e);
-    });
+    std::ranges::sort(across, {},
+                      [&](std::uint32_t e) { return std::pair(crossing_parameter(segment, graph_.segment(e)), e); });
     if (!cross(edge, across[across.size() / 2])) return false;  // the middle one: halves look at less each time
   }
   return true;
@@ -304,8 +304,7 @@ auto Insertion::has_present_cut(const Edge& edge) const -> bool {
 auto Insertion::nearest_vertex(const Segment2& segment, double distance) const -> std::optional<std::uint32_t> {
   std::optional<std::uint32_t> nearest;
   for (const std::uint32_t v : graph_.vertices_near(segment, distance))
-    if (!nearest ||
-        squared_distance(segment, graph_.place(v)) < squared_distance(segment, graph_.place(*nearest)))
+    if (!nearest || squared_distance(segment, graph_.place(v)) < squared_distance(segment, graph_.place(*nearest)))
       nearest = v;
   return nearest;
 }

@@ -29,8 +29,8 @@ struct Line {
 
 /// Ways to try again when the plain one fails.
 struct Attempt {
-  double continuation = 0;  ///< m
-  double attraction = 1;    ///< times Tolerances::merge: how far the cut is drawn to vertices
+  double continuation = 0;                ///< m
+  double attraction = 1;                  ///< times Tolerances::merge: how far the cut is drawn to vertices
   double shift_start = 0, shift_end = 0;  ///< m to the left: laid down beside where it should be
 };
 
@@ -70,11 +70,11 @@ class Insertion {
   Tolerances tolerances_;
 
   std::uint32_t cut_ = 0;
-  double attraction_ = 0;  // metres
+  double attraction_ = 0;                  // metres
   std::vector<std::uint32_t> rigid_;       // cuts whose edges may not be bent
   std::optional<std::uint32_t> overbent_;  // the cut that was in the way of settling, if not the present one
   std::deque<std::uint32_t> unsettled_;
-  std::vector<bool> waiting_;  // which edges are in unsettled_
+  std::vector<bool> waiting_;           // which edges are in unsettled_
   std::vector<std::uint32_t> thinned_;  // vertices that may be left with one edge or none
 };
 

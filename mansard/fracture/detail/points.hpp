@@ -35,9 +35,7 @@ inline constexpr double farthest = 1e7;
   return squared_distance(s.start + t * (s.end - s.start), p);
 }
 /// The grid point nearest to the one at parameter t.
-[[nodiscard]] inline auto at(const Segment2& s, double t) -> Point2 {
-  return s.start + to_grid(t * (s.end - s.start));
-}
+[[nodiscard]] inline auto at(const Segment2& s, double t) -> Point2 { return s.start + to_grid(t * (s.end - s.start)); }
 /// Where along `s` the line through `other` crosses it. The two must not be parallel.
 [[nodiscard]] inline auto crossing_parameter(const Segment2& s, const Segment2& other) -> double {
   const Point2 d = other.end - other.start;

@@ -219,11 +219,10 @@ auto ids_of(const std::vector<RawFeature>& features, const std::string& attribut
       const auto nearest = base::nearest_word(attribute, names);
       std::string all;
       for (const auto& name : names) all += (all.empty() ? "" : ", ") + name;
-      return base::error("ingest-id-attribute",
-                         "there is no attribute '" + attribute + "'" +
-                             base::did_you_mean(nearest) +
-                             "; the layer has: " + all,
-                         subject);
+      return base::error(
+          "ingest-id-attribute",
+          "there is no attribute '" + attribute + "'" + base::did_you_mean(nearest) + "; the layer has: " + all,
+          subject);
     }
     auto ids = column(features, *at);
     std::size_t missing = 0;

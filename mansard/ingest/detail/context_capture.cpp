@@ -46,7 +46,8 @@ auto read(const fs::path& path) -> base::Result<std::optional<Georeference>> {
   if (text.find("<ModelMetadata") == text.npos) return std::optional<Georeference>();
   const auto bad = [&name](const std::string& what) {
     return base::error("ingest-mesh-metadata",
-                       what + "; correct the file, or say --crs local to take the mesh's coordinates as they are", name);
+                       what + "; correct the file, or say --crs local to take the mesh's coordinates as they are",
+                       name);
   };
   const GdalMessages messages;
   const Xml xml(CPLParseXMLString(text.c_str()));

@@ -114,7 +114,8 @@ void warn_of_scale(const FeatureFile& file, const Crs& source, const Crs& workin
       "ingest-crs-scale",
       "a metre of " + title_of(working.system) + " is " + base::to_text(metre, 2) +
           " m on the ground here, and heights are true metres: shapes come out distorted; say --crs with a system made "
-          "for the place" + (zone == 0 ? std::string() : ", as EPSG:" + std::to_string(zone)),
+          "for the place" +
+          (zone == 0 ? std::string() : ", as EPSG:" + std::to_string(zone)),
       subject));
 }
 
@@ -165,10 +166,11 @@ auto choose_way(const FeatureFile& file, const std::string& option, const geomet
   } else if (!mesh_crs.empty()) {
     target = from_words(mesh_crs);
   } else if (source->system.IsProjected() != 0) {
-    return base::error("ingest-crs-unit",
-                       "the CRS of the footprints (" + title_of(source->system) +
-                           ") is not in metres; say --crs EPSG:n with a projected CRS that is, and bring the mesh there",
-                       subject);
+    return base::error(
+        "ingest-crs-unit",
+        "the CRS of the footprints (" + title_of(source->system) +
+            ") is not in metres; say --crs EPSG:n with a projected CRS that is, and bring the mesh there",
+        subject);
   } else {
     target = utm_crs(flat(source->system).system, bounds(file.features));
     if (!target)

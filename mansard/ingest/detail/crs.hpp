@@ -18,8 +18,8 @@ struct Way {
 };
 
 /// Decides by what the source says, the option, and, for GeoJSON that says nothing, where the mesh lies.
-/// `mesh` is the box of the mesh with its offset, as its files have it; `mesh_crs` names the projected CRS that the mesh
-/// says it is in, or is empty: footprints in degrees or feet go there. Gives up with "ingest-crs-unknown",
+/// `mesh` is the box of the mesh with its offset, as its files have it; `mesh_crs` names the projected CRS that the
+/// mesh says it is in, or is empty: footprints in degrees or feet go there. Gives up with "ingest-crs-unknown",
 /// "ingest-crs-unit", "ingest-crs-option".
 [[nodiscard]] auto choose_way(const FeatureFile& file, const std::string& option, const geometry::Box2& mesh,
                               const std::string& mesh_crs, const std::string& subject) -> base::Result<Way>;

@@ -83,12 +83,11 @@ auto faces_in(std::span<const unsigned char> all) -> std::uint64_t {
 auto unpack_draco(std::span<const unsigned char> bytes, std::uint32_t position, bool normalised,
                   const std::string& name) -> base::Result<geometry::Mesh> {
   const auto bad = [&name](const std::string& what) {
-    return base::error("ingest-mesh-format", "a primitive packed with Draco cannot be read (" + what +
-                                                 "); export the mesh again",
-                       name);
+    return base::error("ingest-mesh-format",
+                       "a primitive packed with Draco cannot be read (" + what + "); export the mesh again", name);
   };
-  // Draco takes memory by this number before it looks whether it can be: 24 bytes each. What packs best is a flat grid of
-  // equal squares: 27 faces to a byte of a million, the more the larger. A few there may be of anything.
+  // Draco takes memory by this number before it looks whether it can be: 24 bytes each. What packs best is a flat grid
+  // of equal squares: 27 faces to a byte of a million, the more the larger. A few there may be of anything.
   constexpr std::uint64_t most = 64, few = 4'000'000;
   if (const auto faces = faces_in(bytes); faces > std::max<std::uint64_t>(few, most * bytes.size()))
     return bad("it says it has " + std::to_string(faces) + " faces in " + std::to_string(bytes.size()) + " bytes");

@@ -88,10 +88,9 @@ auto choose_layer(GDALDataset& dataset, const Options& options, const std::strin
   if (!options.layer.empty()) {
     if (OGRLayer* layer = dataset.GetLayerByName(options.layer.c_str())) return layer;
     const auto nearest = base::nearest_word(options.layer, names);
-    return base::error("ingest-layer",
-                       "there is no layer '" + options.layer + "'" +
-                           base::did_you_mean(nearest) + "; the file has: " + all,
-                       subject);
+    return base::error(
+        "ingest-layer",
+        "there is no layer '" + options.layer + "'" + base::did_you_mean(nearest) + "; the file has: " + all, subject);
   }
   // Of OpenStreetMap's layers, which are the same in every file, buildings are in one.
   OGRLayer* chosen = is_osm(dataset) ? dataset.GetLayerByName("multipolygons") : nullptr;
@@ -325,10 +324,10 @@ class Source {
     if (std::ranges::any_of(features, [](const auto& feature) { return !feature.parts.empty(); })) return {};
     for (const auto& feature : features)
       if (!feature.failure.empty())
-        return base::error("ingest-footprints-format",
-                           "not a readable vector file (" + feature.failure +
-                               "); check what it is, or export the footprints again",
-                           subject);
+        return base::error(
+            "ingest-footprints-format",
+            "not a readable vector file (" + feature.failure + "); check what it is, or export the footprints again",
+            subject);
     return base::error("ingest-footprints-geometry",
                        "none of the " + std::to_string(features.size()) + " features is a polygon (the first is " +
                            features.front().geometry + "); give footprints as polygons",
@@ -358,7 +357,7 @@ auto keep_where(std::vector<RawFeature>& features, const std::string& where, con
   for (const auto& feature : features)
     for (const auto& [name, value] : feature.attributes) {
       if (table->GetLayerDefn()->GetFieldIndex(name.c_str()) >= 0 || value.index() == 0) continue;
-      OGRFieldDefn field(name.c_str(), std::holds_alternative<double>(value)         ? OFTReal
+      OGRFieldDefn field(name.c_str(), std::holds_alternative<double>(value)        ? OFTReal
                                        : std::holds_alternative<std::string>(value) ? OFTString
                                                                                     : OFTInteger64);
       table->CreateField(&field);

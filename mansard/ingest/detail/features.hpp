@@ -18,7 +18,7 @@ using RawPolygon = std::vector<geometry::Ring>;
 
 struct RawFeature {
   std::int64_t number = 0;  ///< the source's own number of the feature (OGR's FID)
-  std::string own_id;  ///< where the kind of source itself has names for its features; else empty
+  std::string own_id;       ///< where the kind of source itself has names for its features; else empty
   Attributes attributes;
   std::vector<RawPolygon> parts;
   std::string geometry;         ///< what kind it has in the source, "NONE" for none

@@ -85,9 +85,9 @@ class Reader {
     for (std::size_t v = 0; v < vertices.size(); ++v) {
       std::array<double, 3> c{};
       for (std::size_t axis = 0; axis < 3; ++axis)
-        c[axis] =
-            number(item(item(vertices, v), axis), std::numeric_limits<double>::quiet_NaN()) * number(item(scale, axis), 1) +
-            number(item(translate, axis), 0);
+        c[axis] = number(item(item(vertices, v), axis), std::numeric_limits<double>::quiet_NaN()) *
+                      number(item(scale, axis), 1) +
+                  number(item(translate, axis), 0);
       vertices_.push_back({c[0], c[1], c[2]});
     }
   }

@@ -149,8 +149,8 @@ class GltfReader {
       for (std::size_t i = 0; i < view->count; ++i)
         points.push_back({view->value(i, 0), view->value(i, 1), view->value(i, 2)});
     } else {
-      // All zero but for what the sparse part says. A corner that any triangle names takes a byte somewhere, so that more
-      // of them than bytes is a count to fill the memory with.
+      // All zero but for what the sparse part says. A corner that any triangle names takes a byte somewhere, so that
+      // more of them than bytes is a count to fill the memory with.
       if (!given.sparse.isSparse || given.count > bytes_of_all()) return std::nullopt;
       points.resize(given.count);
     }

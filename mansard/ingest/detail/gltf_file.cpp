@@ -136,7 +136,8 @@ void name_buffers(Json& json, std::size_t binary, std::vector<Room>& rooms) {
   }
 }
 
-/// tinygltf wants indices to lie in a buffer view, where Draco has them in its own: that one does, as nobody reads them.
+/// tinygltf wants indices to lie in a buffer view, where Draco has them in its own: that one does, as nobody reads
+/// them.
 void place_indices(Json& json) {
   for (auto& mesh : json["meshes"])
     for (auto& primitive : mesh["primitives"]) {
@@ -230,10 +231,15 @@ auto unpack_views(tinygltf::Model& model, const std::string& name) -> base::Resu
 
 /// A required extension this reader cannot do without knowing it; those about looks change no geometry.
 auto unknown_extension(const tinygltf::Model& model) -> std::optional<std::string> {
-  static constexpr std::array<std::string_view, 9> known{
-      "KHR_mesh_quantization", draco, meshopt,          "CESIUM_RTC",
-      "KHR_lights_punctual",   "EXT_mesh_features",          "EXT_structural_metadata",
-      "EXT_instance_features", "CESIUM_primitive_outline"};
+  static constexpr std::array<std::string_view, 9> known{"KHR_mesh_quantization",
+                                                         draco,
+                                                         meshopt,
+                                                         "CESIUM_RTC",
+                                                         "KHR_lights_punctual",
+                                                         "EXT_mesh_features",
+                                                         "EXT_structural_metadata",
+                                                         "EXT_instance_features",
+                                                         "CESIUM_primitive_outline"};
   for (const std::string& name : model.extensionsRequired)
     if (!name.starts_with("KHR_materials_") && !name.starts_with("KHR_texture_") && !name.starts_with("EXT_texture_") &&
         !name.starts_with("MSFT_texture_") && std::ranges::find(known, name) == known.end())
@@ -253,10 +259,9 @@ auto load_gltf(std::string_view bytes, const std::filesystem::path& path) -> bas
     parts = *cut;
   }
   if (base::nests_too_deep(parts.json))  // tinygltf calls itself for each level
-    return base::error("ingest-mesh-format",
-                       "its JSON nests more than " + std::to_string(base::deepest_json) +
-                           " levels deep; export the mesh again",
-                       name);
+    return base::error(
+        "ingest-mesh-format",
+        "its JSON nests more than " + std::to_string(base::deepest_json) + " levels deep; export the mesh again", name);
   Rewritten kept;
   if (parts.json.find(meshopt) != parts.json.npos || parts.json.find(draco) != parts.json.npos) {
     auto text = rewritten(parts, name);

@@ -22,6 +22,8 @@ inline auto member(const Json& object, const char* key) -> const Json& {
 inline auto item(const Json& array, std::size_t i) -> const Json& {
   return array.is_array() && i < array.size() ? array[i] : nothing();
 }
-inline auto text_of(const Json& value) -> std::string { return value.is_string() ? value.get<std::string>() : std::string(); }
+inline auto text_of(const Json& value) -> std::string {
+  return value.is_string() ? value.get<std::string>() : std::string();
+}
 
 }  // namespace mansard::ingest::detail

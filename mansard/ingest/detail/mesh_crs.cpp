@@ -83,8 +83,8 @@ auto tangent_of(const std::string& words) -> std::optional<MeshCrs> {
 
 auto bounds_by(OGRCoordinateTransformation& way, const Box2& box) -> std::optional<Box2> {
   Box2 out;
-  if (way.TransformBounds(box.least.x, box.least.y, box.most.x, box.most.y, &out.least.x, &out.least.y,
-                          &out.most.x, &out.most.y, 21) == 0)
+  if (way.TransformBounds(box.least.x, box.least.y, box.most.x, box.most.y, &out.least.x, &out.least.y, &out.most.x,
+                          &out.most.y, 21) == 0)
     return std::nullopt;
   const bool finite = std::isfinite(out.least.x) && std::isfinite(out.least.y) && std::isfinite(out.most.x) &&
                       std::isfinite(out.most.y) && out.least.x <= out.most.x && out.least.y <= out.most.y;
@@ -93,7 +93,8 @@ auto bounds_by(OGRCoordinateTransformation& way, const Box2& box) -> std::option
 
 }  // namespace
 
-/// Transformations that wait to be used: making one takes longer than a tile of points, and two threads cannot share one.
+/// Transformations that wait to be used: making one takes longer than a tile of points, and two threads cannot share
+/// one.
 class WayPool {
  public:
   WayPool(Crs from, Crs to) : from_(std::move(from)), to_(std::move(to)) {}
@@ -178,8 +179,7 @@ auto WayOfMesh::between(const MeshCrs& mesh, const std::string& working, const s
   const auto unknown = [&](const std::string& what) {
     return base::error("ingest-crs-unknown", what + "; say --crs EPSG:n with a projected CRS in metres", subject);
   };
-  if (working.empty())
-    return unknown("the mesh is placed on the earth, and the CRS to work in is not known");
+  if (working.empty()) return unknown("the mesh is placed on the earth, and the CRS to work in is not known");
   const auto to = from_words(working);
   const auto from = mesh.kind == MeshCrs::Kind::plane ? from_wkt(mesh.wkt) : registered(wgs84);
   if (!to || !from) return unknown("there is no way from the mesh's CRS to " + working);

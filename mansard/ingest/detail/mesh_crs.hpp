@@ -31,8 +31,8 @@ struct MeshCrs {
 /// Reads "EPSG:n", "EPSG:n+m", WKT, or "ENU:latitude,longitude"; nothing where it is none of these, or geographic.
 [[nodiscard]] auto mesh_crs(const std::string& words) -> std::optional<MeshCrs>;
 
-/// The projected CRS in metres to work in where nothing else says one: the mesh's own, else the UTM zone at `somewhere`,
-/// a point of the mesh. Empty where there is none.
+/// The projected CRS in metres to work in where nothing else says one: the mesh's own, else the UTM zone at
+/// `somewhere`, a point of the mesh. Empty where there is none.
 [[nodiscard]] auto working_crs_of(const MeshCrs& mesh, geometry::Point3 somewhere) -> std::string;
 
 /// Whether a point is within 1 km and `below` (m) under and 10 km above the ellipsoid of WGS 84.

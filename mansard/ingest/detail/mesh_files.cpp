@@ -96,10 +96,10 @@ auto crs_of_raster(const fs::path& path) -> std::optional<MeshCrs> {
 void warn_of_skipped(const std::map<std::string, std::size_t>& skipped, const std::string& subject,
                      std::vector<base::Diagnostic>& warnings) {
   for (const auto& [kind, count] : skipped)
-    warnings.push_back(base::warning("ingest-tile-skipped",
-                                     std::to_string(count) + " tiles hold " + kind +
-                                         ", of which no surface is read (points, instances or vectors)",
-                                     subject));
+    warnings.push_back(base::warning(
+        "ingest-tile-skipped",
+        std::to_string(count) + " tiles hold " + kind + ", of which no surface is read (points, instances or vectors)",
+        subject));
 }
 
 }  // namespace

@@ -59,12 +59,12 @@ class MeshReading {
   struct Source {
     Kind kind = Kind::file;
     std::filesystem::path path;
-    std::optional<MeshCrs> crs;          ///< what it says of itself, or metadata.xml says for it
-    bool by_metadata = false;            ///< … the latter
-    std::optional<Tileset> tileset;      ///< of a tileset
-    MeshPiece piece;                     ///< of a file
-    std::vector<TileFile> tiles;         ///< of a tileset
-    std::optional<WayOfMesh> way;        ///< to the working CRS; none where coordinates stay
+    std::optional<MeshCrs> crs;      ///< what it says of itself, or metadata.xml says for it
+    bool by_metadata = false;        ///< … the latter
+    std::optional<Tileset> tileset;  ///< of a tileset
+    MeshPiece piece;                 ///< of a file
+    std::vector<TileFile> tiles;     ///< of a tileset
+    std::optional<WayOfMesh> way;    ///< to the working CRS; none where coordinates stay
   };
 
   explicit MeshReading(const Options& options) : options_(options) {}

@@ -25,8 +25,8 @@ struct GltfMesh {
   std::optional<geometry::Point3> centre;  ///< CESIUM_RTC: to be added once z is up
   std::vector<InputFile> buffers;          ///< files beside it that were read
 };
-/// glTF 2.0, binary or JSON, plain or packed with Draco or meshopt; `path` leads to the buffers beside it. Gives up with
-/// "file-missing" and "file-read" for those too.
+/// glTF 2.0, binary or JSON, plain or packed with Draco or meshopt; `path` leads to the buffers beside it. Gives up
+/// with "file-missing" and "file-read" for those too.
 [[nodiscard]] auto read_gltf(std::string_view bytes, const std::filesystem::path& path) -> base::Result<GltfMesh>;
 
 }  // namespace mansard::ingest::detail

@@ -31,8 +31,7 @@ auto unfilter(const MeshoptLayout& layout, std::span<unsigned char> out) -> bool
   if (layout.filter.empty() || layout.filter == "NONE") return true;
   if (layout.filter == "OCTAHEDRAL" && (layout.stride == 4 || layout.stride == 8))
     return apply(&meshopt_decodeFilterOct, layout, out), true;
-  if (layout.filter == "QUATERNION" && layout.stride == 8)
-    return apply(&meshopt_decodeFilterQuat, layout, out), true;
+  if (layout.filter == "QUATERNION" && layout.stride == 8) return apply(&meshopt_decodeFilterQuat, layout, out), true;
   if (layout.filter == "EXPONENTIAL") return apply(&meshopt_decodeFilterExp, layout, out), true;
   return false;
 }

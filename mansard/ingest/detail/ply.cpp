@@ -267,7 +267,7 @@ auto took_faces(std::string_view& rest, const Element& element, RawMesh& mesh) -
     for (std::size_t i = first; i < end; ++i) {
       const std::size_t size = static_cast<unsigned char>(at[layout->before]);
       const char* behind = at + layout->before + 1 + 4 * size;
-      const char* kind = layout->class_before ? at + *layout->class_before
+      const char* kind = layout->class_before  ? at + *layout->class_before
                          : layout->class_after ? behind + *layout->class_after
                                                : nullptr;
       for (std::size_t k = 1; k + 1 < size; ++k, ++out) {

@@ -15,10 +15,18 @@ auto authority_code(const OGRSpatialReference& system) -> std::optional<std::str
 }
 
 /// The defining numbers of a projection, by their names in WKT 1.
-constexpr std::array<const char*, 12> parameters{
-    SRS_PP_CENTRAL_MERIDIAN,  SRS_PP_SCALE_FACTOR,         SRS_PP_STANDARD_PARALLEL_1, SRS_PP_STANDARD_PARALLEL_2,
-    SRS_PP_LONGITUDE_OF_CENTER, SRS_PP_LATITUDE_OF_CENTER, SRS_PP_LONGITUDE_OF_ORIGIN, SRS_PP_LATITUDE_OF_ORIGIN,
-    SRS_PP_FALSE_EASTING,     SRS_PP_FALSE_NORTHING,       SRS_PP_AZIMUTH,             SRS_PP_RECTIFIED_GRID_ANGLE};
+constexpr std::array<const char*, 12> parameters{SRS_PP_CENTRAL_MERIDIAN,
+                                                 SRS_PP_SCALE_FACTOR,
+                                                 SRS_PP_STANDARD_PARALLEL_1,
+                                                 SRS_PP_STANDARD_PARALLEL_2,
+                                                 SRS_PP_LONGITUDE_OF_CENTER,
+                                                 SRS_PP_LATITUDE_OF_CENTER,
+                                                 SRS_PP_LONGITUDE_OF_ORIGIN,
+                                                 SRS_PP_LATITUDE_OF_ORIGIN,
+                                                 SRS_PP_FALSE_EASTING,
+                                                 SRS_PP_FALSE_NORTHING,
+                                                 SRS_PP_AZIMUTH,
+                                                 SRS_PP_RECTIFIED_GRID_ANGLE};
 
 /// Photogrammetry programs alter a projection and leave the register's number on it, which then names another place.
 /// Compared by numbers, since files disagree with the register about the order of the axes.

@@ -51,15 +51,14 @@ class ContentReader {
     return base::error("ingest-mesh-format", what, name_);
   }
   [[nodiscard]] auto cut_short() const -> base::Diagnostic {
-    return base::error("ingest-mesh-truncated", "the tile ends before what its header promises; copy or export it again",
-                       name_);
+    return base::error("ingest-mesh-truncated",
+                       "the tile ends before what its header promises; copy or export it again", name_);
   }
 
   auto take_gltf(std::string_view bytes, Point3 centre) -> base::Result<void> {
     auto read = read_gltf(bytes, path_);
     if (!read) return read.error();
-    const Transform whole =
-        place_.after(Transform::shift(centre + read->centre.value_or(Point3{}))).after(turn_);
+    const Transform whole = place_.after(Transform::shift(centre + read->centre.value_or(Point3{}))).after(turn_);
     auto& mesh = read->mesh;
     for (auto& v : mesh.vertices) v = whole(v);
     if (whole.mirrors())
@@ -78,7 +77,8 @@ class ContentReader {
     // Before 3D Tiles 1.0 the header was 20 or 24 bytes long; what follows it is then read as a length: '{"' or "glTF".
     constexpr std::size_t no_length = 0x22000000;
     if (sizes[2] >= no_length || sizes[3] >= no_length)
-      return bad("the tile has a header from before 3D Tiles 1.0, which is not read; convert the tileset to 1.0 or 1.1");
+      return bad(
+          "the tile has a header from before 3D Tiles 1.0, which is not read; convert the tileset to 1.0 or 1.1");
     std::size_t all = header;
     for (const auto size : sizes) all += size;
     if (all > bytes.size()) return cut_short();

@@ -134,7 +134,8 @@ class SubtreeReader {
     std::string_view bytes = binary_;
     if (buffer->contains("uri") && (*buffer)["uri"].is_string()) {
       auto& kept = beside_.emplace_back();
-      if (auto done = load(address_beside(path_, (*buffer)["uri"].get<std::string>()), kept); !done) return done.error();
+      if (auto done = load(address_beside(path_, (*buffer)["uri"].get<std::string>()), kept); !done)
+        return done.error();
       bytes = kept.view();
     }
     const std::size_t offset = whole(*view, "byteOffset"), size = whole(*view, "byteLength");
@@ -180,8 +181,8 @@ auto filled_in(std::string address, const TileIndex& index) -> std::string {
   return address;
 }
 
-auto Subtree::read(const std::filesystem::path& path, std::uint32_t levels, bool octree,
-                   std::vector<InputFile>& inputs) -> base::Result<Subtree> {
+auto Subtree::read(const std::filesystem::path& path, std::uint32_t levels, bool octree, std::vector<InputFile>& inputs)
+    -> base::Result<Subtree> {
   return SubtreeReader(path, inputs).read(levels, octree);
 }
 

@@ -53,8 +53,7 @@ auto transform_of(const Json& tile, const std::string& name) -> base::Result<Tra
 auto turn_of(const Json& tileset, UpAxis up) -> Transform {
   const auto axis = text_in(object_in(tileset, "asset"), "gltfUpAxis");
   if (up == UpAxis::z || (up == UpAxis::automatic && (axis == "Z" || axis == "z"))) return {};
-  if (up == UpAxis::automatic && (axis == "X" || axis == "x"))
-    return {{{{0, 0, -1, 0}, {0, 1, 0, 0}, {1, 0, 0, 0}}}};
+  if (up == UpAxis::automatic && (axis == "X" || axis == "x")) return {{{{0, 0, -1, 0}, {0, 1, 0, 0}, {1, 0, 0, 0}}}};
   return Transform::from_y_up();
 }
 
@@ -86,15 +85,19 @@ auto contents_of(const Json& tile) -> std::vector<Content> {
 
 auto parse_tileset(std::string_view bytes, const std::string& name) -> base::Result<Json> {
   if (base::nests_too_deep(bytes))
-    return bad("its JSON nests more than " + std::to_string(base::deepest_json) +
-                   " levels deep; export the tileset again",
-               name);
+    return bad(
+        "its JSON nests more than " + std::to_string(base::deepest_json) + " levels deep; export the tileset again",
+        name);
   auto json = Json::parse(bytes, nullptr, false);
   if (!json.is_object() || object_in(json, "asset").empty() || object_in(json, "root").empty())
     return bad("the file is no tileset of 3D Tiles: it has no asset and root; check what it is", name);
-  static constexpr std::array<std::string_view, 7> known{
-      "3DTILES_content_gltf", "3DTILES_multiple_contents", "3DTILES_implicit_tiling", "3DTILES_metadata",
-      "3DTILES_bounding_volume_S2", "3DTILES_batch_table_hierarchy", "MAXAR_grid"};
+  static constexpr std::array<std::string_view, 7> known{"3DTILES_content_gltf",
+                                                         "3DTILES_multiple_contents",
+                                                         "3DTILES_implicit_tiling",
+                                                         "3DTILES_metadata",
+                                                         "3DTILES_bounding_volume_S2",
+                                                         "3DTILES_batch_table_hierarchy",
+                                                         "MAXAR_grid"};
   const auto required = json.find("extensionsRequired");
   if (required != json.end() && required->is_array())
     for (const Json& extension : *required)
@@ -202,7 +205,8 @@ class Walk {
     const Json& implicit = tile.contains("implicitTiling")
                                ? object_in(tile, "implicitTiling")
                                : object_in(object_in(tile, "extensions"), "3DTILES_implicit_tiling");
-    if (!implicit.empty()) return take_implicit(tile, implicit, sheet, {place, volume, error, add, false, 0, 0, "", {}, depth});
+    if (!implicit.empty())
+      return take_implicit(tile, implicit, sheet, {place, volume, error, add, false, 0, 0, "", {}, depth});
     const auto contents = contents_of(tile);
     const auto children = tile.find("children");
     const bool has_children = children != tile.end() && children->is_array() && !children->empty();
@@ -244,9 +248,10 @@ class Walk {
     for (const auto& content : tree.contents)
       apart = apart && (tree.levels <= 1 || tells_apart(content.uri, tree.octree));
     if (!apart)
-      return bad("the implicit tiling has one address for several tiles, without {level}, {x} and {y}; export the "
-                 "tileset again",
-                 sheet.path.string());
+      return bad(
+          "the implicit tiling has one address for several tiles, without {level}, {x} and {y}; export the "
+          "tileset again",
+          sheet.path.string());
     return take_subtree(tree, sheet, {});
   }
 

@@ -23,7 +23,7 @@ struct TileFile {
 struct TileList {
   std::vector<TileFile> files;    ///< in the order of the tree
   std::vector<InputFile> inputs;  ///< tilesets and subtrees that were read
-  std::size_t beside = 0;         ///< tiles that were left out with all below them, since they do not reach into the box
+  std::size_t beside = 0;  ///< tiles that were left out with all below them, since they do not reach into the box
 };
 
 class Tileset {

@@ -19,7 +19,8 @@ namespace mansard::label::detail {
 class Terrain {
  public:
   /// Of the centres of the triangles that `use` says, the low end (the 10th percentile) in every cell. A cell that is
-  /// empty, or higher than a slope of `steepest` up from another one, as under trees and roofs, takes that one's height.
+  /// empty, or higher than a slope of `steepest` up from another one, as under trees and roofs, takes that one's
+  /// height.
   Terrain(const geometry::Mesh& mesh, const std::function<bool(std::size_t)>& use, double size, double steepest);
 
   /// z in metres, between the cells' centres; infinite where no triangle was of use.

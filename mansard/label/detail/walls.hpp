@@ -13,8 +13,8 @@ namespace mansard::label::detail {
 /// A wall face and where it is.
 struct Wall {
   std::uint32_t solid = 0, face = 0;
-  geometry::Box2 box;          ///< in plan
-  geometry::Point2 outward;    ///< unit, horizontal
+  geometry::Box2 box;        ///< in plan
+  geometry::Point2 outward;  ///< unit, horizontal
 };
 
 /// All faces that `is_wall` of a solid's face says are walls, sorted by the box's west side.

@@ -35,8 +35,8 @@ auto camera_for(const View& view, std::span<const Point3> points) -> Camera {
   }
   const Point3 middle = 0.5 * (least + most), size = most - least;
   const double room = 1 - 2 * margin;
-  camera.pixel = std::max({size.x / (room * static_cast<double>(view.width)),
-                           size.y / (room * static_cast<double>(view.height)), 1e-6});
+  camera.pixel = std::max(
+      {size.x / (room * static_cast<double>(view.width)), size.y / (room * static_cast<double>(view.height)), 1e-6});
   camera.eye = middle.x * camera.right + middle.y * camera.up + (most.z + 1) * camera.towards;
   return camera;
 }

@@ -43,8 +43,13 @@ auto tick_label(double value) -> std::string {
 auto diverging(double value) -> Colour {
   if (std::isnan(value)) return no_value;
   // Lightness falls evenly to both sides.
-  constexpr std::array<Colour, 7> stops{{{20, 60, 140}, {67, 125, 196}, {165, 202, 235}, {255, 255, 255},
-                                         {246, 190, 165}, {217, 101, 80}, {150, 16, 38}}};
+  constexpr std::array<Colour, 7> stops{{{20, 60, 140},
+                                         {67, 125, 196},
+                                         {165, 202, 235},
+                                         {255, 255, 255},
+                                         {246, 190, 165},
+                                         {217, 101, 80},
+                                         {150, 16, 38}}};
   const double at = (std::clamp(value, -1.0, 1.0) + 1) / 2 * (stops.size() - 1);
   const auto below = std::min(static_cast<std::size_t>(at), stops.size() - 2);
   const double t = at - static_cast<double>(below);

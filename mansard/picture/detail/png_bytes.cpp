@@ -1,7 +1,7 @@
 #include "mansard/picture/detail/png_bytes.hpp"
 
-#include <csetjmp>
 #include <png.h>
+#include <csetjmp>
 
 namespace mansard::picture::detail {
 namespace {
@@ -54,8 +54,7 @@ auto png_bytes(const Image& image) -> base::Result<std::string> {
                                           std::to_string(image.height) +
                                           " pixels cannot be written; ask for another size");
   Output output;
-  if (!encode(image, output))
-    return base::error("picture-png", "the picture cannot be written: " + output.complaint);
+  if (!encode(image, output)) return base::error("picture-png", "the picture cannot be written: " + output.complaint);
   return std::move(output.bytes);
 }
 

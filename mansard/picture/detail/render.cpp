@@ -19,7 +19,7 @@ constexpr std::uint32_t nothing = ~0U;  ///< no triangle: paper
 struct Found {
   Point3 point, normal;
   std::uint32_t triangle = nothing;
-  bool lit = false;      ///< worth asking how much light it gets
+  bool lit = false;        ///< worth asking how much light it gets
   float sky = 1, sun = 1;  ///< the parts of sky and sun that it sees
 };
 
@@ -76,8 +76,7 @@ auto place_in_pattern(std::size_t x, std::size_t y, std::size_t size) -> std::si
   std::size_t place = 0;
   x %= size;
   y %= size;
-  for (std::size_t bit = 1; bit < size; bit <<= 1U)
-    place = 4 * place + ((x ^ y) & bit ? 2 : 0) + (y & bit ? 1 : 0);
+  for (std::size_t bit = 1; bit < size; bit <<= 1U) place = 4 * place + ((x ^ y) & bit ? 2 : 0) + (y & bit ? 1 : 0);
   return place;
 }
 
@@ -91,8 +90,14 @@ auto frame_about(const Point3& n) -> std::array<Point3, 2> {
 class Renderer {
  public:
   Renderer(Canvas& canvas, const Model& model, const rays::Scene& scene, const Camera& camera)
-      : canvas_(canvas), model_(model), scene_(scene), camera_(camera), lamp_(lamp_for(camera)),
-        found_(canvas.width * canvas.height), sky_(sky_directions()), disc_(sun_disc()) {
+      : canvas_(canvas),
+        model_(model),
+        scene_(scene),
+        camera_(camera),
+        lamp_(lamp_for(camera)),
+        found_(canvas.width * canvas.height),
+        sky_(sky_directions()),
+        disc_(sun_disc()) {
     std::vector<double> heights;
     Point3 least = model.mesh.vertices[model.mesh.triangles[0][0]], most = least;
     for (const auto& t : model.mesh.triangles)

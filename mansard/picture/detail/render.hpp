@@ -10,8 +10,8 @@ namespace mansard::picture::detail {
 /// All layers as one mesh.
 struct Model {
   geometry::Mesh mesh;
-  std::vector<Light> albedo;                ///< a triangle
-  std::vector<geometry::Point3> normals;    ///< a triangle, unit, either side; zero for one without area
+  std::vector<Light> albedo;              ///< a triangle
+  std::vector<geometry::Point3> normals;  ///< a triangle, unit, either side; zero for one without area
 };
 [[nodiscard]] auto joined(std::span<const Layer> layers) -> Model;
 

@@ -69,7 +69,8 @@ auto raise_parts(const segment::Segmentation& segmentation, const block::Block& 
   for (std::size_t i = 0; i < fitted.size(); ++i) {
     const auto& source = segmentation.parts[i];
     const std::size_t feature = source.feature.value_or(block.members.front().feature);
-    if (heights_over(mesh, source.polygon, options.roof_grid).empty()) {  // the footprints alone say there is a building
+    if (heights_over(mesh, source.polygon, options.roof_grid)
+            .empty()) {  // the footprints alone say there is a building
       if (auto prism = plain_prism(feature, source.polygon, fitted[i].plan.base, {}, options, no_mesh(), run))
         parts.push_back(std::move(*prism));
       continue;
@@ -130,10 +131,11 @@ void fill_in(const block::Block& block, const rays::Scene& mesh, const Options& 
     for (const auto& polygon : uncovered(member, parts)) {
       const auto heights = heights_over(mesh, polygon, options.roof_grid);
       const bool low = !heights.empty() && percentile(heights, 0.5) - member.ground < options.segment.min_height;
-      const auto why = heights.empty() ? no_mesh()
-                       : block_failure ? *block_failure
-                       : low           ? base::warning("pipeline-low", "the mesh is under segment.min_height here; raised as a prism")
-                                       : base::warning("pipeline-outside", "no face of the fractured ground is its; raised as a prism");
+      const auto why =
+          heights.empty() ? no_mesh()
+          : block_failure ? *block_failure
+          : low ? base::warning("pipeline-low", "the mesh is under segment.min_height here; raised as a prism")
+                : base::warning("pipeline-outside", "no face of the fractured ground is its; raised as a prism");
       if (auto part = plain_prism(member.feature, polygon, member.ground, heights, options, why, run)) {
         parts.push_back(std::move(*part));
         any = true;

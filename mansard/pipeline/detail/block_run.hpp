@@ -43,8 +43,8 @@ struct PartResult {
   std::vector<base::Diagnostic> reasons;  ///< why it is not raised in full; empty when it is
   bool full = true;
   std::vector<std::string> changes;  ///< what measured error changed of its plan, in words
-  std::vector<double> roof;  ///< z of the model's top surface on a grid, sorted, local frame
-  std::optional<double> mse;  ///< m² against the mesh
+  std::vector<double> roof;          ///< z of the model's top surface on a grid, sorted, local frame
+  std::optional<double> mse;         ///< m² against the mesh
 };
 
 struct BlockResult {

@@ -9,8 +9,8 @@
 
 namespace mansard::pipeline::detail {
 
-/// Heights of a top surface over a polygon, sorted; on a grid aligned to whole multiples of `grid`, coarser for polygons
-/// so large that it would not matter.
+/// Heights of a top surface over a polygon, sorted; on a grid aligned to whole multiples of `grid`, coarser for
+/// polygons so large that it would not matter.
 [[nodiscard]] auto heights_over(const rays::Scene& surface, const geometry::Polygon& polygon, double grid)
     -> std::vector<double>;
 

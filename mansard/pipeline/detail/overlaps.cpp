@@ -89,9 +89,11 @@ void report_overlaps(Reconstruction& reconstruction) {
   for (const auto& [a, b, area] : pairs) {
     const double height = std::min(a->high, b->high) - std::max(a->low, b->low);
     const auto tell = [&](const Standing& one, const Standing& other) {
-      reconstruction.buildings[one.building].reasons.push_back(base::warning(
-          "pipeline-overlap", "it shares " + base::to_text(area, 3) + " m² of ground, and at most " +
-                                  base::to_text(area * height, 3) + " m³, with " + other.part->id, one.part->id));
+      reconstruction.buildings[one.building].reasons.push_back(
+          base::warning("pipeline-overlap",
+                        "it shares " + base::to_text(area, 3) + " m² of ground, and at most " +
+                            base::to_text(area * height, 3) + " m³, with " + other.part->id,
+                        one.part->id));
     };
     tell(*a, *b);
     if (a->building != b->building) tell(*b, *a);
@@ -100,10 +102,10 @@ void report_overlaps(Reconstruction& reconstruction) {
     where = a->part->id + " and " + b->part->id;
   }
   if (!pairs.empty())
-    reconstruction.warnings.push_back(base::warning(
-        "pipeline-overlap", std::to_string(pairs.size()) + (pairs.size() == 1 ? " pair" : " pairs") +
-                                " of solids stand in each other, at most by " + base::to_text(most, 3) +
-                                " m³: " + where));
+    reconstruction.warnings.push_back(
+        base::warning("pipeline-overlap", std::to_string(pairs.size()) + (pairs.size() == 1 ? " pair" : " pairs") +
+                                              " of solids stand in each other, at most by " + base::to_text(most, 3) +
+                                              " m³: " + where));
 }
 
 }  // namespace mansard::pipeline::detail

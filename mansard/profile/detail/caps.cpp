@@ -27,8 +27,8 @@ auto common_top(std::vector<ProfileTop>& tops) -> std::optional<double> {
 
 }  // namespace
 
-auto caps_from(std::span<const double> heights, std::vector<ProfileTop> tops, bool pitched,
-               double assumed) -> std::vector<double> {
+auto caps_from(std::span<const double> heights, std::vector<ProfileTop> tops, bool pitched, double assumed)
+    -> std::vector<double> {
   constexpr double least = 0.5;     // m; the cap of ground-level "buildings", so that there is a solid at all
   constexpr double distinct = 0.1;  // m
   constexpr double clear = 0.5;     // m; above the profiles' tops, so that roofs can close

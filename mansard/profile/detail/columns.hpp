@@ -15,9 +15,9 @@ inline constexpr double bin = 0.2;  ///< m; width of a column
 
 /// The top surface along one slice: column b is at (b + ½)·bin inward. Heights in metres above the base; NaN in holes.
 struct SliceColumns {
-  double along = 0;             ///< m from the start of the run
-  std::vector<double> heights;  ///< as far as the slice belongs to the polygon
-  std::optional<double> wall;   ///< m inward of the edge
+  double along = 0;                 ///< m from the start of the run
+  std::vector<double> heights;      ///< as far as the slice belongs to the polygon
+  std::optional<double> wall;       ///< m inward of the edge
   std::size_t first = 0, last = 0;  ///< the columns [first, last) rise away from the edge; none when equal
 };
 

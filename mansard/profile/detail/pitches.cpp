@@ -200,8 +200,7 @@ auto profile_from(const RoofLine& line, double vertical_angle) -> geometry::Prof
   while (!pitches.empty() && pitches.back().slope == 0) pitches.pop_back();
   // Scans round off the edges of flat roofs too: what gains less than that is no pitch.
   constexpr double least_gain = 0.6;  // m
-  if (pitches.empty() || line.back().height < 2 * least_gutter ||
-      line.back().height - line.front().height < least_gain)
+  if (pitches.empty() || line.back().height < 2 * least_gutter || line.back().height - line.front().height < least_gain)
     return vertical_profile(line.front().height);
 
   geometry::Profile profile = vertical_profile(pitches.front().at(0));

@@ -64,8 +64,8 @@ auto runs_of(const Polygon& polygon, double angle) -> std::vector<Run> {
 }
 
 auto samples_of(const Polygon& polygon, const Run& run, double spacing) -> std::vector<Sample> {
-  constexpr double margin = 0.3;      // m; corners are rounded in scans
-  constexpr double most = 100;        // slices an edge
+  constexpr double margin = 0.3;  // m; corners are rounded in scans
+  constexpr double most = 100;    // slices an edge
   const Ring& ring = ring_of(polygon, run.ring);
   std::vector<Sample> samples;
   double passed = 0;

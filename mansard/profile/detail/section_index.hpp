@@ -37,7 +37,7 @@ class SectionIndex {
   geometry::Box2 box_;
   double cell_ = 1;
   std::int64_t columns_ = 0, rows_ = 0;
-  std::vector<std::size_t> first_;     ///< per cell, into triangles_; one more at the end
+  std::vector<std::size_t> first_;  ///< per cell, into triangles_; one more at the end
   std::vector<std::uint32_t> triangles_;
 };
 

@@ -121,7 +121,7 @@ auto middle_height(std::span<const Look> looks) -> double {
 /// A level strip and what stands behind it, of whatever depth parts them best.
 auto setback(std::vector<Look> looks) -> std::vector<Profile> {
   constexpr double least_depth = 0.7, most_depth = 4, seen_behind = 3, least_rise = 0.8;  // m
-  constexpr double lean = 0.8;   // of what one line leaves; a step that explains no more is a slope
+  constexpr double lean = 0.8;              // of what one line leaves; a step that explains no more is a slope
   constexpr double about = 1, along = 0.8;  // m behind the step; share of the looks there that are up
   constexpr std::size_t fewest = 12;
   std::ranges::stable_sort(looks, {}, &Look::inward);
@@ -174,8 +174,8 @@ auto axes_of(const std::vector<Side>& sides) -> std::vector<Point2> {
   constexpr std::size_t most = 3;
   std::vector<Point2> axes;
   for (const std::size_t i : order) {
-    const bool known = std::ranges::any_of(
-        axes, [&](Point2 axis) { return std::abs(dot(axis, sides[i].inward)) > alike; });
+    const bool known =
+        std::ranges::any_of(axes, [&](Point2 axis) { return std::abs(dot(axis, sides[i].inward)) > alike; });
     if (!known && axes.size() < most) axes.push_back(sides[i].inward);
   }
   return axes;

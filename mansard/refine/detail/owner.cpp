@@ -73,10 +73,8 @@ auto all_split(std::vector<Piece> open, const Work& work) -> std::vector<Piece> 
     open.erase(open.begin());
     std::vector<Piece> pieces;
     if (done.size() + open.size() < most_pieces) pieces = work.split(piece);
-    if (pieces.empty())
-      done.push_back(std::move(piece));
-    else
-      open.insert(open.begin(), std::make_move_iterator(pieces.begin()), std::make_move_iterator(pieces.end()));
+    if (pieces.empty()) done.push_back(std::move(piece));
+    else open.insert(open.begin(), std::make_move_iterator(pieces.begin()), std::make_move_iterator(pieces.end()));
   }
   return done;
 }

@@ -97,8 +97,8 @@ auto cut(const Polygon& part, const Polygon& structure, double least_area) -> st
   double covered = 0;
   for (const auto& piece : out) covered += geometry::area(piece);
   if (std::abs(covered - geometry::area(part)) > lost) return {};
-  constexpr double narrowest = 0.6;   // m; less is a strip along an edge, not a structure
-  constexpr double straight = 1e-6;   // m off the line of the neighbours
+  constexpr double narrowest = 0.6;  // m; less is a strip along an edge, not a structure
+  constexpr double straight = 1e-6;  // m off the line of the neighbours
   for (auto& piece : out) {
     piece.outer = cleaned(piece.outer, straight);
     for (auto& hole : piece.holes) hole = cleaned(hole, straight);
@@ -108,8 +108,8 @@ auto cut(const Polygon& part, const Polygon& structure, double least_area) -> st
 }
 
 auto joined(const Polygon& a, const Polygon& b) -> std::optional<Polygon> {
-  constexpr double slit = 0.02;       // m; twice what straightening may have opened between neighbours
-  constexpr double straight = 1e-3;   // m; what closing the slits bends
+  constexpr double slit = 0.02;      // m; twice what straightening may have opened between neighbours
+  constexpr double straight = 1e-3;  // m; what closing the slits bends
   const Polygon both[]{a, b};
   auto united = geometry::unite(both);
   if (!united || united->empty()) return std::nullopt;

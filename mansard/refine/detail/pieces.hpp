@@ -9,8 +9,8 @@
 
 namespace mansard::refine::detail {
 
-/// The part without the structure, then the structure, largest first; empty where a piece would be too small, too narrow
-/// or not simple.
+/// The part without the structure, then the structure, largest first; empty where a piece would be too small, too
+/// narrow or not simple.
 [[nodiscard]] auto cut(const geometry::Polygon& part, const geometry::Polygon& structure, double least_area)
     -> std::vector<geometry::Polygon>;
 

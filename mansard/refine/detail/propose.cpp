@@ -18,7 +18,7 @@ namespace {
 using geometry::Polygon;
 using Mask = std::vector<std::uint8_t>;
 
-constexpr double melted = 0.5;             // m, of walls in a scan
+constexpr double melted = 0.5;  // m, of walls in a scan
 // What tells a roof from a tree's crown.
 constexpr double crisp = 0.15;             // m rms about a simple surface: a roof; a crown 3 m high has more
 constexpr double smooth = 0.35;            // m rms: a roof with its clutter,
@@ -31,18 +31,18 @@ constexpr double smooth_share = 0.7;       // or that share of its cells on one 
 constexpr double large_area = 80;          // m²; what is so large is no tree,
 constexpr double fair_share = 0.8;         // if cutting it off explains that share of the part's error
 // What makes a line across.
-constexpr double worth_a_line = 0.15;      // of the part's error, explained by it
-constexpr double least_side = 1.25;        // m, mean width of either side
+constexpr double worth_a_line = 0.15;  // of the part's error, explained by it
+constexpr double least_side = 1.25;    // m, mean width of either side
 // Which cuts come first.
-constexpr double nearly_same = 0.25;       // of a cut's cells, on other sides in two cuts
-constexpr double cost_of_shape = 0.04;     // of the gain, per rectangle
-constexpr double cost_of_askew = 0.25;     // of the gain, for walls that no edge of the part goes along
-constexpr double other_direction = 0.14;   // rad, 8°
+constexpr double nearly_same = 0.25;      // of a cut's cells, on other sides in two cuts
+constexpr double cost_of_shape = 0.04;    // of the gain, per rectangle
+constexpr double cost_of_askew = 0.25;    // of the gain, for walls that no edge of the part goes along
+constexpr double other_direction = 0.14;  // rad, 8°
 constexpr std::size_t most_directions = 4;
-constexpr double enough_cells = 8000;      // to hold a cut against; of more, every second or third in each direction
+constexpr double enough_cells = 8000;  // to hold a cut against; of more, every second or third in each direction
 // What is too little to leave.
-constexpr double sliver_area = 1;          // m²
-constexpr double sliver_width = 0.5;       // m
+constexpr double sliver_area = 1;     // m²
+constexpr double sliver_width = 0.5;  // m
 
 struct Cut {
   Polygon polygon;
@@ -288,8 +288,11 @@ auto words_for(const carve::Raster& raster, const Cut& cut, const ProposeOptions
 
 /// Every so many cells of a fine grid.
 auto thinned(const Heights& heights, std::size_t every) -> Heights {
-  Heights out{heights.origin, heights.spacing * static_cast<double>(every), (heights.columns + every - 1) / every,
-              (heights.rows + every - 1) / every, {}};
+  Heights out{heights.origin,
+              heights.spacing * static_cast<double>(every),
+              (heights.columns + every - 1) / every,
+              (heights.rows + every - 1) / every,
+              {}};
   out.z.reserve(out.columns * out.rows);
   for (std::size_t j = 0; j < heights.rows; j += every)
     for (std::size_t i = 0; i < heights.columns; i += every) out.z.push_back(heights.at(i, j));

@@ -11,11 +11,11 @@
 namespace mansard::refine::detail {
 
 struct ProposeOptions {
-  double least_area = 4;    ///< m², of the piece and of what is left
-  double least_gain = 2;    ///< m²·m²: squared residual, summed over area
-  double least_step = 0.5;  ///< m; what differs less is no structure
-  double least_width = 1.2; ///< m, mean; what is narrower is a chimney or a melted edge
-  std::size_t most = 6;     ///< proposals
+  double least_area = 4;     ///< m², of the piece and of what is left
+  double least_gain = 2;     ///< m²·m²: squared residual, summed over area
+  double least_step = 0.5;   ///< m; what differs less is no structure
+  double least_width = 1.2;  ///< m, mean; what is narrower is a chimney or a melted edge
+  std::size_t most = 6;      ///< proposals
 };
 
 /// A piece of a part that may become a part of its own.

@@ -26,8 +26,9 @@ struct Worths {
   int factor = 1, columns = 0, rows = 0;
   int first_column = 0, first_row = 0;
   std::vector<double> worth;
-  auto at(int i, int j) -> double& { return worth[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) +
-                                                  static_cast<std::size_t>(i)]; }
+  auto at(int i, int j) -> double& {
+    return worth[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(i)];
+  }
 };
 
 struct CellBox {

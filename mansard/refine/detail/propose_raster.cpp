@@ -11,10 +11,10 @@ using geometry::Point2;
 using geometry::Polygon;
 
 constexpr double quarter = std::numbers::pi / 2;
-constexpr double one_direction = 5 * std::numbers::pi / 180;      // edges closer than this go one way
-constexpr double another_direction = 12 * std::numbers::pi / 180; // nearer ones serve the same walls
-constexpr double share_of_second = 0.25;                          // of the outline, to be worth its own pass
-constexpr double least_weight = 0.25;                             // of the four cells around a place
+constexpr double one_direction = 5 * std::numbers::pi / 180;       // edges closer than this go one way
+constexpr double another_direction = 12 * std::numbers::pi / 180;  // nearer ones serve the same walls
+constexpr double share_of_second = 0.25;                           // of the outline, to be worth its own pass
+constexpr double least_weight = 0.25;                              // of the four cells around a place
 
 template <class Map>
 auto mapped(const Polygon& polygon, Map map) -> Polygon {

@@ -11,12 +11,12 @@ namespace {
 
 using Mask = std::vector<std::uint8_t>;
 
-constexpr int gap_passes = 3;          // cells: unseen gaps as wide as twice this are bridged
-constexpr double bin = 0.25;           // m, of the histogram of residuals
-constexpr double highest = 40;         // m; residuals beyond it count as this
-constexpr double deep_valley = 0.5;    // of the lower of its two peaks: what parts two levels
-constexpr std::size_t most_levels = 6; // that part the residuals; the clearest
-constexpr double seen_share = 0.6;     // of a region's cells; on less nothing is known
+constexpr int gap_passes = 3;           // cells: unseen gaps as wide as twice this are bridged
+constexpr double bin = 0.25;            // m, of the histogram of residuals
+constexpr double highest = 40;          // m; residuals beyond it count as this
+constexpr double deep_valley = 0.5;     // of the lower of its two peaks: what parts two levels
+constexpr std::size_t most_levels = 6;  // that part the residuals; the clearest
+constexpr double seen_share = 0.6;      // of a region's cells; on less nothing is known
 
 /// Residuals with unseen gaps filled from around.
 auto filled(const Raster& raster) -> std::vector<float> {

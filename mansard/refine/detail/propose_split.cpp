@@ -10,10 +10,10 @@
 namespace mansard::refine::detail::carve {
 namespace {
 
-constexpr double least_side = 1.25;    // m across each side of a line
-constexpr double apart = 1.5;          // m between two lines worth telling apart
+constexpr double least_side = 1.25;  // m across each side of a line
+constexpr double apart = 1.5;        // m between two lines worth telling apart
 constexpr std::size_t most_lines = 3;
-constexpr int rows_per_bin = 2;        // of ridges along x
+constexpr int rows_per_bin = 2;  // of ridges along x
 
 /// Running sums over columns; entry i is of the columns before i.
 struct Sums {
@@ -95,9 +95,9 @@ struct Crossing {
 };
 
 auto crossing_at(const RowSums& sums, const std::vector<int>& rows, int column, double least_step) -> Crossing {
-  constexpr double most = 0.6;           // of the rows
-  constexpr double clear_of_noise = 0.7; // of the least step, in one row
-  constexpr double least_valley = 0.15;  // m, of its sides a metre off above its middle
+  constexpr double most = 0.6;            // of the rows
+  constexpr double clear_of_noise = 0.7;  // of the least step, in one row
+  constexpr double least_valley = 0.15;   // m, of its sides a metre off above its middle
   double known = 0, steps = 0, valleys = 0;
   for (const int row : rows) {
     const double left = sums.beside(row, column, -1, 0.5, 1.5), right = sums.beside(row, column, 1, 0.5, 1.5);

@@ -9,9 +9,9 @@
 namespace mansard::refine::detail::carve {
 
 struct SplitLine {
-  double at = 0;       ///< m along the raster's x; the line goes along y
-  double gain = 0;     ///< m² × cells, what two surfaces explain beyond one
-  bool step = false;   ///< the two roofs differ in height at the line; else they meet there, as in a valley
+  double at = 0;      ///< m along the raster's x; the line goes along y
+  double gain = 0;    ///< m² × cells, what two surfaces explain beyond one
+  bool step = false;  ///< the two roofs differ in height at the line; else they meet there, as in a valley
 };
 
 /// The best lines across the raster's x, at most three, apart from each other; best first.

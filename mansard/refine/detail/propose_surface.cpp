@@ -7,9 +7,9 @@
 namespace mansard::refine::detail::carve {
 namespace {
 
-constexpr double bin = 0.5;               // m: ridges are tried this far apart
-constexpr double least_ridge_area = 30;   // m²: on less, a ridge fits a tree's crown as well as a roof
-constexpr double steepest = 1.5;          // rise per run, 56°; steeper is a wall that melted
+constexpr double bin = 0.5;              // m: ridges are tried this far apart
+constexpr double least_ridge_area = 30;  // m²: on less, a ridge fits a tree's crown as well as a roof
+constexpr double steepest = 1.5;         // rise per run, 56°; steeper is a wall that melted
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 struct Bins {
@@ -125,9 +125,7 @@ auto Moments::operator-=(const Moments& o) -> Moments& {
   return *this;
 }
 
-void LineMoments::add(double pt, double pz) {
-  n += 1, t += pt, tt += pt * pt, z += pz, tz += pt * pz, zz += pz * pz;
-}
+void LineMoments::add(double pt, double pz) { n += 1, t += pt, tt += pt * pt, z += pz, tz += pt * pz, zz += pz * pz; }
 
 auto LineMoments::operator+=(const LineMoments& o) -> LineMoments& {
   n += o.n, t += o.t, tt += o.tt, z += o.z, tz += o.tz, zz += o.zz;
@@ -186,8 +184,11 @@ auto errors_of(const Raster& raster, const std::vector<std::uint8_t>& mask, cons
   Moments all = inside;
   all += outside;
   const auto mean = [](const Moments& m) { return m.n > 0 ? m.r / m.n : 0; };
-  Errors out{{inside.n, inside.rr, plain_error(inside)}, {outside.n, outside.rr, plain_error(outside)},
-             {all.n, all.rr, plain_error(all)}, mean(inside), mean(outside)};
+  Errors out{{inside.n, inside.rr, plain_error(inside)},
+             {outside.n, outside.rr, plain_error(outside)},
+             {all.n, all.rr, plain_error(all)},
+             mean(inside),
+             mean(outside)};
   const auto improve = [](Error& error, double by) { error.best = std::min(error.best, by); };
   const double least = least_ridge_area / raster.cell_area();
   for (const geometry::Point2 along : {ridges.axis, geometry::left_of(ridges.axis)}) {

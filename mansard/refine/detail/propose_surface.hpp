@@ -49,7 +49,7 @@ struct Error {
 /// Two sets of cells, each by its best simple surface, and both by one.
 struct Errors {
   Error inside, outside, whole;
-  double inside_mean = 0, outside_mean = 0;   ///< mean residual, m
+  double inside_mean = 0, outside_mean = 0;  ///< mean residual, m
   [[nodiscard]] auto gain() const -> double { return gain_of(inside, outside, whole); }
 };
 [[nodiscard]] auto errors_of(const Raster& raster, const std::vector<std::uint8_t>& mask, const Frame& ridges)

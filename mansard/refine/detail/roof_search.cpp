@@ -22,10 +22,8 @@ auto best_cap(const Draft& draft, const Judge& judge) -> base::Result<Judged> {
     Plan plan = draft.plan;
     plan.cap = cap;
     auto judged = judge(plan);
-    if (!judged)
-      failure = judged.error();
-    else if (!best || judged->misfit < clearly * best->misfit)
-      best = std::move(*judged);
+    if (!judged) failure = judged.error();
+    else if (!best || judged->misfit < clearly * best->misfit) best = std::move(*judged);
   }
   if (best) return std::move(*best);
   return *failure;
@@ -159,8 +157,7 @@ auto pitched_sides(const Plan& plan) -> std::size_t {
 
 }  // namespace
 
-auto best_roof(const Draft& draft, const Judge& judge, Search search, double worth,
-               std::vector<std::string>& changed)
+auto best_roof(const Draft& draft, const Judge& judge, Search search, double worth, std::vector<std::string>& changed)
     -> base::Result<Judged> {
   auto start = best_cap(draft, judge);
   if (!start || judge.options().effort == Effort::caps || judge.site().cells.empty()) return start;
@@ -195,8 +192,7 @@ auto best_roof(const Draft& draft, const Judge& judge, Search search, double wor
   const auto was = pitched_sides(before), is = pitched_sides(best.plan);
   if (was != is)
     changed.push_back("roof rises from " + std::to_string(is) + " of its sides instead of " + std::to_string(was));
-  else if (best.plan != before)
-    changed.push_back("pitches, gutters or cap moved to the scan's");
+  else if (best.plan != before) changed.push_back("pitches, gutters or cap moved to the scan's");
   return best;
 }
 

@@ -50,7 +50,8 @@ void each_near(Point2 a, Point2 b, double within, const Heights& grid, See see) 
   box.add(a);
   box.add(b);
   const auto index = [&grid](double v, double origin, std::size_t count) {
-    return static_cast<std::size_t>(std::clamp(std::ceil((v - origin) / grid.spacing), 0.0, static_cast<double>(count)));
+    return static_cast<std::size_t>(
+        std::clamp(std::ceil((v - origin) / grid.spacing), 0.0, static_cast<double>(count)));
   };
   const std::size_t top = index(box.most.y + within, grid.origin.y, grid.rows);
   const Point2 along = b - a;

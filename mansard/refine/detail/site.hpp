@@ -21,8 +21,8 @@ struct Site {
   double cell_area = 0;              ///< m²
 };
 
-/// Looks down on the polygon every `grid` metres, at the centres of cells aligned to whole multiples of it; coarser over
-/// very large parts.
+/// Looks down on the polygon every `grid` metres, at the centres of cells aligned to whole multiples of it; coarser
+/// over very large parts.
 [[nodiscard]] auto look(const geometry::Polygon& polygon, double base, const rays::Scene& mesh, const Options& options)
     -> Site;
 /// A piece of a site that was looked at already.

@@ -10,8 +10,8 @@
 namespace mansard::refine::detail {
 
 struct View {
-  std::vector<double> z;           ///< m above the base, per cell of the grid; NaN where the solid is not
-  std::vector<std::uint32_t> face; ///< the face seen; undefined where z is NaN
+  std::vector<double> z;            ///< m above the base, per cell of the grid; NaN where the solid is not
+  std::vector<std::uint32_t> face;  ///< the face seen; undefined where z is NaN
 };
 
 /// `grid` gives the cells alone, `base` is the solid's. Cost: O(faces · rows they span + cells).

@@ -55,7 +55,8 @@ auto side_of(const Polygon& part, Point2 on, Point2 along, const std::vector<Seg
 
 auto length_of(const Segment2& line) -> double { return geometry::length(line.end - line.start); }
 
-/// One side of the lines with a wedge beyond each: where slopes of one pitch meet at right angles, the valley runs at 45°.
+/// One side of the lines with a wedge beyond each: where slopes of one pitch meet at right angles, the valley runs at
+/// 45°.
 auto with_wedges(const std::vector<Polygon>& side, Point2 along, const std::vector<Segment2>& lines)
     -> std::vector<Polygon> {
   std::vector<Polygon> all = side;

@@ -220,10 +220,8 @@ auto Work::searched(const Piece& piece, const Proposal& proposal, std::vector<Pi
     if (!better) return {};
     pieces[i] = std::move(*better);
     auto& changes = pieces[i].changes;
-    if (i == 0)
-      changes.insert(changes.begin(), piece.changes.begin(), piece.changes.end());
-    else
-      changes.insert(changes.begin(), "a part of its own: " + proposal.what);
+    if (i == 0) changes.insert(changes.begin(), piece.changes.begin(), piece.changes.end());
+    else changes.insert(changes.begin(), "a part of its own: " + proposal.what);
   }
   return pieces;
 }

@@ -31,12 +31,8 @@ auto met_by(const std::array<const HalfSpace*, 3>& three) -> std::optional<Point
 auto highest_in(const std::vector<HalfSpace>& all, const geometry::Box2& box) -> std::optional<Point3> {
   const double size = std::max(box.most.x - box.least.x, box.most.y - box.least.y);
   const double slack = 1e-10 * (1 + size);
-  std::vector<HalfSpace> few{{{1, 0, 0}, box.least.x},
-                             {{-1, 0, 0}, -box.most.x},
-                             {{0, 1, 0}, box.least.y},
-                             {{0, -1, 0}, -box.most.y},
-                             {{0, 0, -1}, -4 * size},
-                             {{0, 0, 1}, -4 * size}};
+  std::vector<HalfSpace> few{{{1, 0, 0}, box.least.x},  {{-1, 0, 0}, -box.most.x}, {{0, 1, 0}, box.least.y},
+                             {{0, -1, 0}, -box.most.y}, {{0, 0, -1}, -4 * size},   {{0, 0, 1}, -4 * size}};
   const auto violation = [](const HalfSpace& h, Point3 p) { return h.offset - dot(h.normal, p); };
   for (std::size_t round = 0; round <= all.size(); ++round) {
     std::optional<Point3> best;
@@ -48,8 +44,7 @@ auto highest_in(const std::vector<HalfSpace>& all, const geometry::Box2& box) ->
           if (std::ranges::all_of(few, [&](const auto& h) { return violation(h, *p) <= slack; })) best = p;
         }
     if (!best) return std::nullopt;
-    const auto worst = std::ranges::max_element(
-        all, {}, [&](const auto& h) { return violation(h, *best); });
+    const auto worst = std::ranges::max_element(all, {}, [&](const auto& h) { return violation(h, *best); });
     if (worst == all.end() || violation(*worst, *best) <= slack) return best;
     few.push_back(*worst);
   }

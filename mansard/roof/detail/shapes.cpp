@@ -106,7 +106,8 @@ auto slope_of(const geometry::Polygon& polygon, const Form& form) -> Slope {
       }
       const Point2 level_in = (1 / up_in) * normalised(in), level_on = (1 / up_on) * normalised(on);
       const double wide = length(level_on - level_in);  // of a cut one metre up
-      const double up = std::min({cut_width / wide, most_of_side * dot(in, out.uphill), most_of_side * dot(on, out.uphill)});
+      const double up =
+          std::min({cut_width / wide, most_of_side * dot(in, out.uphill), most_of_side * dot(on, out.uphill)});
       rings[r].push_back(p + up * level_in);
       rings[r].push_back(p + up * level_on);
       ++out.cut;

@@ -13,7 +13,9 @@ namespace {
 
 constexpr double straight = 0.026;  // rad, 1.5°: turns under this are none
 
-auto turn_between(Point2 before, Point2 after) -> double { return std::atan2(cross(before, after), dot(before, after)); }
+auto turn_between(Point2 before, Point2 after) -> double {
+  return std::atan2(cross(before, after), dot(before, after));
+}
 
 void add_sides(const geometry::Ring& ring, std::size_t index, std::vector<Side>& sides) {
   const std::size_t n = ring.size();

@@ -25,8 +25,8 @@ struct Side {
 
 /// The smallest box around the outline, whatever its angle.
 struct Extent {
-  geometry::Point2 axis;          ///< unit, along the longer side
-  double length = 0, width = 0;   ///< m, length ≥ width
+  geometry::Point2 axis;         ///< unit, along the longer side
+  double length = 0, width = 0;  ///< m, length ≥ width
 };
 [[nodiscard]] auto extent_of(const std::vector<Side>& sides) -> Extent;
 

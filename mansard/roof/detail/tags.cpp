@@ -69,9 +69,8 @@ auto height() -> const Key& {
   return key;
 }
 auto levels() -> const Key& {
-  static const Key key{"building:levels",
-                       {"building_levels", "num_floors", "building_l"},
-                       &Options::building_levels_attribute};
+  static const Key key{
+      "building:levels", {"building_levels", "num_floors", "building_l"}, &Options::building_levels_attribute};
   return key;
 }
 auto min_height() -> const Key& {
@@ -79,9 +78,8 @@ auto min_height() -> const Key& {
   return key;
 }
 auto min_level() -> const Key& {
-  static const Key key{"building:min_level",
-                       {"building_min_level", "min_floor", "building_m"},
-                       &Options::min_level_attribute};
+  static const Key key{
+      "building:min_level", {"building_min_level", "min_floor", "building_m"}, &Options::min_level_attribute};
   return key;
 }
 auto shape() -> const Key& {
@@ -113,7 +111,7 @@ auto ground() -> const Key& {
   return key;
 }
 auto all() -> const std::vector<const Key*>& {
-  static const std::vector<const Key*> keys{&height(),      &levels(),      &min_height(), &min_level(),
+  static const std::vector<const Key*> keys{&height(),      &levels(),      &min_height(),  &min_level(),
                                             &shape(),       &roof_height(), &roof_levels(), &angle(),
                                             &orientation(), &direction(),   &ground()};
   return keys;

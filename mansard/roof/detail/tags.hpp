@@ -22,7 +22,7 @@ struct Tag {
 struct Key {
   std::string_view tag;
   std::vector<std::string_view> names;
-  const std::string Options::* attribute;  ///< the option that names an attribute instead
+  const std::string Options::*attribute;  ///< the option that names an attribute instead
 };
 
 namespace keys {

@@ -105,8 +105,7 @@ void add_edges(const std::vector<Candidate>& candidates, const std::vector<Confl
 }  // namespace
 
 auto problem_of(const fracture::Arrangement& arrangement, const std::vector<FaceEvidence>& faces,
-                const std::vector<Candidate>& candidates,
-                const std::vector<std::optional<std::uint32_t>>& candidate_of,
+                const std::vector<Candidate>& candidates, const std::vector<std::optional<std::uint32_t>>& candidate_of,
                 const std::vector<Conflict>& conflicts, double phi) -> Problem {
   Problem problem;
   problem.node_of_face.resize(faces.size());

@@ -15,7 +15,8 @@ namespace mansard::segment::detail {
 /// leave a wall that ends inside a footprint. Ordered by (left, right).
 /// Without costs; with the faces' difference of medians.
 [[nodiscard]] auto candidates_of(const fracture::Arrangement& arrangement, const sweep::SweepEdges& edges,
-                                 const std::vector<FaceEvidence>& faces, const Options& options) -> std::vector<Candidate>;
+                                 const std::vector<FaceEvidence>& faces, const Options& options)
+    -> std::vector<Candidate>;
 
 /// Sets every candidate's costs by its lengths, its height difference, and the conflicts with the outline.
 void price(std::vector<Candidate>& candidates, const std::vector<Conflict>& conflicts, double phi,

@@ -11,18 +11,18 @@ namespace {
 
 using geometry::cross, geometry::dot, geometry::Point2;
 
-constexpr double run_turn = 0.1;       ///< rad; half-edges that turn less make one run
-constexpr double shortest = 0.2;       ///< m; runs shorter than that have no direction to speak of
-constexpr double least_overlap = 0.1;  ///< m; opposite runs must face each other along at least that
+constexpr double run_turn = 0.1;               ///< rad; half-edges that turn less make one run
+constexpr double shortest = 0.2;               ///< m; runs shorter than that have no direction to speak of
+constexpr double least_overlap = 0.1;          ///< m; opposite runs must face each other along at least that
 const double parallel_cosine = std::cos(0.3);  // tolerance of the reference, facts 5
 
 /// Consecutive, nearly collinear half-edges of a face with one neighbour.
 struct Run {
-  geometry::Segment2 segment;                ///< the face on its left
-  std::uint32_t face = 0, first = 0;         ///< the face; the run's first half-edge
-  std::optional<std::uint32_t> candidate;    ///< none on the outline
-  double length = 0;                         ///< m
-  double facing_out = 0, facing_in = 0;      ///< m of sweep-edge whose outside lies off the face, or in it
+  geometry::Segment2 segment;              ///< the face on its left
+  std::uint32_t face = 0, first = 0;       ///< the face; the run's first half-edge
+  std::optional<std::uint32_t> candidate;  ///< none on the outline
+  double length = 0;                       ///< m
+  double facing_out = 0, facing_in = 0;    ///< m of sweep-edge whose outside lies off the face, or in it
 };
 
 /// The runs of a face are added to `runs`, in order around it; run_of half-edge is set.
@@ -120,8 +120,7 @@ class Search {
     if (!one.candidate && !other.candidate) return;  // the outline is there whatever is chosen
     if (!one.candidate || !other.candidate || *one.candidate == *other.candidate)
       conflicts_.insert({one.candidate ? *one.candidate : *other.candidate, std::nullopt});
-    else
-      conflicts_.insert({std::min(*one.candidate, *other.candidate), std::max(*one.candidate, *other.candidate)});
+    else conflicts_.insert({std::min(*one.candidate, *other.candidate), std::max(*one.candidate, *other.candidate)});
   }
 
   /// Turns counter-clockwise around the start of run i, over one face or over as many as lie within the angle.

@@ -44,7 +44,7 @@ class Contraction {
   const Labels& labels_;
   base::DisjointSets pieces_;                             ///< of labels
   std::vector<std::map<std::uint32_t, Bundle>> bundles_;  ///< by lower, then by higher label
-  std::vector<std::vector<std::uint32_t>> below_;        ///< by higher label, the lower ones (some long gone)
+  std::vector<std::vector<std::uint32_t>> below_;         ///< by higher label, the lower ones (some long gone)
   /// Least change first; what no longer holds is passed over.
   std::priority_queue<std::tuple<std::int64_t, Key>, std::vector<std::tuple<std::int64_t, Key>>, std::greater<>> open_;
 };

@@ -11,7 +11,7 @@ namespace mansard::segment::detail {
 
 /// The samples behind a FaceEvidence.
 struct FaceSamples {
-  std::vector<double> heights;  ///< z of the mesh's top surface, ascending, metres
+  std::vector<double> heights;                         ///< z of the mesh's top surface, ascending, metres
   std::vector<std::pair<std::size_t, double>> shares;  ///< of the face's area, by feature; ascending, none are 0
 };
 
@@ -22,8 +22,8 @@ struct Evidence {
 };
 
 /// Samples every face and decides which are inside, exposed faces still among them. The seed is run.seed.
-[[nodiscard]] auto measure(const fracture::Arrangement& arrangement, const block::Block& block,
-                           const rays::Scene& mesh, const Options& options, const base::Run& run) -> Evidence;
+[[nodiscard]] auto measure(const fracture::Arrangement& arrangement, const block::Block& block, const rays::Scene& mesh,
+                           const Options& options, const base::Run& run) -> Evidence;
 
 /// Takes faces off from outside that nothing but the fracture's continuations bounds (reference facts 4.2).
 void peel(const fracture::Arrangement& arrangement, const Options& options, std::vector<FaceEvidence>& faces);

@@ -11,8 +11,8 @@ namespace {
 
 using geometry::Box2, geometry::Point2, geometry::Segment2;
 
-constexpr double near = 0.2;          ///< m; as far as the other member's boundary may be off
-constexpr double shortest = 0.2;      ///< m; of a stretch, and of a gap between stretches
+constexpr double near = 0.2;      ///< m; as far as the other member's boundary may be off
+constexpr double shortest = 0.2;  ///< m; of a stretch, and of a gap between stretches
 constexpr double parallel_sine = 0.1;
 
 auto edges_of(const block::Member& member) -> std::vector<Segment2> {
@@ -62,8 +62,7 @@ auto merged(std::vector<std::pair<double, double>> stretches) -> std::vector<std
   for (const auto& stretch : stretches)
     if (!out.empty() && stretch.first <= out.back().second + shortest)
       out.back().second = std::max(out.back().second, stretch.second);
-    else
-      out.push_back(stretch);
+    else out.push_back(stretch);
   return out;
 }
 

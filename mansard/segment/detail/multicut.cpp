@@ -223,8 +223,8 @@ auto solve_part(const Multicut& problem, const MulticutLimits& limits, const Dea
     const auto left = deadline.left();
     if ((left && *left <= 0) || run.cancelled()) break;
     // A gap under 1 is none, as costs are whole.
-    const auto solution =
-        solver::minimise(program, {.seconds = left, .nodes = limits.nodes, .gap = 0.99}, values_of(problem, answer.labels));
+    const auto solution = solver::minimise(program, {.seconds = left, .nodes = limits.nodes, .gap = 0.99},
+                                           values_of(problem, answer.labels));
     ++answer.rounds;
     if (!solution) {
       answer.warnings.push_back(base::warning("segment-solver", solution.error().message));
@@ -323,8 +323,9 @@ auto integer_program(const Multicut& problem, const std::vector<CycleRow>& rows,
 
 auto solve(const Multicut& problem, const MulticutLimits& limits, const base::Run& run) -> MulticutAnswer {
   Deadline deadline;
-  if (limits.seconds) deadline.at = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                                      std::chrono::duration<double>(std::min(*limits.seconds, 1e8)));
+  if (limits.seconds)
+    deadline.at = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                     std::chrono::duration<double>(std::min(*limits.seconds, 1e8)));
   MulticutAnswer whole;
   whole.optimal = true;
   whole.labels.resize(problem.nodes);

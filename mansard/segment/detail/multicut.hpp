@@ -64,8 +64,8 @@ struct MulticutAnswer {
   std::vector<base::Diagnostic> warnings;  ///< what the solver said where it gave up
 };
 
-/// The whole problem as an integer program: s_e by edge, then y by pair (which needs no integrality); pairs as rows, the
-/// given rows, and with `cliques` a row Σ y ≥ Σ s − 1 for sets of edges that are all in pairs with each other.
+/// The whole problem as an integer program: s_e by edge, then y by pair (which needs no integrality); pairs as rows,
+/// the given rows, and with `cliques` a row Σ y ≥ Σ s − 1 for sets of edges that are all in pairs with each other.
 [[nodiscard]] auto integer_program(const Multicut& problem, const std::vector<CycleRow>& rows, bool cliques)
     -> solver::Program;
 

@@ -11,14 +11,12 @@
 namespace mansard::segment::detail {
 
 [[nodiscard]] inline auto on_sweep_edge(const fracture::HalfEdge& h) -> bool {
-  return std::ranges::any_of(h.origins, [](const fracture::Origin& o) {
-    return o.kind == fracture::Kind::hard && o.source < gis_source;
-  });
+  return std::ranges::any_of(
+      h.origins, [](const fracture::Origin& o) { return o.kind == fracture::Kind::hard && o.source < gis_source; });
 }
 [[nodiscard]] inline auto on_gis_edge(const fracture::HalfEdge& h) -> bool {
-  return std::ranges::any_of(h.origins, [](const fracture::Origin& o) {
-    return o.kind == fracture::Kind::hard && o.source >= gis_source;
-  });
+  return std::ranges::any_of(
+      h.origins, [](const fracture::Origin& o) { return o.kind == fracture::Kind::hard && o.source >= gis_source; });
 }
 /// isSweepEdge of the paper.
 [[nodiscard]] inline auto is_sweep(const fracture::HalfEdge& h, const Options& options) -> bool {

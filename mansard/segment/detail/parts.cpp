@@ -15,11 +15,11 @@ namespace {
 
 using LabelOfFace = std::vector<std::optional<std::uint32_t>>;
 
-constexpr double smallest_part = 1.0;      ///< m²
-constexpr double same_height = 2.0;        ///< m; strips within this of their neighbour's height are part of its roof …
-constexpr double low_share = 0.5;          ///< … as are those of at least this share of its height above ground
-constexpr double collinear = 0.01;         ///< m; corners this near to the edge without them are dropped
-constexpr double opening = 0.01;           ///< m; how far a part that touches itself draws back
+constexpr double smallest_part = 1.0;  ///< m²
+constexpr double same_height = 2.0;    ///< m; strips within this of their neighbour's height are part of its roof …
+constexpr double low_share = 0.5;      ///< … as are those of at least this share of its height above ground
+constexpr double collinear = 0.01;     ///< m; corners this near to the edge without them are dropped
+constexpr double opening = 0.01;       ///< m; how far a part that touches itself draws back
 constexpr double least_cover = 1.0 / 3.0;  ///< of an edge, from which a sweep-edge counts as its origin
 
 /// Faces by label, labels and faces ascending.
@@ -109,10 +109,10 @@ auto reaches_outside(const fracture::Arrangement& arrangement, const std::vector
 }
 
 /// Parts too small or too narrow to be a building of their own go to their neighbour in the same feature. A strip along
-/// the outside, less than half as high, is no roof but the space between a wall and a footprint drawn too wide: it is left
-/// out.
-void take_up_small_parts(const fracture::Arrangement& arrangement, const Evidence& evidence,
-                         LabelOfFace& label_of_face, double narrow, std::vector<base::Diagnostic>& warnings) {
+/// the outside, less than half as high, is no roof but the space between a wall and a footprint drawn too wide: it is
+/// left out.
+void take_up_small_parts(const fracture::Arrangement& arrangement, const Evidence& evidence, LabelOfFace& label_of_face,
+                         double narrow, std::vector<base::Diagnostic>& warnings) {
   std::set<std::uint32_t> kept;  // narrow, but all there is of their feature
   for (;;) {
     const auto faces = faces_by_label(label_of_face);
@@ -139,12 +139,12 @@ void take_up_small_parts(const fracture::Arrangement& arrangement, const Evidenc
                        next - own > same_height && own - ground < low_share * (next - ground);
     if (apart) into.reset();
     for (const std::uint32_t f : members) label_of_face[f] = into;
-    warnings.push_back(base::warning(
-        "segment-part-small",
-        "a part of " + base::to_text(area, 2) + " m² " +
-            (into ? "was joined to its neighbour" : apart ? "was left out: a low strip outside the wall"
-                                                          : "was left out: it has no neighbour to join"),
-        "face " + std::to_string(members.front())));
+    warnings.push_back(base::warning("segment-part-small",
+                                     "a part of " + base::to_text(area, 2) + " m² " +
+                                         (into    ? "was joined to its neighbour"
+                                          : apart ? "was left out: a low strip outside the wall"
+                                                  : "was left out: it has no neighbour to join"),
+                                     "face " + std::to_string(members.front())));
   }
 }
 

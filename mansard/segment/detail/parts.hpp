@@ -14,7 +14,6 @@ namespace mansard::segment::detail {
 /// width than `narrow` metres, join the neighbour of the same feature with the longest common edge. Left out are small
 /// ones without such a neighbour, and narrow ones along the outside that are not half as high as theirs.
 void make_parts(const fracture::Arrangement& arrangement, const Evidence& evidence,
-                std::vector<std::optional<std::uint32_t>> label_of_face, double narrow,
-                Segmentation& segmentation);
+                std::vector<std::optional<std::uint32_t>> label_of_face, double narrow, Segmentation& segmentation);
 
 }  // namespace mansard::segment::detail

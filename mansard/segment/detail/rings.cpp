@@ -61,9 +61,8 @@ auto trace(const fracture::Arrangement& arrangement, const std::vector<std::uint
     rings.push_back(std::move(ring));
   }
   // Only the outer ring runs counter-clockwise.
-  const auto outer = std::ranges::max_element(rings, {}, [](const CornerRing& ring) {
-    return geometry::signed_area(points_of(ring));
-  });
+  const auto outer = std::ranges::max_element(
+      rings, {}, [](const CornerRing& ring) { return geometry::signed_area(points_of(ring)); });
   std::rotate(rings.begin(), outer, outer + 1);
   return rings;
 }

@@ -129,8 +129,8 @@ auto branch_and_cut(const Program& program, const Limits& limits, const std::opt
   model.initialSolve();
   Solution solution;
   if (model.solver()->isProvenPrimalInfeasible()) return solution;
-  const double relaxed = model.solver()->isProvenOptimal() ? model.solver()->getObjValue()
-                                                           : -std::numeric_limits<double>::infinity();
+  const double relaxed =
+      model.solver()->isProvenOptimal() ? model.solver()->getObjValue() : -std::numeric_limits<double>::infinity();
   // Only now: the incumbent's cutoff would make the relaxation itself look infeasible where nothing is better.
   if (incumbent) model.setBestSolution(incumbent->data(), count, cost_of(incumbent->data()), false);
   model.branchAndBound();

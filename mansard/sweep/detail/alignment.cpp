@@ -9,9 +9,9 @@ using geometry::Segment2;
 
 namespace {
 
-constexpr double least_edge = 0.5;       // m; a shorter GIS edge has no direction to speak of
-constexpr double square_score = 0.2;     // of a parallel edge's; the reference's weight, with its sign put right
-constexpr double greatest_swing = 1.0;   // m; an end that would move farther was measured better than that
+constexpr double least_edge = 0.5;      // m; a shorter GIS edge has no direction to speak of
+constexpr double square_score = 0.2;    // of a parallel edge's; the reference's weight, with its sign put right
+constexpr double greatest_swing = 1.0;  // m; an end that would move farther was measured better than that
 
 /// Consecutive edges that bend less than 0.05 rad count as one: vertices of party walls must not shorten a facade.
 void collect(const geometry::Ring& ring, std::vector<Segment2>& edges) {

@@ -13,19 +13,19 @@ using geometry::Segment2;
 
 namespace {
 
-constexpr double column_width = 0.2;   // m
-constexpr double least_wall = 1.0;     // m of height; less is a step in a roof
-constexpr double wall_slope = 0.546;   // m sideways per m upwards: the tangent of 0.5 rad
-constexpr double slope_window = 1.0;   // m of height a slope is taken over: single slices are too noisy
-constexpr double wall_spread = 0.5;    // m; a wall leaves its own median by less
-constexpr double untidy_zone = 2.5;    // m above ground where cars and hedges hide the wall
-constexpr double lower_wall = 0.3;     // of the tallest wall of the column: what a lower one must have to be the foot
-constexpr double group_gap = 1.5;      // m along the edge between columns of one setback
+constexpr double column_width = 0.2;  // m
+constexpr double least_wall = 1.0;    // m of height; less is a step in a roof
+constexpr double wall_slope = 0.546;  // m sideways per m upwards: the tangent of 0.5 rad
+constexpr double slope_window = 1.0;  // m of height a slope is taken over: single slices are too noisy
+constexpr double wall_spread = 0.5;   // m; a wall leaves its own median by less
+constexpr double untidy_zone = 2.5;   // m above ground where cars and hedges hide the wall
+constexpr double lower_wall = 0.3;    // of the tallest wall of the column: what a lower one must have to be the foot
+constexpr double group_gap = 1.5;     // m along the edge between columns of one setback
 constexpr std::size_t group_columns = 10;
-constexpr double edge_gap = 3.0;       // m without columns part an edge in two
-constexpr double least_edge = 1.0;     // m
-constexpr double gutter_rise = 1.0;    // m above the median gutter: the column is the end of a hip, not eaves
-constexpr double support_share = 0.25; // of the median column's lines: less is the ragged end of an edge
+constexpr double edge_gap = 3.0;        // m without columns part an edge in two
+constexpr double least_edge = 1.0;      // m
+constexpr double gutter_rise = 1.0;     // m above the median gutter: the column is the end of a hip, not eaves
+constexpr double support_share = 0.25;  // of the median column's lines: less is the ragged end of an edge
 
 struct Frame {
   Point2 origin, direction;
@@ -80,8 +80,8 @@ struct Sample {
 struct Column {
   std::vector<Sample> samples;  // from below upwards, one a slice: the outermost
   std::size_t lines = 0;
-  std::optional<double> foot;   // depth, m, positive outward
-  double low = 0, high = 0;     // of the wall part, else of all samples
+  std::optional<double> foot;  // depth, m, positive outward
+  double low = 0, high = 0;    // of the wall part, else of all samples
 };
 
 auto make_columns(const std::vector<WeighedLine>& lines, const slice::SliceStack& stack, const Frame& frame,
@@ -101,8 +101,7 @@ auto make_columns(const std::vector<WeighedLine>& lines, const slice::SliceStack
       ++column.lines;
       if (!column.samples.empty() && column.samples.back().z == z)
         column.samples.back().depth = std::max(column.samples.back().depth, depth);
-      else
-        column.samples.push_back({z, depth});
+      else column.samples.push_back({z, depth});
     }
   }
   return columns;
@@ -161,8 +160,8 @@ void find_foot(Column& column, double interval, double tidy) {
       walls.push_back(run);
       tallest = std::max(tallest, extent(run));
     }
-    const auto wall = std::find_if(walls.begin(), walls.end(),
-                                   [&](const Range& r) { return extent(r) >= lower_wall * tallest; });
+    const auto wall =
+        std::find_if(walls.begin(), walls.end(), [&](const Range& r) { return extent(r) >= lower_wall * tallest; });
     if (wall == walls.end()) continue;
     std::vector<double> depths;
     for (auto i = wall->first; i <= wall->last; ++i) depths.push_back(samples[i].depth);
@@ -295,8 +294,12 @@ auto find_bases(const std::vector<WeighedLine>& lines, const slice::SliceStack& 
       }
       const double depth = median(depths);
       for (auto& d : depths) d = std::abs(d - depth);
-      bases.push_back({{frame.point(start, depth), frame.point(end, depth)}, area, percentile(std::move(lows), 0.1),
-                       percentile(std::move(highs), 0.9), wall, median(std::move(depths))});
+      bases.push_back({{frame.point(start, depth), frame.point(end, depth)},
+                       area,
+                       percentile(std::move(lows), 0.1),
+                       percentile(std::move(highs), 0.9),
+                       wall,
+                       median(std::move(depths))});
     }
   }
   return bases;

@@ -10,11 +10,11 @@ namespace mansard::sweep::detail {
 
 /// A stretch of wall foot, or of gutter where no wall was seen.
 struct Base {
-  geometry::Segment2 segment;   ///< outside on the left
-  double area = 0;              ///< m²: its columns' share of the cluster
-  double low = 0, high = 0;     ///< z, m
-  bool wall = false;            ///< stands on a vertical part of a metre or more
-  double scatter = 0;           ///< m; the median distance of the columns' feet from the base
+  geometry::Segment2 segment;  ///< outside on the left
+  double area = 0;             ///< m²: its columns' share of the cluster
+  double low = 0, high = 0;    ///< z, m
+  bool wall = false;           ///< stands on a vertical part of a metre or more
+  double scatter = 0;          ///< m; the median distance of the columns' feet from the base
 };
 
 /// The main bases of a cluster and those that stand off its median by a setback; none when nothing has a length.

@@ -28,9 +28,9 @@ auto join(std::vector<Segment2> segments) -> std::vector<Chain> {
   std::vector<char> used(segments.size(), 0);
   const auto straightest_from = [&](const Segment2& last) -> std::size_t {
     const Point2 heading = normalised(last.end - last.start);
-    auto at = static_cast<std::size_t>(
-        std::lower_bound(segments.begin(), segments.end(), last.end,
-                         [](const Segment2& s, Point2 p) { return s.start < p; }) - segments.begin());
+    auto at = static_cast<std::size_t>(std::lower_bound(segments.begin(), segments.end(), last.end,
+                                                        [](const Segment2& s, Point2 p) { return s.start < p; }) -
+                                       segments.begin());
     std::size_t best = segments.size();
     double best_cosine = -2;
     for (; at < segments.size() && segments[at].start == last.end; ++at) {

@@ -16,9 +16,9 @@ using geometry::Segment2;
 
 namespace {
 
-constexpr std::size_t least_lines = 4;   // a metre of height, a slice missed; the reference asks for 3 m
-constexpr double low_weight = 0.1;       // of a line in the zone of cars and hedges
-constexpr std::ptrdiff_t reach = 2;      // slices up and down
+constexpr std::size_t least_lines = 4;  // a metre of height, a slice missed; the reference asks for 3 m
+constexpr double low_weight = 0.1;      // of a line in the zone of cars and hedges
+constexpr std::ptrdiff_t reach = 2;     // slices up and down
 
 auto as_segments(const std::vector<WeighedLine>& lines) -> std::vector<Segment2> {
   std::vector<Segment2> segments;

@@ -48,8 +48,8 @@ struct Moments {
     const double cxx = xx - x * x / weight, cyy = yy - y * y / weight, cxy = xy - x * y / weight;
     const double root = std::hypot(cxx - cyy, 2 * cxy);
     // Two forms of the eigenvector; the longer one loses no digits.
-    const geometry::Point2 v = cxx >= cyy ? geometry::Point2{cxx - cyy + root, 2 * cxy}
-                                          : geometry::Point2{2 * cxy, cyy - cxx + root};
+    const geometry::Point2 v =
+        cxx >= cyy ? geometry::Point2{cxx - cyy + root, 2 * cxy} : geometry::Point2{2 * cxy, cyy - cxx + root};
     return length(v) > 0 ? normalised(v) : geometry::Point2{1, 0};
   }
 };

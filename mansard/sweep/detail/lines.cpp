@@ -19,12 +19,12 @@ namespace {
 using geometry::Point2;
 using geometry::Segment2;
 
-constexpr double node_spacing = 0.3;     // m; chains may be cut at nodes this far apart
-constexpr double least_length = 0.5;     // m; shorter lines are noise
-constexpr double longest_segment = 500;  // m across one triangle: it belongs to a stray vertex, not to a wall
-constexpr double least_chord = 0.6;      // of the chain's own length: a piece that winds more is vegetation
-constexpr double price_of_a_piece = 1.0; // m of chain that lie line_distance off: what another piece must save
-constexpr double piece_cosine = 0.9;     // pieces within 26° may share a line; their ends decide
+constexpr double node_spacing = 0.3;      // m; chains may be cut at nodes this far apart
+constexpr double least_length = 0.5;      // m; shorter lines are noise
+constexpr double longest_segment = 500;   // m across one triangle: it belongs to a stray vertex, not to a wall
+constexpr double least_chord = 0.6;       // of the chain's own length: a piece that winds more is vegetation
+constexpr double price_of_a_piece = 1.0;  // m of chain that lie line_distance off: what another piece must save
+constexpr double piece_cosine = 0.9;      // pieces within 26° may share a line; their ends decide
 
 struct Piece {
   Moments moments;  // relative to the slice's own origin

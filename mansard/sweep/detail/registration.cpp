@@ -32,10 +32,10 @@ constexpr double fitted = 3;               // numbers: a shift and a distance ou
 constexpr double least_shift = 0.12;       // m; less is as likely the scan's own displacement as the footprints'
 constexpr int rounds = 30;
 
-constexpr double facing_cosine = 0.7;      // a wall follows edges turned from it by up to 45°: a bay, an apse
-constexpr double least_piece = 0.1;        // m
-constexpr double straight = 0.03;          // m; corners this near to the line without them do not bend it
-constexpr double least_rest = 1.0;         // m of a sweep-edge beside which there is no footprint edge
+constexpr double facing_cosine = 0.7;  // a wall follows edges turned from it by up to 45°: a bay, an apse
+constexpr double least_piece = 0.1;    // m
+constexpr double straight = 0.03;      // m; corners this near to the line without them do not bend it
+constexpr double least_rest = 1.0;     // m of a sweep-edge beside which there is no footprint edge
 
 auto span(const Segment2& s) -> double { return length(s.end - s.start); }
 
@@ -58,8 +58,7 @@ struct Match {
   double weight;  // m that they run beside each other
 };
 
-auto matches_of(const std::vector<SweepEdge>& edges, const block::Block& block, double within)
-    -> std::vector<Match> {
+auto matches_of(const std::vector<SweepEdge>& edges, const block::Block& block, double within) -> std::vector<Match> {
   std::vector<Segment2> outline;
   for (const auto& polygon : block.outline) add_edges(polygon, {}, outline);
   const LineIndex index(outline, 8);
@@ -186,8 +185,7 @@ auto shift_astray(const std::vector<Match>& matches, const Options& options) -> 
   if (!common) return std::nullopt;
   const Common shift{common->shift, 0};
   const double moved = length(shift.shift), most = options.gis_offset * farthest_astray / farthest;
-  const bool clear = moved > options.gis_offset && moved <= most &&
-                     moved >= stands_out * median_rest(matches, shift) &&
+  const bool clear = moved > options.gis_offset && moved <= most && moved >= stands_out * median_rest(matches, shift) &&
                      moved >= significant * standard_error(matches, *common) &&
                      left_over(matches, shift) <= (1 - explains_astray) * left_over(matches, {});
   return clear ? std::optional(shift.shift) : std::nullopt;
@@ -246,9 +244,8 @@ auto follows(const Segment2& s, const Segment2& g, const Options& options) -> st
 
 /// The nearest stretches first, each where no nearer one is; in order along the edge.
 auto without_overlaps(std::vector<Stretch> found) -> std::vector<Stretch> {
-  std::sort(found.begin(), found.end(), [](const Stretch& a, const Stretch& b) {
-    return a.away != b.away ? a.away < b.away : a.on < b.on;
-  });
+  std::sort(found.begin(), found.end(),
+            [](const Stretch& a, const Stretch& b) { return a.away != b.away ? a.away < b.away : a.on < b.on; });
   std::vector<Stretch> kept;
   for (const auto& stretch : found) {
     std::vector<std::pair<double, double>> open{{stretch.from, stretch.to}};
@@ -297,8 +294,8 @@ auto joined(const std::vector<Stretch>& stretches) -> std::vector<Stretch> {
 
 }  // namespace
 
-auto put_on_footprints(const std::vector<SweepEdge>& edges, const block::Block& block,
-                       const Registration& registration, const Options& options) -> std::vector<SweepEdge> {
+auto put_on_footprints(const std::vector<SweepEdge>& edges, const block::Block& block, const Registration& registration,
+                       const Options& options) -> std::vector<SweepEdge> {
   if (!(options.gis_offset > 0)) return edges;
   std::vector<Segment2> footprints;
   for (const auto& member : block.members)

@@ -20,14 +20,14 @@ namespace {
 
 using Side = std::vector<WeighedLine>;
 
-constexpr double same_line = 0.4;        // m; sides whose feet are this near stand on one line
-constexpr double same_line_gap = 2.0;    // m along it: a balcony, a bay, a tree before the wall
+constexpr double same_line = 0.4;      // m; sides whose feet are this near stand on one line
+constexpr double same_line_gap = 2.0;  // m along it: a balcony, a bay, a tree before the wall
 constexpr double same_line_cosine = 0.98;
-constexpr double outline_margin = 2.0;   // m outside the footprints; farther off stand trees and neighbours
-constexpr double wall_margin = 0.75;     // m; a low thing farther outside is a hedge or a car
-constexpr double low_weight = 0.1;       // of such a thing
-constexpr double twin_distance = 0.5;    // m between edges that run along each other
-constexpr double twin_share = 0.8;       // of the smaller one's length
+constexpr double outline_margin = 2.0;  // m outside the footprints; farther off stand trees and neighbours
+constexpr double wall_margin = 0.75;    // m; a low thing farther outside is a hedge or a car
+constexpr double low_weight = 0.1;      // of such a thing
+constexpr double twin_distance = 0.5;   // m between edges that run along each other
+constexpr double twin_share = 0.8;      // of the smaller one's length
 constexpr double mostly = 0.8;
 constexpr double thin = 0.4;             // of a side's length left by the bus filter
 constexpr double look_down = 1.0;        // m below a roof's lower end

@@ -19,18 +19,18 @@ using geometry::Segment2;
 
 namespace {
 
-constexpr double band = 0.4;          // m; jumps this near a line are of one step
-constexpr double gap = 1.25;          // m along it without a jump: noise, a chimney
-constexpr double wide_gap = 4.0;      // m where two roofs cross each other: the step changes its sign there
-constexpr double least_cover = 0.7;   // of a line's length that must jump
-constexpr double full_jump = 1.0;     // m; higher ones say no more
-constexpr double bend = 0.2;          // m across, from end to end, from which a step may be turned from the grain …
-constexpr double most_turn = 0.05;    // … by this tangent
-constexpr double least_part = 1.5;    // m; of a line that jumps one way, to be believed
-constexpr double reach = 1.5;         // m beyond its ends to the wall or outline it runs up to
-constexpr double same_line = 0.75;    // m; a wall or a footprint's edge this near is the same line
-constexpr double same_sine = 0.2;     // … if it is turned by less
-constexpr double least_rest = 2.0;    // m; what a wall beside it leaves of a step, if it is less, is dropped
+constexpr double band = 0.4;         // m; jumps this near a line are of one step
+constexpr double gap = 1.25;         // m along it without a jump: noise, a chimney
+constexpr double wide_gap = 4.0;     // m where two roofs cross each other: the step changes its sign there
+constexpr double least_cover = 0.7;  // of a line's length that must jump
+constexpr double full_jump = 1.0;    // m; higher ones say no more
+constexpr double bend = 0.2;         // m across, from end to end, from which a step may be turned from the grain …
+constexpr double most_turn = 0.05;   // … by this tangent
+constexpr double least_part = 1.5;   // m; of a line that jumps one way, to be believed
+constexpr double reach = 1.5;        // m beyond its ends to the wall or outline it runs up to
+constexpr double same_line = 0.75;   // m; a wall or a footprint's edge this near is the same line
+constexpr double same_sine = 0.2;    // … if it is turned by less
+constexpr double least_rest = 2.0;   // m; what a wall beside it leaves of a step, if it is less, is dropped
 
 struct Step {
   Segment2 segment;  // outside, the lower side, on the left
@@ -109,8 +109,7 @@ class Field {
     for (auto& part : parts) {
       if (!whole.empty() && is_one(whole.back(), part, across))
         whole.back().insert(whole.back().end(), part.begin(), part.end());
-      else
-        whole.push_back(std::move(part));
+      else whole.push_back(std::move(part));
     }
     return whole;
   }

@@ -15,30 +15,28 @@ using geometry::Segment2;
 
 namespace {
 
-constexpr double same_grain = 0.06;    // rad; edges that differ by less, or by that from a right angle, run alike
-constexpr double least_edge = 1.0;     // m; shorter edges of a footprint tell no direction
-constexpr double least_grain = 8.0;    // m of edge that make a direction
-constexpr double member_share = 0.2;   // of a member's edges that make a direction its own
-constexpr double least_height = 2.0;   // m above ground; lower is no roof
+constexpr double same_grain = 0.06;   // rad; edges that differ by less, or by that from a right angle, run alike
+constexpr double least_edge = 1.0;    // m; shorter edges of a footprint tell no direction
+constexpr double least_grain = 8.0;   // m of edge that make a direction
+constexpr double member_share = 0.2;  // of a member's edges that make a direction its own
+constexpr double least_height = 2.0;  // m above ground; lower is no roof
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 // All in cells. The melted flank of a step lies within two cells of it; the slopes beside it are taken beyond.
 constexpr std::size_t near = 2, far = 5;
-constexpr std::size_t alone = 3;         // of two jumps nearer than this the higher one stands
-constexpr std::size_t beside = 3;        // rows to both sides that a jump is averaged over, against noise …
-constexpr double least_rows = 4;         // … of which so many must be known
-constexpr double own_share = 1.0 / 3;    // of that mean which the row itself must have
-constexpr double least_jump = 0.2;       // m; less is noise
-constexpr double roughest = 0.2;         // m; root mean square off the slope: foliage, chimneys
+constexpr std::size_t alone = 3;       // of two jumps nearer than this the higher one stands
+constexpr std::size_t beside = 3;      // rows to both sides that a jump is averaged over, against noise …
+constexpr double least_rows = 4;       // … of which so many must be known
+constexpr double own_share = 1.0 / 3;  // of that mean which the row itself must have
+constexpr double least_jump = 0.2;     // m; less is noise
+constexpr double roughest = 0.2;       // m; root mean square off the slope: foliage, chimneys
 
 struct Edge {
   double angle = 0, length = 0;  // rad in [0, π/2), m
   std::size_t member = 0;
 };
 
-auto quarter_turned(double a, double b) -> double {
-  return std::remainder(a - b, std::numbers::pi / 2);
-}
+auto quarter_turned(double a, double b) -> double { return std::remainder(a - b, std::numbers::pi / 2); }
 
 auto edges_of(const block::Block& block) -> std::vector<Edge> {
   std::vector<Edge> edges;
@@ -138,8 +136,8 @@ auto middle_of(const double* z, const Look& look) -> double {
   return weight > 0 ? moment / weight : 0;
 }
 
-/// Heights from `far` cells before to `far` cells after, each the mean with its two neighbours along the line, where all
-/// are known.
+/// Heights from `far` cells before to `far` cells after, each the mean with its two neighbours along the line, where
+/// all are known.
 auto mean_row(const HeightGrid& grid, std::size_t u, std::size_t t) -> std::vector<double> {
   std::vector<double> row;
   for (std::size_t k = u - far; k <= u + far; ++k) {

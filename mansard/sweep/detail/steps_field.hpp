@@ -22,9 +22,9 @@ struct Grain {
 
 /// A place where the surface jumps across a line that runs along the grid's rows or columns.
 struct Jump {
-  double across = 0;      ///< m along the axis square to the line
-  std::size_t row = 0;    ///< number of the cell along the line
-  double height = 0;      ///< m, up in the direction of `across`, off the slopes beside it and square to them
+  double across = 0;         ///< m along the axis square to the line
+  std::size_t row = 0;       ///< number of the cell along the line
+  double height = 0;         ///< m, up in the direction of `across`, off the slopes beside it and square to them
   double low = 0, high = 0;  ///< z of the two sides beside it, m
 };
 

@@ -19,8 +19,8 @@ auto degrees(double radians) -> double { return radians * 180 / std::numbers::pi
 /// A real number with two decimals, without the trailing noise of rounding.
 auto hundredths(double value) -> std::string { return base::to_text(value, 2); }
 
-/// The semantic object of a roof with that normal: slope, the angle from the horizontal, and azimuth, the compass direction
-/// it looks to, both in degrees; a flat roof has no azimuth.
+/// The semantic object of a roof with that normal: slope, the angle from the horizontal, and azimuth, the compass
+/// direction it looks to, both in degrees; a flat roof has no azimuth.
 auto roof_semantics(geometry::Point3 n) -> std::string {
   JsonText json;
   const double slope = degrees(std::atan2(std::hypot(n.x, n.y), n.z));
@@ -96,8 +96,7 @@ auto without(const ingest::Attributes& attributes, std::initializer_list<std::st
     -> ingest::Attributes {
   ingest::Attributes kept;
   for (const auto& [name, value] : attributes)
-    if (std::ranges::find(names, name) == names.end())
-      kept.emplace_back(undeclared(name), value);
+    if (std::ranges::find(names, name) == names.end()) kept.emplace_back(undeclared(name), value);
   return kept;
 }
 

@@ -7,7 +7,8 @@
 
 namespace mansard::write::detail {
 
-/// The extension that declares what is ours, docs/mansard.ext.json: "+mansard" at the root, "+ms_footprint" of buildings,
+/// The extension that declares what is ours, docs/mansard.ext.json: "+mansard" at the root, "+ms_footprint" of
+/// buildings,
 /// "+ms_plan" of their parts.
 inline constexpr std::string_view extension_name = "Mansard";
 inline constexpr std::string_view extension_version = "1.0";
@@ -15,8 +16,8 @@ inline constexpr std::string_view extension_version = "1.0";
 inline constexpr std::string_view plan_name = "+ms_plan", old_plan_name = plan_name.substr(1);
 inline constexpr std::string_view footprint_name = "+ms_footprint";
 
-/// A '+' in front is for what an extension declares. A source's own attribute of such a name gets a '_' before it, as does
-/// one that has some there already, so that each comes back as it was.
+/// A '+' in front is for what an extension declares. A source's own attribute of such a name gets a '_' before it, as
+/// does one that has some there already, so that each comes back as it was.
 [[nodiscard]] auto undeclared(const std::string& name) -> std::string;
 [[nodiscard]] auto from_undeclared(const std::string& name) -> std::string;
 
@@ -51,7 +52,8 @@ class CityObjects {
   JsonText json_;
 };
 
-/// A CityJSON object up to the value of "CityObjects"; its members on lines of that level, or on one line when negative.
+/// A CityJSON object up to the value of "CityObjects"; its members on lines of that level, or on one line when
+/// negative.
 [[nodiscard]] auto cityjson_head(const Header& header, const Extent& extent, int level) -> std::string;
 /// Between the city objects and the vertices of a file, and after these.
 inline constexpr std::string_view cityjson_waist = ",\n\"vertices\":[";
@@ -61,8 +63,8 @@ inline constexpr std::string_view cityjson_foot = "]\n}\n";
 [[nodiscard]] auto cityjson_feature(const Building& building, const Gate::Keyed& keys, const Header& header)
     -> std::string;
 
-/// The plans that travel in a CityJSON file as mansard wrote it, without models. Throws a Defect: "write-plan-type", and
-/// those of plans.
+/// The plans that travel in a CityJSON file as mansard wrote it, without models. Throws a Defect: "write-plan-type",
+/// and those of plans.
 [[nodiscard]] auto read_cityjson_plans(const Item& file) -> City;
 
 }  // namespace mansard::write::detail

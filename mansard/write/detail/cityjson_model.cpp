@@ -51,8 +51,8 @@ auto fitted(const extrude::Solid& solid, const std::vector<std::uint32_t>& corne
   return best;
 }
 
-/// Newell's normal of the outer loop, or that of the plane through all corners that bends the face least: in the rounded
-/// corners of a narrow face Newell's is further off than a face may bend. Up where there is no area.
+/// Newell's normal of the outer loop, or that of the plane through all corners that bends the face least: in the
+/// rounded corners of a narrow face Newell's is further off than a face may bend. Up where there is no area.
 auto normal_of(const extrude::Solid& solid, const std::vector<std::vector<std::uint32_t>>& loops) -> Point3 {
   const auto& outer = loops[0];
   const Point3 start = solid.vertices[outer[0]];
@@ -75,8 +75,8 @@ auto normal_of(const extrude::Solid& solid, const std::vector<std::vector<std::u
   return best;
 }
 
-/// Of a roof: the measured normal, moved no further than it takes to be written with the same slope and azimuth again. Two
-/// decimals of a degree alone would be up to a millimetre beside a face of ten metres, more than a face may bend.
+/// Of a roof: the measured normal, moved no further than it takes to be written with the same slope and azimuth again.
+/// Two decimals of a degree alone would be up to a millimetre beside a face of ten metres, more than a face may bend.
 auto roof_normal(const Json& semantics, Point3 measured) -> Point3 {
   const auto slope = semantics.find("ms_slope"), azimuth = semantics.find("ms_azimuth");
   if (slope == semantics.end() || !slope->is_number()) return measured;
@@ -86,13 +86,14 @@ auto roof_normal(const Json& semantics, Point3 measured) -> Point3 {
   const double lowest = looks ? border + little : 0, highest = looks ? 90 : border - little;
   const double across = std::hypot(measured.x, measured.y);
   const double written = slope->get<double>();
-  const double steep = std::clamp(std::clamp(std::atan2(across, measured.z) / radians, written - half, written + half),
-                                  lowest, highest);
+  const double steep =
+      std::clamp(std::clamp(std::atan2(across, measured.z) / radians, written - half, written + half), lowest, highest);
   double towards = std::atan2(measured.x, measured.y) / radians;
-  if (looks) towards -= [&] {
-    const double off = std::remainder(towards - azimuth->get<double>(), 360);
-    return off - std::clamp(off, -half, half);
-  }();
+  if (looks)
+    towards -= [&] {
+      const double off = std::remainder(towards - azimuth->get<double>(), 360);
+      return off - std::clamp(off, -half, half);
+    }();
   if (steep == 0) return {0, 0, 1};
   const double run = std::sin(steep * radians);
   return {run * std::sin(towards * radians), run * std::cos(towards * radians), std::cos(steep * radians)};

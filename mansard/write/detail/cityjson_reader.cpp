@@ -1,5 +1,5 @@
-// Reads buildings back from CityJSON and CityJSONSeq that mansard wrote, those of version 0.1 too, where the plan was an
-// attribute without '+' and "metadata" said how the file was made.
+// Reads buildings back from CityJSON and CityJSONSeq that mansard wrote, those of version 0.1 too, where the plan was
+// an attribute without '+' and "metadata" said how the file was made.
 #include <fstream>
 #include <map>
 #include <set>
@@ -99,8 +99,7 @@ class Objects {
     constexpr std::array<std::string_view, 1> names{footprint_name};
     if (const auto [name, own] = find_own(json, names); own != nullptr)
       read_own_footprint({*own, {&object.place, name, 0}}, building);
-    else if (vertices_ != nullptr)
-      read_lod_0(object, *vertices_, building);
+    else if (vertices_ != nullptr) read_lod_0(object, *vertices_, building);
     if (object.has("children"))
       object.member("children").each([&](const Item& child) {
         const auto found = object_of_.find(child.text());
@@ -134,7 +133,9 @@ class Objects {
     const auto [name, plan] = find_own(json, plan_names);
     if (plan == nullptr) return std::nullopt;
     const Item object{json, {&objects_.place, id, 0}};
-    Part part{std::string(id), read_embedded_plan({*plan, {&object.place, name, 0}}, origin_), {},
+    Part part{std::string(id),
+              read_embedded_plan({*plan, {&object.place, name, 0}}, origin_),
+              {},
               read_plain_attributes(json)};
     if (models_ && vertices_ != nullptr) part.model = read_model(object, *vertices_);
     return part;
@@ -171,9 +172,8 @@ class ReadFeatures : public CityReader {
     for (std::string line; std::getline(file_, line);) {
       ++line_;
       if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-      auto building = parsed<Building>(line, name_ + ":" + std::to_string(line_), [&](const Item& feature) {
-        return read_feature(feature);
-      });
+      auto building = parsed<Building>(line, name_ + ":" + std::to_string(line_),
+                                       [&](const Item& feature) { return read_feature(feature); });
       if (!building) return building.error();
       return std::optional<Building>(*std::move(building));
     }

@@ -9,7 +9,10 @@ class WholeFile : public CityWriter {
  public:
   WholeFile(Header header, base::Sink& file, std::unique_ptr<base::Spool> objects,
             std::unique_ptr<base::Spool> vertices)
-      : header_(std::move(header)), file_(file), objects_(std::move(objects)), vertices_(std::move(vertices)),
+      : header_(std::move(header)),
+        file_(file),
+        objects_(std::move(objects)),
+        vertices_(std::move(vertices)),
         text_(header_, *vertices_, 0) {}
 
   [[nodiscard]] auto add(const Building& building) -> base::Result<void> override {

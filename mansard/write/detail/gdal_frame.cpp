@@ -1,7 +1,7 @@
 #include "mansard/write/detail/gdal_frame.hpp"
 
-#include <algorithm>
 #include <gdal_priv.h>
+#include <algorithm>
 
 namespace mansard::write::detail {
 

@@ -1,6 +1,6 @@
 // Footprints as GeoJSON (RFC 7946): a Feature a line, so that files of any size can be written and read back.
-#include <fstream>
 #include <ogr_spatialref.h>
+#include <fstream>
 
 #include "mansard/base/text.hpp"
 #include "mansard/write/detail/gdal_frame.hpp"
@@ -160,8 +160,11 @@ class GeoJsonWriter : public CityWriter {
 };
 
 auto no_plans(const std::string& what, const std::string& name) -> base::Diagnostic {
-  return base::error("write-read-plans", what + "; give the file as mansard wrote it, or its footprints to "
-                                                "'mansard extrude' or 'mansard reconstruct'", name);
+  return base::error("write-read-plans",
+                     what +
+                         "; give the file as mansard wrote it, or its footprints to "
+                         "'mansard extrude' or 'mansard reconstruct'",
+                     name);
 }
 
 class GeoJsonReader : public CityReader {

@@ -335,8 +335,11 @@ class GeoPackageReader : public CityReader {
   }
 
   [[nodiscard]] auto no_plans(const std::string& what) const -> base::Diagnostic {
-    return base::error("write-read-plans", what + "; give the file as mansard wrote it, or its footprints to "
-                                                  "'mansard extrude' or 'mansard reconstruct'", name_);
+    return base::error("write-read-plans",
+                       what +
+                           "; give the file as mansard wrote it, or its footprints to "
+                           "'mansard extrude' or 'mansard reconstruct'",
+                       name_);
   }
 
  private:
@@ -375,8 +378,10 @@ auto geopackage_reader(const Path& path) -> ReaderResult {
                        path.string());
   OGRLayer* records = file->GetLayerByName(records_name);
   if (records == nullptr)
-    return base::error("write-read-plans", "this GeoPackage has no plans in it; give one that mansard wrote, or its "
-                                           "footprints to 'mansard extrude' or 'mansard reconstruct'", path.string());
+    return base::error("write-read-plans",
+                       "this GeoPackage has no plans in it; give one that mansard wrote, or its "
+                       "footprints to 'mansard extrude' or 'mansard reconstruct'",
+                       path.string());
   auto reader = std::make_unique<GeoPackageReader>(std::move(file), *records, path.string());
   if (auto begun = reader->begin(); !begun) return begun.error();
   return ReaderResult(std::move(reader));

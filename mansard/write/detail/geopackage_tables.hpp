@@ -1,8 +1,8 @@
 // Tables of a GeoPackage, by GDAL.
 #pragma once
 
-#include <map>
 #include <ogrsf_frmts.h>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>

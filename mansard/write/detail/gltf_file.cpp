@@ -79,9 +79,9 @@ auto pad_to(base::Sink& sink, std::uint64_t size) {
 
 auto GltfFile::open(bool compress) -> base::Result<std::unique_ptr<GltfFile>> {
   Spools spools;
-  std::vector<std::unique_ptr<base::Spool>*> all{&spools.packed,   &spools.views,   &spools.nodes,    &spools.meshes,
-                                                 &spools.accessors, &spools.rows,    &spools.records,  &spools.classes,
-                                                 &spools.slopes,   &spools.azimuths, &spools.tables};
+  std::vector<std::unique_ptr<base::Spool>*> all{&spools.packed,    &spools.views,    &spools.nodes,   &spools.meshes,
+                                                 &spools.accessors, &spools.rows,     &spools.records, &spools.classes,
+                                                 &spools.slopes,    &spools.azimuths, &spools.tables};
   for (auto& view : spools.of_view) all.push_back(&view);
   for (auto* spool : all) {
     auto opened = base::Spool::open();
@@ -363,8 +363,14 @@ auto GltfFile::write(base::Sink& sink, const std::string& generator, std::string
   table_views.begin_array();
   for (const TableBytes* table : {&parts, &surfaces})
     for (const TableView& view : table->views())
-      table_views.begin_object().key("buffer").whole(0).key("byteOffset").whole(whole(mesh_bytes + view.offset))
-          .key("byteLength").whole(whole(view.bytes)).end_object();
+      table_views.begin_object()
+          .key("buffer")
+          .whole(0)
+          .key("byteOffset")
+          .whole(whole(mesh_bytes + view.offset))
+          .key("byteLength")
+          .whole(whole(view.bytes))
+          .end_object();
   std::string more_views = std::move(table_views).str().substr(1);
 
   // The JSON in pieces: what is before, between and after the long lists that were put aside.

@@ -38,13 +38,13 @@ class PartColumns {
     text,  ///< texts, and what is of several kinds
   };
   struct Column {
-    std::string name;         ///< as in the source
-    std::string identifier;   ///< as a property may be called
-    std::string description;  ///< for those that are the writer's own
-    bool of_part = false;     ///< the part's, not its building's
+    std::string name;                                                        ///< as in the source
+    std::string identifier;                                                  ///< as a property may be called
+    std::string description;                                                 ///< for those that are the writer's own
+    bool of_part = false;                                                    ///< the part's, not its building's
     std::array<std::uint64_t, std::variant_size_v<ingest::Value>> counts{};  ///< by type of value
-    bool narrow = true;       ///< whole numbers are less than 2^31 in size
-    bool absent = false;      ///< in some row
+    bool narrow = true;   ///< whole numbers are less than 2^31 in size
+    bool absent = false;  ///< in some row
     Kind kind = Kind::text;
   };
   [[nodiscard]] auto columns() const -> const std::vector<Column>& { return columns_; }

@@ -65,19 +65,17 @@ auto Item::number() const -> double {
 }
 
 auto Item::whole() const -> std::int64_t {
-  const bool fits =
-      json.is_number_integer() &&
-      (!json.is_number_unsigned() ||
-       json.get<std::uint64_t>() <= static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()));
+  const bool fits = json.is_number_integer() &&
+                    (!json.is_number_unsigned() ||
+                     json.get<std::uint64_t>() <= static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()));
   if (!fits) refuse("a whole number");
   return json.get<std::int64_t>();
 }
 
 auto parse_json(std::string_view text) -> Json {
   if (base::nests_too_deep(text))
-    throw Defect{"write-plan-json",
-                 "this JSON nests more than " + std::to_string(base::deepest_json) +
-                     " levels deep, which no file of mansard's does; check what it is"};
+    throw Defect{"write-plan-json", "this JSON nests more than " + std::to_string(base::deepest_json) +
+                                        " levels deep, which no file of mansard's does; check what it is"};
   try {
     return Json::parse(text);
   } catch (const Json::parse_error& e) {

@@ -103,9 +103,7 @@ auto JsonText::text(std::string_view value) -> JsonText& {
   return *this;
 }
 
-auto JsonText::number(double value) -> JsonText& {
-  return std::isfinite(value) ? raw(base::to_text(value)) : null();
-}
+auto JsonText::number(double value) -> JsonText& { return std::isfinite(value) ? raw(base::to_text(value)) : null(); }
 
 auto JsonText::real(double value) -> JsonText& {
   if (!std::isfinite(value)) return null();

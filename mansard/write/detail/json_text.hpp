@@ -43,9 +43,9 @@ class JsonText {
   void separate();
 
   std::string text_;
-  bool first_ = true;      ///< nothing yet in the innermost object or array
+  bool first_ = true;  ///< nothing yet in the innermost object or array
   bool after_key_ = false;
-  int level_ = -1;         ///< of the line that was asked for; negative when none
+  int level_ = -1;  ///< of the line that was asked for; negative when none
 };
 
 /// The string in quotes, escaped; bytes that are not UTF-8 become U+FFFD, since JSON must be UTF-8.

@@ -35,8 +35,8 @@ class ReadObj : public CityReader {
       return base::error("file-missing", "there is no such file; look at its name", path.string());
     const auto record = reader->next_record(obj_header);
     if (!record)
-      return base::error("write-read-plans", "this OBJ carries no plans; give one that mansard wrote, or another format",
-                         path.string());
+      return base::error("write-read-plans",
+                         "this OBJ carries no plans; give one that mansard wrote, or another format", path.string());
     auto header = read_header_record(*record, reader->place());
     if (!header) return header.error();
     reader->header_ = *std::move(header);
@@ -47,7 +47,8 @@ class ReadObj : public CityReader {
   [[nodiscard]] auto has_models() const -> bool override { return false; }
   [[nodiscard]] auto next() -> base::Result<std::optional<Building>> override {
     const auto record = next_record(obj_building);
-    if (!record && file_.bad()) return base::error("file-read", "cannot read this file to its end; is it whole?", name_);
+    if (!record && file_.bad())
+      return base::error("file-read", "cannot read this file to its end; is it whole?", name_);
     if (!record) return std::optional<Building>();
     auto building = read_building_record(*record, place());
     if (!building) return building.error();

@@ -48,8 +48,7 @@ auto check_model(const Building& building) -> base::Result<void> {
     if (part.model.classes.size() != faces.size()) return give_up("does not have one class per face");
     for (const auto& face : faces) {
       if (face.loops.empty()) return give_up("has a face without a loop");
-      if (!(std::abs(geometry::length(face.normal) - 1) < 1e-3))
-        return give_up("has a normal that is not of length 1");
+      if (!(std::abs(geometry::length(face.normal) - 1) < 1e-3)) return give_up("has a normal that is not of length 1");
       for (const auto& loop : face.loops)
         for (const auto vertex : loop)
           if (vertex >= vertices.size()) return give_up("names a vertex that does not exist");
@@ -74,8 +73,14 @@ void append_made_by(JsonText& json, const MadeBy& made_by) {
   for (const auto& [name, value] : made_by.options) json.key(name).text(value);
   json.end_object().key("inputs").begin_array();
   for (const auto& input : made_by.inputs)
-    json.begin_object().key("path").text(input.path).key("bytes").whole(static_cast<std::int64_t>(input.bytes))
-        .key("sha256").text(input.sha256).end_object();
+    json.begin_object()
+        .key("path")
+        .text(input.path)
+        .key("bytes")
+        .whole(static_cast<std::int64_t>(input.bytes))
+        .key("sha256")
+        .text(input.sha256)
+        .end_object();
   json.end_array().end_object();
 }
 

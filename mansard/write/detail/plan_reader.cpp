@@ -24,8 +24,7 @@ auto read_ring(const Item& item) -> geometry::Ring {
 auto read_polygon(const Item& item) -> geometry::Polygon {
   item.object({"outer", "holes"});
   geometry::Polygon polygon{read_ring(item.member("outer")), {}};
-  if (item.has("holes"))
-    item.member("holes").each([&](const Item& hole) { polygon.holes.push_back(read_ring(hole)); });
+  if (item.has("holes")) item.member("holes").each([&](const Item& hole) { polygon.holes.push_back(read_ring(hole)); });
   return polygon;
 }
 
@@ -54,9 +53,7 @@ auto read_profile(const Item& item) -> geometry::Profile {
     const auto [inward, height] = point.numbers<2>();
     profile.push_back({inward, height});
   });
-  const auto refuse = [&](const std::string& what) {
-    throw Defect{"write-plan-profile", item.where() + " " + what};
-  };
+  const auto refuse = [&](const std::string& what) { throw Defect{"write-plan-profile", item.where() + " " + what}; };
   if (profile.size() < 2) refuse("must have at least 2 points");
   if (profile.front() != geometry::ProfilePoint{0, 0}) refuse("must start at [0, 0]");
   for (std::size_t i = 1; i < profile.size(); ++i) {
@@ -119,16 +116,11 @@ auto read_attributes(const Item& item) -> ingest::Attributes {
   ingest::Attributes attributes;
   for (const auto& [key, value] : item.json.items()) {
     ingest::Value out;
-    if (value.is_boolean())
-      out = value.get<bool>();
-    else if (value.is_string())
-      out = value.get<std::string>();
-    else if (value.is_number_float())
-      out = value.get<double>();
-    else if (value.is_number())
-      out = Item{value, {&item.place, key, 0}}.whole();
-    else if (!value.is_null())
-      Item{value, {&item.place, key, 0}}.refuse("a text, a number, true, false or null");
+    if (value.is_boolean()) out = value.get<bool>();
+    else if (value.is_string()) out = value.get<std::string>();
+    else if (value.is_number_float()) out = value.get<double>();
+    else if (value.is_number()) out = Item{value, {&item.place, key, 0}}.whole();
+    else if (!value.is_null()) Item{value, {&item.place, key, 0}}.refuse("a text, a number, true, false or null");
     attributes.emplace_back(key, std::move(out));
   }
   return attributes;
@@ -150,8 +142,8 @@ auto read_made_by(const Item& item) -> MadeBy {
       const Item bytes = input.member("bytes");
       const std::int64_t size = bytes.whole();
       if (size < 0) bytes.refuse("a number of bytes");
-      made_by.inputs.push_back({input.member("path").text(), static_cast<std::uint64_t>(size),
-                                input.member("sha256").text()});
+      made_by.inputs.push_back(
+          {input.member("path").text(), static_cast<std::uint64_t>(size), input.member("sha256").text()});
     });
   return made_by;
 }

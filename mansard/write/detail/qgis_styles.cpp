@@ -165,12 +165,16 @@ auto qml_symbol(const Look& look, bool area, std::size_t number) -> std::string 
                  option("outline_width", width) + option("outline_width_unit", "MM") + option("joinstyle", "round")
            : option("line_color", qml_colour(look.line)) + option("line_style", style) + option("line_width", width) +
                  option("line_width_unit", "MM") + option("capstyle", "round") + option("joinstyle", "round");
-  return element("symbol",
-                 {{"type", area ? "fill" : "line"}, {"name", std::to_string(number)}, {"alpha", "1"},
-                  {"clip_to_extent", "1"}, {"force_rhr", "0"}},
-                 element("layer", {{"class", area ? "SimpleFill" : "SimpleLine"}, {"enabled", "1"}, {"locked", "0"},
-                                   {"pass", "0"}},
-                         element("Option", {{"type", "Map"}}, options)));
+  return element(
+      "symbol",
+      {{"type", area ? "fill" : "line"},
+       {"name", std::to_string(number)},
+       {"alpha", "1"},
+       {"clip_to_extent", "1"},
+       {"force_rhr", "0"}},
+      element("layer",
+              {{"class", area ? "SimpleFill" : "SimpleLine"}, {"enabled", "1"}, {"locked", "0"}, {"pass", "0"}},
+              element("Option", {{"type", "Map"}}, options)));
 }
 
 auto qml(const LayerStyle& style, const Subject& subject) -> std::string {
@@ -179,9 +183,11 @@ auto qml(const LayerStyle& style, const Subject& subject) -> std::string {
     const Case& one = style.cases[i];
     symbols += qml_symbol(one.look, subject.area, i);
     // An empty text is every value that no other category has, and none.
-    categories += empty("category", {{"symbol", std::to_string(i)}, {"value", one.value == nullptr ? "" : one.value},
+    categories += empty("category", {{"symbol", std::to_string(i)},
+                                     {"value", one.value == nullptr ? "" : one.value},
                                      {"type", subject.flag && one.value != nullptr ? "bool" : "string"},
-                                     {"label", one.label}, {"render", "true"}});
+                                     {"label", one.label},
+                                     {"render", "true"}});
   }
   Members renderer{{"type", style.field == nullptr ? "singleSymbol" : "categorizedSymbol"}};
   if (style.field != nullptr) renderer.emplace_back("attr", style.field);
@@ -214,8 +220,8 @@ auto opacity_of(const Colour& c) -> std::string { return base::to_text(c.opacity
 
 auto stroke(const Look& look) -> std::string {
   constexpr double pixel = 0.28;  // mm, as the standard has it
-  std::string inner = parameter("stroke", hexadecimal(look.line)) +
-                      parameter("stroke-opacity", opacity_of(look.line)) + parameter("stroke-width", base::to_text(look.width / pixel, 2)) +
+  std::string inner = parameter("stroke", hexadecimal(look.line)) + parameter("stroke-opacity", opacity_of(look.line)) +
+                      parameter("stroke-width", base::to_text(look.width / pixel, 2)) +
                       parameter("stroke-linejoin", "round");
   if (look.dashed) inner += parameter("stroke-dasharray", "4 2");
   return element("se:Stroke", {}, inner);
@@ -224,9 +230,10 @@ auto stroke(const Look& look) -> std::string {
 auto symboliser(const Look& look, bool area) -> std::string {
   if (!area) return element("se:LineSymbolizer", {}, stroke(look));
   const std::string fill =
-      look.fill.opacity == 0 ? std::string()
-                             : element("se:Fill", {}, parameter("fill", hexadecimal(look.fill)) +
-                                                          parameter("fill-opacity", opacity_of(look.fill)));
+      look.fill.opacity == 0
+          ? std::string()
+          : element("se:Fill", {},
+                    parameter("fill", hexadecimal(look.fill)) + parameter("fill-opacity", opacity_of(look.fill)));
   return element("se:PolygonSymbolizer", {}, fill + stroke(look));
 }
 
@@ -249,15 +256,16 @@ auto sld(const LayerStyle& style, const Subject& subject) -> std::string {
     rules += element("se:Rule", {}, text_element("se:Name", one.label) + when + symboliser(one.look, subject.area));
   }
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" +
-         element("StyledLayerDescriptor",
-                 {{"version", "1.1.0"},
-                  {"xmlns", "http://www.opengis.net/sld"},
-                  {"xmlns:se", "http://www.opengis.net/se"},
-                  {"xmlns:ogc", "http://www.opengis.net/ogc"}},
-                 element("NamedLayer", {},
-                         text_element("se:Name", style.layer) +
-                             element("UserStyle", {}, text_element("se:Name", style.layer) +
-                                                          element("se:FeatureTypeStyle", {}, rules)))) +
+         element(
+             "StyledLayerDescriptor",
+             {{"version", "1.1.0"},
+              {"xmlns", "http://www.opengis.net/sld"},
+              {"xmlns:se", "http://www.opengis.net/se"},
+              {"xmlns:ogc", "http://www.opengis.net/ogc"}},
+             element("NamedLayer", {},
+                     text_element("se:Name", style.layer) +
+                         element("UserStyle", {},
+                                 text_element("se:Name", style.layer) + element("se:FeatureTypeStyle", {}, rules)))) +
          "\n";
 }
 
@@ -274,12 +282,18 @@ auto make_table(GDALDataset& file) -> OGRLayer* {
     int width;
   };
   static constexpr std::array columns{
-      Column{"f_table_catalog", OFTString, 256}, Column{"f_table_schema", OFTString, 256},
-      Column{"f_table_name", OFTString, 256},    Column{"f_geometry_column", OFTString, 256},
-      Column{"styleName", OFTString, 30},        Column{"styleQML", OFTString, 0},
-      Column{"styleSLD", OFTString, 0},          Column{"useAsDefault", OFTInteger, 0},
-      Column{"description", OFTString, 0},       Column{"owner", OFTString, 30},
-      Column{"ui", OFTString, 30},               Column{"update_time", OFTDateTime, 0},
+      Column{"f_table_catalog", OFTString, 256},
+      Column{"f_table_schema", OFTString, 256},
+      Column{"f_table_name", OFTString, 256},
+      Column{"f_geometry_column", OFTString, 256},
+      Column{"styleName", OFTString, 30},
+      Column{"styleQML", OFTString, 0},
+      Column{"styleSLD", OFTString, 0},
+      Column{"useAsDefault", OFTInteger, 0},
+      Column{"description", OFTString, 0},
+      Column{"owner", OFTString, 30},
+      Column{"ui", OFTString, 30},
+      Column{"update_time", OFTDateTime, 0},
   };
   for (const Column& column : columns) {
     OGRFieldDefn definition(column.name, column.type);

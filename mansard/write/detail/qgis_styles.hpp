@@ -20,8 +20,8 @@ struct QgisStyle {
 /// The style of a layer of ours by its name, its geometry and its fields; none for others.
 [[nodiscard]] auto style_of(OGRLayer& layer) -> std::optional<QgisStyle>;
 
-/// A row for every layer that has a style, as QGIS itself writes them as a layer's default. Layers must have their fields.
-/// Nothing where there would be no row, or where there is such a table. Gives up with "write-geopackage".
+/// A row for every layer that has a style, as QGIS itself writes them as a layer's default. Layers must have their
+/// fields. Nothing where there would be no row, or where there is such a table. Gives up with "write-geopackage".
 [[nodiscard]] auto add_styles(GDALDataset& file) -> base::Result<void>;
 
 }  // namespace mansard::write::detail

@@ -20,21 +20,15 @@ auto tidied(const std::vector<Vertex>& loop) -> std::vector<Vertex> {
   std::vector<Vertex> kept;
   for (const Vertex& v : loop) {
     if (!kept.empty() && kept.back() == v) continue;
-    if (kept.size() >= 2 && kept[kept.size() - 2] == v)
-      kept.pop_back();
-    else
-      kept.push_back(v);
+    if (kept.size() >= 2 && kept[kept.size() - 2] == v) kept.pop_back();
+    else kept.push_back(v);
   }
   auto first = kept.begin(), last = kept.end();
   while (last - first >= 2) {
-    if (*(last - 1) == *first)
-      --last;
-    else if (last - first >= 3 && *(last - 2) == *first)
-      last -= 2;
-    else if (last - first >= 3 && *(last - 1) == *(first + 1))
-      ++first, --last;
-    else
-      break;
+    if (*(last - 1) == *first) --last;
+    else if (last - first >= 3 && *(last - 2) == *first) last -= 2;
+    else if (last - first >= 3 && *(last - 1) == *(first + 1)) ++first, --last;
+    else break;
   }
   return last - first >= 3 ? std::vector<Vertex>(first, last) : std::vector<Vertex>();
 }
@@ -43,10 +37,8 @@ auto tidied(const Loops& loops) -> Loops {
   Loops kept;
   for (const auto& loop : loops) {
     auto tidy = tidied(loop);
-    if (!tidy.empty())
-      kept.push_back(std::move(tidy));
-    else if (kept.empty())
-      return {};  // no outer loop, no surface
+    if (!tidy.empty()) kept.push_back(std::move(tidy));
+    else if (kept.empty()) return {};  // no outer loop, no surface
   }
   return kept;
 }

@@ -17,7 +17,8 @@ inline constexpr double quanta_per_metre = 10000;
 
 using Vertex = std::array<std::int64_t, 3>;  ///< quanta from the local origin
 using Loops = std::vector<std::vector<Vertex>>;
-using Extent = std::optional<std::array<Vertex, 2>>;  ///< the least and the greatest of each coordinate; none of nothing
+using Extent =
+    std::optional<std::array<Vertex, 2>>;  ///< the least and the greatest of each coordinate; none of nothing
 void widen(Extent& extent, const Vertex& v);
 
 struct Surface {

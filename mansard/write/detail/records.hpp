@@ -1,5 +1,5 @@
-// A building without its models as one line of JSON, as a plans.json has it. It travels in every format that has room for
-// a text, so that whatever mansard wrote can be opened, changed and raised again.
+// A building without its models as one line of JSON, as a plans.json has it. It travels in every format that has room
+// for a text, so that whatever mansard wrote can be opened, changed and raised again.
 #pragma once
 
 #include <string>

@@ -12,9 +12,9 @@ namespace mansard::write::detail {
 using Loop = std::vector<std::uint32_t>;
 
 struct SurfaceFace {
-  std::vector<Loop> loops;   ///< as those of extrude::Face
-  geometry::Point3 normal;   ///< unit, outward
-  std::uint32_t solid = 0;   ///< the number of the one it comes from
+  std::vector<Loop> loops;  ///< as those of extrude::Face
+  geometry::Point3 normal;  ///< unit, outward
+  std::uint32_t solid = 0;  ///< the number of the one it comes from
 };
 
 struct Surface {

@@ -15,8 +15,8 @@ using Edge = std::pair<std::uint32_t, std::uint32_t>;  // from, to
 /// A wall in plan, with the heights between which it stands.
 struct Wall {
   std::uint32_t face = 0, solid = 0;
-  Point2 out;     ///< unit
-  Point2 along;   ///< unit, out turned to the left: the inside is on its left
+  Point2 out;    ///< unit
+  Point2 along;  ///< unit, out turned to the left: the inside is on its left
   Point2 start;
   double length = 0, low = 0, high = 0;
   geometry::Box2 box;

@@ -161,7 +161,10 @@ class TilesWriter : public CityWriter {
  public:
   TilesWriter(Path folder, Header header, const WriteOptions& options, std::optional<Globe> globe,
               std::unique_ptr<base::Spool> aside)
-      : folder_(std::move(folder)), header_(std::move(header)), options_(options), globe_(std::move(globe)),
+      : folder_(std::move(folder)),
+        header_(std::move(header)),
+        options_(options),
+        globe_(std::move(globe)),
         aside_(std::move(aside)) {}
 
   auto add(const Building& building) -> base::Result<void> override {
@@ -334,8 +337,7 @@ class TilesWriter : public CityWriter {
     json.key("geometricError").number(std::ceil(made_[t].error * 1000) / 1000);
     if (t == 0) json.key("refine").text("REPLACE");
     if (t == 0) append_transform(json, {}, made_[t].place);
-    if (made_[t].content)
-      json.key("content").begin_object().key("uri").text("tiles/" + name_of(tile)).end_object();
+    if (made_[t].content) json.key("content").begin_object().key("uri").text("tiles/" + name_of(tile)).end_object();
     if (!tile.children.empty()) json.key("children").begin_array();
     for (const std::size_t child : tile.children) {
       JsonText transform;
@@ -351,15 +353,17 @@ class TilesWriter : public CityWriter {
     const Box& box = made_[0].box;
     using enum Globe::Heights;
     JsonText heights, json;
-    heights.text(!globe_ ? "There is no coordinate system: the tileset is in the local frame, not on Earth."
-                 : globe_->heights() == of_the_crs ? "Heights are those of the coordinate system."
-                 : globe_->heights() == without_geoid
-                     ? "There was no geoid for the heights of the coordinate system: they are taken as heights above the "
-                       "ellipsoid of WGS 84."
-                     : "The coordinate system has no heights: they are taken as heights above the ellipsoid of WGS 84.");
+    heights.text(
+        !globe_ ? "There is no coordinate system: the tileset is in the local frame, not on Earth."
+        : globe_->heights() == of_the_crs ? "Heights are those of the coordinate system."
+        : globe_->heights() == without_geoid
+            ? "There was no geoid for the heights of the coordinate system: they are taken as heights above the "
+              "ellipsoid of WGS 84."
+            : "The coordinate system has no heights: they are taken as heights above the ellipsoid of WGS 84.");
     json.begin_object().key("asset").begin_object().key("version").text("1.1").key("extras");
     json.raw(file_extras(header_, "\"generator\":" + detail::quoted("mansard " + header_.made_by.version) +
-                                      ",\"heights\":" + heights.str())).end_object();
+                                      ",\"heights\":" + heights.str()))
+        .end_object();
     // Without the tileset, all of it is missing.
     json.line().key("geometricError").number(std::ceil(length(box.most - box.least)));
     json.line().key("root").raw(made_[0].json).line().end_object();

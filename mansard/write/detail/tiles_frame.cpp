@@ -17,8 +17,10 @@ constexpr double eccentricity2 = flattening * (2 - flattening);
 struct Angles {
   double sin_lon, cos_lon, sin_lat, cos_lat;
   explicit Angles(Point3 degrees)
-      : sin_lon(std::sin(degrees.x * std::numbers::pi / 180)), cos_lon(std::cos(degrees.x * std::numbers::pi / 180)),
-        sin_lat(std::sin(degrees.y * std::numbers::pi / 180)), cos_lat(std::cos(degrees.y * std::numbers::pi / 180)) {}
+      : sin_lon(std::sin(degrees.x * std::numbers::pi / 180)),
+        cos_lon(std::cos(degrees.x * std::numbers::pi / 180)),
+        sin_lat(std::sin(degrees.y * std::numbers::pi / 180)),
+        cos_lat(std::cos(degrees.y * std::numbers::pi / 180)) {}
 };
 
 /// The definition of the ellipsoid, as in EPSG guidance note 7-2, section 4.1.1.
@@ -96,8 +98,9 @@ auto Globe::of(const ingest::Frame& frame) -> base::Result<std::optional<Globe>>
     globe.heights_ = Heights::of_the_crs;
     if (way.find(from, true, false)) return std::optional<Globe>(std::move(globe));
     globe.heights_ = Heights::without_geoid;
-    warn("PROJ has no geoid here for the heights of this coordinate system, so they are taken as heights above the "
-         "ellipsoid: the tileset may stand some ten metres too low or too high on a globe");
+    warn(
+        "PROJ has no geoid here for the heights of this coordinate system, so they are taken as heights above the "
+        "ellipsoid: the tileset may stand some ten metres too low or too high on a globe");
   }
   if (way.find(from, false, false)) return std::optional<Globe>(std::move(globe));
   if (!way.find(from, false, true)) return no_way(frame.crs);

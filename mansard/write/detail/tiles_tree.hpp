@@ -10,11 +10,11 @@ namespace mansard::write::detail {
 
 /// What is kept of a building in memory until the last one is known: 88 bytes.
 struct TileItem {
-  geometry::Point2 centre;        ///< local frame
-  double ground = 0;              ///< z, metres
-  double height = 0;              ///< m, of its highest point above its lowest: the error where it is left out
-  double flat_error = 0;          ///< m, the furthest that its roof is above or below that of LoD 1.2
-  double volume = 0;              ///< m³, about: what is kept first where not all can be
+  geometry::Point2 centre;  ///< local frame
+  double ground = 0;        ///< z, metres
+  double height = 0;        ///< m, of its highest point above its lowest: the error where it is left out
+  double flat_error = 0;    ///< m, the furthest that its roof is above or below that of LoD 1.2
+  double volume = 0;        ///< m³, about: what is kept first where not all can be
   std::uint64_t fine = 0, coarse = 0, end = 0;  ///< where its two models stand in the spool
   std::uint32_t triangles = 0, flat_triangles = 0;
 };

@@ -7,7 +7,8 @@ auto triangles_of(const extrude::Solid& solid, const std::string& part) -> base:
   if (!triangulated)
     return base::error("write-triangulate",
                        "the model cannot be cut into triangles (" + triangulated.error().message +
-                           "); this is a bug, please report it", part);
+                           "); this is a bug, please report it",
+                       part);
   return triangulated;
 }
 
