@@ -22,9 +22,9 @@ using Json = nlohmann::ordered_json;
 auto kind_name(base::Option::Kind kind) -> const char* {
   switch (kind) {
     case base::Option::Kind::flag: return "flag";
-    case base::Option::Kind::whole: return "whole";
+    case base::Option::Kind::integer: return "whole";
     case base::Option::Kind::number: return "number";
-    case base::Option::Kind::text: return "text";
+    case base::Option::Kind::string: return "text";
     case base::Option::Kind::choice: return "choice";
   }
   return "";
@@ -67,7 +67,7 @@ void print_presets(const char* of, const std::vector<pipeline::Preset>& presets)
 void print_text(const Known& known) {
   for (const auto& list : known.lists) {
     if (list.options().empty()) continue;
-    std::printf("[%s]\n", list.room().c_str());
+    std::printf("[%s]\n", list.module().c_str());
     for (const auto& option : list.options())
       std::printf("  %-16s %-10s %-4s %-18s %s%s\n", option.name.c_str(),
                   option.get().empty() ? "-" : option.get().c_str(), option.unit.c_str(), range_text(option).c_str(),
@@ -113,12 +113,12 @@ void print_json(const Known& known, const CLI::App& app) {
   for (const auto& list : known.lists)
     for (const auto& option : list.options()) {
       const auto bound = [](double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
-      options.push_back({{"room", list.room()},
+      options.push_back({{"room", list.module()},
                          {"name", option.name},
                          {"kind", kind_name(option.kind)},
                          {"unit", option.unit},
-                         {"least", bound(option.range.least)},
-                         {"most", bound(option.range.most)},
+                         {"least", bound(option.range.minimum)},
+                         {"most", bound(option.range.maximum)},
                          {"choices", option.choices},
                          {"default", option.get()},
                          {"alias", option.alias},

@@ -33,7 +33,7 @@ auto choices() -> std::map<std::string, Words> {
     for (const auto& option : list.options()) {
       const bool flag = option.kind == base::Option::Kind::flag;
       if (option.kind == base::Option::Kind::choice || flag)
-        all["--" + dashed(list.room() + "-" + option.name)] = flag ? Words{"true", "false"} : option.choices;
+        all["--" + dashed(list.module() + "-" + option.name)] = flag ? Words{"true", "false"} : option.choices;
     }
   all["--preset"] = names_of(pipeline::presets());
   all["simulate --preset"] = names_of(simulate::presets());

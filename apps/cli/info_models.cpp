@@ -88,7 +88,7 @@ auto options_json(const write::MadeBy& made_by, bool all) -> Json {
   pipeline::Options defaults;
   std::map<std::string, std::string> usual;
   for (const auto& list : pipeline::option_lists(defaults))
-    for (const auto& option : list.options()) usual[list.room() + "." + option.name] = option.get();
+    for (const auto& option : list.options()) usual[list.module() + "." + option.name] = option.get();
   Json out = Json::object();
   for (const auto& [name, value] : made_by.options) {
     const auto at = usual.find(name);

@@ -116,17 +116,17 @@ void Settings::add_to(CLI::App& verb, const Menu& menu) {
   for (const auto& list : menu.lists)
     for (const auto& option : list.options()) {
       auto& given = given_.emplace_back();
-      given.key = list.room() + "." + option.name;
-      std::string names = "--" + dashed(list.room() + "-" + option.name);
+      given.key = list.module() + "." + option.name;
+      std::string names = "--" + dashed(list.module() + "-" + option.name);
       if (!option.alias.empty()) names += ",--" + dashed(option.alias);
       // Vectors of numbers (an offset, a box) are texts of several words.
-      const std::size_t words = option.kind == base::Option::Kind::text
+      const std::size_t words = option.kind == base::Option::Kind::string
                                     ? static_cast<std::size_t>(std::ranges::count(option.get(), ' ')) + 1
                                     : 1;
       given.flag = option.kind == base::Option::Kind::flag;
       given.option = verb.add_option(names, given.words, describe(option));
       given.option->expected(given.flag ? 0 : static_cast<int>(words), static_cast<int>(words));
-      given.option->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->group(list.room())->allow_extra_args(false);
+      given.option->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->group(list.module())->allow_extra_args(false);
       static constexpr std::array kinds{"", "N", "X", "TEXT", "WORD"};
       given.option->type_name(kinds[static_cast<std::size_t>(option.kind)]);
     }

@@ -41,8 +41,8 @@ auto json_of(const base::Option& option, const std::string& room) -> Json {
           {"name", option.name},
           {"kind", kind_names[static_cast<std::size_t>(option.kind)]},
           {"unit", option.unit},
-          {"least", finite_or_null(option.range.least)},
-          {"most", finite_or_null(option.range.most)},
+          {"least", finite_or_null(option.range.minimum)},
+          {"most", finite_or_null(option.range.maximum)},
           {"choices", option.choices},
           {"default", option.get()},
           {"alias", option.alias},
@@ -211,7 +211,7 @@ auto options_json() -> Json {
   pipeline::Options defaults;
   Json options = Json::array(), presets = Json::array();
   for (const auto& list : pipeline::option_lists(defaults))
-    for (const auto& option : list.options()) options.push_back(json_of(option, list.room()));
+    for (const auto& option : list.options()) options.push_back(json_of(option, list.module()));
   for (const auto& preset : pipeline::presets()) {
     Json values = Json::object();
     for (const auto& [key, value] : preset.values) values[key] = value;

@@ -133,7 +133,7 @@ auto record_of(const Json& json) -> RunRecord {
 /// 3 of "run-3", and of "run-3-2" in the trash.
 auto number_of(const std::string& name) -> std::optional<std::int64_t> {
   if (!name.starts_with("run-")) return std::nullopt;
-  const auto number = base::to_whole(std::string_view(name).substr(4, name.find('-', 4) - 4));
+  const auto number = base::to_integer(std::string_view(name).substr(4, name.find('-', 4) - 4));
   return number && *number > 0 ? number : std::nullopt;
 }
 

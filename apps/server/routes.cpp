@@ -39,7 +39,7 @@ auto section_of_standing_plan(Workspace& workspace, const Call& call) -> Text {
              edge = word(call, "edge"), share = word(call, "share");
   for (const auto* read : {&building, &part, &ring, &edge, &share})
     if (!*read) return read->error();
-  const auto ring_number = base::to_whole(*ring), edge_number = base::to_whole(*edge);
+  const auto ring_number = base::to_integer(*ring), edge_number = base::to_integer(*edge);
   const auto at = base::to_number(*share);
   if (!ring_number || *ring_number < 0 || !edge_number || *edge_number < 0 || !at)
     return base::error("server-body", "ring and edge are whole numbers from 0, share a number from 0 to 1");

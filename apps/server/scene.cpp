@@ -34,7 +34,7 @@ auto differing(pipeline::Options options) -> Texts {
   for (std::size_t l = 0; l < own.size(); ++l)
     for (std::size_t o = 0; o < own[l].options().size(); ++o) {
       const auto value = own[l].options()[o].get();
-      if (value != usual[l].options()[o].get()) out[own[l].room() + "." + own[l].options()[o].name] = value;
+      if (value != usual[l].options()[o].get()) out[own[l].module() + "." + own[l].options()[o].name] = value;
     }
   return out;
 }

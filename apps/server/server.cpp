@@ -99,7 +99,7 @@ class Body {
 void hear_nothing_more(int port) {
   std::error_code status;
   for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", status)) {
-    const int file = static_cast<int>(base::to_whole(entry.path().filename().string()).value_or(-1));
+    const int file = static_cast<int>(base::to_integer(entry.path().filename().string()).value_or(-1));
     sockaddr_storage address{};
     socklen_t size = sizeof address;
     if (::getsockname(file, reinterpret_cast<sockaddr*>(&address), &size) != 0) continue;                    // NOLINT

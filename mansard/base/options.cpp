@@ -1,28 +1,29 @@
 #include "mansard/base/options.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 
 namespace mansard::base {
 namespace {
 
-auto bad_value(const std::string& room, const Option& option, std::string_view given, const std::string& wanted)
+auto bad_value(const std::string& module, const Option& option, std::string_view given, const std::string& wanted)
     -> Diagnostic {
   return error("option-value", "'" + std::string(given) + "' is not " + wanted + "; see 'mansard options'",
-               room + "." + option.name);
+               module + "." + option.name);
 }
 
 auto in_words(const Range& range, const std::string& unit) -> std::string {
-  const bool low = range.least > -std::numeric_limits<double>::infinity();
-  const bool high = range.most < std::numeric_limits<double>::infinity();
+  const bool low = range.minimum > -std::numeric_limits<double>::infinity();
+  const bool high = range.maximum < std::numeric_limits<double>::infinity();
   const std::string tail = unit.empty() ? "" : " " + unit;
-  if (low && high) return " from " + to_text(range.least) + " to " + to_text(range.most) + tail;
-  if (low) return " of at least " + to_text(range.least) + tail;
-  if (high) return " of at most " + to_text(range.most) + tail;
+  if (low && high) return " from " + to_text(range.minimum) + " to " + to_text(range.maximum) + tail;
+  if (low) return " of at least " + to_text(range.minimum) + tail;
+  if (high) return " of at most " + to_text(range.maximum) + tail;
   return "";
 }
 
-auto contains(const Range& range, double value) -> bool { return value >= range.least && value <= range.most; }
+auto contains(const Range& range, double value) -> bool { return value >= range.minimum && value <= range.maximum; }
 
 }  // namespace
 
@@ -38,46 +39,51 @@ auto OptionList::alias(std::string name) -> OptionList& {
   return *this;
 }
 
+auto OptionList::source(std::string source) -> OptionList& {
+  assert(!options_.empty());
+  options_.back().source = std::move(source);
+  return *this;
+}
+
+auto OptionList::advanced(std::string source) -> OptionList& {
+  this->source(std::move(source));
+  options_.back().advanced = true;
+  return *this;
+}
+
 auto OptionList::find(std::string_view name) const -> const Option* {
   const auto at = std::ranges::find(options_, name, &Option::name);
   return at == options_.end() ? nullptr : &*at;
 }
 
 auto OptionList::flag(std::string name, bool& member, std::string meaning) -> OptionList& {
-  Option option{.name = std::move(name),
-                .meaning = std::move(meaning),
-                .unit = {},
-                .kind = Option::Kind::flag,
-                .range = {},
-                .choices = {"true", "false"},
-                .alias = {},
-                .get = {},
-                .set = {}};
+  Option option;
+  option.name = std::move(name);
+  option.meaning = std::move(meaning);
+  option.kind = Option::Kind::flag;
+  option.choices = {"true", "false"};
   option.get = [&member] { return std::string(member ? "true" : "false"); };
-  option.set = [&member, room = room_, option](std::string_view given) -> Result<void> {
-    if (given != "true" && given != "false") return bad_value(room, option, given, "true or false");
+  option.set = [&member, module = module_, option](std::string_view given) -> Result<void> {
+    if (given != "true" && given != "false") return bad_value(module, option, given, "true or false");
     member = given == "true";
     return {};
   };
   return add(std::move(option));
 }
 
-auto OptionList::whole(std::string name, std::int64_t& member, std::string unit, Range range, std::string meaning)
+auto OptionList::integer(std::string name, std::int64_t& member, std::string unit, Range range, std::string meaning)
     -> OptionList& {
-  Option option{.name = std::move(name),
-                .meaning = std::move(meaning),
-                .unit = std::move(unit),
-                .kind = Option::Kind::whole,
-                .range = range,
-                .choices = {},
-                .alias = {},
-                .get = {},
-                .set = {}};
+  Option option;
+  option.name = std::move(name);
+  option.meaning = std::move(meaning);
+  option.unit = std::move(unit);
+  option.kind = Option::Kind::integer;
+  option.range = range;
   option.get = [&member] { return std::to_string(member); };
-  option.set = [&member, room = room_, option](std::string_view given) -> Result<void> {
-    const auto value = to_whole(given);
+  option.set = [&member, module = module_, option](std::string_view given) -> Result<void> {
+    const auto value = to_integer(given);
     if (!value || !contains(option.range, static_cast<double>(*value)))
-      return bad_value(room, option, given, "a whole number" + in_words(option.range, option.unit));
+      return bad_value(module, option, given, "a whole number" + in_words(option.range, option.unit));
     member = *value;
     return {};
   };
@@ -86,20 +92,17 @@ auto OptionList::whole(std::string name, std::int64_t& member, std::string unit,
 
 auto OptionList::number(std::string name, double& member, std::string unit, Range range, std::string meaning)
     -> OptionList& {
-  Option option{.name = std::move(name),
-                .meaning = std::move(meaning),
-                .unit = std::move(unit),
-                .kind = Option::Kind::number,
-                .range = range,
-                .choices = {},
-                .alias = {},
-                .get = {},
-                .set = {}};
+  Option option;
+  option.name = std::move(name);
+  option.meaning = std::move(meaning);
+  option.unit = std::move(unit);
+  option.kind = Option::Kind::number;
+  option.range = range;
   option.get = [&member] { return to_text(member); };
-  option.set = [&member, room = room_, option](std::string_view given) -> Result<void> {
+  option.set = [&member, module = module_, option](std::string_view given) -> Result<void> {
     const auto value = to_number(given);
     if (!value || !contains(option.range, *value))
-      return bad_value(room, option, given, "a number" + in_words(option.range, option.unit));
+      return bad_value(module, option, given, "a number" + in_words(option.range, option.unit));
     member = *value;
     return {};
   };
@@ -108,21 +111,18 @@ auto OptionList::number(std::string name, double& member, std::string unit, Rang
 
 auto OptionList::number(std::string name, std::optional<double>& member, std::string unit, Range range,
                         std::string meaning) -> OptionList& {
-  Option option{.name = std::move(name),
-                .meaning = std::move(meaning),
-                .unit = std::move(unit),
-                .kind = Option::Kind::number,
-                .range = range,
-                .choices = {},
-                .alias = {},
-                .get = {},
-                .set = {}};
+  Option option;
+  option.name = std::move(name);
+  option.meaning = std::move(meaning);
+  option.unit = std::move(unit);
+  option.kind = Option::Kind::number;
+  option.range = range;
   option.get = [&member] { return member ? to_text(*member) : std::string(); };
-  option.set = [&member, room = room_, option](std::string_view given) -> Result<void> {
+  option.set = [&member, module = module_, option](std::string_view given) -> Result<void> {
     if (given.empty()) return member.reset(), Result<void>{};
     const auto value = to_number(given);
     if (!value || !contains(option.range, *value))
-      return bad_value(room, option, given, "a number" + in_words(option.range, option.unit));
+      return bad_value(module, option, given, "a number" + in_words(option.range, option.unit));
     member = *value;
     return {};
   };
@@ -131,21 +131,18 @@ auto OptionList::number(std::string name, std::optional<double>& member, std::st
 
 auto OptionList::numbers(std::string name, std::span<double> members, std::string unit, Range range,
                          std::string meaning) -> OptionList& {
-  Option option{.name = std::move(name),
-                .meaning = std::move(meaning),
-                .unit = std::move(unit),
-                .kind = Option::Kind::text,
-                .range = range,
-                .choices = {},
-                .alias = {},
-                .get = {},
-                .set = {}};
+  Option option;
+  option.name = std::move(name);
+  option.meaning = std::move(meaning);
+  option.unit = std::move(unit);
+  option.kind = Option::Kind::string;
+  option.range = range;
   option.get = [members] {
     std::string all;
     for (const double member : members) all += (all.empty() ? "" : " ") + to_text(member);
     return all;
   };
-  option.set = [members, room = room_, option](std::string_view given) -> Result<void> {
+  option.set = [members, module = module_, option](std::string_view given) -> Result<void> {
     std::vector<std::optional<double>> values;
     for (std::size_t at = 0; (at = given.find_first_not_of(' ', at)) != given.npos;) {
       const std::size_t end = std::min(given.find(' ', at), given.size());
@@ -154,7 +151,7 @@ auto OptionList::numbers(std::string name, std::span<double> members, std::strin
     }
     const auto usable = [&option](const auto& value) { return value && contains(option.range, *value); };
     if (values.size() != members.size() || !std::ranges::all_of(values, usable))
-      return bad_value(room, option, given,
+      return bad_value(module, option, given,
                        std::to_string(members.size()) + " numbers" + in_words(option.range, option.unit));
     std::ranges::transform(values, members.begin(), [](const auto& value) { return *value; });
     return {};
@@ -162,16 +159,11 @@ auto OptionList::numbers(std::string name, std::span<double> members, std::strin
   return add(std::move(option));
 }
 
-auto OptionList::text(std::string name, std::string& member, std::string meaning) -> OptionList& {
-  Option option{.name = std::move(name),
-                .meaning = std::move(meaning),
-                .unit = {},
-                .kind = Option::Kind::text,
-                .range = {},
-                .choices = {},
-                .alias = {},
-                .get = {},
-                .set = {}};
+auto OptionList::string(std::string name, std::string& member, std::string meaning) -> OptionList& {
+  Option option;
+  option.name = std::move(name);
+  option.meaning = std::move(meaning);
+  option.kind = Option::Kind::string;
   option.get = [&member] { return member; };
   option.set = [&member](std::string_view given) -> Result<void> {
     member = std::string(given);
@@ -183,20 +175,17 @@ auto OptionList::text(std::string name, std::string& member, std::string meaning
 auto OptionList::add_choice(std::string name, std::vector<std::string> words, std::string meaning,
                             std::function<std::string()> get, std::function<bool(std::string_view)> put)
     -> OptionList& {
-  Option option{.name = std::move(name),
-                .meaning = std::move(meaning),
-                .unit = {},
-                .kind = Option::Kind::choice,
-                .range = {},
-                .choices = std::move(words),
-                .alias = {},
-                .get = std::move(get),
-                .set = {}};
-  option.set = [put = std::move(put), room = room_, option](std::string_view given) -> Result<void> {
+  Option option;
+  option.name = std::move(name);
+  option.meaning = std::move(meaning);
+  option.kind = Option::Kind::choice;
+  option.choices = std::move(words);
+  option.get = std::move(get);
+  option.set = [put = std::move(put), module = module_, option](std::string_view given) -> Result<void> {
     if (put(given)) return {};
     std::string wanted = "one of";
     for (const auto& word : option.choices) wanted += (word == option.choices.front() ? " " : ", ") + word;
-    return bad_value(room, option, given, wanted);
+    return bad_value(module, option, given, wanted);
   };
   return add(std::move(option));
 }

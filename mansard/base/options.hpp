@@ -1,4 +1,4 @@
-// One option list per room feeds the command line, the config file, its validation and the docs.
+// One option list per module feeds the command line, the config file, its validation and the docs.
 #pragma once
 
 #include <cstdint>
@@ -18,40 +18,43 @@ namespace mansard::base {
 
 /// A closed interval an option must lie in.
 struct Range {
-  double least = -std::numeric_limits<double>::infinity();
-  double most = std::numeric_limits<double>::infinity();
+  double minimum = -std::numeric_limits<double>::infinity();
+  double maximum = std::numeric_limits<double>::infinity();
 };
 
-/// One option, bound to a member of a room's options struct: its default is the member's initialiser.
+/// One option, bound to a member of a module's options struct: its default is the member's initialiser.
 struct Option {
-  enum class Kind { flag, whole, number, text, choice };
+  enum class Kind { flag, integer, number, string, choice };
 
-  std::string name;     ///< snake_case, unique in its room; `--room-name` with dashes on the command line
+  std::string name;     ///< snake_case, unique in its module; `--module-name` with dashes on the command line
   std::string meaning;  ///< one sentence
   std::string unit;     ///< "m", "m²", "rad", "s"; empty for none
-  Kind kind = Kind::text;
+  Kind kind = Kind::string;
   Range range;
   std::vector<std::string> choices;
-  std::string alias;  ///< a short command line name without dashes ("gamma"); empty for none
+  std::string alias;      ///< a short command line name without dashes ("gamma"); empty for none
+  std::string source;     ///< where the default comes from: a paper's section, a measurement, a derivation
+  bool advanced = false;  ///< shown by `mansard options --all` only; few users have a reason to change it
 
   std::function<std::string()> get;                   ///< the present value as text; "" when absent
   std::function<Result<void>(std::string_view)> set;  ///< error code "option-value" when it cannot be taken
 };
 
-/// The options of one room, bound to one instance of its struct (which must outlive the list).
+/// The options of one module, bound to one instance of its struct (which must outlive the list).
 class OptionList {
  public:
-  explicit OptionList(std::string room) : room_(std::move(room)) {}
+  explicit OptionList(std::string module) : module_(std::move(module)) {}
 
   auto flag(std::string name, bool& member, std::string meaning) -> OptionList&;
-  auto whole(std::string name, std::int64_t& member, std::string unit, Range range, std::string meaning) -> OptionList&;
+  auto integer(std::string name, std::int64_t& member, std::string unit, Range range, std::string meaning)
+      -> OptionList&;
   auto number(std::string name, double& member, std::string unit, Range range, std::string meaning) -> OptionList&;
   auto number(std::string name, std::optional<double>& member, std::string unit, Range range, std::string meaning)
       -> OptionList&;
   /// Several numbers as one text, separated by blanks ("84800 447400 0"): exactly as many as there are members.
   auto numbers(std::string name, std::span<double> members, std::string unit, Range range, std::string meaning)
       -> OptionList&;
-  auto text(std::string name, std::string& member, std::string meaning) -> OptionList&;
+  auto string(std::string name, std::string& member, std::string meaning) -> OptionList&;
 
   /// An enumeration by its names.
   template <class E>
@@ -74,8 +77,12 @@ class OptionList {
 
   /// Gives the option added last a second, short name on the command line.
   auto alias(std::string name) -> OptionList&;
+  /// Says of the option added last where its default comes from.
+  auto source(std::string source) -> OptionList&;
+  /// The same, and puts it among the advanced options.
+  auto advanced(std::string source) -> OptionList&;
 
-  [[nodiscard]] auto room() const -> const std::string& { return room_; }
+  [[nodiscard]] auto module() const -> const std::string& { return module_; }
   [[nodiscard]] auto options() const -> const std::vector<Option>& { return options_; }
   [[nodiscard]] auto find(std::string_view name) const -> const Option*;
 
@@ -84,7 +91,7 @@ class OptionList {
   auto add_choice(std::string name, std::vector<std::string> words, std::string meaning,
                   std::function<std::string()> get, std::function<bool(std::string_view)> put) -> OptionList&;
 
-  std::string room_;
+  std::string module_;
   std::vector<Option> options_;
 };
 

@@ -38,7 +38,14 @@ auto to_number(std::string_view text) -> std::optional<double> {
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-auto to_whole(std::string_view text) -> std::optional<std::int64_t> { return parse<std::int64_t>(text); }
+auto to_integer(std::string_view text) -> std::optional<std::int64_t> { return parse<std::int64_t>(text); }
+
+auto lower(std::string_view text) -> std::string {
+  std::string out(text);
+  for (char& c : out)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return out;
+}
 
 auto on_one_line(std::string text) -> std::string {
   for (char& c : text)

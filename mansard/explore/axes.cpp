@@ -29,8 +29,8 @@ auto key_of(std::string name, std::vector<base::OptionList>& lists) -> base::Res
     for (const auto& option : list.options()) {
       std::string alias = option.alias;
       std::ranges::replace(alias, '-', '_');
-      const std::string key = list.room() + "." + option.name;
-      if (name == key || name == list.room() + "_" + option.name || (!alias.empty() && name == alias)) return key;
+      const std::string key = list.module() + "." + option.name;
+      if (name == key || name == list.module() + "_" + option.name || (!alias.empty() && name == alias)) return key;
       known.push_back(key);
       if (!alias.empty()) known.push_back(alias);
     }

@@ -318,21 +318,22 @@ auto option_list(Options& o) -> base::OptionList {
           .choice("up", o.up, {{"automatic", UpAxis::automatic}, {"z", UpAxis::z}, {"y", UpAxis::y}},
                   "Which axis of the mesh is up; automatic means y for glTF and z for the rest.")
           .alias("up")
-          .text("crs", o.crs,
-                "CRS to work in: EPSG:n, or local; empty for the footprints', the mesh's, or the UTM zone.")
+          .string("crs", o.crs,
+                  "CRS to work in: EPSG:n, or local; empty for the footprints', the mesh's, or the UTM zone.")
           .alias("crs")
-          .text("id_attribute", o.id_attribute, "Attribute that names a footprint; empty to look for a well-known one.")
+          .string("id_attribute", o.id_attribute,
+                  "Attribute that names a footprint; empty to look for a well-known one.")
           .alias("id_attribute")
-          .text("layer", o.layer, "Layer of the vector file; empty for its first one with polygons.")
+          .string("layer", o.layer, "Layer of the vector file; empty for its first one with polygons.")
           .alias("layer")
-          .text("where", o.where, "Only footprints that pass this filter, as in SQL after WHERE.")
+          .string("where", o.where, "Only footprints that pass this filter, as in SQL after WHERE.")
           .alias("where")
           .numbers("bbox", o.bbox, "m", {-far, far},
                    "Only footprints that meet the box xmin ymin xmax ymax in the working CRS; four zeros for all.")
           .alias("bbox")
           .number("tile_error", o.tile_error, "m", {0, far},
                   "Of a 3D Tiles tileset, take tiles once their geometric error is no more; 0 for the finest.")
-          .text("terrain", o.terrain, "Raster with the ground's heights; empty to find the ground in the mesh.")
+          .string("terrain", o.terrain, "Raster with the ground's heights; empty to find the ground in the mesh.")
           .alias("dtm"));
 }
 

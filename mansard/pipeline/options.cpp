@@ -22,7 +22,7 @@ auto option_lists(Options& options) -> std::vector<base::OptionList> {
   lists.push_back(evaluate::option_list(options.evaluate));
   lists.push_back(write::option_list(options.write));
   base::OptionList own("pipeline");
-  own.whole("seed", options.seed, "", {0, 9e15}, "Seed of all sampling; the same seed gives the same bytes.")
+  own.integer("seed", options.seed, "", {0, 9e15}, "Seed of all sampling; the same seed gives the same bytes.")
       .alias("seed")
       .number("assumed_height", options.assumed_height, "m", {0.5, 100},
               "Height of the prism of a footprint over which the mesh shows nothing.")
@@ -88,7 +88,7 @@ auto set_option(std::vector<base::OptionList>& lists, std::string_view key, std:
   std::vector<std::string> known;
   for (const auto& list : lists)
     for (const auto& option : list.options()) {
-      const std::string name = list.room() + "." + option.name;
+      const std::string name = list.module() + "." + option.name;
       if (name == key) return option.set(value);
       known.push_back(name);
     }

@@ -17,7 +17,7 @@ auto raising_options(const Options& options) -> std::vector<std::pair<std::strin
   Options copy = options;
   std::vector<std::pair<std::string, std::string>> out;
   for (const auto& list : {extrude::option_list(copy.extrude), label::option_list(copy.label)})
-    for (const auto& option : list.options()) out.emplace_back(list.room() + "." + option.name, option.get());
+    for (const auto& option : list.options()) out.emplace_back(list.module() + "." + option.name, option.get());
   return out;
 }
 

@@ -35,7 +35,8 @@ auto option_list(Options& o) -> base::OptionList {
                            Shape::pyramidal, Shape::gambrel, Shape::mansard})
     shapes.emplace_back(to_string(shape), shape);
   base::OptionList list("roof");
-  list.text("profile", o.profile, "One profile for every edge, \"0,0 0,6 4,9\" (inward,height); empty: by attributes.")
+  list.string("profile", o.profile,
+              "One profile for every edge, \"0,0 0,6 4,9\" (inward,height); empty: by attributes.")
       .alias("profile")
       .number("cap", o.cap, "m", {0.01, 2000}, "Height above the base at which a roof of roof.profile is cut off flat.")
       .choice("shape", o.shape, std::move(shapes), "Roof where there is no roof:shape.")
@@ -49,21 +50,21 @@ auto option_list(Options& o) -> base::OptionList {
       .number("most_share", o.most_share, "", {0.01, 0.99}, "Such roofs take no more than this share of the height.")
       .number("half_hip", o.half_hip, "", {0.05, 0.95}, "Upright share of a half-hipped end.")
       .number("ground", o.ground, "m", {-12000, 9000}, "z of the ground where no attribute says it.")
-      .text("building_height_attribute", o.building_height_attribute, "Attribute to take as height.")
+      .string("building_height_attribute", o.building_height_attribute, "Attribute to take as height.")
       .alias("height_attribute")
-      .text("building_levels_attribute", o.building_levels_attribute, "Attribute to take as building:levels.")
+      .string("building_levels_attribute", o.building_levels_attribute, "Attribute to take as building:levels.")
       .alias("levels_attribute")
-      .text("min_height_attribute", o.min_height_attribute, "Attribute to take as min_height.")
+      .string("min_height_attribute", o.min_height_attribute, "Attribute to take as min_height.")
       .alias("min_height_attribute")
-      .text("min_level_attribute", o.min_level_attribute, "Attribute to take as building:min_level.")
-      .text("ground_attribute", o.ground_attribute, "Attribute with the z of the ground.")
+      .string("min_level_attribute", o.min_level_attribute, "Attribute to take as building:min_level.")
+      .string("ground_attribute", o.ground_attribute, "Attribute with the z of the ground.")
       .alias("ground_attribute")
-      .text("shape_attribute", o.shape_attribute, "Attribute to take as roof:shape.")
-      .text("height_attribute", o.height_attribute, "Attribute to take as roof:height.")
-      .text("levels_attribute", o.levels_attribute, "Attribute to take as roof:levels.")
-      .text("angle_attribute", o.angle_attribute, "Attribute to take as roof:angle.")
-      .text("orientation_attribute", o.orientation_attribute, "Attribute to take as roof:orientation.")
-      .text("direction_attribute", o.direction_attribute, "Attribute to take as roof:direction.");
+      .string("shape_attribute", o.shape_attribute, "Attribute to take as roof:shape.")
+      .string("height_attribute", o.height_attribute, "Attribute to take as roof:height.")
+      .string("levels_attribute", o.levels_attribute, "Attribute to take as roof:levels.")
+      .string("angle_attribute", o.angle_attribute, "Attribute to take as roof:angle.")
+      .string("orientation_attribute", o.orientation_attribute, "Attribute to take as roof:orientation.")
+      .string("direction_attribute", o.direction_attribute, "Attribute to take as roof:direction.");
   return list;
 }
 

@@ -158,9 +158,9 @@ auto option_list(Options& o) -> base::OptionList {
           .number(
               "narrow", o.narrow, "m", {0, 100},
               "Parts of less mean width go to their neighbour, or are left out as strips outside a wall; 0 keeps them.")
-          .whole("samples", o.samples, "", {9, 100000}, "Height samples per face, at most.")
+          .integer("samples", o.samples, "", {9, 100000}, "Height samples per face, at most.")
           .number("seconds", o.seconds, "s", {0, 1e6}, "Time limit per block; none: until proven optimal.")
-          .whole("nodes", o.nodes, "", {0, 1e9}, "Limit of branch-and-bound nodes per solve.")
+          .integer("nodes", o.nodes, "", {0, 1e9}, "Limit of branch-and-bound nodes per solve.")
           .flag("cliques", o.cliques, "Give the solver a row for every clique of conflicts as well."));
 }
 

@@ -30,7 +30,7 @@ auto option_list(Options& o) -> base::OptionList {
   auto& block = o.block;
   auto& survey = o.survey;
   auto& scan = o.scan;
-  list.whole("seed", o.seed, "", {0, 1e15}, "What is invented depends on this alone.").alias("seed");
+  list.integer("seed", o.seed, "", {0, 1e15}, "What is invented depends on this alone.").alias("seed");
   list.number("size", block.size, "m", {20, 400}, "About the length of the block's street front.")
       .number("turn", block.turn, "rad", {-7, 7}, "Turns the street off the x axis; drawn where it is not given.")
       .number("slope", block.slope, "", {-0.3, 0.3}, "Metres that the street falls per metre.")

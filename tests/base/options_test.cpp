@@ -19,11 +19,11 @@ struct Sample {
 auto list_of(Sample& s) -> OptionList {
   OptionList list("sample");
   list.flag("on", s.on, "On or off.")
-      .whole("count", s.count, "", {1, 10}, "How many.")
+      .integer("count", s.count, "", {1, 10}, "How many.")
       .number("size", s.size, "m", {0.1, 5}, "How big.")
       .alias("size")
       .number("limit", s.limit, "s", {0, 100}, "How long, if at all.")
-      .text("name", s.name, "What it is called.")
+      .string("name", s.name, "What it is called.")
       .choice("mood", s.mood, {{"calm", Mood::calm}, {"wild", Mood::wild}}, "How it feels.");
   return list;
 }

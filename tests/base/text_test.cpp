@@ -21,9 +21,11 @@ TEST(Text, takes_whole_finite_numbers_only) {
   EXPECT_EQ(to_number("+1.5"), 1.5);
   for (const auto* text : {"", "1,5", "1.5 ", " 1", "nan", "inf", "1e999", "0x10", "1.5m"})
     EXPECT_FALSE(to_number(text)) << text;
-  EXPECT_EQ(to_whole("-7"), -7);
-  for (const auto* text : {"", "7.0", "99999999999999999999"}) EXPECT_FALSE(to_whole(text)) << text;
+  EXPECT_EQ(to_integer("-7"), -7);
+  for (const auto* text : {"", "7.0", "99999999999999999999"}) EXPECT_FALSE(to_integer(text)) << text;
 }
+
+TEST(Text, lower_changes_ascii_letters_only) { EXPECT_EQ(lower("ÄB.City.JSON 9"), "Äb.city.json 9"); }
 
 }  // namespace
 }  // namespace mansard::base

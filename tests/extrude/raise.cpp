@@ -413,7 +413,7 @@ TEST(Prism, is_the_polygon_from_base_to_cap) {
 TEST(Options, list_every_member) {
   extrude::Options options;
   const auto list = extrude::option_list(options);
-  EXPECT_EQ(list.room(), "extrude");
+  EXPECT_EQ(list.module(), "extrude");
   ASSERT_NE(list.find("merge_angle"), nullptr);
   ASSERT_NE(list.find("tolerance"), nullptr);
   EXPECT_TRUE(list.find("tolerance")->set("0.1"));

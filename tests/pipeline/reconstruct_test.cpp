@@ -179,7 +179,7 @@ TEST(OptionLists, have_a_meaning_for_every_option_and_no_name_twice) {
   for (const auto& list : option_lists(options))
     for (const auto& option : list.options()) {
       EXPECT_FALSE(option.meaning.empty()) << option.name;
-      EXPECT_TRUE(names.insert(list.room() + "." + option.name).second) << option.name;
+      EXPECT_TRUE(names.insert(list.module() + "." + option.name).second) << option.name;
       if (!option.alias.empty()) {
         EXPECT_TRUE(names.insert(option.alias).second) << option.alias;
       }

@@ -346,7 +346,7 @@ TEST(Fit, keeps_its_guarantees_on_random_houses) {
 TEST(Options, are_all_listed_with_their_defaults) {
   Options options;
   const auto list = mansard::profile::option_list(options);
-  EXPECT_EQ(list.room(), "profile");
+  EXPECT_EQ(list.module(), "profile");
   EXPECT_EQ(list.options().size(), 8U);
   ASSERT_NE(list.find("quality"), nullptr);
   EXPECT_EQ(list.find("quality")->get(), "high");

@@ -363,7 +363,7 @@ TEST(Choose, answers_an_arrangement_without_faces) {
 TEST(Options, list_every_member_once_with_its_default) {
   Options options;
   const base::OptionList list = option_list(options);
-  EXPECT_EQ(list.room(), "segment");
+  EXPECT_EQ(list.module(), "segment");
   EXPECT_EQ(list.options().size(), 22U);
   std::set<std::string> names;
   for (const auto& option : list.options()) names.insert(option.name);

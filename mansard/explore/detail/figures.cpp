@@ -37,7 +37,7 @@ auto label_of(const Axis& axis) -> std::string {
   pipeline::Options options;
   for (const auto& list : pipeline::option_lists(options))
     for (const auto& option : list.options())
-      if (axis.key == list.room() + "." + option.name && !option.unit.empty()) return axis.key + ", " + option.unit;
+      if (axis.key == list.module() + "." + option.name && !option.unit.empty()) return axis.key + ", " + option.unit;
   return axis.key;
 }
 

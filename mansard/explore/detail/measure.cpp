@@ -215,7 +215,7 @@ auto measure(const ingest::Scene& scene, const pipeline::Options& options, const
 auto values_of(pipeline::Options options) -> Setting {
   Setting values;
   for (const auto& list : pipeline::option_lists(options))
-    for (const auto& option : list.options()) values.emplace_back(list.room() + "." + option.name, option.get());
+    for (const auto& option : list.options()) values.emplace_back(list.module() + "." + option.name, option.get());
   return values;
 }
 
@@ -236,8 +236,8 @@ auto command_of(const Dataset& dataset, pipeline::Options options) -> std::strin
     for (const auto& option : now[room].options()) {
       const auto usual = before[room].find(option.name)->get();
       if (option.get() == usual) continue;
-      const bool words = option.kind == base::Option::Kind::text && usual.find(' ') != std::string::npos;
-      command += " " + typed(now[room].room() + "." + option.name, option.get(), words);
+      const bool words = option.kind == base::Option::Kind::string && usual.find(' ') != std::string::npos;
+      command += " " + typed(now[room].module() + "." + option.name, option.get(), words);
     }
   return command + " -o out";
 }

@@ -34,7 +34,7 @@ auto looks_local(const FeatureFile& file, const geometry::Box2& mesh) -> bool {
 auto utm_crs(const OGRSpatialReference& geographic, const geometry::Box2& box) -> std::optional<Crs> {
   const geometry::Point2 centre = 0.5 * (box.least + box.most);
   const char* code = geographic.GetAuthorityCode("GEOGCS");
-  const auto number = base::to_whole(code != nullptr ? code : "").value_or(4326);
+  const auto number = base::to_integer(code != nullptr ? code : "").value_or(4326);
   const int zone = utm_zone(centre.x, centre.y, static_cast<int>(number));
   Crs crs;
   if (zone == 0 || crs.system.importFromEPSG(zone) != OGRERR_NONE) return std::nullopt;

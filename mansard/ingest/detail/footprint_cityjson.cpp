@@ -245,7 +245,7 @@ void take_crs(const std::string& spelt, FeatureFile& file) {
   if (spelt.empty()) return;
   const GdalMessages messages;
   const auto at = spelt.find_last_of("/:");
-  const auto number = at == spelt.npos ? std::nullopt : base::to_whole(spelt.substr(at + 1));
+  const auto number = at == spelt.npos ? std::nullopt : base::to_integer(spelt.substr(at + 1));
   const auto crs = from_words(number && spelt.find("EPSG") != spelt.npos ? "EPSG:" + std::to_string(*number) : spelt);
   if (crs) file.crs = wkt_of(flat(crs->system).system);
   else file.crs_failure = "'" + spelt + "'";

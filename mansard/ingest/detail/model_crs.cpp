@@ -14,7 +14,7 @@ namespace {
 auto without_address(const std::string& spelt) -> std::string {
   const auto at = spelt.find_last_of("/:");
   if (spelt.find("EPSG") == spelt.npos || at == spelt.npos) return spelt;
-  const auto number = base::to_whole(spelt.substr(at + 1));
+  const auto number = base::to_integer(spelt.substr(at + 1));
   return number ? "EPSG:" + std::to_string(*number) : spelt;
 }
 

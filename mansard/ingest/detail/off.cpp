@@ -83,7 +83,7 @@ auto read_off(std::string_view bytes, const std::string& name) -> base::Result<R
     return bad("'" + std::string(keyword) + "' has more than three dimensions");
   }
   if (line.empty()) return truncated("its counts");
-  const auto vertices = base::to_whole(take_word(line)), faces = base::to_whole(take_word(line));
+  const auto vertices = base::to_integer(take_word(line)), faces = base::to_integer(take_word(line));
   if (!vertices || !faces || *vertices < 0 || *faces < 0) return bad("this is not the number of vertices and faces");
 
   // "0 0 0\n" and "3 0 1 2\n" are the shortest a vertex and a face can be: a wrong count must not cost the memory.
@@ -115,7 +115,7 @@ auto read_off(std::string_view bytes, const std::string& name) -> base::Result<R
   for (std::int64_t i = 0; i < *faces; ++i) {
     line = take_content(bytes, count);
     if (line.empty()) return truncated("face " + std::to_string(i + 1) + " of " + std::to_string(*faces));
-    const auto size = base::to_whole(take_word(line));
+    const auto size = base::to_integer(take_word(line));
     if (!size || *size < 0) return bad("a face starts with the number of its corners");
     corners.clear();
     for (std::int64_t k = 0; k < *size; ++k) {

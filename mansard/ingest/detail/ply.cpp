@@ -447,7 +447,7 @@ auto take_header(std::string_view& bytes, const std::string& name) -> base::Resu
       if (header.format == Format::none) return bad("format '" + std::string(word) + "' is not known");
     } else if (keyword == "element") {
       const std::string element(take_word(line));
-      const auto size = base::to_whole(take_word(line));
+      const auto size = base::to_integer(take_word(line));
       if (element.empty() || !size || *size < 0) return bad("an element needs a name and a count");
       header.elements.push_back({element, *size, {}});
     } else if (keyword == "property") {

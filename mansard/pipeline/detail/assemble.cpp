@@ -22,7 +22,7 @@ auto made_by(const ingest::Scene& scene, const Options& options) -> write::MadeB
   out.inputs = scene.inputs;
   Options copy = options;
   for (const auto& list : option_lists(copy))
-    for (const auto& option : list.options()) out.options.emplace_back(list.room() + "." + option.name, option.get());
+    for (const auto& option : list.options()) out.options.emplace_back(list.module() + "." + option.name, option.get());
   return out;
 }
 

@@ -51,7 +51,7 @@ auto semantics_of(const Surface& surface) -> std::string {
 auto epsg_code(std::string_view crs) -> std::string {
   constexpr std::string_view prefix = "EPSG:";
   if (!crs.starts_with(prefix)) return {};
-  const auto code = base::to_whole(crs.substr(prefix.size()));
+  const auto code = base::to_integer(crs.substr(prefix.size()));
   return code && *code > 0 ? std::to_string(*code) : std::string();
 }
 
