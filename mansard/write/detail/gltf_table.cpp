@@ -39,11 +39,11 @@ auto take_raw(std::string_view& bytes) -> T {
 
 auto kind_of(const Column& column) -> Kind {
   const auto& [none, flags, whole, reals, texts] = column.counts;
-  if (texts > 0 || (flags > 0 && whole + reals > 0)) return Kind::string;
+  if (texts > 0 || (flags > 0 && whole + reals > 0)) return Kind::text;
   if (flags > 0) return column.absent ? Kind::flag : Kind::boolean;
   if (reals > 0) return Kind::real;
   if (whole > 0) return column.narrow ? Kind::int32 : Kind::int64;
-  return Kind::string;
+  return Kind::text;
 }
 
 /// Letters, digits and underscores, no digit first: what a property may be called.
@@ -83,14 +83,14 @@ void append_type(JsonText& json, const Column& column) {
     case Kind::int32: scalar("INT32"); break;
     case Kind::int64: scalar("INT64"); break;
     case Kind::real: scalar("FLOAT64"); break;
-    case Kind::string: json.key("type").text("STRING"); break;
+    case Kind::text: json.key("type").text("STRING"); break;
   }
   if (!column.absent) return;
   json.key("noData");
   if (column.kind == Kind::int32) json.whole(no_int32);
   if (column.kind == Kind::int64) json.whole(no_int64);
   if (column.kind == Kind::real) json.number(no_real);
-  if (column.kind == Kind::string) json.text("");
+  if (column.kind == Kind::text) json.text("");
 }
 
 void append_property(JsonText& json, const Column& column) {
@@ -165,7 +165,7 @@ class ColumnWriter {
         break;
       case Kind::int64: append_raw(held_, value == nullptr ? no_int64 : std::get<std::int64_t>(*value)); break;
       case Kind::real: append_raw(held_, value == nullptr ? no_real : real_of(*value)); break;
-      case Kind::string:
+      case Kind::text:
         if (value != nullptr) {
           const std::string text = text_of(*value);
           held_ += text;
@@ -201,8 +201,8 @@ auto as_utf8(const std::string& text) -> std::string {
 
 PartColumns::PartColumns() {
   columns_.push_back(
-      {"building_id", "building_id", "The feature that the part belongs to.", false, {}, true, false, Kind::string});
-  columns_.push_back({"part_id", "part_id", "The part.", true, {}, true, false, Kind::string});
+      {"building_id", "building_id", "The feature that the part belongs to.", false, {}, true, false, Kind::text});
+  columns_.push_back({"part_id", "part_id", "The part.", true, {}, true, false, Kind::text});
   columns_.push_back({"order",
                       "order",
                       "The place of the building in the order of its source, from 0.",
@@ -333,7 +333,7 @@ auto TableBytes::add(const Column& column, std::uint32_t number, base::Spool& ro
   bool any = false;
   const auto looked = for_each_row(rows, [&](const Row& row) {
     const ingest::Value* value = value_in(row);
-    any = any || (value != nullptr && (column.kind != Kind::string || !text_of(*value).empty()));
+    any = any || (value != nullptr && (column.kind != Kind::text || !text_of(*value).empty()));
   });
   if (!looked) return looked.error();
   if (!any || count == 0) return {};
@@ -345,7 +345,7 @@ auto TableBytes::add(const Column& column, std::uint32_t number, base::Spool& ro
   TableColumn made{column.identifier, end(), 0, false};
   if (writer.length() > std::numeric_limits<std::uint32_t>::max())
     return base::error("write-glb-size", "an attribute is larger than the 4 GB a GLB can hold", column.name);
-  if (column.kind == Kind::string) {
+  if (column.kind == Kind::text) {
     begin();
     append({reinterpret_cast<const char*>(writer.offsets().data()), writer.offsets().size() * sizeof(std::uint32_t)});
     made.offsets = end();

@@ -45,7 +45,7 @@ class PartColumns {
     std::array<std::uint64_t, std::variant_size_v<ingest::Value>> counts{};  ///< by type of value
     bool narrow = true;   ///< whole numbers are less than 2^31 in size
     bool absent = false;  ///< in some row
-    Kind kind = Kind::string;
+    Kind kind = Kind::text;
   };
   [[nodiscard]] auto columns() const -> const std::vector<Column>& { return columns_; }
 
