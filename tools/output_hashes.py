@@ -36,7 +36,7 @@ def bytes_of(path):
 
 
 # ---- shapes: coordinates and numbers without options, versions, attributes and sentences ----
-NOT_MEASURED = {"seconds", "options", "inputs", "made_by", "bytes"}
+NOT_MEASURED = {"seconds", "options", "inputs", "made_by", "bytes", "schema"}
 LAYERS = ("footprints", "edges", "roof_planes", "walls", "profiles", "faces", "sweep_edges", "conflicts", "gis_footprints")
 
 
@@ -101,7 +101,8 @@ def of_glb(data):
                 at = view.get("byteOffset", 0)
                 described = {key: accessor.get(key) for key in ("byteOffset", "count", "min", "max")}
                 out.append([described, hashlib.sha256(binary[at : at + view["byteLength"]]).hexdigest()])
-    nodes = [{key: node[key] for key in ("mesh", "matrix", "translation", "scale") if key in node} for node in document["nodes"]]
+    placed = ("mesh", "matrix", "translation", "rotation", "scale")
+    nodes = [{key: node[key] for key in placed if key in node} for node in document["nodes"]]
     return [nodes, out]
 
 

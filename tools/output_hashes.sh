@@ -16,7 +16,8 @@
 # OUT/seconds.txt has what every case took: elapsed, user and system seconds.
 # OUT must not exist, or be from an earlier run; the results stay in OUT/work. Nothing depends on where MANSARD, DATA and
 # OUT are: all cases run in OUT/work with relative paths. ONLY='hall*' runs the cases of matching names alone.
-# Takes two minutes of CPU time. Ends with 0 whether or not cases fail; their exit codes are hashed, and codes above 1 are named on stderr.
+# All cases take about 1.5 minutes of CPU time. Ends with 0 whether or not cases fail: their exit codes are hashed, and codes
+# above 1 are printed to stderr.
 set -euo pipefail
 export LC_ALL=C.UTF-8
 here=$(cd "$(dirname "$0")" && pwd)
