@@ -1,8 +1,8 @@
 # CityJSON files name the extension that declares what is ours in them, and where its schema is: docs/mansard.ext.json,
 # installed with the program. Whoever publishes it says where; until then it is a file of that name beside (decision 23).
 set(MANSARD_EXTENSION_URL "mansard.ext.json" CACHE STRING "Where CityJSON files say the schema of their extension is")
-if(TARGET mansard_write)
-  target_compile_definitions(mansard_write PRIVATE MANSARD_EXTENSION_URL="${MANSARD_EXTENSION_URL}")
+if(TARGET mansard_formats)
+  target_compile_definitions(mansard_formats PRIVATE MANSARD_EXTENSION_URL="${MANSARD_EXTENSION_URL}")
 endif()
 set(schema ${PROJECT_SOURCE_DIR}/docs/mansard.ext.json)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${schema})

@@ -1,4 +1,4 @@
-# mansard_find_library(name [REQUIRED]): finds the library that a room names in USES, and sets MANSARD_LIBRARY_TARGET to
+# mansard_find_library(name [REQUIRED]): finds the library that a module names in USES, and sets MANSARD_LIBRARY_TARGET to
 # its target and MANSARD_LIBRARY_PACKAGE to what Debian calls it. Also installed, beside mansardConfig.cmake, so that
 # programs outside find the same libraries in the same way.
 set(MANSARD_HEADERS_ONLY Boost::multiprecision nlohmann_json)

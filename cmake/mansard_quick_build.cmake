@@ -3,7 +3,7 @@
 #   Headers of the standard library, GoogleTest in tests and CLI11 in the command line are parsed once, not once a source.
 #   Those of the house are not among them: to change one costs those who include it, no more. Nor is nlohmann/json: g++
 #   instantiates again in every source what such a header leaves open, which costs as much as parsing it.
-#   Tests are compiled with -O1. They spend their time in the rooms.
+#   Tests are compiled with -O1. They spend their time in the modules.
 # A source that forgets an #include of these still compiles, and g++ 12 warns of strings that it does not understand. So
 # a build without, of the same sources with all warnings, is what the presets debug and asan are, and any folder
 # configured by hand.
@@ -25,7 +25,7 @@ if(MANSARD_QUICK_BUILD)
   endif()
 endif()
 
-# mansard_precompiled(target rooms|tests|commands): `target` uses the precompiled headers of rooms, those of tests, or those
+# mansard_precompiled(target modules|tests|commands): `target` uses the precompiled headers of modules, those of tests, or those
 # of the command line, which is compiled as its own target is.
 function(mansard_precompiled target what)
   if(NOT MANSARD_QUICK_BUILD)

@@ -1,52 +1,52 @@
 # What is installed, and the packages made of it: docs/packaging.md.
-#   component extrude    the extrusion kernel and what it stands on: libraries, doors, their part of the CMake package
-#   component engine     the same of every other room
+#   component extrude    the extrusion kernel and what it depends on: libraries, public headers, their part of the CMake package
+#   component engine     the same of every other module
 #   component program    mansard, its manual page, the shells' completions, the samples
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/mansard)
-get_property(rooms GLOBAL PROPERTY MANSARD_ROOM_LIST)
+get_property(modules GLOBAL PROPERTY MANSARD_MODULE_LIST)
 
-# The room and those that it stands on.
-function(mansard_ground name result)
-  set(ground "")
+# The module and those that it depends on.
+function(mansard_reach name result)
+  set(reach "")
   set(open ${name})
   while(open)
-    list(POP_FRONT open room)
-    if(NOT room IN_LIST ground)
-      list(APPEND ground ${room})
-      get_target_property(doors mansard_${room} MANSARD_DOORS)
-      list(APPEND open ${doors})
+    list(POP_FRONT open module)
+    if(NOT module IN_LIST reach)
+      list(APPEND reach ${module})
+      get_target_property(depends mansard_${module} MANSARD_DEPENDS)
+      list(APPEND open ${depends})
     endif()
   endwhile()
-  set(${result} ${ground} PARENT_SCOPE)
+  set(${result} ${reach} PARENT_SCOPE)
 endfunction()
 
 set(kernel "")
 if(TARGET mansard_extrude)
-  mansard_ground(extrude kernel)
+  mansard_reach(extrude kernel)
 endif()
-foreach(room IN LISTS rooms)
+foreach(module IN LISTS modules)
   set(component engine)
-  if(room IN_LIST kernel)  # an export belongs to one component
+  if(module IN_LIST kernel)  # an export belongs to one component
     set(component extrude)
   endif()
-  install(TARGETS mansard_${room} EXPORT mansard_${room} COMPONENT ${component})
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/mansard/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/mansard
+  install(TARGETS mansard_${module} EXPORT mansard_${module} COMPONENT ${component})
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/mansard/${module} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/mansard
     COMPONENT ${component} FILES_MATCHING PATTERN *.hpp PATTERN detail EXCLUDE)
-  install(EXPORT mansard_${room} NAMESPACE mansard:: FILE mansard_${room}.cmake DESTINATION ${package_dir}
+  install(EXPORT mansard_${module} NAMESPACE mansard:: FILE mansard_${module}.cmake DESTINATION ${package_dir}
     COMPONENT ${component})
 endforeach()
 
-# The package file knows every room's doors and libraries, whichever of them are installed.
-set(MANSARD_CONFIG_ROOMS "${rooms}")
-list(JOIN MANSARD_CONFIG_ROOMS " " MANSARD_CONFIG_ROOMS)
-set(MANSARD_CONFIG_DOORS "")
-foreach(room IN LISTS rooms)
-  get_target_property(doors mansard_${room} MANSARD_DOORS)
-  get_target_property(uses mansard_${room} MANSARD_USES)
-  list(JOIN doors " " doors)
+# The package file knows every module's dependencies and libraries, whichever of them are installed.
+set(MANSARD_CONFIG_MODULES "${modules}")
+list(JOIN MANSARD_CONFIG_MODULES " " MANSARD_CONFIG_MODULES)
+set(MANSARD_CONFIG_DEPENDS "")
+foreach(module IN LISTS modules)
+  get_target_property(depends mansard_${module} MANSARD_DEPENDS)
+  get_target_property(uses mansard_${module} MANSARD_USES)
+  list(JOIN depends " " depends)
   list(JOIN uses " " uses)
-  string(APPEND MANSARD_CONFIG_DOORS "set(_mansard_doors_${room} ${doors})\nset(_mansard_uses_${room} ${uses})\n")
+  string(APPEND MANSARD_CONFIG_DEPENDS "set(_mansard_depends_${module} ${depends})\nset(_mansard_uses_${module} ${uses})\n")
 endforeach()
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/mansardConfig.cmake.in
   ${PROJECT_BINARY_DIR}/mansardConfig.cmake INSTALL_DESTINATION ${package_dir})
@@ -114,5 +114,5 @@ set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libtbb-dev, libgmp-dev, libgeos-dev, libembree-dev (>= 3.13), coinor-libcbc-dev, \
 libgdal-dev, libtinygltf-dev, libdraco-dev, libmeshoptimizer-dev, libssl-dev, libpng-dev, pkg-config")
 set(CPACK_COMPONENT_GROUP_DEV_DESCRIPTION
-  "The rooms of mansard as static libraries with their doors, for find_package(mansard COMPONENTS pipeline).")
+  "The modules of mansard as static libraries with their public headers, for find_package(mansard COMPONENTS pipeline).")
 include(CPack)

@@ -2,6 +2,7 @@
 // must pass the check, lie between nothing and the prism, say why when it is less than full, and be full for a plan
 // without small details.
 #include "mansard/extrude/extrude.hpp"
+#include "mansard/solid/solid.hpp"
 
 #include <algorithm>
 #include <array>
@@ -20,10 +21,10 @@ namespace {
 
 using namespace mansard;
 using fuzz::promise;
-using geometry::Plan;
 using geometry::Point2;
-using geometry::Profile;
 using geometry::Ring;
+using model::Plan;
+using model::Profile;
 
 /// Numbers from the bytes; zeros when they have run out.
 class Bytes {
@@ -130,7 +131,7 @@ auto plan_of(Bytes& bytes) -> Plan {
     polygon.holes.push_back(std::move(hole));
   }
   polygon = geometry::oriented(std::move(polygon));
-  const auto fill = [&](geometry::PlanRing& ring, Ring& from) {
+  const auto fill = [&](model::PlanRing& ring, Ring& from) {
     ring.points = std::move(from);
     for (std::size_t i = 0; i < ring.points.size(); ++i)
       ring.profile_of_edge.push_back(static_cast<std::uint32_t>(bytes.index(profiles)));
@@ -143,7 +144,7 @@ auto plan_of(Bytes& bytes) -> Plan {
 auto text(const Plan& plan) -> std::string {
   std::string out;
   const auto number = [&](double value) { out += base::to_text(value) + " "; };
-  const auto ring = [&](const geometry::PlanRing& r) {
+  const auto ring = [&](const model::PlanRing& r) {
     for (std::size_t i = 0; i < r.points.size(); ++i) {
       number(r.points[i].x);
       number(r.points[i].y);
@@ -225,7 +226,7 @@ auto harmless(const Plan& plan, const geometry::Polygon& polygon) -> bool {
 void try_plan(const Plan& plan) {
   const auto shown = [&] { return text(plan); };
   const auto with = [&](const std::string& more) { return [&plan, more] { return more + text(plan); }; };
-  const geometry::Polygon polygon = geometry::polygon_of(plan);
+  const geometry::Polygon polygon = model::polygon_of(plan);
   const auto raised = extrude::raise(plan);
   if (!raised) {
     const std::string refusal = base::to_string(raised.error());
@@ -236,9 +237,9 @@ void try_plan(const Plan& plan) {
     promise(!valid(polygon) || smallest_detail(polygon) < 0.01, "a simple polygon is refused", with(refusal));
     return;
   }
-  const auto faults = extrude::check(raised->solid);
+  const auto faults = solid::check(raised->solid);
   promise(faults.empty(), "not a valid solid", [&] { return base::to_string(faults[0]) + text(plan); });
-  const double volume = extrude::volume(raised->solid), most = geometry::area(polygon) * plan.cap;
+  const double volume = solid::volume(raised->solid), most = geometry::area(polygon) * plan.cap;
   const double slack = 1e-6 * most + 0.3 * geometry::perimeter(polygon.outer) * plan.cap;
   promise(volume > 0 && volume < most + slack, "a volume that cannot be", with(base::to_text(volume)));
   for (const geometry::Point3 v : raised->solid.vertices)

@@ -41,8 +41,8 @@ auto LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) -> int 
   const std::size_t kind = bytes[0] % paths.size();
   folder.hold({reinterpret_cast<const char*>(bytes) + 1, size - 1});
   ingest::Options options;
-  options.up = static_cast<ingest::UpAxis>(bytes[0] / paths.size() % 3);
-  const ingest::Frame frame{{0, 0, 0}, kind == 6 ? "EPSG:32631" : ""};
+  options.up = static_cast<formats::UpAxis>(bytes[0] / paths.size() % 3);
+  const model::Frame frame{{0, 0, 0}, kind == 6 ? "EPSG:32631" : ""};
   try {
     const auto scan = ingest::read_mesh({kind == 6 ? placed : paths[kind]}, frame, options);
     if (scan) check(*scan);

@@ -8,7 +8,7 @@
 #include "fuzz/files.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/ingest/model.hpp"
-#include "mansard/write/stream.hpp"
+#include "mansard/formats/stream.hpp"
 
 namespace {
 
@@ -18,7 +18,7 @@ using fuzz::promise;
 auto codes() -> const std::vector<base::Code>& {
   static const auto all = [] {
     auto codes = ingest::codes();
-    for (const auto& more : {base::codes(), write::codes()}) codes.insert(codes.end(), more.begin(), more.end());
+    for (const auto& more : {base::codes(), formats::codes()}) codes.insert(codes.end(), more.begin(), more.end());
     return codes;
   }();
   return all;
@@ -34,7 +34,7 @@ struct Names {
   fuzz::MemoryFile again;
 
   Names() {
-    const auto leaf = write::glb({});
+    const auto leaf = formats::glb({});
     promise(leaf.has_value(), "no GLB");
     promise(base::write_file(paths[6].parent_path() / "content.glb", *leaf).has_value(), "no folder to work in");
     const std::string header = R"({"type":"mansard-plan","version":1,"frame":{"origin":[0,0,0]}})";
@@ -47,20 +47,20 @@ struct Names {
 };
 
 void check_city(const std::filesystem::path& path, const fuzz::MemoryFile& again) {
-  auto reader = write::read_city(path);
+  auto reader = formats::read_city(path);
   if (!reader) return fuzz::check_error(reader.error(), codes());
-  const auto city = write::read_whole(**reader);
+  const auto city = formats::read_whole(**reader);
   if (!city) return fuzz::check_error(city.error(), codes());
   // Ids are unique in what is written; a city that breaks that is told so there.
-  const std::string text = write::plans(*city);
+  const std::string text = formats::plans(*city);
   again.hold(text);
-  const auto back = write::read_plans(again.path());
+  const auto back = formats::read_plans(again.path());
   if (!back) {
     promise(back.error().message.find("an id that no other has") != std::string::npos, "what was written is not read",
             [&] { return base::to_string(back.error()) + text; });
     return;
   }
-  promise(write::plans(*back) == text, "what was written and read is written differently", [&] { return text; });
+  promise(formats::plans(*back) == text, "what was written and read is written differently", [&] { return text; });
 }
 
 void check_model(const std::filesystem::path& path) {
@@ -78,7 +78,7 @@ void check_model(const std::filesystem::path& path) {
       }
     }
   }
-  const auto surface = ingest::surface_of(*model);
+  const auto surface = model::surface_of(*model);
   for (const auto& t : surface.mesh.triangles)
     promise(std::max({t[0], t[1], t[2]}) < surface.mesh.vertices.size(), "a triangle names no vertex");
 }

@@ -6,17 +6,17 @@
 #include <string_view>
 
 #include "fuzz/files.hpp"
-#include "mansard/write/write.hpp"
+#include "mansard/formats/write.hpp"
 
 namespace {
 
 using namespace mansard;
 using fuzz::promise;
 
-auto read(std::string_view bytes) -> base::Result<write::City> {
+auto read(std::string_view bytes) -> base::Result<model::City> {
   static const fuzz::MemoryFile file;
   file.hold(bytes);
-  return write::read_plans(file.path());
+  return formats::read_plans(file.path());
 }
 
 }  // namespace
@@ -30,10 +30,10 @@ auto LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) -> int 
       promise(!city.error().message.empty(), "an error that says nothing");
       return 0;
     }
-    const std::string text = write::plans(*city);
+    const std::string text = formats::plans(*city);
     const auto again = read(text);
     promise(again.has_value(), "what was written is not read", [&] { return base::to_string(again.error()) + text; });
-    promise(write::plans(*again) == text, "what was written and read is written differently", [&] { return text; });
+    promise(formats::plans(*again) == text, "what was written and read is written differently", [&] { return text; });
     promise(std::ranges::equal(
                 city->buildings, again->buildings, {}, [](const auto& building) { return building.parts.size(); },
                 [](const auto& building) { return building.parts.size(); }),

@@ -100,7 +100,7 @@ auto LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) -> int 
   tilesets.folder.hold({reinterpret_cast<const char*>(bytes) + 1, size - 1});
   ingest::Options options;
   options.tile_error = bytes[0] / 4 % 2 == 0 ? 0 : 10;
-  const ingest::Frame frame{{0, 0, 0}, bytes[0] / 8 % 2 == 0 ? "" : "EPSG:32631"};
+  const model::Frame frame{{0, 0, 0}, bytes[0] / 8 % 2 == 0 ? "" : "EPSG:32631"};
   try {
     const auto scan = ingest::read_mesh({paths[bytes[0] % paths.size()]}, frame, options);
     if (!scan) {

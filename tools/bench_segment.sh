@@ -12,7 +12,7 @@ shift || true
 
 tools/setup.sh
 cmake --preset bench --log-level=WARNING \
-  -DMANSARD_ROOMS='base;geometry;rays;solver;ingest;block;slice;sweep;fracture;segment;extrude' > /dev/null
+  -DMANSARD_MODULES='base;geometry;rays;solver;model;solid;crs;formats;ingest;block;slice;sweep;fracture;segment;extrude' > /dev/null
 cmake --build --preset bench --target bench_segment > /dev/null
 build/bench/bin/bench_segment --data "${DATA:-../shared/data}" --out "$results" "$@"
 echo "results: $results" >&2

@@ -63,17 +63,17 @@ auto explained(base::Diagnostic why, const std::string& input) -> base::Diagnost
 
 /// Whether a format tells more of a face than where its corners are and which class it has.
 auto tells_of_faces(const Target& target) -> bool {
-  using enum write::Format;
+  using enum formats::Format;
   return target.format == glb || target.format == tiles || target.format == geopackage;
 }
 
 /// A few buildings after the other, so that threads have work: memory does not grow with their number.
-auto pass_on(write::CityReader& reader, const std::vector<Target>& targets, const Writers& writers,
+auto pass_on(formats::CityReader& reader, const std::vector<Target>& targets, const Writers& writers,
              const pipeline::Options& options, const base::Run& run) -> base::Result<void> {
   constexpr std::size_t few = 64;
   const bool completed = std::ranges::any_of(targets, tells_of_faces);
   for (bool more = true; more;) {
-    std::vector<write::Building> buildings;
+    std::vector<model::Building> buildings;
     while (more && buildings.size() < few) {
       auto building = reader.next();
       if (!building) return building.error();
@@ -96,7 +96,7 @@ auto convert(const Request& request, const base::Cancel& cancel) -> int {
   if (!targets) return give_up(targets.error());
   auto reader = open_city(request.input);
   if (!reader) return give_up(explained(reader.error(), request.input));
-  write::Header header = (*reader)->header();
+  formats::Header header = (*reader)->header();
   pipeline::Options options;
   auto warnings = pipeline::take_options(header.made_by, options);
   if (auto applied = request.settings.apply(options); !applied) return give_up(applied.error());

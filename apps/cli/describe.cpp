@@ -8,11 +8,11 @@
 #include "apps/cli/grammar.hpp"
 #include "apps/cli/settings.hpp"
 #include "apps/cli/verbs.hpp"
+#include "lab/simulate/attributes.hpp"
+#include "lab/simulate/simulate.hpp"
 #include "mansard/edit/attributes.hpp"
 #include "mansard/pipeline/attributes.hpp"
 #include "mansard/pipeline/pipeline.hpp"
-#include "mansard/simulate/attributes.hpp"
-#include "mansard/simulate/simulate.hpp"
 
 namespace mansard::cli {
 namespace {
@@ -131,7 +131,7 @@ void print_json(const Known& known, const CLI::App& app) {
   std::puts(out.dump(1).c_str());
 }
 
-auto all_attributes() -> std::vector<write::Attribute> {
+auto all_attributes() -> std::vector<formats::Attribute> {
   auto all = pipeline::attributes();
   for (const auto& own : {edit::attributes(), simulate::attributes()}) all.insert(all.end(), own.begin(), own.end());
   return all;

@@ -8,7 +8,7 @@
 #include "apps/cli/verbs.hpp"
 #include "mansard/picture/picture.hpp"
 #include "mansard/pipeline/evaluation.hpp"
-#include "mansard/write/scan.hpp"
+#include "mansard/formats/scan.hpp"
 
 namespace mansard::cli {
 namespace {
@@ -56,7 +56,7 @@ auto write_all(const Request& request, const pipeline::Evaluation& result, const
   auto png =
       picture::png(picture::error_map(map.difference, map.columns, map.rows, request.error_limit, "model - mesh, m"));
   if (!png) return png.error();
-  auto tiff = write::geotiff({map.origin, map.grid, map.columns, map.rows, map.difference}, input.scene.frame);
+  auto tiff = formats::geotiff({map.origin, map.grid, map.columns, map.rows, map.difference}, input.scene.frame);
   if (!tiff) return tiff.error();
   files.emplace_back("error.png", std::move(*png));
   files.emplace_back("error.tif", std::move(*tiff));

@@ -4,10 +4,10 @@
 #include <cstdio>
 
 #include "apps/server/server.hpp"
+#include "lab/explore/explore.hpp"
+#include "lab/simulate/simulate.hpp"
 #include "mansard/edit/edit.hpp"
-#include "mansard/explore/explore.hpp"
 #include "mansard/pipeline/pipeline.hpp"
-#include "mansard/simulate/simulate.hpp"
 
 namespace mansard::cli {
 

@@ -1,5 +1,5 @@
 // `mansard explore EXPERIMENT MESH… FOOTPRINTS -o OUTDIR`: the paper's experiments, with a report of each.
-#include "mansard/explore/explore.hpp"
+#include "lab/explore/explore.hpp"
 
 #include <toml++/toml.h>
 #include <algorithm>

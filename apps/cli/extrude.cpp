@@ -21,9 +21,9 @@ namespace fs = std::filesystem;
 
 /// Whether OUT names one result, by its ending; several formats go into a folder otherwise.
 auto is_one(const fs::path& out) -> bool {
-  const auto format = write::format_of(out);
+  const auto format = formats::format_of(out);
   if (!format) return false;
-  if (*format != write::Format::tiles) return true;
+  if (*format != formats::Format::tiles) return true;
   return out.extension() == ".3dtiles" || out.filename() == "tileset.json";
 }
 
@@ -46,13 +46,13 @@ void tell(const std::vector<base::Diagnostic>& diagnostics, const ExtrudeRequest
     if (!request.quiet) std::fprintf(stderr, "mansard: %s\n", base::to_string(diagnostic).c_str());
 }
 
-auto extrude_plans(write::CityReader& reader, const ExtrudeRequest& request, const base::Cancel& cancel) -> int {
+auto extrude_plans(formats::CityReader& reader, const ExtrudeRequest& request, const base::Cancel& cancel) -> int {
   if (!request.report.empty())
     return give_up(base::error("usage", "plans are raised without a report; --report is for footprints", "--report"));
   pipeline::Options options;
   tell(pipeline::take_options(reader.header().made_by, options), request);
   if (auto applied = request.settings.apply(options); !applied) return give_up(applied.error());
-  auto city = write::read_whole(reader);
+  auto city = formats::read_whole(reader);
   if (!city) return give_up(city.error());
   const auto targets = targets_of(request);
   if (!targets) return give_up(targets.error());
@@ -85,9 +85,9 @@ auto looks_like_plans(const fs::path& path) -> bool {
 }
 
 auto extrude(const ExtrudeRequest& request, const base::Cancel& cancel) -> int {
-  auto reader = write::read_city(request.input);
+  auto reader = formats::read_city(request.input);
   if (reader) return extrude_plans(**reader, request, cancel);
-  const bool plans = write::format_of(request.input) == write::Format::plans;
+  const bool plans = formats::format_of(request.input) == formats::Format::plans;
   if (!pipeline::is_foreign(reader.error()) && reader.error().code.starts_with("write-"))
     return give_up(reader.error());
   if (plans && looks_like_plans(request.input)) return give_up(reader.error());
@@ -123,8 +123,8 @@ auto check_outputs(const ExtrudeRequest& request) -> base::Result<void> {
   return {};
 }
 
-auto write_out(const write::City& city, const std::string& report, const pipeline::Options& options,
-               const ExtrudeRequest& request, const base::Run& run, const std::vector<write::Layer>& more)
+auto write_out(const model::City& city, const std::string& report, const pipeline::Options& options,
+               const ExtrudeRequest& request, const base::Run& run, const std::vector<formats::Layer>& more)
     -> base::Result<void> {
   const fs::path out(request.out);
   const auto targets = targets_of(request);

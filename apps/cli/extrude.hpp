@@ -8,7 +8,7 @@
 
 #include "apps/cli/settings.hpp"
 #include "mansard/base/run.hpp"
-#include "mansard/write/write.hpp"
+#include "mansard/formats/write.hpp"
 
 namespace mansard::cli {
 
@@ -24,9 +24,9 @@ struct ExtrudeRequest {
 
 /// The models as OUT and --formats ask for them, with a picture if asked for, and the report (in a folder and where
 /// --report says; empty for none). `more` are layers for a GeoPackage beside those of the city.
-[[nodiscard]] auto write_out(const write::City& city, const std::string& report, const pipeline::Options& options,
+[[nodiscard]] auto write_out(const model::City& city, const std::string& report, const pipeline::Options& options,
                              const ExtrudeRequest& request, const base::Run& run,
-                             const std::vector<write::Layer>& more = {}) -> base::Result<void>;
+                             const std::vector<formats::Layer>& more = {}) -> base::Result<void>;
 
 /// `mansard extrude FOOTPRINTS -o OUT`; the exit code.
 [[nodiscard]] auto extrude_footprints(const ExtrudeRequest& request, const base::Cancel& cancel) -> int;

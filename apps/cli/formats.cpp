@@ -7,7 +7,7 @@
 namespace mansard::cli {
 
 namespace fs = std::filesystem;
-using write::Format;
+using formats::Format;
 
 namespace {
 
@@ -46,19 +46,19 @@ auto folder_free(const fs::path& folder, bool overwrite) -> base::Result<void> {
 
 auto format_names() -> std::string {
   std::string all;
-  for (const auto& format : write::formats()) all += (all.empty() ? "" : ", ") + std::string(format.name);
+  for (const auto& format : formats::formats()) all += (all.empty() ? "" : ", ") + std::string(format.name);
   return all;
 }
 
 auto endings() -> std::string {
   std::string all;
-  for (const auto& format : write::formats()) all += (all.empty() ? "" : ", ") + std::string(format.ending);
+  for (const auto& format : formats::formats()) all += (all.empty() ? "" : ", ") + std::string(format.ending);
   return all;
 }
 
 auto format_named(const std::string& name) -> base::Result<Format> {
   std::vector<std::string> known;
-  for (const auto& format : write::formats()) {
+  for (const auto& format : formats::formats()) {
     if (format.name == name) return format.format;
     known.emplace_back(format.name);
   }
@@ -72,7 +72,7 @@ auto formats_in(const std::string& list) -> base::Result<std::vector<Format>> {
   std::vector<Format> asked;
   for (const auto& word : split(list)) {
     if (word == "all") {
-      for (const auto& format : write::formats()) asked.push_back(format.format);
+      for (const auto& format : formats::formats()) asked.push_back(format.format);
     } else if (word == "default") {
       for (const auto& name : split(default_formats)) asked.push_back(*format_named(name));
     } else {
@@ -82,7 +82,7 @@ auto formats_in(const std::string& list) -> base::Result<std::vector<Format>> {
     }
   }
   std::vector<Format> out;
-  for (const auto& format : write::formats())
+  for (const auto& format : formats::formats())
     if (std::ranges::find(asked, format.format) != asked.end()) out.push_back(format.format);
   return out;
 }
@@ -96,7 +96,7 @@ auto all_results() -> const std::vector<std::string>& {
   static const std::vector<std::string> all = [] {
     std::vector<std::string> names{"run.json"};
     names.insert(names.end(), picture_names.begin(), picture_names.end());
-    for (const auto& format : write::formats())
+    for (const auto& format : formats::formats())
       for (const auto& place : places_of({format.format, name_in_folder(format.format)}))
         names.push_back(place.string());
     return names;
@@ -105,21 +105,21 @@ auto all_results() -> const std::vector<std::string>& {
 }
 
 auto target_at(const fs::path& path) -> base::Result<Target> {
-  const auto format = write::format_of(path);
+  const auto format = formats::format_of(path);
   if (!format) return base::error("usage", "no format has this ending; there are " + endings(), path.string());
   // Of tiles the folder is written, not the one file that names the others.
   return Target{*format, path.filename() == "tileset.json" ? path.parent_path() : path};
 }
 
-auto open_city(const fs::path& path) -> base::Result<std::unique_ptr<write::CityReader>> {
+auto open_city(const fs::path& path) -> base::Result<std::unique_ptr<formats::CityReader>> {
   std::error_code status;
   if (!path.string().starts_with("/vsi") && !fs::exists(path, status))
     return base::error("file-missing", "no such file; check the path", path.string());
-  return write::read_city(path);
+  return formats::read_city(path);
 }
 
-auto layers_beside(write::CityReader& reader, const std::string& input, const std::vector<Target>& targets)
-    -> base::Result<write::Beside> {
+auto layers_beside(formats::CityReader& reader, const std::string& input, const std::vector<Target>& targets)
+    -> base::Result<formats::Beside> {
   auto beside = reader.beside();
   if (!beside || std::ranges::find(targets, Format::geopackage, &Target::format) != targets.end()) return beside;
   std::string names;
@@ -139,11 +139,11 @@ auto target_free(const Target& target, bool overwrite) -> base::Result<void> {
   return {};
 }
 
-auto open_writers(const std::vector<Target>& targets, const write::Header& header, const write::WriteOptions& options,
-                  base::Outputs& outputs, const std::vector<write::Layer>& more) -> base::Result<Writers> {
+auto open_writers(const std::vector<Target>& targets, const formats::Header& header, const formats::WriteOptions& options,
+                  base::Outputs& outputs, const std::vector<formats::Layer>& more) -> base::Result<Writers> {
   Writers writers;
   for (const auto& target : targets) {
-    auto writer = write::open_writer(target.format, target.path, header, options, outputs, more);
+    auto writer = formats::open_writer(target.format, target.path, header, options, outputs, more);
     if (!writer) return writer.error();
     writers.push_back(std::move(*writer));
   }

@@ -7,25 +7,25 @@
 #include <vector>
 
 #include "mansard/base/outputs.hpp"
-#include "mansard/write/results.hpp"
+#include "mansard/formats/results.hpp"
 
 namespace mansard::cli {
 
-using write::name_in_folder;
-using write::places_of;
-using write::Target;
-using write::targets_in;
-using write::write_models;
+using formats::name_in_folder;
+using formats::places_of;
+using formats::Target;
+using formats::targets_in;
+using formats::write_models;
 
 /// The names of all formats: "cityjson, cityjsonseq, obj, …".
 [[nodiscard]] auto format_names() -> std::string;
 /// And their endings: ".city.json, .city.jsonl, …".
 [[nodiscard]] auto endings() -> std::string;
 /// Gives up with "option-value".
-[[nodiscard]] auto format_named(const std::string& name) -> base::Result<write::Format>;
+[[nodiscard]] auto format_named(const std::string& name) -> base::Result<formats::Format>;
 /// "cityjson,glb", "all", or "default" for what a folder of results has when nothing is said; in the order of
-/// write::formats(), each once. Gives up with "option-value".
-[[nodiscard]] auto formats_in(const std::string& list) -> base::Result<std::vector<write::Format>>;
+/// formats::formats(), each once. Gives up with "option-value".
+[[nodiscard]] auto formats_in(const std::string& list) -> base::Result<std::vector<formats::Format>>;
 inline constexpr auto default_formats = "cityjson,obj,glb,geopackage,plans";
 /// What the option --formats says of itself.
 [[nodiscard]] auto formats_help() -> std::string;
@@ -35,24 +35,24 @@ inline constexpr auto default_formats = "cityjson,obj,glb,geopackage,plans";
 /// By the ending of its name. Gives up with "usage" where no format has it.
 [[nodiscard]] auto target_at(const std::filesystem::path& path) -> base::Result<Target>;
 
-/// What mansard wrote, by write::read_city; a missing file is told as one whatever it is called. Gives up with
+/// What mansard wrote, by formats::read_city; a missing file is told as one whatever it is called. Gives up with
 /// "file-missing" and as that does.
-[[nodiscard]] auto open_city(const std::filesystem::path& path) -> base::Result<std::unique_ptr<write::CityReader>>;
+[[nodiscard]] auto open_city(const std::filesystem::path& path) -> base::Result<std::unique_ptr<formats::CityReader>>;
 
 /// What the input has beside its city, for those of the results that have a place for it: GeoPackages. Where none has,
 /// one warning names what stays behind. Gives up as CityReader::beside does.
-[[nodiscard]] auto layers_beside(write::CityReader& reader, const std::string& input,
-                                 const std::vector<Target>& targets) -> base::Result<write::Beside>;
+[[nodiscard]] auto layers_beside(formats::CityReader& reader, const std::string& input,
+                                 const std::vector<Target>& targets) -> base::Result<formats::Beside>;
 
 /// As file_free, and of tiles: a folder that is not there, empty, or with `overwrite` an older tileset and nothing else
 /// that would be lost. Gives up with "output-exists", "file-write".
 [[nodiscard]] auto target_free(const Target& target, bool overwrite) -> base::Result<void>;
 
-using Writers = std::vector<std::unique_ptr<write::CityWriter>>;
-/// One writer per target, in order. Gives up as write::open_writer does.
-[[nodiscard]] auto open_writers(const std::vector<Target>& targets, const write::Header& header,
-                                const write::WriteOptions& options, base::Outputs& outputs,
-                                const std::vector<write::Layer>& more = {}) -> base::Result<Writers>;
+using Writers = std::vector<std::unique_ptr<formats::CityWriter>>;
+/// One writer per target, in order. Gives up as formats::open_writer does.
+[[nodiscard]] auto open_writers(const std::vector<Target>& targets, const formats::Header& header,
+                                const formats::WriteOptions& options, base::Outputs& outputs,
+                                const std::vector<formats::Layer>& more = {}) -> base::Result<Writers>;
 /// One file as a whole.
 [[nodiscard]] auto write_bytes(const std::filesystem::path& path, std::string_view bytes, base::Outputs& outputs)
     -> base::Result<void>;

@@ -7,8 +7,8 @@
 
 #include "apps/cli/exit.hpp"
 #include "apps/cli/settings.hpp"
-#include "mansard/explore/explore.hpp"
-#include "mansard/simulate/simulate.hpp"
+#include "lab/explore/explore.hpp"
+#include "lab/simulate/simulate.hpp"
 
 namespace mansard::cli {
 namespace {
@@ -42,7 +42,7 @@ auto choices() -> std::map<std::string, Words> {
     all["simulate --block"].emplace_back(simulate::to_string(kind));
   all["explore EXPERIMENT"] = explore::experiment_names();
   for (const auto& code : all_codes()) all["explain CODE"].push_back(code.code);
-  for (const auto& format : write::formats()) all["convert --to"].emplace_back(format.name);
+  for (const auto& format : formats::formats()) all["convert --to"].emplace_back(format.name);
   all["completion SHELL"] = {"bash", "zsh", "fish"};
   return all;
 }

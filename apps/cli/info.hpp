@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "mansard/base/run.hpp"
-#include "mansard/write/stream.hpp"
+#include "mansard/formats/stream.hpp"
 
 namespace mansard::cli {
 
@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 /// xmin ymin zmin xmax ymax zmax in file coordinates, metres; null for nothing.
 class Extent3 {
  public:
-  void add(geometry::Point3 p, const ingest::Frame& frame);
+  void add(geometry::Point3 p, const model::Frame& frame);
   [[nodiscard]] auto json() const -> Json;
 
  private:
@@ -24,7 +24,7 @@ class Extent3 {
 };
 
 /// A file of models that mansard wrote. `all_options`: those at their defaults too.
-[[nodiscard]] auto info_of_city(const std::filesystem::path& path, write::CityReader& reader, bool all_options,
+[[nodiscard]] auto info_of_city(const std::filesystem::path& path, formats::CityReader& reader, bool all_options,
                                 const base::Run& run) -> base::Result<Json>;
 
 /// Anything else: models of other makers, STL, tilesets, meshes, rasters, footprint sources. `why`: why it is none of

@@ -6,8 +6,8 @@
 #include "apps/cli/info.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/base/text.hpp"
+#include "mansard/formats/source.hpp"
 #include "mansard/ingest/model.hpp"
-#include "mansard/ingest/source.hpp"
 
 namespace mansard::cli {
 namespace {
@@ -46,12 +46,12 @@ auto warnings_json(const std::vector<base::Diagnostic>& warnings) -> Json {
 
 // ---- models of other makers
 
-auto info_of_model(const fs::path& path, const ingest::Model& model) -> Json {
-  const auto surface = ingest::surface_of(model);
+auto info_of_model(const fs::path& path, const model::Model& model) -> Json {
+  const auto surface = model::surface_of(model);
   Extent3 extent;
   for (const auto p : surface.mesh.vertices) extent.add(p, model.frame);
   std::size_t parts = 0, faces = 0;
-  std::array<std::size_t, ingest::surface_class_count> classes{};
+  std::array<std::size_t, model::surface_class_count> classes{};
   for (const auto& building : model.buildings) {
     parts += building.parts.size();
     for (const auto& part : building.parts) {
@@ -70,7 +70,7 @@ auto info_of_model(const fs::path& path, const ingest::Model& model) -> Json {
                    {"vertices", surface.mesh.vertices.size()}};
   if (!model.lod.empty()) out["lods"] = Json::array({model.lod});
   for (std::size_t i = 0; i < classes.size(); ++i)
-    out["classes"][std::string(ingest::to_string(static_cast<ingest::SurfaceClass>(i)))] = classes[i];
+    out["classes"][std::string(model::to_string(static_cast<model::SurfaceClass>(i)))] = classes[i];
   out["warnings"] = warnings_json(model.warnings);
   return out;
 }
@@ -150,10 +150,10 @@ auto info_of_mesh(const fs::path& path, const base::Run& run) -> base::Result<Js
                    {"boundary_edges", c.boundary_edges},
                    {"flipped_edges", c.flipped_edges}};
   if (!mesh->classes.empty()) {
-    std::array<std::size_t, ingest::surface_class_count> classes{};
+    std::array<std::size_t, model::surface_class_count> classes{};
     for (const auto kind : mesh->classes) ++classes[static_cast<std::size_t>(kind)];
     for (std::size_t i = 0; i < classes.size(); ++i)
-      out["classes"][std::string(ingest::to_string(static_cast<ingest::SurfaceClass>(i)))] = classes[i];
+      out["classes"][std::string(model::to_string(static_cast<model::SurfaceClass>(i)))] = classes[i];
   }
   Json files = Json::array();
   for (const auto& input : mesh->inputs)
@@ -166,7 +166,7 @@ auto info_of_mesh(const fs::path& path, const base::Run& run) -> base::Result<Js
 // ---- what GDAL reads
 
 auto info_of_raster(const fs::path& path) -> base::Result<Json> {
-  const auto source = ingest::raster_source(path);
+  const auto source = formats::raster_source(path);
   if (!source) return source.error();
   Json out = head(path, "raster", source->driver);
   out["crs"] = source->crs;
@@ -180,7 +180,7 @@ auto info_of_raster(const fs::path& path) -> base::Result<Json> {
   return out;
 }
 
-auto layers_of(const ingest::VectorSource& source) -> Json {
+auto layers_of(const formats::VectorSource& source) -> Json {
   Json out = Json::array();
   for (const auto& layer : source.layers) {
     Json one;
@@ -197,7 +197,7 @@ auto layers_of(const ingest::VectorSource& source) -> Json {
 }
 
 auto info_of_source(const fs::path& path) -> base::Result<Json> {
-  const auto source = ingest::vector_source(path);
+  const auto source = formats::vector_source(path);
   if (!source) return source.error();
   Json out = head(path, "footprints", source->driver);
   out["layers"] = layers_of(*source);
@@ -243,7 +243,7 @@ auto info_of_tileset(const fs::path& path) -> Json {
 }
 
 auto info_of_layers(const fs::path& path) -> base::Result<Json> {
-  const auto source = ingest::vector_source(path);
+  const auto source = formats::vector_source(path);
   if (!source) return source.error();
   return layers_of(*source);
 }
@@ -270,7 +270,7 @@ auto info_of_other(const fs::path& path, const base::Diagnostic& why, const base
     auto source = info_of_source(path);
     return source ? std::move(source) : std::move(mesh);
   }
-  if (ingest::named_as_raster(path)) return info_of_raster(path);
+  if (formats::named_as_raster(path)) return info_of_raster(path);
   auto source = info_of_source(path);
   if (!source && ending_of(path) == "zip")
     if (auto mesh = info_of_mesh(path, run)) return mesh;

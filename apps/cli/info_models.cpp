@@ -4,15 +4,16 @@
 
 #include "apps/cli/info.hpp"
 #include "mansard/base/text.hpp"
-#include "mansard/ingest/input_file.hpp"
+#include "mansard/formats/input_file.hpp"
 #include "mansard/pipeline/stored.hpp"
+#include "mansard/solid/solid.hpp"
 
 namespace mansard::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-auto attribute(const ingest::Attributes& attributes, std::string_view name) -> const ingest::Value* {
+auto attribute(const model::Attributes& attributes, std::string_view name) -> const model::Value* {
   for (const auto& [key, value] : attributes)
     if (key == name) return &value;
   return nullptr;
@@ -21,9 +22,9 @@ auto attribute(const ingest::Attributes& attributes, std::string_view name) -> c
 /// What adds up building by building.
 class Tally {
  public:
-  explicit Tally(const ingest::Frame& frame) : frame_(frame) {}
+  explicit Tally(const model::Frame& frame) : frame_(frame) {}
 
-  void add(const write::Building& building) {
+  void add(const model::Building& building) {
     ++buildings_;
     const auto* derived = attribute(building.attributes, "ms_derived");
     derived_ += derived != nullptr && std::get_if<bool>(derived) != nullptr && std::get<bool>(*derived) ? 1 : 0;
@@ -31,7 +32,7 @@ class Tally {
       for (const auto p : polygon.outer) extent_.add({p.x, p.y, building.ground}, frame_);
     std::vector<std::vector<base::Diagnostic>> wrong(building.parts.size());
     base::parallel_for(wrong.size(), [&](std::size_t p) {
-      if (const auto& solid = building.parts[p].model.solid; !solid.faces.empty()) wrong[p] = extrude::check(solid);
+      if (const auto& solid = building.parts[p].model.solid; !solid.faces.empty()) wrong[p] = solid::check(solid);
     });
     for (std::size_t p = 0; p < wrong.size(); ++p) add(building, building.parts[p], wrong[p]);
   }
@@ -55,7 +56,7 @@ class Tally {
   [[nodiscard]] auto footprints() const -> Json { return {{"surveyed", buildings_ - derived_}, {"derived", derived_}}; }
 
  private:
-  void add(const write::Building& building, const write::Part& part, const std::vector<base::Diagnostic>& wrong) {
+  void add(const model::Building& building, const model::Part& part, const std::vector<base::Diagnostic>& wrong) {
     ++parts_;
     const auto* fallback = attribute(part.attributes, "ms_fallback");
     if (const auto* code = fallback == nullptr ? nullptr : std::get_if<std::string>(fallback)) ++fallbacks_[*code];
@@ -77,14 +78,14 @@ class Tally {
     invalid_.push_back({{"building", building.id}, {"part", part.id}, {"reasons", std::move(reasons)}});
   }
 
-  ingest::Frame frame_;
+  model::Frame frame_;
   Extent3 extent_;
   std::size_t buildings_ = 0, derived_ = 0, parts_ = 0, solids_ = 0, faces_ = 0, triangles_ = 0, vertices_ = 0;
   Json invalid_ = Json::array();
   std::map<std::string, std::size_t> fallbacks_;
 };
 
-auto options_json(const write::MadeBy& made_by, bool all) -> Json {
+auto options_json(const model::MadeBy& made_by, bool all) -> Json {
   pipeline::Options defaults;
   std::map<std::string, std::string> usual;
   for (const auto& list : pipeline::option_lists(defaults))
@@ -97,7 +98,7 @@ auto options_json(const write::MadeBy& made_by, bool all) -> Json {
   return out;
 }
 
-auto made_by_json(const write::MadeBy& made_by, bool all_options) -> Json {
+auto made_by_json(const model::MadeBy& made_by, bool all_options) -> Json {
   Json inputs = Json::array();
   for (const auto& input : made_by.inputs)
     inputs.push_back({{"path", input.path}, {"bytes", input.bytes}, {"sha256", input.sha256}});
@@ -107,17 +108,17 @@ auto made_by_json(const write::MadeBy& made_by, bool all_options) -> Json {
 }
 
 /// What levels of detail a format keeps of a model.
-auto lods_of(write::Format format) -> std::vector<std::string> {
+auto lods_of(formats::Format format) -> std::vector<std::string> {
   switch (format) {
-    case write::Format::cityjson:
-    case write::Format::cityjsonseq: return {"0", "1.2", "2.2"};
-    case write::Format::tiles: return {"1.2", "2.2"};
-    case write::Format::geopackage: return {"0", "2.2"};
-    case write::Format::geojson: return {"0"};
-    case write::Format::plans: return {};
-    case write::Format::obj:
-    case write::Format::glb:
-    case write::Format::stl: break;
+    case formats::Format::cityjson:
+    case formats::Format::cityjsonseq: return {"0", "1.2", "2.2"};
+    case formats::Format::tiles: return {"1.2", "2.2"};
+    case formats::Format::geopackage: return {"0", "2.2"};
+    case formats::Format::geojson: return {"0"};
+    case formats::Format::plans: return {};
+    case formats::Format::obj:
+    case formats::Format::glb:
+    case formats::Format::stl: break;
   }
   return {"2.2"};
 }
@@ -132,7 +133,7 @@ auto size_of(const fs::path& path) -> std::uintmax_t {
 }
 
 /// Adds every building, its model raised where the file has none. Whether there were models.
-auto add_all(write::CityReader& reader, const base::Run& run, Tally& tally) -> base::Result<bool> {
+auto add_all(formats::CityReader& reader, const base::Run& run, Tally& tally) -> base::Result<bool> {
   if (!reader.has_models()) {
     pipeline::Options options;
     (void)pipeline::take_options(reader.header().made_by, options);
@@ -152,7 +153,7 @@ auto add_all(write::CityReader& reader, const base::Run& run, Tally& tally) -> b
 
 }  // namespace
 
-void Extent3::add(geometry::Point3 p, const ingest::Frame& frame) {
+void Extent3::add(geometry::Point3 p, const model::Frame& frame) {
   const std::array at{p.x + static_cast<double>(frame.origin[0]), p.y + static_cast<double>(frame.origin[1]),
                       p.z + static_cast<double>(frame.origin[2])};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -167,17 +168,17 @@ auto Extent3::json() const -> Json {
   return {least_[0], least_[1], least_[2], most_[0], most_[1], most_[2]};
 }
 
-auto info_of_city(const fs::path& path, write::CityReader& reader, bool all_options, const base::Run& run)
+auto info_of_city(const fs::path& path, formats::CityReader& reader, bool all_options, const base::Run& run)
     -> base::Result<Json> {
   // The header stays while buildings are read.
-  const write::Header header = reader.header();
+  const formats::Header header = reader.header();
   Tally tally(header.frame);
   const auto has_models = add_all(reader, run, tally);
   if (!has_models) return has_models.error();
   // By its name; what is in it tells CityJSON from plans, which both may end in ".json".
-  auto format = write::format_of(path).value_or(write::Format::plans);
-  if (*has_models && format == write::Format::plans) format = write::Format::cityjson;
-  const auto name = std::ranges::find(write::formats(), format, &write::FormatName::format);
+  auto format = formats::format_of(path).value_or(formats::Format::plans);
+  if (*has_models && format == formats::Format::plans) format = formats::Format::cityjson;
+  const auto name = std::ranges::find(formats::formats(), format, &formats::FormatName::format);
   Json out;
   out["file"] = path.string();
   out["kind"] = "models";
@@ -193,8 +194,8 @@ auto info_of_city(const fs::path& path, write::CityReader& reader, bool all_opti
   out["fallbacks"] = tally.fallbacks();
   out["footprints"] = tally.footprints();
   out["made_by"] = made_by_json(header.made_by, all_options);
-  if (format == write::Format::tiles) out["tileset"] = info_of_tileset(path);
-  if (format == write::Format::geopackage) {
+  if (format == formats::Format::tiles) out["tileset"] = info_of_tileset(path);
+  if (format == formats::Format::geopackage) {
     auto layers = info_of_layers(path);
     if (!layers) return layers.error();
     out["layers"] = std::move(*layers);

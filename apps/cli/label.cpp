@@ -9,16 +9,16 @@
 #include "apps/cli/scan.hpp"
 #include "apps/cli/verbs.hpp"
 #include "mansard/base/text.hpp"
+#include "mansard/formats/scan.hpp"
 #include "mansard/label/scan.hpp"
 #include "mansard/pipeline/evaluation.hpp"
 #include "mansard/pipeline/stored.hpp"
-#include "mansard/write/scan.hpp"
 
 namespace mansard::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Classes = std::vector<ingest::SurfaceClass>;
+using Classes = std::vector<model::SurfaceClass>;
 
 struct Request : Common {
   std::vector<std::string> inputs;  // the meshes, then the model
@@ -38,20 +38,20 @@ auto check_outputs(const Request& request) -> base::Result<void> {
 }
 
 struct Input {
-  ingest::ModelSurface model;
-  ingest::Frame frame;
+  model::ModelSurface model;
+  model::Frame frame;
   ingest::ScannedMesh mesh;
   Classes truth;  ///< per triangle of the mesh; empty for none
-  std::optional<ingest::ModelSurface> true_model;
+  std::optional<model::ModelSurface> true_model;
 };
 
-auto true_model_of(const Request& request, const Input& input) -> base::Result<std::optional<ingest::ModelSurface>> {
-  std::optional<ingest::ModelSurface> none;
+auto true_model_of(const Request& request, const Input& input) -> base::Result<std::optional<model::ModelSurface>> {
+  std::optional<model::ModelSurface> none;
   if (request.truth.empty()) return none;
   auto truth = pipeline::read_any_model(request.truth, {request.lod, {}});
   if (truth) truth = ingest::in_frame(std::move(*truth), input.frame);
   if (!truth) return truth.error();
-  auto surface = ingest::surface_of(*truth);
+  auto surface = model::surface_of(*truth);
   if (auto met = ingest::check_overlap(input.mesh.mesh, surface.mesh, {"mesh", "truth"}, input.frame, request.truth);
       !met)
     return met.error();
@@ -79,7 +79,7 @@ auto read(const Request& request, const pipeline::Options& options, const base::
   if (!model) return model.error();
   Input input;
   input.frame = model->frame;
-  input.model = ingest::surface_of(*model);
+  input.model = model::surface_of(*model);
   for (const auto& warning : model->warnings) progress.say(base::to_string(warning));
   auto mesh = ingest::read_mesh({request.inputs.begin(), request.inputs.end() - 1}, input.frame, options.ingest, run);
   if (!mesh) return mesh.error();
@@ -115,7 +115,7 @@ void print_walls_and_roofs(const Input& input, const Classes& classes, const lab
   auto truth = label::nearest_wall_or_roof(mesh, *input.true_model);
   const auto above = label::above_ground(mesh, *input.true_model, options);
   for (std::size_t t = 0; t < truth.size(); ++t)
-    if (!above[t]) truth[t] = ingest::SurfaceClass::ground;
+    if (!above[t]) truth[t] = model::SurfaceClass::ground;
   double all = 0;
   const auto share = [&](const Classes& given) {
     const auto area = label::confusion_of(mesh, truth, given);
@@ -136,11 +136,11 @@ void print_walls_and_roofs(const Input& input, const Classes& classes, const lab
 }
 
 void print(const Input& input, const Classes& classes) {
-  std::array<std::size_t, ingest::surface_class_count> counts{};
+  std::array<std::size_t, model::surface_class_count> counts{};
   for (const auto c : classes) ++counts[static_cast<std::size_t>(c)];
   std::printf("triangles");
   for (std::size_t c = 0; c < counts.size(); ++c)
-    std::printf("  %s %zu", std::string(ingest::to_string(static_cast<ingest::SurfaceClass>(c))).c_str(), counts[c]);
+    std::printf("  %s %zu", std::string(model::to_string(static_cast<model::SurfaceClass>(c))).c_str(), counts[c]);
   std::printf("\n");
   if (input.truth.empty()) return;
   const auto by_normal = label::label_by_normal(input.mesh.mesh);
@@ -165,8 +165,8 @@ auto label_mesh(const Request& request, const base::Cancel& cancel) -> int {
 
   const auto classes = label::label_scan(input->mesh.mesh, input->model, request.scan, run);
   auto bytes = fs::path(request.out).extension() == ".ply"
-                   ? base::Result<std::string>(write::labelled_ply(input->mesh.mesh, classes, input->frame))
-                   : write::labelled_glb(input->mesh.mesh, classes, input->frame);
+                   ? base::Result<std::string>(formats::labelled_ply(input->mesh.mesh, classes, input->frame))
+                   : formats::labelled_glb(input->mesh.mesh, classes, input->frame);
   if (!bytes) return give_up(bytes.error());
   if (auto written = base::write_files({{request.out, *bytes}}, &cancel); !written) return give_up(written.error());
   print(*input, classes);

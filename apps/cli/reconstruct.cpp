@@ -50,7 +50,7 @@ auto targets_of(const Request& request) -> base::Result<std::vector<Target>> {
   return targets_in(request.out, *formats);
 }
 
-auto write_pictures(const Request& request, const pipeline::Reconstruction& result, const ingest::Scene& scene,
+auto write_pictures(const Request& request, const pipeline::Reconstruction& result, const model::Scene& scene,
                     const base::Run& run, base::Outputs& outputs) -> base::Result<void> {
   const auto pictures = pipeline::pictures(result, scene, request.error_limit, run);
   for (const auto& [name, image] : {std::pair{"picture.png", &pictures.angle}, std::pair{"above.png", &pictures.above},
@@ -69,10 +69,10 @@ auto is_result(const std::string& name) -> bool {
 }
 
 auto write_all(const Request& request, const std::vector<Target>& targets, const pipeline::Options& options,
-               const pipeline::Reconstruction& result, const ingest::Scene& scene, const base::Run& run,
+               const pipeline::Reconstruction& result, const model::Scene& scene, const base::Run& run,
                Progress& progress) -> base::Result<void> {
   base::Outputs outputs;
-  std::vector<write::Layer> layers;
+  std::vector<formats::Layer> layers;
   if (request.layers) {
     layers = pipeline::segment_layers(scene, result.segmented, result.city.made_by);
     layers.push_back(pipeline::diagnostics_layer(result, scene));

@@ -69,7 +69,7 @@ auto start(const Common& common, std::int64_t seed, const base::Cancel& cancel, 
 }
 
 auto read_scan(const ScanRequest& request, const pipeline::Options& options, const base::Run& run, Progress& progress)
-    -> base::Result<ingest::Scene> {
+    -> base::Result<model::Scene> {
   progress.show("ingest", request.inputs.front(), 0);
   pipeline::InputPaths paths{{request.inputs.begin(), request.inputs.end()}, {}, request.derive_footprints};
   if (!request.derive_footprints) {

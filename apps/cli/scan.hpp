@@ -47,6 +47,6 @@ void add_to(CLI::App& verb, ScanRequest& request, bool may_derive = true);
 
 /// Reads meshes and footprints, or draws these from the mesh, and says warnings.
 [[nodiscard]] auto read_scan(const ScanRequest& request, const pipeline::Options& options, const base::Run& run,
-                             Progress& progress) -> base::Result<ingest::Scene>;
+                             Progress& progress) -> base::Result<model::Scene>;
 
 }  // namespace mansard::cli

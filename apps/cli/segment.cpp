@@ -110,9 +110,9 @@ void summarise(const pipeline::Segmented& result, const Request& request, Progre
     for (const auto& warning : result.warnings) progress.say(base::to_string(warning));
 }
 
-auto write_all(const Request& request, const pipeline::Segmented& result, const ingest::Scene& scene,
+auto write_all(const Request& request, const pipeline::Segmented& result, const model::Scene& scene,
                const NamedBytes& mps, const base::Run& run) -> base::Result<void> {
-  const auto layers = write::geopackage(pipeline::segment_layers(scene, result.segmented, result.made_by), scene.frame);
+  const auto layers = formats::geopackage(pipeline::segment_layers(scene, result.segmented, result.made_by), scene.frame);
   if (!layers) return layers.error();
   const std::string report = pipeline::report_json(result, scene);
   std::vector<base::FileToWrite> files{{request.out, *layers}};

@@ -1,6 +1,6 @@
 // `mansard simulate MODEL | --block KIND | --footprints FILE -o OUTDIR`: known truth, and a mesh as a scan would show
 // it.
-#include "mansard/simulate/simulate.hpp"
+#include "lab/simulate/simulate.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -56,9 +56,9 @@ auto with_surface(base::Result<simulate::Truth> truth) -> base::Result<Known> {
 
 /// Plans where the file has them: of a model of another maker less is known.
 auto known_of_model(const Request& request, const base::Run& run, Progress& progress) -> base::Result<Known> {
-  auto reader = write::read_city(request.model);
+  auto reader = formats::read_city(request.model);
   if (reader) {
-    auto plans = write::read_whole(**reader);
+    auto plans = formats::read_whole(**reader);
     if (!plans) return plans.error();
     return with_surface(simulate::truth_of(std::move(*plans), run));
   }
@@ -118,16 +118,16 @@ auto add_copy(const Request& request, const Known& known, std::vector<std::pair<
 }
 
 /// The truth as models and plans.
-auto add_models(const write::City& city, std::vector<std::pair<std::string, std::string>>& files)
+auto add_models(const model::City& city, std::vector<std::pair<std::string, std::string>>& files)
     -> base::Result<void> {
-  auto cityjson = write::cityjson(city);
+  auto cityjson = formats::cityjson(city);
   if (!cityjson) return cityjson.error();
-  auto obj = write::obj(city, "truth.mtl");
+  auto obj = formats::obj(city, "truth.mtl");
   if (!obj) return obj.error();
   files.emplace_back("truth.city.json", std::move(*cityjson));
   files.emplace_back("truth.obj", std::move(obj->obj));
   files.emplace_back("truth.mtl", std::move(obj->mtl));
-  files.emplace_back("plans.json", write::plans(city));
+  files.emplace_back("plans.json", formats::plans(city));
   return {};
 }
 

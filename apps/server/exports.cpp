@@ -33,67 +33,67 @@ class WorkFolder {
 /// Every name that an export leaves in its folder.
 auto own_names() -> std::vector<std::string> {
   std::vector<std::string> names{run_layers};
-  for (const auto& format : write::formats())
-    for (const auto& place : write::places_of({format.format, write::name_in_folder(format.format)}))
+  for (const auto& format : formats::formats())
+    for (const auto& place : formats::places_of({format.format, formats::name_in_folder(format.format)}))
       names.push_back(place.string());
   return names;
 }
 
 }  // namespace
 
-auto files_of(write::Format format) -> std::vector<std::string> {
+auto files_of(formats::Format format) -> std::vector<std::string> {
   std::vector<std::string> names;
-  for (const auto& place : write::places_of({format, write::name_in_folder(format)}))
-    names.push_back(place.string() + std::string(format == write::Format::tiles ? packed : ""));
+  for (const auto& place : formats::places_of({format, formats::name_in_folder(format)}))
+    names.push_back(place.string() + std::string(format == formats::Format::tiles ? packed : ""));
   return names;
 }
 
 auto formats_json() -> Json {
   Json all = Json::array();
-  for (const auto& format : write::formats())
+  for (const auto& format : formats::formats())
     all.push_back({{"name", format.name}, {"files", files_of(format.format)}, {"meaning", format.meaning}});
   return all;
 }
 
-auto formats_named(const std::vector<std::string>& names) -> base::Result<std::vector<write::Format>> {
+auto formats_named(const std::vector<std::string>& names) -> base::Result<std::vector<formats::Format>> {
   std::vector<std::string> known;
-  for (const auto& format : write::formats()) known.emplace_back(format.name);
+  for (const auto& format : formats::formats()) known.emplace_back(format.name);
   for (const auto& name : names)
     if (std::ranges::find(known, name) == known.end())
       return base::error("option-value", "this is no format" + base::did_you_mean(base::nearest_word(name, known)),
                          base::on_one_line(name));
-  std::vector<write::Format> out;
-  for (const auto& format : write::formats())
+  std::vector<formats::Format> out;
+  for (const auto& format : formats::formats())
     if (names.empty() || std::ranges::find(names, format.name) != names.end()) out.push_back(format.format);
   return out;
 }
 
-auto exported(const write::City& city, const write::WriteOptions& options, std::string_view file, const fs::path& work)
+auto exported(const model::City& city, const formats::WriteOptions& options, std::string_view file, const fs::path& work)
     -> base::Result<std::string> {
-  for (const auto& [format, name, ending, meaning] : write::formats()) {
+  for (const auto& [format, name, ending, meaning] : formats::formats()) {
     if (const auto own = files_of(format); std::ranges::find(own, file) == own.end()) continue;
     const WorkFolder folder(work);
     if (auto made = make_folder(folder.path()); !made) return made.error();
-    const auto targets = write::targets_in(folder.path(), {format});
+    const auto targets = formats::targets_in(folder.path(), {format});
     base::Outputs outputs;
-    if (auto written = write::write_models(city, targets, options, outputs); !written) return written.error();
+    if (auto written = formats::write_models(city, targets, options, outputs); !written) return written.error();
     if (auto committed = outputs.commit(); !committed) return committed.error();
-    return format == write::Format::tiles ? zip_of(targets.front().path) : base::read_file(folder.path() / file);
+    return format == formats::Format::tiles ? zip_of(targets.front().path) : base::read_file(folder.path() / file);
   }
   return base::error("server-unknown", "there is no such file to export", base::on_one_line(std::string(file)));
 }
 
-auto export_to(const fs::path& folder, const write::City& city, const write::WriteOptions& options,
-               const std::vector<write::Format>& formats, const std::optional<std::string>& layers)
+auto export_to(const fs::path& folder, const model::City& city, const formats::WriteOptions& options,
+               const std::vector<formats::Format>& formats, const std::optional<std::string>& layers)
     -> base::Result<Exported> {
-  const auto targets = write::targets_in(folder, formats);
+  const auto targets = formats::targets_in(folder, formats);
   Exported out;
   base::Outputs outputs;
-  auto warnings = write::write_models(city, targets, options, outputs);
+  auto warnings = formats::write_models(city, targets, options, outputs);
   if (!warnings) return warnings.error();
   out.warnings = std::move(*warnings);
   for (const auto& target : targets)
-    for (const auto& place : write::places_of(target)) out.files.push_back(place.filename().string());
+    for (const auto& place : formats::places_of(target)) out.files.push_back(place.filename().string());
   if (layers) {
     auto sink = outputs.file(folder / run_layers);
     if (!sink) return sink.error();

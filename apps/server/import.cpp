@@ -3,21 +3,22 @@
 #include <algorithm>
 
 #include "apps/server/json.hpp"
-#include "mansard/ingest/input_file.hpp"
-#include "mansard/ingest/input_name.hpp"
+#include "mansard/formats/input_file.hpp"
+#include "mansard/formats/input_name.hpp"
 #include "mansard/pipeline/stored.hpp"
+#include "mansard/solid/solid.hpp"
 
 namespace mansard::server {
 namespace {
 
 namespace fs = std::filesystem;
 
-auto read(const fs::path& path) -> base::Result<std::unique_ptr<write::CityReader>> {
-  if (ingest::is_database_name(path))
+auto read(const fs::path& path) -> base::Result<std::unique_ptr<formats::CityReader>> {
+  if (formats::is_database_name(path))
     return base::error("write-read-format", "this is a database; name a file that mansard wrote",
-                       ingest::name_to_show(path));
-  if (auto there = ingest::check_input(path); !there) return there.error();
-  return write::read_city(path);
+                       formats::name_to_show(path));
+  if (auto there = formats::check_input(path); !there) return there.error();
+  return formats::read_city(path);
 }
 
 void move(geometry::Ring& ring, geometry::Point2 by) {
@@ -25,7 +26,7 @@ void move(geometry::Ring& ring, geometry::Point2 by) {
 }
 
 /// Whole metres: nothing is rounded that was not.
-void move(write::City& city, const ingest::Frame& frame) {
+void move(model::City& city, const model::Frame& frame) {
   const auto along = [&](std::size_t i) { return static_cast<double>(city.frame.origin[i] - frame.origin[i]); };
   const geometry::Point2 by{along(0), along(1)};
   for (auto& building : city.buildings) {
@@ -43,14 +44,14 @@ void move(write::City& city, const ingest::Frame& frame) {
   city.frame = frame;
 }
 
-auto text_at(const ingest::Attributes& attributes, std::string_view name) -> std::string {
+auto text_at(const model::Attributes& attributes, std::string_view name) -> std::string {
   for (const auto& [key, value] : attributes)
     if (const auto* text = std::get_if<std::string>(&value); text != nullptr && key == name) return *text;
   return {};
 }
 
 /// What the attributes still say of how it went.
-auto report_of(const write::Building& building, const pipeline::RaisedPlans& raised, std::size_t at)
+auto report_of(const model::Building& building, const pipeline::RaisedPlans& raised, std::size_t at)
     -> pipeline::BuildingReport {
   pipeline::BuildingReport report;
   report.id = building.id;
@@ -59,7 +60,7 @@ auto report_of(const write::Building& building, const pipeline::RaisedPlans& rai
   if (building.parts.empty()) report.outcome = pipeline::Outcome::covered;
   for (const auto& part : building.parts) {
     if (report.block.empty()) report.block = text_at(part.attributes, "ms_block");
-    report.volume += extrude::volume(part.model.solid);
+    report.volume += solid::volume(part.model.solid);
     if (const auto why = text_at(part.attributes, "ms_fallback"); !why.empty()) {
       report.outcome = pipeline::Outcome::fallback;
       report.reasons.push_back(base::warning(why, "it fell back when it was made", part.id));
@@ -81,15 +82,15 @@ auto check_import(const fs::path& path) -> base::Result<void> {
   return {};
 }
 
-auto import_city(const fs::path& path, const std::optional<ingest::Frame>& frame, RunRecord record,
-                 const base::Run& run) -> base::Result<RunOutcome> {
+auto import_city(const fs::path& path, const std::optional<model::Frame>& frame, RunRecord record, const base::Run& run)
+    -> base::Result<RunOutcome> {
   run.report("read", path.string(), 0);
   auto reader = read(path);
   if (!reader) return reader.error();
   pipeline::Options options;
   pipeline::Reconstruction result;
   result.warnings = pipeline::take_options((*reader)->header().made_by, options);
-  auto city = write::read_whole(**reader);
+  auto city = formats::read_whole(**reader);
   if (!city) return city.error();
   if (frame) {
     if (!frame->crs.empty() && !city->frame.crs.empty() && frame->crs != city->frame.crs)
@@ -115,12 +116,12 @@ auto import_city(const fs::path& path, const std::optional<ingest::Frame>& frame
       out.record.faces += part.model.solid.faces.size();
     }
   out.record.options = differing(options);
-  ingest::Scene scene;  // without a mesh the report has what is known
+  model::Scene scene;  // without a mesh the report has what is known
   scene.frame = raised->city.frame;
-  if (auto file = ingest::input_file(path)) scene.inputs.push_back(std::move(*file));
+  if (auto file = formats::input_file(path)) scene.inputs.push_back(std::move(*file));
   result.city = std::move(raised->city);
   out.files.emplace_back("report.json", pipeline::report_json(result, scene));
-  out.files.emplace_back("plans.json", write::plans(result.city));
+  out.files.emplace_back("plans.json", formats::plans(result.city));
   out.files.emplace_back("layers.json", text_of(layers_json({})));
   if (run.cancelled()) return base::error("cancelled", "stopped on request");
   return out;

@@ -5,7 +5,7 @@
 #include <cctype>
 
 #include "apps/server/scene.hpp"
-#include "mansard/ingest/input_name.hpp"
+#include "mansard/formats/input_name.hpp"
 
 namespace mansard::server {
 namespace {
@@ -15,32 +15,32 @@ namespace fs = std::filesystem;
 constexpr std::array mesh_endings{".obj", ".ply", ".off", ".glb", ".gltf"};
 
 auto no_database(const std::string& name, const char* what) -> base::Result<void> {
-  if (!ingest::is_database_name(name)) return {};
+  if (!formats::is_database_name(name)) return {};
   return base::error("server-input",
                      std::string("this is a database, which has footprints and no ") + what +
                          "; name a file, a folder, or what GDAL calls '/vsi…'",
-                     ingest::name_to_show(name));
+                     formats::name_to_show(name));
 }
 
 auto check(const Inputs& inputs) -> base::Result<void> {
   for (const auto& mesh : inputs.meshes) {
     if (auto file = no_database(mesh, "mesh"); !file) return file;
-    if (auto there = ingest::check_input(mesh); !there) return there;
+    if (auto there = formats::check_input(mesh); !there) return there;
   }
   const auto terrain = inputs.reading.find(terrain_option);
   if (terrain != inputs.reading.end() && !terrain->second.empty()) {
     if (auto file = no_database(terrain->second, "raster"); !file) return file;
-    if (auto there = ingest::check_input(terrain->second); !there) return there;
+    if (auto there = formats::check_input(terrain->second); !there) return there;
   }
-  return inputs.footprints.empty() ? base::Result<void>() : ingest::check_input(inputs.footprints);
+  return inputs.footprints.empty() ? base::Result<void>() : formats::check_input(inputs.footprints);
 }
 
 /// Whether the file is the source, lies in it (a folder, an archive), or beside it under its name (as a Shapefile's
 /// do).
 auto belongs_to(const std::string& file, const std::string& source) -> bool {
-  if (file == ingest::name_to_show(source)) return true;
-  if (ingest::is_disk_name(source)) {
-    const auto place = ingest::disk_place_of(file);
+  if (file == formats::name_to_show(source)) return true;
+  if (formats::is_disk_name(source)) {
+    const auto place = formats::disk_place_of(file);
     if (place && (*place == source || place->string().starts_with(source + "/"))) return true;
   } else if (file.starts_with(source + "/")) {
     return true;
@@ -52,7 +52,7 @@ auto belongs_to(const std::string& file, const std::string& source) -> bool {
 }  // namespace
 
 auto whole_name(const std::string& name) -> std::string {
-  if (!ingest::is_disk_name(name)) return name;
+  if (!formats::is_disk_name(name)) return name;
   std::error_code status;
   const auto whole = fs::absolute(name, status).lexically_normal();
   return whole.has_filename() ? whole.string() : whole.parent_path().string();
@@ -72,7 +72,7 @@ auto inputs_asked_for(const InputsRequest& request, const std::optional<Inputs>&
   Inputs inputs;
   for (const auto& mesh : request.meshes) inputs.meshes.push_back(whole_name(mesh));
   if (!request.footprints.empty())
-    inputs.footprints = ingest::meant_by(whole_name(request.footprints), known ? known->footprints : std::string());
+    inputs.footprints = formats::meant_by(whole_name(request.footprints), known ? known->footprints : std::string());
   inputs.reading = request.reading;
   pipeline::Options tried;
   if (auto set = set_all(tried, inputs.reading); !set) return set.error();
@@ -88,7 +88,7 @@ auto inputs_asked_for(const InputsRequest& request, const std::optional<Inputs>&
 }
 
 /// A scene has those of the meshes first, then the terrain, then the footprints.
-auto with_files(Inputs inputs, const std::vector<ingest::InputFile>& read) -> Inputs {
+auto with_files(Inputs inputs, const std::vector<model::InputFile>& read) -> Inputs {
   inputs.mesh_files.clear();
   inputs.terrain_files.clear();
   inputs.footprint_files.clear();
@@ -101,7 +101,7 @@ auto with_files(Inputs inputs, const std::vector<ingest::InputFile>& read) -> In
     else if (into == &inputs.terrain_files) into = &inputs.footprint_files;
     else if (!inputs.footprints.empty() && !of_mesh && belongs_to(file.path, inputs.footprints))
       into = &inputs.footprint_files;
-    const auto place = ingest::disk_place_of(file.path);
+    const auto place = formats::disk_place_of(file.path);
     const auto stamp = place ? stamp_of(*place) : std::nullopt;
     into->push_back({file.path, file.bytes, file.sha256, stamp.value_or(Stamp{})});
   }
@@ -110,13 +110,13 @@ auto with_files(Inputs inputs, const std::vector<ingest::InputFile>& read) -> In
 
 auto shown_json(const Inputs& inputs) -> Json {
   Json meshes = Json::array();
-  for (const auto& mesh : inputs.meshes) meshes.push_back(ingest::name_to_show(mesh));
-  return {{"meshes", std::move(meshes)}, {"footprints", ingest::name_to_show(inputs.footprints)}};
+  for (const auto& mesh : inputs.meshes) meshes.push_back(formats::name_to_show(mesh));
+  return {{"meshes", std::move(meshes)}, {"footprints", formats::name_to_show(inputs.footprints)}};
 }
 
 auto explained(base::Diagnostic why, const Inputs& inputs) -> base::Diagnostic {
-  if (!ingest::is_database_name(inputs.footprints)) return why;
-  if (ingest::name_to_show(inputs.footprints) == inputs.footprints && why.code == "file-read" &&
+  if (!formats::is_database_name(inputs.footprints)) return why;
+  if (formats::name_to_show(inputs.footprints) == inputs.footprints && why.code == "file-read" &&
       why.subject == inputs.footprints)
     why.message += "; a project keeps no password: read the inputs again with it, or put it into ~/.pgpass";
   return why;

@@ -30,7 +30,7 @@ namespace mansard::server {
     -> base::Result<Inputs>;
 
 /// With the files that were read.
-[[nodiscard]] auto with_files(Inputs inputs, const std::vector<ingest::InputFile>& read) -> Inputs;
+[[nodiscard]] auto with_files(Inputs inputs, const std::vector<model::InputFile>& read) -> Inputs;
 
 /// What was asked for, as it may be shown: {"meshes", "footprints"}.
 [[nodiscard]] auto shown_json(const Inputs& inputs) -> Json;

@@ -69,7 +69,7 @@ auto box_of(const block::Block& block) -> Box3 {
   return box;
 }
 
-auto json_of(const block::Block& block, const ingest::Scene& scene) -> Json {
+auto json_of(const block::Block& block, const model::Scene& scene) -> Json {
   Json buildings = Json::array();
   for (const auto& member : block.members) buildings.push_back(scene.footprints[member.feature].id);
   const auto box = box_of(block);
@@ -140,9 +140,9 @@ auto json_of(const RunRecord& run, std::size_t edits) -> Json {
 }
 
 /// The writer of plans says what a plan looks like, here as in a file.
-auto json_of(const geometry::Plan& plan) -> Json { return Json::parse(write::plan_json(plan)); }
+auto json_of(const model::Plan& plan) -> Json { return Json::parse(formats::plan_json(plan)); }
 
-auto json_of(const geometry::ProfilePoint& point) -> Json { return Json::array({point.inward, point.height}); }
+auto json_of(const model::ProfilePoint& point) -> Json { return Json::array({point.inward, point.height}); }
 
 auto json_of(std::span<const geometry::Point2> points) -> Json {
   Json out = Json::array();
@@ -150,9 +150,9 @@ auto json_of(std::span<const geometry::Point2> points) -> Json {
   return out;
 }
 
-auto json_of(const label::LabelledSolid& model) -> Json {
+auto json_of(const model::LabelledSolid& model) -> Json {
   const auto& solid = model.solid;
-  const auto cut = extrude::triangulate(solid);
+  const auto cut = solid::triangulate(solid);
   if (!cut) return nullptr;
   Json positions = Json::array(), triangles = Json::array(), faces = Json::array();
   for (const auto& v : solid.vertices)
@@ -277,7 +277,7 @@ auto json_of(std::span<const picture::Tile> tiles) -> Json {
   return {{"levels", levels}, {"tiles", std::move(infos)}};
 }
 
-auto json_of(const ingest::Scene& scene, std::span<const block::Block> blocks) -> Json {
+auto json_of(const model::Scene& scene, std::span<const block::Block> blocks) -> Json {
   std::vector<Json> block_of(scene.footprints.size(), nullptr), ground(scene.footprints.size(), 0.0);
   Json block_list = Json::array(), footprints = Json::array();
   for (const auto& block : blocks) {

@@ -29,9 +29,9 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] auto json_of(const MapInfo& map) -> Json;
 /// RunSummary; `edits` stand.
 [[nodiscard]] auto json_of(const RunRecord& run, std::size_t edits) -> Json;
-[[nodiscard]] auto json_of(const geometry::Plan& plan) -> Json;
-[[nodiscard]] auto json_of(const label::LabelledSolid& model) -> Json;
-[[nodiscard]] auto json_of(const geometry::ProfilePoint& point) -> Json;
+[[nodiscard]] auto json_of(const model::Plan& plan) -> Json;
+[[nodiscard]] auto json_of(const model::LabelledSolid& model) -> Json;
+[[nodiscard]] auto json_of(const model::ProfilePoint& point) -> Json;
 [[nodiscard]] auto json_of(std::span<const geometry::Point2> points) -> Json;
 [[nodiscard]] auto json_of(const edit::NamedPlan& part) -> Json;
 [[nodiscard]] auto json_of(const edit::Change& change) -> Json;
@@ -53,6 +53,6 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] auto json_of(std::span<const picture::Tile> tiles) -> Json;
 
 /// Scene. `blocks` are of the scene.
-[[nodiscard]] auto json_of(const ingest::Scene& scene, std::span<const block::Block> blocks) -> Json;
+[[nodiscard]] auto json_of(const model::Scene& scene, std::span<const block::Block> blocks) -> Json;
 
 }  // namespace mansard::server

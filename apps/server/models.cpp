@@ -5,6 +5,7 @@
 
 #include "mansard/base/files.hpp"
 #include "mansard/evaluate/evaluate.hpp"
+#include "mansard/solid/solid.hpp"
 
 namespace mansard::server {
 namespace {
@@ -24,7 +25,7 @@ auto touch(const geometry::Box2& a, const geometry::Box2& b) -> bool {
          b.least.y <= a.most.y + near;
 }
 
-auto number(const ingest::Attributes& attributes, std::string_view name) -> std::optional<double> {
+auto number(const model::Attributes& attributes, std::string_view name) -> std::optional<double> {
   for (const auto& [key, value] : attributes)
     if (const auto* found = std::get_if<double>(&value); found != nullptr && key == name) return *found;
   return std::nullopt;
@@ -50,10 +51,10 @@ auto no_building(const std::string& id) -> base::Diagnostic {
 }
 
 /// The run's city as it stands after the edits: plans and ids, without attributes.
-auto standing(const write::City& city, const edit::History& history) -> write::City {
-  write::City out{city.frame, city.made_by, {}};
+auto standing(const model::City& city, const edit::History& history) -> model::City {
+  model::City out{city.frame, city.made_by, {}};
   for (const auto& building : city.buildings) {
-    write::Building now{building.id, {}, {}, building.ground, {}};
+    model::Building now{building.id, {}, {}, building.ground, {}};
     for (const auto& part : *history.parts(building.id)) now.parts.push_back({part.id, part.plan, {}, {}});
     out.buildings.push_back(std::move(now));
   }
@@ -74,7 +75,7 @@ auto together(const std::vector<edit::RaisedPart>& parts) -> std::optional<doubl
 
 }  // namespace
 
-Models::Models(write::City city, edit::History history, Journal journal, pipeline::Options options)
+Models::Models(model::City city, edit::History history, Journal journal, pipeline::Options options)
     : city_(std::move(city)), options_(std::move(options)), history_(std::move(history)), journal_(std::move(journal)) {
   for (std::size_t b = 0; b < city_.buildings.size(); ++b) index_[city_.buildings[b].id] = b;
 }
@@ -83,7 +84,7 @@ auto Models::open(const std::filesystem::path& folder, const RunRecord& run, con
     -> base::Result<std::shared_ptr<Models>> {
   pipeline::Options options;
   if (auto set = set_all(options, run.options); !set) return set.error();
-  auto city = write::read_plans(folder / "plans.json");
+  auto city = formats::read_plans(folder / "plans.json");
   if (!city) return city.error();
   const auto path = folder / "journal.jsonl";
   std::error_code status;
@@ -161,10 +162,10 @@ auto Models::raise_all(const OpenScene* scene) -> base::Result<void> {
         part.diagnostics = std::move(fell_short->reasons);
         ++fell_short;
       }
-      part.volume = extrude::volume(part.model->solid);
+      part.volume = solid::volume(part.model->solid);
       if (!edited) part.mse = squared(number(city_.buildings[b].parts[p].attributes, "ms_rmse_lod22"));
       if (mesh != nullptr) {
-        const double mse = evaluate::error_over(part.model->solid, geometry::polygon_of(source.parts[p].plan), *mesh,
+        const double mse = evaluate::error_over(part.model->solid, model::polygon_of(source.parts[p].plan), *mesh,
                                                 options_.evaluate.grid);
         if (std::isfinite(mse)) part.mse = mse;
       }
@@ -199,7 +200,7 @@ auto Models::known(const edit::Change& change, const View& view) const -> base::
 auto Models::raised(const edit::Change& change, std::size_t at, const std::vector<edit::Change>& together,
                     const View& view, const OpenScene* scene) const -> edit::RaisedBuilding {
   const auto box = box_of(change.parts);
-  std::vector<geometry::Plan> neighbours;
+  std::vector<model::Plan> neighbours;
   for (std::size_t b = 0; b < view.buildings.size(); ++b) {
     if (b == at) continue;
     const auto& other = *view.buildings[b];
@@ -225,7 +226,7 @@ auto Models::preview(const std::vector<edit::Change>& changes, const OpenScene* 
   return R"({"buildings":)" + joined(texts) + "}";
 }
 
-auto Models::plan_of(const PartName& name) const -> base::Result<geometry::Plan> {
+auto Models::plan_of(const PartName& name) const -> base::Result<model::Plan> {
   const auto now = view();
   const auto at = index_.find(name.building);
   if (at == index_.end()) return no_building(name.building);
@@ -382,7 +383,7 @@ auto Models::measure(const OpenScene& scene) -> std::optional<Changed> {
   return publish(unmeasured, &scene);
 }
 
-auto Models::edited(const SceneOrNone& scene) -> base::Result<std::shared_ptr<const write::City>> {
+auto Models::edited(const SceneOrNone& scene) -> base::Result<std::shared_ptr<const model::City>> {
   const std::scoped_lock lock(export_mutex_);
   std::optional<edit::History> history;
   std::uint64_t number = 0;
@@ -395,7 +396,7 @@ auto Models::edited(const SceneOrNone& scene) -> base::Result<std::shared_ptr<co
   const auto mesh_of = [&](std::string_view id) { return scene ? scene->rays_of(id) : nullptr; };
   auto city = edit::edited_city(city_, *history, mesh_of, options_);
   if (!city) return city.error();
-  export_ = Export{number, scene != nullptr, std::make_shared<const write::City>(std::move(*city))};
+  export_ = Export{number, scene != nullptr, std::make_shared<const model::City>(std::move(*city))};
   return export_->city;
 }
 

@@ -48,7 +48,7 @@ class Models {
   [[nodiscard]] auto split(const SplitRequest& request) const -> base::Result<std::string>;
   [[nodiscard]] auto merge(const MergeRequest& request) const -> base::Result<std::string>;
   /// Gives up with "edit-building", "edit-part".
-  [[nodiscard]] auto plan_of(const PartName& name) const -> base::Result<geometry::Plan>;
+  [[nodiscard]] auto plan_of(const PartName& name) const -> base::Result<model::Plan>;
 
   /// Gives up with "edit-invalid", and as edit::History::apply and Journal::append do.
   [[nodiscard]] auto apply(edit::Edit edit, const OpenScene* scene) -> base::Result<Changed>;
@@ -58,7 +58,7 @@ class Models {
   [[nodiscard]] auto measure(const OpenScene& scene) -> std::optional<Changed>;
 
   /// The city as edited, for export. Gives up as edit::edited_city does.
-  [[nodiscard]] auto edited(const SceneOrNone& scene) -> base::Result<std::shared_ptr<const write::City>>;
+  [[nodiscard]] auto edited(const SceneOrNone& scene) -> base::Result<std::shared_ptr<const model::City>>;
 
   [[nodiscard]] auto options() const -> const pipeline::Options& { return options_; }
 
@@ -82,7 +82,7 @@ class Models {
     std::uint64_t number = 0;                            ///< of the state
   };
 
-  Models(write::City city, edit::History history, Journal journal, pipeline::Options options);
+  Models(model::City city, edit::History history, Journal journal, pipeline::Options options);
   [[nodiscard]] auto view() const -> std::shared_ptr<const View>;
   [[nodiscard]] auto read_reports(const std::filesystem::path& path) -> base::Result<void>;
   [[nodiscard]] auto raise_all(const OpenScene* scene) -> base::Result<void>;
@@ -95,7 +95,7 @@ class Models {
   [[nodiscard]] auto step(base::Result<std::vector<std::string>> (edit::History::*one)(), std::string_view line,
                           const OpenScene* scene) -> base::Result<Changed>;
 
-  write::City city_;  // of the run: its plans, without models
+  model::City city_;  // of the run: its plans, without models
   pipeline::Options options_;
   std::map<std::string, std::size_t, std::less<>> index_;
   std::vector<Report> reports_;
@@ -110,7 +110,7 @@ class Models {
   struct Export {
     std::uint64_t number = 0;
     bool with_scene = false;
-    std::shared_ptr<const write::City> city;
+    std::shared_ptr<const model::City> city;
   };
   std::mutex export_mutex_;
   std::optional<Export> export_;  // of the last state that was asked for

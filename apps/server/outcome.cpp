@@ -36,13 +36,13 @@ auto reconstruct(const OpenScene& scene, RunRecord record, const base::Run& how)
   const auto result = pipeline::reconstruct(scene.scene(), options, run, pipeline::Keep::segmentations, record.blocks);
   if (!result) return result.error();
   run.report("write", "", 1);
-  auto layers = write::geopackage(pipeline::segment_layers(scene.scene(), result->segmented, result->city.made_by),
+  auto layers = formats::geopackage(pipeline::segment_layers(scene.scene(), result->segmented, result->city.made_by),
                                   scene.scene().frame);
   if (!layers) return layers.error();
   RunOutcome out{std::move(record), {}};
   count(*result, out.record);
   out.files.emplace_back("report.json", pipeline::report_json(*result, scene.scene()));
-  out.files.emplace_back("plans.json", write::plans(result->city));
+  out.files.emplace_back("plans.json", formats::plans(result->city));
   out.files.emplace_back("layers.json", text_of(layers_json(result->segmented)));
   out.files.emplace_back("segment.gpkg", std::move(*layers));
   out.record.maps.clear();

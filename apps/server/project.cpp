@@ -12,7 +12,7 @@
 #include "mansard/base/files.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/edit/edit.hpp"
-#include "mansard/ingest/input_name.hpp"
+#include "mansard/formats/input_name.hpp"
 
 namespace mansard::server {
 namespace {
@@ -25,13 +25,13 @@ constexpr const char *project_file = "project.json", *run_file = "run.json";
 
 /// What lies in the project is named from there, so that its folder can be moved. Passwords stay out.
 auto from_project(const fs::path& folder, const std::string& name) -> std::string {
-  if (name.empty() || !ingest::is_disk_name(name)) return ingest::name_to_keep(name);
+  if (name.empty() || !formats::is_disk_name(name)) return formats::name_to_keep(name);
   const auto relative = fs::path(name).lexically_relative(folder);
   return relative.empty() || *relative.begin() == ".." ? name : relative.string();
 }
 
 auto to_project(const fs::path& folder, const std::string& name) -> std::string {
-  return name.empty() || !ingest::is_disk_name(name) ? name : (folder / name).string();
+  return name.empty() || !formats::is_disk_name(name) ? name : (folder / name).string();
 }
 
 auto files_json(const fs::path& folder, const std::vector<KnownFile>& files) -> Json {
@@ -190,7 +190,7 @@ auto lock_of(const fs::path& folder) -> base::Result<Descriptor> {
 
 auto Inputs::same_request(const Inputs& other) const -> bool {
   return meshes == other.meshes && reading == other.reading &&
-         ingest::name_to_keep(footprints) == ingest::name_to_keep(other.footprints);
+         formats::name_to_keep(footprints) == formats::name_to_keep(other.footprints);
 }
 
 auto stamp_of(const fs::path& path) -> std::optional<Stamp> {

@@ -7,7 +7,7 @@
 #include "mansard/base/nesting.hpp"
 #include "mansard/base/options.hpp"
 #include "mansard/base/text.hpp"
-#include "mansard/write/write.hpp"
+#include "mansard/formats/write.hpp"
 
 namespace mansard::server {
 namespace {
@@ -88,8 +88,8 @@ struct Item {
     if (!json.is_array() || json.size() != 2) refuse("an array of 2 numbers");
     return {Item{json[0], place + "[0]"}.number(), Item{json[1], place + "[1]"}.number()};
   }
-  [[nodiscard]] auto plan() const -> geometry::Plan {
-    auto plan = write::read_plan(json.dump(), place);
+  [[nodiscard]] auto plan() const -> model::Plan {
+    auto plan = formats::read_plan(json.dump(), place);
     if (!plan) throw Refused{plan.error()};
     return std::move(*plan);
   }
@@ -220,7 +220,7 @@ auto read_nothing(std::string_view body) -> base::Result<void> {
   return read ? base::Result<void>() : read.error();
 }
 
-auto check_edge(const geometry::Plan& plan, std::size_t ring, std::size_t edge, double share) -> base::Result<void> {
+auto check_edge(const model::Plan& plan, std::size_t ring, std::size_t edge, double share) -> base::Result<void> {
   if (ring > plan.holes.size()) return bad("ring must be at most " + std::to_string(plan.holes.size()), "ring");
   const auto edges = (ring == 0 ? plan.outer : plan.holes[ring - 1]).points.size();
   if (edge >= edges) return bad("edge must be less than " + std::to_string(edges), "edge");

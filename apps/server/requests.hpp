@@ -9,7 +9,7 @@
 #include "apps/server/project.hpp"
 #include "mansard/base/result.hpp"
 #include "mansard/edit/edit.hpp"
-#include "mansard/geometry/plan.hpp"
+#include "mansard/model/plan.hpp"
 
 namespace mansard::server {
 
@@ -31,7 +31,7 @@ struct ExportRequest {
   std::vector<std::string> formats;  ///< by their names; empty: all
 };
 struct SectionRequest {
-  geometry::Plan plan;
+  model::Plan plan;
   std::size_t ring = 0, edge = 0;
   double share = 0;
 };
@@ -59,7 +59,7 @@ using MergeRequest = std::pair<PartName, PartName>;
 [[nodiscard]] auto read_nothing(std::string_view body) -> base::Result<void>;
 
 /// Whether a plan has that edge, and the share is one. Gives up with "server-body".
-[[nodiscard]] auto check_edge(const geometry::Plan& plan, std::size_t ring, std::size_t edge, double share)
+[[nodiscard]] auto check_edge(const model::Plan& plan, std::size_t ring, std::size_t edge, double share)
     -> base::Result<void>;
 
 }  // namespace mansard::server

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <limits>
 
-#include "mansard/ingest/input_name.hpp"
+#include "mansard/formats/input_name.hpp"
 #include "mansard/pipeline/inputs.hpp"
 
 namespace mansard::server {
@@ -47,7 +47,7 @@ auto OpenScene::read(const Inputs& inputs, const base::Run& run) -> base::Result
   if (!scene) return scene.error();
   const std::shared_ptr<OpenScene> out(new OpenScene);
   out->scene_ = std::move(*scene);
-  run.report("block", ingest::name_to_show(inputs.footprints), 0.9);
+  run.report("block", formats::name_to_show(inputs.footprints), 0.9);
   out->blocks_ = block::partition(out->scene_, options.block, run);
   run.report("tiles", inputs.meshes.front(), 0.95);
   out->tiles_ = picture::tiles(out->scene_.mesh, {}, run);
@@ -87,7 +87,7 @@ auto OpenScene::rays_of(std::string_view building) const -> const rays::Scene* {
   return prepared.rays.get();
 }
 
-auto OpenScene::section(const geometry::Plan& plan, std::size_t ring, std::size_t edge, double share,
+auto OpenScene::section(const model::Plan& plan, std::size_t ring, std::size_t edge, double share,
                         const std::optional<std::string>& building, const pipeline::Options& options) const -> Json {
   const auto& points = ring == 0 ? plan.outer.points : plan.holes[ring - 1].points;
   const auto from = points[edge], to = points[(edge + 1) % points.size()];
@@ -100,7 +100,7 @@ auto OpenScene::section(const geometry::Plan& plan, std::size_t ring, std::size_
     std::call_once(prepared.once_raw, [&] { prepared.raw = std::make_unique<profile::RawProfiles>(mesh); });
     for (const auto& [start, end] : edit::section(mesh, from, to, share, plan.base, reach).pieces)
       pieces.push_back(Json::array({json_of(start), json_of(end)}));
-    for (const auto& raw : prepared.raw->behind(geometry::polygon_of(plan), ring, edge, plan.base, options.profile)) {
+    for (const auto& raw : prepared.raw->behind(model::polygon_of(plan), ring, edge, plan.base, options.profile)) {
       Json climb = Json::array();
       for (const auto& point : raw.points) climb.push_back(json_of(point));
       climbs.push_back(std::move(climb));

@@ -36,7 +36,7 @@ class OpenScene {
   [[nodiscard]] static auto read(const Inputs& inputs, const base::Run& run)
       -> base::Result<std::shared_ptr<const OpenScene>>;
 
-  [[nodiscard]] auto scene() const -> const ingest::Scene& { return scene_; }
+  [[nodiscard]] auto scene() const -> const model::Scene& { return scene_; }
   [[nodiscard]] auto blocks() const -> const std::vector<block::Block>& { return blocks_; }
   [[nodiscard]] auto has_block(std::string_view name) const -> bool;
   [[nodiscard]] auto scene_json() const -> const std::string& { return scene_json_; }
@@ -47,7 +47,7 @@ class OpenScene {
   /// The mesh around a building, made ready for rays when it is first asked for; null where there is none.
   [[nodiscard]] auto rays_of(std::string_view building) const -> const rays::Scene*;
   /// Across an edge of a plan. Where the building is not known, the block that is nearest counts.
-  [[nodiscard]] auto section(const geometry::Plan& plan, std::size_t ring, std::size_t edge, double share,
+  [[nodiscard]] auto section(const model::Plan& plan, std::size_t ring, std::size_t edge, double share,
                              const std::optional<std::string>& building, const pipeline::Options& options) const
       -> Json;
 
@@ -60,7 +60,7 @@ class OpenScene {
   };
   [[nodiscard]] auto block_near(geometry::Point2 at) const -> std::size_t;
 
-  ingest::Scene scene_;
+  model::Scene scene_;
   std::vector<block::Block> blocks_;
   std::map<std::string, std::size_t, std::less<>> block_of_;  // by building
   std::vector<picture::Tile> tiles_;

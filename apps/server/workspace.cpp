@@ -9,8 +9,8 @@
 #include "apps/server/inputs.hpp"
 #include "apps/server/outcome.hpp"
 #include "mansard/base/files.hpp"
-#include "mansard/ingest/input_file.hpp"
-#include "mansard/ingest/input_name.hpp"
+#include "mansard/formats/input_file.hpp"
+#include "mansard/formats/input_name.hpp"
 
 namespace mansard::server {
 namespace {
@@ -96,7 +96,7 @@ auto Workspace::status() const -> Text { return text_of({{"version", MANSARD_VER
 
 /// Size and time are looked at; the contents only where these differ.
 auto Workspace::changed(const KnownFile& file) const -> bool {
-  const auto place = ingest::disk_place_of(file.path);
+  const auto place = formats::disk_place_of(file.path);
   if (!place) return false;  // a database or a server: they are asked when they are read
   const auto stamp = stamp_of(*place);
   if (!stamp) return true;
@@ -104,7 +104,7 @@ auto Workspace::changed(const KnownFile& file) const -> bool {
   const std::scoped_lock lock(inputs_mutex_);
   auto& known = input_states_[file.path + " " + file.sha256];
   if (known.stamp != *stamp) {
-    const auto now = ingest::input_file(file.path);
+    const auto now = formats::input_file(file.path);
     known = {*stamp, !now || now->sha256 != file.sha256};
   }
   return known.changed;
@@ -388,7 +388,7 @@ auto Workspace::import_model(const ImportRequest& request) -> Text {
   Run run;
   run.record.label = request.label.empty() ? fs::path(path).filename().string() : request.label;
   return submit(std::move(run), [this, path](RunRecord record, const base::Run& how) -> base::Result<RunOutcome> {
-    std::optional<ingest::Frame> frame;
+    std::optional<model::Frame> frame;
     if (const auto scene = scene_now()) frame = scene->scene().frame;
     return import_city(path, frame, std::move(record), how);
   });

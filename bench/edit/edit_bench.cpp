@@ -42,7 +42,7 @@ auto best(const Work& work) -> double {
 }
 
 /// Across the middle of the longest edge, from well outside to well outside.
-auto across(const geometry::Plan& plan) -> std::vector<geometry::Point2> {
+auto across(const model::Plan& plan) -> std::vector<geometry::Point2> {
   const auto& ring = plan.outer.points;
   geometry::Segment2 longest{ring[0], ring[1]};
   for (std::size_t i = 1; i < ring.size(); ++i) {
@@ -128,7 +128,7 @@ auto main(int argc, char** argv) -> int {
   for (const auto& building : run->city.buildings) {
     const auto& parts = *history.parts(building.id);
     if (parts.empty()) continue;
-    std::vector<geometry::Plan> neighbours;
+    std::vector<model::Plan> neighbours;
     for (const auto& other : run->city.buildings)
       if (other.id != building.id)
         for (const auto& part : other.parts) neighbours.push_back(part.plan);
@@ -160,7 +160,7 @@ auto main(int argc, char** argv) -> int {
   std::size_t parts_all = 0, parts_split = 0, split_valid = 0, merged = 0, raised_less = 0;
   edit::History cut(run->city);
   for (const auto& building : run->city.buildings) {
-    std::vector<geometry::Plan> neighbours;
+    std::vector<model::Plan> neighbours;
     for (const auto& other : run->city.buildings)
       if (other.id != building.id)
         for (const auto& part : other.parts) neighbours.push_back(part.plan);
@@ -188,7 +188,7 @@ auto main(int argc, char** argv) -> int {
             any = true;
           }
       }
-      const auto again = geometry::polygon_of(pieces.front()), was = geometry::polygon_of(part.plan);
+      const auto again = model::polygon_of(pieces.front()), was = model::polygon_of(part.plan);
       const auto lost = geometry::subtract(was, again), won = geometry::subtract(again, was);
       merged += lost && won && area_of(*lost) + area_of(*won) < 1e-9 ? 1 : 0;
       if (&part == &before.front())
@@ -200,7 +200,7 @@ auto main(int argc, char** argv) -> int {
               parts_all, parts_split, split_valid, raised_less, merged);
 
   // Every two parts whose boxes touch, as one.
-  std::vector<const write::Part*> parts_of_all;
+  std::vector<const model::Part*> parts_of_all;
   for (const auto& building : run->city.buildings)
     for (const auto& part : building.parts) parts_of_all.push_back(&part);
   std::size_t joined = 0, joined_valid = 0;
@@ -221,17 +221,17 @@ auto main(int argc, char** argv) -> int {
   for (const auto& [words, count] : refused) std::printf(" %zu \"%s…\"", count, words.c_str());
   std::puts("");
 
-  base::Result<write::City> city = base::error("", "");
+  base::Result<model::City> city = base::error("", "");
   const double exporting = milliseconds([&] { city = edit::edited_city(run->city, history, mesh_of, options); });
   if (!city) return std::puts(base::to_string(city.error()).c_str()), 1;
-  const bool same = *write::cityjson(*city) == *write::cityjson(run->city) &&
-                    write::plans(*city) == write::plans(run->city) && *write::glb(*city) == *write::glb(run->city);
+  const bool same = *formats::cityjson(*city) == *formats::cityjson(run->city) &&
+                    formats::plans(*city) == formats::plans(run->city) && *formats::glb(*city) == *formats::glb(run->city);
   std::printf("edited_city %.0f ms; without edits it is the run's to the byte: %s\n", exporting, same ? "yes" : "NO");
 
   auto edited = edit::edited_city(run->city, cut, mesh_of, options);
   if (!edited) return std::puts(base::to_string(edited.error()).c_str()), 1;
   const auto again = pipeline::raise_plans(*edited, options);
-  const bool kept = again && *write::cityjson(again->city) == *write::cityjson(*edited);
+  const bool kept = again && *formats::cityjson(again->city) == *formats::cityjson(*edited);
   std::printf("%zu buildings edited; raised again from their plans to the byte: %s\n", cut.done(), kept ? "yes" : "NO");
   return same && kept ? 0 : 1;
 }

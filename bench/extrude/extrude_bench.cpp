@@ -19,12 +19,13 @@
 #include "mansard/extrude/detail/source.hpp"
 #include "mansard/extrude/detail/sweep.hpp"
 #include "mansard/extrude/extrude.hpp"
+#include "mansard/solid/solid.hpp"
 
 namespace {
 
 using namespace mansard;
-using geometry::Plan;
 using geometry::Ring;
+using model::Plan;
 
 using Plans = std::vector<Plan>;
 
@@ -90,13 +91,13 @@ void sweep(benchmark::State& state, const Plans& plans) {
 
 /// The check of the solids alone.
 void check(benchmark::State& state, const Plans& plans) {
-  std::vector<extrude::Solid> solids;
+  std::vector<model::Solid> solids;
   for (const Plan& plan : plans) {
     auto raised = extrude::raise(plan);
     if (raised) solids.push_back(std::move(raised->solid));
   }
   for (auto _ : state)
-    for (const auto& solid : solids) benchmark::DoNotOptimize(extrude::check(solid));
+    for (const auto& solid : solids) benchmark::DoNotOptimize(solid::check(solid));
   describe(state, plans);
 }
 
@@ -116,7 +117,7 @@ void in_parallel(benchmark::State& state, const Plans& plans) {
   for (auto _ : state)
     base::parallel_for(plans.size(), [&](std::size_t i) {
       const auto raised = extrude::raise(plans[i]);
-      volumes[i] = raised ? extrude::volume(raised->solid) : 0;
+      volumes[i] = raised ? solid::volume(raised->solid) : 0;
     });
   benchmark::DoNotOptimize(volumes);
   describe(state, plans);

@@ -10,10 +10,10 @@
 namespace mansard::bench {
 namespace {
 
-using geometry::Plan;
 using geometry::Point2;
-using geometry::Profile;
 using geometry::Ring;
+using model::Plan;
+using model::Profile;
 using Cell = std::pair<int, int>;
 using Cells = std::set<Cell>;
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "mansard/base/run.hpp"
-#include "mansard/geometry/plan.hpp"
+#include "mansard/model/plan.hpp"
 
 namespace mansard::bench {
 
@@ -32,12 +32,12 @@ namespace mansard::bench {
 [[nodiscard]] auto small_footprint(base::Random& random) -> geometry::Ring;
 
 /// One profile for all edges; what is left at `cap` becomes flat.
-[[nodiscard]] auto plan_of(geometry::Ring ring, geometry::Profile profile, double cap = 10'000) -> geometry::Plan;
+[[nodiscard]] auto plan_of(geometry::Ring ring, model::Profile profile, double cap = 10'000) -> model::Plan;
 
 /// A mansard on most edges, upright gables and plain pitches on the others; corners in the order given.
-[[nodiscard]] auto mixed_plan_of(base::Random& random, geometry::Ring ring) -> geometry::Plan;
+[[nodiscard]] auto mixed_plan_of(base::Random& random, geometry::Ring ring) -> model::Plan;
 
-inline const geometry::Profile hip{{0, 0}, {0, 3}, {1, 4}};
-inline const geometry::Profile mansard{{0, 0}, {0, 6}, {0.8, 8.4}, {3.8, 9.6}};
+inline const model::Profile hip{{0, 0}, {0, 3}, {1, 4}};
+inline const model::Profile mansard{{0, 0}, {0, 6}, {0.8, 8.4}, {3.8, 9.6}};
 
 }  // namespace mansard::bench

@@ -18,7 +18,7 @@
 
 #include "bench/ingest/others.hpp"
 #include "mansard/base/text.hpp"
-#include "mansard/ingest/input_file.hpp"
+#include "mansard/formats/input_file.hpp"
 #include "mansard/ingest/model.hpp"
 
 namespace {
@@ -133,7 +133,7 @@ auto measured(const std::function<std::size_t()>& work) -> Reading {
 }
 
 auto readers() -> std::vector<std::pair<std::string, std::function<std::size_t(const fs::path&)>>> {
-  return {{"hash alone", [](const fs::path& path) { return ingest::input_file(path).value().sha256.size(); }},
+  return {{"hash alone", [](const fs::path& path) { return formats::input_file(path).value().sha256.size(); }},
           {"read_mesh",
            [](const fs::path& path) {
              const auto read = ingest::read_mesh({path}, {{84000, 447000, 0}, {}}, {});

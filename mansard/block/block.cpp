@@ -39,7 +39,7 @@ auto median(std::vector<double> values) -> double {
 
 /// Ground of each member: by the terrain, else around itself, else around the block, else the low end of what mesh
 /// there is. Never NaN.
-void set_ground(Block& block, const std::optional<ingest::HeightGrid>& terrain,
+void set_ground(Block& block, const std::optional<model::HeightGrid>& terrain,
                 const std::vector<std::vector<detail::Sample>>& around, const std::vector<std::size_t>& members,
                 double whole_mesh, const Options& options) {
   const double share = options.ground_percentile / 100;
@@ -76,7 +76,7 @@ auto option_list(Options& o) -> base::OptionList {
                   "Of the mesh's heights in that ring; low, since trees and cars stand on the ground."));
 }
 
-auto partition(const ingest::Scene& scene, const Options& options, const base::Run& run) -> std::vector<Block> {
+auto partition(const model::Scene& scene, const Options& options, const base::Run& run) -> std::vector<Block> {
   run.report("block", "", 0);
   std::vector<std::size_t> features;
   std::vector<detail::Polygons> shapes;

@@ -9,7 +9,7 @@
 #include "mansard/base/run.hpp"
 #include "mansard/geometry/mesh.hpp"
 #include "mansard/geometry/polygon.hpp"
-#include "mansard/ingest/ingest.hpp"
+#include "mansard/model/scene.hpp"
 
 namespace mansard::block {
 
@@ -41,7 +41,7 @@ struct Options {
 /// and members are ordered by feature index, whatever the thread count · 3 every triangle of the scene within the
 /// padding of a block's outline is in that block's mesh, and none entirely farther away. Cost: O((n + m) log m) for n
 /// triangles, m footprints.
-[[nodiscard]] auto partition(const ingest::Scene& scene, const Options& options, const base::Run& run = {})
+[[nodiscard]] auto partition(const model::Scene& scene, const Options& options, const base::Run& run = {})
     -> std::vector<Block>;
 
 }  // namespace mansard::block

@@ -146,15 +146,15 @@ struct Drawn {
   double height = 0, planes = 0;
 };
 
-auto named(std::vector<Drawn> drawn) -> std::vector<ingest::Footprint> {
+auto named(std::vector<Drawn> drawn) -> std::vector<model::Footprint> {
   const auto along = [](const Drawn& one) {
     const auto box = box_of(one.polygon);
     return std::tuple(box.least.x + box.most.x - box.least.y - box.most.y, box.least.x, box.least.y);
   };
   std::ranges::stable_sort(drawn, {}, along);
-  std::vector<ingest::Footprint> out;
+  std::vector<model::Footprint> out;
   for (auto& one : drawn) {
-    ingest::Footprint footprint;
+    model::Footprint footprint;
     footprint.id = "derived-" + std::to_string(out.size() + 1);
     footprint.derived = true;
     footprint.attributes = {{"ms_derived", true},
@@ -217,8 +217,8 @@ auto option_list(Options& o) -> base::OptionList {
           .number("shortest", o.shortest, "m", {0, 50}, "Shorter sides are not drawn."));
 }
 
-auto footprints(const ingest::Scene& scene, const Options& options, const base::Run& run)
-    -> base::Result<std::vector<ingest::Footprint>> {
+auto footprints(const model::Scene& scene, const Options& options, const base::Run& run)
+    -> base::Result<std::vector<model::Footprint>> {
   run.report("derive", "heights", 0);
   const Place place = detail::place_of(scene.mesh, options.cell);
   if (place.size() == 0) return nothing();

@@ -7,7 +7,7 @@
 #include "mansard/base/options.hpp"
 #include "mansard/base/result.hpp"
 #include "mansard/base/run.hpp"
-#include "mansard/ingest/ingest.hpp"
+#include "mansard/model/scene.hpp"
 
 namespace mansard::derive {
 
@@ -29,8 +29,8 @@ struct Options {
 /// oriented, of at least `least_area` · 2 no two overlap · 3 the same mesh and options give the same footprints at any
 /// thread count. Cost: O(n log n + c log c) for n triangles and c cells. Gives up with "derive-nothing",
 /// "derive-size", "derive-outline", "cancelled".
-[[nodiscard]] auto footprints(const ingest::Scene& scene, const Options& options, const base::Run& run = {})
-    -> base::Result<std::vector<ingest::Footprint>>;
+[[nodiscard]] auto footprints(const model::Scene& scene, const Options& options, const base::Run& run = {})
+    -> base::Result<std::vector<model::Footprint>>;
 
 [[nodiscard]] auto codes() -> std::vector<base::Code>;
 

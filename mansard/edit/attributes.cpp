@@ -2,7 +2,7 @@
 
 namespace mansard::edit {
 
-auto attributes() -> std::vector<write::Attribute> {
+auto attributes() -> std::vector<formats::Attribute> {
   return {{"ms_edited",
            "edit",
            {"Building", "BuildingPart"},

@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "mansard/write/attributes.hpp"
+#include "mansard/formats/attributes.hpp"
 
 namespace mansard::edit {
 
-[[nodiscard]] auto attributes() -> std::vector<write::Attribute>;
+[[nodiscard]] auto attributes() -> std::vector<formats::Attribute>;
 
 }  // namespace mansard::edit

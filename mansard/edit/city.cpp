@@ -10,16 +10,16 @@ namespace {
 
 constexpr const char* edited_mark = "ms_edited";
 
-using ingest::Attributes;
+using model::Attributes;
 
-void set(Attributes& attributes, std::string_view name, ingest::Value value) {
+void set(Attributes& attributes, std::string_view name, model::Value value) {
   const auto found = std::ranges::find(attributes, name, &Attributes::value_type::first);
   if (found != attributes.end()) found->second = std::move(value);
   else attributes.emplace_back(name, std::move(value));
 }
 
 /// What a part that the run did not make may say of the run: its building's block.
-auto attributes_of_new(const write::Building& building) -> Attributes {
+auto attributes_of_new(const model::Building& building) -> Attributes {
   Attributes out;
   for (const auto& part : building.parts)
     for (const auto& attribute : part.attributes)
@@ -29,11 +29,11 @@ auto attributes_of_new(const write::Building& building) -> Attributes {
 
 /// The building with the plans that it has now, each with what is known of it from the run. `unchanged` gets a flag a
 /// part.
-auto with_plans(const write::Building& before, const std::vector<NamedPlan>& plans, std::vector<bool>& unchanged)
-    -> write::Building {
-  write::Building building{before.id, before.attributes, before.footprint, before.ground, {}};
+auto with_plans(const model::Building& before, const std::vector<NamedPlan>& plans, std::vector<bool>& unchanged)
+    -> model::Building {
+  model::Building building{before.id, before.attributes, before.footprint, before.ground, {}};
   for (const auto& [id, plan] : plans) {
-    const auto same = std::ranges::find(before.parts, id, &write::Part::id);
+    const auto same = std::ranges::find(before.parts, id, &model::Part::id);
     const bool known = same != before.parts.end();
     unchanged.push_back(known && same->plan == plan);
     building.parts.push_back({id, plan, {}, known ? same->attributes : attributes_of_new(before)});
@@ -43,9 +43,9 @@ auto with_plans(const write::Building& before, const std::vector<NamedPlan>& pla
 
 }  // namespace
 
-auto edited_city(const write::City& city, const History& history, const MeshOf& mesh_of,
-                 const pipeline::Options& options, const base::Run& run) -> base::Result<write::City> {
-  write::City plans{city.frame, city.made_by, {}};
+auto edited_city(const model::City& city, const History& history, const MeshOf& mesh_of,
+                 const pipeline::Options& options, const base::Run& run) -> base::Result<model::City> {
+  model::City plans{city.frame, city.made_by, {}};
   std::vector<std::vector<bool>> unchanged(city.buildings.size());
   for (std::size_t b = 0; b < city.buildings.size(); ++b)
     plans.buildings.push_back(with_plans(city.buildings[b], *history.parts(city.buildings[b].id), unchanged[b]));
@@ -56,7 +56,7 @@ auto edited_city(const write::City& city, const History& history, const MeshOf& 
   for (const auto& less : raised->fell_short)
     fallback[{less.building, less.part}] = less.reasons.empty() ? "unknown" : less.reasons.front().code;
 
-  write::City out = std::move(raised->city);
+  model::City out = std::move(raised->city);
   const auto z0 = static_cast<double>(out.frame.origin[2]);
   base::parallel_for(out.buildings.size(), [&](std::size_t b) {
     auto& building = out.buildings[b];

@@ -16,18 +16,18 @@
 #include "mansard/base/result.hpp"
 #include "mansard/base/run.hpp"
 #include "mansard/geometry/mesh.hpp"
-#include "mansard/geometry/plan.hpp"
 #include "mansard/geometry/polygon.hpp"
 #include "mansard/label/label.hpp"
+#include "mansard/model/plan.hpp"
 #include "mansard/pipeline/pipeline.hpp"
 #include "mansard/rays/rays.hpp"
-#include "mansard/write/write.hpp"
+#include "mansard/formats/write.hpp"
 
 namespace mansard::edit {
 
 struct NamedPlan {
   std::string id;  ///< of the part; unique in its building
-  geometry::Plan plan;
+  model::Plan plan;
   friend auto operator==(const NamedPlan&, const NamedPlan&) -> bool = default;
 };
 
@@ -50,7 +50,7 @@ struct Edit {
 class History {
  public:
   /// Starts with the plans of the city; models and attributes play no part.
-  explicit History(const write::City& city);
+  explicit History(const model::City& city);
 
   [[nodiscard]] auto parts(std::string_view building) const -> const std::vector<NamedPlan>*;  ///< null: no such one
   /// How often the building changed, by edits, undo or redo; what a Change has to name. 0 where there is no such one.
@@ -96,12 +96,12 @@ struct Replayed {
   History history;
   std::size_t kept = 0;
 };
-[[nodiscard]] auto replay(const write::City& city, std::string_view journal) -> base::Result<Replayed>;
+[[nodiscard]] auto replay(const model::City& city, std::string_view journal) -> base::Result<Replayed>;
 
 /// A building's parts raised, labelled and measured. What cannot be raised has no solid and says why.
 struct RaisedPart {
   std::string id;
-  std::optional<label::LabelledSolid> model;
+  std::optional<model::LabelledSolid> model;
   extrude::Outcome outcome = extrude::Outcome::full;  ///< anything but `full` is not what the plan asks for
   std::vector<base::Diagnostic> diagnostics;
   std::optional<double> mse;  ///< m², vertical, over its polygon; none where the mesh shows nothing
@@ -119,7 +119,7 @@ struct RaisedBuilding {
 /// What stands around the parts, and what is known of them.
 struct Site {
   /// Plans of other buildings: for party walls and overlap. May be all there are; those far away cost a glance.
-  std::span<const geometry::Plan> neighbours;
+  std::span<const model::Plan> neighbours;
   /// The building's parts as they stand: where these share ground already, as much of it is not held against a change.
   std::span<const NamedPlan> before;
   const rays::Scene* mesh = nullptr;  ///< null: nothing is measured
@@ -134,8 +134,8 @@ struct Site {
 /// those along the cut rise as a wall, all the way. Ends that stop within a centimetre of the outline are moved onto
 /// it, crossings that near to a corner into the corner. What of the line divides nothing is left out. Gives up with
 /// "edit-split" (the line does not divide the polygon, crosses itself, or cuts off less than 0.01 m²).
-[[nodiscard]] auto split(const geometry::Plan& plan, std::span<const geometry::Point2> line)
-    -> base::Result<std::vector<geometry::Plan>>;
+[[nodiscard]] auto split(const model::Plan& plan, std::span<const geometry::Point2> line)
+    -> base::Result<std::vector<model::Plan>>;
 
 /// A building's parts with one of them split: its first piece keeps its id and place, the others follow it as the next
 /// free "<building>-N". Gives up as split() does, and with "edit-part" (no such part).
@@ -146,12 +146,12 @@ struct Site {
 /// as does the higher cap. Corners that lie within a centimetre of the other's outline are taken to be on it; a corner
 /// that only the wall needed goes. Gives up with "edit-merge" (they do not touch along 0.1 m, overlap, or touch
 /// elsewhere in a single point).
-[[nodiscard]] auto merge(const geometry::Plan& first, const geometry::Plan& second) -> base::Result<geometry::Plan>;
+[[nodiscard]] auto merge(const model::Plan& first, const model::Plan& second) -> base::Result<model::Plan>;
 
 /// The mesh cut by a vertical plane: pieces as (inward, height) of the foot's frame, metres, those with |inward| at
 /// most `reach` and heights at most `reach` below it.
 struct Section {
-  std::vector<std::array<geometry::ProfilePoint, 2>> pieces;
+  std::vector<std::array<model::ProfilePoint, 2>> pieces;
 };
 /// Across an edge at `share` (0 … 1) of its length, at right angles; heights above `base`. Cost: O(triangles).
 [[nodiscard]] auto section(const geometry::Mesh& mesh, geometry::Point2 from, geometry::Point2 to, double share,
@@ -164,9 +164,9 @@ using MeshOf = std::function<const rays::Scene*(std::string_view)>;
 /// extrude` does with its plans.json, and attributes that are true of it. Parts whose plans are not those of the run,
 /// and their buildings, have `ms_edited`; the others keep their attributes but for what a neighbour's edit changes, the
 /// areas of walls and party walls. Without edits it is the run's city. Gives up as pipeline::raise_plans does.
-[[nodiscard]] auto edited_city(const write::City& city, const History& history, const MeshOf& mesh_of,
+[[nodiscard]] auto edited_city(const model::City& city, const History& history, const MeshOf& mesh_of,
                                const pipeline::Options& options, const base::Run& run = {})
-    -> base::Result<write::City>;
+    -> base::Result<model::City>;
 
 [[nodiscard]] auto codes() -> std::vector<base::Code>;
 

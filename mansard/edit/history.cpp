@@ -22,7 +22,7 @@ auto buildings_of(const Edit& edit) -> std::vector<std::string> {
 
 }  // namespace
 
-History::History(const write::City& city) {
+History::History(const model::City& city) {
   for (const auto& building : city.buildings) {
     auto& state = buildings_[building.id];
     state = {};

@@ -47,7 +47,7 @@ auto items_of(const Json& json) -> const Json& {
 
 auto part_of(const Json& json) -> NamedPlan {
   only(json, {"id", "plan"});
-  auto plan = write::read_plan(member(json, "plan").dump(), "plan");
+  auto plan = formats::read_plan(member(json, "plan").dump(), "plan");
   if (!plan) throw Defect{plan.error().message};
   return {text_of(member(json, "id")), std::move(*plan)};
 }
@@ -97,13 +97,13 @@ auto journal_line(const Edit& edit) -> std::string {
             ",\"revision\":" + std::to_string(change.revision) + ",\"parts\":[";
     for (const auto& part : change.parts)
       line += std::string(&part != &change.parts.front() ? "," : "") + "{\"id\":" + quoted(part.id) +
-              ",\"plan\":" + write::plan_json(part.plan) + "}";
+              ",\"plan\":" + formats::plan_json(part.plan) + "}";
     line += "]}";
   }
   return line + "]}";
 }
 
-auto replay(const write::City& city, std::string_view journal) -> base::Result<Replayed> {
+auto replay(const model::City& city, std::string_view journal) -> base::Result<Replayed> {
   Replayed out{History(city), 0};
   for (std::size_t number = 1;; ++number) {
     const auto end = journal.find('\n', out.kept);

@@ -15,15 +15,15 @@ namespace {
 using detail::Edge;
 using detail::snap;
 using geometry::Point2;
-using geometry::Profile;
 using geometry::Segment2;
+using model::Profile;
 
 /// The same profile for a foot that lies `by` metres lower.
 auto lifted(const Profile& profile, double by) -> Profile {
   if (by == 0) return profile;
   Profile out{{0, 0}, {0, by}};
   for (std::size_t i = 1; i < profile.size(); ++i) {
-    const geometry::ProfilePoint next{profile[i].inward, profile[i].height + by};
+    const model::ProfilePoint next{profile[i].inward, profile[i].height + by};
     if (next.inward == 0) out.back() = next;
     else out.push_back(next);
   }
@@ -94,7 +94,7 @@ auto take_out_wall(std::vector<Edge>& first, std::vector<Edge>& second, std::set
 }
 
 /// Whether the ring goes straight on at a corner that it could do without.
-auto is_straight(const geometry::PlanRing& ring, std::size_t i) -> bool {
+auto is_straight(const model::PlanRing& ring, std::size_t i) -> bool {
   constexpr double straight = 1e-4;  // m; what files have
   const std::size_t n = ring.points.size();
   const Point2 a = ring.points[(i + n - 1) % n], b = ring.points[i], c = ring.points[(i + 1) % n];
@@ -113,7 +113,7 @@ auto joined_numbers(const detail::Outline& outline, const std::set<Point2>& corn
     number_of[second] = first;
     taken.insert(first);
   };
-  const auto look = [&](const geometry::PlanRing& ring) {
+  const auto look = [&](const model::PlanRing& ring) {
     for (std::size_t i = 0; i < ring.points.size(); ++i) {
       if (!corners.contains(ring.points[i]) || !is_straight(ring, i)) continue;
       const auto before = ring.profile_of_edge[(i + ring.points.size() - 1) % ring.points.size()];
@@ -131,8 +131,8 @@ auto joined_numbers(const detail::Outline& outline, const std::set<Point2>& corn
 }
 
 /// Without those of the corners that lie on the straight line between their neighbours, with one profile on both sides.
-auto without(const std::set<Point2>& corners, const std::vector<std::uint32_t>& number_of, geometry::PlanRing ring)
-    -> geometry::PlanRing {
+auto without(const std::set<Point2>& corners, const std::vector<std::uint32_t>& number_of, model::PlanRing ring)
+    -> model::PlanRing {
   for (auto& profile : ring.profile_of_edge) profile = number_of[profile];
   for (std::size_t i = 0; i < ring.points.size() && ring.points.size() > 3;) {
     const std::size_t before = (i + ring.points.size() - 1) % ring.points.size();
@@ -151,9 +151,9 @@ auto refusal(std::string what) -> base::Diagnostic { return base::error("edit-me
 
 }  // namespace
 
-auto merge(const geometry::Plan& first, const geometry::Plan& second) -> base::Result<geometry::Plan> {
+auto merge(const model::Plan& first, const model::Plan& second) -> base::Result<model::Plan> {
   constexpr double least_wall = 0.1;  // m
-  const auto polygon = geometry::polygon_of(first), other = geometry::polygon_of(second);
+  const auto polygon = model::polygon_of(first), other = model::polygon_of(second);
   if (!geometry::is_simple(polygon) || !geometry::is_simple(other))
     return refusal("the outline of one of the parts crosses itself; repair it first");
   if (const double area = detail::overlap(polygon, other); area > detail::least_area)
@@ -191,7 +191,7 @@ auto merge(const geometry::Plan& first, const geometry::Plan& second) -> base::R
   outline.outer = without(corners, number_of, std::move(outline.outer));
   for (auto& hole : outline.holes) hole = without(corners, number_of, std::move(hole));
   auto plan = detail::plan_of(std::move(outline), profiles, base, std::max(first.cap + rise, second.cap + other_rise));
-  if (!geometry::is_simple(geometry::polygon_of(plan)))
+  if (!geometry::is_simple(model::polygon_of(plan)))
     return refusal("the outline of both would touch itself; merge what lies between them first, or move the corner");
   return plan;
 }

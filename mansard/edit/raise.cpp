@@ -7,6 +7,7 @@
 #include "mansard/base/text.hpp"
 #include "mansard/edit/detail/trace.hpp"
 #include "mansard/edit/edit.hpp"
+#include "mansard/solid/solid.hpp"
 
 namespace mansard::edit {
 namespace {
@@ -16,12 +17,12 @@ using geometry::Polygon;
 
 /// Solids of plans, by their order; none where a plan cannot be raised, with its reasons.
 struct Attempt {
-  std::optional<extrude::Solid> solid;
+  std::optional<model::Solid> solid;
   extrude::Outcome outcome = extrude::Outcome::full;
   std::vector<base::Diagnostic> diagnostics;
 };
 
-auto attempt(const geometry::Plan& plan, const pipeline::Options& options, const base::Run& run) -> Attempt {
+auto attempt(const model::Plan& plan, const pipeline::Options& options, const base::Run& run) -> Attempt {
   Attempt out;
   auto raised = pipeline::raise_part(plan, options, run);
   if (!raised) {
@@ -56,7 +57,7 @@ auto shared_among(std::span<const Polygon> parts) -> double {
 auto sound_polygons(std::span<const NamedPlan> parts) -> std::vector<Polygon> {
   std::vector<Polygon> polygons;
   for (const auto& part : parts)
-    if (auto polygon = geometry::polygon_of(part.plan); geometry::is_simple(polygon))
+    if (auto polygon = model::polygon_of(part.plan); geometry::is_simple(polygon))
       polygons.push_back(std::move(polygon));
   return polygons;
 }
@@ -69,10 +70,10 @@ auto overlap_of(const std::string& with, double area, const std::string& subject
 }
 
 /// `parts` are those with a solid, and so with a sound outline.
-void find_overlaps(std::span<const NamedPlan* const> parts, std::span<const geometry::Plan* const> neighbours,
+void find_overlaps(std::span<const NamedPlan* const> parts, std::span<const model::Plan* const> neighbours,
                    std::span<const NamedPlan> before, std::vector<base::Diagnostic>& diagnostics) {
   std::vector<Polygon> polygons;
-  for (const auto* part : parts) polygons.push_back(geometry::polygon_of(part->plan));
+  for (const auto* part : parts) polygons.push_back(model::polygon_of(part->plan));
   std::optional<std::vector<Polygon>> were;  // made only where there is something to excuse
   const auto earlier = [&]() -> const std::vector<Polygon>& {
     if (!were) were = sound_polygons(before);
@@ -91,7 +92,7 @@ void find_overlaps(std::span<const NamedPlan* const> parts, std::span<const geom
     diagnostics.insert(diagnostics.end(), own.begin(), own.end());
 
   for (const auto* neighbour : neighbours) {
-    const auto polygon = geometry::polygon_of(*neighbour);
+    const auto polygon = model::polygon_of(*neighbour);
     double total = 0, most = 0;
     std::size_t worst = 0;
     for (std::size_t i = 0; i < polygons.size(); ++i) {
@@ -119,7 +120,7 @@ auto raise(std::span<const NamedPlan> parts, const Site& site, const pipeline::O
   base::Run inner = run;
   inner.progress = nullptr;
   const auto box = box_of(parts).grown(options.label.party_distance + detail::snap);
-  std::vector<const geometry::Plan*> near;
+  std::vector<const model::Plan*> near;
   for (const auto& plan : site.neighbours)
     if (box.overlaps(geometry::bounds(plan.outer.points))) near.push_back(&plan);
 
@@ -129,7 +130,7 @@ auto raise(std::span<const NamedPlan> parts, const Site& site, const pipeline::O
   });
 
   // Neighbours come along for the party walls.
-  std::vector<extrude::Solid> solids;
+  std::vector<model::Solid> solids;
   for (auto& raised : attempts)
     if (raised.solid) solids.push_back(std::move(*raised.solid));
   auto labelled = label::classify(std::move(solids), options.label, inner);
@@ -150,10 +151,10 @@ auto raise(std::span<const NamedPlan> parts, const Site& site, const pipeline::O
   base::parallel_for(parts.size(), [&](std::size_t i) {
     auto& part = out.parts[i];
     if (!part.model) return;
-    part.volume = extrude::volume(part.model->solid);
+    part.volume = solid::volume(part.model->solid);
     if (site.mesh == nullptr) return;
     const double mse =
-        evaluate::error_over(part.model->solid, geometry::polygon_of(parts[i].plan), *site.mesh, options.evaluate.grid);
+        evaluate::error_over(part.model->solid, model::polygon_of(parts[i].plan), *site.mesh, options.evaluate.grid);
     if (std::isfinite(mse)) part.mse = mse;
   });
 

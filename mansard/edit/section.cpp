@@ -8,7 +8,7 @@ namespace mansard::edit {
 namespace {
 
 using geometry::Point2;
-using geometry::ProfilePoint;
+using model::ProfilePoint;
 
 /// What of the piece is no farther than `reach` from the foot, to both sides and downwards.
 auto clipped(ProfilePoint a, ProfilePoint b, double reach) -> std::optional<std::array<ProfilePoint, 2>> {

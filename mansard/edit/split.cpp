@@ -158,8 +158,8 @@ auto refusal(std::string what) -> base::Diagnostic { return base::error("edit-sp
 
 }  // namespace
 
-auto split(const geometry::Plan& plan, std::span<const Point2> line) -> base::Result<std::vector<geometry::Plan>> {
-  const auto polygon = geometry::polygon_of(plan);
+auto split(const model::Plan& plan, std::span<const Point2> line) -> base::Result<std::vector<model::Plan>> {
+  const auto polygon = model::polygon_of(plan);
   if (!std::ranges::all_of(line, [](Point2 p) { return std::isfinite(p.x) && std::isfinite(p.y); }))
     return refusal("the line has a point that is not finite; draw it again");
   const auto edges = detail::edges_of(plan);
@@ -187,11 +187,11 @@ auto split(const geometry::Plan& plan, std::span<const Point2> line) -> base::Re
   auto outlines = cycles ? detail::outlines_of(drawing, *cycles) : std::nullopt;
   if (!outlines || outlines->size() < 2) return refusal("the line does not divide the part; draw it again");
 
-  std::vector<geometry::Plan> plans;
+  std::vector<model::Plan> plans;
   double sum = 0;
   for (auto& piece : *outlines) {
     plans.push_back(detail::plan_of(std::move(piece), profiles, plan.base, plan.cap));
-    const auto ground = geometry::polygon_of(plans.back());
+    const auto ground = model::polygon_of(plans.back());
     const double area = geometry::area(ground);
     sum += area;
     if (area < detail::least_area)
@@ -200,8 +200,7 @@ auto split(const geometry::Plan& plan, std::span<const Point2> line) -> base::Re
   }
   if (std::abs(sum - geometry::area(polygon)) > 1e-6)
     return refusal("the line runs along the outline; move it away from it");
-  std::ranges::stable_sort(plans, std::greater(),
-                           [](const auto& p) { return geometry::area(geometry::polygon_of(p)); });
+  std::ranges::stable_sort(plans, std::greater(), [](const auto& p) { return geometry::area(model::polygon_of(p)); });
   return plans;
 }
 

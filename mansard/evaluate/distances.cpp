@@ -9,7 +9,7 @@ namespace mansard::evaluate {
 namespace {
 
 using geometry::Point3;
-using ingest::SurfaceClass;
+using model::SurfaceClass;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -30,7 +30,7 @@ auto measured(const std::vector<Sample>& samples, const base::Run& run, const Me
 }
 
 /// Whether no scan can show this place of the model, since another part stands against it.
-auto is_hidden(const Sample& sample, const rays::Scene& scene, const ingest::ModelSurface& model,
+auto is_hidden(const Sample& sample, const rays::Scene& scene, const model::ModelSurface& model,
                const std::vector<Point3>& normals) -> bool {
   constexpr double touching = 0.1;   // m
   constexpr double opposite = -0.9;  // cosine of 155°
@@ -95,7 +95,7 @@ auto spread_of(std::vector<double> distances) -> Spread {
   return out;
 }
 
-auto open_samples(const ingest::ModelSurface& model, const SampleOptions& options, std::uint64_t seed,
+auto open_samples(const model::ModelSurface& model, const SampleOptions& options, std::uint64_t seed,
                   const base::Run& run) -> std::vector<Sample> {
   const auto normals = detail::normals_of(model.mesh);
   const rays::Scene scene(model.mesh);
@@ -110,7 +110,7 @@ auto open_samples(const ingest::ModelSurface& model, const SampleOptions& option
   return out;
 }
 
-auto from_model(const ingest::ModelSurface& model, const rays::Scene& scan, const SampleOptions& options,
+auto from_model(const model::ModelSurface& model, const rays::Scene& scan, const SampleOptions& options,
                 std::uint64_t seed, const base::Run& run) -> std::vector<double> {
   return measured(open_samples(model, options, seed, run), run, [&](const Sample& sample) {
     if (model.classes[sample.triangle] == SurfaceClass::ground) return infinity;
@@ -119,7 +119,7 @@ auto from_model(const ingest::ModelSurface& model, const rays::Scene& scan, cons
   });
 }
 
-auto from_scan(const geometry::Mesh& scan, std::span<const Site> sites, const ingest::ModelSurface& model,
+auto from_scan(const geometry::Mesh& scan, std::span<const Site> sites, const model::ModelSurface& model,
                const SampleOptions& options, std::uint64_t seed, const base::Run& run) -> std::vector<double> {
   const rays::Scene scene(model.mesh);
   return measured(samples_of(scan, options, seed), run, [&](const Sample& sample) {

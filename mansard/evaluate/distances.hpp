@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "mansard/base/run.hpp"
-#include "mansard/ingest/model.hpp"
+#include "mansard/geometry/polygon.hpp"
+#include "mansard/model/surfaces.hpp"
 #include "mansard/rays/rays.hpp"
 
 namespace mansard::evaluate {
@@ -38,11 +39,11 @@ struct Spread {
 
 /// Places on the model that could be seen if all of it stood free of the scan: not where a face of another part stands
 /// against it, looking the opposite way (within 25°) at most 10 cm off.
-[[nodiscard]] auto open_samples(const ingest::ModelSurface& model, const SampleOptions& options, std::uint64_t seed,
+[[nodiscard]] auto open_samples(const model::ModelSurface& model, const SampleOptions& options, std::uint64_t seed,
                                 const base::Run& run = {}) -> std::vector<Sample>;
 
 /// Metres from those of them that are not on ground faces, which no scan shows, to the scan's surface.
-[[nodiscard]] auto from_model(const ingest::ModelSurface& model, const rays::Scene& scan, const SampleOptions& options,
+[[nodiscard]] auto from_model(const model::ModelSurface& model, const rays::Scene& scan, const SampleOptions& options,
                               std::uint64_t seed, const base::Run& run = {}) -> std::vector<double>;
 
 /// Where a scan shows a building rather than its surroundings.
@@ -55,7 +56,7 @@ inline constexpr double site_foot = 1.0;   ///< m above the ground
 
 /// Metres from places on the scan to the model's surface (its ground faces left out): places within `site_reach` of a
 /// site's polygons in plan and `site_foot` above its ground. Trees and cars there count too.
-[[nodiscard]] auto from_scan(const geometry::Mesh& scan, std::span<const Site> sites, const ingest::ModelSurface& model,
+[[nodiscard]] auto from_scan(const geometry::Mesh& scan, std::span<const Site> sites, const model::ModelSurface& model,
                              const SampleOptions& options, std::uint64_t seed, const base::Run& run = {})
     -> std::vector<double>;
 

@@ -1,4 +1,5 @@
 #include "mansard/evaluate/evaluate.hpp"
+#include "mansard/solid/solid.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,10 +16,10 @@ using detail::Where;
 using geometry::Box2;
 
 /// The solids' surfaces as one mesh; a solid that cannot be cut into triangles is left out, and so counts as missed.
-auto surface_of(std::span<const label::LabelledSolid> model) -> geometry::Mesh {
+auto surface_of(std::span<const model::LabelledSolid> model) -> geometry::Mesh {
   geometry::Mesh mesh;
   for (const auto& labelled : model) {
-    const auto pieces = extrude::triangulate(labelled.solid);
+    const auto pieces = solid::triangulate(labelled.solid);
     if (!pieces) continue;
     const auto offset = static_cast<std::uint32_t>(mesh.vertices.size());
     mesh.vertices.insert(mesh.vertices.end(), labelled.solid.vertices.begin(), labelled.solid.vertices.end());
@@ -54,7 +55,7 @@ auto option_list(Options& o) -> base::OptionList {
   return list;
 }
 
-auto compare(std::span<const label::LabelledSolid> model, const rays::Scene& mesh,
+auto compare(std::span<const model::LabelledSolid> model, const rays::Scene& mesh,
              std::span<const geometry::Polygon> footprints, double ground, const Options& options, const base::Run& run)
     -> Comparison {
   return compare(surface_of(model), mesh, footprints, ground, options, run);
@@ -109,10 +110,10 @@ auto compare(const geometry::Mesh& surface, const rays::Scene& mesh, std::span<c
   return out;
 }
 
-auto error_over(const extrude::Solid& solid, const geometry::Polygon& polygon, const rays::Scene& mesh, double grid)
+auto error_over(const model::Solid& solid, const geometry::Polygon& polygon, const rays::Scene& mesh, double grid)
     -> double {
   constexpr double unknown = std::numeric_limits<double>::infinity();
-  const auto pieces = extrude::triangulate(solid);
+  const auto pieces = solid::triangulate(solid);
   if (!pieces || solid.vertices.empty()) return unknown;
   const rays::Scene top(geometry::Mesh{solid.vertices, pieces->triangles});
   double base = solid.vertices.front().z;

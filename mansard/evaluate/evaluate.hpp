@@ -75,7 +75,7 @@ struct Comparison {
 /// `footprints` restrict footprint_mse, missed and invented; `ground` is the z that a missing model counts as.
 /// Guarantees: 1 a mesh against itself scores 0 · 2 a constant lift by h scores h² · 3 the grid is aligned to whole
 /// multiples of its spacing, so equal areas get equal samples. Cost: O(area / grid² · log n).
-[[nodiscard]] auto compare(std::span<const label::LabelledSolid> model, const rays::Scene& mesh,
+[[nodiscard]] auto compare(std::span<const model::LabelledSolid> model, const rays::Scene& mesh,
                            std::span<const geometry::Polygon> footprints, double ground, const Options& options,
                            const base::Run& run = {}) -> Comparison;
 
@@ -117,7 +117,7 @@ void set_quantiles(const Differences& differences, Scores& scores);
 
 /// Mean squared vertical error, m², of one solid over its own polygon, for choosing between candidates; cells where the
 /// mesh has no surface do not count. `grid` in metres.
-[[nodiscard]] auto error_over(const extrude::Solid& solid, const geometry::Polygon& polygon, const rays::Scene& mesh,
+[[nodiscard]] auto error_over(const model::Solid& solid, const geometry::Polygon& polygon, const rays::Scene& mesh,
                               double grid) -> double;
 
 }  // namespace mansard::evaluate

@@ -11,7 +11,7 @@ using geometry::Box2;
 using geometry::Point2;
 using geometry::Polygon;
 using geometry::Segment2;
-using ingest::SurfaceClass;
+using model::SurfaceClass;
 
 auto box_of(const Outline& outline) -> Box2 {
   Box2 box;
@@ -26,7 +26,7 @@ auto area_of(const Outline& outline) -> double {
   return sum;
 }
 
-auto flat(const ingest::ModelFace& face) -> std::vector<Polygon> {
+auto flat(const model::ModelFace& face) -> std::vector<Polygon> {
   Polygon polygon;
   for (const auto& loop : face.loops) {
     geometry::Ring ring;
@@ -121,7 +121,7 @@ auto pairs_of(std::span<const Outline> truth, std::span<const Outline> model, co
 
 }  // namespace
 
-auto outline_of(std::span<const ingest::ModelPart> parts) -> Outline {
+auto outline_of(std::span<const model::ModelPart> parts) -> Outline {
   std::vector<Polygon> ground, above;
   for (const auto& part : parts)
     for (const auto& face : part.faces) {

@@ -19,7 +19,7 @@ auto to_millimetres(Point3 p) -> Corner {
 }
 
 /// Twice the area, as a vector; holes turn the other way and so are taken off.
-auto area_vector(const ingest::ModelFace& face) -> Point3 {
+auto area_vector(const model::ModelFace& face) -> Point3 {
   Point3 sum;
   for (const auto& loop : face.loops)
     for (std::size_t i = 0; i + 1 < loop.size(); ++i) sum = sum + cross(loop[i] - loop[0], loop[i + 1] - loop[0]);
@@ -28,12 +28,12 @@ auto area_vector(const ingest::ModelFace& face) -> Point3 {
 
 /// One building's faces, and which of them share an edge.
 struct Faces {
-  std::vector<const ingest::ModelFace*> faces;
+  std::vector<const model::ModelFace*> faces;
   std::vector<Point3> normals;
   std::vector<double> areas;
   std::vector<std::vector<std::uint32_t>> neighbours;
 
-  explicit Faces(const ingest::ModelBuilding& building) {
+  explicit Faces(const model::ModelBuilding& building) {
     for (const auto& part : building.parts)
       for (const auto& face : part.faces) {
         const Point3 twice = area_vector(face);
@@ -56,7 +56,7 @@ struct Faces {
   }
 };
 
-auto lies_in(const ingest::ModelFace& face, Point3 normal, const Plane& plane, const PlaneOptions& options) -> bool {
+auto lies_in(const model::ModelFace& face, Point3 normal, const Plane& plane, const PlaneOptions& options) -> bool {
   if (face.kind != plane.kind || dot(normal, plane.normal) < std::cos(options.angle)) return false;
   return std::ranges::all_of(
       face.loops.front(), [&](Point3 p) { return std::abs(dot(p - plane.point, plane.normal)) <= options.distance; });
@@ -64,7 +64,7 @@ auto lies_in(const ingest::ModelFace& face, Point3 normal, const Plane& plane, c
 
 }  // namespace
 
-auto planes_of(const ingest::Model& model, const PlaneOptions& options) -> Planes {
+auto planes_of(const model::Model& model, const PlaneOptions& options) -> Planes {
   Planes out;
   for (std::uint32_t b = 0; b < model.buildings.size(); ++b) {
     const Faces building(model.buildings[b]);

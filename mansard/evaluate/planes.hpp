@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "mansard/ingest/model.hpp"
+#include "mansard/model/surfaces.hpp"
 
 namespace mansard::evaluate {
 
@@ -12,7 +12,7 @@ struct Plane {
   geometry::Point3 normal;  ///< unit; of its largest face, outward where the model's faces are
   geometry::Point3 point;   ///< a corner of that face
   double area = 0;          ///< m²
-  ingest::SurfaceClass kind = ingest::SurfaceClass::other;
+  model::SurfaceClass kind = model::SurfaceClass::other;
   std::uint32_t building = 0;
 };
 
@@ -30,6 +30,6 @@ struct PlaneOptions {
 /// within `angle` of that of the plane's largest face, and all their corners within `distance` of its plane.
 /// Guarantees: 1 every face is in one plane · 2 cutting a face into triangles does not change the number of planes.
 /// Cost: O(n log n) for n corners.
-[[nodiscard]] auto planes_of(const ingest::Model& model, const PlaneOptions& options = {}) -> Planes;
+[[nodiscard]] auto planes_of(const model::Model& model, const PlaneOptions& options = {}) -> Planes;
 
 }  // namespace mansard::evaluate

@@ -10,16 +10,16 @@ namespace mansard::evaluate {
 namespace {
 
 using geometry::Point3;
-using ingest::SurfaceClass;
+using model::SurfaceClass;
 
 /// A model, ready to be looked at from above.
 struct FromAbove {
-  ingest::ModelSurface surface;
+  model::ModelSurface surface;
   std::vector<Point3> normals;
   rays::Scene scene;
 
-  explicit FromAbove(const ingest::Model& model)
-      : surface(ingest::surface_of(model)), normals(detail::normals_of(surface.mesh)), scene(surface.mesh) {}
+  explicit FromAbove(const model::Model& model)
+      : surface(model::surface_of(model)), normals(detail::normals_of(surface.mesh)), scene(surface.mesh) {}
 };
 
 /// One place on a true roof plane.
@@ -93,7 +93,7 @@ auto quantile(std::vector<double>& values, double share) -> double {
 
 }  // namespace
 
-auto compare_roofs(const ingest::Model& truth_model, const ingest::Model& model_model, double grid) -> Roofs {
+auto compare_roofs(const model::Model& truth_model, const model::Model& model_model, double grid) -> Roofs {
   constexpr double right_angle = 3 * 0.017453292519943295, right_offset = 0.25;
   const FromAbove truth(truth_model), model(model_model);
   const auto planes = planes_of(truth_model);
@@ -151,13 +151,13 @@ auto Confusion::accuracy() const -> double {
   return all > 0 ? right / all : 0;
 }
 
-auto compare_classes(const ingest::ModelSurface& truth, const ingest::ModelSurface& model, const SampleOptions& options,
+auto compare_classes(const model::ModelSurface& truth, const model::ModelSurface& model, const SampleOptions& options,
                      std::uint64_t seed, const base::Run& run) -> Confusion {
   constexpr double turned = 0.2;  // m
   const rays::Scene scene(truth.mesh);
   const auto true_normals = detail::normals_of(truth.mesh), normals = detail::normals_of(model.mesh);
   const auto samples = open_samples(model, options, seed, run);
-  constexpr std::uint8_t none = ingest::surface_class_count;
+  constexpr std::uint8_t none = model::surface_class_count;
   std::vector<std::uint8_t> real(samples.size(), none);
   base::parallel_for(samples.size(), [&](std::size_t i) {
     if (run.cancelled()) return;

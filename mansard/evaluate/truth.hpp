@@ -8,7 +8,8 @@
 #include "mansard/base/run.hpp"
 #include "mansard/evaluate/distances.hpp"
 #include "mansard/evaluate/planes.hpp"
-#include "mansard/ingest/model.hpp"
+#include "mansard/geometry/polygon.hpp"
+#include "mansard/model/surfaces.hpp"
 
 namespace mansard::evaluate {
 
@@ -17,7 +18,7 @@ using Outline = std::vector<geometry::Polygon>;
 
 /// Seen from above: the union of the ground faces, or of all faces but walls where there are none. Empty where that is
 /// no polygon.
-[[nodiscard]] auto outline_of(std::span<const ingest::ModelPart> parts) -> Outline;
+[[nodiscard]] auto outline_of(std::span<const model::ModelPart> parts) -> Outline;
 
 /// m² that two outlines have in common; what cannot be intersected has nothing in common.
 [[nodiscard]] auto common_area(const Outline& a, const Outline& b) -> double;
@@ -53,12 +54,12 @@ struct Roofs {
   double offset_median = 0, offset_p95_absolute = 0;    ///< m, model − truth, vertical
   double right_angle = 0, right_height = 0, right = 0;  ///< shares within 3°, within 0.25 m, within both
 };
-[[nodiscard]] auto compare_roofs(const ingest::Model& truth, const ingest::Model& model, double grid) -> Roofs;
+[[nodiscard]] auto compare_roofs(const model::Model& truth, const model::Model& model, double grid) -> Roofs;
 
 /// Classes of the model at open places (open_samples), against that of the nearest surface of the truth.
 struct Confusion {
   /// m²: area[truth][model].
-  std::array<std::array<double, ingest::surface_class_count>, ingest::surface_class_count> area{};
+  std::array<std::array<double, model::surface_class_count>, model::surface_class_count> area{};
   double beyond = 0;  ///< m² of the model further than `confusion_reach` from any surface of the truth
   /// The share of the area with the right class, of all that is near the truth; 0 for none.
   [[nodiscard]] auto accuracy() const -> double;
@@ -66,7 +67,7 @@ struct Confusion {
 inline constexpr double confusion_reach = 1.0;  ///< m
 /// Of two surfaces of the truth about as near (a surface that looks the other way counts as up to 0.4 m farther), the
 /// one that looks the same way is meant.
-[[nodiscard]] auto compare_classes(const ingest::ModelSurface& truth, const ingest::ModelSurface& model,
+[[nodiscard]] auto compare_classes(const model::ModelSurface& truth, const model::ModelSurface& model,
                                    const SampleOptions& options, std::uint64_t seed, const base::Run& run = {})
     -> Confusion;
 

@@ -19,8 +19,8 @@ using detail::Direction;
 using detail::ExactPoint;
 using detail::Footprint;
 using detail::Rational;
-using geometry::Plan;
 using geometry::Point2;
+using model::Plan;
 
 constexpr std::size_t nobody = static_cast<std::size_t>(-1);
 

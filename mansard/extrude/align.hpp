@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mansard/extrude/extrude.hpp"
-#include "mansard/geometry/plan.hpp"
+#include "mansard/model/plan.hpp"
 
 namespace mansard::extrude {
 
@@ -19,7 +19,7 @@ namespace mansard::extrude {
 /// each other, are within 2^-15 m of one line; but a wall whose corners would move too far, that parts from the
 /// others', or whose outline would cross itself, keeps its own · 4 what comes back does not depend on the order of the
 /// plans. Cost: O(n log n) for n plans, and the square of the walls of those whose boxes meet.
-[[nodiscard]] auto align(std::span<const geometry::Plan> plans, const Options& options = {})
-    -> std::vector<std::optional<geometry::Plan>>;
+[[nodiscard]] auto align(std::span<const model::Plan> plans, const Options& options = {})
+    -> std::vector<std::optional<model::Plan>>;
 
 }  // namespace mansard::extrude

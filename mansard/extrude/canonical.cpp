@@ -9,8 +9,8 @@
 namespace mansard::extrude {
 namespace {
 
-auto ring_of(const detail::Footprint& footprint, std::size_t r, const geometry::PlanRing& from) -> geometry::PlanRing {
-  geometry::PlanRing ring;
+auto ring_of(const detail::Footprint& footprint, std::size_t r, const model::PlanRing& from) -> model::PlanRing {
+  model::PlanRing ring;
   for (std::size_t i = 0; i < footprint.rings[r].size(); ++i) {
     const detail::ExactPoint& p = footprint.corners[r][i];
     ring.points.push_back(geometry::Point2{p.x.get_d(), p.y.get_d()} + footprint.origin);
@@ -48,7 +48,7 @@ auto reasons_of(const Canonical& made) -> std::vector<base::Diagnostic> {
 
 }  // namespace
 
-auto canonical(const geometry::Plan& plan, const Options& options) -> base::Result<Canonical> {
+auto canonical(const model::Plan& plan, const Options& options) -> base::Result<Canonical> {
   const auto source = detail::prepared(plan);
   if (!source) return source.error();
   std::string why;

@@ -6,7 +6,7 @@
 
 #include "mansard/base/result.hpp"
 #include "mansard/extrude/extrude.hpp"
-#include "mansard/geometry/plan.hpp"
+#include "mansard/model/plan.hpp"
 
 namespace mansard::extrude {
 
@@ -14,7 +14,7 @@ namespace mansard::extrude {
 struct Canonical {
   /// Corners are the doubles nearest to where the exact lines meet; profiles are multiples of 2^-16 m. Rings and
   /// profiles are the input's, in its order; rings are oriented.
-  geometry::Plan plan;
+  model::Plan plan;
   double moved = 0;  ///< m; no point of either outline is farther than this from the other; at most Options::tolerance
   std::size_t repeated_points = 0;        ///< dropped
   std::size_t straightened = 0;           ///< corners at turns under Options::merge_angle, dropped
@@ -37,6 +37,6 @@ struct Canonical {
 /// Gives up with "extrude-not-simple", "extrude-no-area", "extrude-profile", "extrude-cap" as raise() does, and with
 /// "extrude-canonical" where raise() would simplify; the message says what, where and what to do.
 /// Cost: O(n log n) but for edges that share a strip of the outline's longer axis.
-[[nodiscard]] auto canonical(const geometry::Plan& plan, const Options& options = {}) -> base::Result<Canonical>;
+[[nodiscard]] auto canonical(const model::Plan& plan, const Options& options = {}) -> base::Result<Canonical>;
 
 }  // namespace mansard::extrude

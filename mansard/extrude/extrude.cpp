@@ -5,10 +5,10 @@
 
 #include "mansard/base/text.hpp"
 #include "mansard/extrude/detail/footprint.hpp"
-#include "mansard/extrude/detail/measure.hpp"
 #include "mansard/extrude/detail/rounding.hpp"
 #include "mansard/extrude/detail/source.hpp"
 #include "mansard/extrude/detail/sweep.hpp"
+#include "mansard/solid/solid.hpp"
 
 namespace mansard::extrude {
 namespace {
@@ -17,18 +17,18 @@ namespace {
 constexpr double detail_size = 0.3, shallow = 0.0873;
 
 struct Sound {
-  Solid solid;
+  model::Solid solid;
   double residual = 0;
 };
 
 /// Sweep → rounding → check: the solid, or what is wrong with it.
-auto solid_of(const detail::Footprint& footprint, const geometry::Plan& plan, const Options& options,
-              const base::Run& run, const detail::Eaves* eaves) -> base::Result<Sound> {
+auto solid_of(const detail::Footprint& footprint, const model::Plan& plan, const Options& options, const base::Run& run,
+              const detail::Eaves* eaves) -> base::Result<Sound> {
   const auto surface = detail::sweep(footprint, detail::on_grid(plan.cap), run, eaves);
   std::vector<base::Diagnostic> faults;
   for (const bool collapse : {true, false}) {
     auto rounded = detail::rounded(surface, {footprint.origin, plan.base, options.grid}, collapse);
-    faults = check(rounded.solid);
+    faults = solid::check(rounded.solid);
     if (faults.empty()) return Sound{std::move(rounded.solid), rounded.residual};
     if (collapse && rounded.collapsed == 0) break;
   }
@@ -36,18 +36,18 @@ auto solid_of(const detail::Footprint& footprint, const geometry::Plan& plan, co
 }
 
 /// The flat prism over the source, or what is wrong with it.
-auto prism_over(const detail::Source& source, const geometry::Plan& plan, const Options& options)
-    -> base::Result<Solid> {
-  Solid solid = detail::prism_of(source, plan.base, plan.cap);
+auto prism_over(const detail::Source& source, const model::Plan& plan, const Options& options)
+    -> base::Result<model::Solid> {
+  model::Solid solid = detail::prism_of(source, plan.base, plan.cap);
   for (auto& v : solid.vertices) v = detail::on_grid(v, options.grid);
-  const auto faults = check(solid);
+  const auto faults = solid::check(solid);
   if (!faults.empty()) return faults.front();
   return solid;
 }
 
 /// As given, else without its details, which may be what spoils it.
-auto last_rung(const detail::Source& source, const geometry::Plan& plan, const Options& options)
-    -> base::Result<Solid> {
+auto last_rung(const detail::Source& source, const model::Plan& plan, const Options& options)
+    -> base::Result<model::Solid> {
   auto solid = prism_over(source, plan, options);
   if (!solid) solid = prism_over(detail::simplified(source, detail_size), plan, options);
   if (solid) return solid;
@@ -55,7 +55,7 @@ auto last_rung(const detail::Source& source, const geometry::Plan& plan, const O
 }
 
 /// The same without exceptions: nothing, and why, where an invariant of the sweep broke too.
-auto tried(const detail::Footprint& footprint, const geometry::Plan& plan, const Options& options, const base::Run& run,
+auto tried(const detail::Footprint& footprint, const model::Plan& plan, const Options& options, const base::Run& run,
            const detail::Eaves* eaves, std::string& why) -> std::optional<Sound> {
   try {
     auto solid = solid_of(footprint, plan, options, run, eaves);
@@ -68,7 +68,7 @@ auto tried(const detail::Footprint& footprint, const geometry::Plan& plan, const
 }
 
 /// Canonical footprint → solid; nothing, and why, if it cannot be.
-auto attempt(const detail::Source& source, const geometry::Plan& plan, const Options& options, const base::Run& run,
+auto attempt(const detail::Source& source, const model::Plan& plan, const Options& options, const base::Run& run,
              std::vector<base::Diagnostic>& warnings, std::string& why) -> std::optional<Sound> {
   auto footprint = detail::canonical(source, options, why);
   if (!footprint) return std::nullopt;
@@ -100,7 +100,7 @@ auto attempt(const detail::Source& source, const geometry::Plan& plan, const Opt
 
 /// use(footprint, surface) of the plan as it is, without the ladder.
 template <class T, class Use>
-auto after_sweep(const geometry::Plan& plan, const Options& options, const base::Run& run, Use use) -> base::Result<T> {
+auto after_sweep(const model::Plan& plan, const Options& options, const base::Run& run, Use use) -> base::Result<T> {
   const auto source = detail::prepared(plan);
   if (!source) return source.error();
   std::string why;
@@ -115,7 +115,7 @@ auto after_sweep(const geometry::Plan& plan, const Options& options, const base:
 
 }  // namespace
 
-auto raise(const geometry::Plan& plan, const Options& options, const base::Run& run) -> base::Result<Raised> {
+auto raise(const model::Plan& plan, const Options& options, const base::Run& run) -> base::Result<Raised> {
   auto source = detail::prepared(plan);
   if (!source) return source.error();
   Raised raised;
@@ -149,13 +149,13 @@ auto raise(const geometry::Plan& plan, const Options& options, const base::Run& 
   return raised;
 }
 
-auto prism(const geometry::Plan& plan, const Options& options) -> base::Result<Solid> {
+auto prism(const model::Plan& plan, const Options& options) -> base::Result<model::Solid> {
   const auto source = detail::prepared(plan);
   if (!source) return source.error();
   return last_rung(*source, plan, options);
 }
 
-auto crest(const geometry::Plan& plan, const Options& options, const base::Run& run) -> base::Result<double> {
+auto crest(const model::Plan& plan, const Options& options, const base::Run& run) -> base::Result<double> {
   return after_sweep<double>(plan, options, run, [](const auto&, const auto& surface) {
     double top = 0;
     for (const auto& place : surface.places) top = std::max(top, place.z);
@@ -163,33 +163,10 @@ auto crest(const geometry::Plan& plan, const Options& options, const base::Run& 
   });
 }
 
-auto sketch(const geometry::Plan& plan, const Options& options, const base::Run& run) -> base::Result<Solid> {
-  return after_sweep<Solid>(plan, options, run, [&plan](const auto& footprint, const auto& surface) {
+auto sketch(const model::Plan& plan, const Options& options, const base::Run& run) -> base::Result<model::Solid> {
+  return after_sweep<model::Solid>(plan, options, run, [&plan](const auto& footprint, const auto& surface) {
     return detail::rounded(surface, {footprint.origin, plan.base, 0}, false).solid;
   });
-}
-
-auto volume(const Solid& solid) -> double {
-  if (solid.vertices.empty()) return 0;
-  const geometry::Point3 o = solid.vertices.front();  // near the solid, so that far-away ones keep their digits
-  double sum = 0;
-  for (const Face& face : solid.faces)
-    if (!face.loops.empty() && !face.loops[0].empty())
-      sum += dot(detail::area_vector(solid, face), solid.vertices[face.loops[0][0]] - o) / 6;
-  return sum;
-}
-
-auto area(const Solid& solid, const Face& face) -> double { return length(detail::area_vector(solid, face)) / 2; }
-
-auto triangulate(const Solid& solid) -> base::Result<Triangulated> {
-  Triangulated out;
-  for (std::uint32_t f = 0; f < solid.faces.size(); ++f) {
-    const auto part = detail::triangles_of(solid, solid.faces[f]);
-    if (!part) return part.error();
-    out.triangles.insert(out.triangles.end(), part->begin(), part->end());
-    out.face_of.insert(out.face_of.end(), part->size(), f);
-  }
-  return out;
 }
 
 auto option_list(Options& options) -> base::OptionList {
@@ -228,19 +205,6 @@ auto codes() -> std::vector<base::Code> {
        "Look for profile knots and terraces that leave slivers.", 1},
       {"extrude-prism", "A building fell back to a flat-roofed prism.", "See the reason; edit its plan or profiles.",
        1},
-      {"solid-open", "A solid has an edge with a face on one side only.",
-       "This is a fault of the program that made it.", 1},
-      {"solid-non-manifold", "More than two faces meet at an edge, or faces meet at a vertex only.",
-       "Separate the parts that touch.", 1},
-      {"solid-orientation", "A solid or one of its faces is inside out.",
-       "This is a fault of the program that made it.", 1},
-      {"solid-not-planar", "A face bends by more than 0.1 mm.", "This is a fault of the program that made it.", 1},
-      {"solid-needle", "A face has a triangle so narrow that it looks aside by more than 20 degrees.",
-       "This is a fault of the program that made it.", 1},
-      {"solid-self-intersection", "Faces of a solid cross or touch where they are no neighbours.",
-       "This is a fault of the program that made it.", 1},
-      {"solid-degenerate", "A solid has a face without area, a repeated vertex or a value that is not finite.",
-       "This is a fault of the program that made it.", 1},
   };
 }
 

@@ -7,14 +7,14 @@
 #include <new>
 
 #include "mansard/base/text.hpp"
-#include "mansard/ingest/detail/attributes.hpp"
+#include "mansard/formats/input_file.hpp"
+#include "mansard/formats/raster/raster.hpp"
+#include "mansard/formats/vector/attributes.hpp"
+#include "mansard/formats/vector/features.hpp"
 #include "mansard/ingest/detail/clean.hpp"
 #include "mansard/ingest/detail/crs.hpp"
-#include "mansard/ingest/detail/features.hpp"
 #include "mansard/ingest/detail/mesh_files.hpp"
-#include "mansard/ingest/detail/raster.hpp"
 #include "mansard/ingest/detail/rings.hpp"
-#include "mansard/ingest/input_file.hpp"
 
 namespace mansard::ingest {
 namespace {
@@ -30,6 +30,10 @@ auto in_words(const Box2& box) -> std::string {
          base::to_text(box.least.y, 1) + " to " + base::to_text(box.most.y, 1);
 }
 
+auto query_of(const Options& options) -> formats::FeatureQuery {
+  return {options.layer, options.where, options.crs, options.bbox};
+}
+
 auto wanted_box(const Options& options) -> base::Result<std::optional<Box2>> {
   const auto& b = options.bbox;
   if (std::ranges::all_of(b, [](double c) { return c == 0; })) return std::optional<Box2>();
@@ -38,7 +42,7 @@ auto wanted_box(const Options& options) -> base::Result<std::optional<Box2>> {
   return std::optional<Box2>(Box2{{b[0], b[1]}, {b[2], b[3]}});
 }
 
-auto keep_within(std::vector<detail::RawFeature>& features, const Box2& wanted, const std::string& subject)
+auto keep_within(std::vector<formats::RawFeature>& features, const Box2& wanted, const std::string& subject)
     -> base::Result<void> {
   const Box2 all = bounds(features);
   std::erase_if(features, [&](const auto& feature) {
@@ -68,7 +72,7 @@ auto choose_origin(const Box2& footprints, const detail::Box3& mesh) -> std::arr
           along(mesh.low, mesh.high, mesh.low)};
 }
 
-auto defect_without_polygons(const detail::RawFeature& feature) -> base::Diagnostic {
+auto defect_without_polygons(const formats::RawFeature& feature) -> base::Diagnostic {
   if (feature.other_geometry)
     return base::error("ingest-footprint-type",
                        "it is a " + feature.geometry + ", not a polygon; convert it in the source");
@@ -82,11 +86,11 @@ constexpr double largest_building = 5000;  // m; the longest there is has 3 km
 
 /// One footprint in the local frame, with what there is to say about it.
 struct Finished {
-  Footprint footprint;
+  model::Footprint footprint;
   std::optional<base::Diagnostic> warning;
 };
 
-auto finish(detail::RawFeature feature, std::string id, const Frame& frame, const Box2& mesh) -> Finished {
+auto finish(formats::RawFeature feature, std::string id, const model::Frame& frame, const Box2& mesh) -> Finished {
   Finished out;
   auto& footprint = out.footprint;
   footprint.id = std::move(id);
@@ -133,9 +137,9 @@ void append(std::vector<base::Diagnostic>& all, std::vector<base::Diagnostic> mo
 }
 
 /// All features of the file as footprints. Where their polygons are beside `mesh`, they have a defect.
-auto finish_all(detail::FeatureFile& file, const Options& options, const Frame& frame, const Box2& mesh,
+auto finish_all(formats::FeatureFile& file, const Options& options, const model::Frame& frame, const Box2& mesh,
                 const std::string& subject) -> base::Result<std::vector<Finished>> {
-  auto ids = detail::ids_of(file.features, options.id_attribute, subject, file.warnings);
+  auto ids = formats::ids_of(file.features, options.id_attribute, subject, file.warnings);
   if (!ids) return ids.error();
   std::vector<Finished> finished(file.features.size());
   base::parallel_for(finished.size(), [&](std::size_t i) {
@@ -144,7 +148,7 @@ auto finish_all(detail::FeatureFile& file, const Options& options, const Frame& 
   return finished;
 }
 
-void take(std::vector<Finished> finished, Scene& scene) {
+void take(std::vector<Finished> finished, model::Scene& scene) {
   for (auto& one : finished) {
     if (one.warning) scene.warnings.push_back(std::move(*one.warning));
     scene.footprints.push_back(std::move(one.footprint));
@@ -153,7 +157,7 @@ void take(std::vector<Finished> finished, Scene& scene) {
 
 /// The footprints in the working CRS, and what it is.
 struct Ground {
-  detail::FeatureFile file;  ///< without features where no footprints are given
+  formats::FeatureFile file;  ///< without features where no footprints are given
   detail::Way way;
   Box2 box;                  ///< of the features; empty for none
   std::optional<Box2> kept;  ///< what of the mesh is to be read; nothing for all of it
@@ -161,7 +165,7 @@ struct Ground {
 
 auto read_ground(const std::filesystem::path& path, const Options& options, const detail::MeshReading& meshes,
                  const base::Run& run) -> base::Result<Ground> {
-  const std::string subject = detail::shown_name(path);
+  const std::string subject = formats::shown_name(path);
   const auto wanted = wanted_box(options);
   if (!wanted) return wanted.error();
   Ground out;
@@ -170,7 +174,7 @@ auto read_ground(const std::filesystem::path& path, const Options& options, cons
     if (!way) return way.error();
     out.way = std::move(*way);
   } else {
-    auto file = detail::read_features(path, options, run);
+    auto file = formats::read_features(path, query_of(options), run);
     if (!file) return file.error();
     auto way = detail::choose_way(*file, options.crs, meshes.plan(), meshes.own_crs(), subject);
     if (!way) return way.error();
@@ -205,12 +209,12 @@ auto check_overlap(const Ground& ground, const Box2& mesh, const std::string& su
 }
 
 /// The ground's heights, where they are given, around what is kept of the mesh.
-auto take_terrain(const Options& options, const Box2& around, Scene& scene) -> base::Result<void> {
+auto take_terrain(const Options& options, const Box2& around, model::Scene& scene) -> base::Result<void> {
   if (options.terrain.empty()) return {};
-  auto terrain = detail::read_terrain(options.terrain, scene.frame, around);
+  auto terrain = formats::read_terrain(options.terrain, scene.frame, around);
   if (!terrain) return terrain.error();
   scene.terrain = std::move(*terrain);
-  auto input = input_file(options.terrain);
+  auto input = formats::input_file(options.terrain);
   if (!input) return input.error();
   scene.inputs.push_back(std::move(*input));
   return {};
@@ -223,8 +227,8 @@ auto plan_of(const geometry::Mesh& mesh) -> Box2 {
 }
 
 auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::filesystem::path& footprint_path,
-          const Options& options, const base::Run& run) -> base::Result<Scene> {
-  const std::string subject = detail::shown_name(footprint_path);
+          const Options& options, const base::Run& run) -> base::Result<model::Scene> {
+  const std::string subject = formats::shown_name(footprint_path);
   const std::string mesh_name = mesh_paths.empty() ? std::string() : mesh_paths.front().string();
   if (const auto wanted = wanted_box(options); !wanted) return wanted.error();
   run.report("ingest", mesh_name, 0);
@@ -243,7 +247,7 @@ auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::files
                            " triangles has finite corners that exist; export the mesh again",
                        mesh_name);
   if (auto met = check_overlap(*ground, mesh_box.plan, subject); !met) return met.error();
-  Scene scene;
+  model::Scene scene;
   scene.frame.crs = ground->way.name;
   scene.frame.origin =
       choose_origin(!ground->box.empty() ? ground->box : ground->kept.value_or(mesh_box.plan), mesh_box);
@@ -279,12 +283,12 @@ auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::files
 }
 
 auto read_alone(const std::filesystem::path& path, const Options& options, const base::Run& run)
-    -> base::Result<Scene> {
-  const std::string subject = detail::shown_name(path);
+    -> base::Result<model::Scene> {
+  const std::string subject = formats::shown_name(path);
   const auto wanted = wanted_box(options);
   if (!wanted) return wanted.error();
   run.report("ingest", subject, 0);
-  auto file = detail::read_features(path, options, run);
+  auto file = formats::read_features(path, query_of(options), run);
   if (!file) return file.error();
   // Without a mesh to lie on, the footprints' own place stands for it.
   const auto way = detail::choose_way(*file, options.crs, bounds(file->features), {}, subject);
@@ -293,7 +297,7 @@ auto read_alone(const std::filesystem::path& path, const Options& options, const
   if (*wanted)
     if (auto kept = keep_within(file->features, **wanted, subject); !kept) return kept.error();
 
-  Scene scene;
+  model::Scene scene;
   const Box2 box = bounds(file->features);
   scene.frame.crs = way->name;
   if (!box.empty()) scene.frame.origin = choose_origin(box, {box, 0, 0});
@@ -315,7 +319,8 @@ auto option_list(Options& o) -> base::OptionList {
       base::OptionList("ingest")
           .numbers("mesh_offset", o.mesh_offset, "m", {-far, far}, "Added to the mesh's x, y and z.")
           .alias("mesh_offset")
-          .choice("up", o.up, {{"automatic", UpAxis::automatic}, {"z", UpAxis::z}, {"y", UpAxis::y}},
+          .choice("up", o.up,
+                  {{"automatic", formats::UpAxis::automatic}, {"z", formats::UpAxis::z}, {"y", formats::UpAxis::y}},
                   "Which axis of the mesh is up; automatic means y for glTF and z for the rest.")
           .alias("up")
           .string("crs", o.crs,
@@ -338,7 +343,7 @@ auto option_list(Options& o) -> base::OptionList {
 }
 
 auto read_scene(const std::vector<std::filesystem::path>& meshes, const std::filesystem::path& footprints,
-                const Options& options, const base::Run& run) -> base::Result<Scene> {
+                const Options& options, const base::Run& run) -> base::Result<model::Scene> {
   try {
     return read(meshes, footprints, options, run);
   } catch (const std::bad_alloc&) {
@@ -347,20 +352,20 @@ auto read_scene(const std::vector<std::filesystem::path>& meshes, const std::fil
   } catch (const std::exception& e) {
     // What a library throws on bad files must not get past this room.
     return base::error("ingest-footprints-format", std::string("cannot be read (") + e.what() + "); check what it is",
-                       detail::shown_name(footprints));
+                       formats::shown_name(footprints));
   }
 }
 
 auto read_footprints(const std::filesystem::path& footprints, const Options& options, const base::Run& run)
-    -> base::Result<Scene> {
+    -> base::Result<model::Scene> {
   try {
     return read_alone(footprints, options, run);
   } catch (const std::bad_alloc&) {
     return base::error("ingest-memory", "the footprints do not fit into memory; read a part with --bbox or --where",
-                       detail::shown_name(footprints));
+                       formats::shown_name(footprints));
   } catch (const std::exception& e) {
     return base::error("ingest-footprints-format", std::string("cannot be read (") + e.what() + "); check what it is",
-                       detail::shown_name(footprints));
+                       formats::shown_name(footprints));
   }
 }
 

@@ -7,12 +7,12 @@
 
 #include "mansard/base/files.hpp"
 #include "mansard/base/text.hpp"
+#include "mansard/crs/model_crs.hpp"
+#include "mansard/formats/files/hash.hpp"
+#include "mansard/formats/models.hpp"
 #include "mansard/ingest/detail/by_normal.hpp"
 #include "mansard/ingest/detail/clean.hpp"
-#include "mansard/ingest/detail/hash.hpp"
 #include "mansard/ingest/detail/mesh_files.hpp"
-#include "mansard/ingest/detail/model_crs.hpp"
-#include "mansard/ingest/detail/model_files.hpp"
 
 namespace mansard::ingest {
 namespace {
@@ -41,7 +41,7 @@ struct Extent {
   }
 };
 
-auto in_words(const Extent& e, const Frame& frame) -> std::string {
+auto in_words(const Extent& e, const model::Frame& frame) -> std::string {
   const auto range = [&](const char* axis, double least, double most, std::size_t i) {
     const auto at = static_cast<double>(frame.origin[i]);
     return std::string(axis) + " " + base::to_text(least + at, 1) + " to " + base::to_text(most + at, 1);
@@ -51,7 +51,7 @@ auto in_words(const Extent& e, const Frame& frame) -> std::string {
 }
 
 template <class Act>
-void each_loop(Model& model, Act act) {
+void each_loop(model::Model& model, Act act) {
   for (auto& building : model.buildings)
     for (auto& part : building.parts)
       for (auto& face : part.faces)
@@ -66,21 +66,21 @@ auto is_sound(std::vector<Point3>& loop) -> bool {
 }
 
 /// Takes out what cannot be used; returns how many faces.
-auto drop_unusable(std::vector<ModelBuilding>& buildings) -> std::size_t {
+auto drop_unusable(std::vector<model::ModelBuilding>& buildings) -> std::size_t {
   std::size_t dropped = 0;
   for (auto& building : buildings) {
     for (auto& part : building.parts) {
-      dropped += std::erase_if(part.faces, [](ModelFace& face) {
+      dropped += std::erase_if(part.faces, [](model::ModelFace& face) {
         if (face.loops.empty() || !is_sound(face.loops.front())) return true;
         const auto holes = face.loops.begin() + 1;
         face.loops.erase(std::remove_if(holes, face.loops.end(), [](auto& hole) { return !is_sound(hole); }),
                          face.loops.end());
-        return length(detail::area_vector(face.loops.front())) < 1e-9;
+        return geometry::length(model::area_vector(face.loops.front())) < 1e-9;
       });
     }
-    std::erase_if(building.parts, [](const ModelPart& part) { return part.faces.empty(); });
+    std::erase_if(building.parts, [](const model::ModelPart& part) { return part.faces.empty(); });
   }
-  std::erase_if(buildings, [](const ModelBuilding& building) { return building.parts.empty(); });
+  std::erase_if(buildings, [](const model::ModelBuilding& building) { return building.parts.empty(); });
   return dropped;
 }
 
@@ -95,7 +95,7 @@ auto origin_of(const Extent& e) -> std::array<std::int64_t, 3> {
           along(e.low, e.high, e.low)};
 }
 
-void shift(Model& model, Point3 by) {
+void shift(model::Model& model, Point3 by) {
   each_loop(model, [&](auto& loop) {
     for (auto& p : loop) p = p + by;
   });
@@ -111,32 +111,32 @@ auto is_obj(const std::filesystem::path& path) -> bool {
 auto working_crs(const std::string& spelt, const std::string& option, const std::string& subject)
     -> base::Result<std::string> {
   if (option == "local") return std::string();
-  auto own = detail::plane_crs(spelt, subject);
+  auto own = crs::plane_crs(spelt, subject);
   if (!own || option.empty()) return own;
-  auto asked = detail::plane_crs(option, "ingest.crs");
-  if (!asked || own->empty() || detail::same_crs(*own, *asked)) return asked;
+  auto asked = crs::plane_crs(option, "ingest.crs");
+  if (!asked || own->empty() || crs::same_crs(*own, *asked)) return asked;
   return base::error("ingest-model-crs",
                      "the model is in " + *own + " and --crs says " + *asked +
                          "; a model is never projected: convert one of them, or say --crs local",
                      subject);
 }
 
-auto read(const std::filesystem::path& path, const ModelOptions& options) -> base::Result<Model> {
+auto read(const std::filesystem::path& path, const ModelOptions& options) -> base::Result<model::Model> {
   const std::string subject = path.string();
   const auto bytes = base::read_file(path);
   if (!bytes) return bytes.error();
   if (bytes->empty()) return base::error("ingest-model-format", "the file is empty; copy or export it again", subject);
   auto raw =
-      is_obj(path) ? detail::read_labelled_obj(*bytes, subject) : detail::read_cityjson(*bytes, options.lod, subject);
+      is_obj(path) ? formats::read_labelled_obj(*bytes, subject) : formats::read_cityjson(*bytes, options.lod, subject);
   if (!raw) return raw.error();
   auto crs = working_crs(raw->crs, options.crs, subject);
   if (!crs) return crs.error();
 
-  Model model;
+  model::Model model;
   model.buildings = std::move(raw->buildings);
   model.lod = std::move(raw->lod);
   model.warnings = std::move(raw->warnings);
-  model.inputs = {{subject, bytes->size(), detail::sha256(*bytes)}};
+  model.inputs = {{subject, bytes->size(), formats::sha256(*bytes)}};
   const auto say = [&](const char* code, const std::string& words) {
     model.warnings.push_back(base::warning(code, words, subject));
   };
@@ -164,32 +164,6 @@ auto read(const std::filesystem::path& path, const ModelOptions& options) -> bas
   return model;
 }
 
-/// The plane that a face is cut into triangles in: the two axes it is least foreshortened along, turned so that its
-/// outer loop is counter-clockwise.
-auto drawn(const ModelFace& face) -> geometry::Polygon {
-  const Point3 n = detail::area_vector(face.loops.front());
-  const auto on = [&](Point3 p) -> Point2 {
-    if (std::abs(n.z) >= std::abs(n.x) && std::abs(n.z) >= std::abs(n.y)) return {n.z > 0 ? p.x : -p.x, p.y};
-    if (std::abs(n.x) >= std::abs(n.y)) return {n.x > 0 ? p.y : -p.y, p.z};
-    return {n.y > 0 ? p.z : -p.z, p.x};
-  };
-  geometry::Polygon polygon;
-  for (const auto& loop : face.loops) {
-    geometry::Ring ring;
-    for (const Point3 p : loop) ring.push_back(on(p));
-    if (&loop == &face.loops.front()) polygon.outer = std::move(ring);
-    else polygon.holes.push_back(std::move(ring));
-  }
-  return polygon;
-}
-
-/// Triangles over the corners of all loops in order; none for a face that crosses itself.
-auto triangles_of(const ModelFace& face) -> std::vector<geometry::Triangle> {
-  if (face.loops.size() == 1 && face.loops.front().size() == 3) return {{0, 1, 2}};
-  auto cut = geometry::triangulate(drawn(face));
-  return cut ? std::move(*cut) : std::vector<geometry::Triangle>();
-}
-
 auto extent_of(const geometry::Mesh& mesh) -> Extent {
   Extent e;
   for (const Point3 p : mesh.vertices) e.add(p);
@@ -198,12 +172,7 @@ auto extent_of(const geometry::Mesh& mesh) -> Extent {
 
 }  // namespace
 
-auto to_string(SurfaceClass kind) -> std::string_view {
-  static constexpr std::array<std::string_view, surface_class_count> names{"wall", "roof", "ground", "other"};
-  return names[static_cast<std::size_t>(kind)];
-}
-
-auto read_model(const std::filesystem::path& path, const ModelOptions& options) -> base::Result<Model> {
+auto read_model(const std::filesystem::path& path, const ModelOptions& options) -> base::Result<model::Model> {
   try {
     return read(path, options);
   } catch (const std::bad_alloc&) {
@@ -214,9 +183,9 @@ auto read_model(const std::filesystem::path& path, const ModelOptions& options) 
   }
 }
 
-auto in_frame(Model model, const Frame& frame) -> base::Result<Model> {
+auto in_frame(model::Model model, const model::Frame& frame) -> base::Result<model::Model> {
   const std::string subject = model.inputs.empty() ? std::string() : model.inputs.front().path;
-  if (!model.frame.crs.empty() && !frame.crs.empty() && !detail::same_crs(model.frame.crs, frame.crs))
+  if (!model.frame.crs.empty() && !frame.crs.empty() && !crs::same_crs(model.frame.crs, frame.crs))
     return base::error("ingest-model-crs",
                        "it is in " + model.frame.crs + ", and the rest in " + frame.crs +
                            "; a model is never projected: convert one of them",
@@ -227,51 +196,9 @@ auto in_frame(Model model, const Frame& frame) -> base::Result<Model> {
   return model;
 }
 
-auto surface_of(const Model& model) -> ModelSurface {
-  ModelSurface out;
-  std::uint32_t building = 0, part = 0, face_number = 0;
-  for (const auto& b : model.buildings) {
-    for (const auto& p : b.parts) {
-      for (const auto& face : p.faces) {
-        const auto first = static_cast<std::uint32_t>(out.mesh.vertices.size());
-        const auto triangles = triangles_of(face);
-        if (triangles.empty()) ++out.lost;
-        for (const auto& loop : face.loops) out.mesh.vertices.insert(out.mesh.vertices.end(), loop.begin(), loop.end());
-        for (const auto& t : triangles) {
-          out.mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-          out.classes.push_back(face.kind);
-          out.buildings.push_back(building);
-          out.parts.push_back(part);
-          out.faces.push_back(face_number);
-        }
-        ++face_number;
-      }
-      ++part;
-    }
-    ++building;
-  }
-  return out;
-}
-
-auto part_of(const ModelSurface& surface, const std::vector<bool>& buildings) -> ModelSurface {
-  ModelSurface out;
-  const auto& mesh = surface.mesh;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (!buildings[surface.buildings[t]]) continue;
-    const auto first = static_cast<std::uint32_t>(out.mesh.vertices.size());
-    for (const auto v : mesh.triangles[t]) out.mesh.vertices.push_back(mesh.vertices[v]);
-    out.mesh.triangles.push_back({first, first + 1, first + 2});
-    out.classes.push_back(surface.classes[t]);
-    out.buildings.push_back(surface.buildings[t]);
-    out.parts.push_back(surface.parts[t]);
-    out.faces.push_back(surface.faces[t]);
-  }
-  return out;
-}
-
 namespace {
 
-auto read_into(const Frame& frame, const std::vector<std::filesystem::path>& paths, const Options& options,
+auto read_into(const model::Frame& frame, const std::vector<std::filesystem::path>& paths, const Options& options,
                const base::Run& run) -> base::Result<ScannedMesh> {
   const std::string subject = paths.empty() ? std::string() : paths.front().string();
   run.report("ingest", subject, 0);
@@ -286,7 +213,7 @@ auto read_into(const Frame& frame, const std::vector<std::filesystem::path>& pat
     return base::error("ingest-mesh-unusable", "no triangle can be used; export the mesh again", subject);
   ScannedMesh out;
   out.mesh = std::move(clean.mesh);
-  for (const auto c : clean.classes) out.classes.push_back(static_cast<SurfaceClass>(c));
+  for (const auto c : clean.classes) out.classes.push_back(static_cast<model::SurfaceClass>(c));
   out.counts = clean.counts;
   out.inputs = std::move(files->inputs);
   out.warnings = std::move(files->warnings);
@@ -298,7 +225,7 @@ auto read_into(const Frame& frame, const std::vector<std::filesystem::path>& pat
 
 }  // namespace
 
-auto read_mesh(const std::vector<std::filesystem::path>& paths, const Frame& frame, const Options& options,
+auto read_mesh(const std::vector<std::filesystem::path>& paths, const model::Frame& frame, const Options& options,
                const base::Run& run) -> base::Result<ScannedMesh> {
   const std::string subject = paths.empty() ? std::string() : paths.front().string();
   try {
@@ -312,8 +239,8 @@ auto read_mesh(const std::vector<std::filesystem::path>& paths, const Frame& fra
 }
 
 auto check_overlap(const geometry::Mesh& first, const geometry::Mesh& second,
-                   const std::pair<std::string, std::string>& what, const Frame& frame, const std::string& subject)
-    -> base::Result<void> {
+                   const std::pair<std::string, std::string>& what, const model::Frame& frame,
+                   const std::string& subject) -> base::Result<void> {
   const Extent a = extent_of(first), b = extent_of(second);
   if (a.overlaps(b)) return {};
   return base::error("ingest-model-overlap",

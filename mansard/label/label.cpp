@@ -1,4 +1,5 @@
 #include "mansard/label/label.hpp"
+#include "mansard/solid/solid.hpp"
 
 #include <cmath>
 
@@ -7,16 +8,17 @@
 namespace mansard::label {
 namespace {
 
-auto class_of(const extrude::Face& face, double lean) -> Class {
+auto class_of(const model::Face& face, double lean) -> model::FaceClass {
   switch (face.kind) {
-    case extrude::FaceKind::base: return Class::ground;
-    case extrude::FaceKind::soffit: return Class::soffit;
-    case extrude::FaceKind::connector: return Class::wall;
-    case extrude::FaceKind::side: return std::abs(face.normal.z) <= lean ? Class::wall : Class::roof;
-    case extrude::FaceKind::terrace:
-    case extrude::FaceKind::cap: return Class::roof;
+    case model::FaceKind::base: return model::FaceClass::ground;
+    case model::FaceKind::soffit: return model::FaceClass::soffit;
+    case model::FaceKind::connector: return model::FaceClass::wall;
+    case model::FaceKind::side:
+      return std::abs(face.normal.z) <= lean ? model::FaceClass::wall : model::FaceClass::roof;
+    case model::FaceKind::terrace:
+    case model::FaceKind::cap: return model::FaceClass::roof;
   }
-  return Class::roof;
+  return model::FaceClass::roof;
 }
 
 }  // namespace
@@ -29,17 +31,17 @@ auto option_list(Options& o) -> base::OptionList {
   return list;
 }
 
-auto classify(std::vector<extrude::Solid> solids, const Options& options, const base::Run& run)
-    -> std::vector<LabelledSolid> {
+auto classify(std::vector<model::Solid> solids, const Options& options, const base::Run& run)
+    -> std::vector<model::LabelledSolid> {
   run.report("label", {}, 0);
   // A face leaning by a from vertical has a normal with |z| = sin a.
   const double lean = std::sin(options.wall_angle);
-  std::vector<LabelledSolid> labelled(solids.size());
+  std::vector<model::LabelledSolid> labelled(solids.size());
   std::vector<std::vector<bool>> is_wall(solids.size());
   for (std::size_t s = 0; s < solids.size(); ++s) {
     for (const auto& face : solids[s].faces) {
       labelled[s].classes.push_back(class_of(face, lean));
-      is_wall[s].push_back(labelled[s].classes.back() == Class::wall);
+      is_wall[s].push_back(labelled[s].classes.back() == model::FaceClass::wall);
     }
   }
 
@@ -49,25 +51,25 @@ auto classify(std::vector<extrude::Solid> solids, const Options& options, const 
     if (!run.cancelled()) shares[i] = detail::covered_share(walls[i], walls, solids, options.party_distance);
   });
   for (std::size_t i = 0; i < walls.size(); ++i)
-    if (shares[i] > 0.5) labelled[walls[i].solid].classes[walls[i].face] = Class::party_wall;
+    if (shares[i] > 0.5) labelled[walls[i].solid].classes[walls[i].face] = model::FaceClass::party_wall;
 
   for (std::size_t s = 0; s < solids.size(); ++s) labelled[s].solid = std::move(solids[s]);
   run.report("label", {}, 1);
   return labelled;
 }
 
-auto areas(const LabelledSolid& labelled) -> Areas {
+auto areas(const model::LabelledSolid& labelled) -> Areas {
   constexpr double flat = 0.9962;  // cosine of 5°, as 3DBAG tells flat roofs from sloped ones
   Areas sum;
   for (std::size_t f = 0; f < labelled.solid.faces.size(); ++f) {
     const auto& face = labelled.solid.faces[f];
-    const double area = extrude::area(labelled.solid, face);
+    const double area = solid::area(labelled.solid, face);
     switch (labelled.classes[f]) {
-      case Class::wall: sum.wall += area; break;
-      case Class::party_wall: sum.party_wall += area; break;
-      case Class::ground: sum.ground += area; break;
-      case Class::soffit: sum.soffit += area; break;
-      case Class::roof: (face.normal.z >= flat ? sum.roof_flat : sum.roof_sloped) += area; break;
+      case model::FaceClass::wall: sum.wall += area; break;
+      case model::FaceClass::party_wall: sum.party_wall += area; break;
+      case model::FaceClass::ground: sum.ground += area; break;
+      case model::FaceClass::soffit: sum.soffit += area; break;
+      case model::FaceClass::roof: (face.normal.z >= flat ? sum.roof_flat : sum.roof_sloped) += area; break;
     }
   }
   return sum;

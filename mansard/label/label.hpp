@@ -7,17 +7,10 @@
 
 #include "mansard/base/options.hpp"
 #include "mansard/base/run.hpp"
-#include "mansard/extrude/extrude.hpp"
 #include "mansard/geometry/mesh.hpp"
+#include "mansard/model/solid.hpp"
 
 namespace mansard::label {
-
-enum class Class : std::uint8_t { wall, party_wall, roof, ground, soffit };
-
-struct LabelledSolid {
-  extrude::Solid solid;
-  std::vector<Class> classes;  ///< per face
-};
 
 struct Options {
   double wall_angle = 0.2;      ///< rad from vertical; a side leaning more is roof
@@ -28,13 +21,13 @@ struct Options {
 /// Side faces within `wall_angle` of vertical and connectors are walls, the base is ground, soffits are soffits, all
 /// else roof. A wall is a party wall where more than half of its area faces a wall of another solid of the block,
 /// opposite and within `party_distance`. Guarantees: 1 one class per face · 2 the order of solids does not matter.
-[[nodiscard]] auto classify(std::vector<extrude::Solid> solids, const Options& options, const base::Run& run = {})
-    -> std::vector<LabelledSolid>;
+[[nodiscard]] auto classify(std::vector<model::Solid> solids, const Options& options, const base::Run& run = {})
+    -> std::vector<model::LabelledSolid>;
 
 /// Areas per class, m².
 struct Areas {
   double wall = 0, party_wall = 0, roof_flat = 0, roof_sloped = 0, ground = 0, soffit = 0;
 };
-[[nodiscard]] auto areas(const LabelledSolid& labelled) -> Areas;
+[[nodiscard]] auto areas(const model::LabelledSolid& labelled) -> Areas;
 
 }  // namespace mansard::label

@@ -11,7 +11,7 @@ namespace mansard::label {
 namespace {
 
 using geometry::Point3;
-using ingest::SurfaceClass;
+using model::SurfaceClass;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -38,7 +38,7 @@ auto terrain_beside(const rays::Scene& model, const geometry::Mesh& scan, const 
 
 }  // namespace
 
-auto label_scan(const geometry::Mesh& scan, const ingest::ModelSurface& model, const ScanOptions& options,
+auto label_scan(const geometry::Mesh& scan, const model::ModelSurface& model, const ScanOptions& options,
                 const base::Run& run) -> std::vector<SurfaceClass> {
   run.report("label", {}, 0);
   const rays::Scene scene(model.mesh);
@@ -77,7 +77,7 @@ auto label_by_normal(const geometry::Mesh& scan) -> std::vector<SurfaceClass> {
   return classes;
 }
 
-auto nearest_wall_or_roof(const geometry::Mesh& scan, const ingest::ModelSurface& model) -> std::vector<SurfaceClass> {
+auto nearest_wall_or_roof(const geometry::Mesh& scan, const model::ModelSurface& model) -> std::vector<SurfaceClass> {
   const rays::Scene scene(model.mesh);
   const auto extra = [&](std::uint32_t t) {
     const bool known = model.classes[t] == SurfaceClass::wall || model.classes[t] == SurfaceClass::roof;
@@ -91,7 +91,7 @@ auto nearest_wall_or_roof(const geometry::Mesh& scan, const ingest::ModelSurface
   return classes;
 }
 
-auto above_ground(const geometry::Mesh& scan, const ingest::ModelSurface& model, const ScanOptions& options)
+auto above_ground(const geometry::Mesh& scan, const model::ModelSurface& model, const ScanOptions& options)
     -> std::vector<bool> {
   const detail::Terrain terrain = terrain_beside(rays::Scene(model.mesh), scan, options);
   std::vector<bool> above;

@@ -2,10 +2,10 @@
 
 namespace mansard::pipeline {
 
-auto attributes() -> std::vector<write::Attribute> {
+auto attributes() -> std::vector<formats::Attribute> {
   using Objects = std::vector<std::string>;
   const Objects both{"Building", "BuildingPart"}, building{"Building"}, part{"BuildingPart"};
-  auto all = write::attributes();
+  auto all = formats::attributes();
   const auto add = [&all](const char* name, const Objects& of, const char* type, const char* unit,
                           const char* meaning) {
     all.push_back({name, "pipeline", of, type, unit, meaning});

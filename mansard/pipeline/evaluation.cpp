@@ -15,7 +15,7 @@ namespace {
 using evaluate::Outline;
 
 /// Footprints as they stand in another frame, which differs by whole metres.
-void move_to(const ingest::Frame& frame, ingest::Scene& scene) {
+void move_to(const model::Frame& frame, model::Scene& scene) {
   const geometry::Point2 by{static_cast<double>(scene.frame.origin[0] - frame.origin[0]),
                             static_cast<double>(scene.frame.origin[1] - frame.origin[1])};
   const auto move = [&](geometry::Ring& ring) {
@@ -28,15 +28,15 @@ void move_to(const ingest::Frame& frame, ingest::Scene& scene) {
     }
 }
 
-auto outline_of(const ingest::ModelBuilding& building) -> Outline { return evaluate::outline_of(building.parts); }
+auto outline_of(const model::ModelBuilding& building) -> Outline { return evaluate::outline_of(building.parts); }
 
-auto building_outlines(const ingest::Model& model) -> std::vector<Outline> {
+auto building_outlines(const model::Model& model) -> std::vector<Outline> {
   std::vector<Outline> out(model.buildings.size());
   base::parallel_for(out.size(), [&](std::size_t b) { out[b] = outline_of(model.buildings[b]); });
   return out;
 }
 
-auto part_outlines(const ingest::Model& model) -> std::vector<Outline> {
+auto part_outlines(const model::Model& model) -> std::vector<Outline> {
   std::vector<Outline> out;
   for (const auto& building : model.buildings)
     for (const auto& part : building.parts) out.push_back(evaluate::outline_of({&part, 1}));
@@ -44,9 +44,9 @@ auto part_outlines(const ingest::Model& model) -> std::vector<Outline> {
 }
 
 /// The footprints that a model stands on itself.
-auto footprints_of(const ingest::Model& model) -> std::vector<ingest::Footprint> {
+auto footprints_of(const model::Model& model) -> std::vector<model::Footprint> {
   auto outlines = building_outlines(model);
-  std::vector<ingest::Footprint> out;
+  std::vector<model::Footprint> out;
   for (std::size_t b = 0; b < outlines.size(); ++b) {
     auto& footprint = out.emplace_back();
     footprint.id = model.buildings[b].id;
@@ -62,7 +62,7 @@ void append(std::vector<base::Diagnostic>& all, const std::vector<base::Diagnost
   all.insert(all.end(), more.begin(), more.end());
 }
 
-auto in_words(const geometry::Box2& box, const ingest::Frame& frame) -> std::string {
+auto in_words(const geometry::Box2& box, const model::Frame& frame) -> std::string {
   const auto range = [&](double least, double most, std::size_t axis) {
     const auto at = static_cast<double>(frame.origin[axis]);
     return base::to_text(least + at, 1) + " to " + base::to_text(most + at, 1);
@@ -73,7 +73,7 @@ auto in_words(const geometry::Box2& box, const ingest::Frame& frame) -> std::str
 auto read_reference(const EvaluationFiles& files, const ingest::Options& options, const base::Run& run,
                     EvaluationInput& input) -> base::Result<void> {
   auto& scene = input.scene;
-  const ingest::Frame frame = input.model.frame;
+  const model::Frame frame = input.model.frame;
   if (files.footprints.empty()) {
     input.reference = input.truth ? Reference::truth : Reference::model;
     scene.footprints = footprints_of(input.truth ? *input.truth : input.model);
@@ -92,7 +92,7 @@ auto read_reference(const EvaluationFiles& files, const ingest::Options& options
   for (const auto& footprint : scene.footprints)
     for (const auto& polygon : footprint.polygons)
       for (const auto p : polygon.outer) drawn.add(p);
-  for (const auto p : ingest::surface_of(input.model).mesh.vertices) built.add(xy(p));
+  for (const auto p : model::surface_of(input.model).mesh.vertices) built.add(xy(p));
   if (drawn.overlaps(built)) return {};
   return base::error("ingest-model-overlap",
                      "footprints and model do not overlap: the footprints lie in " + in_words(drawn, frame) +
@@ -168,8 +168,8 @@ auto building_scores(const block::Member& member, const rays::Scene& model, cons
   return out;
 }
 
-auto work_on(const block::Block& block, const ingest::ModelSurface& model, const rays::Scene* truth,
-             const ingest::Scene& scene, const Options& options, const base::Run& run, Totals& totals) -> BlockWork {
+auto work_on(const block::Block& block, const model::ModelSurface& model, const rays::Scene* truth,
+             const model::Scene& scene, const Options& options, const base::Run& run, Totals& totals) -> BlockWork {
   BlockWork out;
   out.block.name = block.name;
   out.block.buildings = block.members.size();
@@ -222,7 +222,7 @@ void sum_up(std::vector<BlockWork>& work, Evaluation& out) {
   for (auto& [feature, building] : buildings) out.buildings.push_back(std::move(building));
 }
 
-auto counts_of(const ingest::Model& model) -> ModelCounts {
+auto counts_of(const model::Model& model) -> ModelCounts {
   ModelCounts out;
   out.buildings = model.buildings.size();
   for (const auto& building : model.buildings) {
@@ -235,7 +235,7 @@ auto counts_of(const ingest::Model& model) -> ModelCounts {
   return out;
 }
 
-auto against(const ingest::Model& truth, const ingest::Model& model, const ingest::ModelSurface& surface,
+auto against(const model::Model& truth, const model::Model& model, const model::ModelSurface& surface,
              const Options& options, const base::Run& run) -> TruthScores {
   TruthScores out;
   const auto true_buildings = building_outlines(truth), true_parts = part_outlines(truth);
@@ -246,7 +246,7 @@ auto against(const ingest::Model& truth, const ingest::Model& model, const inges
   out.party_walls = evaluate::compare_party_walls(true_buildings, parts);
   out.party_walls.right = evaluate::compare_party_walls(true_parts, parts).right;
   out.roofs = evaluate::compare_roofs(truth, model, options.evaluate.grid);
-  out.classes = evaluate::compare_classes(ingest::surface_of(truth), surface, {}, run.seed, run);
+  out.classes = evaluate::compare_classes(model::surface_of(truth), surface, {}, run.seed, run);
   return out;
 }
 
@@ -280,7 +280,7 @@ auto read_evaluation(const EvaluationFiles& files, const ingest::Options& option
   scene.frame = input.model.frame;
   scene.inputs = input.model.inputs;
   scene.warnings = input.model.warnings;
-  const auto surface = ingest::surface_of(input.model);
+  const auto surface = model::surface_of(input.model);
   if (surface.lost > 0)
     scene.warnings.push_back(base::warning("ingest-model-face",
                                            std::to_string(surface.lost) + " faces cross themselves and were left out",
@@ -299,7 +299,7 @@ auto read_evaluation(const EvaluationFiles& files, const ingest::Options& option
     auto truth = read_any_model(files.truth, {files.lod, {}}, run);
     if (truth) truth = ingest::in_frame(std::move(*truth), scene.frame);
     if (!truth) return truth.error();
-    if (auto met = ingest::check_overlap(surface.mesh, ingest::surface_of(*truth).mesh, {"model", "truth"}, scene.frame,
+    if (auto met = ingest::check_overlap(surface.mesh, model::surface_of(*truth).mesh, {"model", "truth"}, scene.frame,
                                          files.truth.string());
         !met)
       return met.error();
@@ -321,11 +321,11 @@ auto evaluate_model(const EvaluationInput& input, const Options& options, const 
     return base::error("pipeline-nothing", "there is no footprint to measure over",
                        std::string(to_string(input.reference)));
 
-  const auto surface = ingest::surface_of(input.model);
+  const auto surface = model::surface_of(input.model);
   const auto outlines = building_outlines(input.model);
   const auto stands_on = block_of_buildings(outlines, blocks);
   std::optional<rays::Scene> truth;
-  if (input.truth) truth.emplace(ingest::surface_of(*input.truth).mesh);
+  if (input.truth) truth.emplace(model::surface_of(*input.truth).mesh);
   Totals totals;
   std::vector<BlockWork> work;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
@@ -335,7 +335,7 @@ auto evaluate_model(const EvaluationInput& input, const Options& options, const 
     for (std::size_t m = 0; m < own.size(); ++m) own[m] = stands_on[m] == b;
     base::Run inner = run;
     inner.progress = nullptr;
-    work.push_back(work_on(blocks[b], ingest::part_of(surface, own), truth ? &*truth : nullptr, input.scene, options,
+    work.push_back(work_on(blocks[b], model::part_of(surface, own), truth ? &*truth : nullptr, input.scene, options,
                            inner, totals));
     work.back().block.model_buildings = static_cast<std::size_t>(std::ranges::count(own, true));
   }

@@ -27,9 +27,9 @@ enum class Reference : std::uint8_t { footprints, truth, model };
 
 /// Everything in the frame of the model.
 struct EvaluationInput {
-  ingest::Model model;
-  std::optional<ingest::Model> truth;
-  ingest::Scene scene;  ///< the mesh with the reference's footprints; `warnings` of all files
+  model::Model model;
+  std::optional<model::Model> truth;
+  model::Scene scene;  ///< the mesh with the reference's footprints; `warnings` of all files
   Reference reference = Reference::model;
 };
 
@@ -40,7 +40,7 @@ struct EvaluationInput {
 
 struct ModelCounts {
   std::size_t buildings = 0, parts = 0, faces = 0, planes = 0;
-  std::array<double, ingest::surface_class_count> area{};  ///< m² per class
+  std::array<double, model::surface_class_count> area{};  ///< m² per class
 };
 
 /// A building of the reference.
@@ -100,7 +100,7 @@ struct Evaluation {
     -> std::string;
 
 /// Square metres by true class and class given, as a small table.
-using ClassAreas = std::array<std::array<double, ingest::surface_class_count>, ingest::surface_class_count>;
+using ClassAreas = std::array<std::array<double, model::surface_class_count>, model::surface_class_count>;
 [[nodiscard]] auto confusion_table(const ClassAreas& area) -> std::string;
 
 }  // namespace mansard::pipeline

@@ -106,8 +106,8 @@ auto json_of(const TruthScores& t) -> Json {
   Json confusion = Json::object();
   for (std::size_t i = 0; i < t.classes.area.size(); ++i)
     for (std::size_t j = 0; j < t.classes.area.size(); ++j)
-      confusion[std::string(ingest::to_string(static_cast<ingest::SurfaceClass>(i)))]
-               [std::string(ingest::to_string(static_cast<ingest::SurfaceClass>(j)))] = t.classes.area[i][j];
+      confusion[std::string(model::to_string(static_cast<model::SurfaceClass>(i)))]
+               [std::string(model::to_string(static_cast<model::SurfaceClass>(j)))] = t.classes.area[i][j];
   return {{"scores", json_of(t.scores, true)},
           {"prism", json_of_prism(t.prism)},
           {"parts", json_of(t.parts)},
@@ -138,7 +138,7 @@ auto json_of(const TruthScores& t) -> Json {
 auto json_of(const ModelCounts& c) -> Json {
   Json areas = Json::object();
   for (std::size_t i = 0; i < c.area.size(); ++i)
-    areas[std::string(ingest::to_string(static_cast<ingest::SurfaceClass>(i)))] = c.area[i];
+    areas[std::string(model::to_string(static_cast<model::SurfaceClass>(i)))] = c.area[i];
   return {{"buildings", c.buildings}, {"parts", c.parts}, {"faces", c.faces}, {"planes", c.planes}, {"area_m2", areas}};
 }
 
@@ -225,7 +225,7 @@ auto confusion_table(const ClassAreas& area) -> std::string {
     constexpr std::size_t width = 11;
     return std::string(text.size() < width ? width - text.size() : 1, ' ') + text;
   };
-  const auto name = [](std::size_t c) { return std::string(ingest::to_string(static_cast<ingest::SurfaceClass>(c))); };
+  const auto name = [](std::size_t c) { return std::string(model::to_string(static_cast<model::SurfaceClass>(c))); };
   std::string out = "  m², truth \\ given";
   for (std::size_t c = 0; c < area.size(); ++c) out += cell(name(c));
   out += "\n";

@@ -9,6 +9,7 @@
 #include "mansard/pipeline/detail/model_attributes.hpp"
 #include "mansard/pipeline/detail/overlaps.hpp"
 #include "mansard/pipeline/pipeline.hpp"
+#include "mansard/solid/solid.hpp"
 
 namespace mansard::pipeline {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 struct Raising {
   std::size_t feature = 0, polygon = 0;
   roof::Planned planned;
-  std::optional<extrude::Solid> solid;
+  std::optional<model::Solid> solid;
   bool full = true;
   std::vector<base::Diagnostic> reasons;
   double planning = 0, raising = 0;  ///< s
@@ -27,21 +28,21 @@ void append(std::vector<base::Diagnostic>& all, const std::vector<base::Diagnost
   all.insert(all.end(), more.begin(), more.end());
 }
 
-auto top_of(const extrude::Solid& solid) -> double {
+auto top_of(const model::Solid& solid) -> double {
   double top = solid.vertices.front().z;
   for (const auto& v : solid.vertices) top = std::max(top, v.z);
   return top;
 }
 
 /// How far the top lies from where the plan was made to have it, m.
-auto missed(const extrude::Solid& solid, const roof::Planned& planned) -> double {
+auto missed(const model::Solid& solid, const roof::Planned& planned) -> double {
   return std::abs(top_of(solid) - planned.plan.base - planned.top);
 }
 constexpr double far_off = 0.05;  // m
 
 /// The plan with the walls that it shares with others on one line, as a checked solid. False where that would cost the
 /// roof.
-auto raise_aligned(Raising& job, geometry::Plan aligned, bool ridge_known, const Options& options, const base::Run& run)
+auto raise_aligned(Raising& job, model::Plan aligned, bool ridge_known, const Options& options, const base::Run& run)
     -> bool {
   auto raised = raise_part(aligned, options, run);
   if (!raised || raised->outcome != extrude::Outcome::full) return false;
@@ -80,19 +81,19 @@ void raise(Raising& job, bool ridge_known, const Options& options, const base::R
 }
 
 /// z of the roof's lowest corner.
-auto eaves_of(const label::LabelledSolid& model) -> double {
+auto eaves_of(const model::LabelledSolid& model) -> double {
   double low = top_of(model.solid);
   for (std::size_t f = 0; f < model.solid.faces.size(); ++f)
-    if (model.classes[f] == label::Class::roof)
+    if (model.classes[f] == model::FaceClass::roof)
       for (const auto v : model.solid.faces[f].loops.front()) low = std::min(low, model.solid.vertices[v].z);
   return low;
 }
 
-auto attributes_of(const label::LabelledSolid& model, const Raising& job, const BuildingReport& building)
-    -> ingest::Attributes {
+auto attributes_of(const model::LabelledSolid& model, const Raising& job, const BuildingReport& building)
+    -> model::Attributes {
   const auto areas = label::areas(model);
-  ingest::Attributes out;
-  const auto add = [&out](const char* name, ingest::Value value) { out.push_back({name, std::move(value)}); };
+  model::Attributes out;
+  const auto add = [&out](const char* name, model::Value value) { out.push_back({name, std::move(value)}); };
   add("ms_h_ground", job.planned.plan.base);
   add("ms_h_roof_min", eaves_of(model));
   add("ms_h_roof_max", top_of(model.solid));
@@ -100,7 +101,7 @@ auto attributes_of(const label::LabelledSolid& model, const Raising& job, const 
   add("ms_roof_type", detail::roof_type(model));
   add("ms_roof_shape", building.roof);
   add("ms_height_from", building.height_from);
-  add("ms_volume_lod22", extrude::volume(model.solid));
+  add("ms_volume_lod22", solid::volume(model.solid));
   add("ms_area_roof_flat", areas.roof_flat);
   add("ms_area_roof_sloped", areas.roof_sloped);
   add("ms_area_wall", areas.wall);
@@ -111,20 +112,20 @@ auto attributes_of(const label::LabelledSolid& model, const Raising& job, const 
 }
 
 /// Adds a part to its building and to the building's report.
-void take(Raising job, label::LabelledSolid model, write::Building& building, BuildingReport& report) {
+void take(Raising job, model::LabelledSolid model, model::Building& building, BuildingReport& report) {
   auto attributes = attributes_of(model, job, report);
   const double low = eaves_of(model), high = top_of(model.solid);
   report.roof_min = report.parts == 0 ? low : std::min(report.roof_min, low);
   report.roof_max = report.parts == 0 ? high : std::max(report.roof_max, high);
   ++report.parts;
-  report.volume += extrude::volume(model.solid);
+  report.volume += solid::volume(model.solid);
   detail::add(report.areas, label::areas(model));
   building.parts.push_back({building.id + "-" + std::to_string(report.parts), std::move(job.planned.plan),
                             std::move(model), std::move(attributes)});
 }
 
 /// Buildings and reports, still without parts.
-void begin(const ingest::Scene& scene, const std::vector<roof::Read>& read, bool by_attributes, Reconstruction& out) {
+void begin(const model::Scene& scene, const std::vector<roof::Read>& read, bool by_attributes, Reconstruction& out) {
   for (std::size_t i = 0; i < scene.footprints.size(); ++i) {
     const auto& footprint = scene.footprints[i];
     auto& building = out.city.buildings.emplace_back();
@@ -144,7 +145,7 @@ void begin(const ingest::Scene& scene, const std::vector<roof::Read>& read, bool
 }
 
 /// The attributes that only the whole building has; the ids of its reasons; a word on heights out of thin air.
-void finish(const ingest::Scene& scene, Reconstruction& out) {
+void finish(const model::Scene& scene, Reconstruction& out) {
   std::size_t assumed = 0;
   for (std::size_t i = 0; i < out.buildings.size(); ++i) {
     auto& report = out.buildings[i];
@@ -167,7 +168,7 @@ void finish(const ingest::Scene& scene, Reconstruction& out) {
 
 }  // namespace
 
-auto raise_footprints(const ingest::Scene& scene, const Options& options, const base::Run& run)
+auto raise_footprints(const model::Scene& scene, const Options& options, const base::Run& run)
     -> base::Result<Reconstruction> {
   const auto usable = std::ranges::find_if(scene.footprints, [](const auto& f) { return !f.defect.has_value(); });
   if (usable == scene.footprints.end())
@@ -178,7 +179,7 @@ auto raise_footprints(const ingest::Scene& scene, const Options& options, const 
                                  " footprints can be used; the first: " + scene.footprints.front().defect->message);
   if (auto known = roof::check_attributes(usable->attributes, options.roof); !known) return known.error();
   const bool by_attributes = options.roof.profile.empty();
-  geometry::Profile profile;
+  model::Profile profile;
   if (!by_attributes) {
     auto given = roof::profile_of(options.roof.profile);
     if (!given) return given.error();
@@ -219,7 +220,7 @@ auto raise_footprints(const ingest::Scene& scene, const Options& options, const 
     }
   });
   const detail::Watch aligning;
-  std::vector<geometry::Plan> plans;
+  std::vector<model::Plan> plans;
   for (const auto& job : jobs) plans.push_back(job.planned.plan);
   const auto aligned = extrude::align(plans, options.extrude);
   const double aligned_in = aligning.seconds();
@@ -242,7 +243,7 @@ auto raise_footprints(const ingest::Scene& scene, const Options& options, const 
   if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
 
   const detail::Watch labelling;
-  std::vector<extrude::Solid> solids;
+  std::vector<model::Solid> solids;
   for (auto& job : jobs)
     if (job.solid) solids.push_back(std::move(*job.solid));
   auto models = label::classify(std::move(solids), options.label, inner);

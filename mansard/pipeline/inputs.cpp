@@ -2,7 +2,7 @@
 
 namespace mansard::pipeline {
 
-auto read_inputs(const InputPaths& paths, const Options& options, const base::Run& run) -> base::Result<ingest::Scene> {
+auto read_inputs(const InputPaths& paths, const Options& options, const base::Run& run) -> base::Result<model::Scene> {
   if (paths.footprints.empty() != paths.derive_footprints)
     return base::error("pipeline-footprints",
                        paths.derive_footprints

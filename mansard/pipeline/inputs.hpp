@@ -19,6 +19,6 @@ struct InputPaths {
 /// neither given nor to
 /// be derived, or both.
 [[nodiscard]] auto read_inputs(const InputPaths& paths, const Options& options, const base::Run& run = {})
-    -> base::Result<ingest::Scene>;
+    -> base::Result<model::Scene>;
 
 }  // namespace mansard::pipeline

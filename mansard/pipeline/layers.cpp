@@ -9,27 +9,27 @@
 namespace mansard::pipeline {
 namespace {
 
-using enum write::FieldType;
-using ingest::Value;
+using enum formats::FieldType;
+using model::Value;
 using Values = std::vector<Value>;
 using Lines = std::vector<std::vector<geometry::Point2>>;
 
-auto as_whole(std::size_t number) -> ingest::Value { return static_cast<std::int64_t>(number); }
+auto as_whole(std::size_t number) -> model::Value { return static_cast<std::int64_t>(number); }
 
 template <class T>
-auto as_whole(const std::optional<T>& number) -> ingest::Value {
-  return number ? as_whole(*number) : ingest::Value();
+auto as_whole(const std::optional<T>& number) -> model::Value {
+  return number ? as_whole(*number) : model::Value();
 }
 
-auto id_of(const ingest::Scene& scene, const std::optional<std::size_t>& feature) -> ingest::Value {
-  return feature ? ingest::Value(scene.footprints[*feature].id) : ingest::Value();
+auto id_of(const model::Scene& scene, const std::optional<std::size_t>& feature) -> model::Value {
+  return feature ? model::Value(scene.footprints[*feature].id) : model::Value();
 }
 
 auto length_of(const geometry::Segment2& s) -> double { return geometry::length(s.end - s.start); }
 
 // ---- the input
 
-auto as_text(const ingest::Value& value) -> ingest::Value {
+auto as_text(const model::Value& value) -> model::Value {
   if (const auto* flag = std::get_if<bool>(&value)) return std::string(*flag ? "true" : "false");
   if (const auto* number = std::get_if<std::int64_t>(&value)) return std::to_string(*number);
   if (const auto* number = std::get_if<double>(&value)) return base::to_text(*number);
@@ -37,56 +37,56 @@ auto as_text(const ingest::Value& value) -> ingest::Value {
 }
 
 /// Sources have one type per attribute, but scenes need not: whole and real numbers make real ones, others text.
-auto type_for(const ingest::Value& value, std::optional<write::FieldType> before) -> write::FieldType {
+auto type_for(const model::Value& value, std::optional<formats::FieldType> before) -> formats::FieldType {
   const auto own = std::holds_alternative<bool>(value)           ? flag
                    : std::holds_alternative<std::int64_t>(value) ? whole
                    : std::holds_alternative<double>(value)       ? real
                                                                  : text;
   if (!before || *before == own) return own;
-  const auto is_number = [](write::FieldType type) { return type == whole || type == real; };
+  const auto is_number = [](formats::FieldType type) { return type == whole || type == real; };
   return is_number(own) && is_number(*before) ? real : text;
 }
 
 /// Every attribute of any feature, in the order of their first appearance.
-auto attribute_fields(const std::vector<ingest::Footprint>& footprints) -> std::vector<write::Field> {
+auto attribute_fields(const std::vector<model::Footprint>& footprints) -> std::vector<formats::Field> {
   std::vector<std::string> names;
-  std::map<std::string, std::optional<write::FieldType>> types;
+  std::map<std::string, std::optional<formats::FieldType>> types;
   for (const auto& footprint : footprints)
     for (const auto& [name, value] : footprint.attributes) {
       const auto [at, is_new] = types.try_emplace(name);
       if (is_new) names.push_back(name);
       if (!std::holds_alternative<std::monostate>(value)) at->second = type_for(value, at->second);
     }
-  std::vector<write::Field> fields;
+  std::vector<formats::Field> fields;
   for (const auto& name : names) fields.push_back({name, types[name].value_or(text)});
   return fields;
 }
 
-auto gis_footprints(const ingest::Scene& scene, const std::vector<SegmentedBlock>& blocks) -> write::Layer {
-  write::Layer layer{"gis_footprints",
+auto gis_footprints(const model::Scene& scene, const std::vector<SegmentedBlock>& blocks) -> formats::Layer {
+  formats::Layer layer{"gis_footprints",
                      "The footprints as they were read, with their own attributes",
-                     write::Shape::polygons,
+                     formats::Shape::polygons,
                      {{"feature"}, {"block"}, {"parts", whole}, {"defect"}},
                      {}};
   const auto attributes = attribute_fields(scene.footprints);
   layer.fields.insert(layer.fields.end(), attributes.begin(), attributes.end());
-  std::vector<ingest::Value> block_of(scene.footprints.size());
+  std::vector<model::Value> block_of(scene.footprints.size());
   for (const auto& block : blocks)
     for (const std::size_t f : block.features) block_of[f] = block.name;
   const auto parts = parts_by_feature(scene, blocks);
   for (std::size_t f = 0; f < scene.footprints.size(); ++f) {
     const auto& footprint = scene.footprints[f];
-    Values values{footprint.id, block_of[f], as_whole(parts[f]), ingest::Value()};
+    Values values{footprint.id, block_of[f], as_whole(parts[f]), model::Value()};
     if (footprint.defect) values.back() = footprint.defect->message;
-    std::map<std::string, ingest::Value> own(footprint.attributes.begin(), footprint.attributes.end());
+    std::map<std::string, model::Value> own(footprint.attributes.begin(), footprint.attributes.end());
     for (const auto& [name, type] : attributes) values.push_back(type == text ? as_text(own[name]) : own[name]);
     layer.features.push_back({{}, footprint.polygons, std::move(values)});
   }
   return layer;
 }
 
-auto made_by_layer(const write::MadeBy& made_by) -> write::Layer {
-  write::Layer layer{"made_by", "How this file was made", write::Shape::none, {{"name"}, {"value"}}, {}};
+auto made_by_layer(const model::MadeBy& made_by) -> formats::Layer {
+  formats::Layer layer{"made_by", "How this file was made", formats::Shape::none, {{"name"}, {"value"}}, {}};
   const auto add = [&](const std::string& name, const std::string& value) {
     layer.features.push_back({{}, {}, {name, value}});
   };
@@ -98,10 +98,10 @@ auto made_by_layer(const write::MadeBy& made_by) -> write::Layer {
 
 // ---- what was found and measured
 
-auto empty_sweep_edges() -> write::Layer {
+auto empty_sweep_edges() -> formats::Layer {
   return {"sweep_edges",
           "Walls and roof steps as the mesh shows them, in plan; outside on the left",
-          write::Shape::line,
+          formats::Shape::line,
           {{"block"},
            {"number", whole},
            {"evidence"},
@@ -113,7 +113,7 @@ auto empty_sweep_edges() -> write::Layer {
           {}};
 }
 
-void add_sweep_edges(const SegmentedBlock& block, double z0, write::Layer& layer) {
+void add_sweep_edges(const SegmentedBlock& block, double z0, formats::Layer& layer) {
   for (std::size_t i = 0; i < block.sweep_edges.size(); ++i) {
     const auto& edge = block.sweep_edges[i];
     layer.features.push_back({{{edge.segment.start, edge.segment.end}},
@@ -123,10 +123,10 @@ void add_sweep_edges(const SegmentedBlock& block, double z0, write::Layer& layer
   }
 }
 
-auto empty_faces() -> write::Layer {
+auto empty_faces() -> formats::Layer {
   return {"faces",
           "The fractured ground",
-          write::Shape::polygon,
+          formats::Shape::polygon,
           {{"block"},
            {"number", whole},
            {"inside", flag},
@@ -139,13 +139,13 @@ auto empty_faces() -> write::Layer {
           {}};
 }
 
-void add_faces(const SegmentedBlock& block, const ingest::Scene& scene, double z0, write::Layer& layer) {
+void add_faces(const SegmentedBlock& block, const model::Scene& scene, double z0, formats::Layer& layer) {
   const auto& faces = block.arrangement.faces;
   for (std::uint32_t f = 0; f < faces.size(); ++f) {
     Values values{block.name, as_whole(f)};
     if (block.segmentation) {
       const auto& evidence = block.segmentation->faces[f];
-      const ingest::Value height = evidence.seen ? ingest::Value(z0 + evidence.height) : ingest::Value();
+      const model::Value height = evidence.seen ? model::Value(z0 + evidence.height) : model::Value();
       values.insert(values.end(), {evidence.inside, height, evidence.seen, evidence.gis_share,
                                    id_of(scene, evidence.feature), as_whole(block.segmentation->part_of_face[f])});
     } else {
@@ -173,11 +173,11 @@ auto variable_name(std::size_t number) -> std::string {
   return "X" + std::string(digits.size() < 7 ? 7 - digits.size() : 0, '0') + digits;
 }
 
-auto empty_edges() -> write::Layer {
+auto empty_edges() -> formats::Layer {
   return {"edges",
           "Edges between inside faces, one variable of the program each, with what they cost and why they were "
           "cut or not",
-          write::Shape::lines,
+          formats::Shape::lines,
           {{"block"},
            {"number", whole},
            {"left", whole},
@@ -203,7 +203,7 @@ auto empty_edges() -> write::Layer {
           {}};
 }
 
-void add_edges(const SegmentedBlock& block, write::Layer& layer) {
+void add_edges(const SegmentedBlock& block, formats::Layer& layer) {
   const auto walls = detail::walls_in_conflict(*block.segmentation);
   for (std::size_t i = 0; i < block.segmentation->candidates.size(); ++i) {
     const auto& c = block.segmentation->candidates[i];
@@ -234,15 +234,15 @@ void add_edges(const SegmentedBlock& block, write::Layer& layer) {
   }
 }
 
-auto empty_conflicts() -> write::Layer {
+auto empty_conflicts() -> formats::Layer {
   return {"conflicts",
           "Bad pairs: two edges, or one and the outline, which make a sliver or a needle if both are cut",
-          write::Shape::lines,
+          formats::Shape::lines,
           {{"block"}, {"number", whole}, {"first", whole}, {"second", whole}, {"phi", real}, {"paid", flag}},
           {}};
 }
 
-void add_conflicts(const SegmentedBlock& block, write::Layer& layer) {
+void add_conflicts(const SegmentedBlock& block, formats::Layer& layer) {
   const auto& [candidates, conflicts, phi] =
       std::tie(block.segmentation->candidates, block.segmentation->conflicts, block.segmentation->phi);
   for (std::size_t i = 0; i < conflicts.size(); ++i) {
@@ -256,15 +256,15 @@ void add_conflicts(const SegmentedBlock& block, write::Layer& layer) {
   }
 }
 
-auto empty_footprints() -> write::Layer {
+auto empty_footprints() -> formats::Layer {
   return {"footprints",
           "The parts: faces that were put together",
-          write::Shape::polygon,
+          formats::Shape::polygon,
           {{"block"}, {"number", whole}, {"feature"}, {"height", real}, {"area", real}, {"faces", whole}},
           {}};
 }
 
-void add_footprints(const SegmentedBlock& block, const ingest::Scene& scene, double z0, write::Layer& layer) {
+void add_footprints(const SegmentedBlock& block, const model::Scene& scene, double z0, formats::Layer& layer) {
   for (std::size_t i = 0; i < block.segmentation->parts.size(); ++i) {
     const auto& part = block.segmentation->parts[i];
     layer.features.push_back({{},
@@ -276,8 +276,8 @@ void add_footprints(const SegmentedBlock& block, const ingest::Scene& scene, dou
 
 }  // namespace
 
-auto segment_layers(const ingest::Scene& scene, const std::vector<SegmentedBlock>& blocks, const write::MadeBy& made_by)
-    -> std::vector<write::Layer> {
+auto segment_layers(const model::Scene& scene, const std::vector<SegmentedBlock>& blocks, const model::MadeBy& made_by)
+    -> std::vector<formats::Layer> {
   const auto z0 = static_cast<double>(scene.frame.origin[2]);
   auto sweep_edges = empty_sweep_edges(), faces = empty_faces(), edges = empty_edges();
   auto conflicts = empty_conflicts(), footprints = empty_footprints();
@@ -293,11 +293,11 @@ auto segment_layers(const ingest::Scene& scene, const std::vector<SegmentedBlock
           std::move(conflicts),          std::move(footprints),  made_by_layer(made_by)};
 }
 
-auto diagnostics_layer(const Reconstruction& reconstruction, const ingest::Scene& scene) -> write::Layer {
-  write::Layer layer{"diagnostics",
+auto diagnostics_layer(const Reconstruction& reconstruction, const model::Scene& scene) -> formats::Layer {
+  formats::Layer layer{"diagnostics",
                      "What went otherwise than it should, and why: a row for each reason of each feature, and for each "
                      "warning of the run, which has no place.",
-                     write::Shape::polygons,
+                     formats::Shape::polygons,
                      {{"feature", text},
                       {"block", text},
                       {"outcome", text},

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "mansard/pipeline/detail/model_attributes.hpp"
+#include "mansard/solid/solid.hpp"
 
 namespace mansard::pipeline {
 namespace {
@@ -19,9 +20,9 @@ constexpr std::array<std::string_view, 5> of_building{"ms_outcome", "ms_h_ground
                                                       "ms_rmse_lod22"};
 
 /// The attributes without those named, and the new ones where the first of them stood.
-auto with(const ingest::Attributes& before, std::span<const std::string_view> names, ingest::Attributes now)
-    -> ingest::Attributes {
-  ingest::Attributes out;
+auto with(const model::Attributes& before, std::span<const std::string_view> names, model::Attributes now)
+    -> model::Attributes {
+  model::Attributes out;
   bool placed = false;
   for (const auto& attribute : before) {
     if (std::ranges::find(names, attribute.first) == names.end()) {
@@ -36,8 +37,8 @@ auto with(const ingest::Attributes& before, std::span<const std::string_view> na
 }
 
 template <class T>
-auto value_of(const ingest::Attributes& attributes, std::string_view name) -> const T* {
-  const auto found = std::ranges::find(attributes, name, &ingest::Attributes::value_type::first);
+auto value_of(const model::Attributes& attributes, std::string_view name) -> const T* {
+  const auto found = std::ranges::find(attributes, name, &model::Attributes::value_type::first);
   return found != attributes.end() ? std::get_if<T>(&found->second) : nullptr;
 }
 
@@ -59,11 +60,11 @@ auto heights_over(const rays::Scene& surface, const geometry::Polygon& polygon, 
   return heights;
 }
 
-auto roof_heights(const label::LabelledSolid& model, const geometry::Plan& plan, double grid) -> std::vector<double> {
+auto roof_heights(const model::LabelledSolid& model, const model::Plan& plan, double grid) -> std::vector<double> {
   std::vector<double> heights;
-  if (const auto triangles = extrude::triangulate(model.solid)) {
+  if (const auto triangles = solid::triangulate(model.solid)) {
     const rays::Scene roof(geometry::Mesh{model.solid.vertices, triangles->triangles});
-    heights = heights_over(roof, geometry::polygon_of(plan), grid);
+    heights = heights_over(roof, model::polygon_of(plan), grid);
   }
   if (!heights.empty()) return heights;
   for (const auto& v : model.solid.vertices)
@@ -72,14 +73,14 @@ auto roof_heights(const label::LabelledSolid& model, const geometry::Plan& plan,
   return heights;
 }
 
-auto roof_type(const label::LabelledSolid& model) -> std::string {
+auto roof_type(const model::LabelledSolid& model) -> std::string {
   constexpr double flat = 0.9962;  // cosine of 5°
   double flat_area = 0, sloped_area = 0;
   std::vector<double> levels;
   for (std::size_t f = 0; f < model.solid.faces.size(); ++f) {
-    if (model.classes[f] != label::Class::roof) continue;
+    if (model.classes[f] != model::FaceClass::roof) continue;
     const auto& face = model.solid.faces[f];
-    const double area = extrude::area(model.solid, face);
+    const double area = solid::area(model.solid, face);
     if (face.normal.z < flat) {
       sloped_area += area;
       continue;
@@ -92,11 +93,11 @@ auto roof_type(const label::LabelledSolid& model) -> std::string {
   return !levels.empty() && levels.back() - levels.front() > 0.5 ? "multiple horizontal" : "horizontal";
 }
 
-auto ridge_height(const label::LabelledSolid& model) -> std::optional<double> {
+auto ridge_height(const model::LabelledSolid& model) -> std::optional<double> {
   std::optional<double> highest;
   for (std::size_t f = 0; f < model.solid.faces.size(); ++f) {
     const auto& face = model.solid.faces[f];
-    if (face.kind != extrude::FaceKind::side || model.classes[f] != label::Class::roof) continue;
+    if (face.kind != model::FaceKind::side || model.classes[f] != model::FaceClass::roof) continue;
     for (const auto v : face.loops.front()) highest = std::max(highest.value_or(-1e9), model.solid.vertices[v].z);
   }
   return highest;
@@ -106,10 +107,10 @@ auto percentile(const std::vector<double>& sorted, double share) -> double {
   return sorted[static_cast<std::size_t>(std::lround(share * static_cast<double>(sorted.size() - 1)))];
 }
 
-auto model_attributes(const label::LabelledSolid& model, const geometry::Plan& plan, const std::vector<double>& roof,
-                      const std::optional<double>& mse, const std::string& fallback, double z0) -> ingest::Attributes {
+auto model_attributes(const model::LabelledSolid& model, const model::Plan& plan, const std::vector<double>& roof,
+                      const std::optional<double>& mse, const std::string& fallback, double z0) -> model::Attributes {
   const auto areas = label::areas(model);
-  ingest::Attributes out;
+  model::Attributes out;
   out.emplace_back("ms_h_ground", z0 + plan.base);
   out.emplace_back("ms_h_roof_min", z0 + roof.front());
   out.emplace_back("ms_h_roof_50p", z0 + percentile(roof, 0.5));
@@ -117,7 +118,7 @@ auto model_attributes(const label::LabelledSolid& model, const geometry::Plan& p
   out.emplace_back("ms_h_roof_max", z0 + roof.back());
   if (const auto ridge = ridge_height(model)) out.emplace_back("ms_h_ridge", z0 + *ridge);
   out.emplace_back("ms_roof_type", roof_type(model));
-  out.emplace_back("ms_volume_lod22", extrude::volume(model.solid));
+  out.emplace_back("ms_volume_lod22", solid::volume(model.solid));
   if (mse) out.emplace_back("ms_rmse_lod22", std::sqrt(*mse));
   out.emplace_back("ms_area_roof_flat", areas.roof_flat);
   out.emplace_back("ms_area_roof_sloped", areas.roof_sloped);
@@ -130,24 +131,24 @@ auto model_attributes(const label::LabelledSolid& model, const geometry::Plan& p
 
 }  // namespace detail
 
-auto part_attributes(const write::Part& part, const std::string& fallback, const rays::Scene* mesh, double z0,
-                     const Options& options) -> ingest::Attributes {
+auto part_attributes(const model::Part& part, const std::string& fallback, const rays::Scene* mesh, double z0,
+                     const Options& options) -> model::Attributes {
   std::optional<double> mse;
   if (mesh != nullptr) {
     const double error =
-        evaluate::error_over(part.model.solid, geometry::polygon_of(part.plan), *mesh, options.evaluate.grid);
+        evaluate::error_over(part.model.solid, model::polygon_of(part.plan), *mesh, options.evaluate.grid);
     if (std::isfinite(error)) mse = error;
   }
   const auto roof = detail::roof_heights(part.model, part.plan, options.roof_grid);
   return with(part.attributes, of_model, detail::model_attributes(part.model, part.plan, roof, mse, fallback, z0));
 }
 
-auto building_attributes(const write::Building& building, double z0) -> ingest::Attributes {
+auto building_attributes(const model::Building& building, double z0) -> model::Attributes {
   double volume = 0, squared = 0, area = 0;
   std::optional<double> highest;
   bool full = true;
   for (const auto& part : building.parts) {
-    volume += extrude::volume(part.model.solid);
+    volume += solid::volume(part.model.solid);
     if (const auto* z = value_of<double>(part.attributes, "ms_h_roof_max"))
       highest = std::max(highest.value_or(*z), *z);
     if (const auto* rmse = value_of<double>(part.attributes, "ms_rmse_lod22")) {
@@ -158,7 +159,7 @@ auto building_attributes(const write::Building& building, double z0) -> ingest::
     full = full && value_of<std::string>(part.attributes, "ms_fallback") == nullptr;
   }
   const auto outcome = building.parts.empty() ? Outcome::covered : full ? Outcome::full : Outcome::fallback;
-  ingest::Attributes now;
+  model::Attributes now;
   now.emplace_back("ms_outcome", std::string(to_string(outcome)));
   if (!building.parts.empty()) {
     now.emplace_back("ms_h_ground", z0 + building.ground);

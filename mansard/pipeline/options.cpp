@@ -1,6 +1,7 @@
 // Every room's options in one place, and the presets.
 #include "mansard/base/files.hpp"
 #include "mansard/pipeline/pipeline.hpp"
+#include "mansard/solid/solid.hpp"
 #include "mansard/solver/solver.hpp"
 
 namespace mansard::pipeline {
@@ -20,7 +21,7 @@ auto option_lists(Options& options) -> std::vector<base::OptionList> {
   lists.push_back(roof::option_list(options.roof));
   lists.push_back(label::option_list(options.label));
   lists.push_back(evaluate::option_list(options.evaluate));
-  lists.push_back(write::option_list(options.write));
+  lists.push_back(formats::option_list(options.write));
   base::OptionList own("pipeline");
   own.integer("seed", options.seed, "", {0, 9e15}, "Seed of all sampling; the same seed gives the same bytes.")
       .alias("seed")
@@ -108,8 +109,9 @@ auto codes() -> std::vector<base::Code> {
   add(fracture::codes());
   add(segment::codes());
   add(extrude::codes());
+  add(solid::codes());
   add(roof::codes());
-  add(write::codes());
+  add(formats::codes());
   add(picture::codes());
   add({
       {"pipeline-nothing", "No footprint of the input could be used.",

@@ -4,6 +4,7 @@
 
 #include "mansard/pipeline/pipeline.hpp"
 #include "mansard/rays/rays.hpp"
+#include "mansard/solid/solid.hpp"
 
 namespace mansard::pipeline {
 namespace {
@@ -12,7 +13,7 @@ using geometry::Point2;
 using geometry::Point3;
 
 /// Where the buildings are, with some street around them: what the pictures show.
-auto frame_of(const ingest::Scene& scene) -> geometry::Box2 {
+auto frame_of(const model::Scene& scene) -> geometry::Box2 {
   constexpr double street = 8;
   geometry::Box2 box;
   for (const auto& footprint : scene.footprints)
@@ -33,7 +34,7 @@ auto part_of(const geometry::Mesh& mesh, const geometry::Box2& frame, Keep keep)
   return out;
 }
 
-auto footprint_lines(const ingest::Scene& scene, const rays::Scene& surface) -> picture::Lines {
+auto footprint_lines(const model::Scene& scene, const rays::Scene& surface) -> picture::Lines {
   picture::Lines lines;
   const auto add = [&](const geometry::Ring& ring) {
     constexpr double piece = 1.0;  // short pieces follow the surface they are drawn on
@@ -59,22 +60,22 @@ auto footprint_lines(const ingest::Scene& scene, const rays::Scene& surface) -> 
   return lines;
 }
 
-auto colour_of(label::Class kind) -> picture::Colour {
+auto colour_of(model::FaceClass kind) -> picture::Colour {
   switch (kind) {
-    case label::Class::wall: return picture::wall_grey;
-    case label::Class::party_wall: return picture::party_grey;
-    case label::Class::roof: return picture::roof_red;
-    case label::Class::ground:
-    case label::Class::soffit: return picture::ground_grey;
+    case model::FaceClass::wall: return picture::wall_grey;
+    case model::FaceClass::party_wall: return picture::party_grey;
+    case model::FaceClass::roof: return picture::roof_red;
+    case model::FaceClass::ground:
+    case model::FaceClass::soffit: return picture::ground_grey;
   }
   return {};
 }
 
-auto models_of(const write::City& city) -> picture::Layer {
+auto models_of(const model::City& city) -> picture::Layer {
   picture::Layer layer;
   for (const auto& building : city.buildings)
     for (const auto& part : building.parts) {
-      const auto triangulated = extrude::triangulate(part.model.solid);
+      const auto triangulated = solid::triangulate(part.model.solid);
       if (!triangulated) continue;
       const auto first = static_cast<std::uint32_t>(layer.mesh.vertices.size());
       layer.mesh.vertices.insert(layer.mesh.vertices.end(), part.model.solid.vertices.begin(),
@@ -90,12 +91,12 @@ auto models_of(const write::City& city) -> picture::Layer {
 
 }  // namespace
 
-auto picture_of(const write::City& city, const picture::View& view, const base::Run& run) -> picture::Image {
+auto picture_of(const model::City& city, const picture::View& view, const base::Run& run) -> picture::Image {
   const std::vector<picture::Layer> layers{models_of(city)};
   return picture::draw(layers, {}, view, run);
 }
 
-auto pictures(const Reconstruction& reconstruction, const ingest::Scene& scene, double limit, const base::Run& run)
+auto pictures(const Reconstruction& reconstruction, const model::Scene& scene, double limit, const base::Run& run)
     -> Pictures {
   const auto frame = frame_of(scene);
   const rays::Scene surface(scene.mesh);

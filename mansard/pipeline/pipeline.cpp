@@ -35,7 +35,7 @@ struct Division {
   StageTime time;
 };
 
-auto divide(const ingest::Scene& scene, const Options& options, const base::Run& run) -> base::Result<Division> {
+auto divide(const model::Scene& scene, const Options& options, const base::Run& run) -> base::Result<Division> {
   const bool usable = std::ranges::any_of(scene.footprints, [](const auto& f) { return !f.defect.has_value(); });
   if (!usable)
     return base::error("pipeline-nothing",
@@ -124,7 +124,7 @@ auto relative_gap(const BlockReport& block) -> double {
   return gap > 0 && block.objective != 0 ? gap / std::abs(block.objective) : 0;
 }
 
-auto reconstruct(const ingest::Scene& scene, const Options& options, const base::Run& run, Keep keep,
+auto reconstruct(const model::Scene& scene, const Options& options, const base::Run& run, Keep keep,
                  std::span<const std::string> only) -> base::Result<Reconstruction> {
   auto division = divide(scene, options, run);
   if (!division) return division.error();
@@ -146,7 +146,7 @@ auto reconstruct(const ingest::Scene& scene, const Options& options, const base:
   return out;
 }
 
-auto segment(const ingest::Scene& scene, const Options& options, const base::Run& run) -> base::Result<Segmented> {
+auto segment(const model::Scene& scene, const Options& options, const base::Run& run) -> base::Result<Segmented> {
   const auto division = divide(scene, options, run);
   if (!division) return division.error();
   struct Result {
@@ -173,7 +173,7 @@ auto segment(const ingest::Scene& scene, const Options& options, const base::Run
   return out;
 }
 
-auto parts_by_feature(const ingest::Scene& scene, const std::vector<SegmentedBlock>& blocks)
+auto parts_by_feature(const model::Scene& scene, const std::vector<SegmentedBlock>& blocks)
     -> std::vector<std::size_t> {
   std::vector<std::size_t> parts(scene.footprints.size(), 0);
   for (const auto& block : blocks) {
@@ -184,7 +184,7 @@ auto parts_by_feature(const ingest::Scene& scene, const std::vector<SegmentedBlo
   return parts;
 }
 
-auto raise_part(const geometry::Plan& plan, const Options& options, const base::Run& run)
+auto raise_part(const model::Plan& plan, const Options& options, const base::Run& run)
     -> base::Result<extrude::Raised> {
   return extrude::raise(plan, detail::with_grid(options.extrude), run);
 }

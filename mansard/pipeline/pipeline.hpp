@@ -16,6 +16,8 @@
 #include "mansard/derive/derive.hpp"
 #include "mansard/evaluate/evaluate.hpp"
 #include "mansard/extrude/extrude.hpp"
+#include "mansard/formats/stream.hpp"
+#include "mansard/formats/write.hpp"
 #include "mansard/fracture/fracture.hpp"
 #include "mansard/ingest/ingest.hpp"
 #include "mansard/label/label.hpp"
@@ -25,9 +27,8 @@
 #include "mansard/roof/roof.hpp"
 #include "mansard/segment/segment.hpp"
 #include "mansard/slice/slice.hpp"
+#include "mansard/solid/solid.hpp"
 #include "mansard/sweep/sweep.hpp"
-#include "mansard/write/stream.hpp"
-#include "mansard/write/write.hpp"
 
 namespace mansard::pipeline {
 
@@ -46,7 +47,7 @@ struct Options {
   roof::Options roof;
   label::Options label;
   evaluate::Options evaluate;
-  write::WriteOptions write;
+  formats::WriteOptions write;
 
   std::int64_t seed = 1;
   double assumed_height = 3.0;  ///< m; of the prism of a footprint over which the mesh shows nothing
@@ -127,7 +128,7 @@ struct BuildingReport {
 };
 
 struct Reconstruction {
-  write::City city;
+  model::City city;
   std::vector<BlockReport> blocks;
   std::vector<BuildingReport> buildings;       ///< every input feature, in the source's order
   std::vector<evaluate::ErrorMap> error_maps;  ///< per block
@@ -138,18 +139,18 @@ struct Reconstruction {
 };
 
 /// Guarantees: 1 every usable footprint ends in a valid solid, its own or (`covered`) a neighbour's · 2 every solid
-/// passed extrude::check · 3 one failing building or block leaves the others as they would be without it · 4 the same
+/// passed solid::check · 3 one failing building or block leaves the others as they would be without it · 4 the same
 /// scene, options and seed give the same city at any thread count.
 /// With `only`, the names of some blocks, nothing else is reconstructed and no other feature is in the city or the
 /// report; these blocks come out as in a run of all. Gives up with "cancelled", "pipeline-nothing" (no usable
 /// footprint), "pipeline-block-unknown".
-[[nodiscard]] auto reconstruct(const ingest::Scene& scene, const Options& options, const base::Run& run = {},
+[[nodiscard]] auto reconstruct(const model::Scene& scene, const Options& options, const base::Run& run = {},
                                Keep keep = Keep::models, std::span<const std::string> only = {})
     -> base::Result<Reconstruction>;
 
 /// Every block up to its segmentation, without models.
 struct Segmented {
-  write::MadeBy made_by;
+  model::MadeBy made_by;
   std::vector<BlockReport> blocks;        ///< without scores
   std::vector<SegmentedBlock> segmented;  ///< per block
   std::vector<StageTime> times;
@@ -159,36 +160,36 @@ struct Segmented {
 /// The first stages of reconstruct, with the same segmentations as there. Guarantees: 1 one failing block leaves the
 /// others as they would be without it · 2 the same scene, options and seed give the same at any thread count.
 /// Gives up with "cancelled", "pipeline-nothing" (no usable footprint).
-[[nodiscard]] auto segment(const ingest::Scene& scene, const Options& options, const base::Run& run = {})
+[[nodiscard]] auto segment(const model::Scene& scene, const Options& options, const base::Run& run = {})
     -> base::Result<Segmented>;
 
 /// How many parts each feature got: by Scene::footprints.
-[[nodiscard]] auto parts_by_feature(const ingest::Scene& scene, const std::vector<SegmentedBlock>& blocks)
+[[nodiscard]] auto parts_by_feature(const model::Scene& scene, const std::vector<SegmentedBlock>& blocks)
     -> std::vector<std::size_t>;
 
-/// Why a wall was drawn or not, as layers for write::geopackage: gis_footprints, sweep_edges, faces, edges, conflicts,
-/// footprints, made_by. Their fields are listed in docs/pipeline.md. Heights are z of the file frame.
-[[nodiscard]] auto segment_layers(const ingest::Scene& scene, const std::vector<SegmentedBlock>& blocks,
-                                  const write::MadeBy& made_by) -> std::vector<write::Layer>;
+/// Why a wall was drawn or not, as layers for formats::geopackage: gis_footprints, sweep_edges, faces, edges,
+/// conflicts, footprints, made_by. Their fields are listed in docs/pipeline.md. Heights are z of the file frame.
+[[nodiscard]] auto segment_layers(const model::Scene& scene, const std::vector<SegmentedBlock>& blocks,
+                                  const model::MadeBy& made_by) -> std::vector<formats::Layer>;
 
 /// What went otherwise than it should, as one more layer: `diagnostics`, a row per reason of a building and per
 /// warning. `reconstruction` must be of the whole scene.
-[[nodiscard]] auto diagnostics_layer(const Reconstruction& reconstruction, const ingest::Scene& scene) -> write::Layer;
+[[nodiscard]] auto diagnostics_layer(const Reconstruction& reconstruction, const model::Scene& scene) -> formats::Layer;
 
 /// Footprints without a mesh: each raised by its attributes, or along options.roof.profile. No blocks, no scores.
 /// Guarantees: 1 to 4 of reconstruct · 5 a building is `full` only with the roof its attributes ask for; values that
 /// could not be used are among its reasons either way.
 /// Gives up with "cancelled", "pipeline-nothing", "roof-profile", "roof-attribute".
-[[nodiscard]] auto raise_footprints(const ingest::Scene& scene, const Options& options, const base::Run& run = {})
+[[nodiscard]] auto raise_footprints(const model::Scene& scene, const Options& options, const base::Run& run = {})
     -> base::Result<Reconstruction>;
 
 /// One plan to one labelled, checked solid: what reconstruct does with each part once its profiles are known.
-[[nodiscard]] auto raise_part(const geometry::Plan& plan, const Options& options, const base::Run& run = {})
+[[nodiscard]] auto raise_part(const model::Plan& plan, const Options& options, const base::Run& run = {})
     -> base::Result<extrude::Raised>;
 
 /// The plans of a city raised and classified all together, by nothing but the plans: `mansard extrude plans.json`.
 struct RaisedPlans {
-  write::City city;  ///< as given, with every model in place; made by this version
+  model::City city;  ///< as given, with every model in place; made by this version
   struct Short {
     std::size_t building = 0, part = 0;  ///< of the city
     extrude::Outcome outcome = extrude::Outcome::full;
@@ -198,33 +199,33 @@ struct RaisedPlans {
 };
 /// The same plans and options give the same models at any thread count. Gives up with "cancelled", and as raise_part
 /// does with the first part that has no solid.
-[[nodiscard]] auto raise_plans(write::City city, const Options& options, const base::Run& run = {})
+[[nodiscard]] auto raise_plans(model::City city, const Options& options, const base::Run& run = {})
     -> base::Result<RaisedPlans>;
 
 /// The attributes of a part that speak of its model (heights, roof type, volume, areas, error, fallback), measured
 /// anew; all others stay as `part` has them. `mesh` may be null: no error then. `fallback`: the code of the reason why
 /// the model is simpler than its plan; empty when it is not. `z0`: z of the frame's origin, metres.
-[[nodiscard]] auto part_attributes(const write::Part& part, const std::string& fallback, const rays::Scene* mesh,
-                                   double z0, const Options& options) -> ingest::Attributes;
+[[nodiscard]] auto part_attributes(const model::Part& part, const std::string& fallback, const rays::Scene* mesh,
+                                   double z0, const Options& options) -> model::Attributes;
 /// The same for a building, of the attributes of its parts.
-[[nodiscard]] auto building_attributes(const write::Building& building, double z0) -> ingest::Attributes;
+[[nodiscard]] auto building_attributes(const model::Building& building, double z0) -> model::Attributes;
 
 /// The report as JSON. Everything but the members called "seconds" is the same in every run. Without a mesh it has no
 /// "mesh", "scores" and "blocks".
-[[nodiscard]] auto report_json(const Reconstruction& reconstruction, const ingest::Scene& scene) -> std::string;
+[[nodiscard]] auto report_json(const Reconstruction& reconstruction, const model::Scene& scene) -> std::string;
 /// The same for blocks without models: no "scores", no "buildings".
-[[nodiscard]] auto report_json(const Segmented& segmented, const ingest::Scene& scene) -> std::string;
+[[nodiscard]] auto report_json(const Segmented& segmented, const model::Scene& scene) -> std::string;
 
 /// Figure 5 of the paper, twice: the scan with the footprints beside the models, from above and at an angle; and the
 /// vertical error on a scale of ±`limit` metres.
 struct Pictures {
   picture::Image above, angle, error;
 };
-[[nodiscard]] auto pictures(const Reconstruction& reconstruction, const ingest::Scene& scene, double limit,
+[[nodiscard]] auto pictures(const Reconstruction& reconstruction, const model::Scene& scene, double limit,
                             const base::Run& run = {}) -> Pictures;
 
 /// The models alone.
-[[nodiscard]] auto picture_of(const write::City& city, const picture::View& view = {}, const base::Run& run = {})
+[[nodiscard]] auto picture_of(const model::City& city, const picture::View& view = {}, const base::Run& run = {})
     -> picture::Image;
 
 /// The codes of every room.

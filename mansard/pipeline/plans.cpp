@@ -5,14 +5,14 @@
 
 namespace mansard::pipeline {
 
-auto raise_plans(write::City city, const Options& options, const base::Run& run) -> base::Result<RaisedPlans> {
+auto raise_plans(model::City city, const Options& options, const base::Run& run) -> base::Result<RaisedPlans> {
   struct Place {
     std::size_t building = 0, part = 0;
   };
   std::vector<Place> places;
   for (std::size_t b = 0; b < city.buildings.size(); ++b)
     for (std::size_t p = 0; p < city.buildings[b].parts.size(); ++p) places.push_back({b, p});
-  const auto part_at = [&](const Place& at) -> write::Part& { return city.buildings[at.building].parts[at.part]; };
+  const auto part_at = [&](const Place& at) -> model::Part& { return city.buildings[at.building].parts[at.part]; };
 
   std::vector<std::optional<base::Result<extrude::Raised>>> raised(places.size());
   base::Run inner = run;
@@ -24,7 +24,7 @@ auto raise_plans(write::City city, const Options& options, const base::Run& run)
   if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
 
   RaisedPlans out;
-  std::vector<extrude::Solid> solids;
+  std::vector<model::Solid> solids;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const auto& id = part_at(places[i]).id;
     auto& result = *raised[i];

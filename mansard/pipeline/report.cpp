@@ -115,7 +115,7 @@ auto count(const Reconstruction& r, Outcome outcome) -> std::size_t {
 }
 
 /// What every report begins with: how it was made, and of what.
-auto head(const write::MadeBy& made_by, const ingest::Scene& scene) -> Json {
+auto head(const model::MadeBy& made_by, const model::Scene& scene) -> Json {
   Json out;
   out["mansard"] = made_by.version;
   Json inputs = Json::array();
@@ -127,7 +127,7 @@ auto head(const write::MadeBy& made_by, const ingest::Scene& scene) -> Json {
   Json options = Json::object();
   for (const auto& [name, value] : made_by.options) options[name] = value;
   out["options"] = options;
-  out["footprints_derived"] = std::ranges::any_of(scene.footprints, &ingest::Footprint::derived);
+  out["footprints_derived"] = std::ranges::any_of(scene.footprints, &model::Footprint::derived);
   const auto& m = scene.mesh_counts;
   if (!scene.mesh.triangles.empty())
     out["mesh"] = {{"vertices", m.vertices},
@@ -143,7 +143,7 @@ auto head(const write::MadeBy& made_by, const ingest::Scene& scene) -> Json {
 }
 
 /// The input's, then the blocks'.
-auto all_warnings(const ingest::Scene& scene, const std::vector<base::Diagnostic>& own) -> Json {
+auto all_warnings(const model::Scene& scene, const std::vector<base::Diagnostic>& own) -> Json {
   std::vector<base::Diagnostic> warnings = scene.warnings;
   warnings.insert(warnings.end(), own.begin(), own.end());
   return json_of(warnings);
@@ -155,7 +155,7 @@ auto text_of(const Json& report) -> std::string {
 
 }  // namespace
 
-auto report_json(const Reconstruction& r, const ingest::Scene& scene) -> std::string {
+auto report_json(const Reconstruction& r, const model::Scene& scene) -> std::string {
   Json out = head(r.city.made_by, scene);
   const bool scanned = !scene.mesh.triangles.empty();
   out["counts"] = {{"footprints", r.buildings.size()},        {"full", count(r, Outcome::full)},
@@ -171,7 +171,7 @@ auto report_json(const Reconstruction& r, const ingest::Scene& scene) -> std::st
   return text_of(out);
 }
 
-auto report_json(const Segmented& s, const ingest::Scene& scene) -> std::string {
+auto report_json(const Segmented& s, const model::Scene& scene) -> std::string {
   Json out = head(s.made_by, scene);
   const auto parts = parts_by_feature(scene, s.segmented);
   const auto refused = std::ranges::count_if(scene.footprints, [](const auto& f) { return f.defect.has_value(); });

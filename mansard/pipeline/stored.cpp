@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "mansard/ingest/input_file.hpp"
+#include "mansard/formats/input_file.hpp"
 
 namespace mansard::pipeline {
 namespace {
@@ -21,25 +21,25 @@ auto raising_options(const Options& options) -> std::vector<std::pair<std::strin
   return out;
 }
 
-auto value_of(const write::MadeBy& made_by, std::string_view name) -> const std::string* {
+auto value_of(const model::MadeBy& made_by, std::string_view name) -> const std::string* {
   for (const auto& [key, value] : made_by.options)
     if (key == name) return &value;
   return nullptr;
 }
 
-auto class_of(label::Class kind) -> ingest::SurfaceClass {
+auto class_of(model::FaceClass kind) -> model::SurfaceClass {
   switch (kind) {
-    case label::Class::wall:
-    case label::Class::party_wall: return ingest::SurfaceClass::wall;
-    case label::Class::roof: return ingest::SurfaceClass::roof;
-    case label::Class::ground: return ingest::SurfaceClass::ground;
-    case label::Class::soffit: break;
+    case model::FaceClass::wall:
+    case model::FaceClass::party_wall: return model::SurfaceClass::wall;
+    case model::FaceClass::roof: return model::SurfaceClass::roof;
+    case model::FaceClass::ground: return model::SurfaceClass::ground;
+    case model::FaceClass::soffit: break;
   }
-  return ingest::SurfaceClass::other;
+  return model::SurfaceClass::other;
 }
 
-auto part_of(const write::Part& part) -> ingest::ModelPart {
-  ingest::ModelPart out{part.id, {}};
+auto part_of(const model::Part& part) -> model::ModelPart {
+  model::ModelPart out{part.id, {}};
   const auto& solid = part.model.solid;
   for (std::size_t f = 0; f < solid.faces.size(); ++f) {
     auto& face = out.faces.emplace_back();
@@ -53,16 +53,16 @@ auto part_of(const write::Part& part) -> ingest::ModelPart {
 }
 
 /// Whether both have the same corners in the same order, face by face.
-auto same_corners(const extrude::Solid& a, const extrude::Solid& b) -> bool {
+auto same_corners(const model::Solid& a, const model::Solid& b) -> bool {
   const auto same = [&](std::uint32_t u, std::uint32_t v) { return a.vertices[u] == b.vertices[v]; };
-  return std::ranges::equal(a.faces, b.faces, [&](const extrude::Face& f, const extrude::Face& g) {
+  return std::ranges::equal(a.faces, b.faces, [&](const model::Face& f, const model::Face& g) {
     return std::ranges::equal(f.loops, g.loops,
                               [&](const auto& x, const auto& y) { return std::ranges::equal(x, y, same); });
   });
 }
 
 /// The file, or every file of a folder of tiles, by name.
-auto inputs_of(const fs::path& path) -> base::Result<std::vector<ingest::InputFile>> {
+auto inputs_of(const fs::path& path) -> base::Result<std::vector<model::InputFile>> {
   std::vector<fs::path> files;
   std::error_code status;
   if (fs::is_directory(path, status)) {
@@ -72,9 +72,9 @@ auto inputs_of(const fs::path& path) -> base::Result<std::vector<ingest::InputFi
   } else {
     files.push_back(path);
   }
-  std::vector<ingest::InputFile> out;
+  std::vector<model::InputFile> out;
   for (const auto& file : files) {
-    auto input = ingest::input_file(file);
+    auto input = formats::input_file(file);
     if (!input) return input.error();
     out.push_back(std::move(*input));
   }
@@ -83,12 +83,13 @@ auto inputs_of(const fs::path& path) -> base::Result<std::vector<ingest::InputFi
 
 /// A plans.json ends like any JSON, CityJSON among it; read_model reads that, of whatever maker.
 auto read_model_knows(const fs::path& path) -> bool {
-  const auto format = write::format_of(path);
-  if (format == write::Format::plans) {
-    const auto opened = write::read_city(path);
+  const auto format = formats::format_of(path);
+  if (format == formats::Format::plans) {
+    const auto opened = formats::read_city(path);
     return opened ? (*opened)->has_models() : is_foreign(opened.error());
   }
-  return format == write::Format::cityjson || format == write::Format::cityjsonseq || format == write::Format::obj;
+  return format == formats::Format::cityjson || format == formats::Format::cityjsonseq ||
+         format == formats::Format::obj;
 }
 
 }  // namespace
@@ -98,7 +99,7 @@ auto is_foreign(const base::Diagnostic& why) -> bool {
   return std::ranges::find(codes, why.code) != codes.end();
 }
 
-auto take_options(const write::MadeBy& made_by, Options& options) -> std::vector<base::Diagnostic> {
+auto take_options(const model::MadeBy& made_by, Options& options) -> std::vector<base::Diagnostic> {
   std::vector<base::Diagnostic> warnings;
   auto lists = option_lists(options);
   for (const auto& [name, value] : made_by.options) {
@@ -111,7 +112,7 @@ auto take_options(const write::MadeBy& made_by, Options& options) -> std::vector
   return warnings;
 }
 
-void note_options(const Options& options, write::MadeBy& made_by) {
+void note_options(const Options& options, model::MadeBy& made_by) {
   const auto defaults = raising_options({});
   const auto used = raising_options(options);
   for (std::size_t i = 0; i < used.size(); ++i) {
@@ -121,7 +122,7 @@ void note_options(const Options& options, write::MadeBy& made_by) {
   }
 }
 
-auto same_options(const write::MadeBy& made_by, const Options& options) -> bool {
+auto same_options(const model::MadeBy& made_by, const Options& options) -> bool {
   const auto defaults = raising_options({});
   const auto used = raising_options(options);
   for (std::size_t i = 0; i < used.size(); ++i) {
@@ -131,8 +132,8 @@ auto same_options(const write::MadeBy& made_by, const Options& options) -> bool 
   return true;
 }
 
-void complete(std::span<write::Building> buildings, const Options& options, const base::Run& run) {
-  std::vector<write::Part*> parts;
+void complete(std::span<model::Building> buildings, const Options& options, const base::Run& run) {
+  std::vector<model::Part*> parts;
   for (auto& building : buildings)
     for (auto& part : building.parts)
       if (!part.model.solid.faces.empty()) parts.push_back(&part);
@@ -146,8 +147,9 @@ void complete(std::span<write::Building> buildings, const Options& options, cons
   });
 }
 
-auto read_raised(write::CityReader& reader, const Options& options, const base::Run& run) -> base::Result<RaisedPlans> {
-  auto city = write::read_whole(reader);
+auto read_raised(formats::CityReader& reader, const Options& options, const base::Run& run)
+    -> base::Result<RaisedPlans> {
+  auto city = formats::read_whole(reader);
   if (!city) return city.error();
   const bool as_made = same_options(city->made_by, options);
   note_options(options, city->made_by);
@@ -155,12 +157,12 @@ auto read_raised(write::CityReader& reader, const Options& options, const base::
   return raise_plans(std::move(*city), options, run);
 }
 
-auto model_of(const write::City& city) -> ingest::Model {
-  ingest::Model model;
+auto model_of(const model::City& city) -> model::Model {
+  model::Model model;
   model.frame = city.frame;
   model.lod = "2.2";
   for (const auto& building : city.buildings) {
-    ingest::ModelBuilding out{building.id, {}};
+    model::ModelBuilding out{building.id, {}};
     for (const auto& part : building.parts)
       if (!part.model.solid.faces.empty()) out.parts.push_back(part_of(part));
     if (!out.parts.empty()) model.buildings.push_back(std::move(out));
@@ -169,9 +171,9 @@ auto model_of(const write::City& city) -> ingest::Model {
 }
 
 auto read_any_model(const fs::path& path, const ingest::ModelOptions& wanted, const base::Run& run)
-    -> base::Result<ingest::Model> {
+    -> base::Result<model::Model> {
   if (read_model_knows(path)) return ingest::read_model(path, wanted);
-  auto reader = write::read_city(path);
+  auto reader = formats::read_city(path);
   if (!reader) return reader.error();
   const std::string subject = path.string();
   if (!wanted.lod.empty() && !std::string("2.2").starts_with(wanted.lod))

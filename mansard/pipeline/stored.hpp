@@ -8,39 +8,39 @@
 
 #include "mansard/ingest/model.hpp"
 #include "mansard/pipeline/pipeline.hpp"
-#include "mansard/write/stream.hpp"
+#include "mansard/formats/stream.hpp"
 
 namespace mansard::pipeline {
 
-/// Whether an error of write::read_city means that the file is none of mansard's, rather than one of them that is
+/// Whether an error of formats::read_city means that the file is none of mansard's, rather than one of them that is
 /// broken: "write-read-format", "write-read-plans", "write-plan-type".
 [[nodiscard]] auto is_foreign(const base::Diagnostic& why) -> bool;
 
 /// Sets the options that plans are raised and classified by (those of the rooms extrude and label) to what a file says
 /// it was made with. Warnings: "option-unknown" and "option-value" of what this version does not take.
-[[nodiscard]] auto take_options(const write::MadeBy& made_by, Options& options) -> std::vector<base::Diagnostic>;
+[[nodiscard]] auto take_options(const model::MadeBy& made_by, Options& options) -> std::vector<base::Diagnostic>;
 /// Writes down these options as what it is made with now; all others stay as they were.
-void note_options(const Options& options, write::MadeBy& made_by);
+void note_options(const Options& options, model::MadeBy& made_by);
 /// Whether they are what the file was made with.
-[[nodiscard]] auto same_options(const write::MadeBy& made_by, const Options& options) -> bool;
+[[nodiscard]] auto same_options(const model::MadeBy& made_by, const Options& options) -> bool;
 
 /// Gives models that were read what CityJSON has no place for: the edge and the part of the profile that each face
 /// comes from, and its normal to the last digit. It raises their plans, by the options that they were made with. Where
 /// that gives other corners than were read, since another program or version had its hand in, a model stays as it is.
-void complete(std::span<write::Building> buildings, const Options& options, const base::Run& run = {});
+void complete(std::span<model::Building> buildings, const Options& options, const base::Run& run = {});
 
 /// All that is left in a file, with models: the file's own, or raised with `options` where there are none or where it
 /// was made with others. Gives up as the reader and raise_plans do.
-[[nodiscard]] auto read_raised(write::CityReader& reader, const Options& options, const base::Run& run = {})
+[[nodiscard]] auto read_raised(formats::CityReader& reader, const Options& options, const base::Run& run = {})
     -> base::Result<RaisedPlans>;
 
 /// The models as ingest::read_model gives those of any maker, without `inputs`.
-[[nodiscard]] auto model_of(const write::City& city) -> ingest::Model;
+[[nodiscard]] auto model_of(const model::City& city) -> model::Model;
 
 /// A model of any maker: as ingest::read_model where that knows the format (CityJSON, CityJSONSeq, OBJ), and whatever
 /// else mansard wrote, raised from its plans. Gives up as these do, and with "ingest-model-lod" for a LoD that is not
 /// in it, "ingest-model-crs" for another CRS than its own.
 [[nodiscard]] auto read_any_model(const std::filesystem::path& path, const ingest::ModelOptions& options = {},
-                                  const base::Run& run = {}) -> base::Result<ingest::Model>;
+                                  const base::Run& run = {}) -> base::Result<model::Model>;
 
 }  // namespace mansard::pipeline

@@ -16,8 +16,8 @@ namespace mansard::profile {
 namespace {
 
 using detail::Run;
-using geometry::Plan;
 using geometry::Polygon;
+using model::Plan;
 
 /// What one run gave.
 struct Fitted {
@@ -73,7 +73,7 @@ auto is_pitched(const std::vector<detail::SliceColumns>& slices, double length) 
 
 /// The roof that the slices agree on, with at most that many pitches; just the wall where they agree on none.
 auto pitched_profile(const std::vector<detail::SliceColumns>& slices, std::size_t pitches, const Options& options)
-    -> std::optional<geometry::Profile> {
+    -> std::optional<model::Profile> {
   // One pitch stands for all that a roof does, so slices may stray from it.
   const detail::SupportOptions support{options.support, pitches == 1 ? 1.0 : 0.3, options.low_height};
   const auto line = detail::supported(detail::fit_line(detail::pool(slices), pitches), slices, support);
@@ -85,7 +85,7 @@ auto pitched_profile(const std::vector<detail::SliceColumns>& slices, std::size_
 
 /// Adds the profiles that the slices suggest, most pitches first; the wall is always the last of them.
 void suggest(std::vector<detail::SliceColumns>& slices, double length, double height, const Options& options,
-             std::vector<geometry::Profile>& profiles) {
+             std::vector<model::Profile>& profiles) {
   const auto wall = detail::vertical_profile(detail::edge_height(slices).value_or(height));
   detail::find_rising(slices);
   if (options.quality != Quality::simple && is_pitched(slices, length)) {
@@ -99,10 +99,10 @@ void suggest(std::vector<detail::SliceColumns>& slices, double length, double he
 }
 
 /// A level lower part before the profile.
-auto set_back(const geometry::Profile& profile, const detail::Setback& setback) -> geometry::Profile {
-  geometry::Profile out{{0, 0}, {0, setback.height}, {setback.depth, setback.height}};
+auto set_back(const model::Profile& profile, const detail::Setback& setback) -> model::Profile {
+  model::Profile out{{0, 0}, {0, setback.height}, {setback.depth, setback.height}};
   for (std::size_t i = 1; i < profile.size(); ++i) {
-    const geometry::ProfilePoint next{profile[i].inward + setback.depth, std::max(profile[i].height, setback.height)};
+    const model::ProfilePoint next{profile[i].inward + setback.depth, std::max(profile[i].height, setback.height)};
     if (!(next == out.back())) out.push_back(next);
   }
   return out;
@@ -120,7 +120,7 @@ auto fit_run(const Polygon& polygon, const Run& run, const detail::SectionIndex&
   // Evidence for a step back comes from the scan as a whole, so only refine() may choose it.
   if (const auto setback = detail::find_setback(slices)) {
     auto upper = detail::behind(slices, *setback);
-    std::vector<geometry::Profile> beyond;
+    std::vector<model::Profile> beyond;
     suggest(upper, length, height, options, beyond);
     for (const auto& profile : beyond) profiles.push_back(set_back(profile, *setback));
   }
@@ -138,7 +138,7 @@ struct Work {
   std::vector<double> caps;
   double base = 0, height = 0;
 
-  [[nodiscard]] auto profile(std::size_t run) const -> const geometry::Profile& {
+  [[nodiscard]] auto profile(std::size_t run) const -> const model::Profile& {
     return choices[run].profiles[chosen[run]];
   }
 };
@@ -214,8 +214,8 @@ auto plan_of(const Polygon& polygon, const Work& work) -> Plan {
   return plan;
 }
 
-auto alternatives_of(const Work& work) -> std::vector<std::vector<geometry::Profile>> {
-  std::vector<std::vector<geometry::Profile>> out(work.runs.size());
+auto alternatives_of(const Work& work) -> std::vector<std::vector<model::Profile>> {
+  std::vector<std::vector<model::Profile>> out(work.runs.size());
   for (std::size_t r = 0; r < work.runs.size(); ++r)
     for (std::size_t c = 0; c < work.choices[r].profiles.size(); ++c)
       if (c != work.chosen[r]) out[r].push_back(work.choices[r].profiles[c]);

@@ -8,7 +8,7 @@
 #include "mansard/base/options.hpp"
 #include "mansard/base/run.hpp"
 #include "mansard/block/block.hpp"
-#include "mansard/geometry/plan.hpp"
+#include "mansard/model/plan.hpp"
 #include "mansard/rays/rays.hpp"
 #include "mansard/segment/segment.hpp"
 
@@ -37,10 +37,10 @@ struct Evidence {
 };
 
 struct ProfiledFootprint {
-  geometry::Plan plan;             ///< base = ground; cap = caps.front()
+  model::Plan plan;                ///< base = ground; cap = caps.front()
   std::vector<Evidence> evidence;  ///< per profile of the plan
   /// Per profile of the plan: the others that its slices suggest, each as a profile is; may be empty.
-  std::vector<std::vector<geometry::Profile>> alternatives;
+  std::vector<std::vector<model::Profile>> alternatives;
   std::vector<double> caps;  ///< candidate heights above base at which to end the roof, m, the likeliest first; all > 0
 };
 
@@ -52,6 +52,6 @@ struct ProfiledFootprint {
                        const Options& options, const base::Run& run = {}) -> std::vector<ProfiledFootprint>;
 
 /// The prior alone: one vertical profile for every edge; for footprints without usable evidence.
-[[nodiscard]] auto vertical_plan(const geometry::Polygon& polygon, double base, double cap) -> geometry::Plan;
+[[nodiscard]] auto vertical_plan(const geometry::Polygon& polygon, double base, double cap) -> model::Plan;
 
 }  // namespace mansard::profile

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "mansard/geometry/mesh.hpp"
-#include "mansard/geometry/plan.hpp"
 #include "mansard/geometry/polygon.hpp"
+#include "mansard/model/plan.hpp"
 #include "mansard/profile/profile.hpp"
 
 namespace mansard::profile {
@@ -18,7 +18,7 @@ struct RawProfile {
   geometry::Point2 foot;  ///< on the edge
   double along = 0;       ///< m from the edge's start
   /// Metres inward of the foot (negative: outside of the edge) and above the base; heights never decrease, inward may.
-  std::vector<geometry::ProfilePoint> points;
+  std::vector<model::ProfilePoint> points;
 };
 
 /// A mesh prepared for slices; it must outlive this. Queries may run on any thread. Cost: O(triangles) to build.

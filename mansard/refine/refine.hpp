@@ -13,7 +13,7 @@
 #include "mansard/base/result.hpp"
 #include "mansard/base/run.hpp"
 #include "mansard/extrude/extrude.hpp"
-#include "mansard/geometry/plan.hpp"
+#include "mansard/model/plan.hpp"
 #include "mansard/rays/rays.hpp"
 
 namespace mansard::refine {
@@ -38,16 +38,16 @@ struct Options {
 /// What is known of a part before the scan is asked as a whole.
 struct Draft {
   std::size_t owner = 0;  ///< only parts of one owner are joined: the feature that they belong to
-  geometry::Plan plan;
+  model::Plan plan;
   std::vector<double> caps;  ///< m above the base, the likeliest first; at least one
   /// Per profile of the plan, others that its edges may carry.
-  std::vector<std::vector<geometry::Profile>> alternatives;
+  std::vector<std::vector<model::Profile>> alternatives;
 };
 
 struct Part {
   std::size_t owner = 0;
   std::size_t draft = 0;  ///< the draft it was made of; of several that were joined, the first
-  geometry::Plan plan;
+  model::Plan plan;
   extrude::Raised raised;
   std::vector<std::string> changes;  ///< what was done to the draft, in words
 };

@@ -25,8 +25,7 @@ auto shown(double metres) -> std::string {
 
 class Reader {
  public:
-  Reader(const ingest::Attributes& attributes, const Options& options)
-      : tags_(attributes, options), options_(options) {}
+  Reader(const model::Attributes& attributes, const Options& options) : tags_(attributes, options), options_(options) {}
 
   auto read() -> Read {
     Form& form = out_.form;
@@ -165,7 +164,7 @@ class Reader {
 
 }  // namespace
 
-auto form_of(const ingest::Attributes& attributes, const Options& options) -> Read {
+auto form_of(const model::Attributes& attributes, const Options& options) -> Read {
   return Reader(attributes, options).read();
 }
 

@@ -68,7 +68,7 @@ auto option_list(Options& o) -> base::OptionList {
   return list;
 }
 
-auto check_attributes(const ingest::Attributes& attributes, const Options& given) -> base::Result<void> {
+auto check_attributes(const model::Attributes& attributes, const Options& given) -> base::Result<void> {
   std::vector<std::string> known;
   for (const auto& [name, value] : attributes) {
     const auto word = detail::plain(name);

@@ -13,7 +13,7 @@ namespace {
 
 using detail::Side;
 using geometry::Point2;
-using geometry::Profile;
+using model::Profile;
 
 constexpr double thin = 0.01;       // m; a roof or a run less than this is none
 constexpr double above_top = 0.01;  // m; the cap stands so much over the ridge, so as not to cut it
@@ -34,22 +34,22 @@ class Draft {
     for (std::size_t k = 0; k < side.count; ++k)
       of.profile_of_edge[(side.first + k) % of.points.size()] = static_cast<std::uint32_t>(at - plan_.profiles.begin());
   }
-  [[nodiscard]] auto plan(double cap) && -> geometry::Plan {
+  [[nodiscard]] auto plan(double cap) && -> model::Plan {
     plan_.cap = cap;
     return std::move(plan_);
   }
 
  private:
-  static auto ring(const geometry::Ring& points) -> geometry::PlanRing {
+  static auto ring(const geometry::Ring& points) -> model::PlanRing {
     return {points, std::vector<std::uint32_t>(points.size(), 0)};
   }
-  geometry::Plan plan_;
+  model::Plan plan_;
 };
 
 auto upright(double height) -> Profile { return {{0, 0}, {0, height}}; }
 
 /// Wall, then what comes above it; without a wall of no height.
-auto on_wall(double wall, std::initializer_list<geometry::ProfilePoint> above) -> Profile {
+auto on_wall(double wall, std::initializer_list<model::ProfilePoint> above) -> Profile {
   Profile profile{{0, 0}};
   if (wall > 0) profile.push_back({0, wall});
   for (const auto& point : above) profile.push_back({point.inward, wall + point.height});
@@ -216,8 +216,8 @@ auto profile_of(std::string_view text) -> base::Result<Profile> {
     const auto height = comma == std::string_view::npos ? std::nullopt : base::to_number(pair.substr(comma + 1));
     if (!inward || !height) return refuse("has '" + std::string(pair) + "', which is no pair inward,height");
     if (std::abs(*inward) > 1e4 || std::abs(*height) > 1e4) return refuse("has a number beyond 10000 m");
-    const geometry::ProfilePoint point{*inward, *height};
-    if (profile.empty() && point != geometry::ProfilePoint{}) profile.push_back({});
+    const model::ProfilePoint point{*inward, *height};
+    if (profile.empty() && point != model::ProfilePoint{}) profile.push_back({});
     if (!profile.empty() && point == profile.back()) return refuse("repeats '" + std::string(pair) + "'");
     if (!profile.empty() && point.inward < profile.back().inward)
       return refuse("goes outward at '" + std::string(pair) + "'");

@@ -12,9 +12,9 @@
 #include "mansard/base/options.hpp"
 #include "mansard/base/result.hpp"
 #include "mansard/base/run.hpp"
-#include "mansard/geometry/plan.hpp"
 #include "mansard/geometry/polygon.hpp"
-#include "mansard/ingest/ingest.hpp"
+#include "mansard/model/attributes.hpp"
+#include "mansard/model/plan.hpp"
 
 namespace mansard::roof {
 
@@ -71,11 +71,11 @@ struct Read {
 /// From a feature's attributes: OpenStreetMap's tags under their own names ("building:levels"), as OGR's drivers write
 /// them ("building_levels", "building:l"), or inside hstore text ("other_tags"); or the attributes that options name.
 /// Never fails: what cannot be used is left out with "roof-value", "roof-shape-unknown", "roof-conflict".
-[[nodiscard]] auto form_of(const ingest::Attributes& attributes, const Options& options) -> Read;
+[[nodiscard]] auto form_of(const model::Attributes& attributes, const Options& options) -> Read;
 
 /// A plan whose extrusion has the form's roof.
 struct Planned {
-  geometry::Plan plan;
+  model::Plan plan;
   double top = 0;             ///< m above plan.base: where the highest ridge will be
   double flat_top = 0;        ///< m above plan.base: of the prism, where nothing else can be raised
   bool as_asked = true;       ///< false where the outline or the height does not take the form; a warning says why
@@ -93,15 +93,15 @@ struct Planned {
                            const base::Run& run = {}) -> base::Result<Planned>;
 
 /// "0,0 0,6 4,9" as a profile. Gives up with "roof-profile".
-[[nodiscard]] auto profile_of(std::string_view text) -> base::Result<geometry::Profile>;
+[[nodiscard]] auto profile_of(std::string_view text) -> base::Result<model::Profile>;
 
 /// The same profile for every edge, until the roofs meet, or up to `cap` metres above the base. A last part that is
 /// upright or level ends where it ends.
-[[nodiscard]] auto plan_along(const geometry::Polygon& polygon, const geometry::Profile& profile, const Form& form,
+[[nodiscard]] auto plan_along(const geometry::Polygon& polygon, const model::Profile& profile, const Form& form,
                               std::optional<double> cap) -> Planned;
 
 /// Whether a layer with these attributes has all that options name. Gives up with "roof-attribute".
-[[nodiscard]] auto check_attributes(const ingest::Attributes& attributes, const Options& options) -> base::Result<void>;
+[[nodiscard]] auto check_attributes(const model::Attributes& attributes, const Options& options) -> base::Result<void>;
 
 [[nodiscard]] auto codes() -> std::vector<base::Code>;
 

@@ -1,4 +1,5 @@
 #include "mansard/block/block.hpp"
+#include "mansard/ingest/ingest.hpp"
 
 #include <gmock/gmock.h>
 #include <cmath>
@@ -39,8 +40,8 @@ auto field(double x0, double y0, double x1, double y1, double size, Height heigh
   return mesh;
 }
 
-auto scene_of(Mesh mesh, const std::vector<std::vector<Polygon>>& footprints) -> ingest::Scene {
-  ingest::Scene scene;
+auto scene_of(Mesh mesh, const std::vector<std::vector<Polygon>>& footprints) -> model::Scene {
+  model::Scene scene;
   scene.mesh = std::move(mesh);
   for (std::size_t i = 0; i < footprints.size(); ++i)
     scene.footprints.push_back({std::to_string(i), footprints[i], {}, {}});
@@ -292,7 +293,7 @@ TEST(Ground, is_the_terrain_where_that_is_known_along_the_outline) {
   for (const double x : {10.0, 40.0, 65.0}) shapes.push_back({box(x, 10, x + 10, 20)});
   shapes.push_back({{box(10, 40, 50, 80).outer, {{{12, 42}, {12, 78}, {48, 78}, {48, 42}}}}});
   auto scene = scene_of(field(0, 0, 100, 100, 1, level(3)), shapes);
-  ingest::HeightGrid grid{{0, 0}, 0.5, 141, 201, {}};
+  model::HeightGrid grid{{0, 0}, 0.5, 141, 201, {}};
   for (std::size_t r = 0; r < grid.rows; ++r)
     for (std::size_t c = 0; c < grid.columns; ++c) grid.values.push_back(0.05F * static_cast<float>(c));
   // A mistake of the terrain beside the first house that its outline only touches.

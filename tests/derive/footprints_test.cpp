@@ -1,4 +1,5 @@
 #include "mansard/derive/derive.hpp"
+#include "mansard/ingest/ingest.hpp"
 
 #include <gmock/gmock.h>
 #include <cmath>
@@ -23,10 +24,10 @@ struct Thing {
 using Terrain = std::function<double(Point2)>;
 
 /// A scan from above: a height field with cells of 0.25 m, whose walls therefore lean by so much.
-auto scan(double size, const Terrain& terrain, const std::vector<Thing>& things) -> ingest::Scene {
+auto scan(double size, const Terrain& terrain, const std::vector<Thing>& things) -> model::Scene {
   constexpr double cell = 0.25;
   const auto count = static_cast<std::uint32_t>(std::lround(size / cell));
-  ingest::Scene scene;
+  model::Scene scene;
   for (std::uint32_t r = 0; r <= count; ++r)
     for (std::uint32_t c = 0; c <= count; ++c) {
       const Point2 p{c * cell, r * cell};
@@ -87,13 +88,13 @@ auto overlap(const Polygon& a, const Polygon& b) -> double {
   return both / (geometry::area(a) + geometry::area(b) - both);
 }
 
-auto drawn(const ingest::Scene& scene, const Options& options = {}) -> std::vector<ingest::Footprint> {
+auto drawn(const model::Scene& scene, const Options& options = {}) -> std::vector<model::Footprint> {
   auto result = footprints(scene, options);
   EXPECT_TRUE(result) << result.error().message;
-  return result ? *result : std::vector<ingest::Footprint>{};
+  return result ? *result : std::vector<model::Footprint>{};
 }
 
-auto number(const ingest::Footprint& footprint, const std::string& name) -> double {
+auto number(const model::Footprint& footprint, const std::string& name) -> double {
   for (const auto& [key, value] : footprint.attributes)
     if (key == name) return std::get<double>(value);
   return NAN;
@@ -116,7 +117,7 @@ TEST(Footprints, of_a_box_on_level_ground_are_its_four_walls) {
   }
   EXPECT_NEAR(number(footprint, "ms_derived_height"), 7, 0.1);
   EXPECT_GT(number(footprint, "ms_derived_planes"), 0.8);
-  EXPECT_EQ(footprint.attributes.front(), (std::pair<std::string, ingest::Value>{"ms_derived", true}));
+  EXPECT_EQ(footprint.attributes.front(), (std::pair<std::string, model::Value>{"ms_derived", true}));
 }
 
 TEST(Footprints, of_houses_on_a_slope_leave_the_slope_and_the_trees_out) {
@@ -195,7 +196,7 @@ TEST(Footprints, stand_on_the_terrain_that_is_given) {
   // A plateau that fills the scan: no ground is to be seen anywhere.
   auto scene = scan(40, flat, {{box(-1, -1, 41, 41), level(6)}});
   EXPECT_EQ(footprints(scene, {}).error().code, "derive-nothing");
-  ingest::HeightGrid ground;
+  model::HeightGrid ground;
   ground.centre = {0, 0};
   ground.cell = 40;
   ground.columns = ground.rows = 2;
@@ -224,7 +225,7 @@ TEST(Footprints, are_the_same_at_any_number_of_threads) {
 TEST(Footprints, give_up_with_a_reason) {
   EXPECT_EQ(footprints(scan(30, slope, {}), {}).error().code, "derive-nothing");
   EXPECT_EQ(footprints({}, {}).error().code, "derive-nothing");
-  ingest::Scene wide;
+  model::Scene wide;
   wide.mesh.vertices = {{0, 0, 0}, {1e6, 0, 0}, {0, 1e6, 0}};
   wide.mesh.triangles = {{0, 1, 2}};
   EXPECT_EQ(footprints(wide, {}).error().code, "derive-size");
@@ -236,7 +237,7 @@ TEST(Footprints, give_up_with_a_reason) {
 }
 
 /// m² of what both cover, over what one of them does, of the drawn footprint that suits it best.
-auto best_overlap(const ingest::Footprint& known, const std::vector<ingest::Footprint>& found) -> double {
+auto best_overlap(const model::Footprint& known, const std::vector<model::Footprint>& found) -> double {
   double best = 0;
   for (const auto& one : found) best = std::max(best, overlap(known.polygons[0], one.polygons[0]));
   return best;

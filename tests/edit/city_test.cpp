@@ -12,22 +12,22 @@ namespace mansard::edit {
 namespace {
 
 /// Everything that is exported, by name.
-auto files_of(const write::City& city) -> std::map<std::string, std::string> {
-  auto obj = write::obj(city, "model.mtl");
-  return {{"model.city.json", *write::cityjson(city)},
+auto files_of(const model::City& city) -> std::map<std::string, std::string> {
+  auto obj = formats::obj(city, "model.mtl");
+  return {{"model.city.json", *formats::cityjson(city)},
           {"model.obj", obj->obj},
           {"model.mtl", obj->mtl},
-          {"model.glb", *write::glb(city)},
-          {"plans.json", write::plans(city)}};
+          {"model.glb", *formats::glb(city)},
+          {"plans.json", formats::plans(city)}};
 }
 
-void expect_same_bytes(const write::City& a, const write::City& b) {
+void expect_same_bytes(const model::City& a, const model::City& b) {
   const auto x = files_of(a), y = files_of(b);
   for (const auto& [name, bytes] : x) EXPECT_TRUE(bytes == y.at(name)) << name;
 }
 
 template <class T>
-auto value(const ingest::Attributes& attributes, std::string_view name) -> std::optional<T> {
+auto value(const model::Attributes& attributes, std::string_view name) -> std::optional<T> {
   for (const auto& [key, v] : attributes)
     if (key == name)
       if (const auto* found = std::get_if<T>(&v)) return *found;
@@ -35,13 +35,13 @@ auto value(const ingest::Attributes& attributes, std::string_view name) -> std::
 }
 
 struct Town {
-  ingest::Scene scene = mansard::test::terrace();
+  model::Scene scene = mansard::test::terrace();
   pipeline::Options options;
   pipeline::Reconstruction run = *pipeline::reconstruct(scene, options);
   rays::Scene mesh{scene.mesh};
   History history{run.city};
 
-  [[nodiscard]] auto exported() const -> write::City {
+  [[nodiscard]] auto exported() const -> model::City {
     auto city = edited_city(
         run.city, history, [&](auto) { return &mesh; }, options);
     EXPECT_TRUE(city) << base::to_string(city.error());
@@ -65,7 +65,7 @@ TEST(EditedCity, has_attributes_that_are_true_of_the_new_model) {
   Town town;
   auto parts = *town.history.parts("low");
   const double cap = 4.0;
-  parts[0].plan = profile::vertical_plan(geometry::polygon_of(parts[0].plan), parts[0].plan.base, cap);
+  parts[0].plan = profile::vertical_plan(model::polygon_of(parts[0].plan), parts[0].plan.base, cap);
   town.change("low", parts);
   const auto city = town.exported();
   const auto& low = city.buildings[0];
@@ -104,8 +104,8 @@ TEST(EditedCity, comes_back_from_its_plans_to_the_byte) {
 
   const mansard::test::Scratch folder;
   const auto path = folder / "plans.json";
-  ASSERT_TRUE(base::write_file(path, write::plans(city)));
-  auto read = write::read_plans(path);
+  ASSERT_TRUE(base::write_file(path, formats::plans(city)));
+  auto read = formats::read_plans(path);
   ASSERT_TRUE(read) << base::to_string(read.error());
   const auto again = pipeline::raise_plans(std::move(*read), town.options);
   ASSERT_TRUE(again);

@@ -7,7 +7,7 @@ namespace {
 
 using testing::HasSubstr;
 
-auto city() -> write::City { return test::city_of({test::house(0), test::house(10), test::house(20)}); }
+auto city() -> model::City { return test::city_of({test::house(0), test::house(10), test::house(20)}); }
 
 /// A change to one or two buildings, with numbers that no decimal has, or an undo, or a redo; its line.
 auto something(base::Random& random, History& history) -> std::string {

@@ -5,7 +5,7 @@
 namespace mansard::edit {
 namespace {
 
-using geometry::Plan;
+using model::Plan;
 using testing::HasSubstr;
 
 auto one_of(const Plan& a, const Plan& b) -> Plan {
@@ -45,8 +45,8 @@ TEST(Merge, lifts_the_profiles_of_the_higher_base_and_keeps_the_higher_cap) {
   EXPECT_EQ(one.base, 0.5);
   EXPECT_EQ(one.cap, 10.5);
   EXPECT_EQ(*test::profile_at(one, {5, 0}), test::wall);
-  EXPECT_EQ(*test::profile_at(one, {15, 0}), (geometry::Profile{{0, 0}, {0, 6.5}, {3, 9.5}}));
-  EXPECT_EQ(*test::profile_at(one, {20, 4}), (geometry::Profile{{0, 0}, {0, 1.5}, {2, 4.5}}));
+  EXPECT_EQ(*test::profile_at(one, {15, 0}), (model::Profile{{0, 0}, {0, 6.5}, {3, 9.5}}));
+  EXPECT_EQ(*test::profile_at(one, {20, 4}), (model::Profile{{0, 0}, {0, 1.5}, {2, 4.5}}));
 }
 
 TEST(Merge, takes_corners_within_a_centimetre_of_the_other_outline_to_be_on_it) {

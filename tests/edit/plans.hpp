@@ -12,11 +12,11 @@
 
 namespace mansard::edit::test {
 
-using geometry::Plan;
 using geometry::Point2;
 using geometry::Polygon;
-using geometry::Profile;
 using geometry::Ring;
+using model::Plan;
+using model::Profile;
 
 /// A wall of 5 m with a pitch of 45° above it.
 inline const Profile pitch{{0, 0}, {0, 5}, {3, 8}};
@@ -30,7 +30,7 @@ inline auto plan_of(const Polygon& polygon, const std::vector<Profile>& profiles
   plan.base = base;
   plan.cap = cap;
   const auto ring_of = [&](const Ring& ring) {
-    geometry::PlanRing out{ring, {}};
+    model::PlanRing out{ring, {}};
     for (std::size_t i = 0; i < ring.size(); ++i) {
       out.profile_of_edge.push_back(static_cast<std::uint32_t>(plan.profiles.size()));
       plan.profiles.push_back(profiles[i % profiles.size()]);
@@ -60,7 +60,7 @@ inline auto star(base::Random& random, std::size_t corners) -> Polygon {
   return polygon;
 }
 
-inline auto area_of(const Plan& plan) -> double { return geometry::area(geometry::polygon_of(plan)); }
+inline auto area_of(const Plan& plan) -> double { return geometry::area(model::polygon_of(plan)); }
 
 /// m²; of what is in one but not in both.
 inline auto difference(const Polygon& a, const Polygon& b) -> double {
@@ -75,7 +75,7 @@ inline auto difference(const Polygon& a, const Polygon& b) -> double {
 
 /// The profile of the plan's edge that the point lies on; null where it lies on none.
 inline auto profile_at(const Plan& plan, Point2 at) -> const Profile* {
-  std::vector<const geometry::PlanRing*> rings{&plan.outer};
+  std::vector<const model::PlanRing*> rings{&plan.outer};
   for (const auto& hole : plan.holes) rings.push_back(&hole);
   for (const auto* ring : rings)
     for (std::size_t i = 0; i < ring->points.size(); ++i)
@@ -85,12 +85,12 @@ inline auto profile_at(const Plan& plan, Point2 at) -> const Profile* {
 }
 
 /// Buildings "a", "b", … with these plans as their only parts "a-1", "b-1", ….
-inline auto city_of(const std::vector<Plan>& plans) -> write::City {
-  write::City city;
+inline auto city_of(const std::vector<Plan>& plans) -> model::City {
+  model::City city;
   for (const auto& plan : plans) {
-    write::Building building;
+    model::Building building;
     building.id = std::string(1, static_cast<char>('a' + city.buildings.size()));
-    building.footprint = {geometry::polygon_of(plan)};
+    building.footprint = {model::polygon_of(plan)};
     building.ground = plan.base;
     building.parts.push_back({building.id + "-1", plan, {}, {}});
     city.buildings.push_back(std::move(building));

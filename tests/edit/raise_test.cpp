@@ -5,13 +5,13 @@
 namespace mansard::edit {
 namespace {
 
-using geometry::Plan;
 using geometry::Point2;
+using model::Plan;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-auto mesh_of(const extrude::Solid& solid) -> geometry::Mesh {
-  return {solid.vertices, extrude::triangulate(solid)->triangles};
+auto mesh_of(const model::Solid& solid) -> geometry::Mesh {
+  return {solid.vertices, solid::triangulate(solid)->triangles};
 }
 
 auto party_walls(const RaisedPart& part) -> double { return label::areas(*part.model).party_wall; }
@@ -63,7 +63,7 @@ TEST(Raise, raises_the_pieces_of_a_split_with_a_party_wall_between_them) {
     EXPECT_THAT(raised.diagnostics, IsEmpty());
     ASSERT_TRUE(raised.valid());
     for (const auto& part : raised.parts) {
-      EXPECT_THAT(extrude::check(part.model->solid), IsEmpty());
+      EXPECT_THAT(solid::check(part.model->solid), IsEmpty());
       EXPECT_GT(party_walls(part), 0) << part.id;
     }
   }

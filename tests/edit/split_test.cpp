@@ -5,9 +5,9 @@
 namespace mansard::edit {
 namespace {
 
-using geometry::Plan;
 using geometry::Point2;
 using geometry::Polygon;
+using model::Plan;
 using testing::HasSubstr;
 
 auto split_at(const Plan& plan, const std::vector<Point2>& line) -> std::vector<Plan> {
@@ -178,7 +178,7 @@ TEST(Split, is_undone_by_merge_over_random_outlines_and_lines) {
     double sum = 0;
     for (const auto& piece : *pieces) {
       sum += test::area_of(piece);
-      ASSERT_TRUE(geometry::is_simple(geometry::polygon_of(piece)));
+      ASSERT_TRUE(geometry::is_simple(model::polygon_of(piece)));
       for (std::size_t i = 0; i < polygon.outer.size(); ++i) {
         const Point2 middle = 0.5 * (polygon.outer[i] + polygon.outer[(i + 1) % polygon.outer.size()]);
         if (const auto* profile = test::profile_at(piece, middle)) {
@@ -189,7 +189,7 @@ TEST(Split, is_undone_by_merge_over_random_outlines_and_lines) {
     ASSERT_NEAR(sum, geometry::area(polygon), 1e-9);
     const auto again = merged(*pieces);
     ASSERT_TRUE(again);
-    ASSERT_LT(test::difference(geometry::polygon_of(*again), polygon), 1e-9);
+    ASSERT_LT(test::difference(model::polygon_of(*again), polygon), 1e-9);
     ASSERT_EQ(again->outer.points.size(), whole.outer.points.size());
     for (std::size_t i = 0; i < polygon.outer.size(); ++i) {
       const Point2 middle = 0.5 * (polygon.outer[i] + polygon.outer[(i + 1) % polygon.outer.size()]);

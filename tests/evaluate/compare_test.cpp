@@ -6,6 +6,7 @@
 #include "mansard/base/run.hpp"
 #include "mansard/evaluate/evaluate.hpp"
 #include "mansard/label/label.hpp"
+#include "mansard/solid/solid.hpp"
 
 namespace {
 
@@ -15,7 +16,7 @@ using mansard::evaluate::Options;
 using mansard::geometry::Mesh;
 using mansard::geometry::Point2;
 using mansard::geometry::Polygon;
-using mansard::label::LabelledSolid;
+using mansard::model::LabelledSolid;
 using mansard::rays::Scene;
 using solids::box;
 using solids::gable;
@@ -28,7 +29,7 @@ auto rectangle(Point2 least, Point2 most) -> Polygon {
 auto mesh_of(const std::vector<Solid>& parts) -> Mesh {
   Mesh mesh;
   for (const auto& solid : parts) {
-    const auto pieces = mansard::extrude::triangulate(solid);
+    const auto pieces = mansard::solid::triangulate(solid);
     EXPECT_TRUE(pieces.has_value());
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     mesh.vertices.insert(mesh.vertices.end(), solid.vertices.begin(), solid.vertices.end());

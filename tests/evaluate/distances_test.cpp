@@ -54,8 +54,8 @@ TEST(Spread, is_what_a_hand_computes) {
 
 TEST(From_model, is_one_metre_for_the_roof_of_a_box_a_metre_too_high) {
   // Only the roof is a metre off: the walls lie on the scan's walls but for their topmost metre.
-  const auto model = mansard::ingest::surface_of(model_of({{box({0, 0}, {10, 8}, 0, 7)}}));
-  const auto scan = mansard::ingest::surface_of(model_of({{box({0, 0}, {10, 8}, 0, 6)}}));
+  const auto model = mansard::model::surface_of(model_of({{box({0, 0}, {10, 8}, 0, 7)}}));
+  const auto scan = mansard::model::surface_of(model_of({{box({0, 0}, {10, 8}, 0, 6)}}));
   const auto distances = from_model(model, Scene(scan.mesh), {100, 1'000'000}, 1);
   const auto spread = spread_of(distances);
   const double walls = 36 * 7, roof = 80;
@@ -67,20 +67,20 @@ TEST(From_model, is_one_metre_for_the_roof_of_a_box_a_metre_too_high) {
 TEST(From_model, leaves_out_walls_that_another_part_stands_against) {
   // Two boxes wall to wall, 8 × 6 m² from either side; the scan is their hull.
   const auto together =
-      mansard::ingest::surface_of(model_of({{box({0, 0}, {10, 8}, 0, 6)}, {box({10, 0}, {20, 8}, 0, 9)}}));
-  const auto hull = mansard::ingest::surface_of(model_of({{box({0, 0}, {20, 8}, 0, 6)}}));
+      mansard::model::surface_of(model_of({{box({0, 0}, {10, 8}, 0, 6)}, {box({10, 0}, {20, 8}, 0, 9)}}));
+  const auto hull = mansard::model::surface_of(model_of({{box({0, 0}, {20, 8}, 0, 6)}}));
   const auto counted = from_model(together, Scene(hull.mesh), {25, 1'000'000}, 1).size();
   const double open = 80 + (10 + 8 + 10) * 6 + 80 + (10 + 8 + 10) * 9 + 8 * 3;
   EXPECT_NEAR(static_cast<double>(counted), 25 * open, 60);
 }
 
 TEST(From_scan, sees_a_missing_building_by_its_distance_and_leaves_the_street_out) {
-  auto scan = mansard::ingest::surface_of(model_of({{box({0, 0}, {10, 8}, 0, 6)}, {box({30, 0}, {40, 8}, 0, 6)}})).mesh;
+  auto scan = mansard::model::surface_of(model_of({{box({0, 0}, {10, 8}, 0, 6)}, {box({30, 0}, {40, 8}, 0, 6)}})).mesh;
   const auto street = square(0, 60);
   const auto first = static_cast<std::uint32_t>(scan.vertices.size());
   scan.vertices.insert(scan.vertices.end(), street.vertices.begin(), street.vertices.end());
   for (const auto& t : street.triangles) scan.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-  const auto model = mansard::ingest::surface_of(model_of({{box({0, 0}, {10, 8}, 0, 6)}}));
+  const auto model = mansard::model::surface_of(model_of({{box({0, 0}, {10, 8}, 0, 6)}}));
   const auto rectangle = [](double x0, double x1) {
     return mansard::geometry::Polygon{{{x0, 0}, {x1, 0}, {x1, 8}, {x0, 8}}, {}};
   };
@@ -93,7 +93,7 @@ TEST(From_scan, sees_a_missing_building_by_its_distance_and_leaves_the_street_ou
 
 TEST(From_scan, does_not_take_the_ground_face_for_a_surface) {
   // A level piece of scan half-way up a box lies 3 m from its walls' tops and bottoms, and 1 m above the ground face.
-  const auto model = mansard::ingest::surface_of(model_of({{box({0, 0}, {40, 40}, 0, 10)}}));
+  const auto model = mansard::model::surface_of(model_of({{box({0, 0}, {40, 40}, 0, 10)}}));
   const Mesh scan{{{19, 19, 1.5}, {21, 19, 1.5}, {20, 21, 1.5}}, {{0, 1, 2}}};
   const std::vector<Site> sites{{{{{{0, 0}, {40, 0}, {40, 40}, {0, 40}}, {}}}, 0}};
   EXPECT_NEAR(spread_of(from_scan(scan, sites, model, {50, 1000}, 1)).mean, 8.5, 1e-3);  // the roof

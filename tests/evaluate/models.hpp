@@ -5,17 +5,17 @@
 #include <vector>
 
 #include "label/solids.hpp"
-#include "mansard/ingest/model.hpp"
+#include "mansard/model/surfaces.hpp"
 
 namespace models {
 
 using mansard::geometry::Point2;
 using mansard::geometry::Point3;
-using mansard::ingest::Model;
-using mansard::ingest::ModelBuilding;
-using mansard::ingest::ModelFace;
-using mansard::ingest::ModelPart;
-using mansard::ingest::SurfaceClass;
+using mansard::model::Model;
+using mansard::model::ModelBuilding;
+using mansard::model::ModelFace;
+using mansard::model::ModelPart;
+using mansard::model::SurfaceClass;
 
 /// A solid's faces with their classes by their normals: upright wall, down ground, else roof.
 inline auto part_of(const solids::Solid& solid, const std::string& id) -> ModelPart {
@@ -48,7 +48,7 @@ inline auto model_of(const std::vector<std::vector<solids::Solid>>& buildings) -
 
 /// The surface of such a model.
 inline auto mesh_of(const std::vector<std::vector<solids::Solid>>& buildings) -> mansard::geometry::Mesh {
-  return mansard::ingest::surface_of(model_of(buildings)).mesh;
+  return mansard::model::surface_of(model_of(buildings)).mesh;
 }
 
 /// From y = 0 to 8 m.

@@ -15,7 +15,7 @@ using solids::gable;
 /// The same model with every face cut into triangles.
 auto in_triangles(const models::Model& model) -> models::Model {
   models::Model out;
-  const auto surface = mansard::ingest::surface_of(model);
+  const auto surface = mansard::model::surface_of(model);
   for (const auto& building : model.buildings) out.buildings.push_back({building.id, {{building.id, {}}}});
   for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
     models::ModelFace face;

@@ -9,7 +9,7 @@
 namespace {
 
 using namespace mansard::evaluate;
-using mansard::ingest::surface_of;
+using mansard::model::surface_of;
 using models::model_of;
 using models::Point3;
 using models::SurfaceClass;

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "mansard/explore/explore.hpp"
+#include "lab/explore/explore.hpp"
 
 namespace mansard::explore {
 namespace {

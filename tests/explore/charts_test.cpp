@@ -1,4 +1,4 @@
-#include "mansard/explore/detail/charts.hpp"
+#include "lab/explore/detail/charts.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <set>
 
 #include "explore/helpers.hpp"
-#include "mansard/explore/detail/drawings.hpp"
-#include "mansard/explore/detail/svg.hpp"
+#include "lab/explore/detail/drawings.hpp"
+#include "lab/explore/detail/svg.hpp"
 
 namespace mansard::explore::detail {
 namespace {

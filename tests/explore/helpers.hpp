@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/scratch.hpp"
-#include "mansard/explore/explore.hpp"
+#include "lab/explore/explore.hpp"
 
 namespace mansard::test {
 

@@ -6,8 +6,8 @@
 #include <regex>
 
 #include "explore/helpers.hpp"
-#include "mansard/explore/detail/measure.hpp"
-#include "mansard/explore/explore.hpp"
+#include "lab/explore/detail/measure.hpp"
+#include "lab/explore/explore.hpp"
 
 namespace mansard::explore {
 namespace {

@@ -10,6 +10,11 @@
 
 namespace {
 
+namespace geometry = mansard::geometry;
+namespace extrude = mansard::extrude;
+
+namespace model = mansard::model;
+
 using namespace plans;
 
 /// m; lines of neighbours are that far apart at most: a quantum of 2^-16 m, and its rounding on either side.
@@ -30,7 +35,7 @@ auto ground(const Plan& p) -> geometry::Polygon {
   if (!raised) return {};
   EXPECT_EQ(faults(raised->solid), "") << text(p);
   for (const auto& face : raised->solid.faces) {
-    if (face.kind != extrude::FaceKind::base) continue;
+    if (face.kind != model::FaceKind::base) continue;
     geometry::Polygon out;
     for (const auto v : face.loops.front()) out.outer.push_back(xy(raised->solid.vertices[v]));
     return geometry::oriented(out);
@@ -159,7 +164,7 @@ TEST(Align, gives_outlines_that_are_raised_as_they_are_and_near_those_given) {
       ASSERT_TRUE(was && is);
       EXPECT_LT(is->moved, 5e-5);
       for (const Point2 p : after[i].outer.points)
-        EXPECT_LE(geometry::boundary_distance(geometry::polygon_of(was->plan), p), options.tolerance / 2 + 1e-9);
+        EXPECT_LE(geometry::boundary_distance(model::polygon_of(was->plan), p), options.tolerance / 2 + 1e-9);
     }
   }
 }

@@ -13,6 +13,11 @@
 
 namespace {
 
+namespace geometry = mansard::geometry;
+namespace extrude = mansard::extrude;
+
+namespace model = mansard::model;
+
 using namespace plans;
 using extrude::Canonical;
 using testing::HasSubstr;
@@ -51,7 +56,7 @@ auto shaken_plan(std::uint64_t seed) -> Plan {
   base::Random random(seed, 2);
   const double by = std::pow(10.0, -1.0 - static_cast<double>(random.index(9)));
   const auto shaken = [&](Point2 v) { return v + Point2{random.uniform(-by, by), random.uniform(-by, by)}; };
-  geometry::PlanRing out;
+  model::PlanRing out;
   const auto& corners = p.outer.points;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const std::size_t pieces = 1 + random.index(6);
@@ -72,8 +77,8 @@ auto shaken_plan(std::uint64_t seed) -> Plan {
 }
 
 /// The rings from their least corners on.
-auto rings_of(const Plan& p) -> std::vector<geometry::PlanRing> {
-  std::vector<geometry::PlanRing> rings{p.outer};
+auto rings_of(const Plan& p) -> std::vector<model::PlanRing> {
+  std::vector<model::PlanRing> rings{p.outer};
   rings.insert(rings.end(), p.holes.begin(), p.holes.end());
   for (auto& ring : rings) {
     const auto first = std::ranges::min_element(ring.points) - ring.points.begin();
@@ -90,7 +95,7 @@ auto sampled_distance(const Plan& from, const Plan& to) -> double {
   for (std::size_t i = 0; i < ring.size(); ++i)
     for (int k = 0; k < 16; ++k) {
       const Point2 p = ring[i] + (k / 16.0) * (ring[(i + 1) % ring.size()] - ring[i]);
-      most = std::max(most, geometry::boundary_distance(geometry::polygon_of(to), p));
+      most = std::max(most, geometry::boundary_distance(model::polygon_of(to), p));
     }
   return most;
 }
@@ -253,7 +258,7 @@ TEST(Canonical, refuses_a_slit_that_closes_on_the_grid_and_names_it) {
 void keeps_guarantees(const Plan& p) {
   const auto result = extrude::canonical(p);
   ASSERT_TRUE(result) << base::to_string(result.error()) << " " << text(p);
-  EXPECT_TRUE(geometry::is_simple(geometry::polygon_of(result->plan)));
+  EXPECT_TRUE(geometry::is_simple(model::polygon_of(result->plan)));
   EXPECT_LE(result->moved, extrude::Options{}.tolerance);
   EXPECT_LE(sampled_distance(p, result->plan), result->moved + 1e-9);
   EXPECT_LE(sampled_distance(result->plan, p), result->moved + 1e-9);

@@ -16,6 +16,9 @@
 
 namespace {
 
+namespace extrude = mansard::extrude;
+namespace model = mansard::model;
+
 using namespace plans;
 using CgalKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using CgalPolygon = CGAL::Polygon_2<CgalKernel>;
@@ -71,7 +74,7 @@ auto distance_to(const std::vector<Point3>& points, Point3 p) -> double {
 
 /// How far above or below our roof the point is. Collinear edges whose roofs meet share a face here, and where doubles
 /// have turned them against each other by an ulp, CGAL parts that face anywhere: its node is no corner of ours then.
-auto distance_to_roof(const extrude::Solid& solid, Point3 p) -> double {
+auto distance_to_roof(const model::Solid& solid, Point3 p) -> double {
   double least = std::numeric_limits<double>::infinity();
   for (const double height : roofs_over(solid, xy(p))) least = std::min(least, std::abs(p.z - height));
   return least;

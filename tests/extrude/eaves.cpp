@@ -1,14 +1,19 @@
 // Overhanging eaves: the one outward step.
 #include <gmock/gmock.h>
 
-#include "mansard/extrude/half_edges.hpp"
+#include "mansard/solid/half_edges.hpp"
 #include "plans.hpp"
 
 namespace {
 
+namespace extrude = mansard::extrude;
+namespace solid = mansard::solid;
+
+namespace model = mansard::model;
+
 using namespace plans;
-using extrude::FaceKind;
-using extrude::LineKind;
+using model::FaceKind;
+using solid::LineKind;
 
 auto raised(const Plan& p, double overhang) -> extrude::Raised {
   extrude::Options options;
@@ -18,15 +23,15 @@ auto raised(const Plan& p, double overhang) -> extrude::Raised {
   EXPECT_EQ(faults(result->solid), "");
   return std::move(*result);
 }
-auto lines_of(const extrude::Solid& solid, LineKind kind) -> std::size_t {
-  const auto lines = extrude::lines(solid);
+auto lines_of(const model::Solid& solid, LineKind kind) -> std::size_t {
+  const auto lines = solid::lines(solid);
   EXPECT_TRUE(lines);
-  return static_cast<std::size_t>(std::ranges::count(*lines, kind, &extrude::Line::kind));
+  return static_cast<std::size_t>(std::ranges::count(*lines, kind, &solid::Line::kind));
 }
-auto soffit_area(const extrude::Solid& solid) -> double {
+auto soffit_area(const model::Solid& solid) -> double {
   double sum = 0;
   for (const auto& face : solid.faces)
-    if (face.kind == FaceKind::soffit) sum += extrude::area(solid, face);
+    if (face.kind == FaceKind::soffit) sum += solid::area(solid, face);
   return sum;
 }
 
@@ -41,7 +46,7 @@ TEST(Eaves, of_a_hip_go_out_and_down_along_the_roof) {
   EXPECT_EQ(count(wide, FaceKind::soffit), 1U);
   EXPECT_NEAR(soffit_area(wide), 9 * 11 - 8 * 10, 1e-9);
   // A triangle of 0.5 m by 0.5 m around, and a pyramid's third of a cube of it at each corner.
-  EXPECT_NEAR(extrude::volume(wide) - extrude::volume(plain), 36 * 0.125 + 4 * 0.125 / 3, 1e-6);
+  EXPECT_NEAR(solid::volume(wide) - solid::volume(plain), 36 * 0.125 + 4 * 0.125 / 3, 1e-6);
   for (const auto& face : wide.faces) {
     if (face.kind != FaceKind::soffit) continue;
     for (const auto& loop : face.loops)
@@ -112,7 +117,7 @@ TEST(Eaves, never_cost_a_building_its_roof) {
     const bool out = count(wide.solid, FaceKind::soffit) > 0;
     with += out;
     if (out) {
-      EXPECT_GT(extrude::volume(wide.solid), extrude::volume(plain.solid));
+      EXPECT_GT(solid::volume(wide.solid), solid::volume(plain.solid));
     } else {
       EXPECT_EQ(wide.solid.vertices, plain.solid.vertices);
     }

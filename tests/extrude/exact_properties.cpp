@@ -10,19 +10,22 @@
 
 namespace {
 
+namespace extrude = mansard::extrude;
+namespace model = mansard::model;
+
 using namespace plans;
-using extrude::FaceKind;
+using model::FaceKind;
 using oracle::Point3;
 
 /// The edge of the footprint that a face is named after.
-auto edge_of(const Footprint& footprint, const extrude::Provenance& name) -> const CanonicalEdge& {
+auto edge_of(const Footprint& footprint, const model::Provenance& name) -> const CanonicalEdge& {
   for (const auto& ring : footprint.rings)
     for (const CanonicalEdge& edge : ring)
       if (edge.provenance.ring == name.ring && edge.provenance.edge == name.edge) return edge;
   throw std::runtime_error("provenance of no edge of the footprint");
 }
 
-auto part_of(const Footprint& footprint, const CanonicalEdge& edge, const extrude::Provenance& name, bool terrace)
+auto part_of(const Footprint& footprint, const CanonicalEdge& edge, const model::Provenance& name, bool terrace)
     -> const extrude::detail::TrackPart& {
   // What goes on upwards after a last terrace bears that terrace's number.
   for (const auto& part : footprint.tracks[edge.track])

@@ -12,6 +12,11 @@
 
 namespace {
 
+namespace geometry = mansard::geometry;
+namespace extrude = mansard::extrude;
+
+namespace model = mansard::model;
+
 using namespace plans;
 
 auto fixtures() -> std::vector<std::string> {
@@ -68,7 +73,7 @@ TEST(Minimiser, finds_the_least_plan_of_a_planted_failure) {
       const Profile& profile = p.profiles.at(p.outer.profile_of_edge.at(i));
       for (std::size_t k = 1; k < profile.size(); ++k) setback = setback || profile[k].height == profile[k - 1].height;
     }
-    return reflex && setback && geometry::signed_area(points) > 0 && geometry::is_simple(geometry::polygon_of(p));
+    return reflex && setback && geometry::signed_area(points) > 0 && geometry::is_simple(model::polygon_of(p));
   };
   std::size_t tried = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {

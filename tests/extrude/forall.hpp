@@ -5,12 +5,12 @@
 #include <functional>
 #include <string>
 
-#include "mansard/geometry/plan.hpp"
+#include "mansard/model/plan.hpp"
 
 namespace plans {
 
 /// What is wrong with a plan or with what became of it, "" when nothing is. The first word names the kind of fault.
-using Property = std::function<std::string(const mansard::geometry::Plan&)>;
+using Property = std::function<std::string(const mansard::model::Plan&)>;
 
 /// Checks a property over a per-mille share of the runs (5,000 in all; MANSARD_RUNS says another number) in the running
 /// test. `size` is about the most corners of a ring. RC_PARAMS ("seed=… max_success=…") steers rapidcheck as usual; a

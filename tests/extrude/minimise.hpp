@@ -14,14 +14,14 @@
 
 #include <nlohmann/json.hpp>
 
-#include "mansard/geometry/plan.hpp"
+#include "mansard/model/plan.hpp"
 
 namespace plans {
 
 /// The `plan` object of docs/plan.schema.json.
-inline auto to_json(const mansard::geometry::Plan& plan) -> std::string {
+inline auto to_json(const mansard::model::Plan& plan) -> std::string {
   using nlohmann::ordered_json;
-  const auto ring = [](const mansard::geometry::PlanRing& r) {
+  const auto ring = [](const mansard::model::PlanRing& r) {
     ordered_json points = ordered_json::array();
     for (const auto& p : r.points) points.push_back({p.x, p.y});
     return ordered_json{{"points", points}, {"profile_of_edge", r.profile_of_edge}};
@@ -39,15 +39,15 @@ inline auto to_json(const mansard::geometry::Plan& plan) -> std::string {
 }
 
 /// Throws nlohmann::json::exception.
-inline auto plan_from_json(const std::string& text) -> mansard::geometry::Plan {
+inline auto plan_from_json(const std::string& text) -> mansard::model::Plan {
   const auto json = nlohmann::json::parse(text);
   const auto ring = [](const nlohmann::json& r) {
-    mansard::geometry::PlanRing out;
+    mansard::model::PlanRing out;
     for (const auto& p : r.at("points")) out.points.push_back({p.at(0).get<double>(), p.at(1).get<double>()});
     out.profile_of_edge = r.at("profile_of_edge").get<std::vector<std::uint32_t>>();
     return out;
   };
-  mansard::geometry::Plan plan;
+  mansard::model::Plan plan;
   plan.base = json.at("base").get<double>();
   plan.cap = json.at("cap").get<double>();
   plan.outer = ring(json.at("outer"));
@@ -62,8 +62,8 @@ inline auto plan_from_json(const std::string& text) -> mansard::geometry::Plan {
 /// Makes a failing plan smaller for as long as it fails. Gives the same plan for the same input.
 class Minimiser {
  public:
-  using Plan = mansard::geometry::Plan;
-  using Ring = mansard::geometry::PlanRing;
+  using Plan = mansard::model::Plan;
+  using Ring = mansard::model::PlanRing;
   /// Whether the plan still fails, in the way that is looked for. Must answer for any plan, sensible or not.
   using Fails = std::function<bool(const Plan&)>;
 
@@ -142,7 +142,7 @@ class Minimiser {
   void drop_profiles() {
     Plan fewer = best_;
     std::vector<std::uint32_t> renamed(fewer.profiles.size(), UINT32_MAX);
-    std::vector<mansard::geometry::Profile> used;
+    std::vector<mansard::model::Profile> used;
     for (std::size_t r = 0; r <= fewer.holes.size(); ++r)
       for (std::uint32_t& of : ring_of(fewer, r).profile_of_edge) {
         if (of >= renamed.size()) return;
@@ -206,14 +206,14 @@ class Minimiser {
   Plan best_;
 };
 
-[[nodiscard]] inline auto minimised(mansard::geometry::Plan plan, Minimiser::Fails fails, std::size_t most_tries = 4000)
-    -> mansard::geometry::Plan {
+[[nodiscard]] inline auto minimised(mansard::model::Plan plan, Minimiser::Fails fails, std::size_t most_tries = 4000)
+    -> mansard::model::Plan {
   return Minimiser(std::move(fails), most_tries).run(std::move(plan));
 }
 
 /// The plan written into a folder when the environment has MANSARD_KEEP_FAILURES: where to, or nothing. The name is
 /// that of the failure and a number that is the plan's own.
-inline auto keep_failure(const mansard::geometry::Plan& plan, const std::filesystem::path& folder, std::string name)
+inline auto keep_failure(const mansard::model::Plan& plan, const std::filesystem::path& folder, std::string name)
     -> std::string {
   if (std::getenv("MANSARD_KEEP_FAILURES") == nullptr) return "";
   const std::string json = to_json(plan);

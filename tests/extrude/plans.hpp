@@ -12,15 +12,16 @@
 
 #include "mansard/base/run.hpp"
 #include "mansard/extrude/extrude.hpp"
+#include "mansard/solid/solid.hpp"
 
 namespace plans {
 
 using namespace mansard;  // a test's own namespace, in which the rooms may be called by their short names
-using geometry::Plan;
 using geometry::Point2;
 using geometry::Point3;
-using geometry::Profile;
 using geometry::Ring;
+using model::Plan;
+using model::Profile;
 
 inline const Profile hip{{0, 0}, {0, 3}, {1, 4}};  // wall of 3 m, roof at 45°
 inline const Profile wall{{0, 0}, {0, 3}};         // upright
@@ -65,7 +66,7 @@ inline auto shifted(const Plan& p, Point2 by) -> Plan {
 }
 /// Mirrored in the y axis; rings walked the other way so that they keep their orientation.
 inline auto mirrored(Plan p) -> Plan {
-  const auto flip = [](geometry::PlanRing& ring) {
+  const auto flip = [](model::PlanRing& ring) {
     for (Point2& v : ring.points) v.x = -v.x;
     std::ranges::reverse(ring.points);
     std::ranges::reverse(ring.profile_of_edge);
@@ -176,8 +177,8 @@ inline auto text(const Plan& p) -> std::string {
 
 /// The horizontal section's area at z, from the triangles: each gives a directed piece of the outline, and Green's
 /// theorem needs them in no order. z must not be a vertex's height.
-inline auto section_area(const extrude::Solid& solid, double z) -> double {
-  const auto triangulated = extrude::triangulate(solid);
+inline auto section_area(const model::Solid& solid, double z) -> double {
+  const auto triangulated = solid::triangulate(solid);
   if (!triangulated) return std::nan("");
   double sum = 0;
   for (const auto& t : triangulated->triangles) {
@@ -197,7 +198,7 @@ inline auto section_area(const extrude::Solid& solid, double z) -> double {
 }
 
 /// ∫ section area dz, exact: between vertex heights the area is a square function, for which two Gauss points suffice.
-inline auto integrated_volume(const extrude::Solid& solid) -> double {
+inline auto integrated_volume(const model::Solid& solid) -> double {
   std::vector<double> heights;
   for (const Point3 p : solid.vertices) heights.push_back(p.z);
   std::ranges::sort(heights);
@@ -212,9 +213,9 @@ inline auto integrated_volume(const extrude::Solid& solid) -> double {
 }
 
 /// Heights at which a vertical line meets faces that look up.
-inline auto roofs_over(const extrude::Solid& solid, Point2 at) -> std::vector<double> {
+inline auto roofs_over(const model::Solid& solid, Point2 at) -> std::vector<double> {
   std::vector<double> heights;
-  const auto triangulated = extrude::triangulate(solid);
+  const auto triangulated = solid::triangulate(solid);
   if (!triangulated) return heights;
   for (const auto& t : triangulated->triangles) {
     const Point3 a = solid.vertices[t[0]], b = solid.vertices[t[1]], c = solid.vertices[t[2]];
@@ -227,13 +228,13 @@ inline auto roofs_over(const extrude::Solid& solid, Point2 at) -> std::vector<do
   return heights;
 }
 
-inline auto faults(const extrude::Solid& solid) -> std::string {
+inline auto faults(const model::Solid& solid) -> std::string {
   std::string out;
-  for (const auto& fault : extrude::check(solid)) out += base::to_string(fault) + "; ";
+  for (const auto& fault : solid::check(solid)) out += base::to_string(fault) + "; ";
   return out;
 }
 
-inline auto count(const extrude::Solid& solid, extrude::FaceKind kind) -> std::size_t {
+inline auto count(const model::Solid& solid, model::FaceKind kind) -> std::size_t {
   return static_cast<std::size_t>(std::ranges::count_if(solid.faces, [kind](const auto& f) { return f.kind == kind; }));
 }
 

@@ -6,12 +6,19 @@
 #include "families.hpp"
 #include "forall.hpp"
 #include "mansard/extrude/extrude.hpp"
+#include "mansard/solid/solid.hpp"
 
 namespace {
 
+namespace geometry = mansard::geometry;
+namespace extrude = mansard::extrude;
+
+namespace solid = mansard::solid;
+namespace model = mansard::model;
+
 using namespace plans;
-using extrude::FaceKind;
 using extrude::Outcome;
+using model::FaceKind;
 
 auto has_warning(const extrude::Raised& raised, const std::string& code) -> bool {
   return std::ranges::any_of(raised.warnings, [&](const auto& w) { return w.code == code; });
@@ -34,7 +41,7 @@ struct Count {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
   std::set<std::uint32_t> vertices;
   long faces = 0, inner_loops = 0;
-  explicit Count(const extrude::Solid& solid) {
+  explicit Count(const model::Solid& solid) {
     for (const auto& face : solid.faces) {
       ++faces;
       inner_loops += static_cast<long>(face.loops.size()) - 1;
@@ -127,7 +134,7 @@ TEST(Guarantee, three_rounding_keeps_the_volume_to_a_millionth) {
     const auto raised = in_full(p, fault);
     if (!fault.empty()) return fault;
     if (has_warning(raised, "extrude-nudged")) return "";
-    const double exact = oracle::volume(surface_of(p)).get_d(), rounded = extrude::volume(raised.solid);
+    const double exact = oracle::volume(surface_of(p)).get_d(), rounded = solid::volume(raised.solid);
     if (std::abs(rounded - exact) > 1e-6 * exact)
       return "volume rounded off by " + std::to_string((rounded - exact) / exact * 1e6) + " millionths";
     return "";
@@ -145,7 +152,7 @@ TEST(Guarantee, four_a_uniform_roofs_section_is_the_footprint_shrunk) {
     const auto raised = in_full(p, fault);
     if (!fault.empty()) return fault;
     for (const double z : {0.31, 0.77, 1.23, 1.91, 2.83}) {
-      const auto shrunk = geometry::buffer(geometry::polygon_of(p), -z);
+      const auto shrunk = geometry::buffer(model::polygon_of(p), -z);
       if (!shrunk) return "judge gave up";
       double area = 0;
       for (const auto& part : *shrunk) area += geometry::area(part);
@@ -205,8 +212,8 @@ TEST(Guarantee, eight_a_turned_plan_of_one_slope_gives_the_same_volume) {
     std::ranges::fill(p.outer.profile_of_edge, p.outer.profile_of_edge[0]);
     for (auto& hole : p.holes) std::ranges::fill(hole.profile_of_edge, p.outer.profile_of_edge[0]);
     std::string fault;
-    const double volume = extrude::volume(in_full(p, fault).solid),
-                 image = extrude::volume(in_full(plans::turned(p, 0.3), fault).solid);
+    const double volume = solid::volume(in_full(p, fault).solid),
+                 image = solid::volume(in_full(plans::turned(p, 0.3), fault).solid);
     if (!fault.empty()) return fault;
     if (std::abs(image - volume) > 3e-3 * volume)
       return "volume " + std::to_string(image) + " for " + std::to_string(volume);
@@ -265,7 +272,7 @@ TEST(Families, hold_what_they_promise) {
   std::size_t shallow = 0, repeated_speeds = 0;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     const Plan p = family_plan(seed, 20);
-    EXPECT_TRUE(geometry::is_simple(geometry::polygon_of(p))) << seed;
+    EXPECT_TRUE(geometry::is_simple(model::polygon_of(p))) << seed;
     rings.insert(1 + p.holes.size());
     for (std::size_t i = 0; i < p.outer.points.size(); ++i) {
       const std::size_t n = p.outer.points.size();

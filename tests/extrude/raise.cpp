@@ -1,4 +1,5 @@
 #include "mansard/extrude/extrude.hpp"
+#include "mansard/solid/solid.hpp"
 
 #include <gmock/gmock.h>
 
@@ -6,12 +7,18 @@
 
 namespace {
 
+namespace geometry = mansard::geometry;
+namespace extrude = mansard::extrude;
+
+namespace solid = mansard::solid;
+namespace model = mansard::model;
+
 using namespace plans;
-using extrude::FaceKind;
 using extrude::Outcome;
+using model::FaceKind;
 
 /// Raised in full and without fault.
-auto full(const Plan& p) -> extrude::Solid {
+auto full(const Plan& p) -> model::Solid {
   auto raised = extrude::raise(p);
   if (!raised) {
     ADD_FAILURE() << base::to_string(raised.error()) << " " << text(p);
@@ -23,7 +30,7 @@ auto full(const Plan& p) -> extrude::Solid {
   return std::move(raised->solid);
 }
 
-auto top_of(const extrude::Solid& solid) -> double {
+auto top_of(const model::Solid& solid) -> double {
   double top = -1e9;
   for (const Point3 p : solid.vertices) top = std::max(top, p.z);
   return top;
@@ -33,7 +40,7 @@ TEST(Raise, puts_a_pyramid_on_a_square) {
   const auto solid = full(plan(box(10, 10), {hip}));
   EXPECT_EQ(solid.vertices.size(), 9U);  // four below, four at the gutter, the apex
   EXPECT_EQ(solid.faces.size(), 9U);
-  EXPECT_NEAR(extrude::volume(solid), 300 + 100 * 5.0 / 3, 1e-6);
+  EXPECT_NEAR(solid::volume(solid), 300 + 100 * 5.0 / 3, 1e-6);
   EXPECT_NEAR(top_of(solid), 8, 1e-9);
 }
 
@@ -41,12 +48,12 @@ TEST(Raise, puts_a_ridge_on_a_rectangle) {
   const auto solid = full(plan(box(10, 6), {hip}));
   EXPECT_EQ(solid.vertices.size(), 10U);
   // A prism over the middle 4 m and two half pyramids.
-  EXPECT_NEAR(extrude::volume(solid), 180 + 4 * 9 + 36 * 3.0 / 3, 1e-6);
+  EXPECT_NEAR(solid::volume(solid), 180 + 4 * 9 + 36 * 3.0 / 3, 1e-6);
 }
 
 TEST(Raise, makes_gables_of_upright_edges) {
   const auto solid = full(plan(box(10, 6), {hip, wall}, {0, 1, 0, 1}));
-  EXPECT_NEAR(extrude::volume(solid), 180 + 10 * 9, 1e-6);
+  EXPECT_NEAR(solid::volume(solid), 180 + 10 * 9, 1e-6);
   EXPECT_EQ(solid.vertices.size(), 10U);
   EXPECT_EQ(solid.faces.size(), 7U);  // base, two walls, two gables with five corners, two roofs
   std::vector<std::size_t> corners;
@@ -56,12 +63,12 @@ TEST(Raise, makes_gables_of_upright_edges) {
 
 TEST(Raise, names_the_edge_and_part_of_every_face) {
   const auto solid = full(plan(box(10, 6), {hip, wall}, {0, 1, 0, 1}));
-  std::vector<extrude::Provenance> found;
+  std::vector<model::Provenance> found;
   for (const auto& face : solid.faces)
     if (face.provenance) found.push_back(*face.provenance);
-  EXPECT_THAT(found, testing::UnorderedElementsAre(extrude::Provenance{0, 0, 0}, extrude::Provenance{0, 0, 1},
-                                                   extrude::Provenance{0, 1, 0}, extrude::Provenance{0, 2, 0},
-                                                   extrude::Provenance{0, 2, 1}, extrude::Provenance{0, 3, 0}));
+  EXPECT_THAT(found, testing::UnorderedElementsAre(model::Provenance{0, 0, 0}, model::Provenance{0, 0, 1},
+                                                   model::Provenance{0, 1, 0}, model::Provenance{0, 2, 0},
+                                                   model::Provenance{0, 2, 1}, model::Provenance{0, 3, 0}));
   for (const auto& face : solid.faces) {
     if (!face.provenance) continue;
     EXPECT_NEAR(face.normal.z, face.provenance->part == 1 ? std::numbers::sqrt2 / 2 : 0, 1e-9);
@@ -99,7 +106,7 @@ TEST(Raise, roofs_a_courtyard_all_round) {
   EXPECT_NEAR(top_of(solid), 6, 1e-9);  // wings of 6 m
   double outline = 0;
   for (const auto& face : solid.faces)
-    if (face.kind == FaceKind::base) outline += extrude::area(solid, face);
+    if (face.kind == FaceKind::base) outline += solid::area(solid, face);
   EXPECT_NEAR(outline, 400 - 64, 1e-4);
 }
 
@@ -107,33 +114,33 @@ TEST(Raise, lets_a_hole_merge_with_the_outside) {
   // The wing beside the hole is narrow at one side only: its roof ends first, and the hole's edge goes on with the
   // outline.
   const auto solid = full(plan(box(20, 20), {hip}, {}, 100, {turned_in({{2, 6}, {12, 6}, {12, 14}, {2, 14}})}));
-  EXPECT_NEAR(integrated_volume(solid), extrude::volume(solid), 1e-6);
+  EXPECT_NEAR(integrated_volume(solid), solid::volume(solid), 1e-6);
 }
 
 TEST(Raise, changes_the_pitch_at_the_knots_of_a_mansard_profile) {
   const auto solid = full(plan(box(12, 12), {two_pitch}));
   // Walls; a frustum from 12 m to 10 m in 2 m; then a pitch of 1:2 over 10 m.
   const double frustum = 2.0 / 3 * (144 + 100 + 120), top = 100 * 2.5 / 3;
-  EXPECT_NEAR(extrude::volume(solid), 432 + frustum + top, 1e-5);
+  EXPECT_NEAR(solid::volume(solid), 432 + frustum + top, 1e-5);
   EXPECT_NEAR(top_of(solid), 3 + 2 + 2.5, 1e-6);
 }
 
 TEST(Raise, sets_storeys_back_behind_terraces) {
   const auto solid = full(plan(box(12, 12), {setback}, {}, 9));
-  EXPECT_NEAR(extrude::volume(solid), 144 * 3 + 64 * 6, 1e-5);
+  EXPECT_NEAR(solid::volume(solid), 144 * 3 + 64 * 6, 1e-5);
   EXPECT_EQ(count(solid, FaceKind::terrace), 1U);  // one piece round the tower
   EXPECT_EQ(count(solid, FaceKind::cap), 1U);
 }
 
 TEST(Raise, goes_on_upwards_after_a_last_terrace) {
   const auto solid = full(plan(box(12, 12), {{{0, 0}, {0, 3}, {2, 3}}}, {}, 5));
-  EXPECT_NEAR(extrude::volume(solid), 144 * 3 + 64 * 2, 1e-5);
+  EXPECT_NEAR(solid::volume(solid), 144 * 3 + 64 * 2, 1e-5);
 }
 
 TEST(Raise, lets_a_terrace_use_up_everything) {
   for (const double run : {6.0, 7.0}) {
     const auto solid = full(plan(box(12, 12), {{{0, 0}, {0, 3}, {run, 3}, {run, 9}}}));
-    EXPECT_NEAR(extrude::volume(solid), 432, 1e-5);
+    EXPECT_NEAR(solid::volume(solid), 432, 1e-5);
     EXPECT_EQ(count(solid, FaceKind::terrace), 1U);
     EXPECT_EQ(count(solid, FaceKind::cap), 0U);
   }
@@ -141,7 +148,7 @@ TEST(Raise, lets_a_terrace_use_up_everything) {
 
 TEST(Raise, sets_one_side_back_between_upright_neighbours) {
   const auto solid = full(plan(box(10, 10), {wall, setback}, {1, 0, 0, 0}, 6));
-  EXPECT_NEAR(extrude::volume(solid), 300 + 240, 1e-5);
+  EXPECT_NEAR(solid::volume(solid), 300 + 240, 1e-5);
   EXPECT_EQ(count(solid, FaceKind::terrace), 1U);
 }
 
@@ -159,7 +166,7 @@ TEST(Raise, lets_a_setback_beside_a_reflex_corner_lengthen_its_neighbour) {
 TEST(Raise, starts_roofs_at_unequal_heights) {
   const Profile low{{0, 0}, {0, 2}, {1, 3}}, high{{0, 0}, {0, 5}, {1, 6}};
   const auto solid = full(plan(box(10, 8), {low, high}, {0, 1, 0, 1}));
-  EXPECT_NEAR(integrated_volume(solid), extrude::volume(solid), 1e-6);
+  EXPECT_NEAR(integrated_volume(solid), solid::volume(solid), 1e-6);
   EXPECT_NEAR(top_of(solid), 6, 1e-6);  // the long sides meet over 4 m
 }
 
@@ -167,7 +174,7 @@ TEST(Raise, starts_a_roof_only_after_its_neighbours_have_met_it) {
   // The delayed edge is gone from the wavefront before its roof would start.
   const Profile late{{0, 0}, {0, 50}, {1, 51}};
   const auto solid = full(plan(box(10, 6), {hip, late}, {0, 1, 0, 1}));
-  EXPECT_NEAR(extrude::volume(solid), 180 + 90, 1e-6);
+  EXPECT_NEAR(solid::volume(solid), 180 + 90, 1e-6);
 }
 
 TEST(Raise, ends_flat_at_the_cap) {
@@ -176,7 +183,7 @@ TEST(Raise, ends_flat_at_the_cap) {
     EXPECT_NEAR(top_of(solid), cap, 1e-9);
     double area = 0;
     for (const auto& face : solid.faces)
-      if (face.kind == FaceKind::cap) area += extrude::area(solid, face);
+      if (face.kind == FaceKind::cap) area += solid::area(solid, face);
     EXPECT_NEAR(area, flat, 1e-4);
   }
 }
@@ -194,7 +201,7 @@ TEST(Raise, takes_a_cap_at_the_height_of_an_event) {
 TEST(Raise, makes_a_block_of_upright_profiles) {
   const auto solid = full(plan(box(10, 6), {wall}, {}, 7.25));
   EXPECT_EQ(solid.faces.size(), 6U);
-  EXPECT_NEAR(extrude::volume(solid), 435, 1e-9);
+  EXPECT_NEAR(solid::volume(solid), 435, 1e-9);
 }
 
 TEST(Raise, puts_connectors_between_collinear_neighbours) {
@@ -206,7 +213,7 @@ TEST(Raise, puts_connectors_between_collinear_neighbours) {
   const Plan p = plan({{0, 0}, {5, 0}, {10, 0}, {10, 8}, {0, 8}}, {hip, wall}, {1, 0, 0, 0, 0});
   const auto solid = full(p);
   EXPECT_EQ(count(solid, FaceKind::connector), 1U);
-  EXPECT_NEAR(integrated_volume(solid), extrude::volume(solid), 1e-6);
+  EXPECT_NEAR(integrated_volume(solid), solid::volume(solid), 1e-6);
   for (const auto& face : solid.faces)
     if (face.kind == FaceKind::connector) {
       EXPECT_NEAR(face.normal.x, 1, 1e-12);
@@ -262,7 +269,7 @@ TEST(Raise, keeps_a_plus_to_one_crossing_when_turned) {
   for (const double angle : {0.3, 0.7, 2.9}) {
     const auto solid = full(turned(plus, angle));
     EXPECT_EQ(solid.vertices.size(), 17U) << angle;
-    EXPECT_NEAR(extrude::volume(solid), extrude::volume(full(plus)), 1e-3);
+    EXPECT_NEAR(solid::volume(solid), solid::volume(full(plus)), 1e-3);
   }
 }
 
@@ -312,12 +319,12 @@ TEST(Raise, stands_on_the_plans_base) {
 
 TEST(Raise, starts_behind_a_setback_at_the_ground) {
   const auto solid = full(plan(box(10, 10), {{{0, 0}, {1, 0}, {1, 4}}}, {}, 4));
-  EXPECT_NEAR(extrude::volume(solid), 64 * 4, 1e-5);
+  EXPECT_NEAR(solid::volume(solid), 64 * 4, 1e-5);
 }
 
 TEST(Raise, reads_rings_of_either_orientation) {
   Plan p = plan(turned_in(box(10, 6)), {hip, wall}, {0, 1, 0, 1});
-  EXPECT_NEAR(extrude::volume(full(p)), extrude::volume(full(plan(box(10, 6), {hip, wall}, {0, 1, 0, 1}))), 1e-9);
+  EXPECT_NEAR(solid::volume(full(p)), solid::volume(full(plan(box(10, 6), {hip, wall}, {0, 1, 0, 1}))), 1e-9);
 }
 
 TEST(Raise, says_what_is_wrong_with_a_plan) {
@@ -355,7 +362,7 @@ TEST(Raise, cuts_off_a_needle_shorter_than_a_detail) {
   ASSERT_FALSE(raised->warnings.empty());
   EXPECT_EQ(raised->warnings.front().code, "extrude-simplified");
   EXPECT_EQ(faults(raised->solid), "");
-  EXPECT_NEAR(extrude::volume(raised->solid), 300 + 100 * 5.0 / 3, 1e-4);
+  EXPECT_NEAR(solid::volume(raised->solid), 300 + 100 * 5.0 / 3, 1e-4);
 }
 
 TEST(Raise, comes_down_to_the_prism_for_a_needle) {
@@ -385,7 +392,7 @@ TEST(Raise, parts_upright_walls_that_would_meet_in_a_line) {
   ASSERT_EQ(raised->warnings.size(), 1U);
   EXPECT_EQ(raised->warnings[0].code, "extrude-nudged");
   EXPECT_EQ(faults(raised->solid), "");
-  EXPECT_NEAR(extrude::volume(raised->solid), 24 * 3 + 12 * 3, 0.1);
+  EXPECT_NEAR(solid::volume(raised->solid), 24 * 3 + 12 * 3, 0.1);
 }
 
 TEST(Raise, comes_down_to_the_prism_when_stopped) {
@@ -397,7 +404,7 @@ TEST(Raise, comes_down_to_the_prism_when_stopped) {
   ASSERT_TRUE(raised);
   EXPECT_EQ(raised->outcome, Outcome::prism);
   EXPECT_EQ(raised->warnings.back().code, "extrude-prism");
-  EXPECT_NEAR(extrude::volume(raised->solid), 600, 1e-9);
+  EXPECT_NEAR(solid::volume(raised->solid), 600, 1e-9);
 }
 
 TEST(Prism, is_the_polygon_from_base_to_cap) {
@@ -406,7 +413,7 @@ TEST(Prism, is_the_polygon_from_base_to_cap) {
   const auto solid = extrude::prism(p);
   ASSERT_TRUE(solid);
   EXPECT_EQ(faults(*solid), "");
-  EXPECT_NEAR(extrude::volume(*solid), (400 - 64) * 5, 1e-9);
+  EXPECT_NEAR(solid::volume(*solid), (400 - 64) * 5, 1e-9);
   EXPECT_EQ(solid->faces.size(), 10U);
 }
 
@@ -427,7 +434,7 @@ TEST(Sketch, is_what_raise_gives_before_rounding) {
     ASSERT_TRUE(sketch);
     const auto solid = full(p);
     EXPECT_EQ(sketch->faces.size(), solid.faces.size());
-    EXPECT_NEAR(extrude::volume(*sketch), extrude::volume(solid), 1e-3);
+    EXPECT_NEAR(solid::volume(*sketch), solid::volume(solid), 1e-3);
   }
 }
 

@@ -1,5 +1,6 @@
 // Short arcs drawn together before rounding: solids made by hand as a sweep leaves them, in doubles.
 #include "mansard/extrude/detail/rounding.hpp"
+#include "mansard/solid/solid.hpp"
 
 #include <gmock/gmock.h>
 
@@ -7,13 +8,18 @@
 
 namespace {
 
+namespace extrude = mansard::extrude;
+namespace solid = mansard::solid;
+
+namespace model = mansard::model;
+
 using namespace plans;
-using extrude::Face;
-using extrude::FaceKind;
-using extrude::Solid;
 using extrude::detail::ExactSurface;
 using extrude::detail::FaceNode;
 using extrude::detail::rounded;
+using model::Face;
+using model::FaceKind;
+using model::Solid;
 
 /// Upright walls over a ring of whole directions, ground to lid.
 auto block(const Ring& ring, double height = 3) -> ExactSurface {
@@ -49,7 +55,7 @@ TEST(Rounding, leaves_a_surface_without_short_arcs_as_it_is) {
   EXPECT_EQ(codes_of(result.solid), "");
   EXPECT_EQ(result.solid.vertices.size(), 8U);
   EXPECT_EQ(result.solid.faces.size(), 6U);
-  EXPECT_NEAR(extrude::volume(result.solid), 120, 1e-9);
+  EXPECT_NEAR(solid::volume(result.solid), 120, 1e-9);
   for (const Point3 p : result.solid.vertices) {
     EXPECT_GE(p.x, 100);
     EXPECT_GE(p.y, 200);
@@ -121,7 +127,7 @@ TEST(Rounding, keeps_what_is_so_small_that_nothing_would_be_left) {
   for (const double size : {2e-5, 1e-6}) {
     const auto result = rounded(block({{0, 0}, {size, 0}, {size, size}, {0, size}}, size), {}, true);
     ASSERT_GE(result.solid.faces.size(), 4U);
-    for (const auto& fault : extrude::check(result.solid)) EXPECT_EQ(fault.code, "solid-degenerate");
+    for (const auto& fault : solid::check(result.solid)) EXPECT_EQ(fault.code, "solid-degenerate");
   }
 }
 

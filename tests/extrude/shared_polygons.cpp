@@ -12,6 +12,9 @@
 
 namespace {
 
+namespace geometry = mansard::geometry;
+namespace extrude = mansard::extrude;
+
 using namespace plans;
 
 struct Entry {

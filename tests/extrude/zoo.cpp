@@ -8,8 +8,11 @@
 
 namespace {
 
+namespace extrude = mansard::extrude;
+namespace model = mansard::model;
+
 using namespace plans;
-using extrude::FaceKind;
+using model::FaceKind;
 
 /// The plan of a drawing, each character so many metres wide and high.
 auto drawn(const std::vector<std::string>& rows, std::vector<Profile> profiles, double cap = 100, double metres = 1)
@@ -29,9 +32,9 @@ auto drawn(const std::vector<std::string>& rows, std::vector<Profile> profiles, 
     const char c = at(std::min(a.first, b.first) + (dy < 0 ? -1 : 0), std::min(a.second, b.second) + (dx > 0 ? -1 : 0));
     return c >= '0' && c <= '9' ? static_cast<std::uint32_t>(c - '0') : 0;
   };
-  std::vector<geometry::PlanRing> rings;
+  std::vector<model::PlanRing> rings;
   for (const auto& steps : boundary_of(cells)) {
-    geometry::PlanRing ring;
+    model::PlanRing ring;
     const std::size_t n = steps.size();
     for (std::size_t i = 0; i < n; ++i) {
       const auto before = steps[(i + n - 1) % n], here = steps[i], after = steps[(i + 1) % n];
@@ -52,7 +55,7 @@ auto drawn(const std::vector<std::string>& rows, std::vector<Profile> profiles, 
 }
 
 /// Raised in full, without fault, and exactly as the oracle says.
-auto judged(const Plan& p) -> extrude::Solid {
+auto judged(const Plan& p) -> model::Solid {
   const auto raised = extrude::raise(p);
   if (!raised) {
     ADD_FAILURE() << base::to_string(raised.error()) << " " << text(p);

@@ -1,4 +1,4 @@
-# Installs rooms and uses them from a project outside: it must build, run, and need nothing that it did not ask for.
+# Installs modules and uses them from a project outside: it must build, run, and need nothing that it did not ask for.
 #   cmake -DROOT=<repository> -DBUILD=<its build> -DSCRATCH=<folder> [-DCOMPILER=… -DFLAGS=…] -DWHAT=kernel|engine
 #     -P install.cmake
 cmake_minimum_required(VERSION 3.25)
@@ -16,8 +16,8 @@ function(run expected)
   set(output "${output}" PARENT_SCOPE)
 endfunction()
 
-# The installed files have each of `wanted`, and no other room's.
-function(expect_installed rooms wanted)
+# The installed files have each of `wanted`, and no other module's.
+function(expect_installed modules wanted)
   file(GLOB_RECURSE installed RELATIVE ${prefix} ${prefix}/*)
   set(complaints "")
   foreach(file IN LISTS wanted)
@@ -27,7 +27,7 @@ function(expect_installed rooms wanted)
   endforeach()
   foreach(file IN LISTS installed)
     if(file MATCHES "/detail/" OR NOT file MATCHES
-        "^(include/mansard/(${rooms})/|lib.*/libmansard_(${rooms})[.]a$|lib.*/cmake/mansard/(mansardConfig|mansardConfigVersion|mansard_libraries|mansard_(${rooms})|mansard_(${rooms})-[a-z]+)[.]cmake$|share/doc/libmansard-dev/)")
+        "^(include/mansard/(${modules})/|lib.*/libmansard_(${modules})[.]a$|lib.*/cmake/mansard/(mansardConfig|mansardConfigVersion|mansard_libraries|mansard_(${modules})|mansard_(${modules})-[a-z]+)[.]cmake$|share/doc/libmansard-dev/)")
       list(APPEND complaints "${file} is installed and should not be")
     endif()
   endforeach()
@@ -76,18 +76,18 @@ mansardConfig.cmake;mansardConfigVersion.cmake;/LICENSE;/NOTICE")
   endif()
 elseif(WHAT STREQUAL "engine")
   run("" ${CMAKE_COMMAND} --install ${BUILD} --component engine --prefix ${prefix})
-  file(READ ${ROOT}/cmake/rooms.cmake list)
+  file(READ ${ROOT}/cmake/modules.cmake list)
   string(REGEX REPLACE "#[^\n]*" "" list "${list}")
-  string(REGEX MATCHALL "mansard_room[(][a-z_]+" calls "${list}")
-  set(rooms "")
+  string(REGEX MATCHALL "mansard_module[(][a-z_]+" calls "${list}")
+  set(modules "")
   set(wanted "")
   foreach(call IN LISTS calls)
-    string(REPLACE "mansard_room(" "" room ${call})
-    list(APPEND rooms ${room})
-    list(APPEND wanted "libmansard_${room}[.]a" "include/mansard/${room}/[a-z_]+[.]hpp" "mansard_${room}[.]cmake")
+    string(REPLACE "mansard_module(" "" module ${call})
+    list(APPEND modules ${module})
+    list(APPEND wanted "libmansard_${module}[.]a" "include/mansard/${module}/[a-z_]+[.]hpp" "mansard_${module}[.]cmake")
   endforeach()
-  list(JOIN rooms "|" rooms)
-  expect_installed("${rooms}" "${wanted}")
+  list(JOIN modules "|" modules)
+  expect_installed("${modules}" "${wanted}")
   build_outside(consumer_engine)
 
   # The hall of the samples, as its footprints have it: two buildings.

@@ -2,7 +2,7 @@
 cmake_minimum_required(VERSION 3.25)
 set(complaints "")
 
-# docs/dependencies.md has every package that is installed and every library that a room uses.
+# docs/dependencies.md has every package that is installed and every library that a module uses.
 file(READ ${ROOT}/docs/dependencies.md dependencies)
 file(STRINGS ${ROOT}/packages.txt lines)
 set(packages "")
@@ -29,17 +29,17 @@ if(package_count EQUAL 0 OR row_count EQUAL 0)
   list(APPEND complaints "packages.txt or the table of docs/dependencies.md could not be read")
 endif()
 
-# README.md and ARCHITECTURE.md map every room.
-file(READ ${ROOT}/cmake/rooms.cmake list)
+# README.md and ARCHITECTURE.md map every module.
+file(READ ${ROOT}/cmake/modules.cmake list)
 string(REGEX REPLACE "#[^\n]*" "" list "${list}")
-string(REGEX MATCHALL "mansard_room[(][a-z_]+" rooms "${list}")
+string(REGEX MATCHALL "mansard_module[(][a-z_]+" modules "${list}")
 foreach(paper IN ITEMS README.md ARCHITECTURE.md)
   file(READ ${ROOT}/${paper} text)
-  foreach(room IN LISTS rooms)
-    string(REPLACE "mansard_room(" "" room ${room})
-    string(FIND "${text}" "`${room}`" found)
+  foreach(module IN LISTS modules)
+    string(REPLACE "mansard_module(" "" module ${module})
+    string(FIND "${text}" "`${module}`" found)
     if(found EQUAL -1)
-      list(APPEND complaints "${paper} does not name the room `${room}`")
+      list(APPEND complaints "${paper} does not name the module `${module}`")
     endif()
   endforeach()
 endforeach()

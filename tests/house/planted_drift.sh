@@ -59,7 +59,7 @@ echo '# A page in no menu' > "$scratch/tree/docs/attic/old.md"
 refuses 'docs/attic/old.md: is no page of the site'
 rm -r "$scratch/tree/docs/attic"
 mv "$scratch/tree/docs/rays.md" "$scratch/rays.md"
-refuses 'docs/rays.md: every room has a page'
+refuses 'docs/rays.md: every module has a page'
 for part in picture guarantees cost references; do
   case $part in
     picture) sed '/^!\[/d' "$scratch/rays.md" ;;
@@ -69,6 +69,6 @@ for part in picture guarantees cost references; do
   esac > "$scratch/tree/docs/rays.md"
   says="says its $part"
   [[ $part != picture ]] || says='has a picture'
-  refuses "docs/rays.md: a room's page $says"
+  refuses "docs/rays.md: a module's page $says"
 done
 rm -rf "$scratch"

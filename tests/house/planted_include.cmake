@@ -1,4 +1,4 @@
-# Copies the tree, plants one violation, and holds the door check to finding it, and nothing else.
+# Copies the tree, plants one violation, and holds the include check to finding it, and nothing else.
 #   cmake -DROOT=<repository> -DSCRATCH=<folder> -DFILE=<path in the tree> -DLINE=<text> -DEXPECT=<complaint> -P …
 # The text is added to the end of the file; with -DINSTEAD_OF=<regex> it takes the place of what matches.
 # Without FILE the tree is copied only, and must pass.
@@ -27,7 +27,7 @@ if(DEFINED FILE)
 endif()
 
 execute_process(
-  COMMAND ${CMAKE_COMMAND} -DROOT=${SCRATCH} -P ${ROOT}/tools/check_doors.cmake
+  COMMAND ${CMAKE_COMMAND} -DROOT=${SCRATCH} -P ${ROOT}/tools/check_includes.cmake
   RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output)
 file(REMOVE_RECURSE ${SCRATCH})
 
@@ -38,7 +38,7 @@ if(NOT DEFINED FILE)
   return()
 endif()
 if(code EQUAL 0)
-  message(FATAL_ERROR "the door check did not see this in ${FILE}:\n  ${LINE}")
+  message(FATAL_ERROR "the include check did not see this in ${FILE}:\n  ${LINE}")
 endif()
 string(FIND "${output}" "  ${EXPECT}" found)
 if(found EQUAL -1)

@@ -1,11 +1,11 @@
-# Takes the kernel into another project as a folder: no programs, no tests, and no rooms but the ones asked for.
+# Takes the kernel into another project as a folder: no programs, no tests, and no modules but the ones asked for.
 #   cmake -DROOT=<repository> -DSCRATCH=<folder> [-DCOMPILER=…] -P subproject.cmake
 cmake_minimum_required(VERSION 3.25)
 file(REMOVE_RECURSE ${SCRATCH})
 file(COPY ${ROOT}/tests/house/consumer/house.cpp DESTINATION ${SCRATCH})
 file(WRITE ${SCRATCH}/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)
 project(consumer LANGUAGES CXX)
-set(MANSARD_ROOMS base geometry extrude)
+set(MANSARD_MODULES base geometry model solid extrude)
 add_subdirectory(${ROOT} mansard)
 add_executable(house house.cpp)
 target_link_libraries(house PRIVATE mansard::extrude)

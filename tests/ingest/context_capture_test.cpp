@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "ingest/gltf_workshop.hpp"
-#include "mansard/ingest/detail/context_capture.hpp"
+#include "mansard/formats/context_capture/context_capture.hpp"
 #include "mansard/ingest/model.hpp"
 
 namespace mansard::ingest::test {

@@ -3,9 +3,10 @@
 
 #include "ingest/workshop.hpp"
 #include "mansard/base/run.hpp"
+#include "mansard/crs/utm.hpp"
+#include "mansard/formats/geojson/assumed_crs.hpp"
 #include "mansard/geometry/polygon.hpp"
 #include "mansard/ingest/detail/crs.hpp"
-#include "mansard/ingest/detail/geojson.hpp"
 
 namespace mansard::ingest::test {
 namespace {
@@ -14,10 +15,10 @@ using ::testing::HasSubstr;
 
 class Frames : public Workshop {
  protected:
-  static auto in_file(const Scene& scene, geometry::Point2 p) -> geometry::Point2 {
+  static auto in_file(const model::Scene& scene, geometry::Point2 p) -> geometry::Point2 {
     return {p.x + static_cast<double>(scene.frame.origin[0]), p.y + static_cast<double>(scene.frame.origin[1])};
   }
-  static auto corner(const Scene& scene) -> geometry::Point2 {
+  static auto corner(const model::Scene& scene) -> geometry::Point2 {
     auto ring = scene.footprints.at(0).polygons.at(0).outer;
     return in_file(scene, *std::ranges::min_element(ring));
   }
@@ -61,14 +62,14 @@ TEST_F(Frames, degrees_and_metres_go_to_the_crs_asked_for) {
 }
 
 TEST_F(Frames, utm_zones_follow_their_exceptions_and_datums) {
-  EXPECT_EQ(detail::utm_zone(-0.142, 51.5, 4326), 32630);
-  EXPECT_EQ(detail::utm_zone(151.2, -33.9, 4326), 32756);
-  EXPECT_EQ(detail::utm_zone(180, 10, 4326), 32601);
-  EXPECT_EQ(detail::utm_zone(5.3, 60.4, 4326), 32632);
-  EXPECT_EQ(detail::utm_zone(15.6, 78.2, 4326), 32633);
-  EXPECT_EQ(detail::utm_zone(12.5, 55.7, 4258), 25833);
-  EXPECT_EQ(detail::utm_zone(-74, 40.7, 4269), 26918);
-  EXPECT_EQ(detail::utm_zone(0, 88, 4326), 0);
+  EXPECT_EQ(crs::utm_zone(-0.142, 51.5, 4326), 32630);
+  EXPECT_EQ(crs::utm_zone(151.2, -33.9, 4326), 32756);
+  EXPECT_EQ(crs::utm_zone(180, 10, 4326), 32601);
+  EXPECT_EQ(crs::utm_zone(5.3, 60.4, 4326), 32632);
+  EXPECT_EQ(crs::utm_zone(15.6, 78.2, 4326), 32633);
+  EXPECT_EQ(crs::utm_zone(12.5, 55.7, 4258), 25833);
+  EXPECT_EQ(crs::utm_zone(-74, 40.7, 4269), 26918);
+  EXPECT_EQ(crs::utm_zone(0, 88, 4326), 0);
 }
 
 TEST_F(Frames, geojson_without_crs_that_is_not_degrees_is_local) {
@@ -208,11 +209,11 @@ TEST_F(Frames, coordinates_come_back_bit_for_bit) {
 }
 
 TEST(Geojson, finds_the_crs_member_only_at_the_top) {
-  EXPECT_TRUE(detail::has_top_level_member(R"({ "type" : "x", "crs" : {"a":1} })", "crs"));
-  EXPECT_FALSE(detail::has_top_level_member(R"({"type":"x","crs": null})", "crs"));
-  EXPECT_FALSE(detail::has_top_level_member(R"({"name":"crs","features":[{"crs":{}}]})", "crs"));
-  EXPECT_FALSE(detail::has_top_level_member(R"({"a":"\",\"crs\":{}"})", "crs"));
-  EXPECT_FALSE(detail::has_top_level_member(R"({"crs)", "crs"));
+  EXPECT_TRUE(formats::has_top_level_member(R"({ "type" : "x", "crs" : {"a":1} })", "crs"));
+  EXPECT_FALSE(formats::has_top_level_member(R"({"type":"x","crs": null})", "crs"));
+  EXPECT_FALSE(formats::has_top_level_member(R"({"name":"crs","features":[{"crs":{}}]})", "crs"));
+  EXPECT_FALSE(formats::has_top_level_member(R"({"a":"\",\"crs\":{}"})", "crs"));
+  EXPECT_FALSE(formats::has_top_level_member(R"({"crs)", "crs"));
 }
 
 TEST_F(Frames, options_are_set_by_name) {
@@ -227,7 +228,7 @@ TEST_F(Frames, options_are_set_by_name) {
   EXPECT_EQ(options.mesh_offset[0], 84800);
   EXPECT_TRUE(list.find("bbox")->set("0 0 10 10"));
   EXPECT_TRUE(list.find("up")->set("y"));
-  EXPECT_EQ(options.up, UpAxis::y);
+  EXPECT_EQ(options.up, formats::UpAxis::y);
 }
 
 TEST_F(Frames, every_code_a_diagnostic_uses_is_listed_once) {

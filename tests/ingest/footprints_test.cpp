@@ -4,7 +4,7 @@
 
 #include "ingest/workshop.hpp"
 #include "mansard/geometry/polygon.hpp"
-#include "mansard/ingest/gdal.hpp"
+#include "mansard/crs/gdal.hpp"
 
 namespace mansard::ingest::test {
 namespace {
@@ -20,7 +20,7 @@ struct Shape {
 
 class Sources : public Workshop {
  protected:
-  static void SetUpTestSuite() { register_gdal(); }
+  static void SetUpTestSuite() { crs::register_gdal(); }
 
   /// A layer "roofs" with the fields name, floors, height, built; epsg 0 for none.
   void write(const std::string& driver, const fs::path& path, int epsg, const std::vector<Shape>& shapes,
@@ -57,7 +57,7 @@ class Sources : public Workshop {
       ASSERT_EQ(layer->CreateFeature(feature.get()), OGRERR_NONE);
     }
   }
-  static auto attribute(const Footprint& footprint, std::string_view name) -> Value {
+  static auto attribute(const model::Footprint& footprint, std::string_view name) -> model::Value {
     for (const auto& [key, value] : footprint.attributes)
       if (key == name) return value;
     return std::string("no such attribute");
@@ -85,22 +85,22 @@ TEST_P(SourcesOfAnyFormat, keep_polygons_holes_attributes_and_crs) {
   EXPECT_EQ(scene->frame.crs, "EPSG:28992");
   ASSERT_EQ(scene->footprints.size(), 2U);
   // FlatGeobuf puts features into the order of its spatial index.
-  const std::size_t at_first = attribute(scene->footprints[0], "name") == Value(std::string("two")) ? 1 : 0;
-  const Footprint& first = scene->footprints[at_first];
-  const Footprint& second = scene->footprints[1 - at_first];
+  const std::size_t at_first = attribute(scene->footprints[0], "name") == model::Value(std::string("two")) ? 1 : 0;
+  const model::Footprint& first = scene->footprints[at_first];
+  const model::Footprint& second = scene->footprints[1 - at_first];
   ASSERT_FALSE(first.defect) << first.defect->message;
   ASSERT_EQ(first.polygons.size(), 1U);
   EXPECT_GT(geometry::signed_area(first.polygons[0].outer), 0);
   ASSERT_EQ(first.polygons[0].holes.size(), 1U);
   EXPECT_LT(geometry::signed_area(first.polygons[0].holes[0]), 0);
   EXPECT_DOUBLE_EQ(geometry::area(first.polygons[0]), 375);
-  EXPECT_EQ(attribute(first, "name"), Value(std::string("Ærø \"3\"")));
-  EXPECT_EQ(attribute(first, "floors"), Value(std::int64_t{3}));
-  EXPECT_EQ(attribute(first, "height"), Value(9.75));
+  EXPECT_EQ(attribute(first, "name"), model::Value(std::string("Ærø \"3\"")));
+  EXPECT_EQ(attribute(first, "floors"), model::Value(std::int64_t{3}));
+  EXPECT_EQ(attribute(first, "height"), model::Value(9.75));
   // FlatGeobuf has no dates without a time.
   EXPECT_THAT(std::get<std::string>(attribute(first, "built")), ::testing::StartsWith("1911-04-03"));
   EXPECT_EQ(second.polygons.size(), 2U);
-  EXPECT_EQ(attribute(second, "height"), Value());
+  EXPECT_EQ(attribute(second, "height"), model::Value());
   EXPECT_NE(first.id, second.id);
   EXPECT_FALSE(fs::exists(at("f.gfs")));
   // The coordinates come back as they were.
@@ -166,13 +166,13 @@ TEST_F(Sources, the_kinds_of_fields_keep_their_kind) {
   ASSERT_TRUE(scene) << base::to_string(scene.error());
   const auto& f = scene->footprints[0];
   EXPECT_EQ(f.id, "7");
-  EXPECT_EQ(f.attributes[0], (std::pair<std::string, Value>{"yes", true}));
-  EXPECT_EQ(attribute(f, "big"), Value(std::int64_t{9007199254740993}));
-  EXPECT_EQ(attribute(f, "real"), Value(0.1));
-  EXPECT_EQ(attribute(f, "none"), Value());
-  EXPECT_EQ(attribute(f, "when"), Value(std::string("2020-02-03T04:05:06Z")));
-  EXPECT_EQ(attribute(f, "list"), Value(std::string("[1,2]")));
-  EXPECT_EQ(attribute(f, "words"), Value(std::string(R"(["a","b\"c"])")));
+  EXPECT_EQ(f.attributes[0], (std::pair<std::string, model::Value>{"yes", true}));
+  EXPECT_EQ(attribute(f, "big"), model::Value(std::int64_t{9007199254740993}));
+  EXPECT_EQ(attribute(f, "real"), model::Value(0.1));
+  EXPECT_EQ(attribute(f, "none"), model::Value());
+  EXPECT_EQ(attribute(f, "when"), model::Value(std::string("2020-02-03T04:05:06Z")));
+  EXPECT_EQ(attribute(f, "list"), model::Value(std::string("[1,2]")));
+  EXPECT_EQ(attribute(f, "words"), model::Value(std::string(R"(["a","b\"c"])")));
 }
 
 TEST_F(Sources, ids_come_from_the_attribute_asked_for_and_are_made_different) {

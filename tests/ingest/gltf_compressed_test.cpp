@@ -48,7 +48,7 @@ auto draco_glb(const Surface& surface, std::string packed) -> std::string {
 struct Shape {
   double area = 0, high = -1e9;
 };
-auto shape_of(const Scene& scene) -> Shape {
+auto shape_of(const model::Scene& scene) -> Shape {
   Shape out;
   for (const auto& t : scene.mesh.triangles) {
     const auto a = scene.mesh.vertices[t[0]], b = scene.mesh.vertices[t[1]], c = scene.mesh.vertices[t[2]];

@@ -1,10 +1,10 @@
-#include "mansard/ingest/input_name.hpp"
+#include "mansard/formats/input_name.hpp"
 
 #include <gmock/gmock.h>
 #include <fstream>
 
 #include "ingest/workshop.hpp"
-#include "mansard/ingest/detail/address.hpp"
+#include "mansard/formats/files/address.hpp"
 
 namespace mansard::ingest::test {
 namespace {
@@ -26,9 +26,9 @@ TEST(InputName, hides_every_password_that_a_database_takes) {
       {"PG:password=", "PG:password="},
       {"PG:password=\\", "PG:password=***"},
       {"PG:=", "PG:="}};
-  for (const auto& [name, text] : shown) EXPECT_EQ(name_to_show(name), text) << name;
-  EXPECT_EQ(detail::shown_text("`PG:dbname=a password='se cret'' was refused: no \"se cret\"",
-                               "PG:dbname=a password='se cret'"),
+  for (const auto& [name, text] : shown) EXPECT_EQ(formats::name_to_show(name), text) << name;
+  EXPECT_EQ(formats::shown_text("`PG:dbname=a password='se cret'' was refused: no \"se cret\"",
+                                "PG:dbname=a password='se cret'"),
             "`PG:dbname=a password=***' was refused: no \"***\"");
 }
 
@@ -43,34 +43,34 @@ TEST(InputName, keeps_all_of_a_database_but_its_password) {
       {"postgresql://me@host/a?password=secret", "postgresql://me@host/a"},
       {"PG:host=b user=c", "PG:host=b user=c"},
       {"/data/password=secret", "/data/password=secret"}};
-  for (const auto& [name, text] : kept) EXPECT_EQ(name_to_keep(name), text) << name;
+  for (const auto& [name, text] : kept) EXPECT_EQ(formats::name_to_keep(name), text) << name;
 }
 
 TEST(InputName, means_the_password_that_is_known_where_it_says_stars) {
   const std::string known = "PG:host=b password=secret";
-  EXPECT_EQ(meant_by("PG:host=b password=***", known), known);
-  EXPECT_EQ(meant_by("PG:host=b password=other", known), "PG:host=b password=other");
-  EXPECT_EQ(meant_by("PG:host=c password=***", known), "PG:host=c") << "it is for another host";
-  EXPECT_EQ(meant_by("PG:host=b password=***", ""), "PG:host=b");
-  EXPECT_EQ(meant_by("/a/b.gpkg", known), "/a/b.gpkg");
+  EXPECT_EQ(formats::meant_by("PG:host=b password=***", known), known);
+  EXPECT_EQ(formats::meant_by("PG:host=b password=other", known), "PG:host=b password=other");
+  EXPECT_EQ(formats::meant_by("PG:host=c password=***", known), "PG:host=c") << "it is for another host";
+  EXPECT_EQ(formats::meant_by("PG:host=b password=***", ""), "PG:host=b");
+  EXPECT_EQ(formats::meant_by("/a/b.gpkg", known), "/a/b.gpkg");
 }
 
 class InputPlace : public Workshop {};
 
 TEST_F(InputPlace, is_on_disk_in_an_archive_there_or_elsewhere) {
   const auto path = file("a.zip", "no archive");
-  EXPECT_TRUE(is_disk_name(path));
-  EXPECT_TRUE(is_disk_name("relative/a.obj.gz"));
-  EXPECT_FALSE(is_disk_name("/vsizip/" + path.string() + "/a.obj"));
-  EXPECT_FALSE(is_disk_name("PG:dbname=a"));
-  EXPECT_EQ(disk_place_of(path), path);
-  EXPECT_EQ(disk_place_of("/vsizip/" + path.string() + "/a.obj"), path);
-  EXPECT_EQ(disk_place_of("/vsizip/{" + path.string() + "}/a.obj"), path);
-  EXPECT_FALSE(disk_place_of("PG:dbname=a"));
-  EXPECT_FALSE(disk_place_of("/vsizip//vsicurl/http://127.0.0.1:9/a.zip"));
+  EXPECT_TRUE(formats::is_disk_name(path));
+  EXPECT_TRUE(formats::is_disk_name("relative/a.obj.gz"));
+  EXPECT_FALSE(formats::is_disk_name("/vsizip/" + path.string() + "/a.obj"));
+  EXPECT_FALSE(formats::is_disk_name("PG:dbname=a"));
+  EXPECT_EQ(formats::disk_place_of(path), path);
+  EXPECT_EQ(formats::disk_place_of("/vsizip/" + path.string() + "/a.obj"), path);
+  EXPECT_EQ(formats::disk_place_of("/vsizip/{" + path.string() + "}/a.obj"), path);
+  EXPECT_FALSE(formats::disk_place_of("PG:dbname=a"));
+  EXPECT_FALSE(formats::disk_place_of("/vsizip//vsicurl/http://127.0.0.1:9/a.zip"));
 
   const auto code = [](const fs::path& name) {
-    const auto checked = check_input(name);
+    const auto checked = formats::check_input(name);
     return checked ? std::string() : checked.error().code;
   };
   EXPECT_EQ(code(path), "");

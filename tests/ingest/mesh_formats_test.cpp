@@ -225,7 +225,7 @@ TEST_F(Gltf, turns_y_up_to_z_up) {
   EXPECT_THAT(scene->mesh.vertices, ElementsAre(Point3{0, 0, 0}, Point3{1, 0, 0}, Point3{1, 0, 2}, Point3{0, 0, 2}));
   EXPECT_THAT(scene->mesh.triangles, ElementsAre(Triangle{0, 1, 2}, Triangle{0, 2, 3}));
   Options options;
-  options.up = UpAxis::z;
+  options.up = formats::UpAxis::z;
   const auto lying = mesh(at("m.glb"), options);
   ASSERT_TRUE(lying);
   EXPECT_EQ(lying->mesh.vertices[2], (Point3{1, 2, 0}));

@@ -5,21 +5,21 @@
 #include "ingest/workshop.hpp"
 #include "mansard/base/run.hpp"
 #include "mansard/ingest/detail/clean.hpp"
-#include "mansard/ingest/detail/mesh_formats.hpp"
-#include "mansard/ingest/detail/text_chunks.hpp"
-#include "mansard/ingest/detail/words.hpp"
+#include "mansard/formats/mesh/mesh_formats.hpp"
+#include "mansard/formats/mesh/text_chunks.hpp"
+#include "mansard/formats/files/words.hpp"
 
 namespace mansard::ingest::test {
 namespace {
 
-using detail::RawMesh;
+using formats::RawMesh;
 using geometry::Point3;
 using geometry::Triangle;
 using ::testing::HasSubstr;
 
 /// Hills of n by n squares, with numbers that need all kinds of reading.
-auto hills(std::uint32_t n) -> RawMesh {
-  RawMesh mesh;
+auto hills(std::uint32_t n) -> formats::RawMesh {
+  formats::RawMesh mesh;
   base::Random random(3);
   for (std::uint32_t j = 0; j <= n; ++j)
     for (std::uint32_t i = 0; i <= n; ++i)
@@ -41,26 +41,26 @@ auto words(const Triangle& t, std::uint32_t from) -> std::string {
   return std::to_string(t[0] + from) + " " + std::to_string(t[1] + from) + " " + std::to_string(t[2] + from) + "\n";
 }
 
-auto as_obj(const RawMesh& mesh) -> std::string {
+auto as_obj(const formats::RawMesh& mesh) -> std::string {
   std::string text = "# hills\n";
   for (const auto p : mesh.vertices) text += "v " + words(p);
   for (const auto& t : mesh.triangles) text += "f " + words(t, 1);
   return text;
 }
-auto as_off(const RawMesh& mesh) -> std::string {
+auto as_off(const formats::RawMesh& mesh) -> std::string {
   std::string text =
       "OFF\n" + std::to_string(mesh.vertices.size()) + " " + std::to_string(mesh.triangles.size()) + " 0\n# next\n\n";
   for (const auto p : mesh.vertices) text += words(p);
   for (const auto& t : mesh.triangles) text += "3 " + words(t, 0);
   return text;
 }
-auto ply_header(const RawMesh& mesh, const std::string& format, const std::string& kind) -> std::string {
+auto ply_header(const formats::RawMesh& mesh, const std::string& format, const std::string& kind) -> std::string {
   return "ply\nformat " + format + " 1.0\nelement vertex " + std::to_string(mesh.vertices.size()) + "\nproperty " +
          kind + " x\nproperty " + kind + " y\nproperty uchar grey\nproperty " + kind + " z\nelement face " +
          std::to_string(mesh.triangles.size()) +
          "\nproperty uchar class\nproperty list uchar int vertex_indices\nend_header\n";
 }
-auto as_text_ply(const RawMesh& mesh) -> std::string {
+auto as_text_ply(const formats::RawMesh& mesh) -> std::string {
   std::string text = ply_header(mesh, "ascii", "double");
   for (const auto p : mesh.vertices)
     text += base::to_text(p.x) + " " + base::to_text(p.y) + " 7 " + base::to_text(p.z) + "\n";
@@ -76,7 +76,7 @@ void put(std::string& bytes, T value, bool big) {
   if (big) std::ranges::reverse(raw);
   bytes.append(raw.data(), raw.size());
 }
-auto as_binary_ply(const RawMesh& mesh, bool big) -> std::string {
+auto as_binary_ply(const formats::RawMesh& mesh, bool big) -> std::string {
   std::string bytes = ply_header(mesh, big ? "binary_big_endian" : "binary_little_endian", "double");
   for (const auto p : mesh.vertices) {
     put(bytes, p.x, big);
@@ -92,12 +92,12 @@ auto as_binary_ply(const RawMesh& mesh, bool big) -> std::string {
   return bytes;
 }
 
-void expect_hills(const base::Result<RawMesh>& read, const RawMesh& hills) {
+void expect_hills(const base::Result<formats::RawMesh>& read, const formats::RawMesh& hills) {
   ASSERT_TRUE(read) << base::to_string(read.error());
   EXPECT_TRUE(read->vertices == hills.vertices);
   EXPECT_TRUE(read->triangles == hills.triangles);
 }
-void expect_classes(const base::Result<RawMesh>& read) {
+void expect_classes(const base::Result<formats::RawMesh>& read) {
   ASSERT_TRUE(read);
   ASSERT_EQ(read->classes.size(), read->triangles.size());
   for (std::size_t i = 0; i < read->classes.size(); ++i) ASSERT_EQ(read->classes[i], std::min<std::size_t>(i % 5, 3));
@@ -105,21 +105,21 @@ void expect_classes(const base::Result<RawMesh>& read) {
 
 class ManyPieces : public ::testing::Test {
  protected:
-  static inline const RawMesh expected = hills(220);
+  static inline const formats::RawMesh expected = hills(220);
   static inline const std::string name = "hills";
 };
 
 TEST_F(ManyPieces, of_every_format_are_the_same_mesh) {
   const std::string obj = as_obj(expected);
-  ASSERT_GT(detail::chunks_of(obj, true).size(), 3U);
-  expect_hills(detail::read_obj(obj, name), expected);
-  expect_hills(detail::read_off(as_off(expected), name), expected);
+  ASSERT_GT(formats::chunks_of(obj, true).size(), 3U);
+  expect_hills(formats::read_obj(obj, name), expected);
+  expect_hills(formats::read_off(as_off(expected), name), expected);
   for (const bool big : {false, true}) {
-    const auto binary = detail::read_ply(as_binary_ply(expected, big), name);
+    const auto binary = formats::read_ply(as_binary_ply(expected, big), name);
     expect_hills(binary, expected);
     expect_classes(binary);
   }
-  const auto text = detail::read_ply(as_text_ply(expected), name);
+  const auto text = formats::read_ply(as_text_ply(expected), name);
   expect_hills(text, expected);
   expect_classes(text);
 }
@@ -129,7 +129,7 @@ TEST_F(ManyPieces, may_break_their_lines_anywhere) {
   std::string ply = as_text_ply(expected);
   const std::size_t body = ply.find("end_header\n") + 11;
   ply[ply.find('\n', body)] = ' ';
-  expect_hills(detail::read_ply(ply, name), expected);
+  expect_hills(formats::read_ply(ply, name), expected);
   // A continued line every so often, Windows line ends, blanks and comments.
   std::string obj;
   std::size_t line = 0;
@@ -138,7 +138,7 @@ TEST_F(ManyPieces, may_break_their_lines_anywhere) {
     if (c == ' ' && line % 7 == 5) obj += " \\\r\n";
     obj += c;
   }
-  expect_hills(detail::read_obj(obj, name), expected);
+  expect_hills(formats::read_obj(obj, name), expected);
 }
 
 TEST_F(ManyPieces, count_negative_indices_back_over_all_before) {
@@ -150,11 +150,11 @@ TEST_F(ManyPieces, count_negative_indices_back_over_all_before) {
     for (const auto v : t) obj += " " + std::to_string(static_cast<std::int64_t>(v) - count) + "//1";
     obj += "\n";
   }
-  expect_hills(detail::read_obj(obj, name), expected);
+  expect_hills(formats::read_obj(obj, name), expected);
 }
 
 TEST_F(ManyPieces, of_faces_of_any_length_become_fans_in_their_order) {
-  RawMesh some = expected;
+  formats::RawMesh some = expected;
   some.triangles.resize(3);
   std::string bytes = ply_header(some, "binary_little_endian", "double");
   const std::size_t body = bytes.size();
@@ -168,9 +168,9 @@ TEST_F(ManyPieces, of_faces_of_any_length_become_fans_in_their_order) {
   face({0, 1, 2, 3, 4});
   face({7, 8});
   face({5, 6, 0xffffffffU});
-  const auto read = detail::read_ply(bytes, name);
+  const auto read = formats::read_ply(bytes, name);
   ASSERT_TRUE(read) << base::to_string(read.error());
-  const std::vector<Triangle> fans{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {5, 6, detail::no_vertex}};
+  const std::vector<Triangle> fans{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {5, 6, formats::no_vertex}};
   EXPECT_EQ(read->triangles, fans);
   EXPECT_EQ(read->short_faces, 1U);
   EXPECT_EQ(read->classes, (std::vector<std::uint8_t>{1, 1, 1, 1}));
@@ -183,35 +183,35 @@ TEST_F(ManyPieces, name_the_line_of_the_first_fault) {
   std::string obj = as_obj(expected);
   const std::size_t last = obj.rfind("\nf ", obj.size() - 5000) + 3, early = obj.find("\nv ", obj.size() / 3) + 3;
   obj[last] = 'x';
-  const auto late_fault = detail::read_obj(obj, name);
+  const auto late_fault = formats::read_obj(obj, name);
   ASSERT_FALSE(late_fault);
   EXPECT_THAT(late_fault.error().message, HasSubstr(line_of(obj, last)));
   obj[early] = 'y';
-  const auto both = detail::read_obj(obj, name);
+  const auto both = formats::read_obj(obj, name);
   ASSERT_FALSE(both);
   EXPECT_EQ(both.error().code, "ingest-mesh-format");
   EXPECT_THAT(both.error().message, HasSubstr(line_of(obj, early)));
   obj[obj.size() / 2] = '\0';
-  EXPECT_THAT(detail::read_obj(obj, name).error().message, HasSubstr("binary data"));
+  EXPECT_THAT(formats::read_obj(obj, name).error().message, HasSubstr("binary data"));
   const std::string sound = as_obj(expected);
-  const auto cut = detail::read_obj(sound.substr(0, sound.rfind(' ')), name);
+  const auto cut = formats::read_obj(sound.substr(0, sound.rfind(' ')), name);
   ASSERT_FALSE(!cut && cut.error().code != "ingest-mesh-truncated");
   std::string off = as_off(expected);
   const std::size_t bad = off.find("\n3 ", off.size() - 3000) + 3;
   off[bad] = 'x';
-  EXPECT_THAT(detail::read_off(off, name).error().message, HasSubstr(line_of(off, bad)));
+  EXPECT_THAT(formats::read_off(off, name).error().message, HasSubstr(line_of(off, bad)));
   const std::string ply = as_text_ply(expected);
-  const auto short_ply = detail::read_ply(ply.substr(0, ply.size() - 40), name);
+  const auto short_ply = formats::read_ply(ply.substr(0, ply.size() - 40), name);
   ASSERT_FALSE(short_ply);
   EXPECT_EQ(short_ply.error().code, "ingest-mesh-truncated");
   const std::string binary = as_binary_ply(expected, false);
-  EXPECT_EQ(detail::read_ply(binary.substr(0, binary.size() - 1), name).error().code, "ingest-mesh-truncated");
+  EXPECT_EQ(formats::read_ply(binary.substr(0, binary.size() - 1), name).error().code, "ingest-mesh-truncated");
 }
 
 TEST_F(ManyPieces, are_cleaned_alike_at_any_number_of_threads) {
   // Every triangle's corners for itself, some triangles twice or turned, some of no area, some at places that are none.
   base::Random random(11);
-  RawMesh soup;
+  formats::RawMesh soup;
   for (std::size_t i = 0; i < expected.triangles.size(); ++i) {
     Triangle t = expected.triangles[i];
     for (int copies = random.index(20) == 0 ? 2 : 1; copies > 0; --copies, std::swap(t[0], t[1]))
@@ -258,9 +258,9 @@ TEST(PlainNumbers, are_what_the_careful_way_gives) {
       text += static_cast<char>('0' + random.index(10));
     const char* at = text.data();
     double value = 0;
-    if (!detail::take_plain_number(at, text.data() + text.size(), value)) continue;
+    if (!formats::take_plain_number(at, text.data() + text.size(), value)) continue;
     ++plain;
-    const auto careful = detail::to_coordinate(text);
+    const auto careful = formats::to_coordinate(text);
     ASSERT_TRUE(careful.has_value()) << text;
     ASSERT_EQ(std::bit_cast<std::uint64_t>(value), std::bit_cast<std::uint64_t>(*careful)) << text;
     ASSERT_EQ(at, text.data() + text.size());
@@ -270,7 +270,7 @@ TEST(PlainNumbers, are_what_the_careful_way_gives) {
        {"", "-", ".", "+1", ".5", "1e3", "nan", "1.#QNAN", "12345678901234567890", "1,5", "0x10"}) {
     const char* at = text.data();
     double value = 0;
-    EXPECT_FALSE(detail::take_plain_number(at, text.data() + text.size(), value)) << text;
+    EXPECT_FALSE(formats::take_plain_number(at, text.data() + text.size(), value)) << text;
     EXPECT_EQ(at, text.data()) << text;
   }
 }

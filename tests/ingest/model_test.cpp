@@ -39,28 +39,28 @@ class Models : public test::Workshop {
     return geometry("Solid", "[" + box_surfaces + "]", "[[0,1,2,2,2,2]]", lod);
   }
   auto model(const std::string& text, const std::string& name = "m.city.json", const ModelOptions& options = {}) const
-      -> base::Result<Model> {
+      -> base::Result<model::Model> {
     return read_model(file(name, text), options);
   }
-  static auto count(const Model& model, SurfaceClass kind) -> std::size_t {
+  static auto count(const model::Model& model, model::SurfaceClass kind) -> std::size_t {
     std::size_t n = 0;
     for (const auto& building : model.buildings)
       for (const auto& part : building.parts)
         for (const auto& face : part.faces) n += face.kind == kind ? 1 : 0;
     return n;
   }
-  static auto warned(const Model& model, std::string_view code) -> std::string {
+  static auto warned(const model::Model& model, std::string_view code) -> std::string {
     for (const auto& warning : model.warnings)
       if (warning.code == code) return warning.message;
     return "";
   }
-  static void expect_box(const base::Result<Model>& read) {
+  static void expect_box(const base::Result<model::Model>& read) {
     ASSERT_TRUE(read) << read.error().message;
-    EXPECT_EQ(count(*read, SurfaceClass::wall), 4U);
-    EXPECT_EQ(count(*read, SurfaceClass::roof), 1U);
-    EXPECT_EQ(count(*read, SurfaceClass::ground), 1U);
+    EXPECT_EQ(count(*read, model::SurfaceClass::wall), 4U);
+    EXPECT_EQ(count(*read, model::SurfaceClass::roof), 1U);
+    EXPECT_EQ(count(*read, model::SurfaceClass::ground), 1U);
     double area = 0;
-    const auto surface = surface_of(*read);
+    const auto surface = model::surface_of(*read);
     for (const auto& t : surface.mesh.triangles) {
       const auto& v = surface.mesh.vertices;
       area += length(cross(v[t[1]] - v[t[0]], v[t[2]] - v[t[0]])) / 2;
@@ -121,8 +121,8 @@ TEST_F(Models, are_told_by_direction_where_semantics_are_missing_or_null) {
 TEST_F(Models, believe_semantics_against_the_direction) {
   const auto read = model(document(object(geometry("Solid", "[" + box_surfaces + "]", "[[2,2,1,1,1,1]]"))));
   ASSERT_TRUE(read);
-  EXPECT_EQ(count(*read, SurfaceClass::roof), 4U);
-  EXPECT_EQ(count(*read, SurfaceClass::wall), 2U);
+  EXPECT_EQ(count(*read, model::SurfaceClass::roof), 4U);
+  EXPECT_EQ(count(*read, model::SurfaceClass::wall), 2U);
 }
 
 TEST_F(Models, are_read_at_the_highest_lod_or_the_one_asked_for) {
@@ -134,8 +134,8 @@ TEST_F(Models, are_read_at_the_highest_lod_or_the_one_asked_for) {
   EXPECT_EQ(highest->lod, "2.2");
   const auto low = model(both, "m.city.json", {"1", ""});
   ASSERT_TRUE(low);
-  EXPECT_EQ(count(*low, SurfaceClass::roof), 1U);
-  EXPECT_EQ(count(*low, SurfaceClass::wall), 0U);
+  EXPECT_EQ(count(*low, model::SurfaceClass::roof), 1U);
+  EXPECT_EQ(count(*low, model::SurfaceClass::wall), 0U);
   EXPECT_EQ(low->lod, "1.2");
   const auto missing = model(both, "m.city.json", {"3", ""});
   ASSERT_FALSE(missing);
@@ -157,7 +157,7 @@ TEST_F(Models, leave_out_inner_shells_templates_and_faces_without_area_and_say_s
   EXPECT_THAT(warned(*read, "ingest-model-left-out"), HasSubstr("1 GeometryInstance"));
   const auto flat = model(document(object(geometry("MultiSurface", "[[[0,1]],[[0,1,0]],[[0,1,2,3]]]", "[0,0,0]"))));
   ASSERT_TRUE(flat);
-  EXPECT_EQ(count(*flat, SurfaceClass::ground), 1U);
+  EXPECT_EQ(count(*flat, model::SurfaceClass::ground), 1U);
   EXPECT_THAT(warned(*flat, "ingest-model-face"), HasSubstr("2 faces"));
 }
 
@@ -166,7 +166,7 @@ TEST_F(Models, keep_the_holes_of_a_face) {
     {"type":"MultiSurface","lod":"2","boundaries":[[[0,1,2,3],[4,5,6,7]]]}]}},
     "vertices":[[0,0,5],[10,0,5],[10,10,5],[0,10,5],[4,4,5],[4,6,5],[6,6,5],[6,4,5]]})");
   ASSERT_TRUE(read) << read.error().message;
-  const auto surface = surface_of(*read);
+  const auto surface = model::surface_of(*read);
   double area = 0;
   for (const auto& t : surface.mesh.triangles) {
     const auto& v = surface.mesh.vertices;
@@ -267,7 +267,7 @@ TEST_F(Models, of_other_makers_are_read) {
   ASSERT_TRUE(zurich) << zurich.error().message;
   EXPECT_EQ(zurich->buildings.size(), 49U);
   EXPECT_EQ(zurich->frame.crs, "EPSG:2056");
-  EXPECT_EQ(surface_of(*zurich).lost, 0U);
+  EXPECT_EQ(model::surface_of(*zurich).lost, 0U);
   const auto rotterdam = read_model(test::fs::path(MANSARD_SHARED_DATA) / "sim_rotterdam/block_A_truth.obj");
   ASSERT_TRUE(rotterdam) << rotterdam.error().message;
   EXPECT_EQ(rotterdam->buildings.size(), 29U);
@@ -281,7 +281,7 @@ TEST_F(Models, and_meshes_that_lie_apart_are_named_with_both_extents) {
     for (auto& v : mesh.vertices) v = v + by;
     return mesh;
   };
-  const Frame frame{{1000, 2000, 0}, "EPSG:28992"};
+  const model::Frame frame{{1000, 2000, 0}, "EPSG:28992"};
   EXPECT_TRUE(check_overlap(here, shifted({5, 5, 2}), {"model", "mesh"}, frame, "m"));
   for (const Point3 by : {Point3{11, 0, 0}, {0, -11, 0}, {0, 0, 6}}) {
     const auto apart = check_overlap(here, shifted(by), {"model", "mesh"}, frame, "m");
@@ -304,7 +304,7 @@ TEST_F(Models, stand_on_meshes_in_their_frame_with_the_classes_that_a_ply_has) {
   const auto mesh = read_mesh({ply}, {{1005, 0, 0}, ""}, options);
   ASSERT_TRUE(mesh) << mesh.error().message;
   ASSERT_EQ(mesh->mesh.triangles.size(), 2U);  // one had no area, one repeats the first
-  EXPECT_EQ(mesh->classes, (std::vector{SurfaceClass::roof, SurfaceClass::wall}));
+  EXPECT_EQ(mesh->classes, (std::vector{model::SurfaceClass::roof, model::SurfaceClass::wall}));
   EXPECT_EQ(mesh->mesh.vertices[0], (Point3{-5, 0, 0}));
   EXPECT_TRUE(read_mesh({ground()}, {}, {})->classes.empty());
   EXPECT_EQ(read_mesh({at("none.ply")}, {}, {}).error().code, "file-missing");

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "ingest/database.hpp"
-#include "mansard/ingest/detail/features.hpp"
+#include "mansard/formats/vector/features.hpp"
 
 namespace mansard::ingest::test {
 namespace {

@@ -14,7 +14,7 @@ using ::testing::IsEmpty;
 const Ring square{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
 auto box(double x0, double y0, double x1, double y1) -> Ring { return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}; }
 
-auto mend(const std::vector<RawPolygon>& parts) -> Repaired {
+auto mend(const std::vector<formats::RawPolygon>& parts) -> Repaired {
   auto out = repair(parts, {1000, 2000});
   EXPECT_EQ(out.polygons.empty(), out.defect.has_value());
   for (const auto& polygon : out.polygons) {
@@ -98,9 +98,9 @@ TEST(Rings, with_holes_outside_or_overlapping_are_a_defect) {
 
 TEST(Rings, that_touch_are_held_apart_by_a_small_bridge) {
   // A courtyard whose corner lies on the outer wall, on a corner of the outer wall, and on another courtyard.
-  for (const RawPolygon& raw :
-       {RawPolygon{square, {{5, 0}, {7, 4}, {3, 4}}}, RawPolygon{square, {{0, 0}, {6, 2}, {2, 6}}},
-        RawPolygon{square, box(2, 2, 4, 4), box(4, 4, 6, 6)}}) {
+  for (const formats::RawPolygon& raw :
+       {formats::RawPolygon{square, {{5, 0}, {7, 4}, {3, 4}}}, formats::RawPolygon{square, {{0, 0}, {6, 2}, {2, 6}}},
+        formats::RawPolygon{square, box(2, 2, 4, 4), box(4, 4, 6, 6)}}) {
     const auto out = mend({raw});
     ASSERT_EQ(out.polygons.size(), 1U);
     EXPECT_EQ(out.polygons[0].holes.size(), raw.size() - 1);
@@ -131,7 +131,7 @@ TEST(Rings, of_random_scribbles_end_simple_or_with_a_reason) {
   std::size_t good = 0, bad = 0;
   for (int round = 0; round < 2000; ++round) {
     // Small whole coordinates, so that touching, repeating and overlapping are the rule.
-    std::vector<RawPolygon> parts(1 + random.index(2));
+    std::vector<formats::RawPolygon> parts(1 + random.index(2));
     for (auto& part : parts) {
       part.resize(1 + random.index(3));
       for (auto& ring : part)

@@ -4,10 +4,10 @@
 #include <gmock/gmock.h>
 
 #include "ingest/workshop.hpp"
+#include "mansard/crs/gdal.hpp"
+#include "mansard/formats/source.hpp"
+#include "mansard/formats/vector/features.hpp"
 #include "mansard/geometry/polygon.hpp"
-#include "mansard/ingest/detail/features.hpp"
-#include "mansard/ingest/gdal.hpp"
-#include "mansard/ingest/source.hpp"
 
 namespace mansard::ingest::test {
 namespace {
@@ -18,7 +18,7 @@ using ::testing::UnorderedElementsAre;
 
 class MoreSources : public Workshop {
  protected:
-  static void SetUpTestSuite() { register_gdal(); }
+  static void SetUpTestSuite() { crs::register_gdal(); }
 
   static void pack(const std::string& name, std::string_view bytes) {
     VSILFILE* file = VSIFOpenL(name.c_str(), "wb");
@@ -26,12 +26,12 @@ class MoreSources : public Workshop {
     VSIFWriteL(bytes.data(), 1, bytes.size(), file);
     VSIFCloseL(file);
   }
-  static auto ids(const Scene& scene) -> std::vector<std::string> {
+  static auto ids(const model::Scene& scene) -> std::vector<std::string> {
     std::vector<std::string> out;
     for (const auto& footprint : scene.footprints) out.push_back(footprint.id);
     return out;
   }
-  static auto attribute(const Footprint& footprint, std::string_view name) -> Value {
+  static auto attribute(const model::Footprint& footprint, std::string_view name) -> model::Value {
     for (const auto& [key, value] : footprint.attributes)
       if (key == name) return value;
     return std::string("no such attribute");
@@ -113,14 +113,15 @@ TEST_F(MoreSources, are_found_in_an_archive_of_a_folder) {
   pack("/vsizip/" + at("folder.zip").string() + "/city/houses/" + name, gpkg);
   pack("/vsizip/" + at("folder.zip").string() + "/.DS_Store", "not for others");
   EXPECT_EQ(scene_of(at("folder.zip")), 3U);
-  EXPECT_TRUE(vector_source(at("folder.zip")));
+  EXPECT_TRUE(formats::vector_source(at("folder.zip")));
 }
 
 TEST_F(MoreSources, of_geojson_without_crs_are_no_degrees_beyond_the_earth) {
-  EXPECT_EQ(vector_source(polygons({square(500, 300)})).value().layers.at(0).crs, "");
-  EXPECT_EQ(vector_source(polygons({square(4, 52, 0.001)})).value().layers.at(0).crs, "EPSG:4326");
-  EXPECT_EQ(vector_source(polygons({square(500, 300)}, "urn:ogc:def:crs:EPSG::28992")).value().layers.at(0).crs,
-            "EPSG:28992");
+  EXPECT_EQ(formats::vector_source(polygons({square(500, 300)})).value().layers.at(0).crs, "");
+  EXPECT_EQ(formats::vector_source(polygons({square(4, 52, 0.001)})).value().layers.at(0).crs, "EPSG:4326");
+  EXPECT_EQ(
+      formats::vector_source(polygons({square(500, 300)}, "urn:ogc:def:crs:EPSG::28992")).value().layers.at(0).crs,
+      "EPSG:28992");
 }
 
 TEST_F(MoreSources, with_a_box_are_the_same_whether_the_driver_knows_boxes_or_not) {
@@ -130,9 +131,9 @@ TEST_F(MoreSources, with_a_box_are_the_same_whether_the_driver_knows_boxes_or_no
   const auto scene = read_footprints(path, options);
   ASSERT_TRUE(scene) << base::to_string(scene.error());
   EXPECT_EQ(scene->footprints.size(), 4U);
-  EXPECT_EQ(attribute(scene->footprints[0], "name"), Value(std::string("house 10")));
+  EXPECT_EQ(attribute(scene->footprints[0], "name"), model::Value(std::string("house 10")));
   EXPECT_EQ(scene->footprints[0].id, "11");
-  const auto raw = detail::read_features(path, options, {});
+  const auto raw = formats::read_features(path, {.layer = {}, .where = {}, .crs = {}, .bbox = options.bbox}, {});
   ASSERT_TRUE(raw);
   EXPECT_GT(raw->features.size(), 100U);
   EXPECT_LT(raw->features.size(), 130U);
@@ -166,14 +167,14 @@ TEST_F(MoreSources, of_openstreetmap_are_its_buildings_with_all_their_tags) {
       ASSERT_FALSE(footprint.defect);
       if (footprint.id == "relation/201") {
         EXPECT_EQ(footprint.polygons[0].holes.size(), 1U);
-        EXPECT_EQ(attribute(footprint, "height"), Value(std::string("12")));
+        EXPECT_EQ(attribute(footprint, "height"), model::Value(std::string("12")));
         continue;
       }
-      EXPECT_EQ(attribute(footprint, "building:levels"), Value(std::string("3")));
-      EXPECT_EQ(attribute(footprint, "roof:shape"), Value(std::string("gabled")));
-      EXPECT_EQ(attribute(footprint, "name"), Value(std::string("The \"Crown\"")));
-      EXPECT_EQ(attribute(footprint, "description"), Value(std::string("a \\ b => c")));
-      EXPECT_EQ(attribute(footprint, "other_tags"), Value(std::string("no such attribute")));
+      EXPECT_EQ(attribute(footprint, "building:levels"), model::Value(std::string("3")));
+      EXPECT_EQ(attribute(footprint, "roof:shape"), model::Value(std::string("gabled")));
+      EXPECT_EQ(attribute(footprint, "name"), model::Value(std::string("The \"Crown\"")));
+      EXPECT_EQ(attribute(footprint, "description"), model::Value(std::string("a \\ b => c")));
+      EXPECT_EQ(attribute(footprint, "other_tags"), model::Value(std::string("no such attribute")));
     }
     for (const auto& warning : scene->warnings) EXPECT_NE(warning.code, "ingest-layers");
   }
@@ -218,11 +219,11 @@ TEST_F(MoreSources, of_city_models_are_their_outlines_on_the_ground) {
   EXPECT_DOUBLE_EQ(geometry::area(flat.polygons[0]), 100);
   const double x = flat.polygons[0].outer[0].x + static_cast<double>(scene->frame.origin[0]);
   EXPECT_TRUE(x == 84000 || x == 84010) << x;
-  EXPECT_EQ(attribute(flat, "floors"), Value(std::int64_t{3}));
-  EXPECT_EQ(attribute(flat, "old"), Value(true));
-  EXPECT_EQ(attribute(flat, "tags"), Value(std::string(R"(["x",1])")));
-  EXPECT_EQ(attribute(flat, "empty"), Value());
-  EXPECT_EQ(attribute(flat, "ms_h_roof"), Value(std::string("no such attribute")));
+  EXPECT_EQ(attribute(flat, "floors"), model::Value(std::int64_t{3}));
+  EXPECT_EQ(attribute(flat, "old"), model::Value(true));
+  EXPECT_EQ(attribute(flat, "tags"), model::Value(std::string(R"(["x",1])")));
+  EXPECT_EQ(attribute(flat, "empty"), model::Value());
+  EXPECT_EQ(attribute(flat, "ms_h_roof"), model::Value(std::string("no such attribute")));
   EXPECT_DOUBLE_EQ(geometry::area(scene->footprints[1].polygons.at(0)), 100);
   EXPECT_DOUBLE_EQ(geometry::area(scene->footprints[2].polygons.at(0)), 100);
   ASSERT_TRUE(scene->footprints[3].defect);
@@ -264,15 +265,15 @@ TEST_F(MoreSources, of_city_models_may_be_a_line_per_feature) {
 }
 
 TEST_F(MoreSources, that_are_databases_never_show_their_password) {
-  using detail::shown_name;
-  EXPECT_EQ(shown_name("PG:dbname=a password=secret host=b"), "PG:dbname=a password=*** host=b");
-  EXPECT_EQ(shown_name("PG:password='se cr\\'et' dbname=a"), "PG:password=*** dbname=a");
-  EXPECT_EQ(shown_name("postgresql://me:secret@host/a"), "postgresql://me:***@host/a");
-  EXPECT_EQ(shown_name("postgresql://me@host:5432/a?password=secret&x=1"),
+  using formats::shown_name;
+  EXPECT_EQ(formats::shown_name("PG:dbname=a password=secret host=b"), "PG:dbname=a password=*** host=b");
+  EXPECT_EQ(formats::shown_name("PG:password='se cr\\'et' dbname=a"), "PG:password=*** dbname=a");
+  EXPECT_EQ(formats::shown_name("postgresql://me:secret@host/a"), "postgresql://me:***@host/a");
+  EXPECT_EQ(formats::shown_name("postgresql://me@host:5432/a?password=secret&x=1"),
             "postgresql://me@host:5432/a?password=***&x=1");
-  EXPECT_EQ(shown_name("postgresql://host:5432/a"), "postgresql://host:5432/a");
-  EXPECT_EQ(shown_name("a/password=b.gpkg"), "a/password=b.gpkg");
-  const auto none = detail::read_features("PG:host=127.0.0.1 port=9 dbname=a password=secret", {}, {});
+  EXPECT_EQ(formats::shown_name("postgresql://host:5432/a"), "postgresql://host:5432/a");
+  EXPECT_EQ(formats::shown_name("a/password=b.gpkg"), "a/password=b.gpkg");
+  const auto none = formats::read_features("PG:host=127.0.0.1 port=9 dbname=a password=secret", {}, {});
   ASSERT_FALSE(none);
   EXPECT_EQ(none.error().code, "file-read");
   EXPECT_EQ(base::to_string(none.error()).find("secret"), std::string::npos);

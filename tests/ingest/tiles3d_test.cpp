@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "ingest/gltf_workshop.hpp"
-#include "mansard/ingest/detail/tiles3d.hpp"
+#include "mansard/formats/tiles3d/tileset.hpp"
 #include "mansard/ingest/model.hpp"
 
 namespace mansard::ingest::test {
@@ -17,7 +17,7 @@ constexpr double longitude = 4.3571, latitude = 52.0118, east = 593139.054, nort
 class Tiles : public Workshop {
  protected:
   /// Without footprints.
-  static auto alone(const fs::path& path, const Options& options = {}) -> base::Result<Scene> {
+  static auto alone(const fs::path& path, const Options& options = {}) -> base::Result<model::Scene> {
     return read_scene({path}, {}, options);
   }
   static auto tile(const Json& volume, double error, const std::string& uri = "") -> Json {
@@ -26,7 +26,7 @@ class Tiles : public Workshop {
     return out;
   }
   /// x of every triangle's first corner, in file coordinates and whole metres.
-  static auto places(const base::Result<Scene>& scene) -> std::vector<int> {
+  static auto places(const base::Result<model::Scene>& scene) -> std::vector<int> {
     std::vector<int> out;
     if (!scene) return ADD_FAILURE() << base::to_string(scene.error()), out;
     for (const auto& t : scene->mesh.triangles) out.push_back(static_cast<int>(std::lround(in_file(*scene, t[0]).x)));
@@ -279,7 +279,7 @@ TEST_F(Tiles, axes_are_as_the_tileset_or_the_option_says) {
   const auto path = file("tileset.json", json.dump());
   EXPECT_EQ(in_file(*alone(path)), (Point3{1, 0, -2}));
   Options options;
-  options.up = UpAxis::y;
+  options.up = formats::UpAxis::y;
   EXPECT_EQ(in_file(*alone(path, options)), (Point3{1, 2, 0}));
 }
 
@@ -387,14 +387,15 @@ TEST_F(Tiles, what_is_wrong_is_said_with_the_file_that_it_is_wrong_with) {
 }
 
 TEST(TileAddress, is_found_beside_its_file_wherever_that_is) {
-  using detail::address_beside;
-  EXPECT_EQ(address_beside("tileset.json", "a.glb"), "a.glb");
-  EXPECT_EQ(address_beside("/a/b/t.json", "../c/./x.glb"), "/a/c/x.glb");
-  EXPECT_EQ(address_beside("/a/b/t.json", "c\\x%20y.glb?v=2"), "/a/b/c/x y.glb");
-  EXPECT_EQ(address_beside("../t.json", "../a.glb"), "../../a.glb");
-  EXPECT_EQ(address_beside("/vsicurl/https://h/x/t.json?key=1", "a%20b.glb?v=2"), "/vsicurl/https://h/x/a%20b.glb?v=2");
-  EXPECT_EQ(address_beside("/vsicurl/https://h/x/t.json", "/y/a.glb"), "/vsicurl/https://h/y/a.glb");
-  EXPECT_EQ(address_beside("/a/t.json", "https://h/a.glb"), "/vsicurl/https://h/a.glb");
+  using formats::address_beside;
+  EXPECT_EQ(formats::address_beside("tileset.json", "a.glb"), "a.glb");
+  EXPECT_EQ(formats::address_beside("/a/b/t.json", "../c/./x.glb"), "/a/c/x.glb");
+  EXPECT_EQ(formats::address_beside("/a/b/t.json", "c\\x%20y.glb?v=2"), "/a/b/c/x y.glb");
+  EXPECT_EQ(formats::address_beside("../t.json", "../a.glb"), "../../a.glb");
+  EXPECT_EQ(formats::address_beside("/vsicurl/https://h/x/t.json?key=1", "a%20b.glb?v=2"),
+            "/vsicurl/https://h/x/a%20b.glb?v=2");
+  EXPECT_EQ(formats::address_beside("/vsicurl/https://h/x/t.json", "/y/a.glb"), "/vsicurl/https://h/y/a.glb");
+  EXPECT_EQ(formats::address_beside("/a/t.json", "https://h/a.glb"), "/vsicurl/https://h/a.glb");
 }
 
 }  // namespace

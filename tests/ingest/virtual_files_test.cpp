@@ -1,5 +1,5 @@
 // Files in archives, compressed, and not there at all.
-#include "mansard/ingest/detail/virtual_files.hpp"
+#include "mansard/formats/files/virtual_files.hpp"
 
 #include <gdal/cpl_string.h>
 #include <gdal/cpl_vsi.h>
@@ -22,7 +22,7 @@ class VirtualFiles : public Workshop {
     VSIFCloseL(file);
   }
   static auto text_of(const fs::path& path) -> std::string {
-    const auto bytes = detail::Bytes::of(path);
+    const auto bytes = formats::Bytes::of(path);
     return bytes ? std::string(bytes->view()) : base::to_string(bytes.error());
   }
 };
@@ -46,22 +46,22 @@ TEST_F(VirtualFiles, on_disk_are_mapped_and_those_packed_are_unpacked) {
 }
 
 TEST_F(VirtualFiles, are_called_what_gdal_calls_them) {
-  using detail::name_for_gdal;
-  EXPECT_EQ(name_for_gdal("a/b.geojson.GZ"), "/vsigzip/a/b.geojson.GZ");
-  EXPECT_EQ(name_for_gdal("/a/b.zip"), "/vsizip//a/b.zip");
-  EXPECT_EQ(name_for_gdal("/vsizip/a.zip/b.shp"), "/vsizip/a.zip/b.shp");
-  EXPECT_EQ(name_for_gdal("a.gpkg"), "a.gpkg");
-  EXPECT_EQ(detail::plain_name("a/b.obj.gz"), "a/b.obj");
-  EXPECT_EQ(detail::plain_name("a/b.obj"), "a/b.obj");
-  EXPECT_TRUE(detail::is_virtual("/vsicurl/https://host/a.obj"));
-  EXPECT_FALSE(detail::is_virtual("a.zip"));
+  using formats::name_for_gdal;
+  EXPECT_EQ(formats::name_for_gdal("a/b.geojson.GZ"), "/vsigzip/a/b.geojson.GZ");
+  EXPECT_EQ(formats::name_for_gdal("/a/b.zip"), "/vsizip//a/b.zip");
+  EXPECT_EQ(formats::name_for_gdal("/vsizip/a.zip/b.shp"), "/vsizip/a.zip/b.shp");
+  EXPECT_EQ(formats::name_for_gdal("a.gpkg"), "a.gpkg");
+  EXPECT_EQ(formats::plain_name("a/b.obj.gz"), "a/b.obj");
+  EXPECT_EQ(formats::plain_name("a/b.obj"), "a/b.obj");
+  EXPECT_TRUE(formats::is_virtual("/vsicurl/https://host/a.obj"));
+  EXPECT_FALSE(formats::is_virtual("a.zip"));
 }
 
 TEST_F(VirtualFiles, that_are_missing_say_what_there_is) {
   pack("/vsizip/" + at("t.zip").string() + "/folder/t.obj", triangle);
   const std::string zip = "/vsizip/" + at("t.zip").string();
   const auto why = [](const std::string& path) {
-    const auto bytes = detail::Bytes::of(path);
+    const auto bytes = formats::Bytes::of(path);
     EXPECT_FALSE(bytes) << path;
     return bytes ? std::string() : bytes.error().code + ": " + bytes.error().message;
   };
@@ -99,11 +99,11 @@ TEST_F(VirtualFiles, a_mesh_is_found_in_its_archive_alone_or_among_others) {
 
 TEST_F(VirtualFiles, on_a_server_that_does_not_answer_give_gdals_words) {
   // Port 9 of this machine: no network is needed to be refused.
-  const auto bytes = detail::Bytes::of("/vsicurl/http://127.0.0.1:9/t.obj");
+  const auto bytes = formats::Bytes::of("/vsicurl/http://127.0.0.1:9/t.obj");
   ASSERT_FALSE(bytes);
   EXPECT_EQ(bytes.error().code, "file-read");
   EXPECT_THAT(bytes.error().message, HasSubstr("the server does not give it"));
-  EXPECT_FALSE(detail::is_there("/vsicurl/http://127.0.0.1:9/t.obj"));
+  EXPECT_FALSE(formats::is_there("/vsicurl/http://127.0.0.1:9/t.obj"));
 }
 
 }  // namespace

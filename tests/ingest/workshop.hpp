@@ -17,7 +17,7 @@ namespace mansard::ingest::test {
 namespace fs = std::filesystem;
 
 /// A corner of the mesh in file coordinates.
-inline auto in_file(const Scene& scene, std::size_t v = 0) -> geometry::Point3 {
+inline auto in_file(const model::Scene& scene, std::size_t v = 0) -> geometry::Point3 {
   const auto& o = scene.frame.origin;
   return scene.mesh.vertices.at(v) +
          geometry::Point3{static_cast<double>(o[0]), static_cast<double>(o[1]), static_cast<double>(o[2])};
@@ -60,23 +60,23 @@ class Workshop : public ::testing::Test {
   }
 
   static auto read(const std::vector<fs::path>& meshes, const fs::path& footprints, const Options& options = {})
-      -> base::Result<Scene> {
+      -> base::Result<model::Scene> {
     return read_scene(meshes, footprints, options);
   }
   /// The mesh alone, over footprints that lie on it.
-  auto mesh(const fs::path& path, Options options = {}) const -> base::Result<Scene> {
+  auto mesh(const fs::path& path, Options options = {}) const -> base::Result<model::Scene> {
     const auto big = square(-1e5, -1e5, 2e5);
     options.crs = "local";
     return read({path}, polygons({big}), options);
   }
   /// The code of what went wrong, "" for nothing; checks that it is one line with an exit code of its own.
-  static auto code(const base::Result<Scene>& result) -> std::string {
+  static auto code(const base::Result<model::Scene>& result) -> std::string {
     if (result) return "";
     EXPECT_EQ(base::to_string(result.error()).find('\n'), std::string::npos);
     EXPECT_FALSE(result.error().message.empty());
     return result.error().code;
   }
-  static auto has_warning(const Scene& scene, std::string_view code) -> bool {
+  static auto has_warning(const model::Scene& scene, std::string_view code) -> bool {
     for (const auto& warning : scene.warnings)
       if (warning.code == code) return true;
     return false;

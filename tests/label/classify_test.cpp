@@ -10,16 +10,17 @@
 
 namespace {
 
-using mansard::label::Class;
 using mansard::label::classify;
 using mansard::label::Options;
+using mansard::model::FaceClass;
 using solids::box;
 using solids::FaceKind;
 using solids::gable;
 using solids::Solid;
 using testing::ElementsAre;
 
-constexpr Class wall = Class::wall, party = Class::party_wall, roof = Class::roof, ground = Class::ground;
+constexpr FaceClass wall = FaceClass::wall, party = FaceClass::party_wall, roof = FaceClass::roof,
+                    ground = FaceClass::ground;
 constexpr std::size_t east = 1, west = 3;
 
 TEST(Classify, tells_walls_roofs_and_ground_of_a_gable_apart) {

@@ -10,10 +10,10 @@ namespace {
 
 using mansard::geometry::Mesh;
 using mansard::geometry::Point3;
-using mansard::ingest::ModelSurface;
-using mansard::ingest::SurfaceClass;
 using mansard::label::label_by_normal;
 using mansard::label::label_scan;
+using mansard::model::ModelSurface;
+using mansard::model::SurfaceClass;
 
 constexpr auto wall = SurfaceClass::wall, roof = SurfaceClass::roof, ground = SurfaceClass::ground,
                other = SurfaceClass::other;

@@ -8,11 +8,11 @@
 
 namespace solids {
 
-using mansard::extrude::Face;
-using mansard::extrude::FaceKind;
-using mansard::extrude::Solid;
 using mansard::geometry::Point2;
 using mansard::geometry::Point3;
+using mansard::model::Face;
+using mansard::model::FaceKind;
+using mansard::model::Solid;
 using Ring = mansard::geometry::Ring;
 
 inline auto add_face(Solid& solid, std::vector<std::uint32_t> loop, FaceKind kind) -> void {

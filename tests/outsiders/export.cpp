@@ -5,11 +5,11 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "formats/cities.hpp"
 #include "mansard/base/files.hpp"
+#include "mansard/formats/scan.hpp"
+#include "mansard/formats/stream.hpp"
 #include "mansard/pipeline/pipeline.hpp"
-#include "mansard/write/scan.hpp"
-#include "mansard/write/stream.hpp"
-#include "write/cities.hpp"
 
 namespace mansard {
 namespace {
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 /// Ids, names of attributes and values as no schema foresees them.
-auto odd() -> write::City {
+auto odd() -> model::City {
   auto city = cities::street();
   city.buildings[0].id = "Haus \"Zur Rose\"\n\xF0\x9F\x8F\xA0 \xFF";
   city.buildings[0].attributes = {{"bouwjaar (ca.)", std::int64_t{1893}},
@@ -38,13 +38,13 @@ auto odd() -> write::City {
 }
 
 /// Houses every 250 m over a square of 8 km: levels of tiles, and the Earth curves by metres.
-auto wide() -> write::City {
+auto wide() -> model::City {
   auto city = cities::street();
   city.buildings.clear();
   for (int i = 0; i < 32; ++i)
     for (int j = 0; j < 32; ++j) {
       const double x = 250 * i, y = 250 * j, ridge = 9 + (7 * i + 3 * j) % 5;
-      write::Building house;
+      model::Building house;
       house.id = "h" + std::to_string(i) + "-" + std::to_string(j);
       house.attributes = {{"row", std::int64_t{j}}};
       house.footprint = {cities::rectangle(x, y, 10, 8)};
@@ -57,24 +57,24 @@ auto wide() -> write::City {
 
 struct Sample {
   std::string name;
-  write::City city;
+  model::City city;
   double tile_triangles = 20000;
 };
 
 /// What a judge holds the files of a city against.
-auto expected(const write::City& city) -> Json {
+auto expected(const model::City& city) -> Json {
   Json buildings = Json::array();
   for (const auto& building : city.buildings) buildings.push_back({{"parts", building.parts.size()}});
   return {{"buildings", city.buildings.size()}, {"crs", city.frame.crs}, {"parts", buildings}};
 }
 
 auto write_cityjson(const fs::path& out, const Sample& sample) -> base::Result<void> {
-  for (const auto format : {write::Format::cityjson, write::Format::cityjsonseq}) {
-    const std::string name = sample.name + (format == write::Format::cityjson ? ".city.json" : ".city.jsonl");
+  for (const auto format : {formats::Format::cityjson, formats::Format::cityjsonseq}) {
+    const std::string name = sample.name + (format == formats::Format::cityjson ? ".city.json" : ".city.jsonl");
     base::Outputs outputs;
-    auto writer = write::open_writer(format, out / name, {sample.city.frame, sample.city.made_by}, {}, outputs);
+    auto writer = formats::open_writer(format, out / name, {sample.city.frame, sample.city.made_by}, {}, outputs);
     if (!writer) return writer.error();
-    if (auto written = write::write_city(sample.city, **writer); !written) return written;
+    if (auto written = formats::write_city(sample.city, **writer); !written) return written;
     if (auto done = outputs.commit(); !done) return done;
   }
   return {};
@@ -83,16 +83,17 @@ auto write_cityjson(const fs::path& out, const Sample& sample) -> base::Result<v
 auto write_sample(const fs::path& out, const Sample& sample, Json& all) -> base::Result<void> {
   if (auto written = write_cityjson(out, sample); !written) return written;
   for (const bool compress : {false, true}) {
-    write::WriteOptions options;
+    formats::WriteOptions options;
     options.compress = compress;
     options.tile_triangles = sample.tile_triangles;
-    for (const auto format : {write::Format::glb, write::Format::tiles}) {
+    for (const auto format : {formats::Format::glb, formats::Format::tiles}) {
       const std::string name =
-          sample.name + (compress ? "-compressed" : "") + (format == write::Format::glb ? ".glb" : "");
+          sample.name + (compress ? "-compressed" : "") + (format == formats::Format::glb ? ".glb" : "");
       base::Outputs outputs;
-      auto writer = write::open_writer(format, out / name, {sample.city.frame, sample.city.made_by}, options, outputs);
+      auto writer =
+          formats::open_writer(format, out / name, {sample.city.frame, sample.city.made_by}, options, outputs);
       if (!writer) return writer.error();
-      if (auto written = write::write_city(sample.city, **writer); !written) return written;
+      if (auto written = formats::write_city(sample.city, **writer); !written) return written;
       if (auto done = outputs.commit(); !done) return done;
       all[name] = expected(sample.city);
     }
@@ -100,7 +101,7 @@ auto write_sample(const fs::path& out, const Sample& sample, Json& all) -> base:
   return {};
 }
 
-auto raised(write::City city) -> base::Result<write::City> {
+auto raised(model::City city) -> base::Result<model::City> {
   auto done = pipeline::raise_plans(std::move(city), {});
   if (!done) return done.error();
   return std::move(done->city);
@@ -108,7 +109,7 @@ auto raised(write::City city) -> base::Result<write::City> {
 
 auto samples(int count, char** arguments) -> base::Result<std::vector<Sample>> {
   std::vector<Sample> all{{"street", cities::street()}, {"odd", odd()}, {"wide", wide(), 300}};
-  write::City empty = cities::street(), bare = empty, local = empty;
+  model::City empty = cities::street(), bare = empty, local = empty;
   empty.buildings.clear();
   for (auto& building : bare.buildings) building.parts.clear();
   local.frame.crs.clear();
@@ -123,7 +124,7 @@ auto samples(int count, char** arguments) -> base::Result<std::vector<Sample>> {
   if (!footprints) return footprints.error();
   all.push_back({"footprints", std::move(footprints->city), 1000});
   if (count > 3) {
-    auto plans = write::read_plans(arguments[3]);
+    auto plans = formats::read_plans(arguments[3]);
     if (!plans) return plans.error();
     auto city = raised(std::move(*plans));
     if (!city) return city.error();
@@ -133,11 +134,11 @@ auto samples(int count, char** arguments) -> base::Result<std::vector<Sample>> {
 }
 
 auto labelled(const fs::path& out) -> base::Result<void> {
-  using ingest::SurfaceClass;
+  using model::SurfaceClass;
   const geometry::Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0.25}},
                             {{0, 1, 2}, {0, 2, 3}, {1, 4, 2}}};
   const std::vector<SurfaceClass> classes{SurfaceClass::roof, SurfaceClass::ground, SurfaceClass::wall};
-  const auto bytes = write::labelled_glb(mesh, classes, {{85000, 447000, 2}, "EPSG:28992"});
+  const auto bytes = formats::labelled_glb(mesh, classes, {{85000, 447000, 2}, "EPSG:28992"});
   if (!bytes) return bytes.error();
   return base::write_file(out / "labelled.glb", *bytes);
 }

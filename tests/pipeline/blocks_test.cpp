@@ -12,9 +12,9 @@ using test::rectangle;
 using testing::HasSubstr;
 
 /// A terrace of two, a house behind it, and one that cannot be used.
-auto street() -> ingest::Scene {
+auto street() -> model::Scene {
   auto scene = test::terrace();
-  ingest::Footprint bad;
+  model::Footprint bad;
   bad.id = "bad";
   bad.defect = base::error("ingest-footprint-geometry", "crosses itself", "bad");
   scene.footprints.insert(scene.footprints.begin(), bad);
@@ -23,7 +23,7 @@ auto street() -> ingest::Scene {
   return scene;
 }
 
-auto run_of(const ingest::Scene& scene, const std::vector<std::string>& only) -> Reconstruction {
+auto run_of(const model::Scene& scene, const std::vector<std::string>& only) -> Reconstruction {
   auto result = reconstruct(scene, {}, {}, Keep::segmentations, only);
   EXPECT_TRUE(result) << base::to_string(result.error());
   return std::move(*result);
@@ -42,7 +42,7 @@ TEST(SomeBlocks, come_out_as_in_a_run_of_all) {
     EXPECT_EQ(some.error_maps.size(), 1U);
     ASSERT_EQ(some.segmented.size(), 1U);
     EXPECT_EQ(some.segmented[0].features, all.segmented[b].features);
-    write::City expected{all.city.frame, all.city.made_by, {}};
+    model::City expected{all.city.frame, all.city.made_by, {}};
     std::vector<std::string> ids;
     for (std::size_t i = 0; i < all.buildings.size(); ++i)
       if (all.buildings[i].block == all.blocks[b].name) {
@@ -51,8 +51,8 @@ TEST(SomeBlocks, come_out_as_in_a_run_of_all) {
       }
     ASSERT_EQ(some.buildings.size(), ids.size());
     for (std::size_t i = 0; i < ids.size(); ++i) EXPECT_EQ(some.buildings[i].id, ids[i]);
-    EXPECT_EQ(*write::cityjson(some.city), *write::cityjson(expected));
-    EXPECT_EQ(write::plans(some.city), write::plans(expected));
+    EXPECT_EQ(*formats::cityjson(some.city), *formats::cityjson(expected));
+    EXPECT_EQ(formats::plans(some.city), formats::plans(expected));
   }
 }
 
@@ -72,8 +72,8 @@ TEST(RaisePlans, makes_the_models_of_the_run_again) {
   const auto raised = raise_plans(std::move(plans), {});
   ASSERT_TRUE(raised);
   EXPECT_TRUE(raised->fell_short.empty());
-  EXPECT_EQ(*write::cityjson(raised->city), *write::cityjson(run.city));
-  EXPECT_EQ(*write::glb(raised->city), *write::glb(run.city));
+  EXPECT_EQ(*formats::cityjson(raised->city), *formats::cityjson(run.city));
+  EXPECT_EQ(*formats::glb(raised->city), *formats::glb(run.city));
 }
 
 TEST(RaisePlans, names_the_part_that_has_no_solid) {

@@ -3,35 +3,36 @@
 #include <nlohmann/json.hpp>
 
 #include "mansard/pipeline/pipeline.hpp"
+#include "mansard/solid/solid.hpp"
 #include "pipeline/houses.hpp"
 
 namespace mansard::pipeline {
 namespace {
 
-using ingest::Attributes;
-using ingest::Value;
+using model::Attributes;
+using model::Value;
 using test::rectangle;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-auto tagged(std::string id, geometry::Polygon polygon, Attributes attributes) -> ingest::Footprint {
+auto tagged(std::string id, geometry::Polygon polygon, Attributes attributes) -> model::Footprint {
   auto footprint = test::footprint(std::move(id), std::move(polygon));
   footprint.attributes = std::move(attributes);
   return footprint;
 }
 
-auto raised(const ingest::Scene& scene, const Options& options = {}) -> Reconstruction {
+auto raised(const model::Scene& scene, const Options& options = {}) -> Reconstruction {
   auto result = raise_footprints(scene, options);
   EXPECT_TRUE(result) << base::to_string(result.error());
   for (const auto& building : result->city.buildings)
-    for (const auto& part : building.parts) EXPECT_THAT(extrude::check(part.model.solid), IsEmpty()) << part.id;
+    for (const auto& part : building.parts) EXPECT_THAT(solid::check(part.model.solid), IsEmpty()) << part.id;
   return std::move(*result);
 }
 
 auto text(const char* value) -> Value { return std::string(value); }
 
 TEST(RaiseFootprints, gives_walls_and_roofs_the_areas_worked_out_by_hand) {
-  ingest::Scene scene;
+  model::Scene scene;
   const auto house = [](const char* shape) {
     return Attributes{{"roof:shape", text(shape)}, {"height", 9.0}, {"roof:height", text("3 m")}};
   };
@@ -65,7 +66,7 @@ TEST(RaiseFootprints, gives_walls_and_roofs_the_areas_worked_out_by_hand) {
 }
 
 TEST(RaiseFootprints, finds_party_walls_between_neighbours) {
-  ingest::Scene scene;
+  model::Scene scene;
   for (int i = 0; i < 2; ++i)
     scene.footprints.push_back(tagged(std::to_string(i), rectangle(12 * i, 0, 12 * i + 12, 8), {{"height", 6.0}}));
   const auto r = raised(scene);
@@ -73,7 +74,7 @@ TEST(RaiseFootprints, finds_party_walls_between_neighbours) {
 }
 
 TEST(RaiseFootprints, lets_a_bad_building_cost_only_itself_and_names_building_and_value) {
-  ingest::Scene scene;
+  model::Scene scene;
   scene.footprints.push_back(tagged("church", rectangle(0, 0, 12, 8), {{"height", text("tall")}}));
   scene.footprints.push_back(tagged("hole", {}, {{"height", 5.0}}));
   scene.footprints.back().polygons.clear();
@@ -109,7 +110,7 @@ TEST(RaiseFootprints, lets_a_bad_building_cost_only_itself_and_names_building_an
 }
 
 TEST(RaiseFootprints, takes_one_profile_for_every_edge) {
-  ingest::Scene scene;
+  model::Scene scene;
   scene.footprints.push_back(tagged("a", rectangle(0, 0, 12, 8), {{"height", 50.0}, {"min_height", 3.0}}));
   Options options;
   options.roof.profile = "0,0 0,6 4,9";
@@ -129,7 +130,7 @@ TEST(RaiseFootprints, takes_one_profile_for_every_edge) {
 }
 
 TEST(RaiseFootprints, gives_the_same_bytes_at_any_thread_count) {
-  ingest::Scene scene;
+  model::Scene scene;
   const std::vector<const char*> shapes{"flat", "gabled", "hipped", "skillion", "mansard", "pyramidal", "tall"};
   for (int i = 0; i < 60; ++i)
     scene.footprints.push_back(tagged(std::to_string(i), rectangle(15 * i, 0, 15 * i + 9 + i % 5, 8),
@@ -140,7 +141,7 @@ TEST(RaiseFootprints, gives_the_same_bytes_at_any_thread_count) {
     base::limit_threads(threads);
     auto r = raised(scene);
     r.times.clear();
-    bytes.push_back(*write::cityjson(r.city) + report_json(r, scene));
+    bytes.push_back(*formats::cityjson(r.city) + report_json(r, scene));
   }
   base::limit_threads(0);
   EXPECT_EQ(bytes[0], bytes[1]);
@@ -148,7 +149,7 @@ TEST(RaiseFootprints, gives_the_same_bytes_at_any_thread_count) {
 }
 
 TEST(RaiseFootprints, reports_every_building_without_blocks_or_scores) {
-  ingest::Scene scene;
+  model::Scene scene;
   scene.footprints.push_back(tagged("a", rectangle(0, 0, 12, 8), {{"height", 6.0}}));
   const auto report = nlohmann::json::parse(report_json(raised(scene), scene));
   EXPECT_EQ(report["counts"]["full"], 1);
@@ -159,7 +160,7 @@ TEST(RaiseFootprints, reports_every_building_without_blocks_or_scores) {
 }
 
 TEST(RaiseFootprints, stops_when_asked) {
-  ingest::Scene scene;
+  model::Scene scene;
   scene.footprints.push_back(tagged("a", rectangle(0, 0, 12, 8), {{"height", 6.0}}));
   base::Cancel cancel;
   cancel.request();

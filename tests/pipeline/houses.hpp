@@ -38,8 +38,8 @@ inline auto rectangle(double x0, double y0, double x1, double y1) -> geometry::P
   return {{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, {}};
 }
 
-inline auto footprint(std::string id, geometry::Polygon polygon) -> ingest::Footprint {
-  ingest::Footprint f;
+inline auto footprint(std::string id, geometry::Polygon polygon) -> model::Footprint {
+  model::Footprint f;
   f.id = std::move(id);
   f.polygons = {std::move(polygon)};
   f.attributes = {{"use", std::string("home")}};
@@ -47,8 +47,8 @@ inline auto footprint(std::string id, geometry::Polygon polygon) -> ingest::Foot
 }
 
 /// A gabled house of 12 × 8 m, 5 m to the eaves and 8 m to the ridge, on a level field.
-inline auto lone_house() -> ingest::Scene {
-  ingest::Scene scene;
+inline auto lone_house() -> model::Scene {
+  model::Scene scene;
   add_quad(scene.mesh, {-20, -20, 0}, {40, -20, 0}, {40, 40, 0}, {-20, 40, 0});
   add_house(scene.mesh, 0, 0, 12, 8, 5, 8);
   scene.footprints.push_back(footprint("house", rectangle(0, 0, 12, 8)));
@@ -56,8 +56,8 @@ inline auto lone_house() -> ingest::Scene {
 }
 
 /// Two flat-roofed houses wall to wall, 6 and 9 m high.
-inline auto terrace() -> ingest::Scene {
-  ingest::Scene scene;
+inline auto terrace() -> model::Scene {
+  model::Scene scene;
   add_quad(scene.mesh, {-20, -20, 0}, {50, -20, 0}, {50, 40, 0}, {-20, 40, 0});
   add_house(scene.mesh, 0, 0, 12, 10, 6, 6);
   add_house(scene.mesh, 12, 0, 24, 10, 9, 9);

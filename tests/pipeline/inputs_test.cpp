@@ -11,8 +11,8 @@ namespace {
 
 const std::filesystem::path hall = std::filesystem::path(MANSARD_DATA) / "hall";
 
-auto values_of(const ingest::Attributes& attributes, const std::string& name) -> std::vector<ingest::Value> {
-  std::vector<ingest::Value> out;
+auto values_of(const model::Attributes& attributes, const std::string& name) -> std::vector<model::Value> {
+  std::vector<model::Value> out;
   for (const auto& [key, value] : attributes)
     if (key == name) out.push_back(value);
   return out;
@@ -47,7 +47,7 @@ TEST(Reconstruct, tells_of_derived_footprints_in_city_and_report) {
   const auto made = reconstruct(scene, options);
   ASSERT_TRUE(made) << made.error().message;
   ASSERT_EQ(made->city.buildings.size(), 1U);
-  EXPECT_THAT(values_of(made->city.buildings[0].attributes, "ms_derived"), ::testing::ElementsAre(ingest::Value(true)));
+  EXPECT_THAT(values_of(made->city.buildings[0].attributes, "ms_derived"), ::testing::ElementsAre(model::Value(true)));
   EXPECT_GT(made->buildings[0].parts, 0U);
 
   const auto report = nlohmann::json::parse(report_json(*made, scene));

@@ -17,7 +17,7 @@ auto codes_of(const std::vector<base::Diagnostic>& all) -> std::vector<std::stri
 }
 
 TEST(Overlaps, are_told_in_both_buildings_and_once) {
-  ingest::Scene scene;
+  model::Scene scene;
   scene.footprints.push_back(test::footprint("a", rectangle(0, 0, 10, 8)));
   scene.footprints.push_back(test::footprint("b", rectangle(9, 0, 19, 8)));  // 8 m² in a
   scene.footprints.push_back(test::footprint("c", rectangle(19, 0, 30, 8)));
@@ -33,7 +33,7 @@ TEST(Overlaps, are_told_in_both_buildings_and_once) {
 }
 
 TEST(Overlaps, are_none_between_neighbours_that_straighten_their_wall_by_themselves) {
-  ingest::Scene scene;
+  model::Scene scene;
   scene.footprints.push_back(test::footprint("a", rectangle(0, -9, 20, 0)));
   scene.footprints.push_back(test::footprint("b", {{{0, 0}, {11, -0.008}, {11, 9}, {0, 9}}, {}}));
   scene.footprints.push_back(test::footprint("c", {{{11, -0.008}, {20, 0}, {20, 9}, {11, 9}}, {}}));

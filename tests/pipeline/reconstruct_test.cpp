@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mansard/pipeline/pipeline.hpp"
+#include "mansard/solid/solid.hpp"
 #include "pipeline/houses.hpp"
 
 namespace mansard::pipeline {
@@ -10,7 +11,7 @@ namespace {
 using test::footprint;
 using test::rectangle;
 
-auto reconstructed(const ingest::Scene& scene, const Options& options = {}) -> Reconstruction {
+auto reconstructed(const model::Scene& scene, const Options& options = {}) -> Reconstruction {
   auto result = reconstruct(scene, options);
   EXPECT_TRUE(result) << base::to_string(result.error());
   return std::move(*result);
@@ -18,8 +19,7 @@ auto reconstructed(const ingest::Scene& scene, const Options& options = {}) -> R
 
 void expect_valid(const Reconstruction& r) {
   for (const auto& building : r.city.buildings)
-    for (const auto& part : building.parts)
-      EXPECT_THAT(extrude::check(part.model.solid), testing::IsEmpty()) << part.id;
+    for (const auto& part : building.parts) EXPECT_THAT(solid::check(part.model.solid), testing::IsEmpty()) << part.id;
 }
 
 TEST(Reconstruct, raises_a_gabled_house_as_it_stands) {
@@ -72,7 +72,7 @@ TEST(Reconstruct, gives_the_same_bytes_at_any_thread_count) {
   for (const std::size_t threads : {1, 2, 2}) {
     base::limit_threads(threads);
     const auto r = reconstructed(scene);
-    files.push_back(*write::cityjson(r.city) + write::plans(r.city));
+    files.push_back(*formats::cityjson(r.city) + formats::plans(r.city));
   }
   base::limit_threads(0);
   EXPECT_EQ(files[0], files[1]);
@@ -81,7 +81,7 @@ TEST(Reconstruct, gives_the_same_bytes_at_any_thread_count) {
 
 TEST(Reconstruct, lets_a_bad_footprint_cost_only_itself) {
   auto scene = test::lone_house();
-  ingest::Footprint bad;
+  model::Footprint bad;
   bad.id = "bad";
   bad.defect = base::error("ingest-footprint-geometry", "crosses itself", "bad");
   scene.footprints.insert(scene.footprints.begin(), bad);

@@ -13,41 +13,41 @@
 namespace mansard::pipeline {
 namespace {
 
-using ingest::Value;
+using model::Value;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-auto segmented(const ingest::Scene& scene, const Options& options = {}) -> Segmented {
+auto segmented(const model::Scene& scene, const Options& options = {}) -> Segmented {
   auto result = segment(scene, options);
   EXPECT_TRUE(result) << base::to_string(result.error());
   return std::move(*result);
 }
 
-auto layers_of(const ingest::Scene& scene, const Options& options = {}) -> std::vector<write::Layer> {
+auto layers_of(const model::Scene& scene, const Options& options = {}) -> std::vector<formats::Layer> {
   const auto result = segmented(scene, options);
   return segment_layers(scene, result.segmented, result.made_by);
 }
 
-auto named(const std::vector<write::Layer>& layers, const std::string& name) -> const write::Layer& {
-  return *std::ranges::find(layers, name, &write::Layer::name);
+auto named(const std::vector<formats::Layer>& layers, const std::string& name) -> const formats::Layer& {
+  return *std::ranges::find(layers, name, &formats::Layer::name);
 }
 
 /// A column of a layer, row by row.
-auto column(const write::Layer& layer, const std::string& field) -> std::vector<Value> {
-  const auto at = std::ranges::find(layer.fields, field, &write::Field::name) - layer.fields.begin();
+auto column(const formats::Layer& layer, const std::string& field) -> std::vector<Value> {
+  const auto at = std::ranges::find(layer.fields, field, &formats::Field::name) - layer.fields.begin();
   std::vector<Value> values;
   for (const auto& feature : layer.features) values.push_back(feature.values.at(static_cast<std::size_t>(at)));
   return values;
 }
 template <class T>
-auto column_of(const write::Layer& layer, const std::string& field) -> std::vector<T> {
+auto column_of(const formats::Layer& layer, const std::string& field) -> std::vector<T> {
   std::vector<T> values;
   for (const auto& value : column(layer, field)) values.push_back(std::get<T>(value));
   return values;
 }
 
 /// An L of two wings of 6 and 9 m under one footprint, beside the terrace of two footprints, 100 m above the datum.
-auto town() -> ingest::Scene {
+auto town() -> model::Scene {
   auto scene = test::terrace();
   test::add_house(scene.mesh, 30, 0, 42, 10, 6, 6);
   test::add_house(scene.mesh, 30, 10, 36, 24, 9, 9);
@@ -58,7 +58,7 @@ auto town() -> ingest::Scene {
 }
 
 /// A footprint so far away that its ground cannot be fractured.
-auto with_a_bad_block(ingest::Scene scene) -> ingest::Scene {
+auto with_a_bad_block(model::Scene scene) -> model::Scene {
   scene.footprints.push_back(test::footprint("far", test::rectangle(2e7, 0, 2e7 + 12, 8)));
   return scene;
 }
@@ -76,7 +76,7 @@ TEST(SegmentLayers, are_seven_and_a_geopackage_takes_them) {
   }
   for (const auto* name : {"gis_footprints", "sweep_edges", "faces", "edges", "footprints", "made_by"})
     EXPECT_FALSE(named(layers, name).features.empty()) << name;
-  const auto bytes = write::geopackage(layers, town().frame);
+  const auto bytes = formats::geopackage(layers, town().frame);
   EXPECT_TRUE(bytes) << base::to_string(bytes.error());
 }
 
@@ -151,7 +151,7 @@ TEST(SegmentLayers, give_heights_in_the_frame_of_the_file) {
 
 TEST(DiagnosticsLayer, has_a_row_for_every_reason_with_the_footprint_it_is_about) {
   auto scene = town();
-  ingest::Footprint bad = test::footprint("bad", {{{50, 0}, {60, 0}, {60, 10}}, {}});
+  model::Footprint bad = test::footprint("bad", {{{50, 0}, {60, 0}, {60, 10}}, {}});
   bad.polygons.clear();
   bad.defect = base::error("ingest-footprint-empty", "it has no geometry", "bad");
   scene.footprints.push_back(bad);
@@ -166,7 +166,7 @@ TEST(DiagnosticsLayer, has_a_row_for_every_reason_with_the_footprint_it_is_about
   EXPECT_THAT(column(layer, "feature"), testing::Contains(Value(std::string("bad"))));
   EXPECT_THAT(column(layer, "subject"), testing::Contains(Value(std::string("mesh.ply"))));
   for (const auto& feature : layer.features) EXPECT_EQ(feature.values.size(), layer.fields.size());
-  EXPECT_TRUE(write::geopackage({layer}, scene.frame));
+  EXPECT_TRUE(formats::geopackage({layer}, scene.frame));
 }
 
 TEST(SegmentLayers, name_variables_as_the_exported_program_does) {
@@ -202,7 +202,7 @@ TEST(SegmentLayers, keep_the_sources_attributes_and_what_could_not_be_used) {
   EXPECT_EQ(column(gis, "defect")[1], Value());
   EXPECT_EQ(column(gis, "defect")[2], Value(std::string("crosses itself")));
   EXPECT_EQ(column(gis, "parts")[2], Value(std::int64_t{0}));
-  EXPECT_TRUE(write::geopackage(layers, scene.frame));  // the source's own "block" gets another name
+  EXPECT_TRUE(formats::geopackage(layers, scene.frame));  // the source's own "block" gets another name
 }
 
 TEST(SegmentLayers, say_that_a_wall_is_between_two_features) {
@@ -232,7 +232,7 @@ TEST(Segment, leaves_the_other_blocks_alone_when_one_fails_and_says_so) {
     ASSERT_EQ(one.features.size(), other.features.size()) << name;
     for (std::size_t i = 0; i < one.features.size(); ++i) EXPECT_EQ(one.features[i].values, other.features[i].values);
   }
-  EXPECT_TRUE(write::geopackage(after, bad.frame));
+  EXPECT_TRUE(formats::geopackage(after, bad.frame));
   const auto report = nlohmann::json::parse(report_json(together, bad));
   EXPECT_EQ(report["blocks"].back()["objective"]["status"], "failed");
   EXPECT_EQ(report["counts"]["without_part"], 1);
@@ -243,7 +243,7 @@ TEST(Segment, gives_the_same_geopackage_at_any_thread_count) {
   std::vector<std::string> files;
   for (const std::size_t threads : {1U, 2U, 4U}) {
     base::limit_threads(threads);
-    files.push_back(*write::geopackage(layers_of(scene), scene.frame));
+    files.push_back(*formats::geopackage(layers_of(scene), scene.frame));
   }
   base::limit_threads(0);
   EXPECT_TRUE(files[0] == files[1]);
@@ -294,11 +294,11 @@ TEST(Reconstruct, keeps_the_segmentations_when_asked_and_they_are_those_of_segme
   const auto asked = reconstruct(scene, {}, {}, Keep::segmentations);
   ASSERT_TRUE(asked);
   const auto layers = segment_layers(scene, asked->segmented, asked->city.made_by);
-  EXPECT_TRUE(*write::geopackage(layers, scene.frame) == *write::geopackage(layers_of(scene), scene.frame));
+  EXPECT_TRUE(*formats::geopackage(layers, scene.frame) == *formats::geopackage(layers_of(scene), scene.frame));
   const auto unasked = reconstruct(scene, {});
   ASSERT_TRUE(unasked);
   EXPECT_THAT(unasked->segmented, IsEmpty());
-  EXPECT_EQ(*write::cityjson(asked->city), *write::cityjson(unasked->city));
+  EXPECT_EQ(*formats::cityjson(asked->city), *formats::cityjson(unasked->city));
 }
 
 // ---- the sentences

@@ -31,7 +31,7 @@ INSTANTIATE_TEST_SUITE_P(With, Noise, testing::Combine(testing::Values(0.0, 0.05
                                   (std::get<1>(tested.param) ? "" : "_without_walls");
                          });
 
-void expect_pitch(const mansard::geometry::Profile& profile, double gutter, double pitch) {
+void expect_pitch(const mansard::model::Profile& profile, double gutter, double pitch) {
   ASSERT_EQ(profile.size(), 3U) << testing::PrintToString(profile.size());
   EXPECT_NEAR(profile[1].height, gutter, 0.25);
   EXPECT_NEAR(pitch_of(profile, 1), pitch, 3);
@@ -154,7 +154,7 @@ TEST(Fit, keeps_the_rings_of_the_part_as_they_are) {
   auto polygon = outline(house);
   polygon.holes.push_back({placed(house, 4, 4), placed(house, 4, 6), placed(house, 7, 6), placed(house, 7, 4)});
   const auto footprint = fit(scan(house), {polygon}, house.ground).front();
-  EXPECT_EQ(mansard::geometry::polygon_of(footprint.plan), polygon);
+  EXPECT_EQ(mansard::model::polygon_of(footprint.plan), polygon);
   EXPECT_EQ(footprint.plan.base, house.ground);
   ASSERT_EQ(footprint.plan.holes.size(), 1U);
   EXPECT_EQ(footprint.plan.holes[0].profile_of_edge.size(), 4U);
@@ -287,7 +287,7 @@ TEST(Vertical_plan, has_one_profile_for_every_edge) {
   auto polygon = outline(house);
   polygon.holes.push_back({placed(house, 4, 4), placed(house, 4, 6), placed(house, 7, 6)});
   const auto plan = mansard::profile::vertical_plan(polygon, 3, 8);
-  EXPECT_EQ(mansard::geometry::polygon_of(plan), polygon);
+  EXPECT_EQ(mansard::model::polygon_of(plan), polygon);
   ASSERT_EQ(plan.profiles.size(), 1U);
   EXPECT_TRUE(is_vertical(plan.profiles[0]));
   EXPECT_THAT(plan.outer.profile_of_edge, testing::Each(0U));
@@ -320,7 +320,7 @@ TEST(Fit, keeps_its_guarantees_on_random_houses) {
     }
     for (const auto& profile : footprint.plan.profiles) {
       ASSERT_GE(profile.size(), 2U);
-      EXPECT_EQ(profile.front(), (mansard::geometry::ProfilePoint{0, 0}));
+      EXPECT_EQ(profile.front(), (mansard::model::ProfilePoint{0, 0}));
       for (std::size_t i = 0; i + 1 < profile.size(); ++i) {
         EXPECT_GE(profile[i + 1].inward, profile[i].inward);
         EXPECT_GE(profile[i + 1].height, profile[i].height);

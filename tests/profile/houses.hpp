@@ -167,14 +167,14 @@ inline auto fit(const House& house, const mansard::profile::Options& options = {
 }
 
 inline auto profile_of(const mansard::profile::ProfiledFootprint& footprint, std::size_t edge)
-    -> const mansard::geometry::Profile& {
+    -> const mansard::model::Profile& {
   return footprint.plan.profiles[footprint.plan.outer.profile_of_edge[edge]];
 }
 
-inline auto is_vertical(const mansard::geometry::Profile& profile) -> bool { return profile.back().inward == 0; }
+inline auto is_vertical(const mansard::model::Profile& profile) -> bool { return profile.back().inward == 0; }
 
 /// Angle above the horizon of the profile's part between points `part` and `part` + 1, degrees.
-inline auto pitch_of(const mansard::geometry::Profile& profile, std::size_t part) -> double {
+inline auto pitch_of(const mansard::model::Profile& profile, std::size_t part) -> double {
   const auto& a = profile[part];
   const auto& b = profile[part + 1];
   return std::atan2(b.height - a.height, b.inward - a.inward) * 180 / 3.14159265358979323846;

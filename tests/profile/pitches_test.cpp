@@ -12,7 +12,7 @@ namespace {
 
 using namespace mansard::profile::detail;  // NOLINT: the parts under test
 using mansard::geometry::Polygon;
-using mansard::geometry::Profile;
+using mansard::model::Profile;
 
 auto columns(std::size_t count, double (*height)(double), double noise = 0, std::uint64_t seed = 1)
     -> std::vector<Pooled> {

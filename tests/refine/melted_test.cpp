@@ -8,6 +8,8 @@
 
 namespace {
 
+namespace geometry = mansard::geometry;
+
 using namespace scans;
 using refine::Effort;
 using refine::Options;

@@ -6,6 +6,8 @@
 
 namespace {
 
+namespace geometry = mansard::geometry;
+
 using namespace scans;
 using refine::detail::cut;
 using refine::detail::joined;

@@ -1,4 +1,5 @@
 #include "mansard/refine/refine.hpp"
+#include "mansard/solid/solid.hpp"
 
 #include <gmock/gmock.h>
 
@@ -7,6 +8,11 @@
 #include "scans.hpp"
 
 namespace {
+
+namespace geometry = mansard::geometry;
+namespace solid = mansard::solid;
+
+namespace model = mansard::model;
 
 using namespace scans;
 using refine::Effort;
@@ -31,7 +37,7 @@ auto refined(const std::vector<refine::Draft>& drafts, const rays::Scene& mesh, 
     -> std::vector<refine::Part> {
   auto out = refine::refine(drafts, mesh, options, {});
   EXPECT_TRUE(out.failed.empty());
-  for (const auto& part : out.parts) EXPECT_THAT(extrude::check(part.raised.solid), testing::IsEmpty());
+  for (const auto& part : out.parts) EXPECT_THAT(solid::check(part.raised.solid), testing::IsEmpty());
   return std::move(out.parts);
 }
 
@@ -94,7 +100,7 @@ TEST(Refine, joins_two_parts_under_one_roof) {
                                           flat_draft(rectangle(15, 20, 7, 8), 6)};
   const auto parts = refined(halves, scan({gabled()}));
   ASSERT_EQ(parts.size(), 1U);
-  EXPECT_NEAR(geometry::area(geometry::polygon_of(parts[0].plan)), 96, 1e-6);
+  EXPECT_NEAR(geometry::area(model::polygon_of(parts[0].plan)), 96, 1e-6);
   EXPECT_LT(difference(parts, {gabled()}), 0.03);
   EXPECT_FALSE(parts[0].changes.empty());
 }
@@ -121,11 +127,11 @@ TEST(Refine, gives_a_tower_a_plan_of_its_own) {
   const auto parts = refined({flat_draft(house(), 6)}, scan({around, tower}));
   ASSERT_EQ(parts.size(), 2U);
   EXPECT_EQ(parts[0].plan.holes.size(), 1U);
-  EXPECT_NEAR(geometry::area(geometry::polygon_of(parts[1].plan)), 12, 1.5);  // the scan slopes 0.2 m outwards
+  EXPECT_NEAR(geometry::area(model::polygon_of(parts[1].plan)), 12, 1.5);  // the scan slopes 0.2 m outwards
   EXPECT_NEAR(parts[0].plan.cap, 6, 0.03);
   EXPECT_NEAR(parts[1].plan.cap, 9, 0.05);
   double covered = 0;
-  for (const auto& part : parts) covered += geometry::area(geometry::polygon_of(part.plan));
+  for (const auto& part : parts) covered += geometry::area(model::polygon_of(part.plan));
   EXPECT_NEAR(covered, 96, 1e-6);
 }
 
@@ -136,7 +142,7 @@ TEST(Refine, moves_a_wall_that_stands_in_the_wrong_place) {
                              scan({low, high}));
   ASSERT_EQ(parts.size(), 2U);
   std::vector<double> areas;
-  for (const auto& part : parts) areas.push_back(geometry::area(geometry::polygon_of(part.plan)));
+  for (const auto& part : parts) areas.push_back(geometry::area(model::polygon_of(part.plan)));
   std::ranges::sort(areas);
   EXPECT_NEAR(areas[0], 40, 1.6);  // the wall within 0.2 m
   EXPECT_NEAR(areas[1], 56, 1.6);

@@ -10,13 +10,14 @@
 #include "mansard/geometry/polygon.hpp"
 #include "mansard/rays/rays.hpp"
 #include "mansard/refine/refine.hpp"
+#include "mansard/solid/solid.hpp"
 
 namespace scans {
 
 using namespace mansard;
-using geometry::Plan;
 using geometry::Point2;
-using geometry::Profile;
+using model::Plan;
+using model::Profile;
 
 constexpr double ground = 3.0;  // z
 
@@ -44,7 +45,7 @@ inline auto scan(const std::vector<Plan>& plans, double noise = 0.04) -> rays::S
   geometry::Box2 box;
   for (const auto& p : plans) {
     const auto raised = extrude::raise(p);
-    const auto pieces = extrude::triangulate(raised->solid);
+    const auto pieces = solid::triangulate(raised->solid);
     const auto first = static_cast<std::uint32_t>(solids.vertices.size());
     solids.vertices.insert(solids.vertices.end(), raised->solid.vertices.begin(), raised->solid.vertices.end());
     for (const auto& t : pieces->triangles) solids.triangles.push_back({first + t[0], first + t[1], first + t[2]});
@@ -77,7 +78,7 @@ inline auto flat_draft(geometry::Ring ring, double height, std::size_t owner = 0
   return {owner, plan(std::move(ring), std::move(profiles), height), {height}, {}};
 }
 
-inline auto top_of(const extrude::Solid& solid) -> double {
+inline auto top_of(const model::Solid& solid) -> double {
   double top = -1e9;
   for (const auto v : solid.vertices) top = std::max(top, v.z);
   return top;
@@ -93,24 +94,24 @@ inline auto pitched_sides(const Plan& p) -> std::vector<std::size_t> {
 /// Root mean square of the differences between two solids' top surfaces, over the ring; m.
 inline auto difference(const std::vector<refine::Part>& parts, const std::vector<Plan>& truth, double margin = 0.6)
     -> double {
-  const auto scene = [](const std::vector<extrude::Solid>& solids) {
+  const auto scene = [](const std::vector<model::Solid>& solids) {
     geometry::Mesh mesh;
     for (const auto& solid : solids) {
       const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
       mesh.vertices.insert(mesh.vertices.end(), solid.vertices.begin(), solid.vertices.end());
-      const auto pieces = extrude::triangulate(solid);
+      const auto pieces = solid::triangulate(solid);
       for (const auto& t : pieces->triangles) mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
     }
     return rays::Scene(mesh);
   };
-  std::vector<extrude::Solid> made, wanted;
+  std::vector<model::Solid> made, wanted;
   for (const auto& part : parts) made.push_back(part.raised.solid);
   for (const auto& p : truth) wanted.push_back(extrude::raise(p)->solid);
   const rays::Scene a = scene(made), b = scene(wanted);
   double sum = 0;
   std::size_t count = 0;
   for (const auto& p : truth) {
-    const auto polygon = geometry::polygon_of(p);
+    const auto polygon = model::polygon_of(p);
     const auto box = geometry::bounds(polygon.outer);
     for (double y = box.least.y; y < box.most.y; y += 0.25)
       for (double x = box.least.x; x < box.most.x; x += 0.25) {

@@ -9,6 +9,9 @@
 
 namespace {
 
+namespace geometry = mansard::geometry;
+namespace model = mansard::model;
+
 using namespace scans;
 namespace detail = refine::detail;
 
@@ -22,7 +25,7 @@ auto with_strip(double depth) -> Plan {
 }
 auto proposed(const Plan& truth) -> std::vector<std::vector<Profile>> {
   const auto flat = flat_draft(house(), 9).plan;
-  return detail::setbacks_of(flat, detail::look(geometry::polygon_of(flat), ground, scan({truth}), {}));
+  return detail::setbacks_of(flat, detail::look(model::polygon_of(flat), ground, scan({truth}), {}));
 }
 auto has_terrace(const Profile& profile) -> bool {
   for (std::size_t i = 0; i + 1 < profile.size(); ++i)

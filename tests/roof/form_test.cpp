@@ -9,9 +9,9 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-using Tags = ingest::Attributes;
+using Tags = model::Attributes;
 
-auto text(const char* value) -> ingest::Value { return std::string(value); }
+auto text(const char* value) -> model::Value { return std::string(value); }
 
 auto height_of(const char* value) -> std::optional<double> {
   const auto read = form_of({{"height", text(value)}}, {});

@@ -7,6 +7,7 @@
 
 #include "mansard/extrude/extrude.hpp"
 #include "mansard/roof/roof.hpp"
+#include "mansard/solid/solid.hpp"
 
 namespace mansard::roof::test {
 
@@ -55,7 +56,7 @@ inline auto form(Shape shape) -> Form {
 
 struct Built {
   Planned planned;
-  extrude::Solid solid;
+  model::Solid solid;
   double volume = 0, top = 0;
   std::size_t faces = 0;
 };
@@ -74,8 +75,8 @@ inline auto built(const Polygon& polygon, const Form& f, bool as_asked = true) -
   }
   EXPECT_EQ(raised->outcome, extrude::Outcome::full) << (raised->warnings.empty() ? "" : raised->warnings[0].message);
   Built out{std::move(*planned), std::move(raised->solid), 0, -1e9, 0};
-  EXPECT_THAT(extrude::check(out.solid), testing::IsEmpty());
-  out.volume = extrude::volume(out.solid);
+  EXPECT_THAT(solid::check(out.solid), testing::IsEmpty());
+  out.volume = solid::volume(out.solid);
   out.faces = out.solid.faces.size();
   for (const Point3 p : out.solid.vertices) out.top = std::max(out.top, p.z);
   EXPECT_NEAR(out.top, out.planned.plan.base + out.planned.top, 1e-3);
@@ -83,7 +84,7 @@ inline auto built(const Polygon& polygon, const Form& f, bool as_asked = true) -
 }
 
 /// Faces that look up, sloped or flat.
-inline auto roofs(const extrude::Solid& solid) -> std::size_t {
+inline auto roofs(const model::Solid& solid) -> std::size_t {
   return static_cast<std::size_t>(std::ranges::count_if(solid.faces, [](const auto& f) { return f.normal.z > 1e-3; }));
 }
 inline auto codes_of(const std::vector<base::Diagnostic>& warnings) -> std::vector<std::string> {

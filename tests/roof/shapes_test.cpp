@@ -151,7 +151,7 @@ TEST(Skillion, sweeps_one_plane_from_corners_too) {
       // All of the roof is in one plane, and nothing of it is level.
       std::optional<Point3> normal;
       for (const auto& face : house.solid.faces) {
-        if (face.normal.z < 1e-3 || extrude::area(house.solid, face) < 0.01) continue;
+        if (face.normal.z < 1e-3 || solid::area(house.solid, face) < 0.01) continue;
         if (!normal) normal = face.normal;
         EXPECT_LT(length(face.normal - *normal), 1e-3);
         EXPECT_LT(face.normal.z, 0.999);
@@ -227,7 +227,7 @@ TEST(Plans, are_the_same_at_every_call_and_keep_the_polygon) {
       const auto a = plan_of(polygon, form(shape)), b = plan_of(polygon, form(shape));
       ASSERT_TRUE(a && b);
       EXPECT_EQ(a->plan, b->plan);
-      EXPECT_EQ(geometry::polygon_of(a->plan), polygon);
+      EXPECT_EQ(model::polygon_of(a->plan), polygon);
     }
 }
 
@@ -265,8 +265,7 @@ TEST(Plans, of_random_outlines_are_raised_to_their_top_under_every_shape) {
 TEST(Profiles, are_read_from_pairs) {
   const auto profile = profile_of("0,0 0,6  4,9");
   ASSERT_TRUE(profile);
-  EXPECT_THAT(*profile,
-              ElementsAre(geometry::ProfilePoint{0, 0}, geometry::ProfilePoint{0, 6}, geometry::ProfilePoint{4, 9}));
+  EXPECT_THAT(*profile, ElementsAre(model::ProfilePoint{0, 0}, model::ProfilePoint{0, 6}, model::ProfilePoint{4, 9}));
   EXPECT_EQ(*profile_of("0,6 4,9"), *profile);  // 0,0 goes without saying
   for (const auto* bad : {"", "0,0", "0,0 1", "0,0 0,6 x,9", "0,0 0,6 -1,7", "0,0 0,6 1,5", "0,0 0,6 0,6", "0,0 4,0",
                           "0,0 0,nan", "0,0 0,1e9"}) {
@@ -281,7 +280,7 @@ TEST(Profiles, rise_from_every_edge_until_roofs_meet_or_the_cap) {
     const auto planned = plan_along(box(12, 8), *profile_of(text), Form{}, cap);
     auto raised = extrude::raise(planned.plan);
     EXPECT_TRUE(raised);
-    return extrude::volume(raised->solid);
+    return solid::volume(raised->solid);
   };
   EXPECT_NEAR(raise_along("0,0 0,6 4,9", {}), walls + hip(12, 8, 3), 0.05);
   EXPECT_NEAR(raise_along("0,0 0,6 1,6.75", {}), walls + hip(12, 8, 3), 0.05);  // goes on

@@ -1,7 +1,8 @@
 #include <gmock/gmock.h>
 
+#include "lab/simulate/simulate.hpp"
 #include "mansard/extrude/extrude.hpp"
-#include "mansard/simulate/simulate.hpp"
+#include "mansard/solid/solid.hpp"
 #include "simulate/houses.hpp"
 
 namespace mansard::simulate {
@@ -26,11 +27,11 @@ TEST_P(Block, has_valid_solids_with_walls_and_roofs_only_where_they_are_meant) {
   EXPECT_GE(truth.city.buildings.size(), 2U);
   for (const auto& building : truth.city.buildings)
     for (const auto& part : building.parts) {
-      EXPECT_THAT(extrude::check(part.model.solid), testing::IsEmpty()) << part.id;
+      EXPECT_THAT(solid::check(part.model.solid), testing::IsEmpty()) << part.id;
       ASSERT_EQ(part.model.classes.size(), part.model.solid.faces.size());
       for (std::size_t f = 0; f < part.model.classes.size(); ++f) {
         const auto kind = part.model.classes[f];
-        const bool wall = kind == label::Class::wall || kind == label::Class::party_wall;
+        const bool wall = kind == model::FaceClass::wall || kind == model::FaceClass::party_wall;
         EXPECT_EQ(wall, std::abs(part.model.solid.faces[f].normal.z) < 0.2) << part.id;
       }
     }
@@ -67,7 +68,7 @@ TEST_P(Block, is_the_same_at_any_thread_count) {  // guarantee 3
   for (const std::size_t threads : {1, 2}) {
     base::limit_threads(threads);
     const auto truth = block();
-    texts.push_back(write::plans(truth.city) + *write::cityjson(truth.city) + truth_json(truth, {}, {}, "test"));
+    texts.push_back(formats::plans(truth.city) + *formats::cityjson(truth.city) + truth_json(truth, {}, {}, "test"));
   }
   base::limit_threads(0);
   EXPECT_EQ(texts[0], texts[1]);
@@ -84,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Block, testing::ValuesIn(cases()), [](const auto
 });
 
 TEST(MakeBlock, is_another_block_with_another_seed_and_another_one_of_another_kind) {
-  const auto text = [](Kind kind, std::uint64_t seed) { return write::plans(make_block(kind, {}, seed)->city); };
+  const auto text = [](Kind kind, std::uint64_t seed) { return formats::plans(make_block(kind, {}, seed)->city); };
   EXPECT_NE(text(Kind::terrace, 1), text(Kind::terrace, 2));
   EXPECT_NE(text(Kind::terrace, 1), text(Kind::perimeter, 1));
 }
@@ -140,7 +141,7 @@ TEST(MakeBlock, builds_no_annexes_when_asked_for_none) {
     const auto truth = make_block(Kind::terrace, options, 1);
     for (const auto& building : truth->city.buildings)
       for (const auto& part : building.parts)
-        count += part.attributes.front().second == ingest::Value(std::string("annex")) ? 1 : 0;
+        count += part.attributes.front().second == model::Value(std::string("annex")) ? 1 : 0;
     return count;
   };
   EXPECT_GT(annexes(), 3U);
@@ -175,22 +176,22 @@ TEST(TruthOf, finds_no_party_wall_where_a_gap_is) {
 }
 
 TEST(TruthOf, names_the_part_that_cannot_be_raised) {
-  write::City city;
+  model::City city;
   city.buildings = {test::house("good", 0, 0, 5, 5, 3), test::house("bad", 9, 0, 9, 5, 3)};
   const auto truth = simulate::truth_of(city);
   ASSERT_FALSE(truth);
   EXPECT_EQ(truth.error().subject, "bad-1");
 }
 
-auto footprint(const std::string& id, geometry::Ring ring) -> ingest::Footprint {
-  ingest::Footprint out;
+auto footprint(const std::string& id, geometry::Ring ring) -> model::Footprint {
+  model::Footprint out;
   out.id = id;
   out.polygons.push_back({std::move(ring), {}});
   return out;
 }
 
 TEST(Furnish, raises_a_building_on_every_usable_footprint_and_says_which_are_not) {
-  ingest::Scene scene;
+  model::Scene scene;
   scene.footprints = {
       footprint("a", {{0, 0}, {8, 0}, {8, 10}, {0, 10}}), footprint("b", {{8, 0}, {15, 0}, {15, 9}, {8, 9}}), {}};
   scene.footprints[2].id = "c";
@@ -222,8 +223,7 @@ TEST(Furnish, makes_valid_solids_of_regent_street) {
   EXPECT_EQ(truth->city.buildings.size(), scene->footprints.size());
   EXPECT_GT(truth->party_walls.size(), 50U);
   for (const auto& building : truth->city.buildings)
-    for (const auto& part : building.parts)
-      EXPECT_THAT(extrude::check(part.model.solid), testing::IsEmpty()) << part.id;
+    for (const auto& part : building.parts) EXPECT_THAT(solid::check(part.model.solid), testing::IsEmpty()) << part.id;
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/scratch.hpp"
+#include "lab/simulate/detail/noise.hpp"
 #include "mansard/ingest/ingest.hpp"
-#include "mansard/simulate/detail/noise.hpp"
 #include "simulate/houses.hpp"
 
 namespace mansard::simulate {

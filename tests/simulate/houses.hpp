@@ -3,14 +3,14 @@
 
 #include <gtest/gtest.h>
 
-#include "mansard/simulate/simulate.hpp"
+#include "lab/simulate/simulate.hpp"
 
 namespace mansard::test {
 
 /// A rectangle raised to `height`, with a roof of that rise over its middle along x when `rise` > 0.
 inline auto house(const std::string& id, double x0, double y0, double x1, double y1, double height, double rise = 0)
-    -> write::Building {
-  geometry::Plan plan;
+    -> model::Building {
+  model::Plan plan;
   plan.outer.points = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
   plan.profiles = {{{0, 0}, {0, height}}};
   plan.outer.profile_of_edge = {0, 0, 0, 0};
@@ -20,14 +20,14 @@ inline auto house(const std::string& id, double x0, double y0, double x1, double
     plan.outer.profile_of_edge = {1, 0, 1, 0};
     plan.cap = height + rise + 0.01;
   }
-  write::Building building;
+  model::Building building;
   building.id = id;
   building.parts.push_back({id + "-1", plan, {}, {}});
   return building;
 }
 
-inline auto truth_of(std::vector<write::Building> buildings) -> simulate::Truth {
-  write::City city;
+inline auto truth_of(std::vector<model::Building> buildings) -> simulate::Truth {
+  model::City city;
   city.buildings = std::move(buildings);
   auto truth = simulate::truth_of(std::move(city));
   EXPECT_TRUE(truth) << base::to_string(truth.error());

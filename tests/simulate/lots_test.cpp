@@ -1,4 +1,5 @@
-#include "mansard/simulate/detail/lots.hpp"
+#include "lab/simulate/detail/lots.hpp"
+#include "mansard/solid/solid.hpp"
 
 #include <gtest/gtest.h>
 
@@ -29,7 +30,7 @@ auto raised(const Lot& of) -> Size {
   const auto solid = extrude::raise(*plan);
   EXPECT_TRUE(solid);
   EXPECT_EQ(solid->outcome, extrude::Outcome::full);
-  Size size{0, extrude::volume(solid->solid)};
+  Size size{0, solid::volume(solid->solid)};
   for (const auto v : solid->solid.vertices) size.top = std::max(size.top, v.z);
   return size;
 }

@@ -35,7 +35,7 @@ class ModelTruths : public testing::Test {
  protected:
   void TearDown() override { std::filesystem::remove(path()); }
 
-  auto read(const std::string& text, const std::string& name = ".obj") -> ingest::Model {
+  auto read(const std::string& text, const std::string& name = ".obj") -> model::Model {
     ending_ = name;
     std::ofstream(path(), std::ios::binary) << text;
     auto model = ingest::read_model(path());

@@ -7,13 +7,13 @@ namespace {
 
 auto none() -> SurveyOptions { return {0, 0, 0, 0, 0}; }
 
-auto drawn(const Truth& truth, const SurveyOptions& options, std::uint64_t seed = 1) -> std::vector<ingest::Footprint> {
+auto drawn(const Truth& truth, const SurveyOptions& options, std::uint64_t seed = 1) -> std::vector<model::Footprint> {
   auto footprints = survey(truth, options, seed);
   EXPECT_TRUE(footprints);
   return std::move(*footprints);
 }
 
-auto total(const std::vector<ingest::Footprint>& footprints) -> double {
+auto total(const std::vector<model::Footprint>& footprints) -> double {
   double sum = 0;
   for (const auto& footprint : footprints)
     for (const auto& polygon : footprint.polygons) sum += geometry::area(polygon);
@@ -65,7 +65,7 @@ TEST(Survey, merges_neighbours_into_one_feature_that_names_both) {
   const auto footprints = drawn(test::pair_of_houses(), options);
   ASSERT_EQ(footprints.size(), 1U);
   EXPECT_NEAR(total(footprints), 240, 1e-3);
-  EXPECT_EQ(footprints[0].attributes.back().second, ingest::Value(std::string("low high")));
+  EXPECT_EQ(footprints[0].attributes.back().second, model::Value(std::string("low high")));
 }
 
 TEST(Survey, draws_eaves_but_not_into_the_neighbour) {

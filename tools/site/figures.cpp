@@ -7,10 +7,10 @@
 #include <functional>
 #include <limits>
 
+#include "lab/explore/explore.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/edit/edit.hpp"
-#include "mansard/explore/explore.hpp"
 #include "mansard/pipeline/pipeline.hpp"
 
 namespace {
@@ -106,7 +106,7 @@ struct Figures {
   void put(const std::string& name, const picture::Image& image) const { put(name, need(picture::png(image))); }
 };
 
-void rooms_in_plan(const Figures& to, const ingest::Scene& scene, const pipeline::Options& options) {
+void rooms_in_plan(const Figures& to, const model::Scene& scene, const pipeline::Options& options) {
   const auto blocks = block::partition(scene, options.block);
   std::vector<Polygon> all;
   for (const auto& footprint : scene.footprints)
@@ -216,7 +216,7 @@ void rooms_in_plan(const Figures& to, const ingest::Scene& scene, const pipeline
   to.put("profile.svg", profile.svg());
 
   const auto& part =
-      *std::ranges::max_element(fitted, {}, [](const auto& p) { return geometry::area(geometry::polygon_of(p.plan)); });
+      *std::ranges::max_element(fitted, {}, [](const auto& p) { return geometry::area(model::polygon_of(p.plan)); });
   const auto& ring = part.plan.outer;
   const auto edge_of = [&](std::size_t i) { return edge_in(part, i); };
   std::size_t longest = 0;
@@ -229,7 +229,7 @@ void rooms_in_plan(const Figures& to, const ingest::Scene& scene, const pipeline
   Box2 around;
   for (const auto& p : ring.points) around.add(p);
   Drawing plans(around.grown(2.5), 640);
-  plans.area(geometry::polygon_of(part.plan), "fill:#eee;stroke:none");
+  plans.area(model::polygon_of(part.plan), "fill:#eee;stroke:none");
   for (std::size_t i = 0; i < ring.points.size(); ++i) {
     const auto s = edge_of(i);
     plans.line({s.start, s.end}, "stroke:" + hue(ring.profile_of_edge[i], 45) + ";stroke-width:4");
@@ -257,12 +257,12 @@ void rooms_in_plan(const Figures& to, const ingest::Scene& scene, const pipeline
   Drawing split(around.grown(2.5), 640);
   std::size_t number = 0;
   for (const auto& half : halves)
-    split.area(geometry::polygon_of(half), "fill:" + hue(number++, 82) + ";stroke:#333;stroke-width:1.5");
+    split.area(model::polygon_of(half), "fill:" + hue(number++, 82) + ";stroke:#333;stroke-width:1.5");
   split.line({middle - 2 * inward, middle + 14 * inward}, "stroke:#b03030;stroke-width:2;stroke-dasharray:7 5");
   to.put("edit.svg", split.svg());
 }
 
-void surfaces(const Figures& to, const ingest::Scene& scene, const pipeline::Options& options) {
+void surfaces(const Figures& to, const model::Scene& scene, const pipeline::Options& options) {
   const picture::View view{.kind = picture::View::Kind::angle, .width = 900, .height = 600};
   std::vector<picture::Layer> scan{{scene.mesh, {picture::mesh_blue}}};
   picture::Lines outlines;
@@ -302,7 +302,7 @@ void surfaces(const Figures& to, const ingest::Scene& scene, const pipeline::Opt
 }
 
 /// The scan from above with the footprints that are drawn of it.
-void derived(const Figures& to, const ingest::Scene& scene) {
+void derived(const Figures& to, const model::Scene& scene) {
   double highest = -1e30;
   for (const auto& v : scene.mesh.vertices) highest = std::max(highest, v.z);
   picture::Lines outlines;

@@ -111,7 +111,7 @@ auto ground_samples(const geometry::Mesh& mesh, const std::vector<std::vector<Po
   return out;
 }
 
-auto terrain_along(const ingest::HeightGrid& terrain, const std::vector<Polygon>& shape) -> std::optional<double> {
+auto terrain_along(const model::HeightGrid& terrain, const std::vector<Polygon>& shape) -> std::optional<double> {
   constexpr double step = 1;      // m
   constexpr double enough = 0.9;  // of the outline: what lies beyond the terrain's edge may be another slope
   std::vector<Sample> samples;

@@ -6,7 +6,7 @@
 
 #include "mansard/geometry/mesh.hpp"
 #include "mansard/geometry/polygon.hpp"
-#include "mansard/ingest/ingest.hpp"
+#include "mansard/model/scene.hpp"
 
 namespace mansard::block::detail {
 
@@ -26,7 +26,7 @@ struct Sample {
 
 /// The median of a terrain's heights along the outlines, holes too, a metre apart at most, weighted by length. Nothing
 /// where the terrain is known along less than nine tenths of them.
-[[nodiscard]] auto terrain_along(const ingest::HeightGrid& terrain, const std::vector<geometry::Polygon>& shape)
+[[nodiscard]] auto terrain_along(const model::HeightGrid& terrain, const std::vector<geometry::Polygon>& shape)
     -> std::optional<double>;
 
 /// One sample per triangle of the whole mesh, by its area in space: walls count too.

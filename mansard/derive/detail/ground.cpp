@@ -175,7 +175,7 @@ auto ground_of(const Place& place, const Heights& top, double widest) -> Heights
   return filled(place, ground);
 }
 
-auto ground_of(const Place& place, const ingest::HeightGrid& terrain) -> Heights {
+auto ground_of(const Place& place, const model::HeightGrid& terrain) -> Heights {
   Heights ground(place.size(), none);
   base::parallel_for(place.rows, [&](std::size_t row) {
     for (std::size_t column = 0; column < place.columns; ++column)

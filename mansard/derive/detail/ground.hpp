@@ -5,7 +5,7 @@
 
 #include "mansard/base/result.hpp"
 #include "mansard/derive/detail/grid.hpp"
-#include "mansard/ingest/ingest.hpp"
+#include "mansard/model/scene.hpp"
 
 namespace mansard::derive::detail {
 
@@ -22,6 +22,6 @@ namespace mansard::derive::detail {
 [[nodiscard]] auto ground_of(const Place& place, const Heights& top, double widest) -> Heights;
 
 /// The same of a terrain that was given; filled in where that has no height.
-[[nodiscard]] auto ground_of(const Place& place, const ingest::HeightGrid& terrain) -> Heights;
+[[nodiscard]] auto ground_of(const Place& place, const model::HeightGrid& terrain) -> Heights;
 
 }  // namespace mansard::derive::detail

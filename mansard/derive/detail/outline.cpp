@@ -6,7 +6,7 @@
 #include <ogrsf_frmts.h>
 #include <memory>
 
-#include "mansard/ingest/gdal.hpp"
+#include "mansard/crs/gdal.hpp"
 
 namespace mansard::derive::detail {
 namespace {
@@ -58,7 +58,7 @@ auto polygon_of(const OGRPolygon& polygon, const Place& place) -> geometry::Poly
 auto polygons_of(const Place& place, const std::vector<std::int32_t>& of, std::size_t count)
     -> base::Result<std::vector<std::vector<geometry::Polygon>>> {
   const Quiet quiet;
-  ingest::register_gdal();
+  crs::register_gdal();
   const auto raster = created("MEM", place, 1), vector = created("Memory", place, 0);
   if (!raster || !vector) return failed();
   auto* band = raster->GetRasterBand(1);

@@ -23,7 +23,7 @@ auto earlier(Point2 at, Point2 back, Point2 a, Point2 b) -> bool {
   return of_a != of_b ? of_a < of_b : geometry::orientation(at, a, b) < 0;
 }
 
-void use(geometry::PlanRing& ring, const std::vector<std::uint32_t>& index_of) {
+void use(model::PlanRing& ring, const std::vector<std::uint32_t>& index_of) {
   for (auto& profile : ring.profile_of_edge) profile = index_of[profile];
 }
 
@@ -57,8 +57,8 @@ auto cycles_of(std::span<const Edge> edges) -> std::optional<std::vector<Cycle>>
   return cycles;
 }
 
-auto ring_of(std::span<const Edge> edges, const Cycle& cycle) -> geometry::PlanRing {
-  geometry::PlanRing ring;
+auto ring_of(std::span<const Edge> edges, const Cycle& cycle) -> model::PlanRing {
+  model::PlanRing ring;
   for (const auto i : cycle) {
     ring.points.push_back(edges[i].from);
     ring.profile_of_edge.push_back(edges[i].label);
@@ -68,7 +68,7 @@ auto ring_of(std::span<const Edge> edges, const Cycle& cycle) -> geometry::PlanR
 
 auto outlines_of(std::span<const Edge> edges, const std::vector<Cycle>& cycles) -> std::optional<std::vector<Outline>> {
   std::vector<Outline> outlines;
-  std::vector<geometry::PlanRing> holes;
+  std::vector<model::PlanRing> holes;
   for (const auto& cycle : cycles) {
     auto ring = ring_of(edges, cycle);
     if (geometry::signed_area(ring.points) > 0) outlines.push_back({std::move(ring), {}});
@@ -89,16 +89,15 @@ auto outlines_of(std::span<const Edge> edges, const std::vector<Cycle>& cycles) 
   return outlines;
 }
 
-auto plan_of(Outline outline, const std::vector<geometry::Profile>& profiles, double base, double cap)
-    -> geometry::Plan {
+auto plan_of(Outline outline, const std::vector<model::Profile>& profiles, double base, double cap) -> model::Plan {
   std::vector<bool> used(profiles.size(), false);
-  const auto note = [&](const geometry::PlanRing& ring) {
+  const auto note = [&](const model::PlanRing& ring) {
     for (const auto profile : ring.profile_of_edge) used[profile] = true;
   };
   note(outline.outer);
   for (const auto& hole : outline.holes) note(hole);
 
-  geometry::Plan plan;
+  model::Plan plan;
   plan.base = base;
   plan.cap = cap;
   std::vector<std::uint32_t> index_of(profiles.size(), 0);
@@ -114,9 +113,9 @@ auto plan_of(Outline outline, const std::vector<geometry::Profile>& profiles, do
   return plan;
 }
 
-auto edges_of(const geometry::Plan& plan) -> std::vector<Edge> {
+auto edges_of(const model::Plan& plan) -> std::vector<Edge> {
   std::vector<Edge> edges;
-  const auto add = [&](const geometry::PlanRing& ring) {
+  const auto add = [&](const model::PlanRing& ring) {
     for (std::size_t i = 0; i < ring.points.size(); ++i)
       edges.push_back({ring.points[i], ring.points[(i + 1) % ring.points.size()], ring.profile_of_edge[i]});
   };

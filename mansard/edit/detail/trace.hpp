@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "mansard/geometry/plan.hpp"
 #include "mansard/geometry/points.hpp"
+#include "mansard/model/plan.hpp"
 
 namespace mansard::edit::detail {
 
@@ -29,22 +29,22 @@ using Cycle = std::vector<std::size_t>;
 [[nodiscard]] auto cycles_of(std::span<const Edge> edges) -> std::optional<std::vector<Cycle>>;
 
 /// The cycle's points; the labels of its edges are in `profile_of_edge`.
-[[nodiscard]] auto ring_of(std::span<const Edge> edges, const Cycle& cycle) -> geometry::PlanRing;
+[[nodiscard]] auto ring_of(std::span<const Edge> edges, const Cycle& cycle) -> model::PlanRing;
 
 struct Outline {
-  geometry::PlanRing outer;
-  std::vector<geometry::PlanRing> holes;
+  model::PlanRing outer;
+  std::vector<model::PlanRing> holes;
 };
 /// Cycles that run counter-clockwise with those clockwise ones that lie in them. Nothing where a hole lies nowhere.
 [[nodiscard]] auto outlines_of(std::span<const Edge> edges, const std::vector<Cycle>& cycles)
     -> std::optional<std::vector<Outline>>;
 
 /// The outline as a plan; its labels are indices into `profiles`, of which those in use are kept, in their order.
-[[nodiscard]] auto plan_of(Outline outline, const std::vector<geometry::Profile>& profiles, double base, double cap)
-    -> geometry::Plan;
+[[nodiscard]] auto plan_of(Outline outline, const std::vector<model::Profile>& profiles, double base, double cap)
+    -> model::Plan;
 
 /// The edges of all rings of the plan, labelled by their profiles.
-[[nodiscard]] auto edges_of(const geometry::Plan& plan) -> std::vector<Edge>;
+[[nodiscard]] auto edges_of(const model::Plan& plan) -> std::vector<Edge>;
 
 /// The edges with corners at the points on each of them, in whatever order; the pieces keep their edge's label.
 [[nodiscard]] auto broken_at(std::span<const Edge> edges, std::vector<std::vector<geometry::Point2>> on)

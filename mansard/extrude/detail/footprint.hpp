@@ -26,11 +26,11 @@ using Track = std::vector<TrackPart>;
 /// profile of a canonical profile is that profile.
 struct CanonicalProfile {
   Track track;
-  geometry::Profile profile;
+  model::Profile profile;
   std::size_t empty_parts = 0, straight_knots = 0;
 };
-[[nodiscard]] auto canonical_profile(const geometry::Profile& profile) -> CanonicalProfile;
-[[nodiscard]] auto track_of(const geometry::Profile& profile) -> Track;
+[[nodiscard]] auto canonical_profile(const model::Profile& profile) -> CanonicalProfile;
+[[nodiscard]] auto track_of(const model::Profile& profile) -> Track;
 /// Whether they climb alike, whatever the parts are called.
 [[nodiscard]] auto same_shape(const Track& p, const Track& q) -> bool;
 
@@ -41,7 +41,7 @@ struct CanonicalEdge {
   Direction direction;
   Rational offset;  ///< n · x = offset on the edge's line, n = direction turned left, from the footprint's origin
   std::uint32_t track = 0;
-  Provenance provenance;            ///< part is not used here
+  model::Provenance provenance;     ///< part is not used here
   std::optional<ExactPoint> joint;  ///< the start point where the predecessor lies on the same line
 };
 
@@ -71,7 +71,7 @@ struct SourceRing {
 };
 struct Source {
   std::vector<SourceRing> rings;  ///< outer first
-  std::vector<geometry::Profile> profiles;
+  std::vector<model::Profile> profiles;
   std::size_t repeated_points = 0;  ///< dropped
 };
 

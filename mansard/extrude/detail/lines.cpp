@@ -502,7 +502,7 @@ class Lines {
         const Rational offset = in_metres(run.offset);
         bool joint = false;
         for (const Stretch& s : stretches(r, i)) {
-          const Provenance provenance{source_.rings[r].ring, source_.rings[r].edge[s.edge % grid_[r].size()], 0};
+          const model::Provenance provenance{source_.rings[r].ring, source_.rings[r].edge[s.edge % grid_[r].size()], 0};
           if (joint) {
             const Rational w = in_metres(std::llrint(s.from));
             corners.push_back({(d.a * w - d.b * offset) / d.l, (d.b * w + d.a * offset) / d.l});

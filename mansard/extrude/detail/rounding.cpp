@@ -4,7 +4,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "mansard/extrude/detail/triangles.hpp"
+#include "mansard/solid/triangulator.hpp"
 
 namespace mansard::extrude::detail {
 namespace {
@@ -16,18 +16,18 @@ using Indices = std::vector<std::uint32_t>;
 constexpr double short_arc = 1e-3;  // m
 
 auto normal_of(const FaceNode& node) -> Point3 {
-  if (node.kind == FaceKind::base || node.kind == FaceKind::soffit) return {0, 0, -1};
-  if (node.kind == FaceKind::cap || node.kind == FaceKind::terrace) return {0, 0, 1};
+  if (node.kind == model::FaceKind::base || node.kind == model::FaceKind::soffit) return {0, 0, -1};
+  if (node.kind == model::FaceKind::cap || node.kind == model::FaceKind::terrace) return {0, 0, 1};
   const Point2 inward = left_of(node.direction.approximate());
-  const double slope = node.kind == FaceKind::connector ? 0 : node.slope.get_d();
+  const double slope = node.kind == model::FaceKind::connector ? 0 : node.slope.get_d();
   return normalised(Point3{-inward.x, -inward.y, slope});
 }
 
 /// Where each face's plane lies along its normal: the exact points are on it, so that their doubles agree to rounding.
-auto offsets_of(const Solid& solid) -> std::vector<double> {
+auto offsets_of(const model::Solid& solid) -> std::vector<double> {
   std::vector<double> offsets;
   offsets.reserve(solid.faces.size());
-  for (const Face& face : solid.faces) {
+  for (const model::Face& face : solid.faces) {
     double least = dot(face.normal, solid.vertices[face.loops[0][0]]), most = least;
     for (const auto& loop : face.loops)
       for (const std::uint32_t v : loop) {
@@ -40,8 +40,8 @@ auto offsets_of(const Solid& solid) -> std::vector<double> {
   return offsets;
 }
 
-auto has_short_arc(const Solid& solid) -> bool {
-  for (const Face& face : solid.faces)
+auto has_short_arc(const model::Solid& solid) -> bool {
+  for (const model::Face& face : solid.faces)
     for (const auto& loop : face.loops)
       for (std::size_t i = 0; i < loop.size(); ++i) {
         const Point3 d = solid.vertices[loop[i + 1 == loop.size() ? 0 : i + 1]] - solid.vertices[loop[i]];
@@ -54,14 +54,14 @@ auto holds(const Indices& list, std::uint32_t item) -> bool { return std::ranges
 void unite(Indices& list, std::uint32_t item) {
   if (!holds(list, item)) list.push_back(item);
 }
-auto is_corner(const Face& face, std::uint32_t v) -> bool {
+auto is_corner(const model::Face& face, std::uint32_t v) -> bool {
   return std::ranges::any_of(face.loops, [v](const auto& loop) { return holds(loop, v); });
 }
 
 /// Draws short arcs together, one after the other, shortest first. Faces that vanish keep their place without loops.
 class Collapse {
  public:
-  Collapse(Solid& solid, const std::vector<double>& offsets)
+  Collapse(model::Solid& solid, const std::vector<double>& offsets)
       : vertices_(solid.vertices), faces_(solid.faces), offsets_(offsets), triangulator_(solid) {
     around_.resize(vertices_.size());
     for (std::uint32_t f = 0; f < faces_.size(); ++f)
@@ -83,7 +83,7 @@ class Collapse {
   /// Tries every short arc once.
   void pass() {
     std::vector<std::tuple<double, std::uint32_t, std::uint32_t>> arcs;
-    for (const Face& face : faces_)
+    for (const model::Face& face : faces_)
       for (const auto& loop : face.loops)
         for (std::size_t i = 0; i < loop.size(); ++i) {
           const std::uint32_t a = loop[i], b = loop[(i + 1) % loop.size()];
@@ -95,7 +95,7 @@ class Collapse {
       if (topology_allows(a, b) && join(a, b)) ++joined_;
   }
 
-  static auto follows(const Face& face, std::uint32_t a, std::uint32_t b) -> bool {
+  static auto follows(const model::Face& face, std::uint32_t a, std::uint32_t b) -> bool {
     for (const auto& loop : face.loops)
       for (std::size_t i = 0; i < loop.size(); ++i)
         if (loop[i] == a && loop[(i + 1) % loop.size()] == b) return true;
@@ -121,7 +121,7 @@ class Collapse {
     std::size_t along = 0, triangles = 0;
     for (const std::uint32_t f : around_[a]) {
       if (!holds(around_[b], f)) continue;
-      const Face& face = faces_[f];
+      const model::Face& face = faces_[f];
       const bool forth = follows(face, a, b), back = follows(face, b, a);
       if (forth == back) return false;  // apart on one face, or the arc inside of it
       ++along;
@@ -199,7 +199,7 @@ class Collapse {
     return true;
   }
 
-  static void replace(Face& face, std::uint32_t old, std::uint32_t with) {
+  static void replace(model::Face& face, std::uint32_t old, std::uint32_t with) {
     for (auto& loop : face.loops) {
       std::ranges::replace(loop, old, with);
       const auto repeated = std::ranges::unique(loop);
@@ -231,20 +231,20 @@ class Collapse {
   }
 
   std::vector<Point3>& vertices_;
-  std::vector<Face>& faces_;
+  std::vector<model::Face>& faces_;
   const std::vector<double>& offsets_;
   std::vector<Indices> around_;  ///< the faces at each vertex
-  Triangulator triangulator_;
-  std::vector<Corners> triangles_;
+  solid::Triangulator triangulator_;
+  std::vector<solid::Corners> triangles_;
   std::size_t joined_ = 0;
 };
 
 /// Numbers the vertices in the order in which the faces name them, and leaves out those that none does.
-void renumber(Solid& solid) {
+void renumber(model::Solid& solid) {
   Indices index(solid.vertices.size(), UINT32_MAX);
   std::vector<Point3> used;
   used.reserve(solid.vertices.size());
-  for (Face& face : solid.faces)
+  for (model::Face& face : solid.faces)
     for (auto& loop : face.loops)
       for (std::uint32_t& v : loop) {
         if (index[v] == UINT32_MAX) {
@@ -268,12 +268,13 @@ auto on_grid(Point3 p, double grid) -> Point3 {
 
 auto rounded(const ExactSurface& surface, const Placement& placement, bool collapse) -> Rounded {
   Rounded result;
-  Solid& solid = result.solid;
+  model::Solid& solid = result.solid;
   solid.vertices = surface.places;
   solid.faces.reserve(surface.faces.size());
   for (const auto& face : surface.faces) {
-    Face out{face.loops, face.node.kind, std::nullopt, normal_of(face.node)};
-    if (out.kind == FaceKind::side || out.kind == FaceKind::terrace) out.provenance = face.node.provenance;
+    model::Face out{face.loops, face.node.kind, std::nullopt, normal_of(face.node)};
+    if (out.kind == model::FaceKind::side || out.kind == model::FaceKind::terrace)
+      out.provenance = face.node.provenance;
     solid.faces.push_back(std::move(out));
   }
   const auto offsets = offsets_of(solid);
@@ -287,7 +288,7 @@ auto rounded(const ExactSurface& surface, const Placement& placement, bool colla
       for (const std::uint32_t v : loop)
         result.residual =
             std::max(result.residual, std::abs(dot(solid.faces[f].normal, solid.vertices[v] - shift) - offsets[f]));
-  std::erase_if(solid.faces, [](const Face& face) { return face.loops.empty(); });
+  std::erase_if(solid.faces, [](const model::Face& face) { return face.loops.empty(); });
   return result;
 }
 

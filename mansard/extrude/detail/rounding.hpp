@@ -14,7 +14,7 @@ struct Placement {
 };
 
 struct Rounded {
-  Solid solid;
+  model::Solid solid;
   double residual = 0;        ///< m; the furthest that a vertex lies from the plane of one of its faces
   std::size_t collapsed = 0;  ///< arcs drawn together
 };

@@ -20,7 +20,7 @@ auto polygon_of(const Source& source) -> geometry::Polygon {
 }
 
 /// What is wrong with a profile; nothing if it is as Plan defines it. Rounding below a nanometre is let pass.
-auto fault_of(const geometry::Profile& profile) -> const char* {
+auto fault_of(const model::Profile& profile) -> const char* {
   constexpr double rounding = 1e-9;
   if (profile.size() < 2) return "has fewer than two points";
   for (const auto& p : profile) {
@@ -37,7 +37,7 @@ auto fault_of(const geometry::Profile& profile) -> const char* {
   return nullptr;
 }
 
-auto ring_of(const geometry::PlanRing& ring, Point2 origin, bool outer, std::size_t& repeated) -> SourceRing {
+auto ring_of(const model::PlanRing& ring, Point2 origin, bool outer, std::size_t& repeated) -> SourceRing {
   SourceRing out;
   const GridRing grid = on_fine_grid(ring.points, origin);
   for (std::uint32_t i = 0; i < grid.size(); ++i) {
@@ -103,13 +103,13 @@ auto in_words(const Source& source, const Meetings& meetings, std::size_t most, 
 
 }  // namespace
 
-auto prepared(const geometry::Plan& plan) -> base::Result<Source> {
+auto prepared(const model::Plan& plan) -> base::Result<Source> {
   if (!std::isfinite(plan.cap) || !std::isfinite(plan.base) || plan.cap < 2 * quantum || plan.cap > 1e5)
     return base::error("extrude-cap", "the cap must lie above the base");
   for (std::size_t p = 0; p < plan.profiles.size(); ++p)
     if (const char* fault = fault_of(plan.profiles[p]))
       return base::error("extrude-profile", "profile " + std::to_string(p) + " " + fault);
-  std::vector<const geometry::PlanRing*> rings{&plan.outer};
+  std::vector<const model::PlanRing*> rings{&plan.outer};
   for (const auto& hole : plan.holes) rings.push_back(&hole);
   geometry::Box2 box;
   for (std::size_t r = 0; r < rings.size(); ++r) {
@@ -288,8 +288,8 @@ auto two_part(Source source) -> Source {
   for (auto& profile : source.profiles) {
     const auto gutter = std::ranges::find_if(profile, [](const auto& p) { return p.inward > 0; });
     if (gutter == profile.end()) continue;  // a wall only
-    const geometry::ProfilePoint foot = profile.front(), wall = *(gutter - 1), top = profile.back();
-    geometry::Profile reduced{foot};
+    const model::ProfilePoint foot = profile.front(), wall = *(gutter - 1), top = profile.back();
+    model::Profile reduced{foot};
     if (wall.height > 0) reduced.push_back(wall);
     if (top.height > wall.height) reduced.push_back(top);
     if (reduced.size() < 2) reduced.push_back({0, 1});  // a setback at the ground only
@@ -298,12 +298,12 @@ auto two_part(Source source) -> Source {
   return source;
 }
 
-auto prism_of(const Source& source, double base, double cap) -> Solid {
-  Solid solid;
-  Face floor, roof;
-  floor.kind = FaceKind::base;
+auto prism_of(const Source& source, double base, double cap) -> model::Solid {
+  model::Solid solid;
+  model::Face floor, roof;
+  floor.kind = model::FaceKind::base;
   floor.normal = {0, 0, -1};
-  roof.kind = FaceKind::cap;
+  roof.kind = model::FaceKind::cap;
   roof.normal = {0, 0, 1};
   for (std::uint32_t r = 0; r < source.rings.size(); ++r) {
     const auto& ring = source.rings[r];
@@ -320,8 +320,8 @@ auto prism_of(const Source& source, double base, double cap) -> Solid {
       const std::uint32_t j = (i + 1) % n;
       const Point2 out = -1.0 * left_of(normalised(ring.points[j] - ring.points[i]));
       solid.faces.push_back({{{below[i], below[j], above[j], above[i]}},
-                             FaceKind::side,
-                             Provenance{ring.ring, ring.edge[i], 0},
+                             model::FaceKind::side,
+                             model::Provenance{ring.ring, ring.edge[i], 0},
                              {out.x, out.y, 0}});
     }
     roof.loops.push_back(std::move(above));

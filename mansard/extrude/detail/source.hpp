@@ -10,7 +10,7 @@ namespace mansard::extrude::detail {
 /// Oriented, repeated points dropped. Gives up with "extrude-profile", "extrude-cap", "extrude-not-simple",
 /// "extrude-no-area", and says where (the plan's edge numbers and coordinates) and what to do. Simple is decided
 /// exactly; points within 2^-36 m of each other are one.
-[[nodiscard]] auto prepared(const geometry::Plan& plan) -> base::Result<Source>;
+[[nodiscard]] auto prepared(const model::Plan& plan) -> base::Result<Source>;
 
 /// Without details under `size` metres: corners nearer than that to the line past them, holes that small. Edges keep
 /// the profile of the longer one they came from. Still simple.
@@ -20,6 +20,6 @@ namespace mansard::extrude::detail {
 [[nodiscard]] auto two_part(Source source) -> Source;
 
 /// Upright walls over the rings, flat below and above.
-[[nodiscard]] auto prism_of(const Source& source, double base, double cap) -> Solid;
+[[nodiscard]] auto prism_of(const Source& source, double base, double cap) -> model::Solid;
 
 }  // namespace mansard::extrude::detail

@@ -98,8 +98,8 @@ auto certain(double left, double right, double coordinate, double extent) -> int
 class Chart {
  public:
   Chart(const Places& places, const FaceNode& node) : places_(places), node_(node) {
-    upright_ = node.kind == FaceKind::connector || (node.kind == FaceKind::side && node.slope == 0);
-    looks_down_ = node.kind == FaceKind::base || node.kind == FaceKind::soffit;
+    upright_ = node.kind == model::FaceKind::connector || (node.kind == model::FaceKind::side && node.slope == 0);
+    looks_down_ = node.kind == model::FaceKind::base || node.kind == model::FaceKind::soffit;
     along_ = node.direction.approximate();
   }
 
@@ -401,7 +401,7 @@ void Trace::cut_arcs() {
 
 /// Faces of one plane that were united and yet came out apart each go by the edges whose sweep began with them.
 void Trace::rename(std::uint32_t root_node, std::span<ExactSurface::ExactFace> faces) const {
-  std::vector<std::optional<Provenance>> names(faces.size());
+  std::vector<std::optional<model::Provenance>> names(faces.size());
   std::vector<bool> begun(nodes_.size(), false);
   for (const Arc& arc : arcs_)
     for (const bool left : {true, false}) {
@@ -425,7 +425,7 @@ auto Trace::assemble() -> ExactSurface {
   merge_points();
   cut_arcs();
   for (const Arc& arc : arcs_)
-    if (nodes_[arc.left].kind == FaceKind::terrace && nodes_[arc.right].kind == FaceKind::terrace)
+    if (nodes_[arc.left].kind == model::FaceKind::terrace && nodes_[arc.right].kind == model::FaceKind::terrace)
       unite(arc.left, arc.right);
 
   std::vector<Boundary> boundaries(nodes_.size());
@@ -443,7 +443,7 @@ auto Trace::assemble() -> ExactSurface {
     const Chart chart(places, nodes_[n]);
     const std::size_t first = surface.faces.size();
     nest(walk(edges, chart), nodes_[n], chart, surface.faces);
-    if (surface.faces.size() > first + 1 && nodes_[n].kind == FaceKind::side)
+    if (surface.faces.size() > first + 1 && nodes_[n].kind == model::FaceKind::side)
       rename(n, std::span(surface.faces).subspan(first));
   }
   take_out_passing_points(surface.faces, places, points_.size());

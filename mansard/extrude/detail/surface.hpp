@@ -13,8 +13,8 @@ namespace mansard::extrude::detail {
 
 /// One face in the making. Faces that turn out to be one plane's neighbouring pieces are united.
 struct FaceNode {
-  FaceKind kind = FaceKind::side;
-  Provenance provenance;
+  model::FaceKind kind = model::FaceKind::side;
+  model::Provenance provenance;
   Direction direction;  ///< of the edge that sweeps it; for side and connector
   Rational slope;       ///< run over rise; for side
 };
@@ -81,7 +81,7 @@ class Trace {
   std::vector<TracePoint> points_;
   std::vector<geometry::Point3> places_;
   std::vector<FaceNode> nodes_;
-  std::vector<Provenance> own_names_;  ///< of the nodes, before any were united
+  std::vector<model::Provenance> own_names_;  ///< of the nodes, before any were united
   mutable std::vector<std::uint32_t> parent_;
   std::vector<Arc> arcs_;
   std::vector<std::int64_t> cuts_;

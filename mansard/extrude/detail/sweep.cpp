@@ -118,10 +118,10 @@ class Sweep {
 
   auto face_of(std::uint32_t line) -> std::uint32_t {
     const Course& c = courses_[line];
-    Provenance from = c.edge->provenance;
+    model::Provenance from = c.edge->provenance;
     from.part = c.now().part;
-    return trace_.node(
-        {c.now().horizontal ? FaceKind::terrace : FaceKind::side, from, c.edge->direction, c.now().slope});
+    return trace_.node({c.now().horizontal ? model::FaceKind::terrace : model::FaceKind::side, from, c.edge->direction,
+                        c.now().slope});
   }
 
   /// A setback at height 0 has no thickness: the ground floor is what is left after it.
@@ -138,7 +138,7 @@ class Sweep {
   void draw_base() {
     next_moment(fraction_of(0));
     start_arcs();
-    const std::uint32_t base = trace_.node({FaceKind::base, {}, {}, 0});
+    const std::uint32_t base = trace_.node({model::FaceKind::base, {}, {}, 0});
     for (const std::uint32_t i : wave_.alive()) {
       const WaveEdge& e = wave_.edges[i];
       trace_.arc(e.origin, wave_.edges[e.next].origin, e.node, base);
@@ -152,8 +152,8 @@ class Sweep {
     wave_.height = eaves_->soffit;
     next_moment(fraction_of(eaves_->soffit));
     moment_plane_ = trace_.planes.add(moment_plane(eaves_->soffit));
-    const std::uint32_t base = trace_.node({FaceKind::base, {}, {}, 0});
-    const std::uint32_t soffit = trace_.node({FaceKind::soffit, {}, {}, 0});
+    const std::uint32_t base = trace_.node({model::FaceKind::base, {}, {}, 0});
+    const std::uint32_t soffit = trace_.node({model::FaceKind::soffit, {}, {}, 0});
     start_arcs();
     std::uint32_t first = 0;  // edges are numbered as they were laid out
     for (std::size_t r = 0; r < footprint_.rings.size(); ++r) {
@@ -164,9 +164,9 @@ class Sweep {
         const Course& c = courses_[wave_.edges[first + i].line];
         const bool out = overhangs(r, i);
         walls.push_back(out ? plane_on(*c.edge, c.track->front()) : wave_.plane_at(first + i));
-        Provenance from = c.edge->provenance;
+        model::Provenance from = c.edge->provenance;
         from.part = c.track->front().part;
-        wall_nodes.push_back(out ? trace_.node({FaceKind::side, from, c.edge->direction, 0})
+        wall_nodes.push_back(out ? trace_.node({model::FaceKind::side, from, c.edge->direction, 0})
                                  : wave_.edges[first + i].node);
       }
       for (std::uint32_t i = 0; i < size; ++i) {
@@ -329,7 +329,7 @@ class Sweep {
   }
 
   void close_with_cap() {
-    const std::uint32_t cap = trace_.node({FaceKind::cap, {}, {}, 0});
+    const std::uint32_t cap = trace_.node({model::FaceKind::cap, {}, {}, 0});
     const Edges all = wave_.alive();
     for (const std::uint32_t i : all) wave_.close_arc(i, moment_plane_);
     for (const std::uint32_t i : all) {

@@ -41,9 +41,9 @@ auto in_metres(std::int64_t quanta) -> Rational {
 
 }  // namespace
 
-auto track_of(const geometry::Profile& profile) -> Track { return canonical_profile(profile).track; }
+auto track_of(const model::Profile& profile) -> Track { return canonical_profile(profile).track; }
 
-auto canonical_profile(const geometry::Profile& profile) -> CanonicalProfile {
+auto canonical_profile(const model::Profile& profile) -> CanonicalProfile {
   CanonicalProfile out;
   std::vector<Knot> knots{{0, 0, 0}};
   for (std::size_t i = 1; i < profile.size(); ++i) {

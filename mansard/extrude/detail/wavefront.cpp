@@ -134,7 +134,7 @@ void Wavefront::connect(std::uint32_t edge) {
   const Plane joint = planes_[edges[edge].joint];            // of the direction turned left
   connector.plane = steps_out ? planes_.add(flipped(joint)) : edges[edge].joint;
   connector.direction = planes_[connector.plane].direction;
-  const std::uint32_t node = trace_.node({FaceKind::connector, {}, connector.direction, 0});
+  const std::uint32_t node = trace_.node({model::FaceKind::connector, {}, connector.direction, 0});
   const std::uint32_t between = create(add(std::move(connector)), node);
   WaveEdge &e = edges[edge], &c = edges[between];
   c.prev = before;

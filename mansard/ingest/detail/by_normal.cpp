@@ -11,7 +11,7 @@ using geometry::Point3;
 
 struct Heights {
   double least = std::numeric_limits<double>::infinity(), most = -std::numeric_limits<double>::infinity();
-  void add(const ModelFace& face) {
+  void add(const model::ModelFace& face) {
     for (const Point3 p : face.loops.front()) {
       least = std::min(least, p.z);
       most = std::max(most, p.z);
@@ -19,28 +19,22 @@ struct Heights {
   }
 };
 
-auto class_of(const ModelFace& face, const Heights& building) -> SurfaceClass {
+auto class_of(const model::ModelFace& face, const Heights& building) -> model::SurfaceClass {
   constexpr double wall_angle = 0.2;  // rad from vertical; as label::Options has it
   constexpr double foot = 0.1;        // m; so near to the lowest point is at it
   constexpr double storey = 1.0;      // m; what is lower has no roof above its ground
-  const Point3 normal = geometry::normalised(area_vector(face.loops.front()));
-  if (std::abs(normal.z) <= std::sin(wall_angle)) return SurfaceClass::wall;
+  const Point3 normal = geometry::normalised(model::area_vector(face.loops.front()));
+  if (std::abs(normal.z) <= std::sin(wall_angle)) return model::SurfaceClass::wall;
   Heights own;
   own.add(face);
   // Not by looking down: many files turn their faces either way.
   const bool at_foot = own.most - building.least <= foot && building.most - building.least > storey;
-  return at_foot ? SurfaceClass::ground : SurfaceClass::roof;
+  return at_foot ? model::SurfaceClass::ground : model::SurfaceClass::roof;
 }
 
 }  // namespace
 
-auto area_vector(const std::vector<Point3>& loop) -> Point3 {
-  Point3 sum;
-  for (std::size_t i = 0; i + 1 < loop.size(); ++i) sum = sum + cross(loop[i] - loop[0], loop[i + 1] - loop[0]);
-  return sum;
-}
-
-auto classify_by_normal(ModelBuilding& building) -> std::size_t {
+auto classify_by_normal(model::ModelBuilding& building) -> std::size_t {
   Heights heights;
   for (const auto& part : building.parts)
     for (const auto& face : part.faces) heights.add(face);

@@ -54,7 +54,7 @@ class Welder {
       for (std::size_t v = first; v < end + ahead; ++v) {
         if (v >= first + ahead) {
           const auto now = static_cast<std::uint32_t>(v - ahead);
-          place[now] = usable(points[now]) ? welder.slot_of(now, start[now % ahead]) : no_vertex;
+          place[now] = usable(points[now]) ? welder.slot_of(now, start[now % ahead]) : formats::no_vertex;
         }
         if (v >= end) continue;
         start[v % ahead] = hash(points[v]) & welder.mask_;
@@ -63,7 +63,7 @@ class Welder {
     });
     each_block(points.size(), [&](std::size_t, std::size_t first, std::size_t end) {
       for (std::size_t v = first; v < end; ++v)
-        if (place[v] != no_vertex) place[v] = welder.slots_[place[v]];
+        if (place[v] != formats::no_vertex) place[v] = welder.slots_[place[v]];
     });
     return place;
   }
@@ -71,16 +71,16 @@ class Welder {
  private:
   explicit Welder(const std::vector<Point3>& points)
       : points_(points),
-        mask_(std::min(std::bit_ceil(points.size() + points.size() / 2 + 2), std::size_t{no_vertex} + 1) - 1),
-        slots_(mask_ + 1, no_vertex) {}
+        mask_(std::min(std::bit_ceil(points.size() + points.size() / 2 + 2), std::size_t{formats::no_vertex} + 1) - 1),
+        slots_(mask_ + 1, formats::no_vertex) {}
 
   auto slot_of(std::uint32_t v, std::size_t start) const -> std::uint32_t {
     for (std::size_t at = start;; at = (at + 1) & mask_) {
-      if (at == no_vertex) continue;  // stands for a vertex that cannot be used
+      if (at == formats::no_vertex) continue;  // stands for a vertex that cannot be used
       const std::atomic_ref slot(slots_[at]);
       std::uint32_t there = slot.load(std::memory_order_relaxed);
-      while (there == no_vertex || points_[there] == points_[v]) {
-        if (there <= v && there != no_vertex) return static_cast<std::uint32_t>(at);
+      while (there == formats::no_vertex || points_[there] == points_[v]) {
+        if (there <= v && there != formats::no_vertex) return static_cast<std::uint32_t>(at);
         if (slot.compare_exchange_weak(there, v, std::memory_order_relaxed)) return static_cast<std::uint32_t>(at);
       }
     }
@@ -170,7 +170,7 @@ auto find_repeated(const std::vector<Triangle>& triangles, const Around<Index>& 
 /// Of the triangles that are not repeated.
 template <class Index>
 void count_edges(const std::vector<Triangle>& triangles, const std::vector<char>& repeated, const Around<Index>& around,
-                 std::size_t vertices, MeshCounts& counts) {
+                 std::size_t vertices, model::MeshCounts& counts) {
   struct Found {
     std::uint64_t boundary = 0, flipped = 0, non_manifold = 0;
   };
@@ -253,14 +253,14 @@ void look_at_neighbours(CleanMesh& mesh, std::size_t vertices) {
 
 /// Keeps the vertices that triangles name, in their order.
 void compact(geometry::Mesh& mesh) {
-  std::vector<std::uint32_t> place(mesh.vertices.size(), no_vertex);
+  std::vector<std::uint32_t> place(mesh.vertices.size(), formats::no_vertex);
   each_block(mesh.triangles.size(), [&](std::size_t, std::size_t first, std::size_t end) {
     for (std::size_t i = first; i < end; ++i)
       for (const auto v : mesh.triangles[i]) std::atomic_ref(place[v]).store(0, std::memory_order_relaxed);
   });
   std::uint32_t kept = 0;
   for (std::size_t v = 0; v < place.size(); ++v) {
-    if (place[v] == no_vertex) continue;
+    if (place[v] == formats::no_vertex) continue;
     mesh.vertices[kept] = mesh.vertices[v];
     place[v] = kept++;
   }
@@ -275,7 +275,7 @@ void compact(geometry::Mesh& mesh) {
 
 }  // namespace
 
-auto bounds(const RawMesh& raw, const std::array<double, 3>& offset) -> Box3 {
+auto bounds(const formats::RawMesh& raw, const std::array<double, 3>& offset) -> Box3 {
   std::vector<Box3> boxes(blocks_of(raw.triangles.size()));
   each_block(raw.triangles.size(), [&](std::size_t block, std::size_t first, std::size_t end) {
     Box3 box;
@@ -305,7 +305,7 @@ auto bounds(const RawMesh& raw, const std::array<double, 3>& offset) -> Box3 {
   return all;
 }
 
-auto clean(RawMesh raw, const std::array<double, 3>& shift, const std::optional<geometry::Box2>& within) -> CleanMesh {
+auto clean(formats::RawMesh raw, const std::array<double, 3>& shift, const std::optional<geometry::Box2>& within) -> CleanMesh {
   CleanMesh out;
   auto& counts = out.counts;
   counts.vertices_read = raw.vertices.size();
@@ -328,7 +328,7 @@ auto clean(RawMesh raw, const std::array<double, 3>& shift, const std::optional<
       Triangle& t = triangles[i];
       if (!in_range(t, raw.vertices.size())) return ++found[block].out_of_range, false;
       t = {place[t[0]], place[t[1]], place[t[2]]};
-      if (std::ranges::find(t, no_vertex) != t.end()) return ++found[block].not_finite, false;
+      if (std::ranges::find(t, formats::no_vertex) != t.end()) return ++found[block].not_finite, false;
       const Point3 a = raw.vertices[t[0]], b = raw.vertices[t[1]], c = raw.vertices[t[2]];
       if (within) {
         geometry::Box2 box;
@@ -343,7 +343,7 @@ auto clean(RawMesh raw, const std::array<double, 3>& shift, const std::optional<
     counts.not_finite += one.not_finite;
     counts.degenerate += one.degenerate;
   }
-  if (2 * triangles.size() < no_vertex) look_at_neighbours<std::uint32_t>(out, raw.vertices.size());
+  if (2 * triangles.size() < formats::no_vertex) look_at_neighbours<std::uint32_t>(out, raw.vertices.size());
   else look_at_neighbours<std::uint64_t>(out, raw.vertices.size());
   out.mesh.vertices = std::move(raw.vertices);
   compact(out.mesh);
@@ -353,7 +353,7 @@ auto clean(RawMesh raw, const std::array<double, 3>& shift, const std::optional<
   return out;
 }
 
-auto warnings_of(const MeshCounts& counts, const std::string& subject) -> std::vector<base::Diagnostic> {
+auto warnings_of(const model::MeshCounts& counts, const std::string& subject) -> std::vector<base::Diagnostic> {
   std::vector<base::Diagnostic> out;
   const auto tell = [&](std::uint64_t count, const char* code, const char* what) {
     if (count > 0) out.push_back(base::warning(code, std::to_string(count) + " " + what, subject));

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "mansard/ingest/detail/raw_mesh.hpp"
+#include "mansard/formats/mesh/raw_mesh.hpp"
 #include "mansard/ingest/ingest.hpp"
 
 namespace mansard::ingest::detail {
@@ -14,21 +14,22 @@ struct Box3 {
 };
 
 /// Of the triangles that can be used, in raw coordinates plus the offset.
-[[nodiscard]] auto bounds(const RawMesh& raw, const std::array<double, 3>& offset) -> Box3;
+[[nodiscard]] auto bounds(const formats::RawMesh& raw, const std::array<double, 3>& offset) -> Box3;
 
 struct CleanMesh {
   geometry::Mesh mesh;
   std::vector<std::uint8_t> classes;  ///< per triangle, where the raw mesh has them; else empty
-  MeshCounts counts;
+  model::MeshCounts counts;
 };
 
 /// Drops what cannot be used, makes corners at the same place one, takes out what then has no area or is there twice.
 /// `shift` is added to all coordinates; with `within`, triangles whose box misses it are left out uncounted.
 /// Cost: linear in vertices and triangles but for sorting around each vertex.
-[[nodiscard]] auto clean(RawMesh raw, const std::array<double, 3>& shift, const std::optional<geometry::Box2>& within)
+[[nodiscard]] auto clean(formats::RawMesh raw, const std::array<double, 3>& shift, const std::optional<geometry::Box2>& within)
     -> CleanMesh;
 
 /// One warning for each kind of fault that was found.
-[[nodiscard]] auto warnings_of(const MeshCounts& counts, const std::string& subject) -> std::vector<base::Diagnostic>;
+[[nodiscard]] auto warnings_of(const model::MeshCounts& counts, const std::string& subject)
+    -> std::vector<base::Diagnostic>;
 
 }  // namespace mansard::ingest::detail

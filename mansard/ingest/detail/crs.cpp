@@ -8,13 +8,14 @@
 #include <optional>
 
 #include "mansard/base/text.hpp"
-#include "mansard/ingest/detail/gdal_messages.hpp"
-#include "mansard/ingest/detail/spatial_reference.hpp"
+#include "mansard/crs/gdal_messages.hpp"
+#include "mansard/crs/spatial_reference.hpp"
+#include "mansard/crs/utm.hpp"
 
 namespace mansard::ingest::detail {
 namespace {
 
-auto largest_side(const std::vector<RawFeature>& features) -> double {
+auto largest_side(const std::vector<formats::RawFeature>& features) -> double {
   double largest = 0;
   for (const auto& feature : features)
     if (const auto box = bounds(feature); !box.empty())
@@ -24,19 +25,19 @@ auto largest_side(const std::vector<RawFeature>& features) -> double {
 
 /// GeoJSON without "crs" is in degrees by its standard. It cannot be if it lies beyond them; and it is not if it lies
 /// on the mesh (which is in metres) and some building of it is larger than 1, which would be a hundred kilometres.
-auto looks_local(const FeatureFile& file, const geometry::Box2& mesh) -> bool {
+auto looks_local(const formats::FeatureFile& file, const geometry::Box2& mesh) -> bool {
   const geometry::Box2 box = bounds(file.features);
   if (box.empty()) return false;
   if (box.least.x < -180 || box.most.x > 180 || box.least.y < -90 || box.most.y > 90) return true;
   return box.overlaps(mesh) && largest_side(file.features) >= 1;
 }
 
-auto utm_crs(const OGRSpatialReference& geographic, const geometry::Box2& box) -> std::optional<Crs> {
+auto utm_crs(const OGRSpatialReference& geographic, const geometry::Box2& box) -> std::optional<crs::Crs> {
   const geometry::Point2 centre = 0.5 * (box.least + box.most);
   const char* code = geographic.GetAuthorityCode("GEOGCS");
   const auto number = base::to_integer(code != nullptr ? code : "").value_or(4326);
-  const int zone = utm_zone(centre.x, centre.y, static_cast<int>(number));
-  Crs crs;
+  const int zone = crs::utm_zone(centre.x, centre.y, static_cast<int>(number));
+  crs::Crs crs;
   if (zone == 0 || crs.system.importFromEPSG(zone) != OGRERR_NONE) return std::nullopt;
   return crs;
 }
@@ -50,9 +51,9 @@ auto without_crs(const std::string& option, const std::string& subject, bool geo
         "ingest-crs-local", why + ": taken as metres in the mesh's own frame; --crs EPSG:n names their CRS", subject));
     return way;
   }
-  const auto wanted = wanted_crs(option);
+  const auto wanted = crs::wanted_crs(option);
   if (!wanted) return wanted.error();
-  way.name = name_of(wanted->system);
+  way.name = crs::name_of(wanted->system);
   way.warnings.push_back(base::warning("ingest-crs-local", why + ": taken to be in " + way.name + " already", subject));
   return way;
 }
@@ -64,11 +65,11 @@ struct Scale {
 };
 
 /// From half a hundred metres to all four sides; nothing where the projection does not reach.
-auto scale_at(const Crs& projected, geometry::Point2 place) -> std::optional<Scale> {
-  Crs earth;
+auto scale_at(const crs::Crs& projected, geometry::Point2 place) -> std::optional<Scale> {
+  crs::Crs earth;
   if (earth.system.CopyGeogCSFrom(&projected.system) != OGRERR_NONE) return std::nullopt;
   earth.system.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  const auto way = transformation(projected, earth);
+  const auto way = crs::transformation(projected, earth);
   if (!way) return std::nullopt;
   constexpr double step = 50;
   std::array<double, 4> x{place.x - step, place.x + step, place.x, place.x};
@@ -93,15 +94,15 @@ auto scale_at(const Crs& projected, geometry::Point2 place) -> std::optional<Sca
 }
 
 /// Web maps' Mercator, and zones far from where they are made for: lengths in plan are not those of heights.
-void warn_of_scale(const FeatureFile& file, const Crs& source, const Crs& working, const std::string& subject,
-                   Way& way) {
+void warn_of_scale(const formats::FeatureFile& file, const crs::Crs& source, const crs::Crs& working,
+                   const std::string& subject, Way& way) {
   constexpr double tolerable = 0.01;  // no survey's projection is off by a tenth of that where it is used
   const auto first = std::ranges::find_if(file.features, [](const auto& feature) { return !bounds(feature).empty(); });
   if (first == file.features.end()) return;
   const geometry::Box2 box = bounds(*first);
   geometry::Point2 place = 0.5 * (box.least + box.most);
   if (!way.to.empty()) {
-    const auto there = transformation(source, working);
+    const auto there = crs::transformation(source, working);
     if (!there || there->Transform(1, &place.x, &place.y) == 0) return;
   }
   const auto scale = scale_at(working, place);
@@ -109,10 +110,10 @@ void warn_of_scale(const FeatureFile& file, const Crs& source, const Crs& workin
   const bool worse = std::abs(scale->along_x - 1) > std::abs(scale->along_y - 1);
   const double metre = worse ? scale->along_x : scale->along_y;
   if (std::abs(metre - 1) <= tolerable) return;
-  const int zone = utm_zone(scale->longitude, scale->latitude, 4326);
+  const int zone = crs::utm_zone(scale->longitude, scale->latitude, 4326);
   way.warnings.push_back(base::warning(
       "ingest-crs-scale",
-      "a metre of " + title_of(working.system) + " is " + base::to_text(metre, 2) +
+      "a metre of " + crs::title_of(working.system) + " is " + base::to_text(metre, 2) +
           " m on the ground here, and heights are true metres: shapes come out distorted; say --crs with a system made "
           "for the place" +
           (zone == 0 ? std::string() : ", as EPSG:" + std::to_string(zone)),
@@ -121,22 +122,9 @@ void warn_of_scale(const FeatureFile& file, const Crs& source, const Crs& workin
 
 }  // namespace
 
-auto utm_zone(double longitude, double latitude, int geographic) -> int {
-  if (!(latitude >= -80 && latitude <= 84)) return 0;
-  const double turned = longitude - 360 * std::floor((longitude + 180) / 360);
-  int zone = std::clamp(static_cast<int>(std::floor((turned + 180) / 6)) + 1, 1, 60);
-  // The west coast of Norway, and Svalbard.
-  if (latitude >= 56 && latitude < 64 && turned >= 3 && turned < 12) zone = 32;
-  if (latitude >= 72 && turned >= 0 && turned < 42) zone = turned < 9 ? 31 : turned < 21 ? 33 : turned < 33 ? 35 : 37;
-  constexpr int etrs89 = 4258, nad83 = 4269;
-  if (geographic == etrs89 && latitude >= 0 && zone >= 28 && zone <= 38) return 25800 + zone;
-  if (geographic == nad83 && latitude >= 0 && zone <= 23) return 26900 + zone;
-  return (latitude >= 0 ? 32600 : 32700) + zone;
-}
-
-auto choose_way(const FeatureFile& file, const std::string& option, const geometry::Box2& mesh,
+auto choose_way(const formats::FeatureFile& file, const std::string& option, const geometry::Box2& mesh,
                 const std::string& mesh_crs, const std::string& subject) -> base::Result<Way> {
-  const GdalMessages messages;
+  const crs::GdalMessages messages;
   if (option == "local") return Way{};
   if (!file.crs_failure.empty() && option.empty())
     return base::error("ingest-crs-unknown",
@@ -146,33 +134,33 @@ auto choose_way(const FeatureFile& file, const std::string& option, const geomet
   if (!file.crs_failure.empty() || file.crs.empty()) return without_crs(option, subject, false);
   if (file.assumed_crs && looks_local(file, mesh)) return without_crs(option, subject, true);
 
-  const auto source = from_wkt(file.crs);
+  const auto source = crs::from_wkt(file.crs);
   if (!source || (source->system.IsGeographic() == 0 && source->system.IsProjected() == 0))
     return base::error("ingest-crs-unknown",
                        "the CRS of the footprints is neither projected nor geographic, or not known" +
                            (messages.failure().empty() ? std::string() : " (" + messages.failure() + ")") +
                            "; reproject them, or say --crs local if they are metres in the mesh's frame",
                        subject);
-  std::optional<Crs> target;
+  std::optional<crs::Crs> target;
   if (!option.empty()) {
-    auto wanted = wanted_crs(option);
+    auto wanted = crs::wanted_crs(option);
     if (!wanted) return wanted.error();
     target = std::move(*wanted);
-  } else if (source->system.IsProjected() != 0 && in_metres(source->system)) {
-    Way way{name_of(source->system), {}, {}, {}};
-    const Crs stays = flat(source->system);
+  } else if (source->system.IsProjected() != 0 && crs::in_metres(source->system)) {
+    Way way{crs::name_of(source->system), {}, {}, {}};
+    const crs::Crs stays = crs::flat(source->system);
     warn_of_scale(file, stays, stays, subject, way);
     return way;
   } else if (!mesh_crs.empty()) {
-    target = from_words(mesh_crs);
+    target = crs::from_words(mesh_crs);
   } else if (source->system.IsProjected() != 0) {
     return base::error(
         "ingest-crs-unit",
-        "the CRS of the footprints (" + title_of(source->system) +
+        "the CRS of the footprints (" + crs::title_of(source->system) +
             ") is not in metres; say --crs EPSG:n with a projected CRS that is, and bring the mesh there",
         subject);
   } else {
-    target = utm_crs(flat(source->system).system, bounds(file.features));
+    target = utm_crs(crs::flat(source->system).system, bounds(file.features));
     if (!target)
       return base::error("ingest-crs-unknown",
                          "the footprints are in degrees where there is no UTM zone; say --crs EPSG:n", subject);
@@ -180,32 +168,32 @@ auto choose_way(const FeatureFile& file, const std::string& option, const geomet
 
   if (!target) return base::error("ingest-crs-unknown", "the mesh's CRS is not known; say --crs EPSG:n", subject);
   Way way;
-  way.name = name_of(target->system);
-  const Crs from = flat(source->system), to = flat(target->system);
+  way.name = crs::name_of(target->system);
+  const crs::Crs from = crs::flat(source->system), to = crs::flat(target->system);
   if (from.system.IsSame(&to.system) == 0) {
-    way.from = wkt_of(from.system);
-    way.to = wkt_of(to.system);
+    way.from = crs::wkt_of(from.system);
+    way.to = crs::wkt_of(to.system);
   }
   warn_of_scale(file, from, to, subject, way);
   return way;
 }
 
 auto way_without_features(const std::string& option, const std::string& mesh_crs) -> base::Result<Way> {
-  const GdalMessages messages;
+  const crs::GdalMessages messages;
   Way way;
   if (option.empty()) way.name = mesh_crs;
   if (option.empty() || option == "local") return way;
-  const auto wanted = wanted_crs(option);
+  const auto wanted = crs::wanted_crs(option);
   if (!wanted) return wanted.error();
-  way.name = name_of(wanted->system);
+  way.name = crs::name_of(wanted->system);
   return way;
 }
 
-auto go(const Way& way, std::vector<RawFeature>& features, const std::string& subject) -> base::Result<void> {
+auto go(const Way& way, std::vector<formats::RawFeature>& features, const std::string& subject) -> base::Result<void> {
   if (way.to.empty()) return {};
-  const GdalMessages messages;
-  const auto from = from_wkt(way.from), to = from_wkt(way.to);
-  const auto way_there = from && to ? transformation(*from, *to) : Transformation();
+  const crs::GdalMessages messages;
+  const auto from = crs::from_wkt(way.from), to = crs::from_wkt(way.to);
+  const auto way_there = from && to ? crs::transformation(*from, *to) : crs::Transformation();
   if (!way_there)
     return base::error("ingest-crs-unknown",
                        "there is no way from the footprints' CRS to " + way.name + " (" + messages.failure() +

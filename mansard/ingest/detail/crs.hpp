@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mansard/base/result.hpp"
-#include "mansard/ingest/detail/features.hpp"
+#include "mansard/formats/vector/features.hpp"
 #include "mansard/ingest/ingest.hpp"
 
 namespace mansard::ingest::detail {
@@ -21,18 +21,14 @@ struct Way {
 /// `mesh` is the box of the mesh with its offset, as its files have it; `mesh_crs` names the projected CRS that the
 /// mesh says it is in, or is empty: footprints in degrees or feet go there. Gives up with "ingest-crs-unknown",
 /// "ingest-crs-unit", "ingest-crs-option".
-[[nodiscard]] auto choose_way(const FeatureFile& file, const std::string& option, const geometry::Box2& mesh,
+[[nodiscard]] auto choose_way(const formats::FeatureFile& file, const std::string& option, const geometry::Box2& mesh,
                               const std::string& mesh_crs, const std::string& subject) -> base::Result<Way>;
 
 /// The same for a mesh alone: by the option, else what the mesh says, else none. Gives up with "ingest-crs-option".
 [[nodiscard]] auto way_without_features(const std::string& option, const std::string& mesh_crs) -> base::Result<Way>;
 
 /// Takes all points along; where that is not possible they become NaN. Gives up with "ingest-crs-unknown".
-[[nodiscard]] auto go(const Way& way, std::vector<RawFeature>& features, const std::string& subject)
+[[nodiscard]] auto go(const Way& way, std::vector<formats::RawFeature>& features, const std::string& subject)
     -> base::Result<void>;
-
-/// EPSG code of the UTM zone of a place in degrees on the datum of the geographic CRS with that EPSG code (WGS 84 for
-/// all but ETRS89 and NAD83, which have zones of their own); 0 beyond the zones' latitudes.
-[[nodiscard]] auto utm_zone(double longitude, double latitude, int geographic) -> int;
 
 }  // namespace mansard::ingest::detail

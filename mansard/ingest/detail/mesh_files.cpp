@@ -6,16 +6,16 @@
 #include <algorithm>
 #include <map>
 
-#include "mansard/ingest/detail/append.hpp"
+#include "mansard/crs/gdal.hpp"
+#include "mansard/crs/gdal_messages.hpp"
+#include "mansard/crs/spatial_reference.hpp"
+#include "mansard/formats/context_capture/context_capture.hpp"
+#include "mansard/formats/files/virtual_files.hpp"
+#include "mansard/formats/input_file.hpp"
+#include "mansard/formats/mesh/append.hpp"
+#include "mansard/formats/mesh/mesh_file.hpp"
+#include "mansard/formats/raster/raster.hpp"
 #include "mansard/ingest/detail/clean.hpp"
-#include "mansard/ingest/detail/context_capture.hpp"
-#include "mansard/ingest/detail/gdal_messages.hpp"
-#include "mansard/ingest/detail/mesh_file.hpp"
-#include "mansard/ingest/detail/raster.hpp"
-#include "mansard/ingest/detail/spatial_reference.hpp"
-#include "mansard/ingest/detail/virtual_files.hpp"
-#include "mansard/ingest/gdal.hpp"
-#include "mansard/ingest/input_file.hpp"
 
 namespace mansard::ingest::detail {
 namespace {
@@ -31,18 +31,18 @@ auto cancelled() -> base::Diagnostic { return base::error("cancelled", "stopped 
 
 /// Archives are folders; the ending .3tz is that of a zipped tileset.
 auto unpacked_name(const fs::path& path) -> fs::path {
-  if (is_virtual(path)) return path;
-  const std::string ending = ending_of(path);
+  if (formats::is_virtual(path)) return path;
+  const std::string ending = formats::ending_of(path);
   if (ending == ".3tz") return "/vsizip/{" + path.string() + "}";
   return ending == ".zip" ? fs::path("/vsizip/" + path.string()) : path;
 }
 
 auto is_folder(const fs::path& path) -> bool {
-  if (!is_virtual(path)) {
+  if (!formats::is_virtual(path)) {
     std::error_code failure;
     return fs::is_directory(path, failure);
   }
-  const GdalMessages messages;
+  const crs::GdalMessages messages;
   VSIStatBufL found{};
   return VSIStatL(path.string().c_str(), &found) == 0 && VSI_ISDIR(found.st_mode);
 }
@@ -50,8 +50,8 @@ auto is_folder(const fs::path& path) -> bool {
 /// All files in a folder and below it, in no order; folders too, which end in '/'.
 auto files_below(const fs::path& folder) -> base::Result<std::vector<fs::path>> {
   std::vector<fs::path> found;
-  if (is_virtual(folder)) {
-    const GdalMessages messages;
+  if (formats::is_virtual(folder)) {
+    const crs::GdalMessages messages;
     const CPLStringList names(VSIReadDirRecursive(folder.string().c_str()));
     for (int i = 0; i < names.size(); ++i) found.push_back(folder / names[i]);
     return found;
@@ -66,7 +66,7 @@ auto files_below(const fs::path& folder) -> base::Result<std::vector<fs::path>> 
 /// Whether the name is that of an archive as such, not of a member, and it can be looked into.
 auto is_whole_archive(const fs::path& path) -> bool {
   if (!path.string().starts_with("/vsizip/")) return false;
-  const auto [archive, member] = archive_of(path.string());
+  const auto [archive, member] = formats::archive_of(path.string());
   if (archive.empty() || !member.empty()) return false;
   const auto members = files_below(path);
   return members && !members->empty();
@@ -77,17 +77,17 @@ auto is_below(const fs::path& file, const std::vector<std::string>& folders) -> 
   return std::ranges::any_of(folders, [&](const std::string& folder) { return name.starts_with(folder); });
 }
 
-auto crs_of_raster(const fs::path& path) -> std::optional<MeshCrs> {
-  const GdalMessages messages;
-  register_gdal();
+auto crs_of_raster(const fs::path& path) -> std::optional<crs::MeshCrs> {
+  const crs::GdalMessages messages;
+  crs::register_gdal();
   GDALDatasetH data =
-      GDALOpenEx(name_for_gdal(path).c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr, nullptr, nullptr);
+      GDALOpenEx(formats::name_for_gdal(path).c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr, nullptr, nullptr);
   if (data == nullptr) return std::nullopt;  // why, reading it says
-  std::optional<MeshCrs> crs;
+  std::optional<crs::MeshCrs> crs;
   const auto* system = OGRSpatialReference::FromHandle(GDALGetSpatialRef(data));
   if (system != nullptr && (system->IsProjected() != 0 || system->IsGeographic() != 0)) {
     crs.emplace();
-    crs->wkt = wkt_of(flat(*system).system);
+    crs->wkt = crs::wkt_of(crs::flat(*system).system);
   }
   GDALClose(data);
   return crs;
@@ -118,7 +118,7 @@ auto MeshReading::list_folder(const fs::path& folder) -> base::Result<void> {
     if (!is_below(tilesets[i], before)) found.emplace_back(tilesets[i] + tileset_name);
   }
   for (const auto& path : *below)
-    if (is_mesh_name(path) && !is_below(path, tilesets)) found.push_back(path);
+    if (formats::is_mesh_name(path) && !is_below(path, tilesets)) found.push_back(path);
   if (found.empty())
     return base::error("ingest-mesh-empty",
                        "the folder holds no meshes; they end in .obj, .ply, .off, .glb or .gltf, or are a tileset.json",
@@ -142,9 +142,9 @@ auto MeshReading::list(const std::vector<fs::path>& paths) -> base::Result<void>
     }
     auto& source = sources_.emplace_back();
     source.path = path;
-    const auto ending = ending_of(path);
+    const auto ending = formats::ending_of(path);
     if (ending.starts_with(".json")) source.kind = Kind::tileset;  // maybe with a server's "?key=…"
-    else if (is_raster(path)) source.kind = Kind::raster;
+    else if (formats::is_raster(path)) source.kind = Kind::raster;
   }
   if (sources_.empty()) return base::error("ingest-mesh-empty", "no mesh was given; name one file or folder at least");
   return {};
@@ -155,18 +155,18 @@ auto MeshReading::moved_by_option() const -> bool {
 }
 
 auto MeshReading::find_places() -> base::Result<void> {
-  std::map<fs::path, std::optional<Georeference>> known;
+  std::map<fs::path, std::optional<formats::Georeference>> known;
   for (auto& source : sources_) {
     if (source.kind == Kind::raster) {
       source.crs = crs_of_raster(source.path);
       continue;
     }
     if (source.kind == Kind::tileset) {
-      auto tileset = Tileset::open(source.path);
+      auto tileset = formats::Tileset::open(source.path);
       if (!tileset) return tileset.error();
       source.tileset = std::move(*tileset);
       if (source.tileset->is_geocentric()) {
-        source.crs.emplace().kind = MeshCrs::Kind::geocentric;
+        source.crs.emplace().kind = crs::MeshCrs::Kind::geocentric;
         continue;
       }
     }
@@ -175,7 +175,7 @@ auto MeshReading::find_places() -> base::Result<void> {
     const fs::path folder = source.path.parent_path();
     auto found = known.find(folder);
     if (found == known.end()) {
-      auto read = georeference_of(folder.empty() ? fs::path(".") : folder);
+      auto read = formats::georeference_of(folder.empty() ? fs::path(".") : folder);
       if (!read) return read.error();
       found = known.emplace(folder, std::move(*read)).first;
       if (found->second) metadata_.emplace(found->second->input.path, found->second->input);
@@ -195,7 +195,7 @@ auto MeshReading::open(const std::vector<fs::path>& paths, const Options& option
   auto& sources = reading.sources_;
   base::parallel_for(sources.size(), [&](std::size_t i) {
     if (sources[i].kind != Kind::file || run.cancelled()) return;
-    sources[i].piece = read_mesh_file(sources[i].path, options.up);
+    sources[i].piece = formats::read_mesh_file(sources[i].path, options.up);
   });
   if (run.cancelled()) return cancelled();
   for (const auto& source : sources)
@@ -225,11 +225,12 @@ auto MeshReading::place_of(const Source& source) const -> std::optional<Point3> 
 }
 
 auto MeshReading::own_crs() const -> std::string {
-  const GdalMessages messages;
+  const crs::GdalMessages messages;
   for (const auto& source : sources_) {
-    if (!source.crs || source.crs->kind != MeshCrs::Kind::plane) continue;
-    const auto system = from_wkt(source.crs->wkt);
-    if (system && system->system.IsProjected() != 0 && in_metres(system->system)) return name_of(system->system);
+    if (!source.crs || source.crs->kind != crs::MeshCrs::Kind::plane) continue;
+    const auto system = crs::from_wkt(source.crs->wkt);
+    if (system && system->system.IsProjected() != 0 && crs::in_metres(system->system))
+      return crs::name_of(system->system);
   }
   return {};
 }
@@ -237,16 +238,16 @@ auto MeshReading::own_crs() const -> std::string {
 auto MeshReading::own_crs_or_zone() const -> std::string {
   auto own = own_crs();
   for (auto source = sources_.begin(); own.empty() && source != sources_.end(); ++source)
-    if (const auto place = place_of(*source); place && source->crs) own = working_crs_of(*source->crs, *place);
+    if (const auto place = place_of(*source); place && source->crs) own = crs::working_crs_of(*source->crs, *place);
   return own;
 }
 
 auto MeshReading::choose_ways(const std::string& working) -> base::Result<void> {
   for (auto& source : sources_) {
     // In a local frame a mesh keeps its own numbers, but for those that count from the middle of the earth.
-    const bool on_earth = source.crs && source.crs->kind == MeshCrs::Kind::geocentric && !source.by_metadata;
+    const bool on_earth = source.crs && source.crs->kind == crs::MeshCrs::Kind::geocentric && !source.by_metadata;
     if (!source.crs || (working.empty() && !on_earth)) continue;
-    auto way = WayOfMesh::between(*source.crs, working, source.path.string());
+    auto way = crs::WayOfMesh::between(*source.crs, working, source.path.string());
     if (!way) return way.error();
     source.way = std::move(*way);
   }
@@ -258,7 +259,7 @@ auto MeshReading::list_tiles(const std::optional<Box2>& within, const base::Run&
     if (!source.tileset) continue;
     const bool on_earth = source.tileset->is_geocentric();
     const auto box = within && source.way && !on_earth ? source.way->back(*within) : within;
-    const TileFilter filter(box, on_earth && source.way ? &*source.way : nullptr);
+    const formats::TileFilter filter(box, on_earth && source.way ? &*source.way : nullptr);
     auto tiles = source.tileset->tiles(options_.tile_error, options_.up, filter, run);
     if (!tiles) return tiles.error();
     source.tiles = std::move(tiles->files);
@@ -270,16 +271,16 @@ auto MeshReading::list_tiles(const std::optional<Box2>& within, const base::Run&
 
 /// All pieces of a source, on their way to the working CRS.
 auto MeshReading::read_placed(Source& source, const std::optional<Box2>& within, const base::Run& run)
-    -> std::vector<MeshPiece> {
-  std::vector<MeshPiece> pieces;
+    -> std::vector<formats::MeshPiece> {
+  std::vector<formats::MeshPiece> pieces;
   if (source.kind == Kind::raster) {
     auto& piece = pieces.emplace_back();
     const auto box = within && source.way ? source.way->back(*within) : within;
-    auto raster = read_raster(source.path, box);
+    auto raster = formats::read_raster(source.path, box);
     if (!raster) return piece.failure = raster.error(), pieces;
     piece.mesh = std::move(raster->mesh);
     warnings_.insert(warnings_.end(), raster->warnings.begin(), raster->warnings.end());
-    auto input = input_file(source.path);
+    auto input = formats::input_file(source.path);
     if (input) piece.inputs.push_back(std::move(*input));
   } else {
     pieces.push_back(std::move(source.piece));
@@ -288,7 +289,7 @@ auto MeshReading::read_placed(Source& source, const std::optional<Box2>& within,
   pieces.resize(pieces.size() + source.tiles.size());
   base::parallel_for(pieces.size(), [&](std::size_t i) {
     if (run.cancelled()) return;
-    if (source.tileset && i >= first) pieces[i] = read_tile_file(source.tiles[i - first]);
+    if (source.tileset && i >= first) pieces[i] = formats::read_tile_file(source.tiles[i - first]);
     if (source.way) source.way->take(pieces[i].mesh.vertices);
   });
   return pieces;
@@ -306,7 +307,7 @@ auto MeshReading::finish(const std::string& working, const std::optional<Box2>& 
   if (auto done = choose_ways(working); !done) return done.error();
   if (auto done = list_tiles(raw, run); !done) return done.error();
 
-  std::vector<MeshPiece> pieces;
+  std::vector<formats::MeshPiece> pieces;
   std::map<std::string, std::size_t> skipped;
   std::size_t vertices = 0, triangles = 0;
   for (auto& source : sources_) {
@@ -323,7 +324,7 @@ auto MeshReading::finish(const std::string& working, const std::optional<Box2>& 
     }
   }
   warn_of_skipped(skipped, subject, warnings_);
-  if (vertices >= no_vertex)
+  if (vertices >= formats::no_vertex)
     return base::error("ingest-memory", "more than 4 thousand million vertices; reconstruct part after part", subject);
   if (triangles == 0 && tiles_beside_ > 0)
     return base::error("ingest-no-overlap",

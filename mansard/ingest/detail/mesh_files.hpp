@@ -10,25 +10,17 @@
 
 #include "mansard/base/result.hpp"
 #include "mansard/base/run.hpp"
-#include "mansard/ingest/detail/mesh_crs.hpp"
-#include "mansard/ingest/detail/raw_mesh.hpp"
-#include "mansard/ingest/detail/tiles3d.hpp"
+#include "mansard/crs/mesh_crs.hpp"
+#include "mansard/formats/mesh/mesh_file.hpp"
+#include "mansard/formats/tiles3d/tileset.hpp"
 #include "mansard/ingest/ingest.hpp"
 
 namespace mansard::ingest::detail {
 
 struct MeshFiles {
-  RawMesh mesh;  ///< of all files, z up, in the working CRS but for the offset
-  std::vector<InputFile> inputs;
+  formats::RawMesh mesh;  ///< of all files, z up, in the working CRS but for the offset
+  std::vector<model::InputFile> inputs;
   std::vector<base::Diagnostic> warnings;
-};
-
-/// A mesh, with what was read of it.
-struct MeshPiece {
-  RawMesh mesh;
-  std::vector<InputFile> inputs;
-  std::set<std::string> skipped;  ///< kinds of tiles that were not read
-  std::optional<base::Diagnostic> failure;
 };
 
 /// Reading in two steps, since the working CRS is chosen between them: files that say where they are only by their
@@ -59,12 +51,12 @@ class MeshReading {
   struct Source {
     Kind kind = Kind::file;
     std::filesystem::path path;
-    std::optional<MeshCrs> crs;      ///< what it says of itself, or metadata.xml says for it
+    std::optional<crs::MeshCrs> crs;      ///< what it says of itself, or metadata.xml says for it
     bool by_metadata = false;        ///< … the latter
-    std::optional<Tileset> tileset;  ///< of a tileset
-    MeshPiece piece;                 ///< of a file
-    std::vector<TileFile> tiles;     ///< of a tileset
-    std::optional<WayOfMesh> way;    ///< to the working CRS; none where coordinates stay
+    std::optional<formats::Tileset> tileset;  ///< of a tileset
+    formats::MeshPiece piece;                 ///< of a file
+    std::vector<formats::TileFile> tiles;     ///< of a tileset
+    std::optional<crs::WayOfMesh> way;    ///< to the working CRS; none where coordinates stay
   };
 
   explicit MeshReading(const Options& options) : options_(options) {}
@@ -77,12 +69,12 @@ class MeshReading {
   [[nodiscard]] auto list_tiles(const std::optional<geometry::Box2>& within, const base::Run& run)
       -> base::Result<void>;
   [[nodiscard]] auto read_placed(Source& source, const std::optional<geometry::Box2>& within, const base::Run& run)
-      -> std::vector<MeshPiece>;
+      -> std::vector<formats::MeshPiece>;
 
   Options options_;
   std::vector<Source> sources_;
-  std::map<std::filesystem::path, InputFile> metadata_;  ///< by folder
-  std::vector<InputFile> inputs_;
+  std::map<std::filesystem::path, model::InputFile> metadata_;  ///< by folder
+  std::vector<model::InputFile> inputs_;
   std::vector<base::Diagnostic> warnings_;
   std::size_t tiles_beside_ = 0;
 };

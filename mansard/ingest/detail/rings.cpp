@@ -19,7 +19,7 @@ constexpr double least_area = 0.01;   // m²: smaller than a hand is no building
 constexpr double area_change = 0.01;  // of the area, by a repair
 constexpr double bridge = 0.05;       // m: half the diagonal of the square put where rings touch
 
-auto finite(const std::vector<RawPolygon>& parts) -> bool {
+auto finite(const std::vector<formats::RawPolygon>& parts) -> bool {
   // Farther than twice round the earth is no place either.
   for (const auto& part : parts)
     for (const auto& ring : part)
@@ -211,7 +211,7 @@ void unite_overlapping(Repaired& out) {
 
 }  // namespace
 
-auto repair(const std::vector<RawPolygon>& parts, const std::array<double, 2>& origin) -> Repaired {
+auto repair(const std::vector<formats::RawPolygon>& parts, const std::array<double, 2>& origin) -> Repaired {
   Repaired out;
   if (!finite(parts)) {
     out.defect =

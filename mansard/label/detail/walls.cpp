@@ -24,7 +24,7 @@ struct Frame {
   Point2 origin, along, outward;
 };
 
-auto outline_in(const Frame& frame, const extrude::Solid& solid, const extrude::Face& face) -> Outline {
+auto outline_in(const Frame& frame, const model::Solid& solid, const model::Face& face) -> Outline {
   Outline outline;
   for (const auto& loop : face.loops) {
     auto& ring = outline.emplace_back();
@@ -75,7 +75,7 @@ auto common_length(const std::vector<Interval>& a, std::vector<Interval>& b) -> 
 
 }  // namespace
 
-auto walls_of(std::span<const extrude::Solid> solids, const std::vector<std::vector<bool>>& is_wall)
+auto walls_of(std::span<const model::Solid> solids, const std::vector<std::vector<bool>>& is_wall)
     -> std::vector<Wall> {
   std::vector<Wall> walls;
   for (std::uint32_t s = 0; s < solids.size(); ++s) {
@@ -92,8 +92,8 @@ auto walls_of(std::span<const extrude::Solid> solids, const std::vector<std::vec
   return walls;
 }
 
-auto covered_share(const Wall& wall, std::span<const Wall> walls, std::span<const extrude::Solid> solids,
-                   double distance) -> double {
+auto covered_share(const Wall& wall, std::span<const Wall> walls, std::span<const model::Solid> solids, double distance)
+    -> double {
   const auto& solid = solids[wall.solid];
   const auto& face = solid.faces[wall.face];
   const Point2 along{-wall.outward.y, wall.outward.x};

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "mansard/extrude/extrude.hpp"
 #include "mansard/geometry/points.hpp"
+#include "mansard/model/solid.hpp"
 
 namespace mansard::label::detail {
 
@@ -18,12 +18,12 @@ struct Wall {
 };
 
 /// All faces that `is_wall` of a solid's face says are walls, sorted by the box's west side.
-[[nodiscard]] auto walls_of(std::span<const extrude::Solid> solids, const std::vector<std::vector<bool>>& is_wall)
+[[nodiscard]] auto walls_of(std::span<const model::Solid> solids, const std::vector<std::vector<bool>>& is_wall)
     -> std::vector<Wall>;
 
 /// The share of the wall's area that faces opposite walls of other solids within `distance` metres. Measured in
 /// vertical strips of at most 5 cm, on the wall's own vertical plane; overlapping neighbours count once.
-[[nodiscard]] auto covered_share(const Wall& wall, std::span<const Wall> walls, std::span<const extrude::Solid> solids,
+[[nodiscard]] auto covered_share(const Wall& wall, std::span<const Wall> walls, std::span<const model::Solid> solids,
                                  double distance) -> double;
 
 }  // namespace mansard::label::detail

@@ -1,4 +1,5 @@
 #include "mansard/pipeline/detail/assemble.hpp"
+#include "mansard/solid/solid.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +17,8 @@ void add(label::Areas& sum, const label::Areas& more) {
   sum.ground += more.ground;
 }
 
-auto made_by(const ingest::Scene& scene, const Options& options) -> write::MadeBy {
-  write::MadeBy out;
+auto made_by(const model::Scene& scene, const Options& options) -> model::MadeBy {
+  model::MadeBy out;
   out.version = MANSARD_VERSION;
   out.inputs = scene.inputs;
   Options copy = options;
@@ -29,7 +30,7 @@ auto made_by(const ingest::Scene& scene, const Options& options) -> write::MadeB
 namespace {
 
 /// The attributes of outputs.md, in the file's heights.
-auto attributes_of(const PartResult& part, const BlockReport& block, double z0) -> ingest::Attributes {
+auto attributes_of(const PartResult& part, const BlockReport& block, double z0) -> model::Attributes {
   const std::string why = part.reasons.empty() ? "unknown" : part.reasons.front().code;
   auto out = model_attributes(part.model, part.plan, part.roof, part.mse, part.full ? std::string() : why, z0);
   if (!part.changes.empty()) {
@@ -48,12 +49,12 @@ struct Account {
   double squared = 0;  // Σ mse × area, for the building's RMSE
   double area = 0;
 };
-void take(PartResult part, const BlockReport& block, double z0, write::Building& building, BuildingReport& report,
+void take(PartResult part, const BlockReport& block, double z0, model::Building& building, BuildingReport& report,
           Account& account) {
   report.roof_min = report.parts == 0 ? z0 + part.roof.front() : std::min(report.roof_min, z0 + part.roof.front());
   report.roof_max = report.parts == 0 ? z0 + part.roof.back() : std::max(report.roof_max, z0 + part.roof.back());
   ++report.parts;
-  report.volume += extrude::volume(part.model.solid);
+  report.volume += solid::volume(part.model.solid);
   const auto areas = label::areas(part.model);
   add(report.areas, areas);
   if (part.mse) {
@@ -72,12 +73,12 @@ void take(PartResult part, const BlockReport& block, double z0, write::Building&
 
 }  // namespace
 
-auto assemble(const ingest::Scene& scene, const std::vector<block::Block>& blocks, std::vector<BlockResult> results,
+auto assemble(const model::Scene& scene, const std::vector<block::Block>& blocks, std::vector<BlockResult> results,
               const Options& options) -> Reconstruction {
   Reconstruction out;
   const auto z0 = static_cast<double>(scene.frame.origin[2]);
   const std::size_t count = scene.footprints.size();
-  std::vector<write::Building> buildings(count);
+  std::vector<model::Building> buildings(count);
   std::vector<BuildingReport> reports(count);
   std::vector<Account> accounts(count);
   for (std::size_t i = 0; i < count; ++i) {

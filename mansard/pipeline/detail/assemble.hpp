@@ -8,7 +8,7 @@
 namespace mansard::pipeline::detail {
 
 /// `results[i]` belongs to `blocks[i]`. Fills the city, the reports and the warnings.
-[[nodiscard]] auto assemble(const ingest::Scene& scene, const std::vector<block::Block>& blocks,
+[[nodiscard]] auto assemble(const model::Scene& scene, const std::vector<block::Block>& blocks,
                             std::vector<BlockResult> results, const Options& options) -> Reconstruction;
 
 /// Files have 0.1 mm: what is checked is what is written.
@@ -19,6 +19,6 @@ namespace mansard::pipeline::detail {
 
 void add(label::Areas& sum, const label::Areas& more);
 /// Version, inputs and every option.
-[[nodiscard]] auto made_by(const ingest::Scene& scene, const Options& options) -> write::MadeBy;
+[[nodiscard]] auto made_by(const model::Scene& scene, const Options& options) -> model::MadeBy;
 
 }  // namespace mansard::pipeline::detail

@@ -41,7 +41,7 @@ auto plain_prism(std::size_t feature, const Polygon& polygon, double ground, con
 
 /// The heights of the model's roof and its vertical error against the mesh.
 void measure(PartResult& part, const rays::Scene& mesh, const Options& options) {
-  const auto polygon = geometry::polygon_of(part.plan);
+  const auto polygon = model::polygon_of(part.plan);
   part.roof = roof_heights(part.model, part.plan, options.roof_grid);
   const double mse = evaluate::error_over(part.model.solid, polygon, mesh, options.evaluate.grid);
   if (std::isfinite(mse)) part.mse = mse;
@@ -102,7 +102,7 @@ auto uncovered(const block::Member& member, const std::vector<PartResult>& parts
   constexpr double least_width = 0.5;
   std::vector<Polygon> left = member.polygons;
   for (const auto& part : parts) {
-    const auto other = geometry::polygon_of(part.plan);
+    const auto other = model::polygon_of(part.plan);
     const auto box = geometry::bounds(other.outer);
     std::vector<Polygon> rest;
     for (auto& polygon : left) {
@@ -148,7 +148,7 @@ void fill_in(const block::Block& block, const rays::Scene& mesh, const Options& 
 
 /// Parts with the walls that they share on one line. Where that would cost a part its roof, it stays as it was raised.
 void align(std::vector<PartResult>& parts, const Options& options, const base::Run& run) {
-  std::vector<geometry::Plan> plans;
+  std::vector<model::Plan> plans;
   for (const auto& part : parts) plans.push_back(part.plan);
   const auto aligned = extrude::align(plans, options.extrude);
   base::parallel_for(parts.size(), [&](std::size_t i) {
@@ -163,7 +163,7 @@ void align(std::vector<PartResult>& parts, const Options& options, const base::R
 }
 
 void classify(std::vector<PartResult>& parts, const Options& options, const base::Run& run) {
-  std::vector<extrude::Solid> solids;
+  std::vector<model::Solid> solids;
   for (auto& part : parts) solids.push_back(std::move(part.model.solid));
   auto labelled = label::classify(std::move(solids), options.label, run);
   for (std::size_t i = 0; i < parts.size(); ++i) parts[i].model = std::move(labelled[i]);
@@ -195,7 +195,7 @@ auto run_block(const block::Block& block, const Options& options, const base::Ru
   }
   report.parts = parts.size();
 
-  std::vector<label::LabelledSolid> models;
+  std::vector<model::LabelledSolid> models;
   std::vector<Polygon> footprints;
   for (const auto& part : parts) models.push_back(part.model);
   for (const auto& member : block.members)

@@ -38,8 +38,8 @@ template <class Work>
 /// A part before it is assigned to its building.
 struct PartResult {
   std::size_t feature = 0;  ///< index into Scene::footprints
-  geometry::Plan plan;
-  label::LabelledSolid model;
+  model::Plan plan;
+  model::LabelledSolid model;
   std::vector<base::Diagnostic> reasons;  ///< why it is not raised in full; empty when it is
   bool full = true;
   std::vector<std::string> changes;  ///< what measured error changed of its plan, in words

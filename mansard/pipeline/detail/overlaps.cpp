@@ -14,13 +14,13 @@ using geometry::Polygon;
 /// A part as it stands on the ground.
 struct Standing {
   std::size_t order = 0, building = 0;
-  const write::Part* part = nullptr;
+  const model::Part* part = nullptr;
   std::vector<Polygon> ground;
   geometry::Box2 box;
   double low = std::numeric_limits<double>::infinity(), high = -low;
 };
 
-auto standing(std::size_t order, std::size_t building, const write::Part& part) -> Standing {
+auto standing(std::size_t order, std::size_t building, const model::Part& part) -> Standing {
   Standing out{order, building, &part, {}, {}};
   const auto& solid = part.model.solid;
   for (const auto& v : solid.vertices) {
@@ -28,7 +28,7 @@ auto standing(std::size_t order, std::size_t building, const write::Part& part) 
     out.high = std::max(out.high, v.z);
   }
   for (const auto& face : solid.faces) {
-    if (face.kind != extrude::FaceKind::base) continue;
+    if (face.kind != model::FaceKind::base) continue;
     Polygon polygon;
     for (const auto& loop : face.loops) {
       geometry::Ring ring;

@@ -175,13 +175,13 @@ auto supported(RoofLine line, std::span<const SliceColumns> slices, const Suppor
   return line;
 }
 
-auto vertical_profile(double height) -> geometry::Profile { return {{0, 0}, {0, std::max(least_gutter, height)}}; }
+auto vertical_profile(double height) -> model::Profile { return {{0, 0}, {0, std::max(least_gutter, height)}}; }
 
-auto profile_from(const RoofLine& line, double vertical_angle) -> geometry::Profile {
+auto profile_from(const RoofLine& line, double vertical_angle) -> model::Profile {
   if (line.size() < 2) return vertical_profile(line.empty() ? 0 : line.front().height);
   /// A pitch on its own infinite line, as far as `end`.
   struct Pitch {
-    geometry::ProfilePoint through;
+    model::ProfilePoint through;
     double slope = 0, end = 0;
     [[nodiscard]] auto at(double inward) const -> double { return through.height + slope * (inward - through.inward); }
   };
@@ -203,9 +203,9 @@ auto profile_from(const RoofLine& line, double vertical_angle) -> geometry::Prof
   if (pitches.empty() || line.back().height < 2 * least_gutter || line.back().height - line.front().height < least_gain)
     return vertical_profile(line.front().height);
 
-  geometry::Profile profile = vertical_profile(pitches.front().at(0));
+  model::Profile profile = vertical_profile(pitches.front().at(0));
   const auto add = [&](double inward, double height) {
-    const geometry::ProfilePoint next{inward, std::max(height, profile.back().height)};
+    const model::ProfilePoint next{inward, std::max(height, profile.back().height)};
     if (!(next == profile.back())) profile.push_back(next);
   };
   for (std::size_t i = 0; i < pitches.size(); ++i) {

@@ -5,13 +5,13 @@
 #include <span>
 #include <vector>
 
-#include "mansard/geometry/plan.hpp"
+#include "mansard/model/plan.hpp"
 #include "mansard/profile/detail/columns.hpp"
 
 namespace mansard::profile::detail {
 
 /// A roof line that bends upwards or downwards at its inner points; at least two points, `height` above the base.
-using RoofLine = std::vector<geometry::ProfilePoint>;
+using RoofLine = std::vector<model::ProfilePoint>;
 
 /// The continuous piecewise linear function with at most `most` (1 to 3) pieces that explains the columns best, a
 /// further piece having to earn its place. Empty for fewer than four columns. Cost: O(n²) for n columns.
@@ -28,9 +28,9 @@ struct SupportOptions {
 
 /// The line under the urban prior: wall up to the gutter, then pitches that never fall; pieces within `vertical_angle`
 /// of vertical become wall; nearly level ends are left to the cap. Just a wall when nothing remains.
-[[nodiscard]] auto profile_from(const RoofLine& line, double vertical_angle) -> geometry::Profile;
+[[nodiscard]] auto profile_from(const RoofLine& line, double vertical_angle) -> model::Profile;
 
 /// A wall of that height, metres.
-[[nodiscard]] auto vertical_profile(double height) -> geometry::Profile;
+[[nodiscard]] auto vertical_profile(double height) -> model::Profile;
 
 }  // namespace mansard::profile::detail

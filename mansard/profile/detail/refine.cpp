@@ -9,7 +9,7 @@ namespace {
 
 using geometry::Point2;
 using geometry::Polygon;
-using geometry::Profile;
+using model::Profile;
 
 constexpr double sky = std::numeric_limits<double>::infinity();
 constexpr double outlier = 3.0;  // m

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "mansard/geometry/plan.hpp"
 #include "mansard/geometry/polygon.hpp"
+#include "mansard/model/plan.hpp"
 #include "mansard/profile/detail/runs.hpp"
 #include "mansard/rays/rays.hpp"
 
@@ -25,7 +25,7 @@ struct RoofSample {
 
 /// The candidates of one run, the greedy one first; `reach`: metres, the farthest its perpendiculars go in the part.
 struct Choices {
-  std::vector<geometry::Profile> profiles;
+  std::vector<model::Profile> profiles;
   double reach = 0;
 };
 

@@ -14,10 +14,10 @@
 namespace mansard::refine::detail {
 namespace {
 
-using geometry::Plan;
-using geometry::PlanRing;
 using geometry::Point2;
-using geometry::Profile;
+using model::Plan;
+using model::PlanRing;
+using model::Profile;
 
 template <class See>
 void each_edge(const Plan& plan, See see) {

@@ -5,24 +5,23 @@
 #include <optional>
 #include <vector>
 
-#include "mansard/geometry/plan.hpp"
+#include "mansard/model/plan.hpp"
 #include "mansard/refine/detail/site.hpp"
 
 namespace mansard::refine::detail {
 
 /// The plan with the common forms of roof, each with gutter height and pitch as the site's looks suggest, and as many
 /// flat ones as there are levels to end at. Profiles of the plan keep their numbers.
-[[nodiscard]] auto forms_of(const geometry::Plan& plan, const Site& site) -> std::vector<geometry::Plan>;
+[[nodiscard]] auto forms_of(const model::Plan& plan, const Site& site) -> std::vector<model::Plan>;
 
 /// Per profile of the plan what its sides may carry where the scan shows a level strip along them, of 0.7 to 4 m, and
 /// higher up behind it something else: wall, terrace, wall, and what goes on above. Cost: O(cells · edges).
-[[nodiscard]] auto setbacks_of(const geometry::Plan& plan, const Site& site)
-    -> std::vector<std::vector<geometry::Profile>>;
+[[nodiscard]] auto setbacks_of(const model::Plan& plan, const Site& site) -> std::vector<std::vector<model::Profile>>;
 
 /// A wall up to there, metres.
-[[nodiscard]] auto wall(double height) -> geometry::Profile;
+[[nodiscard]] auto wall(double height) -> model::Profile;
 /// A wall up to the gutter, then a roof.
-[[nodiscard]] auto pitched(double gutter, double slope) -> geometry::Profile;
+[[nodiscard]] auto pitched(double gutter, double slope) -> model::Profile;
 
 /// The edges of one profile.
 struct Side {
@@ -30,7 +29,7 @@ struct Side {
   double length = 0;        ///< m
 };
 /// Per profile of the plan.
-[[nodiscard]] auto sides_of(const geometry::Plan& plan) -> std::vector<Side>;
+[[nodiscard]] auto sides_of(const model::Plan& plan) -> std::vector<Side>;
 
 /// One edge of a plan.
 struct Eaves {
@@ -39,7 +38,7 @@ struct Eaves {
   std::uint32_t profile = 0;
 };
 /// The edges whose profiles carry roof, of all that have a length.
-[[nodiscard]] auto eaves_of(const geometry::Plan& plan, const std::vector<bool>& carries) -> std::vector<Eaves>;
+[[nodiscard]] auto eaves_of(const model::Plan& plan, const std::vector<bool>& carries) -> std::vector<Eaves>;
 
 struct Nearest {
   std::uint32_t profile = 0;
@@ -49,6 +48,6 @@ struct Nearest {
 [[nodiscard]] auto nearest_eaves(const std::vector<Eaves>& eaves, geometry::Point2 at) -> std::optional<Nearest>;
 
 /// Whether a profile is nothing but a wall.
-[[nodiscard]] inline auto is_wall(const geometry::Profile& profile) -> bool { return profile.back().inward == 0; }
+[[nodiscard]] inline auto is_wall(const model::Profile& profile) -> bool { return profile.back().inward == 0; }
 
 }  // namespace mansard::refine::detail

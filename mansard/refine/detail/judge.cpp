@@ -49,7 +49,7 @@ auto melted(const View& view, const Heights& grid) -> std::vector<double> {
 
 }  // namespace
 
-auto Judge::operator()(const geometry::Plan& plan) const -> base::Result<Judged> {
+auto Judge::operator()(const model::Plan& plan) const -> base::Result<Judged> {
   auto sketch = extrude::sketch(plan, raising_, run_);
   if (!sketch) return sketch.error();
   Judged out{plan, std::move(*sketch), {}, 0, 0};

@@ -8,8 +8,8 @@
 namespace mansard::refine::detail {
 
 struct Judged {
-  geometry::Plan plan;
-  extrude::Solid sketch;
+  model::Plan plan;
+  model::Solid sketch;
   View view;
   double misfit = 0;  ///< m² · m²: weighed robust squared differences times their area
   double cost = 0;    ///< misfit and the price of the faces
@@ -21,7 +21,7 @@ class Judge {
       : site_(site), options_(options), raising_(raising), run_(run) {}
 
   /// Gives up where the plan cannot be raised in full.
-  [[nodiscard]] auto operator()(const geometry::Plan& plan) const -> base::Result<Judged>;
+  [[nodiscard]] auto operator()(const model::Plan& plan) const -> base::Result<Judged>;
 
   [[nodiscard]] auto site() const -> const Site& { return site_; }
   [[nodiscard]] auto options() const -> const Options& { return options_; }

@@ -107,7 +107,7 @@ auto refine_owner(std::span<const Draft> drafts, std::span<const std::size_t> mi
   std::vector<std::optional<base::Result<Piece>>> roofed(mine.size());
   base::parallel_for(mine.size(), [&](std::size_t k) {
     const auto& plan = drafts[mine[k]].plan;
-    roofed[k] = work.roofed(mine[k], work.look(geometry::polygon_of(plan), plan.base), drafts[mine[k]]);
+    roofed[k] = work.roofed(mine[k], work.look(model::polygon_of(plan), plan.base), drafts[mine[k]]);
   });
   std::vector<Piece> pieces;
   for (std::size_t k = 0; k < mine.size(); ++k) {

@@ -10,11 +10,11 @@
 namespace mansard::refine::detail {
 namespace {
 
-using geometry::Plan;
-using geometry::PlanRing;
 using geometry::Point2;
 using geometry::Polygon;
 using geometry::Ring;
+using model::Plan;
+using model::PlanRing;
 
 /// Metres of a → b that lie along an edge in the same direction.
 auto overlap(Point2 a, Point2 b, Point2 from, Point2 to) -> double {
@@ -148,7 +148,7 @@ auto draft_of(std::span<const Origin> origins, const Site& piece) -> Draft {
         const auto& [origin, profile] = *under;
         const auto& others = origins[origin].draft.alternatives;
         out.plan.profiles.push_back(origins[origin].roof.profiles[profile]);
-        out.alternatives.push_back(profile < others.size() ? others[profile] : std::vector<geometry::Profile>{});
+        out.alternatives.push_back(profile < others.size() ? others[profile] : std::vector<model::Profile>{});
       }
       ring.profile_of_edge.push_back(at->second);
     }

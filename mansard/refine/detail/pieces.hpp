@@ -20,7 +20,7 @@ namespace mansard::refine::detail {
 /// A draft with the roof that was found for it.
 struct Origin {
   const Draft& draft;
-  const geometry::Plan& roof;
+  const model::Plan& roof;
 };
 /// Edges on the origins' edges carry what those carry and may carry what those may, all others are walls. Caps by the
 /// site's heights.

@@ -12,10 +12,10 @@
 namespace mansard::refine::detail {
 namespace {
 
-using geometry::Plan;
-using geometry::PlanRing;
 using geometry::Point2;
-using geometry::Profile;
+using model::Plan;
+using model::PlanRing;
+using model::Profile;
 
 constexpr double least_slope = 0.03;  // flatter ones are the cap's business
 constexpr double most_slope = 12.0;   // steeper ones are walls
@@ -85,8 +85,8 @@ auto sort_looks(const Judged& judged, const Site& site, Used used) -> Sorted {
     const auto cell = site.cells[i];
     if (std::isnan(judged.view.z[cell])) continue;
     const auto& face = judged.sketch.faces[judged.view.face[cell]];
-    if (face.kind == extrude::FaceKind::cap && site.weight[i] == 1) out.cap.push_back(site.measured.z[cell]);
-    if (!face.provenance || face.kind == extrude::FaceKind::connector) continue;
+    if (face.kind == model::FaceKind::cap && site.weight[i] == 1) out.cap.push_back(site.measured.z[cell]);
+    if (!face.provenance || face.kind == model::FaceKind::connector) continue;
     const auto& from = *face.provenance;
     const auto& ring = ring_of(judged.plan, from.ring);
     auto& parts = out.looks[ring.profile_of_edge[from.edge]];
@@ -132,7 +132,7 @@ auto rebuilt(const Profile& profile, const std::vector<std::vector<Look>>& looks
   }
   Profile out{{0, 0}};
   const auto add = [&out](double inward, double height) {
-    const geometry::ProfilePoint next{inward, height};
+    const model::ProfilePoint next{inward, height};
     if (!(next == out.back())) out.push_back(next);
   };
   double last_inward = 0;

@@ -10,8 +10,8 @@
 namespace mansard::refine::detail {
 namespace {
 
-using geometry::Plan;
-using geometry::Profile;
+using model::Plan;
+using model::Profile;
 
 /// Later caps must be clearly better, so that noise does not choose; the likeliest come first.
 auto best_cap(const Draft& draft, const Judge& judge) -> base::Result<Judged> {

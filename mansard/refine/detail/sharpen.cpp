@@ -9,7 +9,7 @@
 namespace mansard::refine::detail {
 namespace {
 
-using geometry::Plan;
+using model::Plan;
 
 /// Whether all that the plan's profiles carry rises less than a flat roof may, for the rain to run off.
 auto nearly_level(const Plan& plan) -> bool {

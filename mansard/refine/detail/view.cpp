@@ -23,7 +23,7 @@ auto rows_between(const Heights& grid, double least, double most) -> Rows {
 
 class Painter {
  public:
-  Painter(const extrude::Solid& solid, const Heights& grid, double base) : solid_(solid), grid_(grid), base_(base) {
+  Painter(const model::Solid& solid, const Heights& grid, double base) : solid_(solid), grid_(grid), base_(base) {
     view_.z.assign(grid.z.size(), std::numeric_limits<double>::quiet_NaN());
     view_.face.assign(grid.z.size(), 0);
   }
@@ -53,14 +53,14 @@ class Painter {
 
  private:
   /// Where the face's edges cross the line of that y.
-  void cross(const extrude::Face& face, double y) {
+  void cross(const model::Face& face, double y) {
     crossings_.clear();
     for (const auto& loop : face.loops)
       for (std::size_t i = 0; i < loop.size(); ++i)
         add_crossing(xy(solid_.vertices[loop[i]]), xy(solid_.vertices[loop[(i + 1) % loop.size()]]), y, crossings_);
   }
 
-  const extrude::Solid& solid_;
+  const model::Solid& solid_;
   const Heights& grid_;
   double base_;
   std::vector<double> crossings_;
@@ -69,7 +69,7 @@ class Painter {
 
 }  // namespace
 
-auto view_of(const extrude::Solid& solid, const Heights& grid, double base) -> View {
+auto view_of(const model::Solid& solid, const Heights& grid, double base) -> View {
   constexpr double upright = 1e-6;
   Painter painter(solid, grid, base);
   for (std::uint32_t f = 0; f < solid.faces.size(); ++f)

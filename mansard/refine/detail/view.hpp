@@ -15,6 +15,6 @@ struct View {
 };
 
 /// `grid` gives the cells alone, `base` is the solid's. Cost: O(faces · rows they span + cells).
-[[nodiscard]] auto view_of(const extrude::Solid& solid, const Heights& grid, double base) -> View;
+[[nodiscard]] auto view_of(const model::Solid& solid, const Heights& grid, double base) -> View;
 
 }  // namespace mansard::refine::detail

@@ -101,7 +101,7 @@ auto crest_of_solid(const geometry::Polygon& polygon, const std::vector<Side>& s
   constexpr double wall = 1;
   const auto box = box_of(sides);
   const double far = box.most.x - box.least.x + box.most.y - box.least.y;
-  geometry::Plan plan;
+  model::Plan plan;
   plan.cap = wall + far;
   plan.profiles = {{{0, 0}, {0, plan.cap}}, {{0, 0}, {0, wall}, {far, wall + far}}};
   plan.outer = {polygon.outer, std::vector<std::uint32_t>(polygon.outer.size(), 0)};

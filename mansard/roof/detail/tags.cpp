@@ -39,7 +39,7 @@ auto take_number(std::string_view& text) -> std::optional<double> {
   return number;
 }
 
-auto text_of(const ingest::Value& value) -> std::string {
+auto text_of(const model::Value& value) -> std::string {
   if (const auto* text = std::get_if<std::string>(&value)) return std::string(trimmed(*text));
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);
   if (const auto* number = std::get_if<double>(&value)) return base::to_text(*number, 6);
@@ -119,7 +119,7 @@ auto all() -> const std::vector<const Key*>& {
 
 }  // namespace keys
 
-Tags::Tags(const ingest::Attributes& attributes, const Options& options) : options_(options) {
+Tags::Tags(const model::Attributes& attributes, const Options& options) : options_(options) {
   entries_.reserve(attributes.size());
   for (const auto& [name, value] : attributes)
     if (!std::holds_alternative<std::monostate>(value)) entries_.push_back({plain(name), &name, &value});

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "mansard/ingest/ingest.hpp"
+#include "mansard/model/attributes.hpp"
 #include "mansard/roof/roof.hpp"
 
 namespace mansard::roof::detail {
@@ -43,14 +43,14 @@ namespace keys {
 /// A feature's attributes, ready to be asked.
 class Tags {
  public:
-  Tags(const ingest::Attributes& attributes, const Options& options);
+  Tags(const model::Attributes& attributes, const Options& options);
   [[nodiscard]] auto find(const Key& key) const -> std::optional<Tag>;
 
  private:
   struct Entry {
     std::string name;  ///< as Key::names
     const std::string* original;
-    const ingest::Value* value;
+    const model::Value* value;
   };
   std::vector<Entry> entries_;
   const Options& options_;

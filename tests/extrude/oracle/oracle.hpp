@@ -15,9 +15,9 @@
 namespace oracle {
 
 using Rational = mpq_class;
-using mansard::extrude::FaceKind;
-using mansard::extrude::Provenance;
 using mansard::extrude::detail::Footprint;
+using mansard::model::FaceKind;
+using mansard::model::Provenance;
 
 struct Point {
   Rational x, y;

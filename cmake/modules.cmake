@@ -1,0 +1,40 @@
+# The modules and what they depend on, on one screen. A module may include a module that it DEPENDS on, and nothing
+# else; tools/check_includes.cmake checks every #include against this list. USES names the libraries that a module
+# wraps: no other module includes their headers. TESTED_WITH names further modules that its tests may include.
+#
+#              module     depends on                                             libraries
+mansard_module(base                                                             USES TBB::tbb)
+mansard_module(geometry DEPENDS base                                            USES GMP::gmpxx GEOS::geos_c)
+mansard_module(rays     DEPENDS base geometry                                   USES embree)
+mansard_module(solver   DEPENDS base                                            USES CBC::cbc)
+mansard_module(model    DEPENDS base geometry)
+mansard_module(solid    DEPENDS base geometry model                             USES GMP::gmpxx TESTED_WITH extrude)
+mansard_module(crs      DEPENDS base geometry model                             USES GDAL::GDAL)
+mansard_module(formats  DEPENDS base geometry model solid crs                   USES GDAL::GDAL tinygltf draco meshoptimizer OpenSSL::Crypto nlohmann_json
+                                                                                TESTED_WITH rays ingest extrude label)
+mansard_module(ingest   DEPENDS base geometry model crs formats                 USES GDAL::GDAL)
+
+mansard_module(block    DEPENDS base geometry model                             TESTED_WITH ingest)
+mansard_module(slice    DEPENDS base geometry block)
+mansard_module(sweep    DEPENDS base geometry rays block slice)
+mansard_module(fracture DEPENDS base geometry)
+mansard_module(segment  DEPENDS base geometry rays solver block sweep fracture)
+mansard_module(profile  DEPENDS base geometry rays model block sweep segment)
+mansard_module(extrude  DEPENDS base geometry model solid                       USES GMP::gmpxx Boost::multiprecision)
+mansard_module(refine   DEPENDS base geometry rays model solid extrude)
+mansard_module(label    DEPENDS base geometry rays model solid                  TESTED_WITH extrude)
+mansard_module(evaluate DEPENDS base geometry rays model solid block label      TESTED_WITH ingest extrude)
+mansard_module(derive   DEPENDS base geometry rays model crs                    USES GDAL::GDAL TESTED_WITH ingest)
+mansard_module(roof     DEPENDS base geometry model extrude)
+mansard_module(picture  DEPENDS base geometry rays                              USES PNG::PNG)
+mansard_module(pipeline DEPENDS base geometry rays solver model solid crs formats ingest block slice sweep fracture segment profile extrude refine label evaluate derive roof picture USES nlohmann_json)
+mansard_module(edit     DEPENDS base geometry rays model solid formats ingest extrude label evaluate pipeline USES nlohmann_json)
+
+# Experiments: used by the programs and the tests, not part of what is installed.
+mansard_module(simulate IN lab DEPENDS base geometry rays model solid formats ingest extrude label USES nlohmann_json)
+mansard_module(explore  IN lab DEPENDS base geometry rays model solid formats ingest block fracture segment profile extrude evaluate picture pipeline USES nlohmann_json)
+
+# Results say which version made them.
+if(TARGET mansard_pipeline)
+  target_compile_definitions(mansard_pipeline PRIVATE MANSARD_VERSION="${PROJECT_VERSION}")
+endif()

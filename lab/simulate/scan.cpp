@@ -1,0 +1,124 @@
+// The story of a scan: what stands there, its surface, what each piece of it shows, and what becomes of it.
+#include <algorithm>
+#include <cmath>
+
+#include "lab/simulate/detail/damage.hpp"
+#include "lab/simulate/detail/height_field.hpp"
+#include "lab/simulate/detail/raising.hpp"
+#include "lab/simulate/detail/surface_net.hpp"
+#include "lab/simulate/simulate.hpp"
+#include "mansard/base/text.hpp"
+#include "mansard/solid/solid.hpp"
+
+namespace mansard::simulate {
+namespace {
+
+/// A seed of its own for every purpose.
+enum Purpose : std::uint64_t { ground, things, places, roughness, damage, tiles };
+
+auto seed_for(std::uint64_t seed, Purpose purpose) -> std::uint64_t { return base::Random(seed, purpose).next(); }
+
+/// What a grid may have: columns that can be numbered and kept, and cells along an axis.
+constexpr double most_columns = 1 << 27, most_along = 1 << 20, most_levels = 1 << 19;
+
+/// Columns of the grid and its levels, held against what can be numbered and kept. Gives up with "simulate-size".
+auto check_size(const Surface& surface, const geometry::Box2& area, double resolution) -> base::Result<void> {
+  double high = 0;
+  for (const auto v : surface.mesh.vertices) high = std::max(high, std::abs(v.z));
+  const auto size = area.most - area.least;
+  const auto extent = (1 / resolution) * size;
+  const double columns = extent.x * extent.y;
+  if (columns < most_columns && std::max(extent.x, extent.y) < most_along && high / resolution < most_levels) return {};
+  const double coarser =
+      std::max({std::sqrt(size.x * size.y / most_columns), std::max(size.x, size.y) / most_along, high / most_levels});
+  constexpr double tenth = 10;  // the advice is rounded up to 0.1 m
+  return base::error("simulate-size",
+                     "the scan would have too many cells: " + base::to_text(size.x, 0) + " × " +
+                         base::to_text(size.y, 0) + " m are " + base::to_text(columns / 1e6, 0) +
+                         " million columns at " + base::to_text(resolution) + " m, and " +
+                         base::to_text(most_columns / 1e6, 0) +
+                         " million are the most; keep a part of it with --bbox, or take a resolution of " +
+                         base::to_text(std::floor(coarser * tenth + 1) / tenth, 1) + " m",
+                     "simulate.resolution");
+}
+
+auto class_of(model::FaceClass kind) -> Class {
+  switch (kind) {
+    case model::FaceClass::wall:
+    case model::FaceClass::party_wall: return Class::wall;
+    case model::FaceClass::roof:
+    case model::FaceClass::soffit: return Class::roof;
+    case model::FaceClass::ground: return Class::ground;
+  }
+  return Class::other;
+}
+
+}  // namespace
+
+auto surface_of(const model::City& city) -> base::Result<Surface> {
+  Surface out;
+  std::uint32_t faces = 0;
+  for (std::uint32_t b = 0; b < city.buildings.size(); ++b)
+    for (const auto& part : city.buildings[b].parts) {
+      const auto& solid = part.model.solid;
+      auto triangulated = solid::triangulate(solid);
+      if (!triangulated) {
+        auto why = triangulated.error();
+        why.subject = part.id;
+        return why;
+      }
+      const auto first = static_cast<std::uint32_t>(out.mesh.vertices.size());
+      out.mesh.vertices.insert(out.mesh.vertices.end(), solid.vertices.begin(), solid.vertices.end());
+      for (std::size_t t = 0; t < triangulated->triangles.size(); ++t) {
+        const auto& corners = triangulated->triangles[t];
+        const std::uint32_t face = triangulated->face_of[t];
+        out.mesh.triangles.push_back({first + corners[0], first + corners[1], first + corners[2]});
+        out.classes.push_back(class_of(part.model.classes[face]));
+        out.buildings.push_back(b);
+        out.faces.push_back(faces + face);
+      }
+      faces += static_cast<std::uint32_t>(solid.faces.size());
+    }
+  return out;
+}
+
+auto scan(const Surface& surface, const ScanOptions& options, std::uint64_t seed, const base::Run& run)
+    -> base::Result<Scan> {
+  if (surface.mesh.triangles.empty())
+    return base::error("simulate-nothing", "there is no building to be scanned; give a model with solids");
+  geometry::Box2 area;
+  for (const auto v : surface.mesh.vertices) area.add(xy(v));
+  area = area.grown(options.margin);
+
+  if (auto fits = check_size(surface, area, options.resolution); !fits) return fits.error();
+
+  run.report("simulate", "surroundings", 0);
+  const detail::Nearest nearest(surface);
+  const detail::Terrain terrain(surface, area, options, seed_for(seed, ground));
+  const auto objects = detail::objects_of(surface, nearest, terrain, area, options, seed_for(seed, things));
+  const detail::World world{surface, terrain, objects, area};
+
+  run.report("simulate", "surface", 0.1);
+  auto mesh = options.height_field ? detail::height_field(world, options.resolution, seed_for(seed, places), run)
+                                   : detail::surface_net(world, options.resolution, options.melt, run);
+  if (!mesh) return mesh.error();
+
+  run.report("simulate", "labels", 0.4);
+  const double radius = std::max(1.0, 2 * (options.melt + options.resolution));
+  const auto labels = detail::labels_of(*mesh, world, nearest, radius, run);
+  if (run.cancelled()) return detail::stopped();
+
+  run.report("simulate", "damage", 0.7);
+  const auto normals = detail::vertex_normals(*mesh);
+  // A laser from above sees all that a height field has.
+  const auto seen = options.height_field ? std::vector<double>(mesh->vertices.size(), 1)
+                                         : detail::visibility(*mesh, normals, options.camera_tilt, run);
+  if (run.cancelled()) return detail::stopped();
+  auto lost = detail::losses(*mesh, labels, seen, world, options, seed_for(seed, damage));
+  detail::roughen(*mesh, normals, seen, options, seed_for(seed, roughness));
+  auto out = detail::torn(*mesh, labels, std::move(lost), surface, options, seed_for(seed, tiles));
+  run.report("simulate", {}, 1);
+  return out;
+}
+
+}  // namespace mansard::simulate

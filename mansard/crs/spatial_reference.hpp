@@ -1,0 +1,39 @@
+// Coordinate systems as PROJ knows them, through GDAL. Whoever calls has a GdalMessages alive.
+#pragma once
+
+#include <ogr_spatialref.h>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "mansard/base/result.hpp"
+
+namespace mansard::crs {
+
+/// A CRS whose coordinates are always x (east, longitude) before y, as files keep them and as this engine works,
+/// whatever the authority's axis order.
+struct Crs {
+  OGRSpatialReference system;
+  Crs() { system.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER); }
+};
+
+[[nodiscard]] auto from_wkt(const std::string& wkt) -> std::optional<Crs>;
+/// "EPSG:n", "EPSG:n+m", WKT, and what else PROJ reads without the network.
+[[nodiscard]] auto from_words(const std::string& words) -> std::optional<Crs>;
+[[nodiscard]] auto wkt_of(const OGRSpatialReference& system) -> std::string;
+/// "EPSG:n" as the CRS says, where the register agrees, or as the register recognises it, else its WKT.
+[[nodiscard]] auto name_of(const OGRSpatialReference& system) -> std::string;
+/// For messages: number and name.
+[[nodiscard]] auto title_of(const OGRSpatialReference& system) -> std::string;
+[[nodiscard]] auto in_metres(const OGRSpatialReference& system) -> bool;
+/// Without a vertical part: footprints are flat, and heights are never converted.
+[[nodiscard]] auto flat(const OGRSpatialReference& system) -> Crs;
+/// The CRS the user asked for: projected and metric, since the engine measures in metres. Gives up with
+/// "ingest-crs-option".
+[[nodiscard]] auto wanted_crs(const std::string& option) -> base::Result<Crs>;
+
+using Transformation = std::unique_ptr<OGRCoordinateTransformation>;
+/// None where there is no way.
+[[nodiscard]] auto transformation(const Crs& from, const Crs& to) -> Transformation;
+
+}  // namespace mansard::crs

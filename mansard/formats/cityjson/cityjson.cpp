@@ -1,0 +1,251 @@
+#include "mansard/formats/cityjson/cityjson.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include "mansard/base/text.hpp"
+#include "mansard/formats/plans/plan_text.hpp"
+
+namespace mansard::formats::detail {
+namespace {
+
+using model::FaceClass;
+
+auto degrees(double radians) -> double { return radians * 180 / std::numbers::pi; }
+
+/// A real number with two decimals, without the trailing noise of rounding.
+auto hundredths(double value) -> std::string { return base::to_text(value, 2); }
+
+/// The semantic object of a roof with that normal: slope, the angle from the horizontal, and azimuth, the compass
+/// direction it looks to, both in degrees; a flat roof has no azimuth.
+auto roof_semantics(geometry::Point3 n) -> std::string {
+  JsonText json;
+  const double slope = degrees(std::atan2(std::hypot(n.x, n.y), n.z));
+  json.begin_object().key("type").text("RoofSurface").key("ms_slope").raw(hundredths(slope));
+  if (slope >= 0.5) {
+    const double azimuth = degrees(std::atan2(n.x, n.y));
+    const std::string text = hundredths(azimuth < 0 ? azimuth + 360 : azimuth);
+    json.key("ms_azimuth").raw(text == "360.00" ? "0.00" : text);
+  }
+  return std::move(json.end_object()).str();
+}
+
+/// The semantic object of a surface.
+auto semantics_of(const Surface& surface) -> std::string {
+  JsonText json;
+  json.begin_object().key("type");
+  switch (surface.kind) {
+    case FaceClass::wall: json.text("WallSurface").key("ms_party_wall").flag(false); break;
+    case FaceClass::party_wall: json.text("WallSurface").key("ms_party_wall").flag(true); break;
+    case FaceClass::ground: json.text("GroundSurface"); break;
+    case FaceClass::soffit: json.text("OuterCeilingSurface"); break;
+    case FaceClass::roof: return roof_semantics(surface.normal);
+  }
+  return std::move(json.end_object()).str();
+}
+
+/// "28992" of "EPSG:28992"; empty for anything else, which a referenceSystem cannot name.
+auto epsg_code(std::string_view crs) -> std::string {
+  constexpr std::string_view prefix = "EPSG:";
+  if (!crs.starts_with(prefix)) return {};
+  const auto code = base::to_integer(crs.substr(prefix.size()));
+  return code && *code > 0 ? std::to_string(*code) : std::string();
+}
+
+void append_transform(JsonText& json, const model::Frame& frame) {
+  json.key("transform").begin_object().key("scale").begin_array();
+  for (int axis = 0; axis < 3; ++axis) json.raw(base::to_text(1 / quanta_per_metre, 4));
+  json.end_array().key("translate").begin_array();
+  for (const auto metres : frame.origin) json.real(static_cast<double>(metres));
+  json.end_array().end_object();
+}
+
+void append_extent(JsonText& json, const model::Frame& frame, const Extent& extent) {
+  if (!extent) return;
+  json.key("geographicalExtent").begin_array();
+  for (const Vertex& corner : *extent)
+    for (std::size_t axis = 0; axis < 3; ++axis) json.raw(quanta_in_file_frame(corner[axis], frame.origin[axis]));
+  json.end_array();
+}
+
+void widen(Extent& extent, const Loops& loops) {
+  for (const auto& loop : loops)
+    for (const Vertex& v : loop) detail::widen(extent, v);
+}
+
+void append_metadata(JsonText& json, const model::Frame& frame, const Extent& extent) {
+  json.key("metadata").begin_object();
+  append_extent(json, frame, extent);
+  if (const std::string code = epsg_code(frame.crs); !code.empty())
+    json.key("referenceSystem").text("https://www.opengis.net/def/crs/EPSG/0/" + code);
+  json.end_object();
+}
+
+/// What a plan or a footprint is relative to: a tool that moves the city model to another origin does not know of them.
+void append_origin(JsonText& json, const model::Frame& frame) {
+  json.key("origin").begin_array();
+  for (const auto metres : frame.origin) json.whole(metres);
+  json.end_array();
+}
+
+/// Without those of our names, which say more.
+auto without(const model::Attributes& attributes, std::initializer_list<std::string_view> names) -> model::Attributes {
+  model::Attributes kept;
+  for (const auto& [name, value] : attributes)
+    if (std::ranges::find(names, name) == names.end()) kept.emplace_back(undeclared(name), value);
+  return kept;
+}
+
+/// z of the flat roof of LoD 1.2: the 70th percentile of the roof's heights where it was measured and lies within the
+/// model, else half-way between the lowest and the highest point of the roof. From what is written rather than from
+/// the model, so that what was read back gives the same.
+auto roof_height(const std::vector<Surface>& surfaces, const model::Attributes& attributes, std::int64_t origin)
+    -> double {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double least = infinity, most = -infinity, bottom = infinity;
+  for (const Surface& surface : surfaces)
+    for (const auto& loop : surface.loops)
+      for (const Vertex& v : loop) {
+        const double z = static_cast<double>(v[2]) / quanta_per_metre;
+        bottom = std::min(bottom, z);
+        if (surface.kind != FaceClass::roof) continue;
+        least = std::min(least, z);
+        most = std::max(most, z);
+      }
+  for (const auto& [name, value] : attributes)
+    if (const double* height = std::get_if<double>(&value); height != nullptr && name == "ms_h_roof_70p")
+      if (const double z = *height - static_cast<double>(origin); z > bottom && z <= most) return z;
+  return 0.5 * (least + most);
+}
+
+}  // namespace
+
+auto undeclared(const std::string& name) -> std::string {
+  const auto start = name.find_first_not_of('_');
+  return start != std::string::npos && name[start] == '+' ? "_" + name : name;
+}
+
+auto from_undeclared(const std::string& name) -> std::string {
+  return name.starts_with('_') && undeclared(name) != name ? name.substr(1) : name;
+}
+
+void CityObjects::add(const model::Building& building, const Gate::Keyed& keys) {
+  std::vector<Loops> footprint;
+  for (const auto& polygon : building.footprint)
+    if (auto loops = quantised(polygon, building.ground); !loops.empty()) footprint.push_back(std::move(loops));
+  std::vector<Drawn> drawn;
+  for (const model::Part& part : building.parts) {
+    auto fine = quantised(part.model);
+    drawn.push_back({flat_prism(fine, roof_height(fine, part.attributes, frame_.origin[2])), std::move(fine)});
+  }
+  Extent extent;  // of the building with its parts, whose objects come after its own
+  for (const auto& loops : footprint) widen(extent, loops);
+  for (const auto& [flat, fine] : drawn)
+    for (const auto* surfaces : {&flat, &fine})
+      for (const Surface& surface : *surfaces) widen(extent, surface.loops);
+
+  json_.line(level_).key(keys.building).begin_object().key("type").text("Building");
+  append_extent(json_, frame_, extent);
+  append_attributes(json_.key("attributes").begin_object(), without(building.attributes, {footprint_name}));
+  append_origin(json_.key(footprint_name).begin_object(), frame_);
+  detail::append_footprint(json_.key("ground").number(building.ground).key("polygons"), building.footprint);
+  json_.end_object().end_object();
+  if (!keys.parts.empty()) {
+    json_.key("children").begin_array();
+    for (const auto& key : keys.parts) json_.text(key);
+    json_.end_array();
+  }
+  json_.key("geometry").begin_array();
+  append_footprint(footprint);
+  json_.end_array().end_object();
+  for (std::size_t p = 0; p < building.parts.size(); ++p)
+    append_part(building.parts[p], drawn[p], keys.parts[p], keys.building);
+}
+
+auto CityObjects::end() -> std::string {
+  json_.line(level_).end_object();
+  return json_.take();
+}
+
+void CityObjects::append_footprint(const std::vector<Loops>& surfaces) {
+  if (surfaces.empty()) return;
+  json_.begin_object().key("type").text("MultiSurface").key("lod").text("0").key("boundaries").begin_array();
+  for (const auto& loops : surfaces) append_loops(loops);
+  json_.end_array().end_object();
+}
+
+void CityObjects::append_part(const model::Part& part, const Drawn& drawn, const std::string& key,
+                              const std::string& parent) {
+  json_.line(level_).key(key).begin_object().key("type").text("BuildingPart");
+  append_attributes(json_.key("attributes").begin_object(), without(part.attributes, {plan_name, old_plan_name}));
+  json_.key(plan_name).begin_object().key("type").text(plan_type).key("version").whole(plan_version);
+  append_origin(json_, frame_);
+  append_plan(json_, part.plan);
+  json_.end_object().end_object();
+  json_.key("parents").begin_array().text(parent).end_array();
+  json_.key("geometry").begin_array();
+  append_solid("1.2", drawn.flat);
+  append_solid("2.2", drawn.fine);
+  json_.end_array().end_object();
+}
+
+void CityObjects::append_solid(std::string_view lod, const std::vector<Surface>& surfaces) {
+  if (surfaces.empty()) return;
+  json_.begin_object().key("type").text("Solid").key("lod").text(lod);
+  json_.key("boundaries").begin_array().begin_array();
+  for (const Surface& surface : surfaces) append_loops(surface.loops);
+  json_.end_array().end_array();
+
+  std::map<std::string, std::size_t> index_of;
+  std::vector<std::string> distinct;
+  std::vector<std::size_t> values;
+  for (const Surface& surface : surfaces) {
+    const auto [entry, added] = index_of.try_emplace(semantics_of(surface), distinct.size());
+    if (added) distinct.push_back(entry->first);
+    values.push_back(entry->second);
+  }
+  json_.key("semantics").begin_object().key("surfaces").begin_array();
+  for (const auto& object : distinct) json_.raw(object);
+  json_.end_array().key("values").begin_array().begin_array();
+  for (const auto value : values) json_.whole(static_cast<std::int64_t>(value));
+  json_.end_array().end_array().end_object().end_object();
+}
+
+void CityObjects::append_loops(const Loops& loops) {
+  json_.begin_array();
+  for (const auto& loop : loops) {
+    json_.begin_array();
+    for (const Vertex& v : loop) json_.whole(static_cast<std::int64_t>(pool_.index_of(v)));
+    json_.end_array();
+  }
+  json_.end_array();
+}
+
+auto cityjson_head(const Header& header, const Extent& extent, int level) -> std::string {
+  JsonText json;
+  json.begin_object().key("type").text("CityJSON").key("version").text("2.0");
+  json.line(level).key("extensions").begin_object().key(extension_name).begin_object();
+  json.key("url").text(MANSARD_EXTENSION_URL).key("version").text(extension_version).end_object().end_object();
+  append_transform(json.line(level), header.frame);
+  append_metadata(json.line(level), header.frame, extent);
+  // The core's metadata are six; how the file was made is a member of the extension.
+  append_made_by(json.line(level).key("+mansard").begin_object().key("made_by"), header.made_by);
+  append_frame(json.key("frame"), header.frame);
+  json.end_object().line(level).key("CityObjects");
+  return json.take();
+}
+
+auto cityjson_feature(const model::Building& building, const Gate::Keyed& keys, const Header& header) -> std::string {
+  base::TextSink vertices;
+  CityObjects objects(header, vertices, -1);
+  objects.add(building, keys);
+  JsonText json;
+  json.begin_object().key("type").text("CityJSONFeature").key("id").text(keys.building);
+  json.key("CityObjects").raw(objects.end()).key("vertices").raw("[" + vertices.text + "]").end_object();
+  return json.take() + "\n";
+}
+
+}  // namespace mansard::formats::detail

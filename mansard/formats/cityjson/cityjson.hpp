@@ -1,0 +1,70 @@
+// Buildings as CityJSON 2.0 and CityJSONSeq (https://www.cityjson.org/specs/2.0.1/), and back.
+#pragma once
+
+#include "mansard/formats/cityjson/vertex_pool.hpp"
+#include "mansard/formats/detail/writers.hpp"
+#include "mansard/formats/json/json_item.hpp"
+
+namespace mansard::formats::detail {
+
+/// The extension that declares what is ours, docs/mansard.ext.json: "+mansard" at the root, "+ms_footprint" of
+/// buildings,
+/// "+ms_plan" of their parts.
+inline constexpr std::string_view extension_name = "Mansard";
+inline constexpr std::string_view extension_version = "1.0";
+/// Version 0.1 had no extension, and the plan without the '+'.
+inline constexpr std::string_view plan_name = "+ms_plan", old_plan_name = plan_name.substr(1);
+inline constexpr std::string_view footprint_name = "+ms_footprint";
+
+/// A '+' in front is for what an extension declares. A source's own attribute of such a name gets a '_' before it, as
+/// does one that has some there already, so that each comes back as it was.
+[[nodiscard]] auto undeclared(const std::string& name) -> std::string;
+[[nodiscard]] auto from_undeclared(const std::string& name) -> std::string;
+
+/// The member "CityObjects" and the vertices of a CityJSON object or feature, building by building. Buildings must have
+/// passed a Gate.
+class CityObjects {
+ public:
+  /// Objects on lines of that level, or on one line when negative.
+  CityObjects(const Header& header, base::Sink& vertices, int level)
+      : frame_(header.frame), level_(level), pool_(vertices) {
+    json_.begin_object();
+  }
+  void add(const model::Building& building, const Gate::Keyed& keys);
+  /// What was not taken yet.
+  [[nodiscard]] auto take() -> std::string { return json_.take(); }
+  [[nodiscard]] auto end() -> std::string;
+  [[nodiscard]] auto extent() const -> const Extent& { return pool_.extent(); }
+
+ private:
+  /// The surfaces of a part, at the two levels of detail.
+  struct Drawn {
+    std::vector<Surface> flat, fine;
+  };
+  void append_part(const model::Part& part, const Drawn& drawn, const std::string& key, const std::string& parent);
+  void append_footprint(const std::vector<Loops>& surfaces);
+  void append_solid(std::string_view lod, const std::vector<Surface>& surfaces);
+  void append_loops(const Loops& loops);
+
+  const model::Frame frame_;
+  const int level_;
+  VertexPool pool_;
+  JsonText json_;
+};
+
+/// A CityJSON object up to the value of "CityObjects"; its members on lines of that level, or on one line when
+/// negative.
+[[nodiscard]] auto cityjson_head(const Header& header, const Extent& extent, int level) -> std::string;
+/// Between the city objects and the vertices of a file, and after these.
+inline constexpr std::string_view cityjson_waist = ",\n\"vertices\":[";
+inline constexpr std::string_view cityjson_foot = "]\n}\n";
+
+/// A building as a CityJSONFeature on one line.
+[[nodiscard]] auto cityjson_feature(const model::Building& building, const Gate::Keyed& keys, const Header& header)
+    -> std::string;
+
+/// The plans that travel in a CityJSON file as mansard wrote it, without models. Throws a Defect: "write-plan-type",
+/// and those of plans.
+[[nodiscard]] auto read_cityjson_plans(const Item& file) -> model::City;
+
+}  // namespace mansard::formats::detail

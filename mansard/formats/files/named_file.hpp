@@ -1,0 +1,15 @@
+// Files that other files name.
+#pragma once
+
+#include <filesystem>
+
+#include "mansard/base/result.hpp"
+#include "mansard/formats/files/virtual_files.hpp"
+
+namespace mansard::formats {
+
+/// The bytes of a buffer or a tile. As Bytes::of, but never of a device or a pipe, which need not end: those a user may
+/// name, not a file. Gives up with "file-missing", "file-read".
+[[nodiscard]] auto bytes_of_named(const std::filesystem::path& path) -> base::Result<Bytes>;
+
+}  // namespace mansard::formats

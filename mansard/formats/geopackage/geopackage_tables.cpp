@@ -1,0 +1,195 @@
+#include "mansard/formats/geopackage/geopackage_tables.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+#include "mansard/base/text.hpp"
+
+namespace mansard::formats::detail {
+namespace {
+
+auto lower(std::string text) -> std::string {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+auto geometry_type(Shape shape) -> OGRwkbGeometryType {
+  switch (shape) {
+    case Shape::none: return wkbNone;
+    case Shape::line: return wkbLineString;
+    case Shape::lines: return wkbMultiLineString;
+    case Shape::polygon: return wkbPolygon;
+    case Shape::polygons: return wkbMultiPolygon;
+  }
+  return wkbNone;
+}
+
+auto add_field(const std::string& name, FieldType type, OGRLayer& table) -> bool {
+  static constexpr OGRFieldType types[] = {OFTInteger64, OFTReal, OFTString, OFTInteger};
+  OGRFieldDefn definition(name.c_str(), types[static_cast<std::size_t>(type)]);
+  if (type == FieldType::flag) definition.SetSubType(OFSTBoolean);
+  return table.CreateField(&definition) == OGRERR_NONE;
+}
+
+void set(OGRFeature& row, int column, const model::Value& value) {
+  if (const auto* text = std::get_if<std::string>(&value)) row.SetField(column, text->c_str());
+  else if (const auto* whole = std::get_if<std::int64_t>(&value)) row.SetField(column, static_cast<GIntBig>(*whole));
+  else if (const auto* number = std::get_if<double>(&value)) row.SetField(column, *number);
+  else if (const auto* flag = std::get_if<bool>(&value)) row.SetField(column, *flag ? 1 : 0);
+  else row.SetFieldNull(column);
+}
+
+void add_points(const std::vector<geometry::Point2>& points, geometry::Point3 origin, OGRSimpleCurve& curve) {
+  for (const auto& p : points) curve.addPoint(origin.x + p.x, origin.y + p.y);
+}
+
+auto ring_of(const geometry::Ring& points, geometry::Point3 origin) -> std::unique_ptr<OGRLinearRing> {
+  auto out = std::make_unique<OGRLinearRing>();
+  add_points(points, origin, *out);
+  out->closeRings();
+  return out;
+}
+
+auto type_for(const model::Value& value, std::optional<FieldType> before) -> FieldType {
+  const auto own = std::holds_alternative<bool>(value)           ? FieldType::flag
+                   : std::holds_alternative<std::int64_t>(value) ? FieldType::whole
+                   : std::holds_alternative<double>(value)       ? FieldType::real
+                                                                 : FieldType::text;
+  if (!before || *before == own) return own;
+  const auto is_number = [](FieldType type) { return type == FieldType::whole || type == FieldType::real; };
+  return is_number(own) && is_number(*before) ? FieldType::real : FieldType::text;
+}
+
+auto as_text(const model::Value& value) -> model::Value {
+  if (const auto* flag = std::get_if<bool>(&value)) return std::string(*flag ? "true" : "false");
+  if (const auto* number = std::get_if<std::int64_t>(&value)) return std::to_string(*number);
+  if (const auto* number = std::get_if<double>(&value)) return base::to_text(*number);
+  return value;
+}
+
+}  // namespace
+
+auto geopackage_failure(const std::string& what) -> base::Diagnostic {
+  const std::string words = crs::gdal_words();
+  // SQLite: "database or disk is full", "disk I/O error"
+  const bool disk = words.find("disk") != words.npos;
+  return base::error("write-geopackage",
+                     "GDAL cannot " + what + words + (disk ? "; choose a place that can be written and has room" : ""));
+}
+
+auto Pen::line(const std::vector<geometry::Point2>& points) const -> std::unique_ptr<OGRLineString> {
+  auto out = std::make_unique<OGRLineString>();
+  add_points(points, origin_, *out);
+  return out;
+}
+
+auto Pen::polygon(const geometry::Polygon& one) const -> std::unique_ptr<OGRPolygon> {
+  auto out = std::make_unique<OGRPolygon>();
+  out->addRingDirectly(ring_of(one.outer, origin_).release());
+  for (const auto& hole : one.holes) out->addRingDirectly(ring_of(hole, origin_).release());
+  return out;
+}
+
+auto Pen::polygons(const std::vector<geometry::Polygon>& all) const -> std::unique_ptr<OGRMultiPolygon> {
+  auto out = std::make_unique<OGRMultiPolygon>();
+  for (const auto& one : all) out->addGeometryDirectly(polygon(one).release());
+  return out;
+}
+
+auto Pen::face(const model::Solid& solid, const model::Face& face) const -> std::unique_ptr<OGRPolygon> {
+  auto out = std::make_unique<OGRPolygon>();
+  for (const auto& loop : face.loops) {
+    auto ring = std::make_unique<OGRLinearRing>();
+    for (const auto corner : loop) {
+      const auto p = origin_ + solid.vertices[corner];
+      ring->addPoint(p.x, p.y, p.z);
+    }
+    ring->closeRings();
+    out->addRingDirectly(ring.release());
+  }
+  return out;
+}
+
+auto Pen::geometry_of(const Feature& feature, Shape shape) const -> std::unique_ptr<OGRGeometry> {
+  if (shape == Shape::line && !feature.lines.empty()) return line(feature.lines.front());
+  if (shape == Shape::polygon && !feature.polygons.empty()) return polygon(feature.polygons.front());
+  if (!feature.lines.empty()) {
+    auto all = std::make_unique<OGRMultiLineString>();
+    for (const auto& points : feature.lines) all->addGeometryDirectly(line(points).release());
+    return all;
+  }
+  if (feature.polygons.empty()) return nullptr;
+  return polygons(feature.polygons);
+}
+
+auto GeopackageTable::make(GDALDataset& file, const std::string& name, const std::string& meaning,
+                           OGRwkbGeometryType type, const OGRSpatialReference& crs) -> base::Result<GeopackageTable> {
+  CPLStringList options;
+  options.SetNameValue("DESCRIPTION", meaning.c_str());
+  // Layers without geometry take no CRS; const was added to this argument after GDAL 3.6.
+  OGRSpatialReference copy(crs);
+  OGRLayer* layer = file.CreateLayer(name.c_str(), type == wkbNone ? nullptr : &copy, type, options.List());
+  if (layer == nullptr) return geopackage_failure("make the layer " + name);
+  return GeopackageTable(*layer);
+}
+
+auto GeopackageTable::add_fields(const std::vector<Field>& fields) -> base::Result<void> {
+  std::set<std::string> taken{"fid", "geom"};
+  for (int i = 0; i < layer_->GetLayerDefn()->GetFieldCount(); ++i)
+    taken.insert(lower(layer_->GetLayerDefn()->GetFieldDefn(i)->GetNameRef()));
+  for (const Field& field : fields) {
+    std::string name = field.name;
+    for (int n = 2; !taken.insert(lower(name)).second; ++n) name = field.name + "_" + std::to_string(n);
+    if (!add_field(name, field.type, *layer_)) return geopackage_failure("make the field " + name);
+  }
+  return {};
+}
+
+auto GeopackageTable::add_row(std::span<const model::Value> values, std::unique_ptr<OGRGeometry> geometry)
+    -> base::Result<void> {
+  OGRFeature row(layer_->GetLayerDefn());
+  for (std::size_t i = 0; i < values.size(); ++i) set(row, static_cast<int>(i), values[i]);
+  if (geometry) row.SetGeometryDirectly(geometry.release());
+  if (layer_->CreateFeature(&row) != OGRERR_NONE)
+    return geopackage_failure("write a feature of " + std::string(layer_->GetName()));
+  return {};
+}
+
+auto add_layer(const Layer& layer, const Pen& pen, const OGRSpatialReference& crs, GDALDataset& file)
+    -> base::Result<void> {
+  auto table = GeopackageTable::make(file, layer.name, layer.meaning, geometry_type(layer.shape), crs);
+  if (!table) return table.error();
+  if (auto made = table->add_fields(layer.fields); !made) return made;
+  table->take_place();  // without rows it would come after those with some
+  for (const Feature& feature : layer.features)
+    if (auto added = table->add_row(feature.values, pen.geometry_of(feature, layer.shape)); !added) return added;
+  return {};
+}
+
+void AttributeColumns::add(const model::Attributes& attributes) {
+  for (const auto& [name, value] : attributes) {
+    const auto [at, is_new] = number_.try_emplace(name, columns_.size());
+    if (is_new) columns_.push_back({name, {}});
+    auto& type = columns_[at->second].type;
+    if (!std::holds_alternative<std::monostate>(value)) type = type_for(value, type);
+  }
+}
+
+auto AttributeColumns::fields() const -> std::vector<Field> {
+  std::vector<Field> fields;
+  for (const auto& [name, type] : columns_) fields.push_back({name, type.value_or(FieldType::text)});
+  return fields;
+}
+
+auto AttributeColumns::values(const model::Attributes& attributes) const -> std::vector<model::Value> {
+  std::vector<model::Value> values(columns_.size());
+  for (const auto& [name, value] : attributes) {
+    const auto at = number_.find(name);
+    if (at == number_.end()) continue;
+    values[at->second] = columns_[at->second].type == FieldType::text ? as_text(value) : value;
+  }
+  return values;
+}
+
+}  // namespace mansard::formats::detail

@@ -1,0 +1,18 @@
+// Meshes packed with Draco, as KHR_draco_mesh_compression has them.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mansard/base/result.hpp"
+#include "mansard/geometry/mesh.hpp"
+
+namespace mansard::formats {
+
+/// `position` is the attribute's unique id in the bitstream; with `normalised`, integers stand for fractions of their
+/// type's greatest value. Gives up with "ingest-mesh-format".
+[[nodiscard]] auto unpack_draco(std::span<const unsigned char> bytes, std::uint32_t position, bool normalised,
+                                const std::string& name) -> base::Result<geometry::Mesh>;
+
+}  // namespace mansard::formats

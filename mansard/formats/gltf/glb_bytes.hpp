@@ -1,0 +1,35 @@
+// A city as binary glTF 2.0, building by building or at once.
+#pragma once
+
+#include "mansard/formats/gltf/gltf_file.hpp"
+#include "mansard/formats/detail/parts.hpp"
+#include "mansard/formats/stream.hpp"
+
+namespace mansard::formats::detail {
+
+/// A node for each part, in the order they are told. Memory grows by about 12 bytes a part.
+class GlbBytes {
+ public:
+  /// Gives up with "file-write".
+  [[nodiscard]] static auto open(const Header& header, bool compress) -> base::Result<GlbBytes>;
+  /// `parts` are the keys of the parts. Gives up with "write-triangulate".
+  [[nodiscard]] auto add(const model::Building& building, const std::vector<std::string>& parts) -> base::Result<void>;
+  /// Gives up with "write-glb-size", "file-write".
+  [[nodiscard]] auto write(base::Sink& sink) -> base::Result<void>;
+
+ private:
+  GlbBytes(Header header, std::unique_ptr<GltfFile> file) : header_(std::move(header)), file_(std::move(file)) {}
+
+  Header header_;
+  std::unique_ptr<GltfFile> file_;
+  PartColumns columns_;
+  std::int64_t buildings_ = 0;
+};
+
+/// "crs", "origin" and "header" (that of a plans.json) of a file, and the members of `more`, as an object.
+[[nodiscard]] auto file_extras(const Header& header, std::string_view more = {}) -> std::string;
+
+/// The whole city in memory.
+[[nodiscard]] auto glb_bytes(const model::City& city, const Keys& keys) -> base::Result<std::string>;
+
+}  // namespace mansard::formats::detail

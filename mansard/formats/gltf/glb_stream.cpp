@@ -1,0 +1,86 @@
+#include "mansard/formats/gltf/glb_bytes.hpp"
+#include "mansard/formats/detail/records.hpp"
+#include "mansard/formats/detail/writers.hpp"
+
+namespace mansard::formats::detail {
+namespace {
+
+class GlbWriter : public CityWriter {
+ public:
+  GlbWriter(GlbBytes bytes, base::Sink& sink) : bytes_(std::move(bytes)), sink_(&sink) {}
+
+  auto add(const model::Building& building) -> base::Result<void> override {
+    const auto keyed = gate_.admit(building);
+    if (!keyed) return keyed.error();
+    return bytes_.add(building, keyed->parts);
+  }
+  auto finish() -> base::Result<void> override { return bytes_.write(*sink_); }
+
+ private:
+  Gate gate_;
+  GlbBytes bytes_;
+  base::Sink* sink_;
+};
+
+}  // namespace
+
+auto file_extras(const Header& header, std::string_view more) -> std::string {
+  JsonText json;
+  json.begin_object().key("crs").text(header.frame.crs).key("origin").begin_array();
+  for (const auto metres : header.frame.origin) json.whole(metres);
+  json.end_array().key("header").raw(header_record(header));
+  if (!more.empty()) json.raw(more);
+  return std::move(json.end_object()).str();
+}
+
+auto GlbBytes::open(const Header& header, bool compress) -> base::Result<GlbBytes> {
+  auto file = GltfFile::open(compress);
+  if (!file) return file.error();
+  return GlbBytes(header, std::move(*file));
+}
+
+auto GlbBytes::add(const model::Building& building, const std::vector<std::string>& parts) -> base::Result<void> {
+  const std::string record = building_record(building);
+  JsonText extras;
+  extras.begin_object().key("building").text(building.id).end_object();
+  for (std::size_t p = 0; p < building.parts.size(); ++p) {
+    const model::Part& part = building.parts[p];
+    const auto mesh = part_mesh(part.model, part.id);
+    if (!mesh) return mesh.error();
+    std::vector<geometry::Point3> normals;
+    for (const FaceMesh& face : mesh->faces) normals.push_back(face.normal);
+    file_->add_part(columns_.row(building, building.id, buildings_, &part, parts[p]), p == 0 ? record : "", *mesh,
+                    mesh->vertices, normals);
+    file_->end_mesh(parts[p], extras.str());
+  }
+  if (building.parts.empty())
+    file_->add_part(columns_.row(building, building.id, buildings_, nullptr, {}), record, {}, {}, {});
+  ++buildings_;
+  return {};
+}
+
+auto GlbBytes::write(base::Sink& sink) -> base::Result<void> {
+  columns_.settle();
+  return file_->write(sink, "mansard " + header_.made_by.version, file_extras(header_), columns_);
+}
+
+auto glb_bytes(const model::City& city, const Keys& keys) -> base::Result<std::string> {
+  auto bytes = GlbBytes::open({city.frame, city.made_by}, false);
+  if (!bytes) return bytes.error();
+  for (std::size_t b = 0; b < city.buildings.size(); ++b)
+    if (auto added = bytes->add(city.buildings[b], keys.parts[b]); !added) return added.error();
+  base::TextSink sink;
+  if (auto written = bytes->write(sink); !written) return written.error();
+  return std::move(sink.text);
+}
+
+auto glb_writer(const Path& path, const Header& header, const WriteOptions& options, base::Outputs& outputs)
+    -> WriterResult {
+  auto sink = outputs.file(path);
+  if (!sink) return sink.error();
+  auto bytes = GlbBytes::open(header, options.compress);
+  if (!bytes) return bytes.error();
+  return std::unique_ptr<CityWriter>(std::make_unique<GlbWriter>(std::move(*bytes), **sink));
+}
+
+}  // namespace mansard::formats::detail

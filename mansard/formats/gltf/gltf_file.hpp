@@ -1,0 +1,82 @@
+// A binary glTF being made: meshes with a feature id per part and per surface, and tables of what these are.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mansard/base/outputs.hpp"
+#include "mansard/formats/gltf/gltf_mesh.hpp"
+#include "mansard/formats/gltf/gltf_table.hpp"
+#include "mansard/formats/detail/parts.hpp"
+
+namespace mansard::formats::detail {
+
+using Float3 = std::array<float, 3>;
+
+/// What is put aside does not stay in memory, but for about 12 bytes a part.
+class GltfFile {
+ public:
+  /// Gives up with "file-write".
+  [[nodiscard]] static auto open(bool compress) -> base::Result<std::unique_ptr<GltfFile>>;
+
+  /// A row of the table of parts, with the record of a building or none. The surfaces of the mesh become rows of the
+  /// table of surfaces, and its triangles part of the mesh at hand: its vertices at `places`, its faces with `facing`
+  /// as their normals, z up both. Slope and azimuth are those of the mesh's own normals.
+  void add_part(const Row& row, std::string_view record, const PartMesh& mesh, std::span<const geometry::Point3> places,
+                std::span<const geometry::Point3> facing);
+
+  /// The mesh at hand becomes a node. `extras` is an object as JSON, or nothing. A mesh without triangles is left out.
+  void end_mesh(const std::string& name, std::string_view extras = {});
+
+  /// The box of everything added so far, as it is written: y up. None without vertices.
+  [[nodiscard]] auto bounds() const -> const std::optional<std::array<Float3, 2>>& { return bounds_; }
+
+  /// The whole file. Gives up with "write-glb-size", "file-write".
+  [[nodiscard]] auto write(base::Sink& sink, const std::string& generator, std::string_view extras,
+                           const PartColumns& columns) -> base::Result<void>;
+
+ private:
+  /// Buffer views of meshes, in their order. Compressed, they come again for every chunk of meshes.
+  enum View : std::size_t { position_view, normal_view, part_view, surface_view, index_view, view_count };
+  struct Mesh {
+    std::vector<Float3> positions, normals;
+    std::vector<float> part_ids, surface_ids;
+    std::array<std::vector<std::uint32_t>, class_count> indices;
+    std::array<std::uint32_t, class_count> surfaces{}, parts{};  ///< with triangles of that class
+    std::array<std::uint32_t, class_count> last_part{};
+  };
+  struct Spools {
+    std::array<std::unique_ptr<base::Spool>, view_count> of_view;
+    std::unique_ptr<base::Spool> packed, views, nodes, meshes, accessors, rows, records, classes, slopes, azimuths,
+        tables;
+  };
+
+  GltfFile(bool compress, Spools spools) : compress_(compress), spools_(std::move(spools)) {}
+  void append_view(View view, std::string_view bytes);
+  void append_accessor(View view, std::size_t offset, std::size_t count, const std::array<Float3, 2>* bounds);
+  void append_primitives(std::size_t vertex, std::size_t index, const std::array<Float3, 2>& bounds);
+  void pack();
+  void quantise();
+  [[nodiscard]] auto fill_tables(TableBytes& parts, TableBytes& surfaces, const PartColumns& columns)
+      -> base::Result<void>;
+  void append_extensions(JsonText& json, const TableBytes& parts, const TableBytes& surfaces,
+                         const PartColumns& columns) const;
+  void append_materials(JsonText& json) const;
+
+  bool compress_;
+  Spools spools_;
+  Mesh mesh_;
+  std::array<std::string, view_count> chunk_;  ///< of the meshes that are compressed next
+  std::size_t chunk_vertices_ = 0, chunk_indices_ = 0, packed_chunks_ = 0;
+  std::uint64_t unpacked_bytes_ = 0;
+  std::int64_t nodes_ = 0, accessors_ = 0;
+  std::uint64_t parts_ = 0, surfaces_ = 0, vertices_ = 0, indices_ = 0;
+  std::vector<std::uint32_t> record_ends_{0};
+  std::optional<std::array<Float3, 2>> bounds_;
+};
+
+}  // namespace mansard::formats::detail

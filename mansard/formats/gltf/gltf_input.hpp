@@ -1,0 +1,23 @@
+// A glTF file with its buffers, unpacked.
+#pragma once
+
+#include <tiny_gltf.h>
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "mansard/base/result.hpp"
+#include "mansard/model/frame.hpp"
+
+namespace mansard::formats {
+
+struct GltfFile {
+  tinygltf::Model model;  ///< without images; buffer views packed with meshoptimizer are unpacked in place
+  std::vector<model::InputFile> buffers;  ///< the files beside it that were read
+};
+
+/// `path` leads to the buffers beside it. Gives up with "ingest-mesh-format", "ingest-mesh-truncated", "file-missing",
+/// "file-read".
+[[nodiscard]] auto load_gltf(std::string_view bytes, const std::filesystem::path& path) -> base::Result<GltfFile>;
+
+}  // namespace mansard::formats

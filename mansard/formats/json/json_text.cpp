@@ -1,0 +1,128 @@
+#include "mansard/formats/json/json_text.hpp"
+
+#include <cmath>
+
+#include "mansard/base/text.hpp"
+
+namespace mansard::formats::detail {
+namespace {
+
+/// The length of the well-formed UTF-8 sequence at the start of `s`; 0 when there is none (RFC 3629, table in section
+/// 4).
+auto utf8_length(std::string_view s) -> std::size_t {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(s[i]); };
+  const auto continues = [&](std::size_t i, unsigned least = 0x80, unsigned most = 0xBF) {
+    return i < s.size() && byte(i) >= least && byte(i) <= most;
+  };
+  const unsigned b = byte(0);
+  if (b < 0x80) return 1;
+  if (b >= 0xC2 && b <= 0xDF) return continues(1) ? 2 : 0;
+  if (b >= 0xE0 && b <= 0xEF)
+    return continues(1, b == 0xE0 ? 0xA0 : 0x80, b == 0xED ? 0x9F : 0xBF) && continues(2) ? 3 : 0;
+  if (b >= 0xF0 && b <= 0xF4)
+    return continues(1, b == 0xF0 ? 0x90 : 0x80, b == 0xF4 ? 0x8F : 0xBF) && continues(2) && continues(3) ? 4 : 0;
+  return 0;
+}
+
+void append_quoted(std::string& out, std::string_view value) {
+  constexpr std::string_view hex = "0123456789abcdef";
+  out += '"';
+  for (std::size_t i = 0; i < value.size();) {
+    const char c = value[i];
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (c == '\n') {
+      out += "\\n";
+    } else if (c == '\t') {
+      out += "\\t";
+    } else if (const auto code = static_cast<unsigned char>(c); code < 0x20 || code == 0x7F) {
+      out += "\\u00";
+      out += hex[code >> 4U];
+      out += hex[code & 15U];
+    } else if (const std::size_t length = utf8_length(value.substr(i)); length == 0) {
+      out += "\xEF\xBF\xBD";
+    } else {
+      out += value.substr(i, length);
+      i += length;
+      continue;
+    }
+    ++i;
+  }
+  out += '"';
+}
+
+}  // namespace
+
+auto quoted(std::string_view value) -> std::string {
+  std::string out;
+  append_quoted(out, value);
+  return out;
+}
+
+void JsonText::separate() {
+  if (!first_ && !after_key_) text_ += ',';
+  if (level_ >= 0) {
+    text_ += '\n';
+    text_.append(2 * static_cast<std::size_t>(level_), ' ');
+    level_ = -1;
+  }
+  first_ = false;
+  after_key_ = false;
+}
+
+auto JsonText::open(char bracket) -> JsonText& {
+  separate();
+  text_ += bracket;
+  first_ = true;
+  return *this;
+}
+
+auto JsonText::close(char bracket) -> JsonText& {
+  if (level_ >= 0) {
+    text_ += '\n';
+    text_.append(2 * static_cast<std::size_t>(level_), ' ');
+    level_ = -1;
+  }
+  text_ += bracket;
+  first_ = false;
+  return *this;
+}
+
+auto JsonText::key(std::string_view name) -> JsonText& {
+  separate();
+  append_quoted(text_, name);
+  text_ += ':';
+  after_key_ = true;
+  return *this;
+}
+
+auto JsonText::text(std::string_view value) -> JsonText& {
+  separate();
+  append_quoted(text_, value);
+  return *this;
+}
+
+auto JsonText::number(double value) -> JsonText& { return std::isfinite(value) ? raw(base::to_text(value)) : null(); }
+
+auto JsonText::real(double value) -> JsonText& {
+  if (!std::isfinite(value)) return null();
+  std::string digits = base::to_text(value);
+  if (digits.find_first_of(".e") == std::string::npos) digits += ".0";
+  return raw(digits);
+}
+
+auto JsonText::whole(std::int64_t value) -> JsonText& { return raw(std::to_string(value)); }
+
+auto JsonText::raw(std::string_view json) -> JsonText& {
+  separate();
+  text_ += json;
+  return *this;
+}
+
+auto JsonText::line(int level) -> JsonText& {
+  level_ = level;
+  return *this;
+}
+
+}  // namespace mansard::formats::detail

@@ -1,0 +1,91 @@
+#include <fstream>
+
+#include "mansard/formats/obj/obj_text.hpp"
+#include "mansard/formats/detail/records.hpp"
+
+namespace mansard::formats::detail {
+namespace {
+
+class Obj : public CityWriter {
+ public:
+  Obj(const Header& header, base::Sink& file) : text_(header), file_(file) {}
+  [[nodiscard]] auto add(const model::Building& building) -> base::Result<void> override {
+    const auto keys = gate_.admit(building);
+    if (!keys) return keys.error();
+    const auto text = text_.of(building, *keys);
+    if (!text) return text.error();
+    file_.append(*text);
+    return {};
+  }
+  [[nodiscard]] auto finish() -> base::Result<void> override { return {}; }
+
+ private:
+  Gate gate_;
+  ObjText text_;
+  base::Sink& file_;
+};
+
+/// The records among the comments; the rest is passed over.
+class ReadObj : public CityReader {
+ public:
+  static auto open(const Path& path) -> ReaderResult {
+    auto reader = std::unique_ptr<ReadObj>(new ReadObj(path));
+    std::error_code status;
+    if (!std::filesystem::exists(path, status))
+      return base::error("file-missing", "there is no such file; look at its name", path.string());
+    const auto record = reader->next_record(obj_header);
+    if (!record)
+      return base::error("write-read-plans",
+                         "this OBJ carries no plans; give one that mansard wrote, or another format", path.string());
+    auto header = read_header_record(*record, reader->place());
+    if (!header) return header.error();
+    reader->header_ = *std::move(header);
+    return ReaderResult(std::move(reader));
+  }
+
+  [[nodiscard]] auto header() const -> const Header& override { return header_; }
+  [[nodiscard]] auto has_models() const -> bool override { return false; }
+  [[nodiscard]] auto next() -> base::Result<std::optional<model::Building>> override {
+    const auto record = next_record(obj_building);
+    if (!record && file_.bad())
+      return base::error("file-read", "cannot read this file to its end; is it whole?", name_);
+    if (!record) return std::optional<model::Building>();
+    auto building = read_building_record(*record, place());
+    if (!building) return building.error();
+    return std::optional<model::Building>(*std::move(building));
+  }
+
+ private:
+  explicit ReadObj(const Path& path) : name_(path.string()), file_(path, std::ios::binary) {}
+  [[nodiscard]] auto place() const -> std::string { return name_ + ":" + std::to_string(line_); }
+  auto next_record(std::string_view kind) -> std::optional<std::string> {
+    for (std::string line; std::getline(file_, line);) {
+      ++line_;
+      if (line.starts_with(kind)) return line.substr(kind.size());
+    }
+    return std::nullopt;
+  }
+
+  const std::string name_;
+  std::ifstream file_;
+  std::size_t line_ = 0;
+  Header header_;
+};
+
+}  // namespace
+
+auto obj_writer(const Path& path, const Header& header, base::Outputs& outputs) -> WriterResult {
+  auto library = path;
+  library.replace_extension(".mtl");
+  const auto file = outputs.file(path);
+  if (!file) return file.error();
+  const auto materials = outputs.file(library);
+  if (!materials) return materials.error();
+  (*materials)->append(mtl_text());
+  (*file)->append(ObjText::head(header, library.filename().string()));
+  return WriterResult(std::make_unique<Obj>(header, **file));
+}
+
+auto obj_reader(const Path& path) -> ReaderResult { return ReadObj::open(path); }
+
+}  // namespace mansard::formats::detail

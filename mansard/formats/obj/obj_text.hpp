@@ -1,0 +1,33 @@
+// Buildings as OBJ, with their records as comments.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "mansard/formats/detail/writers.hpp"
+
+namespace mansard::formats::detail {
+
+/// What comments that carry records start with; the rest of the line is JSON.
+inline constexpr std::string_view obj_header = "#mansard header ", obj_building = "#mansard building ";
+
+/// An OBJ file, building by building. Buildings must have passed a Gate.
+class ObjText {
+ public:
+  explicit ObjText(const Header& header) : frame_(header.frame) {}
+  /// What stands before the first building.
+  [[nodiscard]] static auto head(const Header& header, const std::string& mtl_name) -> std::string;
+  /// Gives up with "write-triangulate".
+  [[nodiscard]] auto of(const model::Building& building, const Gate::Keyed& keys) -> base::Result<std::string>;
+
+ private:
+  void append_part(std::string& out, const model::Part& part,
+                   const std::array<std::vector<std::vector<std::uint32_t>>, class_count>& facets);
+
+  const model::Frame frame_;
+  std::size_t written_ = 0;  ///< vertices; OBJ counts them through the whole file, from 1
+};
+
+[[nodiscard]] auto mtl_text() -> std::string;
+
+}  // namespace mansard::formats::detail

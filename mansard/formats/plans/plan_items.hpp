@@ -1,0 +1,33 @@
+// The pieces of a file of plans, read strictly: unknown members, wrong types and impossible profiles are Defects that
+// name their place.
+#pragma once
+
+#include <array>
+#include <initializer_list>
+
+#include "mansard/formats/json/json_item.hpp"
+#include "mansard/formats/stream.hpp"
+
+namespace mansard::formats::detail {
+
+/// "type", "version", "made_by" and "frame"; `others` are members that the file may have beside them.
+[[nodiscard]] auto read_header(const Item& item, std::initializer_list<const char*> others) -> Header;
+[[nodiscard]] auto read_building(const Item& item) -> model::Building;
+[[nodiscard]] auto read_attributes(const Item& item) -> model::Attributes;
+[[nodiscard]] auto read_made_by(const Item& item) -> model::MadeBy;
+/// {"origin", "crs"}.
+[[nodiscard]] auto read_frame(const Item& item) -> model::Frame;
+/// [{"outer", "holes"}, …].
+[[nodiscard]] auto read_footprint(const Item& item) -> std::vector<geometry::Polygon>;
+/// Three whole numbers of metres.
+[[nodiscard]] auto read_origin(const Item& item) -> std::array<std::int64_t, 3>;
+/// A plan by itself: these members and no others.
+[[nodiscard]] auto read_plan_item(const Item& item) -> model::Plan;
+/// From coordinates relative to `own` to those relative to `origin`, metres.
+[[nodiscard]] auto offset_between(const std::array<std::int64_t, 3>& own, const std::array<std::int64_t, 3>& origin)
+    -> geometry::Point3;
+/// A plan with "type", "version" and the "origin" it is relative to, moved to `origin`: files put together from several
+/// may have plans of several origins.
+[[nodiscard]] auto read_embedded_plan(const Item& item, const std::array<std::int64_t, 3>& origin) -> model::Plan;
+
+}  // namespace mansard::formats::detail

@@ -1,0 +1,500 @@
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "mansard/base/run.hpp"
+#include "mansard/base/text.hpp"
+#include "mansard/formats/mesh/mesh_formats.hpp"
+#include "mansard/formats/mesh/text_chunks.hpp"
+#include "mansard/formats/files/words.hpp"
+
+namespace mansard::formats {
+namespace {
+
+enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+auto size_of(Type type) -> std::size_t {
+  static constexpr std::array<std::size_t, 8> sizes{1, 1, 2, 2, 4, 4, 4, 8};
+  return sizes[static_cast<std::size_t>(type)];
+}
+
+auto to_type(std::string_view word) -> std::optional<Type> {
+  static constexpr std::array<std::array<std::string_view, 2>, 8> names{{{"char", "int8"},
+                                                                         {"uchar", "uint8"},
+                                                                         {"short", "int16"},
+                                                                         {"ushort", "uint16"},
+                                                                         {"int", "int32"},
+                                                                         {"uint", "uint32"},
+                                                                         {"float", "float32"},
+                                                                         {"double", "float64"}}};
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (word == names[i][0] || word == names[i][1]) return static_cast<Type>(i);
+  return std::nullopt;
+}
+
+struct Property {
+  std::string name;
+  Type type = Type::float32;
+  std::optional<Type> count;  ///< of a list
+};
+
+/// The class of a face: what `mansard simulate` and `mansard label` write.
+auto is_class(const Property& property) -> bool { return property.name == "class" && !property.count; }
+
+auto to_class(double value) -> std::uint8_t {
+  constexpr std::uint8_t other = 3;
+  return value >= 0 && value < other ? static_cast<std::uint8_t>(value) : other;
+}
+
+struct Element {
+  std::string name;
+  std::int64_t count = 0;
+  std::vector<Property> properties;
+};
+
+enum class Format { none, ascii, little, big };
+
+struct Header {
+  Format format = Format::none;
+  std::vector<Element> elements;
+};
+
+/// The body's values one after the other, as text. After the end, or a word that is no number, `failed` stays set.
+struct TextValues {
+  std::string_view rest;
+  bool failed = false;
+
+  auto take(Type) -> double {
+    const auto value = to_coordinate(take_word(rest));
+    failed = failed || !value;
+    return value.value_or(0);
+  }
+  static auto least(Type) -> std::size_t { return 2; }  // a digit and a blank
+  /// Whether what failed was a bad word rather than the end.
+  [[nodiscard]] auto more() const -> bool {
+    std::string_view look = rest;
+    return !take_word(look).empty();
+  }
+};
+
+template <std::endian order>
+struct BinaryValues {
+  std::string_view rest;
+  bool failed = false;
+
+  auto take(Type type) -> double {
+    switch (type) {
+      case Type::int8: return take_as<std::int8_t>();
+      case Type::uint8: return take_as<std::uint8_t>();
+      case Type::int16: return take_as<std::int16_t>();
+      case Type::uint16: return take_as<std::uint16_t>();
+      case Type::int32: return take_as<std::int32_t>();
+      case Type::uint32: return take_as<std::uint32_t>();
+      case Type::float32: return static_cast<double>(take_as<float>());
+      case Type::float64: return take_as<double>();
+    }
+    return 0;
+  }
+  static auto least(Type type) -> std::size_t { return size_of(type); }
+  /// Bytes cannot be bad, only too few.
+  [[nodiscard]] static auto more() -> bool { return false; }
+
+ private:
+  template <class T>
+  auto take_as() -> T {
+    std::array<char, sizeof(T)> bytes{};
+    if (rest.size() < sizeof(T)) return failed = true, T{};
+    std::memcpy(bytes.data(), rest.data(), sizeof(T));
+    rest.remove_prefix(sizeof(T));
+    if constexpr (order != std::endian::native)
+      for (std::size_t i = 0; i < sizeof(T) / 2; ++i) std::swap(bytes[i], bytes[sizeof(T) - 1 - i]);
+    return std::bit_cast<T>(bytes);
+  }
+};
+
+auto truncated(const std::string& what, const std::string& name) -> base::Diagnostic {
+  return base::error("ingest-mesh-truncated", "the file ends before " + what + "; copy or export it again", name);
+}
+
+/// A list index as 32 bits; −1, NaN and the like name no vertex.
+auto corner_of(double value) -> std::uint32_t {
+  return value >= 0 && value < static_cast<double>(no_vertex) ? static_cast<std::uint32_t>(value) : no_vertex;
+}
+
+void take_strip(RawMesh& mesh, const std::vector<double>& list, std::vector<std::uint32_t>& corners) {
+  corners.clear();
+  for (std::size_t i = 0; i <= list.size(); ++i) {
+    if (i < list.size() && list[i] >= 0) {
+      corners.push_back(corner_of(list[i]));
+      continue;
+    }
+    add_strip(mesh, corners);
+    corners.clear();
+  }
+}
+
+auto is_indices(const Property& property) -> bool {
+  return property.count && (property.name == "vertex_indices" || property.name == "vertex_index");
+}
+
+// ---- Bodies as nearly all files have them, read side by side. Each says whether the body is like that; where not, it
+// is taken value by value below, which also finds out what is wrong with it.
+
+template <class T, std::endian order>
+auto load(const char* at) -> T {
+  std::array<char, sizeof(T)> bytes{};
+  std::memcpy(bytes.data(), at, sizeof(T));
+  if constexpr (order != std::endian::native) std::ranges::reverse(bytes);
+  return std::bit_cast<T>(bytes);
+}
+
+/// Work on `count` elements in blocks that never depend on the number of threads.
+constexpr std::size_t block_size = std::size_t{1} << 16;
+template <class Work>
+void each_block(std::size_t count, const Work& work) {
+  if (count == 0) return;
+  if (count <= block_size) return work(0, 0, count);
+  base::parallel_for((count + block_size - 1) / block_size,
+                     [&](std::size_t b) { work(b, b * block_size, std::min(count, (b + 1) * block_size)); });
+}
+
+/// Vertices without lists whose x, y and z are all of type T.
+template <class T, std::endian order>
+void load_vertices(const char* start, std::size_t stride, const std::array<std::size_t, 3>& at,
+                   std::span<geometry::Point3> out) {
+  each_block(out.size(), [&](std::size_t, std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
+      const char* vertex = start + i * stride;
+      out[i] = {static_cast<double>(load<T, order>(vertex + at[0])),
+                static_cast<double>(load<T, order>(vertex + at[1])),
+                static_cast<double>(load<T, order>(vertex + at[2]))};
+    }
+  });
+}
+
+template <std::endian order>
+auto took_vertices(std::string_view& rest, const Element& element, RawMesh& mesh) -> bool {
+  std::size_t stride = 0, found = 0;
+  std::array<std::size_t, 3> at{};
+  std::array<Type, 3> type{};
+  for (const Property& property : element.properties) {
+    if (property.count) return false;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (property.name == std::string_view("xyz").substr(axis, 1)) {
+        at[axis] = stride;
+        type[axis] = property.type;
+        ++found;
+      }
+    stride += size_of(property.type);
+  }
+  const auto count = static_cast<std::size_t>(element.count);
+  if (found != 3 || type[0] != type[1] || type[0] != type[2] || count > rest.size() / stride) return false;
+  if (type[0] != Type::float32 && type[0] != Type::float64) return false;
+  const std::size_t before = mesh.vertices.size();
+  mesh.vertices.resize(before + count);
+  const auto out = std::span(mesh.vertices).subspan(before);
+  if (type[0] == Type::float32) load_vertices<float, order>(rest.data(), stride, at, out);
+  else load_vertices<double, order>(rest.data(), stride, at, out);
+  rest.remove_prefix(stride * count);
+  return true;
+}
+
+/// Where things are in a face that has one list of 8-bit length, of indices of 32 bits.
+struct FaceLayout {
+  std::size_t before = 0, after = 0;  ///< bytes of other properties
+  bool is_signed = false;
+  std::optional<std::size_t> class_before, class_after;  ///< byte of an 8-bit class among them
+
+  static auto of(const Element& element) -> std::optional<FaceLayout> {
+    FaceLayout out;
+    bool listed = false;
+    for (const Property& property : element.properties) {
+      std::size_t& bytes = listed ? out.after : out.before;
+      if (property.count) {
+        if (listed || !is_indices(property) || property.count != Type::uint8) return std::nullopt;
+        if (property.type != Type::int32 && property.type != Type::uint32) return std::nullopt;
+        out.is_signed = property.type == Type::int32;
+        listed = true;
+        continue;
+      }
+      if (is_class(property)) {
+        if (property.type != Type::uint8) return std::nullopt;
+        (listed ? out.class_after : out.class_before) = bytes;
+      }
+      bytes += size_of(property.type);
+    }
+    if (!listed || (out.class_before && out.class_after)) return std::nullopt;
+    return out;
+  }
+};
+
+template <std::endian order>
+auto took_faces(std::string_view& rest, const Element& element, RawMesh& mesh) -> bool {
+  const auto layout = FaceLayout::of(element);
+  if (!layout || !mesh.triangles.empty()) return false;
+  struct Start {
+    std::size_t byte = 0, triangle = 0;
+  };
+  // Faces differ in length: hop over all, and remember where every block starts.
+  std::vector<Start> starts;
+  std::size_t byte = 0, triangles = 0, short_faces = 0;
+  const auto count = static_cast<std::size_t>(element.count);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i % block_size == 0) starts.push_back({byte, triangles});
+    const std::size_t at = byte + layout->before;
+    if (at >= rest.size()) return false;
+    const auto size = static_cast<unsigned char>(rest[at]);
+    byte = at + 1 + 4 * std::size_t{size} + layout->after;
+    if (byte > rest.size()) return false;
+    if (size < 3) ++short_faces;
+    else triangles += size - 2U;
+  }
+  mesh.triangles.resize(triangles);
+  const bool classed = layout->class_before || layout->class_after;
+  if (classed) mesh.classes.resize(triangles);
+  each_block(count, [&](std::size_t block, std::size_t first, std::size_t end) {
+    const char* at = rest.data() + starts[block].byte;
+    std::size_t out = starts[block].triangle;
+    const auto corner = [&](std::size_t k) {
+      const auto index = load<std::uint32_t, order>(at + layout->before + 1 + 4 * k);
+      return layout->is_signed && index > 0x7fffffffU ? no_vertex : index;
+    };
+    for (std::size_t i = first; i < end; ++i) {
+      const std::size_t size = static_cast<unsigned char>(at[layout->before]);
+      const char* behind = at + layout->before + 1 + 4 * size;
+      const char* kind = layout->class_before  ? at + *layout->class_before
+                         : layout->class_after ? behind + *layout->class_after
+                                               : nullptr;
+      for (std::size_t k = 1; k + 1 < size; ++k, ++out) {
+        mesh.triangles[out] = {corner(0), corner(k), corner(k + 1)};
+        if (kind != nullptr) mesh.classes[out] = to_class(static_cast<unsigned char>(*kind));
+      }
+      at = behind + layout->after;
+    }
+  });
+  mesh.short_faces += short_faces;
+  rest.remove_prefix(byte);
+  return true;
+}
+
+/// One element of a text as a line of it: every value, and nothing behind them.
+auto took_line(std::string_view line, const Element& element, bool classed, RawMesh& mesh) -> bool {
+  const char *at = line.data(), *end = line.data() + line.size();
+  const auto take = [&](double& value) {
+    if (take_plain_number(at, end, value)) return true;
+    std::string_view rest(at, static_cast<std::size_t>(end - at));
+    const auto number = to_coordinate(take_word(rest));
+    at = end - rest.size();
+    value = number.value_or(0);
+    return number.has_value();
+  };
+  const bool vertices = element.name == "vertex", faces = element.name == "face";
+  geometry::Point3 point;
+  double of_face = 0;
+  std::array<std::uint32_t, 16> corners{};
+  for (const Property& property : element.properties) {
+    double value = 0;
+    if (!take(value)) return false;
+    if (property.count) {
+      if (!(value >= 0 && value <= 16) || value != std::floor(value)) return false;
+      const auto size = static_cast<std::size_t>(value);
+      for (std::size_t k = 0; k < size; ++k) {
+        if (!take(value)) return false;
+        corners[k] = corner_of(value);
+      }
+      if (faces && is_indices(property)) add_face(mesh, std::span(corners).first(size));
+    } else if (property.name == "x") {
+      point.x = value;
+    } else if (property.name == "y") {
+      point.y = value;
+    } else if (property.name == "z") {
+      point.z = value;
+    } else if (classed && is_class(property)) {
+      of_face = value;
+    }
+  }
+  skip_blanks(at, end);
+  if (at != end) return false;
+  if (vertices) mesh.vertices.push_back(point);
+  if (classed) mesh.classes.resize(mesh.triangles.size(), to_class(of_face));
+  return true;
+}
+
+auto read_text_lines(std::string_view body, const Header& header) -> std::optional<RawMesh> {
+  std::size_t lines = 0;
+  std::vector<std::pair<std::size_t, const Element*>> ends;  // the line after each element's last
+  bool any_class = false;
+  std::size_t face_elements = 0;
+  for (const Element& element : header.elements) {
+    if (element.properties.empty()) continue;
+    if (element.name == "tristrips" || static_cast<std::size_t>(element.count) > body.size()) return std::nullopt;
+    if (element.name == "face") {
+      ++face_elements;
+      any_class = any_class || std::ranges::any_of(element.properties, is_class);
+    }
+    ends.emplace_back(lines += static_cast<std::size_t>(element.count), &element);
+  }
+  if (face_elements > 1) return std::nullopt;
+  return read_lines(body, lines, 0, [&](std::string_view line, std::size_t number, RawMesh& piece) {
+    const auto at = std::ranges::find_if(ends, [&](const auto& end) { return number < end.first; });
+    return took_line(line, *at->second, any_class && at->second->name == "face", piece);
+  });
+}
+
+// ---- Any body, value by value.
+
+template <class Values>
+auto took_side_by_side(Values&, const Element&, RawMesh&) -> bool {
+  return false;
+}
+template <std::endian order>
+auto took_side_by_side(BinaryValues<order>& values, const Element& element, RawMesh& mesh) -> bool {
+  if (element.name == "vertex") return took_vertices<order>(values.rest, element, mesh);
+  return element.name == "face" && took_faces<order>(values.rest, element, mesh);
+}
+
+template <class Values>
+auto take_elements(Values values, const Header& header, const std::string& name) -> base::Result<RawMesh> {
+  RawMesh mesh;
+  std::vector<double> list;
+  std::vector<std::uint32_t> corners;
+  for (const Element& element : header.elements) {
+    if (element.properties.empty()) continue;
+    double least = 0;
+    for (const Property& property : element.properties)
+      least += static_cast<double>(values.least(property.count.value_or(property.type)));
+    // Before anything is allocated: a header can promise what no file holds.
+    if (least * static_cast<double>(element.count) > static_cast<double>(values.rest.size()) + 1)
+      return truncated("the " + std::to_string(element.count) + " elements '" + element.name + "' it promises", name);
+
+    if (took_side_by_side(values, element, mesh)) continue;
+    const bool vertices = element.name == "vertex", faces = element.name == "face",
+               strips = element.name == "tristrips";
+    const bool classed = faces && std::ranges::any_of(element.properties, is_class);
+    if (vertices) mesh.vertices.reserve(static_cast<std::size_t>(element.count));
+    if (faces) mesh.triangles.reserve(static_cast<std::size_t>(element.count));
+    constexpr std::size_t nowhere = 3;
+    std::vector<std::size_t> target;  // where each property of a vertex goes
+    for (const Property& property : element.properties)
+      target.push_back(property.name == "x" ? 0U : property.name == "y" ? 1U : property.name == "z" ? 2U : nowhere);
+
+    for (std::int64_t i = 0; i < element.count; ++i) {
+      std::array<double, 4> point{};
+      double of_face = 0;
+      for (std::size_t p = 0; p < element.properties.size(); ++p) {
+        const Property& property = element.properties[p];
+        if (!property.count) {
+          const double value = values.take(property.type);
+          if (classed && is_class(property)) of_face = value;
+          point[target[p]] = value;
+          continue;
+        }
+        const double size = values.take(*property.count);
+        if (!(size >= 0) ||
+            size * static_cast<double>(values.least(property.type)) > static_cast<double>(values.rest.size()) + 1)
+          values.failed = true;
+        if (values.failed) break;
+        const bool indices = is_indices(property);
+        list.clear();
+        for (double k = 0; k < size; ++k) list.push_back(values.take(property.type));
+        if (strips && indices) take_strip(mesh, list, corners);
+        if (!faces || !indices) continue;
+        corners.clear();
+        for (const double value : list) corners.push_back(corner_of(value));
+        add_face(mesh, corners);
+      }
+      if (values.failed) {
+        const std::string which =
+            "element " + std::to_string(i + 1) + " of " + std::to_string(element.count) + " of '" + element.name + "'";
+        if (!values.more()) return truncated(which, name);
+        return base::error("ingest-mesh-format", which + " is broken; export the mesh again", name);
+      }
+      if (vertices) mesh.vertices.push_back({point[0], point[1], point[2]});
+      if (classed) mesh.classes.resize(mesh.triangles.size(), to_class(of_face));
+    }
+  }
+  return mesh;
+}
+
+/// Takes the header off the front; the body follows its last line's end exactly.
+auto take_header(std::string_view& bytes, const std::string& name) -> base::Result<Header> {
+  Header header;
+  std::size_t count = 1;
+  const auto bad = [&](const std::string& what) {
+    return base::error("ingest-mesh-format", "line " + std::to_string(count) + ": " + what + "; export the mesh again",
+                       name);
+  };
+  if (take_line(bytes) != "ply") return bad("a PLY file starts with the line 'ply'");
+  while (!bytes.empty()) {
+    ++count;
+    std::string_view line = take_line(bytes);
+    const std::string_view keyword = take_word(line);
+    if (keyword == "end_header") {
+      if (header.format == Format::none) return bad("the header names no format");
+      return header;
+    }
+    if (keyword == "format") {
+      const std::string_view word = take_word(line);
+      header.format = word == "ascii"                  ? Format::ascii
+                      : word == "binary_little_endian" ? Format::little
+                      : word == "binary_big_endian"    ? Format::big
+                                                       : Format::none;
+      if (header.format == Format::none) return bad("format '" + std::string(word) + "' is not known");
+    } else if (keyword == "element") {
+      const std::string element(take_word(line));
+      const auto size = base::to_integer(take_word(line));
+      if (element.empty() || !size || *size < 0) return bad("an element needs a name and a count");
+      header.elements.push_back({element, *size, {}});
+    } else if (keyword == "property") {
+      if (header.elements.empty()) return bad("a property before any element");
+      Property property;
+      std::string_view word = take_word(line);
+      if (word == "list") {
+        property.count = to_type(take_word(line));
+        word = take_word(line);
+        if (!property.count) return bad("the count of a list has no known type");
+      }
+      const auto type = to_type(word);
+      property.name = take_word(line);
+      if (!type || property.name.empty()) return bad("a property needs a known type and a name");
+      property.type = *type;
+      header.elements.back().properties.push_back(std::move(property));
+    } else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info") {
+      return bad("'" + std::string(keyword.substr(0, 40)) + "' does not belong in a PLY header");
+    }
+  }
+  return truncated("its header does", name);
+}
+
+auto find(const Header& header, std::string_view name) -> const Element* {
+  for (const auto& element : header.elements)
+    if (element.name == name) return &element;
+  return nullptr;
+}
+
+}  // namespace
+
+auto read_ply(std::string_view bytes, const std::string& name) -> base::Result<RawMesh> {
+  const auto header = take_header(bytes, name);
+  if (!header) return header.error();
+  const Element* vertices = find(*header, "vertex");
+  int axes = 0;
+  if (vertices != nullptr)
+    for (const auto& property : vertices->properties)
+      if (property.name == "x" || property.name == "y" || property.name == "z") axes += property.count ? 0 : 1;
+  if (axes != 3) return base::error("ingest-mesh-format", "the PLY file has no vertices with x, y and z", name);
+  switch (header->format) {
+    case Format::little: return take_elements(BinaryValues<std::endian::little>{bytes}, *header, name);
+    case Format::big: return take_elements(BinaryValues<std::endian::big>{bytes}, *header, name);
+    default:
+      if (auto lines = read_text_lines(bytes, *header)) return *std::move(lines);
+      return take_elements(TextValues{bytes}, *header, name);
+  }
+}
+
+}  // namespace mansard::formats

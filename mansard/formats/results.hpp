@@ -1,0 +1,32 @@
+// What results are called in a folder, and a whole city as one or more of them.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "mansard/base/outputs.hpp"
+#include "mansard/formats/stream.hpp"
+
+namespace mansard::formats {
+
+/// One result: a file, a file with its library beside it, or a folder of tiles.
+struct Target {
+  Format format = Format::cityjson;
+  std::filesystem::path path;
+};
+
+/// What a format's file is called in a folder of results: model.city.json, plans.json, …
+[[nodiscard]] auto name_in_folder(Format format) -> std::string;
+[[nodiscard]] auto targets_in(const std::filesystem::path& folder, const std::vector<Format>& formats)
+    -> std::vector<Target>;
+/// Every file or folder that there will be: the library of an OBJ too.
+[[nodiscard]] auto places_of(const Target& target) -> std::vector<std::filesystem::path>;
+
+/// The whole city to every target; the files are there after Outputs::commit. What could not be written as it was
+/// meant, as warnings. Gives up as the writers do.
+[[nodiscard]] auto write_models(const model::City& city, const std::vector<Target>& targets,
+                                const WriteOptions& options, base::Outputs& outputs,
+                                const std::vector<Layer>& more = {}) -> base::Result<std::vector<base::Diagnostic>>;
+
+}  // namespace mansard::formats

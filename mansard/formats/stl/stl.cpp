@@ -1,0 +1,131 @@
+#include <bit>
+
+#include "mansard/formats/detail/triangles.hpp"
+#include "mansard/formats/detail/writers.hpp"
+#include "mansard/solid/shell.hpp"
+
+namespace mansard::formats::detail {
+namespace {
+
+using geometry::Point3;
+using model::Solid;
+
+template <class T>
+void append_little_endian(std::string& bytes, T value) {
+  for (std::size_t i = 0; i < sizeof(T); ++i) bytes += static_cast<char>((value >> (8 * i)) & 0xFF);
+}
+
+void append_point(std::string& bytes, Point3 p) {
+  for (const double v : {p.x, p.y, p.z})
+    append_little_endian(bytes, std::bit_cast<std::uint32_t>(static_cast<float>(v)));
+}
+
+/// What single precision makes of it.
+auto rounded(Point3 p) -> Point3 {
+  return {static_cast<double>(static_cast<float>(p.x)), static_cast<double>(static_cast<float>(p.y)),
+          static_cast<double>(static_cast<float>(p.z))};
+}
+
+/// 80 bytes that do not begin with "solid", by which programs tell STL as text: what to add to come to the file frame.
+auto stl_header(const model::Frame& frame) -> std::string {
+  std::string text = "mansard; metres, z up; add";
+  for (const auto metres : frame.origin) text += " " + std::to_string(metres);
+  if (frame.crs.starts_with("EPSG:")) text += " for " + frame.crs;
+  text.resize(80, ' ');
+  return text;
+}
+
+class StlWriter : public CityWriter {
+ public:
+  StlWriter(Shell shell, const model::Frame& frame, std::unique_ptr<base::Spool> triangles, base::Sink& file)
+      : shell_(shell), header_(stl_header(frame)), triangles_(std::move(triangles)), file_(file) {}
+
+  auto add(const model::Building& building) -> base::Result<void> override {
+    const auto keyed = gate_.admit(building);
+    if (!keyed) return keyed.error();
+    if (shell_ == Shell::part) {
+      for (const model::Part& part : building.parts)
+        if (auto put = append(part.model.solid, part.id); !put) return put;
+      return {};
+    }
+    for (const model::Part& part : building.parts) solids_.push_back({part.model.solid, building.id});
+    return shell_ == Shell::building ? join_and_append() : base::Result<void>();
+  }
+
+  auto finish() -> base::Result<void> override {
+    if (auto put = join_and_append(); !put) return put;
+    constexpr std::uint64_t most = UINT32_MAX;
+    if (count_ > most)
+      return base::error("write-stl-size", "there are " + std::to_string(count_) +
+                                               " triangles, more than an STL can count; run smaller areas (--bbox)");
+    append_little_endian(header_, static_cast<std::uint32_t>(count_));
+    file_.append(header_);
+    return triangles_->copy_to(file_);
+  }
+
+  [[nodiscard]] auto warnings() const -> std::vector<base::Diagnostic> override { return warnings_; }
+
+ private:
+  struct Placed {
+    Solid solid;
+    std::string building;
+  };
+
+  auto join_and_append() -> base::Result<void> {
+    std::vector<const Solid*> solids;
+    for (const auto& placed : solids_) solids.push_back(&placed.solid);
+    for (const auto& group : solid::join(solids).groups) {
+      const auto& building = solids_[group.of.front()].building;
+      if (!group.why.empty())
+        warnings_.push_back(base::warning(
+            "write-stl-shell",
+            std::to_string(group.of.size()) + " parts that touch became " + std::to_string(group.shells.size()) +
+                " shells with walls between them, since one would not be sound (" + group.why +
+                "); change their plans there, or take the shells as they are, each sound, but wall against wall",
+            building));
+      for (const Solid& shell : group.shells)
+        if (auto put = append(shell, building); !put) return put;
+    }
+    solids_.clear();
+    return {};
+  }
+
+  auto append(const Solid& solid, const std::string& name) -> base::Result<void> {
+    const auto cut = triangles_of(solid, name);
+    if (!cut) return cut.error();
+    std::string bytes;
+    for (const auto& corners : cut->triangles) {
+      const Point3 a = rounded(solid.vertices[corners[0]]), b = rounded(solid.vertices[corners[1]]),
+                   c = rounded(solid.vertices[corners[2]]);
+      if (a == b || b == c || c == a) continue;  // its other two edges are one now, so nothing opens
+      append_point(bytes, geometry::normalised(cross(b - a, c - a)));
+      for (const Point3& p : {a, b, c}) append_point(bytes, p);
+      bytes.append(2, '\0');
+      ++count_;
+    }
+    triangles_->append(bytes);
+    return {};
+  }
+
+  const Shell shell_;
+  std::string header_;
+  std::unique_ptr<base::Spool> triangles_;  ///< their number comes first in the file
+  base::Sink& file_;
+  Gate gate_;
+  std::uint64_t count_ = 0;
+  std::vector<Placed> solids_;  ///< not joined yet
+  std::vector<base::Diagnostic> warnings_;
+};
+
+}  // namespace
+
+auto stl_writer(const Path& path, const Header& header, const WriteOptions& options, base::Outputs& outputs)
+    -> WriterResult {
+  auto spool = base::Spool::open();
+  if (!spool) return spool.error();
+  const auto file = outputs.file(path);
+  if (!file) return file.error();
+  return WriterResult(std::make_unique<StlWriter>(options.stl_shell, header.frame, std::move(*spool), **file));
+}
+
+}  // namespace mansard::formats::detail

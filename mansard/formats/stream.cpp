@@ -1,0 +1,142 @@
+#include "mansard/formats/stream.hpp"
+
+#include <fstream>
+
+#include "mansard/formats/detail/writers.hpp"
+
+namespace mansard::formats {
+
+auto formats() -> const std::vector<FormatName>& {
+  static const std::vector<FormatName> all{
+      {Format::cityjson, "cityjson", ".city.json", "CityJSON 2.0: solids of LoD 1.2 and 2.2, attributes, plans."},
+      {Format::cityjsonseq, "cityjsonseq", ".city.jsonl", "CityJSONSeq: the same, a building a line."},
+      {Format::obj, "obj", ".obj", "OBJ, with its materials beside it."},
+      {Format::glb, "glb", ".glb", "Binary glTF with attributes per building and class per face."},
+      {Format::tiles, "tiles", ".3dtiles", "A folder of 3D Tiles 1.1."},
+      {Format::geopackage, "geopackage", ".gpkg", "GeoPackage: footprints, edges, roof planes."},
+      {Format::stl, "stl", ".stl", "Binary STL of closed shells."},
+      {Format::geojson, "geojson", ".geojson", "GeoJSON: footprints with attributes."},
+      {Format::plans, "plans", ".json", "Plan + profiles, the source of every model."},
+  };
+  return all;
+}
+
+auto format_of(const std::filesystem::path& path) -> std::optional<Format> {
+  std::string name = path.filename().string();
+  for (char& c : name)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
+  std::error_code status;
+  if (name == "tileset.json" || name.find('.') == std::string::npos || std::filesystem::is_directory(path, status))
+    return Format::tiles;
+  if (name.ends_with(".city.jsonl") || name.ends_with(".jsonl")) return Format::cityjsonseq;
+  for (const auto& format : formats())  // ".city.json" comes before ".json"
+    if (name.ends_with(format.ending)) return format.format;
+  return std::nullopt;
+}
+
+auto option_list(WriteOptions& o) -> base::OptionList {
+  return std::move(
+      base::OptionList("write")
+          .choice("stl_shell", o.stl_shell,
+                  {{"part", Shell::part}, {"building", Shell::building}, {"block", Shell::block}},
+                  "What one closed shell of an STL stands for.")
+          .flag("compress", o.compress, "Compress the meshes of GLB and 3D Tiles (meshopt, quantised).")
+          .number("tile_triangles", o.tile_triangles, "", {100, 1e7}, "Triangles of a leaf of a tileset, at most."));
+}
+
+auto open_writer(Format format, const std::filesystem::path& path, const Header& header, const WriteOptions& options,
+                 base::Outputs& outputs, const std::vector<Layer>& more) -> base::Result<std::unique_ptr<CityWriter>> {
+  switch (format) {
+    case Format::cityjson: return detail::cityjson_writer(path, header, outputs);
+    case Format::cityjsonseq: return detail::cityjsonseq_writer(path, header, outputs);
+    case Format::obj: return detail::obj_writer(path, header, outputs);
+    case Format::glb: return detail::glb_writer(path, header, options, outputs);
+    case Format::tiles: return detail::tiles_writer(path, header, options, outputs);
+    case Format::geopackage: return detail::geopackage_writer(path, header, more, outputs);
+    case Format::stl: return detail::stl_writer(path, header, options, outputs);
+    case Format::geojson: return detail::geojson_writer(path, header, outputs);
+    case Format::plans: break;
+  }
+  return detail::plans_writer(path, header, outputs);
+}
+
+auto write_city(const model::City& city, CityWriter& writer) -> base::Result<void> {
+  // Parts may carry the id of a building that comes later; only the whole city shows it.
+  const auto keys = detail::keys_of(city);
+  if (!keys) return keys.error();
+  for (std::size_t b = 0; b < city.buildings.size(); ++b) {
+    const model::Building& building = city.buildings[b];
+    bool same = true;
+    for (std::size_t p = 0; p < building.parts.size(); ++p) same = same && building.parts[p].id == keys->parts[b][p];
+    if (same) {
+      if (auto added = writer.add(building); !added) return added;
+      continue;
+    }
+    model::Building renamed = building;
+    for (std::size_t p = 0; p < building.parts.size(); ++p) renamed.parts[p].id = keys->parts[b][p];
+    if (auto added = writer.add(renamed); !added) return added;
+  }
+  return writer.finish();
+}
+
+namespace {
+
+/// What a file is by its first bytes; none where they do not tell.
+auto format_in(const std::filesystem::path& path) -> std::optional<Format> {
+  std::error_code status;
+  if (std::filesystem::is_directory(path, status) || path.filename() == "tileset.json") return std::nullopt;
+  std::ifstream file(path, std::ios::binary);
+  std::string start(4096, '\0');
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(file.gcount()));
+  if (start.starts_with("glTF")) return Format::glb;
+  if (start.starts_with("SQLite format 3")) return Format::geopackage;
+  const auto first = start.find_first_not_of(" \t\r\n");
+  if (first == std::string::npos || start[first] != '{') return std::nullopt;
+  // The name of its own type comes before what it may speak of. Whether CityJSON is a sequence its reader sees.
+  const std::initializer_list<std::pair<std::string_view, Format>> types{{"\"CityJSON\"", Format::cityjson},
+                                                                         {"\"mansard-plan\"", Format::plans},
+                                                                         {"\"FeatureCollection\"", Format::geojson}};
+  std::optional<Format> found;
+  auto least = std::string::npos;
+  for (const auto& [type, format] : types)
+    if (const auto at = start.find(type); at < least) {
+      least = at;
+      found = format;
+    }
+  return found;
+}
+
+}  // namespace
+
+auto read_city(const std::filesystem::path& path) -> base::Result<std::unique_ptr<CityReader>> {
+  // By what is in it before its name.
+  auto format = format_in(path);
+  if (!format) format = format_of(path);
+  if (!format) return base::error("write-read-format", "no format of buildings has this ending", path.string());
+  switch (*format) {
+    case Format::cityjson:
+    case Format::cityjsonseq: return detail::cityjson_reader(path);
+    case Format::obj: return detail::obj_reader(path);
+    case Format::glb: return detail::glb_reader(path);
+    case Format::tiles: return detail::tiles_reader(path);
+    case Format::geopackage: return detail::geopackage_reader(path);
+    case Format::geojson: return detail::geojson_reader(path);
+    case Format::plans: return detail::plans_reader(path);
+    case Format::stl: break;
+  }
+  return base::error("write-read-format", "STL holds nothing but triangles; give another format of the same models",
+                     path.string());
+}
+
+auto read_whole(CityReader& reader) -> base::Result<model::City> {
+  model::City city{reader.header().frame, reader.header().made_by, {}};
+  for (;;) {
+    auto next = reader.next();
+    if (!next) return next.error();
+    if (!*next) return city;
+    city.buildings.push_back(std::move(**next));
+  }
+}
+
+}  // namespace mansard::formats

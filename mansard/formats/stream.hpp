@@ -1,0 +1,115 @@
+// Writes a city of any size building by building, and reads one back: every format behind one door.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mansard/base/options.hpp"
+#include "mansard/base/outputs.hpp"
+#include "mansard/formats/write.hpp"
+
+namespace mansard::formats {
+
+enum class Format : std::uint8_t {
+  cityjson,     ///< one document, ".city.json"
+  cityjsonseq,  ///< a feature a line, ".city.jsonl"
+  obj,          ///< with its library ".mtl" beside it
+  glb,
+  tiles,  ///< a folder with a tileset.json and its GLB: 3D Tiles 1.1
+  geopackage,
+  stl,
+  geojson,  ///< the footprints alone
+  plans,    ///< plan + profiles, ".json"
+};
+
+/// How a format is called on the command line ("cityjson", "cityjsonseq", "obj", …), what its files end in (".gpkg"; of
+/// tiles, which are a folder, ".3dtiles"), and what it carries, in a sentence.
+struct FormatName {
+  Format format;
+  std::string_view name, ending, meaning;
+};
+[[nodiscard]] auto formats() -> const std::vector<FormatName>&;
+/// By the ending of a name, in any case: ".city.json" before ".json"; a folder, or a name without an ending, and
+/// "tileset.json" are tiles. None where no format has it.
+[[nodiscard]] auto format_of(const std::filesystem::path& path) -> std::optional<Format>;
+
+/// What a file says before its first building.
+struct Header {
+  model::Frame frame;
+  model::MadeBy made_by;
+};
+
+/// What one closed shell of an STL stands for.
+enum class Shell : std::uint8_t { part, building, block };
+
+struct WriteOptions {
+  Shell stl_shell = Shell::building;
+  bool compress = false;          ///< meshes of glb and tiles: EXT_meshopt_compression and KHR_mesh_quantization
+  double tile_triangles = 20000;  ///< of a leaf of a tileset, at most, where one building has not more
+};
+[[nodiscard]] auto option_list(WriteOptions& options) -> base::OptionList;
+
+/// Takes buildings one after the other. Memory does not grow with their number, but where docs/write.md says by how
+/// much. The same header, options and buildings give the same bytes.
+class CityWriter {
+ public:
+  CityWriter() = default;
+  CityWriter(const CityWriter&) = delete;
+  auto operator=(const CityWriter&) -> CityWriter& = delete;
+  virtual ~CityWriter() = default;
+  /// Gives up with "write-duplicate-id", "write-model", "write-triangulate" and those of the format; the writer is of
+  /// no use then.
+  [[nodiscard]] virtual auto add(const model::Building& building) -> base::Result<void> = 0;
+  /// After the last one: the files are whole, and take their places with Outputs::commit.
+  [[nodiscard]] virtual auto finish() -> base::Result<void> = 0;
+  /// What could not be written as asked, but otherwise; complete after finish().
+  [[nodiscard]] virtual auto warnings() const -> std::vector<base::Diagnostic> { return {}; }
+};
+
+/// A writer of that format at that place. `outputs` must outlive it. `more` are layers for a GeoPackage beside those of
+/// the city; other formats leave them out.
+[[nodiscard]] auto open_writer(Format format, const std::filesystem::path& path, const Header& header,
+                               const WriteOptions& options, base::Outputs& outputs, const std::vector<Layer>& more = {})
+    -> base::Result<std::unique_ptr<CityWriter>>;
+
+/// The whole city into an open writer, then finish().
+[[nodiscard]] auto write_city(const model::City& city, CityWriter& writer) -> base::Result<void>;
+
+/// What a file has beside its city, and what of that cannot be taken along.
+struct Beside {
+  std::vector<Layer> layers;
+  std::vector<base::Diagnostic> warnings;  ///< "write-layer-left"; the subject is the layer's name
+};
+
+/// A file of buildings that mansard wrote, read one after the other, in the order they were written in.
+class CityReader {
+ public:
+  CityReader() = default;
+  CityReader(const CityReader&) = delete;
+  auto operator=(const CityReader&) -> CityReader& = delete;
+  virtual ~CityReader() = default;
+  [[nodiscard]] virtual auto header() const -> const Header& = 0;
+  /// Whether buildings come with their models. CityJSON and CityJSONSeq do; of the others they come with plans and
+  /// attributes, and the models are raised from them again.
+  [[nodiscard]] virtual auto has_models() const -> bool = 0;
+  /// None after the last one.
+  [[nodiscard]] virtual auto next() -> base::Result<std::optional<model::Building>> = 0;
+  /// The layers of a GeoPackage that are not of the city's making, for open_writer to take: those of a segmentation,
+  /// and what others put in, all in memory. Nothing of other formats. Before the first next(), or after it.
+  [[nodiscard]] virtual auto beside() -> base::Result<Beside> { return Beside(); }
+};
+
+/// Opens a file, or a folder of tiles, that mansard wrote in any format but STL. Guarantees: writing what was read, its
+/// models raised again where there were none, gives the same bytes in the format it was read from, with the same
+/// options. Gives up with "write-read-format" (what it is instead), "write-read-plans" (there are no plans in it),
+/// "write-plan-…", "file-…".
+[[nodiscard]] auto read_city(const std::filesystem::path& path) -> base::Result<std::unique_ptr<CityReader>>;
+
+/// All that a file has.
+[[nodiscard]] auto read_whole(CityReader& reader) -> base::Result<model::City>;
+
+}  // namespace mansard::formats

@@ -1,0 +1,269 @@
+#include "mansard/formats/vector/attributes.hpp"
+
+#include <ogrsf_frmts.h>
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "mansard/base/options.hpp"
+#include "mansard/base/text.hpp"
+
+namespace mansard::formats {
+namespace {
+
+auto padded(int value, std::size_t width) -> std::string {
+  std::string text = std::to_string(value);
+  return std::string(width > text.size() ? width - text.size() : 0, '0') + text;
+}
+
+auto date_text(const OGRFeature& feature, int field, OGRFieldType type) -> std::string {
+  int year = 0, month = 0, day = 0, hour = 0, minute = 0, zone = 0;
+  float second = 0;
+  feature.GetFieldAsDateTime(field, &year, &month, &day, &hour, &minute, &second, &zone);
+  const std::string date = padded(year, 4) + "-" + padded(month, 2) + "-" + padded(day, 2);
+  if (type == OFTDate) return date;
+  const auto milliseconds = static_cast<int>(std::lround(static_cast<double>(second) * 1000));
+  std::string time = padded(hour, 2) + ":" + padded(minute, 2) + ":" + padded(milliseconds / 1000, 2);
+  if (milliseconds % 1000 != 0) time += "." + padded(milliseconds % 1000, 3);
+  // OGR's zones: 0 unknown, 1 local, 100 UTC and a step for each quarter of an hour.
+  if (zone == 100) time += "Z";
+  if (zone > 1 && zone != 100) {
+    const int quarters = std::abs(zone - 100);
+    time += (zone > 100 ? "+" : "-") + padded(quarters / 4, 2) + ":" + padded(quarters % 4 * 15, 2);
+  }
+  return type == OFTTime ? time : date + "T" + time;
+}
+
+auto quoted(std::string_view text) -> std::string {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (static_cast<unsigned char>(c) < 0x20) {
+      static constexpr std::string_view digits = "0123456789abcdef";
+      out += "\\u00";
+      out += digits[static_cast<unsigned char>(c) >> 4];
+      out += digits[static_cast<unsigned char>(c) & 15];
+    } else {
+      out += c;
+    }
+  }
+  return out + "\"";
+}
+
+template <class T, class Text>
+auto list_text(const T* values, int count, Text text) -> std::string {
+  std::string out = "[";
+  for (int i = 0; i < count; ++i) out += (i > 0 ? "," : "") + text(values[i]);
+  return out + "]";
+}
+
+auto real_text(double value) -> std::string { return std::isfinite(value) ? base::to_text(value) : "null"; }
+
+auto value_of(const OGRFeature& feature, int field) -> model::Value {
+  if (feature.IsFieldSetAndNotNull(field) == 0) return {};
+  const OGRFieldDefn* definition = feature.GetFieldDefnRef(field);
+  const OGRFieldType type = definition->GetType();
+  int count = 0;
+  switch (type) {
+    case OFTInteger:
+      if (definition->GetSubType() == OFSTBoolean) return feature.GetFieldAsInteger(field) != 0;
+      return std::int64_t{feature.GetFieldAsInteger(field)};
+    case OFTInteger64: return static_cast<std::int64_t>(feature.GetFieldAsInteger64(field));
+    case OFTReal: {
+      double value = feature.GetFieldAsDouble(field);
+      if (!std::isfinite(value)) return {};
+      if (definition->GetSubType() == OFSTFloat32) {
+        // 0.1 stored as a float is meant to be 0.1, not 0.10000000149.
+        std::array<char, 32> text{};
+        const auto end = std::to_chars(text.data(), text.data() + text.size(), static_cast<float>(value)).ptr;
+        value = base::to_number({text.data(), end}).value_or(value);
+      }
+      return value;
+    }
+    case OFTDate:
+    case OFTTime:
+    case OFTDateTime: return date_text(feature, field, type);
+    case OFTIntegerList: {
+      const int* values = feature.GetFieldAsIntegerList(field, &count);
+      return list_text(values, count, [](int value) { return std::to_string(value); });
+    }
+    case OFTInteger64List: {
+      const GIntBig* values = feature.GetFieldAsInteger64List(field, &count);
+      return list_text(values, count, [](GIntBig value) { return std::to_string(value); });
+    }
+    case OFTRealList: {
+      const double* values = feature.GetFieldAsDoubleList(field, &count);
+      return list_text(values, count, real_text);
+    }
+    case OFTStringList: {
+      char** values = feature.GetFieldAsStringList(field);
+      return list_text(values, CSLCount(values), [](const char* value) { return quoted(value); });
+    }
+    case OFTBinary: {
+      const GByte* bytes = feature.GetFieldAsBinary(field, &count);
+      char* text = CPLBase64Encode(count, bytes);
+      std::string out = text;
+      CPLFree(text);
+      return out;
+    }
+    default: return std::string(feature.GetFieldAsString(field));
+  }
+}
+
+auto lower(std::string_view text) -> std::string {
+  std::string out(text);
+  for (char& c : out) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  return out;
+}
+
+auto text_of(const model::Value& value) -> std::string {
+  if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);
+  if (const auto* number = std::get_if<double>(&value)) return base::to_text(*number);
+  if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+  return {};
+}
+
+/// The attribute's texts, empty where it is null or missing. Most sources have the same attributes at the same places.
+auto column(const std::vector<RawFeature>& features, const std::string& name) -> std::vector<std::string> {
+  std::vector<std::string> out;
+  out.reserve(features.size());
+  std::size_t place = 0;
+  for (const auto& feature : features) {
+    const auto& all = feature.attributes;
+    if (place >= all.size() || all[place].first != name)
+      place =
+          static_cast<std::size_t>(std::ranges::find(all, name, &model::Attributes::value_type::first) - all.begin());
+    out.push_back(place < all.size() ? text_of(all[place].second) : std::string());
+  }
+  return out;
+}
+
+/// Of all features, in the order in which they come first.
+auto names_of(const std::vector<RawFeature>& features) -> std::vector<std::string> {
+  std::vector<std::string> names;
+  std::set<std::string, std::less<>> known;
+  const model::Attributes* before = nullptr;
+  for (const auto& feature : features) {
+    const auto& own = feature.attributes;
+    if (before == nullptr || !std::ranges::equal(own, *before, {}, &model::Attributes::value_type::first,
+                                                 &model::Attributes::value_type::first))
+      for (const auto& [name, value] : own)
+        if (known.insert(name).second) names.push_back(name);
+    before = &own;
+  }
+  return names;
+}
+
+auto all_different(const std::vector<std::string>& ids) -> bool {
+  const std::set<std::string_view> different(ids.begin(), ids.end());
+  return different.size() == ids.size() && !different.contains("");
+}
+
+auto numbers_of(const std::vector<RawFeature>& features) -> std::vector<std::string> {
+  std::vector<std::string> out;
+  out.reserve(features.size());
+  for (const auto& feature : features) out.push_back(std::to_string(feature.number));
+  return out;
+}
+
+/// Appends -2, -3 … to ids that came before; returns how many, and the first of them.
+auto make_different(std::vector<std::string>& ids) -> std::pair<std::size_t, std::string> {
+  std::set<std::string> taken(ids.begin(), ids.end());
+  std::set<std::string> seen;
+  std::map<std::string, std::size_t> next;
+  std::pair<std::size_t, std::string> changed{0, {}};
+  for (auto& id : ids) {
+    if (seen.insert(id).second) continue;
+    if (changed.first++ == 0) changed.second = id;
+    std::size_t& n = next.try_emplace(id, 2).first->second;
+    std::string other;
+    do other = id + "-" + std::to_string(n++);
+    while (!taken.insert(other).second);
+    id = other;
+    seen.insert(id);
+  }
+  return changed;
+}
+
+}  // namespace
+
+auto attributes_of(const OGRFeature& feature) -> model::Attributes {
+  model::Attributes out;
+  out.reserve(static_cast<std::size_t>(feature.GetFieldCount()));
+  for (int i = 0; i < feature.GetFieldCount(); ++i)
+    out.emplace_back(feature.GetFieldDefnRef(i)->GetNameRef(), value_of(feature, i));
+  return out;
+}
+
+auto ids_of(const std::vector<RawFeature>& features, const std::string& attribute, const std::string& subject,
+            std::vector<base::Diagnostic>& warnings) -> base::Result<std::vector<std::string>> {
+  const std::vector<std::string> names = names_of(features);
+  const auto find = [&names](std::string_view wanted) -> std::optional<std::string> {
+    for (const auto& name : names)
+      if (lower(name) == lower(wanted)) return name;
+    return std::nullopt;
+  };
+
+  if (!attribute.empty()) {
+    const auto at = find(attribute);
+    // Drivers keep the number of a feature apart from its attributes, where others show it as a column.
+    if (!at && lower(attribute) == "fid")
+      if (auto numbers = numbers_of(features); all_different(numbers)) return numbers;
+    if (!at) {
+      const auto nearest = base::nearest_word(attribute, names);
+      std::string all;
+      for (const auto& name : names) all += (all.empty() ? "" : ", ") + name;
+      return base::error(
+          "ingest-id-attribute",
+          "there is no attribute '" + attribute + "'" + base::did_you_mean(nearest) + "; the layer has: " + all,
+          subject);
+    }
+    auto ids = column(features, *at);
+    std::size_t missing = 0;
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      if (!ids[i].empty()) continue;
+      ids[i] = "feature-" + std::to_string(features[i].number);
+      ++missing;
+    }
+    if (missing > 0)
+      warnings.push_back(base::warning(
+          "ingest-id-duplicate",
+          std::to_string(missing) + " features have no '" + attribute + "'; they are named by their number in the file",
+          subject));
+    if (const auto [count, first] = make_different(ids); count > 0)
+      warnings.push_back(base::warning("ingest-id-duplicate",
+                                       std::to_string(count) +
+                                           " features share their id with an earlier one (the first '" + first +
+                                           "'); they got -2, -3 … appended",
+                                       subject));
+    return ids;
+  }
+
+  std::vector<std::string> own;
+  own.reserve(features.size());
+  for (const auto& feature : features) own.push_back(feature.own_id);
+  if (all_different(own)) return own;
+
+  // Names under which GML, Dutch registers, OpenStreetMap and common tools keep identities; the last one is what a
+  // Shapefile makes of "identificatie".
+  static constexpr std::array<std::string_view, 15> known{
+      "gml_id",   "id",          "identificatie", "lokaal_id", "lokaalid", "bag_id",     "uuid",      "guid",
+      "globalid", "building_id", "objectid",      "fid",       "osm_id",   "osm_way_id", "identifica"};
+  for (const auto name : known)
+    if (const auto at = find(name))
+      if (auto ids = column(features, *at); all_different(ids)) return ids;
+  auto ids = numbers_of(features);
+  // Some sources number every feature alike, or not at all.
+  if (!all_different(ids))
+    for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = std::to_string(i);
+  return ids;
+}
+
+}  // namespace mansard::formats

@@ -1,0 +1,46 @@
+// A city of building models: features, their parts with plan and profiles, and the solids made of them.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mansard/geometry/polygon.hpp"
+#include "mansard/model/attributes.hpp"
+#include "mansard/model/frame.hpp"
+#include "mansard/model/plan.hpp"
+#include "mansard/model/solid.hpp"
+
+namespace mansard::model {
+
+/// One footprint of the segmentation, raised.
+struct Part {
+  std::string id;
+  Plan plan;
+  LabelledSolid model;
+  Attributes attributes;  ///< with prefix ms_
+};
+
+/// One GIS feature with the parts that overlap it most.
+struct Building {
+  std::string id;
+  Attributes attributes;             ///< the source's own, then those with prefix ms_
+  std::vector<geometry::Polygon> footprint;  ///< the GIS polygons, for LoD 0
+  double ground = 0;                         ///< z, metres
+  std::vector<Part> parts;
+};
+
+/// How the city was made, repeated in every file.
+struct MadeBy {
+  std::string version;
+  std::vector<std::pair<std::string, std::string>> options;  ///< module.name → value, as text
+  std::vector<InputFile> inputs;
+};
+
+struct City {
+  Frame frame;
+  MadeBy made_by;
+  std::vector<Building> buildings;
+};
+
+}  // namespace mansard::model

@@ -1,0 +1,190 @@
+// Everything that can be wrong with a solid, looked for without trust in how it was made.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "mansard/base/text.hpp"
+#include "mansard/solid/detail/connectivity.hpp"
+#include "mansard/solid/detail/intersect.hpp"
+#include "mansard/solid/detail/measure.hpp"
+#include "mansard/solid/solid.hpp"
+#include "mansard/solid/triangulator.hpp"
+
+namespace mansard::solid {
+namespace {
+
+using geometry::Point3;
+
+auto place(Point3 p) -> std::string {
+  return "(" + base::to_text(p.x, 3) + ", " + base::to_text(p.y, 3) + ", " + base::to_text(p.z, 3) + ")";
+}
+
+class Check {
+ public:
+  Check(const model::Solid& solid, double planar) : solid_(solid), planar_(planar) {}
+
+  auto all() -> std::vector<base::Diagnostic> {
+    if (solid_.faces.empty()) fault("solid-degenerate", "the solid has no faces");
+    if (!find_degenerate()) return std::move(faults_);  // nothing else can be asked of broken loops
+    find_open_edges();
+    find_split_vertices();
+    find_bent_faces();
+    find_inside_out();
+    find_intersections();
+    find_needles();
+    return std::move(faults_);
+  }
+
+ private:
+  /// One diagnostic a kind, with its first place.
+  void fault(std::string code, std::string message) {
+    if (std::ranges::none_of(faults_, [&](const auto& f) { return f.code == code; }))
+      faults_.push_back(base::error(std::move(code), std::move(message)));
+  }
+
+  auto find_degenerate() -> bool {
+    for (const Point3 p : solid_.vertices)
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+        return fault("solid-degenerate", "a vertex is not finite"), false;
+    const auto name = [](std::size_t f) { return "face " + std::to_string(f); };
+    std::vector<std::uint32_t> last_loop(solid_.vertices.size(), 0), used;
+    std::uint32_t loops = 0;
+    areas_.reserve(solid_.faces.size());
+    for (std::size_t f = 0; f < solid_.faces.size(); ++f) {
+      const model::Face& face = solid_.faces[f];
+      if (face.loops.empty()) return fault("solid-degenerate", name(f) + " has no boundary"), false;
+      for (const auto& loop : face.loops) {
+        if (loop.size() < 3)
+          return fault("solid-degenerate", name(f) + " has a loop of fewer than three vertices"), false;
+        ++loops;
+        for (const std::uint32_t v : loop) {
+          if (v >= solid_.vertices.size())
+            return fault("solid-degenerate", name(f) + " names a vertex that is not there"), false;
+          if (last_loop[v] == loops)
+            fault("solid-degenerate", name(f) + " comes to " + place(solid_.vertices[v]) + " twice");
+          if (last_loop[v] == 0) used.push_back(v);
+          last_loop[v] = loops;
+        }
+      }
+      areas_.push_back(detail::area_vector(solid_, face));
+      if (length(areas_.back()) < 1e-12) fault("solid-degenerate", name(f) + " has no area");
+    }
+    std::ranges::sort(used, {}, [&](std::uint32_t v) { return solid_.vertices[v]; });
+    for (std::size_t i = 0; i + 1 < used.size(); ++i)
+      if (solid_.vertices[used[i]] == solid_.vertices[used[i + 1]])
+        fault("solid-degenerate", "two vertices lie at " + place(solid_.vertices[used[i]]));
+    return faults_.empty();
+  }
+
+  void find_open_edges() {
+    connectivity_ = detail::connectivity(solid_);
+    const auto& [edges, open, crowded] = connectivity_;
+    const auto ends = [&](std::uint32_t h) { return std::pair(edges.origin[h], edges.target(h)); };
+    const auto where = [&](std::uint32_t h) {
+      const auto [from, to] = ends(h);
+      return "at the edge from " + place(solid_.vertices[from]) + " to " + place(solid_.vertices[to]);
+    };
+    const bool open_first = !open.empty() && (crowded.empty() || ends(open.front()) < ends(crowded.front()));
+    if (open_first) fault("solid-open", "a face has no neighbour " + where(open.front()));
+    if (!crowded.empty()) fault("solid-non-manifold", "more than two faces meet " + where(crowded.front()));
+    if (!open.empty()) fault("solid-open", "a face has no neighbour " + where(open.front()));
+  }
+
+  /// At every vertex the corners of its faces must form one fan.
+  void find_split_vertices() {
+    if (const auto v = detail::split_vertex(solid_, connectivity_.half_edges))
+      fault("solid-non-manifold", "faces that are no neighbours share the vertex " + place(solid_.vertices[*v]));
+  }
+
+  void find_bent_faces() {
+    for (std::size_t f = 0; f < solid_.faces.size(); ++f) {
+      const model::Face& face = solid_.faces[f];
+      const double l = length(face.normal);
+      const Point3 n = l > 0 ? (1 / l) * face.normal : normalised(areas_[f]);
+      const Point3 o = solid_.vertices[face.loops[0][0]];
+      double least = std::numeric_limits<double>::infinity(), most = -least;
+      for (const auto& loop : face.loops)
+        for (const std::uint32_t v : loop) {
+          const double d = dot(n, solid_.vertices[v] - o);
+          least = std::min(least, d);
+          most = std::max(most, d);
+        }
+      if ((most - least) / 2 > planar_)
+        fault("solid-not-planar",
+              "face " + std::to_string(f) + " bends by " + base::to_text((most - least) / 2, 4) + " m");
+    }
+  }
+
+  /// Every shell must hold a positive volume, and every face's normal agree with its boundary.
+  void find_inside_out() {
+    for (std::size_t f = 0; f < solid_.faces.size(); ++f) {
+      const model::Face& face = solid_.faces[f];
+      if (length(face.normal) > 0 && dot(face.normal, areas_[f]) <= 0)
+        fault("solid-orientation", "the normal of face " + std::to_string(f) + " is against its boundary");
+    }
+    std::vector<std::uint32_t> shell(solid_.faces.size());
+    std::iota(shell.begin(), shell.end(), 0U);
+    const auto root = [&](std::uint32_t f) {
+      while (shell[f] != f) f = shell[f] = shell[shell[f]];
+      return f;
+    };
+    const HalfEdges& edges = connectivity_.half_edges;
+    for (std::uint32_t h = 0; h < edges.size(); ++h) {
+      if (edges.twin[h] == HalfEdges::none) continue;
+      const std::uint32_t a = root(edges.face[h]), b = root(edges.face[edges.twin[h]]);
+      shell[std::max(a, b)] = std::min(a, b);
+    }
+    std::vector<double> volumes(solid_.faces.size(), 0);
+    const Point3 o = solid_.vertices[solid_.faces[0].loops[0][0]];
+    for (std::uint32_t f = 0; f < solid_.faces.size(); ++f)
+      volumes[root(f)] += dot(areas_[f], solid_.vertices[solid_.faces[f].loops[0][0]] - o) / 6;
+    for (std::uint32_t f = 0; f < solid_.faces.size(); ++f)
+      if (shell[f] == f && volumes[f] <= 0)
+        fault("solid-orientation", "the shell of face " + std::to_string(f) + " is inside out");
+  }
+
+  void find_intersections() {
+    Triangulator triangulator(solid_);
+    for (std::uint32_t f = 0; f < solid_.faces.size(); ++f) {
+      if (!triangulator.append(solid_.faces[f], areas_[f], triangles_))
+        fault("solid-self-intersection", "the boundary of face " + std::to_string(f) + " crosses itself");
+      face_of_.resize(triangles_.size(), f);
+    }
+    const auto [p, q] = detail::first_intersection(solid_, triangles_, face_of_);
+    if (p < triangles_.size())
+      fault("solid-self-intersection", "faces " + std::to_string(face_of_[p]) + " and " + std::to_string(face_of_[q]) +
+                                           " meet near " + place(solid_.vertices[triangles_[p][0]]));
+  }
+
+  /// A face may be flat within tolerance and yet have triangles, as wide as that tolerance, that look anywhere. Viewers
+  /// shade them, and val3dity refuses them (204). Of faces that are allowed to bend more, nothing is asked.
+  void find_needles() {
+    constexpr double flat = 1e-4, least_cosine = 0.93969262;  // of 20°, val3dity's
+    if (planar_ > flat) return;
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      const auto& [a, b, c] = triangles_[t];
+      const Point3 o = solid_.vertices[a], n = cross(solid_.vertices[b] - o, solid_.vertices[c] - o);
+      const Point3 area = areas_[face_of_[t]];
+      if (!(dot(n, area) >= least_cosine * length(n) * length(area)))
+        fault("solid-needle", "a triangle of face " + std::to_string(face_of_[t]) + " looks aside near " + place(o));
+    }
+  }
+
+  const model::Solid& solid_;
+  const double planar_;
+  detail::Connectivity connectivity_;
+  std::vector<Point3> areas_;  ///< Newell's vectors of the faces
+  std::vector<Corners> triangles_;
+  std::vector<std::uint32_t> face_of_;  ///< of each triangle
+  std::vector<base::Diagnostic> faults_;
+};
+
+}  // namespace
+
+auto check(const model::Solid& solid, double planar) -> std::vector<base::Diagnostic> {
+  return Check(solid, planar).all();
+}
+
+}  // namespace mansard::solid
