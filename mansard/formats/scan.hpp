@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "mansard/base/result.hpp"
-#include "mansard/model/surfaces.hpp"
 #include "mansard/model/frame.hpp"
+#include "mansard/model/surfaces.hpp"
 
 namespace mansard::formats {
 

@@ -2,29 +2,23 @@
 
 #include <fstream>
 
+#include "mansard/base/text.hpp"
 #include "mansard/formats/detail/writers.hpp"
 
 namespace mansard::formats {
 
 auto formats() -> const std::vector<FormatName>& {
-  static const std::vector<FormatName> all{
-      {Format::cityjson, "cityjson", ".city.json", "CityJSON 2.0: solids of LoD 1.2 and 2.2, attributes, plans."},
-      {Format::cityjsonseq, "cityjsonseq", ".city.jsonl", "CityJSONSeq: the same, a building a line."},
-      {Format::obj, "obj", ".obj", "OBJ, with its materials beside it."},
-      {Format::glb, "glb", ".glb", "Binary glTF with attributes per building and class per face."},
-      {Format::tiles, "tiles", ".3dtiles", "A folder of 3D Tiles 1.1."},
-      {Format::geopackage, "geopackage", ".gpkg", "GeoPackage: footprints, edges, roof planes."},
-      {Format::stl, "stl", ".stl", "Binary STL of closed shells."},
-      {Format::geojson, "geojson", ".geojson", "GeoJSON: footprints with attributes."},
-      {Format::plans, "plans", ".json", "Plan + profiles, the source of every model."},
-  };
+  static const std::vector<FormatName> all = [] {
+    std::vector<FormatName> out;
+    for (const auto& driver : drivers())
+      if (driver.writes) out.push_back({*driver.writes, driver.name, driver.extensions.front(), driver.description});
+    return out;
+  }();
   return all;
 }
 
 auto format_of(const std::filesystem::path& path) -> std::optional<Format> {
-  std::string name = path.filename().string();
-  for (char& c : name)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
+  const std::string name = base::lower(path.filename().string());
   std::error_code status;
   if (name == "tileset.json" || name.find('.') == std::string::npos || std::filesystem::is_directory(path, status))
     return Format::tiles;

@@ -1,4 +1,4 @@
-// Writes a city of any size building by building, and reads one back: every format behind one door.
+// Writes a city of any size building by building, and reads one back, in every format.
 #pragma once
 
 #include <filesystem>
@@ -10,21 +10,10 @@
 
 #include "mansard/base/options.hpp"
 #include "mansard/base/outputs.hpp"
+#include "mansard/formats/drivers.hpp"
 #include "mansard/formats/write.hpp"
 
 namespace mansard::formats {
-
-enum class Format : std::uint8_t {
-  cityjson,     ///< one document, ".city.json"
-  cityjsonseq,  ///< a feature a line, ".city.jsonl"
-  obj,          ///< with its library ".mtl" beside it
-  glb,
-  tiles,  ///< a folder with a tileset.json and its GLB: 3D Tiles 1.1
-  geopackage,
-  stl,
-  geojson,  ///< the footprints alone
-  plans,    ///< plan + profiles, ".json"
-};
 
 /// How a format is called on the command line ("cityjson", "cityjsonseq", "obj", …), what its files end in (".gpkg"; of
 /// tiles, which are a folder, ".3dtiles"), and what it carries, in a sentence.

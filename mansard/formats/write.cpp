@@ -2,9 +2,9 @@
 
 #include "mansard/base/files.hpp"
 #include "mansard/formats/cityjson/cityjson.hpp"
+#include "mansard/formats/detail/parts.hpp"
 #include "mansard/formats/gltf/glb_bytes.hpp"
 #include "mansard/formats/obj/obj_text.hpp"
-#include "mansard/formats/detail/parts.hpp"
 #include "mansard/formats/plans/plan_text.hpp"
 
 namespace mansard::formats {

@@ -1,3 +1,4 @@
+#include "mansard/formats/drivers.hpp"
 #include "mansard/ingest/ingest.hpp"
 
 namespace mansard::ingest {
@@ -5,9 +6,11 @@ namespace mansard::ingest {
 auto codes() -> std::vector<base::Code> {
   return {
       {"ingest-mesh-empty", "A mesh file is empty, or a folder holds no meshes.",
-       "Check the path; meshes end in .obj, .ply, .off, .glb or .gltf, or are a tileset.json.", 3},
+       "Check the path. A mesh is a tileset.json, or a file with the extension " +
+           formats::extensions_in_words(&formats::Reads::mesh) + ".",
+       3},
       {"ingest-mesh-format", "A mesh file is not in its format, or uses a part of it that is not read.",
-       "Export it again as OBJ, PLY, OFF or GLB.", 3},
+       "Export it again as one of " + formats::titles(&formats::Reads::mesh) + ".", 3},
       {"ingest-mesh-metadata", "The metadata.xml beside a mesh does not say clearly where it is.",
        "Correct its SRS and SRSOrigin; --crs local or --mesh-offset take the mesh without it.", 3},
       {"ingest-tile-skipped", "Tiles of a tileset hold points, instances or vectors, of which no surface is read.",

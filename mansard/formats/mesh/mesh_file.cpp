@@ -1,58 +1,50 @@
 #include "mansard/formats/mesh/mesh_file.hpp"
 
 #include <algorithm>
-#include <array>
 #include <exception>
 #include <new>
 
+#include "mansard/formats/drivers.hpp"
 #include "mansard/formats/files/hash.hpp"
-#include "mansard/formats/mesh/mesh_formats.hpp"
 #include "mansard/formats/files/named_file.hpp"
-#include "mansard/formats/tiles3d/tile_content.hpp"
 #include "mansard/formats/files/virtual_files.hpp"
 #include "mansard/formats/files/words.hpp"
+#include "mansard/formats/mesh/mesh_formats.hpp"
+#include "mansard/formats/tiles3d/tile_content.hpp"
 
 namespace mansard::formats {
 namespace {
 
 namespace fs = std::filesystem;
-using geometry::Point3;
 
-constexpr std::array<std::string_view, 5> mesh_endings{".obj", ".ply", ".off", ".glb", ".gltf"};
-
-auto take_gltf(std::string_view bytes, const fs::path& path, UpAxis up, MeshPiece& piece) -> base::Result<RawMesh> {
-  auto read = read_gltf(bytes, path);
-  if (!read) return read.error();
-  piece.inputs.insert(piece.inputs.end(), read->buffers.begin(), read->buffers.end());
-  const Point3 centre = read->centre.value_or(Point3{});
-  if (up != UpAxis::z)
-    for (auto& v : read->mesh.vertices) v = {v.x, -v.z, v.y};
-  if (read->centre)
-    for (auto& v : read->mesh.vertices) v = v + centre;
-  return std::move(read->mesh);
+/// Whether files with this extension are meshes by themselves; tiles are not.
+auto is_single_mesh(const std::string& extension) -> bool {
+  return std::ranges::any_of(drivers(), [&](const Driver& driver) {
+    return driver.mesh.parse != nullptr && std::ranges::find(driver.extensions, extension) != driver.extensions.end();
+  });
 }
 
-auto parse(std::string_view bytes, const fs::path& path, UpAxis up, MeshPiece& piece) -> base::Result<RawMesh> {
-  const std::string name = path.string(), ending = ending_of(path);
-  bytes = without_mark(bytes);
+auto parse(const MeshBytes& source, MeshPiece& piece) -> base::Result<RawMesh> {
+  const std::string name = source.path.string(), extension = extension_of(source.path);
+  const auto bytes = source.bytes;
   if (bytes.empty()) return base::error("ingest-mesh-empty", "the file is empty; copy or export it again", name);
-  const auto turned = [up](base::Result<RawMesh> mesh) {
-    if (mesh && up == UpAxis::y)
-      for (auto& v : mesh->vertices) v = {v.x, -v.z, v.y};
-    return mesh;
+  const auto named = [&](const Driver& driver) {
+    return std::ranges::find(driver.extensions, extension) != driver.extensions.end();
   };
-  if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return turned(read_ply(bytes, name));
-  if (bytes.starts_with("glTF") || ending == ".gltf") return take_gltf(bytes, path, up, piece);
-  if (ending == ".obj") return turned(read_obj(bytes, name));
-  if (ending == ".off" || bytes.starts_with("OFF")) return turned(read_off(bytes, name));
-  if (ending == ".ply" || ending == ".glb")
-    return base::error("ingest-mesh-format", "the file is not what its name says (" + ending + "); check what it is",
+  for (const auto& driver : drivers())
+    if (driver.mesh.parse != nullptr &&
+        std::ranges::any_of(driver.mesh.signatures, [&](auto signature) { return bytes.starts_with(signature); }))
+      return driver.mesh.parse(source, piece);
+  for (const auto& driver : drivers())
+    if (driver.mesh.by_extension && named(driver)) return driver.mesh.parse(source, piece);
+  if (is_single_mesh(extension))
+    return base::error("ingest-mesh-format", "the file is not what its name says (" + extension + "); check what it is",
                        name);
   if (bytes.starts_with("b3dm") || bytes.starts_with("cmpt"))
     return base::error("ingest-mesh-format", "a single tile does not say where it is; give the tileset.json it is of",
                        name);
-  return base::error("ingest-mesh-format",
-                     "not a mesh that is read here; give OBJ, PLY, OFF, GLB, glTF, a tileset.json or a GeoTIFF", name);
+  return base::error("ingest-mesh-format", "not a mesh that is read here; give " + titles(&Reads::mesh) + " or GeoTIFF",
+                     name);
 }
 
 /// Reads the bytes and has them taken; whatever goes wrong is the file's.
@@ -79,22 +71,14 @@ auto guarded(const fs::path& path, Open open, Take take) -> MeshPiece {
 
 }  // namespace
 
-auto ending_of(const fs::path& path) -> std::string {
-  std::string ending = plain_name(path).extension().string();
-  std::ranges::transform(ending, ending.begin(),
-                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  return ending;
-}
-
 auto is_mesh_name(const fs::path& path) -> bool {
   // Hidden files are not the user's: macOS leaves a ._name beside every name it copies.
-  return !path.filename().string().starts_with('.') &&
-         std::ranges::find(mesh_endings, ending_of(path)) != mesh_endings.end();
+  return !path.filename().string().starts_with('.') && is_single_mesh(extension_of(path));
 }
 
 auto read_mesh_file(const fs::path& path, UpAxis up) -> MeshPiece {
   return guarded(path, &Bytes::of, [&](std::string_view bytes, MeshPiece& piece) -> base::Result<void> {
-    auto mesh = parse(bytes, path, up, piece);
+    auto mesh = parse({without_mark(bytes), path, up}, piece);
     if (!mesh) return mesh.error();
     piece.mesh = std::move(*mesh);
     return {};

@@ -26,8 +26,6 @@ struct MeshPiece {
 
 /// Whether it is one of the formats that a folder is searched for, by its name.
 [[nodiscard]] auto is_mesh_name(const std::filesystem::path& path) -> bool;
-/// Of a name, in small letters, with its dot and without ".gz".
-[[nodiscard]] auto ending_of(const std::filesystem::path& path) -> std::string;
 
 /// By what the file starts with, where formats say so themselves, else by its name; z up. `failure` has
 /// "ingest-mesh-empty", "ingest-mesh-format", "ingest-mesh-truncated", "ingest-memory", "file-missing", "file-read".

@@ -9,6 +9,7 @@
 #include "mansard/base/text.hpp"
 #include "mansard/crs/gdal.hpp"
 #include "mansard/crs/gdal_messages.hpp"
+#include "mansard/formats/drivers.hpp"
 #include "mansard/formats/files/virtual_files.hpp"
 
 namespace mansard::formats {
@@ -374,11 +375,7 @@ auto between(const std::vector<float>& heights, const Window& window, Point2 cel
 
 }  // namespace
 
-auto is_raster(const fs::path& path) -> bool {
-  std::string ending = plain_name(path).extension().string();
-  std::ranges::transform(ending, ending.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-  return ending == ".tif" || ending == ".tiff" || ending == ".vrt" || ending == ".asc" || ending == ".img";
-}
+auto is_raster(const fs::path& path) -> bool { return has_extension(path, &Reads::raster); }
 
 auto read_raster(const fs::path& path, const std::optional<Box2>& within) -> base::Result<RasterMesh> {
   auto raster = Raster::open(path);

@@ -12,7 +12,7 @@
 
 namespace mansard::formats {
 
-/// Whether a file is a raster by its name: ".tif", ".tiff", ".vrt", ".asc", ".img".
+/// Whether a file is a raster by its name.
 [[nodiscard]] auto is_raster(const std::filesystem::path& path) -> bool;
 
 struct RasterMesh {

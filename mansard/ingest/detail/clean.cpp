@@ -305,7 +305,8 @@ auto bounds(const formats::RawMesh& raw, const std::array<double, 3>& offset) ->
   return all;
 }
 
-auto clean(formats::RawMesh raw, const std::array<double, 3>& shift, const std::optional<geometry::Box2>& within) -> CleanMesh {
+auto clean(formats::RawMesh raw, const std::array<double, 3>& shift, const std::optional<geometry::Box2>& within)
+    -> CleanMesh {
   CleanMesh out;
   auto& counts = out.counts;
   counts.vertices_read = raw.vertices.size();

@@ -10,6 +10,7 @@
 #include "mansard/crs/gdal_messages.hpp"
 #include "mansard/crs/spatial_reference.hpp"
 #include "mansard/formats/context_capture/context_capture.hpp"
+#include "mansard/formats/drivers.hpp"
 #include "mansard/formats/files/virtual_files.hpp"
 #include "mansard/formats/input_file.hpp"
 #include "mansard/formats/mesh/append.hpp"
@@ -29,12 +30,12 @@ constexpr const char* tileset_name = "tileset.json";
 
 auto cancelled() -> base::Diagnostic { return base::error("cancelled", "stopped on request; nothing was written"); }
 
-/// Archives are folders; the ending .3tz is that of a zipped tileset.
+/// Archives are folders; the file extension .3tz is that of a zipped tileset.
 auto unpacked_name(const fs::path& path) -> fs::path {
   if (formats::is_virtual(path)) return path;
-  const std::string ending = formats::ending_of(path);
-  if (ending == ".3tz") return "/vsizip/{" + path.string() + "}";
-  return ending == ".zip" ? fs::path("/vsizip/" + path.string()) : path;
+  const std::string extension = formats::extension_of(path);
+  if (extension == ".3tz") return "/vsizip/{" + path.string() + "}";
+  return extension == ".zip" ? fs::path("/vsizip/" + path.string()) : path;
 }
 
 auto is_folder(const fs::path& path) -> bool {
@@ -121,7 +122,8 @@ auto MeshReading::list_folder(const fs::path& folder) -> base::Result<void> {
     if (formats::is_mesh_name(path) && !is_below(path, tilesets)) found.push_back(path);
   if (found.empty())
     return base::error("ingest-mesh-empty",
-                       "the folder holds no meshes; they end in .obj, .ply, .off, .glb or .gltf, or are a tileset.json",
+                       "the folder holds no meshes; expected a tileset.json, or files with the extension " +
+                           formats::extensions_in_words(&formats::Reads::mesh),
                        folder.string());
   std::ranges::sort(found, {}, [](const fs::path& path) { return path.generic_string(); });
   for (auto& path : found) {
@@ -142,8 +144,8 @@ auto MeshReading::list(const std::vector<fs::path>& paths) -> base::Result<void>
     }
     auto& source = sources_.emplace_back();
     source.path = path;
-    const auto ending = formats::ending_of(path);
-    if (ending.starts_with(".json")) source.kind = Kind::tileset;  // maybe with a server's "?key=…"
+    const auto extension = formats::extension_of(path);
+    if (extension.starts_with(".json")) source.kind = Kind::tileset;  // maybe with a server's "?key=…"
     else if (formats::is_raster(path)) source.kind = Kind::raster;
   }
   if (sources_.empty()) return base::error("ingest-mesh-empty", "no mesh was given; name one file or folder at least");

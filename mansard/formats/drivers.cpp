@@ -1,0 +1,150 @@
+#include "mansard/formats/drivers.hpp"
+
+#include <algorithm>
+
+#include "mansard/base/text.hpp"
+#include "mansard/formats/files/virtual_files.hpp"
+#include "mansard/formats/mesh/mesh_file.hpp"
+#include "mansard/formats/mesh/mesh_formats.hpp"
+
+namespace mansard::formats {
+namespace {
+
+using Text = base::Result<RawMesh> (*)(std::string_view, const std::string&);
+
+/// A format whose coordinates are z up, unless the user says y.
+template <Text read>
+auto z_up(const MeshBytes& source, MeshPiece& /*piece*/) -> base::Result<RawMesh> {
+  auto mesh = read(source.bytes, source.path.string());
+  if (mesh && source.up == UpAxis::y)
+    for (auto& v : mesh->vertices) v = {v.x, -v.z, v.y};
+  return mesh;
+}
+
+/// glTF is y up, unless the user says z.
+auto gltf(const MeshBytes& source, MeshPiece& piece) -> base::Result<RawMesh> {
+  auto read = read_gltf(source.bytes, source.path);
+  if (!read) return read.failure();
+  piece.inputs.insert(piece.inputs.end(), read->buffers.begin(), read->buffers.end());
+  if (source.up != UpAxis::z)
+    for (auto& v : read->mesh.vertices) v = {v.x, -v.z, v.y};
+  if (read->centre)
+    for (auto& v : read->mesh.vertices) v = v + *read->centre;
+  return std::move(read->mesh);
+}
+
+constexpr Reads mesh{.mesh = true}, raster{.raster = true}, footprints{.footprints = true};
+constexpr Reads city{.footprints = true, .models = true, .results = true};
+
+auto table() -> std::vector<Driver> {
+  return {
+      {"cityjson",
+       "CityJSON",
+       {".city.json", ".cityjson"},
+       city,
+       Format::cityjson,
+       "CityJSON 2.0: solids of LoD 1.2 and 2.2, attributes, plans.",
+       {}},
+      {"cityjsonseq",
+       "CityJSONSeq",
+       {".city.jsonl", ".jsonl", ".cityjsonl"},
+       city,
+       Format::cityjsonseq,
+       "CityJSONSeq: the same as CityJSON, one building a line.",
+       {}},
+      {"obj",
+       "OBJ",
+       {".obj"},
+       {.mesh = true, .models = true, .results = true},
+       Format::obj,
+       "Wavefront OBJ, with its material library beside it.",
+       {{}, true, z_up<read_obj>}},
+      {"glb",
+       "GLB",
+       {".glb"},
+       {.mesh = true, .results = true},
+       Format::glb,
+       "Binary glTF 2.0 with attributes per building and a class per face.",
+       {{"glTF"}, false, gltf}},
+      {"tiles",
+       "3D Tiles",
+       {".3dtiles", ".3tz"},
+       {.mesh = true, .results = true},
+       Format::tiles,
+       "3D Tiles 1.1: a folder with a tileset.json.",
+       {}},
+      {"geopackage",
+       "GeoPackage",
+       {".gpkg"},
+       {.footprints = true, .results = true},
+       Format::geopackage,
+       "GeoPackage: footprints, edges and roof planes as layers.",
+       {}},
+      {"stl", "STL", {".stl"}, {}, Format::stl, "Binary STL of closed shells.", {}},
+      {"geojson",
+       "GeoJSON",
+       {".geojson"},
+       {.footprints = true, .results = true},
+       Format::geojson,
+       "GeoJSON: footprints with attributes.",
+       {}},
+      {"plans",
+       "plans",
+       {".json"},
+       {.results = true},
+       Format::plans,
+       "Plan + profiles, the source of every model.",
+       {}},
+      {"ply", "PLY", {".ply"}, mesh, {}, "Stanford PLY, text or binary.", {{"ply\n", "ply\r"}, false, z_up<read_ply>}},
+      {"off", "OFF", {".off"}, mesh, {}, "Object File Format, text.", {{"OFF"}, true, z_up<read_off>}},
+      {"gltf", "glTF", {".gltf"}, mesh, {}, "glTF 2.0 with its buffers beside it.", {{}, true, gltf}},
+      {"geotiff", "GeoTIFF", {".tif", ".tiff"}, raster, {}, "A raster of heights.", {}},
+      {"vrt", "VRT", {".vrt"}, raster, {}, "GDAL's virtual raster: several rasters as one.", {}},
+      {"asc", "ASCII grid", {".asc"}, raster, {}, "Esri's ASCII grid of heights.", {}},
+      {"img", "ERDAS IMAGINE", {".img"}, raster, {}, "A raster of heights.", {}},
+      {"shapefile", "Shapefile", {".shp"}, footprints, {}, "Esri Shapefile, with its .dbf and .prj beside it.", {}},
+      {"flatgeobuf", "FlatGeobuf", {".fgb"}, footprints, {}, "FlatGeobuf.", {}},
+      {"gml", "GML", {".gml"}, footprints, {}, "Geography Markup Language.", {}},
+      {"osm", "OpenStreetMap", {".osm.pbf", ".osm"}, footprints, {}, "OpenStreetMap extract.", {}},
+  };
+}
+
+}  // namespace
+
+auto drivers() -> const std::vector<Driver>& {
+  static const std::vector<Driver> all = table();
+  return all;
+}
+
+auto titles(bool Reads::*what) -> std::string {
+  std::string all;
+  for (const auto& driver : drivers())
+    if (driver.reads.*what) all += (all.empty() ? "" : ", ") + std::string(driver.title);
+  return all;
+}
+
+auto extensions(bool Reads::*what) -> std::vector<std::string_view> {
+  std::vector<std::string_view> all;
+  for (const auto& driver : drivers())
+    if (driver.reads.*what) all.insert(all.end(), driver.extensions.begin(), driver.extensions.end());
+  return all;
+}
+
+auto extensions_in_words(bool Reads::*what) -> std::string {
+  const auto all = extensions(what);
+  std::string words;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    words += (i == 0 ? "" : i + 1 == all.size() ? " or " : ", ") + std::string(all[i]);
+  return words;
+}
+
+auto extension_of(const std::filesystem::path& path) -> std::string {
+  return base::lower(plain_name(path).extension().string());
+}
+
+auto has_extension(const std::filesystem::path& path, bool Reads::*what) -> bool {
+  const std::string name = base::lower(plain_name(path).filename().string());
+  return std::ranges::any_of(extensions(what), [&](std::string_view extension) { return name.ends_with(extension); });
+}
+
+}  // namespace mansard::formats
