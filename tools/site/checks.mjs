@@ -29,7 +29,7 @@ export class Checks {
     this.attributes = new Set(known.attributes.map((attribute) => attribute.name));
     const names_of = (verb) => new Set(verb.options.flatMap((option) => option.names));
     this.verbs = new Map(known.verbs.map((verb) => [verb.verb, names_of(verb)]));
-    this.words = new Set(["--version", "--help", "--room-name"]);  // the last stands for any room's
+    this.words = new Set(["--version", "--help", "--module-name"]);  // the last is a pattern for any module's option
     const read = (name) => fs.readFileSync(path.join(root, name), "utf8");
     // Pages speak of the options of these, too.
     for (const name of [...this.find("bench", /./), ...this.find("tools", /\.(py|sh|mjs)$/)])
