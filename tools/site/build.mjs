@@ -6,7 +6,7 @@ import fs from "node:fs";
 import path from "node:path";
 import { Marked } from "marked";
 import { Checks, slug } from "./checks.mjs";
-import { entries_of, search_of } from "./index.mjs";
+import { entries_of, search_of, without_tables } from "./index.mjs";
 import { Tables, escape } from "./tables.mjs";
 
 const [root, program, out] = process.argv.slice(2).map((word) => path.resolve(word));
@@ -182,7 +182,7 @@ const entries = [];
 for (const name of pages) {
   const html = render(name);
   files.set(address(name), frame(address(name), title_of(name), html));
-  if (name !== "CHANGELOG.md") entries.push(...entries_of(title_of(name), address(name), html));
+  if (name !== "CHANGELOG.md") entries.push(...entries_of(title_of(name), address(name), without_tables(html)));
 }
 for (const [to, [title, body]] of Object.entries(made_pages)) {
   files.set(to, frame(to, title, `<h1>${title}</h1>${body}`));

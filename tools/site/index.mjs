@@ -6,6 +6,9 @@ const text_of = (html) =>
   html.replace(/<a class="here"[\s\S]*?<\/a>/g, "").replace(/<[^>]+>/g, " ")
     .replace(/&(amp|lt|gt|quot|#39);/g, (_, name) => entities[name]).replace(/\s+/g, " ").trim();
 
+/// The HTML of a page without the program's tables, which have pages of their own.
+export const without_tables = (html) => html.replace(/<table class="made">[\s\S]*?<\/table>/g, "");
+
 /// The entries of a page: its HTML cut at headings and at rows that have an id.
 export function entries_of(page, to, html) {
   const entries = [{ page, heading: page, to, text: "" }];

@@ -33,6 +33,7 @@
       if (words.length > 1) score += heading.includes(phrase) ? 12 : text.includes(phrase) ? 6 : 0;
       if (heading === phrase) score += 20;
       if (page === phrase && heading === page) score += 10;
+      if (entry.to.includes("decisions/")) score *= 0.7;  // the pages say what holds, decisions why
       found.push({ entry, score, order });
     });
     return found.sort((a, b) => b.score - a.score || a.order - b.order).slice(0, limit).map(({ entry }) => entry);
