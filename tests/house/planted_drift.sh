@@ -51,9 +51,9 @@ plant docs/write.md '![A picture](pictures/none.png)' 'the link pictures/none.pn
 plant docs/cli.md $'| exit code | when |\n|---|---|\n| 0 | all done |' 'the exit codes are'
 
 # In the sources, and of pages as a whole.
-echo 'const char* planted = "ms_planted";' > "$scratch/tree/mansard/write/planted.cpp"
-refuses 'mansard/write/planted.cpp: the attribute ms_planted is not in the list'
-rm "$scratch/tree/mansard/write/planted.cpp"
+echo 'const char* planted = "ms_planted";' > "$scratch/tree/mansard/formats/planted.cpp"
+refuses 'mansard/formats/planted.cpp: the attribute ms_planted is not in the list'
+rm "$scratch/tree/mansard/formats/planted.cpp"
 mkdir "$scratch/tree/docs/attic"
 echo '# A page in no menu' > "$scratch/tree/docs/attic/old.md"
 refuses 'docs/attic/old.md: is no page of the site'

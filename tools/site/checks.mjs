@@ -166,7 +166,7 @@ export class Checks {
     for (const name of this.find("docs", /\.md$/))
       if (!pages.includes(name)) this.complain(name, "is no page of the site");
     const used = new Set();
-    for (const file of this.find("mansard", /\.[ch]pp$/))
+    for (const file of ["mansard", "lab"].flatMap((folder) => this.find(folder, /\.[ch]pp$/)))
       for (const match of fs.readFileSync(path.join(this.root, file), "utf8").matchAll(/"(\+?ms_[a-z0-9_]+)"/g)) {
         used.add(match[1]);
         if (!this.attributes.has(match[1])) this.complain(file, `the attribute ${match[1]} is not in the list`);
