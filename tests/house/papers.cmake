@@ -29,11 +29,11 @@ if(package_count EQUAL 0 OR row_count EQUAL 0)
   list(APPEND complaints "packages.txt or the table of docs/dependencies.md could not be read")
 endif()
 
-# README.md and ARCHITECTURE.md map every module.
+# ARCHITECTURE.md has every module.
 file(READ ${ROOT}/cmake/modules.cmake list)
 string(REGEX REPLACE "#[^\n]*" "" list "${list}")
 string(REGEX MATCHALL "mansard_module[(][a-z_]+" modules "${list}")
-foreach(paper IN ITEMS README.md ARCHITECTURE.md)
+foreach(paper IN ITEMS ARCHITECTURE.md)
   file(READ ${ROOT}/${paper} text)
   foreach(module IN LISTS modules)
     string(REPLACE "mansard_module(" "" module ${module})

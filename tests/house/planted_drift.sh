@@ -34,26 +34,26 @@ plant() {  # file, text, what must be said
 }
 
 copy
-plant docs/cli.md 'Try `--no-such-option`.' 'the option --no-such-option is none of the program'
+plant docs/cli.md 'Try `--no-such-option`.' 'the option --no-such-option does not exist in the program'
 plant docs/cli.md '`mansard segment a.obj b.json --picture`' 'mansard segment has no option --picture'
 plant docs/cli.md $'```sh\nmansard rebuild a.obj b.json\n```' 'mansard rebuild: there is no such verb'
-plant docs/sweep.md 'Turn `sweep.gama`.' 'the option sweep.gama is none of the program'
+plant docs/sweep.md 'Turn `sweep.gama`.' 'the option sweep.gama does not exist in the program'
 plant docs/sweep.md $'| option | default | |\n|---|---|---|\n| `gamma` | 11 m² | |' \
   'gamma is 11 m² there and 10 in the program'
 plant docs/sweep.md $'| option | default | |\n|---|---|---|\n| `delta` | 11 m² | |' 'the table of options names delta'
-plant docs/solver.md 'Gives up with `solver-tired`.' 'the code solver-tired is none of the program'
+plant docs/solver.md 'Gives up with `solver-tired`.' 'the code solver-tired does not exist in the program'
 plant docs/solver.md 'Held by `Solver.never_errs`.' 'there is no test Solver.never_errs'
 plant docs/solver.md 'Held by `Solver.never_errs_…`.' 'there is no test Solver.never_errs_'
-plant docs/write.md 'Parts have `ms_colour`.' 'the attribute ms_colour is none of the program'
+plant docs/write.md 'Parts have `ms_colour`.' 'the attribute ms_colour does not exist in the program'
 plant docs/write.md 'See [there](nowhere.md).' 'the link nowhere.md leads nowhere'
 plant docs/write.md 'See [there](cli.md#no-such-section).' 'the link cli.md#no-such-section leads to no section'
 plant docs/write.md '![A picture](pictures/none.png)' 'the link pictures/none.png leads nowhere'
 plant docs/cli.md $'| exit code | when |\n|---|---|\n| 0 | all done |' 'the exit codes are'
 
 # In the sources, and of pages as a whole.
-echo 'const char* planted = "ms_planted";' > "$scratch/tree/mansard/write/planted.cpp"
-refuses 'mansard/write/planted.cpp: the attribute ms_planted is not in the list'
-rm "$scratch/tree/mansard/write/planted.cpp"
+echo 'const char* planted = "ms_planted";' > "$scratch/tree/mansard/formats/planted.cpp"
+refuses 'mansard/formats/planted.cpp: the attribute ms_planted is not in the list'
+rm "$scratch/tree/mansard/formats/planted.cpp"
 mkdir "$scratch/tree/docs/attic"
 echo '# A page in no menu' > "$scratch/tree/docs/attic/old.md"
 refuses 'docs/attic/old.md: is no page of the site'
@@ -67,8 +67,13 @@ for part in picture guarantees cost references; do
     cost) sed 's/^Cost: /It takes /' "$scratch/rays.md" ;;
     references) sed 's/^References: /See /' "$scratch/rays.md" ;;
   esac > "$scratch/tree/docs/rays.md"
-  says="says its $part"
-  [[ $part != picture ]] || says='has a picture'
-  refuses "docs/rays.md: a module's page $says"
+  needs="its $part"
+  [[ $part != picture ]] || needs='a picture'
+  refuses "docs/rays.md: a module's page needs $needs"
 done
+cp "$repository/docs/rays.md" "$scratch/tree/docs/rays.md"
+
+# A page that the search must find no longer has the words.
+sed -i 's/Debian/Fedora/g' "$scratch/tree/docs/packaging.md"
+refuses "search: 'Debian package' does not find docs/packaging.html"
 rm -rf "$scratch"

@@ -1,11 +1,12 @@
-// The docs site: every Markdown page of the repository as HTML, with the tables that the program makes of itself.
+// The docs site: every Markdown page of the repository as HTML, with tables that the program prints of itself.
 //   node build.mjs ROOT MANSARD OUT
-// Ends with 1 and a line per complaint when a page and the tree, or a page and the program, do not agree.
+// Exits with 1 and prints a line per error when a page disagrees with the tree or with the program.
 import { spawnSync } from "node:child_process";
 import fs from "node:fs";
 import path from "node:path";
 import { Marked } from "marked";
 import { Checks, slug } from "./checks.mjs";
+import { entries_of, search_of, without_tables } from "./index.mjs";
 import { Tables, escape } from "./tables.mjs";
 
 const [root, program, out] = process.argv.slice(2).map((word) => path.resolve(word));
@@ -23,36 +24,49 @@ const ask = (...words) => {
 const known = { ...ask("options", "--json"), ...ask("options", "--attributes", "--json"), ...ask("explain", "--json") };
 const version = spawnSync(program, ["--version"], { encoding: "utf8" }).stdout.trim();
 
-// ---- which pages there are, in the order of the house
-const doors = read("cmake/rooms.cmake").replace(/#.*/g, "");
-const rooms = [...doors.matchAll(/mansard_room\(([a-z_]+)/g)].map((match) => match[1]);
+// ---- the pages, in the order of the menu
+const there = (name) => fs.existsSync(path.join(root, name));
+const list = ["cmake/modules.cmake", "cmake/rooms.cmake"].find(there);
+const rooms = [...read(list).replace(/#.*/g, "").matchAll(/mansard_(?:module|room)\(([a-z_]+)/g)].map((match) => match[1]);
 const tables = new Tables(rooms, known);
 const in_folder = (folder, ...first) => {
   const all = fs.readdirSync(path.join(root, folder)).filter((name) => name.endsWith(".md")).sort();
   const rest = all.filter((name) => !first.includes(name));
   return [...first.filter((name) => all.includes(name)), ...rest].map((name) => `${folder}/${name}`);
 };
-const there = (name) => fs.existsSync(path.join(root, name));
-const room_pages = rooms.map((room) => `docs/${room}.md`).filter(there);
-const user_pages = ["cli", "workbench", "serve", "results", "robustness", "packaging"]
-  .map((name) => `docs/${name}.md`).filter(there);
-const other_pages = in_folder("docs").filter((name) => !user_pages.includes(name) && !room_pages.includes(name));
-const nav = [
-  ["", ["README.md"]],
+const module_pages = rooms.map((room) => `docs/${room}.md`).filter(there);
+// What users look for first, then modules and decisions. A page is called as here, otherwise by its title.
+const titles = {
+  "README.md": "Overview", "docs/packaging.md": "Install", "data/README.md": "Sample data",
+  "docs/ingest.md": "Input formats", "docs/write.md": "Output formats", "docs/formats.md": "Formats",
+  "docs/cli.md": "Command line", "docs/workbench.md": "The workbench", "docs/serve.md": "Server and projects",
+  "docs/results.md": "Results", "docs/robustness.md": "Robustness", "docs/bench.md": "Benchmarks",
+};
+const docs = (...names) => names.map((name) => `docs/${name}.md`).filter(there);
+const top = [
+  ["Start", ["README.md", ...docs("packaging"), "data/README.md"]],
   ["Tutorials", in_folder("docs/tutorials", "one_house.md", "one_block.md", "one_city.md")],
-  ["Use", user_pages],
-  ["Rooms", room_pages],
-  ["Lists", ["verbs.html", "options.html", "attributes.html", "codes.html"]],
-  ["The house", ["ARCHITECTURE.md", ...other_pages, "CONTRIBUTING.md", "CHANGELOG.md", "data/README.md"]],
+  ["Formats", docs("formats", "ingest", "write")],
+  ["Options", ["options.html", "attributes.html", "codes.html"]],
+  ["Command line", [...docs("cli"), "verbs.html"]],
+  ["Workbench", docs("workbench", "serve")],
+  ["Results", docs("results", "robustness", "bench")],
+];
+const placed = new Set([...top.flatMap(([, names]) => names), ...module_pages]);
+const other_pages = in_folder("docs").filter((name) => !placed.has(name));
+const nav = [
+  ...top,
+  ["Development", ["ARCHITECTURE.md", "CONTRIBUTING.md", ...other_pages, "CHANGELOG.md"]],
+  ["Modules", module_pages],
   ["Decisions", in_folder("docs/decisions", "README.md")],
 ];
-const pages = nav.flatMap(([, names]) => names).filter((name) => name.endsWith(".md"));
+const pages = [...new Set(nav.flatMap(([, names]) => names))].filter((name) => name.endsWith(".md"));
 const address = (name) =>
   name === "README.md" ? "index.html" : name.replace(/(^|\/)README\.md$/, "$1index.html").replace(/\.md$/, ".html");
 
 // ---- pages
 const checks = new Checks(root, rooms, known);
-for (const room of rooms) if (!there(`docs/${room}.md`)) checks.complain(`docs/${room}.md`, "every room has a page");
+for (const room of rooms) if (!there(`docs/${room}.md`)) checks.complain(`docs/${room}.md`, "every module has a page");
 const anchors = new Map();  // address → the ids on that page
 const links = [];           // from, address, anchor, as written
 const copied = new Set();
@@ -135,11 +149,10 @@ function render(name) {
 }
 
 const title_of = (name) => (/^#\s+(.+)$/m.exec(read(name))?.[1] ?? name).replace(/`/g, "");
-const short_title = (name) => {
+const short_title = (name, section) => {
   const room = rooms.find((candidate) => name === `docs/${candidate}.md`);
-  if (room) return room;
-  if (name === "README.md") return "mansard";
-  return title_of(name).replace(/^Tutorial: /, "");
+  if (room && section === "Modules") return room;
+  return titles[name] ?? title_of(name);
 };
 const made_pages = tables.pages();
 
@@ -147,7 +160,7 @@ function frame(to, title, body) {
   const menu = nav.map(([heading, names]) => {
     const items = names.map((name) => {
       const target = name.endsWith(".md") ? address(name) : name;
-      const text = name.endsWith(".md") ? short_title(name) : made_pages[name][0];
+      const text = name.endsWith(".md") ? short_title(name, heading) : made_pages[name][0];
       const current = target === to ? ' aria-current="page"' : "";
       return `<li><a href="${relative(to, target)}"${current}>${escape(text)}</a></li>`;
     });
@@ -159,14 +172,21 @@ function frame(to, title, body) {
 <title>${escape(title)}</title><link rel="stylesheet" href="${relative(to, "style.css")}"></head>
 <body><nav aria-label="pages">${menu.join("\n")}</nav>
 <main>${body}</main>
-<footer>${escape(version)}, Apache License 2.0</footer></body></html>
+<footer>${escape(version)}, Apache License 2.0</footer>
+<script src="${relative(to, "search.js")}"></script></body></html>
 `;
 }
 
 const files = new Map();
-for (const name of pages) files.set(address(name), frame(address(name), title_of(name), render(name)));
+const entries = [];
+for (const name of pages) {
+  const html = render(name);
+  files.set(address(name), frame(address(name), title_of(name), html));
+  if (name !== "CHANGELOG.md") entries.push(...entries_of(title_of(name), address(name), without_tables(html)));
+}
 for (const [to, [title, body]] of Object.entries(made_pages)) {
   files.set(to, frame(to, title, `<h1>${title}</h1>${body}`));
+  entries.push(...entries_of(title, to, body));
   anchors.set(to, new Set([...body.matchAll(/ id="([^"]+)"/g)].map((match) => match[1])));
 }
 for (const { from, to, anchor, href } of links)
@@ -174,14 +194,16 @@ for (const { from, to, anchor, href } of links)
     checks.complain(from, `the link ${href} leads to no section of that name`);
 checks.tree(pages);
 checks.made([...files.values()].join("\n"));
+const search = read("tools/site/search.js");
+checks.search((query) => search_of(search)(entries, query, 5).map((entry) => entry.to));
 
 if (checks.complaints.length > 0) {
   for (const complaint of checks.complaints) console.error(complaint);
-  console.error(`${checks.complaints.length} complaints; the site was not written`);
+  console.error(`${checks.complaints.length} errors; the site was not written`);
   process.exit(1);
 }
 if (fs.existsSync(out) && fs.readdirSync(out).length > 0 && !fs.existsSync(path.join(out, "codes.html"))) {
-  console.error(`${out} is not empty and holds no site; choose another folder`);
+  console.error(`${out} is not empty and contains no site; choose another folder`);
   process.exit(2);
 }
 fs.rmSync(out, { recursive: true, force: true });
@@ -191,7 +213,10 @@ const put = (to, bytes) => {
 };
 for (const [to, html] of files) put(to, html);
 for (const file of copied) put(file, fs.readFileSync(path.join(root, file)));
-put("style.css", fs.readFileSync(path.join(root, "tools/site/style.css")));
+put("style.css", read("tools/site/style.css"));
+put("search.js", search);
+put("search-data.js", `globalThis.mansard_pages = ${JSON.stringify(entries.map(({ page, heading, to, text }) =>
+  ({ page, heading, to, text })))};\n`);
 const { options, codes, attributes } = known;
-console.log(`${files.size} pages, ${options.length} options, ${codes.length} codes, ${attributes.length} attributes: ` +
+console.log(`${files.size} pages, ${entries.length} entries of the search, ${options.length} options, ${codes.length} codes, ${attributes.length} attributes: ` +
   path.join(out, "index.html"));

@@ -1,4 +1,4 @@
-// What pages are held to: names of options, codes and attributes are the program's, and a room's page has its parts.
+// Checks of the pages: options, codes and attributes must exist in the program, and a module's page must have its parts.
 import fs from "node:fs";
 import path from "node:path";
 
@@ -10,7 +10,7 @@ export const slug = (text) =>
 /// The words in `code` of a piece of Markdown.
 export const cells = (text) => [...text.matchAll(/`([^`]+)`/g)].map((match) => match[1]);
 
-/// The parts of a room's page, by the heading, or the beginning of a paragraph, that each is known by.
+/// The parts of a module's page, by the heading, or the beginning of a paragraph, that identifies each.
 const parts = {
   guarantees: /^(guarantees)/i,
   cost: /^(cost|costs|measured|time)\b/i,
@@ -29,7 +29,7 @@ export class Checks {
     this.attributes = new Set(known.attributes.map((attribute) => attribute.name));
     const names_of = (verb) => new Set(verb.options.flatMap((option) => option.names));
     this.verbs = new Map(known.verbs.map((verb) => [verb.verb, names_of(verb)]));
-    this.words = new Set(["--version", "--help", "--room-name"]);  // the last stands for any room's
+    this.words = new Set(["--version", "--help", "--module-name"]);  // the last is a pattern for any module's option
     const read = (name) => fs.readFileSync(path.join(root, name), "utf8");
     // Pages speak of the options of these, too.
     for (const name of [...this.find("bench", /./), ...this.find("tools", /\.(py|sh|mjs)$/)])
@@ -82,11 +82,11 @@ export class Checks {
     const decoded = text.replace(/&quot;/g, '"').replace(/&amp;/g, "&");
     if (decoded.startsWith("mansard ")) return this.command(name, decoded);
     const option = /^(--[a-z0-9][a-z0-9.-]*)(?=$|[ =,])/.exec(decoded)?.[1];
-    if (option && !this.words.has(option)) this.complain(name, `the option ${option} is none of the program's`);
+    if (option && !this.words.has(option)) this.complain(name, `the option ${option} does not exist in the program`);
     const [, room, member] = /^([a-z]+)\.([a-z0-9_]+)(?:$| =)/.exec(decoded) ?? [];
     if (room && !this.tests.has(`${room}.${member}`) && !/^(md|[ch]pp|json|mjs|gpkg|svg|png|html)$/.test(member) &&
         this.known.options.some((entry) => entry.room === room) && !this.options.has(`${room}.${member}`))
-      this.complain(name, `the option ${room}.${member} is none of the program's`);
+      this.complain(name, `the option ${room}.${member} does not exist in the program`);
     // A test by its name, or by the beginning of it and "…".
     const [, suite, test] = /^([A-Z]\w+)\.(\w+)…?$/.exec(decoded) ?? [];
     const begins = decoded.endsWith("…");
@@ -96,10 +96,10 @@ export class Checks {
       this.complain(name, `there is no test ${decoded}`);
     const attribute = /^\+?ms_[a-z0-9_]+$/.exec(decoded)?.[0];
     if (attribute && !this.attributes.has(attribute))
-      this.complain(name, `the attribute ${attribute} is none of the program's`);
+      this.complain(name, `the attribute ${attribute} does not exist in the program`);
     if (/^[a-z]+(-[a-z0-9]+)+$/.test(decoded) && this.rooms.includes(decoded.split("-")[0]) &&
         this.code_prefixes.has(decoded.split("-")[0]) && !this.codes.has(decoded) && !this.values.has(decoded))
-      this.complain(name, `the code ${decoded} is none of the program's`);
+      this.complain(name, `the code ${decoded} does not exist in the program`);
   }
 
   /// A line as it is typed: the verb is there, and every option is that verb's.
@@ -131,7 +131,7 @@ export class Checks {
           : row[1].text.split(",").map((text) => text.trim().replace(/`/g, ""));
         names.forEach((option, i) => {
           const entry = this.options.get(`${room}.${option}`);
-          if (!entry) return this.complain(name, `the table of options names ${option}, which the room does not have`);
+          if (!entry) return this.complain(name, `the table of options names ${option}, which the module does not have`);
           const given = defaults.length === names.length ? defaults[i] : undefined;
           const number = /^[0-9.]+/.exec(given ?? "")?.[0];
           if (number !== undefined && Number(number) !== Number(entry.default))
@@ -153,11 +153,11 @@ export class Checks {
       if (token.type === "paragraph") starts.push(token.text.replace(/^\*+/, ""));
       if (token.type === "list") for (const item of token.items) starts.push(item.text.replace(/^\*+/, ""));
     }
-    if (!this.has_picture) this.complain(name, "a room's page has a picture");
+    if (!this.has_picture) this.complain(name, "a module's page needs a picture");
     for (const [part, pattern] of Object.entries(parts)) {
       const said = starts.some((start) => pattern.test(start)) ||
         (part === "cost" && starts.some((text) => / Cost: /.test(text)));
-      if (!said) this.complain(name, `a room's page says its ${part}`);
+      if (!said) this.complain(name, `a module's page needs its ${part}`);
     }
   }
 
@@ -166,13 +166,24 @@ export class Checks {
     for (const name of this.find("docs", /\.md$/))
       if (!pages.includes(name)) this.complain(name, "is no page of the site");
     const used = new Set();
-    for (const file of this.find("mansard", /\.[ch]pp$/))
+    for (const file of ["mansard", "lab"].flatMap((folder) => this.find(folder, /\.[ch]pp$/)))
       for (const match of fs.readFileSync(path.join(this.root, file), "utf8").matchAll(/"(\+?ms_[a-z0-9_]+)"/g)) {
         used.add(match[1]);
         if (!this.attributes.has(match[1])) this.complain(file, `the attribute ${match[1]} is not in the list`);
       }
     for (const attribute of this.attributes)
       if (!used.has(attribute)) this.complain("mansard options --attributes", `${attribute} is written nowhere`);
+  }
+
+  /// The search finds these pages among its first results: words of a title, of a text, an option, a code.
+  search(first_of) {
+    const wanted = {
+      "Debian package": "docs/packaging.html", "straight skeleton": "docs/extrude.html", "mesh offset": "docs/ingest.html",
+      gamma: "options.html#option-sweep-gamma", "output-exists": "codes.html#code-output-exists",
+    };
+    for (const [query, page] of Object.entries(wanted))
+      if (!first_of(query).some((to) => to === page || to.startsWith(`${page}#`)))
+        this.complain("search", `'${query}' does not find ${page}`);
   }
 
   /// Every option, code and attribute of the program is on a page.

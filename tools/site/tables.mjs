@@ -93,8 +93,8 @@ export class Tables {
       `<h2 id="${room}">${room}</h2>${option_table(options.filter((option) => option.room === room))}`);
     return {
       "verbs.html": ["Verbs", verbs.map(verb_section).join("\n")],
-      "options.html": ["Options", `<p>Option ${code("name")} of room ${code("room")} is ${code("--room-name")} on the
-        command line, and ${code("name")} in the table ${code("[room]")} of a file for ${code("--config")}.</p>
+      "options.html": ["Options", `<p>Option ${code("name")} of module ${code("module")} is ${code("--module-name")} on the
+        command line, and ${code("name")} in the table ${code("[module]")} of a file for ${code("--config")}.</p>
         ${of_options.join("\n")}
         <h2 id="presets">Presets</h2>${preset_table(presets)}
         <h2 id="simulate_presets">Presets of simulate</h2>${preset_table(simulate_presets)}`],
