@@ -3,10 +3,14 @@
   mansard reconstruct data/delft/mesh.ply data/delft/footprints.geojson --mesh-offset 84800 447400 0 -o delft
   blender --background --factory-startup --python tools/readme_picture.py -- delft/model.glb docs/pictures/delft-street.jpg
 
-Needs Blender 3.4 (Debian 12: blender). Options after the two paths, as name=value: width, height, samples,
-azimuth and elevation of the camera in degrees, x and y of the point that it looks at (metres from the file's origin),
-view (width of the view in metres).
+Needs Blender 3.4 (Debian 12: blender, python3-numpy). Options after the two paths, as name=value: width, height,
+samples; azimuth, elevation and distance (`view`, the width of the view in metres) of the camera, and the point in the
+middle of the view (x, y, z, metres from the file's origin); `sun`, the sun's azimuth relative to the camera.
+`scan=data/delft/mesh.ply` draws the scan in place of the models, for docs/pictures/delft-scan.jpg and, without it,
+docs/pictures/delft-models.jpg (both with width=800 height=450).
 """
+import json
+import struct
 import sys
 
 import bpy
@@ -17,16 +21,16 @@ from mathutils.kdtree import KDTree
 
 numpy.bool = bool  # the glTF importer of Debian 12's Blender uses it; its numpy has it no more
 
-WALL, PARTY, GROUND, LINE = "#f1ece2", "#e2d9ca", "#bcbdb4", "#3a302b"
+WALL, PARTY, GROUND, LINE, SCAN = "#f1ece2", "#e2d9ca", "#bcbdb4", "#3a302b", "#9fb3cf"
 ROOFS = ["#ab6148", "#a25742", "#b56c4f", "#9c5340", "#b0664e"]  # one of these per building
 
 
 def arguments():
     words = sys.argv[sys.argv.index("--") + 1:]
-    settings = {"width": 1600, "height": 900, "samples": 40, "azimuth": 246, "elevation": 25, "x": -15, "y": -15, "z": 4, "view": 84, "sun": -62}
+    settings = {"width": 1600, "height": 900, "samples": 40, "azimuth": 246, "elevation": 25, "x": -15, "y": -15, "z": 4, "view": 84, "sun": -62, "scan": ""}
     for word in words[2:]:
         name, value = word.split("=")
-        settings[name] = type(settings[name])(float(value))
+        settings[name] = value if name == "scan" else type(settings[name])(float(value))
     return words[0], words[1], settings
 
 
@@ -133,6 +137,22 @@ def make_lines(models, radius=0.025):
     bpy.context.collection.objects.link(bpy.data.objects.new("lines", curve))
 
 
+def origin_of(glb):
+    """What was subtracted from the coordinates of a GLB that mansard wrote."""
+    with open(glb, "rb") as file:
+        length, = struct.unpack("<I", file.read(20)[12:16])
+        return json.loads(file.read(length))["asset"]["extras"]["origin"]
+
+
+def show_scan(path, glb, offset=(84800, 447400, 0)):
+    """The scan in the frame of the models."""
+    bpy.ops.import_mesh.ply(filepath=path)
+    scan = bpy.context.view_layer.objects.active
+    scan.location = [a - b for a, b in zip(offset, origin_of(glb))]
+    scan.data.materials.clear()
+    scan.data.materials.append(material("scan", SCAN))
+
+
 def light():
     world = bpy.data.worlds.new("sky")
     bpy.context.scene.world = world
@@ -180,9 +200,14 @@ def main():
     bpy.ops.wm.read_factory_settings(use_empty=True)
     bpy.ops.import_scene.gltf(filepath=source)
     models = [thing for thing in bpy.context.scene.objects if thing.type == "MESH"]
-    paint(models)
-    make_ground(models)
-    make_lines(models)
+    if settings["scan"]:
+        for model in models:
+            bpy.data.objects.remove(model)
+        show_scan(settings["scan"], source)
+    else:
+        paint(models)
+        make_ground(models)
+        make_lines(models)
 
     sun = light()
     azimuth, elevation = radians(settings["azimuth"]), radians(settings["elevation"])
