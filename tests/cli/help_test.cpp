@@ -93,8 +93,11 @@ TEST_F(Help, of_every_verb_fits_one_screen) {
     const auto options = section(help.out, "Options");
     const auto shown = std::ranges::count_if(options, [](const auto& line) { return line.starts_with("  -"); });
     EXPECT_LE(shown, 15) << name;
-    if (verb["modules"].empty()) EXPECT_THAT(help.out, Not(HasSubstr("--help-all"))) << name;
-    else EXPECT_GE(shown, 8) << name;
+    if (verb["modules"].empty()) {
+      EXPECT_THAT(help.out, Not(HasSubstr("--help-all"))) << name;
+    } else {
+      EXPECT_GE(shown, 8) << name;
+    }
   }
 }
 
@@ -139,14 +142,19 @@ TEST_F(Help, all_of_a_verb_shows_the_modules_that_it_reads_and_no_other) {
     std::size_t advanced = 0;
     for (const auto& option : verb["options"]) {
       const std::string module = option["module"];
-      if (!module.empty()) EXPECT_THAT(declared, Contains(module)) << name;
+      if (!module.empty()) {
+        EXPECT_THAT(declared, Contains(module)) << name;
+      }
       advanced += option["advanced"] == true ? 1 : 0;
       const std::string first = option["names"][0];
       if (first == "--help-all" && declared.empty()) continue;
-      if (option["advanced"] == true) EXPECT_THAT(help.out, Not(HasSubstr(first + " "))) << name;
-      else EXPECT_THAT(help.out, HasSubstr(first)) << name;
+      EXPECT_EQ(help.out.find(first + " ") == std::string::npos && help.out.find(first + ",") == std::string::npos,
+                option["advanced"] == true)
+          << name << " " << first;
     }
-    if (advanced > 0) EXPECT_THAT(help.out, HasSubstr("\n" + std::to_string(advanced) + " advanced options")) << name;
+    if (advanced > 0) {
+      EXPECT_THAT(help.out, HasSubstr("\n" + std::to_string(advanced) + " advanced options")) << name;
+    }
   }
   EXPECT_LE(lines_of(run("convert --help-all").out).size(), 60U);
   EXPECT_THAT(run("convert --help-all").out, Not(HasSubstr("gamma")));
