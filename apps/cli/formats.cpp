@@ -51,13 +51,19 @@ auto folder_free(const fs::path& folder, bool overwrite) -> base::Result<void> {
 }  // namespace
 
 auto readable_formats() -> const ReadableFormats& {
-  static const ReadableFormats all{
-      "OBJ, PLY, OFF, glTF, GLB, 3D Tiles (tileset.json, .3tz), height rasters (GeoTIFF, VRT, ASCII grid, IMG), and "
-      "folders, .zip and .gz of these",
-      "GeoPackage, GeoJSON, Shapefile, FlatGeobuf, GML, CityJSON, OpenStreetMap, any other vector format of GDAL, or a "
-      "database (PG:...)",
-      "CityJSON, CityJSONSeq and OBJ of any producer; GLB, 3D Tiles, GeoPackage, GeoJSON and plans that mansard wrote",
-      "CityJSON, CityJSONSeq, OBJ, GLB, 3D Tiles, GeoPackage, GeoJSON or plans"};
+  using formats::Reads;
+  static const ReadableFormats all = [] {
+    std::string only_own;
+    for (const auto& driver : formats::drivers())
+      if (driver.reads.results && !driver.reads.models)
+        only_own += (only_own.empty() ? "" : ", ") + std::string(driver.title);
+    return ReadableFormats{
+        formats::titles(&Reads::mesh) + ", rasters of heights (" + formats::titles(&Reads::raster) +
+            "), folders, .zip and .gz of these",
+        formats::titles(&Reads::footprints) + ", any other vector format of GDAL, or a database (PG:...)",
+        formats::titles(&Reads::models) + " of any producer, or what mansard wrote (" + only_own + ")",
+        formats::titles(&Reads::results)};
+  }();
   return all;
 }
 

@@ -24,17 +24,9 @@ auto head(const fs::path& path, const char* kind, const std::string& format) -> 
   return out;
 }
 
-auto lower(std::string text) -> std::string {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
-  return text;
-}
-
 /// Without the dot, and without that of a compressed file.
 auto extension_of(const fs::path& path) -> std::string {
-  auto name = path.filename();
-  if (lower(name.extension().string()) == ".gz") name = name.stem();
-  const auto extension = lower(name.extension().string());
+  const auto extension = formats::extension_of(path);
   return extension.empty() ? extension : extension.substr(1);
 }
 
@@ -204,9 +196,8 @@ auto info_of_source(const fs::path& path) -> base::Result<Json> {
 }
 
 auto is_mesh(const fs::path& path) -> bool {
-  static constexpr std::array extensions{"obj", "ply", "off", "glb", "gltf"};
   std::error_code status;
-  return fs::is_directory(path, status) || std::ranges::find(extensions, extension_of(path)) != extensions.end();
+  return fs::is_directory(path, status) || formats::has_extension(path, &formats::Reads::mesh);
 }
 
 /// JSON with the file extension or the member of CityJSON.
