@@ -1,8 +1,9 @@
-// `mansard convert INPUT -o OUT`: whatever mansard wrote, in any other format that it writes.
+// `mansard convert MODEL -o OUT`: models that mansard wrote, in any other format that it writes.
 #include <algorithm>
 #include <cstdio>
 #include <memory>
 
+#include "apps/cli/catalogue.hpp"
 #include "apps/cli/exit.hpp"
 #include "apps/cli/formats.hpp"
 #include "apps/cli/output.hpp"
@@ -23,15 +24,16 @@ struct Request : Common {
 auto targets_of(const Request& request) -> base::Result<std::vector<Target>> {
   std::vector<Target> targets;
   if (!request.to.empty() && request.outs.size() != 1)
-    return base::error("usage", "with several outputs the ending of each says its format", "--to");
+    return base::error("usage", "--to is for one output; with several, the file extension of each names its format",
+                       "--to");
   for (const auto& out : request.outs) {
     if (request.to.empty()) {
       auto target = target_at(out);
-      if (!target) return target.error();
+      if (!target) return target.failure();
       targets.push_back(std::move(*target));
     } else {
       const auto format = format_named(request.to);
-      if (!format) return format.error();
+      if (!format) return format.failure();
       targets.push_back({*format, out});
     }
   }
@@ -51,17 +53,17 @@ auto check_outputs(const Request& request, const std::vector<Target>& targets) -
   return {};
 }
 
-/// What can be done instead with a file that has no plans in it.
+/// What can be done with a file that has no plans in it.
 auto explained(base::Diagnostic why, const std::string& input) -> base::Diagnostic {
   if (pipeline::is_foreign(why))
     why.message +=
-        "; mansard converts what it wrote itself. Of other makers' models it measures any CityJSON or OBJ "
-        "('mansard evaluate'), and raises anew what has footprints ('mansard extrude " +
-        base::on_one_line(input) + "')";
+        "; only models that mansard wrote can be converted. 'mansard evaluate' measures other producers' CityJSON and "
+        "OBJ, 'mansard extrude " +
+        base::on_one_line(input) + "' extrudes the footprints of a vector file";
   return why;
 }
 
-/// Whether a format tells more of a face than where its corners are and which class it has.
+/// Whether a format has more of a face than its corners and its class.
 auto tells_of_faces(const Target& target) -> bool {
   using enum formats::Format;
   return target.format == glb || target.format == tiles || target.format == geopackage;
@@ -76,7 +78,7 @@ auto pass_on(formats::CityReader& reader, const std::vector<Target>& targets, co
     std::vector<model::Building> buildings;
     while (more && buildings.size() < few) {
       auto building = reader.next();
-      if (!building) return building.error();
+      if (!building) return building.failure();
       more = building->has_value();
       if (more) buildings.push_back(**std::move(building));
     }
@@ -93,41 +95,41 @@ auto pass_on(formats::CityReader& reader, const std::vector<Target>& targets, co
 
 auto convert(const Request& request, const base::Cancel& cancel) -> int {
   const auto targets = targets_of(request);
-  if (!targets) return give_up(targets.error());
+  if (!targets) return give_up(targets.errors());
   auto reader = open_city(request.input);
   if (!reader) return give_up(explained(reader.error(), request.input));
   formats::Header header = (*reader)->header();
   pipeline::Options options;
   auto warnings = pipeline::take_options(header.made_by, options);
-  if (auto applied = request.settings.apply(options); !applied) return give_up(applied.error());
-  if (auto ready = check_outputs(request, *targets); !ready) return give_up(ready.error());
+  if (auto applied = request.settings.apply(options); !applied) return give_up(applied.errors());
+  if (auto ready = check_outputs(request, *targets); !ready) return give_up(ready.errors());
 
   Progress progress(request.quiet);
   const auto run = start(request, options.seed, cancel, progress);
   for (const auto& warning : warnings) progress.say(base::to_string(warning));
   auto beside = layers_beside(**reader, request.input, *targets);
-  if (!beside) return give_up(beside.error());
+  if (!beside) return give_up(beside.errors());
   for (const auto& warning : beside->warnings) progress.say(base::to_string(warning));
   base::Outputs outputs;
   bool all_full = true;
   if ((*reader)->has_models() && pipeline::same_options(header.made_by, options)) {
     const auto writers = open_writers(*targets, header, options.write, outputs, beside->layers);
-    if (!writers) return give_up(writers.error());
-    if (auto passed = pass_on(**reader, *targets, *writers, options, run); !passed) return give_up(passed.error());
+    if (!writers) return give_up(writers.errors());
+    if (auto passed = pass_on(**reader, *targets, *writers, options, run); !passed) return give_up(passed.errors());
     for (const auto& writer : *writers)
       for (const auto& warning : writer->warnings()) progress.say(base::to_string(warning));
   } else {
     progress.show("extrude", request.input, 0);
     const auto raised = pipeline::read_raised(**reader, options, run);
-    if (!raised) return give_up(raised.error());
+    if (!raised) return give_up(raised.errors());
     for (const auto& part : raised->fell_short)
       for (const auto& reason : part.reasons) progress.say(base::to_string(reason));
     all_full = raised->fell_short.empty();
     const auto written = write_models(raised->city, *targets, options.write, outputs, beside->layers);
-    if (!written) return give_up(written.error());
+    if (!written) return give_up(written.errors());
     for (const auto& warning : *written) progress.say(base::to_string(warning));
   }
-  if (auto committed = outputs.commit(run.cancel); !committed) return give_up(committed.error());
+  if (auto committed = outputs.commit(run.cancel); !committed) return give_up(committed.errors());
   for (const auto& target : *targets) std::printf("%s\n", target.path.c_str());
   return all_full ? all_done : some_fell_back;
 }
@@ -135,18 +137,18 @@ auto convert(const Request& request, const base::Cancel& cancel) -> int {
 }  // namespace
 
 auto convert_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
-  auto* verb = app.add_subcommand("convert", "Models that mansard wrote, in any other format that it writes");
+  auto* verb = add_verb(app, "convert");
   auto request = std::make_shared<Request>();
-  verb->add_option("INPUT", request->input, "A file or folder of tiles that mansard wrote, in any format but STL")
+  verb->add_option("INPUT", request->input, "Model that mansard wrote: " + readable_formats().own_models)
       ->required()
       ->type_name("MODEL");
   verb->add_option("-o,--output", request->outs,
-                   "Where to; the ending says the format (" + endings() + "). Once for each result")
+                   "Output, with its format by its file extension (" + extensions() + "); may be given several times")
       ->required()
       ->expected(1, 1000)
       ->allow_extra_args(false)
       ->type_name("OUT");
-  verb->add_option("--to", request->to, "The format, where the ending does not say it: " + format_names())
+  verb->add_option("--to", request->to, "Format of the output, if its file extension does not name it")
       ->type_name("FORMAT");
   add_common(*verb, *request, "warnings");
   return {verb, [request, &cancel] { return convert(*request, cancel); }};

@@ -1,11 +1,16 @@
-// `mansard options` and `mansard explain`: the product describes itself.
+// `mansard options` and `mansard explain`: the program describes itself.
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <variant>
 
+#include "apps/cli/catalogue.hpp"
 #include "apps/cli/exit.hpp"
 #include "apps/cli/grammar.hpp"
+#include "apps/cli/layout.hpp"
 #include "apps/cli/settings.hpp"
 #include "apps/cli/verbs.hpp"
 #include "lab/simulate/attributes.hpp"
@@ -21,28 +26,16 @@ using Json = nlohmann::ordered_json;
 
 auto kind_name(base::Option::Kind kind) -> const char* {
   switch (kind) {
-    case base::Option::Kind::flag: return "flag";
-    case base::Option::Kind::integer: return "whole";
+    case base::Option::Kind::flag: return "boolean";
+    case base::Option::Kind::integer: return "integer";
     case base::Option::Kind::number: return "number";
-    case base::Option::Kind::string: return "text";
+    case base::Option::Kind::string: return "string";
     case base::Option::Kind::choice: return "choice";
   }
   return "";
 }
 
-auto range_text(const base::Option& option) -> std::string {
-  if (option.kind == base::Option::Kind::choice || option.kind == base::Option::Kind::flag) {
-    std::string all;
-    for (const auto& word : option.choices) all += (all.empty() ? "" : "|") + word;
-    return all;
-  }
-  const auto& [least, most] = option.range;
-  const auto bound = [](double value) { return std::isfinite(value) ? base::to_text(value) : std::string(); };
-  if (!std::isfinite(least) && !std::isfinite(most)) return "";
-  return bound(least) + ".." + bound(most);
-}
-
-/// The options of the rooms that make models, and those of `simulate`.
+/// The options of all modules: those that make models, then `simulate`.
 struct Known {
   pipeline::Options pipeline;
   simulate::Options simulate;
@@ -64,17 +57,68 @@ void print_presets(const char* of, const std::vector<pipeline::Preset>& presets)
   }
 }
 
-void print_text(const Known& known) {
-  for (const auto& list : known.lists) {
-    if (list.options().empty()) continue;
-    std::printf("[%s]\n", list.module().c_str());
-    for (const auto& option : list.options())
-      std::printf("  %-16s %-10s %-4s %-18s %s%s\n", option.name.c_str(),
-                  option.get().empty() ? "-" : option.get().c_str(), option.unit.c_str(), range_text(option).c_str(),
-                  option.meaning.c_str(), option.alias.empty() ? "" : ("  (--" + dashed(option.alias) + ")").c_str());
+/// Name, default, unit, range, meaning.
+using Row = std::array<std::string, 5>;
+
+auto or_dash(const std::string& text) -> std::string { return text.empty() ? "-" : text; }
+
+auto row_of(const base::Option& option) -> Row {
+  std::string meaning = option.meaning;
+  if (option.kind == base::Option::Kind::choice) meaning += " Values: " + listed(option.choices, "or") + ".";
+  if (!option.alias.empty()) meaning += " Short: --" + dashed(option.alias) + ".";
+  const std::string range = option.kind == base::Option::Kind::flag ? "true, false" : range_text(option);
+  return {option.name, or_dash(option.get()), or_dash(option.unit), or_dash(range), meaning};
+}
+
+/// Rows whose columns are as wide as the widest of all of them, under lines of their own.
+class Table {
+ public:
+  void add(std::string heading) { lines_.emplace_back(std::move(heading)); }
+  void add(Row row) {
+    for (std::size_t c = 0; c < widths_.size(); ++c) widths_[c] = std::max(widths_[c], columns_of(row[c]));
+    lines_.emplace_back(std::move(row));
   }
-  print_presets("presets", known.presets);
-  print_presets("presets of simulate", known.simulate_presets);
+  void print() const {
+    for (const auto& line : lines_) {
+      if (const auto* heading = std::get_if<std::string>(&line)) {
+        std::printf("%s\n", heading->c_str());
+        continue;
+      }
+      const auto& row = std::get<Row>(line);
+      std::string text;
+      for (std::size_t c = 0; c < widths_.size(); ++c) text += "  " + padded(row[c], widths_[c]);
+      std::printf("%s  %s\n", text.c_str(), row.back().c_str());
+    }
+  }
+
+ private:
+  std::vector<std::variant<std::string, Row>> lines_;
+  std::array<std::size_t, 4> widths_{};
+};
+
+/// One line for each option; with `all` the advanced ones too, and a second line that says where the default comes
+/// from.
+void print_text(const Known& known, bool all) {
+  Table table;
+  table.add(Row{"option", "default", "unit", "range", "meaning"});
+  std::size_t hidden = 0;
+  for (const auto& list : known.lists) {
+    if (!list.options().empty()) table.add("[" + list.module() + "]");
+    for (const auto& option : list.options()) {
+      if (option.advanced && !all) {
+        ++hidden;
+        continue;
+      }
+      table.add(row_of(option));
+      const std::string source = option.source.empty() ? "" : "Source: " + option.source;
+      const std::string advanced = option.advanced ? "Advanced. " : "";
+      if (all && !(advanced + source).empty()) table.add(Row{"", "", "", "", advanced + source});
+    }
+  }
+  table.print();
+  if (hidden > 0) std::printf("\n%zu advanced options are not shown; 'mansard options --all' lists them.\n", hidden);
+  print_presets("Presets", known.presets);
+  print_presets("Presets of simulate", known.simulate_presets);
 }
 
 auto json_of(const std::vector<pipeline::Preset>& presets) -> Json {
@@ -88,46 +132,52 @@ auto json_of(const std::vector<pipeline::Preset>& presets) -> Json {
 }
 
 auto json_of(const Term& term) -> Json {
-  return {{"names", term.names},
-          {"value", term.value},
-          {"required", term.required},
-          {"meaning", term.meaning},
-          {"room", term.room}};
+  return {{"names", term.names},     {"value", term.value},   {"required", term.required},
+          {"meaning", term.meaning}, {"unit", term.unit},     {"default", term.initial},
+          {"words", term.words},     {"module", term.module}, {"advanced", term.advanced}};
 }
 
-auto json_of(const std::vector<Form>& forms) -> Json {
+auto json_of(const std::vector<Form>& forms, bool all) -> Json {
   Json out = Json::array();
   for (const auto& form : forms) {
-    Json entry{
-        {"verb", form.verb}, {"meaning", form.meaning}, {"arguments", Json::array()}, {"options", Json::array()}};
+    const auto& described = entry_of(form.verb);
+    Json entry{{"verb", form.verb},          {"task", described.task},         {"meaning", form.meaning},
+               {"usage", described.usage},   {"examples", described.examples}, {"modules", described.modules},
+               {"arguments", Json::array()}, {"options", Json::array()}};
     for (const auto& term : form.arguments) entry["arguments"].push_back(json_of(term));
-    for (const auto& term : form.options) entry["options"].push_back(json_of(term));
+    for (const auto& term : form.options)
+      if (all || !term.advanced) entry["options"].push_back(json_of(term));
     out.push_back(std::move(entry));
   }
   return out;
 }
 
-void print_json(const Known& known, const CLI::App& app) {
+auto json_of(const std::string& module, const base::Option& option) -> Json {
+  const auto bound = [](double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
+  return {{"module", module},
+          {"name", option.name},
+          {"kind", kind_name(option.kind)},
+          {"unit", option.unit},
+          {"minimum", bound(option.range.minimum)},
+          {"maximum", bound(option.range.maximum)},
+          {"choices", option.choices},
+          {"default", option.get()},
+          {"alias", option.alias},
+          {"meaning", option.meaning},
+          {"advanced", option.advanced},
+          {"source", option.source}};
+}
+
+void print_json(const Known& known, const CLI::App& app, bool all) {
   Json out;
   Json options = Json::array();
   for (const auto& list : known.lists)
-    for (const auto& option : list.options()) {
-      const auto bound = [](double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
-      options.push_back({{"room", list.module()},
-                         {"name", option.name},
-                         {"kind", kind_name(option.kind)},
-                         {"unit", option.unit},
-                         {"least", bound(option.range.minimum)},
-                         {"most", bound(option.range.maximum)},
-                         {"choices", option.choices},
-                         {"default", option.get()},
-                         {"alias", option.alias},
-                         {"meaning", option.meaning}});
-    }
+    for (const auto& option : list.options())
+      if (all || !option.advanced) options.push_back(json_of(list.module(), option));
   out["options"] = options;
   out["presets"] = json_of(known.presets);
   out["simulate_presets"] = json_of(known.simulate_presets);
-  out["verbs"] = json_of(forms_of(app));
+  out["verbs"] = json_of(forms_of(app), all);
   std::puts(out.dump(1).c_str());
 }
 
@@ -143,7 +193,7 @@ void print_attributes(bool as_json) {
     std::string objects;
     for (const auto& object : attribute.of) objects += (objects.empty() ? "" : ", ") + object;
     out["attributes"].push_back({{"name", attribute.name},
-                                 {"room", attribute.room},
+                                 {"module", attribute.room},
                                  {"of", attribute.of},
                                  {"type", attribute.type},
                                  {"unit", attribute.unit},
@@ -159,7 +209,7 @@ void print_json(const std::vector<base::Code>& codes) {
   Json out;
   for (const auto& code : codes)
     out["codes"].push_back(
-        {{"code", code.code}, {"means", code.cause}, {"to_do", code.remedy}, {"exit_code", code.exit_code}});
+        {{"code", code.code}, {"cause", code.cause}, {"remedy", code.remedy}, {"exit_code", code.exit_code}});
   for (const auto& exit : exits()) out["exit_codes"].push_back({{"exit_code", exit.code}, {"when", exit.when}});
   std::puts(out.dump(1).c_str());
 }
@@ -175,9 +225,10 @@ auto explain(const std::string& word) -> int {
     std::vector<std::string> known;
     for (const auto& code : codes) known.push_back(code.code);
     const auto nearest = base::nearest_word(word, known);
-    return give_up(base::error("code-unknown", "there is no such code" + base::did_you_mean(nearest), word));
+    return give_up(
+        base::error("code-unknown", "unknown code; see 'mansard explain'" + base::did_you_mean(nearest), word));
   }
-  std::printf("%s\n  means: %s\n  to do: %s\n  exit code: %d\n", at->code.c_str(), at->cause.c_str(),
+  std::printf("%s\n  cause: %s\n  remedy: %s\n  exit code: %d\n", at->code.c_str(), at->cause.c_str(),
               at->remedy.c_str(), at->exit_code);
   return all_done;
 }
@@ -185,25 +236,31 @@ auto explain(const std::string& word) -> int {
 }  // namespace
 
 auto options_verb(CLI::App& app) -> Verb {
-  auto* verb = app.add_subcommand("options", "List every option with unit, range and default");
-  auto json = std::make_shared<bool>(false), attributes = std::make_shared<bool>(false);
-  verb->add_flag("--json", *json, "As JSON, with what every verb takes");
-  verb->add_flag("--attributes", *attributes, "The attributes of models instead, with type, unit and meaning");
-  return {verb, [json, attributes, &app] {
+  auto* verb = add_verb(app, "options");
+  struct Request {
+    bool all = false, json = false, attributes = false;
+  };
+  auto request = std::make_shared<Request>();
+  auto* all = verb->add_flag("--all", request->all, "Also list advanced options, and where each default comes from");
+  verb->add_flag("--json", request->json, "Print JSON, with the presets and with the options of each verb");
+  verb->add_flag("--attributes", request->attributes, "List the attributes of models instead, with type and unit")
+      ->excludes(all);
+  return {verb, [request, &app] {
             const Known known;
-            if (*attributes) print_attributes(*json);
-            else if (*json) print_json(known, app);
-            else print_text(known);
+            if (request->attributes) print_attributes(request->json);
+            else if (request->json) print_json(known, app, request->all);
+            else print_text(known, request->all);
             return static_cast<int>(all_done);
           }};
 }
 
 auto explain_verb(CLI::App& app) -> Verb {
-  auto* verb = app.add_subcommand("explain", "Say what a diagnostic code means and what to do");
+  auto* verb = add_verb(app, "explain");
   auto code = std::make_shared<std::string>();
-  auto* argument = verb->add_option("CODE", *code, "The code; without it, all codes are listed");
+  auto* argument = verb->add_option(
+      "CODE", *code, "Diagnostic code, as an error names it in brackets; without it, all codes are listed");
   auto json = std::make_shared<bool>(false);
-  auto* as_json = verb->add_flag("--json", *json, "All codes, and the exit codes, as JSON");
+  auto* as_json = verb->add_flag("--json", *json, "Print all codes and all exit codes as JSON");
   as_json->excludes(argument);
   return {verb, [code, json] {
             if (!*json) return explain(*code);

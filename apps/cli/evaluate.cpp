@@ -2,13 +2,15 @@
 #include <cstdio>
 #include <memory>
 
+#include "apps/cli/catalogue.hpp"
 #include "apps/cli/exit.hpp"
+#include "apps/cli/formats.hpp"
 #include "apps/cli/output.hpp"
 #include "apps/cli/scan.hpp"
 #include "apps/cli/verbs.hpp"
+#include "mansard/formats/scan.hpp"
 #include "mansard/picture/picture.hpp"
 #include "mansard/pipeline/evaluation.hpp"
-#include "mansard/formats/scan.hpp"
 
 namespace mansard::cli {
 namespace {
@@ -55,31 +57,31 @@ auto write_all(const Request& request, const pipeline::Evaluation& result, const
   const auto& map = result.map;
   auto png =
       picture::png(picture::error_map(map.difference, map.columns, map.rows, request.error_limit, "model - mesh, m"));
-  if (!png) return png.error();
+  if (!png) return png.failure();
   auto tiff = formats::geotiff({map.origin, map.grid, map.columns, map.rows, map.difference}, input.scene.frame);
-  if (!tiff) return tiff.error();
+  if (!tiff) return tiff.failure();
   files.emplace_back("error.png", std::move(*png));
   files.emplace_back("error.tif", std::move(*tiff));
   return base::write_files(in_folder(request.out, files), &cancel);
 }
 
 auto evaluate(const Request& request, const base::Cancel& cancel) -> int {
-  if (request.inputs.size() < 2) return give_up(base::error("usage", "give a model, then one mesh or more"));
+  if (request.inputs.size() < 2) return give_up(base::error("usage", "expected a model, then one or more meshes"));
   pipeline::Options options;
-  if (auto applied = request.settings.apply(options); !applied) return give_up(applied.error());
-  if (auto ready = check_outputs(request); !ready) return give_up(ready.error());
+  if (auto applied = request.settings.apply(options); !applied) return give_up(applied.errors());
+  if (auto ready = check_outputs(request); !ready) return give_up(ready.errors());
   Progress progress(request.quiet);
   const auto run = start(request, options.seed, cancel, progress);
 
   const auto input = pipeline::read_evaluation(files_of(request), options.ingest, run);
-  if (!input) return give_up(input.error());
+  if (!input) return give_up(input.errors());
   for (const auto& warning : input->scene.warnings) progress.say(base::to_string(warning));
   const auto result = pipeline::evaluate_model(*input, options, run);
-  if (!result) return give_up(result.error());
+  if (!result) return give_up(result.errors());
   for (const auto& warning : result->warnings) progress.say(base::to_string(warning));
   if (!request.out.empty()) {
     const auto report = pipeline::evaluation_json(*result, *input, options);
-    if (auto written = write_all(request, *result, *input, report, cancel); !written) return give_up(written.error());
+    if (auto written = write_all(request, *result, *input, report, cancel); !written) return give_up(written.errors());
   }
   std::fputs(pipeline::evaluation_table(*result, *input, options).c_str(), stdout);
   if (!request.out.empty()) std::printf("%s\n", request.out.c_str());
@@ -89,18 +91,20 @@ auto evaluate(const Request& request, const base::Cancel& cancel) -> int {
 }  // namespace
 
 auto evaluate_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
-  auto* verb = app.add_subcommand("evaluate", "Hold a building model against a mesh, and against known truth");
+  auto* verb = add_verb(app, "evaluate");
   auto request = std::make_shared<Request>();
   verb->add_option("INPUTS", request->inputs,
-                   "The model (CityJSON, CityJSONSeq or OBJ), then the meshes (OBJ, PLY, OFF, GLB, or folders of them)")
-      ->type_name("MODEL MESH…");
-  verb->add_option("--truth", request->truth, "A model that is known to be right")->type_name("MODEL");
-  verb->add_option("--footprints", request->footprints, "Measure over these rather than the truth's or the model's own")
+                   "The model: " + readable_formats().models + ". Then the meshes: " + readable_formats().meshes)
+      ->type_name("MODEL MESH...");
+  verb->add_option("--truth", request->truth, "Model that is known to be right, in any format of a model")
+      ->type_name("MODEL");
+  verb->add_option("--footprints", request->footprints,
+                   "Footprints to measure over; without it, those of the true model or of the model")
       ->type_name("FILE");
-  verb->add_option("--lod", request->lod, "Read this LoD of model and truth; without it, the highest of each object");
-  verb->add_option("-o,--output", request->out, "The report (a name ending in .json), or a folder for report and maps")
+  verb->add_option("--lod", request->lod, "LoD to read of both models; without it, the highest of each object");
+  verb->add_option("-o,--output", request->out, "Report (.json), or a folder for the report and the error maps")
       ->type_name("REPORT");
-  verb->add_option("--error-limit", request->error_limit, "Ends of the error map's colour scale [m]")
+  verb->add_option("--error-limit", request->error_limit, "Both limits of the colour scale of the error map, in metres")
       ->check(CLI::Range(0.01, 1000.0));
   add_common(*verb, *request, "warnings");
   return {verb, [request, &cancel] { return evaluate(*request, cancel); }};

@@ -11,33 +11,39 @@
 
 namespace mansard::cli {
 
-auto give_up(const base::Diagnostic& diagnostic) -> int {
-  std::fprintf(stderr, "mansard: %s\n", base::to_string(diagnostic).c_str());
+auto give_up(const std::vector<base::Diagnostic>& diagnostics) -> int {
+  for (const auto& diagnostic : diagnostics) std::fprintf(stderr, "mansard: %s\n", base::to_string(diagnostic).c_str());
   const auto codes = all_codes();
-  const auto at = std::ranges::find(codes, diagnostic.code, &base::Code::code);
+  const auto at = std::ranges::find(codes, diagnostics.front().code, &base::Code::code);
   return at == codes.end() || at->exit_code == all_done ? bug : at->exit_code;
 }
 
+auto give_up(const base::Diagnostic& diagnostic) -> int { return give_up(std::vector{diagnostic}); }
+
 auto codes() -> std::vector<base::Code> {
   return {
-      {"usage", "The command line could not be understood.",
-       "'mansard --help' and 'mansard VERB --help' show the forms.", usage},
-      {"output-exists", "The output folder holds results already, and nothing is overwritten silently.",
-       "Choose another folder, or say --overwrite.", usage},
-      {"output-input", "A result would take the place of an input, or lie among the meshes of an input folder.",
-       "Choose an output folder apart from the inputs.", usage},
-      {"config", "The configuration file is not TOML, or a value in it has the wrong kind.",
-       "Options are keys in a table per room: [sweep] gamma = 10.", option_invalid},
-      {"code-unknown", "There is no such diagnostic code.", "'mansard explain' alone lists them all.", usage},
+      {"usage", "The command line is not one that a verb accepts.",
+       "'mansard --help' lists the verbs, 'mansard VERB --help' shows how to call one.", usage},
+      {"option-verb", "The verb does not read this option, so it would have no effect. Other verbs do.",
+       "Leave the option out, or use one of the verbs that the message names. A configuration file may set options of "
+       "all modules; a verb ignores those that it does not read.",
+       usage},
+      {"output-exists", "The output already exists, and nothing is overwritten unless asked for.",
+       "Choose another output, or add --overwrite.", usage},
+      {"output-input", "The output would replace an input, or would be written among the meshes of an input folder.",
+       "Choose an output folder outside the inputs.", usage},
+      {"config", "The configuration file is not valid TOML, or a value in it has the wrong type.",
+       "Options are keys in one table for each module: [sweep] gamma = 10.", option_invalid},
+      {"code-unknown", "The diagnostic code is unknown.", "'mansard explain' lists all codes.", usage},
   };
 }
 
 auto exits() -> std::vector<ExitMeaning> {
-  return {{all_done, "all done"},
-          {some_fell_back, "finished; some buildings fell back to a simpler model or could not be used"},
-          {usage, "the command line could not be understood, or the output exists or is an input"},
-          {input_unreadable, "an input could not be read, a result not written, or memory ran out"},
-          {option_invalid, "an option or the configuration file is invalid"},
+  return {{all_done, "success"},
+          {some_fell_back, "finished, but some buildings fell back to a simpler model or could not be used"},
+          {usage, "the command line is not valid, the output already exists, or the output is an input"},
+          {input_unreadable, "an input could not be read, an output could not be written, or memory ran out"},
+          {option_invalid, "an option or the configuration file is not valid"},
           {nothing_reconstructed, "nothing could be reconstructed"},
           {cancelled, "cancelled"},
           {bug, "a bug; please report it"}};

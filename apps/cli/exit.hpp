@@ -1,4 +1,4 @@
-// Exit codes and how an error is told: one line on stderr.
+// Exit codes, and how an error is reported: a line on stderr for each diagnostic.
 #pragma once
 
 #include <string>
@@ -19,20 +19,22 @@ enum Exit : int {
   bug = 70,
 };
 
-/// When the program ends with which code, for the manual.
+/// When the program ends with which code.
 struct ExitMeaning {
   int code = all_done;
   std::string when;
 };
 [[nodiscard]] auto exits() -> std::vector<ExitMeaning>;
 
-/// Prints the diagnostic and returns the exit code that its code is listed with (70 for one that is not listed).
+/// Prints the diagnostics and returns the exit code that the first one's code is listed with (70 for one that is not
+/// listed). There must be one.
+[[nodiscard]] auto give_up(const std::vector<base::Diagnostic>& diagnostics) -> int;
 [[nodiscard]] auto give_up(const base::Diagnostic& diagnostic) -> int;
 
 /// Codes of the command line itself.
 [[nodiscard]] auto codes() -> std::vector<base::Code>;
 
-/// The codes of every room and of the command line.
+/// The codes of every module and of the command line.
 [[nodiscard]] auto all_codes() -> std::vector<base::Code>;
 
 }  // namespace mansard::cli

@@ -1,4 +1,4 @@
-// `mansard explore EXPERIMENT MESH… FOOTPRINTS -o OUTDIR`: the paper's experiments, with a report of each.
+// `mansard explore EXPERIMENT MESH... FOOTPRINTS -o OUTDIR`: the experiments of the paper, with a report of each.
 #include "lab/explore/explore.hpp"
 
 #include <toml++/toml.h>
@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "apps/cli/catalogue.hpp"
 #include "apps/cli/exit.hpp"
 #include "apps/cli/output.hpp"
 #include "apps/cli/scan.hpp"
@@ -31,7 +32,7 @@ auto bad_list(const Request& request, const std::string& what) -> base::Diagnost
   return base::error("explore-list", what, request.list);
 }
 
-/// A path of the list: it starts at --data, or where the list is.
+/// A path of the list: it starts at --data, or in the folder of the list.
 auto path_from(const Request& request, const std::string& path) -> fs::path {
   return (request.data.empty() ? fs::path(request.list).parent_path() : fs::path(request.data)) / path;
 }
@@ -47,30 +48,30 @@ auto dataset_of(const Request& request, const toml::table& table) -> base::Resul
       dataset.footprints = path_from(request, text->get());
     } else if (const auto* meshes = node.as_array(); name == "meshes" && meshes != nullptr) {
       for (const auto& mesh : *meshes) {
-        if (mesh.as_string() == nullptr) return bad_list(request, "a mesh is the text of a path");
+        if (mesh.as_string() == nullptr) return bad_list(request, "'meshes' is an array of paths; expected strings");
         dataset.meshes.push_back(path_from(request, mesh.as_string()->get()));
       }
     } else if (const auto* options = node.as_table(); name == "options" && options != nullptr) {
       for (const auto& [option, value] : *options) {
         if (value.as_string() == nullptr)
           return bad_list(request,
-                          "the option '" + std::string(option.str()) + "' is no text; put its value in quotes");
+                          "the option '" + std::string(option.str()) + "' is not a string; put its value in quotes");
         dataset.options.emplace_back(option.str(), value.as_string()->get());
       }
     } else {
       return bad_list(request, "'" + name +
-                                   "' is not known, or of the wrong kind; a [[dataset]] has name, meshes, "
+                                   "' is unknown, or of the wrong type; a [[dataset]] has name, meshes, "
                                    "footprints and options");
     }
   }
   if (dataset.name.empty() || dataset.meshes.empty() || dataset.footprints.empty())
-    return bad_list(request, "a [[dataset]] lacks its name, its meshes or its footprints");
+    return bad_list(request, "a [[dataset]] has no name, no meshes or no footprints; add them");
   return dataset;
 }
 
 auto listed(const Request& request) -> base::Result<std::vector<explore::Dataset>> {
   const auto text = base::read_file(request.list);
-  if (!text) return text.error();
+  if (!text) return text.failure();
   toml::table table;
   try {
     table = toml::parse(*text);
@@ -78,27 +79,29 @@ auto listed(const Request& request) -> base::Result<std::vector<explore::Dataset
     return bad_list(request, std::string(e.description()) + " (line " + std::to_string(e.source().begin.line) + ")");
   }
   const auto* entries = table["dataset"].as_array();
-  if (entries == nullptr || table.size() != 1) return bad_list(request, "the list is of [[dataset]] entries alone");
+  if (entries == nullptr || table.size() != 1)
+    return bad_list(request, "expected [[dataset]] entries and nothing else");
   std::vector<explore::Dataset> datasets;
   for (const auto& entry : *entries) {
-    if (entry.as_table() == nullptr) return bad_list(request, "write [[dataset]] above every entry");
+    if (entry.as_table() == nullptr) return bad_list(request, "write [[dataset]] above each entry");
     auto dataset = dataset_of(request, *entry.as_table());
-    if (!dataset) return dataset.error();
+    if (!dataset) return dataset.failure();
     if (std::ranges::find(datasets, dataset->name, &explore::Dataset::name) != datasets.end())
-      return bad_list(request, "two datasets are called '" + dataset->name + "'; name them apart");
+      return bad_list(request, "two datasets have the name '" + dataset->name + "'; give each its own");
     datasets.push_back(std::move(*dataset));
   }
   return datasets;
 }
 
-/// From the list, or the one of the command line, which is called as the folder of its footprints.
+/// From the list, or the one of the command line, which takes its name from the folder of its footprints.
 auto datasets_of(const Request& request) -> base::Result<std::vector<explore::Dataset>> {
   const auto& inputs = request.scan.inputs;
   if (!request.list.empty()) {
-    if (!inputs.empty()) return base::error("usage", "give a list of datasets or meshes and footprints, not both");
+    if (!inputs.empty()) return base::error("usage", "expected either --datasets or meshes and footprints, not both");
     return listed(request);
   }
-  if (inputs.size() < 2) return base::error("usage", "give one mesh or more, then the footprints; or --datasets LIST");
+  if (inputs.size() < 2)
+    return base::error("usage", "expected one or more meshes, then the footprints; or --datasets LIST");
   const fs::path footprints = inputs.back();
   auto name = fs::absolute(footprints).parent_path().filename().string();
   if (name.empty()) name = footprints.stem().string();
@@ -112,29 +115,30 @@ auto study_of(const Request& request, const std::vector<std::string>& words) -> 
     std::string all;
     for (const auto& name : known) all += (all.empty() ? "" : ", ") + name;
     return base::error(
-        "usage", "there are the experiments " + all + base::did_you_mean(base::nearest_word(request.experiment, known)),
+        "usage",
+        "unknown experiment; expected " + all + base::did_you_mean(base::nearest_word(request.experiment, known)),
         request.experiment);
   }
   explore::Request study;
   study.experiment = *experiment;
-  if (auto applied = request.scan.settings.apply(study.options); !applied) return applied.error();
+  if (auto applied = request.scan.settings.apply(study.options); !applied) return applied.failure();
   auto datasets = datasets_of(request);
-  if (!datasets) return datasets.error();
+  if (!datasets) return datasets.failure();
   study.datasets = std::move(*datasets);
   std::vector<explore::Axis> asked;
   for (const auto& grid : request.grids) {
     auto axis = explore::axis_of(grid);
-    if (!axis) return axis.error();
+    if (!axis) return axis.failure();
     asked.push_back(std::move(*axis));
   }
   auto axes = explore::axes_of(*experiment, asked);
-  if (!axes) return axes.error();
+  if (!axes) return axes.failure();
   study.axes = std::move(*axes);
   study.most_runs = request.most_runs;
   study.pictures = !request.no_pictures;
   study.error_limit = request.error_limit;
   study.command = words;
-  study.command.front() = "mansard";  // wherever it was called from
+  study.command.front() = "mansard";  // wherever it is installed
   study.version = MANSARD_VERSION;
   return study;
 }
@@ -161,23 +165,23 @@ void summarise(const explore::Study& study, Progress& progress) {
     progress.say(base::to_string(*row.failure));
   }
   progress.say(std::to_string(study.rows.size() - failures) + " of " + std::to_string(study.rows.size()) +
-               " runs went through");
+               " runs succeeded");
 }
 
 auto explore_scans(const Request& request, const std::vector<std::string>& words, const base::Cancel& cancel) -> int {
   const auto study = study_of(request, words);
-  if (!study) return give_up(study.error());
-  if (auto ready = check_outputs(request, *study); !ready) return give_up(ready.error());
+  if (!study) return give_up(study.errors());
+  if (auto ready = check_outputs(request, *study); !ready) return give_up(ready.errors());
   Progress progress(request.scan.quiet);
   const auto run = start(request.scan, study->options.seed, cancel, progress);
   const auto result = explore::investigate(*study, run);
-  if (!result) return give_up(result.error());
+  if (!result) return give_up(result.errors());
 
   progress.show("write", request.out, 1);
   const auto named = explore::report(*result);
   const auto files = in_folder(request.out, named);
   const auto left = leftovers(request.out, "results.json", explore::is_picture);
-  if (auto written = base::write_files(files, run.cancel); !written) return give_up(written.error());
+  if (auto written = base::write_files(files, run.cancel); !written) return give_up(written.errors());
   remove_stale(left, files);
   summarise(*result, progress);
   std::printf("%s\n", (fs::path(request.out) / "index.html").c_str());
@@ -188,28 +192,31 @@ auto explore_scans(const Request& request, const std::vector<std::string>& words
 }  // namespace
 
 auto explore_verb(CLI::App& app, std::vector<std::string> words, const base::Cancel& cancel) -> Verb {
-  auto* verb = app.add_subcommand("explore", "The paper's experiments: many settings, and a report of them");
+  auto* verb = add_verb(app, "explore");
   auto request = std::make_shared<Request>();
   std::string names;
   for (const auto& name : explore::experiment_names()) names += (names.empty() ? "" : ", ") + name;
-  verb->add_option("EXPERIMENT", request->experiment, "One of " + names)->required()->type_name("");
+  verb->add_option("EXPERIMENT", request->experiment, "The experiment: " + names)->required()->type_name("");
   add_to(*verb, request->scan, false);
   verb->remove_option(verb->get_option("--report"));  // the report is what it writes
   verb->remove_option(verb->get_option("--verbose"));
-  verb->add_option("-o,--output", request->out, "Folder for the report")->required()->type_name("OUTDIR");
-  verb->add_option("--grid", request->grids, "An option and its values; once per option, every combination is run")
+  verb->add_option("-o,--output", request->out, "Output folder for the report")->required()->type_name("OUTDIR");
+  verb->add_option("--grid", request->grids,
+                   "Option with the values to run; may be given for several options, which are combined")
       ->type_name("KEY=A,B,C")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->allow_extra_args(false);
-  verb->add_option("--datasets", request->list, "Several datasets, by a TOML list of [[dataset]] entries")
+  verb->add_option("--datasets", request->list, "TOML list of datasets, in place of meshes and footprints")
       ->type_name("LIST");
-  verb->add_option("--data", request->data, "Where the list's paths start; without it, in the list's folder")
+  verb->add_option("--data", request->data,
+                   "Folder that the paths of the list start in; without it, the folder of the list")
       ->type_name("DIR");
-  verb->add_option("--most-runs", request->most_runs, "Refuse to start more runs than this")
+  verb->add_option("--most-runs", request->most_runs, "Maximum number of runs; more are refused")
       ->check(CLI::Range(1, 100000));
-  verb->add_flag("--no-pictures", request->no_pictures, "Render nothing: plans, plots and numbers alone");
-  verb->add_option("--error-limit", request->error_limit, "Ends of the error maps' colour scale [m]")
+  verb->add_flag("--no-pictures", request->no_pictures, "Write plans, plots and numbers only");
+  verb->add_option("--error-limit", request->error_limit,
+                   "Both limits of the colour scale of the error maps, in metres")
       ->check(CLI::Range(0.01, 1000.0));
   return {verb, [request, words = std::move(words), &cancel] { return explore_scans(*request, words, cancel); }};
 }

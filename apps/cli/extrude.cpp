@@ -1,4 +1,4 @@
-// `mansard extrude INPUT -o OUT`: plan and profiles to solids again, or footprints to solids without a mesh.
+// `mansard extrude INPUT -o OUT`: solids from footprints without a mesh, or again from plan and profiles.
 #include "apps/cli/extrude.hpp"
 
 #include <algorithm>
@@ -6,9 +6,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "apps/cli/catalogue.hpp"
 #include "apps/cli/exit.hpp"
 #include "apps/cli/formats.hpp"
 #include "apps/cli/output.hpp"
+#include "apps/cli/scan.hpp"
 #include "apps/cli/settings.hpp"
 #include "apps/cli/verbs.hpp"
 #include "mansard/base/files.hpp"
@@ -30,14 +32,15 @@ auto is_one(const fs::path& out) -> bool {
 auto targets_of(const ExtrudeRequest& request) -> base::Result<std::vector<Target>> {
   if (!is_one(request.out)) {
     const auto formats = formats_in(request.formats.empty() ? "default" : request.formats);
-    if (!formats) return formats.error();
+    if (!formats) return formats.failure();
     return targets_in(request.out, *formats);
   }
   if (!request.formats.empty())
-    return base::error("usage", "the ending of '" + request.out + "' says the format already; give a folder instead",
-                       "--formats");
+    return base::error(
+        "usage", "'" + request.out + "' already names the format by its file extension; give an output folder instead",
+        "--formats");
   auto target = target_at(request.out);
-  if (!target) return target.error();
+  if (!target) return target.failure();
   return std::vector{*target};
 }
 
@@ -48,26 +51,27 @@ void tell(const std::vector<base::Diagnostic>& diagnostics, const ExtrudeRequest
 
 auto extrude_plans(formats::CityReader& reader, const ExtrudeRequest& request, const base::Cancel& cancel) -> int {
   if (!request.report.empty())
-    return give_up(base::error("usage", "plans are raised without a report; --report is for footprints", "--report"));
+    return give_up(
+        base::error("usage", "there is no report where models are rebuilt from plans; leave it out", "--report"));
   pipeline::Options options;
   tell(pipeline::take_options(reader.header().made_by, options), request);
-  if (auto applied = request.settings.apply(options); !applied) return give_up(applied.error());
+  if (auto applied = request.settings.apply(options); !applied) return give_up(applied.errors());
   auto city = formats::read_whole(reader);
-  if (!city) return give_up(city.error());
+  if (!city) return give_up(city.errors());
   const auto targets = targets_of(request);
-  if (!targets) return give_up(targets.error());
+  if (!targets) return give_up(targets.errors());
   const auto beside = layers_beside(reader, request.input, *targets);
-  if (!beside) return give_up(beside.error());
-  if (auto ready = check_outputs(request); !ready) return give_up(ready.error());
+  if (!beside) return give_up(beside.errors());
+  if (auto ready = check_outputs(request); !ready) return give_up(ready.errors());
   base::Run run;
   run.cancel = &cancel;
   pipeline::note_options(options, city->made_by);
   const auto raised = pipeline::raise_plans(std::move(*city), options, run);
-  if (!raised) return give_up(raised.error());
+  if (!raised) return give_up(raised.errors());
   for (const auto& part : raised->fell_short) tell(part.reasons, request);
   tell(beside->warnings, request);
   if (auto written = write_out(raised->city, {}, options, request, run, beside->layers); !written)
-    return give_up(written.error());
+    return give_up(written.errors());
   std::printf("%s\n", request.out.c_str());
   return raised->fell_short.empty() ? all_done : some_fell_back;
 }
@@ -89,8 +93,8 @@ auto extrude(const ExtrudeRequest& request, const base::Cancel& cancel) -> int {
   if (reader) return extrude_plans(**reader, request, cancel);
   const bool plans = formats::format_of(request.input) == formats::Format::plans;
   if (!pipeline::is_foreign(reader.error()) && reader.error().code.starts_with("write-"))
-    return give_up(reader.error());
-  if (plans && looks_like_plans(request.input)) return give_up(reader.error());
+    return give_up(reader.errors());
+  if (plans && looks_like_plans(request.input)) return give_up(reader.errors());
   return extrude_footprints(request, cancel);
 }
 
@@ -103,7 +107,7 @@ auto picture_file(const fs::path& out) -> fs::path {
 auto check_outputs(const ExtrudeRequest& request) -> base::Result<void> {
   const bool one = is_one(request.out);
   const auto targets = targets_of(request);
-  if (!targets) return targets.error();
+  if (!targets) return targets.failure();
   std::vector<fs::path> all, single;
   for (const auto& target : *targets)
     for (const auto& place : places_of(target)) all.push_back(place);
@@ -128,10 +132,10 @@ auto write_out(const model::City& city, const std::string& report, const pipelin
     -> base::Result<void> {
   const fs::path out(request.out);
   const auto targets = targets_of(request);
-  if (!targets) return targets.error();
+  if (!targets) return targets.failure();
   base::Outputs outputs;
   const auto warnings = write_models(city, *targets, options.write, outputs, more);
-  if (!warnings) return warnings.error();
+  if (!warnings) return warnings.failure();
   tell(*warnings, request);
   if (!is_one(out) && !report.empty())
     if (auto written = write_bytes(out / "run.json", report, outputs); !written) return written;
@@ -139,33 +143,33 @@ auto write_out(const model::City& city, const std::string& report, const pipelin
     if (auto written = write_bytes(request.report, report, outputs); !written) return written;
   if (request.picture) {
     auto bytes = picture::png(pipeline::picture_of(city, {}, run));
-    if (!bytes) return bytes.error();
+    if (!bytes) return bytes.failure();
     if (auto written = write_bytes(picture_file(out), *bytes, outputs); !written) return written;
   }
   return outputs.commit(run.cancel);
 }
 
 auto extrude_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
-  auto* verb = app.add_subcommand("extrude", "Footprints to solids without a mesh; or an edited plan raised again");
+  auto* verb = add_verb(app, "extrude");
   auto request = std::make_shared<ExtrudeRequest>();
-  verb->add_option("INPUT", request->input,
-                   "Footprints (any OGR vector file), raised by their attributes or by --profile; or a plans.json, or "
-                   "whatever else mansard wrote")
+  verb->add_option(
+          "INPUT", request->input,
+          "Footprints: " + readable_formats().footprints + ". Or a model with plans: " + readable_formats().own_models)
       ->required()
-      ->type_name("FOOTPRINTS|PLAN.json");
+      ->type_name("FOOTPRINTS|MODEL");
   verb->add_option("-o,--output", request->out,
-                   "A file, whose ending says the format (" + endings() + "), or a folder for several of them")
+                   "Output file, with its format by its file extension (" + extensions() + "), or a folder")
       ->required()
       ->type_name("OUT");
-  verb->add_option("--formats", request->formats, formats_help())->type_name("FORMATS");
-  verb->add_flag("--overwrite", request->overwrite, "Replace results that are there already");
+  verb->add_option("--formats", request->formats, formats_help)->type_name("FORMATS")->default_str(default_formats);
+  verb->add_flag("--overwrite", request->overwrite, "Replace outputs that already exist");
   verb->add_flag("--picture", request->picture, "Also write a picture of the models");
-  verb->add_option("--report", request->report, "Write the report (run.json) here too")->type_name("FILE");
-  verb->add_option("-j,--jobs", request->jobs, "Threads; 0 for one per core. The result is the same at any number")
-      ->check(CLI::Range(0, 1024));
-  verb->add_flag("-q,--quiet", request->quiet, "No progress, no summary");
-  verb->add_flag("-v,--verbose", request->verbose, "Name what was left out or fell back, building by building");
-  verb->set_help_all_flag("--help-all", "Show this and every room's options");
+  verb->add_option("--report", request->report, "Write a copy of the report (run.json) to this file")
+      ->type_name("FILE");
+  add_jobs(*verb, request->jobs);
+  verb->add_flag("-q,--quiet", request->quiet, "Print no progress and no summary");
+  verb->add_flag("-v,--verbose", request->verbose,
+                 "Print every remark and every reason, even for more than 20 buildings");
   request->settings.add_to(*verb);
   return {verb, [request, &cancel] {
             base::limit_threads(request->jobs);

@@ -29,8 +29,8 @@ void summarise(const pipeline::Reconstruction& r, const ExtrudeRequest& request,
 
 auto extrude_footprints(const ExtrudeRequest& request, const base::Cancel& cancel) -> int {
   pipeline::Options options;
-  if (auto applied = request.settings.apply(options); !applied) return give_up(applied.error());
-  if (auto ready = check_outputs(request); !ready) return give_up(ready.error());
+  if (auto applied = request.settings.apply(options); !applied) return give_up(applied.errors());
+  if (auto ready = check_outputs(request); !ready) return give_up(ready.errors());
 
   Progress progress(request.quiet);
   base::Run run;
@@ -40,15 +40,15 @@ auto extrude_footprints(const ExtrudeRequest& request, const base::Cancel& cance
 
   progress.show("ingest", request.input, 0);
   const auto scene = ingest::read_footprints(request.input, options.ingest, run);
-  if (!scene) return give_up(scene.error());
+  if (!scene) return give_up(scene.errors());
   for (const auto& warning : scene->warnings) progress.say(base::to_string(warning));
 
   const auto result = pipeline::raise_footprints(*scene, options, run);
-  if (!result) return give_up(result.error());
+  if (!result) return give_up(result.errors());
   for (const auto& warning : result->warnings) progress.say(base::to_string(warning));
   progress.show("write", request.out, 1);
   const auto report = pipeline::report_json(*result, *scene);
-  if (auto written = write_out(result->city, report, options, request, run); !written) return give_up(written.error());
+  if (auto written = write_out(result->city, report, options, request, run); !written) return give_up(written.errors());
   summarise(*result, request, progress);
   std::printf("%s\n", request.out.c_str());
   return count(*result, pipeline::Outcome::full) == result->buildings.size() ? all_done : some_fell_back;

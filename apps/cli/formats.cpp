@@ -21,6 +21,12 @@ auto split(const std::string& list) -> std::vector<std::string> {
   return words;
 }
 
+auto format_names() -> std::string {
+  std::string all;
+  for (const auto& format : formats::formats()) all += (all.empty() ? "" : ", ") + std::string(format.name);
+  return all;
+}
+
 auto holds_a_tileset(const fs::path& folder) -> bool {
   std::error_code status;
   return fs::is_regular_file(folder / "tileset.json", status);
@@ -29,13 +35,13 @@ auto holds_a_tileset(const fs::path& folder) -> bool {
 auto folder_free(const fs::path& folder, bool overwrite) -> base::Result<void> {
   std::error_code status;
   if (fs::exists(folder, status) && !fs::is_directory(folder, status))
-    return base::error("output-exists", "this is a file, and tiles are a folder; choose another name", folder.string());
+    return base::error("output-exists", "is a file, and a tileset is a folder; choose another path", folder.string());
   const bool taken = fs::exists(folder, status) && !fs::is_empty(folder, status);
   if (taken && !overwrite)
-    return base::error("output-exists", "the folder is not empty; choose another, or say --overwrite", folder.string());
+    return base::error("output-exists", "the folder is not empty; choose another, or add --overwrite", folder.string());
   if (taken && !holds_a_tileset(folder))
     return base::error("output-exists",
-                       "the folder holds something else than tiles, which would be lost; choose another name",
+                       "the folder holds other files than a tileset, which would be lost; choose another path",
                        folder.string());
   const auto above = fs::absolute(folder, status).lexically_normal();
   const auto parent = (above.has_filename() ? above : above.parent_path()).parent_path();
@@ -44,13 +50,24 @@ auto folder_free(const fs::path& folder, bool overwrite) -> base::Result<void> {
 
 }  // namespace
 
-auto format_names() -> std::string {
-  std::string all;
-  for (const auto& format : formats::formats()) all += (all.empty() ? "" : ", ") + std::string(format.name);
+auto readable_formats() -> const ReadableFormats& {
+  using formats::Reads;
+  static const ReadableFormats all = [] {
+    std::string only_own;
+    for (const auto& driver : formats::drivers())
+      if (driver.reads.results && !driver.reads.models)
+        only_own += (only_own.empty() ? "" : ", ") + std::string(driver.title);
+    return ReadableFormats{
+        formats::titles(&Reads::mesh) + ", rasters of heights (" + formats::titles(&Reads::raster) +
+            "), folders, .zip and .gz of these",
+        formats::titles(&Reads::footprints) + ", any other vector format of GDAL, or a database (PG:...)",
+        formats::titles(&Reads::models) + " of any producer, or what mansard wrote (" + only_own + ")",
+        formats::titles(&Reads::results)};
+  }();
   return all;
 }
 
-auto endings() -> std::string {
+auto extensions() -> std::string {
   std::string all;
   for (const auto& format : formats::formats()) all += (all.empty() ? "" : ", ") + std::string(format.ending);
   return all;
@@ -62,10 +79,10 @@ auto format_named(const std::string& name) -> base::Result<Format> {
     if (format.name == name) return format.format;
     known.emplace_back(format.name);
   }
-  return base::error("option-value",
-                     "'" + name + "' is no format" + base::did_you_mean(base::nearest_word(name, known)) +
-                         "; there are " + format_names(),
-                     name);
+  return base::error(
+      "option-value",
+      "unknown format '" + name + "'; expected " + format_names() + base::did_you_mean(base::nearest_word(name, known)),
+      name);
 }
 
 auto formats_in(const std::string& list) -> base::Result<std::vector<Format>> {
@@ -77,7 +94,7 @@ auto formats_in(const std::string& list) -> base::Result<std::vector<Format>> {
       for (const auto& name : split(default_formats)) asked.push_back(*format_named(name));
     } else {
       const auto format = format_named(word);
-      if (!format) return format.error();
+      if (!format) return format.failure();
       asked.push_back(*format);
     }
   }
@@ -85,11 +102,6 @@ auto formats_in(const std::string& list) -> base::Result<std::vector<Format>> {
   for (const auto& format : formats::formats())
     if (std::ranges::find(asked, format.format) != asked.end()) out.push_back(format.format);
   return out;
-}
-
-auto formats_help() -> std::string {
-  return "The models' formats, with commas between: " + format_names() + "; 'default' (" + default_formats +
-         "), or 'all'";
 }
 
 auto all_results() -> const std::vector<std::string>& {
@@ -106,15 +118,15 @@ auto all_results() -> const std::vector<std::string>& {
 
 auto target_at(const fs::path& path) -> base::Result<Target> {
   const auto format = formats::format_of(path);
-  if (!format) return base::error("usage", "no format has this ending; there are " + endings(), path.string());
-  // Of tiles the folder is written, not the one file that names the others.
+  if (!format) return base::error("usage", "unknown file extension; expected " + extensions(), path.string());
+  // Of a tileset the folder is written, not the one file that names the others.
   return Target{*format, path.filename() == "tileset.json" ? path.parent_path() : path};
 }
 
 auto open_city(const fs::path& path) -> base::Result<std::unique_ptr<formats::CityReader>> {
   std::error_code status;
   if (!path.string().starts_with("/vsi") && !fs::exists(path, status))
-    return base::error("file-missing", "no such file; check the path", path.string());
+    return base::error("file-missing", "the file does not exist; check the path", path.string());
   return formats::read_city(path);
 }
 
@@ -128,7 +140,7 @@ auto layers_beside(formats::CityReader& reader, const std::string& input, const 
   *beside = {};
   if (!names.empty())
     beside->warnings.push_back(base::warning(
-        "write-layer-left", "these layers stay behind, since only a GeoPackage has a place for them: " + names, input));
+        "write-layer-left", "only a GeoPackage can hold these layers, so they are left out: " + names, input));
   return beside;
 }
 
@@ -139,12 +151,13 @@ auto target_free(const Target& target, bool overwrite) -> base::Result<void> {
   return {};
 }
 
-auto open_writers(const std::vector<Target>& targets, const formats::Header& header, const formats::WriteOptions& options,
-                  base::Outputs& outputs, const std::vector<formats::Layer>& more) -> base::Result<Writers> {
+auto open_writers(const std::vector<Target>& targets, const formats::Header& header,
+                  const formats::WriteOptions& options, base::Outputs& outputs, const std::vector<formats::Layer>& more)
+    -> base::Result<Writers> {
   Writers writers;
   for (const auto& target : targets) {
     auto writer = formats::open_writer(target.format, target.path, header, options, outputs, more);
-    if (!writer) return writer.error();
+    if (!writer) return writer.failure();
     writers.push_back(std::move(*writer));
   }
   return writers;
@@ -152,7 +165,7 @@ auto open_writers(const std::vector<Target>& targets, const formats::Header& hea
 
 auto write_bytes(const fs::path& path, std::string_view bytes, base::Outputs& outputs) -> base::Result<void> {
   auto sink = outputs.file(path);
-  if (!sink) return sink.error();
+  if (!sink) return sink.failure();
   (*sink)->append(bytes);
   return {};
 }

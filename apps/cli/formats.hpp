@@ -11,28 +11,34 @@
 
 namespace mansard::cli {
 
+/// What can be read as each kind of input, in words for help and messages.
+struct ReadableFormats {
+  std::string meshes, footprints;
+  std::string models;      ///< of any producer
+  std::string own_models;  ///< with plans: what mansard wrote
+};
+[[nodiscard]] auto readable_formats() -> const ReadableFormats&;
+
 using formats::name_in_folder;
 using formats::places_of;
 using formats::Target;
 using formats::targets_in;
 using formats::write_models;
 
-/// The names of all formats: "cityjson, cityjsonseq, obj, …".
-[[nodiscard]] auto format_names() -> std::string;
-/// And their endings: ".city.json, .city.jsonl, …".
-[[nodiscard]] auto endings() -> std::string;
+/// The file extensions of all formats: ".city.json, .city.jsonl, …".
+[[nodiscard]] auto extensions() -> std::string;
 /// Gives up with "option-value".
 [[nodiscard]] auto format_named(const std::string& name) -> base::Result<formats::Format>;
 /// "cityjson,glb", "all", or "default" for what a folder of results has when nothing is said; in the order of
 /// formats::formats(), each once. Gives up with "option-value".
 [[nodiscard]] auto formats_in(const std::string& list) -> base::Result<std::vector<formats::Format>>;
 inline constexpr auto default_formats = "cityjson,obj,glb,geopackage,plans";
-/// What the option --formats says of itself.
-[[nodiscard]] auto formats_help() -> std::string;
+/// The meaning of the option --formats.
+inline constexpr auto formats_help = "Formats of the models: a list with commas, or 'all'";
 
 /// Every name that a folder of results may have: of any format, the report, pictures.
 [[nodiscard]] auto all_results() -> const std::vector<std::string>&;
-/// By the ending of its name. Gives up with "usage" where no format has it.
+/// By the file extension. Gives up with "usage" where no format has it.
 [[nodiscard]] auto target_at(const std::filesystem::path& path) -> base::Result<Target>;
 
 /// What mansard wrote, by formats::read_city; a missing file is told as one whatever it is called. Gives up with

@@ -5,8 +5,10 @@
 #include <cstdio>
 #include <memory>
 
+#include "apps/cli/catalogue.hpp"
 #include "apps/cli/exit.hpp"
 #include "apps/cli/formats.hpp"
+#include "apps/cli/scan.hpp"
 #include "apps/cli/verbs.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/pipeline/stored.hpp"
@@ -26,9 +28,9 @@ auto info_of(const fs::path& path, const Request& request, const base::Run& run)
   auto reader = open_city(path);
   if (reader) return info_of_city(path, **reader, request.verbose, run);
   const auto& why = reader.error();
-  // A database or a file in an archive is told by who reads it; what mansard wrote and is broken, by the reader.
+  // A database or a file in an archive is reported by what reads it; a broken file of mansard by its reader.
   const bool broken = why.code.starts_with("write-") && !pipeline::is_foreign(why);
-  // Of a folder the reader says no more than that it is no tileset.
+  // Of a folder the reader only reports that it is not a tileset.
   std::error_code status;
   const bool other_folder = fs::is_directory(path, status) && !fs::exists(path / "tileset.json", status);
   if (other_folder) return info_of_other(path, why, run);
@@ -43,14 +45,14 @@ auto info(const Request& request, const base::Cancel& cancel) -> int {
   int exit = all_done;
   Json all = Json::array();
   for (const auto& file : request.files) {
-    auto told = info_of(file, request, run);
-    if (!told) {
-      exit = give_up(told.error());
+    auto described = info_of(file, request, run);
+    if (!described) {
+      exit = give_up(described.errors());
       if (exit == cancelled) return exit;
     } else if (request.json) {
-      all.push_back(std::move(*told));
+      all.push_back(std::move(*described));
     } else {
-      std::fputs(info_text(*told).c_str(), stdout);
+      std::fputs(info_text(*described).c_str(), stdout);
     }
   }
   if (request.json) std::puts(all.dump(1, ' ', false, Json::error_handler_t::replace).c_str());
@@ -60,14 +62,17 @@ auto info(const Request& request, const base::Cancel& cancel) -> int {
 }  // namespace
 
 auto info_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
-  auto* verb = app.add_subcommand("info", "Say what files are: models, meshes, footprints, tilesets, rasters");
+  auto* verb = add_verb(app, "info");
   auto request = std::make_shared<Request>();
-  verb->add_option("FILES", request->files, "Whatever mansard reads or writes")->required()->type_name("FILE…");
-  verb->add_flag("--json", request->json, "As JSON: an array with an object per file");
+  verb->add_option("FILES", request->files,
+                   "Models: " + readable_formats().models + ", STL. Meshes: " + readable_formats().meshes +
+                       ". Footprints: " + readable_formats().footprints)
+      ->required()
+      ->type_name("FILE...");
+  verb->add_flag("--json", request->json, "Print JSON: an array with one object for each file");
   verb->add_flag("-v,--verbose", request->verbose,
-                 "Every option that models were made with, those at their defaults too");
-  verb->add_option("-j,--jobs", request->jobs, "Threads; 0 for one per core. The result is the same at any number")
-      ->check(CLI::Range(0, 1024));
+                 "Also print the options that models were made with where they have their defaults");
+  add_jobs(*verb, request->jobs);
   return {verb, [request, &cancel] { return info(*request, cancel); }};
 }
 

@@ -1,4 +1,4 @@
-// What `mansard info` says of a file: as JSON, from which its text is made. docs/cli.md lists the members.
+// What `mansard info` reports of a file: JSON, from which its text is made. docs/cli.md lists the members.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +19,7 @@ class Extent3 {
   [[nodiscard]] auto json() const -> Json;
 
  private:
-  std::array<double, 3> least_{}, most_{};
+  std::array<double, 3> minimum_{}, maximum_{};
   bool empty_ = true;
 };
 
@@ -27,12 +27,12 @@ class Extent3 {
 [[nodiscard]] auto info_of_city(const std::filesystem::path& path, formats::CityReader& reader, bool all_options,
                                 const base::Run& run) -> base::Result<Json>;
 
-/// Anything else: models of other makers, STL, tilesets, meshes, rasters, footprint sources. `why`: why it is none of
-/// mansard's.
+/// Anything else: models of other producers, STL, tilesets, meshes, rasters, footprint sources. `why`: why mansard did
+/// not write it.
 [[nodiscard]] auto info_of_other(const std::filesystem::path& path, const base::Diagnostic& why, const base::Run& run)
     -> base::Result<Json>;
 
-/// What a tileset.json says: its version, and per level how many tiles and what geometric errors; null where there is
+/// What a tileset.json has: its version, and per level how many tiles and what geometric errors; null where there is
 /// none in the folder.
 [[nodiscard]] auto info_of_tileset(const std::filesystem::path& path) -> Json;
 

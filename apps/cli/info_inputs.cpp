@@ -1,4 +1,4 @@
-// Of what others made: models, shells, tilesets, meshes, rasters, footprint sources.
+// Files of other producers: models, shells, tilesets, meshes, rasters, footprint sources.
 #include <algorithm>
 #include <array>
 #include <fstream>
@@ -24,18 +24,10 @@ auto head(const fs::path& path, const char* kind, const std::string& format) -> 
   return out;
 }
 
-auto lower(std::string text) -> std::string {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
-  return text;
-}
-
 /// Without the dot, and without that of a compressed file.
-auto ending_of(const fs::path& path) -> std::string {
-  auto name = path.filename();
-  if (lower(name.extension().string()) == ".gz") name = name.stem();
-  const auto ending = lower(name.extension().string());
-  return ending.empty() ? ending : ending.substr(1);
+auto extension_of(const fs::path& path) -> std::string {
+  const auto extension = formats::extension_of(path);
+  return extension.empty() ? extension : extension.substr(1);
 }
 
 auto warnings_json(const std::vector<base::Diagnostic>& warnings) -> Json {
@@ -44,7 +36,7 @@ auto warnings_json(const std::vector<base::Diagnostic>& warnings) -> Json {
   return out;
 }
 
-// ---- models of other makers
+// ---- models of other producers
 
 auto info_of_model(const fs::path& path, const model::Model& model) -> Json {
   const auto surface = model::surface_of(model);
@@ -59,7 +51,7 @@ auto info_of_model(const fs::path& path, const model::Model& model) -> Json {
       for (const auto& face : part.faces) ++classes[static_cast<std::size_t>(face.kind)];
     }
   }
-  Json out = head(path, "models", ending_of(path) == "obj" ? "obj" : "cityjson");
+  Json out = head(path, "models", extension_of(path) == "obj" ? "obj" : "cityjson");
   out["by"] = "others";
   out["crs"] = model.frame.crs;
   out["extent"] = extent.json();
@@ -80,7 +72,7 @@ auto info_of_model(const fs::path& path, const model::Model& model) -> Json {
 /// Binary: 80 bytes of text, the number of triangles, 50 bytes for each.
 auto info_of_stl(const fs::path& path) -> base::Result<Json> {
   const auto bytes = base::read_file(path);
-  if (!bytes) return bytes.error();
+  if (!bytes) return bytes.failure();
   Json out = head(path, "shells", "stl");
   const auto at = [&](std::size_t offset) {
     return static_cast<std::uint32_t>(static_cast<unsigned char>((*bytes)[offset]));
@@ -90,8 +82,7 @@ auto info_of_stl(const fs::path& path) -> base::Result<Json> {
   if (bytes->size() < 84 || bytes->size() != 84 + 50 * count) {
     if (bytes->starts_with("solid")) out["text"] = true;
     else
-      return base::error("ingest-mesh-truncated", "this is no whole binary STL; copy or export it again",
-                         path.string());
+      return base::error("ingest-mesh-truncated", "not a complete binary STL; copy or export it again", path.string());
     return out;
   }
   std::string text = bytes->substr(0, std::min<std::size_t>(80, bytes->find('\0')));
@@ -104,7 +95,7 @@ auto info_of_stl(const fs::path& path) -> base::Result<Json> {
 
 struct Level {
   std::size_t tiles = 0, contents = 0;
-  double least = std::numeric_limits<double>::infinity(), most = 0;
+  double minimum = std::numeric_limits<double>::infinity(), maximum = 0;
 };
 
 void walk(const Json& tile, std::size_t depth, std::vector<Level>& levels) {
@@ -114,8 +105,8 @@ void walk(const Json& tile, std::size_t depth, std::vector<Level>& levels) {
   ++level.tiles;
   level.contents += tile.contains("content") ? 1 : tile.contains("contents") ? tile["contents"].size() : 0;
   if (tile.contains("geometricError") && tile["geometricError"].is_number()) {
-    level.least = std::min(level.least, tile["geometricError"].get<double>());
-    level.most = std::max(level.most, tile["geometricError"].get<double>());
+    level.minimum = std::min(level.minimum, tile["geometricError"].get<double>());
+    level.maximum = std::max(level.maximum, tile["geometricError"].get<double>());
   }
   if (tile.contains("children"))
     for (const auto& child : tile["children"]) walk(child, depth + 1, levels);
@@ -129,11 +120,11 @@ auto tileset_file(const fs::path& path) -> fs::path {
 // ---- meshes
 
 auto info_of_mesh(const fs::path& path, const base::Run& run) -> base::Result<Json> {
-  // A y-up glTF is told z up, as `reconstruct` takes it.
+  // A y-up glTF is reported with z up, as `reconstruct` reads it.
   const auto mesh = ingest::read_mesh({path}, {}, {}, run);
-  if (!mesh) return mesh.error();
+  if (!mesh) return mesh.failure();
   std::error_code status;
-  Json out = head(path, "mesh", fs::is_directory(path, status) ? "folder" : ending_of(path));
+  Json out = head(path, "mesh", fs::is_directory(path, status) ? "folder" : extension_of(path));
   Extent3 extent;
   for (const auto p : mesh->mesh.vertices) extent.add(p, {});
   out["extent"] = extent.json();
@@ -167,7 +158,7 @@ auto info_of_mesh(const fs::path& path, const base::Run& run) -> base::Result<Js
 
 auto info_of_raster(const fs::path& path) -> base::Result<Json> {
   const auto source = formats::raster_source(path);
-  if (!source) return source.error();
+  if (!source) return source.failure();
   Json out = head(path, "raster", source->driver);
   out["crs"] = source->crs;
   out["extent"] = source->extent;
@@ -198,23 +189,22 @@ auto layers_of(const formats::VectorSource& source) -> Json {
 
 auto info_of_source(const fs::path& path) -> base::Result<Json> {
   const auto source = formats::vector_source(path);
-  if (!source) return source.error();
+  if (!source) return source.failure();
   Json out = head(path, "footprints", source->driver);
   out["layers"] = layers_of(*source);
   return out;
 }
 
 auto is_mesh(const fs::path& path) -> bool {
-  static constexpr std::array endings{"obj", "ply", "off", "glb", "gltf"};
   std::error_code status;
-  return fs::is_directory(path, status) || std::ranges::find(endings, ending_of(path)) != endings.end();
+  return fs::is_directory(path, status) || formats::has_extension(path, &formats::Reads::mesh);
 }
 
-/// JSON that ends like CityJSON, or says that it is.
+/// JSON with the file extension or the member of CityJSON.
 auto may_be_cityjson(const fs::path& path) -> bool {
-  const auto ending = ending_of(path);
-  if (ending == "jsonl") return true;
-  if (ending != "json") return false;
+  const auto extension = extension_of(path);
+  if (extension == "jsonl") return true;
+  if (extension != "json") return false;
   const auto bytes = base::read_file(path);
   return bytes && bytes->find("\"CityJSON\"") != std::string::npos;
 }
@@ -238,30 +228,31 @@ auto info_of_tileset(const fs::path& path) -> Json {
     out["levels"].push_back(
         {{"tiles", level.tiles},
          {"contents", level.contents},
-         {"geometric_error_m", level.most < level.least ? Json(nullptr) : Json::array({level.least, level.most})}});
+         {"geometric_error_m",
+          level.maximum < level.minimum ? Json(nullptr) : Json::array({level.minimum, level.maximum})}});
   return out;
 }
 
 auto info_of_layers(const fs::path& path) -> base::Result<Json> {
   const auto source = formats::vector_source(path);
-  if (!source) return source.error();
+  if (!source) return source.failure();
   return layers_of(*source);
 }
 
 auto info_of_other(const fs::path& path, const base::Diagnostic& why, const base::Run& run) -> base::Result<Json> {
-  if (ending_of(path) == "stl") return info_of_stl(path);
+  if (extension_of(path) == "stl") return info_of_stl(path);
   if (auto tileset = info_of_tileset(path); !tileset.is_null()) {
     Json out = head(path, "tileset", "tiles");
     out["tileset"] = std::move(tileset);
     return out;
   }
-  if (may_be_cityjson(path) || ending_of(path) == "obj") {
+  if (may_be_cityjson(path) || extension_of(path) == "obj") {
     const auto model = ingest::read_model(path);
-    // An OBJ that does not say what its faces are is a mesh like any other.
+    // An OBJ whose faces have no class is a mesh like any other.
     const auto guessed = [](const base::Diagnostic& warning) { return warning.code == "ingest-model-semantics"; };
-    const bool says = model && (ending_of(path) != "obj" || std::ranges::none_of(model->warnings, guessed));
-    if (says) return info_of_model(path, *model);
-    if (!model && ending_of(path) != "obj") return model.error();
+    const bool labelled = model && (extension_of(path) != "obj" || std::ranges::none_of(model->warnings, guessed));
+    if (labelled) return info_of_model(path, *model);
+    if (!model && extension_of(path) != "obj") return model.failure();
   }
   if (is_mesh(path)) {
     auto mesh = info_of_mesh(path, run);
@@ -272,9 +263,9 @@ auto info_of_other(const fs::path& path, const base::Diagnostic& why, const base
   }
   if (formats::named_as_raster(path)) return info_of_raster(path);
   auto source = info_of_source(path);
-  if (!source && ending_of(path) == "zip")
+  if (!source && extension_of(path) == "zip")
     if (auto mesh = info_of_mesh(path, run)) return mesh;
-  // A broken file of plans is better told as one.
+  // A broken file of plans is better reported as one.
   return !source && why.code.starts_with("write-plan") ? base::Result<Json>(why) : source;
 }
 

@@ -132,20 +132,20 @@ auto size_of(const fs::path& path) -> std::uintmax_t {
   return sum;
 }
 
-/// Adds every building, its model raised where the file has none. Whether there were models.
+/// Adds every building, its model rebuilt where the file has none. Whether there were models.
 auto add_all(formats::CityReader& reader, const base::Run& run, Tally& tally) -> base::Result<bool> {
   if (!reader.has_models()) {
     pipeline::Options options;
     (void)pipeline::take_options(reader.header().made_by, options);
     const auto raised = pipeline::read_raised(reader, options, run);
-    if (!raised) return raised.error();
+    if (!raised) return raised.failure();
     for (const auto& building : raised->city.buildings) tally.add(building);
     return false;
   }
   for (;;) {
     if (run.cancelled()) return base::error("cancelled", "stopped on request");
     const auto building = reader.next();
-    if (!building) return building.error();
+    if (!building) return building.failure();
     if (!*building) return true;
     tally.add(**building);
   }
@@ -157,15 +157,15 @@ void Extent3::add(geometry::Point3 p, const model::Frame& frame) {
   const std::array at{p.x + static_cast<double>(frame.origin[0]), p.y + static_cast<double>(frame.origin[1]),
                       p.z + static_cast<double>(frame.origin[2])};
   for (std::size_t i = 0; i < 3; ++i) {
-    least_[i] = empty_ ? at[i] : std::min(least_[i], at[i]);
-    most_[i] = empty_ ? at[i] : std::max(most_[i], at[i]);
+    minimum_[i] = empty_ ? at[i] : std::min(minimum_[i], at[i]);
+    maximum_[i] = empty_ ? at[i] : std::max(maximum_[i], at[i]);
   }
   empty_ = false;
 }
 
 auto Extent3::json() const -> Json {
   if (empty_) return nullptr;
-  return {least_[0], least_[1], least_[2], most_[0], most_[1], most_[2]};
+  return {minimum_[0], minimum_[1], minimum_[2], maximum_[0], maximum_[1], maximum_[2]};
 }
 
 auto info_of_city(const fs::path& path, formats::CityReader& reader, bool all_options, const base::Run& run)
@@ -174,8 +174,8 @@ auto info_of_city(const fs::path& path, formats::CityReader& reader, bool all_op
   const formats::Header header = reader.header();
   Tally tally(header.frame);
   const auto has_models = add_all(reader, run, tally);
-  if (!has_models) return has_models.error();
-  // By its name; what is in it tells CityJSON from plans, which both may end in ".json".
+  if (!has_models) return has_models.failure();
+  // By its name; the content distinguishes CityJSON from plans, which may both have the extension ".json".
   auto format = formats::format_of(path).value_or(formats::Format::plans);
   if (*has_models && format == formats::Format::plans) format = formats::Format::cityjson;
   const auto name = std::ranges::find(formats::formats(), format, &formats::FormatName::format);
@@ -197,7 +197,7 @@ auto info_of_city(const fs::path& path, formats::CityReader& reader, bool all_op
   if (format == formats::Format::tiles) out["tileset"] = info_of_tileset(path);
   if (format == formats::Format::geopackage) {
     auto layers = info_of_layers(path);
-    if (!layers) return layers.error();
+    if (!layers) return layers.failure();
     out["layers"] = std::move(*layers);
   }
   return out;

@@ -1,7 +1,8 @@
-// What is known of a file, in a few lines for a person.
+// The report on a file as text.
 #include <algorithm>
 
 #include "apps/cli/info.hpp"
+#include "apps/cli/layout.hpp"
 #include "mansard/base/text.hpp"
 
 namespace mansard::cli {
@@ -9,25 +10,13 @@ namespace {
 
 constexpr std::size_t width = 80, margin = 14;
 
-/// Terms at the left, what is said of them in a column of its own, broken between words.
+/// Terms at the left, their values in a second column, broken between words.
 class Lines {
  public:
   explicit Lines(const std::string& title) : text_(base::on_one_line(title) + "\n") {}
 
   void add(const std::string& term, const std::string& words) {
-    std::string line = "  " + term;
-    line.resize(margin, ' ');
-    std::string rest = base::on_one_line(words);
-    while (!rest.empty()) {
-      std::size_t end = std::min(rest.size(), width - margin);
-      if (end < rest.size())
-        if (const auto blank = rest.rfind(' ', end); blank != std::string::npos && blank > 0) end = blank;
-      while (end < rest.size() && (static_cast<unsigned char>(rest[end]) & 0xC0) == 0x80) --end;  // not within a letter
-      text_ += line + rest.substr(0, end) + "\n";
-      rest.erase(0, end);
-      rest.erase(0, std::min(rest.find_first_not_of(' '), rest.size()));
-      line.assign(margin, ' ');
-    }
+    if (!words.empty()) text_ += term_and_text("  " + term, base::on_one_line(words), margin, width);
   }
   [[nodiscard]] auto text() const -> const std::string& { return text_; }
 
@@ -74,7 +63,7 @@ auto counted(const Json& counts) -> std::string {
 
 auto what(const Json& info) -> std::string {
   std::string words = info["kind"].get<std::string>() + ", " + info["format"].get<std::string>();
-  if (info.contains("by")) words += info["by"] == "mansard" ? ", by mansard " : ", of another maker";
+  if (info.contains("by")) words += info["by"] == "mansard" ? ", by mansard " : ", by another producer";
   if (info.contains("made_by")) words += info["made_by"]["version"].get<std::string>();
   if (info.contains("bytes")) words += ", " + size_in_words(info["bytes"]);
   return words;
@@ -91,22 +80,24 @@ void add_counts(const Json& counts, Lines& lines) {
   lines.add("triangles", words);
   std::string faults;
   for (const auto& [name, label] :
-       {std::pair{"not_finite", "not finite"}, std::pair{"out_of_range", "with corners that are not there"},
-        std::pair{"degenerate", "without area"}, std::pair{"duplicate", "repeated"}})
+       {std::pair{"not_finite", "not finite"}, std::pair{"out_of_range", "with missing corners"},
+        std::pair{"degenerate", "without area"}, std::pair{"duplicate", "duplicate"}})
     if (counts.contains(name) && counts[name] > 0)
       faults += (faults.empty() ? "" : ", ") + whole(counts[name]) + " " + label;
   if (!faults.empty()) lines.add("left out", faults);
   if (counts.contains("boundary_edges"))
     lines.add("edges", whole(counts["boundary_edges"]) + " at the boundary, " + whole(counts["non_manifold_edges"]) +
-                           " of more than two triangles, " + whole(counts["flipped_edges"]) + " between flipped ones");
+                           " non-manifold, " + whole(counts["flipped_edges"]) +
+                           " between triangles of opposite orientation");
 }
 
 void add_validity(const Json& validity, Lines& lines) {
-  lines.add("valid", whole(validity["valid"]) + " of " + whole(validity["solids"]) + " solids, at 0.1 mm");
+  lines.add("valid",
+            whole(validity["valid"]) + " of " + whole(validity["solids"]) + " solids (planarity tolerance 0.1 mm)");
   std::size_t told = 0;
   for (const auto& solid : validity["invalid"]) {
     if (++told > 10) {
-      lines.add("", "… --json has them all");
+      lines.add("", "… --json lists all");
       break;
     }
     const auto& reason = solid["reasons"][0];
@@ -123,7 +114,7 @@ void add_made_by(const Json& made_by, Lines& lines) {
     lines.add(term, name + " = " + value.get<std::string>());
     term = "";
   }
-  if (options.empty()) lines.add(term, all ? "none said" : "the defaults");
+  if (options.empty()) lines.add(term, all ? "not recorded" : "defaults");
   term = "inputs";
   for (const auto& input : made_by["inputs"]) {
     lines.add(term, input["path"].get<std::string>() + ", " + size_in_words(input["bytes"]));
@@ -133,9 +124,8 @@ void add_made_by(const Json& made_by, Lines& lines) {
 }
 
 void add_tileset(const Json& tileset, Lines& lines) {
-  lines.add("tileset",
-            "3D Tiles " + tileset["version"].get<std::string>() +
-                (tileset["placed_on_the_earth"] == true ? ", placed on the earth" : ", without a transform"));
+  lines.add("tileset", "3D Tiles " + tileset["version"].get<std::string>() +
+                           (tileset["placed_on_the_earth"] == true ? ", georeferenced" : ", without a transform"));
   std::size_t depth = 0;
   for (const auto& level : tileset["levels"]) {
     const auto& errors = level["geometric_error_m"];
@@ -154,7 +144,7 @@ void add_layer(const Json& layer, Lines& lines) {
   std::string words = layer["name"].get<std::string>() + ": ";
   words += layer["features"].is_null() ? "" : whole(layer["features"]) + " features, ";
   lines.add("layer", words + layer["geometry"].get<std::string>());
-  lines.add("  CRS", layer["crs"] == "" ? "none said" : layer["crs"].get<std::string>());
+  lines.add("  CRS", layer["crs"] == "" ? "none" : layer["crs"].get<std::string>());
   if (!layer["extent"].is_null()) lines.add("  extent", extent_in_words(layer["extent"]));
   std::string fields;
   for (const auto& field : layer["fields"])
@@ -175,7 +165,7 @@ void add_raster(const Json& info, Lines& lines) {
   lines.add("cells", whole(info["columns"]) + " × " + whole(info["rows"]) + " of " +
                          base::to_text(info["cell"][0].get<double>()) + " × " +
                          base::to_text(info["cell"][1].get<double>()) + ", " + whole(info["bands"]) + " bands");
-  if (!info["nodata"].is_null()) lines.add("no value", base::to_text(info["nodata"].get<double>()));
+  if (!info["nodata"].is_null()) lines.add("no-data", base::to_text(info["nodata"].get<double>()));
   if (info["unit"] != "") lines.add("unit", info["unit"].get<std::string>());
 }
 
@@ -183,17 +173,17 @@ void add_raster(const Json& info, Lines& lines) {
 
 auto info_text(const Json& info) -> std::string {
   Lines lines(info["file"].get<std::string>());
-  lines.add("what", what(info));
+  lines.add("type", what(info));
   if (info.contains("header") && info["header"] != "") lines.add("header", info["header"].get<std::string>());
-  if (info.contains("crs")) lines.add("CRS", info["crs"] == "" ? "none said" : info["crs"].get<std::string>());
+  if (info.contains("crs")) lines.add("CRS", info["crs"] == "" ? "none" : info["crs"].get<std::string>());
   if (info.contains("extent") && !info["extent"].is_null()) lines.add("extent", extent_in_words(info["extent"]));
   if (info.contains("columns")) add_raster(info, lines);
   if (info.contains("counts")) add_counts(info["counts"], lines);
   if (info.contains("classes")) lines.add("classes", counted(info["classes"]));
   if (info.contains("lods") && !info["lods"].empty()) lines.add("LoD", joined(info["lods"]));
   if (info.contains("validity")) add_validity(info["validity"], lines);
-  if (info.value("raised", false)) lines.add("", "raised from the plans in it for this count");
-  if (info.contains("fallbacks") && !info["fallbacks"].empty()) lines.add("fell back", counted(info["fallbacks"]));
+  if (info.value("raised", false)) lines.add("", "rebuilt from the plans in the file");
+  if (info.contains("fallbacks") && !info["fallbacks"].empty()) lines.add("fallbacks", counted(info["fallbacks"]));
   if (info.contains("footprints"))
     lines.add("footprints", whole(info["footprints"]["surveyed"]) + " surveyed, " +
                                 whole(info["footprints"]["derived"]) + " derived from the mesh");

@@ -4,7 +4,9 @@
 #include <memory>
 #include <optional>
 
+#include "apps/cli/catalogue.hpp"
 #include "apps/cli/exit.hpp"
+#include "apps/cli/formats.hpp"
 #include "apps/cli/output.hpp"
 #include "apps/cli/scan.hpp"
 #include "apps/cli/verbs.hpp"
@@ -29,7 +31,7 @@ struct Request : Common {
 auto check_outputs(const Request& request) -> base::Result<void> {
   const auto ending = fs::path(request.out).extension();
   if (ending != ".ply" && ending != ".glb")
-    return base::error("usage", "the output is a mesh; give a name that ends in .ply or .glb", request.out);
+    return base::error("usage", "the output is a mesh; its file extension must be .ply or .glb", request.out);
   std::vector<fs::path> inputs(request.inputs.begin(), request.inputs.end());
   for (const auto& extra : {request.truth_mesh, request.truth})
     if (!extra.empty()) inputs.emplace_back(extra);
@@ -50,11 +52,11 @@ auto true_model_of(const Request& request, const Input& input) -> base::Result<s
   if (request.truth.empty()) return none;
   auto truth = pipeline::read_any_model(request.truth, {request.lod, {}});
   if (truth) truth = ingest::in_frame(std::move(*truth), input.frame);
-  if (!truth) return truth.error();
+  if (!truth) return truth.failure();
   auto surface = model::surface_of(*truth);
   if (auto met = ingest::check_overlap(input.mesh.mesh, surface.mesh, {"mesh", "truth"}, input.frame, request.truth);
       !met)
-    return met.error();
+    return met.failure();
   return std::optional(std::move(surface));
 }
 
@@ -62,38 +64,38 @@ auto truth_of(const Request& request, const Input& input, const ingest::Options&
     -> base::Result<Classes> {
   if (request.truth_mesh.empty()) return Classes();
   auto truth = ingest::read_mesh({request.truth_mesh}, input.frame, options, run);
-  if (!truth) return truth.error();
+  if (!truth) return truth.failure();
   if (truth->classes.empty())
-    return base::error("usage", "its faces have no class; give a PLY file with the face property 'class'",
+    return base::error("usage", "the faces have no class; expected a PLY file with the face property 'class'",
                        request.truth_mesh);
   if (auto met =
           ingest::check_overlap(input.mesh.mesh, truth->mesh, {"mesh", "true mesh"}, input.frame, request.truth_mesh);
       !met)
-    return met.error();
+    return met.failure();
   return label::classes_from(input.mesh.mesh, truth->mesh, truth->classes);
 }
 
 auto read(const Request& request, const pipeline::Options& options, const base::Run& run, Progress& progress)
     -> base::Result<Input> {
   auto model = pipeline::read_any_model(request.inputs.back(), {request.lod, options.ingest.crs}, run);
-  if (!model) return model.error();
+  if (!model) return model.failure();
   Input input;
   input.frame = model->frame;
   input.model = model::surface_of(*model);
   for (const auto& warning : model->warnings) progress.say(base::to_string(warning));
   auto mesh = ingest::read_mesh({request.inputs.begin(), request.inputs.end() - 1}, input.frame, options.ingest, run);
-  if (!mesh) return mesh.error();
+  if (!mesh) return mesh.failure();
   input.mesh = std::move(*mesh);
   for (const auto& warning : input.mesh.warnings) progress.say(base::to_string(warning));
   if (auto met = ingest::check_overlap(input.model.mesh, input.mesh.mesh, {"model", "mesh"}, input.frame,
                                        request.inputs.back());
       !met)
-    return met.error();
+    return met.failure();
   auto truth = truth_of(request, input, options.ingest, run);
-  if (!truth) return truth.error();
+  if (!truth) return truth.failure();
   input.truth = std::move(*truth);
   auto true_model = true_model_of(request, input);
-  if (!true_model) return true_model.error();
+  if (!true_model) return true_model.failure();
   input.true_model = std::move(*true_model);
   return input;
 }
@@ -109,7 +111,7 @@ auto right_share(const label::ScanConfusion& area, std::size_t classes) -> std::
   return all > 0 ? base::to_text(100 * right / all, 1) + " %" : "-";
 }
 
-/// Of what stands above the ground, which by the true model is wall or roof.
+/// Of what is above the ground, which by the true model is wall or roof.
 void print_walls_and_roofs(const Input& input, const Classes& classes, const label::ScanOptions& options) {
   const auto& mesh = input.mesh.mesh;
   auto truth = label::nearest_wall_or_roof(mesh, *input.true_model);
@@ -130,8 +132,9 @@ void print_walls_and_roofs(const Input& input, const Classes& classes, const lab
   const std::string nearest = share(label::nearest_wall_or_roof(mesh, input.model)), labelled = share(classes),
                     normal = share(label::wall_or_roof_by_normal(mesh));
   std::printf(
-      "wall or roof as by the true model, of %s m²: by the nearest wall or roof of this one %s, as labelled %s, "
-      "by the normal alone %s\n",
+      "walls and roofs of the true model that are labelled right, of %s m²: by the nearest wall or roof of the model "
+      "%s, "
+      "by this labelling %s, by the normal alone %s\n",
       base::to_text(all, 0).c_str(), nearest.c_str(), labelled.c_str(), normal.c_str());
 }
 
@@ -148,27 +151,27 @@ void print(const Input& input, const Classes& classes) {
        {std::pair{"by the model", &classes}, std::pair{"by the normal alone", &by_normal}}) {
     const auto area = label::confusion_of(input.mesh.mesh, input.truth, *given);
     const std::string all = right_share(area, area.size()), known = right_share(area, area.size() - 1);
-    std::printf("\n%s: %s of the area right; of walls, roofs and ground %s\n%s", name, all.c_str(), known.c_str(),
+    std::printf("\n%s: %s of the area is right; %s without the class other\n%s", name, all.c_str(), known.c_str(),
                 pipeline::confusion_table(area).c_str());
   }
 }
 
 auto label_mesh(const Request& request, const base::Cancel& cancel) -> int {
-  if (request.inputs.size() < 2) return give_up(base::error("usage", "give one mesh or more, then a model"));
+  if (request.inputs.size() < 2) return give_up(base::error("usage", "expected one or more meshes, then a model"));
   pipeline::Options options;
-  if (auto applied = request.settings.apply(options); !applied) return give_up(applied.error());
-  if (auto ready = check_outputs(request); !ready) return give_up(ready.error());
+  if (auto applied = request.settings.apply(options); !applied) return give_up(applied.errors());
+  if (auto ready = check_outputs(request); !ready) return give_up(ready.errors());
   Progress progress(request.quiet);
   const auto run = start(request, options.seed, cancel, progress);
   const auto input = read(request, options, run, progress);
-  if (!input) return give_up(input.error());
+  if (!input) return give_up(input.errors());
 
   const auto classes = label::label_scan(input->mesh.mesh, input->model, request.scan, run);
   auto bytes = fs::path(request.out).extension() == ".ply"
                    ? base::Result<std::string>(formats::labelled_ply(input->mesh.mesh, classes, input->frame))
                    : formats::labelled_glb(input->mesh.mesh, classes, input->frame);
-  if (!bytes) return give_up(bytes.error());
-  if (auto written = base::write_files({{request.out, *bytes}}, &cancel); !written) return give_up(written.error());
+  if (!bytes) return give_up(bytes.errors());
+  if (auto written = base::write_files({{request.out, *bytes}}, &cancel); !written) return give_up(written.errors());
   print(*input, classes);
   if (input->true_model) print_walls_and_roofs(*input, classes, request.scan);
   std::printf("%s\n", request.out.c_str());
@@ -178,22 +181,26 @@ auto label_mesh(const Request& request, const base::Cancel& cancel) -> int {
 }  // namespace
 
 auto label_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
-  auto* verb = app.add_subcommand("label", "Label a scan's triangles as wall, roof, ground or other by a model");
+  auto* verb = add_verb(app, "label");
   auto request = std::make_shared<Request>();
   verb->add_option("INPUTS", request->inputs,
-                   "Meshes (OBJ, PLY, OFF, GLB, or folders of them), then the model (CityJSON, CityJSONSeq or OBJ)")
-      ->type_name("MESH… MODEL");
-  verb->add_option("-o,--output", request->out, "The labelled mesh: a name ending in .ply or .glb")
+                   "Meshes: " + readable_formats().meshes + ". Then the model: " + readable_formats().models)
+      ->type_name("MESH... MODEL");
+  verb->add_option("-o,--output", request->out,
+                   "Labelled mesh: .ply with a class for each face, or .glb with a material for each class")
       ->required()
       ->type_name("MESH2");
-  verb->add_option("--truth-mesh", request->truth_mesh, "PLY whose faces have their true class, to count what is right")
+  verb->add_option("--truth-mesh", request->truth_mesh,
+                   "PLY with the true class of each face; the share that is right is printed")
       ->type_name("FILE");
-  verb->add_option("--truth", request->truth, "A model that is known to be right, to count walls and roofs that are")
+  verb->add_option("--truth", request->truth,
+                   "Model that is known to be right; the share of walls and roofs that are right is printed")
       ->type_name("MODEL");
-  verb->add_option("--lod", request->lod, "Read this LoD of the model; without it, the highest of each object");
-  verb->add_option("--reach", request->scan.reach, "How far from the model a wall or roof may be [m]")
+  verb->add_option("--lod", request->lod, "LoD to read of the models; without it, the highest of each object");
+  verb->add_option("--reach", request->scan.reach, "Maximum distance of a wall or roof from the model, in metres")
       ->check(CLI::Range(0.01, 100.0));
-  verb->add_option("--ground-height", request->scan.ground_height, "How far from the terrain ground may be [m]")
+  verb->add_option("--ground-height", request->scan.ground_height,
+                   "Maximum distance of the ground from the terrain, in metres")
       ->check(CLI::Range(0.01, 100.0));
   add_common(*verb, *request, "warnings");
   return {verb, [request, &cancel] { return label_mesh(*request, cancel); }};

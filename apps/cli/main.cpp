@@ -2,17 +2,22 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <unistd.h>
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <new>
+#include <set>
 #include <vector>
 
+#include "apps/cli/catalogue.hpp"
 #include "apps/cli/exit.hpp"
+#include "apps/cli/help.hpp"
+#include "apps/cli/layout.hpp"
 #include "apps/cli/output.hpp"
-#include "apps/cli/settings.hpp"
 #include "apps/cli/verbs.hpp"
+#include "mansard/base/text.hpp"
 
 namespace mansard::cli {
 namespace {
@@ -31,49 +36,101 @@ void hold_standard_streams() {
     if (::fcntl(stream, F_GETFD) == -1 && errno == EBADF) (void)!::open("/dev/null", O_RDWR);
 }
 
-/// What was printed is a result too: a full disk must not pass for success. A reader that had enough, as `head` has, is
-/// no failure.
+/// What was printed is a result too: a full disk must not pass for success. A reader that closes the pipe early, as
+/// `head` does, is no failure.
 auto printed(int code) -> int {
   const bool failed = std::fflush(stdout) != 0;
   const std::string why = failed ? std::strerror(errno) : "";
   if (!failed && std::ferror(stdout) == 0) return code;
   pollfd out{STDOUT_FILENO, 0, 0};
   if (::poll(&out, 1, 0) == 1 && (out.revents & POLLERR) != 0) return code;
-  return give_up(base::error("file-write",
-                             "cannot print everything" + (why.empty() ? why : ": " + why) +
-                                 "; choose a place that can be written and has room",
-                             "standard output"));
+  return give_up(base::error(
+      "file-write",
+      "cannot be written completely" + (why.empty() ? why : ": " + why) + "; redirect it to a place with free space",
+      "standard output"));
 }
 
-/// A misspelt option, with the nearest known one.
-auto unknown_option(const CLI::App& verb) -> std::optional<base::Diagnostic> {
-  for (const auto& word : verb.remaining()) {
-    if (!word.starts_with("-") || word.size() < 2) continue;
-    const auto name = word.substr(0, word.find('='));
-    const auto nearest = base::nearest_word(name, Settings::names(verb));
-    return base::error(
-        "option-unknown",
-        "there is no such option" + base::did_you_mean(nearest) + "; see 'mansard " + verb.get_name() + " --help-all'",
-        name);
+/// Options that are of another verb, and misspelt ones, with the nearest known one.
+auto unknown_option(const Form& verb, const std::string& name, const std::vector<Form>& forms) -> base::Diagnostic {
+  std::vector<std::string> others, known;
+  std::set<std::string> modules;
+  for (const auto& form : forms)
+    for (const auto& term : form.options)
+      if (std::ranges::find(term.names, name) != term.names.end()) {
+        others.push_back(form.verb);
+        modules.insert(term.module);
+      }
+  if (!others.empty()) {
+    // --seed is of one module here and of another there, and --lod of none.
+    const auto module = modules.size() == 1 ? *modules.begin() : "";
+    return base::error("option-verb",
+                       "'mansard " + verb.verb + "' does not " +
+                           (module.empty() ? "have this option" : "read the options of the module " + module) +
+                           (others.size() > 1 ? "; verbs that do: " : "; the verb that does: ") + listed(others),
+                       name);
   }
-  return std::nullopt;
+  for (const auto& term : verb.options)
+    for (const auto& spelling : term.names)
+      if (spelling.starts_with("--")) known.push_back(spelling);
+  const auto nearest = base::nearest_word(name, known);
+  return base::error("option-unknown",
+                     "unknown option; see 'mansard " + verb.verb + " --help-all'" + base::did_you_mean(nearest), name);
+}
+
+auto unknown_options(const CLI::App& app, const CLI::App& verb) -> std::vector<base::Diagnostic> {
+  std::vector<base::Diagnostic> unknown;
+  for (const auto& word : verb.remaining()) {
+    if (!word.starts_with("-") || word.size() < 2 || base::to_number(word)) continue;
+    const auto name = word.substr(0, word.find('='));
+    unknown.push_back(unknown_option(form_of(verb), name, forms_of(app)));
+  }
+  return unknown;
+}
+
+/// What a word that is no verb may have been meant to be.
+auto unknown_verb(const std::string& word) -> base::Diagnostic {
+  std::vector<std::string> names;
+  for (const auto& entry : catalogue()) names.push_back(entry.name);
+  const std::string what = word.empty()            ? "no verb is given"
+                           : word.starts_with("-") ? "a verb must come before the options"
+                                                   : "unknown verb";
+  return base::error("usage", what + "; see 'mansard --help'" + base::did_you_mean(base::nearest_word(word, names)),
+                     word);
+}
+
+auto parse_failure(const CLI::App& app, const CLI::ParseError& e, const std::string& first)
+    -> std::vector<base::Diagnostic> {
+  if (app.get_subcommands().empty()) return {unknown_verb(first)};
+  const auto& verb = *app.get_subcommands().front();
+  if (auto unknown = unknown_options(app, verb); !unknown.empty()) return unknown;
+  const bool of_value = dynamic_cast<const CLI::ValidationError*>(&e) != nullptr ||
+                        dynamic_cast<const CLI::ConversionError*>(&e) != nullptr;
+  return {base::error(of_value ? "option-value" : "usage",
+                      std::string(e.what()) + "; see 'mansard " + verb.get_name() + " --help'")};
+}
+
+auto help_of(const CLI::App& app, bool all) -> std::string {
+  if (app.get_subcommands().empty()) return overview();
+  const auto form = form_of(*app.get_subcommands().front());
+  return all ? full_help(form) : short_help(form);
 }
 
 auto run(int argc, char** argv) -> int {
-  CLI::App app("City mesh and footprints in, labelled watertight building models out.", "mansard");
+  CLI::App app("", "mansard");
   app.set_version_flag("--version", std::string("mansard ") + MANSARD_VERSION);
+  app.set_help_all_flag("--help-all");
+  app.option_defaults()->always_capture_default();
   app.require_subcommand(1);
-  app.footer("'mansard VERB --help' shows a verb's options; 'mansard explain CODE' what a diagnostic means.");
   const std::vector<Verb> verbs{reconstruct_verb(app, cancel),
-                                segment_verb(app, cancel),
                                 extrude_verb(app, cancel),
-                                simulate_verb(app, cancel),
-                                evaluate_verb(app, cancel),
-                                label_verb(app, cancel),
-                                explore_verb(app, {argv, argv + argc}, cancel),
                                 convert_verb(app, cancel),
                                 info_verb(app, cancel),
+                                evaluate_verb(app, cancel),
+                                segment_verb(app, cancel),
+                                label_verb(app, cancel),
                                 serve_verb(app, cancel),
+                                simulate_verb(app, cancel),
+                                explore_verb(app, {argv, argv + argc}, cancel),
                                 options_verb(app),
                                 explain_verb(app),
                                 completion_verb(app),
@@ -81,29 +138,22 @@ auto run(int argc, char** argv) -> int {
   for (const auto& verb : verbs) verb.app->allow_extras();  // so that we can suggest the right one
   try {
     app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    std::fputs(help_of(app, false).c_str(), stdout);
+    return all_done;
+  } catch (const CLI::CallForAllHelp&) {
+    std::fputs(help_of(app, true).c_str(), stdout);
+    return all_done;
   } catch (const CLI::Success& e) {
     return app.exit(e);
   } catch (const CLI::ParseError& e) {
-    for (const auto* verb : app.get_subcommands())
-      if (const auto unknown = unknown_option(*verb)) return give_up(*unknown);
-    std::vector<std::string> names;
-    for (const auto& verb : verbs) names.push_back(verb.app->get_name());
-    const std::string first = argc > 1 ? argv[1] : "";
-    const auto nearest = app.get_subcommands().empty() ? base::nearest_word(first, names) : std::nullopt;
-    const auto* verb = app.get_subcommands().empty() ? nullptr : app.get_subcommands().front();
-    if (verb != nullptr && (dynamic_cast<const CLI::ValidationError*>(&e) != nullptr ||
-                            dynamic_cast<const CLI::ConversionError*>(&e) != nullptr))
-      return give_up(
-          base::error("option-value", std::string(e.what()) + "; see 'mansard " + verb->get_name() + " --help'"));
-    const std::string what = verb == nullptr && !first.empty() ? "'" + first + "' is no verb" : std::string(e.what());
-    return give_up(base::error("usage", what + base::did_you_mean(nearest) + "; see 'mansard " +
-                                            (verb != nullptr ? verb->get_name() + " " : "") + "--help'"));
+    return give_up(parse_failure(app, e, argc > 1 ? argv[1] : ""));
   }
   for (const auto& verb : verbs) {
     if (!verb.app->parsed()) continue;
-    if (const auto unknown = unknown_option(*verb.app)) return give_up(*unknown);
+    if (const auto unknown = unknown_options(app, *verb.app); !unknown.empty()) return give_up(unknown);
     if (!verb.app->remaining().empty())
-      return give_up(base::error("usage", "one word too many; see 'mansard " + verb.app->get_name() + " --help'",
+      return give_up(base::error("usage", "unexpected argument; see 'mansard " + verb.app->get_name() + " --help'",
                                  verb.app->remaining().front()));
     return verb.run();
   }
@@ -128,8 +178,8 @@ auto main(int argc, char** argv) -> int {
   try {
     return cli::printed(cli::run(argc, argv));
   } catch (const std::bad_alloc&) {
-    return cli::give_up(base::error("memory", "out of memory; use a smaller piece of the mesh (--bbox)"));
+    return cli::give_up(base::error("memory", "out of memory; process a smaller area (--bbox)"));
   } catch (const std::exception& e) {
-    return cli::give_up(base::error("bug", std::string(e.what()) + "; please report it with the command line used"));
+    return cli::give_up(base::error("bug", std::string(e.what()) + "; please report it with the command line"));
   }
 }

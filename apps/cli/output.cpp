@@ -16,15 +16,15 @@ auto made() -> std::vector<fs::path>& {
   return folders;
 }
 
-/// Whether it is named as files are that hold models, maps, tables or pictures, so that a folder is hardly meant.
+/// Whether it has the file extension of models, maps, tables or pictures, so that a folder is hardly meant.
 auto named_as_file(const fs::path& path) -> bool {
-  constexpr std::array endings{".3ds",     ".b3dm", ".blend", ".csv", ".dae",  ".dwg", ".dxf",  ".fbx",  ".fgb",
-                               ".geojson", ".glb",  ".gltf",  ".gml", ".gpkg", ".gz",  ".html", ".ifc",  ".json",
-                               ".jsonl",   ".kml",  ".las",   ".laz", ".obj",  ".off", ".ply",  ".png",  ".shp",
-                               ".skp",     ".stl",  ".svg",   ".tif", ".tiff", ".txt", ".usd",  ".usdz", ".zip"};
+  constexpr std::array extensions{".3ds",     ".b3dm", ".blend", ".csv", ".dae",  ".dwg", ".dxf",  ".fbx",  ".fgb",
+                                  ".geojson", ".glb",  ".gltf",  ".gml", ".gpkg", ".gz",  ".html", ".ifc",  ".json",
+                                  ".jsonl",   ".kml",  ".las",   ".laz", ".obj",  ".off", ".ply",  ".png",  ".shp",
+                                  ".skp",     ".stl",  ".svg",   ".tif", ".tiff", ".txt", ".usd",  ".usdz", ".zip"};
   std::string own = path.extension().string();
   std::ranges::transform(own, own.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  return std::ranges::find(endings, own) != endings.end();
+  return std::ranges::find(extensions, own) != extensions.end();
 }
 
 /// One name of a place, whatever it is called by; what cannot be followed (a name too long, links in a circle) keeps
@@ -42,13 +42,13 @@ auto prepare(const fs::path& folder, bool overwrite) -> base::Result<void> {
   std::error_code status;
   if (fs::exists(folder, status)) {
     if (!fs::is_directory(folder, status))
-      return base::error("output-exists", "this is a file, and the output is a folder; choose another name",
+      return base::error("output-exists", "is a file, and the output is a folder; choose another path",
                          folder.string());
     if (!overwrite && !fs::is_empty(folder, status))
-      return base::error("output-exists", "the folder is not empty; choose another, or say --overwrite",
+      return base::error("output-exists", "the folder is not empty; choose another, or add --overwrite",
                          folder.string());
   } else if (named_as_file(folder)) {
-    return base::error("usage", "the results go into a folder, and this is the name of a file; leave its ending off",
+    return base::error("usage", "the output is a folder, and this is the name of a file; leave the file extension out",
                        folder.string());
   } else {
     std::vector<fs::path> missing;
@@ -58,12 +58,12 @@ auto prepare(const fs::path& folder, bool overwrite) -> base::Result<void> {
     fs::create_directories(folder, status);
     if (status)
       return base::error("file-write",
-                         "cannot make this folder: " + status.message() + "; choose a place that can be written",
+                         "cannot create this folder: " + status.message() + "; choose a path with write permission",
                          folder.string());
   }
   const auto probe = folder / ".mansard-probe";
   if (auto written = base::write_file(probe, ""); !written)
-    return base::error("file-write", "cannot write into this folder; choose a place that can be written",
+    return base::error("file-write", "cannot write to this folder; choose a path with write permission",
                        folder.string());
   fs::remove(probe, status);
   return {};
@@ -84,9 +84,9 @@ auto spare_inputs(const std::vector<fs::path>& outputs, const std::vector<fs::pa
       const auto [end, ignored] = std::mismatch(from.begin(), from.end(), to.begin(), to.end());
       if (same || (fs::is_directory(input, status) && end == from.end()))
         return base::error("output-input",
-                           same ? "this is an input, which would be lost; choose another place for the results"
-                                : "this lies in the input folder '" + input.string() +
-                                      "', whose meshes the results would join; choose another place for them",
+                           same ? "is an input and would be overwritten; choose another output"
+                                : "is in the input folder '" + input.string() +
+                                      "' and would be read as an input later; choose another output",
                            output.string());
     }
   return {};
@@ -95,7 +95,7 @@ auto spare_inputs(const std::vector<fs::path>& outputs, const std::vector<fs::pa
 auto spare_results(const fs::path& result, const std::vector<fs::path>& others) -> base::Result<void> {
   const auto same = [place = place_of(result)](const fs::path& other) { return place_of(other) == place; };
   if (std::ranges::none_of(others, same)) return {};
-  return base::error("usage", "two results would be written here; give each a name of its own", result.string());
+  return base::error("usage", "two outputs have this path; choose different paths", result.string());
 }
 
 auto leftovers(const fs::path& folder, const std::string& always, const std::function<bool(const std::string&)>& own)
@@ -132,24 +132,21 @@ auto can_be_made_in(const fs::path& folder, const fs::path& path) -> base::Resul
   std::error_code status;
   if (!fs::is_directory(folder, status))
     return base::error("file-write",
-                       "there is no folder '" + folder.string() + "' for it; make it, or choose another place",
+                       "the folder '" + folder.string() + "' does not exist; create it, or choose another path",
                        path.string());
   if (::access(folder.c_str(), W_OK) != 0)
-    return base::error("file-write", "cannot write into its folder; choose a place that can be written", path.string());
+    return base::error("file-write", "cannot write to its folder; choose a path with write permission", path.string());
   return {};
 }
 
 auto file_free(const fs::path& path, bool overwrite) -> base::Result<void> {
   std::error_code status;
   if (fs::is_directory(path, status))
-    return base::error("output-exists", "this is a folder, and the output is a file; choose another name",
-                       path.string());
+    return base::error("output-exists", "is a folder, and the output is a file; choose another path", path.string());
   if (fs::exists(path, status) && !fs::is_regular_file(path, status))
-    return base::error("output-exists", "this is no ordinary file, and would be replaced by one; choose another name",
-                       path.string());
+    return base::error("output-exists", "is not a regular file; choose another path", path.string());
   if (fs::exists(path, status) && !overwrite)
-    return base::error("output-exists", "this file is there already; choose another, or say --overwrite",
-                       path.string());
+    return base::error("output-exists", "the file already exists; choose another, or add --overwrite", path.string());
   const auto folder = path.parent_path();
   return can_be_made_in(folder.empty() ? "." : folder, path);
 }

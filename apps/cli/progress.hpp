@@ -1,4 +1,4 @@
-// What a person sees while waiting: a bar on a terminal, plain lines elsewhere, nothing when quiet.
+// Progress: a bar on a terminal, plain lines elsewhere, nothing when quiet.
 #pragma once
 
 #include <chrono>
@@ -14,7 +14,7 @@ class Progress {
   Progress(const Progress&) = delete;
   auto operator=(const Progress&) -> Progress& = delete;
 
-  /// The stage, what it works on, and how much of the whole is done.
+  /// The stage, what it works on, and the fraction of the whole run that is done.
   void show(std::string_view stage, std::string_view subject, double fraction);
   /// A line of its own, over the bar.
   void say(const std::string& line);

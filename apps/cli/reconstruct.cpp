@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "apps/cli/catalogue.hpp"
 #include "apps/cli/exit.hpp"
 #include "apps/cli/formats.hpp"
 #include "apps/cli/output.hpp"
@@ -36,7 +37,7 @@ void summarise(const pipeline::Reconstruction& r, const Request& request, Progre
                std::to_string(count(r, pipeline::Outcome::fallback)) + " fell back, " +
                std::to_string(count(r, pipeline::Outcome::covered)) + " covered by neighbours, " +
                std::to_string(count(r, pipeline::Outcome::refused)) + " refused");
-  progress.say("vertical error " + base::to_text(r.scores.mse, 3) + " m² (paper's measure), " +
+  progress.say("mean squared vertical error " + base::to_text(r.scores.mse, 3) + " m² over the blocks, " +
                base::to_text(r.scores.footprint_mse, 3) + " m² over the footprints");
   for (const auto& building : r.buildings)
     if (building.outcome != pipeline::Outcome::full && (request.scan.verbose || r.buildings.size() <= 20))
@@ -46,7 +47,7 @@ void summarise(const pipeline::Reconstruction& r, const Request& request, Progre
 /// What `--formats` and `--layers` ask for.
 auto targets_of(const Request& request) -> base::Result<std::vector<Target>> {
   auto formats = formats_in(request.formats + (request.layers ? ",geopackage" : ""));
-  if (!formats) return formats.error();
+  if (!formats) return formats.failure();
   return targets_in(request.out, *formats);
 }
 
@@ -56,7 +57,7 @@ auto write_pictures(const Request& request, const pipeline::Reconstruction& resu
   for (const auto& [name, image] : {std::pair{"picture.png", &pictures.angle}, std::pair{"above.png", &pictures.above},
                                     std::pair{"error.png", &pictures.error}}) {
     const auto bytes = picture::png(*image);
-    if (!bytes) return bytes.error();
+    if (!bytes) return bytes.failure();
     if (auto written = write_bytes(fs::path(request.out) / name, *bytes, outputs); !written) return written;
   }
   return {};
@@ -79,7 +80,7 @@ auto write_all(const Request& request, const std::vector<Target>& targets, const
   }
   progress.show("write", "", 1);
   const auto warnings = write_models(result.city, targets, options.write, outputs, layers);
-  if (!warnings) return warnings.error();
+  if (!warnings) return warnings.failure();
   for (const auto& warning : *warnings) progress.say(base::to_string(warning));
   const std::string report = pipeline::report_json(result, scene);
   const auto report_path = fs::path(request.out) / "run.json";
@@ -101,7 +102,7 @@ auto write_all(const Request& request, const std::vector<Target>& targets, const
   return {};
 }
 
-/// Whatever may be wrong with the outputs, before any work.
+/// Everything that can be wrong with the outputs, before any work.
 auto check_outputs(const Request& request, const std::vector<Target>& targets) -> base::Result<void> {
   std::vector<fs::path> results;
   for (const auto& name : all_results()) results.push_back(fs::path(request.out) / name);
@@ -118,20 +119,20 @@ auto check_outputs(const Request& request, const std::vector<Target>& targets) -
 
 auto reconstruct(const Request& request, const base::Cancel& cancel) -> int {
   const auto options = options_of(request.scan);
-  if (!options) return give_up(options.error());
+  if (!options) return give_up(options.errors());
   const auto targets = targets_of(request);
-  if (!targets) return give_up(targets.error());
-  if (auto ready = check_outputs(request, *targets); !ready) return give_up(ready.error());
+  if (!targets) return give_up(targets.errors());
+  if (auto ready = check_outputs(request, *targets); !ready) return give_up(ready.errors());
   Progress progress(request.scan.quiet);
   const auto run = start(request.scan, options->seed, cancel, progress);
   const auto scene = read_scan(request.scan, *options, run, progress);
-  if (!scene) return give_up(scene.error());
+  if (!scene) return give_up(scene.errors());
 
   const auto keep = request.layers ? pipeline::Keep::segmentations : pipeline::Keep::models;
   const auto result = pipeline::reconstruct(*scene, *options, run, keep);
-  if (!result) return give_up(result.error());
+  if (!result) return give_up(result.errors());
   if (auto written = write_all(request, *targets, *options, *result, *scene, run, progress); !written)
-    return give_up(written.error());
+    return give_up(written.errors());
   summarise(*result, request, progress);
 
   std::printf("%s\n", targets->front().path.c_str());
@@ -143,15 +144,16 @@ auto reconstruct(const Request& request, const base::Cancel& cancel) -> int {
 }  // namespace
 
 auto reconstruct_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
-  auto* verb = app.add_subcommand("reconstruct", "Mesh and footprints to labelled, watertight building models");
+  auto* verb = add_verb(app, "reconstruct");
   auto request = std::make_shared<Request>();
   add_to(*verb, request->scan);
-  verb->add_option("-o,--output", request->out, "Folder for the results")->required()->type_name("OUTDIR");
-  verb->add_flag("--picture", request->picture, "Also write picture.png, above.png and error.png");
+  verb->add_option("-o,--output", request->out, "Output folder")->required()->type_name("OUTDIR");
+  verb->add_flag("--picture", request->picture,
+                 "Also write pictures of scan and models (picture.png, above.png, error.png)");
   verb->add_flag("--layers", request->layers,
-                 "The layers of 'mansard segment', and all diagnostics, in model.gpkg too");
-  verb->add_option("--formats", request->formats, formats_help())->type_name("FORMATS");
-  verb->add_option("--error-limit", request->error_limit, "Ends of the error map's colour scale [m]")
+                 "Also write the layers of 'mansard segment' and all diagnostics to model.gpkg");
+  verb->add_option("--formats", request->formats, formats_help)->type_name("FORMATS")->default_str(default_formats);
+  verb->add_option("--error-limit", request->error_limit, "Both limits of the colour scale of the error map, in metres")
       ->check(CLI::Range(0.01, 1000.0));
   return {verb, [request, &cancel] { return reconstruct(*request, cancel); }};
 }

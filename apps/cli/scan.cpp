@@ -1,5 +1,6 @@
 #include "apps/cli/scan.hpp"
 
+#include "apps/cli/formats.hpp"
 #include "apps/cli/output.hpp"
 #include "mansard/pipeline/inputs.hpp"
 
@@ -10,14 +11,17 @@ namespace fs = std::filesystem;
 namespace {
 
 void add_flags(CLI::App& verb, Common& common, const std::string& silenced) {
-  verb.add_flag("--overwrite", common.overwrite, "Replace results that are there already");
-  verb.add_option("-j,--jobs", common.jobs, "Threads; 0 for one per core. The result is the same at any number")
-      ->check(CLI::Range(0, 1024));
-  verb.add_flag("-q,--quiet", common.quiet, "No progress, no " + silenced);
-  verb.set_help_all_flag("--help-all", "Show this and every room's options");
+  verb.add_flag("--overwrite", common.overwrite, "Replace outputs that already exist");
+  add_jobs(verb, common.jobs);
+  verb.add_flag("-q,--quiet", common.quiet, "Print no progress and no " + silenced);
 }
 
 }  // namespace
+
+void add_jobs(CLI::App& verb, std::size_t& jobs) {
+  verb.add_option("-j,--jobs", jobs, "Number of threads; 0 for one per core (the result does not depend on it)")
+      ->check(CLI::Range(0, 1024));
+}
 
 void add_common(CLI::App& verb, Common& common, const std::string& silenced) {
   add_flags(verb, common, silenced);
@@ -31,23 +35,24 @@ void add_common(CLI::App& verb, Common& common, const std::string& silenced, con
 
 void add_to(CLI::App& verb, ScanRequest& request, bool may_derive) {
   verb.add_option("INPUTS", request.inputs,
-                  "Meshes (OBJ, PLY, OFF, GLB, or folders of them), then the footprints (any OGR vector file)")
-      ->type_name("MESH… FOOTPRINTS");
+                  "Meshes: " + readable_formats().meshes + ". Then the footprints: " + readable_formats().footprints)
+      ->type_name("MESH... FOOTPRINTS");
   if (may_derive)
     verb.add_flag("--derive-footprints", request.derive_footprints,
-                  "All INPUTS are meshes: draw the footprints from them, where there is no survey");
-  verb.add_option("--report", request.report, "Write the report (run.json) here")->type_name("FILE");
-  verb.add_flag("-v,--verbose", request.verbose, "Name every reason and warning, however many there are");
+                  "Derive the footprints from the meshes; all inputs are meshes then");
+  verb.add_option("--report", request.report, "Write a copy of the report (run.json) to this file")->type_name("FILE");
+  verb.add_flag("-v,--verbose", request.verbose,
+                "Print every warning and every reason, even if there are more than 20");
   add_common(verb, request, "summary");
 }
 
 auto options_of(const ScanRequest& request) -> base::Result<pipeline::Options> {
   if (request.inputs.size() < (request.derive_footprints ? 1 : 2))
-    return base::error("usage", request.derive_footprints ? "give one mesh or more"
-                                                          : "give one mesh or more, then the footprints; without any, "
-                                                            "--derive-footprints draws them from the mesh");
+    return base::error("usage", request.derive_footprints ? "expected one or more meshes"
+                                                          : "expected one or more meshes, then the footprints; "
+                                                            "--derive-footprints derives them from the meshes");
   pipeline::Options options;
-  if (auto applied = request.settings.apply(options); !applied) return applied.error();
+  if (auto applied = request.settings.apply(options); !applied) return applied.failure();
   return options;
 }
 
@@ -80,7 +85,7 @@ auto read_scan(const ScanRequest& request, const pipeline::Options& options, con
   if (!scene) return scene;
   for (const auto& warning : scene->warnings) progress.say(base::to_string(warning));
   if (request.derive_footprints)
-    progress.say(std::to_string(scene->footprints.size()) + " footprints were drawn from the mesh");
+    progress.say(std::to_string(scene->footprints.size()) + " footprints were derived from the mesh");
   return scene;
 }
 

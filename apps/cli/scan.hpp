@@ -18,8 +18,10 @@ struct Common {
   Settings settings;
 };
 
-/// --overwrite, --jobs, --quiet ("No progress, no " `silenced`), --help-all and, but with a menu of the verb's own, the
-/// options of every room.
+/// --jobs.
+void add_jobs(CLI::App& verb, std::size_t& jobs);
+/// --overwrite, --jobs, --quiet ("Print no progress and no " `silenced`) and the options of the modules that the verb
+/// reads: of the pipeline, or of a menu of the verb's own.
 void add_common(CLI::App& verb, Common& common, const std::string& silenced);
 void add_common(CLI::App& verb, Common& common, const std::string& silenced, const Menu& menu);
 
@@ -34,7 +36,7 @@ struct ScanRequest : Common {
   bool verbose = false;
 };
 
-/// Inputs and the options that every room and both verbs have; --derive-footprints where the verb `may_derive`.
+/// Inputs and the options that these verbs share; --derive-footprints where the verb `may_derive`.
 void add_to(CLI::App& verb, ScanRequest& request, bool may_derive = true);
 
 /// Gives up with "usage" where footprints or meshes are missing, and as Settings::apply.
@@ -45,7 +47,7 @@ void add_to(CLI::App& verb, ScanRequest& request, bool may_derive = true);
 [[nodiscard]] auto files_free(const ScanRequest& request, std::vector<std::filesystem::path> files)
     -> base::Result<void>;
 
-/// Reads meshes and footprints, or draws these from the mesh, and says warnings.
+/// Reads meshes and footprints, or derives these from the mesh, and prints the warnings.
 [[nodiscard]] auto read_scan(const ScanRequest& request, const pipeline::Options& options, const base::Run& run,
                              Progress& progress) -> base::Result<model::Scene>;
 

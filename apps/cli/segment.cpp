@@ -4,6 +4,7 @@
 #include <memory>
 #include <set>
 
+#include "apps/cli/catalogue.hpp"
 #include "apps/cli/exit.hpp"
 #include "apps/cli/output.hpp"
 #include "apps/cli/scan.hpp"
@@ -21,7 +22,7 @@ struct Request {
   std::string out, mps;
 };
 
-/// Of two results in one place only the last would be left. The report is looked at too.
+/// Of two outputs with one path only the last would be left. The report is checked too.
 auto check_apart(const Request& request, std::vector<fs::path> files) -> base::Result<void> {
   if (!request.scan.report.empty()) files.emplace_back(request.scan.report);
   std::set<fs::path> taken;
@@ -29,14 +30,14 @@ auto check_apart(const Request& request, std::vector<fs::path> files) -> base::R
     std::error_code status;
     const auto place = fs::weakly_canonical(fs::absolute(file, status), status);
     if (!status && !taken.insert(place).second)
-      return base::error("usage", "two results would be written here; give each a name of its own", file.string());
+      return base::error("usage", "two outputs have this path; choose different paths", file.string());
   }
   return {};
 }
 
 auto check_outputs(const Request& request) -> base::Result<void> {
   if (fs::path(request.out).extension() != ".gpkg")
-    return base::error("usage", "the output is a GeoPackage; give a name that ends in .gpkg", request.out);
+    return base::error("usage", "the output is a GeoPackage; its file extension must be .gpkg", request.out);
   std::vector<fs::path> files{request.out};
   if (!request.mps.empty()) files.emplace_back(request.mps);
   if (auto apart = check_apart(request, files); !apart) return apart;
@@ -56,14 +57,14 @@ auto programs(const Request& request, const pipeline::Segmented& result) -> base
     if (blocks.size() > 1) path.replace_filename(path.stem().string() + "-" + block->name + path.extension().string());
     auto text = solver::mps(segment::program_of(*block->segmentation), block->name);
     if (!text)
-      return base::error(text.error().code, text.error().message + ": lower the weights of the room segment",
+      return base::error(text.error().code, text.error().message + "; lower the weights of the module segment",
                          block->name);
     names.push_back(path);
     files.emplace_back(std::move(path), std::move(*text));
   }
   results.insert(results.end(), names.begin(), names.end());
-  if (auto apart = check_apart(request, std::move(results)); !apart) return apart.error();
-  if (auto usable = files_free(request.scan, std::move(names)); !usable) return usable.error();
+  if (auto apart = check_apart(request, std::move(results)); !apart) return apart.failure();
+  if (auto usable = files_free(request.scan, std::move(names)); !usable) return usable.failure();
   return files;
 }
 
@@ -88,9 +89,9 @@ void say_terms(const std::vector<pipeline::BlockReport>& blocks, Progress& progr
     sum.gis_unused += block.terms.gis_unused;
   }
   const auto amount = [](double cost) { return base::to_text(cost, 1); };
-  progress.say("objective " + amount(sum.sum()) + ": sweep-edges unused " + amount(sum.sweep_unused) +
-               ", walls without one " + amount(sum.unsupported) + ", height steps " + amount(sum.height) +
-               ", conflicts " + amount(sum.thin) + ", GIS edges unused " + amount(sum.gis_unused));
+  progress.say("objective " + amount(sum.sum()) + ": unused sweep-edges " + amount(sum.sweep_unused) +
+               ", walls without a sweep-edge " + amount(sum.unsupported) + ", height steps " + amount(sum.height) +
+               ", conflicts " + amount(sum.thin) + ", unused GIS edges " + amount(sum.gis_unused));
 }
 
 void summarise(const pipeline::Segmented& result, const Request& request, Progress& progress) {
@@ -112,8 +113,9 @@ void summarise(const pipeline::Segmented& result, const Request& request, Progre
 
 auto write_all(const Request& request, const pipeline::Segmented& result, const model::Scene& scene,
                const NamedBytes& mps, const base::Run& run) -> base::Result<void> {
-  const auto layers = formats::geopackage(pipeline::segment_layers(scene, result.segmented, result.made_by), scene.frame);
-  if (!layers) return layers.error();
+  const auto layers =
+      formats::geopackage(pipeline::segment_layers(scene, result.segmented, result.made_by), scene.frame);
+  if (!layers) return layers.failure();
   const std::string report = pipeline::report_json(result, scene);
   std::vector<base::FileToWrite> files{{request.out, *layers}};
   for (const auto& [path, bytes] : mps) files.push_back({path, bytes});
@@ -123,27 +125,28 @@ auto write_all(const Request& request, const pipeline::Segmented& result, const 
 
 auto segment_scan(const Request& request, const base::Cancel& cancel) -> int {
   const auto options = options_of(request.scan);
-  if (!options) return give_up(options.error());
-  if (auto ready = check_outputs(request); !ready) return give_up(ready.error());
+  if (!options) return give_up(options.errors());
+  if (auto ready = check_outputs(request); !ready) return give_up(ready.errors());
   Progress progress(request.scan.quiet);
   const auto run = start(request.scan, options->seed, cancel, progress);
   const auto scene = read_scan(request.scan, *options, run, progress);
-  if (!scene) return give_up(scene.error());
+  if (!scene) return give_up(scene.errors());
   const auto result = pipeline::segment(*scene, *options, run);
-  if (!result) return give_up(result.error());
+  if (!result) return give_up(result.errors());
   const auto mps = request.mps.empty() ? NamedBytes{} : programs(request, *result);
-  if (!mps) return give_up(mps.error());
+  if (!mps) return give_up(mps.errors());
   progress.show("write", request.out, 1);
-  if (auto written = write_all(request, *result, *scene, *mps, run); !written) return give_up(written.error());
+  if (auto written = write_all(request, *result, *scene, *mps, run); !written) return give_up(written.errors());
 
   summarise(*result, request, progress);
   const auto parts = pipeline::parts_by_feature(*scene, result->segmented);
   const auto without = std::ranges::count(parts, 0U);
   if (without > 0)
-    progress.say(std::to_string(without) + " of " + std::to_string(parts.size()) +
-                 " footprints have no part of their own; see 'parts' and 'defect' in gis_footprints");
+    progress.say(
+        std::to_string(without) + " of " + std::to_string(parts.size()) +
+        " footprints have no part of their own; see the columns 'parts' and 'defect' of the layer gis_footprints");
   if (!request.mps.empty() && mps->empty())
-    progress.say("no block has a face inside, so there is no program to export");
+    progress.say("no block has a face inside a footprint, so there is no integer program to export");
   std::printf("%s\n", request.out.c_str());
   for (const auto& [path, bytes] : *mps) std::printf("%s\n", path.c_str());
   return without == 0 ? all_done : some_fell_back;
@@ -152,13 +155,11 @@ auto segment_scan(const Request& request, const base::Cancel& cancel) -> int {
 }  // namespace
 
 auto segment_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
-  auto* verb =
-      app.add_subcommand("segment", "Mesh and footprints to plan layers that show why walls were drawn or not");
+  auto* verb = add_verb(app, "segment");
   auto request = std::make_shared<Request>();
   add_to(*verb, request->scan);
-  verb->add_option("-o,--output", request->out, "GeoPackage for the layers")->required()->type_name("OUT.gpkg");
-  verb->add_option("--export-mps", request->mps,
-                   "Write the integer program here too, for any other solver; with several blocks, one file each")
+  verb->add_option("-o,--output", request->out, "Output GeoPackage")->required()->type_name("OUT.gpkg");
+  verb->add_option("--export-mps", request->mps, "Also write the integer program as MPS, one file for each block")
       ->type_name("FILE");
   return {verb, [request, &cancel] { return segment_scan(*request, cancel); }};
 }

@@ -7,7 +7,9 @@
 #include <memory>
 #include <string>
 
+#include "apps/cli/catalogue.hpp"
 #include "apps/cli/exit.hpp"
+#include "apps/cli/scan.hpp"
 #include "apps/cli/verbs.hpp"
 #include "apps/server/guard.hpp"
 #include "apps/server/server.hpp"
@@ -25,7 +27,8 @@ struct Request {
   bool open = false, quiet = false;
 };
 
-/// A file that leads to the link. On a command line, as `xdg-open LINK`, everybody on the machine could read the token.
+/// A file that redirects to the link. On a command line, as `xdg-open LINK`, everybody on the machine could read the
+/// token.
 class Opener {
  public:
   Opener(const fs::path& project, const std::string& link) : path_(fs::absolute(project) / "open.html") {
@@ -40,7 +43,7 @@ class Opener {
   auto operator=(const Opener&) -> Opener& = delete;
   ~Opener() { ::unlink(path_.c_str()); }
 
-  /// False: there is no browser to be found.
+  /// False: no browser was found.
   [[nodiscard]] auto open() const -> bool {
     if (!there_) return false;
     const auto child = ::fork();
@@ -75,47 +78,44 @@ auto serve(const Request& request, const base::Cancel& cancel) -> int {
   options.upload_limit = request.upload_limit << 20;
   std::error_code status;
   if (!request.sample.empty() && !fs::is_directory(options.sample, status))
-    return give_up(base::error("server-sample", "there is no such folder", request.sample));
+    return give_up(base::error("server-sample", "the folder does not exist; check --sample", request.sample));
   base::limit_threads(request.jobs);
   if (!server::is_loopback(options.address))
-    std::fprintf(stderr,
-                 "mansard: %s can be reached from other machines, without encryption: whoever sees the link or the "
-                 "traffic can do everything that you can do here\n",
-                 options.address.c_str());
+    std::fprintf(
+        stderr,
+        "mansard: %s is reachable from other machines and the connection is not encrypted: anyone who sees the link "
+        "or the traffic has full access\n",
+        options.address.c_str());
   std::unique_ptr<Opener> opener;
   const auto served = server::serve(options, cancel, [&](const std::string& link) {
     std::printf("%s\n", link.c_str());
     std::fflush(stdout);
     if (!request.open) return;
     opener = std::make_unique<Opener>(options.project, link);
-    if (!opener->open() && !request.quiet) std::fprintf(stderr, "mansard: no browser could be opened; open the link\n");
+    if (!opener->open() && !request.quiet)
+      std::fprintf(stderr, "mansard: no browser could be started; open the link in one\n");
   });
-  return served ? all_done : give_up(served.error());
+  return served ? all_done : give_up(served.errors());
 }
 
 }  // namespace
 
 auto serve_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
-  auto* verb = app.add_subcommand("serve", "The workbench: look at scan and models in a browser, and edit them");
+  auto* verb = add_verb(app, "serve");
   auto request = std::make_shared<Request>();
-  verb->add_option("PROJECT", request->project, "Folder of the project; made if it is missing")
-      ->type_name("PROJECT")
-      ->capture_default_str();
-  verb->add_option("--port", request->options.port, "Port to listen on; 0 for any that is free")
-      ->check(CLI::Range(0, 65535))
-      ->capture_default_str();
-  verb->add_option("--address", request->options.address, "Address of this machine to listen on")
-      ->type_name("ADDRESS")
-      ->capture_default_str();
-  verb->add_flag("--open", request->open, "Open the page in the browser");
-  verb->add_option("--sample", request->sample, "Folder with meshes and a file 'footprints', offered to empty projects")
+  verb->add_option("PROJECT", request->project, "Folder of the project; created if it is missing")
+      ->type_name("PROJECT");
+  verb->add_option("--port", request->options.port, "Port to listen on; 0 for any free port")
+      ->check(CLI::Range(0, 65535));
+  verb->add_option("--address", request->options.address, "Address of this machine to listen on")->type_name("ADDRESS");
+  verb->add_flag("--open", request->open, "Open the page in a browser");
+  verb->add_option("--sample", request->sample,
+                   "Folder with meshes and a file 'footprints', offered to empty projects as a sample")
       ->type_name("DIR");
-  verb->add_option("--upload-limit", request->upload_limit, "Largest file that a page may upload [MB]")
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 24))
-      ->capture_default_str();
-  verb->add_option("-j,--jobs", request->jobs, "Threads; 0 for one per core. The result is the same at any number")
-      ->check(CLI::Range(0, 1024));
-  verb->add_flag("-q,--quiet", request->quiet, "No remarks");
+  verb->add_option("--upload-limit", request->upload_limit, "Maximum size of an uploaded file, in MB")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 24));
+  add_jobs(*verb, request->jobs);
+  verb->add_flag("-q,--quiet", request->quiet, "Print the link only");
   return {verb, [request, &cancel] { return serve(*request, cancel); }};
 }
 

@@ -2,7 +2,10 @@
 
 #include <toml++/toml.h>
 #include <algorithm>
+#include <array>
+#include <cmath>
 
+#include "apps/cli/catalogue.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/base/text.hpp"
 
@@ -15,16 +18,12 @@ auto joined(const std::vector<std::string>& words) -> std::string {
   return all;
 }
 
-auto describe(const base::Option& option) -> std::string {
-  std::string text = option.meaning;
-  if (!option.unit.empty()) text += " [" + option.unit + "]";
-  if (option.kind == base::Option::Kind::choice) {
-    text += " (";
-    for (const auto& word : option.choices) text += (word == option.choices.front() ? "" : ", ") + word;
-    text += ")";
-  }
-  const std::string value = option.get();
-  return text + (value.empty() ? "" : " default " + value);
+/// A bound as people write it: 1e6 rather than 1e+06.
+auto bound_text(double bound) -> std::string {
+  std::string text = base::to_text(bound);
+  for (const char* sign : {"e+0", "e+"})
+    if (const auto at = text.find(sign); at != std::string::npos) text.replace(at, std::string(sign).size(), "e");
+  return text;
 }
 
 /// A TOML value as the text an option takes: arrays become words separated by spaces.
@@ -51,19 +50,44 @@ auto names_of(const std::vector<pipeline::Preset>& presets) -> std::string {
   return all;
 }
 
+void append(std::vector<base::Diagnostic>& all, const base::Result<void>& done, const std::string& where = "") {
+  if (done) return;
+  for (auto why : done.errors()) {
+    if (!where.empty()) why.subject = where;
+    all.push_back(std::move(why));
+  }
+}
+
+auto result_of(std::vector<base::Diagnostic> wrong) -> base::Result<void> {
+  if (wrong.empty()) return {};
+  return base::Failure{std::move(wrong)};
+}
+
 auto apply_preset(Menu& menu, const std::string& name) -> base::Result<void> {
   for (const auto& preset : menu.presets) {
     if (preset.name != name) continue;
     for (const auto& [key, value] : preset.values)
-      if (auto set = pipeline::set_option(menu.lists, key, value); !set) return set.error();
+      if (auto set = pipeline::set_option(menu.lists, key, value); !set) return set;
     return {};
   }
-  return base::error("option-value", "'" + name + "' is no preset; there are " + names_of(menu.presets), "preset");
+  return base::error("option-value", "unknown preset '" + name + "'; expected " + names_of(menu.presets), "--preset");
+}
+
+/// The keys of one table. `at` names the file.
+void apply_table(Menu& menu, const std::string& module, const toml::table& keys, const std::string& at,
+                 std::vector<base::Diagnostic>& wrong) {
+  for (const auto& [key, value] : keys) {
+    const std::string name = module + "." + std::string(key.str());
+    const auto word = text_of(value);
+    if (!word)
+      wrong.push_back(base::error("config", "'" + name + "' has a value of the wrong type; see 'mansard options'", at));
+    else append(wrong, pipeline::set_option(menu.lists, name, *word), at + ": " + name);
+  }
 }
 
 auto apply_config(Menu& menu, const std::string& path) -> base::Result<void> {
   const auto text = base::read_file(path);
-  if (!text) return text.error();
+  if (!text) return text.failure();
   toml::table table;
   try {
     table = toml::parse(*text);
@@ -71,32 +95,32 @@ auto apply_config(Menu& menu, const std::string& path) -> base::Result<void> {
     const auto at = e.source().begin;
     return base::error("config", std::string(e.description()) + " (line " + std::to_string(at.line) + ")", path);
   }
-  // The preset comes first wherever it stands in the file, so that the file's own keys change it.
+  // The preset comes first wherever it is in the file, so that the file's own keys change it.
   if (const auto* preset = table.get("preset")) {
     const auto name = text_of(*preset);
     if (auto done = apply_preset(menu, name.value_or("")); !done) return done;
   }
-  for (const auto& [room, node] : table) {
-    if (room.str() == "preset") continue;
-    const auto* keys = node.as_table();
-    if (keys == nullptr)
-      return base::error(
-          "config", "'" + std::string(room.str()) + "' is not a room's table; write [room] and its keys below", path);
-    for (const auto& [key, value] : *keys) {
-      const std::string name = std::string(room.str()) + "." + std::string(key.str());
-      const auto word = text_of(value);
-      if (!word) return base::error("config", "'" + name + "' has a value of the wrong kind", path);
-      if (auto done = pipeline::set_option(menu.lists, name, *word); !done) {
-        auto why = done.error();
-        why.subject = path + ": " + why.subject;
-        return why;
-      }
-    }
+  std::vector<base::Diagnostic> wrong;
+  for (const auto& [module, node] : table) {
+    if (module.str() == "preset") continue;
+    if (const auto* keys = node.as_table()) apply_table(menu, std::string(module.str()), *keys, path, wrong);
+    else
+      wrong.push_back(base::error("config",
+                                  "'" + std::string(module.str()) +
+                                      "' is outside a table; write [MODULE] and the options of that module below it",
+                                  path));
   }
-  return {};
+  return result_of(std::move(wrong));
 }
 
 auto menu_of(pipeline::Options& options) -> Menu { return {pipeline::option_lists(options), pipeline::presets()}; }
+
+/// Whether the preset changes an option of one of the modules.
+auto concerns(const pipeline::Preset& preset, const std::vector<std::string>& modules) -> bool {
+  return std::ranges::any_of(preset.values, [&](const auto& value) {
+    return std::ranges::find(modules, value.first.substr(0, value.first.find('.'))) != modules.end();
+  });
+}
 
 }  // namespace
 
@@ -105,56 +129,66 @@ auto dashed(std::string text) -> std::string {
   return text;
 }
 
+auto range_text(const base::Option& option) -> std::string {
+  const auto& [minimum, maximum] = option.range;
+  if (std::isfinite(minimum) && std::isfinite(maximum)) return bound_text(minimum) + " to " + bound_text(maximum);
+  if (std::isfinite(minimum)) return "at least " + bound_text(minimum);
+  return std::isfinite(maximum) ? "at most " + bound_text(maximum) : "";
+}
+
 void Settings::add_to(CLI::App& verb) {
   pipeline::Options defaults;
   add_to(verb, menu_of(defaults));
 }
 
 void Settings::add_to(CLI::App& verb, const Menu& menu) {
-  verb.add_option("--config", config_, "Options from a TOML file, a table per room")->type_name("FILE");
-  verb.add_option("--preset", preset_, "Start from a preset: " + names_of(menu.presets))->type_name("NAME");
+  const auto& modules = entry_of(verb.get_name()).modules;
+  verb.add_option("--config", config_, "Read options from a TOML file, a table for each module")->type_name("FILE");
+  if (std::ranges::any_of(menu.presets, [&](const auto& preset) { return concerns(preset, modules); }))
+    verb.add_option("--preset", preset_, "Start from a set of values: " + names_of(menu.presets))->type_name("NAME");
   for (const auto& list : menu.lists)
-    for (const auto& option : list.options()) {
-      auto& given = given_.emplace_back();
-      given.key = list.module() + "." + option.name;
-      std::string names = "--" + dashed(list.module() + "-" + option.name);
-      if (!option.alias.empty()) names += ",--" + dashed(option.alias);
-      // Vectors of numbers (an offset, a box) are texts of several words.
-      const std::size_t words = option.kind == base::Option::Kind::string
-                                    ? static_cast<std::size_t>(std::ranges::count(option.get(), ' ')) + 1
-                                    : 1;
-      given.flag = option.kind == base::Option::Kind::flag;
-      given.option = verb.add_option(names, given.words, describe(option));
-      given.option->expected(given.flag ? 0 : static_cast<int>(words), static_cast<int>(words));
-      given.option->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->group(list.module())->allow_extra_args(false);
-      static constexpr std::array kinds{"", "N", "X", "TEXT", "WORD"};
-      given.option->type_name(kinds[static_cast<std::size_t>(option.kind)]);
-    }
+    if (std::ranges::find(modules, list.module()) != modules.end()) add_list(verb, list);
+}
+
+void Settings::add_list(CLI::App& verb, const base::OptionList& list) {
+  for (const auto& option : list.options()) {
+    auto& given = given_.emplace_back();
+    given.key = list.module() + "." + option.name;
+    std::string names = "--" + dashed(list.module() + "-" + option.name);
+    if (!option.alias.empty()) names += ",--" + dashed(option.alias);
+    // Vectors of numbers (an offset, a box) are texts of several words.
+    const std::size_t words = option.kind == base::Option::Kind::string
+                                  ? static_cast<std::size_t>(std::ranges::count(option.get(), ' ')) + 1
+                                  : 1;
+    given.flag = option.kind == base::Option::Kind::flag;
+    given.option = verb.add_option(names, given.words, option.meaning);
+    given.option->expected(given.flag ? 0 : static_cast<int>(words), static_cast<int>(words));
+    given.option->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->group(list.module())->allow_extra_args(false);
+    static constexpr std::array kinds{"", "N", "X", "TEXT", "WORD"};
+    given.option->type_name(words == 3   ? "X Y Z"
+                            : words == 4 ? "XMIN YMIN XMAX YMAX"
+                                         : kinds[static_cast<std::size_t>(option.kind)]);
+  }
 }
 
 auto Settings::apply(pipeline::Options& options) const -> base::Result<void> { return apply(menu_of(options)); }
 
 auto Settings::apply(Menu menu) const -> base::Result<void> {
-  if (!preset_.empty())
-    if (auto done = apply_preset(menu, preset_); !done) return done;
-  if (!config_.empty())
-    if (auto done = apply_config(menu, config_); !done) return done;
+  std::vector<base::Diagnostic> wrong;
+  if (!preset_.empty()) append(wrong, apply_preset(menu, preset_));
+  if (!config_.empty()) append(wrong, apply_config(menu, config_));
   for (const auto& given : given_) {
     if (given.option->count() == 0) continue;
+    const auto typed = given.option->get_name();
     const auto words = static_cast<std::size_t>(std::max(1, given.option->get_items_expected_max()));
-    if (const auto times = given.option->count() / words; !given.flag && times > 1)
-      return base::error("option-value", "it is given " + std::to_string(times) + " times; give it once", given.key);
+    if (const auto times = given.option->count() / words; !given.flag && times > 1) {
+      wrong.push_back(base::error("option-value", "is given " + std::to_string(times) + " times; give it once", typed));
+      continue;
+    }
     const std::string value = given.flag && joined(given.words).empty() ? "true" : joined(given.words);
-    if (auto done = pipeline::set_option(menu.lists, given.key, value); !done) return done;
+    append(wrong, pipeline::set_option(menu.lists, given.key, value), typed);
   }
-  return {};
-}
-
-auto Settings::names(const CLI::App& verb) -> std::vector<std::string> {
-  std::vector<std::string> all;
-  for (const auto* option : verb.get_options())
-    for (const auto& name : option->get_lnames()) all.push_back("--" + name);
-  return all;
+  return result_of(std::move(wrong));
 }
 
 }  // namespace mansard::cli

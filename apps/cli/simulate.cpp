@@ -1,12 +1,15 @@
-// `mansard simulate MODEL | --block KIND | --footprints FILE -o OUTDIR`: known truth, and a mesh as a scan would show
-// it.
+// `mansard simulate MODEL | --block KIND | --footprints FILE -o OUTDIR`: buildings that are known exactly, and a mesh
+// as a scan would show them.
 #include "lab/simulate/simulate.hpp"
 
 #include <algorithm>
 #include <cstdio>
 #include <memory>
 
+#include "apps/cli/catalogue.hpp"
 #include "apps/cli/exit.hpp"
+#include "apps/cli/formats.hpp"
+#include "apps/cli/layout.hpp"
 #include "apps/cli/output.hpp"
 #include "apps/cli/scan.hpp"
 #include "apps/cli/verbs.hpp"
@@ -24,10 +27,18 @@ struct Request : Common {
   bool picture = false;
 };
 
-/// Every name that this verb may give a file, but for truth.json, which is always there.
+/// Every name that this verb may give a file, except truth.json, which is always written.
 constexpr std::array file_names{"mesh.ply",        "footprints.geojson", "truth.geojson",
                                 "truth.city.json", "truth.city.jsonl",   "truth.obj",
                                 "truth.mtl",       "plans.json",         "picture.png"};
+
+auto block_names() -> std::string {
+  using enum simulate::Kind;
+  std::vector<std::string> names;
+  for (const auto kind : {terrace, perimeter, courtyard, towers, detached})
+    names.emplace_back(simulate::to_string(kind));
+  return listed(names, "or");
+}
 
 auto menu_of(simulate::Options& options) -> Menu {
   Menu menu{{simulate::option_list(options)}, {}};
@@ -48,24 +59,24 @@ void say_all(const std::vector<base::Diagnostic>& warnings, Progress& progress) 
 using Known = simulate::ModelTruth;
 
 auto with_surface(base::Result<simulate::Truth> truth) -> base::Result<Known> {
-  if (!truth) return truth.error();
+  if (!truth) return truth.failure();
   auto surface = simulate::surface_of(truth->city);
-  if (!surface) return surface.error();
+  if (!surface) return surface.failure();
   return Known{std::move(*truth), std::move(*surface)};
 }
 
-/// Plans where the file has them: of a model of another maker less is known.
+/// Plans where the file has them: less is known of a model of another producer.
 auto known_of_model(const Request& request, const base::Run& run, Progress& progress) -> base::Result<Known> {
   auto reader = formats::read_city(request.model);
   if (reader) {
     auto plans = formats::read_whole(**reader);
-    if (!plans) return plans.error();
+    if (!plans) return plans.failure();
     return with_surface(simulate::truth_of(std::move(*plans), run));
   }
   if (const auto& code = reader.error().code; !pipeline::is_foreign(reader.error()) && code != "write-plan-json")
-    return reader.error();
+    return reader.failure();
   auto model = ingest::read_model(request.model, {request.lod, {}});
-  if (!model) return model.error();
+  if (!model) return model.failure();
   if (!request.box.empty())
     *model = simulate::within(std::move(*model), {{request.box[0], request.box[1]}, {request.box[2], request.box[3]}});
   auto warnings = model->warnings;
@@ -83,7 +94,7 @@ auto truth_for(const Request& request, const simulate::Options& options, const b
   ingest::Options ingest;
   if (!request.box.empty()) std::ranges::copy(request.box, ingest.bbox.begin());
   const auto scene = ingest::read_footprints(request.footprints, ingest, run);
-  if (!scene) return scene.error();
+  if (!scene) return scene.failure();
   auto warnings = scene->warnings;
   auto truth = simulate::furnish(*scene, options.block, run.seed, warnings, run);
   say_all(warnings, progress);
@@ -100,7 +111,7 @@ auto picture_of(const simulate::Scan& scan, const base::Run& run) -> base::Resul
   return picture::png(picture::draw(layers, {}, {}, run));
 }
 
-/// A model of another maker is the truth as it is: its file, under a name that says so; of a part of it its triangles.
+/// A model of another producer is the truth as it is: a copy of its file; of a part of it, its triangles.
 auto add_copy(const Request& request, const Known& known, std::vector<std::pair<std::string, std::string>>& files)
     -> base::Result<void> {
   if (!request.box.empty()) {
@@ -108,7 +119,7 @@ auto add_copy(const Request& request, const Known& known, std::vector<std::pair<
     return {};
   }
   auto bytes = base::read_file(request.model);
-  if (!bytes) return bytes.error();
+  if (!bytes) return bytes.failure();
   const auto ending = fs::path(request.model).extension();
   files.emplace_back(ending == ".obj"     ? "truth.obj"
                      : ending == ".jsonl" ? "truth.city.jsonl"
@@ -121,9 +132,9 @@ auto add_copy(const Request& request, const Known& known, std::vector<std::pair<
 auto add_models(const model::City& city, std::vector<std::pair<std::string, std::string>>& files)
     -> base::Result<void> {
   auto cityjson = formats::cityjson(city);
-  if (!cityjson) return cityjson.error();
+  if (!cityjson) return cityjson.failure();
   auto obj = formats::obj(city, "truth.mtl");
-  if (!obj) return obj.error();
+  if (!obj) return obj.failure();
   files.emplace_back("truth.city.json", std::move(*cityjson));
   files.emplace_back("truth.obj", std::move(obj->obj));
   files.emplace_back("truth.mtl", std::move(obj->mtl));
@@ -135,9 +146,9 @@ auto write_all(const Request& request, const simulate::Options& options, const K
                Progress& progress) -> base::Result<void> {
   const auto& truth = known.truth;
   const auto scan = simulate::scan(known.surface, options.scan, run.seed, run);
-  if (!scan) return scan.error();
+  if (!scan) return scan.failure();
   const auto footprints = simulate::survey(truth, options.survey, run.seed);
-  if (!footprints) return footprints.error();
+  if (!footprints) return footprints.failure();
 
   progress.show("write", request.out, 1);
   std::vector<std::pair<std::string, std::string>> files{
@@ -148,7 +159,7 @@ auto write_all(const Request& request, const simulate::Options& options, const K
   if (auto added = truth.model ? add_copy(request, known, files) : add_models(truth.city, files); !added) return added;
   if (request.picture) {
     auto picture = picture_of(*scan, run);
-    if (!picture) return picture.error();
+    if (!picture) return picture.failure();
     files.emplace_back("picture.png", std::move(*picture));
   }
   const auto all = in_folder(request.out, files);
@@ -164,33 +175,33 @@ auto write_all(const Request& request, const simulate::Options& options, const K
 auto simulate_block(const Request& request, const base::Cancel& cancel) -> int {
   const int inputs =
       (request.model.empty() ? 0 : 1) + (request.block.empty() ? 0 : 1) + (request.footprints.empty() ? 0 : 1);
-  if (inputs != 1) return give_up(base::error("usage", "simulate takes one of a MODEL, --block and --footprints"));
+  if (inputs != 1) return give_up(base::error("usage", "expected exactly one of MODEL, --block and --footprints"));
   if (!request.block.empty() && !simulate::kind_of(request.block))
-    return give_up(base::error("option-value", "there are the blocks terrace, perimeter, courtyard, towers, detached",
-                               request.block));
+    return give_up(base::error("option-value",
+                               "unknown kind of block '" + request.block + "'; expected " + block_names(), "--block"));
   if (!request.box.empty() && !request.block.empty())
     return give_up(
-        base::error("usage", "--bbox keeps a part of a MODEL or of --footprints; a --block has --simulate-size"));
+        base::error("usage", "--bbox applies to a MODEL or to --footprints; the size of a --block is --simulate-size"));
   simulate::Options options;
-  if (auto applied = request.settings.apply(menu_of(options)); !applied) return give_up(applied.error());
+  if (auto applied = request.settings.apply(menu_of(options)); !applied) return give_up(applied.errors());
   std::vector<fs::path> results{fs::path(request.out) / "truth.json"}, given;
   for (const auto* name : file_names) results.push_back(fs::path(request.out) / name);
   for (const auto& input : {request.model, request.footprints})
     if (!input.empty()) given.emplace_back(input);
-  if (auto spared = spare_inputs(results, given); !spared) return give_up(spared.error());
-  if (auto ready = prepare(request.out, request.overwrite); !ready) return give_up(ready.error());
+  if (auto spared = spare_inputs(results, given); !spared) return give_up(spared.errors());
+  if (auto ready = prepare(request.out, request.overwrite); !ready) return give_up(ready.errors());
   Progress progress(request.quiet);
   const auto run = start(request, options.seed, cancel, progress);
   auto known = request.model.empty() ? with_surface(truth_for(request, options, run, progress))
                                      : known_of_model(request, run, progress);
-  if (!known) return give_up(known.error());
-  if (request.model.empty()) {  // plans that are there keep the word of who made them
+  if (!known) return give_up(known.errors());
+  if (request.model.empty()) {  // plans of a file keep how they were made
     auto& made_by = known->truth.city.made_by;
     made_by.version = MANSARD_VERSION;
     const auto list = simulate::option_list(options);
     for (const auto& option : list.options()) made_by.options.emplace_back("simulate." + option.name, option.get());
   }
-  if (auto written = write_all(request, options, *known, run, progress); !written) return give_up(written.error());
+  if (auto written = write_all(request, options, *known, run, progress); !written) return give_up(written.errors());
   std::printf("%s\n", (fs::path(request.out) / "mesh.ply").c_str());
   return all_done;
 }
@@ -198,23 +209,22 @@ auto simulate_block(const Request& request, const base::Cancel& cancel) -> int {
 }  // namespace
 
 auto simulate_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
-  auto* verb = app.add_subcommand("simulate", "A block with known truth, and a mesh as a scan would show it");
+  auto* verb = add_verb(app, "simulate");
   auto request = std::make_shared<Request>();
-  verb->add_option("MODEL", request->model, "A plans.json, or a building model: CityJSON, CityJSONSeq or labelled OBJ")
-      ->type_name("MODEL");
-  verb->add_option("--block", request->block, "Invent one: terrace, perimeter, courtyard, towers, detached")
-      ->type_name("KIND");
-  verb->add_option("--footprints", request->footprints, "Real outlines (any OGR vector file) with invented buildings")
+  verb->add_option("MODEL", request->model, "Model to scan: " + readable_formats().models)->type_name("MODEL");
+  verb->add_option("--block", request->block, "Generate a block of this kind: " + block_names())->type_name("KIND");
+  verb->add_option("--footprints", request->footprints,
+                   "Generate buildings on these footprints: " + readable_formats().footprints)
       ->type_name("FILE");
   verb->add_option("--lod", request->lod,
-                   "Read this LoD of a MODEL without plans; without it, the highest of each object");
-  verb->add_option("-o,--output", request->out, "Folder for the results")->required()->type_name("OUTDIR");
-  verb->add_option(
-          "--bbox", request->box,
-          "Keep the buildings of a MODEL, or the footprints, that meet the box, in the file's or the working CRS")
+                   "LoD to read of a MODEL without plans; without it, the highest of each object");
+  verb->add_option("-o,--output", request->out, "Output folder")->required()->type_name("OUTDIR");
+  verb->add_option("--bbox", request->box,
+                   "Keep the buildings of a MODEL, or the footprints, that intersect this box, in the CRS of the model "
+                   "or the working CRS")
       ->type_name("XMIN YMIN XMAX YMAX")
       ->expected(4);
-  verb->add_flag("--picture", request->picture, "Also write picture.png: the scan, coloured by class");
+  verb->add_flag("--picture", request->picture, "Also write a picture of the scan, coloured by class (picture.png)");
   simulate::Options defaults;
   add_common(*verb, *request, "summary", menu_of(defaults));
   return {verb, [request, &cancel] { return simulate_block(*request, cancel); }};

@@ -6,7 +6,7 @@ auto attributes() -> std::vector<formats::Attribute> {
   return {{"ms_role",
            "simulate",
            {"BuildingPart"},
-           "text",
+           "string",
            "",
            "What the part is to its building: house, annex, wing, podium, tower, garage or parapet."},
           {"ms_eaves", "simulate", {"BuildingPart"}, "number", "m", "z at which the roof begins."}};

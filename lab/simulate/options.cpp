@@ -30,7 +30,9 @@ auto option_list(Options& o) -> base::OptionList {
   auto& block = o.block;
   auto& survey = o.survey;
   auto& scan = o.scan;
-  list.integer("seed", o.seed, "", {0, 1e15}, "What is invented depends on this alone.").alias("seed");
+  list.integer("seed", o.seed, "", {0, 1e15},
+               "Seed of everything that is generated; the same seed gives the same bytes.")
+      .alias("seed");
   list.number("size", block.size, "m", {20, 400}, "About the length of the block's street front.")
       .number("turn", block.turn, "rad", {-7, 7}, "Turns the street off the x axis; drawn where it is not given.")
       .number("slope", block.slope, "", {-0.3, 0.3}, "Metres that the street falls per metre.")
@@ -43,7 +45,7 @@ auto option_list(Options& o) -> base::OptionList {
       .number("merged", survey.merged, "", {0, 1}, "Share of party walls across which two houses are one feature.");
   list.number("resolution", scan.resolution, "m", {0.05, 5}, "Edge length of the mesh.")
       .alias("resolution")
-      .number("melt", scan.melt, "m", {0, 3}, "Standard deviation of the smoothing that melts corners and edges.")
+      .number("melt", scan.melt, "m", {0, 3}, "Standard deviation of the smoothing that rounds corners and edges.")
       .number("noise", scan.noise, "m", {0, 2}, "Root mean square of the noise along the normal.")
       .number("noise_length", scan.noise_length, "m", {0.1, 100}, "Wavelength of the noise.")
       .number("bulge", scan.bulge, "m", {0, 2}, "Root mean square of a longer wave of walls.")
@@ -79,7 +81,7 @@ auto presets() -> const std::vector<Preset>& {
         {"simulate.ground_waves", "0"},
         {"simulate.seam", "0"}}},
       {"nadir-drone",
-       "a drone that looks down: sharp roofs, walls melted and full of holes",
+       "a drone with vertical cameras: sharp roofs, rounded walls with many holes",
        {{"simulate.resolution", "0.2"},
         {"simulate.melt", "0.2"},
         {"simulate.noise", "0.03"},
@@ -116,26 +118,26 @@ auto presets() -> const std::vector<Preset>& {
 
 auto codes() -> std::vector<base::Code> {
   return {
-      {"simulate-solid", "A building that was invented could not be raised.",
+      {"simulate-solid", "A generated building could not be extruded.",
        "This is a fault of the program: please report it with kind, options and seed. Another --seed gets around it.",
        70},
       {"simulate-nothing", "There is nothing to simulate: no usable footprint, or a model without solids.",
        "Give footprints with area, or a plans.json or model.city.json with parts.", 5},
       {"simulate-model-ground", "Buildings of a model have no ground faces.",
-       "Their outlines are what is seen of them from above, and they stand on their lowest corner. Label the ground "
-       "faces in the model if that is not right, as where roofs stand out over walls.",
+       "Their outlines are what is seen of them from above, and their base is at their lowest corner. Label the ground "
+       "faces in the model if that is not right, as where roofs overhang walls.",
        0},
       {"simulate-model-open", "Buildings of a model are not closed when seen from above and from below.",
-       "They are taken as solid from their highest surface down to the ground; what stands out over open air becomes "
-       "a wall. Close the model if that is not right.",
+       "They are taken as solid from their highest surface down to the ground; an overhang becomes a wall. Close the "
+       "model if that is not right.",
        0},
       {"simulate-model-outline", "A building of a model has no outline: no area when seen from above.",
        "It is left out. Give it ground faces or a roof, or do without it.", 0},
       {"simulate-size", "A scan would have more cells or points than can be numbered.",
        "Keep a part of it with --bbox, or take a coarser --resolution; the message says how coarse.", 4},
-      {"simulate-flat", "No pitched roof could be raised over a footprint; it got a flat one.",
+      {"simulate-flat", "No pitched roof could be extruded over a footprint; it has a flat one instead.",
        "Nothing need be done; the truth says so.", 0},
-      {"simulate-left-out", "Nothing could be raised over a footprint; it is not in the truth.",
+      {"simulate-left-out", "Nothing could be extruded over a footprint; it is left out of the truth.",
        "Repair the footprint, or do without it.", 0},
   };
 }

@@ -83,7 +83,7 @@ auto OptionList::integer(std::string name, std::int64_t& member, std::string uni
   option.set = [&member, module = module_, option](std::string_view given) -> Result<void> {
     const auto value = to_integer(given);
     if (!value || !contains(option.range, static_cast<double>(*value)))
-      return bad_value(module, option, given, "a whole number" + in_words(option.range, option.unit));
+      return bad_value(module, option, given, "an integer" + in_words(option.range, option.unit));
     member = *value;
     return {};
   };

@@ -73,7 +73,8 @@ auto option_list(Options& o) -> base::OptionList {
           .number("ground_ring", o.ground_ring, "m", {0, 1000},
                   "Width of the ring outside the footprints where the ground is looked for.")
           .number("ground_percentile", o.ground_percentile, "%", {0, 100},
-                  "Of the mesh's heights in that ring; low, since trees and cars stand on the ground."));
+                  "Percentile of the mesh heights in that ring that is taken as the ground; low, because trees and "
+                  "cars are in the ring."));
 }
 
 auto partition(const model::Scene& scene, const Options& options, const base::Run& run) -> std::vector<Block> {

@@ -6,7 +6,7 @@ auto attributes() -> std::vector<formats::Attribute> {
   return {{"ms_edited",
            "edit",
            {"Building", "BuildingPart"},
-           "flag",
+           "boolean",
            "",
            "true where the plan is not that of the run any more; absent elsewhere."}};
 }

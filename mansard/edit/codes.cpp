@@ -14,7 +14,7 @@ auto codes() -> std::vector<base::Code> {
       {"edit-duplicate-id", "Two parts of a building have one id.", "Give one of them another.", 2},
       {"edit-journal", "A line of a run's journal of edits cannot be done again.",
        "Take out that line and those after it, or restore the file; the edits before it are kept.", 3},
-      {"edit-overlap", "Two parts claim the same ground: a strip wider than 2 cm, more than 0.01 m².",
+      {"edit-overlap", "Two parts overlap by a strip wider than 2 cm, more than 0.01 m².",
        "Move the corners back, or move the neighbour's too.", 2},
       {"edit-split", "A line does not divide a part: it ends inside, crosses itself, or cuts off next to nothing.",
        "Draw it from outside the part to the outside again.", 2},

@@ -174,7 +174,7 @@ auto option_list(Options& options) -> base::OptionList {
                        .number("merge_angle", options.merge_angle, "rad", {0, 0.2},
                                "Turns of the footprint under this are straightened.")
                        .number("tolerance", options.tolerance, "m", {0.001, 1},
-                               "The footprint that is raised lies within this of the given one.")
+                               "Maximum distance between the footprint that is extruded and the given one.")
                        .number("overhang", options.overhang, "m", {0, 3},
                                "How far the lowest eaves overhang, with a level soffit below them."));
 }
@@ -193,15 +193,15 @@ auto codes() -> std::vector<base::Code> {
       {"extrude-straightened", "Shallow turns of a footprint were straightened by more than a centimetre.",
        "Lower --extrude-merge-angle to keep them.", 0},
       {"extrude-nudged",
-       "Upright walls met exactly in a line, which no manifold can; runs were shortened by up to 1 %, or walls moved "
+       "Vertical walls met exactly in a line, which no manifold can; runs were shortened by up to 1 %, or walls moved "
        "by up to 3 mm.",
        "Change a setback or a wall by a few millimetres.", 0},
       {"extrude-overhang", "A building got no overhanging eaves, or not all around.",
-       "Give its roof edges eaves at one height above upright walls, and less overhang where walls are close.", 0},
+       "Give its roof edges eaves at one height above vertical walls, and less overhang where walls are close.", 0},
       {"extrude-simplified",
-       "A building could not be raised in full detail; its footprint was simplified by up to 30 cm.",
+       "A building could not be extruded in full detail; its footprint was simplified by up to 30 cm.",
        "Look for very small or nearly parallel edges in its plan.", 1},
-      {"extrude-two-part", "A building could only be raised with one pitch per edge.",
+      {"extrude-two-part", "A building could only be extruded with one pitch per edge.",
        "Look for profile knots and terraces that leave slivers.", 1},
       {"extrude-prism", "A building fell back to a flat-roofed prism.", "See the reason; edit its plan or profiles.",
        1},

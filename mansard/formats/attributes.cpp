@@ -17,7 +17,7 @@ auto attributes() -> std::vector<Attribute> {
        "",
        "The polygons of the footprint as they were read and the z of the ground, with the origin that they are "
        "relative to."},
-      {"ms_party_wall", "write", {"WallSurface"}, "flag", "", "Whether another solid stands against the wall."},
+      {"ms_party_wall", "write", {"WallSurface"}, "boolean", "", "Whether another solid is adjacent to the wall."},
       {"ms_slope", "write", {"RoofSurface"}, "number", "°", "Angle from the horizontal."},
       {"ms_azimuth",
        "write",

@@ -33,7 +33,7 @@ auto option_list(WriteOptions& o) -> base::OptionList {
       base::OptionList("write")
           .choice("stl_shell", o.stl_shell,
                   {{"part", Shell::part}, {"building", Shell::building}, {"block", Shell::block}},
-                  "What one closed shell of an STL stands for.")
+                  "What one closed shell of an STL contains.")
           .flag("compress", o.compress, "Compress the meshes of GLB and 3D Tiles (meshopt, quantised).")
           .number("tile_triangles", o.tile_triangles, "", {100, 1e7}, "Triangles of a leaf of a tileset, at most."));
 }

@@ -84,7 +84,8 @@ auto codes() -> std::vector<base::Code> {
        "This is a bug: please report it with the input; CityJSON keeps whole polygons and is not affected.", 70},
       {"write-glb-size", "The model is larger than the 4 GB, or the 16 million surfaces, that a GLB can hold.",
        "Write 3D Tiles, or run smaller areas (--bbox).", 2},
-      {"write-tiles-crs", "PROJ knows no way from the coordinate system to WGS 84, where 3D Tiles are.",
+      {"write-tiles-crs",
+       "PROJ has no transformation from the coordinate reference system to WGS 84, which 3D Tiles use.",
        "Work in a projected coordinate system of EPSG (--ingest-crs), or in none (local): tiles are not placed on "
        "Earth then.",
        3},

@@ -26,7 +26,7 @@ auto option_lists(Options& options) -> std::vector<base::OptionList> {
   own.integer("seed", options.seed, "", {0, 9e15}, "Seed of all sampling; the same seed gives the same bytes.")
       .alias("seed")
       .number("assumed_height", options.assumed_height, "m", {0.5, 100},
-              "Height of the prism of a footprint over which the mesh shows nothing.")
+              "Height of the prism of a footprint without mesh coverage.")
       .number("roof_grid", options.roof_grid, "m", {0.05, 5},
               "Sample spacing of the roof heights among the attributes.");
   lists.push_back(std::move(own));
@@ -128,9 +128,9 @@ auto codes() -> std::vector<base::Code> {
        "Check whether the input repeats a building; segment.gis_edges = hard keeps features apart.", 1},
       {"pipeline-block", "The segmentation of a block failed, so its footprints became prisms.",
        "The message says why; please report it.", 1},
-      {"pipeline-overlap", "Two solids share more ground than strips a millimetre wide: they stand in each other.",
+      {"pipeline-overlap", "Two solids overlap by more than strips a millimetre wide.",
        "Look whether the input's footprints overlap, or repeat a building.", 0},
-      {"pipeline-block-unknown", "A run of some blocks names one that there is not.",
+      {"pipeline-block-unknown", "A run of some blocks names an unknown block.",
        "Take a name from the report of a whole run, or of 'mansard segment'.", 4},
   });
   return all;

@@ -115,7 +115,7 @@ auto codes() -> std::vector<base::Code> {
        "Split the building, or choose another shape; the message says what was made instead.", 1},
       {"roof-height", "A roof of this pitch would be higher than the building, so it was made lower.",
        "Correct roof:angle or height.", 1},
-      {"roof-missed", "A roof was raised, but its ridge is not at the height asked for.",
+      {"roof-missed", "A roof was extruded, but its ridge is not at the requested height.",
        "Look for very small edges in the outline.", 1},
   };
 }

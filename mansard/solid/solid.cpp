@@ -38,7 +38,7 @@ auto codes() -> std::vector<base::Code> {
       {"solid-orientation", "A solid or one of its faces is inside out.",
        "This is a fault of the program that made it.", 1},
       {"solid-not-planar", "A face bends by more than 0.1 mm.", "This is a fault of the program that made it.", 1},
-      {"solid-needle", "A face has a triangle so narrow that it looks aside by more than 20 degrees.",
+      {"solid-needle", "A face has a triangle so narrow that its normal deviates by more than 20 degrees.",
        "This is a fault of the program that made it.", 1},
       {"solid-self-intersection", "Faces of a solid cross or touch where they are no neighbours.",
        "This is a fault of the program that made it.", 1},

@@ -23,10 +23,12 @@ auto option_list(Options& options) -> base::OptionList {
               "Lines turn to a footprint's edge within this angle; 0 leaves them alone.");
   list.number("gis_distance", options.gis_distance, "m", {0, 50}, "How near that footprint's edge must be.");
   list.number("gis_offset", options.gis_offset, "m", {0, 5},
-              "Walls seen up to this far outside a footprint's edge stand on it; 0 leaves them where they were seen.");
-  list.number("gis_inward", options.gis_inward, "m", {0, 5}, "… and up to this far inside it.");
+              "Walls measured up to this far outside a footprint edge are moved onto it; 0 leaves them where they were "
+              "measured.");
+  list.number("gis_inward", options.gis_inward, "m", {0, 5},
+              "Walls measured up to this far inside a footprint edge are moved onto it.");
   list.number("cluster_step", options.cluster_step, "m", {0.05, 10},
-              "Greatest lateral step of a side between neighbouring slices.");
+              "Maximum lateral step of a side between neighbouring slices.");
   list.number("low_height", options.low_height, "m", {0, 100},
               "Lines less than this above ground weigh a tenth: cars, hedges.");
   list.number("thin_distance", options.thin_distance, "m", {0, 20},

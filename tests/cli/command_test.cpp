@@ -184,14 +184,14 @@ TEST_F(Command, lists_its_options_as_text_and_json) {
   const auto json = nlohmann::json::parse(run("options --json").out);
   bool found = false;
   for (const auto& option : json["options"])
-    if (option["room"] == "segment" && option["name"] == "alpha") {
+    if (option["module"] == "segment" && option["name"] == "alpha") {
       found = true;
       EXPECT_EQ(option["default"], "40");
     }
   EXPECT_TRUE(found);
   EXPECT_EQ(json["presets"].size(), 2U);
   EXPECT_TRUE(std::ranges::any_of(json["options"], [](const auto& option) {
-    return option["room"] == "simulate" && option["name"] == "melt" && option["default"] == "0.25";
+    return option["module"] == "simulate" && option["name"] == "melt" && option["default"] == "0.25";
   }));
   EXPECT_EQ(json["simulate_presets"][2]["name"], "oblique-aerial");
   EXPECT_THAT(run("options").out, testing::AllOf(HasSubstr("[simulate]"), HasSubstr("lidar-2.5d")));
@@ -234,7 +234,7 @@ TEST_F(Command, refuses_bad_options) {
   expect_refusal(reconstruct(at("house.obj"), at("house.geojson"), "--sweep-gama 5"), 4, "option-unknown",
                  "--sweep-gamma");
   expect_refusal(reconstruct(at("house.obj"), at("house.geojson"), "--slice-interval -1"), 4, "option-value",
-                 "slice.interval");
+                 "--slice-interval");
   expect_refusal(reconstruct(at("house.obj"), at("house.geojson"), "--slice-interval abc"), 4, "option-value");
   expect_refusal(reconstruct(at("house.obj"), at("house.geojson"), "--profile-quality best"), 4, "option-value",
                  "moderate");
@@ -420,12 +420,13 @@ TEST_F(Command, refuses_an_output_folder_that_cannot_be_made) {
 
 TEST_F(Command, refuses_a_folder_that_is_named_as_a_file) {
   const auto inputs = at("house.obj") + " " + at("house.geojson");
-  expect_refusal(run("reconstruct -q " + inputs + " -o " + at("city.gpkg")), 2, "usage", "leave its ending off");
+  expect_refusal(run("reconstruct -q " + inputs + " -o " + at("city.gpkg")), 2, "usage",
+                 "leave the file extension out");
   expect_refusal(run("extrude -q " + at("house.geojson") + " -o " + at("city.SHP")), 2, "usage",
-                 "leave its ending off");
+                 "leave the file extension out");
   EXPECT_FALSE(fs::exists(at("city.gpkg")));
   EXPECT_EQ(run("extrude -q " + at("house.geojson") + " -o " + at("city.v2")).exit, 0)
-      << "an ending of no kind of file";
+      << "a file extension of no kind of file";
 }
 
 TEST_F(Command, gives_one_line_when_memory_runs_out) {

@@ -65,14 +65,14 @@ class Convert : public Command {
 };
 
 TEST_F(Convert, the_table_of_this_test_has_every_format) {
-  std::string names;
-  for (const auto& kind : kinds) names += (names.empty() ? "" : ", ") + kind.format;
+  std::vector<std::string> names;
+  for (const auto& kind : kinds) names.push_back(kind.format);
   const auto listed = nlohmann::json::parse(run("options --json").out);
   for (const auto& verb : listed["verbs"])
     if (verb["verb"] == "convert")
       for (const auto& option : verb["options"])
         if (option["names"][0] == "--to") {
-          EXPECT_THAT(option["meaning"].get<std::string>(), HasSubstr(names));
+          EXPECT_EQ(option["words"].get<std::vector<std::string>>(), names);
         }
 }
 
@@ -200,11 +200,11 @@ TEST_F(Convert, overwrites_nothing_silently_and_no_input_at_all) {
   EXPECT_EQ(read(out("model.glb")), before);
   const auto twice = convert(out("plans.json"), at("x.obj") + " -o " + at("x.obj"));
   EXPECT_EQ(twice.exit, 2);
-  EXPECT_THAT(twice.err, HasSubstr("two results"));
+  EXPECT_THAT(twice.err, HasSubstr("two outputs"));
   const auto long_name = [this](char c) { return at(std::string(300, c) + ".obj"); };  // longer than any file's
   const auto apart = convert(out("plans.json"), long_name('x') + " -o " + long_name('y'));
   EXPECT_EQ(apart.exit, 3) << apart.err;
-  EXPECT_THAT(apart.err, testing::Not(HasSubstr("two results")));
+  EXPECT_THAT(apart.err, testing::Not(HasSubstr("two outputs")));
 }
 
 TEST_F(Convert, replaces_a_folder_of_tiles_alone) {

@@ -15,7 +15,7 @@ class Derive : public Command {};
 TEST_F(Derive, reconstructs_a_mesh_without_footprints_and_says_so_in_every_format) {
   const auto outcome = run("reconstruct " + at("house.obj") + " --derive-footprints --formats all -o " + at("out"));
   EXPECT_LE(outcome.exit, 1) << outcome.err;
-  EXPECT_THAT(outcome.err, HasSubstr("1 footprints were drawn from the mesh"));
+  EXPECT_THAT(outcome.err, HasSubstr("1 footprints were derived from the mesh"));
   const auto report = nlohmann::json::parse(read(at("out") + "/run.json"));
   EXPECT_EQ(report["footprints_derived"], true);
   EXPECT_EQ(report["buildings"][0]["id"], "derived-1");

@@ -44,9 +44,9 @@ class Describe : public Command {
     for (std::string line; std::getline(in, line);) {
       const auto first = line.find_first_not_of(' ');
       if (first == std::string::npos || first == 0 || first > 8 || line[first] != '-') continue;
-      std::istringstream words(line.substr(0, line.find(' ', first)));
-      for (std::string name; std::getline(words >> std::ws, name, ',');)
-        if (name.starts_with("--")) names.insert(name);
+      std::istringstream words(line);
+      for (std::string name; words >> name && name.starts_with("-");)
+        if (name.starts_with("--")) names.insert(name.substr(0, name.find(',')));
     }
     return names;
   }
@@ -59,6 +59,7 @@ TEST_F(Describe, bash_completes_a_verb) {
 TEST_F(Describe, bash_completes_an_option_of_the_verb_and_of_no_other) {
   EXPECT_THAT(bash_offers("mansard reconstruct --sweep-gam"), testing::ElementsAre("--sweep-gamma"));
   EXPECT_THAT(bash_offers("mansard simulate --sweep-gam"), testing::ElementsAre(""));
+  EXPECT_THAT(bash_offers("mansard convert --sweep-gam"), testing::ElementsAre(""));
 }
 
 TEST_F(Describe, bash_completes_the_words_that_an_option_takes) {
@@ -123,7 +124,7 @@ TEST_F(Describe, the_manual_page_has_every_verb_and_every_option) {
   const auto listed = nlohmann::json::parse(run("options --json").out);
   ASSERT_GT(listed["options"].size(), 50U);
   for (const auto& option : listed["options"]) {
-    auto name = "--" + option["room"].get<std::string>() + "-" + option["name"].get<std::string>();
+    auto name = "--" + option["module"].get<std::string>() + "-" + option["name"].get<std::string>();
     std::ranges::replace(name, '_', '-');
     EXPECT_THAT(page, HasSubstr("\\fB" + in_roff(name) + "\\fR")) << name;
   }
@@ -137,8 +138,8 @@ TEST_F(Describe, explain_lists_every_code_as_json_with_what_to_do) {
   std::set<std::string> codes;
   for (const auto& entry : all["codes"]) {
     EXPECT_TRUE(codes.insert(entry["code"]).second) << entry["code"];
-    EXPECT_FALSE(entry["means"].get<std::string>().empty()) << entry["code"];
-    EXPECT_FALSE(entry["to_do"].get<std::string>().empty()) << entry["code"];
+    EXPECT_FALSE(entry["cause"].get<std::string>().empty()) << entry["code"];
+    EXPECT_FALSE(entry["remedy"].get<std::string>().empty()) << entry["code"];
   }
   EXPECT_THAT(codes, Contains("pipeline-nothing"));
   EXPECT_EQ(all["exit_codes"].size(), 8U);
@@ -180,7 +181,7 @@ TEST_F(Describe, every_attribute_in_the_models_is_in_the_list_with_its_object_an
     for (const auto& of : attribute["of"]) {
       auto type = attribute["type"].get<std::string>();
       if (type.ends_with("?")) listed.insert({of, attribute["name"], "null"}), type.pop_back();
-      listed.insert({of, attribute["name"], type == "text" ? "string" : type == "flag" ? "boolean" : type});
+      listed.insert({of, attribute["name"], type});
     }
   for (const auto& attribute : found) EXPECT_THAT(listed, Contains(attribute));
   // And what one simple house has is there: nothing is listed that is never written.

@@ -51,7 +51,7 @@ TEST_F(Info, says_of_models_in_every_format_how_many_there_are_and_that_they_are
     EXPECT_NEAR(it["extent"][0].get<double>(), 0, 0.3) << name;
     EXPECT_NEAR(it["extent"][5].get<double>(), 8, 0.3) << name;
     const auto text = run("info " + at("out") + "/" + name).out;
-    EXPECT_THAT(text, HasSubstr("1 of 1 solids, at 0.1 mm")) << name;
+    EXPECT_THAT(text, HasSubstr("1 of 1 solids (planarity tolerance 0.1 mm)")) << name;
     EXPECT_THAT(text, HasSubstr("sweep.gamma = 7")) << name;
     expect_narrow(text, 1);
   }

@@ -8,10 +8,10 @@ class Report : public Command {};
 
 TEST_F(Report, takes_the_place_of_no_other_result) {
   expect_refusal(reconstruct(at("house.obj"), at("house.geojson"), "--report " + at("out/model.city.json")), 2, "usage",
-                 "two results would be written here");
+                 "two outputs have this path");
   const std::string extrude = "extrude -q " + at("house.geojson") + " -o ";
-  expect_refusal(run(extrude + at("out") + " --report " + at("out/model.obj")), 2, "usage", "two results");
-  expect_refusal(run(extrude + at("house.glb") + " --report " + at("house.glb")), 2, "usage", "two results");
+  expect_refusal(run(extrude + at("out") + " --report " + at("out/model.obj")), 2, "usage", "two outputs");
+  expect_refusal(run(extrude + at("house.glb") + " --report " + at("house.glb")), 2, "usage", "two outputs");
   EXPECT_FALSE(fs::exists(at("house.glb")));
 }
 

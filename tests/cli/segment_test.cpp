@@ -88,7 +88,7 @@ TEST_F(Segment, writes_no_two_results_into_one_file) {
   const auto out = at("out.gpkg"), beside = at(".") + "/out.gpkg";
   for (const auto& more : {"--report " + out, "--export-mps " + out, "--report " + beside,
                            "--export-mps " + at("out.mps") + " --report " + at("out.mps")})
-    expect_refusal(segment(at("house.geojson"), "-q --overwrite " + more), 2, "usage", "two results");
+    expect_refusal(segment(at("house.geojson"), "-q --overwrite " + more), 2, "usage", "two outputs");
   // The names that several blocks give their programs are known only when they are.
   expect_refusal(segment(two_blocks(), "-q --export-mps " + at("out.mps") + " --report " + at("out-block-1.mps")), 2,
                  "usage", "out-block-1.mps");
@@ -97,7 +97,7 @@ TEST_F(Segment, writes_no_two_results_into_one_file) {
 
 TEST_F(Segment, replaces_nothing_but_ordinary_files) {
   ASSERT_EQ(::mkfifo(at("pipe").c_str(), 0600), 0);
-  expect_refusal(segment(at("house.geojson"), "-q --overwrite --report " + at("pipe")), 2, "output-exists", "ordinary");
+  expect_refusal(segment(at("house.geojson"), "-q --overwrite --report " + at("pipe")), 2, "output-exists", "regular");
   EXPECT_TRUE(fs::is_fifo(at("pipe")));
 }
 
@@ -128,7 +128,7 @@ TEST_F(Segment, counts_footprints_without_a_part) {
   const auto outcome = segment(meadow, "--export-mps " + at("out.mps"));
   EXPECT_EQ(outcome.exit, 1) << outcome.err;
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("1 of 1 footprints have no part"), HasSubstr("1 empty"),
-                                 HasSubstr("there is no program to export")));
+                                 HasSubstr("there is no integer program to export")));
   EXPECT_THAT(results(), testing::ElementsAre("out.gpkg"));
 }
 

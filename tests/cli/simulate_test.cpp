@@ -159,8 +159,8 @@ TEST_F(Simulate, takes_options_from_a_file_too) {
 
 TEST_F(Simulate, says_what_is_wrong) {
   const auto refused = [&](const std::string& what) { return run("simulate -q " + what + " -o " + at("out")); };
-  expect_refusal(refused(""), 2, "usage", "one of a MODEL");
-  expect_refusal(refused("--block terrace --footprints x.geojson"), 2, "usage", "one of a MODEL");
+  expect_refusal(refused(""), 2, "usage", "exactly one of MODEL");
+  expect_refusal(refused("--block terrace --footprints x.geojson"), 2, "usage", "exactly one of MODEL");
   expect_refusal(refused("--block castle"), 4, "option-value", "terrace");
   expect_refusal(refused("--block terrace --noise -1"), 4, "option-unknown");
   expect_refusal(refused("--block terrace --simulate-noise -1"), 4, "option-value");

@@ -1,7 +1,8 @@
-// Runs the commands of a tutorial as a reader would, and holds what the page shows against what they say.
+// Runs the commands of a tutorial as a reader would, and compares what the page shows with what they print.
 //   node tutorials.mjs REPOSITORY MANSARD PAGE SCRATCH
-// In a ```console block a line after `$ ` is a command; the lines below it must be said in that order, among others.
-// Numbers may differ by a fifth, or by 3 in the last place: they belong to results that get better. `…` is any text.
+// In a ```console block a line after `$ ` is a command; the lines below it are its whole output, line by line and to
+// the last digit. `…` stands for any text within a line, `<number>` for any number: for times and what else depends on
+// the machine. Progress is left out on both sides: a terminal erases it.
 import { spawnSync } from "node:child_process";
 import fs from "node:fs";
 import path from "node:path";
@@ -11,49 +12,46 @@ fs.rmSync(scratch, { recursive: true, force: true });
 fs.mkdirSync(scratch, { recursive: true });
 fs.symlinkSync(path.join(root, "data"), path.join(scratch, "data"));
 
-const number = /\d+(?:\.\d+)?/g;
-const escape = (text) => text.replace(/[.*+?^${}()|[\]\\]/g, "\\$&");
+/// Whether a printed line is the line that is shown.
+function matches(printed, shown) {
+  const pattern = shown.trimEnd().split(/(…|<number>)/).map((part) =>
+    part === "…" ? ".+" : part === "<number>" ? "\\d+(?:\\.\\d+)?" : part.replace(/[.*+?^${}()|[\]\\]/g, "\\$&"));
+  return new RegExp(`^${pattern.join("")}$`, "u").test(printed);
+}
 
-/// Whether a line that was said is the line that is shown.
-function says(said, shown) {
-  const words = escape(shown).replace(/…/g, ".*").replace(/\d+(?:\\\.\d+)?/g, "(\\d+(?:\\.\\d+)?)")
-    .replace(/ +/g, " +");
-  const match = new RegExp(`^${words}$`).exec(said.trimEnd());
-  if (!match) return false;
-  return (shown.match(number) ?? []).every((text, i) => {
-    const decimals = text.split(".")[1]?.length ?? 0;
-    const allowed = Math.max(0.2 * Number(text), decimals > 0 ? 3 * 10 ** -decimals : Number(text) < 10 ? 0 : 3);
-    return Math.abs(Number(match[i + 1]) - Number(text)) <= allowed;
-  });
+const is_progress = (line) => /^mansard: [a-z]+ .*\(\d+ %\)$/.test(line);
+
+function without_trailing_blanks(lines) {
+  const end = lines.findLastIndex((line) => line !== "");
+  return lines.slice(0, end + 1);
 }
 
 const steps = [];
 for (const [, block] of fs.readFileSync(page, "utf8").matchAll(/^```console\n([\s\S]*?)^```/gm))
   for (const line of block.split("\n")) {
     if (line.startsWith("$ ")) steps.push({ command: line.slice(2), shown: [] });
-    else if (line.trim() !== "") steps.at(-1).shown.push(line);
+    else steps.at(-1).shown.push(line);
   }
 if (steps.length === 0) throw new Error(`${page} has no command to run`);
 
 let failed = false;
 for (const { command, shown } of steps) {
-  // Errors first: then what is said and the names of results stand in the order in which a terminal shows them.
+  // Errors first: then messages and the names of outputs are in the order in which a terminal shows them.
   const answer = spawnSync("bash", ["-c", command], {
     cwd: scratch, encoding: "utf8", maxBuffer: 1 << 26,
     env: { ...process.env, PATH: `${path.dirname(program)}:${process.env.PATH}`, LC_ALL: "C" },
   });
-  const said = `${answer.stderr}\n${answer.stdout}`.split("\n");
+  const lines = `${answer.stderr}${answer.stdout}`.split("\n").map((line) => line.trimEnd());
+  const printed = without_trailing_blanks(lines.filter((line) => !is_progress(line)));
+  const wanted = without_trailing_blanks(shown);
   const complain = (what) => {
     failed = true;
-    console.error(`$ ${command}\n${what}; it said:\n${said.slice(-40).join("\n")}\n`);
+    console.error(`$ ${command}\n${what}; it printed:\n${printed.join("\n")}\n`);
   };
   if (answer.status !== 0) complain(`ended with ${answer.status ?? answer.signal}`);
-  let at = 0;
-  for (const line of shown) {
-    const found = said.findIndex((text, i) => i >= at && says(text, line));
-    if (found < 0) complain(`did not say '${line}'`);
-    else at = found + 1;
-  }
+  const differs = wanted.findIndex((line, i) => printed[i] === undefined || !matches(printed[i], line));
+  if (differs >= 0) complain(`line ${differs + 1} of its output is not '${wanted[differs]}'`);
+  else if (printed.length > wanted.length) complain(`the page does not show '${printed[wanted.length]}'`);
 }
 if (failed) process.exit(1);
 fs.rmSync(scratch, { recursive: true, force: true });

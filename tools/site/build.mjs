@@ -21,7 +21,7 @@ const ask = (...words) => {
   if (answer.status !== 0) throw new Error(`${words.join(" ")} ended with ${answer.status}: ${answer.stderr}`);
   return JSON.parse(answer.stdout);
 };
-const known = { ...ask("options", "--json"), ...ask("options", "--attributes", "--json"), ...ask("explain", "--json") };
+const known = { ...ask("options", "--all", "--json"), ...ask("options", "--attributes", "--json"), ...ask("explain", "--json") };
 const version = spawnSync(program, ["--version"], { encoding: "utf8" }).stdout.trim();
 
 // ---- the pages, in the order of the menu

@@ -23,7 +23,7 @@ export class Checks {
     this.rooms = rooms;
     this.known = known;
     this.complaints = [];
-    this.options = new Map(known.options.map((option) => [`${option.room}.${option.name}`, option]));
+    this.options = new Map(known.options.map((option) => [`${option.module}.${option.name}`, option]));
     this.codes = new Set(known.codes.map((entry) => entry.code));
     this.code_prefixes = new Set(known.codes.map((entry) => entry.code.split("-")[0]));
     this.attributes = new Set(known.attributes.map((attribute) => attribute.name));
@@ -85,7 +85,7 @@ export class Checks {
     if (option && !this.words.has(option)) this.complain(name, `the option ${option} does not exist in the program`);
     const [, room, member] = /^([a-z]+)\.([a-z0-9_]+)(?:$| =)/.exec(decoded) ?? [];
     if (room && !this.tests.has(`${room}.${member}`) && !/^(md|[ch]pp|json|mjs|gpkg|svg|png|html)$/.test(member) &&
-        this.known.options.some((entry) => entry.room === room) && !this.options.has(`${room}.${member}`))
+        this.known.options.some((entry) => entry.module === room) && !this.options.has(`${room}.${member}`))
       this.complain(name, `the option ${room}.${member} does not exist in the program`);
     // A test by its name, or by the beginning of it and "…".
     const [, suite, test] = /^([A-Z]\w+)\.(\w+)…?$/.exec(decoded) ?? [];
@@ -189,7 +189,7 @@ export class Checks {
   /// Every option, code and attribute of the program is on a page.
   made(html) {
     for (const [key, option] of this.options)
-      if (!html.includes(`id="option-${option.room}-${option.name}"`)) this.complain("options", `${key} is on no page`);
+      if (!html.includes(`id="option-${option.module}-${option.name}"`)) this.complain("options", `${key} is on no page`);
     for (const code of this.codes)
       if (!html.includes(`id="code-${code}"`)) this.complain("codes", `${code} is on no page`);
     for (const attribute of this.attributes)

@@ -15,25 +15,25 @@ function table(header, rows) {
 
 function range_of(option) {
   if (option.kind === "choice") return option.choices.map(code).join(", ");
-  if (option.kind === "flag") return "yes or no";
-  return option.least === null && option.most === null ? "" : `${option.least ?? "…"} to ${option.most ?? "…"}`;
+  if (option.kind === "boolean") return "yes or no";
+  return option.minimum === null && option.maximum === null ? "" : `${option.minimum ?? "…"} to ${option.maximum ?? "…"}`;
 }
 
 const option_table = (options) =>
   table(["option", "default", "unit", "range", "meaning"], options.map((option) => {
-    const names = [`${option.room}-${option.name}`, ...(option.alias ? [option.alias] : [])];
+    const names = [`${option.module}-${option.name}`, ...(option.alias ? [option.alias] : [])];
     const typed = names.map((name) => code(`--${dashed(name)}`)).join(", ");
     return {
-      id: `option-${option.room}-${option.name}`,
+      id: `option-${option.module}-${option.name}`,
       cells: [`${code(option.name)}<br><small>${typed}</small>`, option.default === "" ? "–" : code(option.default),
         escape(option.unit), range_of(option), escape(option.meaning)],
     };
   }));
 
 const code_table = (codes) =>
-  table(["code", "means", "to do", "exit code"], codes.map((entry) => ({
+  table(["code", "cause", "remedy", "exit code"], codes.map((entry) => ({
     id: `code-${entry.code}`,
-    cells: [code(entry.code), escape(entry.means), escape(entry.to_do), String(entry.exit_code)],
+    cells: [code(entry.code), escape(entry.cause), escape(entry.remedy), String(entry.exit_code)],
   })));
 
 const attribute_table = (attributes) =>
@@ -53,8 +53,8 @@ const exit_table = (exits) =>
   table(["exit code", "when"], exits.map((exit) => ({ cells: [String(exit.exit_code), escape(exit.when)] })));
 
 function verb_section(verb) {
-  const own = [...verb.arguments, ...verb.options.filter((entry) => entry.room === "")];
-  const rooms = [...new Set(verb.options.map((entry) => entry.room).filter((room) => room !== ""))];
+  const own = [...verb.arguments, ...verb.options.filter((entry) => entry.module === "")];
+  const rooms = [...new Set(verb.options.map((entry) => entry.module).filter((room) => room !== ""))];
   const rows = own.map((entry) => ({
     id: entry.names.length > 0 ? `${verb.verb}${entry.names[0]}` : undefined,
     cells: [`${entry.names.map(code).join(", ")} ${escape(entry.value)}${entry.required ? " (required)" : ""}`.trim(),
@@ -78,9 +78,9 @@ export class Tables {
   of_room(room) {
     const { options, codes, attributes } = this.known;
     const own = {
-      Options: [option_table, options.filter((option) => option.room === room)],
+      Options: [option_table, options.filter((option) => option.module === room)],
       Codes: [code_table, codes.filter((entry) => this.#room_of(entry) === room)],
-      Attributes: [attribute_table, attributes.filter((attribute) => attribute.room === room)],
+      Attributes: [attribute_table, attributes.filter((attribute) => attribute.module === room)],
     };
     return Object.fromEntries(Object.entries(own).filter(([, [, list]]) => list.length > 0)
       .map(([heading, [make, list]]) => [heading, make(list)]));
@@ -89,8 +89,8 @@ export class Tables {
   /// The pages that are nothing else: title and body by address.
   pages() {
     const { verbs, options, presets, simulate_presets, attributes, codes, exit_codes } = this.known;
-    const of_options = [...new Set(options.map((option) => option.room))].map((room) =>
-      `<h2 id="${room}">${room}</h2>${option_table(options.filter((option) => option.room === room))}`);
+    const of_options = [...new Set(options.map((option) => option.module))].map((room) =>
+      `<h2 id="${room}">${room}</h2>${option_table(options.filter((option) => option.module === room))}`);
     return {
       "verbs.html": ["Verbs", verbs.map(verb_section).join("\n")],
       "options.html": ["Options", `<p>Option ${code("name")} of module ${code("module")} is ${code("--module-name")} on the

@@ -102,10 +102,9 @@ void report_overlaps(Reconstruction& reconstruction) {
     where = a->part->id + " and " + b->part->id;
   }
   if (!pairs.empty())
-    reconstruction.warnings.push_back(
-        base::warning("pipeline-overlap", std::to_string(pairs.size()) + (pairs.size() == 1 ? " pair" : " pairs") +
-                                              " of solids stand in each other, at most by " + base::to_text(most, 3) +
-                                              " m³: " + where));
+    reconstruction.warnings.push_back(base::warning(
+        "pipeline-overlap", std::to_string(pairs.size()) + (pairs.size() == 1 ? " pair" : " pairs") +
+                                " of solids overlap, by at most " + base::to_text(most, 3) + " m³: " + where));
 }
 
 }  // namespace mansard::pipeline::detail
