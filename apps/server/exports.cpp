@@ -33,8 +33,8 @@ class WorkFolder {
 /// Every name that an export may write.
 auto own_names() -> std::vector<std::string> {
   std::vector<std::string> names{run_layers};
-  for (const auto& format : formats::formats())
-    for (const auto& place : formats::places_of({format.format, formats::name_in_folder(format.format)}))
+  for (const auto format : written_formats())
+    for (const auto& place : formats::places_of({format, formats::name_in_folder(format)}))
       names.push_back(place.string());
   return names;
 }
@@ -53,8 +53,7 @@ void remove_work_folders(const fs::path& exports) {
 
 auto exported(const model::City& city, const formats::WriteOptions& options, std::string_view file,
               const fs::path& work) -> base::Result<std::string> {
-  for (const auto& written : formats::formats()) {
-    const auto format = written.format;
+  for (const auto format : written_formats()) {
     if (const auto own = files_of(format); std::ranges::find(own, file) == own.end()) continue;
     const WorkFolder folder(work);
     if (auto made = make_folder(folder.path()); !made) return made.error();

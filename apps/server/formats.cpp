@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <string_view>
 
 #include "mansard/base/options.hpp"
@@ -11,83 +10,58 @@
 namespace mansard::server {
 namespace {
 
-using Words = std::vector<std::string_view>;
-
 constexpr std::string_view archive = ".zip";
 
-/// What is read of a format. Written formats come from formats::formats() and have the same names.
-struct ReadFormat {
-  std::string_view name, description;
-  Words extensions;  ///< in lower case, without the dot
-  Words sidecars;    ///< extensions of files that are read along with one of the format
-  Words reads;       ///< "mesh", "raster", "footprints", "models"
+/// What the page accepts for uploads beyond the extensions of a driver: extensions that several formats share, and
+/// those of files that are read along with one of the format.
+struct Uploads {
+  std::string_view driver;
+  std::vector<std::string_view> extensions, sidecars;
 };
 
-auto read_formats() -> const std::vector<ReadFormat>& {
-  static const std::vector<ReadFormat> all{
-      {"obj", "Wavefront OBJ", {"obj"}, {"mtl", "png", "jpg", "jpeg"}, {"mesh", "models"}},
-      {"ply", "Stanford PLY, text or binary", {"ply"}, {}, {"mesh"}},
-      {"off", "Object File Format, text", {"off"}, {}, {"mesh"}},
-      {"glb", "Binary glTF", {"glb"}, {}, {"mesh", "models"}},
-      {"gltf", "glTF", {"gltf"}, {"bin", "png", "jpg", "jpeg"}, {"mesh"}},
-      {"tiles", "3D Tiles", {"3tz"}, {}, {"mesh", "models"}},
-      {"geotiff", "GeoTIFF with heights", {"tif", "tiff"}, {"tfw"}, {"raster"}},
-      {"vrt", "GDAL virtual raster with heights", {"vrt"}, {}, {"raster"}},
-      {"aaigrid", "Arc/Info ASCII grid with heights", {"asc"}, {"prj"}, {"raster"}},
-      {"hfa", "Erdas Imagine raster with heights", {"img"}, {}, {"raster"}},
-      {"geojson", "GeoJSON", {"geojson", "json"}, {}, {"footprints", "models"}},
-      {"geopackage", "GeoPackage", {"gpkg"}, {}, {"footprints", "models"}},
-      {"shapefile", "ESRI Shapefile", {"shp", "zip"}, {"shx", "dbf", "prj", "cpg", "qmd"}, {"footprints"}},
-      {"gml", "GML", {"gml"}, {}, {"footprints"}},
-      {"flatgeobuf", "FlatGeobuf", {"fgb"}, {}, {"footprints"}},
-      {"kml", "KML", {"kml"}, {}, {"footprints"}},
-      {"osm", "OpenStreetMap", {"osm", "pbf"}, {}, {"footprints"}},
-      {"cityjson", "CityJSON", {"json"}, {}, {"footprints", "models"}},
-      {"cityjsonseq", "CityJSONSeq", {"jsonl"}, {}, {"footprints", "models"}},
-      {"plans", "Plans and profiles", {"json"}, {}, {"models"}},
-  };
-  return all;
+auto uploads_of(std::string_view driver) -> const Uploads& {
+  static const std::array<Uploads, 7> all{{{"obj", {}, {".mtl", ".png", ".jpg", ".jpeg"}},
+                                           {"gltf", {}, {".bin", ".png", ".jpg", ".jpeg"}},
+                                           {"geotiff", {}, {".tfw"}},
+                                           {"asc", {}, {".prj"}},
+                                           {"geojson", {".json"}, {}},
+                                           {"shapefile", {".zip"}, {".shx", ".dbf", ".prj", ".cpg", ".qmd"}},
+                                           {"", {}, {}}}};
+  const auto at = std::ranges::find(all, driver, &Uploads::driver);
+  return at != all.end() ? *at : all.back();
 }
 
-auto json_of(std::string_view name, std::string_view description, const ReadFormat* read,
-             const formats::FormatName* written) -> Json {
-  const Words none;
-  return {{"name", name},
-          {"description", description},
-          {"extensions", read != nullptr ? read->extensions : none},
-          {"sidecars", read != nullptr ? read->sidecars : none},
-          {"reads", read != nullptr ? read->reads : none},
-          {"files", written != nullptr ? files_of(written->format) : std::vector<std::string>()}};
+auto reads_json(const formats::Reads& reads) -> Json {
+  Json kinds = Json::array();
+  if (reads.mesh) kinds.push_back("mesh");
+  if (reads.raster) kinds.push_back("raster");
+  if (reads.footprints) kinds.push_back("footprints");
+  if (reads.results) kinds.push_back("models");
+  return kinds;
+}
+
+auto json_of(const formats::Driver& driver) -> Json {
+  auto extensions = driver.extensions;
+  const auto& uploads = uploads_of(driver.name);
+  extensions.insert(extensions.end(), uploads.extensions.begin(), uploads.extensions.end());
+  return {{"name", driver.name},
+          {"title", driver.title},
+          {"description", driver.description},
+          {"extensions", extensions},
+          {"sidecars", uploads.sidecars},
+          {"reads", reads_json(driver.reads)},
+          {"files", driver.writes ? files_of(*driver.writes) : std::vector<std::string>()}};
 }
 
 }  // namespace
 
 auto formats_json() -> Json {
   Json all = Json::array();
-  for (const auto& written : formats::formats()) {
-    const auto read = std::ranges::find(read_formats(), written.name, &ReadFormat::name);
-    all.push_back(json_of(written.name, written.meaning, read == read_formats().end() ? nullptr : &*read, &written));
-  }
-  for (const auto& read : read_formats())
-    if (std::ranges::find(formats::formats(), read.name, &formats::FormatName::name) == formats::formats().end())
-      all.push_back(json_of(read.name, read.description, &read, nullptr));
+  for (const auto& driver : formats::drivers()) all.push_back(json_of(driver));
   return all;
 }
 
-auto compressed_extensions_json() -> Json { return Json::array({"gz"}); }
-
-auto has_mesh_extension(const std::filesystem::path& path) -> bool {
-  auto extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension.empty()) return false;
-  const auto has = [](const Words& words, std::string_view word) {
-    return std::ranges::find(words, word) != words.end();
-  };
-  return std::ranges::any_of(read_formats(), [&](const auto& format) {
-    return has(format.reads, "mesh") && has(format.extensions, std::string_view(extension).substr(1));
-  });
-}
+auto compressed_extensions_json() -> Json { return Json::array({".gz"}); }
 
 auto files_of(formats::Format format) -> std::vector<std::string> {
   std::vector<std::string> names;
@@ -96,18 +70,28 @@ auto files_of(formats::Format format) -> std::vector<std::string> {
   return names;
 }
 
+auto written_formats() -> std::vector<formats::Format> {
+  std::vector<formats::Format> all;
+  for (const auto& driver : formats::drivers())
+    if (driver.writes) all.push_back(*driver.writes);
+  return all;
+}
+
 auto formats_named(const std::vector<std::string>& names) -> base::Result<std::vector<formats::Format>> {
+  if (names.empty()) return written_formats();
   std::vector<std::string> known;
-  for (const auto& format : formats::formats()) known.emplace_back(format.name);
+  std::vector<formats::Format> out;
+  for (const auto& driver : formats::drivers()) {
+    if (!driver.writes) continue;
+    known.emplace_back(driver.name);
+    if (std::ranges::find(names, driver.name) != names.end()) out.push_back(*driver.writes);
+  }
   for (const auto& name : names)
     if (std::ranges::find(known, name) == known.end())
       return base::error(
           "option-value",
           "unknown format '" + base::on_one_line(name) + "'" + base::did_you_mean(base::nearest_word(name, known)),
           base::on_one_line(name));
-  std::vector<formats::Format> out;
-  for (const auto& format : formats::formats())
-    if (names.empty() || std::ranges::find(names, format.name) != names.end()) out.push_back(format.format);
   return out;
 }
 

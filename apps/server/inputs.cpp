@@ -3,15 +3,17 @@
 #include <algorithm>
 #include <set>
 
-#include "apps/server/formats.hpp"
 #include "apps/server/options.hpp"
 #include "mansard/base/files.hpp"
+#include "mansard/formats/drivers.hpp"
 #include "mansard/formats/input_name.hpp"
 
 namespace mansard::server {
 namespace {
 
 namespace fs = std::filesystem;
+
+auto is_mesh(const fs::path& path) -> bool { return formats::has_extension(path, &formats::Reads::mesh); }
 
 auto no_database(const std::string& name, const char* what) -> base::Result<void> {
   if (!formats::is_database_name(name)) return {};
@@ -45,7 +47,7 @@ auto belongs_to(const std::string& file, const std::string& source) -> bool {
     return true;
   }
   const fs::path own(file), of(source);
-  return !has_mesh_extension(own) && own.parent_path() == of.parent_path() && own.stem() == of.stem();
+  return !is_mesh(own) && own.parent_path() == of.parent_path() && own.stem() == of.stem();
 }
 
 }  // namespace
@@ -71,7 +73,7 @@ auto sample_inputs(const fs::path& folder) -> base::Result<InputsRequest> {
         return base::error("server-sample", "the options of the sample must be a JSON object of strings", name);
       for (const auto& [key, value] : json.items())
         if (value.is_string()) request.reading[key] = value.get<std::string>();
-    } else if (has_mesh_extension(path)) {
+    } else if (is_mesh(path)) {
       request.meshes.push_back(name);
     } else if (path.stem() == "footprints" && request.footprints.empty()) {
       request.footprints = name;

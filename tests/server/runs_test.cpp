@@ -236,7 +236,7 @@ TEST_F(Runs, export_the_bytes_that_extrude_makes_from_their_plans) {
   for (const auto& file : fs::recursive_directory_iterator(again))
     if (file.is_regular_file()) wanted.insert(file.path().lexically_relative(again).string());
   EXPECT_EQ(made, wanted);
-  EXPECT_GE(wanted.size(), formats::formats().size() + 2);
+  EXPECT_GE(wanted.size(), written_formats().size() + 2);
   for (const auto& name : wanted)
     if (name != run_layers) {
       EXPECT_EQ(read(again / name) == read(folder / name), true) << name;
@@ -257,7 +257,7 @@ TEST_F(Runs, export_the_bytes_that_extrude_makes_from_their_plans) {
       ASSERT_TRUE(packed);
       EXPECT_EQ(bytes == *packed, true) << name;
     }
-  EXPECT_EQ(fetched, formats::formats().size() + 1) << "an OBJ has two files";
+  EXPECT_EQ(fetched, written_formats().size() + 1) << "an OBJ has two files";
   EXPECT_THAT(read(folder / "plans.json"), HasSubstr("ms_edited"));
   EXPECT_THAT(server.get("/api/runs/run-1/export/segment.gpkg").text, testing::StartsWith("SQLite format 3"));
   EXPECT_EQ(server.get("/api/runs/run-1/export/run.json").code(), "server-unknown");

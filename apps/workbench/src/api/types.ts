@@ -153,8 +153,9 @@ export type InputKind = "mesh" | "raster" | "footprints" | "models";
 /** A file format that can be opened or exported. */
 export interface Format {
   name: string; // "cityjson", as on the command line
+  title: string; // "CityJSON"
   description: string;
-  extensions: string[]; // for opening: in lower case, without the dot
+  extensions: string[]; // in lower case, with the dot
   sidecars: string[]; // extensions of files that are read along with a file of this format
   reads: InputKind[]; // what can be read from it; empty: export only
   files: string[]; // for GET /api/runs/{run}/export/{file}; a folder is exported as a ZIP; empty: no export
@@ -163,7 +164,7 @@ export interface Options {
   options: Option[];
   presets: Preset[];
   formats: Format[];
-  compressed_extensions: string[]; // such as "gz": the format is that of the name without it
+  compressed_extensions: string[]; // such as ".gz": the format is that of the name without it
 }
 
 export interface SceneBlock {

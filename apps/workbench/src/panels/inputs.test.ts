@@ -1,9 +1,10 @@
 import { describe, expect, it } from "vitest";
 import type { Format } from "../api/types";
-import { accepted, extensionsOf, sorted } from "./inputs";
+import { accepted, extensionsOf, sorted, titlesOf } from "./inputs";
 
 const format = (name: string, extensions: string[], reads: Format["reads"], sidecars: string[] = []): Format => ({
   name,
+  title: name.toUpperCase(),
   description: "",
   extensions,
   sidecars,
@@ -12,16 +13,17 @@ const format = (name: string, extensions: string[], reads: Format["reads"], side
 });
 const known = {
   formats: [
-    format("obj", ["obj"], ["mesh", "models"], ["mtl"]),
-    format("ply", ["ply"], ["mesh"]),
-    format("tiles", ["3tz"], ["mesh"]),
-    format("geotiff", ["tif", "tiff"], ["raster"], ["tfw"]),
-    format("geojson", ["geojson", "json"], ["footprints"]),
-    format("geopackage", ["gpkg"], ["footprints", "models"]),
-    format("zip", ["zip"], ["mesh", "footprints"]),
-    format("stl", [], []),
+    format("obj", [".obj"], ["mesh", "models"], [".mtl"]),
+    format("ply", [".ply"], ["mesh"]),
+    format("tiles", [".3tz"], ["mesh"]),
+    format("geotiff", [".tif", ".tiff"], ["raster"], [".tfw"]),
+    format("geojson", [".geojson", ".json"], ["footprints"]),
+    format("geopackage", [".gpkg"], ["footprints", "models"]),
+    format("zip", [".zip"], ["mesh", "footprints"]),
+    format("osm", [".osm.pbf"], ["footprints"]),
+    format("stl", [".stl"], []),
   ],
-  compressed_extensions: ["gz"],
+  compressed_extensions: [".gz"],
 };
 
 describe("dropped files", () => {
@@ -52,5 +54,7 @@ describe("dropped files", () => {
 
 it("hints and file choosers list what the server reads", () => {
   expect(extensionsOf(known, "mesh", "raster")).toEqual([".obj", ".ply", ".3tz", ".tif", ".tiff", ".zip"]);
+  expect(titlesOf(known, "raster", "models")).toEqual(["OBJ", "GEOTIFF", "GEOPACKAGE"]);
   expect(accepted(known, "models")).toBe(".obj,.gpkg,.mtl,.gz");
+  expect(accepted(known, "footprints")).toContain(".pbf");
 });

@@ -3,28 +3,34 @@ import type { InputKind, Options } from "../api/types";
 
 type Formats = Pick<Options, "formats" | "compressed_extensions">;
 
-/** File extensions from which something of this kind can be read, each with its dot. */
-export const extensionsOf = ({ formats }: Formats, ...kinds: InputKind[]): string[] => [
-  ...new Set(formats.filter((f) => kinds.some((k) => f.reads.includes(k))).flatMap((f) => f.extensions.map((e) => `.${e}`))),
+const reading = ({ formats }: Formats, kinds: InputKind[]) =>
+  formats.filter((f) => kinds.some((k) => f.reads.includes(k)));
+
+/** Names of the formats from which something of these kinds can be read. */
+export const titlesOf = (known: Formats, ...kinds: InputKind[]) => reading(known, kinds).map((f) => f.title);
+/** Their file extensions. */
+export const extensionsOf = (known: Formats, ...kinds: InputKind[]): string[] => [
+  ...new Set(reading(known, kinds).flatMap((f) => f.extensions)),
 ];
 
-/** For the attribute `accept` of a file chooser: the extensions of some kinds, their sidecar files, and compressed files. */
+/** For the attribute `accept` of a file chooser: their file extensions, those of sidecar files, and compressed files. The
+ *  attribute has no place for extensions of two words, such as .osm.pbf: their last word counts. */
 export function accepted(known: Formats, ...kinds: InputKind[]): string {
-  const sidecars = known.formats.filter((f) => kinds.some((k) => f.reads.includes(k))).flatMap((f) => f.sidecars);
-  const others = [...sidecars, ...known.compressed_extensions].map((e) => `.${e}`);
-  return [...new Set([...extensionsOf(known, ...kinds), ...others])].join(",");
+  const sidecars = reading(known, kinds).flatMap((f) => f.sidecars);
+  const all = [...extensionsOf(known, ...kinds), ...sidecars, ...known.compressed_extensions];
+  return [...new Set(all.map((e) => e.slice(e.lastIndexOf("."))))].join(",");
 }
 
 /** The sorted names. A raster is the terrain if there is a mesh, or if its name says so; otherwise it is the mesh. A file
  *  that can be a mesh or footprints is taken as the mesh if there is none yet. */
 export function sorted(names: readonly string[], known: Formats, hasMesh = false) {
   const plain = (name: string) =>
-    known.compressed_extensions.reduce((n, e) => (n.endsWith(`.${e}`) ? n.slice(0, -e.length - 1) : n), name.toLowerCase());
+    known.compressed_extensions.reduce((n, e) => (n.endsWith(e) ? n.slice(0, -e.length) : n), name.toLowerCase());
   const has = (extensions: readonly string[]) => (name: string) => extensions.some((e) => plain(name).endsWith(e));
   const isMesh = has(extensionsOf(known, "mesh"));
   const isRaster = has(extensionsOf(known, "raster"));
   const isFootprints = has(extensionsOf(known, "footprints"));
-  const isSidecar = has(known.formats.flatMap((f) => f.sidecars.map((e) => `.${e}`)));
+  const isSidecar = has(known.formats.flatMap((f) => f.sidecars));
   const isTerrain = (name: string) => /dtm|dgm|terrain|ground/.test(plain(name));
 
   const certain = names.filter((n) => isMesh(n) && !isFootprints(n));

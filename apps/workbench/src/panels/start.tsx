@@ -4,7 +4,7 @@ import * as actions from "../actions";
 import type { InputKind } from "../api/types";
 import * as state from "../state";
 import { Icon } from "./icons";
-import { accepted, extensionsOf, sorted } from "./inputs";
+import { accepted, extensionsOf, sorted, titlesOf } from "./inputs";
 import { PlainOptionFields } from "./option_fields";
 import { faulty, forInputs, key } from "./options";
 import { Progress } from "./progress";
@@ -170,7 +170,7 @@ export function Start() {
               value={meshes.value}
               onInput={(e) => (meshes.value = e.currentTarget.value)}
             />
-            <Extensions of={["mesh", "raster"]} />
+            <Titles of={["mesh", "raster"]} />
           </label>
           <label class="field">
             Footprints: a file or database that GDAL can read
@@ -183,7 +183,7 @@ export function Start() {
               value={derive.value ? "" : footprints.value}
               onInput={(e) => (footprints.value = e.currentTarget.value)}
             />
-            <Extensions of={["footprints"]} />
+            <Titles of={["footprints"]} />
           </label>
           <label class="start-draw">
             <input type="checkbox" checked={derive.value} onChange={(e) => (derive.value = e.currentTarget.checked)} />
@@ -224,10 +224,10 @@ export function Start() {
   );
 }
 
-/** The file extensions that the server reads. */
-function Extensions({ of }: { of: InputKind[] }) {
+/** The formats that the server reads. */
+function Titles({ of }: { of: InputKind[] }) {
   const formats = state.options.value;
-  return formats && <span class="quiet extensions">{extensionsOf(formats, ...of).join(" ")}</span>;
+  return formats && <span class="quiet titles">{titlesOf(formats, ...of).join(", ")}</span>;
 }
 
 /** Models of an earlier run, with or without the mesh. */
@@ -244,7 +244,7 @@ function OpenModel() {
           value={model.value}
           onInput={(e) => (model.value = e.currentTarget.value)}
         />
-        <Extensions of={["models"]} />
+        <Titles of={["models"]} />
       </label>
       <p class="start-go">
         <button type="submit" disabled={model.value.trim() === "" || sending.value !== ""}>
