@@ -1,4 +1,4 @@
-// The page, as it was built into the program.
+// The page of the workbench, as built into the program.
 #pragma once
 
 #include <span>
@@ -15,10 +15,10 @@ struct Asset {
 
 /// By name.
 [[nodiscard]] auto assets() -> std::span<const Asset>;
-/// Null where there is none. "" is index.html.
+/// Null for an unknown name. "" is index.html.
 [[nodiscard]] auto find_asset(std::string_view name) -> const Asset*;
 
-/// openapi.json, as it was built in.
+/// openapi.json, as built into the program.
 [[nodiscard]] auto openapi() -> std::string_view;
 
 }  // namespace mansard::server

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 auto cannot(const std::string& what, const fs::path& path) -> base::Diagnostic {
   return base::error(
       "file-write",
-      "cannot " + what + ": " + std::strerror(errno) + "; choose a place that can be written and has room",
+      "cannot " + what + ": " + std::strerror(errno) + "; check the permissions and the free space of the folder",
       path.string());
 }
 
@@ -30,14 +30,14 @@ auto write_all(int file, std::string_view bytes) -> bool {
   return true;
 }
 
-/// A name is on the disk only when its folder is.
+/// A new name is durable only after its folder has been flushed.
 auto flush_folder(const fs::path& folder) -> bool {
   const Descriptor open(::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  return open.there() && ::fsync(open.number()) == 0;
+  return open.is_open() && ::fsync(open.number()) == 0;
 }
 
-/// Unlike any other of this process and, as projects are locked, of any other.
-auto beside(const fs::path& path) -> fs::path {
+/// A temporary name in the same folder, unique in this process. Other processes do not write here: projects are locked.
+auto temporary_name(const fs::path& path) -> fs::path {
   static std::atomic<unsigned> count{0};
   return path.parent_path() / ("." + path.filename().string() + "." + std::to_string(count++) + ".part");
 }
@@ -46,14 +46,14 @@ auto beside(const fs::path& path) -> fs::path {
 
 auto Descriptor::operator=(Descriptor&& other) noexcept -> Descriptor& {
   if (this != &other) {
-    if (there()) ::close(number_);
+    if (is_open()) ::close(number_);
     number_ = other.release();
   }
   return *this;
 }
 
 Descriptor::~Descriptor() {
-  if (there()) ::close(number_);
+  if (is_open()) ::close(number_);
 }
 
 auto Descriptor::release() -> int { return std::exchange(number_, -1); }
@@ -86,7 +86,7 @@ Journal::Journal(fs::path path, Descriptor file, std::uint64_t size)
 
 auto Journal::open(const fs::path& path, std::uint64_t kept) -> base::Result<Journal> {
   Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
-  if (!file.there()) return cannot("open", path);
+  if (!file.is_open()) return cannot("open", path);
   if (::ftruncate(file.number(), static_cast<off_t>(kept)) != 0 || ::fsync(file.number()) != 0 ||
       !flush_folder(path.parent_path()))
     return cannot("write", path);
@@ -101,7 +101,7 @@ auto Journal::append(std::string_view line) -> base::Result<void> {
     return {};
   }
   auto why = cannot("write", path_);
-  // Half a line must not be followed by another one. Where cutting it off fails too, the next start drops it.
+  // Nothing may be appended to an incomplete line. If truncating fails too, the next start drops the line.
   if (::ftruncate(file_.number(), static_cast<off_t>(size_)) != 0) file_ = Descriptor();
   return why;
 }
@@ -110,14 +110,14 @@ Arriving::Arriving(fs::path path, fs::path beside, Descriptor file)
     : path_(std::move(path)), beside_(std::move(beside)), file_(std::move(file)) {}
 
 auto Arriving::open(fs::path path) -> base::Result<Arriving> {
-  auto name = beside(path);
+  auto name = temporary_name(path);
   Descriptor file(::open(name.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666));
-  if (!file.there()) return cannot("write", path);
+  if (!file.is_open()) return cannot("write", path);
   return Arriving(std::move(path), std::move(name), std::move(file));
 }
 
 Arriving::~Arriving() {
-  if (file_.there()) ::unlink(beside_.c_str());
+  if (file_.is_open()) ::unlink(beside_.c_str());
 }
 
 auto Arriving::add(std::string_view bytes) -> base::Result<void> {

@@ -1,4 +1,4 @@
-// Files that are there after a power cut once the call has returned, and whole or not at all.
+// Durable files: once a call has returned, its file survives a power cut. Files are complete or do not exist.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace mansard::server {
 
-/// A descriptor that is closed with its owner.
+/// A file descriptor that is closed by its destructor.
 class Descriptor {
  public:
   explicit Descriptor(int number = -1) : number_(number) {}
@@ -20,27 +20,28 @@ class Descriptor {
   auto operator=(const Descriptor&) -> Descriptor& = delete;
   ~Descriptor();
   [[nodiscard]] auto number() const -> int { return number_; }
-  [[nodiscard]] auto there() const -> bool { return number_ >= 0; }
+  [[nodiscard]] auto is_open() const -> bool { return number_ >= 0; }
 
  private:
   auto release() -> int;
   int number_;
 };
 
-/// Written beside, flushed, renamed; the folder is flushed too. Gives up with "file-write".
+/// Writes a temporary file in the same folder, flushes it, renames it and flushes the folder. Gives up with
+/// "file-write".
 [[nodiscard]] auto write_durably(const std::filesystem::path& path, std::string_view bytes) -> base::Result<void>;
-/// Makes the folder, whose parent must be there; no error where it is there already. Gives up with "file-write".
+/// Makes the folder; its parent must exist. An existing folder is no error. Gives up with "file-write".
 [[nodiscard]] auto make_folder(const std::filesystem::path& path) -> base::Result<void>;
-/// Renames within one file system and flushes both folders. Gives up with "file-write".
+/// Renames within one file system and flushes both parent folders. Gives up with "file-write".
 [[nodiscard]] auto move_durably(const std::filesystem::path& from, const std::filesystem::path& to)
     -> base::Result<void>;
 
-/// A file that only grows, line by line; each line is on the disk before append() returns.
+/// A file to which lines are appended; each line is on disk before append() returns.
 class Journal {
  public:
-  /// Cuts what is there at `kept` bytes. Gives up with "file-write".
+  /// Truncates the file to `kept` bytes. Gives up with "file-write".
   [[nodiscard]] static auto open(const std::filesystem::path& path, std::uint64_t kept) -> base::Result<Journal>;
-  /// All of the line, which gets its line break here, or nothing. Gives up with "file-write".
+  /// Appends the line and a line break, or nothing. Gives up with "file-write".
   [[nodiscard]] auto append(std::string_view line) -> base::Result<void>;
 
  private:
@@ -50,7 +51,7 @@ class Journal {
   std::uint64_t size_ = 0;
 };
 
-/// A file that arrives piece by piece and gets its name when it is whole; one that does not vanishes.
+/// A file that is received piece by piece. It gets its name when it is complete; an incomplete one is deleted.
 class Arriving {
  public:
   /// Gives up with "file-write".

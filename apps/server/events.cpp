@@ -9,10 +9,10 @@ Listener::~Listener() {
   events_.listeners_.remove(this);
 }
 
-auto Listener::next(std::chrono::milliseconds patience) -> std::optional<std::string> {
+auto Listener::next(std::chrono::milliseconds timeout) -> std::optional<std::string> {
   std::unique_lock lock(events_.mutex_);
-  events_.something_.wait_for(lock, patience, [&] { return !waiting_.empty() || deaf_ || events_.closed_; });
-  if (deaf_ || events_.closed_) return std::nullopt;
+  events_.something_.wait_for(lock, timeout, [&] { return !waiting_.empty() || overrun_ || events_.closed_; });
+  if (overrun_ || events_.closed_) return std::nullopt;
   if (waiting_.empty()) return "data: {\"type\":\"ping\"}\n\n";
   std::string all;
   for (const auto& event : waiting_) all += "data: " + *event.text + "\n\n";
@@ -28,14 +28,14 @@ auto Events::listen() -> std::unique_ptr<Listener> {
   return listener;
 }
 
-void Events::tell(const std::string& json, const std::string& about) {
+void Events::send(const std::string& json, const std::string& about) {
   const auto text = std::make_shared<const std::string>(json);
   {
     const std::scoped_lock lock(mutex_);
     for (auto* listener : listeners_) {
       if (!about.empty()) std::erase_if(listener->waiting_, [&](const auto& event) { return event.about == about; });
       listener->waiting_.push_back({about, text});
-      if (listener->waiting_.size() > most_waiting) listener->deaf_ = true;
+      if (listener->waiting_.size() > most_waiting) listener->overrun_ = true;
     }
   }
   something_.notify_all();

@@ -1,4 +1,4 @@
-// What happens, told to every page that listens.
+// Events that are sent to every connected page.
 #pragma once
 
 #include <chrono>
@@ -16,38 +16,38 @@ namespace mansard::server {
 
 class Events;
 
-/// One page that listens. It is deaf no longer when it is destroyed.
+/// The connection of one page. The destructor disconnects it.
 class Listener {
  public:
   ~Listener();
   Listener(const Listener&) = delete;
   auto operator=(const Listener&) -> Listener& = delete;
 
-  /// What is to be sent next, as server-sent events; a ping when nothing happens for that long; nothing at the end.
-  [[nodiscard]] auto next(std::chrono::milliseconds patience) -> std::optional<std::string>;
+  /// The next server-sent events; a ping when there are none for `timeout`; nothing when the connection ends.
+  [[nodiscard]] auto next(std::chrono::milliseconds timeout) -> std::optional<std::string>;
 
  private:
   friend class Events;
   explicit Listener(Events& events) : events_(events) {}
   struct Waiting {
-    std::string about;  ///< a later event about the same takes its place; empty: about nothing
+    std::string about;  ///< replaced by a later event with the same value; empty: never replaced
     std::shared_ptr<const std::string> text;
   };
   Events& events_;
   std::deque<Waiting> waiting_;
-  bool deaf_ = false;  ///< it fell too far behind: it has to connect again and ask for everything
+  bool overrun_ = false;  ///< too many events were waiting: the page must reconnect and fetch everything again
 };
 
 class Events {
  public:
-  /// Each listener holds a thread of the server.
+  /// Each listener occupies a thread of the server.
   static constexpr std::size_t most_listeners = 12, most_waiting = 512;
 
-  /// None where there are too many already.
+  /// Null if there are `most_listeners` already.
   [[nodiscard]] auto listen() -> std::unique_ptr<Listener>;
-  /// `json` on one line. Of waiting events about the same thing only the last is sent.
-  void tell(const std::string& json, const std::string& about = {});
-  /// Lets every listener go, and those to come.
+  /// Sends JSON on one line. Of the waiting events with the same `about` only the last is sent.
+  void send(const std::string& json, const std::string& about = {});
+  /// Disconnects every listener, and refuses new ones.
   void close();
 
  private:

@@ -12,9 +12,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view packed = ".zip";
+constexpr std::string_view work_name = ".work-";
 
-/// Goes with everything in it.
+/// A folder that is deleted with its contents by the destructor.
 class WorkFolder {
  public:
   explicit WorkFolder(fs::path path) : path_(std::move(path)) {}
@@ -30,47 +30,30 @@ class WorkFolder {
   fs::path path_;
 };
 
-/// Every name that an export leaves in its folder.
+/// Every name that an export may write.
 auto own_names() -> std::vector<std::string> {
   std::vector<std::string> names{run_layers};
-  for (const auto& format : formats::formats())
-    for (const auto& place : formats::places_of({format.format, formats::name_in_folder(format.format)}))
+  for (const auto format : written_formats())
+    for (const auto& place : formats::places_of({format, formats::name_in_folder(format)}))
       names.push_back(place.string());
   return names;
 }
 
 }  // namespace
 
-auto files_of(formats::Format format) -> std::vector<std::string> {
-  std::vector<std::string> names;
-  for (const auto& place : formats::places_of({format, formats::name_in_folder(format)}))
-    names.push_back(place.string() + std::string(format == formats::Format::tiles ? packed : ""));
-  return names;
+auto work_folder(const fs::path& exports, std::uint64_t number) -> fs::path {
+  return exports / (std::string(work_name) + std::to_string(number));
 }
 
-auto formats_json() -> Json {
-  Json all = Json::array();
-  for (const auto& format : formats::formats())
-    all.push_back({{"name", format.name}, {"files", files_of(format.format)}, {"meaning", format.meaning}});
-  return all;
+void remove_work_folders(const fs::path& exports) {
+  std::error_code status;
+  for (const auto& left : fs::directory_iterator(exports, status))
+    if (left.path().filename().string().starts_with(work_name)) fs::remove_all(left.path(), status);
 }
 
-auto formats_named(const std::vector<std::string>& names) -> base::Result<std::vector<formats::Format>> {
-  std::vector<std::string> known;
-  for (const auto& format : formats::formats()) known.emplace_back(format.name);
-  for (const auto& name : names)
-    if (std::ranges::find(known, name) == known.end())
-      return base::error("option-value", "this is no format" + base::did_you_mean(base::nearest_word(name, known)),
-                         base::on_one_line(name));
-  std::vector<formats::Format> out;
-  for (const auto& format : formats::formats())
-    if (names.empty() || std::ranges::find(names, format.name) != names.end()) out.push_back(format.format);
-  return out;
-}
-
-auto exported(const model::City& city, const formats::WriteOptions& options, std::string_view file, const fs::path& work)
-    -> base::Result<std::string> {
-  for (const auto& [format, name, ending, meaning] : formats::formats()) {
+auto exported(const model::City& city, const formats::WriteOptions& options, std::string_view file,
+              const fs::path& work) -> base::Result<std::string> {
+  for (const auto format : written_formats()) {
     if (const auto own = files_of(format); std::ranges::find(own, file) == own.end()) continue;
     const WorkFolder folder(work);
     if (auto made = make_folder(folder.path()); !made) return made.error();
@@ -80,7 +63,8 @@ auto exported(const model::City& city, const formats::WriteOptions& options, std
     if (auto committed = outputs.commit(); !committed) return committed.error();
     return format == formats::Format::tiles ? zip_of(targets.front().path) : base::read_file(folder.path() / file);
   }
-  return base::error("server-unknown", "there is no such file to export", base::on_one_line(std::string(file)));
+  return base::error("server-unknown", "unknown export file; /api/options lists the files of each format",
+                     base::on_one_line(std::string(file)));
 }
 
 auto export_to(const fs::path& folder, const model::City& city, const formats::WriteOptions& options,

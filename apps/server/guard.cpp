@@ -16,7 +16,7 @@ auto lower(std::string_view text) -> std::string {
   return out;
 }
 
-/// Digits and dots, or [colons]: nobody can point a name server at it.
+/// Whether it is an IP address: a DNS entry cannot redirect it.
 auto is_number(std::string_view host) -> bool {
   if (host.starts_with('[')) return true;
   return !host.empty() && std::ranges::all_of(host, [](unsigned char c) { return std::isdigit(c) != 0 || c == '.'; });
@@ -27,7 +27,7 @@ auto is_number(std::string_view host) -> bool {
 auto new_token() -> base::Result<std::string> {
   std::array<unsigned char, 16> bytes{};
   if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
-    return base::error("server-random", "the system gives no random numbers for the token");
+    return base::error("server-random", "the system provides no random numbers, so no token can be made");
   constexpr std::string_view digits = "0123456789abcdef";
   std::string token;
   for (const auto byte : bytes) {
@@ -38,7 +38,7 @@ auto new_token() -> base::Result<std::string> {
 }
 
 auto same_secret(std::string_view a, std::string_view b) -> bool {
-  if (a.size() != b.size()) return false;  // the length is no secret
+  if (a.size() != b.size()) return false;  // the length is not secret
   volatile unsigned char difference = 0;
   for (std::size_t i = 0; i < a.size(); ++i)
     difference =
@@ -63,17 +63,17 @@ auto Guard::ours(std::string_view given) const -> bool {
   if (has_port ? host.substr(colon + 1) != port_ : port_ != "80") return false;
   if (has_port) host = host.substr(0, colon);
   if (host == address_ || (host == "localhost" && (is_loopback(address_) || address_ == "0.0.0.0"))) return true;
-  // Whoever listens on every address is reached by any of them.
+  // A server that listens on all addresses can be reached by any of them.
   return (address_ == "0.0.0.0" || address_ == "[::]") && is_number(host);
 }
 
 auto Guard::check(std::string_view host, const std::optional<std::string>& origin) const -> base::Result<void> {
   if (!ours(host))
-    return base::error("server-host", "this server does not answer to that name; open the link that it printed");
+    return base::error("server-host", "the request names another host; open the link that 'mansard serve' printed");
   constexpr std::string_view scheme = "http://";
   if (origin && (!origin->starts_with(scheme) || !ours(std::string_view(*origin).substr(scheme.size()))))
     return base::error("server-origin",
-                       "a page from elsewhere must not call this server; open the link that it printed");
+                       "the request comes from a page of another server; open the link that 'mansard serve' printed");
   return {};
 }
 

@@ -1,5 +1,5 @@
-// Who may talk to the server: a page that came from it, with the token of the link. Everything here is a plain function
-// of texts, so that it can be tested without a socket.
+// Access control: requests must come from a page of this server and carry the token of its link. Everything here works
+// on strings, so that it can be tested without a socket.
 #pragma once
 
 #include <optional>
@@ -10,10 +10,10 @@
 
 namespace mansard::server {
 
-/// 128 bits of the kernel's randomness in hexadecimal. Gives up with "server-random".
+/// 128 random bits from the kernel, in hexadecimal. Gives up with "server-random".
 [[nodiscard]] auto new_token() -> base::Result<std::string>;
 
-/// Takes as long wherever the texts begin to differ.
+/// Compares in constant time, wherever the strings differ.
 [[nodiscard]] auto same_secret(std::string_view a, std::string_view b) -> bool;
 
 class Guard {
@@ -21,10 +21,10 @@ class Guard {
   Guard(std::string address, int port, std::string token);
 
   [[nodiscard]] auto token() const -> const std::string& { return token_; }
-  /// Whether a request for the page may be answered. A name that was pointed at this machine by somebody else (DNS
-  /// rebinding) is in `host`, and is refused. Gives up with "server-host", "server-origin".
+  /// Checks the headers Host and Origin. A foreign name that resolves to this machine (DNS rebinding) is refused. Gives
+  /// up with "server-host", "server-origin".
   [[nodiscard]] auto check(std::string_view host, const std::optional<std::string>& origin) const -> base::Result<void>;
-  /// Of what is under /api. Gives up with "server-token".
+  /// Checks the header Authorization of a request under /api. Gives up with "server-token".
   [[nodiscard]] auto check_token(std::string_view authorization) const -> base::Result<void>;
 
  private:
@@ -32,7 +32,7 @@ class Guard {
   std::string address_, port_, token_;
 };
 
-/// Whether nobody but this machine can reach the address.
+/// Whether the address can be reached from this machine only.
 [[nodiscard]] auto is_loopback(std::string_view address) -> bool;
 
 }  // namespace mansard::server

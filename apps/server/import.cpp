@@ -1,8 +1,7 @@
 #include "apps/server/import.hpp"
 
-#include <algorithm>
-
 #include "apps/server/json.hpp"
+#include "apps/server/options.hpp"
 #include "mansard/formats/input_file.hpp"
 #include "mansard/formats/input_name.hpp"
 #include "mansard/pipeline/stored.hpp"
@@ -15,7 +14,7 @@ namespace fs = std::filesystem;
 
 auto read(const fs::path& path) -> base::Result<std::unique_ptr<formats::CityReader>> {
   if (formats::is_database_name(path))
-    return base::error("write-read-format", "this is a database; name a file that mansard wrote",
+    return base::error("write-read-format", "this is a database; give a file that mansard wrote",
                        formats::name_to_show(path));
   if (auto there = formats::check_input(path); !there) return there.error();
   return formats::read_city(path);
@@ -25,7 +24,7 @@ void move(geometry::Ring& ring, geometry::Point2 by) {
   for (auto& p : ring) p = p + by;
 }
 
-/// Whole metres: nothing is rounded that was not.
+/// Frames differ by whole metres, so nothing is rounded.
 void move(model::City& city, const model::Frame& frame) {
   const auto along = [&](std::size_t i) { return static_cast<double>(city.frame.origin[i] - frame.origin[i]); };
   const geometry::Point2 by{along(0), along(1)};
@@ -44,13 +43,23 @@ void move(model::City& city, const model::Frame& frame) {
   city.frame = frame;
 }
 
+auto move_into(const model::Frame& frame, model::City& city, const fs::path& path) -> base::Result<void> {
+  if (!frame.crs.empty() && !city.frame.crs.empty() && frame.crs != city.frame.crs)
+    return base::error("server-import",
+                       "the model is in " + city.frame.crs + " and the project's mesh in " + frame.crs +
+                           "; open the model in a project of its own, or convert it first",
+                       path.string());
+  move(city, {frame.origin, frame.crs.empty() ? city.frame.crs : frame.crs});
+  return {};
+}
+
 auto text_at(const model::Attributes& attributes, std::string_view name) -> std::string {
   for (const auto& [key, value] : attributes)
     if (const auto* text = std::get_if<std::string>(&value); text != nullptr && key == name) return *text;
   return {};
 }
 
-/// What the attributes still say of how it went.
+/// The report of a building, from its attributes.
 auto report_of(const model::Building& building, const pipeline::RaisedPlans& raised, std::size_t at)
     -> pipeline::BuildingReport {
   pipeline::BuildingReport report;
@@ -63,7 +72,7 @@ auto report_of(const model::Building& building, const pipeline::RaisedPlans& rai
     report.volume += solid::volume(part.model.solid);
     if (const auto why = text_at(part.attributes, "ms_fallback"); !why.empty()) {
       report.outcome = pipeline::Outcome::fallback;
-      report.reasons.push_back(base::warning(why, "it fell back when it was made", part.id));
+      report.reasons.push_back(base::warning(why, "the part was simplified by the run that made it", part.id));
     }
   }
   for (const auto& less : raised.fell_short)
@@ -92,14 +101,8 @@ auto import_city(const fs::path& path, const std::optional<model::Frame>& frame,
   result.warnings = pipeline::take_options((*reader)->header().made_by, options);
   auto city = formats::read_whole(**reader);
   if (!city) return city.error();
-  if (frame) {
-    if (!frame->crs.empty() && !city->frame.crs.empty() && frame->crs != city->frame.crs)
-      return base::error("server-import",
-                         "the model is in " + city->frame.crs + ", and the scan in " + frame->crs +
-                             "; open it in a project of its own",
-                         path.string());
-    move(*city, {frame->origin, frame->crs.empty() ? city->frame.crs : frame->crs});
-  }
+  if (frame)
+    if (auto moved = move_into(*frame, *city, path); !moved) return moved.error();
   run.report("extrude", path.string(), 0.3);
   auto raised = pipeline::raise_plans(std::move(*city), options, run);
   if (!raised) return raised.error();
@@ -107,16 +110,9 @@ auto import_city(const fs::path& path, const std::optional<model::Frame>& frame,
     result.buildings.push_back(report_of(raised->city.buildings[b], *raised, b));
 
   RunOutcome out{std::move(record), {}};
-  out.record.buildings = result.buildings.size();
-  out.record.full = static_cast<std::size_t>(
-      std::ranges::count(result.buildings, pipeline::Outcome::full, &pipeline::BuildingReport::outcome));
-  for (const auto& building : raised->city.buildings)
-    for (const auto& part : building.parts) {
-      ++out.record.parts;
-      out.record.faces += part.model.solid.faces.size();
-    }
+  count_models(result.buildings, raised->city, out.record);
   out.record.options = differing(options);
-  model::Scene scene;  // without a mesh the report has what is known
+  model::Scene scene;  // without a mesh: the report has only frame and inputs
   scene.frame = raised->city.frame;
   if (auto file = formats::input_file(path)) scene.inputs.push_back(std::move(*file));
   result.city = std::move(raised->city);

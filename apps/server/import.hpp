@@ -1,4 +1,4 @@
-// Models that were made elsewhere, as a finished run.
+// Models of an earlier run, imported as a finished run.
 #pragma once
 
 #include <filesystem>
@@ -11,12 +11,13 @@
 
 namespace mansard::server {
 
-/// Whether mansard wrote the file, in a format with plans in it. Gives up with "file-missing" and as formats::read_city.
+/// Checks that mansard wrote the file, in a format that contains the plans. Gives up with "file-missing" and as
+/// formats::read_city.
 [[nodiscard]] auto check_import(const std::filesystem::path& path) -> base::Result<void>;
 
-/// What mansard wrote, in any format, as a run without a mesh leaves it: plans and a report, no layers, no error maps.
-/// With `frame`, that of the scene, everything is moved there. Gives up with "server-import" (another CRS), and as
-/// formats::read_city and pipeline::raise_plans do.
+/// Models in any format that mansard wrote, as a run without a mesh: plans and a report, no layers, no error maps.
+/// With `frame`, the frame of the scene, the models are moved into it. Gives up with "server-import" (another CRS), and
+/// as formats::read_city and pipeline::raise_plans do.
 [[nodiscard]] auto import_city(const std::filesystem::path& path, const std::optional<model::Frame>& frame,
                                RunRecord record, const base::Run& run) -> base::Result<RunOutcome>;
 

@@ -1,10 +1,11 @@
 #include "apps/server/inputs.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
+#include <set>
 
-#include "apps/server/scene.hpp"
+#include "apps/server/options.hpp"
+#include "mansard/base/files.hpp"
+#include "mansard/formats/drivers.hpp"
 #include "mansard/formats/input_name.hpp"
 
 namespace mansard::server {
@@ -12,13 +13,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array mesh_endings{".obj", ".ply", ".off", ".glb", ".gltf"};
+auto is_mesh(const fs::path& path) -> bool { return formats::has_extension(path, &formats::Reads::mesh); }
 
 auto no_database(const std::string& name, const char* what) -> base::Result<void> {
   if (!formats::is_database_name(name)) return {};
   return base::error("server-input",
-                     std::string("this is a database, which has footprints and no ") + what +
-                         "; name a file, a folder, or what GDAL calls '/vsi…'",
+                     std::string("a database can hold footprints but no ") + what +
+                         "; give a file, a folder, or a GDAL name such as '/vsizip/…'",
                      formats::name_to_show(name));
 }
 
@@ -35,8 +36,8 @@ auto check(const Inputs& inputs) -> base::Result<void> {
   return inputs.footprints.empty() ? base::Result<void>() : formats::check_input(inputs.footprints);
 }
 
-/// Whether the file is the source, lies in it (a folder, an archive), or beside it under its name (as a Shapefile's
-/// do).
+/// Whether the file is the source, is in it (a folder, an archive), or is a sidecar file of it (as those of a
+/// Shapefile).
 auto belongs_to(const std::string& file, const std::string& source) -> bool {
   if (file == formats::name_to_show(source)) return true;
   if (formats::is_disk_name(source)) {
@@ -46,48 +47,65 @@ auto belongs_to(const std::string& file, const std::string& source) -> bool {
     return true;
   }
   const fs::path own(file), of(source);
-  return !named_as_mesh(own) && own.parent_path() == of.parent_path() && own.stem() == of.stem();
+  return !is_mesh(own) && own.parent_path() == of.parent_path() && own.stem() == of.stem();
 }
 
 }  // namespace
 
-auto whole_name(const std::string& name) -> std::string {
+auto absolute_name(const std::string& name) -> std::string {
   if (!formats::is_disk_name(name)) return name;
   std::error_code status;
   const auto whole = fs::absolute(name, status).lexically_normal();
   return whole.has_filename() ? whole.string() : whole.parent_path().string();
 }
 
-auto named_as_mesh(const fs::path& path) -> bool {
-  auto ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return std::ranges::find(mesh_endings, ending) != mesh_endings.end();
+auto sample_inputs(const fs::path& folder) -> base::Result<InputsRequest> {
+  InputsRequest request;
+  std::set<std::string> names;
+  std::error_code status;
+  for (const auto& entry : fs::directory_iterator(folder, status)) names.insert(entry.path().string());
+  for (const auto& name : names) {
+    const fs::path path(name);
+    if (path.filename() == "reading.json") {
+      const auto text = base::read_file(path);
+      const auto json = text ? Json::parse(*text, nullptr, false) : Json(nullptr);
+      if (!json.is_object())
+        return base::error("server-sample", "the options of the sample must be a JSON object of strings", name);
+      for (const auto& [key, value] : json.items())
+        if (value.is_string()) request.reading[key] = value.get<std::string>();
+    } else if (is_mesh(path)) {
+      request.meshes.push_back(name);
+    } else if (path.stem() == "footprints" && request.footprints.empty()) {
+      request.footprints = name;
+    }
+  }
+  if (request.meshes.empty() || request.footprints.empty())
+    return base::error(
+        "server-sample",
+        "no sample is available; start 'mansard serve' with --sample DIR, a folder with meshes and a file "
+        "'footprints.*'",
+        folder.string());
+  return request;
 }
 
-auto of_reading(const std::string& key) -> bool {
-  return key.starts_with("ingest.") || key.starts_with("derive.") || key.starts_with("block.");
-}
-
-auto inputs_asked_for(const InputsRequest& request, const std::optional<Inputs>& known) -> base::Result<Inputs> {
+auto requested_inputs(const InputsRequest& request, const std::optional<Inputs>& known) -> base::Result<Inputs> {
   Inputs inputs;
-  for (const auto& mesh : request.meshes) inputs.meshes.push_back(whole_name(mesh));
+  for (const auto& mesh : request.meshes) inputs.meshes.push_back(absolute_name(mesh));
   if (!request.footprints.empty())
-    inputs.footprints = formats::meant_by(whole_name(request.footprints), known ? known->footprints : std::string());
+    inputs.footprints = formats::meant_by(absolute_name(request.footprints), known ? known->footprints : std::string());
   inputs.reading = request.reading;
   pipeline::Options tried;
   if (auto set = set_all(tried, inputs.reading); !set) return set.error();
   for (const auto& [key, value] : inputs.reading)
-    if (!of_reading(key))
-      return base::error("option-value",
-                         "only options of 'ingest', 'derive' and 'block' say how inputs are read; give it to a run",
-                         key);
+    if (!is_input_option(key))
+      return base::error("option-value", "this option does not say how inputs are read; set it for a run instead", key);
   const auto terrain = inputs.reading.find(terrain_option);
-  if (terrain != inputs.reading.end() && !terrain->second.empty()) terrain->second = whole_name(terrain->second);
+  if (terrain != inputs.reading.end() && !terrain->second.empty()) terrain->second = absolute_name(terrain->second);
   if (auto checked = check(inputs); !checked) return checked.error();
   return inputs;
 }
 
-/// A scene has those of the meshes first, then the terrain, then the footprints.
+/// A scene lists the files of the meshes first, then the terrain, then the footprints.
 auto with_files(Inputs inputs, const std::vector<model::InputFile>& read) -> Inputs {
   inputs.mesh_files.clear();
   inputs.terrain_files.clear();
@@ -118,7 +136,8 @@ auto explained(base::Diagnostic why, const Inputs& inputs) -> base::Diagnostic {
   if (!formats::is_database_name(inputs.footprints)) return why;
   if (formats::name_to_show(inputs.footprints) == inputs.footprints && why.code == "file-read" &&
       why.subject == inputs.footprints)
-    why.message += "; a project keeps no password: read the inputs again with it, or put it into ~/.pgpass";
+    why.message +=
+        "; projects do not store passwords: read the inputs again with the password, or put it into ~/.pgpass";
   return why;
 }
 

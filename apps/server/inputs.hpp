@@ -1,4 +1,4 @@
-// What a page names as inputs, and what is told of them: whatever `mansard reconstruct` reads, by the same rules.
+// Inputs as a page names them: whatever `mansard reconstruct` reads, by the same rules.
 #pragma once
 
 #include <filesystem>
@@ -14,28 +14,26 @@
 
 namespace mansard::server {
 
-/// Files and folders get their whole names, everything else stays as it is.
-[[nodiscard]] auto whole_name(const std::string& name) -> std::string;
+/// Names of files and folders are made absolute; all others stay as they are.
+[[nodiscard]] auto absolute_name(const std::string& name) -> std::string;
 
-/// Of the files that lie beside each other, as a sample's do.
-[[nodiscard]] auto named_as_mesh(const std::filesystem::path& path) -> bool;
+/// The inputs of a sample folder: all meshes by their file extensions, the file footprints.*, and reading.json with the
+/// options to read them with. Gives up with "server-sample".
+[[nodiscard]] auto sample_inputs(const std::filesystem::path& folder) -> base::Result<InputsRequest>;
 
-/// Whether an option says how inputs are read, so that all runs have it in common.
-[[nodiscard]] auto of_reading(const std::string& key) -> bool;
-
-/// The request with whole names. `known`, the inputs of the project, have the password where the page names a database
-/// as it was shown. Gives up with "option-…", "server-input" (a database in place of a mesh or of the terrain), and as
-/// ingest::check_input does.
-[[nodiscard]] auto inputs_asked_for(const InputsRequest& request, const std::optional<Inputs>& known)
+/// The request with absolute names. If the page names a database without its password, as it was shown, the password is
+/// taken from `known`, the inputs of the project. Gives up with "option-…", "server-input" (a database in place of a
+/// mesh or of the terrain), and as formats::check_input does.
+[[nodiscard]] auto requested_inputs(const InputsRequest& request, const std::optional<Inputs>& known)
     -> base::Result<Inputs>;
 
-/// With the files that were read.
+/// The inputs with the files that were read.
 [[nodiscard]] auto with_files(Inputs inputs, const std::vector<model::InputFile>& read) -> Inputs;
 
-/// What was asked for, as it may be shown: {"meshes", "footprints"}.
+/// The requested names without passwords: {"meshes", "footprints"}.
 [[nodiscard]] auto shown_json(const Inputs& inputs) -> Json;
 
-/// Why they cannot be read, in words that may be shown; where the project has kept no password, that too.
+/// Why the inputs cannot be read. If a password is missing because the project does not keep it, the message says so.
 [[nodiscard]] auto explained(base::Diagnostic why, const Inputs& inputs) -> base::Diagnostic;
 
 }  // namespace mansard::server

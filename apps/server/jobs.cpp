@@ -9,14 +9,14 @@
 namespace mansard::server {
 namespace {
 
-/// A page need not know more often.
+/// Minimum time between two progress events.
 constexpr std::chrono::milliseconds between_reports{100};
 
 auto as_result(const std::function<base::Result<void>()>& work) -> base::Result<void> {
   try {
     return work();
   } catch (const std::bad_alloc&) {
-    return base::error("memory", "out of memory; use a smaller piece of the mesh (ingest.bbox)");
+    return base::error("memory", "out of memory; read a smaller part of the mesh (ingest.bbox)");
   } catch (const std::exception& e) {
     return base::error("bug", std::string(e.what()) + "; please report it");
   }
@@ -24,7 +24,7 @@ auto as_result(const std::function<base::Result<void>()>& work) -> base::Result<
 
 }  // namespace
 
-Jobs::Jobs(Tell tell) : tell_(std::move(tell)), thread_([this] { work_on(); }) {}
+Jobs::Jobs(Notify notify) : notify_(std::move(notify)), thread_([this] { work_on(); }) {}
 
 Jobs::~Jobs() { stop(); }
 
@@ -42,7 +42,7 @@ auto Jobs::submit(std::string kind, std::optional<std::string> run, Work work, E
     job = entry->job;
     forget_old();
   }
-  tell_(job);
+  notify_(job);
   something_.notify_all();
   return job;
 }
@@ -56,7 +56,7 @@ auto Jobs::cancel(const std::string& id) -> bool {
     (*at)->cancel.request();
     if ((*at)->job.state == State::queued) {
       waiting = *at;
-      waiting->job.state = State::cancelled;  // so that the thread does not take it up in the meantime
+      waiting->job.state = State::cancelled;  // so that the thread does not start it meanwhile
     }
   }
   if (waiting) end(waiting, State::cancelled, std::nullopt);
@@ -116,15 +116,15 @@ void Jobs::carry_out(const std::shared_ptr<Entry>& entry) {
       const std::scoped_lock lock(mutex_);
       job = entry->job;
     }
-    tell_(job);
+    notify_(job);
   }
-  auto told = std::chrono::steady_clock::now() - between_reports;
+  auto notified = std::chrono::steady_clock::now() - between_reports;
   base::Run run;
   run.cancel = &entry->cancel;
   run.progress = [&](std::string_view stage, std::string_view subject, double fraction) {
     const auto now = std::chrono::steady_clock::now();
-    const bool due = now - told >= between_reports;
-    if (due) told = now;
+    const bool due = now - notified >= between_reports;
+    if (due) notified = now;
     Job job;
     {
       const std::scoped_lock lock(mutex_);
@@ -133,10 +133,10 @@ void Jobs::carry_out(const std::shared_ptr<Entry>& entry) {
       entry->job.fraction = std::clamp(fraction, 0.0, 1.0);
       job = entry->job;
     }
-    if (due) tell_(job);
+    if (due) notify_(job);
   };
   const auto result = as_result([&] { return entry->work(run); });
-  entry->work = nullptr;  // what it held is not needed any more
+  entry->work = nullptr;  // releases what it captured
   if (result) return end(entry, State::done, std::nullopt);
   if (result.error().code != "cancelled") return end(entry, State::failed, result.error());
   bool stopping = false;
@@ -157,7 +157,7 @@ void Jobs::end(const std::shared_ptr<Entry>& entry, State state, std::optional<b
     if (state == State::done) entry->job.fraction = 1;
     job = entry->job;
   }
-  tell_(job);
+  notify_(job);
 }
 
 void Jobs::forget_old() {

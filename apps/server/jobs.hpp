@@ -1,4 +1,4 @@
-// Long work, one piece after the other on a thread of its own, which pages can watch and cancel.
+// Long tasks, run one after the other on a separate thread. Pages can watch and cancel them.
 #pragma once
 
 #include <condition_variable>
@@ -20,7 +20,7 @@ namespace mansard::server {
 
 struct Job {
   std::string id, kind;            ///< kind: "read", "run"
-  std::optional<std::string> run;  ///< the run that it makes
+  std::optional<std::string> run;  ///< the run that the job computes
   State state = State::queued;
   std::string stage, subject;
   double fraction = 0;  ///< 0 … 1
@@ -29,27 +29,27 @@ struct Job {
 
 class Jobs {
  public:
-  /// Does the work; "cancelled" is the error of work that was stopped on request.
+  /// The task; it gives up with "cancelled" when it is stopped on request.
   using Work = std::function<base::Result<void>(const base::Run&)>;
-  /// Told how it ended, before anybody else.
+  /// Called with the final state before `Notify` is.
   using Ended = std::function<void(State, const std::optional<base::Diagnostic>&)>;
-  using Tell = std::function<void(const Job&)>;
+  using Notify = std::function<void(const Job&)>;
 
-  /// `tell` hears of every change, from any thread.
-  explicit Jobs(Tell tell);
+  /// `notify` is called after every change, from any thread.
+  explicit Jobs(Notify notify);
   ~Jobs();
   Jobs(const Jobs&) = delete;
   auto operator=(const Jobs&) -> Jobs& = delete;
 
   auto submit(std::string kind, std::optional<std::string> run, Work work, Ended ended) -> Job;
-  /// False: there is no such job. One that has ended stays as it is.
+  /// False for an unknown job. A job that has ended stays as it is.
   auto cancel(const std::string& id) -> bool;
-  /// Those that wait, the one that runs, and the last that have ended; oldest first.
+  /// Queued and running jobs and the last ones that have ended, oldest first.
   [[nodiscard]] auto all() const -> std::vector<Job>;
   [[nodiscard]] auto busy() const -> bool;
-  /// Whether one of that kind waits or runs.
+  /// Whether a job of that kind is queued or running.
   [[nodiscard]] auto pending(const std::string& kind) const -> bool;
-  /// Stops the work in hand, which ends as interrupted, and takes up no more.
+  /// Stops the running job, whose state becomes "interrupted", and starts no other.
   void stop();
 
  private:
@@ -66,7 +66,7 @@ class Jobs {
   void end(const std::shared_ptr<Entry>& entry, State state, std::optional<base::Diagnostic> failure);
   void forget_old();
 
-  Tell tell_;
+  Notify notify_;
   mutable std::mutex mutex_;
   std::condition_variable something_;
   std::list<std::shared_ptr<Entry>> entries_;

@@ -1,8 +1,9 @@
 #include "apps/server/json.hpp"
 
+#include <array>
 #include <cmath>
 
-#include "apps/server/exports.hpp"
+#include "mansard/solid/solid.hpp"
 
 namespace mansard::server {
 namespace {
@@ -20,7 +21,6 @@ auto or_null(const std::optional<base::Diagnostic>& value) -> Json {
 
 constexpr std::array class_names{"wall", "party_wall", "roof", "ground", "soffit"};
 constexpr std::array outcome_names{"full", "simplified", "two_part", "prism"};
-constexpr std::array kind_names{"flag", "whole", "number", "text", "choice"};
 
 auto json_of(const geometry::Polygon& polygon) -> Json {
   Json holes = Json::array();
@@ -34,21 +34,6 @@ auto json_of(const std::vector<geometry::Polygon>& polygons) -> Json {
   return out;
 }
 
-auto finite_or_null(double value) -> Json { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-auto json_of(const base::Option& option, const std::string& room) -> Json {
-  return {{"room", room},
-          {"name", option.name},
-          {"kind", kind_names[static_cast<std::size_t>(option.kind)]},
-          {"unit", option.unit},
-          {"least", finite_or_null(option.range.minimum)},
-          {"most", finite_or_null(option.range.maximum)},
-          {"choices", option.choices},
-          {"default", option.get()},
-          {"alias", option.alias},
-          {"meaning", option.meaning}};
-}
-
 struct Box3 {
   geometry::Point3 low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
   void add(geometry::Point3 p) {
@@ -57,7 +42,7 @@ struct Box3 {
   }
 };
 
-/// In plan that of the outline: the mesh goes on for the padding.
+/// In plan the box of the outline, without the padding of the block's mesh.
 auto box_of(const block::Block& block) -> Box3 {
   Box3 box;
   for (const auto& polygon : block.outline)
@@ -139,7 +124,7 @@ auto json_of(const RunRecord& run, std::size_t edits) -> Json {
           {"edits", edits}};
 }
 
-/// The writer of plans says what a plan looks like, here as in a file.
+/// As in plans.json.
 auto json_of(const model::Plan& plan) -> Json { return Json::parse(formats::plan_json(plan)); }
 
 auto json_of(const model::ProfilePoint& point) -> Json { return Json::array({point.inward, point.height}); }
@@ -205,19 +190,6 @@ auto json_of(const std::string& id, std::uint64_t revision, std::span<const edit
           {"parts", std::move(parts)},
           {"diagnostics", json_of(raised.diagnostics)},
           {"mse", or_null(raised.mse)}};
-}
-
-auto options_json() -> Json {
-  pipeline::Options defaults;
-  Json options = Json::array(), presets = Json::array();
-  for (const auto& list : pipeline::option_lists(defaults))
-    for (const auto& option : list.options()) options.push_back(json_of(option, list.module()));
-  for (const auto& preset : pipeline::presets()) {
-    Json values = Json::object();
-    for (const auto& [key, value] : preset.values) values[key] = value;
-    presets.push_back({{"name", preset.name}, {"meaning", preset.meaning}, {"values", values}});
-  }
-  return {{"options", options}, {"presets", presets}, {"formats", formats_json()}};
 }
 
 auto layers_json(const std::vector<pipeline::SegmentedBlock>& blocks) -> Json {

@@ -1,4 +1,4 @@
-// What the server says, as JSON. The names are those of openapi.json.
+// JSON of the server's answers. The names are those of openapi.json.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +27,7 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] auto json_of(std::span<const base::Diagnostic> diagnostics) -> Json;
 [[nodiscard]] auto json_of(const Job& job) -> Json;
 [[nodiscard]] auto json_of(const MapInfo& map) -> Json;
-/// RunSummary; `edits` stand.
+/// RunSummary; `edits` are applied.
 [[nodiscard]] auto json_of(const RunRecord& run, std::size_t edits) -> Json;
 [[nodiscard]] auto json_of(const model::Plan& plan) -> Json;
 [[nodiscard]] auto json_of(const model::LabelledSolid& model) -> Json;
@@ -37,22 +37,19 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] auto json_of(const edit::Change& change) -> Json;
 [[nodiscard]] auto json_of(const edit::History& history) -> Json;
 
-/// RaisedBuilding. `plans` are those that were raised, in the same order.
+/// RaisedBuilding. `plans` are those of its parts, in the same order.
 [[nodiscard]] auto json_of(const std::string& id, std::uint64_t revision, std::span<const edit::NamedPlan> plans,
                            const edit::RaisedBuilding& raised) -> Json;
-
-/// Options: every option of every room with its default, and the presets.
-[[nodiscard]] auto options_json() -> Json;
 
 /// Layers.
 [[nodiscard]] auto layers_json(const std::vector<pipeline::SegmentedBlock>& blocks) -> Json;
 
-/// "1-3-4": of a tile.
+/// Id of a tile: "1-3-4".
 [[nodiscard]] auto id_of(const picture::Tile& tile) -> std::string;
 /// TileIndex.
 [[nodiscard]] auto json_of(std::span<const picture::Tile> tiles) -> Json;
 
-/// Scene. `blocks` are of the scene.
+/// Scene, with its blocks.
 [[nodiscard]] auto json_of(const model::Scene& scene, std::span<const block::Block> blocks) -> Json;
 
 }  // namespace mansard::server

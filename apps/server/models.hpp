@@ -1,4 +1,8 @@
-// One run's models while somebody looks at them: as its edits left them, ready to be shown, tried out and changed.
+// The models of an open run with its edits: shown, previewed and changed.
+//
+//   models.cpp        queries, previews and proposals
+//   models_open.cpp   from the files of the run
+//   models_edits.cpp  edits, undo, redo
 #pragma once
 
 #include <cstdint>
@@ -25,26 +29,26 @@ using SceneOrNone = std::shared_ptr<const OpenScene>;
 
 /// What an edit, an undo or a redo changed, as JSON texts.
 struct Changed {
-  std::string buildings;  ///< an array of Building
-  std::string history;    ///< History
-  std::size_t standing = 0;
+  std::string buildings;    ///< an array of Building
+  std::string history;      ///< History
+  std::size_t applied = 0;  ///< edits, after undos
 };
 
-/// Readers take what stands at that moment and are never held up by an edit, nor hold one up. Edits come one after the
-/// other; each is on the disk before it is seen.
+/// Readers use the state at that moment; they neither wait for an edit nor delay one. Edits run one after the other,
+/// and each is on disk before it becomes visible.
 class Models {
  public:
-  /// From what the run left in its folder, and its journal, whose torn end is cut off. Gives up with "edit-journal",
-  /// "server-project", "write-plan-…", "file-…". Cost: every plan is raised, on all threads.
+  /// From the files in the folder of the run. An incomplete last line of the journal is cut off. Gives up with
+  /// "edit-journal", "server-project", "write-plan-…", "file-…". Cost: every plan is extruded, on all threads.
   [[nodiscard]] static auto open(const std::filesystem::path& folder, const RunRecord& run, const SceneOrNone& scene)
       -> base::Result<std::shared_ptr<Models>>;
 
   /// {"buildings": …, "history": …}
   [[nodiscard]] auto all() const -> std::string;
-  /// {"buildings": …}, of RaisedBuilding. Gives up with "edit-building".
+  /// {"buildings": [RaisedBuilding]}. Gives up with "edit-building".
   [[nodiscard]] auto preview(const std::vector<edit::Change>& changes, const OpenScene* scene) const
       -> base::Result<std::string>;
-  /// Proposal. Give up with "edit-building", "edit-part", "edit-split", "edit-merge".
+  /// Proposals. They give up with "edit-building", "edit-part", "edit-split", "edit-merge".
   [[nodiscard]] auto split(const SplitRequest& request) const -> base::Result<std::string>;
   [[nodiscard]] auto merge(const MergeRequest& request) const -> base::Result<std::string>;
   /// Gives up with "edit-building", "edit-part".
@@ -54,16 +58,16 @@ class Models {
   [[nodiscard]] auto apply(edit::Edit edit, const OpenScene* scene) -> base::Result<Changed>;
   [[nodiscard]] auto undo(const OpenScene* scene) -> base::Result<Changed>;
   [[nodiscard]] auto redo(const OpenScene* scene) -> base::Result<Changed>;
-  /// Measures what was edited while there was no scene; nothing where there was nothing to measure.
+  /// Measures the buildings that were edited while there was no scene; none if there were none.
   [[nodiscard]] auto measure(const OpenScene& scene) -> std::optional<Changed>;
 
-  /// The city as edited, for export. Gives up as edit::edited_city does.
+  /// The edited city, for export. Gives up as edit::edited_city does.
   [[nodiscard]] auto edited(const SceneOrNone& scene) -> base::Result<std::shared_ptr<const model::City>>;
 
   [[nodiscard]] auto options() const -> const pipeline::Options& { return options_; }
 
  private:
-  /// A building as it stands. Never changed: the next state has another.
+  /// A building in one state. Immutable: the next state has another.
   struct Seen {
     std::string id;
     std::uint64_t revision = 0;
@@ -74,7 +78,7 @@ class Models {
   };
   struct Report {
     std::string block;
-    std::string fixed;  ///< members of Building that no edit changes, as JSON without its braces
+    std::string fixed;  ///< members of Building that edits do not change, as JSON without braces
   };
   struct View {
     std::vector<std::shared_ptr<const Seen>> buildings;  ///< in the source's order
@@ -95,12 +99,12 @@ class Models {
   [[nodiscard]] auto step(base::Result<std::vector<std::string>> (edit::History::*one)(), std::string_view line,
                           const OpenScene* scene) -> base::Result<Changed>;
 
-  model::City city_;  // of the run: its plans, without models
+  model::City city_;  // the plans of the run, without models
   pipeline::Options options_;
   std::map<std::string, std::size_t, std::less<>> index_;
   std::vector<Report> reports_;
 
-  std::mutex edits_;  // held by whoever changes what follows
+  std::mutex edits_;  // guards the next two
   edit::History history_;
   Journal journal_;
 
@@ -113,7 +117,7 @@ class Models {
     std::shared_ptr<const model::City> city;
   };
   std::mutex export_mutex_;
-  std::optional<Export> export_;  // of the last state that was asked for
+  std::optional<Export> export_;  // of the state that was exported last
 };
 
 }  // namespace mansard::server

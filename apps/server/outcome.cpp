@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "apps/server/options.hpp"
+
 namespace mansard::server {
 namespace {
 
@@ -9,22 +11,19 @@ auto bytes_of(const std::vector<float>& values) -> std::string {
   return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)};
 }
 
-void count(const pipeline::Reconstruction& result, RunRecord& record) {
-  const auto& s = result.scores;
-  record.scores = RunScores{s.mse, s.footprint_mse, s.footprint_median_absolute, s.inside.mse, s.missed, s.invented};
-  record.times = result.times;
-  record.buildings = result.buildings.size();
+}  // namespace
+
+void count_models(const std::vector<pipeline::BuildingReport>& reports, const model::City& city, RunRecord& record) {
+  record.buildings = reports.size();
   record.full = static_cast<std::size_t>(
-      std::ranges::count(result.buildings, pipeline::Outcome::full, &pipeline::BuildingReport::outcome));
+      std::ranges::count(reports, pipeline::Outcome::full, &pipeline::BuildingReport::outcome));
   record.parts = record.faces = 0;
-  for (const auto& building : result.city.buildings)
+  for (const auto& building : city.buildings)
     for (const auto& part : building.parts) {
       ++record.parts;
       record.faces += part.model.solid.faces.size();
     }
 }
-
-}  // namespace
 
 auto error_name(std::size_t map) -> std::string { return "error-" + std::to_string(map) + ".bin"; }
 
@@ -37,10 +36,14 @@ auto reconstruct(const OpenScene& scene, RunRecord record, const base::Run& how)
   if (!result) return result.error();
   run.report("write", "", 1);
   auto layers = formats::geopackage(pipeline::segment_layers(scene.scene(), result->segmented, result->city.made_by),
-                                  scene.scene().frame);
+                                    scene.scene().frame);
   if (!layers) return layers.error();
   RunOutcome out{std::move(record), {}};
-  count(*result, out.record);
+  const auto& s = result->scores;
+  out.record.scores =
+      RunScores{s.mse, s.footprint_mse, s.footprint_median_absolute, s.inside.mse, s.missed, s.invented};
+  out.record.times = result->times;
+  count_models(result->buildings, result->city, out.record);
   out.files.emplace_back("report.json", pipeline::report_json(*result, scene.scene()));
   out.files.emplace_back("plans.json", formats::plans(result->city));
   out.files.emplace_back("layers.json", text_of(layers_json(result->segmented)));

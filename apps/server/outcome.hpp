@@ -1,4 +1,4 @@
-// A run from options to files.
+// A run, from its options to its files.
 #pragma once
 
 #include <cstddef>
@@ -13,13 +13,16 @@
 
 namespace mansard::server {
 
-/// "error-3.bin": of the map of that number.
+/// File name of an error map: "error-3.bin".
 [[nodiscard]] auto error_name(std::size_t map) -> std::string;
 
 struct RunOutcome {
-  RunRecord record;                                        ///< with the numbers
-  std::vector<std::pair<std::string, std::string>> files;  ///< all that the run's folder gets, but for run.json
+  RunRecord record;                                        ///< with scores, times and counts
+  std::vector<std::pair<std::string, std::string>> files;  ///< all files of the run's folder except run.json
 };
+
+/// Sets the numbers of buildings, parts and faces of a run.
+void count_models(const std::vector<pipeline::BuildingReport>& reports, const model::City& city, RunRecord& record);
 
 /// Gives up as pipeline::reconstruct does, and with "write-…".
 [[nodiscard]] auto reconstruct(const OpenScene& scene, RunRecord record, const base::Run& run)

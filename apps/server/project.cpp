@@ -23,7 +23,7 @@ constexpr int format = 1;
 constexpr const char* kind = "mansard-project";
 constexpr const char *project_file = "project.json", *run_file = "run.json";
 
-/// What lies in the project is named from there, so that its folder can be moved. Passwords stay out.
+/// Paths inside the project are relative to it, so that its folder can be moved. Passwords are removed.
 auto from_project(const fs::path& folder, const std::string& name) -> std::string {
   if (name.empty() || !formats::is_disk_name(name)) return formats::name_to_keep(name);
   const auto relative = fs::path(name).lexically_relative(folder);
@@ -56,7 +56,7 @@ auto files_of(const fs::path& folder, const Json& json) -> std::vector<KnownFile
   return files;
 }
 
-/// The one option of reading that names a file.
+/// The options with the path of the terrain, the only option that is a path, converted by `named`.
 auto with_terrain(Texts reading, const fs::path& folder, std::string (*named)(const fs::path&, const std::string&))
     -> Texts {
   if (const auto terrain = reading.find(terrain_option); terrain != reading.end())
@@ -88,7 +88,7 @@ auto inputs_of(const fs::path& folder, const Json& json) -> Inputs {
 
 auto record_json(const RunRecord& run) -> Json {
   Json out = json_of(run, 0);
-  out.erase("edits");  // the journal knows
+  out.erase("edits");  // they are in the journal
   out["version"] = format;
   Json maps = Json::array();
   for (const auto& map : run.maps) maps.push_back(json_of(map));
@@ -104,7 +104,7 @@ auto diagnostic_of(const Json& json) -> base::Diagnostic {
 
 auto record_of(const Json& json) -> RunRecord {
   RunRecord run;
-  if (json.at("version") != format) throw std::runtime_error("it is of another version of mansard");
+  if (json.at("version") != format) throw std::runtime_error("it was written by another version of mansard");
   run.id = json.at("id").get<std::string>();
   run.label = json.at("label").get<std::string>();
   run.state = state_of(json.at("state").get<std::string>()).value_or(State::failed);
@@ -130,7 +130,7 @@ auto record_of(const Json& json) -> RunRecord {
   return run;
 }
 
-/// 3 of "run-3", and of "run-3-2" in the trash.
+/// 3 for "run-3", and for "run-3-2" in the trash.
 auto number_of(const std::string& name) -> std::optional<std::int64_t> {
   if (!name.starts_with("run-")) return std::nullopt;
   const auto number = base::to_integer(std::string_view(name).substr(4, name.find('-', 4) - 4));
@@ -148,11 +148,12 @@ auto run_numbers(const fs::path& folder) -> std::vector<std::int64_t> {
 
 auto unreadable(const std::string& why, const fs::path& path) -> base::Diagnostic {
   return base::error("server-project",
-                     "the file of the project cannot be read: " + why + "; restore it, or move it away", path.string());
+                     "this file of the project cannot be read: " + why + "; restore it from a backup, or move it away",
+                     path.string());
 }
 
-/// Empty but for what a start that was cut short leaves: the lock, and files that never got their name.
-auto as_good_as_empty(const fs::path& folder) -> bool {
+/// Whether the folder is empty except for what an interrupted first start leaves: the lock and temporary files.
+auto is_unused(const fs::path& folder) -> bool {
   std::error_code status;
   for (const auto& entry : fs::directory_iterator(folder, status)) {
     const auto name = entry.path().filename().string();
@@ -167,21 +168,21 @@ auto make_parents(const fs::path& folder) -> base::Result<void> {
   if (fs::is_directory(folder, status)) return {};
   fs::create_directories(folder, status);
   if (!status) return {};
-  return base::error("file-write",
-                     "cannot make this folder: " + status.message() + "; choose a place that can be written",
+  return base::error("file-write", "cannot make this folder: " + status.message() + "; choose a writable folder",
                      folder.string());
 }
 
 auto lock_of(const fs::path& folder) -> base::Result<Descriptor> {
   const auto path = folder / "lock";
   Descriptor lock(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
-  if (!lock.there())
+  if (!lock.is_open())
     return base::error(
         "file-write",
-        std::string("cannot write into this folder: ") + std::strerror(errno) + "; choose a place that can be written",
+        std::string("cannot write into this folder: ") + std::strerror(errno) + "; choose a writable folder",
         folder.string());
   if (::flock(lock.number(), LOCK_EX | LOCK_NB) != 0)
-    return base::error("server-locked", "another 'mansard serve' has this project open; use its page, or end it first",
+    return base::error("server-locked",
+                       "the project is open in another 'mansard serve'; use its page, or stop it first",
                        folder.string());
   return lock;
 }
@@ -200,17 +201,15 @@ auto stamp_of(const fs::path& path) -> std::optional<Stamp> {
                status.st_mtim.tv_sec * std::int64_t{1'000'000'000} + status.st_mtim.tv_nsec};
 }
 
-auto standing_edits(const fs::path& journal) -> std::size_t {
-  const auto text = base::read_file(journal);
-  if (!text) return 0;
-  std::size_t standing = 0;
-  for (std::size_t from = 0;;) {
-    const auto end = text->find('\n', from);
-    if (end == std::string::npos) return standing;
-    if (std::string_view(*text).substr(from, end - from) == edit::undo_line) standing -= standing > 0 ? 1 : 0;
-    else ++standing;
-    from = end + 1;
-  }
+auto unknown_run(const std::string& run) -> base::Diagnostic {
+  return base::error("server-unknown", "unknown run; it may have been deleted", run);
+}
+
+auto journal_of(const fs::path& run_folder) -> fs::path { return run_folder / "journal.jsonl"; }
+
+auto read_journal(const fs::path& journal) -> base::Result<std::string> {
+  if (std::error_code status; !fs::exists(journal, status)) return std::string();
+  return base::read_file(journal);
 }
 
 Project::Project(fs::path folder, Descriptor lock) : folder_(std::move(folder)), lock_(std::move(lock)) {}
@@ -220,12 +219,14 @@ auto Project::open(const fs::path& given) -> base::Result<Project> {
   auto folder = fs::absolute(given, status).lexically_normal();
   if (!folder.has_filename()) folder = folder.parent_path();  // "project/"
   if (fs::exists(folder, status) && !fs::is_directory(folder, status))
-    return base::error("server-folder", "this is a file, and a project is a folder; choose another name",
+    return base::error("server-folder", "a project is a folder, but this is a file; give another name",
                        folder.string());
   const bool is_project = fs::exists(folder / project_file, status);
-  if (!is_project && fs::exists(folder, status) && !as_good_as_empty(folder))
-    return base::error("server-folder", "the folder is not empty and holds no project; choose another, or a new one",
-                       folder.string());
+  if (!is_project && fs::exists(folder, status) && !is_unused(folder))
+    return base::error(
+        "server-folder",
+        "the folder is not empty and not a mansard project; give a project's folder, an empty folder or a new name",
+        folder.string());
   if (auto made = make_parents(folder); !made) return made.error();
   auto lock = lock_of(folder);
   if (!lock) return lock.error();
@@ -247,8 +248,8 @@ auto Project::read() -> base::Result<void> {
   if (!text) return text.error();
   try {
     const auto json = Json::parse(*text);
-    if (json.at("type") != kind) return unreadable("it is of something else", path);
-    if (json.at("version") != format) return unreadable("it is of another version of mansard", path);
+    if (json.at("type") != kind) return unreadable("it is not a mansard project", path);
+    if (json.at("version") != format) return unreadable("it was written by another version of mansard", path);
     if (!json.at("inputs").is_null()) inputs_ = inputs_of(folder_, json.at("inputs"));
   } catch (const Json::exception& e) {
     return unreadable(e.what(), path);
@@ -303,6 +304,11 @@ auto Project::run_folder(const std::string& run) const -> fs::path { return fold
 
 auto Project::trash(const std::string& run) -> base::Result<void> {
   return move_durably(run_folder(run), folder_ / "trash" / run);
+}
+
+auto Project::applied_edits(const std::string& run) const -> std::size_t {
+  const auto journal = read_journal(journal_of(run_folder(run)));
+  return journal ? edit::applied_edits(*journal) : 0;
 }
 
 }  // namespace mansard::server

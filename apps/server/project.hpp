@@ -1,12 +1,12 @@
-// A project on the disk: which inputs, which runs, what they left. Whatever is here is whole at any moment.
+// A project on disk: its inputs and its runs. The files are consistent at any moment.
 //
 //   project.json            inputs by path, size and SHA-256, and the options they are read with
-//   inputs/                 what was uploaded
-//   runs/run-3/run.json     label, state, options, numbers; written last, so that a run that is done has all of the
-//   rest
+//   inputs/                 uploaded files
+//   runs/run-3/run.json     label, state, options, numbers; written last, so that a run in the state "done" has all
+//                           other files
 //             report.json, plans.json, layers.json, segment.gpkg, error-0.bin …
 //             journal.jsonl the edits
-//   exports/, trash/        what was exported; runs that were deleted
+//   exports/, trash/        exported files; deleted runs
 #pragma once
 
 #include <cstdint>
@@ -25,36 +25,36 @@
 
 namespace mansard::server {
 
-using Texts = std::map<std::string, std::string>;  ///< "room.name" → value
+using Texts = std::map<std::string, std::string>;  ///< "module.name" → value
 
-/// A file as the file system tells of it.
+/// Size and time of a file, as the file system reports them.
 struct Stamp {
   std::uint64_t bytes = 0;
   std::int64_t modified = 0;  ///< ns since the file system's epoch
   friend auto operator==(const Stamp&, const Stamp&) -> bool = default;
 };
 
-/// An input as it was when it was read.
+/// An input file at the time it was read.
 struct KnownFile {
-  std::string path;  ///< absolute where it is on disk; without its password where it is in a database
+  std::string path;  ///< absolute for a file on disk; without the password for a database
   std::uint64_t bytes = 0;
   std::string sha256;
-  Stamp stamp;  ///< of the file on disk: the archive that it is in, the packed file; nothing for what is elsewhere
+  Stamp stamp;  ///< of the file on disk (of an archive, if it is in one); zero for databases and servers
   friend auto operator==(const KnownFile&, const KnownFile&) -> bool = default;
 };
 
 inline constexpr const char* terrain_option = "ingest.terrain";
 
 struct Inputs {
-  std::vector<std::string> meshes;  ///< as given: files or folders, absolute, or what GDAL alone understands
-  std::string footprints;           ///< the same, or a database with its password; empty: drawn from the mesh
+  std::vector<std::string> meshes;  ///< as given: absolute paths of files or folders, or names for GDAL
+  std::string footprints;           ///< like a mesh, or a database with its password; empty: derived from the mesh
   Texts reading;                    ///< options of "ingest", "derive" and "block"
   std::vector<KnownFile> mesh_files, terrain_files, footprint_files;
-  /// A password makes no other request.
+  /// Whether meshes, footprints and options are the same, passwords aside.
   [[nodiscard]] auto same_request(const Inputs& other) const -> bool;
 };
 
-/// Of one block; its values are in a file of its own.
+/// The error map of one block; its values are in a separate file.
 struct MapInfo {
   std::string block;
   geometry::Point2 origin;
@@ -72,7 +72,7 @@ struct RunRecord {
   std::optional<base::Diagnostic> failure;
   std::string created;  ///< ISO 8601, UTC
   std::string preset;
-  Texts options;                    ///< those that differ from the defaults, those of the reading too
+  Texts options;  ///< values that differ from the defaults, including those that the inputs are read with
   std::vector<std::string> blocks;  ///< empty: all
   std::optional<RunScores> scores;
   std::vector<pipeline::StageTime> times;
@@ -82,26 +82,28 @@ struct RunRecord {
 
 class Project {
  public:
-  /// Makes it where the folder is missing or empty. Nobody else can open it as long as this lives: the kernel lets go
-  /// of the lock with the process. Gives up with "server-folder" (it holds something else), "server-locked",
-  /// "server-project" (project.json cannot be read), "file-write".
+  /// Creates the project if the folder is missing or empty. The project is locked until this object is destroyed; the
+  /// kernel releases the lock when the process ends. Gives up with "server-folder" (the folder has other contents),
+  /// "server-locked", "server-project" (project.json cannot be read), "file-write".
   [[nodiscard]] static auto open(const std::filesystem::path& folder) -> base::Result<Project>;
 
   [[nodiscard]] auto folder() const -> const std::filesystem::path& { return folder_; }
   [[nodiscard]] auto name() const -> std::string;
 
   [[nodiscard]] auto inputs() const -> const std::optional<Inputs>& { return inputs_; }
-  /// Passwords are known until the end of the program, and not written down.
+  /// Passwords are kept in memory only.
   [[nodiscard]] auto save(const Inputs& inputs) -> base::Result<void>;
 
-  /// By number. Runs that had not ended when the last server did are interrupted, on the disk too. A folder without a
-  /// run.json, as a crash leaves it, is no run.
+  /// Sorted by number. Runs that had not ended when the last server ended become "interrupted", also on disk. A folder
+  /// without a run.json, as a crash leaves it, is ignored.
   [[nodiscard]] auto runs() -> base::Result<std::vector<RunRecord>>;
-  /// A number that no run had, not even one that was deleted; its folder is made.
+  /// The id of a new run; its folder is created. Ids of deleted runs are not used again.
   [[nodiscard]] auto new_run() -> base::Result<std::string>;
   [[nodiscard]] auto save(const RunRecord& run) -> base::Result<void>;
   [[nodiscard]] auto run_folder(const std::string& run) const -> std::filesystem::path;
   [[nodiscard]] auto trash(const std::string& run) -> base::Result<void>;
+  /// How many edits of a run are applied; 0 if its journal cannot be read.
+  [[nodiscard]] auto applied_edits(const std::string& run) const -> std::size_t;
 
  private:
   Project(std::filesystem::path folder, Descriptor lock);
@@ -112,10 +114,14 @@ class Project {
   std::optional<Inputs> inputs_;
 };
 
-/// The file as it is; nothing where it is missing.
+/// Size and time of a file; none if it is missing.
 [[nodiscard]] auto stamp_of(const std::filesystem::path& path) -> std::optional<Stamp>;
 
-/// How many edits of a journal stand, without looking into them.
-[[nodiscard]] auto standing_edits(const std::filesystem::path& journal) -> std::size_t;
+[[nodiscard]] auto unknown_run(const std::string& run) -> base::Diagnostic;
+
+/// The journal in the folder of a run.
+[[nodiscard]] auto journal_of(const std::filesystem::path& run_folder) -> std::filesystem::path;
+/// The text of a journal; empty if the file is missing. Gives up with "file-read".
+[[nodiscard]] auto read_journal(const std::filesystem::path& journal) -> base::Result<std::string>;
 
 }  // namespace mansard::server

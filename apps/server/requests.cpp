@@ -14,8 +14,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Nobody needs more, and each level costs memory.
-constexpr std::size_t deepest = 64;
+/// Maximum nesting of a body; each level costs memory.
+constexpr std::size_t maximum_depth = 64;
 
 /// Thrown and caught inside this file.
 struct Refused {
@@ -26,7 +26,7 @@ auto bad(const std::string& what, const std::string& where = {}) -> base::Diagno
   return base::error("server-body", what, where);
 }
 
-/// A value and its place.
+/// A value and its place in the body.
 struct Item {
   const Json& json;
   std::string place;
@@ -41,7 +41,7 @@ struct Item {
     const std::vector<std::string> known(names.begin(), names.end());
     for (const auto& [key, value] : json.items())
       if (std::ranges::find(known, key) == known.end())
-        throw Refused{bad(where() + " has an unknown member \"" + base::on_one_line(key) + "\"" +
+        throw Refused{bad(where() + " has the unknown member \"" + base::on_one_line(key) + "\"" +
                               base::did_you_mean(base::nearest_word(key, known)),
                           place)};
     return *this;
@@ -58,7 +58,7 @@ struct Item {
     for (std::size_t i = 0; i < json.size(); ++i) work(Item{json[i], place + "[" + std::to_string(i) + "]"});
   }
   [[nodiscard]] auto text() const -> std::string {
-    if (!json.is_string()) refuse("a text");
+    if (!json.is_string()) refuse("a string");
     return json.get<std::string>();
   }
   [[nodiscard]] auto texts() const -> std::vector<std::string> {
@@ -67,7 +67,7 @@ struct Item {
     return out;
   }
   [[nodiscard]] auto map() const -> Texts {
-    if (!json.is_object()) refuse("an object of texts");
+    if (!json.is_object()) refuse("an object of strings");
     Texts out;
     for (const auto& [key, value] : json.items()) out[key] = Item{value, place + "." + key}.text();
     return out;
@@ -76,8 +76,8 @@ struct Item {
     if (!json.is_number()) refuse("a number");
     return json.get<double>();
   }
-  [[nodiscard]] auto whole() const -> std::uint64_t {
-    if (!json.is_number_unsigned()) refuse("a whole number from 0");
+  [[nodiscard]] auto integer() const -> std::uint64_t {
+    if (!json.is_number_unsigned()) refuse("an integer of at least 0");
     return json.get<std::uint64_t>();
   }
   [[nodiscard]] auto flag() const -> bool {
@@ -98,13 +98,14 @@ struct Item {
 template <class Work>
 auto reading(std::string_view body, Work work) -> base::Result<decltype(work(std::declval<const Item&>()))> {
   try {
-    if (base::nests_too_deep(body, deepest)) return bad("the body is nested too deep");
+    if (base::nests_too_deep(body, maximum_depth))
+      return bad("the body is nested deeper than " + std::to_string(maximum_depth) + " levels");
     const auto json = Json::parse(body);
     return work(Item{json, {}});
   } catch (const Json::parse_error& e) {
-    return bad("the body is not JSON, at byte " + std::to_string(e.byte));
-  } catch (const Json::exception&) {  // a number that no double can hold, a text that is not UTF-8
-    return bad("the body has a value that cannot be read");
+    return bad("the body is not valid JSON at byte " + std::to_string(e.byte));
+  } catch (const Json::exception&) {  // a number out of range, a string that is not UTF-8
+    return bad("the body has a number out of range or a string that is not UTF-8");
   } catch (const Refused& refused) {
     return refused.why;
   }
@@ -112,7 +113,7 @@ auto reading(std::string_view body, Work work) -> base::Result<decltype(work(std
 
 auto change_of(const Item& item) -> edit::Change {
   item.object({"building", "revision", "parts"});
-  edit::Change change{item.member("building").text(), item.member("revision").whole(), {}};
+  edit::Change change{item.member("building").text(), item.member("revision").integer(), {}};
   item.member("parts").each([&](const Item& part) {
     part.object({"id", "plan"});
     change.parts.push_back({part.member("id").text(), part.member("plan").plan()});
@@ -134,7 +135,7 @@ auto read_inputs(std::string_view body) -> base::Result<InputsRequest> {
   return reading(body, [](const Item& item) {
     item.object({"meshes", "footprints", "reading"});
     InputsRequest request{item.member("meshes").texts(), item.member("footprints").text(), {}};
-    if (request.meshes.empty()) item.member("meshes").refuse("one file or folder or more");
+    if (request.meshes.empty()) item.member("meshes").refuse("an array of at least one file or folder");
     if (item.has("reading")) request.reading = item.member("reading").map();
     return request;
   });
@@ -169,7 +170,7 @@ auto read_label(std::string_view body) -> base::Result<std::string> {
 auto read_section(std::string_view body) -> base::Result<SectionRequest> {
   return reading(body, [](const Item& item) {
     item.object({"plan", "ring", "edge", "share"});
-    return SectionRequest{item.member("plan").plan(), item.member("ring").whole(), item.member("edge").whole(),
+    return SectionRequest{item.member("plan").plan(), item.member("ring").integer(), item.member("edge").integer(),
                           item.member("share").number()};
   });
 }
@@ -200,7 +201,7 @@ auto read_merge(std::string_view body) -> base::Result<MergeRequest> {
     item.object({"parts"}).member("parts").each([&](const Item& part) {
       parts.push_back(part_of(part.object({"building", "part"})));
     });
-    if (parts.size() != 2) item.member("parts").refuse("two parts");
+    if (parts.size() != 2) item.member("parts").refuse("an array of two parts");
     return MergeRequest{parts.front(), parts.back()};
   });
 }

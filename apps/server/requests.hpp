@@ -1,4 +1,4 @@
-// What a page sends, read strictly: every complaint says where, in the manner of changes[0].parts[1].plan.cap.
+// The bodies of requests, parsed strictly: every error names the place, e.g. changes[0].parts[1].plan.cap.
 #pragma once
 
 #include <string>
@@ -28,7 +28,7 @@ struct RunRequest {
 };
 struct ExportRequest {
   bool overwrite = false;
-  std::vector<std::string> formats;  ///< by their names; empty: all
+  std::vector<std::string> formats;  ///< names of formats; empty: all
 };
 struct SectionRequest {
   model::Plan plan;
@@ -44,7 +44,7 @@ struct SplitRequest {
 };
 using MergeRequest = std::pair<PartName, PartName>;
 
-/// All give up with "server-body", and with "write-plan-…" for plans.
+/// All of these give up with "server-body", and with "write-plan-…" for plans.
 [[nodiscard]] auto read_inputs(std::string_view body) -> base::Result<InputsRequest>;
 [[nodiscard]] auto read_run(std::string_view body) -> base::Result<RunRequest>;
 [[nodiscard]] auto read_import(std::string_view body) -> base::Result<ImportRequest>;
@@ -55,10 +55,10 @@ using MergeRequest = std::pair<PartName, PartName>;
 [[nodiscard]] auto read_split(std::string_view body) -> base::Result<SplitRequest>;
 [[nodiscard]] auto read_merge(std::string_view body) -> base::Result<MergeRequest>;
 [[nodiscard]] auto read_export(std::string_view body) -> base::Result<ExportRequest>;
-/// For calls that say nothing: an empty body, or {}.
+/// For calls without parameters: the body is empty or {}.
 [[nodiscard]] auto read_nothing(std::string_view body) -> base::Result<void>;
 
-/// Whether a plan has that edge, and the share is one. Gives up with "server-body".
+/// Checks that the plan has the edge and that the share is from 0 to 1. Gives up with "server-body".
 [[nodiscard]] auto check_edge(const model::Plan& plan, std::size_t ring, std::size_t edge, double share)
     -> base::Result<void>;
 

@@ -8,6 +8,7 @@
 
 #include "apps/server/assets.hpp"
 #include "apps/server/json.hpp"
+#include "apps/server/options.hpp"
 #include "apps/server/server.hpp"
 #include "mansard/base/text.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 
 constexpr std::string_view octets = "application/octet-stream";
 
-/// Reads the body and goes on with what was read.
+/// A handler that parses the body with `read` and passes the result to `work`.
 template <class Read, class Work>
 auto with(Read read, Work work) {
   return [=](Workspace& workspace, const Call& call) -> Text {
@@ -28,26 +29,28 @@ auto with(Read read, Work work) {
 
 auto run_of(const Call& call) -> const std::string& { return call.captured.find("run")->second; }
 
-auto word(const Call& call, const char* name) -> base::Result<std::string> {
+auto parameter(const Call& call, const char* name) -> base::Result<std::string> {
   const auto at = call.query.find(name);
-  if (at == call.query.end()) return base::error("server-body", std::string("the query has no '") + name + "'", name);
+  if (at == call.query.end())
+    return base::error("server-body", std::string("the query lacks the parameter '") + name + "'", name);
   return at->second;
 }
 
-auto section_of_standing_plan(Workspace& workspace, const Call& call) -> Text {
-  const auto building = word(call, "building"), part = word(call, "part"), ring = word(call, "ring"),
-             edge = word(call, "edge"), share = word(call, "share");
+auto section_of_part(Workspace& workspace, const Call& call) -> Text {
+  const auto building = parameter(call, "building"), part = parameter(call, "part"), ring = parameter(call, "ring"),
+             edge = parameter(call, "edge"), share = parameter(call, "share");
   for (const auto* read : {&building, &part, &ring, &edge, &share})
     if (!*read) return read->error();
   const auto ring_number = base::to_integer(*ring), edge_number = base::to_integer(*edge);
   const auto at = base::to_number(*share);
   if (!ring_number || *ring_number < 0 || !edge_number || *edge_number < 0 || !at)
-    return base::error("server-body", "ring and edge are whole numbers from 0, share a number from 0 to 1");
+    return base::error("server-body",
+                       "expected ring and edge as integers of at least 0 and share as a number from 0 to 1");
   return workspace.section(run_of(call), {*building, *part}, static_cast<std::size_t>(*ring_number),
                            static_cast<std::size_t>(*edge_number), *at);
 }
 
-auto nothing_then(Text (Workspace::*work)(const std::string&, const std::string&)) {
+auto without_body(Text (Workspace::*work)(const std::string&, const std::string&)) {
   return [=](Workspace& workspace, const Call& call) -> Text {
     if (auto read = read_nothing(call.body); !read) return read.error();
     return (workspace.*work)(run_of(call), call.client);
@@ -92,7 +95,7 @@ auto table() -> std::vector<Route> {
        [](auto& w, const auto& call) { return w.error_maps(run_of(call)); }},
       {"GET", "/api/runs/{run}/error/{block}", nothing, bytes,
        [](auto& w, const auto& call) { return w.error_map(run_of(call), call.captured.at("block")); }},
-      {"GET", "/api/runs/{run}/section", nothing, gives, section_of_standing_plan},
+      {"GET", "/api/runs/{run}/section", nothing, gives, section_of_part},
       {"POST", "/api/runs/{run}/section", sends, gives,
        with(read_section, [](auto& w, const auto& call, auto request) { return w.section(run_of(call), request); })},
       {"POST", "/api/runs/{run}/preview", sends, gives,
@@ -104,8 +107,8 @@ auto table() -> std::vector<Route> {
       {"POST", "/api/runs/{run}/edits", sends, gives,
        with(read_edit,
             [](auto& w, const auto& call, auto edit) { return w.apply(run_of(call), std::move(edit), call.client); })},
-      {"POST", "/api/runs/{run}/undo", sends, gives, nothing_then(&Workspace::undo)},
-      {"POST", "/api/runs/{run}/redo", sends, gives, nothing_then(&Workspace::redo)},
+      {"POST", "/api/runs/{run}/undo", sends, gives, without_body(&Workspace::undo)},
+      {"POST", "/api/runs/{run}/redo", sends, gives, without_body(&Workspace::redo)},
       {"GET", "/api/runs/{run}/export/{file}", nothing, bytes,
        [](auto& w, const auto& call) { return w.export_file(run_of(call), call.captured.at("file")); }},
       {"POST", "/api/runs/{run}/export", sends, gives,
@@ -138,7 +141,7 @@ auto matches(const Route& route, const std::vector<std::string_view>& words, Wor
   return true;
 }
 
-/// The code says what went wrong; HTTP only has classes for it.
+/// The HTTP status of a diagnostic code.
 auto status_of(std::string_view code) -> int {
   static constexpr std::array<std::pair<std::string_view, int>, 26> known{{
       {"server-body", 400},    {"option-value", 400},     {"option-unknown", 400},
@@ -175,8 +178,9 @@ auto find_route(Call& call) -> base::Result<const Route*> {
   }
   call.captured.clear();
   if (other_method)
-    return base::error("server-method", "this cannot be done with " + call.method + " here; see /api/openapi.json");
-  return base::error("server-path", "there is nothing of that name; see /api/openapi.json",
+    return base::error("server-method",
+                       "the method " + call.method + " is not supported here; /api/openapi.json lists all calls");
+  return base::error("server-path", "unknown path; /api/openapi.json lists all calls",
                      base::on_one_line(call.path.substr(0, 200)));
 }
 
@@ -193,7 +197,7 @@ auto answer(Workspace& workspace, const Route& route, const Call& call) -> Answe
     if (route.gives == Gives::bytes) out.type = octets;
     return out;
   } catch (const std::bad_alloc&) {
-    return refusal(base::error("memory", "out of memory; use a smaller piece of the mesh (ingest.bbox)"));
+    return refusal(base::error("memory", "out of memory; read a smaller part of the mesh (ingest.bbox)"));
   } catch (const std::exception& e) {
     return refusal(base::error("bug", std::string(e.what()) + "; please report it"));
   }
@@ -202,10 +206,9 @@ auto answer(Workspace& workspace, const Route& route, const Call& call) -> Answe
 auto page(std::string_view path, std::string_view known_hash) -> Answer {
   const auto* asset = path.starts_with('/') ? find_asset(path.substr(1)) : nullptr;
   if (asset == nullptr)
-    return refusal(base::error("server-path", "there is nothing of that name",
-                               base::on_one_line(std::string(path.substr(0, 200)))));
+    return refusal(base::error("server-path", "unknown path", base::on_one_line(std::string(path.substr(0, 200)))));
   const auto tag = "\"" + std::string(asset->hash) + "\"";
-  // Names under assets/ have a hash of what they hold; the page itself does not.
+  // Names under assets/ contain a hash of the file; that of the page does not.
   Answer out{200, std::string(asset->mime), {}, {{"ETag", tag}}};
   out.headers["Cache-Control"] =
       asset->name.starts_with("assets/") ? "private, max-age=31536000, immutable" : "no-cache";

@@ -1,4 +1,4 @@
-// What can be called, and what answers.
+// The routes of the API and their handlers.
 #pragma once
 
 #include <cstdint>
@@ -16,11 +16,11 @@ namespace mansard::server {
 
 using Words = std::map<std::string, std::string, std::less<>>;
 
-/// A request, free of any library.
+/// A request, independent of the HTTP library.
 struct Call {
   std::string method;  ///< "GET"
   std::string path;    ///< decoded
-  Words captured;      ///< what stands for the {names} of the route
+  Words captured;      ///< the values of the {names} in the route
   Words query;
   std::string client;  ///< X-Client
   std::string body;
@@ -40,22 +40,22 @@ struct Route {
   std::string_view method, path;  ///< "GET", "/api/runs/{run}/layers"
   Sends sends = Sends::nothing;
   Gives gives = Gives::json;
-  std::function<Text(Workspace&, const Call&)> answer;  ///< of one that sends a file or gives events: none
+  std::function<Text(Workspace&, const Call&)> answer;  ///< empty for uploads and events
 };
 
-/// All of them, in the order of openapi.json.
+/// All routes, in the order of openapi.json.
 [[nodiscard]] auto routes() -> std::span<const Route>;
 
-/// The route of a call, whose `captured` it fills. Gives up with "server-path", "server-method".
+/// The route of a call; sets `captured` of the call. Gives up with "server-path", "server-method".
 [[nodiscard]] auto find_route(Call& call) -> base::Result<const Route*>;
 
-/// Answers a call whose body has come. Whatever goes wrong is an answer too.
+/// Answers a call whose body has been received. Failures become refusals.
 [[nodiscard]] auto answer(Workspace& workspace, const Route& route, const Call& call) -> Answer;
 
-/// The page and its parts; no token is asked for.
+/// The page and its assets; they need no token.
 [[nodiscard]] auto page(std::string_view path, std::string_view known_hash) -> Answer;
 
-/// A refusal with its status: see status_of in routes.cpp.
+/// The answer for a failure, with the HTTP status of its code.
 [[nodiscard]] auto refusal(const base::Diagnostic& why) -> Answer;
 
 }  // namespace mansard::server

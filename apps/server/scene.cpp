@@ -4,13 +4,14 @@
 #include <cstring>
 #include <limits>
 
+#include "apps/server/options.hpp"
 #include "mansard/formats/input_name.hpp"
 #include "mansard/pipeline/inputs.hpp"
 
 namespace mansard::server {
 namespace {
 
-/// m to the sides of an edge, and above and below its base, that a section shows.
+/// Half the width of a section, and its height above and below the base of the edge, in m.
 constexpr double reach = 20.0;
 
 template <class T>
@@ -19,25 +20,6 @@ void append(std::string& bytes, const std::vector<T>& values) {
 }
 
 }  // namespace
-
-auto set_all(pipeline::Options& options, const Texts& values) -> base::Result<void> {
-  auto lists = pipeline::option_lists(options);
-  for (const auto& [key, value] : values)
-    if (auto set = pipeline::set_option(lists, key, value); !set) return set;
-  return {};
-}
-
-auto differing(pipeline::Options options) -> Texts {
-  pipeline::Options defaults;
-  const auto own = pipeline::option_lists(options), usual = pipeline::option_lists(defaults);
-  Texts out;
-  for (std::size_t l = 0; l < own.size(); ++l)
-    for (std::size_t o = 0; o < own[l].options().size(); ++o) {
-      const auto value = own[l].options()[o].get();
-      if (value != usual[l].options()[o].get()) out[own[l].module() + "." + own[l].options()[o].name] = value;
-    }
-  return out;
-}
 
 auto OpenScene::read(const Inputs& inputs, const base::Run& run) -> base::Result<std::shared_ptr<const OpenScene>> {
   pipeline::Options options;

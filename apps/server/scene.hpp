@@ -1,4 +1,4 @@
-// The scan as it was read, with what is made of it once and asked for often.
+// The scene of a project: mesh, footprints and blocks, with cached JSON, tiles and search structures.
 #pragma once
 
 #include <cstddef>
@@ -24,12 +24,7 @@
 
 namespace mansard::server {
 
-/// Sets options by name. Gives up with "option-unknown", "option-value".
-[[nodiscard]] auto set_all(pipeline::Options& options, const Texts& values) -> base::Result<void>;
-/// Values that are not the defaults'.
-[[nodiscard]] auto differing(pipeline::Options options) -> Texts;
-
-/// Does not change once it is read; queries may run on any thread.
+/// Immutable once it is read; queries may run on any thread.
 class OpenScene {
  public:
   /// Gives up as ingest::read_scene does, and with "cancelled", "option-…".
@@ -41,12 +36,12 @@ class OpenScene {
   [[nodiscard]] auto has_block(std::string_view name) const -> bool;
   [[nodiscard]] auto scene_json() const -> const std::string& { return scene_json_; }
   [[nodiscard]] auto tiles_json() const -> const std::string& { return tiles_json_; }
-  /// As types.ts says; nothing where there is no such tile.
+  /// The bytes of a tile as openapi.json describes them; none for an unknown tile.
   [[nodiscard]] auto tile_bytes(const std::string& id) const -> std::optional<std::string>;
 
-  /// The mesh around a building, made ready for rays when it is first asked for; null where there is none.
+  /// The mesh around a building, prepared for ray casting on first use; null if there is none.
   [[nodiscard]] auto rays_of(std::string_view building) const -> const rays::Scene*;
-  /// Across an edge of a plan. Where the building is not known, the block that is nearest counts.
+  /// Section of openapi.json: the mesh across an edge of a plan. Without a building, the nearest block is used.
   [[nodiscard]] auto section(const model::Plan& plan, std::size_t ring, std::size_t edge, double share,
                              const std::optional<std::string>& building, const pipeline::Options& options) const
       -> Json;

@@ -1,4 +1,4 @@
-// A project served to a browser on this machine: the workbench, and what it calls (openapi.json).
+// Serves a project to a browser on this machine: the page of the workbench, and its API (openapi.json).
 #pragma once
 
 #include <cstdint>
@@ -13,20 +13,20 @@
 namespace mansard::server {
 
 struct Options {
-  std::filesystem::path project = "mansard-project";    ///< made if it is missing
-  std::string address = "127.0.0.1";                    ///< of the machine, to listen on
-  int port = 8642;                                      ///< 0: any that is free
-  std::filesystem::path sample;                         ///< a folder with meshes and footprints; empty: none
-  std::uint64_t upload_limit = std::uint64_t{4} << 30;  ///< bytes of one uploaded file
+  std::filesystem::path project = "mansard-project";    ///< created if it is missing
+  std::string address = "127.0.0.1";                    ///< to listen on
+  int port = 8642;                                      ///< 0: any free port
+  std::filesystem::path sample;                         ///< folder with meshes and footprints; empty: none
+  std::uint64_t upload_limit = std::uint64_t{4} << 30;  ///< bytes per uploaded file
 };
 
-/// Serves until it is cancelled. `ready` is told the link once it works: whoever has it may do all that the page can.
-/// Whatever was answered is on the disk, however it ends. Gives up with "server-folder",
-/// "server-locked", "server-project", "server-port", "server-random", "file-…".
+/// Serves until it is cancelled. `ready` receives the link as soon as the server listens; the link grants full access.
+/// Every answered change is on disk, however the server ends. Gives up with "server-folder", "server-locked",
+/// "server-project", "server-port", "server-random", "file-…".
 [[nodiscard]] auto serve(const Options& options, const base::Cancel& cancel,
                          const std::function<void(const std::string& link)>& ready) -> base::Result<void>;
 
-/// The largest body of JSON, bytes.
+/// Maximum size of a JSON body, in bytes.
 inline constexpr std::uint64_t json_limit = std::uint64_t{16} << 20;
 
 [[nodiscard]] auto codes() -> std::vector<base::Code>;

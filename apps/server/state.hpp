@@ -1,4 +1,4 @@
-// How far a run or a job has come.
+// The state of a run or a job.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ inline constexpr std::array<std::string_view, 6> state_names{"queued", "running"
   return std::nullopt;
 }
 
-/// Whether it will not change any more.
+/// Whether the state is final.
 [[nodiscard]] constexpr auto over(State state) -> bool { return state != State::queued && state != State::running; }
 
 }  // namespace mansard::server

@@ -1,4 +1,10 @@
-// The project while it is served: the scene, the runs, the jobs, and what the pages are told.
+// The project while it is served: inputs, scene, runs, jobs, and the events sent to the pages.
+//
+//   workspace.cpp          opening and closing, the project, jobs, runs by their ids
+//   workspace_scene.cpp    inputs are read, the scene is queried
+//   workspace_runs.cpp     runs are started, imported, renamed, deleted; their results
+//   workspace_edits.cpp    models are shown, previewed and edited
+//   workspace_exports.cpp  models are exported
 #pragma once
 
 #include <atomic>
@@ -12,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/server/changed_files.hpp"
 #include "apps/server/events.hpp"
 #include "apps/server/jobs.hpp"
 #include "apps/server/models.hpp"
@@ -23,18 +30,18 @@
 
 namespace mansard::server {
 
-/// A JSON text, or why there is none.
+/// The text of an answer, or the diagnostic of the refusal.
 using Text = base::Result<std::string>;
 
-/// Every function may be called from any thread. `client` names the tab that a change came from.
+/// Every function may be called from any thread. `client` is the id of the browser tab that a change comes from.
 class Workspace {
  public:
-  /// `sample`: a folder with meshes and footprints, empty for none. Inputs that the project has are read again at once,
-  /// in the background. Gives up with "server-project", "file-…".
+  /// `sample`: a folder with meshes and footprints; empty for none. If the project has inputs, they are read again in
+  /// the background. Gives up with "server-project", "file-…".
   [[nodiscard]] static auto open(Project project, std::filesystem::path sample)
       -> base::Result<std::unique_ptr<Workspace>>;
   ~Workspace();
-  /// Ends the job in hand, and lets every listener go. What is on the disk stays as it is.
+  /// Stops the running job and disconnects every listener. Files on disk stay as they are.
   void stop();
 
   [[nodiscard]] auto status() const -> Text;
@@ -45,7 +52,7 @@ class Workspace {
 
   [[nodiscard]] auto open_inputs(const InputsRequest& request) -> Text;
   [[nodiscard]] auto open_sample() -> Text;
-  /// Where an upload of that name goes. Gives up with "server-upload".
+  /// The path of an uploaded file. Gives up with "server-upload".
   [[nodiscard]] auto upload_path(const std::string& name) const -> base::Result<std::filesystem::path>;
 
   [[nodiscard]] auto scene() const -> Text;
@@ -53,7 +60,7 @@ class Workspace {
   [[nodiscard]] auto tile(const std::string& id) const -> Text;
 
   [[nodiscard]] auto start_run(const RunRequest& request) -> Text;
-  /// Models that mansard wrote, as a run of their own. They are in the frame of the scene where there is one.
+  /// Opens models that mansard wrote as a finished run. If there is a scene, they are moved into its frame.
   [[nodiscard]] auto import_model(const ImportRequest& request) -> Text;
   [[nodiscard]] auto remove_run(const std::string& run) -> Text;
   [[nodiscard]] auto rename_run(const std::string& run, const std::string& label) -> Text;
@@ -81,47 +88,48 @@ class Workspace {
     RunRecord record;
     std::size_t edits = 0;
     std::shared_ptr<std::mutex> opening = std::make_shared<std::mutex>();
-    std::shared_ptr<Models> models;  ///< once somebody looked
-  };
-  struct InputState {  ///< of a file, as it was when it was last hashed
-    Stamp stamp;
-    bool changed = false;
+    std::shared_ptr<Models> models;  ///< opened on first use
   };
 
   Workspace(Project project, std::filesystem::path sample);
-  auto read_again(const Inputs& inputs, bool save) -> Job;
+
+  // The scene. With `save`, the inputs become those of the project.
+  auto start_reading(const Inputs& inputs, bool save) -> Job;
   [[nodiscard]] auto read_scene(Inputs inputs, bool save, const base::Run& run) -> base::Result<void>;
-  /// The outcome of a run, of the record that it has now.
+  void measure_edited();
+  [[nodiscard]] auto has_sample() const -> bool;
+  [[nodiscard]] auto scene_now() const -> SceneOrNone;
+  [[nodiscard]] auto scene_or_error() const -> base::Result<SceneOrNone>;
+
+  // Runs. `Make` computes the outcome of a run from its record.
   using Make = std::function<base::Result<RunOutcome>(RunRecord, const base::Run&)>;
   [[nodiscard]] auto submit(Run run, Make make) -> Text;
   [[nodiscard]] auto carry_out(const std::string& id, const Make& make, const base::Run& run) -> base::Result<void>;
   void ended(const std::string& id, State state, const std::optional<base::Diagnostic>& failure);
-  void measure_what_was_edited();
-
-  [[nodiscard]] auto changed(const KnownFile& file) const -> bool;
-  [[nodiscard]] auto files_json(const std::vector<KnownFile>& files) const -> Json;
-  [[nodiscard]] auto project_json() const -> Json;
-  [[nodiscard]] auto sample_at_hand() const -> bool;
-  void tell_project();
-
-  [[nodiscard]] auto scene_now() const -> SceneOrNone;
-  [[nodiscard]] auto scene_or_why() const -> base::Result<SceneOrNone>;
+  [[nodiscard]] auto find(const std::string& run) const -> const Run*;  // with mutex_ held, as the next one
+  [[nodiscard]] auto find(const std::string& run) -> Run*;
   [[nodiscard]] auto record(const std::string& run) const -> base::Result<RunRecord>;
   [[nodiscard]] auto done(const std::string& run) const -> base::Result<RunRecord>;
   [[nodiscard]] auto models(const std::string& run) -> base::Result<std::shared_ptr<Models>>;
-  [[nodiscard]] auto layers_of(const std::string& run) const -> base::Result<std::optional<std::string>>;
-  [[nodiscard]] auto find(const std::string& run) const -> const Run*;
-  [[nodiscard]] auto find(const std::string& run) -> Run*;
-  [[nodiscard]] auto answer(const std::string& run, const Changed& changed, const std::string& client) -> std::string;
+  [[nodiscard]] auto layers_file(const std::string& run) const -> base::Result<std::optional<std::string>>;
+
+  // Edits. `send_change` sends the change to every page and returns the answer for the page that made it.
+  [[nodiscard]] auto change(const std::string& run, const std::string& client,
+                            const std::function<base::Result<Changed>(Models&, const OpenScene*)>& make) -> Text;
+  [[nodiscard]] auto send_change(const std::string& run, const Changed& changed, const std::string& client)
+      -> std::string;
+
+  [[nodiscard]] auto files_json(const std::vector<KnownFile>& files) const -> Json;
+  [[nodiscard]] auto project_json() const -> Json;
+  void send_project();
 
   std::filesystem::path sample_;
-  mutable std::mutex mutex_;  // of what follows until the next one; held for moments
+  mutable std::mutex mutex_;  // guards the next four; held for moments only
   Project project_;
   std::vector<Run> runs_;
   SceneOrNone scene_;
   std::optional<base::Diagnostic> scene_failure_;
-  mutable std::mutex inputs_mutex_;
-  mutable std::map<std::string, InputState> input_states_;
+  mutable ChangedFiles changed_files_;
   std::mutex exports_mutex_;
   std::atomic<std::uint64_t> next_work_ = 1;
   Events events_;

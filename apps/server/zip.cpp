@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t longest = std::numeric_limits<std::uint32_t>::max() - 1, most = 65'534;
 constexpr std::uint16_t needed = 20;                    // 2.0: files in folders
-constexpr std::uint16_t day = (0 << 9) | (1 << 5) | 1;  // 1980-01-01, the first there is
+constexpr std::uint16_t day = (0 << 9) | (1 << 5) | 1;  // 1980-01-01, the earliest date of the format
 
 auto crc_table() -> std::array<std::uint32_t, 256> {
   std::array<std::uint32_t, 256> table{};
@@ -44,7 +44,7 @@ struct Entry {
   std::uint64_t size = 0, offset = 0;
 };
 
-/// What the header before a file and its line in the directory have in common.
+/// The fields that a local header and its entry in the central directory share.
 void put_common(std::string& bytes, const Entry& entry) {
   put(bytes, needed, 2);
   put(bytes, 0, 2);  // flags
@@ -52,7 +52,7 @@ void put_common(std::string& bytes, const Entry& entry) {
   put(bytes, 0, 2);  // midnight
   put(bytes, day, 2);
   put(bytes, entry.crc, 4);
-  put(bytes, entry.size, 4);  // packed
+  put(bytes, entry.size, 4);  // compressed
   put(bytes, entry.size, 4);
   put(bytes, entry.name.size(), 2);
   put(bytes, 0, 2);  // extra
@@ -99,7 +99,7 @@ auto zip_of(const fs::path& folder) -> base::Result<std::string> {
   std::ranges::sort(names);
   std::string bytes;
   std::vector<Entry> entries;
-  std::uint64_t directory = 22;  // its end; a line has 46 bytes and the name
+  std::uint64_t directory = 22;  // its end record; an entry has 46 bytes and the name
   for (const auto& name : names) {
     const auto content = base::read_file(folder / name);
     if (!content) return content.error();
@@ -107,9 +107,10 @@ auto zip_of(const fs::path& folder) -> base::Result<std::string> {
     directory += 46 + name.size();
     const auto file = 30 + name.size() + content->size();
     if (entries.size() >= most || bytes.size() + file + directory > longest)
-      return base::error("server-large",
-                         "the files are too many or too long for one ZIP; write them into the project's folder",
-                         folder.filename().string());
+      return base::error(
+          "server-large",
+          "the files exceed the limits of a ZIP file (4 GB, 65,535 files); export them into the project's folder",
+          folder.filename().string());
     put_file(bytes, entry, *content);
     entries.push_back(std::move(entry));
   }

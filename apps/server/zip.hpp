@@ -1,4 +1,4 @@
-// Several files as one to take away.
+// A folder as one ZIP file to download.
 #pragma once
 
 #include <filesystem>
@@ -8,9 +8,9 @@
 
 namespace mansard::server {
 
-/// All files of a folder and below it as a ZIP, as they are (APPNOTE.TXT of PKWARE, method 0), in the order of their
-/// names and of no date: the same files give the same bytes. Gives up with "server-large" where the format ends (4 GB,
-/// 65,535 files), and as base::read_file does.
+/// All files of a folder and its subfolders as a ZIP without compression (APPNOTE.TXT of PKWARE, method 0). Files are
+/// sorted by name and have a fixed date: the same files give the same bytes. Gives up with "server-large" beyond the
+/// limits of the format (4 GB, 65,535 files), and as base::read_file does.
 [[nodiscard]] auto zip_of(const std::filesystem::path& folder) -> base::Result<std::string>;
 
 }  // namespace mansard::server

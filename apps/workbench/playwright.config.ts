@@ -1,6 +1,6 @@
 import { defineConfig } from "@playwright/test";
 
-// Debian's Chromium; WebGL in software, since a machine that tests has no graphics card.
+// Chromium of Debian, with WebGL in software: test machines have no graphics card.
 export default defineConfig({
   testDir: "./tests",
   testMatch: "*.spec.ts",

@@ -1,6 +1,6 @@
 import { defineConfig } from "vitest/config";
 
-// MANSARD_DEV points the development server at a running `mansard serve`: open vite's address with that one's #token=….
+// MANSARD_DEV is the address of a running `mansard serve`. Open the address of vite with the #token=… of that server.
 const served = process.env.MANSARD_DEV ?? "http://127.0.0.1:8642";
 
 export default defineConfig({
@@ -10,9 +10,9 @@ export default defineConfig({
     outDir: process.env.MANSARD_PAGE ?? "dist",
     emptyOutDir: true,
     chunkSizeWarningLimit: 1200,
-    assetsInlineLimit: 0, // the server's content security policy has no data: for scripts and styles
+    assetsInlineLimit: 0, // the content security policy of the server forbids data: for scripts and styles
   },
-  // The server takes only calls that come from its own address.
+  // The server accepts only calls from its own origin.
   server: { proxy: { "/api": { target: served, changeOrigin: true, headers: { Origin: served } } } },
   test: { include: ["src/**/*.test.ts"] },
 });

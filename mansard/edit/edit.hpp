@@ -98,6 +98,9 @@ struct Replayed {
 };
 [[nodiscard]] auto replay(const model::City& city, std::string_view journal) -> base::Result<Replayed>;
 
+/// How many edits of a journal are applied after its undos and redos. Cost: the plans are not parsed.
+[[nodiscard]] auto applied_edits(std::string_view journal) -> std::size_t;
+
 /// A building's parts raised, labelled and measured. What cannot be raised has no solid and says why.
 struct RaisedPart {
   std::string id;

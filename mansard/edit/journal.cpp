@@ -88,6 +88,17 @@ auto fault_of(std::string_view line, History& history) -> std::optional<std::str
   }
 }
 
+/// The lines of a journal without their line breaks. What follows the last line break was cut short and is dropped.
+auto complete_lines(std::string_view journal) -> std::vector<std::string_view> {
+  std::vector<std::string_view> lines;
+  for (std::size_t from = 0;;) {
+    const auto end = journal.find('\n', from);
+    if (end == std::string_view::npos) return lines;
+    lines.push_back(journal.substr(from, end - from));
+    from = end + 1;
+  }
+}
+
 }  // namespace
 
 auto journal_line(const Edit& edit) -> std::string {
@@ -105,15 +116,24 @@ auto journal_line(const Edit& edit) -> std::string {
 
 auto replay(const model::City& city, std::string_view journal) -> base::Result<Replayed> {
   Replayed out{History(city), 0};
-  for (std::size_t number = 1;; ++number) {
-    const auto end = journal.find('\n', out.kept);
-    if (end == std::string_view::npos) return out;
-    const auto line = journal.substr(out.kept, end - out.kept);
+  std::size_t number = 0;
+  for (const auto line : complete_lines(journal)) {
+    ++number;
     if (const auto fault = fault_of(line, out.history))
       return base::error("edit-journal", "line " + std::to_string(number) + " cannot be done again: " + *fault +
                                              "; take out that line and those after it, or restore the file");
-    out.kept = end + 1;
+    out.kept += line.size() + 1;
   }
+  return out;
+}
+
+auto applied_edits(std::string_view journal) -> std::size_t {
+  std::size_t applied = 0;
+  for (const auto line : complete_lines(journal)) {
+    if (line != undo_line) ++applied;
+    else if (applied > 0) --applied;
+  }
+  return applied;
 }
 
 }  // namespace mansard::edit

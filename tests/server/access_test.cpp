@@ -1,4 +1,4 @@
-// Who gets in and who does not, over real sockets.
+// Access control over real sockets.
 #include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <netinet/in.h>
@@ -11,7 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Bytes sent as they are, and all that comes back until the server closes.
+/// Sends raw bytes; returns everything that is received until the server closes the connection.
 auto raw(int port, const std::string& bytes) -> std::string {
   const int s = ::socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in to{};
@@ -35,7 +35,7 @@ class Access : public testing::Test {
   [[nodiscard]] auto host() const -> std::string { return "127.0.0.1:" + std::to_string(server_.port()); }
 };
 
-TEST_F(Access, prints_a_link_and_answers_only_to_its_token) {
+TEST_F(Access, prints_a_link_and_accepts_only_its_token) {
   EXPECT_THAT(server_.link(), testing::MatchesRegex("http://127\\.0\\.0\\.1:[0-9]+/#token=[0-9a-f]{32}"));
   EXPECT_EQ(server_.get("/api/status").status, 200);
   for (const auto& headers : {httplib::Headers{}, httplib::Headers{{"Authorization", "Bearer " + std::string(32, '0')}},
@@ -55,7 +55,7 @@ TEST_F(Access, prints_a_link_and_answers_only_to_its_token) {
   EXPECT_EQ(server_.call("GET", "/api/status?token=" + server_.token(), {}, {}).status, 401) << "links are logged";
 }
 
-TEST_F(Access, refuses_other_hosts_and_pages_from_elsewhere_even_with_the_token) {
+TEST_F(Access, refuses_other_hosts_and_pages_of_other_servers_even_with_the_token) {
   auto with = [&](const char* name, const std::string& value) {
     auto headers = server_.headers();
     headers.emplace(name, value);
@@ -75,7 +75,7 @@ TEST_F(Access, refuses_other_hosts_and_pages_from_elsewhere_even_with_the_token)
       HasSubstr("403"));
 }
 
-TEST_F(Access, says_nothing_that_lets_other_pages_read_or_frame_it) {
+TEST_F(Access, sends_headers_that_keep_other_pages_from_reading_or_framing_it) {
   for (const auto* path : {"/", "/api/status"}) {
     const auto reply = server_.get(path);
     EXPECT_EQ(reply.status, 200);
@@ -94,7 +94,7 @@ TEST_F(Access, says_nothing_that_lets_other_pages_read_or_frame_it) {
   EXPECT_EQ(server_.call("OPTIONS", "/api/status").status, 405);
 }
 
-TEST_F(Access, keeps_paths_inside) {
+TEST_F(Access, refuses_names_that_leave_their_folder) {
   const std::string secret = "not yours";
   write(folder_ / "secret.txt", secret);
   for (const std::string name : {"..", "%2e%2e", "..%2f..%2fsecret.txt", "%2e%2e%2fsecret.txt", ".hidden", "a%00b",
@@ -118,7 +118,7 @@ TEST_F(Access, keeps_paths_inside) {
   EXPECT_TRUE(fs::is_empty(folder_ / "project/inputs"));
 }
 
-TEST_F(Access, refuses_what_is_too_large_and_goes_on) {
+TEST_F(Access, refuses_large_bodies_and_keeps_serving) {
   const std::string large(17 << 20, ' ');
   const auto reply = server_.call("POST", "/api/runs", large);
   EXPECT_EQ(reply.status, 413);
@@ -127,7 +127,7 @@ TEST_F(Access, refuses_what_is_too_large_and_goes_on) {
   EXPECT_EQ(server_.get("/api/status").status, 200);
 }
 
-TEST_F(Access, refuses_uploads_beyond_their_limit_and_leaves_nothing_of_them) {
+TEST_F(Access, refuses_uploads_above_the_limit_and_deletes_them) {
   const Running small(folder_ / "small", {"--upload-limit", "1"});
   const auto reply = small.call("PUT", "/api/uploads/mesh.ply", std::string(2 << 20, 'x'));
   EXPECT_EQ(reply.status, 413) << reply.text;
@@ -136,7 +136,7 @@ TEST_F(Access, refuses_uploads_beyond_their_limit_and_leaves_nothing_of_them) {
   EXPECT_EQ(fs::file_size(folder_ / "small/inputs/mesh.ply"), 1U << 20);
 }
 
-TEST_F(Access, leaves_no_part_of_an_upload_that_breaks_off) {
+TEST_F(Access, deletes_incomplete_uploads) {
   {
     const int s = ::socket(AF_INET, SOCK_STREAM, 0);
     sockaddr_in to{};
@@ -155,7 +155,7 @@ TEST_F(Access, leaves_no_part_of_an_upload_that_breaks_off) {
   EXPECT_FALSE(fs::exists(folder_ / "project/inputs/mesh.ply"));
 }
 
-TEST_F(Access, does_not_take_the_rest_of_a_refused_request_for_another_one) {
+TEST_F(Access, does_not_parse_the_rest_of_a_refused_request_as_another_one) {
   const auto inner = "GET /api/status HTTP/1.1\r\nHost: " + host() + "\r\nAuthorization: Bearer " + server_.token() +
                      "\r\nConnection: close\r\n\r\n";
   for (const std::string& head :
@@ -171,13 +171,13 @@ TEST_F(Access, does_not_take_the_rest_of_a_refused_request_for_another_one) {
   }
 }
 
-TEST_F(Access, refuses_what_is_no_http_and_goes_on) {
+TEST_F(Access, refuses_invalid_http_and_keeps_serving) {
   for (const std::string bytes : {"\r\n\r\n", "GARBAGE\r\n\r\n", "GET / HTTP/9.9\r\n\r\n", "GET\r\n\r\n"})
     (void)raw(server_.port(), bytes);
   EXPECT_EQ(server_.get("/api/status").status, 200);
 }
 
-TEST_F(Access, answers_malformed_json_with_its_place_and_unknown_things_with_their_name) {
+TEST_F(Access, reports_the_place_in_malformed_json_and_the_name_of_unknown_things) {
   const auto reply = server_.call("POST", "/api/runs", "{\"label\":");
   EXPECT_EQ(reply.status, 400);
   EXPECT_EQ(reply.code(), "server-body");
@@ -201,7 +201,7 @@ TEST_F(Access, answers_malformed_json_with_its_place_and_unknown_things_with_the
       "option-unknown");
 }
 
-TEST_F(Access, lets_twelve_pages_listen_and_no_more) {
+TEST_F(Access, accepts_twelve_listening_pages_and_refuses_more) {
   std::vector<std::thread> pages;
   std::atomic<int> pings{0};
   std::atomic<bool> enough{false};
@@ -226,12 +226,12 @@ TEST_F(Access, lets_twelve_pages_listen_and_no_more) {
   EXPECT_EQ(refused, 1);
   EXPECT_GE(pings, 12);
   enough = true;
-  EXPECT_EQ(server_.get("/api/status").status, 200) << "others are still answered";
-  EXPECT_EQ(server_.interrupt(), 0) << "and it ends although they listen";
+  EXPECT_EQ(server_.get("/api/status").status, 200) << "other requests are still answered";
+  EXPECT_EQ(server_.interrupt(), 0) << "the server ends while pages are listening";
   for (auto& page : pages) page.join();
 }
 
-TEST(Serve, ends_at_once_and_cleanly_when_it_is_asked_to) {
+TEST(Serve, ends_cleanly_on_a_signal) {
   const Folder folder;
   for (const int signal : {SIGINT, SIGTERM}) {
     Running server(folder / "project");
@@ -240,7 +240,7 @@ TEST(Serve, ends_at_once_and_cleanly_when_it_is_asked_to) {
   }
 }
 
-TEST(Serve, says_why_it_does_not_start) {
+TEST(Serve, reports_why_it_cannot_start) {
   const Folder folder;
   Running first(folder / "project");
   Running second(folder / "project");

@@ -1,4 +1,4 @@
-// Edits: quick, many, from two pages at once, undone, and never lost once they were answered.
+// Edits: previews, many edits, edits from several pages, undo, and durability of every answered edit.
 #include <gmock/gmock.h>
 
 #include <mutex>
@@ -77,7 +77,7 @@ TEST_F(Terrace, previews_without_writing) {
   ASSERT_EQ(reply.status, 200) << reply.text;
   const auto raised = reply.json()["buildings"][0];
   EXPECT_TRUE(raised["valid"].get<bool>());
-  // By a metre over a base of 80 m².
+  // Raised by one metre over a base of 80 m².
   EXPECT_NEAR(raised["parts"][0]["volume"].get<double>() - before["parts"][0]["volume"].get<double>(), 80, 2);
   EXPECT_NEAR(raised["mse"].get<double>(), 1, 0.3);
   EXPECT_EQ(building(0), before);
@@ -89,7 +89,7 @@ TEST_F(Terrace, previews_without_writing) {
             "edit-building");
 }
 
-TEST_F(Terrace, takes_a_valid_edit_and_refuses_an_invalid_one) {
+TEST_F(Terrace, applies_a_valid_edit_and_refuses_an_invalid_one) {
   const auto before = building(0);
   const auto reply = send(lift(before, 1, "up"));
   ASSERT_EQ(reply.status, 200) << reply.text;
@@ -108,24 +108,24 @@ TEST_F(Terrace, takes_a_valid_edit_and_refuses_an_invalid_one) {
   EXPECT_EQ(refused.code(), "edit-invalid");
   EXPECT_EQ(building(0), applied["buildings"][0]);
 
-  auto over = lift(building(0), 1);  // onto the neighbour's ground
+  auto over = lift(building(0), 1);  // overlaps the neighbour
   for (auto& point : over["changes"][0]["parts"][0]["plan"]["outer"]["points"])
     if (point[0].get<double>() > building(1)["parts"][0]["plan"]["outer"]["points"][0][0].get<double>() - 1)
       point[0] = point[0].get<double>() + 3;
   EXPECT_EQ(send(over).code(), "edit-invalid");
 }
 
-TEST_F(Terrace, refuses_the_later_of_two_edits_to_one_state) {
+TEST_F(Terrace, refuses_the_second_of_two_edits_to_one_revision) {
   const auto seen = building(0);
   ASSERT_EQ(send(lift(seen, 1, "first tab")).status, 200);
   const auto late = send(lift(seen, 2, "second tab"));
   EXPECT_EQ(late.status, 409);
   EXPECT_EQ(late.code(), "edit-stale");
   EXPECT_EQ(send(lift(building(0), 2, "second tab again")).status, 200);
-  EXPECT_EQ(send(lift(building(1), 1, "another house")).status, 200) << "houses do not wait for each other";
+  EXPECT_EQ(send(lift(building(1), 1, "another house")).status, 200) << "buildings have revisions of their own";
 }
 
-TEST_F(Terrace, undoes_and_redoes_over_restarts) {
+TEST_F(Terrace, undoes_and_redoes_across_restarts) {
   const auto plans = [&] { return building(0)["parts"][0]["plan"]; };
   const auto first = plans();
   EXPECT_EQ(server_->post("/api/runs/run-1/undo", Json::object()).code(), "edit-nothing");
@@ -158,7 +158,7 @@ TEST_F(Terrace, undoes_and_redoes_over_restarts) {
 TEST_F(Terrace, splits_and_merges) {
   const auto before = building(0);
   const auto id = before["id"].get<std::string>();
-  // Wherever the origin lies, a line through the middle.
+  // A line through the middle, wherever the origin is.
   auto least = before["parts"][0]["plan"]["outer"]["points"][0], most = least;
   for (const auto& p : before["parts"][0]["plan"]["outer"]["points"])
     for (const std::size_t c : {0U, 1U}) {
@@ -183,7 +183,7 @@ TEST_F(Terrace, splits_and_merges) {
   ASSERT_EQ(send({{"what", "merge"}, {"changes", merged.json()["changes"]}}).status, 200);
   EXPECT_EQ(building(0)["parts"].size(), 1U);
 
-  // Of two houses: the second loses its part.
+  // Two buildings: the second loses its part.
   const auto other = building(1);
   const auto both =
       server_->post("/api/runs/run-1/merge",
@@ -199,7 +199,7 @@ TEST_F(Terrace, splits_and_merges) {
             "edit-part");
 }
 
-TEST_F(Terrace, tells_every_page_of_an_edit_and_whose_it_was) {
+TEST_F(Terrace, sends_every_edit_to_every_page_with_the_id_of_its_client) {
   std::string heard;
   std::mutex mutex;
   std::atomic<bool> listening{false}, enough{false};
@@ -231,7 +231,7 @@ TEST_F(Terrace, tells_every_page_of_an_edit_and_whose_it_was) {
   page.join();
 }
 
-TEST_F(Terrace, takes_a_thousand_edits_from_four_pages_without_losing_one) {
+TEST_F(Terrace, applies_a_thousand_edits_from_four_pages_without_losing_one) {
   std::atomic<int> accepted{0}, stale{0}, other{0};
   std::vector<std::thread> pages;
   for (int p = 0; p < 4; ++p)
@@ -272,7 +272,8 @@ TEST_F(Terrace, takes_a_thousand_edits_from_four_pages_without_losing_one) {
   }
 }
 
-/// Whatever was answered with 200 before the kill is there afterwards; the journal has nothing else but what was sent.
+/// Every edit that was answered with 200 before the kill exists afterwards; the journal has no edits that were not
+/// sent.
 TEST_F(Terrace, keeps_every_acknowledged_edit_however_it_is_killed) {
   const auto seed = static_cast<unsigned>(std::chrono::steady_clock::now().time_since_epoch().count());
   std::mt19937 random(seed);
@@ -312,7 +313,7 @@ TEST_F(Terrace, keeps_every_acknowledged_edit_however_it_is_killed) {
   EXPECT_GT(acknowledged, 0);
 }
 
-TEST_F(Terrace, drops_what_a_crash_left_of_a_line_and_goes_on) {
+TEST_F(Terrace, drops_an_incomplete_last_line_of_the_journal) {
   ASSERT_EQ(send(lift(building(0), 1, "whole")).status, 200);
   server_->kill();
   const auto journal = folder_ / "project/runs/run-1/journal.jsonl";
@@ -326,7 +327,7 @@ TEST_F(Terrace, drops_what_a_crash_left_of_a_line_and_goes_on) {
   EXPECT_EQ(server_->buildings("run-1")["history"]["edits"], Json::array({"whole", "next"}));
 }
 
-TEST_F(Terrace, says_which_line_of_a_broken_journal_is_wrong) {
+TEST_F(Terrace, reports_the_line_of_a_broken_journal) {
   ASSERT_EQ(send(lift(building(0), 1)).status, 200);
   server_->kill();
   std::ofstream(folder_ / "project/runs/run-1/journal.jsonl", std::ios::app) << "nonsense\n";

@@ -7,7 +7,7 @@ namespace {
 
 auto code(const base::Result<void>& result) -> std::string { return result ? "" : result.error().code; }
 
-TEST(Guard, lets_its_own_address_and_localhost_in_and_no_other_name) {
+TEST(Guard, accepts_its_own_address_and_localhost_and_no_other_name) {
   const Guard guard("127.0.0.1", 8642, "secret");
   for (const auto* host : {"127.0.0.1:8642", "localhost:8642", "LOCALHOST:8642"})
     EXPECT_EQ(code(guard.check(host, {})), "") << host;
@@ -17,7 +17,7 @@ TEST(Guard, lets_its_own_address_and_localhost_in_and_no_other_name) {
     EXPECT_EQ(code(guard.check(host, {})), "server-host") << host;
 }
 
-TEST(Guard, lets_pages_of_its_own_in_and_no_others) {
+TEST(Guard, accepts_its_own_pages_and_no_others) {
   const Guard guard("127.0.0.1", 8642, "secret");
   for (const auto* origin : {"http://127.0.0.1:8642", "http://localhost:8642"})
     EXPECT_EQ(code(guard.check("127.0.0.1:8642", origin)), "") << origin;
@@ -26,7 +26,7 @@ TEST(Guard, lets_pages_of_its_own_in_and_no_others) {
     EXPECT_EQ(code(guard.check("127.0.0.1:8642", origin)), "server-origin") << origin;
 }
 
-TEST(Guard, on_every_address_is_reached_by_numbers_but_not_by_names) {
+TEST(Guard, on_all_addresses_accepts_ip_addresses_but_no_names) {
   const Guard guard("0.0.0.0", 80, "secret");
   for (const auto* host : {"192.168.1.7", "192.168.1.7:80", "localhost"})
     EXPECT_EQ(code(guard.check(host, {})), "") << host;
@@ -37,7 +37,7 @@ TEST(Guard, on_every_address_is_reached_by_numbers_but_not_by_names) {
   EXPECT_EQ(code(six.check("::1:8642", {})), "server-host");
 }
 
-TEST(Guard, wants_the_whole_token) {
+TEST(Guard, accepts_the_complete_token_only) {
   const Guard guard("127.0.0.1", 8642, "secret");
   EXPECT_EQ(code(guard.check_token("Bearer secret")), "");
   for (const auto* given : {"", "Bearer", "Bearer ", "secret", "Bearer secre", "Bearer secrets", "Bearer Secret",
@@ -52,7 +52,7 @@ TEST(Guard, makes_tokens_of_128_bits_that_differ) {
   EXPECT_NE(*a, *b);
 }
 
-TEST(Guard, knows_addresses_that_only_this_machine_reaches) {
+TEST(Guard, recognises_loopback_addresses) {
   for (const auto* address : {"127.0.0.1", "127.8.8.8", "localhost", "::1"})
     EXPECT_TRUE(is_loopback(address)) << address;
   for (const auto* address : {"0.0.0.0", "192.168.1.7", "127.evil.example", "::"})

@@ -1,4 +1,4 @@
-// Models that mansard wrote, brought into a project.
+// Models that mansard wrote, imported into a project.
 #include <gmock/gmock.h>
 
 #include "server/running.hpp"
@@ -12,7 +12,7 @@ const std::string footprints = R"({"type":"FeatureCollection","crs":{"type":"nam
   "features":[{"type":"Feature","properties":{"id":"a"},"geometry":{"type":"Polygon","coordinates":
   [[[85000,447000],[85012,447000],[85012,447008],[85000,447008],[85000,447000]]]}}]})";
 
-/// The models of the footprint, under that name.
+/// The models of the footprint, written to a file of that name.
 auto made(const Folder& folder, const std::string& name) -> std::string {
   write(folder / "a.geojson", footprints);
   const auto out = (folder / name).string();
@@ -22,7 +22,7 @@ auto made(const Folder& folder, const std::string& name) -> std::string {
   return out;
 }
 
-TEST(Import, is_a_finished_run_that_can_be_seen_edited_and_exported_without_a_scan) {
+TEST(Import, is_a_finished_run_that_can_be_shown_edited_and_exported_without_a_mesh) {
   const Folder folder;
   const auto model = made(folder, "model.json");
   {
@@ -45,7 +45,7 @@ TEST(Import, is_a_finished_run_that_can_be_seen_edited_and_exported_without_a_sc
     EXPECT_EQ(server.post("/api/runs/run-1/edits", {{"what", "cap"}, {"changes", changes}}).status, 200);
     EXPECT_NE(server.get("/api/runs/run-1/export/plans.json").text, read(model));
     EXPECT_EQ(server.post("/api/runs/run-1/export", {{"overwrite", false}}).status, 200);
-    // What is read later would be in a frame of its own.
+    // Inputs that are read later would have another frame.
     EXPECT_EQ(server.post("/api/project/inputs", {{"meshes", {model}}, {"footprints", model}}).code(), "server-inputs");
   }
   const Running again(folder / "project");
@@ -53,7 +53,7 @@ TEST(Import, is_a_finished_run_that_can_be_seen_edited_and_exported_without_a_sc
   EXPECT_EQ(again.get("/api/runs/run-1/buildings").json()["history"]["done"], 1);
 }
 
-TEST(Import, takes_every_format_with_plans_and_refuses_what_has_none) {
+TEST(Import, reads_every_format_with_plans_and_refuses_others) {
   const Folder folder;
   const Running server(folder / "project");
   std::string first;
@@ -76,7 +76,7 @@ TEST(Import, takes_every_format_with_plans_and_refuses_what_has_none) {
   EXPECT_EQ(server.get("/api/project").json()["runs"].size(), 8U);
 }
 
-TEST(Import, is_moved_into_the_frame_of_the_scan) {
+TEST(Import, is_moved_into_the_frame_of_the_mesh) {
   const Folder folder;
   const auto model = made(folder, "model.glb");
   // A field around the house, in the same coordinates.
@@ -101,7 +101,7 @@ TEST(Import, is_moved_into_the_frame_of_the_scan) {
       server.get("/api/runs/run-1/buildings").json()["buildings"][0]["parts"][0]["plan"]["outer"]["points"][0];
   const double x = point[0].get<double>() + origin[0].get<double>();
   EXPECT_TRUE(x == 85000 || x == 85012) << x;
-  // Another CRS than the scan's stays out.
+  // A model in another CRS than the mesh is refused.
   auto other = footprints;
   other.replace(other.find("28992"), 5, "25831");
   write(folder / "b.geojson", other);

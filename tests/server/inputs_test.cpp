@@ -1,4 +1,4 @@
-// Inputs that are more than files: whatever the command line takes.
+// Inputs other than plain files: archives, compressed files, rasters, databases.
 #include <gmock/gmock.h>
 
 #include "apps/server/zip.hpp"
@@ -14,7 +14,7 @@ using testing::Not;
 const auto hall = std::string(MANSARD_DATA) + "/hall/";
 constexpr const char* password = "sesame-open-7";
 
-/// The project's inputs, once they are read.
+/// The project's inputs, after they have been read.
 auto inputs_of(const Running& server) -> Json {
   server.settle();
   EXPECT_EQ(server.get("/api/scene").status, 200) << server.get("/api/jobs").text;
@@ -28,7 +28,7 @@ auto some_changed(const Json& inputs) -> bool {
   return false;
 }
 
-/// Everything that a page can be told of a project, and everything that lies in its folder.
+/// All answers about a project, and the contents of all files in its folder.
 auto all_told(const Running& server, const fs::path& project) -> std::string {
   std::string all;
   for (const auto* path : {"/api/project", "/api/jobs", "/api/scene"}) all += server.get(path).text + "\n";
@@ -37,7 +37,7 @@ auto all_told(const Running& server, const fs::path& project) -> std::string {
   return all;
 }
 
-/// What a page that listens is told while something is done, which is done until the page hears of it.
+/// The events that a page receives while `work` runs, which is repeated until the page receives some.
 template <class Work>
 auto heard_of(const Running& server, Work work) -> std::string {
   std::string text;
@@ -58,7 +58,7 @@ auto heard_of(const Running& server, Work work) -> std::string {
   return text;
 }
 
-TEST(Inputs, are_read_out_of_archives_and_packed_files_and_known_again) {
+TEST(Inputs, are_read_from_archives_and_compressed_files_and_recognised_again) {
   const Folder folder;
   fs::create_directories(folder / "both/tiles");
   fs::copy_file(hall + "mesh.off", folder / "both/tiles/mesh.off");
@@ -93,7 +93,7 @@ TEST(Inputs, are_read_out_of_archives_and_packed_files_and_known_again) {
     fs::last_write_time(folder / "both.zip", fs::last_write_time(folder / "both.zip") + std::chrono::hours(1));
     const auto inputs = again.get("/api/project").json()["inputs"];
     EXPECT_EQ(inputs["meshes"][0]["changed"], true);
-    EXPECT_EQ(inputs["footprints"][0]["changed"], false) << "it is still the same in the other archive";
+    EXPECT_EQ(inputs["footprints"][0]["changed"], false) << "this file is the same in both archives";
   }
   // The same from files on disk.
   fs::copy_file(hall + "mesh.off", folder / "mesh.off");
@@ -120,11 +120,11 @@ auto raster(int side, double ground, double house) -> std::string {
   return text;
 }
 
-TEST(Inputs, may_be_rasters_with_a_terrain_and_footprints_drawn_from_them) {
+TEST(Inputs, can_be_rasters_with_a_terrain_and_footprints_derived_from_them) {
   const Folder folder;
   {
     const Running server(folder / "project");
-    // Uploads go with the project's folder; so does the name of a terrain that was uploaded.
+    // Paths of uploads, also that of the terrain, move with the project's folder.
     ASSERT_EQ(server.call("PUT", "/api/uploads/dtm.asc", raster(40, 2, 2)).status, 200);
     write(folder / "dsm.asc", raster(40, 3, 11));
     const Json reading{{"ingest.crs", "EPSG:28992"}, {"ingest.terrain", (folder / "project/inputs/dtm.asc").string()}};
@@ -147,7 +147,7 @@ TEST(Inputs, may_be_rasters_with_a_terrain_and_footprints_drawn_from_them) {
   EXPECT_EQ(moved.get("/api/project").json()["reading"]["ingest.terrain"], (folder / "moved/inputs/dtm.asc").string());
 }
 
-TEST(Inputs, are_refused_before_any_work_where_the_command_line_would_not_find_them) {
+TEST(Inputs, are_refused_at_once_if_they_do_not_exist) {
   const Folder folder;
   const Running server(folder / "project");
   const auto code = [&](const std::string& mesh, const std::string& footprints, const Json& reading = Json::object()) {
@@ -169,7 +169,7 @@ TEST(Inputs, are_refused_before_any_work_where_the_command_line_would_not_find_t
   EXPECT_THAT(all_told(server, folder / "project"), Not(HasSubstr(password)));
 }
 
-TEST(Inputs, in_a_database_that_does_not_answer_say_so_without_their_password) {
+TEST(Inputs, in_an_unreachable_database_are_reported_without_the_password) {
   const Folder folder;
   const Running server(folder / "project");
   const auto name = std::string("PG:host=127.0.0.1 port=9 dbname=a password=") + password;
@@ -190,7 +190,7 @@ TEST(Inputs, in_a_database_that_does_not_answer_say_so_without_their_password) {
 
 class FromDatabase : public ingest::test::Database {};
 
-TEST_F(FromDatabase, keeps_no_password) {
+TEST_F(FromDatabase, stores_no_password) {
   sql("CREATE EXTENSION postgis; CREATE TABLE houses (gid serial PRIMARY KEY, geom geometry(Polygon, 28992));"
       "INSERT INTO houses (geom) VALUES (ST_MakeEnvelope(84000, 447000, 84010, 447010, 28992));");
   file("field.obj", "v 83900 446900 0\nv 84100 446900 0\nv 84100 447100 0\nv 83900 447100 0\nf 1 2 3 4\n");
@@ -212,19 +212,19 @@ TEST_F(FromDatabase, keeps_no_password) {
     ASSERT_EQ(inputs["footprints"].size(), 1U) << inputs;
     EXPECT_EQ(inputs["footprints"][0]["path"], address(" password=***"));
     EXPECT_FALSE(some_changed(inputs));
-    // What the page was shown is enough to ask once more.
+    // The name as it was shown is enough to read the inputs again.
     ASSERT_EQ(ask(address(" password=***")).status, 200);
     EXPECT_EQ(inputs_of(server)["given"]["footprints"], address(" password=***"));
     const auto run = server.reconstruct();
     EXPECT_EQ(server.post("/api/runs/" + run + "/export", {{"overwrite", false}}).status, 200);
     for (const auto& same : {address(), name}) {
-      EXPECT_EQ(ask(same).status, 200) << "a password makes no other inputs";
+      EXPECT_EQ(ask(same).status, 200) << "the password does not change the inputs";
       server.settle();
     }
     EXPECT_THAT(all_told(server, project), Not(HasSubstr(password)));
   }
   const Running again(project);
-  EXPECT_EQ(inputs_of(again)["given"]["footprints"], address()) << "no password is kept";
+  EXPECT_EQ(inputs_of(again)["given"]["footprints"], address()) << "no password is stored";
   EXPECT_EQ(again.get("/api/scene").json()["footprints"].size(), 1U);
 }
 

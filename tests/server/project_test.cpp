@@ -2,6 +2,7 @@
 
 #include "apps/server/disk.hpp"
 #include "apps/server/project.hpp"
+#include "mansard/edit/edit.hpp"
 #include "server/running.hpp"
 
 namespace mansard::server {
@@ -9,7 +10,7 @@ namespace {
 
 auto code(const base::Result<Project>& result) -> std::string { return result ? "" : result.error().code; }
 
-TEST(Project, is_made_where_there_is_nothing_and_nowhere_else) {
+TEST(Project, is_created_in_an_empty_or_missing_folder_only) {
   const Folder folder;
   EXPECT_EQ(code(Project::open(folder / "new" / "deep")), "");
   EXPECT_TRUE(fs::exists(folder / "new" / "deep" / "project.json"));
@@ -19,11 +20,11 @@ TEST(Project, is_made_where_there_is_nothing_and_nowhere_else) {
   fs::create_directories(folder / "full");
   write(folder / "full/thesis.txt", "mine");
   EXPECT_EQ(code(Project::open(folder / "full")), "server-folder");
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder / "full"), {}), 1) << "something was left there";
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder / "full"), {}), 1) << "nothing may be written there";
   EXPECT_EQ(code(Project::open(folder / "full/thesis.txt")), "server-folder");
 }
 
-TEST(Project, is_open_once_at_a_time) {
+TEST(Project, cannot_be_opened_twice) {
   const Folder folder;
   auto first = Project::open(folder / "p");
   ASSERT_TRUE(first);
@@ -32,7 +33,7 @@ TEST(Project, is_open_once_at_a_time) {
   EXPECT_EQ(code(Project::open(folder / "p")), "");
 }
 
-TEST(Project, refuses_files_that_it_cannot_read) {
+TEST(Project, refuses_invalid_files) {
   for (const auto* text : {"", "{", "[]", "{}", R"({"type":"other","version":1,"inputs":null})",
                            R"({"type":"mansard-project","version":2,"inputs":null})",
                            R"({"type":"mansard-project","version":1,"inputs":{"meshes":1}})"}) {
@@ -43,7 +44,7 @@ TEST(Project, refuses_files_that_it_cannot_read) {
   }
 }
 
-TEST(Project, keeps_inputs_and_runs) {
+TEST(Project, stores_inputs_and_runs) {
   const Folder folder;
   const std::string archive = "/vsizip//elsewhere/f.zip/f.shp";
   Inputs inputs{{(folder / "p/inputs/mesh.ply").string(), "/elsewhere/tiles"},
@@ -74,7 +75,7 @@ TEST(Project, keeps_inputs_and_runs) {
     ASSERT_EQ(*project->new_run(), "run-1");
     ASSERT_TRUE(project->save(run));
   }
-  // What is in the folder goes with it.
+  // Paths inside the folder move with it.
   fs::rename(folder / "p", folder / "q");
   auto project = Project::open(folder / "q");
   ASSERT_TRUE(project) << project.error().message;
@@ -102,7 +103,7 @@ TEST(Project, keeps_inputs_and_runs) {
   EXPECT_EQ(kept.maps.front().columns, 3U);
 }
 
-TEST(Project, reads_files_of_earlier_versions_and_writes_no_password) {
+TEST(Project, reads_files_of_earlier_versions_and_stores_no_password) {
   const Folder folder;
   fs::create_directories(folder / "p");
   write(folder / "p/project.json",
@@ -124,7 +125,7 @@ TEST(Project, reads_files_of_earlier_versions_and_writes_no_password) {
   EXPECT_TRUE(inputs.same_request(kept));
 }
 
-TEST(Project, calls_runs_interrupted_that_had_not_ended_and_counts_on_past_deleted_ones) {
+TEST(Project, marks_unfinished_runs_as_interrupted_and_never_reuses_numbers) {
   const Folder folder;
   auto project = Project::open(folder / "p");
   ASSERT_TRUE(project);
@@ -134,7 +135,7 @@ TEST(Project, calls_runs_interrupted_that_had_not_ended_and_counts_on_past_delet
     run.state = state;
     ASSERT_TRUE(project->save(run));
   }
-  ASSERT_EQ(*project->new_run(), "run-4") << "cut short before its run.json";
+  ASSERT_EQ(*project->new_run(), "run-4") << "a run without run.json";
   const auto runs = project->runs();
   ASSERT_TRUE(runs);
   ASSERT_EQ(runs->size(), 3U);
@@ -147,7 +148,7 @@ TEST(Project, calls_runs_interrupted_that_had_not_ended_and_counts_on_past_delet
   EXPECT_EQ(*project->new_run(), "run-4");
 }
 
-TEST(Journal, cuts_off_what_was_torn_and_appends_whole_lines) {
+TEST(Journal, truncates_an_incomplete_line_and_appends_complete_ones) {
   const Folder folder;
   write(folder / "j", "one\ntw");
   {
@@ -156,12 +157,11 @@ TEST(Journal, cuts_off_what_was_torn_and_appends_whole_lines) {
     ASSERT_TRUE(journal->append("three"));
     EXPECT_EQ(read(folder / "j"), "one\nthree\n") << "before it is closed";
   }
-  write(folder / "k", "{\"what\":\"a\"}\n{\"undo\":true}\n{\"what\":\"b\"}\n{\"redo\":true}\n{\"wh");
-  EXPECT_EQ(standing_edits(folder / "k"), 2U);
-  EXPECT_EQ(standing_edits(folder / "none"), 0U);
+  EXPECT_EQ(edit::applied_edits("{\"what\":\"a\"}\n{\"undo\":true}\n{\"what\":\"b\"}\n{\"redo\":true}\n{\"wh"), 2U);
+  EXPECT_EQ(*read_journal(folder / "none"), "");
 }
 
-TEST(Arriving, leaves_nothing_when_it_is_given_up) {
+TEST(Arriving, leaves_no_file_when_it_is_incomplete) {
   const Folder folder;
   {
     auto file = Arriving::open(folder / "a");

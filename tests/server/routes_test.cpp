@@ -16,17 +16,17 @@ auto upper(std::string text) -> std::string {
   return text;
 }
 
-TEST(Routes, are_those_of_openapi_json_and_no_others) {
+TEST(Routes, are_those_of_openapi_json) {
   const auto api = Json::parse(openapi());
   std::set<std::string> described, served;
   for (const auto& [path, methods] : api["paths"].items())
     for (const auto& [method, operation] : methods.items()) described.insert(upper(method) + " " + path);
   for (const auto& route : routes()) served.insert(std::string(route.method) + " " + std::string(route.path));
   EXPECT_THAT(served, testing::ContainerEq(described));
-  EXPECT_EQ(served.size(), routes().size()) << "one is there twice";
+  EXPECT_EQ(served.size(), routes().size()) << "a route is listed twice";
 }
 
-TEST(Routes, take_bodies_and_give_kinds_as_openapi_json_says) {
+TEST(Routes, accept_and_return_the_types_of_openapi_json) {
   const auto api = Json::parse(openapi());
   for (const auto& route : routes()) {
     auto method = std::string(route.method);
@@ -43,7 +43,7 @@ TEST(Routes, take_bodies_and_give_kinds_as_openapi_json_says) {
   }
 }
 
-TEST(Routes, capture_one_word_and_refuse_what_is_not_there) {
+TEST(Routes, capture_parameters_and_refuse_unknown_paths) {
   Call call{"GET", "/api/runs/run-3/error/block-1", {}, {}, {}, {}};
   const auto route = find_route(call);
   ASSERT_TRUE(route);
@@ -62,7 +62,7 @@ TEST(Routes, capture_one_word_and_refuse_what_is_not_there) {
   EXPECT_EQ(find_route(wrong).error().code, "server-method");
 }
 
-TEST(Page, is_found_by_its_names_only) {
+TEST(Page, is_served_under_its_names_only) {
   EXPECT_EQ(page("/", "").status, 200);
   EXPECT_THAT(page("/", "").body, testing::HasSubstr("<!doctype html>"));
   EXPECT_EQ(page("/index.html", "").status, 200);

@@ -1,4 +1,4 @@
-// The program as a page meets it: `mansard serve` in a process of its own, and calls to it.
+// `mansard serve` in a separate process, and calls to it.
 #pragma once
 
 #include <fcntl.h>
@@ -46,7 +46,7 @@ struct Reply {
   }
 };
 
-/// The server, from its link to its end.
+/// A running server.
 class Running {
  public:
   explicit Running(const fs::path& project, std::vector<std::string> more = {}) {
@@ -88,10 +88,10 @@ class Running {
   [[nodiscard]] auto port() const -> int { return port_; }
   [[nodiscard]] auto token() const -> const std::string& { return token_; }
   [[nodiscard]] auto process() const -> pid_t { return child_; }
-  /// What it said on stderr; waits for its end.
+  /// Its output on stderr; waits until the process ends.
   [[nodiscard]] auto complaint() const -> std::string { return line(err_); }
 
-  /// As Ctrl-C does; the exit code.
+  /// Sends the signal of Ctrl-C; returns the exit code.
   auto interrupt(int signal = SIGINT) -> int {
     ::kill(child_, signal);
     return wait();
@@ -131,7 +131,7 @@ class Running {
     return call("POST", path, body.dump());
   }
 
-  /// Waits until no job waits or runs.
+  /// Waits until no job is queued or running.
   void settle() const {
     while (get("/api/status").json()["busy"].get<bool>()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
@@ -142,7 +142,7 @@ class Running {
     ASSERT_EQ(reply.status, 200) << reply.text;
     settle();
   }
-  /// The id of a run that is done.
+  /// The id of a finished run.
   [[nodiscard]] auto reconstruct(const Json& request = Json::object()) const -> std::string {
     const auto reply = post("/api/runs", request);
     EXPECT_EQ(reply.status, 200) << reply.text;
@@ -165,7 +165,7 @@ class Running {
   std::string link_, token_;
 };
 
-/// An edit that lifts the cap and every roof point of a building's first part.
+/// An edit that raises the cap and every roof point of a building's first part.
 inline auto lift(const Json& building, double by, const std::string& what = "lift") -> Json {
   Json parts = Json::array();
   for (const auto& part : building["parts"]) parts.push_back({{"id", part["id"]}, {"plan", part["plan"]}});

@@ -1,4 +1,4 @@
-// From inputs to results and files, as a page goes about it.
+// From inputs to results and exported files, as the page calls the server.
 #include <gmock/gmock.h>
 
 #include <set>
@@ -12,7 +12,7 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(Inputs, are_read_in_the_background_and_again_when_the_project_is_opened_again) {
+TEST(Inputs, are_read_in_the_background_and_again_when_the_project_is_reopened) {
   const Folder folder;
   const auto hall = std::string(MANSARD_DATA) + "/hall/";
   fs::copy_file(hall + "mesh.off", folder / "mesh.off");
@@ -43,7 +43,7 @@ TEST(Inputs, are_read_in_the_background_and_again_when_the_project_is_opened_aga
   const Running again(folder / "project");
   again.settle();
   EXPECT_EQ(again.get("/api/scene").status, 200);
-  // Touched is not changed; other contents of the same size are.
+  // A new modification time alone is no change; other contents of the same size are.
   fs::last_write_time(folder / "mesh.off", fs::last_write_time(folder / "mesh.off") + std::chrono::hours(1));
   const auto changed = [&] { return again.get("/api/project").json()["inputs"]["meshes"][0]["changed"].get<bool>(); };
   EXPECT_FALSE(changed());
@@ -56,7 +56,7 @@ TEST(Inputs, are_read_in_the_background_and_again_when_the_project_is_opened_aga
   EXPECT_TRUE(changed());
 }
 
-TEST(Inputs, without_footprints_have_them_drawn_from_the_mesh) {
+TEST(Inputs, without_footprints_derive_them_from_the_mesh) {
   const Folder folder;
   const auto hall = std::string(MANSARD_DATA) + "/hall/";
   {
@@ -76,7 +76,7 @@ TEST(Inputs, without_footprints_have_them_drawn_from_the_mesh) {
   EXPECT_EQ(again.get("/api/scene").json()["footprints"].size(), 1U);
 }
 
-TEST(Inputs, that_cannot_be_read_say_why_and_leave_the_project_as_it_was) {
+TEST(Inputs, that_cannot_be_read_are_reported_and_leave_the_project_unchanged) {
   const Folder folder;
   write(folder / "mesh.ply", "no mesh");
   write(folder / "f.geojson", "no footprints");
@@ -108,7 +108,7 @@ TEST(Inputs, can_be_uploaded) {
   EXPECT_EQ(server.get("/api/scene").status, 200);
 }
 
-TEST(Sample, is_read_with_the_options_that_lie_beside_it) {
+TEST(Sample, is_read_with_the_options_in_its_folder) {
   const Folder folder;
   const Running server(folder / "project", {"--sample", std::string(MANSARD_DATA) + "/delft"});
   EXPECT_EQ(server.get("/api/project").json()["sample"], true);
@@ -120,7 +120,7 @@ TEST(Sample, is_read_with_the_options_that_lie_beside_it) {
 
 class Runs : public WithHall {};
 
-TEST_F(Runs, leave_results_that_are_there_after_a_restart) {
+TEST_F(Runs, keep_their_results_across_a_restart) {
   const Running server(project());
   const auto summary = server.get("/api/project").json()["runs"][0];
   EXPECT_EQ(summary["state"], "done");
@@ -146,7 +146,7 @@ TEST_F(Runs, leave_results_that_are_there_after_a_restart) {
   EXPECT_EQ(server.get("/api/runs/run-1/error/block-99").code(), "server-unknown");
 }
 
-TEST_F(Runs, take_presets_options_and_blocks_and_remember_what_differs_from_the_defaults) {
+TEST_F(Runs, take_presets_options_and_blocks_and_store_values_that_differ_from_the_defaults) {
   const Running server(project());
   server.settle();
   const auto block = server.get("/api/scene").json()["blocks"][0]["name"];
@@ -158,7 +158,7 @@ TEST_F(Runs, take_presets_options_and_blocks_and_remember_what_differs_from_the_
   EXPECT_EQ(summary["label"], "a try");
   EXPECT_EQ(summary["preset"], "paper");
   EXPECT_EQ(summary["options"]["sweep.gamma"], "12");
-  EXPECT_EQ(summary["options"]["refine.effort"], "caps") << "of the preset";
+  EXPECT_EQ(summary["options"]["refine.effort"], "caps") << "a value of the preset";
   EXPECT_EQ(summary["blocks"][0], block);
   EXPECT_EQ(server.call("PATCH", "/api/runs/run-2", R"({"label":"kept"})").json()["label"], "kept");
   EXPECT_EQ(server.post("/api/runs", {{"options", {{"sweep.gama", "1"}}}}).code(), "option-unknown");
@@ -168,7 +168,7 @@ TEST_F(Runs, take_presets_options_and_blocks_and_remember_what_differs_from_the_
   EXPECT_EQ(server.post("/api/runs", {{"blocks", {"block-99"}}}).code(), "pipeline-block-unknown");
 }
 
-TEST_F(Runs, hold_the_project_to_their_inputs_until_they_are_deleted) {
+TEST_F(Runs, fix_the_inputs_of_the_project_until_they_are_deleted) {
   const Running server(project());
   server.settle();
   const std::string b9 = std::string(MANSARD_DATA) + "/b9/";
@@ -181,7 +181,7 @@ TEST_F(Runs, hold_the_project_to_their_inputs_until_they_are_deleted) {
   server.settle();
 }
 
-TEST_F(Runs, can_be_cancelled_waiting_or_running) {
+TEST_F(Runs, can_be_cancelled_while_queued_or_running) {
   const Running server(project());
   server.settle();
   const auto running = server.post("/api/runs", Json::object()).json();
@@ -198,7 +198,7 @@ TEST_F(Runs, can_be_cancelled_waiting_or_running) {
   EXPECT_FALSE(fs::exists(project() / "runs/run-2/plans.json"));
 }
 
-TEST_F(Runs, that_were_under_way_when_the_server_was_killed_are_interrupted) {
+TEST_F(Runs, that_were_running_when_the_server_was_killed_are_interrupted) {
   {
     Running server(project());
     server.settle();
@@ -213,7 +213,7 @@ TEST_F(Runs, that_were_under_way_when_the_server_was_killed_are_interrupted) {
   EXPECT_EQ(server.buildings("run-1")["history"]["done"], 0);
 }
 
-TEST_F(Runs, export_what_extrude_makes_of_their_plans_to_the_byte) {
+TEST_F(Runs, export_the_bytes_that_extrude_makes_from_their_plans) {
   const Running server(project());
   server.settle();
   auto building = server.buildings("run-1")["buildings"][0];
@@ -229,19 +229,19 @@ TEST_F(Runs, export_what_extrude_makes_of_their_plans_to_the_byte) {
                        " --formats all -o " + again.string() + " >/dev/null";
   const int status = std::system(command.c_str());
   ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) <= 1);
-  // Every file of every format, and nothing else.
+  // Every file of every format, and no others.
   std::set<std::string> made, wanted{run_layers};
   for (const auto& file : fs::recursive_directory_iterator(folder))
     if (file.is_regular_file()) made.insert(file.path().lexically_relative(folder).string());
   for (const auto& file : fs::recursive_directory_iterator(again))
     if (file.is_regular_file()) wanted.insert(file.path().lexically_relative(again).string());
   EXPECT_EQ(made, wanted);
-  EXPECT_GE(wanted.size(), formats::formats().size() + 2);
+  EXPECT_GE(wanted.size(), written_formats().size() + 2);
   for (const auto& name : wanted)
     if (name != run_layers) {
       EXPECT_EQ(read(again / name) == read(folder / name), true) << name;
     }
-  // One by one they are the same.
+  // Single files have the same bytes.
   std::size_t fetched = 0;
   const auto formats = server.get("/api/options").json()["formats"];
   for (const auto& format : formats)
@@ -257,13 +257,13 @@ TEST_F(Runs, export_what_extrude_makes_of_their_plans_to_the_byte) {
       ASSERT_TRUE(packed);
       EXPECT_EQ(bytes == *packed, true) << name;
     }
-  EXPECT_EQ(fetched, formats::formats().size() + 1) << "an OBJ has its materials";
+  EXPECT_EQ(fetched, written_formats().size() + 1) << "an OBJ has two files";
   EXPECT_THAT(read(folder / "plans.json"), HasSubstr("ms_edited"));
   EXPECT_THAT(server.get("/api/runs/run-1/export/segment.gpkg").text, testing::StartsWith("SQLite format 3"));
   EXPECT_EQ(server.get("/api/runs/run-1/export/run.json").code(), "server-unknown");
   EXPECT_EQ(server.get("/api/runs/run-1/export/model.3dtiles").code(), "server-unknown");
 
-  // Some formats alone: what the others left would be of an older state.
+  // Some formats only: files of the other formats are deleted, as they are of an older state.
   write(folder / "notes.txt", "mine");
   const auto some = server.post("/api/runs/run-1/export", {{"overwrite", true}, {"formats", {"stl", "plans"}}});
   EXPECT_THAT(some.json()["files"].get<std::vector<std::string>>(),
@@ -272,21 +272,21 @@ TEST_F(Runs, export_what_extrude_makes_of_their_plans_to_the_byte) {
   for (const auto& file : fs::directory_iterator(folder)) left.insert(file.path().filename().string());
   EXPECT_THAT(left, testing::ElementsAre("model.stl", "notes.txt", "plans.json", "segment.gpkg"));
   EXPECT_EQ(server.post("/api/runs/run-1/export", {{"overwrite", true}, {"formats", {"stp"}}}).code(), "option-value");
-  EXPECT_EQ(std::distance(fs::directory_iterator(project() / "exports"), {}), 1) << "folders to work in are gone";
+  EXPECT_EQ(std::distance(fs::directory_iterator(project() / "exports"), {}), 1) << "work folders are deleted";
 }
 
 TEST_F(Runs, show_the_mesh_across_an_edge) {
   const Running server(project());
   server.settle();
   const auto part = server.buildings("run-1")["buildings"][0]["parts"][0];
-  const auto standing = server.get(
+  const auto stored = server.get(
       "/api/runs/run-1/section?building=" + server.buildings("run-1")["buildings"][0]["id"].get<std::string>() +
       "&part=" + part["id"].get<std::string>() + "&ring=0&edge=0&share=0.5");
-  ASSERT_EQ(standing.status, 200) << standing.text;
-  EXPECT_FALSE(standing.json()["pieces"].empty());
+  ASSERT_EQ(stored.status, 200) << stored.text;
+  EXPECT_FALSE(stored.json()["pieces"].empty());
   const auto drawn =
       server.post("/api/runs/run-1/section", {{"plan", part["plan"]}, {"ring", 0}, {"edge", 0}, {"share", 0.5}});
-  EXPECT_EQ(drawn.text, standing.text);
+  EXPECT_EQ(drawn.text, stored.text);
   EXPECT_EQ(server.post("/api/runs/run-1/section", {{"plan", part["plan"]}, {"ring", 0}, {"edge", 999}, {"share", 0.5}})
                 .code(),
             "server-body");

@@ -7,7 +7,7 @@
 namespace mansard::server {
 namespace {
 
-TEST(Zip, has_the_files_of_a_folder_and_is_the_same_whenever_it_is_made) {
+TEST(Zip, has_the_files_of_a_folder_and_is_reproducible) {
   const Folder folder;
   fs::create_directories(folder / "a/content");
   write(folder / "a/tileset.json", "{}");
@@ -27,7 +27,7 @@ TEST(Zip, has_the_files_of_a_folder_and_is_the_same_whenever_it_is_made) {
   EXPECT_EQ(zip_of(folder / "none").error().code, "file-read");
 }
 
-TEST(Zip, says_the_sums_that_others_check) {
+TEST(Zip, has_valid_check_sums) {
   const Folder folder;
   fs::create_directories(folder / "a");
   write(folder / "a/digits", "123456789");  // the check value of CRC-32
@@ -35,7 +35,7 @@ TEST(Zip, says_the_sums_that_others_check) {
   ASSERT_TRUE(zip);
   const auto sum = zip->substr(14, 4);
   EXPECT_EQ(sum, "\x26\x39\xF4\xCB");
-  EXPECT_EQ(zip->substr(zip->find("PK\x01\x02") + 16, 4), sum) << "in the directory too";
+  EXPECT_EQ(zip->substr(zip->find("PK\x01\x02") + 16, 4), sum) << "also in the central directory";
 }
 
 }  // namespace

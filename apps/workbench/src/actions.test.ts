@@ -26,7 +26,7 @@ const job = (change: Partial<api.Job>): api.Job => ({
   ...change,
 });
 
-/** The server's answers, by method and path. */
+/** Answers of the server, by method and path. */
 let answers: Record<string, (body: unknown) => unknown>;
 beforeEach(() => {
   answers = {};
@@ -60,19 +60,19 @@ describe("the scene", () => {
     answers["GET /api/scene/tiles"] = () => ({ tiles: [] });
   });
 
-  it("is asked for once it has been read, not before", async () => {
+  it("is requested once it has been read, not before", async () => {
     answers["GET /api/jobs"] = () => ({ jobs: [read({})] });
     await actions.refresh();
     expect(asked).toEqual([]);
-    actions.heard({ type: "job", job: read({ state: "done" }) });
+    actions.received({ type: "job", job: read({ state: "done" }) });
     await vi.waitFor(() => expect(state.scene.value).toEqual(scene));
     expect(asked).toEqual(["scene"]);
   });
 
-  it("is asked for too when the end of reading it overtakes the list of jobs", async () => {
+  it("is requested also if the end of reading arrives before the list of jobs", async () => {
     state.project.value = null;
     answers["GET /api/jobs"] = () => {
-      actions.heard({ type: "job", job: read({ state: "done" }) });
+      actions.received({ type: "job", job: read({ state: "done" }) });
       return { jobs: [read({})] };
     };
     await actions.refresh();
@@ -80,7 +80,7 @@ describe("the scene", () => {
     expect(state.jobs.value).toEqual([read({ state: "done" })]);
   });
 
-  it("of a server that was started again is not taken for read because the last one's was", async () => {
+  it("of a restarted server is not requested before it has been read again", async () => {
     state.jobs.value = [read({ state: "done" })];
     answers["GET /api/jobs"] = () => ({ jobs: [read({})] });
     await actions.refresh();
@@ -90,7 +90,7 @@ describe("the scene", () => {
 });
 
 describe("runs", () => {
-  it("are opened with the selection where it still stands", async () => {
+  it("are opened with the selection if it still exists", async () => {
     answers["GET /api/runs/run-1/buildings"] = () => buildings(building("a"), building("b"));
     await actions.openRun("run-1", { building: "b", part: "b-1", ring: 0, edge: 9 });
     expect(state.run.value!.buildings.size).toBe(2);
@@ -99,7 +99,7 @@ describe("runs", () => {
     expect(state.selection.value).toBeNull();
   });
 
-  it("asked for last win, whichever answer comes last", async () => {
+  it("requested last are opened, whichever answer comes last", async () => {
     let late: (value: unknown) => void = () => {};
     answers["GET /api/runs/run-1/buildings"] = () => new Promise((resolve) => (late = resolve));
     answers["GET /api/runs/run-2/buildings"] = () => buildings(building("two"));
@@ -114,7 +114,7 @@ describe("runs", () => {
     open(building("a"));
     answers["GET /api/runs/run-2/buildings"] = () => buildings(building("two"));
     answers["POST /api/runs"] = () => {
-      actions.heard({ type: "job", job: job({ state: "done" }) });
+      actions.received({ type: "job", job: job({ state: "done" }) });
       return job({ state: "queued" });
     };
     await actions.startRun({ label: "", preset: "", options: {}, blocks: [] });
@@ -122,7 +122,7 @@ describe("runs", () => {
     expect(state.jobs.value).toEqual([job({ state: "done" })]);
   });
 
-  it("of models from a file are opened when they are there", async () => {
+  it("of imported models are opened when they are done", async () => {
     open(building("a"));
     answers["GET /api/runs/run-2/buildings"] = () => buildings(building("opened"));
     answers["POST /api/runs/import"] = (body) => {
@@ -130,23 +130,23 @@ describe("runs", () => {
       return job({ state: "queued", id: "job-3" });
     };
     await actions.openModel("/data/model.glb");
-    actions.heard({ type: "job", job: job({ id: "job-3", state: "done" }) });
+    actions.received({ type: "job", job: job({ id: "job-3", state: "done" }) });
     await vi.waitFor(() => expect(state.run.value!.buildings.has("opened")).toBe(true));
   });
 
-  it("started elsewhere do not take the place of the one that is open", () => {
+  it("started by other pages do not replace the open run", () => {
     open(building("a"));
-    actions.heard({ type: "job", job: job({ id: "job-7", state: "done" }) });
+    actions.received({ type: "job", job: job({ id: "job-7", state: "done" }) });
     expect(state.opening.value).toBeNull();
   });
 
-  it("that failed say why", () => {
+  it("that failed show a message", () => {
     const failure: api.Diagnostic = { severity: "error", code: "x", message: "no", subject: "" };
-    actions.heard({ type: "job", job: job({ state: "failed", failure }) });
+    actions.received({ type: "job", job: job({ state: "failed", failure }) });
     expect(state.messages.value).toEqual([failure]);
   });
 
-  it("deleted here are closed, and another is opened, though the project's list still has them", async () => {
+  it("deleted here are closed and another is opened, even if the project still lists them", async () => {
     state.run.value = { id: "run-2", buildings: new Map(), history: history(0) };
     answers["DELETE /api/runs/run-2"] = () => ({});
     answers["GET /api/runs/run-1/buildings"] = () => buildings(building("one"));
@@ -155,19 +155,19 @@ describe("runs", () => {
     expect(state.messages.value).toEqual([]);
   });
 
-  it("deleted elsewhere are closed, and another is opened", async () => {
+  it("deleted by other pages are closed, and another is opened", async () => {
     open(building("a"));
     answers["GET /api/runs/run-2/buildings"] = () => buildings(building("two"));
-    actions.heard({ type: "project", project: project(run("run-2")) });
+    actions.received({ type: "project", project: project(run("run-2")) });
     await vi.waitFor(() => expect(state.run.value?.id).toBe("run-2"));
   });
 });
 
 describe("edits", () => {
-  it("of others are shown, one's own events are not taken twice", () => {
+  it("of other pages are shown; events of own edits are ignored", () => {
     open(building("a"));
     const newer = building("a", { revision: 1 });
-    actions.heard({
+    actions.received({
       type: "buildings",
       run: "run-1",
       client: actions.client.id,
@@ -175,12 +175,12 @@ describe("edits", () => {
       history: history(1, "x"),
     });
     expect(state.run.value!.buildings.get("a")!.revision).toBe(0);
-    actions.heard({ type: "buildings", run: "run-1", client: "another", buildings: [newer], history: history(1, "x") });
+    actions.received({ type: "buildings", run: "run-1", client: "another", buildings: [newer], history: history(1, "x") });
     expect(state.run.value!.buildings.get("a")).toBe(newer);
     expect(state.run.value!.history.done).toBe(1);
   });
 
-  it("of others end a draft of the same building, and say so", () => {
+  it("of other pages discard a draft of the same building, with a message", () => {
     open(building("a"), building("b"));
     const draft = (id: string): state.Draft => ({
       what: "",
@@ -197,20 +197,20 @@ describe("edits", () => {
       history: history(1, "x"),
     });
     state.draft.value = draft("b");
-    actions.heard(event("a"));
+    actions.received(event("a"));
     expect(state.draft.value).not.toBeNull();
-    actions.heard(event("b"));
+    actions.received(event("b"));
     expect(state.draft.value).toBeNull();
     expect(state.messages.value[0]!.code).toBe("edit-stale");
   });
 
-  it("never go back to an older revision", () => {
+  it("never restore an older revision", () => {
     open(building("a", { revision: 3 }));
     actions.take("run-1", { buildings: [building("a", { revision: 2 })], history: history(2, "x", "y") });
     expect(state.run.value!.buildings.get("a")!.revision).toBe(3);
   });
 
-  it("that take a part away leave its building selected", () => {
+  it("that delete the selected part keep its building selected", () => {
     open(building("a"));
     state.selection.value = { building: "a", part: "a-1", ring: 0, edge: 2 };
     const part = { ...building("a").parts[0]!, id: "a-9" };
@@ -218,7 +218,7 @@ describe("edits", () => {
     expect(state.selection.value).toEqual({ building: "a", part: "a-9", ring: 0, edge: 2 });
   });
 
-  it("are undone one by one, a held draft first and without the server", async () => {
+  it("are undone one by one; a draft is discarded first, without a call of the server", async () => {
     open(building("a"));
     state.run.value = { ...state.run.value!, history: history(1, "x") };
     const undone = vi.fn(() => ({ buildings: [building("a", { revision: 2 })], history: history(0, "x") }));
@@ -234,7 +234,7 @@ describe("edits", () => {
     expect(undone).toHaveBeenCalledOnce();
   });
 
-  it("refused say why", async () => {
+  it("that are refused show a message", async () => {
     open(building("a"));
     state.run.value = { ...state.run.value!, history: history(0, "x") };
     await actions.redo();
@@ -249,7 +249,7 @@ describe("the selection", () => {
     expect(state.selection.value!.part).toBe("a-1");
   });
 
-  it("takes more parts in and out again, and forgets them with the next one", () => {
+  it("adds and removes further parts, and clears them when it changes", () => {
     open(building("a"), building("b"));
     actions.select({ building: "a", part: "a-1", ring: 0, edge: null });
     actions.selectAlso("b", "b-1");
@@ -262,7 +262,7 @@ describe("the selection", () => {
     expect(state.also.value).toEqual([]);
   });
 
-  it("goes through the list as it is sorted, round and round", () => {
+  it("follows the sorted table and wraps around", () => {
     open(building("a"), building("b"), building("c"));
     state.order.value = ["c", "a"];
     const next = (step: number) => {
@@ -275,12 +275,12 @@ describe("the selection", () => {
 });
 
 describe("messages", () => {
-  it("are said once, the newest first, and not without end", () => {
-    for (const n of [1, 2, 1, 3, 4, 5, 6]) actions.say({ severity: "error", code: "c", message: `${n}`, subject: "" });
+  it("are shown once, the newest first, up to a limit", () => {
+    for (const n of [1, 2, 1, 3, 4, 5, 6]) actions.showMessage({ severity: "error", code: "c", message: `${n}`, subject: "" });
     expect(state.messages.value.map((m) => m.message)).toEqual(["6", "5", "4", "3", "1"]);
   });
 
-  it("of a server that is away are no different", async () => {
+  it("report a server that does not answer", async () => {
     vi.stubGlobal("fetch", () => Promise.reject(new TypeError("failed to fetch")));
     expect(await actions.attempt(actions.client.status())).toBeUndefined();
     expect(state.messages.value[0]!.code).toBe("server-gone");

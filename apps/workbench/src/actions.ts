@@ -1,11 +1,11 @@
-// All that changes the signals of state.ts, by the server's answers and events.
+// Everything that changes the signals of state.ts: calls of the server and its events.
 import { batch } from "@preact/signals";
 import { Client, type InputsRequest, Refused, type RunRequest } from "./api/client";
 import type * as api from "./api/types";
 import { keep, kept } from "./keep";
 import * as state from "./state";
 
-/** The token comes in the link's fragment once, and is kept for reloads of this tab; the fragment is then taken away. */
+/** The token is in the fragment of the link. It is kept for reloads of this tab, and removed from the address. */
 function tokenOf(): string {
   if (typeof location === "undefined") return "";
   const given = new URLSearchParams(location.hash.slice(1)).get("token");
@@ -18,7 +18,7 @@ function tokenOf(): string {
 
 export const client = new Client(tokenOf());
 
-/** A new link opened in the same tab changes the fragment only: the page begins again with its token. */
+/** Opening a new link in the same tab changes only the fragment: the page is reloaded with its token. */
 export function newLink() {
   if (!location.hash.includes("token=")) return;
   tokenOf();
@@ -28,28 +28,28 @@ export function newLink() {
 // ---- messages
 
 const most_messages = 5;
-export function say(diagnostic: api.Diagnostic) {
+export function showMessage(diagnostic: api.Diagnostic) {
   const same = (m: api.Diagnostic) => m.code === diagnostic.code && m.message === diagnostic.message;
   state.messages.value = [diagnostic, ...state.messages.value.filter((m) => !same(m))].slice(0, most_messages);
 }
 export function dismiss(diagnostic: api.Diagnostic) {
   state.messages.value = state.messages.value.filter((m) => m !== diagnostic);
 }
-const tell = (code: string, message: string, subject = "") => say({ severity: "warning", code, message, subject });
+const warn = (code: string, message: string, subject = "") => showMessage({ severity: "warning", code, message, subject });
 
-/** Good news, for some seconds. */
-function report(code: string, message: string) {
+/** Shows a success for a few seconds. */
+function showSuccess(code: string, message: string) {
   const diagnostic: api.Diagnostic = { severity: "warning", code, message, subject: "" };
-  say(diagnostic);
+  showMessage(diagnostic);
   setTimeout(() => dismiss(diagnostic), 8000);
 }
 
-/** Waits for a call; what the server refuses becomes a message, and undefined. */
+/** The answer of a call. A refusal is shown as a message, and gives undefined. */
 export async function attempt<T>(call: Promise<T>): Promise<T | undefined> {
   try {
     return await call;
   } catch (e) {
-    if (e instanceof Refused) say(e.diagnostic);
+    if (e instanceof Refused) showMessage(e.diagnostic);
     else if (!(e instanceof DOMException && e.name === "AbortError")) throw e;
     return undefined;
   }
@@ -57,7 +57,7 @@ export async function attempt<T>(call: Promise<T>): Promise<T | undefined> {
 
 // ---- the project
 
-/** What of a project was open, kept over a reload. */
+/** The open runs and the selection of a project, kept across reloads. */
 interface Open {
   run: string | null;
   other: string | null;
@@ -75,11 +75,11 @@ export function keepOpen() {
   keep("session", openKey(), open);
 }
 
-/** Loads what there is, then listens for events until aborted. */
+/** Loads the project, and receives events until aborted. */
 export async function begin(signal: AbortSignal) {
   let away = false;
   void client.events(
-    heard,
+    received,
     (there, status) => {
       state.connected.value = there;
       state.locked.value = status === 401 || status === 403;
@@ -91,25 +91,26 @@ export async function begin(signal: AbortSignal) {
   await refresh();
 }
 
-/** Everything anew, as after the server was away: the run, selection and draft stay where they still exist. */
+/** Loads everything again, e.g. after the connection was lost. Run, selection and draft are kept if they still exist. */
 export async function refresh() {
-  state.jobs.value = []; // what is in it below was heard since then; numbers begin anew with every server
+  state.jobs.value = []; // entries found below arrived meanwhile; job numbers restart with every server
   const [project, options, jobs] = await Promise.all([
     attempt(client.project()),
     state.options.value ? state.options.value : attempt(client.options()),
     attempt(client.jobs()),
   ]);
   if (!project) return;
-  const told = jobs?.jobs ?? [], heard = state.jobs.value;
+  const answered = jobs?.jobs ?? [];
+  const arrived = state.jobs.value;
   batch(() => {
     state.project.value = project;
     state.options.value = options ?? null;
     state.jobs.value = [
-      ...told.map((j) => heard.find((h) => h.id === j.id && ended(h)) ?? j), // its event came before the answer
-      ...heard.filter((h) => !told.some((j) => j.id === h.id)),
+      ...answered.map((j) => arrived.find((a) => a.id === j.id && ended(a)) ?? j), // its event came before the answer
+      ...arrived.filter((a) => !answered.some((j) => j.id === a.id)),
     ];
   });
-  // While it is being read there is none: the event of that job brings it.
+  // While inputs are being read there is no scene. It is loaded when that job has ended.
   if (!state.jobs.value.some((j) => j.kind === "read" && !ended(j))) void loadScene();
   const open = kept<Open | null>("session", openKey(), null) ?? kept<Open | null>("local", openKey(), null);
   const finished = project.runs.filter((r) => r.state === "done");
@@ -134,20 +135,20 @@ export async function loadScene() {
       state.tiles.value = tiles;
     });
   } catch (e) {
-    // It has been asked for too early after all.
-    if (e instanceof Refused && e.diagnostic.code !== "server-no-scene") say(e.diagnostic);
+    // "server-no-scene": it was requested too early.
+    if (e instanceof Refused && e.diagnostic.code !== "server-no-scene") showMessage(e.diagnostic);
     else if (!(e instanceof Refused)) throw e;
   }
 }
 
-export const openInputs = (request: InputsRequest) => took(client.open(request));
-export const openSample = () => took(client.openSample());
+export const openInputs = (request: InputsRequest) => started(client.open(request));
+export const openSample = () => started(client.openSample());
 
-/** Files dropped on the page, to the project's folder; their paths there, in the same order. */
-export async function upload(files: File[], told: (name: string) => void): Promise<string[] | undefined> {
+/** Uploads files into the project's folder; returns their paths there, in the same order. */
+export async function upload(files: File[], progress: (name: string) => void): Promise<string[] | undefined> {
   const paths: string[] = [];
   for (const file of files) {
-    told(file.name);
+    progress(file.name);
     const answer = await attempt(client.upload(file.name, file));
     if (!answer) return undefined;
     paths.push(answer.path);
@@ -157,9 +158,9 @@ export async function upload(files: File[], told: (name: string) => void): Promi
 
 // ---- runs
 
-export const startRun = (request: RunRequest) => took(client.start(request));
-/** What mansard wrote, as a run of its own. */
-export const openModel = (path: string) => took(client.importModel(path));
+export const startRun = (request: RunRequest) => started(client.start(request));
+/** Imports models that mansard wrote as a run. */
+export const openModel = (path: string) => started(client.importModel(path));
 export const cancelJob = (job: string) => attempt(client.cancel(job));
 export const renameRun = (run: string, label: string) => attempt(client.rename(run, label));
 
@@ -178,21 +179,21 @@ async function fetchRun(id: string): Promise<state.OpenRun | undefined> {
 export async function openRun(id: string, at: state.Selection | null = state.selection.value) {
   state.opening.value = id;
   const opened = await fetchRun(id);
-  if (state.opening.value !== id) return; // another was asked for meanwhile
+  if (state.opening.value !== id) return; // another run was requested meanwhile
   batch(() => {
     state.opening.value = null;
     if (!opened) return;
     if (state.run.value?.id !== id) state.draft.value = null;
     if (state.other.value?.id === id) state.other.value = null;
     state.run.value = opened;
-    state.selection.value = standing(opened, at);
+    state.selection.value = existing(opened, at);
     state.also.value = [];
   });
   keepOpen();
 }
 
 function closeRun() {
-  const closed = state.run.value?.id; // the project may not know yet that it is gone
+  const closed = state.run.value?.id; // the project may still list it
   batch(() => {
     state.run.value = state.other.value = state.selection.value = state.draft.value = null;
     state.also.value = [];
@@ -208,18 +209,18 @@ export async function compareWith(id: string | null) {
   keepOpen();
 }
 
-/** Fetches why walls are where they are, once per run. */
+/** Fetches the layers of the segmentation, once per run. */
 export async function needLayers(run: string) {
-  if (state.whys.value.has(run) || asked.has(`layers ${run}`)) return;
-  asked.add(`layers ${run}`);
+  if (state.segmentations.value.has(run) || requested.has(`layers ${run}`)) return;
+  requested.add(`layers ${run}`);
   const answer = await attempt(client.layers(run));
-  if (answer) state.whys.value = new Map(state.whys.value).set(run, answer);
+  if (answer) state.segmentations.value = new Map(state.segmentations.value).set(run, answer);
 }
 
 /** Fetches the error maps of all blocks, once per run. */
 export async function needErrorMaps(run: string) {
-  if (state.errorMaps.value.has(run) || asked.has(`error ${run}`)) return;
-  asked.add(`error ${run}`);
+  if (state.errorMaps.value.has(run) || requested.has(`error ${run}`)) return;
+  requested.add(`error ${run}`);
   const answer = await attempt(client.errorMaps(run));
   if (!answer) return;
   const cells = await attempt(Promise.all(answer.maps.map((map) => client.errorMap(run, map.block))));
@@ -227,11 +228,11 @@ export async function needErrorMaps(run: string) {
   const maps = answer.maps.map((map, i) => ({ ...map, cells: cells[i]! }));
   state.errorMaps.value = new Map(state.errorMaps.value).set(run, maps);
 }
-const asked = new Set<string>();
+const requested = new Set<string>();
 
 // ---- selection
 
-function standing(run: state.OpenRun, at: state.Selection | null): state.Selection | null {
+function existing(run: state.OpenRun, at: state.Selection | null): state.Selection | null {
   const building = at && run.buildings.get(at.building);
   if (!building) return null;
   const part = building.parts.find((p) => p.id === at.part) ?? (at.part ? building.parts[0] : undefined);
@@ -241,7 +242,7 @@ function standing(run: state.OpenRun, at: state.Selection | null): state.Selecti
   return { building: building.id, part: part.id, ring: whole ? at.ring : 0, edge: whole ? at.edge : null };
 }
 
-/** Selects a place, or nothing. A building without a part selects its first one. */
+/** Sets or clears the selection. For a building without a part, its first part is selected. */
 export function select(at: state.Selection | null) {
   batch(() => {
     const part = at && (at.part ?? state.run.value?.buildings.get(at.building)?.parts[0]?.id ?? null);
@@ -251,7 +252,7 @@ export function select(at: state.Selection | null) {
   keepOpen();
 }
 
-/** Adds a part to those that a merge would take, or takes it away again. */
+/** Adds a part to those to merge, or removes it. */
 export function selectAlso(building: string, part: string) {
   const at = state.selection.value;
   if (!at?.part) return select({ building, part, ring: 0, edge: null });
@@ -260,10 +261,10 @@ export function selectAlso(building: string, part: string) {
   state.also.value = rest.length < state.also.value.length ? rest : [...rest, { building, part }];
 }
 
-let wishes = 0;
-export const fly = (to: state.Flight) => (state.flight.value = { to, at: ++wishes });
+let requests = 0;
+export const fly = (to: state.Flight) => (state.flight.value = { to, at: ++requests });
 
-/** The building `step` further in the list, as it is sorted and filtered there. */
+/** Selects the building `step` rows further down in the table, as it is sorted and filtered. */
 export function selectNext(step: number) {
   const ids = state.order.value.length ? state.order.value : [...(state.run.value?.buildings.keys() ?? [])];
   if (!ids.length) return;
@@ -275,7 +276,7 @@ export function selectNext(step: number) {
 
 // ---- edits
 
-/** Takes buildings as the server has them now into the open runs. Older revisions than those known are left out. */
+/** Updates the open runs with buildings from the server. Revisions older than the present ones are ignored. */
 export function take(run: string, answer: api.Applied) {
   for (const opened of [state.run, state.other]) {
     if (opened.value?.id !== run) continue;
@@ -286,13 +287,13 @@ export function take(run: string, answer: api.Applied) {
     }
     opened.value = { id: run, buildings, history: answer.history };
   }
-  if (state.run.value?.id === run) state.selection.value = standing(state.run.value, state.selection.value);
+  if (state.run.value?.id === run) state.selection.value = existing(state.run.value, state.selection.value);
 }
 
 export const undo = () => step("undo");
 export const redo = () => step("redo");
 
-/** A held draft goes first: it is the last thing that was done. */
+/** An unsaved draft is the latest change: undo discards it first. */
 async function step(which: "undo" | "redo") {
   const open = state.run.value;
   if (!open) return;
@@ -306,7 +307,7 @@ async function step(which: "undo" | "redo") {
   if (answer) take(open.id, answer);
 }
 
-/** One file of the run as edited, saved by the browser. */
+/** Downloads one export file of the edited run. */
 export async function download(run: string, file: string) {
   const bytes = await attempt(client.exported(run, file));
   if (!bytes) return;
@@ -317,7 +318,7 @@ export async function download(run: string, file: string) {
   setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }
 
-/** All formats into the project's folder; told where. What is there already is only replaced when that was `agreed`. */
+/** Exports all formats into the project's folder. Existing files are replaced only if `agreed` returns true. */
 export async function exportAll(run: string, agreed: () => boolean) {
   let call = client.exportAll(run, false);
   try {
@@ -330,36 +331,36 @@ export async function exportAll(run: string, agreed: () => boolean) {
   }
   const answer = await attempt(call);
   if (!answer) return;
-  for (const warning of answer.warnings) say(warning);
-  report("exported", `${answer.files.length} files written to ${answer.folder}`);
+  for (const warning of answer.warnings) showMessage(warning);
+  showSuccess("exported", `${answer.files.length} files written to ${answer.folder}`);
 }
 
 // ---- events
 
-async function took(call: Promise<api.Job>) {
+async function started(call: Promise<api.Job>) {
   const job = await attempt(call);
   if (!job) return undefined;
   mine.add(job.id);
-  const overtaken = state.jobs.value.find((j) => j.id === job.id); // its events came before this answer
-  if (overtaken?.state === "done" && overtaken.run) void openRun(overtaken.run);
-  else if (!overtaken) heardJob(job);
+  const known = state.jobs.value.find((j) => j.id === job.id); // its events came before this answer
+  if (known?.state === "done" && known.run) void openRun(known.run);
+  else if (!known) receiveJob(job);
   return job;
 }
-const mine = new Set<string>(); // jobs that this tab asked for
+const mine = new Set<string>(); // jobs that this tab started
 const ended = (job: api.Job) => job.state !== "queued" && job.state !== "running";
 
-function heardJob(job: api.Job) {
+function receiveJob(job: api.Job) {
   const known = state.jobs.value.find((j) => j.id === job.id);
-  if (known && ended(known)) return; // an answer that was overtaken by an event
+  if (known && ended(known)) return; // an event was faster than this answer
   state.jobs.value = known ? state.jobs.value.map((j) => (j.id === job.id ? job : j)) : [...state.jobs.value, job];
-  if (job.failure && job.state === "failed") say(job.failure);
+  if (job.failure && job.state === "failed") showMessage(job.failure);
   if (job.state !== "done") return;
   if (job.kind === "read") void loadScene();
   if (job.kind === "run" && job.run && (mine.has(job.id) || !state.run.value)) void openRun(job.run);
 }
 
-export function heard(event: api.Event) {
-  if (event.type === "job") heardJob(event.job);
+export function received(event: api.Event) {
+  if (event.type === "job") receiveJob(event.job);
   else if (event.type === "project") {
     state.project.value = event.project;
     if (!event.project.inputs) state.scene.value = state.tiles.value = null;
@@ -371,9 +372,9 @@ export function heard(event: api.Event) {
     take(event.run, event);
     if (stale && state.run.value?.id === event.run) {
       state.draft.value = null;
-      tell(
+      warn(
         "edit-stale",
-        "someone else changed this building; it is shown as they left it, your unsaved change is gone",
+        "another page changed this building; it is shown in its new state, and your unsaved change was discarded",
       );
     }
   }

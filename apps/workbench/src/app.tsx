@@ -1,4 +1,4 @@
-// The page: a bar on top, the view on the left, panels on the right.
+// The page: a bar at the top, the 3D view on the left, panels on the right.
 import { signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { EditPanel } from "./edit/panel";
@@ -24,8 +24,8 @@ const tabs: { tab: state.Tab; name: string }[] = [
   { tab: "layers", name: "Layers" },
 ];
 
-const [narrowest, widest] = [340, 760];
-const width = signal(Math.max(narrowest, Math.min(widest, kept("local", "sidebar", 440))));
+const [minimumWidth, maximumWidth] = [340, 760];
+const width = signal(Math.max(minimumWidth, Math.min(maximumWidth, kept("local", "sidebar", 440))));
 
 export function App() {
   useEffect(() => {
@@ -46,7 +46,7 @@ export function App() {
         <>
           <main>
             <View />
-            {state.asksInputs.value && <Start />}
+            {state.changingInputs.value && <Start />}
             {state.opening.value && <div class="opening">Opening {state.opening.value} …</div>}
             {state.busyJob.value && state.tab.value !== "run" && (
               <div class="busy">
@@ -62,7 +62,7 @@ export function App() {
         </>
       )}
       <Messages />
-      {state.sheet.value && <HelpSheet />}
+      {state.keyboardHelp.value && <HelpSheet />}
     </div>
   );
 }
@@ -71,11 +71,11 @@ function Tabs() {
   const all = state.other.value ? [...tabs, { tab: "compare" as const, name: "Compare" }] : tabs;
   const now = state.tab.value === "compare" && !state.other.value ? "run" : state.tab.value;
   const step = (e: KeyboardEvent) => {
-    const way = { ArrowRight: 1, ArrowLeft: -1 }[e.key];
-    if (!way) return;
+    const direction = { ArrowRight: 1, ArrowLeft: -1 }[e.key];
+    if (!direction) return;
     e.preventDefault();
     const at = all.findIndex((t) => t.tab === now);
-    const next = all[(at + way + all.length) % all.length]!;
+    const next = all[(at + direction + all.length) % all.length]!;
     state.tab.value = next.tab;
     document.getElementById(`tab-${next.tab}`)?.focus();
   };
@@ -115,7 +115,7 @@ function Panel() {
 
 function Splitter() {
   const set = (w: number) => {
-    width.value = Math.max(narrowest, Math.min(widest, Math.round(w), window.innerWidth - 320));
+    width.value = Math.max(minimumWidth, Math.min(maximumWidth, Math.round(w), window.innerWidth - 320));
     keep("local", "sidebar", width.value);
   };
   return (
@@ -125,18 +125,18 @@ function Splitter() {
       aria-orientation="vertical"
       aria-label="Width of the panels"
       aria-valuenow={width.value}
-      aria-valuemin={narrowest}
-      aria-valuemax={widest}
+      aria-valuemin={minimumWidth}
+      aria-valuemax={maximumWidth}
       tabIndex={0}
       onPointerDown={(e) => e.currentTarget.setPointerCapture(e.pointerId)}
       onPointerMove={(e) => {
         if (e.currentTarget.hasPointerCapture(e.pointerId)) set(window.innerWidth - e.clientX - 3);
       }}
       onKeyDown={(e) => {
-        const way = { ArrowLeft: 20, ArrowRight: -20 }[e.key];
-        if (!way) return;
+        const direction = { ArrowLeft: 20, ArrowRight: -20 }[e.key];
+        if (!direction) return;
         e.preventDefault();
-        set(width.value + way);
+        set(width.value + direction);
       }}
     />
   );

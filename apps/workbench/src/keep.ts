@@ -1,5 +1,5 @@
-// What the browser keeps for the page: for this tab (session) or for good (local). Private windows may refuse: then nothing
-// is kept, and nothing else is lost.
+// Values that the browser stores for the page: for this tab (session) or permanently (local). If the browser refuses, as in
+// some private windows, nothing is stored.
 type Where = "session" | "local";
 
 const store = (where: Where): Storage | null => {
@@ -10,7 +10,7 @@ const store = (where: Where): Storage | null => {
   }
 };
 
-/** What was kept under `key`, or `otherwise` where there is none or it can no longer be read. */
+/** The value stored under `key`; `otherwise` if there is none or it cannot be read. */
 export function kept<T>(where: Where, key: string, otherwise: T): T {
   try {
     const text = store(where)?.getItem(`mansard.${key}`);
@@ -24,6 +24,6 @@ export function keep(where: Where, key: string, value: unknown) {
   try {
     store(where)?.setItem(`mansard.${key}`, JSON.stringify(value));
   } catch {
-    // A full or forbidden store is no reason to stop.
+    // The storage is full or forbidden: the page works without it.
   }
 }

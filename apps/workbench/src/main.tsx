@@ -9,8 +9,8 @@ import { type ViewHandle, handle } from "./view/view";
 
 declare global {
   interface Window {
-    /** For tests and screenshots: the page's signals, and the view. `view.project(building)` gives the place on the page
-     *  of the top of a building; `view.idle()` resolves when nothing moves, loads or waits to be drawn. */
+    /** For tests and screenshots: the signals of the page, and the view. `view.project(building)` is the position of the top
+     *  of a building on the page; `view.idle()` resolves when nothing moves, loads or waits to be drawn. */
     mansard: { state: typeof state; view: ViewHandle };
   }
 }

@@ -1,8 +1,8 @@
-// What the page knows, as signals: panels read them, actions (src/actions.ts) change them.
+// The state of the page as signals: panels read them, actions (src/actions.ts) change them.
 import { computed, signal } from "@preact/signals";
 import type * as api from "./api/types";
 
-/** A place in a run's models. `edge` belongs to `ring` (0 the outer one) of `part`. */
+/** A building, part or edge of the open run. `edge` belongs to `ring` (0: the outer ring) of `part`. */
 export interface Selection {
   building: string;
   part: string | null;
@@ -10,63 +10,63 @@ export interface Selection {
   edge: number | null;
 }
 
-/** A run with its models as they stand on the server. */
+/** A run with its models in their state on the server. */
 export interface OpenRun {
   id: string;
   buildings: Map<string, api.Building>;
   history: api.History;
 }
 
-/** Plans being changed and not (yet) written: while dragging, and when they are invalid and held. */
+/** Changed plans that are not saved: while dragging, and when they are invalid. */
 export interface Draft {
   what: string;
   changes: api.Change[];
-  raised: Map<string, api.RaisedBuilding>; // by building, the last answer of the server
-  pending: boolean; // a newer one is asked for
-  invalid: boolean; // held: the server would refuse it
+  raised: Map<string, api.RaisedBuilding>; // by building: the last preview of the server
+  pending: boolean; // a newer preview was requested
+  invalid: boolean; // the server would refuse to save it
 }
 
 /** The error map of one block of a run. */
 export interface LoadedMap extends api.ErrorMap {
-  cells: Float32Array; // rows from the south; NaN for none
+  cells: Float32Array; // rows from south to north; NaN where there is no value
 }
 
 export type Tab = "edit" | "run" | "buildings" | "plots" | "layers" | "compare";
 export type Flight = "home" | "top" | "selection";
 
 export const connected = signal(true);
-export const locked = signal(false); // the server runs, but no longer takes this page's token
+export const locked = signal(false); // the server runs, but refuses the token of this page
 export const project = signal<api.Project | null>(null);
 export const scene = signal<api.Scene | null>(null);
 export const tiles = signal<api.TileIndex | null>(null);
 export const options = signal<api.Options | null>(null);
 export const jobs = signal<api.Job[]>([]);
 
-export const run = signal<OpenRun | null>(null); // the one seen and edited
-export const other = signal<OpenRun | null>(null); // the one compared with, if any
-export const opening = signal<string | null>(null); // a run on its way
+export const run = signal<OpenRun | null>(null); // the run that is shown and edited
+export const other = signal<OpenRun | null>(null); // the run to compare with
+export const opening = signal<string | null>(null); // the run that is being loaded
 export const selection = signal<Selection | null>(null);
-/** More parts of the selection (shift-click): for merging. */
+/** Additional selected parts (Shift and click), to merge with. */
 export const also = signal<{ building: string; part: string }[]>([]);
 export const draft = signal<Draft | null>(null);
-export const messages = signal<api.Diagnostic[]>([]); // newest first; shown until dismissed
+export const messages = signal<api.Diagnostic[]>([]); // newest first
 
-/** Of the runs seen: fetched when something wants to draw them. */
-export const whys = signal<Map<string, api.Layers>>(new Map());
+/** Layers and error maps of the runs; fetched on demand. */
+export const segmentations = signal<Map<string, api.Layers>>(new Map());
 export const errorMaps = signal<Map<string, LoadedMap[]>>(new Map());
 
 export const tab = signal<Tab>("run");
 export const hovered = signal<Selection | null>(null);
-export const sheet = signal(false); // of the keyboard
+export const keyboardHelp = signal(false);
 export const layersOpen = signal(false);
-export const asksInputs = signal(false); // the first screen once more, over an open project
-/** Blocks that the next run shall do, and whether clicks in the view choose them. */
+export const changingInputs = signal(false); // the first screen is shown over an open project
+/** Blocks that the next run reconstructs, and whether clicks in the view select them. */
 export const chosenBlocks = signal<ReadonlySet<string>>(new Set());
 export const choosing = signal(false);
-/** Asks the view to fly; `at` makes two same wishes differ. */
+/** Requests a camera flight; `at` distinguishes two equal requests. */
 export const flight = signal<{ to: Flight; at: number } | null>(null);
 
-/** The building as it should be drawn: with its draft where there is one. */
+/** The building to draw: its draft, if it has one. */
 export function shown(id: string): api.RaisedBuilding | undefined {
   return draft.value?.raised.get(id) ?? run.value?.buildings.get(id);
 }
@@ -76,7 +76,7 @@ export const selectedBuilding = computed(() => {
   return at ? run.value?.buildings.get(at.building) : undefined;
 });
 
-/** The plan of the selected part as it is being edited. */
+/** The plan of the selected part, with its unsaved changes. */
 export const selectedPlan = computed<api.Plan | null>(() => {
   const at = selection.value;
   if (!at?.part) return null;
@@ -85,7 +85,7 @@ export const selectedPlan = computed<api.Plan | null>(() => {
   return parts?.find((p) => p.id === at.part)?.plan ?? null;
 });
 
-/** Ids in the order of the list of buildings: as they are sorted and filtered there. */
+/** Building ids in the order of the table, as it is sorted and filtered. */
 export const order = signal<string[]>([]);
 
 export const runSummary = (id: string | undefined) => project.value?.runs.find((r) => r.id === id);

@@ -1,4 +1,4 @@
-// Starts the real server on a project of its own, opens the page, and fails a test whose page wrote errors.
+// Starts a server with a new project, opens the page, and fails tests whose page logs errors.
 import { type ChildProcess, execFileSync, spawn } from "node:child_process";
 import { mkdirSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -6,10 +6,10 @@ import { join } from "node:path";
 import { type Page, test as base } from "@playwright/test";
 
 const binary = process.env.MANSARD_BINARY;
-if (!binary) throw new Error("MANSARD_BINARY names no program");
+if (!binary) throw new Error("set MANSARD_BINARY to the path of the program");
 export const data = process.env.MANSARD_DATA ?? join(__dirname, "../../../data");
 
-/** The command line; its standard output. */
+/** Runs the command line; returns its standard output. */
 export const mansard = (...words: string[]) => execFileSync(binary, words, { encoding: "utf8" });
 
 export class Server {
@@ -53,7 +53,7 @@ export class Server {
   }
 }
 
-/** A server on an empty project, and a page whose console must stay clean. */
+/** A server with an empty project, and a page that must not log errors. */
 export const test = base.extend<{ folder: string; server: Server; clean: Page }>({
   folder: async ({}, use) => {
     const folder = mkdtempSync(join(tmpdir(), "mansard-page-"));
@@ -70,21 +70,21 @@ export const test = base.extend<{ folder: string; server: Server; clean: Page }>
     const wrong: string[] = [];
     page.on("pageerror", (error) => wrong.push(String(error)));
     page.on("console", (message) => {
-      // A server that ends, and an edit that is refused, make the browser say so.
+      // The browser logs lost connections and refused edits.
       if (message.type() === "error" && !/ERR_CONNECTION|ERR_INCOMPLETE|ERR_EMPTY|422|409|503/.test(message.text()))
         wrong.push(message.text());
     });
     await use(page);
-    if (wrong.length > 0) throw new Error(`the page complained:\n${wrong.join("\n")}`);
+    if (wrong.length > 0) throw new Error(`the page logged errors:\n${wrong.join("\n")}`);
   },
 });
 export { expect } from "@playwright/test";
 
-/** A picture for whoever looks: into MANSARD_PICTURES where that is set, else beside the test's results. */
-export async function picture(page: Page, name: string, when: "when still" | "as it is" = "when still") {
+/** A screenshot, in the folder MANSARD_PICTURES, or beside the results of the tests. */
+export async function picture(page: Page, name: string, when: "when idle" | "at once" = "when idle") {
   const folder = process.env.MANSARD_PICTURES ?? join(process.env.MANSARD_TEST_RESULTS ?? tmpdir(), "pictures");
   mkdirSync(folder, { recursive: true });
-  if (when === "when still")
+  if (when === "when idle")
     await page.evaluate(() => (window as unknown as { mansard: { view: { idle(): Promise<void> } } }).mansard.view.idle());
   await page.screenshot({ path: join(folder, `${name}.png`) });
 }

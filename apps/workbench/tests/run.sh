@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# run.sh logic|browser BUILT: the page's own tests, or those in a browser, in a copy that uses what BUILT was built with.
+# run.sh logic|browser BUILT: runs the unit tests of the page, or those in a browser, in a copy of it that uses the packages
+# of the build folder BUILT.
 set -euo pipefail
 workbench=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 what=$1
@@ -13,5 +14,5 @@ export MANSARD_TEST_RESULTS=${MANSARD_TEST_RESULTS:-$copy/results}
 case $what in
   logic) node node_modules/typescript/bin/tsc --noEmit && node node_modules/vitest/vitest.mjs run ;;
   browser) node node_modules/@playwright/test/cli.js test ;;
-  *) echo "run.sh: '$what' is neither logic nor browser" >&2; exit 2 ;;
+  *) echo "run.sh: unknown tests '$what'; expected logic or browser" >&2; exit 2 ;;
 esac

@@ -1,4 +1,4 @@
-// The workbench as its users meet it: the real program, the shipped sample, a real browser.
+// End-to-end tests of the workbench: the program, the shipped sample, and Chromium.
 import { readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import type { Download, Page } from "@playwright/test";
@@ -13,7 +13,7 @@ async function openSample(page: Page, server: Server) {
   await expect(page.getByRole("button", { name: "Reconstruct" })).toBeEnabled({ timeout: 60_000 });
 }
 
-/** One run of all blocks, or of the block named; its id. */
+/** Reconstructs all blocks. */
 async function reconstruct(page: Page, label: string) {
   await page.getByRole("tab", { name: "Run" }).click();
   await page.getByLabel("Label").fill(label);
@@ -22,7 +22,7 @@ async function reconstruct(page: Page, label: string) {
   await open(page, label);
 }
 
-/** Waits until the run of that label is the one seen. */
+/** Waits until the run with that label is open. */
 async function open(page: Page, label: string) {
   const seen = () =>
     page.evaluate(() => {
@@ -32,7 +32,7 @@ async function open(page: Page, label: string) {
   await expect.poll(seen, { timeout: 90_000 }).toBe(label);
 }
 
-/** Those of the run that is seen, as soon as one is. */
+/** The buildings of the open run, once there is one. */
 const buildings = async (page: Page) => {
   await page.waitForFunction(() => (window as unknown as Known["window"]).mansard?.state.run.value);
   return page.evaluate(() => [...(window as unknown as Known["window"]).mansard.state.run.value!.buildings.values()]);
@@ -40,7 +40,7 @@ const buildings = async (page: Page) => {
 const buildingOf = async (page: Page, id: string) => (await buildings(page)).find((b) => b.id === id)!;
 const volume = (building: api.RaisedBuilding) => building.parts.reduce((sum, part) => sum + part.volume, 0);
 
-/** The edges of a plan that carry a roof: their profile has a slope. */
+/** The edges of a plan whose profile has a roof slope. */
 const pitched = (plan: api.Plan) =>
   plan.outer.profile_of_edge.flatMap((profile, edge) => {
     const points = plan.profiles[profile]!;
@@ -50,7 +50,7 @@ const pitched = (plan: api.Plan) =>
 const shortest = (points: api.Point2[]) =>
   Math.min(...points.map(([x, y], i) => Math.hypot(x - points.at(i - 1)![0], y - points.at(i - 1)![1])));
 
-/** A house of one part with a pitched roof, raised in full: what a first visitor would click. */
+/** A fully reconstructed house of one part with a pitched roof. */
 async function aHouse(page: Page) {
   const found = (await buildings(page))
     .filter((b) => b.parts.length === 1 && b.parts[0]!.outcome === "full" && b.mse !== null)
@@ -68,7 +68,7 @@ async function pick(page: Page, id: string) {
   await expect(page.getByRole("application", { name: /^Profile of edge/ })).toBeVisible();
 }
 
-/** Makes the edge the one whose profile is shown. */
+/** Selects the edge whose profile is shown. */
 async function pickEdge(page: Page, edge: number) {
   await page.getByRole("button", { name: new RegExp(`^edge ${edge},`) }).focus();
   await page.keyboard.press("Enter");
@@ -77,7 +77,7 @@ async function pickEdge(page: Page, edge: number) {
 
 const canvas = (page: Page) => page.locator("main canvas").first();
 
-/** Of the menu "Export"; the name of another file may begin with this one's. */
+/** An item of the menu "Export". Names of other files may begin with this name. */
 const menuItem = (page: Page, file: string) =>
   page.getByRole("menuitem", { name: new RegExp(`^${file.replaceAll(".", "\\.")}\\s`) });
 
@@ -87,19 +87,19 @@ async function saved(download: Download, folder: string) {
   return path;
 }
 
-test("the sample is read, run, looked at, changed by hand, undone and taken away", async ({ clean: page, server, folder }) => {
+test("the sample is read, reconstructed, edited, undone and exported", async ({ clean: page, server, folder }) => {
   await page.goto(server.link);
   await expect(page.getByRole("button", { name: "Open the sample" })).toBeVisible();
-  expect(new URL(page.url()).hash, "the token does not stay in the address").toBe("");
+  expect(new URL(page.url()).hash, "the token is removed from the address").toBe("");
   await picture(page, "start");
   await openSample(page, server);
 
-  await test.step("progress is seen", async () => {
+  await test.step("progress is shown", async () => {
     await page.getByLabel("Label").fill("first");
     await page.getByRole("button", { name: "Reconstruct" }).click();
     const progress = page.getByRole("status").filter({ hasText: "Reconstructing" }).first();
     await expect(progress).toContainText(/\d+ %/);
-    await picture(page, "progress", "as it is");
+    await picture(page, "progress", "at once");
     await expect(page.getByRole("button", { name: "first", exact: true })).toBeEnabled({ timeout: 150_000 });
     await open(page, "first");
     await picture(page, "run");
@@ -113,15 +113,15 @@ test("the sample is read, run, looked at, changed by hand, undone and taken away
   const before = await buildingOf(page, house.id);
   const seen = await canvas(page).screenshot();
 
-  await test.step("a point of the profile is dragged up by a metre", async () => {
+  await test.step("a profile point is dragged up by one metre", async () => {
     const point = page.getByRole("button", { name: /^point 1,/ });
-    await point.hover(); // waits until it stands still
+    await point.hover(); // waits until it is stable
     const box = (await point.boundingBox())!;
     const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
     await page.mouse.move(x, y);
     await page.mouse.down();
     for (let i = 1; i <= 12; ++i) await page.mouse.move(x, y - 2.5 * i);
-    // Live: the new solid is there before the button is let go, and nothing is written yet.
+    // The new solid is previewed before the button is released, and nothing is saved yet.
     await expect
       .poll(() =>
         page.evaluate((id) => {
@@ -137,7 +137,7 @@ test("the sample is read, run, looked at, changed by hand, undone and taken away
     expect(volume(after)).toBeGreaterThan(volume(before) + 1);
     expect(after.mse).not.toBe(before.mse);
     await picture(page, "profile");
-    expect((await canvas(page).screenshot()).equals(seen), "the picture changed").toBe(false);
+    expect((await canvas(page).screenshot()).equals(seen), "the image changed").toBe(false);
     const latency = await page.evaluate(() => (window as unknown as Known["window"]).mansard.latency);
     expect(latency.length).toBeGreaterThan(0);
     const sorted = [...latency].sort((a, b) => a - b);
@@ -161,7 +161,7 @@ test("the sample is read, run, looked at, changed by hand, undone and taken away
     expect((await buildingOf(page, house.id)).parts[0]!.plan).toEqual(now.parts[0]!.plan);
   });
 
-  await test.step("what is taken away is what the command line makes of the plans", async () => {
+  await test.step("exported files are those that the command line makes from the plans", async () => {
     const files: Record<string, string> = {};
     for (const name of ["plans.json", "model.city.json", "model.obj", "model.glb", "model.gpkg", "model.stl"]) {
       await page.getByRole("button", { name: "Export" }).click();
@@ -183,7 +183,7 @@ test("the sample is read, run, looked at, changed by hand, undone and taken away
   });
 });
 
-/** Three houses of one roof, as the command line writes them. */
+/** Three houses, written by the command line. */
 function someModel(folder: string) {
   const house = (id: string, x: number) => ({
     type: "Feature",
@@ -202,18 +202,18 @@ function someModel(folder: string) {
   return model;
 }
 
-test("a model of an earlier run is opened, looked at, changed and taken away", async ({ clean: page, server, folder }) => {
+test("models of an earlier run are opened, edited and exported", async ({ clean: page, server, folder }) => {
   const model = someModel(folder);
   await page.goto(server.link);
-  const openIt = page.getByRole("button", { name: "Open a model…" });
+  const openIt = page.getByRole("button", { name: "Open model" });
   await expect(openIt).toBeDisabled();
-  await page.getByLabel("choose its file").setInputFiles(model);
-  await expect(page.getByLabel("Or models that mansard wrote")).toHaveValue(/inputs\/street\.city\.json$/);
+  await page.getByLabel("choose a model file").setInputFiles(model);
+  await expect(page.getByLabel("Models that mansard wrote")).toHaveValue(/inputs\/street\.city\.json$/);
   await openIt.click();
   await open(page, "street.city.json");
 
   await page.getByRole("tab", { name: "Buildings" }).click();
-  await expect(page.getByRole("row")).toHaveCount(4); // three, and what the columns are
+  await expect(page.getByRole("row")).toHaveCount(4); // three, and the header
   for (const id of ["left", "middle", "right"]) await expect(page.getByRole("row", { name: id })).toBeVisible();
   await pick(page, "middle");
   await page.getByRole("tab", { name: "Buildings" }).click();
@@ -225,7 +225,7 @@ test("a model of an earlier run is opened, looked at, changed and taken away", a
     const [download] = await Promise.all([page.waitForEvent("download"), menuItem(page, name).click()]);
     return readFileSync(await saved(download, folder));
   };
-  expect((await taken("model.city.json")).equals(readFileSync(model)), "nothing was changed yet").toBe(true);
+  expect((await taken("model.city.json")).equals(readFileSync(model)), "nothing was edited yet").toBe(true);
 
   await page.getByRole("tab", { name: "Edit" }).click();
   const cap = page.getByRole("textbox", { name: "Cap, metres" });
@@ -236,25 +236,25 @@ test("a model of an earlier run is opened, looked at, changed and taken away", a
   expect((await taken("model.3dtiles.zip")).subarray(0, 2).toString()).toBe("PK");
 
   await page.getByRole("button", { name: "Export" }).click();
-  await expect(menuItem(page, "segment.gpkg"), "there are no layers without a run").toHaveCount(0);
+  await expect(menuItem(page, "segment.gpkg"), "imported models have no layers").toHaveCount(0);
   await picture(page, "export");
-  await page.getByRole("menuitem", { name: /^All of them/ }).click();
+  await page.getByRole("menuitem", { name: /^All files/ }).click();
   await expect(page.getByText(/10 files written to/)).toBeVisible();
   const exports = readdirSync(join(folder, "project/exports/run-1"));
   expect(exports.sort()).toContain("model.3dtiles");
 });
 
-test("a footprint is cut along a drawn line, and made one again", async ({ clean: page, server }) => {
+test("a part is split along a drawn line and merged again", async ({ clean: page, server }) => {
   await openSample(page, server);
   await reconstruct(page, "whole");
   const house = await aHouse(page);
   await pick(page, house.id);
   const whole = await buildingOf(page, house.id);
 
-  // From outside to outside, through the middle of the first edge and that of the edge opposite.
-  await page.getByRole("button", { name: "Cut", exact: true }).click();
+  // The line starts and ends outside, and crosses the longest edge and the opposite one.
+  await page.getByRole("button", { name: "Split", exact: true }).click();
   const sheet = page.getByRole("application", { name: /^Plan/ });
-  await page.getByRole("button", { name: /^corner 0 at/ }).hover(); // waits until the plan stands still
+  await page.getByRole("button", { name: /^corner 0 at/ }).hover(); // waits until the plan is stable
   const corners = await page.getByRole("button", { name: /^corner \d+ at/ }).all();
   const places = await Promise.all(
     corners.map(async (corner) => {
@@ -299,23 +299,23 @@ test("a footprint is cut along a drawn line, and made one again", async ({ clean
   await expect.poll(async () => (await buildingOf(page, house.id)).parts.map((p) => p.plan)).toEqual(whole.parts.map((p) => p.plan));
 });
 
-test("an invalid plan is shown and held, never written, and a reload keeps it", async ({ clean: page, server }) => {
+test("an invalid plan is shown, not saved, and kept across a reload", async ({ clean: page, server }) => {
   await openSample(page, server);
   await reconstruct(page, "held");
   const house = await aHouse(page);
   await pick(page, house.id);
   const before = await buildingOf(page, house.id);
 
-  // A corner pulled across the edge opposite makes an outline that crosses itself.
+  // Dragging a corner across the opposite edge makes the outline cross itself.
   const corner = page.getByRole("button", { name: /^corner 0 at/ });
-  await corner.hover(); // waits until it stands still
+  await corner.hover(); // waits until it is stable
   const places = await Promise.all(
     (await page.getByRole("button", { name: /^corner \d+ at/ }).all()).map(async (c) => (await c.boundingBox())!),
   );
   type Box = { x: number; y: number; width: number; height: number };
   const from = (await corner.boundingBox())!;
   const away = (b: Box) => Math.hypot(b.x - from.x, b.y - from.y);
-  const to = places.reduce((a, b) => (away(b) > away(a) ? b : a)); // the opposite one, whatever corners lie on the walls
+  const to = places.reduce((a, b) => (away(b) > away(a) ? b : a)); // the opposite corner
   const middle = (b: Box) => [b.x + b.width / 2, b.y + b.height / 2];
   const [[x0, y0], [x1, y1]] = [middle(from) as [number, number], middle(to) as [number, number]];
   await page.mouse.move(x0, y0);
@@ -331,27 +331,27 @@ test("an invalid plan is shown and held, never written, and a reload keeps it", 
   await page.reload();
   await expect(page.getByRole("application", { name: /^Profile of edge/ })).toBeVisible();
   await expect.poll(held).toBe(true);
-  await page.getByRole("button", { name: "Drop" }).click();
+  await page.getByRole("button", { name: "Discard" }).click();
   await expect.poll(held).toBe(false);
   expect(await buildingOf(page, house.id)).toEqual(before);
 });
 
 test("two runs are compared side by side, with the error map, the plots and the list", async ({ clean: page, server }) => {
   await openSample(page, server);
-  await reconstruct(page, "all that is supported");
+  await reconstruct(page, "high quality");
   await page.locator("summary").filter({ hasText: "Options" }).click();
   await page.getByLabel("Search options").fill("quality");
   await page.getByRole("combobox", { name: "quality" }).selectOption("simple");
-  await reconstruct(page, "walls alone");
+  await reconstruct(page, "walls only");
 
-  await page.getByLabel("Compare with").selectOption({ label: "all that is supported (run-1)" });
+  await page.getByLabel("Compare with").selectOption({ label: "high quality (run-1)" });
   await expect(page.getByRole("tab", { name: "Compare" })).toHaveAttribute("aria-selected", "true");
   await expect(page.getByRole("tabpanel")).toContainText("profile.quality");
   await picture(page, "compare");
-  await page.getByLabel("Compare with").selectOption({ label: "nothing" });
+  await page.getByLabel("Compare with").selectOption({ label: "none" });
 
   await page.getByRole("combobox", { name: "Run", exact: true }).selectOption("run-1");
-  await open(page, "all that is supported");
+  await open(page, "high quality");
   await page.getByRole("tab", { name: "Plots" }).click();
   await expect(page.getByRole("img", { name: /profiles/ })).toBeVisible();
   await expect(page.getByRole("img", { name: "Histogram of vertical errors" })).toBeVisible();
@@ -369,13 +369,13 @@ test("two runs are compared side by side, with the error map, the plots and the 
   await picture(page, "error");
 });
 
-test("a click in the view picks the building that is seen there", async ({ clean: page, server }) => {
+test("a click in the 3D view selects the building there", async ({ clean: page, server }) => {
   await openSample(page, server);
   await reconstruct(page, "view");
   const house = await aHouse(page);
   await pick(page, house.id);
-  await page.getByRole("button", { name: "Fly to the selection" }).click();
-  await page.getByRole("button", { name: "From above" }).click();
+  await page.getByRole("button", { name: "Zoom to the selection" }).click();
+  await page.getByRole("button", { name: "View from above" }).click();
   const place = await page.evaluate(async (id) => {
     const { view } = (window as unknown as { mansard: { view: import("../src/view/view").ViewHandle } }).mansard;
     await view.idle();
@@ -389,7 +389,7 @@ test("a click in the view picks the building that is seen there", async ({ clean
   await expect.poll(selected).toBe(house.id);
 });
 
-test("a server killed at work is started again, and nothing that was told is lost", async ({ clean: page, server }) => {
+test("a killed server is restarted, and no acknowledged change is lost", async ({ clean: page, server }) => {
   await openSample(page, server);
   await reconstruct(page, "kept");
   const house = await aHouse(page);
@@ -419,7 +419,7 @@ test("a server killed at work is started again, and nothing that was told is los
   await expect.poll(async () => (await buildingOf(page, house.id)).edited).toBe(false);
 });
 
-test("two tabs see each other's edits", async ({ clean: page, context, server }) => {
+test("two tabs show each other's edits", async ({ clean: page, context, server }) => {
   await openSample(page, server);
   await reconstruct(page, "shared");
   const house = await aHouse(page);
@@ -436,7 +436,7 @@ test("two tabs see each other's edits", async ({ clean: page, context, server })
   await expect.poll(async () => (await buildingOf(page, house.id)).edited).toBe(false);
 });
 
-/** Words that stand out less than 4.5 : 1 against the colour behind them (WCAG 2.1, AA); disabled controls may. */
+/** Texts with a contrast below 4.5 : 1 (WCAG 2.1, AA), except in disabled controls. */
 const faint = (page: Page) =>
   page.evaluate(() => {
     const numbers = (colour: string) => (colour.match(/[\d.]+/g) ?? []).map(Number);
@@ -466,7 +466,7 @@ const faint = (page: Page) =>
     return found;
   });
 
-test("words stand out, and a keyboard is enough", async ({ clean: page, server }) => {
+test("texts have enough contrast, and the keyboard is sufficient", async ({ clean: page, server }) => {
   await page.goto(server.link);
   await expect(page.getByRole("button", { name: "Open the sample" })).toBeVisible();
   expect(await faint(page)).toEqual([]);
@@ -493,7 +493,7 @@ test("words stand out, and a keyboard is enough", async ({ clean: page, server }
   await pick(page, house.id);
   expect(await faint(page), "Edit").toEqual([]);
 
-  // A gutter raised by 10 cm without a mouse.
+  // The gutter is raised by 10 cm without a mouse.
   await pickEdge(page, pitched(house.parts[0]!.plan)[0]!);
   const before = await buildingOf(page, house.id);
   await page.getByRole("button", { name: /^point 1,/ }).focus();

@@ -12,7 +12,7 @@ const answering = (response: () => Response) => {
 };
 
 describe("the client", () => {
-  it("carries the token and its own name in every call", async () => {
+  it("sends the token and its id with every call", async () => {
     const calls = answering(() => Response.json({ version: "1", busy: false }));
     const client = new Client("secret");
     await client.status();
@@ -25,7 +25,7 @@ describe("the client", () => {
     expect(calls[0]!.path).toBe("/api/runs/run%201%2F..");
   });
 
-  it("tells what the server refused, and why", async () => {
+  it("throws refusals with their diagnostics", async () => {
     const error: api.Diagnostic = { severity: "error", code: "edit-stale", message: "too late", subject: "a" };
     answering(() => Response.json({ error }, { status: 409 }));
     const refused = await new Client("").undo("run-1").catch((e: unknown) => e);
@@ -33,7 +33,7 @@ describe("the client", () => {
     expect(refused).toMatchObject({ status: 409, diagnostic: error });
   });
 
-  it("stops asking for events when its token is not taken", async () => {
+  it("stops to reconnect when the token is refused", async () => {
     const calls = answering(() => new Response("{}", { status: 401 }));
     const told: [boolean, number][] = [];
     await new Client("old").events(
@@ -47,7 +47,7 @@ describe("the client", () => {
     expect(calls).toHaveLength(1);
   });
 
-  it("puts events together however they are cut into pieces", async () => {
+  it("assembles events from pieces of any size", async () => {
     const text = 'data: {"type":"ping"}\n\n: a comment\n\ndata: {"type":"job","job":\ndata: {"id":"ä"}}\n\n';
     const bytes = new TextEncoder().encode(text);
     for (const size of [1, 7, 64, bytes.length]) {

@@ -1,7 +1,7 @@
-// The one place that talks to the server.
+// All calls of the server.
 import type * as api from "./types";
 
-/** A call that the server refused, or that never reached it ("server-gone"). */
+/** A call that the server refused, or that did not reach it ("server-gone"). */
 export class Refused extends Error {
   constructor(
     readonly status: number,
@@ -24,7 +24,7 @@ export interface RunRequest {
 }
 
 export class Client {
-  /** Of this tab: tells one's own edits from those of others. */
+  /** Id of this tab, to distinguish its own edits from those of others. */
   readonly id = Math.random().toString(36).slice(2);
   constructor(
     private readonly token: string,
@@ -70,11 +70,11 @@ export class Client {
   jobs = () => this.json<{ jobs: api.Job[] }>("GET", "/api/jobs");
   cancel = (job: string) => this.json<unknown>("DELETE", `/api/jobs/${escaped(job)}`);
 
-  /** Calls back for every event until aborted; connects again when the server was away, after telling so with the status
-   *  that it refused with: 0 where it does not answer at all. Gives up when the token is not taken. */
+  /** Calls `on` for every event until aborted. When the connection is lost, calls `onConnection` with the HTTP status (0: no
+   *  answer) and connects again. Ends when the token is refused. */
   async events(
     on: (event: api.Event) => void,
-    onConnection: (there: boolean, status: number) => void,
+    onConnection: (connected: boolean, status: number) => void,
     signal: AbortSignal,
   ) {
     while (!signal.aborted) {
@@ -104,11 +104,11 @@ export class Client {
           }
         }
       } catch {
-        // Said by onConnection below.
+        // Reported by onConnection below.
       }
       if (signal.aborted) return;
       onConnection(false, status);
-      // Another token is needed: asking again would not help.
+      // Another token is needed; connecting again would fail too.
       if (signal.aborted || status === 401 || status === 403) return;
       await new Promise((resolve) => setTimeout(resolve, 1000));
     }
@@ -146,7 +146,7 @@ export class Client {
     const refusal = (await response.json().catch(() => null)) as api.Refusal | null;
     throw new Refused(
       response.status,
-      refusal?.error ?? { ...gone, message: `the server answered ${response.status}` },
+      refusal?.error ?? { ...gone, message: `the server answered with HTTP status ${response.status}` },
     );
   }
 }

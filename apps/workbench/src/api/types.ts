@@ -1,18 +1,18 @@
-// What passes between the page and the server. The names are those of the schemas in apps/server/openapi.json.
-// Lengths are metres, z up, coordinates local: add the scene's origin for those of the files.
+// The types of requests and answers, with the names of the schemas in apps/server/openapi.json. Lengths are in metres, z
+// is up, coordinates are local: add the origin of the scene for the coordinates of the files.
 
 export type Point2 = [number, number];
 export type ProfilePoint = [inward: number, height: number];
 
-/** One ring: edge i goes from points[i] to points[i + 1] and rises along profiles[profile_of_edge[i]]. */
+/** A ring: edge i goes from points[i] to points[i + 1] and has the profile profiles[profile_of_edge[i]]. */
 export interface PlanRing {
   points: Point2[];
   profile_of_edge: number[];
 }
-/** The editable source of one part, exactly as in a plans.json. Outer ring counter-clockwise, holes clockwise. */
+/** The editable source of a part, as in plans.json. The outer ring is counter-clockwise, holes are clockwise. */
 export interface Plan {
   base: number; // z
-  cap: number; // above base
+  cap: number; // height above the base
   outer: PlanRing;
   holes: PlanRing[];
   profiles: ProfilePoint[][];
@@ -32,33 +32,33 @@ export interface NamedPlan {
 
 export type SurfaceClass = "wall" | "party_wall" | "roof" | "ground" | "soffit";
 
-/** A solid ready to draw: triangles by face, and the outlines of its faces. */
+/** A solid to draw: its triangles and the outlines of its faces. */
 export interface Geometry {
   positions: number[]; // x y z …, local, doubles
-  triangles: number[]; // three vertex indices each, outward
-  face_of: number[]; // per triangle
+  triangles: number[]; // three vertex indices each, counter-clockwise seen from outside
+  face_of: number[]; // per triangle: index of its face
   faces: GeometryFace[];
 }
 export interface GeometryFace {
-  loops: number[][]; // vertex indices; outer first
+  loops: number[][]; // vertex indices; the outer loop first
   class: SurfaceClass;
-  ring: number | null; // the plan's edge it comes from; null for cap and base
+  ring: number | null; // ring of the plan's edge that it was extruded from; null for cap and base
   edge: number | null;
 }
 
 export interface RaisedPart {
   id: string;
   plan: Plan;
-  geometry: Geometry | null; // null: it could not be raised; diagnostics say why
+  geometry: Geometry | null; // null: extruding failed; diagnostics say why
   outcome: "full" | "simplified" | "two_part" | "prism";
   diagnostics: Diagnostic[];
-  mse: number | null; // m², vertical, over its polygon
+  mse: number | null; // mean squared vertical error over its polygon, m²
   volume: number; // m³
 }
 
 export interface RaisedBuilding {
   id: string;
-  revision: number; // what an edit of it must name
+  revision: number; // an edit has to name it
   valid: boolean;
   parts: RaisedPart[];
   diagnostics: Diagnostic[];
@@ -69,7 +69,7 @@ export interface Building extends RaisedBuilding {
   block: string;
   outcome: "full" | "fallback" | "covered" | "refused"; // of the run, before edits
   reasons: Diagnostic[]; // of the run
-  edited: boolean; // its plans are not those of the run
+  edited: boolean; // its plans differ from those of the run
   ground: number; // z
 }
 
@@ -77,13 +77,13 @@ export interface InputFile {
   path: string;
   bytes: number;
   sha256: string;
-  changed: boolean; // the file on disk is missing or is no longer the one that was read
+  changed: boolean; // the file on disk is missing, or its contents changed since it was read
 }
 
 export type RunState = "queued" | "running" | "done" | "failed" | "cancelled" | "interrupted";
 
 export interface Scores {
-  mse: number; // m², the paper's
+  mse: number; // m², as in the paper
   footprint_mse: number; // m², over the footprints
   footprint_median_absolute: number; // m
   inside_mse: number; // m²
@@ -103,7 +103,7 @@ export interface RunSummary {
   failure: Diagnostic | null;
   created: string; // ISO 8601
   preset: string; // "" for none
-  options: Record<string, string>; // "room.name" → value, those that differ from the defaults
+  options: Record<string, string>; // "module.name" → value, for values that differ from the defaults
   blocks: string[]; // empty: all
   scores: Scores | null;
   times: StageTime[];
@@ -111,50 +111,60 @@ export interface RunSummary {
   full: number;
   parts: number;
   faces: number;
-  edits: number; // that stand
+  edits: number; // applied edits
 }
 
 export interface Project {
   name: string;
   folder: string;
   inputs: {
-    given: { meshes: string[]; footprints: string }; // as asked for; a database's password is ***
+    given: { meshes: string[]; footprints: string }; // names as given; *** in place of a database's password
     meshes: InputFile[];
     terrain: InputFile[];
     footprints: InputFile[];
   } | null;
-  reading: Record<string, string>; // options of "ingest" and "block" the scene is read with, those given
+  reading: Record<string, string>; // options that the scene was read with, as given
   runs: RunSummary[];
-  sample: boolean; // a sample is at hand: POST /api/project/sample
+  sample: boolean; // a sample is available: POST /api/project/sample
 }
 
 export interface Option {
-  room: string;
-  name: string;
-  kind: "flag" | "whole" | "number" | "text" | "choice";
-  unit: string;
-  least: number | null;
-  most: number | null;
+  module: string;
+  name: string; // unique in its module
+  used_in: "inputs" | "runs" | "other"; // inputs: all runs share it; other: runs ignore it
+  kind: "boolean" | "integer" | "number" | "string" | "choice";
+  unit: string; // "" for none
+  minimum: number | null;
+  maximum: number | null;
   choices: string[];
-  default: string;
-  alias: string;
+  default: string; // as text; several numbers separated by blanks
+  alias: string; // short name on the command line; "" for none
   meaning: string;
+  source: string; // where the default comes from; "" if not stated
+  advanced: boolean; // few users have a reason to change it
 }
 export interface Preset {
   name: string;
   meaning: string;
   values: Record<string, string>;
 }
-/** Models can be taken away in it. */
+/** raster: heights on a grid, as a mesh or as the terrain. models: models that mansard wrote. */
+export type InputKind = "mesh" | "raster" | "footprints" | "models";
+/** A file format that can be opened or exported. */
 export interface Format {
   name: string; // "cityjson", as on the command line
-  files: string[]; // GET /api/runs/{run}/export/{file}; of a folder, a ZIP of it
-  meaning: string;
+  title: string; // "CityJSON"
+  description: string;
+  extensions: string[]; // in lower case, with the dot
+  sidecars: string[]; // extensions of files that are read along with a file of this format
+  reads: InputKind[]; // what can be read from it; empty: export only
+  files: string[]; // for GET /api/runs/{run}/export/{file}; a folder is exported as a ZIP; empty: no export
 }
 export interface Options {
   options: Option[];
   presets: Preset[];
   formats: Format[];
+  compressed_extensions: string[]; // such as ".gz": the format is that of the name without it
 }
 
 export interface SceneBlock {
@@ -182,7 +192,7 @@ export interface Scene {
   warnings: Diagnostic[];
 }
 
-/** Level 0 is the mesh as it is; each further level has about a quarter of the triangles. */
+/** Level 0 is the unsimplified mesh; each higher level has about a quarter of the triangles. */
 export interface TileIndex {
   levels: number;
   tiles: TileInfo[];
@@ -190,16 +200,16 @@ export interface TileIndex {
 export interface TileInfo {
   id: string; // GET /api/scene/tiles/{id}: little-endian uint32 vertices, uint32 triangles, float32 xyz…, uint32 indices…
   level: number;
-  column: number; // the tile at (column >> 1, row >> 1) one level up covers this one
+  column: number; // the tile (column >> 1, row >> 1) one level higher covers this one
   row: number;
   low: [number, number, number];
   high: [number, number, number];
-  centre: [number, number, number]; // what positions are relative to
+  centre: [number, number, number]; // origin of the positions
   vertices: number;
   triangles: number;
 }
 
-/** Why walls are where they are, per run. Costs are the objective's units. */
+/** Results of the segmentation of a run. Costs are in units of the objective. */
 export interface Layers {
   sweep_edges: SweepEdgeLine[];
   faces: FractureFace[];
@@ -218,7 +228,7 @@ export interface FractureFace {
   holes: Point2[][];
   inside: boolean;
   height: number | null; // z
-  part: number | null; // of the block
+  part: number | null; // part of the block that the face belongs to
 }
 export interface FractureEdge {
   block: string;
@@ -228,7 +238,8 @@ export interface FractureEdge {
   cost_uncut: number;
 }
 
-/** GET /api/runs/{run}/error/{block}: float32 little-endian, row by row from the south, NaN for none; metres, model − mesh. */
+/** GET /api/runs/{run}/error/{block}: float32, little-endian, rows from south to north, NaN where there is no value;
+ *  model − mesh in m. */
 export interface ErrorMap {
   block: string;
   origin: Point2; // centre of cell (0, 0)
@@ -237,37 +248,37 @@ export interface ErrorMap {
   rows: number;
 }
 
-/** Across one edge, (inward, height) from its foot. */
+/** Section across an edge, as (inward, height) from its foot. */
 export interface Section {
   share: number; // 0 … 1 along the edge
-  pieces: [ProfilePoint, ProfilePoint][]; // the mesh
-  climbs: ProfilePoint[][]; // raw profiles along the edge, from its slices
+  pieces: [ProfilePoint, ProfilePoint][]; // segments of the mesh
+  climbs: ProfilePoint[][]; // raw profiles along the edge
 }
 
 export interface Change {
   building: string;
   revision: number;
-  parts: NamedPlan[]; // all of the building's parts, as they shall be
+  parts: NamedPlan[]; // all parts of the building after the change
 }
 export interface Edit {
   what: string;
   changes: Change[];
 }
 export interface Proposal {
-  changes: Change[]; // not applied: preview and send as an edit
+  changes: Change[]; // not applied: preview it and send it as an edit
 }
 export interface Applied {
-  buildings: Building[]; // those that changed
+  buildings: Building[]; // the changed buildings
   history: History;
 }
 export interface History {
-  edits: string[]; // what was done, oldest first
-  done: number; // the first so many stand; the rest can be redone
+  edits: string[]; // descriptions, oldest first
+  done: number; // so many of the first edits are applied; the rest can be redone
 }
 
 export interface Job {
   id: string;
-  kind: "read" | "run" | "export";
+  kind: "read" | "run";
   run: string | null;
   state: RunState;
   stage: string;
@@ -283,7 +294,7 @@ export type Event =
   | { type: "buildings"; run: string; client: string; buildings: Building[]; history: History } // an edit, undo or redo
   | { type: "ping" };
 
-/** Every refusal: HTTP status ≥ 400 with this body. 409 for "edit-stale". */
+/** The body of every answer with an HTTP status of at least 400. */
 export interface Refusal {
   error: Diagnostic;
 }

@@ -6,16 +6,16 @@ import type { Plan } from "../api/types";
 const code = (plan: Plan) => planFault(plan, "a-1")?.code ?? null;
 const withProfiles = (...profiles: Plan["profiles"]) => ({ ...house(), profiles });
 
-describe("a plan is refused before the server is asked", () => {
-  it("not when nothing is wrong with it", () => {
+describe("a plan is refused without a call of the server", () => {
+  it("not if it is valid", () => {
     expect(code(house())).toBeNull();
     expect(code(courtyardHouse())).toBeNull();
   });
-  it("when its cap is not above its base", () => {
+  it("if its cap is not above its base", () => {
     expect(code({ ...house(), cap: 0 })).toBe("extrude-cap");
     expect(code({ ...house(), cap: NaN })).toBe("extrude-cap");
   });
-  it("when a profile leans outwards, goes down, or does not start at the foot, with its number", () => {
+  it("if a profile leans outwards, goes down, or does not start at the foot; the message has its number", () => {
     const [roof, gable] = house().profiles as [Plan["profiles"][0], Plan["profiles"][0]];
     expect(
       planFault(
@@ -58,12 +58,12 @@ describe("a plan is refused before the server is asked", () => {
         [0, 0],
         [0, 2e6],
       ]),
-    ).toBe("reaches beyond 1,000 km; profiles are in metres");
+    ).toBe("extends beyond 1,000 km; profiles are in metres");
   });
-  it("when an edge names no profile", () => {
+  it("if an edge names an unknown profile", () => {
     expect(code(withProfiles(house().profiles[0]!))).toBe("extrude-profile");
   });
-  it("when edges cross, with their numbers, the place and what to do", () => {
+  it("if edges cross; the message has their numbers, the place and a remedy", () => {
     const bowtie = withCorners([
       [0, 0],
       [10, 0],
@@ -75,19 +75,19 @@ describe("a plan is refused before the server is asked", () => {
       code: "extrude-not-simple",
       message:
         "edge 1 and edge 3 cross at (5.556, 4.444); " +
-        "swap corners that are out of order, or cut the outline there into two",
+        "reorder the corners, or split the outline there",
       subject: "a-1",
     });
   });
-  it("when a hole reaches out of the outline or lies outside of it", () => {
+  it("if a hole crosses the outline or is outside of it", () => {
     const moved = (by: number): Plan => {
       const plan = courtyardHouse();
       return { ...plan, holes: plan.holes.map((h) => ({ ...h, points: h.points.map((p) => [p[0] + by, p[1]]) })) };
     };
     expect(planFault(moved(5), "")?.message).toContain("of hole 1 cross at");
-    expect(planFault(moved(20), "")?.message).toContain("hole 1 near (24.000, 3.000) lies outside of the footprint");
+    expect(planFault(moved(20), "")?.message).toContain("hole 1 near (24.000, 3.000) is outside the footprint");
   });
-  it("when nothing is left of it", () => {
+  it("if it has no area", () => {
     expect(
       code(
         withCorners([
@@ -98,7 +98,7 @@ describe("a plan is refused before the server is asked", () => {
       ),
     ).toBe("extrude-no-area");
   });
-  it("but not when corners merely touch: the server is exact and decides", () => {
+  it("but not if corners touch: the exact check of the server decides", () => {
     expect(
       code(
         withCorners([

@@ -37,7 +37,7 @@ beforeEach(() => {
 });
 
 describe("the selected part", () => {
-  it("is changed alone, with what a draft has of the others", () => {
+  it("is changed alone; the other parts keep their drafts", () => {
     const moved = withCorners([
       [0, 0],
       [9, 0],
@@ -54,7 +54,7 @@ describe("the selected part", () => {
     expect(withPlan(plan)).toEqual([{ building: "b", parts: [{ id: "b-1", plan }, parts[1]] }]);
   });
 
-  it("shows its longest edge until one is selected", () => {
+  it("shows its longest edge unless one is selected", () => {
     expect(edgeShown.value).toEqual({ ring: 0, edge: 0 });
     state.selection.value = { building: "b", part: "b-1", ring: 0, edge: 3 };
     expect(edgeShown.value).toEqual({ ring: 0, edge: 3 });
@@ -62,7 +62,7 @@ describe("the selected part", () => {
     expect(edgeShown.value).toEqual({ ring: 0, edge: 0 });
   });
 
-  it("keeps its selected and chosen edges when corners come and go", () => {
+  it("keeps its selected edges when corners are inserted and deleted", () => {
     for (let selected = 0; selected < 4; ++selected)
       for (let at = 0; at < 4; ++at) {
         const was = endsOf(house(), { ring: 0, edge: selected })!;
@@ -71,7 +71,7 @@ describe("the selected part", () => {
         const more = insertVertex(house(), { ring: 0, edge: at }, [5, 4]);
         renumber({ ring: 0, edge: at }, true, 4);
         const now = endsOf(more, { ring: 0, edge: state.selection.value!.edge! })!;
-        expect(now[0]).toEqual(was[0]); // its first half, where the corner came onto it
+        expect(now[0]).toEqual(was[0]); // the first half of the split edge
         expect(chosen.value[0]?.edge).toBe(state.selection.value?.edge);
 
         state.selection.value = { building: "b", part: "b-1", ring: 0, edge: selected };
@@ -79,11 +79,11 @@ describe("the selected part", () => {
         renumber({ ring: 0, edge: at }, false, 4);
         const left = endsOf(fewer, { ring: 0, edge: state.selection.value!.edge! })!;
         if (selected !== at) expect(left[0]).toEqual(was[0]);
-        else expect(left[1]).toEqual(was[1]); // it became one with the edge before
+        else expect(left[1]).toEqual(was[1]); // it was merged with the previous edge
       }
   });
 
-  it("has edges chosen and left again", () => {
+  it("toggles additional edges", () => {
     toggleChosen({ ring: 0, edge: 1 });
     toggleChosen({ ring: 0, edge: 2 });
     toggleChosen({ ring: 0, edge: 1 });
@@ -92,7 +92,7 @@ describe("the selected part", () => {
 });
 
 describe("names", () => {
-  it("are short but can be told apart", () => {
+  it("are short but distinguishable", () => {
     expect(shortName("b31", "b31-2")).toBe("part 2");
     expect(shortName("b31", "west wing")).toBe("west wing");
     expect(shortId("b31bc26a8-00ba-11e6-b420-2bdcc4ab5d7f")).toBe("b31bc26a8…ab5d7f");
@@ -100,7 +100,7 @@ describe("names", () => {
 });
 
 describe("latency", () => {
-  it("is measured from the pointer's event, and not where there was none", () => {
+  it("is measured from the pointer event, if there was one", () => {
     measureShown(0);
     expect(latencies).toHaveLength(0);
     measureShown(Math.max(0.001, performance.now() - 20));

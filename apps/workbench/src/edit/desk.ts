@@ -1,4 +1,4 @@
-// What both editors share: the part being edited as it stands, and how a change of it is handed to the session.
+// Shared by both editors: the edited part in its present state, and how its changes are passed to the session.
 import { computed, signal } from "@preact/signals";
 import type * as api from "../api/types";
 import { keepOpen } from "../actions";
@@ -8,19 +8,19 @@ import { distance } from "./vector";
 import { edgesOf, endsOf, ringOf, sameEdge, type EdgeAt, type Scope } from "./plan";
 
 export const scope = signal<Scope>("edge");
-/** More edges than the selected one, to copy a profile to. */
+/** Additional edges to copy a profile to. */
 export const chosen = signal<EdgeAt[]>([]);
 export const snapping = signal(true);
-/** Metres; 0 for none. */
+/** Grid spacing in metres; 0 for none. */
 export const grid = signal(0);
 
-/** A building's parts as they are being edited. */
+/** The parts of a building, with unsaved changes. */
 export function partsOf(building: string): api.NamedPlan[] {
   const drafted = state.draft.value?.changes.find((c) => c.building === building)?.parts;
   return drafted ?? state.run.value?.buildings.get(building)?.parts ?? [];
 }
 
-/** The building's parts with this plan for the selected one. */
+/** The parts of the building, with this plan for the selected part. */
 export function withPlan(plan: api.Plan): Parts[] {
   const at = state.selection.value;
   if (!at?.part) return [];
@@ -28,7 +28,7 @@ export function withPlan(plan: api.Plan): Parts[] {
   return [{ building: at.building, parts }];
 }
 
-/** The selected edge; where none is, the longest one, so that there is always a profile to look at. */
+/** The selected edge, or the longest one if none is selected: there is always a profile to show. */
 export const edgeShown = computed<EdgeAt | null>(() => {
   const plan = state.selectedPlan.value;
   const at = state.selection.value;
@@ -43,7 +43,7 @@ export const edgeShown = computed<EdgeAt | null>(() => {
   return best;
 });
 
-/** The part as the server last raised it, with its draft; and as it stood before the draft. */
+/** The selected part with its draft, as last extruded by the server; and the part before the draft. */
 export const raisedPart = computed(() => {
   const at = state.selection.value;
   return at?.part ? state.shown(at.building)?.parts.find((p) => p.id === at.part) : undefined;
@@ -60,7 +60,7 @@ export function selectEdge(at: EdgeAt | null) {
   keepOpen();
 }
 
-/** Edges keep their names when numbers after a corner change by one: added on edge `at`, or taken from its start. */
+/** Adjusts selected edges when a corner is added on edge `at`, or removed from its start: later edge numbers change by one. */
 export function renumber(at: EdgeAt, added: boolean, edges: number) {
   const now = (edge: number) => {
     if (added) return edge > at.edge ? edge + 1 : edge;
@@ -77,7 +77,7 @@ export function toggleChosen(at: EdgeAt) {
   chosen.value = rest.length < chosen.value.length ? rest : [...rest, at];
 }
 
-/** Height above its base of the highest point of a raised part, metres. */
+/** Ridge height: of the highest point of an extruded part above its base, metres. */
 export function ridgeOf(part: api.RaisedPart | undefined): number | null {
   const positions = part?.geometry?.positions;
   if (!part || !positions?.length) return null;
@@ -86,7 +86,7 @@ export function ridgeOf(part: api.RaisedPart | undefined): number | null {
   return top - part.plan.base;
 }
 
-/** What an arrow key moves by, metres. */
+/** The distance that an arrow key moves, metres. */
 export const keyStep = (event: KeyboardEvent) => (event.shiftKey ? 1 : event.altKey ? 0.01 : 0.1);
 export function arrow(event: KeyboardEvent): [number, number] | null {
   const by = keyStep(event);
@@ -104,7 +104,7 @@ export function arrow(event: KeyboardEvent): [number, number] | null {
   }
 }
 
-/** Short enough to read: parts are called by their number, long names of buildings by their ends. */
+/** Short names: parts by their number; long ids are shortened to their beginnings and ends. */
 export function shortName(building: string, part: string): string {
   return part.startsWith(`${building}-`) ? `part ${part.slice(building.length + 1)}` : shortId(part);
 }

@@ -5,14 +5,15 @@ interface NumberFieldProps {
   label: string;
   unit: string;
   value: number | null;
-  /** Called with what was typed, never with what is merely shown rounded. */
+  /** Called with the typed value, never with a rounded displayed one. */
   onValue: (value: number) => void;
   digits?: number;
   disabled?: boolean;
   title?: string;
 }
 
-/** A number to read and to type, with a comma or a point. Enter or leaving it takes it; Esc does not; arrows step. */
+/** A number field that accepts a decimal comma or point. Enter and leaving the field apply the value, Esc does not; arrow
+ *  keys change it in steps. */
 export function NumberField({ label, unit, value, onValue, digits = 3, disabled, title }: NumberFieldProps) {
   const typed = useSignal<string | null>(null);
   const shown = value === null ? "" : shownNumber(value, digits, 2);

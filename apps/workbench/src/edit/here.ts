@@ -1,6 +1,6 @@
-// The session of this tab.
+// The edit session of this tab.
 import { effect } from "@preact/signals";
-import { client, say, select, take } from "../actions";
+import { client, select, showMessage, take } from "../actions";
 import { keep, kept } from "../keep";
 import * as state from "../state";
 import { latencies, measureShown } from "./latency";
@@ -10,13 +10,13 @@ export const session = new EditSession(client, {
   run: state.run,
   draft: state.draft,
   take,
-  say,
+  showMessage,
   keep: (draft) => keep("session", "draft", draft),
   kept: () => kept("session", "draft", null),
   shown: measureShown,
 });
 
-/** Selects the building that a draft is of. */
+/** Selects the building of the draft. */
 export function showDraft() {
   const change = state.draft.value?.changes[0];
   if (change) select({ building: change.building, part: change.parts[0]?.id ?? null, ring: 0, edge: null });

@@ -1,4 +1,4 @@
-// The parts around the selected one: drawn behind it, snapped to, merged with.
+// The parts around the selected one, for drawing, snapping and merging.
 import { useMemo } from "preact/hooks";
 import type { Plan, Point2 } from "../api/types";
 import * as state from "../state";
@@ -11,7 +11,7 @@ export interface Neighbour {
   plan: Plan;
 }
 
-/** Parts are looked at as far as this from the selected one, metres. */
+/** Maximum distance of neighbours, metres. */
 const nearby = 60;
 
 function near(plan: Plan): (other: Plan) => boolean {
@@ -22,12 +22,12 @@ function near(plan: Plan): (other: Plan) => boolean {
   return (other) => other.outer.points.some((p) => p[0] > low[0] && p[0] < high[0] && p[1] > low[1] && p[1] < high[1]);
 }
 
-/** All parts near the selected one, and those of them that it can be merged with, the ones picked for it first. */
+/** All parts near the selected one, and those that it can be merged with; additionally selected ones come first. */
 export function useNeighbours(plan: Plan | null, key: string): { all: Neighbour[]; touching: Neighbour[] } {
   const run = state.run.value;
   const at = state.selection.value;
   const also = state.also.value;
-  // The plan's own changes are none of theirs, but in a draft they may be other parts than in the run.
+  // Changes of the plan itself do not affect its neighbours; but a draft may have other parts than the run.
   const drafted = state.draft.value?.changes.length;
   const all = useMemo(() => {
     if (!plan || !at || !run) return [];
@@ -41,7 +41,7 @@ export function useNeighbours(plan: Plan | null, key: string): { all: Neighbour[
   const touching = useMemo(() => {
     if (!plan || !at) return [];
     const picked = (n: Neighbour) => also.some((a) => a.building === n.building && a.part === n.part);
-    // The picked ones first, then the building's own, then by the length of the shared wall.
+    // Additionally selected parts first, then parts of the same building, then by the length of the shared wall.
     const rank = (n: Neighbour) => (picked(n) ? 2 : n.building === at.building ? 1 : 0);
     return all
       .map((n) => ({ ...n, shared: sharedWall(plan, n.plan) }))

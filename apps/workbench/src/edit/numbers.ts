@@ -1,6 +1,6 @@
-// Numbers as people type and read them.
+// Typed numbers are parsed, and numbers are formatted.
 
-/** "7.4", "7,4", "-0.5", " 12 "; nothing for anything else, thousands separators included. */
+/** "7.4", "7,4", "-0.5", " 12 "; null for anything else, also for thousands separators. */
 export function parsed(text: string): number | null {
   const trimmed = text.trim().replace("−", "-");
   if (!/^[+-]?(\d+([.,]\d*)?|[.,]\d+)$/.test(trimmed)) return null;
@@ -8,7 +8,7 @@ export function parsed(text: string): number | null {
   return Number.isFinite(value) ? value : null;
 }
 
-/** At most so many digits behind the point, and no zeros at the end beyond `least`. */
+/** With at most `most` decimals, without trailing zeros beyond `least` decimals. */
 export function shownNumber(value: number, most = 3, least = 2): string {
   const text = value.toFixed(most);
   const cut = text.replace(/0+$/, "");

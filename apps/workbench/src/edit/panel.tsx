@@ -3,6 +3,7 @@ import { useEffect, useRef } from "preact/hooks";
 import { select } from "../actions";
 import { keep, kept } from "../keep";
 import * as state from "../state";
+import { sentence } from "../panels/words";
 import "./edit.css";
 import { selectEdge, shortId, shortName } from "./desk";
 import { session, showDraft } from "./here";
@@ -17,7 +18,7 @@ export function EditPanel() {
 
   useEffect(() => {
     const escape = (event: KeyboardEvent) => {
-      // A drag is given up whatever has the focus; a held draft only where nothing else could be meant.
+      // Esc cancels a drag whatever has the focus; it discards an unsaved draft only if no element has the focus.
       const free = event.target === document.body || box.current?.contains(event.target as Node);
       if (event.key !== "Escape") return;
       if (
@@ -47,8 +48,8 @@ export function EditPanel() {
         )}
         <p>
           {state.run.value
-            ? "Pick a building in the 3D view or in the list to change its plan and its profiles."
-            : "Run a reconstruction first: its buildings can be changed here."}
+            ? "Select a building in the 3D view or in the list of buildings to edit its plan and profiles."
+            : "Run a reconstruction first. Its buildings can be edited here."}
         </p>
       </section>
     );
@@ -100,11 +101,11 @@ const words = {
   idle: "",
   changing: "",
   checking: "checking …",
-  writing: "writing …",
+  saving: "saving …",
   held: "",
 };
 
-/** Which part it is, and what became of the change. */
+/** The selected part, and the state of its change. */
 function EditBar() {
   const at = state.selection.value!;
   const building = state.selectedBuilding.value!;
@@ -137,7 +138,7 @@ function EditBar() {
           {words[phase]}
         </span>
         {at.edge !== null && (
-          <button type="button" class="edit-quiet" onClick={() => selectEdge(null)} title="Select no edge">
+          <button type="button" class="edit-quiet" onClick={() => selectEdge(null)} title="Deselect the edge">
             edge {at.edge} ×
           </button>
         )}
@@ -147,7 +148,7 @@ function EditBar() {
   );
 }
 
-/** Why a change is not written, and what can be done about it. */
+/** Why a change is not saved, and what can be done. */
 function Held() {
   const draft = state.draft.value;
   const reason = session.reason.value;
@@ -161,10 +162,10 @@ function Held() {
         {elsewhere && <b>{draft.changes.map((c) => shortId(c.building)).join(", ")}: </b>}
         {reason ? (
           <>
-            {reason.message} <code>{reason.code}</code>
+            {sentence(reason.message)} <code>{reason.code}</code>
           </>
         ) : (
-          "Not written yet."
+          "This change is not saved yet."
         )}
       </span>
       {held && (
@@ -176,11 +177,11 @@ function Held() {
           )}
           {!draft.invalid && (
             <button type="button" onClick={() => session.again()}>
-              Write
+              Save
             </button>
           )}
-          <button type="button" onClick={() => session.cancel()} title="Drop the change (Esc)">
-            Drop
+          <button type="button" onClick={() => session.cancel()} title="Discard the change (Esc)">
+            Discard
           </button>
         </span>
       )}

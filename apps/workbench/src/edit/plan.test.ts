@@ -32,7 +32,7 @@ const at = (edge: number, ring = 0) => ({ ring, edge });
 const profiles = (plan: Plan) => edgesOf(plan).map((e) => profileOf(plan, e));
 
 describe("corners", () => {
-  it("move alone, and the plan they came from stays as it was", () => {
+  it("move alone; the original plan is unchanged", () => {
     const before = house();
     const moved = moveVertex(before, at(2), [11, 9]);
     expect(moved.outer.points[2]).toEqual([11, 9]);
@@ -51,13 +51,13 @@ describe("corners", () => {
     expect(profiles(plan)).toEqual([roof, gable, roof, gable, gable]);
   });
 
-  it("deleted leave the profile of the longer of their edges", () => {
+  it("deleted leave the profile of the longer edge", () => {
     expect(profiles(deleteVertex(house(), at(1))!)).toEqual([roof, roof, gable]); // 10 m of roof, 8 m of gable
     expect(profiles(deleteVertex(house(), at(2))!)).toEqual([roof, roof, gable]);
     expect(profiles(deleteVertex(house(), at(0))!)).toEqual([gable, roof, roof]);
   });
 
-  it("of a triangle cannot be deleted, but a hole of three goes as a whole", () => {
+  it("of a triangle cannot be deleted; of a triangular hole, they delete the hole", () => {
     const triangle = withCorners([
       [0, 0],
       [10, 0],
@@ -75,7 +75,7 @@ describe("corners", () => {
 });
 
 describe("edges", () => {
-  it("move inwards, for outline and hole alike, and their neighbours keep their directions", () => {
+  it("move inwards in outlines and holes; their neighbours keep their directions", () => {
     expect(moveEdge(house(), at(0), 1).outer.points).toEqual([
       [0, 1],
       [10, 1],
@@ -83,11 +83,11 @@ describe("edges", () => {
       [0, 8],
     ]);
     expect(planArea(moveEdge(house(), at(1), -2))).toBeCloseTo(96);
-    // Into the building's matter: the courtyard becomes larger.
+    // Inwards of the solid: the courtyard becomes larger.
     expect(planArea(moveEdge(courtyardHouse(), at(0, 1), 1))).toBeCloseTo(80 - 6);
   });
 
-  it("slide along slanted neighbours", () => {
+  it("move along slanted neighbours", () => {
     const slanted = withCorners([
       [0, 0],
       [10, 0],
@@ -100,7 +100,7 @@ describe("edges", () => {
     expect(points[3]![1]).toBeCloseTo(6);
   });
 
-  it("move as they are where a neighbour goes almost the same way", () => {
+  it("keep their length next to a nearly parallel neighbour", () => {
     const bent = withCorners([
       [0, 0],
       [5, 0],
@@ -115,7 +115,7 @@ describe("edges", () => {
 });
 
 describe("holes", () => {
-  it("are kept clockwise with walls all the way, however they were drawn", () => {
+  it("are stored clockwise with walls up to the cap, in whatever order they were drawn", () => {
     for (const turned of [false, true]) {
       const drawn: [number, number][] = [
         [4, 3],
@@ -133,7 +133,7 @@ describe("holes", () => {
     }
   });
 
-  it("filled leave no profile behind", () => {
+  it("leave no unused profile when they are filled", () => {
     const plan = addHole(house(), [
       [4, 3],
       [6, 3],
@@ -144,13 +144,13 @@ describe("holes", () => {
 });
 
 describe("profiles", () => {
-  it("are changed for one edge and stay for those that shared them", () => {
+  it("are changed for one edge and not for others that shared them", () => {
     const plan = setProfile(house(), [at(0)], steeper);
     expect(profiles(plan)).toEqual([steeper, gable, roof, gable]);
     expect(plan.profiles).toHaveLength(3);
   });
 
-  it("are changed for those that share them, or for all", () => {
+  it("are changed for all edges that share them, or for all edges", () => {
     const sharing = inScope(house(), at(0), "sharing");
     expect(sharing).toEqual([at(0), at(2)]);
     expect(profiles(setProfile(house(), sharing, steeper))).toEqual([steeper, gable, steeper, gable]);
@@ -162,11 +162,11 @@ describe("profiles", () => {
     expect(all.profiles).toEqual([steeper]);
   });
 
-  it("set back to what they were share again", () => {
+  it("are shared again when they become equal", () => {
     expect(setProfile(setProfile(house(), [at(0)], steeper), [at(0)], roof)).toEqual(house());
   });
 
-  it("of several edges are each changed by themselves", () => {
+  it("of several edges are changed separately", () => {
     const plan = setProfile(house(), [at(2)], steeper);
     const raised = changeProfiles(plan, edgesOf(plan), (p) => (p === gable ? null : withGutter(p, 7)));
     expect(profiles(raised).map((p) => p!.at(-1))).toEqual([
@@ -177,15 +177,15 @@ describe("profiles", () => {
     ]);
   });
 
-  it("without an edge are dropped and equal ones joined", () => {
+  it("without an edge are removed and equal ones merged", () => {
     const plan: Plan = { ...house(), profiles: [steeper, roof, [...roof], gable] };
     plan.outer = { ...plan.outer, profile_of_edge: [1, 3, 2, 3] };
     expect(clean(plan)).toEqual(house());
   });
 });
 
-describe("a plan turned over", () => {
-  it("is written counter-clockwise with every edge's profile", () => {
+describe("a plan with reversed orientation", () => {
+  it("is made counter-clockwise; every edge keeps its profile", () => {
     const plan = withCorners([
       [0, 0],
       [0, 8],
@@ -199,13 +199,13 @@ describe("a plan turned over", () => {
     expect(turned.outer.profile_of_edge.filter((p) => p === 1)).toHaveLength(2);
   });
 
-  it("stays as it is when it was not", () => {
+  it("is unchanged if the orientation is right", () => {
     expect(oriented(courtyardHouse())).toEqual(courtyardHouse());
   });
 });
 
 describe("relations", () => {
-  it("find the edge across and those in line", () => {
+  it("find opposite and collinear edges", () => {
     expect(opposite(house(), at(0))).toEqual([at(2)]);
     const stepped = withCorners([
       [0, 0],
@@ -221,7 +221,7 @@ describe("relations", () => {
     expect(opposite(stepped, at(6)).map((e) => e.edge)).toEqual([0, 2, 4]);
   });
 
-  it("measure the wall that two parts share", () => {
+  it("measure the shared wall of two parts", () => {
     const neighbour = withCorners([
       [10, 2],
       [20, 2],

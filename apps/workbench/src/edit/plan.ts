@@ -1,4 +1,4 @@
-// What can be done to a plan. Nothing here changes what it is given: every function returns another plan.
+// Operations on plans. Every function returns a new plan and leaves its argument unchanged.
 import type { Plan, PlanRing, Point2 } from "../api/types";
 import { same, type Profile } from "./profile";
 import {
@@ -16,12 +16,12 @@ import {
   type Line,
 } from "./vector";
 
-/** An edge of a plan, or the corner where it begins. Ring 0 is the outline. */
+/** An edge of a plan, or the corner at its start. Ring 0 is the outline. */
 export interface EdgeAt {
   ring: number;
   edge: number;
 }
-/** Whom the profile of an edge is changed for. */
+/** The edges that a change of a profile applies to. */
 export type Scope = "edge" | "sharing" | "part";
 
 export const ringsOf = (plan: Plan): PlanRing[] => [plan.outer, ...plan.holes];
@@ -44,7 +44,7 @@ export function profileOf(plan: Plan, at: EdgeAt): Profile | null {
 }
 export const sameEdge = (a: EdgeAt, b: EdgeAt) => a.ring === b.ring && a.edge === b.edge;
 
-/** Ground it covers, m². */
+/** Area of the footprint, m². */
 export const planArea = (plan: Plan) =>
   ringsOf(plan).reduce((sum, r, i) => sum + (i ? -1 : 1) * Math.abs(area(r.points)), 0);
 
@@ -60,7 +60,7 @@ export function moveVertex(plan: Plan, at: EdgeAt, to: Point2): Plan {
   return withPoints(plan, at.ring, (p, i) => (i === at.edge ? to : p));
 }
 
-/** The edge shifted to its left (inwards, for outline and holes alike); its neighbours keep their directions. */
+/** Shifts the edge to its left, i.e. inwards, also for holes; its neighbours keep their directions. */
 export function moveEdge(plan: Plan, at: EdgeAt, by: number): Plan {
   const ring = ringOf(plan, at.ring);
   const ends = endsOf(plan, at);
@@ -71,7 +71,7 @@ export function moveEdge(plan: Plan, at: EdgeAt, by: number): Plan {
   const next = after(ring, at.edge);
   const slid = (corner: Point2, beyond: Point2): Point2 => {
     const direction = unit(minus(corner, beyond));
-    // A neighbour that hardly turns away would carry the corner far off.
+    // With a nearly parallel neighbour the corner would move far away.
     if (!direction || Math.abs(cross(direction, along)) < 0.3) return plus(corner, shift);
     return meeting(moved, { at: beyond, along: direction }) ?? plus(corner, shift);
   };
@@ -80,7 +80,7 @@ export function moveEdge(plan: Plan, at: EdgeAt, by: number): Plan {
   return withPoints(plan, at.ring, (p, i) => (i === at.edge ? first : i === next ? second : p));
 }
 
-/** A corner on an edge; both halves keep its profile. */
+/** Inserts a corner on an edge; both halves keep its profile. */
 export function insertVertex(plan: Plan, at: EdgeAt, point: Point2): Plan {
   const ring = ringOf(plan, at.ring);
   if (!ring || at.edge >= ring.points.length) return plan;
@@ -94,8 +94,8 @@ export function insertVertex(plan: Plan, at: EdgeAt, point: Point2): Plan {
   });
 }
 
-/** The two edges of the corner become one, with the profile of the longer. A hole of three corners goes with the
- *  corner; an outline of three keeps it: nothing is returned. */
+/** Deletes a corner; its two edges become one, with the profile of the longer one. A hole with three corners is deleted;
+ *  for an outline with three corners the result is null. */
 export function deleteVertex(plan: Plan, at: EdgeAt): Plan | null {
   const ring = ringOf(plan, at.ring);
   if (!ring || at.edge >= ring.points.length) return null;
@@ -110,7 +110,7 @@ export function deleteVertex(plan: Plan, at: EdgeAt): Plan | null {
   return withRing(plan, at.ring, { points: others(ring.points), profile_of_edge: others(profiles) });
 }
 
-/** A courtyard: walls all the way around. In any direction; kept clockwise. */
+/** Adds a courtyard with walls up to the cap. The points may have any orientation; the hole is clockwise. */
 export function addHole(plan: Plan, points: Point2[]): Plan {
   const clockwise = area(points) > 0 ? [...points].reverse() : points;
   const wall: Profile = [
@@ -124,7 +124,7 @@ export function removeHole(plan: Plan, ring: number): Plan {
   return clean({ ...plan, holes: plan.holes.filter((_, i) => i !== ring - 1) });
 }
 
-/** The edges that a change of the profile of `at` is for. Equal profiles are shared, whatever the file says. */
+/** The edges that a change of the profile of `at` applies to. Equal profiles count as shared. */
 export function inScope(plan: Plan, at: EdgeAt, scope: Scope): EdgeAt[] {
   const own = profileOf(plan, at);
   if (scope === "edge" || !own) return [at];
@@ -132,7 +132,7 @@ export function inScope(plan: Plan, at: EdgeAt, scope: Scope): EdgeAt[] {
   return edgesOf(plan).filter((e) => same(profileOf(plan, e) ?? [], own));
 }
 
-/** The edges get a profile of their own; edges that shared the old one with them keep it. */
+/** Sets the profile of some edges; other edges with the same profile keep it. */
 export function setProfile(plan: Plan, edges: EdgeAt[], profile: Profile): Plan {
   const index = plan.profiles.length;
   const changed = (ring: PlanRing, r: number): PlanRing => ({
@@ -149,7 +149,7 @@ export function setProfile(plan: Plan, edges: EdgeAt[], profile: Profile): Plan 
   });
 }
 
-/** Profiles that no edge has are dropped, equal ones are shared; numbered in the order of the edges that have them. */
+/** Removes unused profiles, shares equal ones, and numbers them in the order of their edges. */
 export function clean(plan: Plan): Plan {
   const kept: Profile[] = [];
   const renamed = (ring: PlanRing): PlanRing => ({
@@ -165,8 +165,8 @@ export function clean(plan: Plan): Plan {
   return { base: plan.base, cap: plan.cap, outer, holes, profiles: kept };
 }
 
-/** Outline counter-clockwise, holes clockwise, as a file has to have them: a corner dragged through its opposite edge
- *  turns a triangle over. */
+/** Makes the outline counter-clockwise and holes clockwise, as files require: dragging a corner across the opposite edge of
+ *  a triangle reverses its orientation. */
 export function oriented(plan: Plan): Plan {
   const turned = (ring: PlanRing, r: number): PlanRing => {
     if (area(ring.points) >= 0 === (r === 0)) return ring;
@@ -178,7 +178,7 @@ export function oriented(plan: Plan): Plan {
   return { ...plan, outer: turned(plan.outer, 0), holes: plan.holes.map((h, i) => turned(h, i + 1)) };
 }
 
-/** Edges that look the other way, within 10°, and lie across from this one. */
+/** Edges on the opposite side that are parallel within 10°. */
 export function opposite(plan: Plan, at: EdgeAt): EdgeAt[] {
   const ends = endsOf(plan, at);
   const along = ends && unit(minus(ends[1], ends[0]));
@@ -194,7 +194,7 @@ export function opposite(plan: Plan, at: EdgeAt): EdgeAt[] {
   });
 }
 
-/** Edges on the same line, within 0.1 m, looking the same way; not the edge itself. */
+/** Other edges on the same line, within 0.1 m, with the same direction. */
 export function collinear(plan: Plan, at: EdgeAt): EdgeAt[] {
   const ends = endsOf(plan, at);
   const along = ends && unit(minus(ends[1], ends[0]));
@@ -208,7 +208,7 @@ export function collinear(plan: Plan, at: EdgeAt): EdgeAt[] {
   });
 }
 
-/** Length along which two plans stand against each other within 0.05 m, metres. */
+/** Length of the walls that two plans share within 0.05 m, metres. */
 export function sharedWall(a: Plan, b: Plan): number {
   let length = 0;
   for (const e of edgesOf(a))
@@ -226,7 +226,7 @@ export function sharedWall(a: Plan, b: Plan): number {
   return length;
 }
 
-/** Every one of the edges gets its own profile changed; those for which `change` gives nothing keep theirs. */
+/** Changes the profile of each edge separately; edges for which `change` returns null keep theirs. */
 export function changeProfiles(plan: Plan, edges: EdgeAt[], change: (profile: Profile) => Profile | null): Plan {
   let changed = plan;
   for (const at of edges) {

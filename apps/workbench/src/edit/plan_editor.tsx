@@ -1,6 +1,6 @@
 import { useSignal, useSignalEffect } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
-import { attempt, client, needLayers, say, select, selectAlso } from "../actions";
+import { attempt, client, needLayers, select, selectAlso, showMessage } from "../actions";
 import type * as api from "../api/types";
 import type { Point2 } from "../api/types";
 import * as state from "../state";
@@ -44,9 +44,9 @@ import { cross, distance, dot, middle, minus, nearestOn, plus, turnedLeft, unit 
 interface Drag {
   kind: "pan" | "corner" | "edge";
   at: EdgeAt;
-  down: Point2; // pixels of the window: the drawing may move when messages come
+  down: Point2; // pixels of the window: the drawing may move when messages appear
   last: Point2;
-  plan: api.Plan; // where it began
+  plan: api.Plan; // at the start of the drag
   around: Surroundings;
   began: boolean;
 }
@@ -97,7 +97,7 @@ export function PlanEditor() {
     grid: grid.value,
   });
 
-  // ---- what changes the plan
+  // ---- changes of the plan
 
   const cornerMoved = (at: EdgeAt, moved: api.Plan, by: number, time: number) => {
     session.change(`corner of ${part} moved by ${metres(by)}`, withPlan(moved), time);
@@ -128,7 +128,7 @@ export function PlanEditor() {
     const [a, b] = endsOf(moved, at)!;
     const [p] = endsOf(moved, { ring: at.ring, edge: before(ring, at.edge) })!;
     const [, q] = endsOf(moved, { ring: at.ring, edge: after(ring, at.edge) })!;
-    const shift = `${by < 0 ? "out" : "in"} ${metres(Math.abs(by))}`;
+    const shift = `${metres(Math.abs(by))} ${by < 0 ? "outwards" : "inwards"}`;
     dimensions.value = [
       { at: middle(a, b), text: `${metres(distance(a, b))} · ${shift}` },
       { at: middle(p, a), text: metres(distance(p, a)) },
@@ -165,7 +165,7 @@ export function PlanEditor() {
     drag.current = { kind: moves, at, down: p, last: p, plan, around, began: false };
   };
 
-  // Only once something is dragged: a click and a double click belong to what they hit.
+  // Only once something is dragged: clicks and double clicks go to their own elements.
   const capture = (event: PointerEvent) => {
     if (!svg.current!.hasPointerCapture(event.pointerId)) svg.current!.setPointerCapture(event.pointerId);
   };
@@ -197,7 +197,7 @@ export function PlanEditor() {
       if (d.kind === "edge") selectEdge(d.at);
     }
     if (!session.active) {
-      drag.current = null; // given up with Esc, undone, or overtaken from another tab
+      drag.current = null; // cancelled with Esc, undone, or replaced by an edit of another page
       spoken.value = "";
       quiet();
       return;
@@ -223,7 +223,7 @@ export function PlanEditor() {
     drag.current = null;
     if (!d) return;
     if (d.kind === "pan") {
-      svg.current!.focus({ preventScroll: true }); // so that Esc and Enter are heard
+      svg.current!.focus({ preventScroll: true }); // to receive Esc and Enter
       if (!d.began && tool.value !== "move") place(drawingPoint(event, toMetres(now, pixels(event))));
       return;
     }
@@ -322,15 +322,15 @@ export function PlanEditor() {
     if (by) spoken.value = `at ${cursor.value!.map((v) => v.toFixed(2)).join(", ")}`;
   };
 
-  // ---- corners, holes, cuts
+  // ---- corners, courtyards, splitting
 
   const removeCorner = (at: EdgeAt) => {
     const changed = deleteVertex(plan, at);
     if (!changed)
-      say({
+      showMessage({
         severity: "warning",
         code: "edit-last-corners",
-        message: "an outline keeps three corners; merge the part with a neighbour to be rid of it",
+        message: "an outline needs at least three corners; to remove the part, merge it with a neighbour",
         subject: part,
       });
     else if (once(`corner of ${part} removed`, changed)) {
@@ -369,11 +369,11 @@ export function PlanEditor() {
     const last = drawn.value.at(-1);
     if (tool.value === "hole" && first && drawn.value.length > 2 && distance(first, p) < 1e-6) return finish();
     if (last && distance(last, p) < 1e-6) {
-      if (tool.value === "cut" && drawn.value.length > 1) finish(); // the second click of a double click
+      if (tool.value === "split" && drawn.value.length > 1) finish(); // the second click of a double click
       return;
     }
     drawn.value = [...drawn.value, p];
-    spoken.value = `${drawn.value.length} points drawn`;
+    spoken.value = `${drawn.value.length} points`;
   };
   const finish = () => {
     const points = drawn.value;
@@ -381,7 +381,7 @@ export function PlanEditor() {
     if (points.length < (which === "hole" ? 3 : 2)) return;
     leaveDrawing();
     if (which === "hole") once(`courtyard in ${part}`, addHole(plan, points));
-    else void cut(points);
+    else void split(points);
   };
   function leaveDrawing() {
     tool.value = "move";
@@ -393,9 +393,9 @@ export function PlanEditor() {
   const fillHole = () => {
     if (once(`courtyard of ${part} filled`, removeHole(plan, at.ring))) selectEdge(null);
   };
-  const cut = async (line: Point2[]) => {
+  const split = async (line: Point2[]) => {
     const proposal = await attempt(client.split(run.id, building, part, line));
-    if (proposal) session.propose(`${part} cut in two`, proposal.changes);
+    if (proposal) session.propose(`${part} split`, proposal.changes);
   };
   const mergeable = touching.find((o) => `${o.building} ${o.part}` === partner.value) ?? touching[0];
   const merge = async () => {
@@ -423,17 +423,17 @@ export function PlanEditor() {
   const drawing = tool.value !== "move";
   const preview = cursor.value && drawing ? [...drawn.value, cursor.value] : drawn.value;
   const block = run.buildings.get(building)?.block;
-  const sweepEdges = sweeps.value ? (state.whys.value.get(run.id)?.sweep_edges ?? []) : [];
+  const sweepEdges = sweeps.value ? (state.segmentations.value.get(run.id)?.sweep_edges ?? []) : [];
   const measures = `${planArea(plan).toFixed(1)} m² · ${edgesOf(plan).length} edges`;
   const hints: Record<Tool, string> = {
     move: spoken.value || measures,
-    hole: "Click its corners; Enter closes, Esc gives up",
-    cut: "Click along the cut; Enter cuts, Esc gives up",
+    hole: "Click the corners of the courtyard. Enter: close, Esc: cancel",
+    split: "Click points of a line across the part. Enter: split, Esc: cancel",
   };
   const instructions =
-    `Plan of ${part}. Tab goes from edge to edge, then from corner to corner; arrows move them by 0.1 metres, with ` +
-    "Shift by 1, with Alt by 0.01; Insert adds a corner, Delete removes one, Enter on an edge shows its profile, " +
-    "Escape gives up.";
+    `Plan of ${part}. Tab moves from edge to edge, then from corner to corner. Arrow keys move an edge or corner by 0.1 ` +
+    "metres, with Shift by 1 metre, with Alt by 0.01 metres. Insert adds a corner, Delete removes one, Enter on an edge " +
+    "shows its profile, Escape cancels.";
   const grips: Grips = { down, doubleClick, key: onKey, settle: settleNudge };
 
   return (
@@ -492,7 +492,7 @@ export function PlanEditor() {
         />
         <ScaleBar sheet={now} length={ruling(now.scale, 50)} />
       </svg>
-      <button type="button" class="edit-fit" onClick={fit} title="Bring the part into view">
+      <button type="button" class="edit-fit" onClick={fit} title="Zoom to the part">
         Fit
       </button>
       <PlanHint words={hints[tool.value]} sweeps={sweeps} />

@@ -1,4 +1,4 @@
-// What the plan editor draws, by layers.
+// The layers of the plan editor.
 import type { Plan, Point2, SceneFootprint, SweepEdgeLine } from "../api/types";
 import * as state from "../state";
 import { metres } from "./numbers";
@@ -9,13 +9,13 @@ import { toPixels, type Sheet } from "./sheet";
 import type { Guide } from "./snap";
 import { distance, middle, minus, turnedLeft, unit } from "./vector";
 
-/** Words at a place: a length, an angle. */
+/** A label at a position: a length or an angle. */
 export interface Dimension {
   at: Point2;
   text: string;
 }
 
-/** What an edge or a corner answers to. */
+/** The handlers of an edge or a corner. */
 export interface Grips {
   down(event: PointerEvent, kind: "corner" | "edge", at: EdgeAt): void;
   doubleClick(event: MouseEvent, at: EdgeAt): void;
@@ -70,7 +70,7 @@ export function Backdrop(props: {
           onClick={(event) => event.shiftKey && onAdd(n)}
           onDblClick={() => onPick(n)}
         >
-          <title>{`${n.part} – double-click to edit it, Shift and a click to merge with it`}</title>
+          <title>{`${n.part}: double-click to edit it, Shift and click to select it for merging`}</title>
         </path>
       ))}
       {footprint?.polygons.map((p, i) => <path key={i} class="footprint" d={pathOf(sheet, [p.outer, ...p.holes])} />)}
@@ -102,7 +102,7 @@ export function Edges(props: {
         const [x, y] = toPixels(sheet, middle(a, b));
         const isSelected = selected !== null && sameEdge(selected, at);
         const isChosen = chosen.some((c) => sameEdge(c, at));
-        const said = { pitched: `pitch ${pitch.toFixed(0)} degrees`, wall: "wall all the way", terrace: "terrace" }[
+        const said = { pitched: `pitch ${pitch.toFixed(0)} degrees`, wall: "wall up to the cap", terrace: "terrace" }[
           kind
         ];
         const seen = { pitched: `${pitch.toFixed(0)}°`, wall: "wall", terrace: "flat" }[kind];
@@ -175,7 +175,7 @@ export function Corners(props: {
 
 const inHole = (at: EdgeAt) => (at.ring > 0 ? ` of hole ${at.ring}` : "");
 
-/** What is being drawn, what it snapped to, and how long it is. */
+/** The line that is being drawn, its length, and what it snaps to. */
 export function Marks(props: {
   sheet: Sheet;
   guides: Guide[];
@@ -195,7 +195,7 @@ export function Marks(props: {
       ))}
       {drawn.length > 0 && (
         <g class="drawn">
-          <polyline class={closed ? "hole" : "cut"} points={drawn.map((p) => pixelText(sheet, p, ",")).join(" ")} />
+          <polyline class={closed ? "hole" : "split"} points={drawn.map((p) => pixelText(sheet, p, ",")).join(" ")} />
           {drawn.map((p, i) => {
             const [cx, cy] = toPixels(sheet, p);
             return <circle key={i} cx={cx} cy={cy} r={3} />;
@@ -212,7 +212,7 @@ export function Marks(props: {
   );
 }
 
-/** A bar of a whole length, at the lower left. */
+/** The scale bar at the lower left. */
 export function ScaleBar({ sheet, length }: { sheet: Sheet; length: number }) {
   const long = length * sheet.scale;
   return (

@@ -2,14 +2,14 @@ import type { Signal } from "@preact/signals";
 import { grid, shortId, shortName, snapping } from "./desk";
 import type { Neighbour } from "./neighbours";
 
-export type Tool = "move" | "hole" | "cut";
+export type Tool = "move" | "hole" | "split";
 
-/** What can be done to a part but drag it. */
+/** The tools of the plan editor. */
 export function PlanTools(props: {
   tool: Tool;
   building: string;
-  drafted: boolean; // the server cuts and merges what it has, not what is being drawn
-  hole: boolean; // an edge of one is selected
+  drafted: boolean; // splitting and merging need a saved plan
+  hole: boolean; // an edge of a courtyard is selected
   touching: Neighbour[];
   partner: Neighbour | undefined;
   onTool(tool: Tool): void;
@@ -19,29 +19,29 @@ export function PlanTools(props: {
 }) {
   const { tool, building, drafted, touching, partner } = props;
   const key = (n: Neighbour | undefined) => (n ? `${n.building} ${n.part}` : "");
-  const first = "Write or drop the change first";
+  const first = "Save or discard the change first";
   return (
     <div class="edit-tools" role="toolbar" aria-label="Plan">
       <button
         type="button"
         aria-pressed={tool === "hole"}
         onClick={() => props.onTool("hole")}
-        title="Draw a courtyard: click its corners; Enter or the first corner again closes it"
+        title="Draw a courtyard: click its corners. Enter or a click on the first corner closes it"
       >
         Courtyard
       </button>
       <button
         type="button"
-        aria-pressed={tool === "cut"}
+        aria-pressed={tool === "split"}
         disabled={drafted}
-        onClick={() => props.onTool("cut")}
-        title={drafted ? first : "Cut the part in two: click along the cut from outside to outside; Enter ends it"}
+        onClick={() => props.onTool("split")}
+        title={drafted ? first : "Split the part: click points of a line that starts and ends outside of it, then press Enter"}
       >
-        Cut
+        Split
       </button>
       {props.hole && (
         <button type="button" onClick={props.onFill} title="Fill the courtyard of the selected edge">
-          Fill
+          Fill courtyard
         </button>
       )}
       {touching.length > 0 && (
@@ -50,7 +50,7 @@ export function PlanTools(props: {
             type="button"
             disabled={drafted}
             onClick={props.onMerge}
-            title={drafted ? first : "Make one part of the two; Shift and a click in the 3D view picks another"}
+            title={drafted ? first : "Merge the two parts into one. Shift and click in the 3D view selects another part"}
           >
             Merge with
           </button>
@@ -71,7 +71,7 @@ export function PlanTools(props: {
         </span>
       )}
       <span class="edit-space" />
-      <label title="To corners, right angles, neighbours' walls. Alt switches it off while dragging">
+      <label title="Snap to corners, right angles and walls of neighbours. Alt disables snapping while dragging">
         <input
           type="checkbox"
           checked={snapping.value}
@@ -83,7 +83,7 @@ export function PlanTools(props: {
   );
 }
 
-/** Below the plan: what is going on, in words, and what else is shown. */
+/** The line below the plan: hints, the grid, and the sweep-edges. */
 export function PlanHint({ words, sweeps }: { words: string; sweeps: Signal<boolean> }) {
   return (
     <div class="edit-hint">
@@ -101,7 +101,7 @@ export function PlanHint({ words, sweeps }: { words: string; sweeps: Signal<bool
         <option value="0.5">0.5 m</option>
         <option value="1">1 m</option>
       </select>
-      <label title="Lines the walls were chosen from">
+      <label title="Lines of walls that were found in the mesh">
         <input
           type="checkbox"
           checked={sweeps.value}

@@ -34,11 +34,11 @@ const setback: Profile = [
   [3, 12],
 ];
 
-describe("what a profile is", () => {
-  it("is told by its parts", () => {
+describe("the kind of a profile", () => {
+  it("follows from its segments", () => {
     expect([gable, roof, mansard, setback].map(kindOf)).toEqual(["wall", "pitched", "pitched", "terrace"]);
   });
-  it("has a gutter where its first wall ends, and none where it goes on", () => {
+  it("has a gutter where its first wall ends, and none if the wall continues", () => {
     expect([gable, roof, mansard, setback].map(gutterOf)).toEqual([null, 6, 6, 9]);
     expect(
       gutterOf([
@@ -47,17 +47,17 @@ describe("what a profile is", () => {
       ]),
     ).toBe(0);
   });
-  it("has the pitch of its last roof part", () => {
+  it("has the pitch of its topmost roof segment", () => {
     expect(degreesOf(pitchOf(roof)!)).toBeCloseTo(45);
     expect(pitchOf(mansard)).toBeCloseTo(0.5);
     expect(pitchOf(gable)).toBeNull();
     expect(lastRoof(mansard)).toBe(3);
     expect(slopeTo(mansard, 1)).toBe(Infinity);
   });
-  it("turns degrees into rise over run and back", () => {
+  it("converts degrees to slopes and back", () => {
     for (const degrees of [0.5, 22, 45, 81]) expect(degreesOf(slopeOfDegrees(degrees))).toBeCloseTo(degrees, 10);
   });
-  it("goes on in the direction of its last part, upright after a terrace", () => {
+  it("continues in the direction of its last segment, vertically after a terrace", () => {
     expect(continued(roof, 12)).toEqual([6, 12]);
     expect(continued(gable, 12)).toEqual([0, 12]);
     expect(continued(setback.slice(0, 3), 12)).toEqual([3, 12]);
@@ -65,8 +65,8 @@ describe("what a profile is", () => {
   });
 });
 
-describe("what can be done to it", () => {
-  it("a gutter raised takes the roof along", () => {
+describe("operations on profiles", () => {
+  it("a higher gutter moves the roof along", () => {
     expect(withGutter(mansard, 7)).toEqual([
       [0, 0],
       [0, 7],
@@ -75,7 +75,7 @@ describe("what can be done to it", () => {
     ]);
     expect(withGutter(gable, 7)).toBe(gable);
   });
-  it("a roof that begins on the ground gets a wall", () => {
+  it("a roof that begins at the base gets a wall", () => {
     const lean: Profile = [
       [0, 0],
       [4, 3],
@@ -100,7 +100,7 @@ describe("what can be done to it", () => {
       [4, 11],
     ]);
   });
-  it("a part turned keeps its run and takes what is above along", () => {
+  it("a segment with another slope keeps its run and moves the points above", () => {
     expect(withSlope(mansard, 2, 2)).toEqual([
       [0, 0],
       [0, 6],
@@ -109,25 +109,25 @@ describe("what can be done to it", () => {
     ]);
     expect(withSlope(mansard, 1, 2)).toBe(mansard);
   });
-  it("a roof lowered stops at the point below it", () => {
+  it("a lowered roof stops at the point below it", () => {
     expect(lifted(mansard, 2, -9).map((p) => p[1])).toEqual([0, 6, 6, 8]);
     expect(lifted(mansard, 1, 1).map((p) => p[1])).toEqual([0, 7, 10, 12]);
   });
-  it("points are moved, inserted and deleted, but never the foot nor the last but one", () => {
+  it("points are moved, inserted and deleted, except for the foot and one more point", () => {
     expect(movePoint(roof, 0, [1, 1])).toBe(roof);
     expect(insertPoint(roof, 2, [2, 8])).toHaveLength(4);
     expect(deletePoint(insertPoint(roof, 2, [2, 8]), 2)).toEqual(roof);
     expect(deletePoint(roof, 0)).toBeNull();
     expect(deletePoint(gable, 1)).toBeNull();
   });
-  it("a point inserted lies on its part, at a whole centimetre along it", () => {
+  it("an inserted point is on its segment, at whole centimetres", () => {
     expect(onPart(roof, 1, [0.3, 3.456])).toEqual([0, 3.46]);
     expect(onPart(mansard, 3, [3.003, 10])).toEqual([3, 10]);
     expect(onPart(roof, 3, [4.5, 10.7])).toEqual([4.6, 10.6]);
     expect(onPart(roof, 2, [-9, 0])).toEqual([0, 6]);
     expect(onPart(roof, 0, [1, 1])).toBeNull();
   });
-  it("a point dragged anywhere leaves a profile as it has to be", () => {
+  it("a point dragged anywhere leaves a valid profile", () => {
     for (let i = 1; i < mansard.length; ++i)
       for (const x of [-3, 0, 0.5, 1, 4, 5, 9])
         for (const y of [-3, 0, 5, 6, 9, 10, 11, 20]) {

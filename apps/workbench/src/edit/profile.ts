@@ -1,18 +1,18 @@
-// A profile by itself: [inward, height] in metres from the foot of its edge, both never decreasing, from [0, 0].
+// Profiles: points [inward, height] in metres from the foot of the edge, starting at [0, 0]; neither coordinate decreases.
 import type { ProfilePoint } from "../api/types";
 
 export type Profile = ProfilePoint[];
 export type EdgeKind = "wall" | "pitched" | "terrace";
 
-/** How steep a roof has to be to be called one: less than 1 mm of height in a metre is a terrace. */
+/** Minimum slope of a roof: below 1 mm of height per metre it is a terrace. */
 const flat = 1e-3;
-/** Less than this much inward is a wall, metres. */
+/** Maximum inward extent of a wall, metres. */
 const upright = 1e-6;
 
 const isUpright = (a: ProfilePoint, b: ProfilePoint) => b[0] - a[0] <= upright;
 const isFlat = (a: ProfilePoint, b: ProfilePoint) => !isUpright(a, b) && b[1] - a[1] < flat * (b[0] - a[0]);
 
-/** Rise over run of the part that ends at point i; infinite for a wall, nothing for the first point. */
+/** Slope (rise over run) of the segment that ends at point i; infinite for a wall, null for the first point. */
 export function slopeTo(profile: Profile, i: number): number | null {
   const a = profile[i - 1];
   const b = profile[i];
@@ -20,7 +20,7 @@ export function slopeTo(profile: Profile, i: number): number | null {
   return isUpright(a, b) ? Infinity : (b[1] - a[1]) / (b[0] - a[0]);
 }
 
-/** Every rise over run of a profile that is a roof's, lowest part first. */
+/** The slopes of all roof segments of a profile, from bottom to top. */
 export function slopes(profile: Profile): number[] {
   const found: number[] = [];
   for (let i = 1; i < profile.length; ++i) {
@@ -30,20 +30,20 @@ export function slopes(profile: Profile): number[] {
   return found;
 }
 
-/** Wall all the way: a gable, a party wall. Pitched: it ends in a roof. Terrace: flat parts and no pitch. */
+/** Wall: a wall up to the cap, as of a gable or a party wall. Pitched: has a roof slope. Terrace: flat segments, no slope. */
 export function kindOf(profile: Profile): EdgeKind {
   if (slopes(profile).length > 0) return "pitched";
   for (let i = 1; i < profile.length; ++i) if (isFlat(profile[i - 1]!, profile[i]!)) return "terrace";
   return "wall";
 }
 
-/** Height of the top of the first wall, where the roof begins; nothing where the wall goes on until the cap. */
+/** Gutter height: of the top of the first wall, where the roof begins; null if the wall continues to the cap. */
 export function gutterOf(profile: Profile): number | null {
   const i = profile.findIndex((p, n) => n > 0 && !isUpright(profile[n - 1]!, p));
   return i < 1 ? null : profile[i - 1]![1];
 }
 
-/** The point at which the last part that is a roof ends; 0 where there is none. */
+/** Index of the end point of the topmost roof segment; 0 if there is none. */
 export function lastRoof(profile: Profile): number {
   for (let i = profile.length - 1; i > 0; --i) {
     const slope = slopeTo(profile, i)!;
@@ -51,7 +51,7 @@ export function lastRoof(profile: Profile): number {
   }
   return 0;
 }
-/** Rise over run of the last part that is a roof. */
+/** Slope of the topmost roof segment. */
 export const pitchOf = (profile: Profile): number | null => slopeTo(profile, lastRoof(profile));
 
 export const degreesOf = (slope: number) => (Math.atan(slope) * 180) / Math.PI;
@@ -59,12 +59,12 @@ export const slopeOfDegrees = (degrees: number) => Math.tan((degrees * Math.PI) 
 
 const put = (profile: Profile, i: number, p: ProfilePoint): Profile => profile.map((q, n) => (n === i ? p : q));
 
-/** As it is asked for, right or wrong: `checked` is for the server's words. The foot stays where it is. */
+/** Moves a point without any check. The foot is fixed. */
 export function movePoint(profile: Profile, i: number, to: ProfilePoint): Profile {
   return i > 0 && i < profile.length ? put(profile, i, to) : profile;
 }
 
-/** Between its neighbours: nothing that is dragged leans outwards, goes down, or repeats a point. */
+/** Limits a moved point to between its neighbours, so that the profile never leans outwards, goes down, or repeats a point. */
 export function held(profile: Profile, i: number, to: ProfilePoint, step = 0.01): ProfilePoint {
   const before = profile[i - 1];
   const after = profile[i + 1];
@@ -82,8 +82,7 @@ export function held(profile: Profile, i: number, to: ProfilePoint, step = 0.01)
   return [inward, height];
 }
 
-/** The wall up to the gutter made higher or lower, and everything above it with it. A roof that begins on the ground
- *  gets a wall under it. */
+/** Changes the gutter height; everything above moves along. A roof that begins at the base gets a wall below it. */
 export function withGutter(profile: Profile, height: number): Profile {
   const gutter = gutterOf(profile);
   if (gutter === null) return profile;
@@ -93,7 +92,7 @@ export function withGutter(profile: Profile, height: number): Profile {
   return [...wall, [profile[i]![0], height], ...above];
 }
 
-/** The part that ends at point i turned to another rise over run; it keeps its run, and what is above goes with it. */
+/** Changes the slope of the segment that ends at point i, but not its run; everything above moves along. */
 export function withSlope(profile: Profile, i: number, slope: number): Profile {
   const a = profile[i - 1];
   const b = profile[i];
@@ -102,12 +101,13 @@ export function withSlope(profile: Profile, i: number, slope: number): Profile {
   return profile.map((p, n) => (n < i ? p : [p[0], p[1] + lift]));
 }
 
-/** A new point on the part that ends at point `i`, or beyond the last one. */
+/** Inserts a point on the segment that ends at point `i`, or after the last point. */
 export function insertPoint(profile: Profile, i: number, at: ProfilePoint): Profile {
   return [...profile.slice(0, i), at, ...profile.slice(i)];
 }
 
-/** The place on the part that ends at point i – or goes on after the last – nearest to `p`, in whole steps. */
+/** The position nearest to `p` on the segment that ends at point i, or on the continuation after the last point; rounded to
+ *  `step`. */
 export function onPart(profile: Profile, i: number, p: ProfilePoint, step = 0.01): ProfilePoint | null {
   const a = profile[i - 1];
   if (!a) return null;
@@ -123,26 +123,26 @@ export function onPart(profile: Profile, i: number, p: ProfilePoint, step = 0.01
   return [inward, a[1] + ((inward - a[0]) * rise) / run];
 }
 
-/** Never the foot, and never below two points. */
+/** Deletes a point; null for the foot, and for profiles of two points. */
 export function deletePoint(profile: Profile, i: number): Profile | null {
   if (i <= 0 || i >= profile.length || profile.length <= 2) return null;
   return profile.filter((_, n) => n !== i);
 }
 
-/** Where the profile is when it reaches a height, its last part going on; nothing where it is past that already. */
+/** The point at which the continued last segment reaches a height; null if the profile ends above it. */
 export function continued(profile: Profile, to: number): ProfilePoint | null {
   const last = profile.at(-1);
   const before = profile.at(-2);
   if (!last || !before || last[1] >= to) return null;
   const slope = slopeTo(profile, profile.length - 1)!;
-  // A last part that is flat goes on upright, as a wall does.
+  // A flat last segment continues vertically, as a wall does.
   return slope < flat || slope === Infinity ? [last[0], to] : [last[0] + (to - last[1]) / slope, to];
 }
 
 export const same = (a: Profile, b: Profile) =>
   a.length === b.length && a.every((p, i) => p[0] === b[i]![0] && p[1] === b[i]![1]);
 
-/** Everything from point `i` on lifted, but not below the point before it. */
+/** Moves point `i` and all later points up or down, but not below the point before it. */
 export function lifted(profile: Profile, i: number, by: number): Profile {
   const at = profile[i];
   const below = profile[i - 1];

@@ -16,7 +16,7 @@ export const lineOf = (sheet: Sheet, a: ProfilePoint, b: ProfilePoint) => {
   return { x1, y1, x2, y2 };
 };
 
-/** What stands behind a profile: ruler, the raw climbs, the mesh's slice, the profile as it was, the ridge. */
+/** The background of the profile editor: ruler, raw profiles, section of the mesh, profile before the change, ridge height. */
 export function Backdrop(props: {
   sheet: Sheet;
   section: Section | null;
@@ -34,7 +34,7 @@ export function Backdrop(props: {
       <path class="slice" d={slice} />
       {section === null && (
         <text class="note" x={sheet.width / 2} y={16}>
-          no slice of the mesh
+          no section of the mesh
         </text>
       )}
       {ghost && <polyline class="ghost" points={pixelsOf(sheet, ghost)} />}

@@ -38,6 +38,7 @@ import { Backdrop, lineOf } from "./profile_backdrop";
 import { ProfileFields } from "./profile_fields";
 import { fitted, panned, toMetres, toPixels, zoomed } from "./sheet";
 import { known, rounded, snapProfilePoint, type ProfileSnap } from "./snap";
+import { count } from "../panels/words";
 import { useSection } from "./use_section";
 import { useSheet } from "./use_sheet";
 import { distance, minus } from "./vector";
@@ -47,7 +48,7 @@ type CopyTo = "all" | "opposite" | "collinear" | "chosen";
 interface Drag {
   kind: "pan" | "point" | "part" | "cap";
   i: number;
-  down: Point2; // pixels of the window: the drawing may move when messages come
+  down: Point2; // pixels of the window: the drawing may move when messages appear
   last: Point2;
   plan: api.Plan;
   profile: Profile;
@@ -101,7 +102,7 @@ export function ProfileEditor() {
   const targets = inScope(plan, at, scope.value);
   const sharing = inScope(plan, at, "sharing").length;
 
-  // ---- what changes the plan
+  // ---- changes of the plan
 
   const withProfile = (from: api.Plan, changed: Profile) => setProfile(from, inScope(from, at, scope.value), changed);
   const who = targets.length === 1 ? `edge ${at.edge} of ${part}` : `${targets.length} edges of ${part}`;
@@ -124,7 +125,7 @@ export function ProfileEditor() {
     const slope = slopeTo(changed, i);
     const pitch = slope === null ? "" : slope === Infinity ? ", wall" : `, ${degreesOf(slope).toFixed(1)}°`;
     const snapped = hints.length ? ` · ${hints.join(", ")}` : "";
-    words.value = `point ${i}: ${metres(p[0])} in, ${metres(p[1])} up${pitch}${snapped}`;
+    words.value = `point ${i}: ${metres(p[0])} inward, ${metres(p[1])} high${pitch}${snapped}`;
   };
 
   // ---- pointer
@@ -154,7 +155,7 @@ export function ProfileEditor() {
       return;
     }
     if (!session.active) {
-      drag.current = null; // given up with Esc, undone, or overtaken from another tab
+      drag.current = null; // cancelled with Esc, undone, or replaced by an edit of another page
       words.value = "";
       return;
     }
@@ -169,8 +170,8 @@ export function ProfileEditor() {
       const up = rounded(by[1], snap(event, d.plan).step);
       const changed = lifted(d.profile, d.i - 1, up);
       const height = changed[d.i - 1]![1];
-      session.change(`roof of ${who} lifted by ${metres(up)}`, withPlan(withProfile(d.plan, changed)), event.timeStamp);
-      words.value = `lifted by ${metres(height - d.profile[d.i - 1]![1])}: from ${metres(height)}`;
+      session.change(`roof of ${who} moved up by ${metres(up)}`, withPlan(withProfile(d.plan, changed)), event.timeStamp);
+      words.value = `roof moved up by ${metres(height - d.profile[d.i - 1]![1])}; it starts at ${metres(height)}`;
       return;
     }
     const from = d.profile[d.i]!;
@@ -188,7 +189,7 @@ export function ProfileEditor() {
     drag.current = null;
     if (!d) return;
     if (d.kind === "point") point.value = d.i;
-    if (d.kind === "pan") svg.current!.focus({ preventScroll: true }); // so that Esc is heard
+    if (d.kind === "pan") svg.current!.focus({ preventScroll: true }); // to receive Esc
     if (d.began && d.kind !== "pan") session.commit();
   };
   const broken = () => {
@@ -252,24 +253,24 @@ export function ProfileEditor() {
   const remove = (i: number) => {
     const changed = deletePoint(profile, i);
     if (!changed) {
-      words.value = "a profile keeps its foot and one more point";
+      words.value = "a profile needs at least its foot and one more point";
       return;
     }
     point.value = null;
-    typedProfile(`point of the profile of ${who} removed`, changed);
+    typedProfile(`profile point of ${who} removed`, changed);
   };
   const insertAfter = (i: number) => {
     const p = profile[i]!;
     const next = profile[i + 1] ?? continued(profile, p[1] + 1) ?? ([p[0], p[1] + 1] as ProfilePoint);
     const between: ProfilePoint = [(p[0] + next[0]) / 2, (p[1] + next[1]) / 2];
-    typedProfile(`point added to the profile of ${who}`, insertPoint(profile, i + 1, between));
+    typedProfile(`profile point added to ${who}`, insertPoint(profile, i + 1, between));
     point.value = i + 1;
   };
   const doubleClick = (event: MouseEvent, i: number) => {
     event.stopPropagation();
     const on = onPart(profile, i, toMetres(now, pixels(event)));
     if (!on) return;
-    typedProfile(`point added to the profile of ${who}`, insertPoint(profile, i, on));
+    typedProfile(`profile point added to ${who}`, insertPoint(profile, i, on));
     point.value = i;
   };
 
@@ -284,14 +285,14 @@ export function ProfileEditor() {
   const copyNames: Record<CopyTo, string> = {
     all: "all edges",
     opposite: "opposite edges",
-    collinear: "edges in line",
-    chosen: "chosen edges",
+    collinear: "collinear edges",
+    chosen: "selected edges",
   };
   const copy = () => {
     const edges = copyTargets[copyTo.value];
     if (edges.length)
       typed(
-        `profile of edge ${at.edge} of ${part} to ${copyNames[copyTo.value]}`,
+        `profile of edge ${at.edge} of ${part} copied to ${copyNames[copyTo.value]}`,
         setProfile(plan, [...edges, at], profile),
       );
   };
@@ -306,21 +307,21 @@ export function ProfileEditor() {
   const ghostEnd = ghost && continued(ghost, top);
 
   const instructions =
-    `Profile of edge ${at.edge} of ${part}. Tab goes from point to point; arrows move them by 0.1 metres, with Shift ` +
-    "by 1, with Alt by 0.01; Insert adds a point, Delete removes one, Escape gives up.";
+    `Profile of edge ${at.edge} of ${part}. Tab moves from point to point. Arrow keys move a point by 0.1 metres, with ` +
+    "Shift by 1 metre, with Alt by 0.01 metres. Insert adds a point, Delete removes one, Escape cancels.";
 
   return (
     <div class="edit-sheet">
       <div class="edit-tools" role="toolbar" aria-label="Profile">
         <label>
-          For
+          Apply to
           <select
-            aria-label="Whom a change of the profile is for"
+            aria-label="Edges that a change of the profile applies to"
             value={scope.value}
             onChange={(event) => (scope.value = event.currentTarget.value as Scope)}
           >
             <option value="edge">edge {at.edge} only</option>
-            <option value="sharing">{sharing} with this profile</option>
+            <option value="sharing">{count(sharing, "edge")} with this profile</option>
             <option value="part">all {edgesOf(plan).length} edges</option>
           </select>
         </label>
@@ -329,7 +330,7 @@ export function ProfileEditor() {
             type="button"
             disabled={copyTargets[copyTo.value].length === 0}
             onClick={copy}
-            title="Gives this profile to other edges. Choose single ones in the plan with Ctrl or Shift and a click"
+            title="Copy this profile to other edges. Ctrl or Shift and click selects single edges in the plan"
           >
             Copy to
           </button>
@@ -372,7 +373,7 @@ export function ProfileEditor() {
             tabindex={0}
             role="slider"
             aria-orientation="vertical"
-            aria-label="height cap, metres"
+            aria-label="Cap height, metres"
             aria-valuenow={Number(plan.cap.toFixed(2))}
             onPointerDown={(event) => down(event, "cap", 0)}
             onKeyDown={capKey}
@@ -414,7 +415,7 @@ export function ProfileEditor() {
           const [cx, cy] = toPixels(now, p);
           if (i === 0) return <rect key={i} class="foot" x={cx - 4} y={cy - 4} width={8} height={8} />;
           const slope = slopeTo(profile, i);
-          const pitchWords = slope === Infinity ? "top of a wall" : `after ${degreesOf(slope!).toFixed(1)} degrees`;
+          const pitchWords = slope === Infinity ? "top of a wall" : `pitch ${degreesOf(slope!).toFixed(1)} degrees below`;
           return (
             <g key={i} class={`corner${point.value === i ? " selected" : ""}`}>
               <circle class="seen" cx={cx} cy={cy} r={4.5} />
@@ -425,7 +426,7 @@ export function ProfileEditor() {
                 r={10}
                 tabindex={0}
                 role="button"
-                aria-label={`point ${i}, ${p[0].toFixed(2)} metres in, ${p[1].toFixed(2)} metres up, ${pitchWords}`}
+                aria-label={`point ${i}, ${p[0].toFixed(2)} metres inward, ${p[1].toFixed(2)} metres high, ${pitchWords}`}
                 onPointerDown={(event) => down(event, "point", i)}
                 onFocus={() => (point.value = i)}
                 onKeyDown={(event) => pointKey(event, i)}
@@ -440,7 +441,7 @@ export function ProfileEditor() {
         type="button"
         class="edit-fit"
         onClick={() => (sheet.value = fitted(now, extent(), 34))}
-        title="Bring the profile into view"
+        title="Zoom to the profile"
       >
         Fit
       </button>
@@ -460,7 +461,7 @@ export function ProfileEditor() {
       />
       <dl class="edit-numbers" aria-live="polite">
         <div>
-          <dt>Ridge</dt>
+          <dt>Ridge height</dt>
           <dd>{metres(ridge)}</dd>
         </div>
         <div>
@@ -477,7 +478,7 @@ export function ProfileEditor() {
   );
 }
 
-/** "before → after" while there is a draft; the unit once. */
+/** "before → after" while there is a draft, with one unit. */
 function changed(
   text: (value: number | null | undefined) => string,
   before: number | null | undefined,

@@ -1,4 +1,5 @@
 import type { Plan, ProfilePoint } from "../api/types";
+import { Icon } from "../panels/icons";
 import { NumberField } from "./fields";
 import { metres } from "./numbers";
 import { changeProfiles, type EdgeAt } from "./plan";
@@ -14,13 +15,13 @@ import {
   type Profile,
 } from "./profile";
 
-/** The numbers of a profile and its part, to read and to type. */
+/** The number fields of a profile and its part. */
 export function ProfileFields(props: {
   plan: Plan;
   part: string;
   profile: Profile;
-  edges: EdgeAt[]; // that a change is for
-  who: string; // they, in words
+  edges: EdgeAt[]; // that a change applies to
+  who: string; // description of these edges
   point: number | null;
   share: number;
   onShare(share: number): void;
@@ -44,8 +45,8 @@ export function ProfileFields(props: {
   };
   return (
     <div class="edit-fields">
-      <label class="edit-share" title="Where along the edge the mesh is cut">
-        Slice at
+      <label class="edit-share" title="Position of the section along the edge">
+        Section at
         <input
           type="range"
           min={0}
@@ -61,7 +62,7 @@ export function ProfileFields(props: {
         label="Gutter"
         unit="m"
         value={gutterOf(profile)}
-        title="Where the roof begins, above the base; what is above goes with it"
+        title="Height above the base at which the roof begins. The roof moves along"
         onValue={raise}
       />
       <NumberField
@@ -69,37 +70,43 @@ export function ProfileFields(props: {
         unit="°"
         digits={2}
         value={pitch === null ? null : degreesOf(pitch)}
-        title="Of the last roof part"
+        title="Pitch of the topmost roof segment"
         onValue={(degrees) => turn(lastRoof(profile), degrees)}
       />
       <NumberField
         label="Cap"
         unit="m"
         value={plan.cap}
-        title="Height above the base at which everything is cut off flat"
+        title="Height above the base at which the part is cut off horizontally"
         onValue={(cap) => onPlan(`cap of ${part} to ${metres(cap)}`, { ...plan, cap })}
       />
       <NumberField
         label="Base"
         unit="m"
         value={plan.base}
-        title="z of the ground floor"
+        title="Height z of the bottom of the part"
         onValue={(base) => onPlan(`base of ${part} to ${metres(base)}`, { ...plan, base })}
       />
       <span class="edit-point" role="group" aria-label="Selected point">
         <b>{point ? `Point ${i}` : "No point"}</b>
-        <NumberField label="In" unit="m" value={point?.[0] ?? null} onValue={(v) => props.onMove(i, [v, point![1]])} />
-        <NumberField label="Up" unit="m" value={point?.[1] ?? null} onValue={(v) => props.onMove(i, [point![0], v])} />
+        <NumberField label="Inward" unit="m" value={point?.[0] ?? null} onValue={(v) => props.onMove(i, [v, point![1]])} />
+        <NumberField label="Height" unit="m" value={point?.[1] ?? null} onValue={(v) => props.onMove(i, [point![0], v])} />
         <NumberField
           label="Pitch"
           unit="°"
           digits={2}
-          title="Of the part that leads to the point"
+          title="Pitch of the segment below the point"
           value={slope === null || slope === Infinity ? null : degreesOf(slope)}
           onValue={(degrees) => turn(i, degrees)}
         />
-        <button type="button" onClick={() => props.onRemove(i)} disabled={!point || profile.length <= 2}>
-          Remove
+        <button
+          type="button"
+          title="Remove the point"
+          aria-label="Remove the point"
+          onClick={() => props.onRemove(i)}
+          disabled={!point || profile.length <= 2}
+        >
+          <Icon name="bin" />
         </button>
       </span>
     </div>

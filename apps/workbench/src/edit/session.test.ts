@@ -67,7 +67,7 @@ const gone = () =>
 const stale = () => new Refused(409, { severity: "error", code: "edit-stale", message: "", subject: "" });
 const invalid = () => new Refused(422, { severity: "error", code: "edit-invalid", message: "not valid", subject: "a" });
 
-/** A call that is answered when the test says so. */
+/** A call that is answered when the test resolves it. */
 interface Waiting<T> {
   changes: api.Change[];
   aborted: () => boolean;
@@ -121,7 +121,7 @@ function table() {
       for (const b of answer.buildings) buildings.set(b.id, b);
       run.value = { id, buildings, history: answer.history };
     },
-    say: (d) => said.push(d),
+    showMessage: (d) => said.push(d),
     keep: (k) => (kept = k && (JSON.parse(JSON.stringify(k)) as Kept)),
     kept: () => kept,
     shown: (pointer) => shown.push(pointer),
@@ -164,7 +164,7 @@ let t: ReturnType<typeof table>;
 beforeEach(() => (t = table()));
 
 describe("a drag", () => {
-  it("is previewed, written on release, and leaves no draft", async () => {
+  it("is previewed, saved on release, and leaves no draft", async () => {
     expect(t.session.begin(["a"])).toBe(true);
     t.session.change("gutter of a", parts("a", plan(7)), 120);
     expect(t.draft.value?.pending).toBe(true);
@@ -183,7 +183,7 @@ describe("a drag", () => {
     expect(t.kept()).toBeNull();
   });
 
-  it("has one preview under way and asks for the newest plans next", async () => {
+  it("has one preview at a time and requests the newest plans next", async () => {
     t.session.begin(["a"]);
     for (let gutter = 7; gutter < 12; ++gutter) t.session.change("gutter", parts("a", plan(gutter)), gutter);
     expect(t.previews).toHaveLength(1);
@@ -196,7 +196,7 @@ describe("a drag", () => {
     expect(t.draft.value?.pending).toBe(false);
   });
 
-  it("released before its last preview came is written when that says valid", async () => {
+  it("released before its last preview is saved if that is valid", async () => {
     t.session.begin(["a"]);
     t.session.change("gutter", parts("a", plan(7)));
     t.session.change("gutter", parts("a", plan(8)));
@@ -208,7 +208,7 @@ describe("a drag", () => {
     expect(gutterOf(t.edits[0]!.changes[0]!.parts[0]!.plan)).toBe(8);
   });
 
-  it("that changes nothing in the end writes nothing", async () => {
+  it("that changes nothing saves nothing", async () => {
     t.session.begin(["a"]);
     t.session.change("gutter", parts("a", plan(7)));
     t.session.change("gutter", parts("a", plan(6)));
@@ -219,7 +219,7 @@ describe("a drag", () => {
     expect(t.previews[0]!.aborted()).toBe(true);
   });
 
-  it("cancelled goes back to where it began, and a late answer is not shown", async () => {
+  it("that is cancelled is reverted, and a late answer is ignored", async () => {
     t.session.begin(["a"]);
     t.session.change("gutter", parts("a", plan(9)));
     expect(t.session.cancel()).toBe(true);
@@ -233,7 +233,7 @@ describe("a drag", () => {
   });
 });
 
-describe("what is invalid", () => {
+describe("an invalid draft", () => {
   const hold = async () => {
     t.session.begin(["a"]);
     t.session.change("wall", parts("a", plan(9)));
@@ -241,7 +241,7 @@ describe("what is invalid", () => {
     await t.previews[0]!.answer(raised("a", 9, false));
   };
 
-  it("is held with its reason, kept over a reload, and not written", async () => {
+  it("is held with its reason, kept across reloads, and not saved", async () => {
     await hold();
     expect(t.session.phase.value).toBe("held");
     expect(t.draft.value?.invalid).toBe(true);
@@ -250,7 +250,7 @@ describe("what is invalid", () => {
     expect(t.edits).toHaveLength(0);
   });
 
-  it("can be dragged back to valid, and is written then", async () => {
+  it("is saved once it has been dragged to a valid state", async () => {
     await hold();
     t.session.begin(["a"]);
     t.session.change("wall", parts("a", plan(7)));
@@ -260,7 +260,7 @@ describe("what is invalid", () => {
     expect(t.session.reason.value).toBeNull();
   });
 
-  it("is dropped by Esc and by an undo elsewhere", async () => {
+  it("is discarded by Esc and by an undo", async () => {
     await hold();
     expect(t.session.cancel()).toBe(true);
     expect(t.draft.value).toBeNull();
@@ -275,14 +275,14 @@ describe("what is invalid", () => {
     expect(t.undone()).toBe(0);
   });
 
-  it("keeps other buildings from being changed, and says so", async () => {
+  it("prevents edits of other buildings, with a message", async () => {
     await hold();
     expect(t.session.begin(["b"])).toBe(false);
     expect(t.said[0]?.code).toBe("edit-held");
     expect(t.session.begin(["a"])).toBe(true);
   });
 
-  it("is told without the server where a look is enough", async () => {
+  it("is found without a call of the server in simple cases", async () => {
     t.session.begin(["a"]);
     t.session.change("corner", parts("a", bowtie()));
     expect(t.previews).toHaveLength(0);
@@ -293,7 +293,7 @@ describe("what is invalid", () => {
     expect(t.session.phase.value).toBe("held");
   });
 
-  it("a gesture on it that is cancelled goes back to the held draft", async () => {
+  it("is restored when a gesture on it is cancelled", async () => {
     await hold();
     t.session.begin(["a"]);
     t.session.change("wall", parts("a", plan(7)));
@@ -304,7 +304,7 @@ describe("what is invalid", () => {
     expect(t.edits).toHaveLength(0);
   });
 
-  it("is held too when only the edit was refused", async () => {
+  it("is held also if only the edit was refused", async () => {
     t.session.begin(["a"]);
     t.session.change("wall", parts("a", plan(9)));
     t.session.commit();
@@ -316,8 +316,8 @@ describe("what is invalid", () => {
   });
 });
 
-describe("when the server is gone", () => {
-  it("during the preview, the draft is held and can be sent again", async () => {
+describe("when the server does not answer", () => {
+  it("during the preview, the draft is held and can be saved later", async () => {
     t.session.begin(["a"]);
     t.session.change("gutter", parts("a", plan(7)));
     t.session.commit();
@@ -333,7 +333,7 @@ describe("when the server is gone", () => {
     expect(t.kept()).toBeNull();
   });
 
-  it("during the edit, the draft is held and can be sent again", async () => {
+  it("during the edit, the draft is held and can be saved later", async () => {
     t.session.begin(["a"]);
     t.session.change("gutter", parts("a", plan(7)));
     t.session.commit();
@@ -346,7 +346,7 @@ describe("when the server is gone", () => {
     expect(t.draft.value).toBeNull();
   });
 
-  it("in the middle of a drag, the next move asks again", async () => {
+  it("during a drag, the next move requests a preview again", async () => {
     t.session.begin(["a"]);
     t.session.change("gutter", parts("a", plan(7)));
     await t.previews[0]!.refuse(gone());
@@ -356,7 +356,7 @@ describe("when the server is gone", () => {
     expect(t.draft.value?.raised.get("a")?.parts[0]?.volume).toBe(640);
   });
 
-  it("and the edit had arrived all the same, sending it again is no conflict", async () => {
+  it("but had applied the edit, saving it again is no conflict", async () => {
     t.session.begin(["a"]);
     t.session.change("gutter", parts("a", plan(7)));
     t.session.commit();
@@ -372,8 +372,8 @@ describe("when the server is gone", () => {
   });
 });
 
-describe("when someone else was first", () => {
-  it("the server's buildings are taken, the draft is dropped, and that is said", async () => {
+describe("when another page was faster", () => {
+  it("the buildings of the server are shown and the draft is discarded, with a message", async () => {
     t.session.begin(["a"]);
     t.session.change("gutter", parts("a", plan(7)));
     t.session.commit();
@@ -388,11 +388,11 @@ describe("when someone else was first", () => {
   });
 });
 
-describe("quick work", () => {
-  it("a second drag of the same building during the write is sent with the new revision", async () => {
+describe("overlapping edits", () => {
+  it("a second drag of the same building while the first is being saved has the new revision", async () => {
     t.session.propose("gutter", parts("a", plan(7)));
     await t.previews[0]!.answer(raised("a", 7));
-    expect(t.session.phase.value).toBe("writing");
+    expect(t.session.phase.value).toBe("saving");
     t.session.begin(["a"]);
     t.session.change("gutter", parts("a", plan(8)));
     t.session.commit();
@@ -405,7 +405,7 @@ describe("quick work", () => {
     expect(t.draft.value).toBeNull();
   });
 
-  it("a drag of another building during the write is a separate edit", async () => {
+  it("a drag of another building during saving is a separate edit", async () => {
     t.session.propose("gutter", parts("a", plan(7)));
     await t.previews[0]!.answer(raised("a", 7));
     expect(t.session.begin(["b"])).toBe(true);
@@ -417,7 +417,7 @@ describe("quick work", () => {
     expect(t.edits[1]!.changes.map((c) => [c.building, c.revision])).toEqual([["b", 4]]);
   });
 
-  it("a gesture that began during the write and moved nothing yet goes on after it", async () => {
+  it("a gesture that began during saving continues after it", async () => {
     t.session.propose("gutter", parts("a", plan(7)));
     await t.previews[0]!.answer(raised("a", 7));
     t.session.begin(["a"]);
@@ -429,7 +429,7 @@ describe("quick work", () => {
     expect(t.edits[1]!.changes[0]!.revision).toBe(2);
   });
 
-  it("a click during the check does not keep the change from being written", async () => {
+  it("a click during the check does not prevent saving", async () => {
     t.session.propose("gutter", parts("a", plan(7)));
     t.session.begin(["a"]);
     t.session.commit();
@@ -437,7 +437,7 @@ describe("quick work", () => {
     expect(t.edits).toHaveLength(1);
   });
 
-  it("an undo during the write takes the edit back once it has arrived", async () => {
+  it("an undo during saving undoes the edit once it has been applied", async () => {
     t.session.propose("gutter", parts("a", plan(7)));
     await t.previews[0]!.answer(raised("a", 7));
     t.draft.value = null;
@@ -448,7 +448,7 @@ describe("quick work", () => {
     expect(t.session.phase.value).toBe("idle");
   });
 
-  it("a hundred edits one after another all arrive with growing revisions", async () => {
+  it("a hundred edits in sequence are all applied with increasing revisions", async () => {
     for (let i = 0; i < 100; ++i) {
       t.session.propose(`edit ${i}`, parts("a", plan(7 + (i % 5))));
       await t.previews.at(-1)!.answer(raised("a", 7 + (i % 5)));
@@ -465,7 +465,7 @@ describe("a reload", () => {
     changes: [{ building: "a", revision, parts: [{ id: "a-1", plan: plan(gutter) }] }],
   });
 
-  it("brings the held draft back and asks for its preview, without writing it", async () => {
+  it("restores the draft and requests its preview, without saving it", async () => {
     t.setKept(kept(1));
     t.session.restore();
     expect(t.session.phase.value).toBe("held");
@@ -475,7 +475,7 @@ describe("a reload", () => {
     expect(t.edits).toHaveLength(1);
   });
 
-  it("says so where the building was changed since", () => {
+  it("shows a message if the building was changed meanwhile", () => {
     t.setKept(kept(0));
     t.session.restore();
     expect(t.draft.value).toBeNull();
@@ -483,14 +483,14 @@ describe("a reload", () => {
     expect(t.kept()).toBeNull();
   });
 
-  it("says nothing where the draft had been written after all", () => {
+  it("shows no message if the draft had been saved", () => {
     t.setKept(kept(0, 6));
     t.session.restore();
     expect(t.draft.value).toBeNull();
     expect(t.said).toEqual([]);
   });
 
-  it("of another run is left for that run", () => {
+  it("of another run keeps the draft for that run", () => {
     t.setKept({ ...kept(1), run: "run-2" });
     t.session.restore();
     expect(t.draft.value).toBeNull();

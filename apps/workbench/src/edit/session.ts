@@ -1,6 +1,5 @@
-// The life of a draft: begun, changed while dragging, previewed, written on release where it is valid, held where it is
-// not. Knows neither the page nor the network: both are given. One preview is under way at a time, the newest plans
-// next.
+// A draft: changed plans are previewed while dragging, saved on release if they are valid, and held back if not. The page and
+// the calls of the server are passed in. There is one preview at a time; then the newest plans are next.
 import { signal } from "@preact/signals";
 import type * as api from "../api/types";
 import type { Draft, OpenRun } from "../state";
@@ -15,7 +14,7 @@ export interface Calls {
   buildings(run: string): Promise<{ buildings: api.Building[]; history: api.History }>;
 }
 
-/** What a reload of the page brings back. */
+/** An unsaved draft, kept across reloads. */
 export interface Kept {
   run: string;
   what: string;
@@ -30,15 +29,15 @@ export interface Desk {
   run: Cell<OpenRun | null>;
   draft: Cell<Draft | null>;
   take(run: string, answer: api.Applied): void;
-  say(diagnostic: api.Diagnostic): void;
+  showMessage(diagnostic: api.Diagnostic): void;
   keep(draft: Kept | null): void;
   kept(): Kept | null;
-  /** The geometry of a change is there; `pointer` is what the change was begun with. */
+  /** The geometry of a change has arrived; `pointer` is the time of the event that requested it. */
   shown(pointer: number): void;
 }
 
-/** changing: the pointer is down · checking: released, its preview awaited · writing: sent · held: see `reason`. */
-export type Phase = "idle" | "changing" | "checking" | "writing" | "held";
+/** changing: the pointer is down. checking: released, waiting for the preview. saving: sent. held: not saved, see `reason`. */
+export type Phase = "idle" | "changing" | "checking" | "saving" | "held";
 
 export interface Parts {
   building: string;
@@ -54,19 +53,19 @@ const warning = (code: string, message: string, subject = ""): api.Diagnostic =>
 
 export class EditSession {
   readonly phase = signal<Phase>("idle");
-  /** Why the draft is held, or why the last preview did not come. */
+  /** Why the draft is not saved, or why the last preview failed. */
   readonly reason = signal<api.Diagnostic | null>(null);
 
-  /** How often something was given up: what was said of it no longer holds. */
+  /** Number of cancelled changes: editors then clear their hints. */
   readonly cancelled = signal(0);
 
-  private version = 0; // of the draft's plans
-  private answered = 0; // the version that `raised` is of
+  private version = 0; // of the plans of the draft
+  private answered = 0; // the version of `raised`
   private asking: AbortController | null = null;
-  private released = false; // to be written as soon as it is known to be valid
-  private open = false; // a gesture is under way
-  private before: Draft | null = null; // where it began
-  private wasReleased = false; // what was there was about to be written
+  private released = false; // to be saved as soon as it is known to be valid
+  private open = false; // a gesture is in progress
+  private before: Draft | null = null; // the draft before the gesture
+  private wasReleased = false; // that draft was about to be saved
   private pointer = 0;
   private touched = new Set<string>(); // buildings changed since the last edit was sent
   private writing: { run: string; undo: boolean } | null = null;
@@ -83,20 +82,20 @@ export class EditSession {
     });
   }
 
-  /** A gesture is under way; it ends by itself when the draft is taken away. */
+  /** Whether a gesture is in progress. It also ends when the draft is discarded. */
   get active() {
     return this.open;
   }
 
-  /** Starts a gesture on some buildings. False, with a message, while a draft of others is held. */
+  /** Starts a gesture on some buildings. False, with a message, while there is an unsaved draft of other buildings. */
   begin(buildings: string[]): boolean {
     if (!this.desk.run.value) return false;
     const draft = this.desk.draft.value;
     if (this.open) return true;
     if (draft && !this.writing && !draft.changes.some((c) => buildings.includes(c.building))) {
       const held = draft.changes.map((c) => c.building).join(", ");
-      this.desk.say(
-        warning("edit-held", `the change of ${held} is not written yet: put it right, or drop it with Esc`, held),
+      this.desk.showMessage(
+        warning("edit-held", `the change of ${held} is not saved yet; correct it, or discard it with Esc`, held),
       );
       return false;
     }
@@ -107,7 +106,7 @@ export class EditSession {
     return true;
   }
 
-  /** The parts as they shall be, all of each building. `pointer` is the time of the event that asked for it, ms. */
+  /** Sets the new parts: all parts of each changed building. `pointer` is the time of the event, ms. */
   change(what: string, changes: Parts[], pointer = 0) {
     const run = this.desk.run.value;
     if (!this.open || !run) return;
@@ -131,7 +130,7 @@ export class EditSession {
     this.pump();
   }
 
-  /** The gesture is over: what is valid is written, what is not is held. */
+  /** Ends the gesture: valid plans are saved, others are held. */
   commit() {
     if (!this.open) return;
     this.open = false;
@@ -156,7 +155,7 @@ export class EditSession {
     this.pump();
   }
 
-  /** A gesture goes back to where it began; without one, a held draft is dropped. True where there was something. */
+  /** Reverts the gesture; without one, discards the draft. False if there was neither. */
   cancel(): boolean {
     if (this.open || (this.desk.draft.value && !this.writing)) ++this.cancelled.value;
     if (this.open) {
@@ -172,7 +171,7 @@ export class EditSession {
     return true;
   }
 
-  /** Sends a held draft again. */
+  /** Tries again to save a held draft. */
   again() {
     if (this.open || this.writing || !this.desk.draft.value) return;
     this.released = true;
@@ -180,7 +179,7 @@ export class EditSession {
     this.pump();
   }
 
-  /** A whole change at once: typed, cut or merged. */
+  /** A complete change: typed, split or merged. */
   propose(what: string, changes: Parts[], pointer = 0): boolean {
     if (!this.begin(changes.map((c) => c.building))) return false;
     this.change(what, changes, pointer);
@@ -188,19 +187,19 @@ export class EditSession {
     return true;
   }
 
-  /** Brings back what was held when the page was left; call it when a run has been opened. */
+  /** Restores an unsaved draft after a reload; to be called when a run has been opened. */
   restore() {
     const run = this.desk.run.value;
     const kept = this.desk.kept();
     if (!run || !kept || kept.run !== run.id || this.desk.draft.value) return;
     const draft: Draft = { what: kept.what, changes: kept.changes, raised: new Map(), pending: true, invalid: false };
     if (this.unchanged(draft)) {
-      this.desk.keep(null); // it had been written after all
+      this.desk.keep(null); // it had been saved
       return;
     }
     if (kept.changes.some((c) => run.buildings.get(c.building)?.revision !== c.revision)) {
       this.desk.keep(null);
-      this.desk.say(stale(kept.changes));
+      this.desk.showMessage(stale(kept.changes));
       return;
     }
     ++this.version;
@@ -236,7 +235,7 @@ export class EditSession {
     try {
       raised = (await this.calls.preview(run, draft.changes, asking.signal)).buildings;
     } catch (e) {
-      if (this.asking !== asking) return; // dropped meanwhile
+      if (this.asking !== asking) return; // discarded meanwhile
       this.asking = null;
       this.failed(e, version);
       return;
@@ -262,7 +261,7 @@ export class EditSession {
   private failed(e: unknown, version: number) {
     const diagnostic = diagnosticOf(e);
     this.reason.value = diagnostic;
-    // Newer plans may fare better; the same ones are sent again when asked for.
+    // Newer plans are tried at once; the same plans are only sent again on request.
     if (version !== this.version) {
       this.pump();
       return;
@@ -272,7 +271,7 @@ export class EditSession {
     if (!this.open && draft) this.hold(draft, diagnostic);
   }
 
-  /** Faults that need no server; the last geometry stays. */
+  /** Faults that are found without the server; the previous geometry stays. */
   private refusedHere(draft: Draft): api.RaisedBuilding[] | null {
     const found: api.RaisedBuilding[] = [];
     let any = false;
@@ -303,7 +302,7 @@ export class EditSession {
     this.writing = writing;
     this.released = false;
     this.touched.clear();
-    this.phase.value = "writing";
+    this.phase.value = "saving";
     this.keep(draft);
     try {
       const applied = await this.calls.edit(run, { what: draft.what, changes: draft.changes });
@@ -314,7 +313,7 @@ export class EditSession {
       this.writing = null;
       const diagnostic = diagnosticOf(e);
       if (e instanceof Refused && e.status === 409) await this.overtaken(run, draft);
-      else if (writing.undo) this.desk.say(diagnostic);
+      else if (writing.undo) this.desk.showMessage(diagnostic);
       else this.unwritten(diagnostic);
     }
     if (this.desk.draft.value) this.pump();
@@ -326,7 +325,7 @@ export class EditSession {
     const draft = this.desk.draft.value;
     this.desk.take(run, applied);
     if (!draft || this.desk.run.value?.id !== run) return;
-    // A gesture that began meanwhile stands on the plans just written.
+    // A gesture that began meanwhile is based on the plans that were just saved.
     const rest = draft.changes.filter((c) => this.touched.has(c.building));
     this.before = null;
     this.wasReleased = false;
@@ -351,18 +350,18 @@ export class EditSession {
     else this.reason.value = diagnostic;
   }
 
-  /** Someone else was first – or this very edit had arrived, and its answer had not. */
+  /** Another page was faster; or this edit was applied, and only its answer was lost. */
   private async overtaken(run: string, draft: Draft) {
     this.drop();
     let now: Awaited<ReturnType<Calls["buildings"]>>;
     try {
       now = await this.calls.buildings(run);
     } catch (e) {
-      this.desk.say(diagnosticOf(e));
+      this.desk.showMessage(diagnosticOf(e));
       return;
     }
     this.desk.take(run, now);
-    if (!this.unchanged(draft)) this.desk.say(stale(draft.changes));
+    if (!this.unchanged(draft)) this.desk.showMessage(stale(draft.changes));
   }
 
   private unchanged(draft: Draft) {
@@ -383,14 +382,14 @@ export class EditSession {
     if (run) this.desk.keep({ run: run.id, what: draft.what, changes: draft.changes });
   }
 
-  /** After a gesture that changed nothing: on with what there was. */
+  /** After a gesture that changed nothing: continues with the previous draft. */
   private settle() {
     if (!this.desk.draft.value) {
       this.reset();
       return;
     }
     this.released = this.wasReleased;
-    this.phase.value = this.writing ? "writing" : this.released ? "checking" : "held";
+    this.phase.value = this.writing ? "saving" : this.released ? "checking" : "held";
     this.pump();
   }
 
@@ -399,10 +398,10 @@ export class EditSession {
     this.desk.keep(null);
     this.reset();
   }
-  /** Somebody else took the draft away: an undo, another run, an edit in another tab. */
+  /** The draft was removed from outside: by an undo, another run, or an edit of another page. */
   private dropped() {
     if (this.writing && this.desk.run.value?.id === this.writing.run) this.writing.undo = true;
-    // What is held in a run that was left waits for it to be opened again.
+    // The draft of a run that was closed is kept until the run is opened again.
     if (this.desk.kept()?.run === this.desk.run.value?.id) this.desk.keep(null);
     this.reset();
   }
@@ -414,7 +413,7 @@ export class EditSession {
     this.touched.clear();
     this.answered = ++this.version;
     this.reason.value = null;
-    this.phase.value = this.writing ? "writing" : "idle";
+    this.phase.value = this.writing ? "saving" : "idle";
   }
   private stopAsking() {
     this.asking?.abort();
@@ -441,11 +440,11 @@ function diagnosticOf(e: unknown): api.Diagnostic {
 const stale = (changes: api.Change[]) =>
   warning(
     "edit-stale",
-    "someone else changed this building meanwhile; it is shown as they left it, your change of it was dropped",
+    "another page changed this building meanwhile; it is shown in its new state, and your change was discarded",
     changes.map((c) => c.building).join(", "),
   );
 
-/** The same ids and the same plans, however their profiles are numbered. */
+/** Whether ids and plans are equal, whatever the numbering of their profiles. */
 function samePlans(a: api.NamedPlan[], b: api.NamedPlan[]): boolean {
   const text = (parts: api.NamedPlan[]) => JSON.stringify(parts.map((p) => [p.id, clean(p.plan)]));
   return text(a) === text(b);

@@ -9,7 +9,7 @@ describe("a sheet", () => {
     expect(toPixels(sheet, [101, 51])).toEqual([210, 90]);
     expect(toMetres(sheet, [210, 90])).toEqual([101, 51]);
   });
-  it("keeps what is under the pointer when zoomed, and follows it when panned", () => {
+  it("keeps the point under the pointer when zoomed, and follows the pointer when panned", () => {
     const before = toMetres(sheet, [37, 151]);
     const after = toMetres(zoomed(sheet, [37, 151], 3.7), [37, 151]);
     expect(after[0]).toBeCloseTo(before[0], 10);
@@ -18,11 +18,11 @@ describe("a sheet", () => {
     expect(moved[0]).toBeCloseTo(212, 10);
     expect(moved[1]).toBeCloseTo(93, 10);
   });
-  it("is never zoomed out of reach", () => {
+  it("has limits for zooming", () => {
     expect(zoomed(sheet, [0, 0], 1e9).scale).toBe(4000);
     expect(zoomed(sheet, [0, 0], 1e-9).scale).toBe(0.2);
   });
-  it("fitted shows all points within its margin", () => {
+  it("is fitted to all points with a margin", () => {
     const points: [number, number][] = [
       [0, 0],
       [30, 4],
@@ -38,7 +38,7 @@ describe("a sheet", () => {
     }
     expect(fitted(sheet, [], 20)).toBe(sheet);
   });
-  it("has lines at whole distances that are far enough apart", () => {
+  it("has ruler lines at round distances, far enough apart", () => {
     expect(ruling(10, 36)).toBe(5);
     expect(ruling(100, 36)).toBe(0.5);
     expect(ruling(3, 36)).toBe(20);

@@ -1,4 +1,4 @@
-// A drawing's scale and place: metres to pixels and back. The second coordinate points up in metres, down in pixels.
+// Scale and position of a drawing: metres to pixels and back. The second coordinate points up in metres, down in pixels.
 import type { Point2 } from "../api/types";
 
 export interface Sheet {
@@ -20,7 +20,7 @@ export const toMetres = (sheet: Sheet, p: Point2): Point2 => [
   sheet.centre[1] - (p[1] - sheet.height / 2) / sheet.scale,
 ];
 
-/** The point under the pointer stays under it. */
+/** Zooms; the point `at` stays at its position. */
 export function zoomed(sheet: Sheet, at: Point2, factor: number): Sheet {
   const scale = Math.min(most, Math.max(least, sheet.scale * factor));
   const fixed = toMetres(sheet, at);
@@ -33,7 +33,7 @@ export const panned = (sheet: Sheet, by: Point2): Sheet => ({
   centre: [sheet.centre[0] - by[0] / sheet.scale, sheet.centre[1] + by[1] / sheet.scale],
 });
 
-/** All points in view, with a margin in pixels on each side. */
+/** Fits all points into the drawing, with a margin in pixels on each side. */
 export function fitted(sheet: Sheet, points: Point2[], margin: number): Sheet {
   if (points.length === 0 || sheet.width === 0 || sheet.height === 0) return sheet;
   const low: Point2 = [Math.min(...points.map((p) => p[0])), Math.min(...points.map((p) => p[1]))];
@@ -50,7 +50,7 @@ export function fitted(sheet: Sheet, points: Point2[], margin: number): Sheet {
   };
 }
 
-/** The distance between lines of a ruler at least `apart` pixels from each other: 1, 2 or 5 times a power of ten. */
+/** Spacing of ruler lines, at least `apart` pixels: 1, 2 or 5 times a power of ten. */
 export function ruling(scale: number, apart: number): number {
   const needed = apart / scale;
   const power = 10 ** Math.floor(Math.log10(needed));

@@ -10,7 +10,7 @@ const nothing = { corners: [], edges: [] };
 const at = (edge: number) => ({ ring: 0, edge });
 
 describe("rounding", () => {
-  it("gives the decimals that would be typed", () => {
+  it("gives short decimals", () => {
     expect(rounded(12.3449, 0.01)).toBe(12.34);
     expect(rounded(0.1 + 0.2, 0.01)).toBe(0.3);
     expect(rounded(1.2346, 0.001)).toBe(1.235);
@@ -28,40 +28,40 @@ describe("a dragged corner", () => {
   ]);
   const around = surroundings(house(), [neighbour], (e) => e.edge === 2);
 
-  it("falls onto a neighbour's corner exactly", () => {
+  it("snaps exactly to a corner of a neighbour", () => {
     expect(snapVertex(house(), at(2), [11.9, 8.85], around, near).at).toEqual([12, 9]);
   });
-  it("falls onto a neighbour's wall, and nowhere beyond its ends", () => {
+  it("snaps to a wall of a neighbour, and not beyond its ends", () => {
     const snapped = snapVertex(house(), at(2), [12.1, 5.5], around, near);
     expect(snapped.at[0]).toBe(12);
     expect(snapped.guides[0]?.words).toBe("edge");
     expect(snapVertex(house(), at(2), [12.1, 12.123], around, near).guides).toEqual([]);
   });
-  it("makes right angles with the edges beside it", () => {
-    // Above corner 1 the wall is upright, beside corner 3 it is level: both at once.
+  it("snaps to right angles with the adjacent edges", () => {
+    // Vertical above corner 1 and horizontal beside corner 3, both at once.
     const snapped = snapVertex(house(), at(2), [10.2, 8.2], nothing, near);
     expect(snapped.at).toEqual([10, 8]);
     expect(snapped.guides.map((g) => g.words)).toEqual(["right angle", "right angle"]);
   });
-  it("on one line has a length of whole centimetres", () => {
+  it("on one line is rounded to whole centimetres of length", () => {
     const snapped = snapVertex(house(), at(2), [10.1, 9.4567], nothing, near);
     expect(snapped.at).toEqual([10, 9.46]);
   });
-  it("stays parallel where the plan is turned", () => {
+  it("snaps to parallels in rotated plans", () => {
     const turn = (p: Point2): Point2 => [p[0] * 0.8 - p[1] * 0.6, p[0] * 0.6 + p[1] * 0.8];
     const turned = withCorners(house().outer.points.map(turn));
     const snapped = snapVertex(turned, at(2), turn([10.1, 9.456]), nothing, near);
     expect(snapped.at[0]).toBeCloseTo(turn([10, 9.46])[0], 10);
     expect(snapped.at[1]).toBeCloseTo(turn([10, 9.46])[1], 10);
   });
-  it("is only rounded where nothing is near, or with Alt", () => {
+  it("is only rounded if nothing is near, or with Alt", () => {
     expect(snapVertex(house(), at(2), [11.2345, 9.9876], nothing, near).at).toEqual([11.23, 9.99]);
     expect(snapVertex(house(), at(2), [10.0004, 8.1236], around, off).at).toEqual([10, 8.124]);
   });
-  it("falls onto the grid when there is one and nothing better is near", () => {
+  it("snaps to the grid if nothing else is near", () => {
     expect(snapVertex(house(), at(2), [11.45, 9.6], nothing, { ...near, grid: 0.5 }).at).toEqual([11.5, 9.5]);
   });
-  it("never falls onto the corner beside it", () => {
+  it("never snaps to an adjacent corner", () => {
     const own = surroundings(house(), [], (e) => e.edge === 2);
     for (const to of [
       [10.1, 0.1],
@@ -73,7 +73,7 @@ describe("a dragged corner", () => {
       expect(Math.hypot(p[0], p[1] - 8)).toBeGreaterThan(0.005);
     }
   });
-  it("has its own edges out of its surroundings", () => {
+  it("ignores its own edges", () => {
     expect(surroundings(house(), [], (e) => e.edge === 2)).toEqual({
       corners: [
         [0, 0],
@@ -95,7 +95,7 @@ describe("a dragged corner", () => {
 });
 
 describe("a dragged edge", () => {
-  it("comes in line with a corner nearby, else moves by whole centimetres", () => {
+  it("snaps in line with a near corner, otherwise moves by whole centimetres", () => {
     const around = { corners: [[3, 8.97]] as Point2[], edges: [] };
     const snapped = snapEdge(house(), at(2), -0.9, around, near);
     expect(snapped.by).toBeCloseTo(-0.97, 12);
@@ -104,8 +104,8 @@ describe("a dragged edge", () => {
   });
 });
 
-describe("points drawn for a hole or a cut", () => {
-  it("make right angles with the line drawn before", () => {
+describe("points drawn for a courtyard or a split line", () => {
+  it("snap to right angles with the previous line", () => {
     const snapped = snapDrawn(
       house(),
       [
@@ -122,29 +122,29 @@ describe("points drawn for a hole or a cut", () => {
 
 describe("a dragged profile point", () => {
   const snap = { ...near, slopes: [0.5], heights: [5.5] };
-  it("makes the part below it upright and the part above flat", () => {
+  it("snaps to a vertical segment below and a flat one above", () => {
     const profile: Profile = [
       [0, 0],
       [0.4, 6],
       [4, 10],
     ];
-    expect(snapProfilePoint(profile, 1, [0.1, 7.126], snap)).toEqual({ at: [0, 7.13], words: ["upright"] });
+    expect(snapProfilePoint(profile, 1, [0.1, 7.126], snap)).toEqual({ at: [0, 7.13], words: ["vertical"] });
     expect(snapProfilePoint(profile, 1, [2, 9.9], snap)).toEqual({ at: [2, 10], words: ["flat"] });
   });
-  it("takes the pitch of another edge", () => {
+  it("snaps to the pitch of another edge", () => {
     const snapped = snapProfilePoint(roof, 2, [3.003, 7.6], snap);
     expect(snapped.words).toEqual(["same pitch"]);
     expect((snapped.at[1] - 6) / snapped.at[0]).toBeCloseTo(0.5, 10);
-    expect(snapped.at[0]).toBe(3.04); // the nearest place on that pitch, to the centimetre
+    expect(snapped.at[0]).toBe(3.04); // the nearest position with that pitch, to the centimetre
   });
-  it("takes the height of another gutter, upright", () => {
-    expect(snapProfilePoint(roof, 1, [0.1, 5.4], snap)).toEqual({ at: [0, 5.5], words: ["upright", "same height"] });
+  it("snaps to the height of another gutter, vertically", () => {
+    expect(snapProfilePoint(roof, 1, [0.1, 5.4], snap)).toEqual({ at: [0, 5.5], words: ["vertical", "same height"] });
   });
-  it("never leans outwards nor goes down, nor takes another point's place", () => {
+  it("never leans outwards, goes down, or coincides with another point", () => {
     expect(snapProfilePoint(roof, 2, [-2, 3], snap).at).toEqual([0, 6.01]);
     expect(snapProfilePoint(roof, 1, [9, 20], { ...snap, reach: 0 }).at).toEqual([4, 9.99]);
   });
-  it("knows the pitches of the neighbours first", () => {
+  it("prefers the pitches of adjacent edges", () => {
     const plan = {
       ...house(),
       profiles: [

@@ -1,4 +1,4 @@
-// Where a dragged corner, edge or profile point goes: onto what is near, else to whole centimetres.
+// Snapping of dragged corners, edges and profile points: to near geometry, otherwise to whole centimetres.
 import type { Plan, Point2, ProfilePoint } from "../api/types";
 import { after, before, edgesOf, endsOf, profileOf, ringOf, sameEdge, type EdgeAt } from "./plan";
 import { held, type Profile } from "./profile";
@@ -18,18 +18,18 @@ import {
 } from "./vector";
 
 export interface Snap {
-  /** How near is near, metres. 0: nothing is snapped to, only rounded. */
+  /** Snapping distance, metres. 0: only rounding. */
   reach: number;
-  /** What drags are rounded to, metres. */
+  /** Rounding step, metres. */
   step: number;
-  /** A coarser grid to fall onto, metres; 0 for none. */
+  /** Spacing of a coarser grid to snap to, metres; 0 for none. */
   grid: number;
 }
 export interface Surroundings {
   corners: Point2[];
   edges: [Point2, Point2][];
 }
-/** What was snapped to, in words and to draw. */
+/** What was snapped to: a label and a line to draw. */
 export interface Guide {
   words: string;
   from: Point2;
@@ -41,12 +41,12 @@ export interface SnappedPoint {
 }
 
 export const rounded = (value: number, step: number) => {
-  // Dividing by a whole number gives 12.34 where multiplying by 0.01 gives 12.340000000000002.
+  // Division by an integer gives 12.34; multiplication by 0.01 gives 12.340000000000002.
   const per = Math.round(1 / step);
   return per >= 1 && Math.abs(1 / step - per) < 1e-9 ? Math.round(value * per) / per : Math.round(value / step) * step;
 };
 
-/** Other plans' corners and edges, and those of the plan itself that do not move. */
+/** Corners and edges of other plans, and those of the plan itself that do not move. */
 export function surroundings(plan: Plan, others: Plan[], moves: (at: EdgeAt) => boolean): Surroundings {
   const found: Surroundings = { corners: [], edges: [] };
   const add = (p: Plan, skip: (at: EdgeAt) => boolean) => {
@@ -64,12 +64,12 @@ export function surroundings(plan: Plan, others: Plan[], moves: (at: EdgeAt) => 
 
 interface Candidate {
   line: Line;
-  anchored: boolean; // lengths along it are rounded from its anchor
+  anchored: boolean; // lengths from its anchor are rounded
   words: string;
-  limits: [Point2, Point2] | null; // of an edge that ends
+  limits: [Point2, Point2] | null; // ends of an edge
 }
 
-/** Lines that make an edge from `anchor` square to, or straight on from, the edge that leads to it. */
+/** Lines through `anchor` at a right angle to the previous edge, straight on from it, or parallel to the main direction. */
 function directions(anchor: Point2, beyond: Point2, main: Point2 | null): Candidate[] {
   const found: Candidate[] = [];
   const offer = (along: Point2 | null, words: string) => {
@@ -100,13 +100,13 @@ export function mainDirection(plan: Plan, except: (at: EdgeAt) => boolean): Poin
   return best;
 }
 
-/** A corner dragged to `to`: onto a corner, the meeting of two lines, a line, the grid, or whole steps. */
+/** Snaps a corner that is dragged to `to`: to a corner, an intersection of two lines, a line, the grid, or rounds it. */
 export function snapVertex(plan: Plan, at: EdgeAt, to: Point2, around: Surroundings, snap: Snap): SnappedPoint {
   const ring = ringOf(plan, at.ring);
   if (!ring || snap.reach <= 0) return { at: unsnapped(to, { ...snap, grid: 0 }), guides: [] };
   const previous = before(ring, at.edge);
   const next = after(ring, at.edge);
-  // Onto the corner beside it, an edge would have no length.
+  // Snapping to an adjacent corner would give an edge without length.
   const beside = [ring.points[previous]!, ring.points[next]!];
   const free = around.corners.filter((c) => beside.every((b) => distance(b, c) > 1e-6));
   const corner = nearest(to, free, snap.reach);
@@ -124,7 +124,7 @@ export function snapVertex(plan: Plan, at: EdgeAt, to: Point2, around: Surroundi
   );
 }
 
-/** A point drawn freely – of a hole or a cut – after those drawn already. */
+/** Snaps a newly drawn point of a courtyard or a split line. */
 export function snapDrawn(plan: Plan, drawn: Point2[], to: Point2, around: Surroundings, snap: Snap): SnappedPoint {
   if (snap.reach <= 0) return { at: unsnapped(to, { ...snap, grid: 0 }), guides: [] };
   const corner = nearest(to, around.corners, snap.reach);
@@ -189,7 +189,7 @@ function unsnapped(to: Point2, snap: Snap): Point2 {
   return [rounded(to[0], snap.step), rounded(to[1], snap.step)];
 }
 
-/** How far an edge is shifted to its left: in line with a parallel edge or through a corner, else whole steps. */
+/** Snaps the shift of an edge to its left: in line with a corner, to the grid, or rounds it. */
 export function snapEdge(
   plan: Plan,
   at: EdgeAt,
@@ -215,9 +215,9 @@ export function snapEdge(
 }
 
 export interface ProfileSnap extends Snap {
-  /** Rises over runs of other edges; those of the neighbours first. */
+  /** Slopes of other edges; those of adjacent edges first. */
   slopes: number[];
-  /** Heights of other edges' gutters and ridges. */
+  /** Gutter heights of other edges. */
   heights: number[];
 }
 export interface SnappedProfilePoint {
@@ -225,8 +225,8 @@ export interface SnappedProfilePoint {
   words: string[];
 }
 
-/** A profile point dragged to `to`: upright, flat, at another edge's pitch or height, else whole steps. Nothing leans
- *  outwards or goes down by it. */
+/** Snaps a profile point that is dragged to `to`: vertical, flat, to the pitch or height of another edge, or rounds it. The
+ *  profile never leans outwards or goes down. */
 export function snapProfilePoint(
   profile: Profile,
   i: number,
@@ -245,7 +245,7 @@ export function snapProfilePoint(
         .sort((a, b) => Math.abs(a - value) - Math.abs(b - value))[0] ?? null;
     inward = level([below?.[0], above?.[0]], to[0]);
     height = level([below?.[1], above?.[1]], to[1]);
-    if (inward !== null) words.push("upright");
+    if (inward !== null) words.push("vertical");
     if (height !== null) words.push("flat");
     if (inward !== null && height !== null && repeats(profile, i, [inward, height])) {
       height = null;
@@ -271,7 +271,7 @@ export function snapProfilePoint(
 const repeats = (profile: Profile, i: number, at: ProfilePoint) =>
   [profile[i - 1], profile[i + 1]].some((p) => p && p[0] === at[0] && p[1] === at[1]);
 
-/** On a line of a known pitch from the point below (or to the one above); at the height already chosen, if one is. */
+/** A point on a line of a known pitch through the point below or above; at `height`, if that was snapped already. */
 function onPitch(
   below: ProfilePoint | undefined,
   above: ProfilePoint | undefined,
@@ -305,8 +305,8 @@ function onPitch(
   return best;
 }
 
-/** Values of the other edges' profiles – pitches, gutters – to snap to: the neighbours' first, each once. `except` are
- *  the edges that change: a point does not snap to where it was a moment ago. */
+/** Distinct values to snap to, such as pitches and gutter heights of other edges; those of adjacent edges first. `except` are
+ *  the edges that change: a point must not snap to its own previous position. */
 export function known(plan: Plan, at: EdgeAt, except: EdgeAt[], of: (profile: Profile) => number[]): number[] {
   const ring = ringOf(plan, at.ring);
   if (!ring) return [];

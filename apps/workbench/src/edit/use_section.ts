@@ -1,4 +1,4 @@
-// The mesh's slice across an edge, asked for when the edge or the place on it changes; the latest wins.
+// The section of the mesh across an edge. It is fetched when the edge or the position changes; the latest request counts.
 import { useSignal, type ReadonlySignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { client } from "../actions";
@@ -6,7 +6,7 @@ import type * as api from "../api/types";
 import * as state from "../state";
 import { endsOf, type EdgeAt } from "./plan";
 
-/** Milliseconds that the edge has to stand still before it is asked for. */
+/** Milliseconds without changes before it is fetched. */
 const pause = 60;
 
 export function useSection(
@@ -18,7 +18,7 @@ export function useSection(
   const run = state.run.value?.id ?? null;
   const selection = state.selection.value;
   const ends = plan && at && endsOf(plan, at);
-  // A section needs the mesh: without the scene there is none, and it comes when the scene does.
+  // A section needs the mesh: it is fetched once the scene has been loaded.
   const there = state.scene.value !== null;
   const key = run && plan && at && ends && there ? JSON.stringify([run, at, ends, plan.base, share]) : "";
 
@@ -36,7 +36,7 @@ export function useSection(
         : client.section(run, { building, part: part!, ring: at.ring, edge: at.edge, share });
       asked.then(
         (answer) => wanted && (section.value = answer),
-        () => wanted && (section.value = null), // a drawing without its slice says so by itself
+        () => wanted && (section.value = null), // the drawing shows that there is no section
       );
     }, pause);
     return () => {

@@ -1,4 +1,4 @@
-// The scale and place of a drawing as a hook: wheel to zoom, its size from the page.
+// Scale and position of a drawing as a hook: zooms with the wheel, follows the size of its element.
 import { useSignal, type Signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import type { Point2 } from "../api/types";
@@ -8,11 +8,11 @@ import { fitted, zoomed, type Sheet } from "./sheet";
 export interface UsedSheet {
   svg: { current: SVGSVGElement | null };
   sheet: Signal<Sheet>;
-  /** Pixels from the drawing's corner. */
+  /** Pixels from the upper left corner of the drawing. */
   pixels(event: { clientX: number; clientY: number }): Point2;
 }
 
-/** `points` is what to bring into view when `key` changes, or the drawing first has a size. */
+/** `points` are fitted into the drawing when `key` changes, and when it first has a size. */
 export function useSheet(key: string, points: () => Point2[], margin: number): UsedSheet {
   const svg = useRef<SVGSVGElement | null>(null);
   const sheet = useSignal<Sheet>({ centre: [0, 0], scale: 20, width: 0, height: 0 });
@@ -26,7 +26,7 @@ export function useSheet(key: string, points: () => Point2[], margin: number): U
 
   const fit = (now: Sheet) => {
     const last = fittedTo.current;
-    // What was moved or zoomed by hand stays, and so does what something is being dragged on.
+    // A drawing that was panned or zoomed by hand stays as it is; so does one during a drag.
     const asFitted = last.key === key && last.centre === now.centre && last.scale === now.scale && !session.active;
     if ((last.key === key && !asFitted) || now.width === 0) return now;
     const all = pointsNow.current();

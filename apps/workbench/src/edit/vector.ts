@@ -11,7 +11,7 @@ export const middle = (a: Point2, b: Point2): Point2 => [(a[0] + b[0]) / 2, (a[1
 /** To the left: the inside of a counter-clockwise ring. */
 export const turnedLeft = (a: Point2): Point2 => [-a[1], a[0]];
 
-/** Of length 1; nothing where the vector has no length. */
+/** Of length 1; null for a vector without length. */
 export function unit(a: Point2): Point2 | null {
   const length = Math.hypot(a[0], a[1]);
   return length > 0 ? [a[0] / length, a[1] / length] : null;
@@ -26,14 +26,14 @@ export const shareAlong = (p: Point2, line: Line) => dot(minus(p, line.at), line
 export const onLine = (line: Line, share: number): Point2 => plus(line.at, times(line.along, share));
 export const distanceToLine = (p: Point2, line: Line) => Math.abs(cross(line.along, minus(p, line.at)));
 
-/** Nothing where the lines are within about 3° of parallel. */
+/** The intersection of two lines; null if they are parallel within about 3°. */
 export function meeting(a: Line, b: Line): Point2 | null {
   const sine = cross(a.along, b.along);
   if (Math.abs(sine) < 0.05) return null;
   return onLine(a, cross(minus(b.at, a.at), b.along) / sine);
 }
 
-/** The nearest point of the segment a–b, and how far along it that is, 0 … 1. */
+/** The nearest point of the segment a–b, and its position along it, 0 … 1. */
 export function nearestOn(p: Point2, a: Point2, b: Point2): { at: Point2; share: number; distance: number } {
   const along = minus(b, a);
   const length = dot(along, along);
@@ -61,11 +61,11 @@ export function contains(ring: readonly Point2[], p: Point2): boolean {
   return inside;
 }
 
-/** Where the insides of two segments cross; touching ends do not count. */
+/** The intersection of two segments; touching ends do not count. */
 export function crossing(a: Point2, b: Point2, c: Point2, d: Point2): Point2 | null {
   const side = (p: Point2, q: Point2, r: Point2) => {
     const value = cross(minus(q, p), minus(r, p));
-    // Under a micrometre off the line: for the server to judge, which is exact.
+    // Less than a micrometre off the line: left to the exact check of the server.
     return Math.abs(value) < 1e-6 * distance(p, q) ? 0 : Math.sign(value);
   };
   if (side(a, b, c) * side(a, b, d) >= 0 || side(c, d, a) * side(c, d, b) >= 0) return null;

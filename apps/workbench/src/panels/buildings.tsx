@@ -1,9 +1,10 @@
-// The buildings of the open run as a table: thousands of rows, of which only those in sight are made.
+// The buildings of the open run as a table. Of thousands of rows only the visible ones are rendered.
 import { computed, effect, signal } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { fly, select } from "../actions";
 import * as state from "../state";
-import { type Column, type Order, type Row, arranged, inSight, rowOf } from "./table";
+import { SearchField } from "./search_field";
+import { type Column, type Order, type Row, arranged, visibleRows, rowOf } from "./table";
 import { fixed, grouped } from "./words";
 
 const filter = signal("");
@@ -16,11 +17,11 @@ effect(() => {
 
 const rowHeight = 26;
 const columns: { column: Column; name: string; title: string; number?: boolean }[] = [
-  { column: "id", name: "Building", title: "Its id in the footprints" },
-  { column: "block", name: "Block", title: "Buildings that touch" },
-  { column: "outcome", name: "Outcome", title: "Of the run: in full, or something simpler" },
-  { column: "parts", name: "Parts", title: "Solids it is made of", number: true },
-  { column: "rmse", name: "RMSE m", title: "Root of the mean squared vertical error", number: true },
+  { column: "id", name: "Building", title: "Id of the footprint" },
+  { column: "block", name: "Block", title: "Block of buildings that touch" },
+  { column: "outcome", name: "Outcome", title: "Result of the run: full, or a simpler model" },
+  { column: "parts", name: "Parts", title: "Number of solids", number: true },
+  { column: "rmse", name: "RMSE m", title: "Root mean squared vertical error", number: true },
   { column: "volume", name: "m³", title: "Volume", number: true },
   { column: "edited", name: "✎", title: "Edited by hand" },
 ];
@@ -54,7 +55,7 @@ export function BuildingsPanel() {
     }
   }, [at]);
 
-  const { from, to } = inSight(list.length, rowHeight, window.top, window.height);
+  const { from, to } = visibleRows(list.length, rowHeight, window.top, window.height);
   const keys = (e: KeyboardEvent) => {
     const page = Math.max(1, Math.floor(window.height / rowHeight) - 2);
     const steps: Record<string, number> = {
@@ -72,12 +73,11 @@ export function BuildingsPanel() {
   return (
     <div class="panel fill">
       <div class="table-head">
-        <input
-          type="search"
+        <SearchField
+          label="Filter buildings"
           placeholder="Filter by id, block, outcome, “edited”"
-          aria-label="Filter buildings"
           value={filter.value}
-          onInput={(e) => (filter.value = e.currentTarget.value)}
+          onValue={(text) => (filter.value = text)}
         />
         <span class="quiet">
           {list.length === all.value.length
@@ -125,7 +125,7 @@ export function BuildingsPanel() {
             </div>
           </div>
           {list.length === 0 && (
-            <p class="quiet pad">{all.value.length ? "No building has these words." : "No run is open."}</p>
+            <p class="quiet pad">{all.value.length ? "No building matches the filter." : "No run is open."}</p>
           )}
         </div>
       </div>

@@ -3,24 +3,24 @@ import { building, summary } from "../view/fixtures";
 import { buildingDifferences, difference, numbers } from "./compare";
 
 describe("two runs", () => {
-  it("have the times of every stage that either has", () => {
+  it("have the times of all their stages", () => {
     const rows = numbers(
       summary({ times: [{ stage: "slice", seconds: 1 }] }),
       summary({ times: [{ stage: "sweep", seconds: 2 }] }),
     );
     const of = (name: string) => rows.find((r) => r.name === name)!;
-    expect(of("… slice")).toMatchObject({ first: 1, second: null });
-    expect(of("… sweep")).toMatchObject({ first: null, second: 2 });
+    expect(of("Time of slice")).toMatchObject({ first: 1, second: null });
+    expect(of("Time of sweep")).toMatchObject({ first: null, second: 2 });
     expect(difference(of("Time"))).toBe(1);
   });
 
-  it("have no difference where one was not measured", () => {
+  it("have no difference if a value is missing", () => {
     const [mse] = numbers(summary({}), summary({}));
     expect(mse).toMatchObject({ first: null, second: null });
     expect(difference(mse!)).toBeNull();
   });
 
-  it("list the buildings whose error changed most first, and not those that are the same", () => {
+  it("list the buildings that differ, the largest change of the error first", () => {
     const of = (...all: ReturnType<typeof building>[]) => new Map(all.map((b) => [b.id, b]));
     const first = of(building("same"), building("little"), building("much"), building("left"));
     const second = of(

@@ -1,4 +1,4 @@
-// Two runs side by side, in numbers.
+// The numbers of two runs, compared.
 import type { Building, RunSummary } from "../api/types";
 
 export interface NumberRow {
@@ -7,10 +7,10 @@ export interface NumberRow {
   digits: number;
   first: number | null;
   second: number | null;
-  less: boolean | null; // whether less is better; null: neither is
+  less: boolean | null; // whether less is better; null: neither
 }
 
-/** What a run's summary has in numbers, for both. */
+/** The numbers in the summaries of two runs. */
 export function numbers(first: RunSummary, second: RunSummary): NumberRow[] {
   const row = (
     name: string,
@@ -20,25 +20,25 @@ export function numbers(first: RunSummary, second: RunSummary): NumberRow[] {
     less: boolean | null = true,
   ): NumberRow => ({ name, unit, digits, first: of(first) ?? null, second: of(second) ?? null, less });
   const rows = [
-    row("Error, the paper's", "m²", 3, (r) => r.scores?.mse),
-    row("… over the footprints", "m²", 3, (r) => r.scores?.footprint_mse),
-    row("… inside them", "m²", 3, (r) => r.scores?.inside_mse),
-    row("Median difference", "m", 3, (r) => r.scores?.footprint_median_absolute),
+    row("Error as in the paper", "m²", 3, (r) => r.scores?.mse),
+    row("Error over the footprints", "m²", 3, (r) => r.scores?.footprint_mse),
+    row("Error inside the footprints", "m²", 3, (r) => r.scores?.inside_mse),
+    row("Median absolute error", "m", 3, (r) => r.scores?.footprint_median_absolute),
     row("Missed", "m²", 1, (r) => r.scores?.missed),
     row("Invented", "m²", 1, (r) => r.scores?.invented),
     row("Buildings", "", 0, (r) => r.buildings, null),
-    row("… in full", "", 0, (r) => r.full, false),
+    row("Fully reconstructed", "", 0, (r) => r.full, false),
     row("Parts", "", 0, (r) => r.parts, null),
     row("Faces", "", 0, (r) => r.faces, null),
-    row("Edits that stand", "", 0, (r) => r.edits, null),
+    row("Edits", "", 0, (r) => r.edits, null),
     row("Time", "s", 1, (r) => r.times.reduce((sum, t) => sum + t.seconds, 0)),
   ];
   const stages = [...new Set([...first.times, ...second.times].map((t) => t.stage))];
   const time = (r: RunSummary, stage: string) => r.times.find((t) => t.stage === stage)?.seconds;
-  return [...rows, ...stages.map((stage) => row(`… ${stage}`, "s", 1, (r) => time(r, stage)))];
+  return [...rows, ...stages.map((stage) => row(`Time of ${stage}`, "s", 1, (r) => time(r, stage)))];
 }
 
-/** Second less first; null where one is not known. */
+/** Second minus first; null if one is missing. */
 export const difference = ({ first, second }: Pick<NumberRow, "first" | "second">) =>
   first === null || second === null ? null : second - first;
 
@@ -53,7 +53,7 @@ export interface BuildingDifference {
 const volume = (b: Building | undefined) => b?.parts.reduce((sum, p) => sum + p.volume, 0) ?? 0;
 const rmse = (b: Building | undefined) => (b?.mse == null ? null : Math.sqrt(b.mse));
 
-/** Buildings in which two runs differ, those whose error changed most first. */
+/** Buildings that differ between two runs, the largest change of the error first. */
 export function buildingDifferences(
   first: ReadonlyMap<string, Building>,
   second: ReadonlyMap<string, Building>,

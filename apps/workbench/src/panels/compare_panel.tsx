@@ -1,4 +1,4 @@
-// Two runs in numbers, beside the two views of them.
+// The numbers of the two runs that the view shows side by side.
 import { computed } from "@preact/signals";
 import { compareWith, fly, openRun, select } from "../actions";
 import * as state from "../state";
@@ -6,7 +6,7 @@ import { type NumberRow, buildingDifferences, difference, numbers } from "./comp
 import { differences } from "./options";
 import { fixed, nameOf, signed } from "./words";
 
-const most = 200; // rows of buildings made at once
+const most = 200; // maximum number of rendered rows
 
 const changes = computed(() =>
   state.run.value && state.other.value
@@ -16,7 +16,7 @@ const changes = computed(() =>
 
 export function ComparePanel() {
   const [first, second] = [state.runSummary(state.run.value?.id), state.runSummary(state.other.value?.id)];
-  if (!first || !second) return <p class="quiet pad">Choose a run to compare with, in the bar above.</p>;
+  if (!first || !second) return <p class="quiet pad">Select a run under “Compare with” in the bar at the top.</p>;
   const [left, right] = [nameOf(first), nameOf(second)];
   const options = differences(first, second, state.options.value?.options ?? []);
   const swap = async () => {
@@ -33,7 +33,7 @@ export function ComparePanel() {
           Swap
         </button>
         <button type="button" class="small" onClick={() => void compareWith(null)}>
-          End
+          End comparison
         </button>
       </div>
       <section class="card">
@@ -121,7 +121,7 @@ export function ComparePanel() {
             </tbody>
           </table>
         )}
-        {changes.value.length > most && <p class="quiet">and {changes.value.length - most} that differ less</p>}
+        {changes.value.length > most && <p class="quiet">{changes.value.length - most} more with smaller differences</p>}
       </section>
     </div>
   );
@@ -142,7 +142,7 @@ function Numbers({ row }: { row: NumberRow }) {
   );
 }
 
-/** Better or worse; nothing for changes that are not seen in the digits shown. */
+/** The class "better" or "worse"; none for changes below the displayed digits. */
 function tone(by: number | null, less: boolean | null, digits: number): string {
   if (by === null || less === null || Number(by.toFixed(digits)) === 0) return "";
   return by < 0 === less ? "better" : "worse";

@@ -1,43 +1,43 @@
-// The keyboard, on a sheet; and the keys that work everywhere.
+// The keys that work everywhere, and the sheet that lists them.
 import { useEffect, useRef } from "preact/hooks";
 import * as actions from "../actions";
 import * as state from "../state";
 import { Icon } from "./icons";
 
 const keys: [keys: string, does: string][] = [
-  ["f", "fly to the selection"],
-  ["h", "show everything"],
-  ["t", "from above; once more: everything from above"],
-  ["l", "layers"],
-  ["[  ]", "previous, next building"],
+  ["f", "zoom to the selection"],
+  ["h", "show all"],
+  ["t", "view from above; press again to show all from above"],
+  ["l", "show or hide the layers"],
+  ["[  ]", "previous building, next building"],
   ["Ctrl Z", "undo"],
   ["Ctrl Shift Z", "redo"],
-  ["Esc", "close, or select nothing"],
-  ["?", "this sheet"],
+  ["Esc", "close, or clear the selection"],
+  ["?", "show or hide this list"],
 ];
 const pointer: [what: string, does: string][] = [
-  ["drag", "turn"],
+  ["drag", "rotate"],
   ["right drag, Ctrl drag", "move"],
-  ["wheel, pinch", "zoom to the pointer"],
-  ["click", "select building, part and edge"],
-  ["Shift click", "add a part, for merging"],
-  ["arrows, Shift arrows, + −", "the same with the view in focus"],
+  ["wheel, pinch", "zoom at the pointer"],
+  ["click", "select a building, part and edge"],
+  ["Shift click", "select another part, to merge them"],
+  ["arrows, Shift arrows, + −", "move, rotate and zoom while the view has the focus"],
 ];
 
 export function HelpSheet() {
   const close = useRef<HTMLButtonElement>(null);
   useEffect(() => close.current?.focus(), []);
   return (
-    <div class="sheet-back" onClick={() => (state.sheet.value = false)}>
+    <div class="sheet-back" onClick={() => (state.keyboardHelp.value = false)}>
       <div class="sheet" role="dialog" aria-modal="true" aria-label="Keyboard" onClick={(e) => e.stopPropagation()}>
         <header>
-          <h2>Keyboard and pointer</h2>
+          <h2>Keyboard and mouse</h2>
           <button
             ref={close}
             type="button"
             class="plain"
             aria-label="Close"
-            onClick={() => (state.sheet.value = false)}
+            onClick={() => (state.keyboardHelp.value = false)}
           >
             <Icon name="close" />
           </button>
@@ -68,7 +68,7 @@ const typing = (target: EventTarget | null) =>
   target instanceof HTMLElement &&
   target.closest("input:not([type=checkbox]):not([type=radio]):not([type=range]), textarea, select") !== null;
 
-/** Keys that no field or editor took. */
+/** Handles keys that no field or editor has handled. */
 export function pressed(e: KeyboardEvent) {
   if (e.defaultPrevented) return;
   const command = e.ctrlKey || e.metaKey;
@@ -90,10 +90,10 @@ export function pressed(e: KeyboardEvent) {
     l: () => (state.layersOpen.value = !state.layersOpen.value),
     "[": () => actions.selectNext(-1),
     "]": () => actions.selectNext(1),
-    "?": () => (state.sheet.value = !state.sheet.value),
+    "?": () => (state.keyboardHelp.value = !state.keyboardHelp.value),
     Escape: () => {
-      if (state.sheet.value) state.sheet.value = false;
-      else if (state.asksInputs.value) state.asksInputs.value = false;
+      if (state.keyboardHelp.value) state.keyboardHelp.value = false;
+      else if (state.changingInputs.value) state.changingInputs.value = false;
       else if (state.layersOpen.value) state.layersOpen.value = false;
       else if (state.choosing.value) state.choosing.value = false;
       else if (!state.draft.value) actions.select(null);

@@ -1,4 +1,4 @@
-// Small drawings for buttons; those who cannot see them have the buttons' labels.
+// Icons of buttons. Screen readers use the labels of the buttons.
 const paths = {
   home: "M3 11 12 4l9 7M6 9.5V20h12V9.5",
   top: "M4 4h16v16H4zM4 12h16M12 4v16",

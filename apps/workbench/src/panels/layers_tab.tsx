@@ -1,19 +1,20 @@
-// Layers once more, and everything that the scene, the run and its buildings have to say.
+// The list of layers, and all diagnostics of the scene, the run and its buildings.
 import { computed, signal } from "@preact/signals";
 import { fly, select } from "../actions";
 import type { Diagnostic } from "../api/types";
 import * as state from "../state";
 import { LayerList } from "../view/layers_panel";
-import { grouped } from "./words";
+import { SearchField } from "./search_field";
+import { grouped, sentence } from "./words";
 
-interface Said extends Diagnostic {
+interface Found extends Diagnostic {
   building: string | null;
 }
 const search = signal("");
-const most = 400; // rows made at once
+const most = 400; // maximum number of rendered rows
 
-const said = computed((): Said[] => {
-  const all: Said[] = [];
+const found = computed((): Found[] => {
+  const all: Found[] = [];
   const add = (building: string | null, of: readonly Diagnostic[]) => {
     for (const d of of) all.push({ ...d, building });
   };
@@ -29,8 +30,8 @@ const said = computed((): Said[] => {
 
 export function LayersTab() {
   const words = search.value.toLowerCase().split(/\s+/).filter(Boolean);
-  const text = (d: Said) => `${d.code} ${d.message} ${d.subject} ${d.building ?? ""}`.toLowerCase();
-  const rows = said.value.filter((d) => words.every((w) => text(d).includes(w)));
+  const text = (d: Found) => `${d.code} ${d.message} ${d.subject} ${d.building ?? ""}`.toLowerCase();
+  const rows = found.value.filter((d) => words.every((w) => text(d).includes(w)));
   return (
     <div class="panel">
       <section class="card">
@@ -39,19 +40,13 @@ export function LayersTab() {
       </section>
       <section class="card">
         <h2>
-          Diagnostics <span class="quiet">{grouped(said.value.length)}</span>
+          Diagnostics <span class="quiet">{grouped(found.value.length)}</span>
         </h2>
-        {said.value.length === 0 ? (
-          <p class="quiet">Nothing to say: every building was made in full.</p>
+        {found.value.length === 0 ? (
+          <p class="quiet">No diagnostics: every building was fully reconstructed.</p>
         ) : (
           <>
-            <input
-              type="search"
-              placeholder="Filter diagnostics"
-              aria-label="Filter diagnostics"
-              value={search.value}
-              onInput={(e) => (search.value = e.currentTarget.value)}
-            />
+            <SearchField label="Filter diagnostics" value={search.value} onValue={(text) => (search.value = text)} />
             <ul class="said">
               {rows.slice(0, most).map((d, i) => (
                 <li key={i} class={d.severity}>
@@ -72,11 +67,11 @@ export function LayersTab() {
                       <span class="quiet">{d.subject}</span>
                     )}
                   </div>
-                  {d.message}
+                  {sentence(d.message)}
                 </li>
               ))}
             </ul>
-            {rows.length > most && <p class="quiet">and {grouped(rows.length - most)} more: filter to see them</p>}
+            {rows.length > most && <p class="quiet">{grouped(rows.length - most)} more; use the filter to find them</p>}
           </>
         )}
       </section>

@@ -1,7 +1,8 @@
-// What the server refused or what else should be known, until dismissed.
+// Messages, such as refusals of the server, until they are dismissed.
 import { dismiss } from "../actions";
 import * as state from "../state";
 import { Icon } from "./icons";
+import { sentence } from "./words";
 
 export function Messages() {
   return (
@@ -10,13 +11,13 @@ export function Messages() {
         <div class="message error" role="alert">
           {state.locked.value ? (
             <p>
-              The server was started again and gave out a new link: open the one that <code>mansard serve</code> printed
-              last. What was saved is safe.
+              The server was restarted and has a new link. Open the link that <code>mansard serve</code> printed last.
+              Saved edits are safe.
             </p>
           ) : (
             <p>
-              The server does not answer. What was saved is safe. Start <code>mansard serve</code> again with the same
-              project, and open the link it prints.
+              The server does not answer. Start <code>mansard serve</code> again with the same project, and open the link
+              that it prints. Saved edits are safe.
             </p>
           )}
         </div>
@@ -24,7 +25,7 @@ export function Messages() {
       {state.messages.value.map((m) => (
         <div key={m.code + m.message} class={`message ${m.severity}`}>
           <p>
-            {m.message} {m.subject && <span class="quiet">({m.subject})</span>} <code>{m.code}</code>
+            {sentence(m.message)} {m.subject && <span class="quiet">({m.subject})</span>} <code>{m.code}</code>
           </p>
           <button type="button" class="plain" aria-label="Dismiss" onClick={() => dismiss(m)}>
             <Icon name="close" />

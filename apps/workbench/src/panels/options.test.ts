@@ -1,39 +1,66 @@
 import { describe, expect, it } from "vitest";
 import type { Option } from "../api/types";
-import { changed, differences, fault, faulty, forReading, forRuns, grouped, tellingRange, usual } from "./options";
+import {
+  changed,
+  differences,
+  fault,
+  faulty,
+  forInputs,
+  forRuns,
+  found,
+  grouped,
+  shownRange,
+  usual,
+  visible,
+} from "./options";
 
-const option = (room: string, name: string, change: Partial<Option> = {}): Option => ({
-  room,
+const option = (module: string, name: string, change: Partial<Option> = {}): Option => ({
+  module,
   name,
+  used_in: "runs",
   kind: "number",
   unit: "m",
-  least: 0,
-  most: 10,
+  minimum: 0,
+  maximum: 10,
   choices: [],
   default: "1",
   alias: "",
   meaning: "How near lines are.",
+  source: "",
+  advanced: false,
   ...change,
 });
 const options = [
-  option("ingest", "crs", { kind: "text", default: "" }),
-  option("sweep", "gamma", { meaning: "Least area of a side." }),
+  option("ingest", "crs", { kind: "string", default: "", used_in: "inputs" }),
+  option("sweep", "gamma", { meaning: "Minimum area of a side." }),
   option("sweep", "line_gap"),
-  option("segment", "cliques", { kind: "flag", default: "false" }),
+  option("segment", "cliques", { kind: "boolean", default: "false" }),
+  option("segment", "weight", { advanced: true }),
+  option("roof", "form", { used_in: "other" }),
 ];
 const paper = { name: "paper", meaning: "", values: { "sweep.gamma": "10" } };
 
 describe("options", () => {
-  it("are those of reading or those of a run", () => {
-    expect(forReading(options).map((o) => o.name)).toEqual(["crs"]);
-    expect(forRuns(options).map((o) => o.name)).toEqual(["gamma", "line_gap", "cliques"]);
+  it("are used to read inputs or in runs, as the server says", () => {
+    expect(forInputs(options).map((o) => o.name)).toEqual(["crs"]);
+    expect(forRuns(options).map((o) => o.name)).toEqual(["gamma", "line_gap", "cliques", "weight"]);
   });
 
   it("are found by all words of a search, in names and meanings", () => {
-    expect(grouped(options, "sweep near").map(([, of]) => of.map((o) => o.name))).toEqual([["line_gap"]]);
-    expect(grouped(options, "line gap")[0]![1]).toHaveLength(1);
-    expect(grouped(options, "nothing like it")).toEqual([]);
-    expect(grouped(options).map(([room]) => room)).toEqual(["ingest", "sweep", "segment"]);
+    expect(found(options, "sweep near").map((o) => o.name)).toEqual(["line_gap"]);
+    expect(found(options, "line gap")).toHaveLength(1);
+    expect(found(options, "nothing like it")).toEqual([]);
+    expect(grouped(options).map(([module]) => module)).toEqual(["ingest", "sweep", "segment", "roof"]);
+  });
+
+  it("that are advanced are hidden until asked for or changed", () => {
+    const names = (advanced: boolean, values = {}) => {
+      const { shown, hidden } = visible(forRuns(options), advanced, values, undefined);
+      return [shown.map((o) => o.name), hidden];
+    };
+    expect(names(false)).toEqual([["gamma", "line_gap", "cliques"], 1]);
+    expect(names(true)).toEqual([["gamma", "line_gap", "cliques", "weight"], 0]);
+    expect(names(false, { "segment.weight": "2" })).toEqual([["gamma", "line_gap", "cliques", "weight"], 0]);
   });
 
   it("count as changed only where they differ from the preset or the default", () => {
@@ -46,39 +73,39 @@ describe("options", () => {
   it("of numbers must be numbers within their range", () => {
     const gap = options[2]!;
     expect(fault(gap, "2.5")).toBe("");
-    expect(fault(gap, "12")).toBe("0 to 10 m");
-    expect(fault(gap, "-1")).toBe("0 to 10 m");
-    expect(fault(gap, "two")).toContain("not a number");
-    expect(fault(gap, "")).toContain("a number");
-    expect(fault(option("a", "b", { kind: "whole" }), "2.5")).toBe("a whole number");
+    expect(fault(gap, "12")).toBe("must be 0 to 10 m");
+    expect(fault(gap, "-1")).toBe("must be 0 to 10 m");
+    expect(fault(gap, "two")).toBe('"two" must be a number');
+    expect(fault(gap, "")).toBe("must be a number, 0 to 10 m");
+    expect(fault(option("a", "b", { kind: "integer" }), "2.5")).toBe('"2.5" must be an integer');
     expect(fault(option("a", "b", { default: "" }), "")).toBe("");
   });
 
-  it("tell their range as far as it means something", () => {
-    expect(tellingRange({ least: 0, most: 10 })).toBe("0 to 10");
-    expect(tellingRange({ least: 0, most: 1e6 })).toBe("0 or more");
-    expect(tellingRange({ least: -1e8, most: 1e8 })).toBe("");
+  it("show their range without bounds that only guard the program", () => {
+    expect(shownRange({ minimum: 0, maximum: 10 })).toBe("0 to 10");
+    expect(shownRange({ minimum: 0, maximum: 1e6 })).toBe("at least 0");
+    expect(shownRange({ minimum: -1e8, maximum: 1e8 })).toBe("");
   });
 
-  it("of several numbers must be as many", () => {
+  it("with several numbers need as many", () => {
     const box = option("ingest", "bbox", { default: "0 0 0 0" });
     expect(fault(box, "1 2 3 4")).toBe("");
-    expect(fault(box, "1 2 3")).toBe("4 numbers");
-    expect(fault(box, "1 2 3 99")).toBe("0 to 10 m");
+    expect(fault(box, "1 2 3")).toBe("must be 4 numbers");
+    expect(fault(box, "1 2 3 99")).toBe("must be 0 to 10 m");
   });
 
-  it("of choices must be one of them", () => {
+  it("with choices must be one of them", () => {
     const rule = option("segment", "thin_rule", { kind: "choice", choices: ["all", "unsupported"], default: "all" });
     expect(fault(rule, "unsupported")).toBe("");
-    expect(fault(rule, "some")).toBe("one of all, unsupported");
+    expect(fault(rule, "some")).toBe("must be one of all, unsupported");
   });
 
-  it("name the first that is wrong", () => {
+  it("report the first invalid value", () => {
     expect(faulty(options, { "sweep.line_gap": "x" })).toContain("sweep.line_gap");
     expect(faulty(options, {})).toBe("");
   });
 
-  it("of two runs differ where their values do, defaults filled in", () => {
+  it("of two runs are compared with defaults filled in", () => {
     const first = { options: { "sweep.gamma": "3" } };
     const second = { options: { "sweep.line_gap": "2", "sweep.gamma": "3" } };
     expect(differences(first, second, options)).toEqual([{ option: "sweep.line_gap", first: "1", second: "2" }]);

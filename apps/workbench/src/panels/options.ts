@@ -1,72 +1,80 @@
-// Options as a form needs them: grouped by room, filtered, checked, and told apart from what they would be anyway.
+// Options as a form needs them: grouped by module, searched, checked, and compared with their defaults.
 import type { Option, Preset, RunSummary } from "../api/types";
 
-export const key = (o: Pick<Option, "room" | "name">) => `${o.room}.${o.name}`;
+export const key = (o: Pick<Option, "module" | "name">) => `${o.module}.${o.name}`;
 
-/** Rooms whose options say how a scene is read; a run takes the scene as it is. */
-export const readingRooms: readonly string[] = ["ingest", "derive", "block"];
-/** Rooms that no run passes through. */
-const elsewhere: readonly string[] = ["roof", "simulate", "explore", "picture"];
+export const forRuns = (options: readonly Option[]) => options.filter((o) => o.used_in === "runs");
+export const forInputs = (options: readonly Option[]) => options.filter((o) => o.used_in === "inputs");
 
-export const forRuns = (options: readonly Option[]) =>
-  options.filter((o) => !readingRooms.includes(o.room) && !elsewhere.includes(o.room));
-export const forReading = (options: readonly Option[]) => options.filter((o) => readingRooms.includes(o.room));
-
-/** What an option is when nobody sets it: the preset's value, or its default. */
+/** The value of an option that nobody sets: that of the preset, or its default. */
 export const usual = (o: Option, preset: Preset | undefined) => preset?.values[key(o)] ?? o.default;
 
-/** By room in their order; those whose room, name, alias or meaning have every word of the search. */
-export function grouped(options: readonly Option[], search = ""): [string, Option[]][] {
+export const isChanged = (o: Option, values: Record<string, string>, preset: Preset | undefined) =>
+  values[key(o)] !== undefined && values[key(o)] !== usual(o, preset);
+
+/** Options whose module, name, alias or meaning contain every word of the search. */
+export function found(options: readonly Option[], search: string): Option[] {
   const words = search.toLowerCase().split(/\s+/).filter(Boolean);
+  return options.filter((o) => {
+    const text = `${o.module} ${o.name} ${o.name.replaceAll("_", " ")} ${o.alias} ${o.meaning}`.toLowerCase();
+    return words.every((w) => text.includes(w));
+  });
+}
+
+/** By module, in their order. */
+export function grouped(options: readonly Option[]): [string, Option[]][] {
   const groups = new Map<string, Option[]>();
-  for (const option of options) {
-    const text =
-      `${option.room} ${option.name} ${option.name.replaceAll("_", " ")} ${option.alias} ${option.meaning}`.toLowerCase();
-    if (!words.every((w) => text.includes(w))) continue;
-    groups.set(option.room, [...(groups.get(option.room) ?? []), option]);
-  }
+  for (const option of options) groups.set(option.module, [...(groups.get(option.module) ?? []), option]);
   return [...groups];
 }
 
-/** What is wrong with a value, in words; "" where nothing is. The server has the last word. */
+/** The options to show, and how many advanced ones are hidden. Advanced options that were changed are always shown. */
+export function visible(
+  options: readonly Option[],
+  advanced: boolean,
+  values: Record<string, string>,
+  preset: Preset | undefined,
+): { shown: Option[]; hidden: number } {
+  const shown = options.filter((o) => advanced || !o.advanced || isChanged(o, values, preset));
+  return { shown, hidden: options.length - shown.length };
+}
+
+/** What a value must be, if it is not valid; "" if it is. The server checks again. */
 export function fault(option: Option, value: string): string {
   if (value === option.default) return "";
-  const { kind, choices, least, most, unit } = option;
-  if (kind === "choice" && !choices.includes(value)) return `one of ${choices.join(", ")}`;
-  if (kind === "flag" && value !== "true" && value !== "false") return "true or false";
-  if (kind !== "number" && kind !== "whole") return "";
+  const { kind, choices, minimum, maximum, unit } = option;
+  if (kind === "choice" && !choices.includes(value)) return `must be one of ${choices.join(", ")}`;
+  if (kind === "boolean" && value !== "true" && value !== "false") return "must be true or false";
+  if (kind !== "number" && kind !== "integer") return "";
   const words = value.trim().split(/\s+/).filter(Boolean);
   const count = Math.max(1, option.default.trim().split(/\s+/).filter(Boolean).length);
-  const range = rangeOf(option);
-  if (words.length !== count) return count === 1 ? `a number${range && `, ${range}`}` : `${count} numbers`;
+  const range = rangeOf(option) && `${rangeOf(option)}${unit && ` ${unit}`}`;
+  const number = kind === "integer" ? "an integer" : "a number";
+  if (words.length !== count) return count === 1 ? `must be ${number}${range && `, ${range}`}` : `must be ${count} numbers`;
   for (const word of words) {
     const x = Number(word);
-    if (!Number.isFinite(x)) return `"${word}" is not a number`;
-    if (kind === "whole" && !Number.isInteger(x)) return "a whole number";
-    if ((least !== null && x < least) || (most !== null && x > most)) return `${range}${unit && ` ${unit}`}`;
+    if (!Number.isFinite(x) || (kind === "integer" && !Number.isInteger(x))) return `"${word}" must be ${number}`;
+    if ((minimum !== null && x < minimum) || (maximum !== null && x > maximum)) return `must be ${range}`;
   }
   return "";
 }
 
-/** The range as far as it tells something: bounds in the millions are there for the program's sake. */
-export const tellingRange = ({ least, most }: Pick<Option, "least" | "most">) => {
-  const told = (x: number | null) => (x !== null && Math.abs(x) >= 1e6 ? null : x);
-  return rangeOf({ least: told(least), most: told(most) });
+/** The range without bounds of a million and more: these only guard the program. */
+export const shownRange = ({ minimum, maximum }: Pick<Option, "minimum" | "maximum">) => {
+  const shown = (x: number | null) => (x !== null && Math.abs(x) >= 1e6 ? null : x);
+  return rangeOf({ minimum: shown(minimum), maximum: shown(maximum) });
 };
 
-export function rangeOf({ least, most }: Pick<Option, "least" | "most">): string {
-  if (least !== null && most !== null) return `${least} to ${most}`;
-  if (least !== null) return `${least} or more`;
-  return most !== null ? `${most} or less` : "";
+export function rangeOf({ minimum, maximum }: Pick<Option, "minimum" | "maximum">): string {
+  if (minimum !== null && maximum !== null) return `${minimum} to ${maximum}`;
+  if (minimum !== null) return `at least ${minimum}`;
+  return maximum !== null ? `at most ${maximum}` : "";
 }
 
-/** Those values that differ from what they would be anyway. */
+/** The values that differ from the preset or the default. */
 export function changed(options: readonly Option[], values: Record<string, string>, preset: Preset | undefined) {
   const given: Record<string, string> = {};
-  for (const option of options) {
-    const value = values[key(option)];
-    if (value !== undefined && value !== usual(option, preset)) given[key(option)] = value;
-  }
+  for (const option of options) if (isChanged(option, values, preset)) given[key(option)] = values[key(option)]!;
   return given;
 }
 
@@ -75,7 +83,7 @@ export interface OptionDifference {
   first: string;
   second: string;
 }
-/** Of two runs, all options in which they differ. */
+/** The options in which two runs differ. */
 export function differences(
   first: Pick<RunSummary, "options">,
   second: Pick<RunSummary, "options">,
@@ -89,7 +97,7 @@ export function differences(
     .filter((d) => d.first !== d.second);
 }
 
-/** The first value that is wrong, in words; "" where none is. */
+/** The first invalid value, with the name of its option; "" if all are valid. */
 export function faulty(options: readonly Option[], values: Record<string, string>): string {
   for (const option of options) {
     const value = values[key(option)];

@@ -11,7 +11,7 @@ describe("characteristic profiles", () => {
     expect(profiles[1]!.points.at(-1)).toEqual([0, 6]);
   });
 
-  it("are one where they are nearly equal, by the metres of their edges", () => {
+  it("are clustered if they are similar, sorted by the length of their edges", () => {
     const found = clusters(edgeProfiles([building("a"), building("b")]));
     expect(found.map((c) => [c.edges, c.length])).toEqual([
       [4, 40],
@@ -19,7 +19,7 @@ describe("characteristic profiles", () => {
     ]);
   });
 
-  it("stay apart where they differ by more than asked for", () => {
+  it("are not clustered if they differ by more than the limit", () => {
     const wall = (inward: number): [number, number][] => [
       [0, 0],
       [0, 3],
@@ -30,7 +30,7 @@ describe("characteristic profiles", () => {
     expect(clusters(two, 0.7)).toHaveLength(1);
   });
 
-  it("are as far inward as their lines at any height", () => {
+  it("have an inward distance at any height", () => {
     const points: [number, number][] = [
       [0, 0],
       [0, 4],
@@ -50,7 +50,7 @@ describe("the histogram of errors", () => {
     cells: new Float32Array(cells),
   });
 
-  it("counts what is known, the outer bins all beyond", () => {
+  it("counts known cells; the outermost bins include larger errors", () => {
     const spread = histogram([map([-9, -0.1, NaN]), map([0.1, 1.9])], 2, 4)!;
     expect(spread.bins).toEqual([0.25, 0.25, 0.25, 0.25]);
     expect(spread.cells).toBe(4);
@@ -59,14 +59,14 @@ describe("the histogram of errors", () => {
     expect(spread.rmse).toBeCloseTo(Math.sqrt((81 + 0.01 + 0.01 + 3.61) / 4));
   });
 
-  it("is none where nothing is known", () => {
+  it("is null if nothing is known", () => {
     expect(histogram([map([NaN])], 2)).toBeNull();
     expect(histogram([], 2)).toBeNull();
   });
 });
 
-describe("marks on an axis", () => {
-  it("are round and not many", () => {
+describe("ticks of an axis", () => {
+  it("are round and few", () => {
     expect(ticks(10)).toEqual([0, 2, 4, 6, 8, 10]);
     expect(ticks(0.6)).toEqual([0, 0.2, 0.4, 0.6]);
     expect(ticks(0)).toEqual([0]);

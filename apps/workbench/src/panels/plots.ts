@@ -1,14 +1,14 @@
-// What is plotted: the profiles of a block (the paper's Figure 10), and how errors are spread.
+// Data of the plots: the profiles of a block (the paper's Figure 10), and the histogram of errors.
 import type { Building } from "../api/types";
 import type { LoadedMap } from "../state";
 import { capped, reaches } from "../view/geometry";
 
 export interface EdgeProfile {
-  length: number; // m, of its edge
+  length: number; // of the edge, m
   points: [number, number][]; // (inward, height)
 }
 
-/** Of every edge of every part, up to where the part ends. */
+/** The profiles of all edges of all parts, up to the top of the part. */
 export function edgeProfiles(buildings: Iterable<Building>): EdgeProfile[] {
   const all: EdgeProfile[] = [];
   for (const { parts } of buildings) {
@@ -32,9 +32,9 @@ export interface Cluster extends EdgeProfile {
   edges: number;
 }
 
-const step = 0.5; // m of height between where profiles are compared
+const step = 0.5; // m of height between two compared points of profiles
 
-/** How far inward a profile is at a height; from its top on it stays there. */
+/** The inward distance of a profile at a height; constant above its top. */
 export function inwardAt(points: readonly (readonly [number, number])[], height: number): number {
   for (let i = 1; i < points.length; ++i) {
     const [[x0, h0], [x1, h1]] = [points[i - 1]!, points[i]!];
@@ -44,7 +44,8 @@ export function inwardAt(points: readonly (readonly [number, number])[], height:
   return points.at(-1)?.[0] ?? 0;
 }
 
-/** Near-equal profiles as one, that of the longest edge; the most metres of edge first. */
+/** Clusters of profiles that differ by at most `near`, each with the profile of its longest edge; the greatest total length
+ *  first. */
 export function clusters(profiles: readonly EdgeProfile[], near = 0.4): Cluster[] {
   const found: (Cluster & { samples: number[]; top: number })[] = [];
   for (const { length, points } of [...profiles].sort((a, b) => b.length - a.length)) {
@@ -67,16 +68,16 @@ export function clusters(profiles: readonly EdgeProfile[], near = 0.4): Cluster[
 }
 
 export interface Histogram {
-  limit: number; // m; the outer bins have all beyond
+  limit: number; // m; the outermost bins include all larger errors
   bins: number[]; // shares, from −limit to limit
   cells: number;
   mean: number; // m
   medianAbsolute: number; // m
   rmse: number; // m
-  within: number; // share nearer than 0.25 m
+  within: number; // share of errors below 0.25 m
 }
 
-/** Of the cells where both model and scan are known. */
+/** Of the cells with both model and mesh. */
 export function histogram(maps: readonly LoadedMap[], limit: number, bins = 40): Histogram | null {
   const counts = new Array<number>(bins).fill(0);
   const sizes: number[] = [];
@@ -106,7 +107,7 @@ export function histogram(maps: readonly LoadedMap[], limit: number, bins = 40):
   };
 }
 
-/** Round numbers at which an axis up to `most` has its marks. */
+/** Round numbers for the ticks of an axis up to `most`. */
 export function ticks(most: number, about = 5): number[] {
   if (!(most > 0)) return [0];
   const rough = most / about;

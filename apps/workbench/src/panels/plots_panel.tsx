@@ -1,4 +1,4 @@
-// Figure 10 of the paper for a block or a run, how its errors are spread, and its totals.
+// The profiles of a block or a run (Figure 10 of the paper), its histogram of errors, and its totals.
 import { computed, signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { needErrorMaps } from "../actions";
@@ -41,9 +41,9 @@ export function PlotsPanel() {
   return (
     <div class="panel">
       <label class="field row">
-        Of
+        Scope
         <select value={within.value} onChange={(e) => (block.value = e.currentTarget.value)}>
-          <option value="">the whole run</option>
+          <option value="">whole run</option>
           {blocks.value.map((b) => (
             <option key={b}>{b}</option>
           ))}
@@ -73,7 +73,7 @@ function Profiles() {
   const inward = Math.max(2, ...lines.map((l) => Math.max(...l.points.map(([x]) => x))));
   const outward = Math.min(0, ...lines.map((l) => Math.min(...l.points.map(([x]) => x))));
   const high = Math.max(2, ...lines.map((l) => l.points.at(-1)?.[1] ?? 0));
-  // One scale for both axes, as slopes are what one wants to see.
+  // Both axes have the same scale, so that slopes are true.
   const scale = Math.min((box.right - box.left) / (inward - outward), (box.bottom - box.top) / high);
   const x = (m: number) => box.left + (m - outward) * scale;
   const y = (m: number) => box.bottom - m * scale;
@@ -125,11 +125,11 @@ function Profiles() {
             checked={clustered.value}
             onChange={(e) => (clustered.value = e.currentTarget.checked)}
           />
-          near-equal ones as one
+          cluster similar profiles
         </label>
         <span class="quiet">
-          {clustered.value ? `${lines.length} kinds of ` : ""}
-          {count(profiles.value.length, "edge")}, {grouped(total)} m; width by length
+          {clustered.value ? `${count(lines.length, "cluster")} of ` : ""}
+          {count(profiles.value.length, "edge")}, {grouped(total)} m; line width by length
         </span>
       </div>
     </>
@@ -138,8 +138,8 @@ function Profiles() {
 
 function Errors() {
   const spread = errors.value;
-  if (spread === undefined) return <p class="quiet">The error map is on its way.</p>;
-  if (spread === null) return <p class="quiet">Nothing was measured here.</p>;
+  if (spread === undefined) return <p class="quiet">Loading the error map …</p>;
+  if (spread === null) return <p class="quiet">No error was measured here.</p>;
   const tall = Math.max(...spread.bins);
   const wide = (box.right - box.left) / spread.bins.length;
   const [base, top] = [118, 6];
@@ -179,7 +179,7 @@ function Errors() {
           </text>
         ))}
         <text x={box.right} y={base + 27} class="end">
-          model − scan, m
+          model − mesh, m
         </text>
       </svg>
       <dl class="numbers">
@@ -187,14 +187,14 @@ function Errors() {
         <dd>{fixed(spread.rmse, 3)} m</dd>
         <dt>Mean</dt>
         <dd>{signed(spread.mean, 3)} m</dd>
-        <dt>Median, absolute</dt>
+        <dt>Median absolute</dt>
         <dd>{fixed(spread.medianAbsolute, 3)} m</dd>
         <dt>Within 0.25 m</dt>
         <dd>{(spread.within * 100).toFixed(1)} %</dd>
         <dt>Cells</dt>
         <dd>{grouped(spread.cells)}</dd>
       </dl>
-      {state.run.value!.history.done > 0 && <p class="quiet">Before edits: the map is the run's.</p>}
+      {state.run.value!.history.done > 0 && <p class="quiet">Errors of the run, before edits.</p>}
     </>
   );
 }

@@ -1,10 +1,10 @@
-// A job under way: what it does, how far it is, for how long, and the way out.
+// A running job: its stage, progress and duration, and a button to cancel it.
 import { useEffect, useState } from "preact/hooks";
 import { cancelJob } from "../actions";
 import type { Job } from "../api/types";
 import { seconds } from "./words";
 
-const seen = new Map<string, number>(); // when this page first heard of a job that runs
+const seen = new Map<string, number>(); // when this page first received a running job
 
 export function Progress({ job }: { job: Job }) {
   const [now, setNow] = useState(Date.now());
@@ -14,7 +14,7 @@ export function Progress({ job }: { job: Job }) {
   }, []);
   if (job.state === "running" && !seen.has(job.id)) seen.set(job.id, now);
   const since = seen.get(job.id);
-  const what = { read: "Reading the scene", run: `Reconstructing ${job.run ?? ""}`, export: "Exporting" }[job.kind];
+  const what = { read: "Reading inputs", run: `Reconstructing ${job.run ?? ""}` }[job.kind];
   const where = [job.stage, job.subject].filter(Boolean).join(" · ");
   return (
     <div class="progress" role="status" aria-live="polite">

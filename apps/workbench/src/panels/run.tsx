@@ -1,4 +1,4 @@
-// Runs: starting one with its options, and the list of those there are.
+// The inputs, the form of a new run with its options, and the list of runs.
 import { effect, signal } from "@preact/signals";
 import * as actions from "../actions";
 import type { RunSummary } from "../api/types";
@@ -8,10 +8,10 @@ import { Icon } from "./icons";
 import { OptionFields } from "./option_fields";
 import { changed, faulty, forRuns } from "./options";
 import { Progress } from "./progress";
-import { askInputs } from "./start";
-import { bytes, count, fixed, grouped, nameOf, seconds } from "./words";
+import { changeInputs } from "./start";
+import { bytes, count, fixed, grouped, nameOf, seconds, sentence } from "./words";
 
-/** What the form holds; kept, so that a reload loses none of it. */
+/** The contents of the form; kept across reloads. */
 interface Form {
   label: string;
   preset: string;
@@ -53,24 +53,24 @@ function Inputs() {
           {count(files.length, "file")}
           {scene && ` · ${grouped(scene.triangles)} triangles · ${count(scene.footprints.length, "footprint")}`}
         </span>
-        {changes > 0 && <span class="badge warn">{changes} changed on disk</span>}
+        {changes > 0 && <span class="badge warn">{count(changes, "file")} changed on disk</span>}
       </summary>
       <ul class="files">
         {files.map((f) => (
           <li key={f.path}>
             <span title={f.path}>{f.path.slice(f.path.lastIndexOf("/") + 1)}</span>
             <span class="quiet">{bytes(f.bytes)}</span>
-            {f.changed && <span class="wrong">missing or changed since it was read</span>}
+            {f.changed && <span class="wrong">missing, or changed since it was read</span>}
           </li>
         ))}
       </ul>
       {scene && (
         <p class="quiet">
-          {scene.crs || "local frame"} · origin {scene.origin.join(", ")} m
+          {scene.crs || "no CRS"} · origin {scene.origin.join(", ")} m
         </p>
       )}
-      <button type="button" onClick={askInputs}>
-        Read others …
+      <button type="button" onClick={changeInputs}>
+        Change inputs …
       </button>
     </details>
   );
@@ -110,7 +110,7 @@ function NewRun() {
         <label class="field">
           Preset
           <select value={name} title={preset?.meaning} onChange={(e) => change({ preset: e.currentTarget.value })}>
-            <option value="">none: the defaults</option>
+            <option value="">none (defaults)</option>
             {presets.map((p) => (
               <option key={p.name} value={p.name} title={p.meaning}>
                 {p.name}
@@ -131,7 +131,7 @@ function NewRun() {
               state.choosing.value = false;
             }}
           />
-          all {blocks.length > 0 && blocks.length}
+          all{blocks.length > 0 && ` (${blocks.length})`}
         </label>
         <label>
           <input
@@ -143,7 +143,7 @@ function NewRun() {
               state.choosing.value = true;
             }}
           />
-          chosen: {chosen.length}
+          selected ({chosen.length})
         </label>
         {some && (
           <button
@@ -152,12 +152,12 @@ function NewRun() {
             aria-pressed={state.choosing.value}
             onClick={() => (state.choosing.value = !state.choosing.value)}
           >
-            {state.choosing.value ? "Done choosing" : "Choose in the view"}
+            {state.choosing.value ? "Finish selection" : "Select in the 3D view"}
           </button>
         )}
         {some && (
           <select
-            aria-label="Add or take away a block by name"
+            aria-label="Select or deselect a block by name"
             value=""
             onChange={(e) => {
               const set = new Set(state.chosenBlocks.value);
@@ -181,28 +181,12 @@ function NewRun() {
           Options
           {Object.keys(given).length > 0 && <span class="badge">{Object.keys(given).length} changed</span>}
         </summary>
-        <div class="option-search">
-          <input
-            type="search"
-            placeholder="Search options"
-            aria-label="Search options"
-            value={search.value}
-            onInput={(e) => (search.value = e.currentTarget.value)}
-          />
-          <button
-            type="button"
-            class="small"
-            disabled={!Object.keys(given).length}
-            onClick={() => change({ values: {} })}
-          >
-            Reset all
-          </button>
-        </div>
         <OptionFields
           options={usable}
           values={values}
           preset={preset}
           search={search.value}
+          onSearch={(text) => (search.value = text)}
           onChange={(v) => change({ values: v })}
         />
       </details>
@@ -211,7 +195,7 @@ function NewRun() {
           Reconstruct
         </button>
         {wrong && <span class="wrong">{wrong}</span>}
-        {none && <span class="quiet">no block is chosen</span>}
+        {none && <span class="quiet">select at least one block</span>}
       </div>
       {job && <Progress job={job} />}
     </form>
@@ -285,7 +269,7 @@ function RunRow({ run }: { run: RunSummary }) {
       </div>
       {deleting.value === run.id && (
         <div class="ask" role="alertdialog" aria-label={`Delete ${name}?`}>
-          Move {name} and its {count(run.edits, "edit")} to the project's trash?
+          Move {name} and its {count(run.edits, "edit")} to the trash folder of the project?
           <button
             type="button"
             class="small danger"
@@ -297,26 +281,26 @@ function RunRow({ run }: { run: RunSummary }) {
             Delete
           </button>
           <button type="button" class="small" onClick={() => (deleting.value = null)}>
-            Keep
+            Cancel
           </button>
         </div>
       )}
-      {run.failure && <p class="wrong">{run.failure.message}</p>}
+      {run.failure && <p class="wrong">{sentence(run.failure.message)}</p>}
       {run.state === "done" && (
         <p class="run-numbers">
           {run.scores && (
-            <span title="Mean squared vertical error: the paper's measure / over the footprints">
+            <span title="Mean squared vertical error: as in the paper / over the footprints">
               {fixed(run.scores.mse, 3)} / {fixed(run.scores.footprint_mse, 3)} m²
             </span>
           )}
           <span>
-            {run.full} of {count(run.buildings, "building")} in full
+            {run.full} of {count(run.buildings, "building")} fully reconstructed
           </span>
           <span>{count(run.parts, "part")}</span>
           <span>{count(run.faces, "face")}</span>
           <span>{seconds(total)}</span>
           {run.edits > 0 && <span>{count(run.edits, "edit")}</span>}
-          {run.blocks.length > 0 && <span title={run.blocks.join(", ")}>{count(run.blocks.length, "block")} only</span>}
+          {run.blocks.length > 0 && <span title={run.blocks.join(", ")}>only {count(run.blocks.length, "block")}</span>}
         </p>
       )}
       {settings.length > 0 && <p class="run-options">{settings.join(" · ")}</p>}
@@ -332,7 +316,7 @@ function RenameField({ run }: { run: RunSummary }) {
   return (
     <input
       type="text"
-      aria-label={`New name of ${nameOf(run)}`}
+      aria-label={`New label of ${nameOf(run)}`}
       defaultValue={nameOf(run)}
       ref={(e) => e?.focus()}
       onBlur={(e) => renaming.value === run.id && done(e.currentTarget.value)}

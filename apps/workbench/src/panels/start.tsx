@@ -1,16 +1,17 @@
-// The first screen: a sample, paths on the server's disk, or files dropped here.
+// The first screen: open the sample, paths on the server's machine, uploaded files, or models of an earlier run.
 import { signal } from "@preact/signals";
 import * as actions from "../actions";
+import type { InputKind } from "../api/types";
 import * as state from "../state";
 import { Icon } from "./icons";
-import { OptionFields } from "./option_fields";
-import { faulty, forReading, key } from "./options";
-import { sorted } from "./inputs";
+import { accepted, extensionsOf, sorted, titlesOf } from "./inputs";
+import { PlainOptionFields } from "./option_fields";
+import { faulty, forInputs, key } from "./options";
 import { Progress } from "./progress";
 
 const meshes = signal("");
 const footprints = signal("");
-const draw = signal(false); // there are no footprints
+const derive = signal(false); // footprints are derived from the mesh
 const reading = signal<Record<string, string>>({});
 const model = signal("");
 const sending = signal("");
@@ -22,7 +23,7 @@ const lines = (text: string) =>
     .map((l) => l.trim())
     .filter(Boolean);
 
-/** The one option of reading that names a file has a field of its own. */
+/** The only input option that is a path has a field of its own. */
 const terrainKey = "ingest.terrain";
 function setTerrain(path: string) {
   const { [terrainKey]: _, ...rest } = reading.value;
@@ -30,16 +31,20 @@ function setTerrain(path: string) {
 }
 
 async function take(files: File[]) {
+  const formats = state.options.value;
+  if (!formats) return;
   const kinds = sorted(
     files.map((f) => f.name),
+    formats,
     lines(meshes.value).length > 0,
   );
   if (kinds.unknown.length) {
-    actions.say({
+    const list = (of: InputKind) => extensionsOf(formats, of).join(" ");
+    actions.showMessage({
       severity: "error",
       code: "input-kind",
-      message: `not a mesh (OBJ, PLY, OFF, GLB), a raster (GeoTIFF) nor footprints (GeoJSON, GeoPackage, Shapefile): ${kinds.unknown.join(", ")}`,
-      subject: "",
+      message: `unknown file extension; expected a mesh (${list("mesh")}), a raster (${list("raster")}) or footprints (${list("footprints")})`,
+      subject: kinds.unknown.join(", "),
     });
     return;
   }
@@ -51,7 +56,7 @@ async function take(files: File[]) {
   if (kinds.terrain.length) setTerrain(pathOf(kinds.terrain[0]!));
   if (kinds.footprints.length) {
     footprints.value = pathOf(kinds.footprints[0]!);
-    draw.value = false;
+    derive.value = false;
   }
 }
 
@@ -60,16 +65,16 @@ async function read(e: Event) {
   const terrain = reading.value[terrainKey]?.trim();
   const job = await actions.openInputs({
     meshes: lines(meshes.value),
-    footprints: draw.value ? "" : footprints.value.trim(),
+    footprints: derive.value ? "" : footprints.value.trim(),
     reading: { ...reading.value, ...(terrain ? { [terrainKey]: terrain } : {}) },
   });
-  if (job) state.asksInputs.value = false;
+  if (job) state.changingInputs.value = false;
 }
 
 async function openModel(e: Event) {
   e.preventDefault();
   const job = await actions.openModel(model.value.trim());
-  if (job) state.asksInputs.value = false;
+  if (job) state.changingInputs.value = false;
 }
 
 async function takeModel(file: File | undefined) {
@@ -79,22 +84,23 @@ async function takeModel(file: File | undefined) {
   if (paths) model.value = paths[0]!;
 }
 
-/** Starts from what the open project was read with. */
-export function askInputs() {
+/** Opens the form with the inputs of the project. */
+export function changeInputs() {
   const { inputs, reading: given } = state.project.value ?? {};
   meshes.value = inputs?.given.meshes.join("\n") ?? "";
   footprints.value = inputs?.given.footprints ?? "";
-  draw.value = inputs?.given.footprints === "";
+  derive.value = inputs?.given.footprints === "";
   reading.value = { ...given };
-  state.asksInputs.value = true;
+  state.changingInputs.value = true;
 }
 
 export function Start() {
   const project = state.project.value;
-  const all = forReading(state.options.value?.options ?? []);
+  const formats = state.options.value ?? undefined;
+  const all = forInputs(state.options.value?.options ?? []);
   const wrong = faulty(all, reading.value);
-  const outlines = draw.value || footprints.value.trim() !== "";
-  const ready = lines(meshes.value).length > 0 && outlines && !wrong && !sending.value;
+  const hasFootprints = derive.value || footprints.value.trim() !== "";
+  const ready = lines(meshes.value).length > 0 && hasFootprints && !wrong && !sending.value;
   const job = state.jobs.value.find((j) => j.kind === "read" && (j.state === "running" || j.state === "queued"));
   const drop = (e: DragEvent) => {
     e.preventDefault();
@@ -102,18 +108,18 @@ export function Start() {
     void take([...(e.dataTransfer?.files ?? [])]);
   };
   return (
-    <div class="start" role={state.asksInputs.value ? "dialog" : undefined} aria-label="Inputs">
+    <div class="start" role={state.changingInputs.value ? "dialog" : undefined} aria-label="Inputs">
       <div class="start-card">
         <header>
           <div>
-            <h1>{project?.inputs ? "Read other inputs" : "A city mesh and its footprints"}</h1>
+            <h1>{project?.inputs ? "Change the inputs" : "Open a mesh and footprints"}</h1>
             <p>
-              Give a photogrammetric mesh and building footprints: they become clean solids that you can edit as plan
-              and profiles. Without footprints, they are drawn from the mesh.
+              mansard reconstructs building models from a photogrammetric mesh and building footprints. You can edit
+              the models as plans and profiles. Missing footprints can be derived from the mesh.
             </p>
           </div>
-          {state.asksInputs.value && (
-            <button type="button" class="plain" aria-label="Close" onClick={() => (state.asksInputs.value = false)}>
+          {state.changingInputs.value && (
+            <button type="button" class="plain" aria-label="Close" onClick={() => (state.changingInputs.value = false)}>
               <Icon name="close" />
             </button>
           )}
@@ -124,7 +130,7 @@ export function Start() {
             <button type="button" class="primary" disabled={!!job} onClick={() => void actions.openSample()}>
               Open the sample
             </button>
-            <span>A small scan with its footprints that comes with the program.</span>
+            <span>A small mesh with footprints that comes with mansard.</span>
           </p>
         )}
         <form onSubmit={(e) => void read(e)}>
@@ -138,13 +144,14 @@ export function Start() {
             onDrop={drop}
           >
             {sending.value ? (
-              <span role="status">Copying {sending.value} …</span>
+              <span role="status">Uploading {sending.value} …</span>
             ) : (
               <label>
-                Drop mesh and footprints here, or <span class="link">choose files</span>
+                Drop mesh and footprint files here, or <span class="link">choose files</span>
                 <input
                   type="file"
                   multiple
+                  accept={formats && accepted(formats, "mesh", "raster", "footprints")}
                   class="unseen"
                   onChange={(e) => {
                     void take([...(e.currentTarget.files ?? [])]);
@@ -155,7 +162,7 @@ export function Start() {
             )}
           </div>
           <label class="field">
-            Mesh: files, folders of tiles, a tileset.json or a raster of heights, one a line
+            Mesh: files, folders, 3D Tiles (tileset.json) or rasters of heights, one per line
             <textarea
               rows={3}
               spellcheck={false}
@@ -163,25 +170,27 @@ export function Start() {
               value={meshes.value}
               onInput={(e) => (meshes.value = e.currentTarget.value)}
             />
+            <Titles of={["mesh", "raster"]} />
           </label>
           <label class="field">
-            Footprints: any vector source that GDAL reads, a database too
+            Footprints: a file or database that GDAL can read
             <input
               type="text"
               spellcheck={false}
               autocomplete="off"
               placeholder="/data/city/footprints.gpkg or PG:host=… dbname=…"
-              disabled={draw.value}
-              value={draw.value ? "" : footprints.value}
+              disabled={derive.value}
+              value={derive.value ? "" : footprints.value}
               onInput={(e) => (footprints.value = e.currentTarget.value)}
             />
+            <Titles of={["footprints"]} />
           </label>
           <label class="start-draw">
-            <input type="checkbox" checked={draw.value} onChange={(e) => (draw.value = e.currentTarget.checked)} />
-            There are none: draw them from the mesh
+            <input type="checkbox" checked={derive.value} onChange={(e) => (derive.value = e.currentTarget.checked)} />
+            No footprints: derive them from the mesh
           </label>
           <label class="field">
-            Terrain: a raster with the ground's heights, if there is one
+            Terrain (optional): a raster of ground heights
             <input
               type="text"
               spellcheck={false}
@@ -191,8 +200,12 @@ export function Start() {
             />
           </label>
           <details>
-            <summary>How to read them</summary>
-            <OptionFields options={all.filter((o) => key(o) !== terrainKey)} values={reading.value} onChange={(v) => (reading.value = v)} plain />
+            <summary>Input options</summary>
+            <PlainOptionFields
+              options={all.filter((o) => key(o) !== terrainKey)}
+              values={reading.value}
+              onChange={(v) => (reading.value = v)}
+            />
           </details>
           <p class="start-go">
             <button
@@ -200,7 +213,7 @@ export function Start() {
               class={project?.sample && !project.inputs ? "" : "primary"}
               disabled={!ready || !!job}
             >
-              Read
+              Read inputs
             </button>
             {wrong && <span class="wrong">{wrong}</span>}
           </p>
@@ -211,12 +224,19 @@ export function Start() {
   );
 }
 
-/** Models from an earlier run, with a mesh beside them or without. */
+/** The formats that the server reads. */
+function Titles({ of }: { of: InputKind[] }) {
+  const formats = state.options.value;
+  return formats && <span class="quiet titles">{titlesOf(formats, ...of).join(", ")}</span>;
+}
+
+/** Models of an earlier run, with or without the mesh. */
 function OpenModel() {
+  const formats = state.options.value ?? undefined;
   return (
     <form class="start-model" onSubmit={(e) => void openModel(e)}>
       <label class="field">
-        Or models that mansard wrote, in any format but STL: a file, or a folder of tiles
+        Models that mansard wrote: a file, or a folder of 3D Tiles
         <input
           type="text"
           spellcheck={false}
@@ -224,15 +244,17 @@ function OpenModel() {
           value={model.value}
           onInput={(e) => (model.value = e.currentTarget.value)}
         />
+        <Titles of={["models"]} />
       </label>
       <p class="start-go">
         <button type="submit" disabled={model.value.trim() === "" || sending.value !== ""}>
-          Open a model…
+          Open model
         </button>
         <label>
-          or <span class="link">choose its file</span>
+          or <span class="link">choose a model file</span>
           <input
             type="file"
+            accept={formats && accepted(formats, "models")}
             class="unseen"
             onChange={(e) => {
               void takeModel(e.currentTarget.files?.[0]);

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { building } from "../view/fixtures";
-import { arranged, inSight, rowOf } from "./table";
+import { arranged, visibleRows, rowOf } from "./table";
 
 const rows = [
   rowOf(building("b-10", { mse: 0.25, edited: true })),
@@ -10,31 +10,31 @@ const rows = [
 const ids = (filter: string, column: Parameters<typeof arranged>[2]["column"], down = false) =>
   arranged(rows, filter, { column, down }).map((r) => r.id);
 
-describe("the list of buildings", () => {
+describe("the table of buildings", () => {
   it("sorts numbers in names as numbers", () => {
     expect(ids("", "id")).toEqual(["b-2", "b-9", "b-10"]);
     expect(ids("", "id", true)).toEqual(["b-10", "b-9", "b-2"]);
   });
 
-  it("has what is not known last, whichever way", () => {
+  it("puts missing values last in either order", () => {
     expect(ids("", "rmse")).toEqual(["b-2", "b-10", "b-9"]);
     expect(ids("", "rmse", true)).toEqual(["b-10", "b-2", "b-9"]);
   });
 
-  it("keeps rows that are equal in the order of their ids", () => {
+  it("sorts equal rows by id", () => {
     expect(ids("", "volume", true)).toEqual(["b-2", "b-9", "b-10"]);
   });
 
-  it("is filtered by every word, in ids, blocks, outcomes, and edited", () => {
+  it("is filtered by all words, in ids, blocks and outcomes", () => {
     expect(ids("FALLBACK", "id")).toEqual(["b-9"]);
     expect(ids("edited", "id")).toEqual(["b-10"]);
     expect(ids("block-7 full", "id")).toEqual(["b-2"]);
     expect(ids("block-7 fallback", "id")).toEqual([]);
   });
 
-  it("makes the rows in sight only, some to spare", () => {
-    expect(inSight(5000, 26, 0, 520, 0)).toEqual({ from: 0, to: 20 });
-    expect(inSight(5000, 26, 26_000, 520, 4)).toEqual({ from: 996, to: 1024 });
-    expect(inSight(3, 26, 900, 520)).toEqual({ from: 3, to: 3 });
+  it("renders the visible rows and a few more", () => {
+    expect(visibleRows(5000, 26, 0, 520, 0)).toEqual({ from: 0, to: 20 });
+    expect(visibleRows(5000, 26, 26_000, 520, 4)).toEqual({ from: 996, to: 1024 });
+    expect(visibleRows(3, 26, 900, 520)).toEqual({ from: 3, to: 3 });
   });
 });

@@ -1,4 +1,4 @@
-// The list of buildings: what its columns are, its order, and which of its rows are in sight.
+// The table of buildings: columns, order, and the visible rows.
 import type { Building } from "../api/types";
 
 export type Column = "id" | "block" | "outcome" | "parts" | "rmse" | "volume" | "edited";
@@ -28,7 +28,8 @@ export const rowOf = (b: Building): Row => ({
 
 const natural = new Intl.Collator("en", { numeric: true });
 
-/** Rows whose id, block or outcome has every word ("edited" counts as one); what is not known comes last either way. */
+/** Rows whose id, block or outcome contain every word of the filter; edited buildings also match "edited". Missing values
+ *  come last in either order. */
 export function arranged(rows: readonly Row[], filter: string, { column, down }: Order): Row[] {
   const words = filter.toLowerCase().split(/\s+/).filter(Boolean);
   const text = (r: Row) => `${r.id} ${r.block} ${r.outcome}${r.edited ? " edited" : ""}`.toLowerCase();
@@ -43,8 +44,8 @@ export function arranged(rows: readonly Row[], filter: string, { column, down }:
     .sort((a, b) => compare(a, b) || natural.compare(a.id, b.id));
 }
 
-/** The rows to be made for a window of `height` pixels scrolled down by `top`, with some to spare. */
-export function inSight(rows: number, rowHeight: number, top: number, height: number, spare = 8) {
+/** The rows to render for a window of `height` pixels that is scrolled down by `top`, with `spare` rows on each side. */
+export function visibleRows(rows: number, rowHeight: number, top: number, height: number, spare = 8) {
   const from = Math.max(0, Math.floor(top / rowHeight) - spare);
   const to = Math.min(rows, Math.ceil((top + height) / rowHeight) + spare);
   return { from: Math.min(from, rows), to };

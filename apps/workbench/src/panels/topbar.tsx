@@ -1,11 +1,11 @@
-// The bar on top: which run is seen, what it is compared with, undo and redo in words, files to take away.
+// The bar at the top: the open run, the run to compare with, undo and redo, exports.
 import { signal } from "@preact/signals";
 import * as actions from "../actions";
 import * as state from "../state";
 import { Icon } from "./icons";
 import { brief, fullNameOf } from "./words";
 
-const layersOfRun = "segment.gpkg"; // of runs that reconstructed something
+const layersOfRun = "segment.gpkg"; // of reconstructed, not imported runs
 
 export function TopBar() {
   const project = state.project.value;
@@ -43,7 +43,7 @@ export function TopBar() {
                 if (id) state.tab.value = "compare";
               }}
             >
-              <option value="">nothing</option>
+              <option value="">none</option>
               {finished
                 .filter((r) => r.id !== run?.id)
                 .map((r) => (
@@ -61,9 +61,9 @@ export function TopBar() {
       <button
         type="button"
         class="plain"
-        title="Keyboard (?)"
+        title="Keyboard and mouse (?)"
         aria-label="Keyboard"
-        onClick={() => (state.sheet.value = true)}
+        onClick={() => (state.keyboardHelp.value = true)}
       >
         <Icon name="help" />
       </button>
@@ -86,7 +86,7 @@ function History() {
       <button
         type="button"
         disabled={last === undefined && !state.draft.value}
-        title={held ? "Drop the unsaved change (Ctrl+Z)" : last ? `Undo: ${last} (Ctrl+Z)` : "Nothing to undo"}
+        title={held ? "Discard the unsaved change (Ctrl+Z)" : last ? `Undo: ${last} (Ctrl+Z)` : "Nothing to undo"}
         onClick={() => void actions.undo()}
       >
         <Icon name="undo" />
@@ -112,9 +112,9 @@ const open = signal(false);
 function Export({ run }: { run: string }) {
   const close = () => (open.value = false);
   const files = (state.options.value?.formats ?? []).flatMap((f) =>
-    f.files.map((file, i): [file: string, what: string] => [file, i ? `beside ${f.files[0]}` : f.meaning]),
+    f.files.map((file, i): [file: string, what: string] => [file, i ? `belongs to ${f.files[0]}` : f.description]),
   );
-  if (state.runSummary(run)?.scores) files.push([layersOfRun, "Why walls are where they are, for a GIS; before edits."]);
+  if (state.runSummary(run)?.scores) files.push([layersOfRun, "Layers of the segmentation for a GIS, before edits."]);
   return (
     <div
       class="menu"
@@ -150,10 +150,10 @@ function Export({ run }: { run: string }) {
               role="menuitem"
               onClick={() => {
                 close();
-                void actions.exportAll(run, () => window.confirm("Files of this run are there already. Replace them?"));
+                void actions.exportAll(run, () => window.confirm("The export folder already has files of this run. Replace them?"));
               }}
             >
-              All of them <span class="quiet">into the project's folder</span>
+              All files <span class="quiet">into the project's folder</span>
             </button>
           </li>
         </ul>

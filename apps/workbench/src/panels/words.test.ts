@@ -1,7 +1,7 @@
 import { expect, it } from "vitest";
-import { brief, bytes, count, fullNameOf, fixed, grouped, seconds, signed } from "./words";
+import { brief, bytes, count, fullNameOf, fixed, grouped, seconds, sentence, signed } from "./words";
 
-it("numbers are written as they are read", () => {
+it("numbers are formatted", () => {
   expect(grouped(1234567)).toBe("1,234,567");
   expect([count(1, "part"), count(2, "part")]).toEqual(["1 part", "2 parts"]);
   expect([signed(0.5, 1), signed(-0.5, 1), signed(-0.001, 2), signed(null, 1)]).toEqual(["+0.5", "−0.5", "0.00", "–"]);
@@ -10,7 +10,11 @@ it("numbers are written as they are read", () => {
   expect([bytes(12), bytes(1_500), bytes(250_000_000)]).toEqual(["12 B", "1.5 kB", "250 MB"]);
 });
 
-it("long names are shortened, and runs named once", () => {
+it("messages begin with a capital letter", () => {
+  expect([sentence("no such file"), sentence("3 files"), sentence("")]).toEqual(["No such file", "3 files", ""]);
+});
+
+it("long names are shortened, and runs named without repetition", () => {
   expect(brief("base of b31bbff4a-00ba-11e6-b420-2bdcc4ab5d7f-1 to −0.40 m")).toBe("base of b31bbff4a…7f-1 to −0.40 m");
   expect([fullNameOf({ id: "run-1", label: "run-1" }), fullNameOf({ id: "run-1", label: "" })]).toEqual([
     "run-1",

@@ -1,8 +1,8 @@
-// Numbers as they are read.
+// Numbers and names as text.
 export const metres = (x: number, digits = 2) => `${x.toFixed(digits)} m`;
 export const fixed = (x: number | null | undefined, digits: number) =>
   x === null || x === undefined || Number.isNaN(x) ? "–" : x.toFixed(digits).replace("-", "−");
-/** With its sign; what rounds to nothing has none. */
+/** With a sign, unless it rounds to zero. */
 export function signed(x: number | null, digits: number): string {
   if (x === null || Number.isNaN(x)) return "–";
   const text = Math.abs(x).toFixed(digits);
@@ -29,10 +29,12 @@ export function bytes(n: number): string {
   }
   return `${n.toFixed(i && n < 100 ? 1 : 0)} ${units[i]}`;
 }
-/** Long names within a sentence, such as ids of 36 characters, by their beginnings and ends. */
+/** Shortens long names in a sentence, such as ids of 36 characters, to their beginnings and ends. */
 export const brief = (text: string) => text.replace(/[^\s]{20,}/g, (name) => `${name.slice(0, 9)}…${name.slice(-4)}`);
-/** What a run is called: its label, or its id where it was given none. */
+/** With a capital first letter. */
+export const sentence = (text: string) => text.charAt(0).toUpperCase() + text.slice(1);
+/** The name of a run: its label, or its id if it has none. */
 export const nameOf = (run: { id: string; label: string }) => run.label || run.id;
-/** The same, with the id where they differ. */
+/** The name of a run, followed by its id if they differ. */
 export const fullNameOf = (run: { id: string; label: string }) =>
   run.label && run.label !== run.id ? `${run.label} (${run.id})` : run.id;

@@ -4,7 +4,7 @@ import type { Pose, Vector } from "./camera";
 
 const pose: Pose = { target: [10, 20, 5], azimuth: 0.4, elevation: 0.8, size: 50, fov: camera.usualFov };
 
-/** Where a point is in a picture of the given height, in pixels from its middle: right and up. */
+/** Position of a point in an image of the given height, in pixels from its middle: right and up. */
 function seen(at: Pose, point: Vector, height: number): [number, number] {
   const eye = camera.eye(at);
   const ahead = camera.gaze(at);
@@ -21,16 +21,16 @@ function seen(at: Pose, point: Vector, height: number): [number, number] {
 }
 
 describe("the camera", () => {
-  it("stands where its target is in the middle of the picture", () => {
+  it("has its target in the middle of the image", () => {
     expect(seen(pose, pose.target, 600)).toEqual([expect.closeTo(0), expect.closeTo(0)]);
   });
 
-  it("shows a target's surroundings as tall as its size", () => {
+  it("shows a height of `size` metres at its target", () => {
     const level = { ...pose, azimuth: 0, elevation: 0 };
     expect(seen(level, [10, 20, 30], 600)[1]).toBeCloseTo(300);
   });
 
-  it("keeps the ground under the pointer when it is moved", () => {
+  it("keeps the ground under the pointer when it moves", () => {
     const before = seen(pose, [10, 20, 5], 600);
     const after = seen(camera.pan(pose, 6, -3, 600), [10, 20, 5], 600);
     expect(after[0] - before[0]).toBeCloseTo(6, 0);
@@ -47,7 +47,7 @@ describe("the camera", () => {
     expect(after[1]).toBeCloseTo(before[1], 6);
   });
 
-  it("shows a framed box whole, from every side", () => {
+  it("shows a framed box completely, from every direction", () => {
     for (const azimuth of [0, 0.7, 2, 4, 6]) {
       for (const elevation of [0.1, 0.7, 1.5]) {
         const framed = camera.frame({ ...pose, azimuth, elevation, fov: 0.1 }, [0, 0, 0], [40, 10, 8], 1.5);
@@ -64,7 +64,7 @@ describe("the camera", () => {
     }
   });
 
-  it("looks straight down from above, and in perspective again when turned", () => {
+  it("looks straight down from above, and has perspective again when tilted", () => {
     const above = camera.top(pose);
     expect(camera.isTop(above)).toBe(true);
     expect(camera.gaze(above)[2]).toBeCloseTo(-1);
@@ -72,12 +72,12 @@ describe("the camera", () => {
     expect(camera.isTop(camera.orbit(above, 0, -40))).toBe(false);
   });
 
-  it("turns the shorter way round in a flight", () => {
+  it("rotates by the smaller angle in a flight", () => {
     const half = camera.mixed({ ...pose, azimuth: 0.1 }, { ...pose, azimuth: 2 * Math.PI - 0.1 }, 0.5);
     expect(half.azimuth).toBeCloseTo(0);
   });
 
-  it("comes to rest: following a goal ends at it", () => {
+  it("stops at its goal", () => {
     const goal = camera.zoom(camera.orbit(pose, 100, 40), 0.3, [0, 0, 0]);
     let now = pose;
     let steps = 0;

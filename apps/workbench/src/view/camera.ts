@@ -1,18 +1,18 @@
-// Where one looks from, as numbers: everything here is a pure function of them.
-// Angles in radians: azimuth 0 looks north, and grows clockwise; elevation 0 looks level, π/2 straight down.
+// Camera poses and pure functions of them. Angles are in radians: azimuth 0 looks north and grows clockwise; elevation 0 looks
+// horizontally, π/2 straight down.
 
 export type Vector = [number, number, number];
 export interface Pose {
   target: Vector;
   azimuth: number;
   elevation: number;
-  size: number; // m seen from bottom to top of the picture at the target
-  fov: number; // from bottom to top
+  size: number; // visible height of the image at the target, m
+  fov: number; // vertical
 }
 
 export const usualFov = 0.7;
-export const flatFov = 0.04; // so narrow that it looks like a plan
-const down = Math.PI / 2 - 1e-4; // straight down has no up
+export const flatFov = 0.04; // nearly parallel projection, like a plan
+const down = Math.PI / 2 - 1e-4; // at exactly π/2 the up direction is undefined
 const between = (x: number, low: number, high: number) => Math.min(high, Math.max(low, x));
 
 export const distance = (pose: Pose) => pose.size / 2 / Math.tan(pose.fov / 2);
@@ -29,14 +29,14 @@ export function eye(pose: Pose): Vector {
   return [0, 1, 2].map((i) => pose.target[i]! - towards[i]! * away) as Vector;
 }
 
-/** By a drag of so many pixels. A plan that is turned out of the vertical becomes a view in perspective. */
+/** Rotates by a drag of dx, dy pixels. A view from above that is tilted becomes a perspective view. */
 export function orbit(pose: Pose, dx: number, dy: number): Pose {
   const elevation = between(pose.elevation + dy * 0.006, -0.2, down);
   const fov = elevation < down - 0.02 ? usualFov : pose.fov;
   return { ...pose, azimuth: pose.azimuth + dx * 0.006, elevation, fov };
 }
 
-/** Moves along the ground so that what is under the pointer stays there; seen from low, moves up and down instead. */
+/** Moves along the ground, following the pointer; at low elevations moves up and down instead. */
 export function pan(pose: Pose, dx: number, dy: number, height: number): Pose {
   const scale = pose.size / height;
   const [sin, cos] = [Math.sin(pose.azimuth), Math.cos(pose.azimuth)];
@@ -47,7 +47,7 @@ export function pan(pose: Pose, dx: number, dy: number, height: number): Pose {
   return { ...pose, target: [x - dx * scale * cos + ahead * sin, y + dx * scale * sin + ahead * cos, z + up] };
 }
 
-/** `point` keeps its place in the picture. Factor below 1: nearer. */
+/** Zooms; `point` keeps its position in the image. A factor below 1 moves closer. */
 export function zoom(pose: Pose, factor: number, point: Vector | null): Pose {
   const size = between(pose.size * factor, 0.5, 50_000);
   const share = 1 - size / pose.size;
@@ -55,11 +55,11 @@ export function zoom(pose: Pose, factor: number, point: Vector | null): Pose {
   return { ...pose, size, target };
 }
 
-/** Shows a box whole, from where one is looking. `aspect`: width over height. */
+/** Shows the whole box from the present direction. `aspect`: width over height. */
 export function frame(pose: Pose, low: Vector, high: Vector, aspect: number): Pose {
   const target = low.map((l, i) => (l + high[i]!) / 2) as Vector;
   const extent = low.map((l, i) => high[i]! - l);
-  // Half the box along the picture's axes; its depth counts as in a plan, the margin below covers perspective.
+  // Extent of the box along the axes of the image, in parallel projection; the margin below allows for perspective.
   const [sin, cos] = [Math.abs(Math.sin(pose.azimuth)), Math.abs(Math.cos(pose.azimuth))];
   const across = extent[0]! * cos + extent[1]! * sin;
   const depth = extent[0]! * sin + extent[1]! * cos;
@@ -72,13 +72,13 @@ export const home = (low: Vector, high: Vector, aspect: number): Pose =>
 export const top = (pose: Pose): Pose => ({ ...pose, azimuth: 0, elevation: down, fov: flatFov });
 export const isTop = (pose: Pose) => pose.fov < 0.1;
 
-/** The shorter way round. */
+/** The angle equivalent to `to` that is nearest to `from`. */
 const turned = (from: number, to: number) => {
   const turn = 2 * Math.PI;
   return from + ((((to - from + Math.PI) % turn) + turn) % turn) - Math.PI;
 };
 
-/** Between two poses, at share 0 … 1. Sizes and angles of view go by ratio, so that all of it looks even. */
+/** Interpolates two poses at share 0 … 1. Sizes and fields of view are interpolated by ratio, for an even motion. */
 export function mixed(from: Pose, to: Pose, share: number): Pose {
   const mix = (a: number, b: number) => a + (b - a) * share;
   const ratio = (a: number, b: number) => a * (b / a) ** share;
@@ -91,7 +91,7 @@ export function mixed(from: Pose, to: Pose, share: number): Pose {
   };
 }
 
-/** So near that nobody sees a difference of it. */
+/** Whether two poses cannot be distinguished in the image. */
 export function same(a: Pose, b: Pose): boolean {
   const near = (x: number, y: number, by: number) => Math.abs(x - y) <= by;
   return (

@@ -1,4 +1,4 @@
-// Pointer, wheel and keys on the view: drag turns, right or middle drag (or Ctrl) moves, wheel or pinch zooms.
+// Pointer, wheel and keys on the view: drag rotates, right or middle drag (or Ctrl) moves, wheel or pinch zooms.
 export interface Gestures {
   orbit(dx: number, dy: number): void;
   pan(dx: number, dy: number): void;
@@ -81,13 +81,13 @@ export function attach(canvas: HTMLElement, gestures: Gestures, signal: AbortSig
     "keydown",
     (e) => {
       if (e.ctrlKey || e.metaKey || e.altKey) return;
-      const way: Record<string, [number, number]> = {
+      const directions: Record<string, [number, number]> = {
         ArrowLeft: [1, 0],
         ArrowRight: [-1, 0],
         ArrowUp: [0, 1],
         ArrowDown: [0, -1],
       };
-      const arrow = way[e.key];
+      const arrow = directions[e.key];
       const { width, height } = canvas.getBoundingClientRect();
       if (arrow && e.shiftKey) gestures.orbit(arrow[0] * -26, arrow[1] * 26);
       else if (arrow) gestures.pan(arrow[0] * 60, arrow[1] * 60);

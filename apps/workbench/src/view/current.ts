@@ -1,4 +1,4 @@
-// The viewer there is, once the page has made it.
+// The viewer of the page; null until it has been created.
 import { signal } from "@preact/signals";
 import type { Viewer } from "./viewer";
 

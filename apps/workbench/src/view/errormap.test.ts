@@ -17,8 +17,8 @@ const at = (c: NonNullable<ReturnType<typeof combine>>, x: number, y: number) =>
   return DataUtils.fromHalfFloat(c.cells[row * c.columns + column]!);
 };
 
-describe("the error maps of a run as one", () => {
-  it("have each block's cells in their place and nothing between", () => {
+describe("the combined error map of a run", () => {
+  it("has the cells of each block, and none between them", () => {
     const both = combine([map(0, 0, 2, 1, [1, NaN]), map(5, 3, 1, 2, [-0.5, 0.25])])!;
     expect(at(both, 0, 0)).toBe(1);
     expect(at(both, 0.5, 0)).toBeGreaterThan(10_000);
@@ -27,14 +27,14 @@ describe("the error maps of a run as one", () => {
     expect(at(both, 2.5, 2)).toBeGreaterThan(10_000);
   });
 
-  it("are made coarser where they would be too big, by means", () => {
+  it("is made coarser if it would be too large, by averaging", () => {
     const coarse = combine([map(0, 0, 8, 1, [1, 3, 1, 3, NaN, 2, NaN, NaN])], 4)!;
     expect([coarse.columns, coarse.cell]).toEqual([4, 1]);
     expect([at(coarse, 0, 0), at(coarse, 2, 0)]).toEqual([2, 2]);
     expect(at(coarse, 3, 0)).toBeGreaterThan(10_000);
   });
 
-  it("are none where there are none", () => {
+  it("is null without maps", () => {
     expect(combine([])).toBeNull();
     expect(combine([map(0, 0, 0, 0, [])])).toBeNull();
   });

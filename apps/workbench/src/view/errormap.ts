@@ -1,4 +1,4 @@
-// The error maps of a run's blocks as one texture over all of them.
+// The error maps of all blocks of a run, combined in one texture.
 import * as THREE from "three";
 import type { LoadedMap } from "../state";
 
@@ -12,7 +12,7 @@ export interface Combined {
 
 const none = THREE.DataUtils.toHalfFloat(20_000);
 
-/** Cells are those of the finest map, or a whole number of them where that would be more than `most` a side. */
+/** Combines maps on the finest of their grids, or on a multiple of it that has at most `most` cells per side. */
 export function combine(maps: readonly LoadedMap[], most = 4096): Combined | null {
   const used = maps.filter((m) => m.columns > 0 && m.rows > 0);
   if (!used.length) return null;
@@ -25,8 +25,8 @@ export function combine(maps: readonly LoadedMap[], most = 4096): Combined | nul
     Math.max(...used.map((m) => m.origin[1] + (m.rows - 0.5) * m.grid)),
   ];
   const fine = Math.min(...used.map((m) => m.grid));
-  const widest = Math.max(high[0]! - low[0], high[1]! - low[1]);
-  const cell = fine * Math.max(1, Math.ceil(widest / fine / most));
+  const extent = Math.max(high[0]! - low[0], high[1]! - low[1]);
+  const cell = fine * Math.max(1, Math.ceil(extent / fine / most));
   const columns = Math.max(1, Math.ceil((high[0]! - low[0]) / cell - 1e-6));
   const rows = Math.max(1, Math.ceil((high[1]! - low[1]) / cell - 1e-6));
   const sums = new Float32Array(columns * rows);
@@ -49,7 +49,7 @@ export function combine(maps: readonly LoadedMap[], most = 4096): Combined | nul
   return { columns, rows, cell, low, cells };
 }
 
-const clamp = (x: number) => Math.max(-1000, Math.min(1000, x)); // far from what means "none"
+const clamp = (x: number) => Math.max(-1000, Math.min(1000, x)); // far below the value for "none"
 
 export function textureOf(map: Combined): THREE.DataTexture {
   const texture = new THREE.DataTexture(map.cells, map.columns, map.rows, THREE.RedFormat, THREE.HalfFloatType);

@@ -4,7 +4,7 @@ import { building, house, plan } from "./fixtures";
 import { boxOf, buffersOf, capped, reaches, standing } from "./geometry";
 
 describe("the buffers of a solid", () => {
-  it("have every triangle, about the centre, with an upright roof's normal pointing up", () => {
+  it("have every triangle relative to the centre; normals of roofs point up", () => {
     const { positions, normals, kinds } = buffersOf([house], [5, 3, 0]);
     expect(kinds.length).toBe(16 * 3);
     expect(positions.slice(0, 3)).toEqual(new Float32Array([-5, -3, 0]));
@@ -20,7 +20,7 @@ describe("the buffers of a solid", () => {
     expect(buffersOf([house], [0, 0, 0]).lines.length / 6).toBe(15); // 10 vertices, 7 faces: Euler
   });
 
-  it("can be of some faces only", () => {
+  it("can contain some faces only", () => {
     const { kinds } = buffersOf([house], [0, 0, 0], (f) => f.ring === 0 && f.edge === 2);
     expect(kinds.length / 3).toBe(4);
   });
@@ -33,14 +33,14 @@ describe("the buffers of a solid", () => {
 });
 
 describe("a box", () => {
-  it("holds parts that could not be raised by their plan", () => {
+  it("contains the plan of parts without geometry", () => {
     const failed: RaisedPart = { ...building("a").parts[0]!, geometry: null };
     expect(boxOf({ ...building("a"), parts: [failed] })).toEqual({ low: [0, 0, 0], high: [10, 6, 9] });
   });
 });
 
 describe("a profile", () => {
-  it("is cut at the cap, and goes on to it", () => {
+  it("is cut at the cap, or continued up to it", () => {
     const profile = plan.profiles[0]!;
     expect(capped(profile, 4.5)).toEqual([
       [0, 0],
@@ -54,13 +54,13 @@ describe("a profile", () => {
     ]);
   });
 
-  it("stands on its edge, inward to the left of it", () => {
+  it("is placed upright on its edge, inward to the left", () => {
     const [foot, , top] = standing({ ...plan, cap: 6 }, 0, 1, 0.5, plan.profiles[0]!);
     expect(foot).toEqual([10, 3, 0]);
     expect(top).toEqual([7, 3, 6]);
   });
 
-  it("is followed no higher than the faces of its edge", () => {
+  it("is shown no higher than the faces of its edge", () => {
     const reach = reaches(building("a").parts[0]!);
     expect(reach(0, 0)).toBe(6);
     expect(reach(0, 1)).toBe(6);

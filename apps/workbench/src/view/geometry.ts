@@ -1,4 +1,4 @@
-// Solids as what a graphics card draws: flat-shaded triangles and the outlines of faces, about a centre.
+// Solids as buffers to draw: flat-shaded triangles and the outlines of faces, relative to a centre.
 import type { Geometry, Plan, RaisedBuilding, RaisedPart, SurfaceClass } from "../api/types";
 import type { Vector } from "./camera";
 
@@ -40,7 +40,7 @@ export function boxOfGeometry(geometry: Geometry): Box {
   return box;
 }
 
-/** Of what is drawn; parts that could not be raised count with their plan. */
+/** Box of a building as drawn; for parts without geometry, the box of the plan. */
 export function boxOf(building: RaisedBuilding): Box {
   const box = emptyBox();
   for (const part of building.parts) {
@@ -58,7 +58,7 @@ export function boxOf(building: RaisedBuilding): Box {
   return box;
 }
 
-/** Triangles of those faces that `keeps` says, or of all. */
+/** Buffers of the faces that `keeps` accepts, or of all. */
 export function buffersOf(
   geometries: readonly Geometry[],
   centre: Vector,
@@ -130,7 +130,7 @@ export const standing = (plan: Plan, ring: number, edge: number, share: number, 
 
 export type ProfileLine = readonly (readonly [number, number])[];
 
-/** The same of any (inward, height), as it is. */
+/** Any line of (inward, height), placed upright across an edge. */
 export function upright(plan: Plan, ring: number, edge: number, share: number, line: ProfileLine): Vector[] {
   const points = ringOf(plan, ring)?.points;
   if (!points || edge >= points.length) return [];
@@ -147,8 +147,8 @@ export function upright(plan: Plan, ring: number, edge: number, share: number, l
   return line.map(place);
 }
 
-/** How high above the base the faces of each edge reach; by "ring edge". A profile goes on to the cap, its faces end earlier:
- *  where they meet those of other edges. */
+/** Height above the base up to which the faces of each edge extend. Profiles continue to the cap, but faces end where they meet
+ *  those of other edges. */
 export function reaches({
   plan,
   geometry,
@@ -170,7 +170,7 @@ export function reaches({
   return (ring, edge) => Math.min(tops.get(`${ring} ${edge}`) ?? otherwise, plan.cap);
 }
 
-/** The part of a profile that is not above `cap`; its last piece goes on up to there. */
+/** The profile up to `cap`; its last segment is continued up to there. */
 export function capped(profile: ProfileLine, cap: number): [number, number][] {
   const under: [number, number][] = [];
   for (let i = 0; i < profile.length; ++i) {

@@ -1,4 +1,4 @@
-// What is selected, chosen as well, and under the pointer.
+// Highlights: the selection, additionally selected parts, and the part under the pointer.
 import * as THREE from "three";
 import type { RaisedBuilding, RaisedPart } from "../api/types";
 import type { Selection } from "../state";
@@ -8,7 +8,7 @@ import type { Choices } from "./layers";
 import { Segments, Sheet, WideLines } from "./lines";
 import { colours } from "./materials";
 
-/** Raw climbs across one edge, as the server gave them. */
+/** Raw profiles across one edge, from the server. */
 export interface RawClimbs {
   ring: number;
   edge: number;
@@ -32,7 +32,7 @@ export class Highlight {
     this.group.add(...this.all.map((p) => p.object));
   }
 
-  /** Profiles are only told apart from near. */
+  /** Profiles are drawn at close range only. */
   set detailed(value: boolean) {
     for (const lines of [this.clean, this.cleanEdge]) lines.opacity = value ? 1 : 0;
     this.raw.opacity = value ? 0.55 : 0;
@@ -67,7 +67,7 @@ export class Highlight {
   showRaw(part: RaisedPart | undefined, climbs: RawClimbs[]) {
     const lines = new Segments(this.centre);
     for (const { ring, edge, climbs: of } of part ? climbs : []) {
-      // The climbs are of slices at even distances along the edge.
+      // Raw profiles are distributed evenly along the edge.
       of.forEach((climb, i) =>
         lines.path(upright(part!.plan, ring, edge, (i + 0.5) / of.length, below(climb, part!.plan.cap + 6))),
       );
@@ -114,5 +114,5 @@ export class Highlight {
   }
 }
 
-/** Without what is far above the model: trees. */
+/** Without points far above the model, such as trees. */
 const below = (climb: [number, number][], height: number) => climb.filter(([, h]) => h <= height);

@@ -1,4 +1,4 @@
-// What can be shown, hidden and made see-through. The choices are kept for good.
+// The layers of the view. Which are shown, and their opacities, is stored in the browser.
 import { computed, effect, signal } from "@preact/signals";
 import { keep, kept } from "../keep";
 
@@ -24,52 +24,52 @@ export interface Layer {
   group: string;
   colour: string; // css
   meaning: string;
-  shown: boolean; // at first
-  fade: boolean; // has an opacity
+  shown: boolean; // by default
+  fade: boolean; // whether the opacity can be set
 }
 
 const layer = (group: string, id: LayerId, name: string, colour: string, meaning: string, shown = true, fade = true) =>
   ({ group, id, name, colour, meaning, shown, fade }) satisfies Layer;
 
 export const list: readonly Layer[] = [
-  layer("Input", "mesh", "Photogrammetric mesh", "#7a9acc", "The scan; coarse at first, finer where one is near."),
+  layer("Input", "mesh", "Photogrammetric mesh", "#7a9acc", "The input mesh. It is loaded in more detail near the camera."),
   layer(
     "Input",
     "meshWithin",
-    "… also where models stand",
+    "Mesh inside models",
     "#7a9acc",
-    "Off: the scan is left out where a model stands, so that the model can be seen.",
+    "If off, the mesh is hidden where there are models.",
     false,
     false,
   ),
-  layer("Input", "footprints", "Footprints", "#f08c1e", "Outlines of the map, at the height of the ground."),
-  layer("Models", "walls", "Walls", "#d8d4cc", "Faces that came from vertical parts of profiles."),
-  layer("Models", "roofs", "Roofs", "#b06250", "Everything sloping or flat on top."),
-  layer("Models", "parties", "Party walls", "#96969e", "Walls that another part stands against."),
-  layer("Models", "outlines", "Edges", "#26282e", "Outlines of the models' faces."),
-  layer("Models", "error", "Vertical error", "#b2182b", "Model above (red) or below (blue) the scan, on roofs.", false),
+  layer("Input", "footprints", "Footprints", "#f08c1e", "Input footprints, at ground height."),
+  layer("Models", "walls", "Walls", "#d8d4cc", "Faces of vertical profile segments."),
+  layer("Models", "roofs", "Roofs", "#b06250", "Sloping and flat roof faces."),
+  layer("Models", "parties", "Party walls", "#96969e", "Walls that are shared with another part."),
+  layer("Models", "outlines", "Edges", "#26282e", "Outlines of the faces of the models."),
+  layer("Models", "error", "Vertical error", "#b2182b", "On roofs: model above (red) or below (blue) the mesh.", false),
   layer(
-    "Why",
+    "Segmentation",
     "sweep",
     "Sweep-edges",
     "#7d3fb4",
-    "Walls' lines found in the scan, from their lowest to their highest evidence.",
+    "Lines of walls found in the mesh, from their lowest to their highest evidence.",
     false,
   ),
   layer(
-    "Why",
+    "Segmentation",
     "faces",
-    "Fractured ground",
+    "Partition faces",
     "#4f9d69",
-    "The pieces the ground was cut into, tinted by the part they went to; a plan above the roofs.",
+    "The faces of the partition, coloured by part; drawn above the roofs.",
     false,
   ),
   layer(
-    "Why",
+    "Segmentation",
     "cuts",
     "Cuts and their costs",
     "#c2410c",
-    "Between the pieces: bold where cut; orange where the cut was cheaper, blue where joining was.",
+    "The edges of the partition: bold if they separate parts; orange where a cut costs less, blue where joining costs less.",
     false,
   ),
   layer(
@@ -77,12 +77,12 @@ export const list: readonly Layer[] = [
     "clean",
     "Clean profiles",
     "#0f766e",
-    "Of the selected part, standing in the middle of its edges.",
+    "Profiles of the selected part, at the middle of its edges.",
     true,
     false,
   ),
-  layer("Profiles", "raw", "Raw profiles", "#2563eb", "What the scan shows across the same edges.", false, false),
-  layer("Marks", "diagnostics", "Diagnostics", "#b45309", "Buildings with something to say about them.", true, false),
+  layer("Profiles", "raw", "Raw profiles", "#2563eb", "Profiles of the mesh across the same edges.", false, false),
+  layer("Marks", "diagnostics", "Diagnostics", "#b45309", "Marks on buildings with diagnostics.", true, false),
 ];
 
 export interface Choice {
@@ -113,7 +113,7 @@ export const choose = (id: LayerId, change: Partial<Choice>) =>
 /** 0 where hidden. */
 export const opacity = (id: LayerId) => computed(() => (choices.value[id].shown ? choices.value[id].opacity : 0));
 
-/** A vertical or level plane that hides one side of everything. */
+/** A vertical or horizontal plane; everything on one side of it is hidden. */
 export interface SectionPlane {
   axis: "x" | "y" | "z";
   share: number; // 0 … 1 of the extent

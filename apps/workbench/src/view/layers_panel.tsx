@@ -1,4 +1,4 @@
-// The list of layers with their switches and opacities: as a popover of the view, and in the sidebar.
+// The list of layers with their opacities: in a popover of the view, and in the sidebar.
 import { Icon } from "../panels/icons";
 import * as state from "../state";
 import { type Layer, choices, choose, errorLimit, list } from "./layers";
@@ -33,7 +33,7 @@ function Row({ layer }: { layer: Layer }) {
       </label>
       {layer.id === "error" && shown && (
         <select
-          aria-label="Error of full colour"
+          aria-label="Error with full colour"
           value={errorLimit.value}
           onChange={(e) => (errorLimit.value = Number(e.currentTarget.value))}
         >
@@ -69,7 +69,7 @@ export function LayersPopover() {
         <button
           type="button"
           class="plain"
-          aria-label="Close the layers"
+          aria-label="Close layers"
           onClick={() => (state.layersOpen.value = false)}
         >
           <Icon name="close" />

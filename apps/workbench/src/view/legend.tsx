@@ -1,4 +1,4 @@
-// What the colours of the layers shown mean, where that is not plain.
+// The legend of the visible layers.
 import * as state from "../state";
 import { choices, errorLimit } from "./layers";
 
@@ -13,11 +13,11 @@ export function Legend() {
       {error.shown && (
         <div class="legend-error">
           <div>
-            model − scan, m
+            model − mesh, m
             {!maps
-              ? " (coming)"
+              ? " (loading)"
               : maps.length === 0
-                ? " (none measured)"
+                ? " (not measured)"
                 : run.history.done > 0
                   ? " · before edits"
                   : ""}
@@ -39,14 +39,14 @@ export function Legend() {
             <i class="stroke" /> not cut
           </span>
           <span>
-            <i class="stroke cut" /> cutting cheaper
+            <i class="stroke cut" /> cut costs less
           </span>
           <span>
-            <i class="stroke join" /> joining cheaper
+            <i class="stroke join" /> joining costs less
           </span>
         </div>
       )}
-      {faces.shown && <div>fractured ground: one tint a part, above the roofs</div>}
+      {faces.shown && <div>partition faces: one colour per part</div>}
     </div>
   );
 }

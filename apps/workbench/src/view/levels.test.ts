@@ -32,7 +32,7 @@ const area = (tiles: TileInfo[]) => tiles.reduce((sum, t) => sum + (t.high[0] - 
 describe("the choice of tiles", () => {
   const levels = new Levels(pyramid(4));
 
-  it("is fine near the eye and coarse far away, and covers everything once", () => {
+  it("is fine near the camera and coarse far away, and covers everything once", () => {
     const { draw, fetch } = levels.choose(eye([50, 50, 30]), all, 1e9);
     expect(fetch).toEqual([]);
     expect(area(draw)).toBe(1600 * 1600);
@@ -42,7 +42,7 @@ describe("the choice of tiles", () => {
     expect(there.level).toBeGreaterThan(0);
   });
 
-  it("draws nothing finer than can be seen", () => {
+  it("draws nothing finer than visible", () => {
     const { draw } = levels.choose(eye([800, 800, 2000]), all, 1e9);
     for (const tile of draw) {
       const parentError = errorOf(tile.level + 1);
@@ -50,14 +50,14 @@ describe("the choice of tiles", () => {
     }
   });
 
-  it("stays within its budget, spending it where it shows most", () => {
+  it("stays within its budget, used where the error is most visible", () => {
     const { draw } = levels.choose(eye([50, 50, 5]), all, 20_000);
     expect(draw.reduce((sum, t) => sum + t.triangles, 0)).toBeLessThanOrEqual(20_000);
     expect(area(draw)).toBe(1600 * 1600);
     expect(draw.some((t) => t.level === 0 && t.column === 0 && t.row === 0)).toBe(true);
   });
 
-  it("fetches the coarsest first, and draws what is there until finer ones have come", () => {
+  it("fetches the coarsest first, and draws loaded tiles until finer ones have arrived", () => {
     const loaded = new Set<string>();
     const first = levels.choose(eye([50, 50, 30]), (id) => loaded.has(id), 1e9);
     expect(first.draw).toEqual([]);
@@ -72,7 +72,7 @@ describe("the choice of tiles", () => {
     expect.unreachable("something is always wanted");
   });
 
-  it("leaves out what is not seen", () => {
+  it("omits invisible tiles", () => {
     const { draw, fetch } = levels.choose(
       eye([50, 50, 30], (t) => t.low[0] < 400),
       all,
@@ -81,7 +81,7 @@ describe("the choice of tiles", () => {
     expect([...draw, ...fetch].every((t) => t.low[0] < 400)).toBe(true);
   });
 
-  it("takes tiles whose coarser one has vanished as roots", () => {
+  it("treats tiles without a coarser tile as roots", () => {
     const lonely = pyramid(2).filter((t) => t.id !== "1-1-1" && t.id !== "2-0-0");
     const { draw } = new Levels(lonely).choose(eye([300, 300, 9000]), all, 1e9);
     expect(area(draw)).toBe(400 * 400);
@@ -94,13 +94,13 @@ describe("the budget of triangles", () => {
     return budget;
   };
 
-  it("falls on slow machines and rises on quick ones, between its bounds", () => {
+  it("decreases on slow machines and increases on fast ones, within bounds", () => {
     expect(after(120, 200).triangles).toBe(300_000);
     expect(after(16, 200).triangles).toBe(3_000_000);
     expect(after(16, 200, after(120, 200)).triangles).toBe(3_000_000);
   });
 
-  it("stays where pictures are as quick as they need to be, and bears a single late one", () => {
+  it("is stable at an acceptable frame rate, also after a single slow image", () => {
     expect(after(30, 200).triangles).toBe(after(30, 100).triangles);
     expect(after(100, 1).triangles).toBe(1_500_000);
   });

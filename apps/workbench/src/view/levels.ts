@@ -1,29 +1,29 @@
-// Which tiles to draw and which to fetch: coarse ones far away, fine ones near, never more triangles than a budget.
+// Chooses the tiles to draw and to fetch: coarse ones far away, fine ones nearby, within a budget of triangles.
 import type { TileInfo } from "../api/types";
 
 export interface Eye {
   position: [number, number, number]; // in the tiles' frame
-  pixels: number; // per radian of view at the centre of the picture
+  pixels: number; // per radian at the centre of the image
   sees: (tile: TileInfo) => boolean;
 }
 export interface Choice {
   draw: TileInfo[];
-  fetch: TileInfo[]; // the most wanted first
+  fetch: TileInfo[]; // the most important first
 }
 
-/** Metres that level n may be off: the cell whose vertices became one. */
+/** Maximum error of level n in metres: the size of the cells in which vertices were merged. */
 export const errorOf = (level: number) => (level === 0 ? 0 : 0.25 * 2 ** (level - 1));
 
 const [fewest, most] = [300_000, 3_000_000];
 
-/** Triangles that a picture may have: fewer where pictures take long, more again where they do not. */
+/** Maximum number of triangles per image: decreased when images take long, increased when they do not. */
 export class Budget {
   triangles = 1_500_000;
   private mean = 25;
 
-  /** Milliseconds from one picture to the next while something moves. */
+  /** Milliseconds between two images while the camera moves. */
   took(ms: number) {
-    this.mean += (ms - this.mean) / 8; // a single late one says nothing
+    this.mean += (ms - this.mean) / 8; // averaged over several images
     if (this.mean > 40) this.triangles *= 0.92;
     else if (this.mean < 22) this.triangles *= 1.04;
     this.triangles = Math.min(most, Math.max(fewest, this.triangles));
@@ -47,13 +47,13 @@ export class Levels {
     }
   }
 
-  /** Best first: the tile that looks worst is replaced by its children while the budget lasts and they are there. */
+  /** Replaces the tile with the largest visible error by its children, as long as they are loaded and fit the budget. */
   choose(eye: Eye, has: (id: string) => boolean, budget: number, tolerance = 1.5): Choice {
     const wanted: { tile: TileInfo; looks: number }[] = [];
     const draw: TileInfo[] = [];
     const visible = this.roots.filter(eye.sees).map((tile) => ({ tile, looks: this.looks(tile, eye) }));
     let triangles = visible.reduce((sum, { tile }) => sum + tile.triangles, 0);
-    let planned = triangles; // with those that are still on their way
+    let planned = triangles; // with tiles that are still being loaded
     const heap = visible;
     for (const entry of visible) if (!has(entry.tile.id)) wanted.push({ ...entry, looks: Infinity });
     while (heap.length) {
@@ -79,7 +79,7 @@ export class Levels {
     return { draw, fetch: wanted.map((w) => w.tile) };
   }
 
-  /** Pixels that the tile is off. */
+  /** Error of the tile in pixels. */
   private looks(tile: TileInfo, eye: Eye): number {
     const away = Math.hypot(...eye.position.map((p, i) => Math.max(tile.low[i]! - p, 0, p - tile.high[i]!)));
     return (errorOf(tile.level) * eye.pixels) / Math.max(away, 0.1);

@@ -1,4 +1,4 @@
-// Lines of some pixels' width, flat pieces of ground, and marks: what is drawn beside the solids.
+// Lines with a width in pixels, flat polygons, and point marks.
 import * as THREE from "three";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
@@ -6,7 +6,7 @@ import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeome
 import type { Point2 } from "../api/types";
 import type { Vector } from "./camera";
 
-/** Pairs of points, about a centre; colours go with them where given. */
+/** Line segments relative to a centre, optionally with colours. */
 export class Segments {
   readonly positions: number[] = [];
   readonly colours: number[] = [];
@@ -29,7 +29,7 @@ export class Segments {
   }
 }
 
-/** Lines whose width is in pixels. Their contents can be changed; empty ones are not drawn. */
+/** Lines with a width in pixels. Their contents can be replaced. */
 export class WideLines {
   readonly material: LineMaterial;
   readonly object: LineSegments2;
@@ -37,7 +37,7 @@ export class WideLines {
   constructor(colour: number, width: number, over = false) {
     this.material = new LineMaterial({ color: colour, linewidth: width, dashed: false });
     this.material.clipping = true;
-    if (over) this.material.depthTest = false; // seen through what is before it
+    if (over) this.material.depthTest = false; // visible through other objects
     this.object = new LineSegments2(new LineSegmentsGeometry(), this.material);
     this.object.visible = false;
     this.object.frustumCulled = false;
@@ -82,7 +82,7 @@ export class WideLines {
   }
 }
 
-/** Triangles of a polygon with holes, at one height, about a centre. */
+/** Triangles of a horizontal polygon with holes, relative to a centre. */
 export function flat(
   outer: readonly Point2[],
   holes: readonly (readonly Point2[])[],
@@ -97,7 +97,7 @@ export function flat(
   );
 }
 
-/** Coloured see-through surfaces that cast no shade. */
+/** Coloured transparent surfaces without shading. */
 export class Sheet {
   readonly material: THREE.MeshBasicMaterial;
   readonly object: THREE.Mesh;
@@ -145,7 +145,7 @@ export class Sheet {
   }
 }
 
-/** Round marks of some pixels, seen through everything. */
+/** Round marks with a size in pixels, visible through other objects. */
 export class Marks {
   readonly material = new THREE.ShaderMaterial({
     uniforms: { size: { value: 11 } },

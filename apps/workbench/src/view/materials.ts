@@ -1,4 +1,4 @@
-// How things are coloured. Colours are those of the screen throughout: nothing is converted on the way.
+// Colours and materials. All colours are in screen space, without conversion.
 import * as THREE from "three";
 
 THREE.ColorManagement.enabled = false;
@@ -23,10 +23,10 @@ const light = /* glsl */ `
     return colour * min(shade, 1.06);
   }`;
 
-/** Shared by all models: one change counts for all. */
+/** Uniforms that all models share. */
 export interface ModelLook {
   opacities: { value: number[] }; // by kind
-  errorOn: { value: number }; // 0 … 1: how much of it shows
+  errorOn: { value: number }; // 0 … 1: opacity of the error map
   errorMap: { value: THREE.Texture | null };
   errorFrame: { value: THREE.Vector4 }; // x, y of the map's corner; 1 / width, 1 / height
   errorLimit: { value: number };
@@ -41,7 +41,7 @@ export const modelLook = (): ModelLook => ({
 
 const kindColours = [colours.wall, colours.party, colours.roof, colours.ground, colours.soffit];
 
-/** Of solids: coloured by kind, the error map draped over what looks up. Cut open, their insides are dark. */
+/** Material of solids: coloured by class of face, with the error map on faces that look up. Insides are dark. */
 export function modelMaterial(look: ModelLook) {
   return new THREE.ShaderMaterial({
     uniforms: {
@@ -106,7 +106,7 @@ export function modelMaterial(look: ModelLook) {
 
 export interface MeshLook {
   opacity: { value: number };
-  mask: { value: THREE.Texture | null }; // where models stand
+  mask: { value: THREE.Texture | null }; // where there are models
   maskFrame: { value: THREE.Vector4 };
   masked: { value: number };
 }
@@ -117,7 +117,7 @@ export const meshLook = (): MeshLook => ({
   masked: { value: 0 },
 });
 
-/** Of the scan: flat-shaded without normals of its own, left out where models stand. */
+/** Material of the mesh: flat-shaded without normals, hidden where there are models. */
 export function meshMaterial(look: MeshLook) {
   return new THREE.ShaderMaterial({
     uniforms: {
@@ -158,7 +158,7 @@ export function meshMaterial(look: MeshLook) {
   });
 }
 
-/** Sets an opacity, and whether the material needs blending for it. */
+/** Sets the opacity, and blending if it is needed. */
 export function fade(material: THREE.Material, opacity: number) {
   const blended = opacity < 1;
   if (material.transparent !== blended) {

@@ -1,4 +1,4 @@
-// The models of one run: many buildings in few buffers, those that change in buffers of their own.
+// The models of a run: many buildings per buffer; changed buildings have their own buffers.
 import * as THREE from "three";
 import type { Building, RaisedBuilding } from "../api/types";
 import type { Vector } from "./camera";
@@ -14,14 +14,14 @@ interface Range {
   lineTo: number;
 }
 
-/** Buildings that are drawn at once and do not change. */
+/** Unchanged buildings that share buffers. */
 class Chunk {
   readonly ranges = new Map<string, Range>();
   constructor(
     readonly solid: THREE.Mesh,
     readonly lines: THREE.LineSegments,
   ) {}
-  /** Takes a building out: its triangles and lines become points. */
+  /** Hides a building: its triangles and lines become degenerate. */
   hide(id: string) {
     const range = this.ranges.get(id);
     if (!range) return;
@@ -38,7 +38,7 @@ function blank(geometry: THREE.BufferGeometry, from: number, to: number) {
   position.needsUpdate = true;
 }
 
-/** A building in buffers that grow when needed and are used again for its next shape. */
+/** A changed building. Its buffers grow when needed and are reused. */
 class Loose {
   readonly solid: THREE.Mesh;
   readonly lines: THREE.LineSegments;
@@ -76,11 +76,11 @@ export function put(geometry: THREE.BufferGeometry, name: string, values: Float3
     known.needsUpdate = true;
     return;
   }
-  // three.js keeps what belongs to attributes by geometry: a longer one needs the old buffers freed first.
+  // three.js caches GPU buffers per geometry: they must be freed before an attribute gets longer.
   if (known) geometry.dispose();
-  const room = new Float32Array(Math.ceil((values.length * (known ? 1.5 : 1)) / size) * size);
-  room.set(values);
-  geometry.setAttribute(name, new THREE.BufferAttribute(room, size).setUsage(THREE.DynamicDrawUsage));
+  const grown = new Float32Array(Math.ceil((values.length * (known ? 1.5 : 1)) / size) * size);
+  grown.set(values);
+  geometry.setAttribute(name, new THREE.BufferAttribute(grown, size).setUsage(THREE.DynamicDrawUsage));
 }
 
 export class Output {
@@ -95,14 +95,14 @@ export class Output {
 
   constructor(private centre: Vector) {}
 
-  /** Draws these buildings, with drafts in place of some. What did not change stays as it is. */
+  /** Draws these buildings, replaced by their drafts if they have one. Unchanged buildings keep their buffers. */
   set(buildings: ReadonlyMap<string, Building>, drafts: ReadonlyMap<string, RaisedBuilding>, invalid: boolean) {
     if (buildings !== this.given) {
       const kept = [...buildings.keys()].filter((id) => this.drawn.has(id)).length;
       if (!this.drawn.size || kept !== this.drawn.size || kept !== buildings.size) this.rebuild(buildings);
       for (const [id, building] of buildings) this.show(drafts.get(id) ?? building);
     } else {
-      // While something is dragged only drafts change, and those that are loose because of one.
+      // During a drag only drafts change, and buildings that have their own buffers because of one.
       for (const id of this.loose.keys()) this.show(drafts.get(id) ?? buildings.get(id)!);
       for (const [id, building] of drafts) if (buildings.has(id)) this.show(building);
     }
@@ -114,7 +114,7 @@ export class Output {
     if (this.loose.size > 60 && !drafts.size) this.rebuild(buildings);
   }
 
-  /** One building, if it is not drawn so already. Only its buffers change. */
+  /** Draws one building in its new state. Only its own buffers change. */
   show(building: RaisedBuilding) {
     if (this.drawn.get(building.id) === building) return;
     this.drawn.set(building.id, building);
@@ -142,10 +142,10 @@ export class Output {
   }
   private linesShown = true;
 
-  /** Outlines fade as they come to lie close together: `size` is the metres from bottom to top of the picture. */
+  /** Fades outlines when they get dense: `size` is the visible height of the image in metres. */
   seenFrom(size: number, outlines: number) {
     if (!this.linesShown) return;
-    const fine = Math.round(Math.min(1, Math.max(0.15, 260 / size)) * 20) / 20; // in steps: materials change rarely
+    const fine = Math.round(Math.min(1, Math.max(0.15, 260 / size)) * 20) / 20; // in steps, so that materials change rarely
     if (this.lineMaterial.opacity !== fine * outlines) fade(this.lineMaterial, fine * outlines);
   }
 

@@ -29,7 +29,7 @@ describe("picking", () => {
     expect(pick(ray([5, 90, 1], [5, -100, 1]), street)!.building).toBe("farther");
   });
 
-  it("goes through what is hidden or cut away", () => {
+  it("ignores hidden faces and what the section plane removes", () => {
     const through = ray([5, -20, 1], [5, 100, 1]);
     expect(pick(through, [building("a")], (f) => f.class !== "wall")).toBeNull();
     expect(pick(through, [moved("a", 0), moved("b", 20)], undefined, (p) => p[1] > 10)!.building).toBe("b");
@@ -39,12 +39,12 @@ describe("picking", () => {
     expect(pick(ray([5, 3, -5], [5, 3, 0]), [building("a")])!.edge).toBeNull();
   });
 
-  it("finds nothing beside and behind", () => {
+  it("finds nothing beside the building and behind the camera", () => {
     expect(pick(ray([5, -20, 1], [60, 0, 1]), [building("a")])).toBeNull();
     expect(pick(ray([5, -20, 1], [5, -40, 1]), [building("a")])).toBeNull();
   });
 
-  it("finds the footprint under it, not in its courtyard", () => {
+  it("finds the footprint under the ray, but not in its courtyard", () => {
     const footprint: SceneFootprint = {
       id: "f",
       block: "block-0",

@@ -1,4 +1,4 @@
-// What a ray meets first, from the models' own numbers: no graphics card asked.
+// Picking: the first face that a ray hits, computed from the coordinates of the models.
 import type { GeometryFace, RaisedBuilding, SceneFootprint } from "../api/types";
 import type { Vector } from "./camera";
 import { type Box, boxOf, boxOfGeometry } from "./geometry";
@@ -23,7 +23,7 @@ function box(building: RaisedBuilding): Box {
   return known;
 }
 
-/** Distance at which the ray enters a box; null where it misses it. */
+/** Distance at which the ray enters a box; null if it misses. */
 export function enters(ray: Ray, { low, high }: Box): number | null {
   let near = 0;
   let far = Infinity;
@@ -40,7 +40,7 @@ export function enters(ray: Ray, { low, high }: Box): number | null {
   return near <= far ? near : null;
 }
 
-/** Distance to a triangle, seen from either side (Möller and Trumbore 1997). */
+/** Distance to a triangle, hit from either side (Möller and Trumbore 1997). */
 function meets(ray: Ray, p: number[], a: number, b: number, c: number): number | null {
   const [ox, oy, oz] = ray.origin;
   const [dx, dy, dz] = ray.direction;
@@ -62,7 +62,7 @@ function meets(ray: Ray, p: number[], a: number, b: number, c: number): number |
 
 const at = (ray: Ray, t: number) => ray.origin.map((o, i) => o + ray.direction[i]! * t) as Vector;
 
-/** The nearest face of a building; of those that `sees` admits, at points that `keeps` admits. */
+/** The nearest face that `sees` accepts, at a point that `keeps` accepts. */
 export function pick(
   ray: Ray,
   buildings: Iterable<RaisedBuilding>,
@@ -91,7 +91,7 @@ export function pick(
   return best;
 }
 
-/** The footprint whose ground the ray meets first. */
+/** The first footprint that the ray hits at ground height. */
 export function pickFootprint(
   ray: Ray,
   footprints: readonly SceneFootprint[],

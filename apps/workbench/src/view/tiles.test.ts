@@ -11,14 +11,14 @@ function bytes(vertices: number, triangles: number, positions: number[], indices
   return buffer;
 }
 
-describe("a tile's bytes", () => {
+describe("the bytes of a tile", () => {
   it("are vertices and triangles", () => {
     const tile = decode(bytes(3, 1, [0, 0, 0, 1, 0, 0, 0, 1, 2], [0, 1, 2]))!;
     expect([...tile.positions]).toEqual([0, 0, 0, 1, 0, 0, 0, 1, 2]);
     expect([...tile.indices]).toEqual([0, 1, 2]);
   });
 
-  it("are nothing when they are cut short or too long", () => {
+  it("are rejected if they are too short or too long", () => {
     const whole = bytes(3, 1, [0, 0, 0, 1, 0, 0, 0, 1, 2], [0, 1, 2]);
     for (const size of [0, 7, 8, 40, 55]) expect(decode(whole.slice(0, size))).toBeNull();
     expect(decode(bytes(3, 1, [0, 0, 0, 1, 0, 0, 0, 1, 2], [0, 1, 2, 3]))).toBeNull();

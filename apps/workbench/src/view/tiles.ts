@@ -1,4 +1,4 @@
-// The scan, streamed: tiles as fine as the view needs, within a budget of triangles.
+// Streams the tiles of the mesh at the resolution that the view needs, within a budget of triangles.
 import * as THREE from "three";
 import type { TileIndex, TileInfo } from "../api/types";
 import type { Vector } from "./camera";
@@ -45,7 +45,7 @@ export class Tiles {
     return this.coming.size > 0;
   }
 
-  /** To be called before each picture. */
+  /** To be called before each image. */
   update(eye: Eye) {
     ++this.round;
     const { draw, fetch } = this.levels.choose(eye, (id) => this.loaded.has(id), this.budget.triangles);
@@ -89,7 +89,7 @@ export class Tiles {
       if (data) this.add(tile, data.positions, data.indices);
       else this.failed.add(tile.id);
     } catch {
-      this.failed.add(tile.id); // what is coarser stays drawn
+      this.failed.add(tile.id); // the coarser tile stays visible
     } finally {
       this.coming.delete(tile.id);
       if (!this.gone.signal.aborted) {
@@ -113,7 +113,7 @@ export class Tiles {
     this.group.add(mesh);
   }
 
-  /** Forgets what was not drawn for longest when too much is kept. */
+  /** Removes the least recently drawn tiles above the limit. */
   private evict() {
     let triangles = 0;
     for (const { tile } of this.loaded.values()) triangles += tile.triangles;

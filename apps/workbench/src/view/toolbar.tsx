@@ -1,4 +1,4 @@
-// The view's buttons: where to look from, the section plane, the layers.
+// The buttons of the view: camera, section plane, layers.
 import { fly } from "../actions";
 import { Icon } from "../panels/icons";
 import * as state from "../state";
@@ -10,16 +10,16 @@ export function Toolbar() {
   const cut = section.value;
   return (
     <div class="toolbar" role="toolbar" aria-label="View">
-      <button type="button" title="Everything (h)" aria-label="Show everything" onClick={() => fly("home")}>
+      <button type="button" title="Show all (h)" aria-label="Show all" onClick={() => fly("home")}>
         <Icon name="home" />
       </button>
-      <button type="button" title="From above (t)" aria-label="From above" onClick={() => fly("top")}>
+      <button type="button" title="View from above (t)" aria-label="View from above" onClick={() => fly("top")}>
         <Icon name="top" />
       </button>
       <button
         type="button"
-        title="Fly to the selection (f)"
-        aria-label="Fly to the selection"
+        title="Zoom to the selection (f)"
+        aria-label="Zoom to the selection"
         disabled={!state.selection.value}
         onClick={() => fly("selection")}
       >
@@ -27,7 +27,7 @@ export function Toolbar() {
       </button>
       <button
         type="button"
-        title="Cut open with a plane"
+        title="Section plane"
         aria-label="Section plane"
         aria-pressed={cut !== null}
         onClick={() => (section.value = cut ? null : { axis: "x", share: 0.5, flipped: false })}
@@ -54,13 +54,13 @@ function SectionControls({ cut }: { cut: SectionPlane }) {
   return (
     <div class="section-controls">
       <select
-        aria-label="Axis of the section"
+        aria-label="Axis of the section plane"
         value={cut.axis}
         onChange={(e) => (section.value = { ...cut, axis: e.currentTarget.value as SectionPlane["axis"] })}
       >
-        <option value="x">Across east</option>
-        <option value="y">Across north</option>
-        <option value="z">Across height</option>
+        <option value="x">East–west</option>
+        <option value="y">North–south</option>
+        <option value="z">Height</option>
       </select>
       <input
         type="range"
@@ -68,15 +68,15 @@ function SectionControls({ cut }: { cut: SectionPlane }) {
         max="1"
         step="0.002"
         value={cut.share}
-        aria-label="Place of the section"
+        aria-label="Position of the section plane"
         aria-valuetext={at === undefined ? undefined : `${name} ${at.toFixed(1)} metres`}
         onInput={(e) => (section.value = { ...cut, share: Number(e.currentTarget.value) })}
       />
       <output>{at === undefined ? "" : `${at.toFixed(1)} m`}</output>
       <button
         type="button"
-        title="The other side"
-        aria-label="Keep the other side"
+        title="Show the other side"
+        aria-label="Show the other side"
         aria-pressed={cut.flipped}
         onClick={() => (section.value = { ...cut, flipped: !cut.flipped })}
       >

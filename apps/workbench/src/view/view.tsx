@@ -1,4 +1,4 @@
-// The 3D view as a component: hands what the signals say to the viewer, and what is done there to the actions.
+// The 3D view as a component: passes signals to the viewer, and clicks and motions to the actions.
 import { effect, signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import * as actions from "../actions";
@@ -6,7 +6,7 @@ import type * as api from "../api/types";
 import { keep, kept } from "../keep";
 import * as state from "../state";
 import type { Pose } from "./camera";
-import { nameOf } from "../panels/words";
+import { nameOf, sentence } from "../panels/words";
 import { viewer } from "./current";
 import type { RawClimbs } from "./highlight";
 import { choices, errorLimit, section } from "./layers";
@@ -16,7 +16,7 @@ import type { Hit } from "./pick";
 import { Toolbar } from "./toolbar";
 import { Viewer } from "./viewer";
 
-/** For tests and screenshots: what `window.mansard.view` offers. */
+/** For tests and screenshots: `window.mansard.view`. */
 export interface ViewHandle {
   project(building: string): { x: number; y: number } | null;
   idle(): Promise<void>;
@@ -52,7 +52,7 @@ const blockOf = (building: string | undefined) =>
 
 let rawBusy = false;
 
-/** What the scan shows across the edges of the selected part, edge by edge; stops when something else is wanted. */
+/** Fetches the raw profiles of the selected part, edge by edge; stops when the selection changes. */
 function watchRaw(to: Viewer) {
   let last = "";
   let stop = new AbortController();
@@ -108,17 +108,17 @@ function connect(to: Viewer): () => void {
     effect(() => to.setRun(1, state.other.value?.buildings ?? null)),
     ...([0, 1] as const).flatMap((which) => {
       const id = () => (which ? state.other : state.run).value?.id;
-      const wantsWhys = () => choices.value.sweep.shown || choices.value.faces.shown || choices.value.cuts.shown;
+      const needsSegmentation = () => choices.value.sweep.shown || choices.value.faces.shown || choices.value.cuts.shown;
       return [
         effect(() => {
           const run = id();
-          if (run && wantsWhys()) void actions.needLayers(run);
+          if (run && needsSegmentation()) void actions.needLayers(run);
         }),
         effect(() => {
           const run = id();
           if (run && choices.value.error.shown) void actions.needErrorMaps(run);
         }),
-        effect(() => to.setWhys(which, state.whys.value.get(id() ?? "") ?? null)),
+        effect(() => to.setSegmentation(which, state.segmentations.value.get(id() ?? "") ?? null)),
         effect(() => to.setErrorMaps(which, state.errorMaps.value.get(id() ?? "") ?? null)),
       ];
     }),
@@ -132,11 +132,11 @@ function connect(to: Viewer): () => void {
       to.setChosen(state.choosing.value ? state.chosenBlocks.value : none);
     }),
     effect(() => {
-      const wish = state.flight.value;
-      if (!wish || wish.at === asked) return;
-      asked = wish.at;
-      if (wish.to === "home") to.home();
-      else if (wish.to === "top") to.top();
+      const request = state.flight.value;
+      if (!request || request.at === asked) return;
+      asked = request.at;
+      if (request.to === "home") to.home();
+      else if (request.to === "top") to.top();
       else if (state.selection.peek()) to.flyTo(state.selection.peek()!.building);
     }),
     watchRaw(to),
@@ -169,7 +169,7 @@ export function View() {
         choices.peek(),
       );
     } catch {
-      failure.value = "This browser cannot draw in 3D (WebGL 2 is missing or switched off). All else works.";
+      failure.value = "The 3D view needs WebGL 2, which this browser does not support or has disabled. Everything else works.";
       return;
     }
     const sized = new ResizeObserver(() => made.resize(box.current!.clientWidth, box.current!.clientHeight));
@@ -189,7 +189,7 @@ export function View() {
       <canvas
         ref={canvas}
         tabIndex={0}
-        aria-label="3D view. Arrow keys move, with Shift they turn, plus and minus zoom. Buildings can also be chosen in the list of buildings."
+        aria-label="3D view. Arrow keys move the camera, with Shift they rotate it, plus and minus zoom. Buildings can also be selected in the list of buildings."
       />
       {failure.value && <p class="view-failure">{failure.value}</p>}
       <Toolbar />
@@ -201,7 +201,7 @@ export function View() {
   );
 }
 
-/** Which run is left and which right. */
+/** The names of the left and the right run. */
 function Sides() {
   if (!state.other.value) return null;
   const name = (id: string) => {
@@ -216,12 +216,12 @@ function Sides() {
   );
 }
 
-/** In words what is under the pointer. */
+/** Describes what is under the pointer. */
 function Under() {
   const at = state.hovered.value;
   if (state.choosing.value) {
     return (
-      <div class="under">Click blocks to choose them for the next run: {state.chosenBlocks.value.size} chosen</div>
+      <div class="under">Click blocks to select them for the next run. Selected: {state.chosenBlocks.value.size}</div>
     );
   }
   if (!at) return null;
@@ -233,7 +233,7 @@ function Under() {
       {at.part && at.part !== at.building && ` · part ${at.part.replace(at.building, "").replace(/^-/, "")}`}
       {at.edge !== null && ` · edge ${at.edge}${at.ring ? ` of hole ${at.ring}` : ""}`}
       {reasons.map((r) => (
-        <div key={r.code + r.message}>{r.message}</div>
+        <div key={r.code + r.message}>{sentence(r.message)}</div>
       ))}
     </div>
   );

@@ -1,4 +1,4 @@
-// The 3D view: owns the canvas and draws only when something changed. Knows nothing of signals; view.tsx tells it.
+// The 3D view: owns the canvas and draws only when something changed. It does not use signals; view.tsx passes them on.
 import * as THREE from "three";
 import type * as api from "../api/types";
 import type { LoadedMap, Selection } from "../state";
@@ -14,18 +14,18 @@ import { colours } from "./materials";
 import { Output } from "./output";
 import { type Hit, type Ray, pick, pickFootprint } from "./pick";
 import { Tiles } from "./tiles";
-import { Whys } from "./whys";
+import { SegmentationLayers } from "./segmentation";
 
 export interface Listener {
   click(hit: Hit | null, footprint: api.SceneFootprint | null, more: boolean): void;
   hover(hit: Hit | null): void;
-  moved(pose: Pose): void; // came to rest; in the scene's frame
+  moved(pose: Pose): void; // called when the camera stops; in the frame of the scene
   loadTile(id: string, signal: AbortSignal): Promise<ArrayBuffer>;
 }
 
-/** One run as it is drawn. */
+/** A drawn run. */
 class Side {
-  whys: Whys | null = null;
+  segmentation: SegmentationLayers | null = null;
   maps: readonly LoadedMap[] | null = null;
   buildings: ReadonlyMap<string, api.Building> = new Map();
   drafts: ReadonlyMap<string, api.RaisedBuilding> = new Map();
@@ -36,11 +36,11 @@ class Side {
   building = (id: string): api.RaisedBuilding | undefined => this.drafts.get(id) ?? this.buildings.get(id);
   dispose() {
     this.output.dispose();
-    this.whys?.dispose();
+    this.segmentation?.dispose();
   }
 }
 
-const followSeconds = 0.055; // the camera's delay behind the hand
+const followSeconds = 0.055; // delay of the camera behind the pointer
 const flightSeconds = 0.6;
 const background = 0xf6f6f3;
 
@@ -51,7 +51,7 @@ export class Viewer {
   private readonly gone = new AbortController();
   private readonly marks = new Marks();
   private readonly footprints = new WideLines(colours.footprint, 2);
-  private readonly buried = new WideLines(colours.footprint, 1.5, true); // the same, seen through the scan
+  private readonly buried = new WideLines(colours.footprint, 1.5, true); // the same, visible through the mesh
   private readonly chosen = new WideLines(colours.accent, 2.5, true);
   private readonly chosenSheet = new Sheet(colours.accent, 0.25);
   private highlight: Highlight;
@@ -61,10 +61,10 @@ export class Viewer {
   private centre: Vector = [0, 0, 0];
   private marked: { building: string; place: Vector }[] = [];
   private plane: THREE.Plane | null = null;
-  private pose: Pose = camera.home([-50, -50, 0], [50, 50, 20], 1.5); // about the centre
+  private pose: Pose = camera.home([-50, -50, 0], [50, 50, 20], 1.5); // relative to the centre
   private goal: Pose = this.pose;
   private flight: { from: Pose; started: number } | null = null;
-  private framed = false; // whether the camera was ever placed
+  private framed = false; // whether the camera was placed before
   private frameAsked = 0;
   private last = 0;
   private moving = false;
@@ -106,7 +106,7 @@ export class Viewer {
     this.renderer.dispose();
   }
 
-  // ---- what there is
+  // ---- contents
 
   setScene(scene: api.Scene | null) {
     const moved = scene && scene.origin.some((o, i) => o !== this.scene?.origin[i]);
@@ -175,14 +175,14 @@ export class Viewer {
     this.request();
   }
 
-  setWhys(which: 0 | 1, layers: api.Layers | null) {
+  setSegmentation(which: 0 | 1, layers: api.Layers | null) {
     const side = this.sides[which];
     if (!side) return;
-    side.whys?.dispose();
-    side.whys = layers && new Whys(layers, this.centre, this.scene?.high[2] ?? 0);
-    if (side.whys) {
-      this.world.add(side.whys.group);
-      side.whys.show(this.choices);
+    side.segmentation?.dispose();
+    side.segmentation = layers && new SegmentationLayers(layers, this.centre, this.scene?.high[2] ?? 0);
+    if (side.segmentation) {
+      this.world.add(side.segmentation.group);
+      side.segmentation.show(this.choices);
     }
     this.layersOf[which] = layers;
     this.request();
@@ -221,7 +221,7 @@ export class Viewer {
     for (const side of this.sides) {
       if (!side) continue;
       this.fadeModels(side.output);
-      side.whys?.show(choices);
+      side.segmentation?.show(choices);
     }
     const { footprints, diagnostics } = choices;
     this.footprints.opacity = footprints.shown ? footprints.opacity : 0;
@@ -277,7 +277,7 @@ export class Viewer {
     this.request();
   }
 
-  /** Metres along the axis at which a section of this share lies, in the scene's frame. */
+  /** Position of a section plane along its axis, in metres in the frame of the scene. */
   sectionAt(section: SectionPlane): number {
     const { low, high } = this.content();
     const i = { x: 0, y: 1, z: 2 }[section.axis];
@@ -291,12 +291,12 @@ export class Viewer {
     this.renderer.setSize(this.width, this.height, false);
     this.marks.material.uniforms.size!.value = 12 * this.renderer.getPixelRatio();
     this.place();
-    this.draw(); // at once: a canvas that was resized is empty
+    this.draw(); // a resized canvas is empty
   }
 
   // ---- the camera
 
-  /** In the scene's frame. */
+  /** Sets the pose, in the frame of the scene. */
   look(pose: Pose) {
     this.goal = this.pose = { ...pose, target: pose.target.map((t, i) => t - this.centre[i]!) as Vector };
     this.framed = true;
@@ -333,7 +333,7 @@ export class Viewer {
     this.request();
   }
 
-  /** Where the top of a building is on the page; null where it is behind the eye or not there. */
+  /** Position of the top of a building on the page; null if it is behind the camera or unknown. */
   project(building: string): { x: number; y: number } | null {
     const found = this.sides[0].building(building);
     if (!found) return null;
@@ -396,7 +396,7 @@ export class Viewer {
     this.request();
   }
 
-  /** The point of the world under the pointer, about the centre: for zooming to it. */
+  /** The point under the pointer, relative to the centre; for zooming. */
   private under(x: number, y: number): Vector | null {
     const { ray, side } = this.rayAt(x, y);
     const point = this.hit(ray, side)?.point ?? pickFootprint(ray, this.scene?.footprints ?? [])?.point;
@@ -440,7 +440,7 @@ export class Viewer {
     return null;
   }
 
-  // ---- keeping the picture true
+  // ---- updates
 
   private recentre(centre: Vector) {
     const by = centre.map((c, i) => this.centre[i]! - c) as Vector;
@@ -461,7 +461,7 @@ export class Viewer {
       fresh.output.set(fresh.buildings, fresh.drafts, false);
       fresh.output.look.errorLimit.value = this.errorLimit;
       this.drapeError(fresh);
-      this.setWhys(i as 0 | 1, this.layersOf[i as 0 | 1]);
+      this.setSegmentation(i as 0 | 1, this.layersOf[i as 0 | 1]);
     });
     if (this.tiles) this.setTiles(this.index);
     this.placeMarks();
@@ -480,13 +480,13 @@ export class Viewer {
     if (this.tiles) this.tiles.opacity = mesh.shown ? mesh.opacity : 0;
   }
 
-  /** The ground, where footprints are, lies below the scan's roofs: as long as there are no models they shine through. */
+  /** Footprints at ground height are hidden by the roofs of the mesh: without models they are drawn through it. */
   private showBuried() {
     const { footprints } = this.choices;
     this.buried.opacity = footprints.shown && this.sides[0].buildings.size === 0 ? 0.75 * footprints.opacity : 0;
   }
 
-  /** Where models stand the scan is left out, unless asked for. */
+  /** Hides the mesh where there are models, unless its layer is shown. */
   private maskMesh() {
     const look = this.tiles?.look;
     if (!look) return;
@@ -496,7 +496,7 @@ export class Viewer {
     look.masked.value = any && !meshWithin.shown ? 1 : 0;
     if (!look.masked.value || look.mask.value?.userData.of === this.sides[0].buildings) return;
     const [wide, deep] = [box.high[0] - box.low[0] + 2, box.high[1] - box.low[1] + 2];
-    const scale = Math.min(5, 4096 / Math.max(wide, deep)); // cells of 0.2 m where there is room
+    const scale = Math.min(5, 4096 / Math.max(wide, deep)); // cells of at least 0.2 m
     const picture = document.createElement("canvas");
     picture.width = Math.ceil(wide * scale);
     picture.height = Math.ceil(deep * scale);
@@ -552,7 +552,7 @@ export class Viewer {
     this.highlight.selectAlso(also.flatMap(part));
   }
 
-  /** All that matters: models, or footprints where there are none, or the scan. */
+  /** Box of the models; of the footprints if there are none; else of the mesh. */
   private content(): Box {
     const box = emptyBox();
     for (const building of this.sides[0].shown()) {
@@ -578,7 +578,7 @@ export class Viewer {
     return { low: about(low), high: about(high) };
   }
 
-  /** Before anyone moved the camera it shows what there is. */
+  /** Shows everything, as long as the camera has not been moved. */
   private place() {
     if (this.framed || (!this.scene && !this.sides[0].buildings.size)) return;
     const { low, high } = this.centred(this.content());
@@ -618,7 +618,7 @@ export class Viewer {
         this.listener.moved({ ...this.pose, target: this.pose.target.map((t, i) => t + this.centre[i]!) as Vector });
     }
     this.draw();
-    this.moving = !settled; // then the next picture follows as soon as it can
+    this.moving = !settled; // the next image follows at once
     if (!settled) this.request();
   }
 
@@ -652,7 +652,7 @@ export class Viewer {
       for (const other of this.sides) {
         if (!other) continue;
         other.output.group.visible = other === side;
-        if (other.whys) other.whys.group.visible = other === side;
+        if (other.segmentation) other.segmentation.group.visible = other === side;
       }
       this.highlight.group.visible = i === 0 || second !== null;
       const left = i * this.paneWidth;

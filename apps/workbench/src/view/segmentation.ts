@@ -1,11 +1,11 @@
-// Why walls are where they are: sweep-edges, the fractured ground, and what cutting it cost.
+// The layers of the segmentation: sweep-edges, faces of the partition, and the costs of its edges.
 import * as THREE from "three";
 import type { FractureEdge, Layers } from "../api/types";
 import type { Vector } from "./camera";
 import { Segments, Sheet, WideLines, flat } from "./lines";
 import type { Choices } from "./layers";
 
-/** −1: joining was much cheaper; 1: cutting was. */
+/** −1: joining costs much less; 1: cutting costs much less. */
 export function leaning({ cost_cut, cost_uncut }: Pick<FractureEdge, "cost_cut" | "cost_uncut">): number {
   const sum = Math.abs(cost_cut) + Math.abs(cost_uncut);
   return sum > 0 ? (cost_uncut - cost_cut) / sum : 0;
@@ -16,10 +16,10 @@ const even = new THREE.Color(0x9a9aa4);
 const cheapJoin = new THREE.Color(0x1c5fb8);
 export const leaningColour = (t: number) => even.clone().lerp(t > 0 ? cheapCut : cheapJoin, Math.min(1, Math.abs(t)));
 
-/** Neighbouring numbers look different, and the same number the same everywhere. */
+/** Consecutive numbers have clearly different colours. */
 export const partColour = (part: number) => new THREE.Color().setHSL((part * 0.381966 + 0.09) % 1, 0.45, 0.58);
 
-/** Height of each block's plan: above all of its pieces. */
+/** Height at which the partition of each block is drawn: 3 m above its highest face. */
 export function sheetHeights(layers: Layers, otherwise: number): Map<string, number> {
   const heights = new Map<string, number>();
   for (const { block, height } of layers.faces) {
@@ -29,7 +29,7 @@ export function sheetHeights(layers: Layers, otherwise: number): Map<string, num
   return heights;
 }
 
-export class Whys {
+export class SegmentationLayers {
   readonly group = new THREE.Group();
   private readonly sweep = new WideLines(0x7d3fb4, 1.5);
   private readonly sweepSheet = new Sheet(0x7d3fb4, 0.22);

@@ -1,0 +1,33 @@
+// Bounding boxes of buildings in plan, and arrays of JSON texts: shared by models.cpp and its siblings.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mansard/edit/edit.hpp"
+#include "mansard/geometry/points.hpp"
+
+namespace mansard::server {
+
+[[nodiscard]] inline auto box_of(const std::vector<edit::NamedPlan>& parts) -> geometry::Box2 {
+  geometry::Box2 box;
+  for (const auto& part : parts)
+    for (const auto& point : part.plan.outer.points) box.add(point);
+  return box;
+}
+
+/// Whether two boxes are so close that the buildings in them may share a party wall or overlap.
+[[nodiscard]] inline auto touch(const geometry::Box2& a, const geometry::Box2& b) -> bool {
+  constexpr double margin = 1.0;  // m
+  return a.least.x <= b.most.x + margin && b.least.x <= a.most.x + margin && a.least.y <= b.most.y + margin &&
+         b.least.y <= a.most.y + margin;
+}
+
+/// A JSON array of values that are JSON already.
+[[nodiscard]] inline auto joined(const std::vector<std::string>& texts) -> std::string {
+  std::string all = "[";
+  for (const auto& text : texts) all += (all.size() > 1 ? "," : "") + text;
+  return all + "]";
+}
+
+}  // namespace mansard::server

@@ -1,0 +1,120 @@
+// Models: edits, undo and redo, and what is shown after them.
+#include <algorithm>
+
+#include "apps/server/model_boxes.hpp"
+#include "apps/server/models.hpp"
+
+namespace mansard::server {
+
+/// Extrudes the changed buildings, and those close enough that their party walls may change, and replaces the view.
+auto Models::publish(const std::vector<std::string>& changed, const OpenScene* scene) -> Changed {
+  const auto before = view();
+  std::vector<geometry::Box2> boxes;
+  for (const auto& id : changed) {
+    boxes.push_back(before->buildings[index_.find(id)->second]->box);
+    boxes.push_back(box_of(*history_.parts(id)));
+  }
+  std::vector<edit::Change> now;
+  for (const auto& id : changed) now.push_back({id, 0, *history_.parts(id)});
+  for (const auto& building : before->buildings) {
+    const auto near_by = [&](const geometry::Box2& box) { return touch(box, building->box); };
+    if (std::ranges::find(changed, building->id) == changed.end() && !building->parts.empty() &&
+        std::ranges::any_of(boxes, near_by))
+      now.push_back({building->id, 0, building->parts});
+  }
+  std::vector<std::shared_ptr<const Seen>> renewed(now.size());
+  base::parallel_for(now.size(), [&](std::size_t i) {
+    const auto at = index_.find(now[i].building)->second;
+    const auto building = raised(now[i], at, now, *before, scene);
+    renewed[i] = seen(now[i].building, building, scene != nullptr);
+  });
+
+  auto after = std::make_shared<View>(*before);
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    auto& slot = after->buildings[index_.find(now[i].building)->second];
+    if (i >= changed.size() && slot->json == renewed[i]->json) continue;
+    if (i >= changed.size() && scene == nullptr) continue;  // it would lose its measured error
+    slot = renewed[i];
+    texts.push_back(slot->json);
+  }
+  after->history = text_of(json_of(history_));
+  ++after->number;
+  {
+    const std::scoped_lock lock(view_mutex_);
+    view_ = after;
+  }
+  return {joined(texts), after->history, history_.done()};
+}
+
+auto Models::apply(edit::Edit edit, const OpenScene* scene) -> base::Result<Changed> {
+  const std::scoped_lock lock(edits_);
+  const auto now = view();
+  auto tried = history_;  // finds what is wrong with the edit before anything is extruded
+  if (auto applied = tried.apply(edit); !applied) return applied.error();
+  std::vector<std::string> changed;
+  for (const auto& change : edit.changes) {
+    const auto at = known(change, *now);
+    if (!at) return at.error();
+    const auto building = raised(change, *at, edit.changes, *now, scene);
+    changed.push_back(change.building);
+    if (building.valid()) continue;
+    auto why = building.diagnostics;
+    for (const auto& part : building.parts) why.insert(why.end(), part.diagnostics.begin(), part.diagnostics.end());
+    const auto worst = std::ranges::find(why, base::Severity::error, &base::Diagnostic::severity);
+    return base::error("edit-invalid",
+                       "the edit was not applied: the models would not be valid" +
+                           (worst == why.end() ? std::string() : ": " + worst->message + " [" + worst->code + "]"),
+                       worst == why.end() || worst->subject.empty() ? change.building : worst->subject);
+  }
+  if (auto written = journal_.append(edit::journal_line(edit)); !written) return written.error();
+  history_ = std::move(tried);
+  return publish(changed, scene);
+}
+
+auto Models::step(base::Result<std::vector<std::string>> (edit::History::*one)(), std::string_view line,
+                  const OpenScene* scene) -> base::Result<Changed> {
+  const std::scoped_lock lock(edits_);
+  auto tried = history_;
+  const auto changed = (tried.*one)();
+  if (!changed) return changed.error();
+  if (auto written = journal_.append(line); !written) return written.error();
+  history_ = std::move(tried);
+  return publish(*changed, scene);
+}
+
+auto Models::undo(const OpenScene* scene) -> base::Result<Changed> {
+  return step(&edit::History::undo, edit::undo_line, scene);
+}
+
+auto Models::redo(const OpenScene* scene) -> base::Result<Changed> {
+  return step(&edit::History::redo, edit::redo_line, scene);
+}
+
+auto Models::measure(const OpenScene& scene) -> std::optional<Changed> {
+  const std::scoped_lock lock(edits_);
+  std::vector<std::string> unmeasured;
+  for (const auto& building : view()->buildings)
+    if (!building->measured) unmeasured.push_back(building->id);
+  if (unmeasured.empty()) return std::nullopt;
+  return publish(unmeasured, &scene);
+}
+
+auto Models::edited(const SceneOrNone& scene) -> base::Result<std::shared_ptr<const model::City>> {
+  const std::scoped_lock lock(export_mutex_);
+  std::optional<edit::History> history;
+  std::uint64_t number = 0;
+  {
+    const std::scoped_lock edits(edits_);
+    number = view()->number;
+    if (export_ && export_->number == number && export_->with_scene == (scene != nullptr)) return export_->city;
+    history = history_;
+  }
+  const auto mesh_of = [&](std::string_view id) { return scene ? scene->rays_of(id) : nullptr; };
+  auto city = edit::edited_city(city_, *history, mesh_of, options_);
+  if (!city) return city.error();
+  export_ = Export{number, scene != nullptr, std::make_shared<const model::City>(std::move(*city))};
+  return export_->city;
+}
+
+}  // namespace mansard::server

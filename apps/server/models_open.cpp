@@ -1,0 +1,169 @@
+// Models: opened from what a run left, all plans extruded.
+#include "apps/server/models.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/server/model_boxes.hpp"
+#include "apps/server/options.hpp"
+#include "mansard/base/files.hpp"
+#include "mansard/evaluate/evaluate.hpp"
+#include "mansard/solid/solid.hpp"
+
+namespace mansard::server {
+namespace {
+
+auto number(const model::Attributes& attributes, std::string_view name) -> std::optional<double> {
+  for (const auto& [key, value] : attributes)
+    if (const auto* found = std::get_if<double>(&value); found != nullptr && key == name) return *found;
+  return std::nullopt;
+}
+
+auto squared(const std::optional<double>& value) -> std::optional<double> {
+  return value ? std::optional(*value * *value) : std::nullopt;
+}
+
+auto without_braces(const Json& json) -> std::string {
+  const auto text = text_of(json);
+  return text.substr(1, text.size() - 2);
+}
+
+/// The run's city after the edits: plans and ids, without attributes.
+auto edited_plans(const model::City& city, const edit::History& history) -> model::City {
+  model::City out{city.frame, city.made_by, {}};
+  for (const auto& building : city.buildings) {
+    model::Building now{building.id, {}, {}, building.ground, {}};
+    for (const auto& part : *history.parts(building.id)) now.parts.push_back({part.id, part.plan, {}, {}});
+    out.buildings.push_back(std::move(now));
+  }
+  return out;
+}
+
+/// The error of a building: that of its parts, weighted by area.
+auto mean_error(const std::vector<edit::RaisedPart>& parts) -> std::optional<double> {
+  double sum = 0, area = 0;
+  for (const auto& part : parts) {
+    if (!part.mse || !part.model) continue;
+    const double own = label::areas(*part.model).ground;
+    sum += *part.mse * own;
+    area += own;
+  }
+  return area > 0 ? std::optional(sum / area) : std::nullopt;
+}
+
+}  // namespace
+
+Models::Models(model::City city, edit::History history, Journal journal, pipeline::Options options)
+    : city_(std::move(city)), options_(std::move(options)), history_(std::move(history)), journal_(std::move(journal)) {
+  for (std::size_t b = 0; b < city_.buildings.size(); ++b) index_[city_.buildings[b].id] = b;
+}
+
+auto Models::open(const std::filesystem::path& folder, const RunRecord& run, const SceneOrNone& scene)
+    -> base::Result<std::shared_ptr<Models>> {
+  pipeline::Options options;
+  if (auto set = set_all(options, run.options); !set) return set.error();
+  auto city = formats::read_plans(folder / "plans.json");
+  if (!city) return city.error();
+  const auto path = journal_of(folder);
+  const auto text = read_journal(path);
+  if (!text) return text.error();
+  auto replayed = edit::replay(*city, *text);
+  if (!replayed) {
+    auto why = replayed.error();
+    why.subject = path.string();
+    return why;
+  }
+  auto journal = Journal::open(path, replayed->kept);
+  if (!journal) return journal.error();
+  const std::shared_ptr<Models> models(
+      new Models(std::move(*city), std::move(replayed->history), std::move(*journal), std::move(options)));
+  if (auto read = models->read_reports(folder / "report.json"); !read) return read.error();
+  if (auto raised = models->raise_all(scene.get()); !raised) return raised.error();
+  return models;
+}
+
+auto Models::read_reports(const std::filesystem::path& path) -> base::Result<void> {
+  const auto text = base::read_file(path);
+  if (!text) return text.error();
+  try {
+    const auto json = Json::parse(*text);
+    const auto z0 = static_cast<double>(city_.frame.origin[2]);
+    reports_.resize(city_.buildings.size());
+    for (const auto& building : json.at("buildings")) {
+      const auto at = index_.find(building.at("id").get<std::string>());
+      if (at == index_.end()) continue;
+      Json reasons = Json::array();
+      for (const auto& reason : building.at("reasons")) reasons.push_back(reason);
+      // The report has no ground height for a building without parts; the plans have it.
+      const double ground = building.contains("ground_m") ? building.at("ground_m").get<double>() - z0
+                                                          : city_.buildings[at->second].ground;
+      const Json fixed{{"block", building.at("block")},
+                       {"outcome", building.at("outcome")},
+                       {"reasons", reasons},
+                       {"ground", ground}};
+      reports_[at->second] = {building.at("block").get<std::string>(), without_braces(fixed)};
+    }
+    for (std::size_t b = 0; b < reports_.size(); ++b)
+      if (reports_[b].fixed.empty())
+        return base::error("server-project",
+                           "the report lacks a building of plans.json; delete the run and start it again",
+                           city_.buildings[b].id);
+  } catch (const Json::exception& e) {
+    return base::error(
+        "server-project",
+        std::string("the report of a run cannot be read: ") + e.what() + "; restore the file, or delete the run",
+        path.string());
+  }
+  return {};
+}
+
+/// All plans at once, as for an export. Buildings without edits keep the error that the run measured.
+auto Models::raise_all(const OpenScene* scene) -> base::Result<void> {
+  auto raised = pipeline::raise_plans(edited_plans(city_, history_), options_, {});
+  if (!raised) return raised.error();
+  auto view = std::make_shared<View>();
+  view->history = text_of(json_of(history_));
+  auto fell_short = raised->fell_short.begin();
+  for (std::size_t b = 0; b < city_.buildings.size(); ++b) {
+    auto& source = raised->city.buildings[b];
+    const bool edited = history_.edited(source.id);
+    const auto* mesh = edited && scene != nullptr ? scene->rays_of(source.id) : nullptr;
+    edit::RaisedBuilding building;
+    for (std::size_t p = 0; p < source.parts.size(); ++p) {
+      edit::RaisedPart part{source.parts[p].id, std::move(source.parts[p].model), extrude::Outcome::full, {}, {}, 0};
+      if (fell_short != raised->fell_short.end() && fell_short->building == b && fell_short->part == p) {
+        part.outcome = fell_short->outcome;
+        part.diagnostics = std::move(fell_short->reasons);
+        ++fell_short;
+      }
+      part.volume = solid::volume(part.model->solid);
+      if (!edited) part.mse = squared(number(city_.buildings[b].parts[p].attributes, "ms_rmse_lod22"));
+      if (mesh != nullptr) {
+        const double mse = evaluate::error_over(part.model->solid, model::polygon_of(source.parts[p].plan), *mesh,
+                                                options_.evaluate.grid);
+        if (std::isfinite(mse)) part.mse = mse;
+      }
+      building.parts.push_back(std::move(part));
+    }
+    building.mse = mean_error(building.parts);
+    view->buildings.push_back(seen(source.id, building, !edited || scene != nullptr));
+  }
+  view_ = std::move(view);
+  return {};
+}
+
+auto Models::seen(const std::string& id, const edit::RaisedBuilding& raised, bool measured) const
+    -> std::shared_ptr<const Seen> {
+  auto out = std::make_shared<Seen>();
+  out->id = id;
+  out->revision = history_.revision(id);
+  out->parts = *history_.parts(id);
+  out->box = box_of(out->parts);
+  out->measured = measured;
+  out->json = "{" + without_braces(json_of(id, out->revision, out->parts, raised)) + "," +
+              reports_[index_.find(id)->second].fixed + R"(,"edited":)" + (history_.edited(id) ? "true" : "false") +
+              "}";
+  return out;
+}
+
+}  // namespace mansard::server

@@ -1,0 +1,139 @@
+// Workspace: inputs, and the scene that is read from them.
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+#include "apps/server/inputs.hpp"
+#include "apps/server/workspace.hpp"
+#include "mansard/base/text.hpp"
+
+namespace mansard::server {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether the name can be used in any folder: no separators, no leading dot.
+auto is_safe_name(const std::string& name) -> bool {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '.' || c == '_' || c == '-'; };
+  return !name.empty() && name.size() <= 128 && name.front() != '.' && std::ranges::all_of(name, plain);
+}
+
+}  // namespace
+
+auto Workspace::open_inputs(const InputsRequest& request) -> Text {
+  std::optional<Inputs> known;
+  {
+    const std::scoped_lock lock(mutex_);
+    known = project_.inputs();
+  }
+  auto asked = requested_inputs(request, known);
+  if (!asked) return asked.error();
+  const auto& inputs = *asked;
+  {
+    const std::scoped_lock lock(mutex_);
+    // Models that were imported into a project without inputs keep their own frame.
+    if (!runs_.empty() && !project_.inputs())
+      return base::error(
+          "server-inputs",
+          "the project has models that were opened without a mesh; delete them, or start 'mansard serve' "
+          "with another folder, read the mesh there, and then open the models");
+    if (!runs_.empty() && project_.inputs() && !project_.inputs()->same_request(inputs))
+      return base::error(
+          "server-inputs",
+          "the project has runs with other inputs; delete them, or start 'mansard serve' with another folder");
+  }
+  return text_of(json_of(start_reading(inputs, true)));
+}
+
+auto Workspace::has_sample() const -> bool {
+  std::error_code status;
+  return !sample_.empty() && fs::is_directory(sample_, status);
+}
+
+auto Workspace::open_sample() -> Text {
+  auto request = sample_inputs(sample_);
+  if (!request) return request.error();
+  return open_inputs(*request);
+}
+
+auto Workspace::upload_path(const std::string& name) const -> base::Result<fs::path> {
+  if (!is_safe_name(name))
+    return base::error(
+        "server-upload",
+        "this is not a valid file name; expected 1 to 128 characters (letters, digits, '.', '_', '-') and no "
+        "leading dot",
+        base::on_one_line(name.substr(0, 128)));
+  return project_.folder() / "inputs" / name;
+}
+
+auto Workspace::start_reading(const Inputs& inputs, bool save) -> Job {
+  return jobs_.submit(
+      "read", std::nullopt, [this, inputs, save](const base::Run& run) { return read_scene(inputs, save, run); },
+      [this](State, const std::optional<base::Diagnostic>& failure) {
+        const std::scoped_lock lock(mutex_);
+        scene_failure_ = failure;
+      });
+}
+
+auto Workspace::read_scene(Inputs inputs, bool save, const base::Run& run) -> base::Result<void> {
+  auto scene = OpenScene::read(inputs, run);
+  if (!scene) return explained(scene.error(), inputs);
+  inputs = with_files(std::move(inputs), (*scene)->scene().inputs);
+  {
+    const std::scoped_lock lock(mutex_);
+    // When a project is reopened its record stays as it is: it says which files the runs were made from.
+    if (save)
+      if (auto saved = project_.save(inputs); !saved) return saved;
+    scene_ = *scene;
+  }
+  send_project();
+  measure_edited();
+  return {};
+}
+
+void Workspace::measure_edited() {
+  std::vector<std::pair<std::string, std::shared_ptr<Models>>> open;
+  SceneOrNone scene;
+  {
+    const std::scoped_lock lock(mutex_);
+    scene = scene_;
+    for (const auto& run : runs_)
+      if (run.models) open.emplace_back(run.record.id, run.models);
+  }
+  for (const auto& [id, models] : open)
+    if (const auto changed = models->measure(*scene)) (void)send_change(id, *changed, "");
+}
+
+auto Workspace::scene_now() const -> SceneOrNone {
+  const std::scoped_lock lock(mutex_);
+  return scene_;
+}
+
+auto Workspace::scene_or_error() const -> base::Result<SceneOrNone> {
+  const bool reading = jobs_.pending("read");
+  const std::scoped_lock lock(mutex_);
+  if (scene_) return scene_;
+  if (reading) return base::error("server-no-scene", "the inputs are being read; wait until the job has ended");
+  return base::error("server-no-scene", scene_failure_ ? "the inputs could not be read: " + scene_failure_->message
+                                                       : "the project has no inputs; open a mesh and footprints first");
+}
+
+auto Workspace::scene() const -> Text {
+  const auto scene = scene_or_error();
+  return scene ? Text((*scene)->scene_json()) : Text(scene.error());
+}
+
+auto Workspace::tiles() const -> Text {
+  const auto scene = scene_or_error();
+  return scene ? Text((*scene)->tiles_json()) : Text(scene.error());
+}
+
+auto Workspace::tile(const std::string& id) const -> Text {
+  const auto scene = scene_or_error();
+  if (!scene) return scene.error();
+  auto bytes = (*scene)->tile_bytes(id);
+  if (!bytes) return base::error("server-unknown", "unknown tile; /api/scene/tiles lists the tiles of the scene", id);
+  return std::move(*bytes);
+}
+
+}  // namespace mansard::server
