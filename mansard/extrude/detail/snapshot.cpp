@@ -150,7 +150,7 @@ struct Wavefront::Meeting {
       const std::uint32_t r = root(i);
       if (site_of[r] == none) {
         site_of[r] = static_cast<std::uint32_t>(sites.size());
-        const std::uint32_t point = wave.trace_.point({planes[r], wave.terraces_run, wave.height});
+        const std::uint32_t point = wave.trace_.point(wave.traced(planes[r]));
         const geometry::Point3 place = wave.trace_.place(point);
         sites.push_back({planes[r], point, {place.x / quantum, place.y / quantum}});
       }
@@ -399,10 +399,10 @@ auto Wavefront::joint_through(std::uint32_t line, const Triple& at) -> PlaneId {
 
 void Wavefront::close_arc(std::uint32_t edge, PlaneId moment_plane) {
   WaveEdge& e = edges[edge];
-  const bool stands = terraces_run && e.origin_level == level && planes_[start_plane(edge)].is_static() &&
+  const bool stands = terraces_ && e.origin_level == level && planes_[start_plane(edge)].is_static() &&
                       planes_[plane_at(edge)].is_static();
   if (e.origin_moment == moment || stands) return;
-  const std::uint32_t here = trace_.point({{start_plane(edge), plane_at(edge), moment_plane}, terraces_run, height});
+  const std::uint32_t here = trace_.point(traced({start_plane(edge), plane_at(edge), moment_plane}));
   trace_.arc(e.origin, here, edges[e.prev].node, e.node);
   e.origin = here;
   e.origin_moment = moment;

@@ -85,23 +85,23 @@ void Wavefront::changed(std::uint32_t edge) {
   start_changed(edges[edge].next);
 }
 
-auto Wavefront::speed_of(const Line& line) const -> const Rational& {
+auto Wavefront::speed_of(std::uint32_t line) const -> const Rational& {
   static const Rational rest = 0;
-  if (!terraces_run) return line.speed;
-  return line.on_level == level ? line.run : rest;
+  if (!terraces_) return lines[line].speed;
+  const TerraceMotion* motion = terraces_->motion_of(line);
+  return motion != nullptr ? motion->run : rest;
 }
 
 auto Wavefront::plane_at(std::uint32_t edge) -> PlaneId {
-  Line& line = lines[edges[edge].line];
-  if (!terraces_run) return line.plane;
-  if (line.on_level != level) {
-    if (planes_[line.plane].is_static()) return line.plane;
-    line.on_level = level;
-    line.run = 0;
-    line.level_plane = planes_.add(at_rest(planes_[line.plane], height));
-  }
-  return line.level_plane;
+  const std::uint32_t line = edges[edge].line;
+  const PlaneId rising = lines[line].plane;
+  if (!terraces_) return rising;
+  if (const TerraceMotion* motion = terraces_->motion_of(line)) return motion->plane;
+  if (planes_[rising].is_static()) return rising;
+  if (line >= terraces_->motions.size()) terraces_->motions.resize(lines.size());
+  return terraces_->motions[line].plane = planes_.add(at_rest(planes_[rising], height));
 }
+
 auto Wavefront::start_plane(std::uint32_t edge) -> PlaneId {
   const WaveEdge& e = edges[edge];
   return e.joint != none ? e.joint : plane_at(e.prev);
@@ -126,12 +126,13 @@ void Wavefront::connect(std::uint32_t edge) {
     changed(before);
     return;
   }
-  if (speed_of(behind) == speed_of(line)) return;
+  const Rational &speed_behind = speed_of(edges[before].line), &speed = speed_of(edges[edge].line);
+  if (speed_behind == speed) return;
 
   Line connector;
   connector.motions = none;
-  const bool steps_out = speed_of(behind) > speed_of(line);  // the edge before runs ahead: step back outwards to this
-  const Plane joint = planes_[edges[edge].joint];            // of the direction turned left
+  const bool steps_out = speed_behind > speed;     // the edge before runs ahead: step back outwards to this
+  const Plane joint = planes_[edges[edge].joint];  // of the direction turned left
   connector.plane = steps_out ? planes_.add(flipped(joint)) : edges[edge].joint;
   connector.direction = planes_[connector.plane].direction;
   const std::uint32_t node = trace_.node({model::FaceKind::connector, {}, connector.direction, 0});
@@ -159,16 +160,17 @@ void Wavefront::connect_all() {
   connect_pending();
 }
 
-void Wavefront::enter_terraces() {
+void Wavefront::enter_terraces(const std::map<std::uint32_t, TerraceMotion>& moving) {
   refresh();
-  terraces_run = true;
-  waiting_ = std::exchange(queue_, {});
-  rise_horizon_ = std::exchange(horizon, 1);
+  Terraces& terraces = terraces_.emplace();
+  terraces.motions.resize(lines.size());
+  for (const auto& [line, motion] : moving) terraces.motions[line] = motion;
+  terraces.waiting = std::exchange(queue_, {});
+  terraces.rise_horizon = std::exchange(horizon, 1);
   now = fraction_of(0);
-  touched_.clear();
   aim_all();
   ++refreshes_;
-  const auto moves = [&](std::uint32_t line) { return speed_of(lines[line]) != 0; };
+  const auto moves = [&](std::uint32_t line) { return speed_of(line) != 0; };
   for (const Tip& tip : tips_) {
     WaveEdge& v = edges[tip.edge];
     if (!moves(v.line) && !moves(edges[v.prev].line)) continue;
@@ -185,14 +187,14 @@ void Wavefront::enter_terraces() {
 
 void Wavefront::leave_terraces() {
   refresh();
-  terraces_run = false;
-  horizon = rise_horizon_;
+  Terraces over = std::move(*terraces_);
+  terraces_.reset();
+  horizon = over.rise_horizon;
   now = fraction_of(height);
-  queue_ = std::exchange(waiting_, {});
+  queue_ = std::move(over.waiting);
   aim_all();
-  for (const std::uint32_t i : touched_)
+  for (const std::uint32_t i : over.touched)
     if (edges[i].line != none) changed(i);
-  touched_.clear();
 }
 
 auto Wavefront::seen_plane(PlaneId plane) const -> Seen {
@@ -201,10 +203,9 @@ auto Wavefront::seen_plane(PlaneId plane) const -> Seen {
 }
 
 auto Wavefront::seen(std::uint32_t index) const -> Seen {
-  const Line& line = lines[index];
-  if (!terraces_run) return seen_plane(line.plane);
-  if (line.on_level == level) return seen_plane(line.level_plane);
-  const Plane& p = planes_[line.plane];
+  if (!terraces_) return seen_plane(lines[index].plane);
+  if (const TerraceMotion* motion = terraces_->motion_of(index)) return seen_plane(motion->plane);
+  const Plane& p = planes_[lines[index].plane];
   const double moved = p.s * static_cast<double>(height);
   return {p.nx, p.ny, p.c + moved, 0, std::abs(p.c) + std::abs(moved), &p.direction};
 }
@@ -280,7 +281,7 @@ void Wavefront::refresh() {
   for (const std::uint32_t i : stretched) {
     ++edges[i].edge_stamp;
     aim_edge(i);
-    if (terraces_run) touched_.push_back(i);
+    if (terraces_) terraces_->touched.push_back(i);
   }
   for (const std::uint32_t i : stretched) try_collapse(i);
   for (const std::uint32_t v : vertices) {
@@ -313,14 +314,14 @@ void Wavefront::try_collapse(std::uint32_t edge) {
 auto Wavefront::never_meet(std::uint32_t vertex, std::uint32_t edge) const -> bool {
   const WaveEdge &v = edges[vertex], &e = edges[edge];
   const Line& line = lines[e.line];
-  const Rational& speed = speed_of(line);
+  const Rational& speed = speed_of(e.line);
   const bool still = speed == 0;
   if (v.pace == 0 && still) return true;
-  const auto keeps_off = [&](const Line& other) {
-    return (other.towards == line.towards && speed_of(other) == speed) ||
-           (other.towards == line.away && still && speed_of(other) == 0);
+  const auto keeps_off = [&](std::uint32_t other) {
+    return (lines[other].towards == line.towards && speed_of(other) == speed) ||
+           (lines[other].towards == line.away && still && speed_of(other) == 0);
   };
-  return keeps_off(lines[v.line]) || (v.joint == none && keeps_off(lines[edges[v.prev].line]));
+  return keeps_off(v.line) || (v.joint == none && keeps_off(edges[v.prev].line));
 }
 
 void Wavefront::try_hit(const Tip& v, const Front& e) {
