@@ -66,7 +66,8 @@ auto shared(const Wall& a, const Wall& b, double near) -> double {
 }
 
 /// Gives every wall the line of the longest that it is connected with, wall by wall, as long as it lies near that line.
-void share_lines(std::vector<Wall>& walls, const std::vector<std::vector<std::size_t>>& neighbours, double near) {
+void share_lines(std::vector<Wall>& walls, const std::vector<std::vector<std::size_t>>& neighbours, double near,
+                 const Options::Shared& options) {
   std::vector<std::size_t> order(walls.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto rank = [&](std::size_t w) {
@@ -76,7 +77,6 @@ void share_lines(std::vector<Wall>& walls, const std::vector<std::vector<std::si
   std::ranges::sort(order, {}, rank);
   std::vector<std::vector<std::size_t>> of_plan(neighbours.size());
   for (const std::size_t w : order) of_plan[walls[w].plan].push_back(w);
-  constexpr double least = 0.1;  // m; what shares less is a corner at a wall
   for (const std::size_t leader : order) {
     if (walls[leader].line != nobody) continue;
     walls[leader].line = leader;
@@ -84,8 +84,7 @@ void share_lines(std::vector<Wall>& walls, const std::vector<std::vector<std::si
     const Point2 along = line.along();
     const auto lies_near = [&](const Wall& wall) {
       const double from = cross(along, wall.from - line.from), to = cross(along, wall.to - line.from);
-      constexpr double steepest = 0.05;  // rad; a short wall that turns aside is another one
-      return std::abs(from) <= near && std::abs(to) <= near && std::abs(to - from) <= steepest * wall.length;
+      return std::abs(from) <= near && std::abs(to) <= near && std::abs(to - from) <= options.max_turn * wall.length;
     };
     std::deque<std::size_t> due{leader};
     for (; !due.empty(); due.pop_front()) {
@@ -93,7 +92,8 @@ void share_lines(std::vector<Wall>& walls, const std::vector<std::vector<std::si
       for (const std::size_t p : neighbours[wall.plan])
         for (const std::size_t w : of_plan[p])
           if (walls[w].line == nobody && lies_near(walls[w]) &&
-              shared(wall, walls[w], near) >= std::min(least, 0.5 * std::min(wall.length, walls[w].length))) {
+              shared(wall, walls[w], near) >=
+                  std::min(options.min_overlap, 0.5 * std::min(wall.length, walls[w].length))) {
             walls[w].line = leader;
             due.push_back(w);
           }
@@ -163,7 +163,7 @@ class Moved {
 
   /// Whether raise() takes it as it is. Not where a turn has become so shallow that it would be straightened.
   static auto stays(const Plan& made, const Options& options) -> bool {
-    constexpr double rounding = 5e-5;  // m; half of what files keep
+    constexpr double rounding = 5e-5;  // m; half of the tenth of a millimetre that files keep
     const auto source = detail::prepared(made);
     std::string why;
     const auto footprint = source ? detail::canonical(*source, options, why) : std::nullopt;
@@ -254,7 +254,7 @@ auto align(std::span<const Plan> plans, const Options& options) -> std::vector<s
   std::vector<Wall> walls;
   for (std::size_t p = 0; p < plans.size(); ++p)
     if (footprints[p]) add_walls(*footprints[p], p, walls);
-  share_lines(walls, neighbours, near);
+  share_lines(walls, neighbours, near, options.shared);
 
   // What stands on one line with a neighbour is canonical from now on, whoever gave the line.
   std::vector<bool> meets(plans.size(), false);

@@ -13,9 +13,6 @@
 namespace mansard::extrude {
 namespace {
 
-/// Details under this go with the second rung; turns under that.
-constexpr double detail_size = 0.3, shallow = 0.0873;
-
 struct Sound {
   model::Solid solid;
   double residual = 0;
@@ -26,11 +23,11 @@ auto solid_of(const detail::Footprint& footprint, const model::Plan& plan, const
               const detail::Eaves* eaves) -> base::Result<Sound> {
   const auto surface = detail::sweep(footprint, detail::on_grid(plan.cap), run, eaves);
   std::vector<base::Diagnostic> faults;
-  for (const bool collapse : {true, false}) {
-    auto rounded = detail::rounded(surface, {footprint.origin, plan.base, options.grid}, collapse);
+  for (const double short_arc : {options.short_arc, 0.0}) {
+    auto rounded = detail::rounded(surface, {footprint.origin, plan.base, options.grid}, short_arc);
     faults = solid::check(rounded.solid);
     if (faults.empty()) return Sound{std::move(rounded.solid), rounded.residual};
-    if (collapse && rounded.collapsed == 0) break;
+    if (rounded.collapsed == 0) break;
   }
   return faults.front();
 }
@@ -49,7 +46,7 @@ auto prism_over(const detail::Source& source, const model::Plan& plan, const Opt
 auto last_rung(const detail::Source& source, const model::Plan& plan, const Options& options)
     -> base::Result<model::Solid> {
   auto solid = prism_over(source, plan, options);
-  if (!solid) solid = prism_over(detail::simplified(source, detail_size), plan, options);
+  if (!solid) solid = prism_over(detail::simplified(source, options.simpler.detail), plan, options);
   if (solid) return solid;
   return base::error("extrude-not-simple", "no solid can be made over the footprint: " + solid.error().message);
 }
@@ -86,11 +83,11 @@ auto attempt(const detail::Source& source, const model::Plan& plan, const Option
   if (solid && options.overhang > 0) {
     std::string hindrance;
     // No hindrance is told where there is nothing that could overhang.
-    if (const auto eaves = detail::eaves_of(*footprint, detail::on_grid(plan.cap), options.overhang, hindrance))
+    if (const auto eaves = detail::eaves_of(*footprint, detail::on_grid(plan.cap), options, hindrance))
       if (auto roofed = tried(*footprint, plan, options, run, &*eaves, hindrance)) solid = std::move(roofed);
     if (!hindrance.empty()) warnings.push_back(base::warning("extrude-overhang", hindrance));
   }
-  constexpr double worth_telling = 0.01;
+  constexpr double worth_telling = 0.01;  // m; decides about the warning alone
   if (solid && footprint->moved > worth_telling)
     warnings.push_back(base::warning(
         "extrude-straightened",
@@ -131,11 +128,11 @@ auto raise(const model::Plan& plan, const Options& options, const base::Run& run
   };
   if (succeeds(*source, options, Outcome::full)) return raised;
 
-  // Down the ladder: details of 30 cm and turns of 5° go first, then all but one pitch, then the roof.
+  // Down the ladder: small details and shallow turns go first, then all but one pitch, then the roof.
   Options coarse = options;
-  coarse.merge_angle = std::max(options.merge_angle, shallow);
-  coarse.tolerance = std::max(options.tolerance, detail_size);
-  const detail::Source simple = detail::simplified(*source, detail_size);
+  coarse.merge_angle = std::max(options.merge_angle, options.simpler.merge_angle);
+  coarse.tolerance = std::max(options.tolerance, options.simpler.detail);
+  const detail::Source simple = detail::simplified(*source, options.simpler.detail);
   raised.warnings.push_back(base::warning("extrude-simplified", "the footprint was simplified: " + why));
   if (succeeds(simple, coarse, Outcome::simplified)) return raised;
   raised.warnings.push_back(base::warning("extrude-two-part", "the profiles were reduced to wall and pitch: " + why));
@@ -165,18 +162,8 @@ auto crest(const model::Plan& plan, const Options& options, const base::Run& run
 
 auto sketch(const model::Plan& plan, const Options& options, const base::Run& run) -> base::Result<model::Solid> {
   return after_sweep<model::Solid>(plan, options, run, [&plan](const auto& footprint, const auto& surface) {
-    return detail::rounded(surface, {footprint.origin, plan.base, 0}, false).solid;
+    return detail::rounded(surface, {footprint.origin, plan.base, 0}, 0).solid;
   });
-}
-
-auto option_list(Options& options) -> base::OptionList {
-  return std::move(base::OptionList("extrude")
-                       .number("merge_angle", options.merge_angle, "rad", {0, 0.2},
-                               "Turns of the footprint under this are straightened.")
-                       .number("tolerance", options.tolerance, "m", {0.001, 1},
-                               "Maximum distance between the footprint that is extruded and the given one.")
-                       .number("overhang", options.overhang, "m", {0, 3},
-                               "How far the lowest eaves overhang, with a level soffit below them."));
 }
 
 auto codes() -> std::vector<base::Code> {

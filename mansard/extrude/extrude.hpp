@@ -21,6 +21,8 @@ namespace mansard::extrude {
 /// How far down the ladder a plan had to go.
 enum class Outcome : std::uint8_t { full, simplified, two_part, prism };
 
+/// The groups are advanced options: choices that few have a reason to change. What bounds an error is no option, and is
+/// found beside its derivation.
 struct Options {
   double merge_angle = 0.0087;  ///< rad; turns under this are straightened
   double tolerance = 0.05;      ///< m; the canonical footprint lies within this of the input
@@ -28,6 +30,33 @@ struct Options {
   double overhang = 0;
   /// m; vertices are rounded to multiples of this before the check, for files with that many decimals; 0: not at all.
   double grid = 0;
+
+  /// The lines of a canonical footprint.
+  struct Lines {
+    double share_move = 1e-3;        ///< m
+    double share_turn = 0.02;        ///< rad
+    double min_stretch = 0x1.0p-10;  ///< m
+  } lines;
+
+  /// Overhanging eaves.
+  struct Eaves {
+    double mitre = 4;
+    double min_soffit = 0.01;  ///< m
+  } eaves;
+
+  /// The second rung of the ladder.
+  struct Simpler {
+    double detail = 0.3;          ///< m
+    double merge_angle = 0.0873;  ///< rad
+  } simpler;
+
+  /// Walls of neighbours that are put on one line (align.hpp).
+  struct Shared {
+    double min_overlap = 0.1;  ///< m
+    double max_turn = 0.05;    ///< rad
+  } shared;
+
+  double short_arc = 1e-3;  ///< m; edges of the solid shorter than this are drawn together where that changes no face
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 

@@ -35,6 +35,8 @@ struct MadeBy {
   std::string version;
   std::vector<std::pair<std::string, std::string>> options;  ///< module.name → value, as text
   std::vector<InputFile> inputs;
+  /// Advanced options that have their defaults: for reports; models name those alone that differ.
+  std::vector<std::pair<std::string, std::string>> usual;
 };
 
 struct City {

@@ -2,6 +2,8 @@
 
 #include <embree3/rtcore.h>
 
+#include <cmath>
+
 namespace mansard::rays {
 
 using geometry::Point2;
@@ -30,6 +32,13 @@ auto nearest_point(Point3 p, Point3 a, Point3 b, Point3 c) -> Point3 {
   return a + (beyond_ac / whole) * ab + (beyond_ab / whole) * ac;
 }
 
+/// Error bound, relative, of a distance that Embree computes in floats, v = 2⁻²⁴: three differences, squares and sums
+/// and a root are 1 + 1 + 1 + 2 over 2 + 1 v, less than 5 v; and 1 v for the radius. 1e-6 is 16 v.
+constexpr double distance_error = 1e-6;
+/// Error bound, per metre of |x| + |y| + |z| from the centre: the place searched from is rounded to floats, 1 v of each
+/// coordinate. Twice that.
+constexpr double place_error = 0x1.0p-23;
+
 /// What a search for the nearest place knows while it goes through the tree.
 struct Search {
   const float* vertices = nullptr;
@@ -37,10 +46,13 @@ struct Search {
   Point3 to;
   double within = 0;
   const Scene::Extra* extra = nullptr;
+  double slack = 0;  ///< m; Embree's distances may be greater than they are by this and `distance_error`
   bool found = false;
   double cost = 0;
   Nearest best;
 
+  /// A radius within which Embree finds whatever is within `distance`.
+  [[nodiscard]] auto radius_for(double distance) const -> double { return (distance + slack) * (1 + distance_error); }
   [[nodiscard]] auto corner(unsigned triangle, unsigned k) const -> Point3 {
     const float* v = vertices + 3 * std::size_t{indices[3 * std::size_t{triangle} + k]};
     return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
@@ -60,8 +72,8 @@ auto look_at(RTCPointQueryFunctionArguments* at) -> bool {
   search.found = true;
   search.cost = cost;
   search.best = {place, distance, t};
-  // A hair more than the best, so that equally near triangles are still looked at.
-  const auto radius = static_cast<float>(cost * (1 + 1e-6));
+  // More than the best by what rounding may add to a distance, so that what is as near or nearer is still considered.
+  const auto radius = static_cast<float>(search.radius_for(cost));
   if (!(radius < at->query->radius)) return false;
   at->query->radius = radius;
   return true;
@@ -99,7 +111,7 @@ Scene::Scene(const geometry::Mesh& mesh) : parts_(std::make_unique<Parts>()) {
     most = {std::max(most.x, v.x), std::max(most.y, v.y), std::max(most.z, v.z)};
   }
   p.centre = 0.5 * (least + most);
-  p.top = most.z - p.centre.z + 1;
+  p.top = most.z - p.centre.z + 1;  // m; floats below 1e6 m are exact to 0.06 m
 
   // One builder thread: the tree, and so which of two equally near triangles is hit, is the same every time.
   p.device = rtcNewDevice("threads=1,set_affinity=0");
@@ -168,12 +180,13 @@ auto Scene::nearest(Point3 to, double within) const -> std::optional<Nearest> { 
 auto Scene::nearest(Point3 to, double within, const Extra& extra) const -> std::optional<Nearest> {
   if (parts_->empty) return std::nullopt;
   const Point3 at = to - parts_->centre;
-  Search search{parts_->vertices, parts_->indices, at, within, extra ? &extra : nullptr, false, 0, {}};
+  Search search{parts_->vertices, parts_->indices, at, within, extra ? &extra : nullptr, 0, false, 0, {}};
+  search.slack = place_error * (std::abs(at.x) + std::abs(at.y) + std::abs(at.z));
   RTCPointQuery query{};
   query.x = static_cast<float>(at.x);
   query.y = static_cast<float>(at.y);
   query.z = static_cast<float>(at.z);
-  query.radius = static_cast<float>(within);
+  query.radius = static_cast<float>(search.radius_for(within));
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
   rtcPointQuery(parts_->scene, &query, &context, &look_at, &search);

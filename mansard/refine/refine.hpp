@@ -9,31 +9,14 @@
 #include <utility>
 #include <vector>
 
-#include "mansard/base/options.hpp"
 #include "mansard/base/result.hpp"
 #include "mansard/base/run.hpp"
 #include "mansard/extrude/extrude.hpp"
 #include "mansard/model/plan.hpp"
 #include "mansard/rays/rays.hpp"
+#include "mansard/refine/options.hpp"
 
 namespace mansard::refine {
-
-enum class Effort : std::uint8_t {
-  caps,    ///< only the height at which the roof ends
-  planes,  ///< the profiles too: which edges carry roof, and where its planes lie
-  parts,   ///< and the plan: parts under one roof are joined, structures of another height become parts of their own
-};
-
-struct Options {
-  Effort effort = Effort::parts;
-  double grid = 0.25;       ///< m between looks from above
-  double face_price = 0.3;  ///< m² · m²; what a further face must take off the sum of squared differences
-  double part_price = 2.0;  ///< the same, of a further part, beside its faces
-  double robust = 3.0;      ///< m; greater differences count linearly, not squared: trees, debris
-  double margin = 0.4;      ///< m along the outline where a melted scan counts less
-  double least_area = 4.0;  ///< m²; smaller structures stay with the roof they stand on
-};
-[[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 
 /// What is known of a part before the scan is asked as a whole.
 struct Draft {

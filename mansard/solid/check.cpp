@@ -21,6 +21,10 @@ auto place(Point3 p) -> std::string {
   return "(" + base::to_text(p.x, 3) + ", " + base::to_text(p.y, 3) + ", " + base::to_text(p.z, 3) + ")";
 }
 
+/// m²: twice an area below this is none. Corners below 1e4 m are exact to 1e-12 m, so that over edges of 1 m rounding
+/// alone makes 1e-12 m².
+constexpr double no_area = 1e-12;
+
 class Check {
  public:
   Check(const model::Solid& solid, double planar) : solid_(solid), planar_(planar) {}
@@ -69,7 +73,7 @@ class Check {
         }
       }
       areas_.push_back(detail::area_vector(solid_, face));
-      if (length(areas_.back()) < 1e-12) fault("solid-degenerate", name(f) + " has no area");
+      if (length(areas_.back()) < no_area) fault("solid-degenerate", name(f) + " has no area");
     }
     std::ranges::sort(used, {}, [&](std::uint32_t v) { return solid_.vertices[v]; });
     for (std::size_t i = 0; i + 1 < used.size(); ++i)
@@ -161,7 +165,8 @@ class Check {
   /// A face may be flat within tolerance and yet have triangles, as wide as that tolerance, that look anywhere. Viewers
   /// shade them, and val3dity refuses them (204). Of faces that are allowed to bend more, nothing is asked.
   void find_needles() {
-    constexpr double flat = 1e-4, least_cosine = 0.93969262;  // of 20°, val3dity's
+    constexpr double flat = 1e-4;                // m; the default of `planar`
+    constexpr double least_cosine = 0.93969262;  // of 20°, val3dity's tolerance of normals
     if (planar_ > flat) return;
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
       const auto& [a, b, c] = triangles_[t];

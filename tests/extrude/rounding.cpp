@@ -49,7 +49,7 @@ auto codes_of(const Solid& solid) -> std::string { return faults(solid); }
 
 TEST(Rounding, leaves_a_surface_without_short_arcs_as_it_is) {
   const auto surface = block(box(8, 5));
-  const auto result = rounded(surface, {{100, 200}, 7}, true);
+  const auto result = rounded(surface, {{100, 200}, 7}, 1e-3);
   EXPECT_EQ(result.collapsed, 0U);
   EXPECT_EQ(result.residual, 0);
   EXPECT_EQ(codes_of(result.solid), "");
@@ -88,7 +88,7 @@ TEST(Rounding, draws_together_two_apexes_that_are_one_but_for_rounding) {
     return surface;
   };
   for (const double ridge : {1e-9, 2e-6, 4e-5}) {
-    const auto result = rounded(ridge_of(ridge), {}, true);
+    const auto result = rounded(ridge_of(ridge), {}, 1e-3);
     EXPECT_EQ(result.collapsed, 1U) << ridge;
     EXPECT_EQ(codes_of(result.solid), "") << ridge;
     EXPECT_EQ(result.solid.vertices.size(), 5U);
@@ -98,24 +98,24 @@ TEST(Rounding, draws_together_two_apexes_that_are_one_but_for_rounding) {
   }
   // No point is near enough to all planes, or the arc is no short one: kept.
   for (const double ridge : {9e-4, 2e-3}) {
-    const auto result = rounded(ridge_of(ridge), {}, true);
+    const auto result = rounded(ridge_of(ridge), {}, 1e-3);
     EXPECT_EQ(result.collapsed, 0U) << ridge;
     EXPECT_EQ(codes_of(result.solid), "") << ridge;
     EXPECT_LT(result.residual, 1e-12);
   }
-  EXPECT_EQ(rounded(ridge_of(2e-6), {}, false).collapsed, 0U);
+  EXPECT_EQ(rounded(ridge_of(2e-6), {}, 0).collapsed, 0U);
 }
 
 TEST(Rounding, keeps_a_short_wall_whose_collapse_would_move_its_neighbours) {
   // A jog of half a millimetre: drawn together, two long walls would miss their planes by more than allowed.
-  const auto result = rounded(block({{0, 0}, {4, 0}, {4, 0.0005}, {9, 0.0005}, {9, 5}, {0, 5}}), {}, true);
+  const auto result = rounded(block({{0, 0}, {4, 0}, {4, 0.0005}, {9, 0.0005}, {9, 5}, {0, 5}}), {}, 1e-3);
   EXPECT_EQ(result.collapsed, 0U);
   EXPECT_EQ(codes_of(result.solid), "");
   EXPECT_EQ(result.solid.faces.size(), 8U);
 }
 
 TEST(Rounding, draws_together_a_jog_below_what_a_face_may_bend) {
-  const auto result = rounded(block({{0, 0}, {4, 0}, {4, 0.00002}, {9, 0.00002}, {9, 5}, {0, 5}}), {}, true);
+  const auto result = rounded(block({{0, 0}, {4, 0}, {4, 0.00002}, {9, 0.00002}, {9, 5}, {0, 5}}), {}, 1e-3);
   EXPECT_EQ(result.collapsed, 2U);  // below and above
   EXPECT_EQ(codes_of(result.solid), "");
   EXPECT_EQ(result.solid.faces.size(), 7U);
@@ -125,7 +125,7 @@ TEST(Rounding, draws_together_a_jog_below_what_a_face_may_bend) {
 TEST(Rounding, keeps_what_is_so_small_that_nothing_would_be_left) {
   // All arcs are short; the link condition keeps a solid, whatever is drawn together.
   for (const double size : {2e-5, 1e-6}) {
-    const auto result = rounded(block({{0, 0}, {size, 0}, {size, size}, {0, size}}, size), {}, true);
+    const auto result = rounded(block({{0, 0}, {size, 0}, {size, size}, {0, size}}, size), {}, 1e-3);
     ASSERT_GE(result.solid.faces.size(), 4U);
     for (const auto& fault : solid::check(result.solid)) EXPECT_EQ(fault.code, "solid-degenerate");
   }
@@ -147,7 +147,7 @@ TEST(Rounding, keeps_a_shaft_of_three_sides_in_its_lid) {
     node.direction = extrude::detail::direction_of(extrude::detail::bearing_of(mouth[j] - mouth[i]));
     surface.faces.push_back({{{8 + i, 8 + j, 11 + j, 11 + i}}, node});
   }
-  const auto result = rounded(surface, {}, true);
+  const auto result = rounded(surface, {}, 1e-3);
   EXPECT_EQ(result.collapsed, 0U);
   EXPECT_EQ(result.solid.faces.size(), 9U);
   EXPECT_EQ(result.solid.vertices.size(), 14U);

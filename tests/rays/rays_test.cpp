@@ -101,5 +101,24 @@ TEST(Nearest, takes_the_lower_of_two_triangles_that_are_as_near) {
   EXPECT_FALSE(Scene(geometry::Mesh{}).nearest({0, 0, 0}));
 }
 
+// A kilometre from the centre floats are 6e-5 m apart: the place is rounded away from the nearer wall.
+TEST(Nearest, is_of_the_nearer_triangle_where_floats_have_it_farther) {
+  const double far = 1000;
+  geometry::Mesh mesh;
+  const auto add = [&](geometry::Point3 a, geometry::Point3 b, geometry::Point3 c) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), {a, b, c});
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  };
+  add({far + 0.5, -9, -9}, {far + 0.5, 9, -9}, {far + 0.5, 0, 9});         // 0.4999696 m off; 0.5 m in floats
+  add({far - 9, 0.49998, -9}, {far + 9, 0.49998, -9}, {far, 0.49998, 9});  // 0.49998 m off, in floats too
+  add({-far - 9, 0, -9}, {-far - 9, 1, -9}, {-far - 9, 0, 9});             // so that 0 is the centre
+  const Scene scene(mesh);
+  const auto near = scene.nearest({far + 3.04e-5, 0, 0});
+  ASSERT_TRUE(near);
+  EXPECT_EQ(near->triangle, 0U);
+  EXPECT_TRUE(scene.nearest({far + 3.04e-5, 0, 0}, 0.499975));
+}
+
 }  // namespace
 }  // namespace mansard::rays

@@ -19,15 +19,17 @@ namespace {
 
 using namespace fields;
 using mansard::geometry::area;
+using mansard::refine::Options;
 using mansard::refine::detail::Proposal;
 using mansard::refine::detail::propose;
-using mansard::refine::detail::ProposeOptions;
+
+constexpr double least_gain = 2;  // m²·m²
 
 const Polygon house = rectangle({0, 0}, {20, 12});
 
 auto found(const Polygon& part, const Roof& seen, const Roof& model, const Scan& scan = {}) -> std::vector<Proposal> {
   const Polygon there = turned(part, scan.turn);
-  return propose(there, scanned(there, seen, scan), modelled(there, model, scan));
+  return propose(there, scanned(there, seen, scan), modelled(there, model, scan), least_gain, {});
 }
 
 /// m² of a beyond b.
@@ -252,10 +254,10 @@ TEST(Propose, a_plant_room_askew_to_the_part) {
 }
 
 TEST(Propose, gives_nothing_for_no_grid_or_another) {
-  EXPECT_THAT(propose(house, {}, {}), testing::IsEmpty());
+  EXPECT_THAT(propose(house, {}, {}, least_gain, {}), testing::IsEmpty());
   Heights small = grid_over(house, 0.5);
-  EXPECT_THAT(propose(house, small, grid_over(house, 0.25)), testing::IsEmpty());
-  EXPECT_THAT(propose(house, small, small), testing::IsEmpty()) << "all unseen";
+  EXPECT_THAT(propose(house, small, grid_over(house, 0.25), least_gain, {}), testing::IsEmpty());
+  EXPECT_THAT(propose(house, small, small, least_gain, {}), testing::IsEmpty()) << "all unseen";
 }
 
 /// A rectilinear part with notches, boxes of other heights and a turn, all by chance.
@@ -287,16 +289,17 @@ TEST(Propose, guarantees_over_random_parts) {
   EXPECT_TRUE(rc::check("in the part, simple, apart, the same twice", [] {
     const Block b = block_of(*rc::gen::arbitrary<unsigned>());
     const Heights seen = scanned(b.part, b.roof, b.scan), model = modelled(b.part, flat(9), b.scan);
-    const ProposeOptions options;
-    const auto all = propose(b.part, seen, model, options), again = propose(b.part, seen, model, options);
-    RC_ASSERT(all.size() <= options.most && all.size() == again.size());
+    const Options options;
+    const auto all = propose(b.part, seen, model, least_gain, options);
+    const auto again = propose(b.part, seen, model, least_gain, options);
+    RC_ASSERT(std::ssize(all) <= options.cuts.max_count && all.size() == again.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
       const Polygon& piece = all[i].polygon;
       RC_ASSERT(beyond(piece, b.part) < 1e-6);
       RC_ASSERT(mansard::geometry::is_simple(piece));
       RC_ASSERT(area(piece) >= options.least_area - 1e-6);
       RC_ASSERT(area(b.part) - area(piece) >= options.least_area - 1e-6);
-      RC_ASSERT(all[i].gain >= options.least_gain);
+      RC_ASSERT(all[i].gain >= least_gain);
       RC_ASSERT(piece == again[i].polygon && all[i].gain == again[i].gain && all[i].what == again[i].what);
       for (std::size_t j = 0; j < i; ++j) RC_ASSERT(difference(piece, all[j].polygon) > 0.01 * area(piece));
     }

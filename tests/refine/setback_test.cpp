@@ -25,7 +25,7 @@ auto with_strip(double depth) -> Plan {
 }
 auto proposed(const Plan& truth) -> std::vector<std::vector<Profile>> {
   const auto flat = flat_draft(house(), 9).plan;
-  return detail::setbacks_of(flat, detail::look(model::polygon_of(flat), ground, scan({truth}), {}));
+  return detail::setbacks_of(flat, detail::look(model::polygon_of(flat), ground, scan({truth}), {}), {});
 }
 auto has_terrace(const Profile& profile) -> bool {
   for (std::size_t i = 0; i + 1 < profile.size(); ++i)
@@ -62,7 +62,7 @@ TEST(Setback, is_not_proposed_where_a_tower_stands_behind_a_part_of_the_side) {
   const auto around = plan(house(), {wall(6), wall(6), wall(6), wall(6)}, 6);
   const auto tower = plan(rectangle(14, 22, 3, 2), {wall(9), wall(9), wall(9), wall(9)}, 9);
   const auto site = detail::look({house(), {}}, ground, scan({around, tower}), {});
-  const auto found = detail::setbacks_of(around, site);
+  const auto found = detail::setbacks_of(around, site, {});
   for (std::size_t side = 0; side < 4; ++side) EXPECT_TRUE(found[side].empty()) << side;
 }
 

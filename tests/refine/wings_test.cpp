@@ -14,11 +14,11 @@ using refine::detail::wings_of;
 // An L: a bar of 20 × 8 m, and a wing of 8 × 10 m on its eastern end.
 auto l_shape() -> geometry::Ring { return {{0, 0}, {20, 0}, {20, 18}, {12, 18}, {12, 8}, {0, 8}}; }
 
-TEST(Wings, a_rectangle_has_none) { EXPECT_TRUE(wings_of({rectangle(0, 0, 12, 8), {}}).empty()); }
+TEST(Wings, a_rectangle_has_none) { EXPECT_TRUE(wings_of({rectangle(0, 0, 12, 8), {}}, {}).empty()); }
 
 TEST(Wings, an_L_is_cut_along_both_lines_of_its_inner_corner) {
   const geometry::Polygon part{l_shape(), {}};
-  const auto wings = wings_of(part);
+  const auto wings = wings_of(part, {});
   EXPECT_EQ(wings.size(), 8U);  // two lines, both sides, with wedge and without
   for (const auto& wing : wings) {
     EXPECT_NEAR(wing.length, 8, 1e-9);
@@ -37,9 +37,9 @@ TEST(Wings, an_L_is_cut_along_both_lines_of_its_inner_corner) {
 
 TEST(Wings, a_line_from_a_court_goes_on_at_both_ends) {
   const geometry::Polygon ring{rectangle(0, 0, 30, 30), {{{8, 8}, {8, 22}, {22, 22}, {22, 8}}}};
-  for (const auto& wing : wings_of(ring)) EXPECT_TRUE(geometry::is_simple(wing.polygon));
-  EXPECT_THAT(wings_of(ring), testing::Contains(testing::Truly(
-                                  [](const auto& w) { return std::abs(geometry::area(w.polygon) - 240) < 1e-6; })));
+  for (const auto& wing : wings_of(ring, {})) EXPECT_TRUE(geometry::is_simple(wing.polygon));
+  EXPECT_THAT(wings_of(ring, {}), testing::Contains(testing::Truly(
+                                      [](const auto& w) { return std::abs(geometry::area(w.polygon) - 240) < 1e-6; })));
 }
 
 // One wing runs through and ends in a gable, the other runs into it: no profiles around the L can raise that.

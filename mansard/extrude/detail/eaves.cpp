@@ -22,7 +22,7 @@ auto quanta_below(const Rational& metres) -> std::int64_t {
 
 }  // namespace
 
-auto eaves_of(const Footprint& footprint, const Rational& cap, double overhang, std::string& why)
+auto eaves_of(const Footprint& footprint, const Rational& cap, const Options& options, std::string& why)
     -> std::optional<Eaves> {
   why.clear();
   const auto refuse = [&](std::string reason) {
@@ -47,9 +47,10 @@ auto eaves_of(const Footprint& footprint, const Rational& cap, double overhang, 
     }
 
   Eaves eaves;
-  eaves.soffit = quanta_below(*lowest - on_grid(overhang) / *shallowest);
+  eaves.soffit = quanta_below(*lowest - on_grid(options.overhang) / *shallowest);
   const Rational soffit(eaves.soffit, quanta_per_metre);
-  if (eaves.soffit < quanta_per_metre / 100) return refuse("the soffit would be below ground");
+  if (eaves.soffit < static_cast<std::int64_t>(options.eaves.min_soffit / quantum))
+    return refuse("the soffit would be below ground");
   for (const auto& ring : footprint.rings)
     for (const CanonicalEdge& edge : ring) {
       const Track& track = footprint.tracks[edge.track];
@@ -87,8 +88,8 @@ auto eaves_of(const Footprint& footprint, const Rational& cap, double overhang, 
       // The eaves of a spike would meet far outside.
       const ExactPoint& foot = footprint.corners[corners.size() - 1][i];
       const geometry::Point2 out = rounded.back() - geometry::Point2{foot.x.get_d(), foot.y.get_d()};
-      constexpr double mitre = 4;
-      if (length(out) > mitre * overhang) return refuse("eaves would meet too far out at a sharp corner");
+      if (length(out) > options.eaves.mitre * options.overhang)
+        return refuse("eaves would meet too far out at a sharp corner");
     }
     if ((geometry::signed_area(rounded) > 0) != (corners.size() == 1)) return refuse("a courtyard would be covered");
     // An edge that turned round encloses the wrong side even where the whole is simple.

@@ -18,9 +18,9 @@ struct Eaves {
 };
 
 /// The eaves of a footprint whose edges all rise upright at first. The edge of the shallowest pitch among the lowest
-/// eaves overhangs by `overhang` metres, steeper ones by less. Nothing, and why, when that cannot be; no reason when no
-/// roof rises from a wall below the cap. `why` is also set when eaves at other heights stay as they are.
-[[nodiscard]] auto eaves_of(const Footprint& footprint, const Rational& cap, double overhang, std::string& why)
+/// eaves overhangs by `Options::overhang`, steeper ones by less. Nothing, and why, when that cannot be; no reason when
+/// no roof rises from a wall below the cap. `why` is also set when eaves at other heights stay as they are.
+[[nodiscard]] auto eaves_of(const Footprint& footprint, const Rational& cap, const Options& options, std::string& why)
     -> std::optional<Eaves>;
 
 }  // namespace mansard::extrude::detail

@@ -12,7 +12,9 @@
 
 namespace mansard::extrude::detail {
 
-/// Multiples of 2^-36 m (15 pm) from an origin. Below 2^59, so that cross products of differences fit 128 bits.
+/// Multiples of 2^-36 m (15 pm) from an origin. Outlines are at most 2^22 m wide (`widest`), so that coordinates are
+/// below 2^58 and differences below 2^59: cross products are below 2 · 2^118 and fit 128 bits, as do sums of 2^8 of
+/// them.
 struct GridPoint {
   std::int64_t x = 0, y = 0;
   friend auto operator<=>(const GridPoint&, const GridPoint&) = default;

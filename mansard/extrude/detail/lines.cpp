@@ -12,10 +12,23 @@ using geometry::Point2;
 
 namespace {
 
+// Error bounds, m, of points that lie on exact lines up to how they were written down. Coordinates of a projected
+// system are below 2²⁴ m, where doubles are 2⁻²⁹ m apart: rounding both moves a point by √2 · 2⁻³⁰ = 1.4e-9 m at most.
+// The fine grid adds √2 · 2⁻³⁷ = 1e-11 m, and n · p 4 u of coordinates from the origin, 5e-13 m for 1 km.
+constexpr double off_line = 2e-9;
+/// Lines that are off by that each and turn by α meet 2 · 2e-9 / sin α from where they should: 1e-5 m from 4e-4 rad on,
+/// a twentieth of the turns that are kept at all (`merge_angle`).
+constexpr double off_corner = 1e-5;
+/// What counts as exactly on a chord, in the tally alone.
+constexpr double on_chord = 1e-9;
+
+// Shares of the tolerance. One half is for straightening (`Care::straighten`) and for chains of parallel neighbours,
+// the other for what lines do that are put on the grid and share directions; measure() has the last word on the sum.
+
 /// Where two lines meet, times `divisor` in quanta: whole numbers below 2^122.
 struct Corner {
   Int128 x = 0, y = 0, divisor = 1;
-  Point2 at;  ///< metres; off by less than 2^-51 of the coordinate
+  Point2 at;  ///< metres; off by less than 2^-51 of the coordinate: two conversions and a quotient, 3 · 2^-53
 
   [[nodiscard]] auto exact() const -> ExactPoint {
     const auto quotient = [this](Int128 value) {
@@ -143,7 +156,6 @@ class Lines {
   // ---- a source that is canonical already
   /// Every run on a line of the table and the grid to within the rounding of its corners: then those lines are taken.
   [[nodiscard]] auto lies_on_exact_lines() -> bool {
-    constexpr double rounding = 2e-9;
     const auto kept = runs_;
     for (std::size_t r = 0; r < runs_.size(); ++r)
       for (Run& run : runs_[r]) {
@@ -151,7 +163,7 @@ class Lines {
         const Point2 n = left_of(run.direction.approximate());
         run.offset = std::llrint(dot(n, point(r, run.first)) / quantum);
         for (std::size_t i = run.first; i <= run.last; ++i)
-          if (std::abs(dot(n, point(r, i)) - static_cast<double>(run.offset) * quantum) > rounding) {
+          if (std::abs(dot(n, point(r, i)) - static_cast<double>(run.offset) * quantum) > off_line) {
             runs_ = kept;
             return false;
           }
@@ -167,7 +179,7 @@ class Lines {
       place_corners();
       for (std::size_t r = 0; r < runs_.size(); ++r)
         for (std::size_t i = 0; i < runs_[r].size(); ++i)
-          if (length(corners_[r][i].at - point(r, runs_[r][i].first)) > 1e-5 || turns_round(r, i, shortest))
+          if (length(corners_[r][i].at - point(r, runs_[r][i].first)) > off_corner || turns_round(r, i, shortest))
             return false;
       return measure();
     };
@@ -181,7 +193,8 @@ class Lines {
   /// Every round joins runs, gives one its own direction or drops one, so this ends.
   [[nodiscard]] auto settle() -> bool {
     for (;;) {
-      share_directions(grid_, runs_, std::min(1e-3, options_.tolerance / 16));
+      share_directions(grid_, runs_, std::min(options_.lines.share_move, options_.tolerance / 16),
+                       options_.lines.share_turn);
       if (settle_parallel_neighbours()) continue;
       if (!why_.empty()) return false;
       for (std::size_t r = 0; r < runs_.size(); ++r)
@@ -440,9 +453,9 @@ class Lines {
     double from, to;  ///< along the line, quanta; whole but at the ends of the run
   };
 
-  /// The stretches of one profile along a run. Those under a millimetre go to their neighbours, half each.
+  /// The stretches of one profile along a run. Those under `min_stretch` go to their neighbours, half each.
   [[nodiscard]] auto stretches(std::size_t r, std::size_t i) -> std::vector<Stretch> {
-    constexpr double least = 64;
+    const double least = options_.lines.min_stretch / quantum;
     const Run& run = runs_[r][i];
     const Point2 d = run.direction.approximate();
     const double start = dot(d, corners_[r][i].at) / quantum, end = dot(d, end_of(r, i).at) / quantum;
@@ -520,11 +533,10 @@ class Lines {
     count_merges();
   }
   void count_merges() {
-    constexpr double straight = 1e-9;
     for (std::size_t r = 0; r < runs_.size(); ++r)
       for (const Run& run : runs_[r])
         for (std::size_t i = run.first + 1; i < run.last; ++i)
-          ++(distance_to(point(r, i - 1), point(r, i + 1), point(r, i)) > straight ? out_.tally.straightened
+          ++(distance_to(point(r, i - 1), point(r, i + 1), point(r, i)) > on_chord ? out_.tally.straightened
                                                                                    : out_.tally.collinear);
   }
 

@@ -8,7 +8,9 @@
 
 namespace mansard::extrude::detail {
 
-/// No edge is shorter, m; and unless there is no other way, none is that does not lie on exact lines already.
+/// No edge is shorter, m; and unless there is no other way, none is that does not lie on exact lines already. The first
+/// is 1 µm: a sixteenth of a quantum, and 500 times what corners in doubles are off by (2⁻³⁰ m for outlines 4,000 km
+/// wide). The second is four quanta: an edge whose ends are rounded to the grid keeps its direction to a quarter.
 inline constexpr double shortest = 0x1.0p-20, shortest_made = 0x1.0p-14;
 
 struct Care {

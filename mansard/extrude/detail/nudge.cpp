@@ -5,6 +5,7 @@
 
 #include "mansard/base/text.hpp"
 #include "mansard/extrude/detail/footprint.hpp"
+#include "mansard/extrude/detail/lines.hpp"
 
 namespace mansard::extrude::detail {
 namespace {
@@ -66,7 +67,7 @@ auto moved_inward(Footprint& footprint, int step, int modulus) -> std::optional<
       corners[i] = ring[i].joint ? *ring[i].joint : corner_of(ring[(i + n - 1) % n], ring[i]);
     for (std::size_t i = 0; i < n; ++i) {
       const Point2 a = rounded(corners[i]), b = rounded(corners[(i + 1) % n]);
-      if (dot(ring[i].direction.approximate(), b - a) < 0x1.0p-20) return std::nullopt;
+      if (dot(ring[i].direction.approximate(), b - a) < shortest) return std::nullopt;
       // Between the feet of the old corners the outline moved with its line; past them, towards its neighbour's.
       const Point2 before = rounded(old[(i + n - 1) % n]), here = rounded(old[i]), after = rounded(old[(i + 1) % n]);
       const Point2 was = rounded(corners[(i + n - 1) % n]);

@@ -10,12 +10,15 @@
 
 namespace mansard::extrude::detail {
 
+/// u: a double nearest to a number is off by no more than this times the number.
+inline constexpr double unit_roundoff = 0x1.0p-53;
+
 using Rational = mpq_class;
 __extension__ typedef __int128 Int128;
 __extension__ typedef unsigned __int128 UInt128;
 
 /// Whole numbers of up to 512 bits without allocation: the second tier of the predicates. Arithmetic is unchecked;
-/// see Plane::narrow for why nothing overflows.
+/// see `most_bits` in plane.cpp for why nothing overflows.
 using Wide = boost::multiprecision::number<
     boost::multiprecision::cpp_int_backend<512, 512, boost::multiprecision::signed_magnitude,
                                            boost::multiprecision::unchecked, void>,

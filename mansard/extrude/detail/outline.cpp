@@ -23,12 +23,14 @@ struct Edge {
   std::size_t ring, index, size;
 };
 
-/// Doubles are off by at most `off`.
+/// Exact. Doubles are off by at most `off` / 2, so that differences are off by `off` and 1 u of their own, their
+/// products by off (|u| + |v|) + off² and 3 u of theirs, and the difference of these by 1 u more: off (|u| + |v| + 2
+/// off) + 4 u (|left| + |right|). The bound is three times the first; 2^-51 is 4 u, and the first has the room for the
+/// rounding of the bound, since |u| and |v| are at most 2^53 off.
 auto side(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, Point2 da, Point2 db, Point2 dc, double off)
     -> int {
   const Point2 u = db - da, v = dc - da;
   const double left = u.x * v.y, right = u.y * v.x, area = left - right;
-  // Each difference is off by 2 · off and its own rounding, which the factor 3 covers as well.
   const double bound = 3 * off * (std::abs(u.x) + std::abs(u.y) + std::abs(v.x) + std::abs(v.y) + 3 * off) +
                        0x1.0p-51 * (std::abs(left) + std::abs(right));
   if (std::abs(area) > bound) return area > 0 ? 1 : -1;
@@ -54,7 +56,7 @@ auto clash_in(const std::vector<std::vector<ExactPoint>>& corners) -> std::optio
       greatest = std::max({greatest, std::abs(rounded.back().back().x), std::abs(rounded.back().back().y)});
     }
   }
-  const double off = 0x1.0p-51 * greatest;  // conversion truncates: within 2^-52
+  const double off = 0x1.0p-51 * greatest;  // conversion truncates: within 2^-52, half of it
   for (std::size_t r = 0; r < corners.size(); ++r) {
     const std::size_t n = corners[r].size();
     for (std::size_t i = 0; i < n; ++i) {

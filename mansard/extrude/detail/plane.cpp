@@ -1,15 +1,28 @@
 #include "mansard/extrude/detail/plane.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace mansard::extrude::detail {
 namespace {
 
-constexpr double eps = 0x1.0p-53;
+/// Of a plane whose predicates fit into 512 bits: bits of A, B and S, and of D. Then
+///   W is six products of A, B, S: 3 · 72 + 3 = 219 bits; E six of A, B, D: 2 · 72 + 112 + 3 = 259; X and Y six of A or
+///   B, S, D: 259; A X + B Y + S E − D W four of 72 + 259 or 112 + 219: 333; the difference of two times E · W' − E' ·
+///   W: 259 + 219 + 1 = 479, the largest; and `nearest` shifts a numerator of 259 bits so that the quotient has 64: 64
+///   + 219 + 1 = 284.
+/// Planes of the input have: A, B < 2⁴¹ · scale, S < 2⁴¹ · run (2²⁶ quanta for 1 km), scale = rise (2²⁶), D < 2⁴¹ · 2³⁸
+/// · 2²⁶.
 constexpr std::size_t most_bits = 72, most_offset_bits = 112;
 
-auto ratio(const mpz_class& n, const mpz_class& d) -> double { return n.get_d() / d.get_d(); }
+/// Of whole numbers of any size: events upon events make planes whose coefficients are no finite doubles. Both are
+/// truncated to within 2 u, the quotient rounded: 5 u.
+auto ratio(const mpz_class& n, const mpz_class& d) -> double {
+  long n_power = 0, d_power = 0;
+  const double n_digits = mpz_get_d_2exp(&n_power, n.get_mpz_t()), d_digits = mpz_get_d_2exp(&d_power, d.get_mpz_t());
+  return std::ldexp(n_digits / d_digits, static_cast<int>(n_power - d_power));
+}
 
 /// Doubles and narrowness from exact coefficients.
 auto finished(Plane plane, Coefficients<mpz_class> exact) -> Plane {
@@ -63,7 +76,7 @@ struct Triangle {
   [[nodiscard]] auto meet() const -> Meet<Number> { return {X(), Y(), E(), W()}; }
 };
 
-/// A double with a bound: |exact − value| ≤ k · eps · size with k known at the place of use.
+/// A double with a bound: |exact − value| ≤ k · u · size with k known at the place of use.
 struct Bounded {
   double value, size;
   friend auto operator+(Bounded a, Bounded b) -> Bounded { return {a.value + b.value, a.size + b.size}; }
@@ -74,10 +87,17 @@ auto bounded(double v) -> Bounded { return {v, std::abs(v)}; }
 auto bounded(const Plane& p) -> Coefficients<Bounded> {
   return {bounded(p.nx), bounded(p.ny), bounded(p.c), bounded(p.s)};
 }
-/// Of a value made of products of at most four coefficients (8 eps each) and fewer than a dozen sums and products: its
-/// relative error against `size` is below 4 · 8 + 4 + 12 < 64 eps.
+/// Error bound of W and of A X + B Y + S E − D W, relative to `size`, the same with absolute values. Inputs: nx and ny
+/// within 1 u, c and s within 8 u, relative. A minor of A and B: 1 + 1 + 1 u a product, 1 u the difference: 4 u; of A
+/// or B and S: 1 + 8 + 1 + 1 = 11 u. W, E: 8 u for S or D, 1 u the product, 2 u the sums of three: 15 u. X, Y: 8 + 11 +
+/// 1 + 2 = 22 u. The sum of four: at most 8 + 15 + 1 (or 1 + 22 + 1) + 3 = 27 u. `size` itself is computed within as
+/// many u of itself, which is of order u². 32 would do; 64 costs no time.
+constexpr double sign_error = 64 * unit_roundoff;
+/// What underflow takes from at most 30 products: 2⁻¹⁰⁷⁴ each, times three coefficients below 2⁴¹ at most: 2⁻⁹⁴⁶.
+constexpr double underflow = 0x1.0p-900;
+
 auto certain_sign(Bounded b) -> int {
-  const double bound = 64 * eps * b.size + 0x1.0p-900;
+  const double bound = sign_error * b.size + underflow;
   return b.value > bound ? 1 : (b.value < -bound ? -1 : 0);
 }
 

@@ -37,7 +37,9 @@ struct Plane {
   bool narrow = true;                      ///< |A|, |B|, |S| < 2^72, |D| < 2^112: then all predicates stay below 2^479
   Coefficients<Int128> whole{0, 0, 0, 0};  ///< when narrow
   std::shared_ptr<const Coefficients<mpz_class>> unbounded;  ///< when not
-  double nx = 0, ny = 0, c = 0, s = 0;  ///< unit normal, offset and speed in quanta; each within 2^-50 relative
+  /// Unit normal, offset and speed in quanta. nx and ny are within 2^-53, relative: a quotient of whole numbers below
+  /// 2^41. c and s are within 2^-50: two numbers truncated (2^-52 each), a quotient.
+  double nx = 0, ny = 0, c = 0, s = 0;
 
   [[nodiscard]] auto is_static() const -> bool { return narrow ? whole.S == 0 : unbounded->S == 0; }
 };

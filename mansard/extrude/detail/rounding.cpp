@@ -13,7 +13,14 @@ using geometry::Point2;
 using geometry::Point3;
 using Indices = std::vector<std::uint32_t>;
 
-constexpr double short_arc = 1e-3;  // m
+/// m; of the 1e-4 m within which check() takes a face to be planar. Rounding to the 1e-4 m of files takes up to √3 / 2
+/// of that, 8.7e-5 m, where a face looks along all three axes alike, so that this is more than a proof would allow: the
+/// check that follows decides, and a solid that it refuses is made again with every arc.
+constexpr double planar_budget = 4e-5;
+
+/// Pulls a point that its planes leave free towards where it was: planes with an angle α between them weigh sin² α, so
+/// that from 1e-3 rad on they are stronger. What it costs on planes at real angles is a millionth of the way.
+constexpr double hold = 1e-6;
 
 auto normal_of(const FaceNode& node) -> Point3 {
   if (node.kind == model::FaceKind::base || node.kind == model::FaceKind::soffit) return {0, 0, -1};
@@ -40,7 +47,7 @@ auto offsets_of(const model::Solid& solid) -> std::vector<double> {
   return offsets;
 }
 
-auto has_short_arc(const model::Solid& solid) -> bool {
+auto has_short_arc(const model::Solid& solid, double short_arc) -> bool {
   for (const model::Face& face : solid.faces)
     for (const auto& loop : face.loops)
       for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -61,8 +68,8 @@ auto is_corner(const model::Face& face, std::uint32_t v) -> bool {
 /// Draws short arcs together, one after the other, shortest first. Faces that vanish keep their place without loops.
 class Collapse {
  public:
-  Collapse(model::Solid& solid, const std::vector<double>& offsets)
-      : vertices_(solid.vertices), faces_(solid.faces), offsets_(offsets), triangulator_(solid) {
+  Collapse(model::Solid& solid, const std::vector<double>& offsets, double short_arc)
+      : vertices_(solid.vertices), faces_(solid.faces), offsets_(offsets), short_arc_(short_arc), triangulator_(solid) {
     around_.resize(vertices_.size());
     for (std::uint32_t f = 0; f < faces_.size(); ++f)
       for (const auto& loop : faces_[f].loops)
@@ -88,7 +95,7 @@ class Collapse {
         for (std::size_t i = 0; i < loop.size(); ++i) {
           const std::uint32_t a = loop[i], b = loop[(i + 1) % loop.size()];
           const double l = length(vertices_[b] - vertices_[a]);
-          if (a < b && l < short_arc) arcs.emplace_back(l, a, b);
+          if (a < b && l < short_arc_) arcs.emplace_back(l, a, b);
         }
     std::ranges::sort(arcs);
     for (const auto& [l, a, b] : arcs)
@@ -144,7 +151,6 @@ class Collapse {
 
   /// The point nearest to all the planes (least squares), held near `start` where they leave it free.
   [[nodiscard]] auto compromise(const Indices& touched, Point3 start) const -> Point3 {
-    constexpr double hold = 1e-6;
     Point3 x{hold, 0, 0}, y{0, hold, 0}, z{0, 0, hold}, pull;
     for (const std::uint32_t f : touched) {
       const Point3 n = faces_[f].normal;
@@ -169,11 +175,10 @@ class Collapse {
       for (const std::uint32_t f : touched) most = std::max(most, std::abs(dot(faces_[f].normal, p) - offsets_[f]));
       return most;
     };
-    constexpr double allowed = 4e-5;  // of the 1e-4 m within which a face is planar
     Point3 best = pa;
     for (const Point3 p : {pb, 0.5 * (pa + pb), compromise(touched, 0.5 * (pa + pb))})
       if (residual(p) < residual(best)) best = p;
-    if (!(residual(best) <= allowed)) return false;
+    if (!(residual(best) <= planar_budget)) return false;
 
     std::vector<std::vector<Indices>> before;
     for (const std::uint32_t f : touched) before.push_back(faces_[f].loops);
@@ -233,6 +238,7 @@ class Collapse {
   std::vector<Point3>& vertices_;
   std::vector<model::Face>& faces_;
   const std::vector<double>& offsets_;
+  double short_arc_;             ///< m
   std::vector<Indices> around_;  ///< the faces at each vertex
   solid::Triangulator triangulator_;
   std::vector<solid::Corners> triangles_;
@@ -266,7 +272,7 @@ auto on_grid(Point3 p, double grid) -> Point3 {
   return {round(p.x), round(p.y), round(p.z)};
 }
 
-auto rounded(const ExactSurface& surface, const Placement& placement, bool collapse) -> Rounded {
+auto rounded(const ExactSurface& surface, const Placement& placement, double short_arc) -> Rounded {
   Rounded result;
   model::Solid& solid = result.solid;
   solid.vertices = surface.places;
@@ -278,7 +284,7 @@ auto rounded(const ExactSurface& surface, const Placement& placement, bool colla
     solid.faces.push_back(std::move(out));
   }
   const auto offsets = offsets_of(solid);
-  if (collapse && has_short_arc(solid)) result.collapsed = Collapse(solid, offsets).run();
+  if (has_short_arc(solid, short_arc)) result.collapsed = Collapse(solid, offsets, short_arc).run();
   renumber(solid);
 
   const Point3 shift{placement.origin.x, placement.origin.y, placement.base};

@@ -22,9 +22,9 @@ struct Rounded {
 /// The nearest point whose coordinates are multiples of `grid`; the point itself when that is 0.
 [[nodiscard]] auto on_grid(geometry::Point3 p, double grid) -> geometry::Point3;
 
-/// The surface in doubles. With `collapse`, arcs under a millimetre are drawn together first, shortest first, each only
+/// The surface in doubles. Arcs under `short_arc` metres are drawn together first, shortest first, each only
 /// where the surface stays a manifold (the link condition), every face keeps its side and its loops apart (exactly,
 /// seen along the axis nearest to its normal), and no plane is missed by more than 0.04 mm; else it is kept.
-[[nodiscard]] auto rounded(const ExactSurface& surface, const Placement& placement, bool collapse) -> Rounded;
+[[nodiscard]] auto rounded(const ExactSurface& surface, const Placement& placement, double short_arc) -> Rounded;
 
 }  // namespace mansard::extrude::detail

@@ -145,8 +145,8 @@ auto turned(Direction d, int quarters) -> Direction {
 
 }  // namespace
 
-void share_directions(const std::vector<GridRing>& rings, std::vector<std::vector<Run>>& runs, double end_may_move) {
-  constexpr double most_turn = 0.02;
+void share_directions(const std::vector<GridRing>& rings, std::vector<std::vector<Run>>& runs, double end_may_move,
+                      double may_turn) {
   struct Entry {
     Int128 squared;
     Bearing bearing;
@@ -179,7 +179,7 @@ void share_directions(const std::vector<GridRing>& rings, std::vector<std::vecto
     std::vector<std::int64_t> fresh;
     for (std::size_t i = begin; i < end; ++i) {
       const Entry& entry = order[i];
-      const double off = std::min(2 * end_may_move, most_turn * length(entry.vector));
+      const double off = std::min(2 * end_may_move, may_turn * length(entry.vector));
       std::optional<Direction> shared;
       if (!entry.run->own_direction) {
         shared = table.nearest(entry.bearing.k, entry.vector, off);

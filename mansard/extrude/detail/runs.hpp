@@ -33,8 +33,9 @@ struct Run {
 [[nodiscard]] auto straightened(const GridRing& ring, double merge_angle, double allowed) -> std::vector<Run>;
 
 /// Longest first, each run takes the direction of a longer one (or its perpendicular or opposite) where that moves its
-/// ends by no more than `end_may_move` metres; otherwise its own becomes available. The same for mirrored, turned or
-/// renumbered rings, but see bearing_of.
-void share_directions(const std::vector<GridRing>& rings, std::vector<std::vector<Run>>& runs, double end_may_move);
+/// ends by no more than `end_may_move` metres and turns it by no more than `may_turn`; otherwise its own becomes
+/// available. The same for mirrored, turned or renumbered rings, but see bearing_of.
+void share_directions(const std::vector<GridRing>& rings, std::vector<std::vector<Run>>& runs, double end_may_move,
+                      double may_turn);
 
 }  // namespace mansard::extrude::detail

@@ -11,6 +11,20 @@ namespace {
 
 using geometry::Point2;
 
+/// Error bound of a place along an edge at t, beside the errors of the vertex itself (aim.cpp): x0 + x1 t and its
+/// product with a direction have 5 u (|x0| + |y0|) and 5 u |t| (|x1| + |y1|), of which the factor 2 on |t| error1 has
+/// the second; the ends of the interval 1 u (|w| + …). t is the middle of an interval of at least two units in the last
+/// place, so that the moment is within its width of t, rounding included.
+constexpr double place_error = 8 * unit_roundoff;
+
+/// Error bounds of the comparison of areas, quanta and relative. A site is the double nearest to a point below 2³⁸
+/// quanta: 2³⁸ · u = 3e-5. A quiet vertex is off by half of its edge's `span_error0` + |t| `span_error1` at most. Two
+/// ends off by d change a cross product by d (|a| + |b|) + d²; its own rounding is 4 u |a| |b|. Both bounds are some
+/// thirty times larger and more: an edge joined wrongly changes the area by much more (1 mm · 1 mm is 4300 square
+/// quanta).
+constexpr double site_error = 1e-3;
+constexpr double area_error = 1e-9;
+
 /// A stretch of an edge between two sites, or a site and a quiet vertex.
 struct Piece {
   std::uint32_t edge;
@@ -126,8 +140,9 @@ struct Wavefront::Meeting {
       for (auto i = first; i != last; ++i) {
         const WaveEdge& v = wave.edges[i->second];
         const double w = dot(along, wave.position(i->second, t));
-        const double unsure = 2 * (v.error0 + std::abs(t) * v.error1 + v.pace * (wave.now.hi - wave.now.lo)) +
-                              0x1.0p-50 * (std::abs(w) + std::abs(v.x0) + std::abs(v.y0));
+        const double span = wave.now.hi - wave.now.lo;
+        const double unsure = 2 * (v.error0 + std::abs(t) * v.error1 + v.pace * span) +
+                              place_error * (std::abs(w) + std::abs(v.x0) + std::abs(v.y0));
         order.push_back({w - unsure, w + unsure, i->second});
       }
       std::ranges::sort(order, [&](const Along& p, const Along& q) {
@@ -150,7 +165,7 @@ struct Wavefront::Meeting {
       const std::uint32_t r = root(i);
       if (site_of[r] == none) {
         site_of[r] = static_cast<std::uint32_t>(sites.size());
-        const std::uint32_t point = wave.trace_.point({planes[r], wave.terraces_run, wave.height});
+        const std::uint32_t point = wave.trace_.point(wave.traced(planes[r]));
         const geometry::Point3 place = wave.trace_.place(point);
         sites.push_back({planes[r], point, {place.x / quantum, place.y / quantum}});
       }
@@ -310,9 +325,9 @@ struct Wavefront::Meeting {
     const auto add = [&](std::uint32_t edge, Point2 a, Point2 b, double sign) {
       const WaveEdge& e = wave.edges[edge];
       sum += sign * cross(a, b);
-      const double off = 1e-3 + e.span_error0 + std::abs(t) * e.span_error1 +
-                         1e-9 * (std::abs(a.x) + std::abs(a.y) + std::abs(b.x) + std::abs(b.y));
-      unsure += off * (std::abs(a.x) + std::abs(a.y) + std::abs(b.x) + std::abs(b.y) + 1);
+      const double size = std::abs(a.x) + std::abs(a.y) + std::abs(b.x) + std::abs(b.y);
+      const double off = site_error + e.span_error0 + std::abs(t) * e.span_error1 + area_error * size;
+      unsure += off * (size + 1);
     };
     for (const std::uint32_t e : touched)
       add(e, place(site_at(e), e), place(site_at(wave.edges[e].next), wave.edges[e].next), 1);
@@ -399,10 +414,10 @@ auto Wavefront::joint_through(std::uint32_t line, const Triple& at) -> PlaneId {
 
 void Wavefront::close_arc(std::uint32_t edge, PlaneId moment_plane) {
   WaveEdge& e = edges[edge];
-  const bool stands = terraces_run && e.origin_level == level && planes_[start_plane(edge)].is_static() &&
+  const bool stands = terraces_ && e.origin_level == level && planes_[start_plane(edge)].is_static() &&
                       planes_[plane_at(edge)].is_static();
   if (e.origin_moment == moment || stands) return;
-  const std::uint32_t here = trace_.point({{start_plane(edge), plane_at(edge), moment_plane}, terraces_run, height});
+  const std::uint32_t here = trace_.point(traced({start_plane(edge), plane_at(edge), moment_plane}));
   trace_.arc(e.origin, here, edges[e.prev].node, e.node);
   e.origin = here;
   e.origin_moment = moment;

@@ -19,20 +19,23 @@ auto polygon_of(const Source& source) -> geometry::Polygon {
   return polygon;
 }
 
-/// What is wrong with a profile; nothing if it is as Plan defines it. Rounding below a nanometre is let pass.
+/// Error bound, m: profiles reach 1e6 m at most, where doubles are 1.2e-10 m apart; a few sums of such are below 1e-9
+/// m.
+constexpr double profile_rounding = 1e-9;
+
+/// What is wrong with a profile; nothing if it is as Plan defines it. Rounding is let pass.
 auto fault_of(const model::Profile& profile) -> const char* {
-  constexpr double rounding = 1e-9;
   if (profile.size() < 2) return "has fewer than two points";
   for (const auto& p : profile) {
     if (!std::isfinite(p.inward) || !std::isfinite(p.height)) return "has a point that is not finite";
     if (std::max(std::abs(p.inward), std::abs(p.height)) > 1e6)
       return "reaches beyond 1,000 km; profiles are in metres";
   }
-  if (std::abs(profile[0].inward) > rounding || std::abs(profile[0].height) > rounding)
+  if (std::abs(profile[0].inward) > profile_rounding || std::abs(profile[0].height) > profile_rounding)
     return "does not start at (0, 0)";
   for (std::size_t i = 1; i < profile.size(); ++i) {
-    if (profile[i].inward < profile[i - 1].inward - rounding) return "leans outwards";
-    if (profile[i].height < profile[i - 1].height - rounding) return "goes down";
+    if (profile[i].inward < profile[i - 1].inward - profile_rounding) return "leans outwards";
+    if (profile[i].height < profile[i - 1].height - profile_rounding) return "goes down";
   }
   return nullptr;
 }
@@ -143,8 +146,8 @@ auto prepared(const model::Plan& plan) -> base::Result<Source> {
       return base::error(r == 0 ? "extrude-no-area" : "extrude-not-simple",
                          ring_name(r) + " has fewer than three different corners; remove it");
   }
-  constexpr double least_area = 1e-6 / grid_step / grid_step;
-  constexpr std::size_t most = 100;
+  constexpr double least_area = 1e-6 / grid_step / grid_step;  // a square millimetre: no building
+  constexpr std::size_t most = 100;                            // meetings that are counted for the message
   const Meetings meetings = meetings_of(grid, most);
   if (std::abs(twice_area(grid[0])) < 2 * least_area)
     return base::error("extrude-no-area", "the outline near " + text(rings[0]->points[0]) + " encloses no area" +

@@ -2,21 +2,11 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
 #include <tuple>
 
+#include "mansard/extrude/detail/chart.hpp"
+
 namespace mansard::extrude::detail {
-
-namespace {
-
-auto exact_place(const Planes& planes, const TracePoint& point) -> ExactPlace {
-  Planes::Exact e = planes.exact(point.planes);
-  const auto metres = [](Rational quanta) -> Rational { return quanta / quanta_per_metre; };
-  return {metres(std::move(e.x)), metres(std::move(e.y)),
-          metres(point.on_level ? Rational(mpz_class(point.level)) : std::move(e.t))};
-}
-
-}  // namespace
 
 auto ExactSurface::exact(std::uint32_t point) const -> ExactPlace { return exact_place(planes, points[point]); }
 
@@ -60,122 +50,6 @@ void Trace::cut_at(std::int64_t level) {
 }
 
 namespace {
-
-using Loop = std::vector<std::uint32_t>;
-
-/// Exact coordinates, computed where doubles leave a question open.
-class Places {
- public:
-  Places(const Planes& planes, const std::vector<TracePoint>& points, const std::vector<geometry::Point3>& places)
-      : planes_(planes), points_(points), places_(places), exact_(points.size()) {}
-
-  [[nodiscard]] auto nearest(std::uint32_t i) const -> geometry::Point3 { return places_[i]; }
-  [[nodiscard]] auto operator()(std::uint32_t i) const -> const ExactPlace& {
-    if (!exact_[i]) exact_[i] = exact_place(planes_, points_[i]);
-    return *exact_[i];
-  }
-  [[nodiscard]] auto same(std::uint32_t i, std::uint32_t j) const -> bool {
-    if (places_[i] != places_[j]) return false;
-    const ExactPlace &p = (*this)(i), &q = (*this)(j);
-    return p.x == q.x && p.y == q.y && p.z == q.z;
-  }
-
- private:
-  const Planes& planes_;
-  const std::vector<TracePoint>& points_;
-  const std::vector<geometry::Point3>& places_;
-  mutable std::vector<std::optional<ExactPlace>> exact_;
-};
-
-/// The bound on x1 · y1 − x2 · y2 of differences of nearest doubles, each of which is off by half a unit of its size.
-auto certain(double left, double right, double coordinate, double extent) -> int {
-  const double unsure = 0x1.0p-50 * (std::abs(left) + std::abs(right)) + 0x1.0p-50 * coordinate * extent;
-  const double value = left - right;
-  return value > unsure ? 1 : (value < -unsure ? -1 : 0);
-}
-
-/// The face's own plane, seen from outside, in exact coordinates.
-class Chart {
- public:
-  Chart(const Places& places, const FaceNode& node) : places_(places), node_(node) {
-    upright_ = node.kind == model::FaceKind::connector || (node.kind == model::FaceKind::side && node.slope == 0);
-    looks_down_ = node.kind == model::FaceKind::base || node.kind == model::FaceKind::soffit;
-    along_ = node.direction.approximate();
-  }
-
-  [[nodiscard]] auto operator()(std::uint32_t i) const -> ExactPoint {
-    const ExactPlace& p = places_(i);
-    if (looks_down_) return {p.y, p.x};
-    if (!upright_) return {p.x, p.y};
-    return {Rational(node_.direction.a) * p.x + Rational(node_.direction.b) * p.y, p.z * node_.direction.l};
-  }
-  [[nodiscard]] auto nearly(std::uint32_t i) const -> geometry::Point2 {
-    const geometry::Point3 p = places_.nearest(i);
-    if (looks_down_) return {p.y, p.x};
-    if (!upright_) return {p.x, p.y};
-    return {along_.x * p.x + along_.y * p.y, p.z};
-  }
-
-  /// Sign of (q − p) × (r − o).
-  [[nodiscard]] auto cross_sign(std::uint32_t p, std::uint32_t q, std::uint32_t o, std::uint32_t r) const -> int {
-    const geometry::Point2 a = nearly(p), b = nearly(q), c = nearly(o), d = nearly(r);
-    const double size = std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y), std::abs(c.x),
-                                  std::abs(c.y), std::abs(d.x), std::abs(d.y)});
-    const double extent =
-        std::abs(b.x - a.x) + std::abs(b.y - a.y) + std::abs(d.x - c.x) + std::abs(d.y - c.y) + size * 0x1.0p-50;
-    if (const int sure = certain((b.x - a.x) * (d.y - c.y), (b.y - a.y) * (d.x - c.x), 8 * size, extent); sure != 0)
-      return sure;
-    const ExactPoint P = (*this)(p), Q = (*this)(q), O = (*this)(o), R = (*this)(r);
-    return sgn(Rational((Q.x - P.x) * (R.y - O.y) - (Q.y - P.y) * (R.x - O.x)));
-  }
-  [[nodiscard]] auto dot_sign(std::uint32_t p, std::uint32_t q, std::uint32_t o, std::uint32_t r) const -> int {
-    const ExactPoint P = (*this)(p), Q = (*this)(q), O = (*this)(o), R = (*this)(r);
-    return sgn(Rational((Q.x - P.x) * (R.x - O.x) + (Q.y - P.y) * (R.y - O.y)));
-  }
-
-  /// +1 counter-clockwise, judged at the loop's lowest leftmost corner, which is never straight.
-  [[nodiscard]] auto orientation(const Loop& loop) const -> int {
-    std::size_t least = 0;
-    for (std::size_t i = 1; i < loop.size(); ++i)
-      if (before(loop[i], loop[least])) least = i;
-    const std::size_t n = loop.size();
-    const std::uint32_t a = loop[(least + n - 1) % n], b = loop[least], c = loop[(least + 1) % n];
-    return cross_sign(a, b, b, c);
-  }
-
-  /// Whether the point lies in the loop: 1 inside, 0 on it, −1 outside.
-  [[nodiscard]] auto side(const Loop& loop, std::uint32_t point) const -> int {
-    const ExactPoint p = (*this)(point);
-    bool inside = false;
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      const std::uint32_t from = loop[i], to = loop[(i + 1) % loop.size()];
-      const double slack = 1e-6, y = nearly(point).y;
-      if (std::max(nearly(from).y, nearly(to).y) < y - slack || std::min(nearly(from).y, nearly(to).y) > y + slack)
-        continue;
-      const ExactPoint a = (*this)(from), b = (*this)(to);
-      const int area = sgn(Rational((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x)));
-      if (area == 0 && std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x) && std::min(a.y, b.y) <= p.y &&
-          p.y <= std::max(a.y, b.y))
-        return 0;
-      if ((a.y > p.y) != (b.y > p.y) && (area > 0) == (b.y > a.y)) inside = !inside;
-    }
-    return inside ? 1 : -1;
-  }
-
- private:
-  /// By x, then by y.
-  [[nodiscard]] auto before(std::uint32_t i, std::uint32_t j) const -> bool {
-    const double slack = 1e-6, x = nearly(i).x - nearly(j).x;
-    if (std::abs(x) > slack) return x < 0;
-    const ExactPoint p = (*this)(i), q = (*this)(j);
-    return p.x < q.x || (p.x == q.x && p.y < q.y);
-  }
-
-  const Places& places_;
-  const FaceNode& node_;
-  bool upright_, looks_down_;
-  geometry::Point2 along_;
-};
 
 /// The directed boundary edges of one face, sorted by start.
 using Boundary = std::vector<std::pair<std::uint32_t, std::uint32_t>>;

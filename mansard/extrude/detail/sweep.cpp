@@ -267,27 +267,29 @@ class Sweep {
     return found;
   }
 
+  /// Of a line on a terrace.
+  [[nodiscard]] auto motion_of(std::uint32_t line) -> TerraceMotion {
+    const Course& c = courses_[line];
+    const Rational offset = (c.edge->offset + c.now().inward) * quanta_per_metre, run = c.now().run * quanta_per_metre;
+    return {trace_.planes.add(plane_of(c.edge->direction, offset, run)), c.now().run};
+  }
+
   /// Terraces run at one height in a second time τ from 0 to 1: only they move, at the speed of their run.
   void run_terraces(const std::vector<std::uint32_t>& entering) {
     trace_.cut_at(wave_.height);
     const auto runs = [&](std::uint32_t line) { return courses_[line].now().horizontal; };
     const Edges terraces = edges_where(runs);
     change_faces(terraces);
-    for (const std::uint32_t i : terraces) {
-      Line& line = wave_.lines[wave_.edges[i].line];
-      if (line.on_level == wave_.level) continue;
-      const Course& c = courses_[wave_.edges[i].line];
-      line.on_level = wave_.level;
-      line.run = c.now().run;
-      line.level_plane = trace_.planes.add(
-          plane_of(line.direction, (c.edge->offset + c.now().inward) * quanta_per_metre, line.run * quanta_per_metre));
-    }
-    wave_.enter_terraces();
-    wave_.connect_all();
-    const bool left = pass_events(fraction_of(1), [] {});
-    moment_plane_ = trace_.planes.add(moment_plane(1));
-    if (left) change_faces_to(entering);
-    wave_.leave_terraces();
+    std::map<std::uint32_t, TerraceMotion> moving;
+    for (const std::uint32_t i : terraces)
+      if (const std::uint32_t line = wave_.edges[i].line; !moving.contains(line)) moving[line] = motion_of(line);
+    bool left = false;
+    wave_.run_terraces(moving, [&] {
+      wave_.connect_all();
+      left = pass_events(fraction_of(1), [] {});
+      moment_plane_ = trace_.planes.add(moment_plane(1));
+      if (left) change_faces_to(entering);
+    });
     moment_plane_ = trace_.planes.add(moment_plane(wave_.height));
     if (left) enter_speeds(entering);
   }

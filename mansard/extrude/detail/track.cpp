@@ -15,9 +15,13 @@ struct Knot {
   }
 };
 
-/// Without the knots that lie within four quanta of a chord past them: that is rounding, not design.
+/// Error bound, quanta, of a knot on a chord past it: rounding moves the knot and both ends by half a quantum in each
+/// coordinate, √2 / 2 each, so that knot and chord are apart by √2 at most. Knots within 4 (61 µm) are rounding, not
+/// design.
+constexpr double straight = 4;
+
+/// Without the knots that are on a chord past them.
 auto thinned(const std::vector<Knot>& knots) -> std::vector<Knot> {
-  constexpr double straight = 4;
   std::vector<Knot> kept{knots.front()};
   for (std::size_t from = 0; from + 1 < knots.size();) {
     const auto chord_holds = [&](std::size_t to) {

@@ -85,23 +85,23 @@ void Wavefront::changed(std::uint32_t edge) {
   start_changed(edges[edge].next);
 }
 
-auto Wavefront::speed_of(const Line& line) const -> const Rational& {
+auto Wavefront::speed_of(std::uint32_t line) const -> const Rational& {
   static const Rational rest = 0;
-  if (!terraces_run) return line.speed;
-  return line.on_level == level ? line.run : rest;
+  if (!terraces_) return lines[line].speed;
+  const TerraceMotion* motion = terraces_->motion_of(line);
+  return motion != nullptr ? motion->run : rest;
 }
 
 auto Wavefront::plane_at(std::uint32_t edge) -> PlaneId {
-  Line& line = lines[edges[edge].line];
-  if (!terraces_run) return line.plane;
-  if (line.on_level != level) {
-    if (planes_[line.plane].is_static()) return line.plane;
-    line.on_level = level;
-    line.run = 0;
-    line.level_plane = planes_.add(at_rest(planes_[line.plane], height));
-  }
-  return line.level_plane;
+  const std::uint32_t line = edges[edge].line;
+  const PlaneId rising = lines[line].plane;
+  if (!terraces_) return rising;
+  if (const TerraceMotion* motion = terraces_->motion_of(line)) return motion->plane;
+  if (planes_[rising].is_static()) return rising;
+  if (line >= terraces_->motions.size()) terraces_->motions.resize(lines.size());
+  return terraces_->motions[line].plane = planes_.add(at_rest(planes_[rising], height));
 }
+
 auto Wavefront::start_plane(std::uint32_t edge) -> PlaneId {
   const WaveEdge& e = edges[edge];
   return e.joint != none ? e.joint : plane_at(e.prev);
@@ -126,12 +126,13 @@ void Wavefront::connect(std::uint32_t edge) {
     changed(before);
     return;
   }
-  if (speed_of(behind) == speed_of(line)) return;
+  const Rational &speed_behind = speed_of(edges[before].line), &speed = speed_of(edges[edge].line);
+  if (speed_behind == speed) return;
 
   Line connector;
   connector.motions = none;
-  const bool steps_out = speed_of(behind) > speed_of(line);  // the edge before runs ahead: step back outwards to this
-  const Plane joint = planes_[edges[edge].joint];            // of the direction turned left
+  const bool steps_out = speed_behind > speed;     // the edge before runs ahead: step back outwards to this
+  const Plane joint = planes_[edges[edge].joint];  // of the direction turned left
   connector.plane = steps_out ? planes_.add(flipped(joint)) : edges[edge].joint;
   connector.direction = planes_[connector.plane].direction;
   const std::uint32_t node = trace_.node({model::FaceKind::connector, {}, connector.direction, 0});
@@ -159,16 +160,17 @@ void Wavefront::connect_all() {
   connect_pending();
 }
 
-void Wavefront::enter_terraces() {
+void Wavefront::enter_terraces(const std::map<std::uint32_t, TerraceMotion>& moving) {
   refresh();
-  terraces_run = true;
-  waiting_ = std::exchange(queue_, {});
-  rise_horizon_ = std::exchange(horizon, 1);
+  Terraces& terraces = terraces_.emplace();
+  terraces.motions.resize(lines.size());
+  for (const auto& [line, motion] : moving) terraces.motions[line] = motion;
+  terraces.waiting = std::exchange(queue_, {});
+  terraces.rise_horizon = std::exchange(horizon, 1);
   now = fraction_of(0);
-  touched_.clear();
   aim_all();
   ++refreshes_;
-  const auto moves = [&](std::uint32_t line) { return speed_of(lines[line]) != 0; };
+  const auto moves = [&](std::uint32_t line) { return speed_of(line) != 0; };
   for (const Tip& tip : tips_) {
     WaveEdge& v = edges[tip.edge];
     if (!moves(v.line) && !moves(edges[v.prev].line)) continue;
@@ -185,73 +187,14 @@ void Wavefront::enter_terraces() {
 
 void Wavefront::leave_terraces() {
   refresh();
-  terraces_run = false;
-  horizon = rise_horizon_;
+  Terraces over = std::move(*terraces_);
+  terraces_.reset();
+  horizon = over.rise_horizon;
   now = fraction_of(height);
-  queue_ = std::exchange(waiting_, {});
+  queue_ = std::move(over.waiting);
   aim_all();
-  for (const std::uint32_t i : touched_)
+  for (const std::uint32_t i : over.touched)
     if (edges[i].line != none) changed(i);
-  touched_.clear();
-}
-
-auto Wavefront::seen_plane(PlaneId plane) const -> Seen {
-  const Plane& p = planes_[plane];
-  return {p.nx, p.ny, p.c, p.s, std::abs(p.c), &p.direction};
-}
-
-auto Wavefront::seen(std::uint32_t index) const -> Seen {
-  const Line& line = lines[index];
-  if (!terraces_run) return seen_plane(line.plane);
-  if (line.on_level == level) return seen_plane(line.level_plane);
-  const Plane& p = planes_[line.plane];
-  const double moved = p.s * static_cast<double>(height);
-  return {p.nx, p.ny, p.c + moved, 0, std::abs(p.c) + std::abs(moved), &p.direction};
-}
-
-namespace {
-constexpr double eps = 0x1.0p-53;
-}
-
-void Wavefront::aim_vertex(std::uint32_t edge) {
-  WaveEdge& e = edges[edge];
-  const Seen p = e.joint != none ? seen_plane(e.joint) : seen(edges[e.prev].line), m = seen(e.line);
-  const Int128 turned = cross(*p.direction, *m.direction);
-  if (turned == 0) throw Broken("parallel neighbours in the wavefront");
-  const double sine =
-      static_cast<double>(turned) / (static_cast<double>(p.direction->l) * static_cast<double>(m.direction->l));
-  e.x0 = (p.c * m.ny - p.ny * m.c) / sine;
-  e.x1 = (p.s * m.ny - p.ny * m.s) / sine;
-  e.y0 = (p.nx * m.c - p.c * m.nx) / sine;
-  e.y1 = (p.nx * m.s - p.s * m.nx) / sine;
-  // Coefficients are within 16 eps of their size, and there are two products, a difference and a quotient.
-  e.error0 = 64 * eps * (p.size + m.size) / std::abs(sine);
-  e.error1 = 64 * eps * (std::abs(p.s) + std::abs(m.s)) / std::abs(sine);
-  e.pace = std::abs(e.x1) + std::abs(e.y1) + e.error1;
-  set_pointed(edge, turned < 0 || e.joint != none);
-}
-
-void Wavefront::aim_edge(std::uint32_t edge) {
-  WaveEdge& e = edges[edge];
-  const WaveEdge& end = edges[e.next];
-  const Seen m = seen(e.line);
-  fronts_[e.place] = {m.nx, m.ny, m.c, m.s, m.size, edge};
-  const double ux = m.ny, uy = -m.nx;
-  e.from0 = ux * e.x0 + uy * e.y0;
-  e.from1 = ux * e.x1 + uy * e.y1;
-  e.to0 = ux * end.x0 + uy * end.y0;
-  e.to1 = ux * end.x1 + uy * end.y1;
-  const double size0 = std::abs(e.x0) + std::abs(e.y0) + std::abs(end.x0) + std::abs(end.y0);
-  const double size1 = std::abs(e.x1) + std::abs(e.y1) + std::abs(end.x1) + std::abs(end.y1);
-  e.span_error0 = 2 * (e.error0 + end.error0) + 16 * eps * size0;
-  e.span_error1 = 2 * (e.error1 + end.error1) + 16 * eps * size1;
-  e.span_pace = e.pace + end.pace;
-}
-
-void Wavefront::aim_all() {
-  const std::vector<std::uint32_t> all = alive();
-  for (const std::uint32_t i : all) aim_vertex(i);
-  for (const std::uint32_t i : all) aim_edge(i);
 }
 
 void Wavefront::refresh() {
@@ -280,7 +223,7 @@ void Wavefront::refresh() {
   for (const std::uint32_t i : stretched) {
     ++edges[i].edge_stamp;
     aim_edge(i);
-    if (terraces_run) touched_.push_back(i);
+    if (terraces_) terraces_->touched.push_back(i);
   }
   for (const std::uint32_t i : stretched) try_collapse(i);
   for (const std::uint32_t v : vertices) {
@@ -294,57 +237,6 @@ void Wavefront::refresh() {
     for (const Tip& tip : tips_)
       if (edges[tip.edge].scanned != refreshes_) try_hit(tip, front);
   }
-}
-
-void Wavefront::try_collapse(std::uint32_t edge) {
-  const WaveEdge& e = edges[edge];
-  const double growth = e.to1 - e.from1, unsure = e.span_error1 + 4 * eps * (std::abs(e.to1) + std::abs(e.from1));
-  if (growth > unsure) return;
-  if (e.span_pace == 0) return;
-  const double length = e.to0 - e.from0;
-  if (growth >= -4 * unsure) return push(now.lo, horizon, {edge, edge}, false);
-  const double t = -length / growth;
-  const double off =
-      1.5 * (e.span_error0 + 4 * eps * (std::abs(e.to0) + std::abs(e.from0)) + std::abs(t) * unsure) / -growth +
-      4 * eps * std::abs(t);
-  push(t - off, t + off, {edge, edge}, t - off > now.hi);
-}
-
-auto Wavefront::never_meet(std::uint32_t vertex, std::uint32_t edge) const -> bool {
-  const WaveEdge &v = edges[vertex], &e = edges[edge];
-  const Line& line = lines[e.line];
-  const Rational& speed = speed_of(line);
-  const bool still = speed == 0;
-  if (v.pace == 0 && still) return true;
-  const auto keeps_off = [&](const Line& other) {
-    return (other.towards == line.towards && speed_of(other) == speed) ||
-           (other.towards == line.away && still && speed_of(other) == 0);
-  };
-  return keeps_off(lines[v.line]) || (v.joint == none && keeps_off(lines[edges[v.prev].line]));
-}
-
-void Wavefront::try_hit(const Tip& v, const Front& e) {
-  const double approach = e.nx * v.x1 + e.ny * v.y1 - e.s;
-  const double unsure1 = 2 * v.error1 + 32 * eps * (v.pace + std::abs(e.s));
-  if (approach > unsure1 || v.edge == e.edge) return;
-  const WaveEdge& edge = edges[e.edge];
-  if (edge.next == v.edge) return;
-  if (approach >= -4 * unsure1) {
-    if (!never_meet(v.edge, e.edge)) push(now.lo, horizon, {v.edge, e.edge}, false);
-    return;
-  }
-  const double gap = e.nx * v.x0 + e.ny * v.y0 - e.c;
-  const double t = -gap / approach;
-  const double unsure0 = 2 * v.error0 + 32 * eps * (std::abs(v.x0) + std::abs(v.y0) + e.size);
-  const double off = 1.5 * (unsure0 + std::abs(t) * unsure1) / -approach + 4 * eps * std::abs(t);
-  if (t + off < now.lo || t - off > horizon) return;
-  const double w = e.ny * (v.x0 + v.x1 * t) - e.nx * (v.y0 + v.y1 * t);
-  const double margin = 2 * (v.error0 + std::abs(t) * v.error1 + v.pace * off) + edge.span_error0 +
-                        std::abs(t) * edge.span_error1 + edge.span_pace * off + unsure0;
-  const double from = edge.from0 + edge.from1 * t, to = edge.to0 + edge.to1 * t;
-  if (w < from - margin || w > to + margin) return;
-  const bool inside = w > from + margin && w < to - margin;
-  push(t - off, t + off, {v.edge, e.edge, inside}, inside && t - off > now.hi);
 }
 
 // ---- the queue

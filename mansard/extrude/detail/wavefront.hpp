@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "mansard/extrude/detail/plane.hpp"
@@ -17,11 +18,12 @@ struct Line {
   Rational speed;                             ///< inward, run over rise
   std::uint32_t motions = 0;                  ///< equal for lines that coincide for ever
   std::uint32_t towards = none, away = none;  ///< numbers of the direction and its opposite; set by Wavefront::add
+};
 
-  // While terraces run, lines of that level stand still, or move at the speed of their run.
-  std::uint64_t on_level = 0;  ///< the level that what follows is about
-  PlaneId level_plane = none;
-  Rational run;
+/// How a line moves while terraces run: over τ, not over the height.
+struct TerraceMotion {
+  PlaneId plane = none;
+  Rational run;  ///< m, inward, from τ = 0 to τ = 1
 };
 
 /// An edge and its start vertex.
@@ -65,7 +67,6 @@ class Wavefront {
   Fraction now;
   double horizon = 0;                   ///< later than this nothing counts
   std::uint64_t moment = 1, level = 1;  ///< numbers; a level is one height
-  bool terraces_run = false;            ///< then t is τ from 0 to 1, and the height stands still
   std::int64_t height = 0;              ///< quanta; of the level
 
   /// A free slot; the caller links it, then calls `changed`.
@@ -88,9 +89,15 @@ class Wavefront {
   void connect_pending();
   void connect_all();
 
-  /// Terraces begin and end; in between, lines move by their level planes. The candidates of the rise are kept.
-  void enter_terraces();
-  void leave_terraces();
+  /// Lets terraces run at the present height: while `body` runs, t is τ from 0 to 1, the lines that `moving` names move
+  /// as it says, and all others stand still. Before and after, t is the height and lines move by their own planes; the
+  /// candidates of the rise are kept.
+  template <class Body>
+  void run_terraces(const std::map<std::uint32_t, TerraceMotion>& moving, Body body) {
+    enter_terraces(moving);
+    body();
+    leave_terraces();
+  }
 
   /// The contacts of the next critical moment after `now`, at `limit` at the latest; empty if there is none.
   [[nodiscard]] auto next_contacts(const Fraction& limit, Fraction& when) -> std::vector<Contact>;
@@ -102,7 +109,8 @@ class Wavefront {
   /// Ends the arc of an edge's start vertex at the moment and begins a new one there.
   void close_arc(std::uint32_t edge, PlaneId moment_plane);
 
-  [[nodiscard]] auto speed_of(const Line& line) const -> const Rational&;
+  /// Of a line: inward, over the height or over τ.
+  [[nodiscard]] auto speed_of(std::uint32_t line) const -> const Rational&;
   [[nodiscard]] auto plane_at(std::uint32_t edge) -> PlaneId;
   /// The planes that cut off the edge at its start and end.
   [[nodiscard]] auto start_plane(std::uint32_t edge) -> PlaneId;
@@ -134,6 +142,21 @@ class Wavefront {
   };
   struct Meeting;  // the work of one snapshot
   friend struct Meeting;
+
+  /// The work of run_terraces: exists exactly while its body runs.
+  struct Terraces {
+    std::vector<TerraceMotion> motions;  ///< by line; without a plane: it stands still, and was not asked for yet
+    std::vector<std::uint32_t> touched;  ///< slots whose motion over the height must be found anew afterwards
+    std::vector<Candidate> waiting;      ///< the queue of the rise
+    double rise_horizon = 0;
+    [[nodiscard]] auto motion_of(std::uint32_t line) const -> const TerraceMotion* {
+      return line < motions.size() && motions[line].plane != none ? &motions[line] : nullptr;
+    }
+  };
+  void enter_terraces(const std::map<std::uint32_t, TerraceMotion>& moving);
+  void leave_terraces();
+  /// A point where three planes meet in the time that runs now.
+  [[nodiscard]] auto traced(const Triple& at) const -> TracePoint { return {at, terraces_.has_value(), height}; }
 
   void release(std::uint32_t edge);
   void set_pointed(std::uint32_t edge, bool pointed);
@@ -172,10 +195,9 @@ class Wavefront {
   std::vector<Front> fronts_;  ///< of the slots in use, in no order that means anything
   std::vector<Tip> tips_;
   std::map<Direction, std::uint32_t> directions_;
-  std::vector<std::uint32_t> pending_;      ///< slots made by the last snapshot
-  std::vector<std::uint32_t> touched_;      ///< slots changed while terraces ran
-  std::vector<Candidate> queue_, waiting_;  ///< heaps; `waiting_` is the rise's while terraces run
-  double rise_horizon_ = 0;
+  std::vector<std::uint32_t> pending_;  ///< slots made by the last snapshot
+  std::vector<Candidate> queue_;        ///< a heap
+  std::optional<Terraces> terraces_;
   std::uint64_t refreshes_ = 0;
 };
 

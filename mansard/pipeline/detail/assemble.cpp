@@ -21,9 +21,14 @@ auto made_by(const model::Scene& scene, const Options& options) -> model::MadeBy
   model::MadeBy out;
   out.version = MANSARD_VERSION;
   out.inputs = scene.inputs;
-  Options copy = options;
-  for (const auto& list : option_lists(copy))
-    for (const auto& option : list.options()) out.options.emplace_back(list.module() + "." + option.name, option.get());
+  Options copy = options, defaults;
+  const auto lists = option_lists(copy), usual = option_lists(defaults);
+  for (std::size_t i = 0; i < lists.size(); ++i)
+    for (std::size_t k = 0; k < lists[i].options().size(); ++k) {
+      const auto& option = lists[i].options()[k];
+      const bool told = !option.advanced || option.get() != usual[i].options()[k].get();
+      (told ? out.options : out.usual).emplace_back(lists[i].module() + "." + option.name, option.get());
+    }
   return out;
 }
 

@@ -30,9 +30,9 @@ void each_edge(const Plan& plan, See see) {
 }
 
 /// Heights over the distance from the sides that carry roof.
-auto looks_over(const Plan& plan, const std::vector<bool>& carries, const Site& site) -> std::vector<Look> {
-  constexpr std::size_t enough = 800;  // looks; more would not move a line
-  const std::size_t stride = 1 + site.cells.size() / enough;
+auto looks_over(const Plan& plan, const std::vector<bool>& carries, const Site& site, const Options::Forms& options)
+    -> std::vector<Look> {
+  const std::size_t stride = 1 + site.cells.size() / static_cast<std::size_t>(options.samples);
   const auto eaves = eaves_of(plan, carries);
   std::vector<Look> looks;
   for (std::size_t i = 0; i < site.cells.size(); i += stride) {
@@ -45,11 +45,11 @@ auto looks_over(const Plan& plan, const std::vector<bool>& carries, const Site& 
 }
 
 /// The one line that suits all sides that carry roof.
-auto common_line(std::span<const Look> looks) -> std::optional<RoofLine> {
+auto common_line(std::span<const Look> looks, const Options::Lines& options) -> std::optional<RoofLine> {
   if (looks.empty()) return std::nullopt;
   double mean = 0;
   for (const Look& look : looks) mean += look.height;
-  return line_through(looks, {mean / static_cast<double>(looks.size()), 0});
+  return line_through(looks, {mean / static_cast<double>(looks.size()), 0}, options);
 }
 
 /// Σ weighed squares that the best line leaves of looks, from running sums.
@@ -76,10 +76,9 @@ struct Sums {
 
 /// A steep roof and a flatter one above it, of whatever distance from the sides parts them best. A melted corner, or a
 /// wall behind the outline, looks the same but for its size.
-auto mansard_line(std::vector<Look> looks) -> std::optional<Profile> {
-  constexpr double least_knot = 0.7, most_knot = 3, least_rise = 1.5;  // m; melted corners are smaller
-  constexpr double steep = 1.2, steepest = 5, half = 0.5;  // m per m; and the upper roof is not half as steep
-  constexpr std::size_t fewest = 12;
+auto mansard_line(std::vector<Look> looks, const Options& options) -> std::optional<Profile> {
+  const auto& mansard = options.mansard;
+  const auto fewest = static_cast<std::size_t>(options.lines.min_samples);
   std::ranges::stable_sort(looks, {}, &Look::inward);
   std::vector<Sums> sums(1);
   for (const Look& look : looks) {
@@ -89,8 +88,8 @@ auto mansard_line(std::vector<Look> looks) -> std::optional<Profile> {
   std::size_t best = 0;
   double least = sums.back().left();
   for (std::size_t i = fewest; i + fewest < looks.size(); ++i) {
-    if (looks[i].inward < least_knot / 2) continue;
-    if (looks[i].inward > most_knot) break;
+    if (looks[i].inward < mansard.min_split) continue;
+    if (looks[i].inward > mansard.max_depth) break;
     const double left = sums[i].left() + sums.back().less(sums[i]).left();
     if (left < least) {
       least = left;
@@ -99,13 +98,14 @@ auto mansard_line(std::vector<Look> looks) -> std::optional<Profile> {
   }
   if (best == 0) return std::nullopt;
   const std::span<const Look> all(looks);
-  const auto lower = common_line(all.first(best)), upper = common_line(all.subspan(best));
-  if (!lower || !upper || lower->slope < steep || lower->slope > steepest) return std::nullopt;
-  constexpr double flattest = 0.05;
-  const double slope = std::max(flattest, upper->slope);
-  if (slope > half * lower->slope) return std::nullopt;
+  const auto lower = common_line(all.first(best), options.lines), upper = common_line(all.subspan(best), options.lines);
+  if (!lower || !upper || lower->slope < mansard.min_slope || lower->slope > options.forms.max_slope)
+    return std::nullopt;
+  const double slope = std::max(options.forms.min_slope, upper->slope);
+  if (slope > mansard.upper_share * lower->slope) return std::nullopt;
   const double knot = (upper->at_edge - lower->at_edge) / (lower->slope - slope);
-  if (!(knot > least_knot && knot < most_knot && lower->slope * knot > least_rise && lower->at_edge > 0))
+  if (!(knot > mansard.min_depth && knot < mansard.max_depth && lower->slope * knot > mansard.min_rise &&
+        lower->at_edge > 0))
     return std::nullopt;
   const double height = lower->at_edge + lower->slope * knot;
   return Profile{{0, 0}, {0, lower->at_edge}, {knot, height}, {knot + 1, height + slope}};
@@ -119,23 +119,21 @@ auto middle_height(std::span<const Look> looks) -> double {
 }
 
 /// A level strip and what stands behind it, of whatever depth parts them best.
-auto setback(std::vector<Look> looks) -> std::vector<Profile> {
-  constexpr double least_depth = 0.7, most_depth = 4, seen_behind = 3, least_rise = 0.8;  // m
-  constexpr double lean = 0.8;              // of what one line leaves; a step that explains no more is a slope
-  constexpr double about = 1, along = 0.8;  // m behind the step; share of the looks there that are up
-  constexpr std::size_t fewest = 12;
+auto setback(std::vector<Look> looks, const Options& options) -> std::vector<Profile> {
+  const auto& o = options.setback;
+  const auto fewest = static_cast<std::size_t>(options.lines.min_samples);
   std::ranges::stable_sort(looks, {}, &Look::inward);
-  std::erase_if(looks, [&](const Look& look) { return look.inward > most_depth + seen_behind; });
+  std::erase_if(looks, [&](const Look& look) { return look.inward > o.max_depth + o.behind; });
   std::vector<Sums> sums(1);
   for (const Look& look : looks) {
     sums.push_back(sums.back());
     sums.back().add(look);
   }
   std::size_t best = 0;
-  double least = lean * sums.back().left();
+  double least = o.max_rest * sums.back().left();
   for (std::size_t i = fewest; i + fewest < looks.size(); ++i) {
-    if (looks[i].inward < least_depth) continue;
-    if (looks[i].inward > most_depth) break;
+    if (looks[i].inward < o.min_depth) continue;
+    if (looks[i].inward > o.max_depth) break;
     const double left = sums[i].left_level() + sums.back().less(sums[i]).left();
     if (left < least) {
       least = left;
@@ -145,44 +143,41 @@ auto setback(std::vector<Look> looks) -> std::vector<Profile> {
   if (best == 0) return {};
   const double depth = (looks[best - 1].inward + looks[best].inward) / 2;
   const std::span<const Look> all(looks);
-  const auto behind = common_line(all.subspan(best));
+  const auto behind = common_line(all.subspan(best), options.lines);
   const double low = middle_height(all.first(best));
   if (!behind || !(low > 0)) return {};
   const double high = behind->at_edge + behind->slope * depth;
-  if (high - low < least_rise) return {};
+  if (high - low < o.min_rise) return {};
   // A tower on the roof stands behind a part of the strip only.
   std::size_t seen = 0, upright = 0;
   for (const Look& look : all.subspan(best)) {
-    if (look.inward > depth + about) break;
+    if (look.inward > depth + o.tower_reach) break;
     ++seen;
     upright += look.height > (low + high) / 2 ? 1 : 0;
   }
-  if (static_cast<double>(upright) < along * static_cast<double>(seen)) return {};
+  if (static_cast<double>(upright) < o.tower_share * static_cast<double>(seen)) return {};
   std::vector<Profile> out{{{0, 0}, {0, low}, {depth, low}}};
-  constexpr double flattest = 0.05, steepest = 5;
-  if (behind->slope > flattest && behind->slope < steepest)
+  if (behind->slope > options.forms.min_slope && behind->slope < options.forms.max_slope)
     out.push_back({{0, 0}, {0, low}, {depth, low}, {depth, high}, {depth + 1, high + behind->slope}});
   return out;
 }
 
 /// The directions of the plan's longest sides, of each pair of opposite ones one.
-auto axes_of(const std::vector<Side>& sides) -> std::vector<Point2> {
+auto axes_of(const std::vector<Side>& sides, const Options::Forms& options) -> std::vector<Point2> {
   std::vector<std::size_t> order(sides.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::ranges::stable_sort(order, std::greater<>{}, [&](std::size_t i) { return sides[i].length; });
-  constexpr double alike = 0.9;  // cosine of about 26°
-  constexpr std::size_t most = 3;
   std::vector<Point2> axes;
   for (const std::size_t i : order) {
-    const bool known =
-        std::ranges::any_of(axes, [&](Point2 axis) { return std::abs(dot(axis, sides[i].inward)) > alike; });
-    if (!known && axes.size() < most) axes.push_back(sides[i].inward);
+    const bool known = std::ranges::any_of(
+        axes, [&](Point2 axis) { return std::abs(dot(axis, sides[i].inward)) > options.axis_cosine; });
+    if (!known && std::ssize(axes) < options.max_axes) axes.push_back(sides[i].inward);
   }
   return axes;
 }
 
 /// Sides much shorter than both of their neighbours, at outer corners: where gables stand on bent plans.
-auto ends_of(const Plan& plan, const std::vector<Side>& sides) -> std::vector<bool> {
+auto ends_of(const Plan& plan, const std::vector<Side>& sides, const Options::Forms& options) -> std::vector<bool> {
   std::vector<bool> ends(sides.size(), false);
   const auto& ring = plan.outer;
   const std::size_t n = ring.points.size();
@@ -192,9 +187,8 @@ auto ends_of(const Plan& plan, const std::vector<Side>& sides) -> std::vector<bo
     if (before == here || after == here) continue;
     const double turn_in = cross(sides[before].inward, sides[here].inward);
     const double turn_out = cross(sides[here].inward, sides[after].inward);
-    constexpr double clear_turn = 0.5;
-    ends[here] = turn_in > clear_turn && turn_out > clear_turn &&
-                 sides[here].length < 1.2 * std::min(sides[before].length, sides[after].length);
+    ends[here] = turn_in > options.gable_turn && turn_out > options.gable_turn &&
+                 sides[here].length < options.gable_length * std::min(sides[before].length, sides[after].length);
   }
   return ends;
 }
@@ -219,7 +213,9 @@ auto nearest_eaves(const std::vector<Eaves>& eaves, Point2 at) -> std::optional<
   return nearest;
 }
 
-auto wall(double height) -> Profile { return {{0, 0}, {0, std::max(0.5, height)}}; }
+auto wall(double height, const Options::Forms& options) -> Profile {
+  return {{0, 0}, {0, std::max(options.min_height, height)}};
+}
 
 auto pitched(double gutter, double slope) -> Profile {
   if (!(gutter > 0)) return {{0, 0}, {1, slope}};
@@ -236,7 +232,7 @@ auto sides_of(const Plan& plan) -> std::vector<Side> {
   return sides;
 }
 
-auto setbacks_of(const Plan& plan, const Site& site) -> std::vector<std::vector<Profile>> {
+auto setbacks_of(const Plan& plan, const Site& site, const Options& options) -> std::vector<std::vector<Profile>> {
   const auto eaves = eaves_of(plan, std::vector<bool>(plan.profiles.size(), true));
   std::vector<std::vector<Look>> looks(plan.profiles.size());
   for (std::size_t i = 0; i < site.cells.size(); ++i) {
@@ -246,24 +242,23 @@ auto setbacks_of(const Plan& plan, const Site& site) -> std::vector<std::vector<
       looks[near->profile].push_back({near->inward, site.measured.z[cell], site.weight[i]});
   }
   std::vector<std::vector<Profile>> out;
-  for (auto& of_side : looks) out.push_back(setback(std::move(of_side)));
+  for (auto& of_side : looks) out.push_back(setback(std::move(of_side), options));
   return out;
 }
 
-auto forms_of(const Plan& plan, const Site& site) -> std::vector<Plan> {
+auto forms_of(const Plan& plan, const Site& site, const Options& options) -> std::vector<Plan> {
   std::vector<Plan> out;
   if (site.sorted.empty()) return out;
-  constexpr double clear = 0.5;  // m; above the mesh, so that roofs can close
-  constexpr double least = 0.5;  // m; so that there is a solid at all
+  const auto& forms = options.forms;
   const auto share = [&](double s) {
     return site.sorted[static_cast<std::size_t>(s * static_cast<double>(site.sorted.size() - 1))];
   };
-  const double top = std::max(least, share(0.99) + clear);
+  const double top = std::max(forms.min_height, share(forms.cap_percentile) + forms.cap_clearance);
 
-  for (const double level : {commonest(site.sorted), share(0.5)}) {
+  for (const double level : {commonest(site.sorted, options), share(0.5)}) {
     Plan flat = plan;
-    flat.cap = std::max(least, level);
-    for (auto& profile : flat.profiles) profile = wall(flat.cap);
+    flat.cap = std::max(forms.min_height, level);
+    for (auto& profile : flat.profiles) profile = wall(flat.cap, forms);
     out.push_back(std::move(flat));
   }
 
@@ -272,27 +267,24 @@ auto forms_of(const Plan& plan, const Site& site) -> std::vector<Plan> {
     std::vector<bool> carries(sides.size());
     for (std::size_t p = 0; p < sides.size(); ++p) carries[p] = sides[p].length > 0 && carries_roof(p);
     if (std::ranges::none_of(carries, [](bool c) { return c; })) return;
-    auto looks = looks_over(plan, carries, site);
-    const auto line = common_line(looks);
-    constexpr double flattest = 0.05, steepest = 5.0;
+    auto looks = looks_over(plan, carries, site, forms);
+    const auto line = common_line(looks, options.lines);
     Plan form = plan;
     form.cap = top;
     const auto give = [&](const Profile& roof, double gutter) {
-      for (std::size_t p = 0; p < sides.size(); ++p)
-        form.profiles[p] = carries[p] ? roof : wall(std::max(least, gutter));
+      for (std::size_t p = 0; p < sides.size(); ++p) form.profiles[p] = carries[p] ? roof : wall(gutter, forms);
       out.push_back(form);
     };
-    if (line && line->slope >= flattest && line->slope <= steepest)
+    if (line && line->slope >= forms.min_slope && line->slope <= forms.max_slope)
       give(pitched(line->at_edge, line->slope), line->at_edge);
-    if (const auto roof = mansard_line(std::move(looks))) give(*roof, (*roof)[1].height);
+    if (const auto roof = mansard_line(std::move(looks), options)) give(*roof, (*roof)[1].height);
   };
-  constexpr double across = 0.8;  // cosine of 37°
-  for (const Point2 axis : axes_of(sides)) {
-    propose([&](std::size_t p) { return std::abs(dot(sides[p].inward, axis)) > across; });
-    propose([&](std::size_t p) { return dot(sides[p].inward, axis) > across; });
-    propose([&](std::size_t p) { return dot(sides[p].inward, axis) < -across; });
+  for (const Point2 axis : axes_of(sides, forms)) {
+    propose([&](std::size_t p) { return std::abs(dot(sides[p].inward, axis)) > forms.across_cosine; });
+    propose([&](std::size_t p) { return dot(sides[p].inward, axis) > forms.across_cosine; });
+    propose([&](std::size_t p) { return dot(sides[p].inward, axis) < -forms.across_cosine; });
   }
-  const auto ends = ends_of(plan, sides);
+  const auto ends = ends_of(plan, sides, forms);
   propose([&](std::size_t p) { return !ends[p]; });
   propose([](std::size_t) { return true; });
   return out;

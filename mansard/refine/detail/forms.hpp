@@ -12,14 +12,16 @@ namespace mansard::refine::detail {
 
 /// The plan with the common forms of roof, each with gutter height and pitch as the site's looks suggest, and as many
 /// flat ones as there are levels to end at. Profiles of the plan keep their numbers.
-[[nodiscard]] auto forms_of(const model::Plan& plan, const Site& site) -> std::vector<model::Plan>;
+[[nodiscard]] auto forms_of(const model::Plan& plan, const Site& site, const Options& options)
+    -> std::vector<model::Plan>;
 
-/// Per profile of the plan what its sides may carry where the scan shows a level strip along them, of 0.7 to 4 m, and
-/// higher up behind it something else: wall, terrace, wall, and what goes on above. Cost: O(cells · edges).
-[[nodiscard]] auto setbacks_of(const model::Plan& plan, const Site& site) -> std::vector<std::vector<model::Profile>>;
+/// Per profile of the plan what its sides may carry where the scan shows a level strip along them (`Options::setback`)
+/// and something higher behind it: wall, terrace, wall, and what goes on above. Cost: O(cells · edges).
+[[nodiscard]] auto setbacks_of(const model::Plan& plan, const Site& site, const Options& options)
+    -> std::vector<std::vector<model::Profile>>;
 
-/// A wall up to there, metres.
-[[nodiscard]] auto wall(double height) -> model::Profile;
+/// A wall of that height, metres; of the minimum height at least.
+[[nodiscard]] auto wall(double height, const Options::Forms& options) -> model::Profile;
 /// A wall up to the gutter, then a roof.
 [[nodiscard]] auto pitched(double gutter, double slope) -> model::Profile;
 

@@ -19,7 +19,7 @@ auto height_of(const std::vector<double>& z, std::uint32_t cell) -> double { ret
 /// Every `step`th of the heights, `count` of them from `first`, smoothed by a binomial of five; NaN counts nowhere.
 void smooth(const std::vector<double>& from, std::vector<double>& to, std::size_t first, std::size_t step,
             std::size_t count) {
-  constexpr double weights[]{6, 4, 1};
+  constexpr double weights[]{6, 4, 1};  // of the five binomials of 4, whose variance is one cell squared
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t cell = first + i * step;
     to[cell] = from[cell];

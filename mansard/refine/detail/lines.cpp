@@ -6,25 +6,21 @@
 namespace mansard::refine::detail {
 namespace {
 
-constexpr double robust = 0.25;  // m; three times the noise of a fair scan
-constexpr int rounds = 8;        // reweighing converges well before
-
-auto weight_of(const Look& look, const RoofLine& line) -> double {
+auto weight_of(const Look& look, const RoofLine& line, double robust) -> double {
   const double d = std::abs(look.height - line.at_edge - line.slope * look.inward);
   return look.weight * (d <= robust ? 1 : robust / d);
 }
 
 }  // namespace
 
-auto line_through(std::span<const Look> looks, RoofLine start) -> std::optional<RoofLine> {
-  constexpr std::size_t fewest = 12;
-  constexpr double narrowest = 0.25;  // m; standard deviation of the distances, along the slope
-  if (looks.size() < fewest) return std::nullopt;
+auto line_through(std::span<const Look> looks, RoofLine start, const Options::Lines& options)
+    -> std::optional<RoofLine> {
+  if (std::ssize(looks) < options.min_samples) return std::nullopt;
   RoofLine line = start;
-  for (int round = 0; round < rounds; ++round) {
+  for (std::int64_t round = 0; round < options.rounds; ++round) {
     double w = 0, x = 0, z = 0, xx = 0, xz = 0;
     for (const Look& look : looks) {
-      const double weight = weight_of(look, line);
+      const double weight = weight_of(look, line, options.robust);
       w += weight;
       x += weight * look.inward;
       z += weight * look.height;
@@ -33,24 +29,24 @@ auto line_through(std::span<const Look> looks, RoofLine start) -> std::optional<
     x /= w;
     z /= w;
     for (const Look& look : looks) {
-      const double weight = weight_of(look, line);
+      const double weight = weight_of(look, line, options.robust);
       xx += weight * (look.inward - x) * (look.inward - x);
       xz += weight * (look.inward - x) * (look.height - z);
     }
     const double slope = xx > 0 ? xz / xx : 0;
-    if (!((1 + slope * slope) * xx >= narrowest * narrowest * w)) return std::nullopt;
+    if (!((1 + slope * slope) * xx >= options.min_spread * options.min_spread * w)) return std::nullopt;
     line.slope = slope;
     line.at_edge = z - line.slope * x;
   }
   return line;
 }
 
-auto raised_line(std::span<const Look> looks, RoofLine start) -> RoofLine {
+auto raised_line(std::span<const Look> looks, RoofLine start, const Options::Lines& options) -> RoofLine {
   RoofLine line = start;
-  for (int round = 0; round < rounds; ++round) {
+  for (std::int64_t round = 0; round < options.rounds; ++round) {
     double w = 0, z = 0;
     for (const Look& look : looks) {
-      const double weight = weight_of(look, line);
+      const double weight = weight_of(look, line, options.robust);
       w += weight;
       z += weight * (look.height - line.slope * look.inward);
     }

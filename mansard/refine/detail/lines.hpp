@@ -4,6 +4,8 @@
 #include <optional>
 #include <span>
 
+#include "mansard/refine/options.hpp"
+
 namespace mansard::refine::detail {
 
 struct Look {
@@ -19,8 +21,9 @@ struct RoofLine {
 
 /// The line with the least sum of weighed robust squares, from `start`. None where the looks are too few or lie within
 /// too narrow a band to give a slope.
-[[nodiscard]] auto line_through(std::span<const Look> looks, RoofLine start) -> std::optional<RoofLine>;
+[[nodiscard]] auto line_through(std::span<const Look> looks, RoofLine start, const Options::Lines& options)
+    -> std::optional<RoofLine>;
 /// The same with the slope given: the weighed robust height at the edge.
-[[nodiscard]] auto raised_line(std::span<const Look> looks, RoofLine start) -> RoofLine;
+[[nodiscard]] auto raised_line(std::span<const Look> looks, RoofLine start, const Options::Lines& options) -> RoofLine;
 
 }  // namespace mansard::refine::detail

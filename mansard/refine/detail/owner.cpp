@@ -66,7 +66,7 @@ void join(std::vector<Piece>& pieces, const Work& work) {
 
 /// Cuts pieces, and the pieces of pieces, as long as that pays.
 auto all_split(std::vector<Piece> open, const Work& work) -> std::vector<Piece> {
-  constexpr std::size_t most_pieces = 64;  // an owner that needs more is not told by straight cuts
+  const auto most_pieces = static_cast<std::size_t>(work.options().joins.max_pieces);
   std::vector<Piece> done;
   while (!open.empty()) {
     Piece piece = std::move(open.front());
@@ -123,14 +123,12 @@ auto refine_owner(std::span<const Draft> drafts, std::span<const std::size_t> mi
     }
   }
   if (options.effort == Effort::parts) {
-    constexpr int rounds = 2;  // what one step leaves behind may be what another needed
-    for (int round = 0; round < rounds; ++round) {
+    for (std::int64_t round = 0; round < options.joins.rounds; ++round) {
       const double before = cost_of(pieces, options);
       join(pieces, work);
       pieces = all_split(std::move(pieces), work);
       cut_all_anew(pieces, work);
-      constexpr double enough = 0.95;
-      if (cost_of(pieces, options) > enough * before) break;
+      if (cost_of(pieces, options) > options.joins.round_gain * before) break;
     }
   }
   base::parallel_for(pieces.size(), [&](std::size_t i) { pieces[i] = work.finished(std::move(pieces[i])); });

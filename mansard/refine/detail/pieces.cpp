@@ -16,9 +16,14 @@ using geometry::Ring;
 using model::Plan;
 using model::PlanRing;
 
+// Error bounds of polygon operations. A coordinate below 1e4 m is exact to 1e4 · 2⁻⁵³ ≈ 1e-12 m. Where two edges cross
+// at an angle α, the crossing is off by at most 4e-12 / sin α m: 2e-10 m at 1°. That changes an area by at most the
+// same times the edges' length: 2e-8 m² over 100 m. Both bounds have room for fifty such corners.
+constexpr double on_line = 1e-6;  ///< m off the line of its neighbours: a corner that a clip left behind
+constexpr double lost = 1e-6;     ///< m²; a greater difference of areas is an operation that failed, not rounding
+
 /// Metres of a → b that lie along an edge in the same direction.
-auto overlap(Point2 a, Point2 b, Point2 from, Point2 to) -> double {
-  constexpr double aside = 0.02;  // m; straightened neighbours differ by up to a centimetre
+auto overlap(Point2 a, Point2 b, Point2 from, Point2 to, double aside) -> double {
   const double length = geometry::length(b - a), other = geometry::length(to - from);
   if (!(length > 0) || !(other > 0)) return 0;
   const Point2 along = (1 / length) * (b - a), across = geometry::left_of(along);
@@ -31,12 +36,13 @@ auto overlap(Point2 a, Point2 b, Point2 from, Point2 to) -> double {
 using Under = std::pair<std::size_t, std::uint32_t>;
 
 /// The profile that most of a → b lies on.
-auto profile_under(std::span<const Origin> origins, Point2 a, Point2 b) -> std::optional<Under> {
+auto profile_under(std::span<const Origin> origins, Point2 a, Point2 b, const Options::Pieces& options)
+    -> std::optional<Under> {
   std::map<Under, double> lengths;
   for (std::size_t o = 0; o < origins.size(); ++o) {
     const auto add = [&](const PlanRing& ring) {
       for (std::size_t i = 0; i < ring.points.size(); ++i) {
-        const double common = overlap(a, b, ring.points[i], ring.points[(i + 1) % ring.points.size()]);
+        const double common = overlap(a, b, ring.points[i], ring.points[(i + 1) % ring.points.size()], options.aside);
         if (common > 0) lengths[{o, ring.profile_of_edge[i]}] += common;
       }
     };
@@ -44,8 +50,8 @@ auto profile_under(std::span<const Origin> origins, Point2 a, Point2 b) -> std::
     for (const auto& hole : origins[o].roof.holes) add(hole);
   }
   const auto longest = std::ranges::max_element(lengths, {}, [](const auto& entry) { return entry.second; });
-  const double half = geometry::length(b - a) / 2;
-  if (longest == lengths.end() || longest->second < half) return std::nullopt;
+  if (longest == lengths.end() || longest->second < options.profile_share * geometry::length(b - a))
+    return std::nullopt;
   return longest->first;
 }
 
@@ -64,16 +70,18 @@ auto cleaned(const Ring& ring, double straight) -> Ring {
   return out;
 }
 
-auto caps_of(const Site& site, double otherwise) -> std::vector<double> {
+auto caps_of(const Site& site, double otherwise, const Options& options) -> std::vector<double> {
   if (site.sorted.empty()) return {otherwise};
-  constexpr double clear = 0.5, least = 0.5, distinct = 0.05;  // m
+  const auto& forms = options.forms;
   const auto share = [&](double s) {
     return site.sorted[static_cast<std::size_t>(s * static_cast<double>(site.sorted.size() - 1))];
   };
   std::vector<double> caps;
-  for (double cap : {commonest(site.sorted), share(0.99) + clear, share(0.99), share(0.5)}) {
-    cap = std::max(least, cap);
-    if (std::ranges::none_of(caps, [cap](double c) { return std::abs(c - cap) < distinct; })) caps.push_back(cap);
+  const double top = share(forms.cap_percentile);
+  for (double cap : {commonest(site.sorted, options), top + forms.cap_clearance, top, share(0.5)}) {
+    cap = std::max(forms.min_height, cap);
+    if (std::ranges::none_of(caps, [&](double c) { return std::abs(c - cap) < forms.cap_distinct; }))
+      caps.push_back(cap);
   }
   return caps;
 }
@@ -86,36 +94,34 @@ auto mean_width(const Polygon& polygon) -> double {
   return 2 * geometry::area(polygon) / around;
 }
 
-auto cut(const Polygon& part, const Polygon& structure, double least_area) -> std::vector<Polygon> {
+auto cut(const Polygon& part, const Polygon& structure, const Options& options) -> std::vector<Polygon> {
   const auto inside = geometry::intersect(part, structure), rest = geometry::subtract(part, structure);
   if (!inside || !rest || inside->empty() || rest->empty()) return {};
   std::vector<Polygon> out = *rest;
   std::ranges::stable_sort(out, [](const auto& a, const auto& b) { return geometry::area(a) > geometry::area(b); });
   out.insert(out.end(), inside->begin(), inside->end());
   // Along shared walls rounding can make an operation keep what it should take off.
-  constexpr double lost = 1e-6;  // m²
   double covered = 0;
   for (const auto& piece : out) covered += geometry::area(piece);
   if (std::abs(covered - geometry::area(part)) > lost) return {};
-  constexpr double narrowest = 0.6;  // m; less is a strip along an edge, not a structure
-  constexpr double straight = 1e-6;  // m off the line of the neighbours
   for (auto& piece : out) {
-    piece.outer = cleaned(piece.outer, straight);
-    for (auto& hole : piece.holes) hole = cleaned(hole, straight);
-    if (geometry::area(piece) < least_area || mean_width(piece) < narrowest || !geometry::is_simple(piece)) return {};
+    piece.outer = cleaned(piece.outer, on_line);
+    for (auto& hole : piece.holes) hole = cleaned(hole, on_line);
+    if (geometry::area(piece) < options.least_area || mean_width(piece) < options.pieces.min_width ||
+        !geometry::is_simple(piece))
+      return {};
   }
   return out;
 }
 
-auto joined(const Polygon& a, const Polygon& b) -> std::optional<Polygon> {
-  constexpr double slit = 0.02;      // m; twice what straightening may have opened between neighbours
-  constexpr double straight = 1e-3;  // m; what closing the slits bends
+auto joined(const Polygon& a, const Polygon& b, const Options& options) -> std::optional<Polygon> {
+  const double slit = options.pieces.slit, straight = options.pieces.straight;
   const Polygon both[]{a, b};
   auto united = geometry::unite(both);
   if (!united || united->empty()) return std::nullopt;
   Polygon out = united->front();
   if (united->size() > 1 || !geometry::is_simple(out)) return std::nullopt;
-  std::erase_if(out.holes, [](const Ring& hole) {
+  std::erase_if(out.holes, [slit](const Ring& hole) {
     return std::abs(geometry::signed_area(hole)) < slit * geometry::perimeter(hole);
   });
   out.outer = cleaned(out.outer, straight);
@@ -126,19 +132,19 @@ auto joined(const Polygon& a, const Polygon& b) -> std::optional<Polygon> {
   return out;
 }
 
-auto draft_of(std::span<const Origin> origins, const Site& piece) -> Draft {
+auto draft_of(std::span<const Origin> origins, const Site& piece, const Options& options) -> Draft {
   Draft out;
   const auto& first = origins.front();
   out.owner = first.draft.owner;
   std::map<Under, std::uint32_t> kept;  // profiles of the origins, by their new numbers
-  const double level = piece.sorted.empty() ? first.roof.cap : commonest(piece.sorted);
+  const double level = piece.sorted.empty() ? first.roof.cap : commonest(piece.sorted, options);
   const auto ring_of = [&](const Ring& points) {
     PlanRing ring{points, {}};
     for (std::size_t i = 0; i < points.size(); ++i) {
       const auto next = static_cast<std::uint32_t>(out.plan.profiles.size());
-      const auto under = profile_under(origins, points[i], points[(i + 1) % points.size()]);
+      const auto under = profile_under(origins, points[i], points[(i + 1) % points.size()], options.pieces);
       if (!under) {
-        out.plan.profiles.push_back(wall(level));
+        out.plan.profiles.push_back(wall(level, options.forms));
         out.alternatives.emplace_back();
         ring.profile_of_edge.push_back(next);
         continue;
@@ -157,7 +163,7 @@ auto draft_of(std::span<const Origin> origins, const Site& piece) -> Draft {
   out.plan.outer = ring_of(piece.polygon.outer);
   for (const auto& hole : piece.polygon.holes) out.plan.holes.push_back(ring_of(hole));
   out.plan.base = first.roof.base;
-  out.caps = caps_of(piece, first.roof.cap);
+  out.caps = caps_of(piece, first.roof.cap, options);
   out.plan.cap = out.caps.front();
   return out;
 }

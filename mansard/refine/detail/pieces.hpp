@@ -11,11 +11,12 @@ namespace mansard::refine::detail {
 
 /// The part without the structure, then the structure, largest first; empty where a piece would be too small, too
 /// narrow or not simple.
-[[nodiscard]] auto cut(const geometry::Polygon& part, const geometry::Polygon& structure, double least_area)
+[[nodiscard]] auto cut(const geometry::Polygon& part, const geometry::Polygon& structure, const Options& options)
     -> std::vector<geometry::Polygon>;
 
 /// Two parts with a common edge as one; none where that is no simple polygon.
-[[nodiscard]] auto joined(const geometry::Polygon& a, const geometry::Polygon& b) -> std::optional<geometry::Polygon>;
+[[nodiscard]] auto joined(const geometry::Polygon& a, const geometry::Polygon& b, const Options& options)
+    -> std::optional<geometry::Polygon>;
 
 /// A draft with the roof that was found for it.
 struct Origin {
@@ -24,7 +25,7 @@ struct Origin {
 };
 /// Edges on the origins' edges carry what those carry and may carry what those may, all others are walls. Caps by the
 /// site's heights.
-[[nodiscard]] auto draft_of(std::span<const Origin> origins, const Site& piece) -> Draft;
+[[nodiscard]] auto draft_of(std::span<const Origin> origins, const Site& piece, const Options& options) -> Draft;
 
 /// m; of the polygon's area over half of its perimeter.
 [[nodiscard]] auto mean_width(const geometry::Polygon& polygon) -> double;

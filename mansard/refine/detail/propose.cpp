@@ -18,31 +18,11 @@ namespace {
 using geometry::Polygon;
 using Mask = std::vector<std::uint8_t>;
 
-constexpr double melted = 0.5;  // m, of walls in a scan
-// What tells a roof from a tree's crown.
-constexpr double crisp = 0.15;             // m rms about a simple surface: a roof; a crown 3 m high has more
-constexpr double smooth = 0.35;            // m rms: a roof with its clutter,
-constexpr double full = 0.73;              // if it stands nearly as high at its melted rim as in its middle
-constexpr double smooth_by_height = 0.12;  // of the height it stands out by: a tower's clutter is larger
-constexpr double least_hipped = 16;        // m²; a crown smaller than that passes for a roof of four hips
-constexpr double fair_area = 30;           // m²; a roof so large may have hips, and structures upon it:
-constexpr double fairly_smooth = 0.45;     // m rms then,
-constexpr double smooth_share = 0.7;       // or that share of its cells on one plane
-constexpr double large_area = 80;          // m²; what is so large is no tree,
-constexpr double fair_share = 0.8;         // if cutting it off explains that share of the part's error
-// What makes a line across.
-constexpr double worth_a_line = 0.15;  // of the part's error, explained by it
-constexpr double least_side = 1.25;    // m, mean width of either side
-// Which cuts come first.
-constexpr double nearly_same = 0.25;      // of a cut's cells, on other sides in two cuts
-constexpr double cost_of_shape = 0.04;    // of the gain, per rectangle
-constexpr double cost_of_askew = 0.25;    // of the gain, for walls that no edge of the part goes along
-constexpr double other_direction = 0.14;  // rad, 8°
-constexpr std::size_t most_directions = 4;
-constexpr double enough_cells = 8000;  // to hold a cut against; of more, every second or third in each direction
-// What is too little to leave.
-constexpr double sliver_area = 1;     // m²
-constexpr double sliver_width = 0.5;  // m
+// Error bounds of polygon operations: coordinates below 1e4 m are exact to 1e-12 m, a clip's corner where walls cross
+// at 1° or more to 2e-10 m, an area beside 100 m of wall to 2e-8 m². Both are fifty times that, and below what anyone
+// builds.
+constexpr double same_place = 1e-6;  ///< m
+constexpr double nothing = 1e-6;     ///< m²
 
 struct Cut {
   Polygon polygon;
@@ -51,10 +31,8 @@ struct Cut {
   bool step = true;
   Mask mask;
   carve::Errors errors;
-  double gain = 0;  ///< m²·m²
-  [[nodiscard]] auto ranked() const -> double {
-    return gain * (1 - cost_of_shape * shape) * (frame.of_part ? 1 : 1 - cost_of_askew);
-  }
+  double gain = 0;    ///< m²·m²
+  double ranked = 0;  ///< the gain, less of outlines that are complicated or askew
 };
 
 /// Area over the longer side of its box along the frame, metres.
@@ -64,7 +42,8 @@ auto mean_width(const Polygon& polygon, const carve::Frame& frame) -> double {
 }
 
 /// Whether what stands out is one roof rather than a tree.
-auto coherent(const carve::Raster& raster, const Cut& cut) -> bool {
+auto coherent(const carve::Raster& raster, const Cut& cut, const Options& options) -> bool {
+  const auto& o = options.cuts;
   const carve::Errors& e = cut.errors;
   const bool inside = std::abs(e.inside_mean) >= std::abs(e.outside_mean);
   Mask of_it = cut.mask;
@@ -72,34 +51,38 @@ auto coherent(const carve::Raster& raster, const Cut& cut) -> bool {
     for (std::size_t k = 0; k < of_it.size(); ++k)
       of_it[k] = raster.state[k] != carve::Cell::outside && !cut.mask[k] ? 1 : 0;
   const double mean = std::abs(inside ? e.inside_mean : e.outside_mean);
-  const Mask core = carve::shrunk(raster, of_it, melted);
-  const carve::Fit fit = carve::fit_of(raster, core, cut.frame, smooth);
+  const Mask core = carve::shrunk(raster, of_it, options.samples.melt);
+  const carve::Fit fit = carve::fit_of(raster, core, cut.frame, o.smooth_rms, options.surfaces);
   const double area = (inside ? e.inside : e.outside).count * raster.cell_area();
-  const double tolerance = std::max(area >= fair_area ? fairly_smooth : smooth, smooth_by_height * mean);
-  if (fit.rms <= tolerance && (fit.rms <= crisp || area >= fair_area || carve::fullness_of(raster, of_it) >= full))
+  const double tolerance = std::max(area >= o.fair_area ? o.fair_rms : o.smooth_rms, o.smooth_by_height * mean);
+  if (fit.rms <= tolerance && (fit.rms <= o.crisp_rms || area >= o.fair_area ||
+                               carve::fullness_of(raster, of_it, o.fullness_part) >= o.fullness))
     return true;
-  const bool may_be_hipped = inside && area >= least_hipped && area < large_area;
-  if (may_be_hipped && carve::hipped_error(raster, core, cut.polygon) <= crisp) return true;
-  if (area >= fair_area && fit.near >= smooth_share) return true;
-  return area >= large_area && cut.gain >= fair_share * e.whole.model * raster.cell_area();
+  const bool may_be_hipped = inside && area >= o.hipped_min_area && area < o.large_area;
+  if (may_be_hipped && carve::hipped_error(raster, core, cut.polygon) <= o.crisp_rms) return true;
+  if (area >= o.fair_area && fit.near >= o.plane_share) return true;
+  return area >= o.large_area && cut.gain >= o.large_gain * e.whole.model * raster.cell_area();
 }
 
 /// The cuts of one part as they are found, held against the cells as measured.
 class Cuts {
  public:
-  Cuts(const Polygon& part, const carve::Raster& raster, const ProposeOptions& options)
-      : part_(part), raster_(raster), options_(options), area_(geometry::area(part)) {}
+  Cuts(const carve::Raster& raster, double part_area, double least_gain, const Options& options)
+      : raster_(raster), area_(part_area), least_gain_(least_gain), options_(options) {}
 
   void consider(const Polygon& polygon, const carve::Frame& frame, int shape, bool step) {
+    const auto& o = options_.cuts;
     const double piece = geometry::area(polygon);
     if (piece < options_.least_area || area_ - piece < options_.least_area) return;
-    if (shape > 0 && mean_width(polygon, frame) < options_.least_width) return;
-    Cut cut{polygon, frame, shape, step, carve::cells_in(polygon, raster_), {}, 0};
-    cut.errors = carve::errors_of(raster_, cut.mask, frame);
-    cut.gain = cut.errors.gain() * raster_.cell_area();
-    if (!(cut.gain >= options_.least_gain)) return;
-    if (shape == 0 && cut.errors.gain() < worth_a_line * cut.errors.whole.best) return;
-    if (shape > 0 && !coherent(raster_, cut)) return;
+    if (shape > 0 && mean_width(polygon, frame) < o.min_width) return;
+    Cut cut{polygon, frame, shape, step, carve::cells_in(polygon, raster_), {}, 0, 0};
+    cut.errors = carve::errors_of(raster_, cut.mask, frame, options_.surfaces);
+    const double gain = carve::gain_of(cut.errors, options_.surfaces);
+    cut.gain = gain * raster_.cell_area();
+    if (!(cut.gain >= least_gain_)) return;
+    if (shape == 0 && gain < o.line_gain * cut.errors.whole.best) return;
+    if (shape > 0 && !coherent(raster_, cut, options_)) return;
+    cut.ranked = cut.gain * (1 - o.shape_price * shape) * (frame.of_part ? 1 : 1 - o.askew_price);
     found_.push_back(std::move(cut));
   }
 
@@ -108,7 +91,7 @@ class Cuts {
     std::ranges::stable_sort(found_, before);
     std::vector<Cut> out;
     for (Cut& cut : found_) {
-      if (out.size() == options_.most) break;
+      if (std::ssize(out) >= options_.cuts.max_count) break;
       if (std::ranges::none_of(out, [&](const Cut& o) { return same(o, cut); })) out.push_back(std::move(cut));
     }
     return out;
@@ -116,7 +99,7 @@ class Cuts {
 
  private:
   static auto before(const Cut& a, const Cut& b) -> bool {
-    if (a.ranked() != b.ranked()) return a.ranked() > b.ranked();
+    if (a.ranked != b.ranked) return a.ranked > b.ranked;
     return a.polygon.outer < b.polygon.outer;
   }
 
@@ -131,13 +114,13 @@ class Cuts {
       crossed += a.mask[k] ^ b.mask[k];
     }
     const std::size_t size = std::max(std::min(in_a, cells - in_a), std::min(in_b, cells - in_b));
-    return static_cast<double>(std::min(crossed, cells - crossed)) <= nearly_same * static_cast<double>(size);
+    return static_cast<double>(std::min(crossed, cells - crossed)) <=
+           options_.cuts.same_share * static_cast<double>(size);
   }
 
-  const Polygon& part_;
   const carve::Raster& raster_;
-  const ProposeOptions& options_;
-  double area_;
+  double area_, least_gain_;
+  const Options& options_;
   std::vector<Cut> found_;
 };
 
@@ -154,14 +137,15 @@ auto exchanged(Polygon polygon) -> Polygon {
   return polygon;
 }
 
-void consider_lines(const Polygon& part, const carve::Raster& raster, bool across, const ProposeOptions& options,
-                    Cuts& cuts) {
+void consider_lines(const Polygon& part, const carve::Raster& raster, bool across, double least_gain,
+                    const Options& options, Cuts& cuts) {
   const geometry::Box2 box = geometry::bounds(raster.part.outer);
   const auto wide = [&](const Polygon& piece) {
-    return geometry::area(piece) >= options.least_area && mean_width(piece, raster.frame) >= least_side;
+    return geometry::area(piece) >= options.least_area &&
+           mean_width(piece, raster.frame) >= options.cuts.line_min_width;
   };
-  for (const carve::SplitLine& line : carve::split_lines(raster, options)) {
-    const double at = carve::aligned(raster, line.at, box.least.y, box.most.y);
+  for (const carve::SplitLine& line : carve::split_lines(raster, least_gain, options)) {
+    const double at = carve::aligned(raster, line.at, box.least.y, box.most.y, options.outlines);
     std::array<std::vector<Polygon>, 2> sides;
     for (const int way : {0, 1}) {
       Polygon side = half_plane(raster, at, way == 0 ? -1 : 1);
@@ -177,7 +161,7 @@ void consider_lines(const Polygon& part, const carve::Raster& raster, bool acros
 }
 
 void consider_regions(const Polygon& part, const carve::Raster& raster, const carve::Raster& turned,
-                      const ProposeOptions& options, Cuts& cuts, std::vector<carve::Frame>& directions) {
+                      const Options& options, Cuts& cuts, std::vector<carve::Frame>& directions) {
   for (const carve::Region& region : carve::regions_of(raster, options)) {
     int shape = 0;
     for (const Polygon& outline : carve::outlines_of(raster, turned, region, options)) {
@@ -186,20 +170,23 @@ void consider_regions(const Polygon& part, const carve::Raster& raster, const ca
       if (!pieces.empty()) cuts.consider(pieces.front(), raster.frame, shape, true);
     }
     carve::Frame own;
-    if (directions.size() >= most_directions || !carve::own_direction(raster, region, own)) continue;
-    if (std::ranges::all_of(directions, [&](const auto& d) { return carve::turn_between(d, own) > other_direction; }))
+    if (std::ssize(directions) >= options.cuts.max_directions) continue;
+    if (!carve::own_direction(raster, region, options.regions, own)) continue;
+    if (std::ranges::all_of(directions,
+                            [&](const auto& d) { return carve::turn_between(d, own) > options.cuts.new_direction; }))
       directions.push_back(own);
   }
 }
 
 /// The piece with the slivers that it would leave, where that keeps it simple.
-auto without_slivers(const Polygon& part, Polygon piece) -> Polygon {
+auto without_slivers(const Polygon& part, Polygon piece, const Options::Cuts& options) -> Polygon {
   const auto rest = geometry::subtract(part, piece);
   if (!rest) return piece;
   std::vector<Polygon> together{piece};
   for (const Polygon& r : *rest) {
     const double area = geometry::area(r);
-    if (area < sliver_area || 2 * area < sliver_width * geometry::perimeter(r.outer)) together.push_back(r);
+    if (area < options.sliver_area || 2 * area < options.sliver_width * geometry::perimeter(r.outer))
+      together.push_back(r);
   }
   if (together.size() == 1) return piece;
   auto united = geometry::unite(together);
@@ -208,7 +195,6 @@ auto without_slivers(const Polygon& part, Polygon piece) -> Polygon {
 
 /// With the part's own corners where it has some, and no corner twice or on a straight line but those.
 auto tidied(const Polygon& part, const Polygon& piece) -> Polygon {
-  constexpr double same_place = 1e-6;  // m; above the rounding of a clip, below what anyone builds
   std::vector<geometry::Point2> corners = part.outer;
   for (const auto& hole : part.holes) corners.insert(corners.end(), hole.begin(), hole.end());
   const auto at_corner = [&](geometry::Point2 p) { return std::ranges::find(corners, p) != corners.end(); };
@@ -236,7 +222,6 @@ auto tidied(const Polygon& part, const Polygon& piece) -> Polygon {
 
 /// Whether part and piece can be told apart by polygon operations: rounding at shared walls defeats them now and then.
 auto sound(const Polygon& part, const Polygon& piece, double least_area) -> bool {
-  constexpr double nothing = 1e-6;  // m²
   if (piece.outer.size() < 3 || !geometry::is_simple(piece)) return false;
   const auto rest = geometry::subtract(part, piece), beyond = geometry::subtract(piece, part);
   if (!rest || !beyond) return false;
@@ -258,15 +243,16 @@ auto metres(double value) -> std::string {
 
 /// How much higher the piece stands than what is next to it, both read near to but off the walls, which melt; nothing
 /// where unseen.
-auto rise_of(const carve::Raster& raster, const Mask& mask) -> std::optional<double> {
+auto rise_of(const carve::Raster& raster, const Mask& mask, const Options& options) -> std::optional<double> {
+  const double melted = options.samples.melt, far = options.cuts.rise_reach;
   const Mask core = carve::shrunk(raster, mask, melted), rim = carve::grown(raster, mask, melted);
-  const Mask around = carve::grown(raster, mask, 4 * melted);
+  const Mask around = carve::grown(raster, mask, far);
   Mask part(mask.size()), rest(mask.size());
   for (std::size_t k = 0; k < mask.size(); ++k) {
     part[k] = raster.state[k] != carve::Cell::outside ? 1 : 0;
     rest[k] = part[k] && !mask[k] ? 1 : 0;
   }
-  const Mask beside = carve::grown(raster, rest, 4 * melted), off_eaves = carve::shrunk(raster, part, melted);
+  const Mask beside = carve::grown(raster, rest, far), off_eaves = carve::shrunk(raster, part, melted);
   double in = 0, in_count = 0, out = 0, out_count = 0;
   for (std::size_t k = 0; k < mask.size(); ++k) {
     if (raster.state[k] != carve::Cell::seen || !off_eaves[k]) continue;
@@ -277,12 +263,12 @@ auto rise_of(const carve::Raster& raster, const Mask& mask) -> std::optional<dou
   return in / in_count - out / out_count;
 }
 
-auto words_for(const carve::Raster& raster, const Cut& cut, const ProposeOptions& options) -> std::string {
+auto words_for(const carve::Raster& raster, const Cut& cut, const Options& options) -> std::string {
   const bool line = cut.shape == 0;
   if (line && !cut.step) return "another roof on either side of a line across";
   const std::string beside = line ? "the other side of a line across" : "the roof around it";
-  const auto rise = rise_of(raster, cut.mask);
-  if (!rise || std::abs(*rise) < options.least_step / 2) return "a roof of its own beside " + beside;
+  const auto rise = rise_of(raster, cut.mask, options);
+  if (!rise || std::abs(*rise) < options.cuts.min_rise) return "a roof of its own beside " + beside;
   return *rise > 0 ? "stands " + metres(*rise) + " above " + beside : "lies " + metres(-*rise) + " below " + beside;
 }
 
@@ -301,26 +287,27 @@ auto thinned(const Heights& heights, std::size_t every) -> Heights {
 
 }  // namespace
 
-auto propose(const Polygon& part, const Heights& measured, const Heights& model, const ProposeOptions& options)
-    -> std::vector<Proposal> {
+auto propose(const Polygon& part, const Heights& measured, const Heights& model, double least_gain,
+             const Options& options) -> std::vector<Proposal> {
   const std::size_t cells = measured.columns * measured.rows;
   if (part.outer.size() < 3 || cells == 0 || !(measured.spacing > 0)) return {};
   if (measured.z.size() != cells || model.z.size() != cells) return {};
   const double in_part = geometry::area(part) / (measured.spacing * measured.spacing);
-  const auto every = static_cast<std::size_t>(std::ceil(std::sqrt(std::max(1.0, in_part / enough_cells))));
-  const carve::Raster as_measured = carve::raster_of(part, thinned(measured, every), thinned(model, every), {});
-  Cuts cuts(part, as_measured, options);
-  std::vector<carve::Frame> directions = carve::directions_of(part);
+  const auto every = static_cast<std::size_t>(std::ceil(std::sqrt(std::max(1.0, in_part / options.cuts.max_cells))));
+  const carve::Raster as_measured =
+      carve::raster_of(part, thinned(measured, every), thinned(model, every), {}, options.directions);
+  Cuts cuts(as_measured, geometry::area(part), least_gain, options);
+  std::vector<carve::Frame> directions = carve::directions_of(part, options.directions);
   for (std::size_t d = 0; d < directions.size(); ++d) {
-    const carve::Raster raster = carve::raster_of(part, measured, model, directions[d]);
+    const carve::Raster raster = carve::raster_of(part, measured, model, directions[d], options.directions);
     const carve::Raster turned = carve::turned(raster);
     consider_regions(part, raster, turned, options, cuts, directions);
-    consider_lines(part, raster, false, options, cuts);
-    consider_lines(part, turned, true, options, cuts);
+    consider_lines(part, raster, false, least_gain, options, cuts);
+    consider_lines(part, turned, true, least_gain, options, cuts);
   }
   std::vector<Proposal> out;
   for (Cut& cut : std::move(cuts).best()) {
-    Polygon piece = tidied(part, without_slivers(part, std::move(cut.polygon)));
+    Polygon piece = tidied(part, without_slivers(part, std::move(cut.polygon), options.cuts));
     if (!sound(part, piece, options.least_area)) continue;
     std::string what = words_for(as_measured, cut, options);
     out.push_back({std::move(piece), cut.gain, cut.errors.inside_mean, std::move(what), cut.shape == 0});

@@ -7,16 +7,9 @@
 
 #include "mansard/geometry/polygon.hpp"
 #include "mansard/refine/detail/heights.hpp"
+#include "mansard/refine/options.hpp"
 
 namespace mansard::refine::detail {
-
-struct ProposeOptions {
-  double least_area = 4;     ///< m², of the piece and of what is left
-  double least_gain = 2;     ///< m²·m²: squared residual, summed over area
-  double least_step = 0.5;   ///< m; what differs less is no structure
-  double least_width = 1.2;  ///< m, mean; what is narrower is a chimney or a melted edge
-  std::size_t most = 6;      ///< proposals
-};
 
 /// A piece of a part that may become a part of its own.
 struct Proposal {
@@ -32,8 +25,9 @@ struct Proposal {
 ///   2. No two are nearly the same cut.
 ///   3. The same input gives the same list, to the byte.
 /// Cost: cells × directions (two or three), with small constants.
-/// Measured and model share one grid; cells that are NaN in either count for nothing.
+/// Measured and model share one grid; cells that are NaN in either count for nothing. `least_gain`, m²·m²: squared
+/// residual, summed over area, that a cut must explain.
 [[nodiscard]] auto propose(const geometry::Polygon& part, const Heights& measured, const Heights& model,
-                           const ProposeOptions& options = {}) -> std::vector<Proposal>;
+                           double least_gain, const Options& options) -> std::vector<Proposal>;
 
 }  // namespace mansard::refine::detail

@@ -13,18 +13,20 @@ struct Rectangle {
   geometry::Point2 least, most;
 };
 
-/// Outlines of one, two and three rectangles that cover the region best, their sides moved to where the heights step,
+/// Outlines of one, two and more rectangles that cover the region best, their sides moved to where the heights step,
 /// then to the part's own edges where those are near. In the raster's frame; they may reach beyond the part.
 /// `across` is the raster turned.
-[[nodiscard]] auto outlines_of(const Raster& raster, const Raster& across, const Region& region,
-                               const ProposeOptions& options) -> std::vector<geometry::Polygon>;
+[[nodiscard]] auto outlines_of(const Raster& raster, const Raster& across, const Region& region, const Options& options)
+    -> std::vector<geometry::Polygon>;
 
 /// Where along x the heights step near `at`, over some rows; `at` itself where they do not. Metres in the
 /// raster's frame.
-[[nodiscard]] auto step_near(const Raster& raster, double at, const std::vector<int>& rows) -> double;
+[[nodiscard]] auto step_near(const Raster& raster, double at, const std::vector<int>& rows, const Options& options)
+    -> double;
 
 /// The place x, or that of an edge of the part that is near and nearly parallel to y; what is cut goes from y to y.
-[[nodiscard]] auto aligned(const Raster& raster, double at, double from, double to) -> double;
+[[nodiscard]] auto aligned(const Raster& raster, double at, double from, double to, const Options::Outlines& options)
+    -> double;
 
 /// Polygon in the frame, back in the plane and clipped to the part: its pieces, the largest first.
 [[nodiscard]] auto pieces_in_part(const geometry::Polygon& part, const geometry::Polygon& in_frame, const Frame& frame)

@@ -11,10 +11,12 @@ using geometry::Point2;
 using geometry::Polygon;
 
 constexpr double quarter = std::numbers::pi / 2;
-constexpr double one_direction = 5 * std::numbers::pi / 180;       // edges closer than this go one way
-constexpr double another_direction = 12 * std::numbers::pi / 180;  // nearer ones serve the same walls
-constexpr double share_of_second = 0.25;                           // of the outline, to be worth its own pass
-constexpr double least_weight = 0.25;                              // of the four cells around a place
+// Error bounds. A place below 1e4 m in a frame is turned with an error of 4e-12 m, over cells of 5 cm and more 1e-10 of
+// a cell; an axis along a coordinate axis comes out of cos and sin with an error of 2⁻⁵³, and no edge of 1 km or less
+// whose ends differ by the 2⁻¹⁶ m of the kernel's grid comes as near; a sum of lengths is exact to n · 2⁻⁵³.
+constexpr double of_a_cell = 1e-6;
+constexpr double on_axis = 1e-12;
+constexpr double clearly_more = 1 + 1e-9;
 
 template <class Map>
 auto mapped(const Polygon& polygon, Map map) -> Polygon {
@@ -62,10 +64,11 @@ void for_each_run(const Polygon& polygon, const Raster& raster, Visit visit) {
 }
 
 /// Measured height and residual at a place, from the cells around it that have both.
-auto look(const Heights& measured, const Heights& model, Point2 p, float& z, float& residual) -> bool {
+auto look(const Heights& measured, const Heights& model, Point2 p, double min_weight, float& z, float& residual)
+    -> bool {
   const double u = (p.x - measured.origin.x) / measured.spacing, v = (p.y - measured.origin.y) / measured.spacing;
   // A place on a cell up to rounding takes that cell alone.
-  const auto whole = [](double t) { return std::abs(t - std::round(t)) < 1e-6 ? std::round(t) : t; };
+  const auto whole = [](double t) { return std::abs(t - std::round(t)) < of_a_cell ? std::round(t) : t; };
   const double su = whole(u), sv = whole(v);
   const double fu = std::floor(su), fv = std::floor(sv);
   double weight = 0, sum_z = 0, sum_r = 0;
@@ -82,7 +85,7 @@ auto look(const Heights& measured, const Heights& model, Point2 p, float& z, flo
       sum_z += w * measured.z[k];
       sum_r += w * (measured.z[k] - model.z[k]);
     }
-  if (weight < least_weight) return false;
+  if (weight < min_weight) return false;
   z = static_cast<float>(sum_z / weight);
   residual = static_cast<float>(sum_r / weight);
   return true;
@@ -112,7 +115,8 @@ auto from_frame(const Polygon& polygon, const Frame& frame) -> Polygon {
   return mapped(polygon, [&](Point2 p) { return frame.back(p); });
 }
 
-auto raster_of(const Polygon& part, const Heights& measured, const Heights& model, const Frame& frame) -> Raster {
+auto raster_of(const Polygon& part, const Heights& measured, const Heights& model, const Frame& frame,
+               const Options::Directions& options) -> Raster {
   Raster out;
   out.frame = frame;
   out.part = in_frame(part, frame);
@@ -130,7 +134,8 @@ auto raster_of(const Polygon& part, const Heights& measured, const Heights& mode
   for_each_run(out.part, out, [&](int row, int first, int last) {
     for (int column = first; column < last; ++column) {
       const std::size_t k = out.at(column, row);
-      const bool seen = look(measured, model, frame.back({out.x(column), out.y(row)}), out.z[k], out.residual[k]);
+      const Point2 place = frame.back({out.x(column), out.y(row)});
+      const bool seen = look(measured, model, place, options.min_weight, out.z[k], out.residual[k]);
       out.state[k] = seen ? Cell::seen : Cell::unseen;
     }
   });
@@ -164,7 +169,7 @@ auto cells_in(const Polygon& polygon, const Raster& raster) -> std::vector<std::
   return out;
 }
 
-auto directions_of(const Polygon& part) -> std::vector<Frame> {
+auto directions_of(const Polygon& part, const Options::Directions& options) -> std::vector<Frame> {
   struct Way {
     double angle, length;
   };
@@ -183,19 +188,19 @@ auto directions_of(const Polygon& part) -> std::vector<Frame> {
       double support = 0, shift = 0;
       for (const Way& way : ways) {
         const double d = turn(way.angle, centre.angle);
-        if (std::abs(d) > one_direction) continue;
+        if (std::abs(d) > options.same) continue;
         support += way.length;
         shift += way.length * d;
       }
-      if (support <= best * (1 + 1e-9)) continue;
+      if (support <= best * clearly_more) continue;
       best = support;
       best_angle = centre.angle + shift / support;
     }
-    if (best <= 0 || (round == 1 && best < share_of_second * total)) break;
+    if (best <= 0 || (round == 1 && best < options.second_share * total)) break;
     // Edges that go exactly along the axes keep them so.
     const Point2 axis{std::cos(best_angle), std::sin(best_angle)};
-    out.push_back({std::abs(axis.y) < 1e-12 ? Point2{1, 0} : axis});
-    std::erase_if(ways, [&](const Way& way) { return std::abs(turn(way.angle, best_angle)) < another_direction; });
+    out.push_back({std::abs(axis.y) < on_axis ? Point2{1, 0} : axis});
+    std::erase_if(ways, [&](const Way& way) { return std::abs(turn(way.angle, best_angle)) < options.other; });
   }
   if (out.empty()) out.push_back({});
   return out;

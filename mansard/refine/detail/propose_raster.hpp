@@ -8,6 +8,7 @@
 
 #include "mansard/geometry/polygon.hpp"
 #include "mansard/refine/detail/heights.hpp"
+#include "mansard/refine/options.hpp"
 
 namespace mansard::refine::detail::carve {
 
@@ -51,7 +52,7 @@ struct Raster {
 
 /// The part's cells, by linear interpolation of what was seen; with axis (1, 0) the cells of the heights themselves.
 [[nodiscard]] auto raster_of(const geometry::Polygon& part, const Heights& measured, const Heights& model,
-                             const Frame& frame) -> Raster;
+                             const Frame& frame, const Options::Directions& options) -> Raster;
 
 /// The same with its axes exchanged.
 [[nodiscard]] auto turned(const Raster& raster) -> Raster;
@@ -60,7 +61,8 @@ struct Raster {
 [[nodiscard]] auto cells_in(const geometry::Polygon& polygon, const Raster& raster) -> std::vector<std::uint8_t>;
 
 /// The directions in which most of the part's edges go, modulo 90°: one or two, the first with the longer edges.
-[[nodiscard]] auto directions_of(const geometry::Polygon& part) -> std::vector<Frame>;
+[[nodiscard]] auto directions_of(const geometry::Polygon& part, const Options::Directions& options)
+    -> std::vector<Frame>;
 
 /// Angle between two frames modulo 90°, radians.
 [[nodiscard]] auto turn_between(const Frame& a, const Frame& b) -> double;

@@ -11,18 +11,14 @@ namespace {
 
 using Mask = std::vector<std::uint8_t>;
 
-constexpr int gap_passes = 3;           // cells: unseen gaps as wide as twice this are bridged
-constexpr double bin = 0.25;            // m, of the histogram of residuals
-constexpr double highest = 40;          // m; residuals beyond it count as this
-constexpr double deep_valley = 0.5;     // of the lower of its two peaks: what parts two levels
-constexpr std::size_t most_levels = 6;  // that part the residuals; the clearest
-constexpr double seen_share = 0.6;      // of a region's cells; on less nothing is known
+/// Error bound, m: a rise is the difference of two floats below 1e3 m, exact to 6e-5 m; one of less than this is 0.
+constexpr double no_rise = 1e-6;
 
 /// Residuals with unseen gaps filled from around.
-auto filled(const Raster& raster) -> std::vector<float> {
+auto filled(const Raster& raster, std::int64_t gap_cells) -> std::vector<float> {
   std::vector<float> out = raster.residual;
   std::vector<Cell> state = raster.state;
-  for (int pass = 0; pass < gap_passes; ++pass) {
+  for (std::int64_t pass = 0; pass < gap_cells; ++pass) {
     std::vector<std::pair<std::size_t, float>> found;
     for (int j = 0; j < raster.rows; ++j)
       for (int i = 0; i < raster.columns; ++i) {
@@ -119,7 +115,8 @@ auto components(const Raster& raster, const Mask& mask) -> std::vector<std::vect
   return out;
 }
 
-void add_components(const Raster& raster, const Mask& mask, double least_area, std::vector<Region>& out) {
+void add_components(const Raster& raster, const Mask& mask, double least_area, double seen_share,
+                    std::vector<Region>& out) {
   const double least_cells = least_area / raster.cell_area();
   if (static_cast<double>(std::ranges::count(mask, 1)) < least_cells) return;
   for (const std::vector<Run>& runs : components(raster, mask)) {
@@ -140,7 +137,10 @@ void add_components(const Raster& raster, const Mask& mask, double least_area, s
 }
 
 /// Levels, m, ascending, that part the residuals into heaps.
-auto levels_of(const Raster& raster, const std::vector<float>& residual, double least_area) -> std::vector<double> {
+auto levels_of(const Raster& raster, const std::vector<float>& residual, const Options& options)
+    -> std::vector<double> {
+  const auto& o = options.regions;
+  const double bin = o.bin, highest = o.max_residual;
   const auto count = static_cast<std::size_t>(2 * highest / bin) + 1;
   std::vector<double> raw(count, 0), heap(count, 0);
   for (std::size_t k = 0; k < residual.size(); ++k)
@@ -156,11 +156,12 @@ auto levels_of(const Raster& raster, const std::vector<float>& residual, double 
   std::size_t peak = 0;    // of the heap before
   std::size_t lowest = 0;  // since then
   for (std::size_t b = 1; b + 1 < count; ++b) {
-    const bool top = heap[b] > heap[b - 1] && heap[b] >= heap[b + 1] && 3 * heap[b] >= least_area / 2;
+    const bool top =
+        heap[b] > heap[b - 1] && heap[b] >= heap[b + 1] && 3 * heap[b] >= o.peak_share * options.least_area;
     if (heap[b] < heap[lowest]) lowest = b;
     if (!top) continue;
     const double smaller = std::min(heap[peak], heap[b]);
-    if (peak != 0 && heap[lowest] < deep_valley * smaller) {
+    if (peak != 0 && heap[lowest] < o.valley * smaller) {
       // Half way between the heaps is where a melted wall is crossed.
       const double middle = (static_cast<double>(peak + b) + 1) / 2 * bin - highest;
       found.push_back({middle, smaller});
@@ -170,7 +171,8 @@ auto levels_of(const Raster& raster, const std::vector<float>& residual, double 
     }
   }
   std::ranges::stable_sort(found, std::greater{}, &Level::weight);
-  if (found.size() > most_levels) found.resize(most_levels);
+  const auto most = static_cast<std::size_t>(o.max_levels);
+  if (found.size() > most) found.resize(most);
   std::vector<double> out;
   for (const Level& level : found) out.push_back(level.height);
   std::ranges::sort(out);
@@ -178,12 +180,13 @@ auto levels_of(const Raster& raster, const std::vector<float>& residual, double 
 }
 
 /// Every pair of bounds, m, between which a structure may stand; the model itself lies in none.
-auto bands_of(const std::vector<double>& levels, double least_step) -> std::vector<std::pair<double, double>> {
-  constexpr double unbounded = 1e9;
+auto bands_of(const std::vector<double>& levels, const Options& options) -> std::vector<std::pair<double, double>> {
+  constexpr double unbounded = 1e9;  // m; above every residual
+  const double least_step = options.cuts.min_step, clear = options.regions.level_clearance * least_step;
   std::vector<double> above{least_step}, below{-least_step};
   for (const double level : levels) {
-    if (level > 1.5 * least_step) above.push_back(level);
-    if (level < -1.5 * least_step) below.push_back(level);
+    if (level > clear) above.push_back(level);
+    if (level < -clear) below.push_back(level);
   }
   std::ranges::sort(below, std::greater{});
   std::vector<std::pair<double, double>> out;
@@ -212,38 +215,42 @@ auto grown(const Raster& raster, const Mask& mask, double by) -> Mask {
   return off;
 }
 
-auto regions_of(const Raster& raster, const ProposeOptions& options) -> std::vector<Region> {
-  const std::vector<float> residual = filled(raster);
+auto regions_of(const Raster& raster, const Options& options) -> std::vector<Region> {
+  const auto& o = options.regions;
+  const std::vector<float> residual = filled(raster, o.gap_cells);
   // Half of the least width, so that what is narrower vanishes.
-  const int by = std::max(1, static_cast<int>(std::lround(options.least_width / 2 / raster.spacing - 0.5)));
+  const int by = std::max(1, static_cast<int>(std::lround(options.cuts.min_width / 2 / raster.spacing - 0.5)));
   std::vector<Region> out;
-  for (const auto& [low, high] : bands_of(levels_of(raster, residual, options.least_area), options.least_step)) {
+  for (const auto& [low, high] : bands_of(levels_of(raster, residual, options), options)) {
     Mask mask(residual.size());
     for (std::size_t k = 0; k < mask.size(); ++k)
       mask[k] = raster.state[k] != Cell::outside && residual[k] > low && residual[k] < high ? 1 : 0;
     const std::size_t before = out.size();
     mask = opened(raster, mask, by);
-    add_components(raster, mask, 0.75 * options.least_area, out);
+    add_components(raster, mask, o.min_area_share * options.least_area, o.seen_share, out);
     // What a region runs around may be the simpler outline of the same cut.
     for (std::size_t i = before, end = out.size(); i < end; ++i) {
       const double box = (out[i].most_column - out[i].least_column + 1.0) * (out[i].most_row - out[i].least_row + 1.0);
-      if (static_cast<double>(out[i].cells) > 0.75 * box) continue;
+      if (static_cast<double>(out[i].cells) > o.hollow_share * box) continue;
       Mask rest(mask.size());
       for (std::size_t k = 0; k < rest.size(); ++k)
         rest[k] = raster.state[k] != Cell::outside && !out[i].mask[k] ? 1 : 0;
-      add_components(raster, opened(raster, rest, by), options.least_area, out);
+      add_components(raster, opened(raster, rest, by), options.least_area, o.seen_share, out);
     }
   }
   return out;
 }
 
-auto own_direction(const Raster& raster, const Region& region, Frame& direction) -> bool {
-  constexpr double agreement = 0.6;  // of the rim's rises, as a resultant; squares in the raster's noise reach 0.2
+auto own_direction(const Raster& raster, const Region& region, const Options::Regions& options, Frame& direction)
+    -> bool {
+  const int rim_cells = static_cast<int>(options.rim_cells);
   std::complex<double> sum = 0;
   double total = 0;
   const auto r = [&](int i, int j) { return static_cast<double>(raster.residual[raster.at(i, j)]); };
-  for (int j = std::max(1, region.least_row - 2); j <= std::min(raster.rows - 2, region.most_row + 2); ++j)
-    for (int i = std::max(1, region.least_column - 2); i <= std::min(raster.columns - 2, region.most_column + 2); ++i) {
+  for (int j = std::max(1, region.least_row - rim_cells); j <= std::min(raster.rows - 2, region.most_row + rim_cells);
+       ++j)
+    for (int i = std::max(1, region.least_column - rim_cells);
+         i <= std::min(raster.columns - 2, region.most_column + rim_cells); ++i) {
       bool rim = false, known = true;
       for (const auto& [di, dj] : {std::pair{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
         const std::size_t k = raster.at(i + di, j + dj);
@@ -253,12 +260,12 @@ auto own_direction(const Raster& raster, const Region& region, Frame& direction)
       if (!rim || !known) continue;
       const std::complex<double> rise(r(i + 1, j) - r(i - 1, j), r(i, j + 1) - r(i, j - 1));
       const double size = std::abs(rise);
-      if (size < 1e-6) continue;
+      if (size < no_rise) continue;
       const std::complex<double> unit = rise / size, twice = unit * unit;
       sum += size * twice * twice;  // four times the angle: walls at right angles agree
       total += size;
     }
-  if (total <= 0 || std::abs(sum) < agreement * total) return false;
+  if (total <= 0 || std::abs(sum) < options.agreement * total) return false;
   const double angle = std::arg(sum) / 4;
   const geometry::Point2 own{std::cos(angle), std::sin(angle)};
   direction = {raster.frame.back(own), false};

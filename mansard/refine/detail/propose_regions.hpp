@@ -17,10 +17,11 @@ struct Region {
 
 /// Islands above and below the model at every level that parts the residuals, bands between such levels, and, where a
 /// region runs around something, what it runs around. In an order that depends on the raster only.
-[[nodiscard]] auto regions_of(const Raster& raster, const ProposeOptions& options) -> std::vector<Region>;
+[[nodiscard]] auto regions_of(const Raster& raster, const Options& options) -> std::vector<Region>;
 
 /// The direction of the region's own walls where they agree on one, from how the residual rises at its rim.
-[[nodiscard]] auto own_direction(const Raster& raster, const Region& region, Frame& direction) -> bool;
+[[nodiscard]] auto own_direction(const Raster& raster, const Region& region, const Options::Regions& options,
+                                 Frame& direction) -> bool;
 
 /// The mask, less what is within `by` metres of a cell that is not in it; a square's distance.
 [[nodiscard]] auto shrunk(const Raster& raster, const std::vector<std::uint8_t>& mask, double by)

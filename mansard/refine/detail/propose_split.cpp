@@ -10,11 +10,6 @@
 namespace mansard::refine::detail::carve {
 namespace {
 
-constexpr double least_side = 1.25;  // m across each side of a line
-constexpr double apart = 1.5;        // m between two lines worth telling apart
-constexpr std::size_t most_lines = 3;
-constexpr int rows_per_bin = 2;  // of ridges along x
-
 /// Running sums over columns; entry i is of the columns before i.
 struct Sums {
   std::vector<Moments> cells;
@@ -94,38 +89,39 @@ struct Crossing {
   bool step = false, valley = false;
 };
 
-auto crossing_at(const RowSums& sums, const std::vector<int>& rows, int column, double least_step) -> Crossing {
-  constexpr double most = 0.6;            // of the rows
-  constexpr double clear_of_noise = 0.7;  // of the least step, in one row
-  constexpr double least_valley = 0.15;   // m, of its sides a metre off above its middle
+auto crossing_at(const RowSums& sums, const std::vector<int>& rows, int column, const Options& options) -> Crossing {
+  const auto& o = options.splits;
+  const double least_step = o.step_share * options.cuts.min_step;
+  const double near = options.samples.melt, far = options.outlines.reach;
   double known = 0, steps = 0, valleys = 0;
   for (const int row : rows) {
-    const double left = sums.beside(row, column, -1, 0.5, 1.5), right = sums.beside(row, column, 1, 0.5, 1.5);
+    const double left = sums.beside(row, column, -1, near, far), right = sums.beside(row, column, 1, near, far);
     if (!std::isfinite(left + right)) continue;
-    const double middle = (sums.beside(row, column, -1, 0, 0.5) + sums.beside(row, column, 1, 0, 0.5)) / 2;
+    const double middle = (sums.beside(row, column, -1, 0, near) + sums.beside(row, column, 1, 0, near)) / 2;
     known += 1;
-    if (std::abs(left - right) >= clear_of_noise * least_step) steps += 1;
-    if (std::min(left, right) - middle >= least_valley) valleys += 1;
+    if (std::abs(left - right) >= least_step) steps += 1;
+    if (std::min(left, right) - middle >= o.min_valley) valleys += 1;
   }
-  return {known > 0 && steps > most * known, known > 0 && valleys > most * known};
+  return {known > 0 && steps > o.row_share * known, known > 0 && valleys > o.row_share * known};
 }
 
 /// Per line before column i that leaves enough on either side.
-auto crossings_of(const Raster& raster, const ProposeOptions& options) -> std::vector<Crossing> {
+auto crossings_of(const Raster& raster, const Options& options) -> std::vector<Crossing> {
   const RowSums sums(raster);
   const auto count = static_cast<std::size_t>(raster.columns);
-  const auto side = static_cast<std::size_t>(std::ceil(least_side / raster.spacing));
+  const auto side = static_cast<std::size_t>(std::ceil(options.cuts.line_min_width / raster.spacing));
   std::vector<Crossing> out(count + 1);
   for (std::size_t i = side; i + side <= count; ++i) {
     const int column = static_cast<int>(i);
-    out[i] = crossing_at(sums, rows_across(raster, column), column, options.least_step);
+    out[i] = crossing_at(sums, rows_across(raster, column), column, options);
   }
   return out;
 }
 
 /// The error of the columns before i, and from i on, by ridges along x; for the lines that are asked for.
-void add_ridges_along(const Raster& raster, const std::vector<std::uint8_t>& asked, std::vector<double>& before,
-                      std::vector<double>& from) {
+void add_ridges_along(const Raster& raster, const std::vector<std::uint8_t>& asked, const Options& options,
+                      std::vector<double>& before, std::vector<double>& from) {
+  const int rows_per_bin = static_cast<int>(options.splits.rows_per_bin);
   const auto bins = static_cast<std::size_t>((raster.rows + rows_per_bin - 1) / rows_per_bin);
   const double step = raster.spacing * rows_per_bin, first = -raster.spacing / 2;
   const auto sweep = [&](std::vector<double>& errors, bool backwards) {
@@ -143,7 +139,7 @@ void add_ridges_along(const Raster& raster, const std::vector<std::uint8_t>& ask
         sums[b + 1] = sums[b];
         sums[b + 1] += heap[b];
       }
-      errors[i] = std::min(errors[i], best_ridge_error(sums, first, step));
+      errors[i] = std::min(errors[i], best_ridge_error(sums, first, step, options.surfaces));
     }
   };
   sweep(before, false);
@@ -151,7 +147,7 @@ void add_ridges_along(const Raster& raster, const std::vector<std::uint8_t>& ask
 }
 
 /// Per line before column i where the heights do something, what it explains; else negative.
-auto gains_of(const Raster& raster, const std::vector<Crossing>& crossings, const ProposeOptions& options)
+auto gains_of(const Raster& raster, const std::vector<Crossing>& crossings, const Options& options)
     -> std::vector<double> {
   const Sums sums = sums_of(raster);
   const auto count = static_cast<std::size_t>(raster.columns);
@@ -168,28 +164,29 @@ auto gains_of(const Raster& raster, const std::vector<Crossing>& crossings, cons
     Moments rest = sums.cells.back();
     rest -= sums.cells[i];
     const double knot = first + raster.spacing * static_cast<double>(i);
-    before[i] = std::min(plain_error(sums.cells[i]), best_ridge_error(along.first(i + 1), first, raster.spacing));
-    from[i] = std::min(plain_error(rest), best_ridge_error(along.subspan(i), knot, raster.spacing));
+    before[i] = std::min(plain_error(sums.cells[i]),
+                         best_ridge_error(along.first(i + 1), first, raster.spacing, options.surfaces));
+    from[i] = std::min(plain_error(rest), best_ridge_error(along.subspan(i), knot, raster.spacing, options.surfaces));
   }
-  add_ridges_along(raster, asked, before, from);
+  add_ridges_along(raster, asked, options, before, from);
   for (std::size_t i = 0; i < count; ++i)
     if (asked[i]) {
       const Moments &all = sums.cells.back(), &left = sums.cells[i];
       out[i] = gain_of({left.n, left.rr, before[i]}, {all.n - left.n, all.rr - left.rr, from[i]},
-                       {all.n, all.rr, before.back()});
+                       {all.n, all.rr, before.back()}, options.surfaces);
     }
   return out;
 }
 
 /// The line before column i, moved to where between columns its step or its best gain is.
-auto line_at(const Raster& raster, std::size_t i, const std::vector<double>& gains, const Crossing& crossing)
-    -> SplitLine {
+auto line_at(const Raster& raster, std::size_t i, const std::vector<double>& gains, const Crossing& crossing,
+             const Options& options) -> SplitLine {
   const int column = static_cast<int>(i);
   SplitLine line{raster.x(column) - raster.spacing / 2, gains[i], !crossing.valley};
   if (line.step) {
     // What stands farther on may draw the sums a metre off; the second look is from nearer by.
     const std::vector<int> rows = rows_across(raster, column);
-    line.at = step_near(raster, step_near(raster, line.at, rows), rows);
+    line.at = step_near(raster, step_near(raster, line.at, rows, options), rows, options);
     return line;
   }
   const double before = gains[i - 1], after = gains[i + 1], bend = 2 * gains[i] - before - after;
@@ -201,22 +198,25 @@ auto line_at(const Raster& raster, std::size_t i, const std::vector<double>& gai
 
 }  // namespace
 
-auto split_lines(const Raster& raster, const ProposeOptions& options) -> std::vector<SplitLine> {
+auto split_lines(const Raster& raster, double least_gain, const Options& options) -> std::vector<SplitLine> {
   const std::vector<Crossing> crossings = crossings_of(raster, options);
   const std::vector<double> gains = gains_of(raster, crossings, options);
-  const auto reach = static_cast<std::ptrdiff_t>(std::lround(apart / raster.spacing));
+  const auto reach = static_cast<std::ptrdiff_t>(std::lround(options.splits.apart / raster.spacing));
   const auto count = static_cast<std::ptrdiff_t>(gains.size());
   const auto g = [&](std::ptrdiff_t k) {
     return gains[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(k, 0, count - 1))];
   };
   std::vector<SplitLine> out;
   for (std::ptrdiff_t i = 1; i + 1 < count; ++i) {
-    bool top = g(i) * raster.cell_area() >= options.least_gain;
+    bool top = g(i) * raster.cell_area() >= least_gain;
     for (std::ptrdiff_t d = 1; d <= reach && top; ++d) top = g(i) > g(i - d) && g(i) >= g(i + d);
-    if (top) out.push_back(line_at(raster, static_cast<std::size_t>(i), gains, crossings[static_cast<std::size_t>(i)]));
+    if (top)
+      out.push_back(
+          line_at(raster, static_cast<std::size_t>(i), gains, crossings[static_cast<std::size_t>(i)], options));
   }
   std::ranges::stable_sort(out, std::greater{}, &SplitLine::gain);
-  if (out.size() > most_lines) out.resize(most_lines);
+  const auto most = static_cast<std::size_t>(options.splits.max_count);
+  if (out.size() > most) out.resize(most);
   return out;
 }
 

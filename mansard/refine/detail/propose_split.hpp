@@ -14,7 +14,9 @@ struct SplitLine {
   bool step = false;  ///< the two roofs differ in height at the line; else they meet there, as in a valley
 };
 
-/// The best lines across the raster's x, at most three, apart from each other; best first.
-[[nodiscard]] auto split_lines(const Raster& raster, const ProposeOptions& options) -> std::vector<SplitLine>;
+/// The best lines across the raster's x, few and apart from each other (`Options::splits`); best first. Each explains
+/// `least_gain`, m²·m².
+[[nodiscard]] auto split_lines(const Raster& raster, double least_gain, const Options& options)
+    -> std::vector<SplitLine>;
 
 }  // namespace mansard::refine::detail::carve

@@ -7,9 +7,10 @@
 namespace mansard::refine::detail::carve {
 namespace {
 
-constexpr double bin = 0.5;              // m: ridges are tried this far apart
-constexpr double least_ridge_area = 30;  // m²: on less, a ridge fits a tree's crown as well as a roof
-constexpr double steepest = 1.5;         // rise per run, 56°; steeper is a wall that melted
+// Error bounds of sums over cells. Places are below 1e3 m and heights below 1e3 m, so a sum of squares over n cells is
+// exact to n · 1e6 · 2⁻⁵³ ≈ n · 1e-10, and relative to its largest term to n · 2⁻⁵³ ≈ 1e-11 for 1e5 cells.
+constexpr double singular = 1e-9;  ///< a determinant of less, relative to its terms, is rounding: all cells on one line
+constexpr double half_a_cell = 0.5;  ///< counts are whole numbers in doubles
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 struct Bins {
@@ -17,7 +18,7 @@ struct Bins {
   std::vector<LineMoments> inside, outside;
 };
 
-auto bins_of(const Raster& raster, const std::vector<std::uint8_t>& mask, geometry::Point2 along) -> Bins {
+auto bins_of(const Raster& raster, const std::vector<std::uint8_t>& mask, geometry::Point2 along, double bin) -> Bins {
   // `along` and the raster's own axes, without turning every cell.
   const double cu = dot(along, raster.frame.axis), cv = dot(along, geometry::left_of(raster.frame.axis));
   const double w = raster.spacing * (raster.columns - 1), h = raster.spacing * (raster.rows - 1);
@@ -38,13 +39,13 @@ auto bins_of(const Raster& raster, const std::vector<std::uint8_t>& mask, geomet
   return out;
 }
 
-auto ridge_over(const std::vector<LineMoments>& bins, double first) -> double {
+auto ridge_over(const std::vector<LineMoments>& bins, double first, const Options::Surfaces& options) -> double {
   std::vector<LineMoments> sums(bins.size() + 1);
   for (std::size_t i = 0; i < bins.size(); ++i) {
     sums[i + 1] = sums[i];
     sums[i + 1] += bins[i];
   }
-  return best_ridge_error(sums, first, bin);
+  return best_ridge_error(sums, first, options.bin, options);
 }
 
 struct Pair {
@@ -72,7 +73,7 @@ auto plane_of(const Moments& m) -> Plane {
   const double xz = m.xz - m.x * m.z / m.n, yz = m.yz - m.y * m.z / m.n;
   const double det = xx * yy - xy * xy;
   Plane out;
-  if (det > 1e-9 * xx * yy && det > 0) {
+  if (det > singular * xx * yy && det > 0) {
     out.x = (xz * yy - yz * xy) / det;
     out.y = (yz * xx - xz * xy) / det;
   }
@@ -81,7 +82,8 @@ auto plane_of(const Moments& m) -> Plane {
 }
 
 /// From the median height to a plane, taking in what comes near it, closer each time.
-auto share_on_plane(const Raster& raster, const std::vector<std::uint8_t>& mask, double tolerance) -> double {
+auto share_on_plane(const Raster& raster, const std::vector<std::uint8_t>& mask, double tolerance,
+                    const Options::Surfaces& options) -> double {
   std::vector<float> heights;
   for (std::size_t k = 0; k < mask.size(); ++k)
     if (mask[k] && raster.state[k] == Cell::seen) heights.push_back(raster.z[k]);
@@ -90,7 +92,8 @@ auto share_on_plane(const Raster& raster, const std::vector<std::uint8_t>& mask,
   std::ranges::nth_element(heights, middle);
   Plane plane{*middle, 0, 0};
   double share = 0;
-  for (const double near : {4 * tolerance, 2 * tolerance, tolerance}) {
+  for (std::int64_t round = options.plane_rounds; round-- > 0;) {
+    const double near = std::ldexp(tolerance, static_cast<int>(round));
     Moments m;
     for (int j = 0; j < raster.rows; ++j)
       for (int i = 0; i < raster.columns; ++i) {
@@ -138,7 +141,7 @@ auto operator-(LineMoments a, const LineMoments& b) -> LineMoments {
 }
 
 auto plain_error(const Moments& m) -> double {
-  if (m.n < 0.5) return 0;
+  if (m.n < half_a_cell) return 0;
   const double lifted = m.rr - m.r * m.r / m.n, level = m.zz - m.z * m.z / m.n;
   double best = std::min({m.rr, lifted, level});
   const Plane plane = plane_of(m);
@@ -146,40 +149,42 @@ auto plain_error(const Moments& m) -> double {
   return std::max(0.0, best);
 }
 
-auto ridge_error(const LineMoments& left, const LineMoments& right, double knot) -> double {
+auto ridge_error(const LineMoments& left, const LineMoments& right, double knot, double max_slope) -> double {
   // Height at the ridge, and a fall per metre away from it on either side.
   const double n = left.n + right.n;
   const double a = knot * left.n - left.t, aa = (knot * left.n - 2 * left.t) * knot + left.tt;
   const double b = right.t - knot * right.n, bb = right.tt - (2 * right.t - knot * right.n) * knot;
   const double az = knot * left.z - left.tz, bz = right.tz - knot * right.z;
-  if (aa < 1e-9 || bb < 1e-9) return infinite;
+  if (aa < singular || bb < singular) return infinite;
   const double s = n - a * a / aa - b * b / bb;
-  if (s < 1e-9 * n) return infinite;
+  if (s < singular * n) return infinite;
   const double q = left.z + right.z - a * az / aa - b * bz / bb, top = q / s;
   const double left_rise = (az - a * top) / aa, right_rise = (bz - b * top) / bb;
-  if (left_rise + right_rise > 0 || std::max(std::abs(left_rise), std::abs(right_rise)) > steepest) return infinite;
+  if (left_rise + right_rise > 0 || std::max(std::abs(left_rise), std::abs(right_rise)) > max_slope) return infinite;
   return std::max(0.0, left.zz + right.zz - az * az / aa - bz * bz / bb - q * top);
 }
 
-auto best_ridge_error(std::span<const LineMoments> sums, double first_knot, double step) -> double {
+auto best_ridge_error(std::span<const LineMoments> sums, double first_knot, double step,
+                      const Options::Surfaces& options) -> double {
   double best = infinite;
   for (std::size_t i = 1; i + 1 < sums.size(); ++i) {
     const LineMoments left = sums[i] - sums.front(), right = sums.back() - sums[i];
-    if (left.n < 0.5 || right.n < 0.5) continue;
-    best = std::min(best, ridge_error(left, right, first_knot + step * static_cast<double>(i)));
+    if (left.n < half_a_cell || right.n < half_a_cell) continue;
+    best = std::min(best, ridge_error(left, right, first_knot + step * static_cast<double>(i), options.max_slope));
   }
   return best;
 }
 
-auto gain_of(const Error& inside, const Error& outside, const Error& whole) -> double {
-  constexpr double most = 0.5;  // of the model's error
+auto gain_of(const Error& inside, const Error& outside, const Error& whole, const Options::Surfaces& options)
+    -> double {
   const double refitted = whole.best - inside.best - outside.best;
-  if (whole.best <= most * whole.model) return refitted;
+  if (whole.best <= options.model_share * whole.model) return refitted;
   const Error& smaller = inside.count <= outside.count ? inside : outside;
   return std::max(refitted, smaller.model - smaller.best);
 }
 
-auto errors_of(const Raster& raster, const std::vector<std::uint8_t>& mask, const Frame& ridges) -> Errors {
+auto errors_of(const Raster& raster, const std::vector<std::uint8_t>& mask, const Frame& ridges,
+               const Options::Surfaces& options) -> Errors {
   const auto [inside, outside] = moments_of(raster, mask);
   Moments all = inside;
   all += outside;
@@ -190,31 +195,32 @@ auto errors_of(const Raster& raster, const std::vector<std::uint8_t>& mask, cons
              mean(inside),
              mean(outside)};
   const auto improve = [](Error& error, double by) { error.best = std::min(error.best, by); };
-  const double least = least_ridge_area / raster.cell_area();
+  const double least = options.ridge_min_area / raster.cell_area();
   for (const geometry::Point2 along : {ridges.axis, geometry::left_of(ridges.axis)}) {
-    const Bins bins = bins_of(raster, mask, along);
-    if (inside.n > least) improve(out.inside, ridge_over(bins.inside, bins.first));
-    if (outside.n > least) improve(out.outside, ridge_over(bins.outside, bins.first));
+    const Bins bins = bins_of(raster, mask, along, options.bin);
+    if (inside.n > least) improve(out.inside, ridge_over(bins.inside, bins.first, options));
+    if (outside.n > least) improve(out.outside, ridge_over(bins.outside, bins.first, options));
     std::vector<LineMoments> both = bins.inside;
     for (std::size_t i = 0; i < both.size(); ++i) both[i] += bins.outside[i];
-    improve(out.whole, ridge_over(both, bins.first));
+    improve(out.whole, ridge_over(both, bins.first, options));
   }
   return out;
 }
 
-auto fit_of(const Raster& raster, const std::vector<std::uint8_t>& mask, const Frame& ridges, double tolerance) -> Fit {
+auto fit_of(const Raster& raster, const std::vector<std::uint8_t>& mask, const Frame& ridges, double tolerance,
+            const Options::Surfaces& options) -> Fit {
   const Moments inside = moments_of(raster, mask).inside;
   if (inside.n < 1) return {infinite, 0};
   double error = plain_error(inside);
-  if (inside.n > least_ridge_area / raster.cell_area())
+  if (inside.n > options.ridge_min_area / raster.cell_area())
     for (const geometry::Point2 along : {ridges.axis, geometry::left_of(ridges.axis)}) {
-      const Bins bins = bins_of(raster, mask, along);
-      error = std::min(error, ridge_over(bins.inside, bins.first));
+      const Bins bins = bins_of(raster, mask, along, options.bin);
+      error = std::min(error, ridge_over(bins.inside, bins.first, options));
     }
-  return {std::sqrt(error / inside.n), share_on_plane(raster, mask, tolerance)};
+  return {std::sqrt(error / inside.n), share_on_plane(raster, mask, tolerance, options)};
 }
 
-auto fullness_of(const Raster& raster, const std::vector<std::uint8_t>& mask) -> double {
+auto fullness_of(const Raster& raster, const std::vector<std::uint8_t>& mask, std::int64_t part) -> double {
   std::vector<float> residuals;
   double mean = 0;
   for (std::size_t k = 0; k < mask.size(); ++k)
@@ -223,7 +229,7 @@ auto fullness_of(const Raster& raster, const std::vector<std::uint8_t>& mask) ->
   for (const float r : residuals) mean += r / static_cast<double>(residuals.size());
   if (mean < 0)
     for (float& r : residuals) r = -r;
-  const auto high = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() * 19 / 20);
+  const auto high = residuals.begin() + std::ssize(residuals) * (part - 1) / part;
   std::ranges::nth_element(residuals, high);
   return *high > 0 ? std::abs(mean) / *high : 1;
 }

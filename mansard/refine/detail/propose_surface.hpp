@@ -30,11 +30,13 @@ struct LineMoments {
 
 /// Of the best roof with its ridge at `knot` across the direction, sums given left and right of it. Infinite where the
 /// two slopes make a valley, which is two roofs, or one is too steep for a roof.
-[[nodiscard]] auto ridge_error(const LineMoments& left, const LineMoments& right, double knot) -> double;
+[[nodiscard]] auto ridge_error(const LineMoments& left, const LineMoments& right, double knot, double max_slope)
+    -> double;
 
 /// Of the best of all ridges over a row of bins, given as running sums: bin i is sums[i + 1] − sums[i], knots between
 /// bins at first_knot + i·step.
-[[nodiscard]] auto best_ridge_error(std::span<const LineMoments> sums, double first_knot, double step) -> double;
+[[nodiscard]] auto best_ridge_error(std::span<const LineMoments> sums, double first_knot, double step,
+                                    const Options::Surfaces& options) -> double;
 
 /// Errors of one set of cells, m² × cells: of the model as it is, and of the best simple surface (or the model).
 struct Error {
@@ -44,16 +46,19 @@ struct Error {
 /// What a cut explains, m² × cells. Where one surface for all would explain most of what the model leaves, only what
 /// two explain beyond that one; else what the smaller side alone gains over the model, if that is more, since one
 /// surface for all would bend towards whatever else stands in the part.
-[[nodiscard]] auto gain_of(const Error& inside, const Error& outside, const Error& whole) -> double;
+[[nodiscard]] auto gain_of(const Error& inside, const Error& outside, const Error& whole,
+                           const Options::Surfaces& options) -> double;
 
 /// Two sets of cells, each by its best simple surface, and both by one.
 struct Errors {
   Error inside, outside, whole;
   double inside_mean = 0, outside_mean = 0;  ///< mean residual, m
-  [[nodiscard]] auto gain() const -> double { return gain_of(inside, outside, whole); }
 };
-[[nodiscard]] auto errors_of(const Raster& raster, const std::vector<std::uint8_t>& mask, const Frame& ridges)
-    -> Errors;
+[[nodiscard]] auto errors_of(const Raster& raster, const std::vector<std::uint8_t>& mask, const Frame& ridges,
+                             const Options::Surfaces& options) -> Errors;
+[[nodiscard]] inline auto gain_of(const Errors& errors, const Options::Surfaces& options) -> double {
+  return gain_of(errors.inside, errors.outside, errors.whole, options);
+}
 
 /// How smooth a set of cells is.
 struct Fit {
@@ -61,10 +66,11 @@ struct Fit {
   double near = 0;  ///< share of cells within `tolerance` of a plane that most of them agree on
 };
 [[nodiscard]] auto fit_of(const Raster& raster, const std::vector<std::uint8_t>& mask, const Frame& ridges,
-                          double tolerance) -> Fit;
+                          double tolerance, const Options::Surfaces& options) -> Fit;
 
-/// The mean residual over what the most residual twentieth of the cells has at least: 1 for a box, less for a dome.
-[[nodiscard]] auto fullness_of(const Raster& raster, const std::vector<std::uint8_t>& mask) -> double;
+/// The mean residual over the one that one cell in `part` exceeds: 1 for a box, less for a dome.
+[[nodiscard]] auto fullness_of(const Raster& raster, const std::vector<std::uint8_t>& mask, std::int64_t part)
+    -> double;
 
 /// Root mean square, m, that a roof hipped on all sides of the polygon, of any pitch, leaves of the cells; infinite
 /// where it would be a funnel. The raster is one along the axes.

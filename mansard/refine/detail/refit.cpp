@@ -17,8 +17,10 @@ using model::Plan;
 using model::PlanRing;
 using model::Profile;
 
-constexpr double least_slope = 0.03;  // flatter ones are the cap's business
-constexpr double most_slope = 12.0;   // steeper ones are walls
+/// Error bound, rise per run, on the division that makes two lines meet. Heights at the edge are means of heights below
+/// 1e3 m, rounded to some 1e-12 m; divided by a difference of slopes of 1e-6 that is 1e-6 m of the knot. Below it the
+/// knot stays where it was.
+constexpr double parallel = 1e-6;
 
 /// Looks by profile and by the part of the profile that made the face they see.
 using Looks = std::vector<std::vector<std::vector<Look>>>;
@@ -45,24 +47,21 @@ struct Sorted {
 /// Whether a look sees the middle of a face: nothing else is seen `melt` along the edge and up and down the slope.
 class Middle {
  public:
-  Middle(const Judged& judged, const Heights& grid) : judged_(judged), grid_(grid) {}
+  Middle(const Judged& judged, const Heights& grid, double melt) : judged_(judged), grid_(grid), melt_(melt) {}
 
   [[nodiscard]] auto holds(std::size_t cell, const Profile& profile, std::uint32_t part, Point2 at, double inward,
                            Point2 up) const -> bool {
     const auto &foot = profile[part], &head = profile[part + 1];
     const double slope = (head.height - foot.height) / (head.inward - foot.inward);
-    const double reach = melt / std::sqrt(1 + slope * slope);  // as it is seen from above
+    const double reach = melt_ / std::sqrt(1 + slope * slope);  // as it is seen from above
     if (inward < foot.inward + reach) return false;
     const bool ends = part + 2 < profile.size();  // the last part goes on until it meets another face
     if (ends ? inward > head.inward - reach : !same(cell, at + reach * up)) return false;
-    const Point2 along = melt * geometry::left_of(up);
+    const Point2 along = melt_ * geometry::left_of(up);
     return same(cell, at + along) && same(cell, at - along);
   }
 
  private:
-  /// Two and a half times the smoothing of a fair scan (0.2 m): beyond, a crease does not move a surface any more.
-  static constexpr double melt = 0.5;  // m
-
   [[nodiscard]] auto same(std::size_t cell, Point2 at) const -> bool {
     const double column = std::round((at.x - grid_.origin.x) / grid_.spacing);
     const double row = std::round((at.y - grid_.origin.y) / grid_.spacing);
@@ -74,10 +73,11 @@ class Middle {
 
   const Judged& judged_;
   const Heights& grid_;
+  double melt_;  // m
 };
 
-auto sort_looks(const Judged& judged, const Site& site, Used used) -> Sorted {
-  const Middle middle(judged, site.measured);
+auto sort_looks(const Judged& judged, const Site& site, const Options& options, Used used) -> Sorted {
+  const Middle middle(judged, site.measured, options.samples.melt);
   Sorted out;
   out.looks.resize(judged.plan.profiles.size());
   for (std::size_t p = 0; p < out.looks.size(); ++p) out.looks[p].resize(judged.plan.profiles[p].size());
@@ -112,23 +112,23 @@ auto line_of(const Profile& profile, std::size_t i) -> std::optional<RoofLine> {
   return RoofLine{a.height - slope * a.inward, slope};
 }
 
-auto refitted_line(const RoofLine& line, const std::vector<Look>& looks) -> RoofLine {
-  constexpr std::size_t fewest = 4;
-  if (looks.size() < fewest) return line;
-  const auto free = line_through(looks, line);
-  RoofLine out = free.value_or(raised_line(looks, line));
-  const double terrace = line.slope == 0 ? 0 : least_slope;
-  out.slope = std::clamp(out.slope, terrace, most_slope);
+auto refitted_line(const RoofLine& line, const std::vector<Look>& looks, const Options& options) -> RoofLine {
+  if (std::ssize(looks) < options.refit.min_samples) return line;
+  const auto free = line_through(looks, line, options.lines);
+  RoofLine out = free.value_or(raised_line(looks, line, options.lines));
+  const double terrace = line.slope == 0 ? 0 : options.refit.min_slope;
+  out.slope = std::clamp(out.slope, terrace, std::max(terrace, options.refit.max_slope));
   if (line.slope == 0) out.slope = 0;
-  return free && out.slope == free->slope ? out : raised_line(looks, out);
+  return free && out.slope == free->slope ? out : raised_line(looks, out, options.lines);
 }
 
 /// A profile is a chain: where its lines were joined they are joined again, walls between them stay where they stand.
-auto rebuilt(const Profile& profile, const std::vector<std::vector<Look>>& looks) -> std::optional<Profile> {
+auto rebuilt(const Profile& profile, const std::vector<std::vector<Look>>& looks, const Options& options)
+    -> std::optional<Profile> {
   std::vector<std::optional<RoofLine>> lines;
   for (std::size_t i = 0; i + 1 < profile.size(); ++i) {
     lines.push_back(line_of(profile, i));
-    if (lines.back()) lines.back() = refitted_line(*lines.back(), looks[i]);
+    if (lines.back()) lines.back() = refitted_line(*lines.back(), looks[i], options);
   }
   Profile out{{0, 0}};
   const auto add = [&out](double inward, double height) {
@@ -146,10 +146,9 @@ auto rebuilt(const Profile& profile, const std::vector<std::vector<Look>>& looks
     }
     const auto next = i + 1 < lines.size() ? lines[i + 1] : std::nullopt;
     double end = profile[i + 1].inward;
-    if (next && std::abs(next->slope - line.slope) > 1e-6) {
-      constexpr double farthest = 1.5;  // m that a knot may move; a wilder one means that the looks do not carry it
+    if (next && std::abs(next->slope - line.slope) > parallel) {
       end = (line.at_edge - next->at_edge) / (next->slope - line.slope);
-      if (std::abs(end - profile[i + 1].inward) > farthest) return std::nullopt;
+      if (std::abs(end - profile[i + 1].inward) > options.refit.max_knot_move) return std::nullopt;
     }
     if (end < last_inward) return std::nullopt;
     last_inward = end;
@@ -165,18 +164,17 @@ auto rebuilt(const Profile& profile, const std::vector<std::vector<Look>>& looks
 
 }  // namespace
 
-auto refitted(const Judged& judged, const Site& site, Used used) -> Plan {
-  auto sorted = sort_looks(judged, site, used);
+auto refitted(const Judged& judged, const Site& site, const Options& options, Used used) -> Plan {
+  auto sorted = sort_looks(judged, site, options, used);
   Plan plan = judged.plan;
   for (std::size_t p = 0; p < plan.profiles.size(); ++p) {
     const auto& profile = plan.profiles[p];
     if (profile.back().inward == 0) continue;
     if (std::ranges::all_of(sorted.looks[p], [](const auto& looks) { return looks.empty(); })) continue;
-    if (auto better = rebuilt(profile, sorted.looks[p])) plan.profiles[p] = std::move(*better);
+    if (auto better = rebuilt(profile, sorted.looks[p], options)) plan.profiles[p] = std::move(*better);
   }
-  constexpr std::size_t fewest = 8;
-  constexpr double least_cap = 0.5;  // m
-  if (sorted.cap.size() >= fewest) plan.cap = std::max(least_cap, base::median(std::move(sorted.cap)));
+  if (std::ssize(sorted.cap) >= options.refit.min_cap_samples)
+    plan.cap = std::max(options.forms.min_height, base::median(std::move(sorted.cap)));
   return plan;
 }
 

@@ -14,6 +14,7 @@ enum class Used : std::uint8_t {
 
 /// The plan with gutter heights, pitches and knots of its profiles, and its cap, refitted to the faces that they made.
 /// Profiles whose refit would fall or lean out stay as they are.
-[[nodiscard]] auto refitted(const Judged& judged, const Site& site, Used used = Used::all) -> model::Plan;
+[[nodiscard]] auto refitted(const Judged& judged, const Site& site, const Options& options, Used used = Used::all)
+    -> model::Plan;
 
 }  // namespace mansard::refine::detail

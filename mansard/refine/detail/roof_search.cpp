@@ -15,7 +15,6 @@ using model::Profile;
 
 /// Later caps must be clearly better, so that noise does not choose; the likeliest come first.
 auto best_cap(const Draft& draft, const Judge& judge) -> base::Result<Judged> {
-  constexpr double clearly = 0.95;
   std::optional<Judged> best;
   std::optional<base::Diagnostic> failure;
   for (const double cap : draft.caps) {
@@ -23,7 +22,7 @@ auto best_cap(const Draft& draft, const Judge& judge) -> base::Result<Judged> {
     plan.cap = cap;
     auto judged = judge(plan);
     if (!judged) failure = judged.error();
-    else if (!best || judged->misfit < clearly * best->misfit) best = std::move(*judged);
+    else if (!best || judged->misfit < judge.options().search.cap_gain * best->misfit) best = std::move(*judged);
   }
   if (best) return std::move(*best);
   return *failure;
@@ -31,9 +30,8 @@ auto best_cap(const Draft& draft, const Judge& judge) -> base::Result<Judged> {
 
 /// Moves the planes until that no longer helps.
 auto settle(Judged judged, const Judge& judge) -> Judged {
-  constexpr int rounds = 3;
-  for (int round = 0; round < rounds; ++round) {
-    auto next = judge(refitted(judged, judge.site()));
+  for (std::int64_t round = 0; round < judge.options().search.settle_rounds; ++round) {
+    auto next = judge(refitted(judged, judge.site(), judge.options()));
     if (!next || !(next->cost < judged.cost)) break;
     judged = std::move(*next);
   }
@@ -41,13 +39,13 @@ auto settle(Judged judged, const Judge& judge) -> Judged {
 }
 
 /// What an edge might carry instead of what it carries now.
-auto others_of(const Draft& draft, const Plan& plan, std::size_t p, const std::vector<Side>& sides)
-    -> std::vector<Profile> {
+auto others_of(const Draft& draft, const Plan& plan, std::size_t p, const std::vector<Side>& sides,
+               const Options& options) -> std::vector<Profile> {
   std::vector<Profile> out;
   const auto add = [&](Profile profile) {
     if (profile != plan.profiles[p] && std::ranges::find(out, profile) == out.end()) out.push_back(std::move(profile));
   };
-  if (!is_wall(plan.profiles[p])) add(wall(plan.profiles[p][1].height));
+  if (!is_wall(plan.profiles[p])) add(wall(plan.profiles[p][1].height, options.forms));
   if (p < draft.alternatives.size())
     for (const auto& profile : draft.alternatives[p]) add(profile);
   // What the opposite and the longest pitched side carry.
@@ -55,8 +53,8 @@ auto others_of(const Draft& draft, const Plan& plan, std::size_t p, const std::v
   for (std::size_t q = 0; q < sides.size(); ++q) {
     if (q == p || is_wall(plan.profiles[q])) continue;
     if (!longest || sides[q].length > sides[*longest].length) longest = q;
-    constexpr double facing = -0.95;
-    if (dot(sides[q].inward, sides[p].inward) < facing && (!opposite || sides[q].length > sides[*opposite].length))
+    if (dot(sides[q].inward, sides[p].inward) < -options.search.opposite_cosine &&
+        (!opposite || sides[q].length > sides[*opposite].length))
       opposite = q;
   }
   if (opposite) add(plan.profiles[*opposite]);
@@ -72,8 +70,7 @@ auto misfit_by_side(const Judged& judged, const Judge& judge) -> std::vector<dou
   for (std::size_t i = 0; i < site.cells.size(); ++i) {
     const auto cell = site.cells[i];
     const double difference = std::abs(judged.view.z[cell] - site.measured.z[cell]);
-    constexpr double noise = 0.2;  // m; no other profile explains less
-    if (!(difference > noise)) continue;
+    if (!(difference > judge.options().search.min_difference)) continue;
     const auto at = site.measured.centre(cell);
     if (const auto nearest = nearest_eaves(edges, at))
       out[nearest->profile] +=
@@ -84,7 +81,7 @@ auto misfit_by_side(const Judged& judged, const Judge& judge) -> std::vector<dou
 
 /// One edge after the other, the longest first: whatever it carries better is taken.
 auto descend(Judged judged, const Draft& draft, const Judge& judge) -> Judged {
-  constexpr std::size_t most_sides = 24;  // of plans with more, the longest
+  const auto most_sides = static_cast<std::size_t>(judge.options().search.max_sides);
   const auto sides = sides_of(judged.plan);
   std::vector<std::size_t> order;
   for (std::size_t p = 0; p < sides.size(); ++p)
@@ -95,8 +92,8 @@ auto descend(Judged judged, const Draft& draft, const Judge& judge) -> Judged {
   std::optional<std::vector<std::vector<Profile>>> setbacks;
   for (const std::size_t p : order) {
     if (misfit[p] < judge.options().face_price) continue;  // nothing to gain that a face would not cost
-    if (!setbacks) setbacks = setbacks_of(judged.plan, judge.site());
-    auto others = others_of(draft, judged.plan, p, sides);
+    if (!setbacks) setbacks = setbacks_of(judged.plan, judge.site(), judge.options());
+    auto others = others_of(draft, judged.plan, p, sides, judge.options());
     others.insert(others.end(), (*setbacks)[p].begin(), (*setbacks)[p].end());
     for (auto& profile : others) {
       Plan plan = judged.plan;
@@ -120,7 +117,7 @@ auto pitch_of(const Profile& profile) -> std::optional<Pitch> {
 /// Builders make gutters level and pitches equal; noise does not. Sides that nearly agree take their mean, longer ones
 /// counting more, where that costs no more than a face is worth.
 auto regular(Judged judged, const Judge& judge) -> Judged {
-  constexpr double gutters = 0.3, slopes = 0.1;  // m; about 4° at 40°
+  const auto& options = judge.options().search;
   const auto sides = sides_of(judged.plan);
   Plan plan = judged.plan;
   std::vector<bool> done(sides.size(), false);
@@ -132,8 +129,8 @@ auto regular(Judged judged, const Judge& judge) -> Judged {
     double length = 0;
     for (std::size_t q = p; q < sides.size(); ++q) {
       const auto other = pitch_of(judged.plan.profiles[q]);
-      if (done[q] || !other || std::abs(other->gutter - first->gutter) > gutters ||
-          std::abs(other->slope - first->slope) > slopes)
+      if (done[q] || !other || std::abs(other->gutter - first->gutter) > options.regular_gutter ||
+          std::abs(other->slope - first->slope) > options.regular_slope)
         continue;
       alike.push_back(q);
       mean.gutter += sides[q].length * other->gutter;
@@ -162,6 +159,7 @@ auto best_roof(const Draft& draft, const Judge& judge, Search search, double wor
   auto start = best_cap(draft, judge);
   if (!start || judge.options().effort == Effort::caps || judge.site().cells.empty()) return start;
 
+  const auto& options = judge.options().search;
   const double faces_apart = judge.options().face_price;  // less misfit than one face costs: nothing can pay
   Judged best = std::move(*start);
   const auto before = best.plan;
@@ -170,23 +168,20 @@ auto best_roof(const Draft& draft, const Judge& judge, Search search, double wor
   if (search == Search::settled) return settle(std::move(best), judge);
   std::vector<Judged> starts;
   starts.push_back(best);
-  for (const auto& form : forms_of(draft.plan, judge.site()))
+  for (const auto& form : forms_of(draft.plan, judge.site(), judge.options()))
     if (auto judged = judge(form)) starts.push_back(std::move(*judged));
   std::ranges::stable_sort(starts, {}, &Judged::cost);
-  const std::size_t followed = search == Search::thorough ? 4 : 2;
+  const auto followed = static_cast<std::size_t>(search == Search::thorough ? options.starts : options.quick_starts);
   if (starts.size() > followed) starts.resize(followed);
   for (auto& judged : starts) {
     judged = settle(std::move(judged), judge);
     if (judged.cost < best.cost) best = judged;
   }
-  constexpr double hopeless = 2;  // searching on never halved a roof's cost
-  if (search == Search::quick || best.cost > hopeless * worth) return best;
-  constexpr int rounds = 2;
-  for (int round = 0; round < rounds; ++round) {
+  if (search == Search::quick || best.cost > options.hopeless * worth) return best;
+  for (std::int64_t round = 0; round < options.rounds; ++round) {
     const double cost = best.cost;
     best = settle(descend(std::move(best), draft, judge), judge);
-    constexpr double enough = 0.98;
-    if (best.cost > enough * cost) break;
+    if (best.cost > options.round_gain * cost) break;
   }
   best = regular(std::move(best), judge);
   const auto was = pitched_sides(before), is = pitched_sides(best.plan);

@@ -12,8 +12,7 @@ namespace {
 using model::Plan;
 
 /// Whether all that the plan's profiles carry rises less than a flat roof may, for the rain to run off.
-auto nearly_level(const Plan& plan) -> bool {
-  constexpr double flattest = 0.07;  // m per m; 4°
+auto nearly_level(const Plan& plan, double flattest) -> bool {
   bool any = false;
   for (const auto& profile : plan.profiles) {
     if (is_wall(profile)) continue;
@@ -27,11 +26,10 @@ auto nearly_level(const Plan& plan) -> bool {
 }
 
 /// Flat, at the height of most of what is seen.
-auto levelled(const Plan& plan, const Site& site) -> Plan {
-  constexpr double least = 0.5;  // m
+auto levelled(const Plan& plan, const Site& site, const Options::Forms& options) -> Plan {
   Plan flat = plan;
-  flat.cap = std::max(least, site.sorted[site.sorted.size() / 2]);
-  for (auto& profile : flat.profiles) profile = wall(flat.cap);
+  flat.cap = std::max(options.min_height, site.sorted[site.sorted.size() / 2]);
+  for (auto& profile : flat.profiles) profile = wall(flat.cap, options);
   return flat;
 }
 
@@ -39,15 +37,15 @@ auto levelled(const Plan& plan, const Site& site) -> Plan {
 
 auto sharpened(Judged judged, const Judge& judge) -> Judged {
   if (judge.site().sorted.empty()) return judged;
-  constexpr int rounds = 2;
-  const double most = judged.cost + judge.options().face_price;
-  for (int round = 0; round < rounds; ++round) {
-    auto next = judge(refitted(judged, judge.site(), Used::middle));
+  const auto& options = judge.options();
+  const double most = judged.cost + options.face_price;
+  for (std::int64_t round = 0; round < options.sharpen.rounds; ++round) {
+    auto next = judge(refitted(judged, judge.site(), options, Used::middle));
     if (!next || next->plan == judged.plan || next->cost > most) break;
     judged = std::move(*next);
   }
-  if (!nearly_level(judged.plan)) return judged;
-  auto flat = judge(levelled(judged.plan, judge.site()));
+  if (!nearly_level(judged.plan, options.sharpen.flat_slope)) return judged;
+  auto flat = judge(levelled(judged.plan, judge.site(), options.forms));
   return flat && flat->cost <= most ? std::move(*flat) : judged;
 }
 

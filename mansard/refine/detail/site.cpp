@@ -77,7 +77,6 @@ void each_near(Point2 a, Point2 b, double within, const Heights& grid, See see) 
 
 /// Lists the cells and weighs them.
 void finish(Site& site, const Options& options) {
-  constexpr double near_wall = 0.2;  // melted walls and neighbours' roofs show there; all else being equal they decide
   const auto& grid = site.measured;
   site.cell_area = grid.spacing * grid.spacing;
   std::vector<bool> margin(grid.z.size(), false);
@@ -92,7 +91,7 @@ void finish(Site& site, const Options& options) {
     if (std::isnan(grid.z[cell])) continue;
     site.cells.push_back(static_cast<std::uint32_t>(cell));
     site.sorted.push_back(grid.z[cell]);
-    site.weight.push_back(margin[cell] ? near_wall : 1);
+    site.weight.push_back(margin[cell] ? options.samples.margin_weight : 1);
   }
   std::ranges::sort(site.sorted);
 }
@@ -100,8 +99,7 @@ void finish(Site& site, const Options& options) {
 }  // namespace
 
 auto look(const Polygon& polygon, double base, const rays::Scene& mesh, const Options& options) -> Site {
-  constexpr double most_cells = 150'000;  // a hall of 9,000 m² at 0.25 m
-  const double coarser = std::ceil(std::sqrt(geometry::area(polygon) / most_cells) / options.grid);
+  const double coarser = std::ceil(std::sqrt(geometry::area(polygon) / options.samples.max_cells) / options.grid);
   Site site{polygon, base, grid_over(polygon, options.grid * std::max(1.0, coarser)), {}, {}, {}, 0};
   auto& grid = site.measured;
   each_inside(polygon, grid, [&](std::size_t column, std::size_t row) {
@@ -127,9 +125,8 @@ auto crop(const Site& site, const Polygon& piece, const Options& options) -> Sit
   return out;
 }
 
-auto commonest(const std::vector<double>& sorted) -> double {
-  constexpr double breadth = 0.5;  // m
-  return base::commonest(sorted, breadth);
+auto commonest(const std::vector<double>& sorted, const Options& options) -> double {
+  return base::commonest(sorted, options.samples.level_band);
 }
 
 }  // namespace mansard::refine::detail

@@ -28,7 +28,8 @@ struct Site {
 /// A piece of a site that was looked at already.
 [[nodiscard]] auto crop(const Site& site, const geometry::Polygon& piece, const Options& options) -> Site;
 
-/// The middle of the half metre of height that most looks share: a flat roof's level, whatever stands on it.
-[[nodiscard]] auto commonest(const std::vector<double>& sorted) -> double;
+/// The middle of the band of height (`Options::Samples::level_band`) that contains the most samples: the level of a
+/// flat roof, whatever is built on it.
+[[nodiscard]] auto commonest(const std::vector<double>& sorted, const Options& options) -> double;
 
 }  // namespace mansard::refine::detail

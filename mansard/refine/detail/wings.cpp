@@ -12,6 +12,11 @@ using geometry::Polygon;
 using geometry::Ring;
 using geometry::Segment2;
 
+/// Error bound: metres, and shares of an edge. Coordinates below 1e4 m are exact to 1e-12 m, a line that crosses an
+/// edge at 20° or more is off by some 1e-11 m, and a clip's corner by as little; the shortest edge is 1 mm, so that a
+/// share of it is off by 1e-8. Two real corners are never so near.
+constexpr double same_place = 1e-6;
+
 template <class See>
 void each_ring(const Polygon& polygon, See see) {
   see(polygon.outer);
@@ -19,8 +24,7 @@ void each_ring(const Polygon& polygon, See see) {
 }
 
 /// From a reflex corner straight on through the part to its boundary.
-auto line_on(const Polygon& part, Point2 from, Point2 direction) -> std::optional<Segment2> {
-  constexpr double shortest = 1.5;  // m; nearer, there is no wing behind it
+auto line_on(const Polygon& part, Point2 from, Point2 direction, double shortest) -> std::optional<Segment2> {
   double nearest = -1;
   each_ring(part, [&](const Ring& ring) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -28,8 +32,7 @@ auto line_on(const Polygon& part, Point2 from, Point2 direction) -> std::optiona
       const double turned = cross(direction, edge);
       if (turned == 0) continue;
       const double t = cross(a - from, edge) / turned, s = cross(a - from, direction) / turned;
-      constexpr double itself = 1e-6;
-      if (t > itself && s >= -itself && s <= 1 + itself && (nearest < 0 || t < nearest)) nearest = t;
+      if (t > same_place && s >= -same_place && s <= 1 + same_place && (nearest < 0 || t < nearest)) nearest = t;
     }
   });
   if (nearest < shortest) return std::nullopt;
@@ -44,10 +47,9 @@ auto side_of(const Polygon& part, Point2 on, Point2 along, const std::vector<Seg
   const auto pieces = geometry::intersect(part, Polygon{{a, b, b + up, a + up}, {}});
   std::vector<Polygon> out;
   if (!pieces) return out;
-  constexpr double touching = 1e-6;
   for (const auto& piece : *pieces)
     if (std::ranges::any_of(lines, [&](const Segment2& line) {
-          return geometry::boundary_distance(piece, 0.5 * (line.start + line.end)) < touching;
+          return geometry::boundary_distance(piece, 0.5 * (line.start + line.end)) < same_place;
         }))
       out.push_back(piece);
   return out;
@@ -70,12 +72,9 @@ auto with_wedges(const std::vector<Polygon>& side, Point2 along, const std::vect
 
 }  // namespace
 
-auto wings_of(const Polygon& part) -> std::vector<Wing> {
+auto wings_of(const Polygon& part, const Options::Wings& options) -> std::vector<Wing> {
   std::vector<Wing> out;
-  const auto reflex = [](Point2 before, Point2 after) {
-    constexpr double clear = 0.35;  // sine of 20°
-    return cross(before, after) < -clear;
-  };
+  const auto reflex = [&](Point2 before, Point2 after) { return cross(before, after) < -options.reflex_sine; };
   each_ring(part, [&](const Ring& ring) {
     const std::size_t n = ring.size();
     for (std::size_t i = 0; i < n; ++i) {
@@ -83,9 +82,9 @@ auto wings_of(const Polygon& part) -> std::vector<Wing> {
       const Point2 along = direction(i);
       std::vector<Segment2> lines;
       if (reflex(along, direction(i + 1)))
-        if (const auto line = line_on(part, ring[(i + 1) % n], along)) lines.push_back(*line);
+        if (const auto line = line_on(part, ring[(i + 1) % n], along, options.min_length)) lines.push_back(*line);
       if (reflex(direction(i + n - 1), along))
-        if (const auto line = line_on(part, ring[i], -1 * along)) lines.push_back(*line);
+        if (const auto line = line_on(part, ring[i], -1 * along, options.min_length)) lines.push_back(*line);
       if (lines.empty()) continue;
       const auto longest = std::ranges::max_element(lines, {}, length_of);
       for (const Point2 way : {along, -1 * along}) {

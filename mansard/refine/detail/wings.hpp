@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "mansard/geometry/polygon.hpp"
+#include "mansard/refine/options.hpp"
 
 namespace mansard::refine::detail {
 
@@ -17,6 +18,6 @@ struct Wing {
 /// Both sides of every such line; and each once more with a wedge of half the line's length beyond it, which is where
 /// the roof of a wing runs into the slope of another as high. A bent plan has a roof that profiles around it cannot
 /// raise where one wing runs through and ends in a gable; its wings have. In the order of the edges.
-[[nodiscard]] auto wings_of(const geometry::Polygon& part) -> std::vector<Wing>;
+[[nodiscard]] auto wings_of(const geometry::Polygon& part, const Options::Wings& options) -> std::vector<Wing>;
 
 }  // namespace mansard::refine::detail

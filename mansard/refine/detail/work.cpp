@@ -13,9 +13,8 @@ namespace mansard::refine::detail {
 namespace {
 
 /// Whether their grounds may meet, and there is anything to see over them.
-auto touch(const Piece& a, const Piece& b) -> bool {
-  constexpr double touching = 0.05;  // m
-  const auto box = geometry::bounds(a.site.polygon.outer).grown(touching);
+auto touch(const Piece& a, const Piece& b, const Options& options) -> bool {
+  const auto box = geometry::bounds(a.site.polygon.outer).grown(options.joins.touching);
   return box.overlaps(geometry::bounds(b.site.polygon.outer)) && !a.site.sorted.empty() && !b.site.sorted.empty();
 }
 
@@ -42,7 +41,8 @@ auto Work::roofed(std::size_t draft_index, Site site, Draft draft, Search search
 
 /// The pieces that are cheaper together than the one, if there are.
 auto Work::split(const Piece& piece) const -> std::vector<Piece> {
-  const double least_gain = options_.part_price + 4 * options_.face_price;  // no solid has fewer faces
+  constexpr double fewest_faces = 4;  // a tetrahedron's: no solid has fewer
+  const double least_gain = options_.part_price + fewest_faces * options_.face_price;
   if (run_.cancelled() || piece.roof.misfit < least_gain) return {};
   auto pieces = cut_within(piece, least_gain, piece.roof.cost);
   return pieces.empty() ? into_wings(piece, least_gain) : pieces;
@@ -51,7 +51,7 @@ auto Work::split(const Piece& piece) const -> std::vector<Piece> {
 /// Where two pieces meet in the wrong place: both as one, cut anew, if that is cheaper.
 auto Work::cut_anew(const Piece& a, const Piece& b) const -> std::vector<Piece> {
   const double least_gain = options_.part_price;
-  if (run_.cancelled() || !touch(a, b)) return {};
+  if (run_.cancelled() || !touch(a, b, options_)) return {};
   if (misfit_near(a, b.site.polygon) + misfit_near(b, a.site.polygon) < least_gain) return {};
   const double worth = a.roof.cost + b.roof.cost + options_.part_price;
   auto both = united(a, b, Search::quick, worth);
@@ -59,18 +59,11 @@ auto Work::cut_anew(const Piece& a, const Piece& b) const -> std::vector<Piece> 
   return cut_within(*both, least_gain, worth - least_gain);
 }
 
-auto Work::proposing(double least_gain) const -> ProposeOptions {
-  ProposeOptions wanted;
-  wanted.least_area = options_.least_area;
-  wanted.least_gain = least_gain;
-  return wanted;
-}
-
 /// Of the proposed cuts the one whose pieces cost least, if that is less than they are worth.
 auto Work::cut_within(const Piece& piece, double least_gain, double worth) const -> std::vector<Piece> {
   Heights model = piece.site.measured;
   model.z = piece.roof.view.z;
-  return cheapest(piece, propose(piece.site.polygon, piece.site.measured, model, proposing(least_gain)), worth);
+  return cheapest(piece, propose(piece.site.polygon, piece.site.measured, model, least_gain, options_), worth);
 }
 
 auto Work::cheapest(const Piece& piece, const std::vector<Proposal>& proposals, double worth) const
@@ -99,13 +92,13 @@ auto Work::cheapest(const Piece& piece, const std::vector<Proposal>& proposals, 
 
 /// The same of the cuts between wings, those with most misfit about them.
 auto Work::into_wings(const Piece& piece, double least_gain) const -> std::vector<Piece> {
-  constexpr std::size_t most = 12;  // cuts tried
   std::vector<Proposal> wings;
-  for (auto& wing : wings_of(piece.site.polygon)) {
+  for (auto& wing : wings_of(piece.site.polygon, options_.wings)) {
     const double about = misfit_about(piece, wing.middle, wing.length);
     if (about >= least_gain) wings.push_back({std::move(wing.polygon), about, 0, "a wing", true});
   }
   std::ranges::stable_sort(wings, std::greater<>{}, &Proposal::gain);
+  const auto most = static_cast<std::size_t>(options_.wings.max_cuts);
   if (wings.size() > most) wings.resize(most);
   return cheapest(piece, wings, piece.roof.cost);
 }
@@ -125,11 +118,11 @@ auto Work::misfit_about(const Piece& piece, geometry::Point2 place, double withi
 
 /// Both under one roof, where their grounds make one polygon.
 auto Work::united(const Piece& a, const Piece& b, Search search, double worth) const -> std::optional<Piece> {
-  const auto polygon = joined(a.site.polygon, b.site.polygon);
+  const auto polygon = joined(a.site.polygon, b.site.polygon, options_);
   if (!polygon) return std::nullopt;
   Site site = look(*polygon, a.site.base);
   const Origin origins[]{{a.draft, a.roof.plan}, {b.draft, b.roof.plan}};
-  Draft draft = draft_of(origins, site);
+  Draft draft = draft_of(origins, site, options_);
   auto made = roofed(std::min(a.draft_index, b.draft_index), std::move(site), std::move(draft), search, worth);
   if (!made) return std::nullopt;
   return std::move(*made);
@@ -139,9 +132,8 @@ auto Work::united(const Piece& a, const Piece& b, Search search, double worth) c
 auto Work::as_one(const Piece& a, const Piece& b) const -> std::optional<Piece> {
   if (!may_join(a, b)) return std::nullopt;
   const double worth = a.roof.cost + b.roof.cost + options_.part_price;
-  constexpr double near = 1.25;  // searching edge by edge seldom takes more off
   auto made = united(a, b, Search::quick, worth);
-  if (!made || made->roof.cost >= near * worth) return std::nullopt;
+  if (!made || made->roof.cost >= options_.joins.quick_excess * worth) return std::nullopt;
   auto searched = roofed(made->draft_index, std::move(made->site), std::move(made->draft));
   if (!searched || searched->roof.cost >= worth) return std::nullopt;
   made = std::move(*searched);
@@ -149,23 +141,22 @@ auto Work::as_one(const Piece& a, const Piece& b) const -> std::optional<Piece> 
   return made;
 }
 
-/// m²·m²: of the squared differences above half a metre, those along the other's ground.
+/// m²·m²: of the squared differences above a step, those along the other's ground.
 auto Work::misfit_near(const Piece& piece, const geometry::Polygon& other) const -> double {
-  constexpr double step = 0.5, near = 1.5;  // m
   const auto& site = piece.site;
   double sum = 0;
   for (const auto cell : site.cells) {
     const double d = std::abs(piece.roof.view.z[cell] - site.measured.z[cell]);
-    if (!(d > step)) continue;
+    if (!(d > options_.joins.recut_step)) continue;
     const auto at = site.measured.centre(cell);
-    if (geometry::boundary_distance(other, at) < near) sum += d * std::min(d, options_.robust);
+    if (geometry::boundary_distance(other, at) < options_.joins.recut_reach) sum += d * std::min(d, options_.robust);
   }
   return sum * site.cell_area;
 }
 
 /// Whether two that touch may be cheaper as one: two flat roofs too far apart are not.
 auto Work::may_join(const Piece& a, const Piece& b) const -> bool {
-  if (!touch(a, b)) return false;
+  if (!touch(a, b, options_)) return false;
   const auto level = [](const Piece& piece) -> std::optional<double> {
     for (const auto& profile : piece.roof.plan.profiles)
       if (profile.back().inward > 0) return std::nullopt;
@@ -175,8 +166,8 @@ auto Work::may_join(const Piece& a, const Piece& b) const -> bool {
   if (!low || !high) return true;
   const double area = std::min(geometry::area(a.site.polygon), geometry::area(b.site.polygon));
   const double step = std::abs(*high - *low);
-  constexpr std::size_t shared = 8;  // faces that joining may save at most, about
-  return area * std::min(step * step, options_.robust * step) < options_.part_price + shared * options_.face_price;
+  const double saved = options_.part_price + static_cast<double>(options_.joins.shared_faces) * options_.face_price;
+  return area * std::min(step * step, options_.robust * step) < saved;
 }
 
 /// The pieces of a cut, each with a roof found quickly; none where they cost more than they are worth.
@@ -184,10 +175,10 @@ auto Work::tried(const Piece& piece, const Proposal& proposal, double worth) con
   std::vector<Piece> out;
   double left = worth;
   const Origin origin[]{{piece.draft, piece.roof.plan}};
-  for (const auto& polygon : cut(piece.site.polygon, proposal.polygon, options_.least_area)) {
+  for (const auto& polygon : cut(piece.site.polygon, proposal.polygon, options_)) {
     Site site = crop(piece.site, polygon, options_);
     if (site.cells.empty()) return {};
-    Draft draft = draft_of(origin, site);
+    Draft draft = draft_of(origin, site, options_);
     const bool rest = out.empty() && !proposal.whole_side;  // its roof was found before; a little of it is gone
     const Search search = rest ? Search::settled : Search::quick;
     auto made = roofed(piece.draft_index, std::move(site), std::move(draft), search, left);

@@ -50,7 +50,6 @@ class Work {
   [[nodiscard]] auto cancelled() const -> bool { return run_.cancelled(); }
 
  private:
-  [[nodiscard]] auto proposing(double least_gain) const -> ProposeOptions;
   [[nodiscard]] auto cut_within(const Piece& piece, double least_gain, double worth) const -> std::vector<Piece>;
   [[nodiscard]] auto cheapest(const Piece& piece, const std::vector<Proposal>& proposals, double worth) const
       -> std::vector<Piece>;

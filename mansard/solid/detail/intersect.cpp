@@ -112,22 +112,30 @@ auto plate_of(const std::vector<Point3>& vertices, const Corners& corners, std::
   return t;
 }
 
-/// The side of the plane on which p surely lies; 0 when rounding leaves it open. The normal carries four roundings of
-/// 2^-53 relative to its terms (two differences, product, difference), the product with p - a four more.
+// Error bounds of the filters, relative to the same sums with absolute values; u = 2⁻⁵³, vertices are doubles and
+// exact.
+/// A component of the normal: 1 + 1 u of two differences, 1 u of their product, 1 u of the difference: 4 u. Times a
+/// component of p − a (1 u) another 1 u, and 2 u of the sum of three: 8 u. Twice that.
+constexpr double side_error = 16 * 0x1.0p-53;
+/// Two differences, a product, a difference: 1 + 1 + 1 + 1 = 4 u (Shewchuk has a little over 3). Twice that.
+constexpr double turn_error = 8 * 0x1.0p-53;
+/// Underflow takes 2⁻¹⁰⁷⁴ from a product at most, times 2⁸⁰ for coordinates below 1e24: far less than the bounds times
+/// this.
+constexpr double least = 1e-280;
+
+/// The side of the plane on which p surely lies; 0 when rounding leaves it open.
 auto sure_side(const Plate& t, Point3 p) -> int {
-  constexpr double bound = 16 * 0x1.0p-53, least = 1e-280;
   const Point3 d = p - t.at[0];
   const double det = dot(t.normal, d);
   const double size = t.terms.x * std::abs(d.x) + t.terms.y * std::abs(d.y) + t.terms.z * std::abs(d.z);
-  if (std::abs(det) <= bound * size || std::abs(det) < least) return 0;
+  if (std::abs(det) <= side_error * size || std::abs(det) < least) return 0;
   return det > 0 ? 1 : -1;
 }
 
 /// The side of the line from a to b on which c surely lies.
 auto sure_turn(Point2 a, Point2 b, Point2 c) -> int {
-  constexpr double bound = 8 * 0x1.0p-53, least = 1e-280;  // Shewchuk's is a little over 3
   const double l = (b.x - a.x) * (c.y - a.y), r = (b.y - a.y) * (c.x - a.x), det = l - r;
-  if (std::abs(det) <= bound * (std::abs(l) + std::abs(r)) || std::abs(det) < least) return 0;
+  if (std::abs(det) <= turn_error * (std::abs(l) + std::abs(r)) || std::abs(det) < least) return 0;
   return det > 0 ? 1 : -1;
 }
 

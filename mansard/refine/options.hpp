@@ -1,0 +1,241 @@
+// What refine minimises, and every number that decides where its search goes.
+#pragma once
+
+#include <cstdint>
+#include <numbers>
+
+#include "mansard/base/options.hpp"
+
+namespace mansard::refine {
+
+enum class Effort : std::uint8_t {
+  caps,    ///< only the height at which the roof ends
+  planes,  ///< the profiles too: which edges carry roof, and where its planes are
+  parts,   ///< and the plan: parts under one roof are joined, structures of another height become parts of their own
+};
+
+/// The first seven are the objective. The groups are the search's own numbers, by the file of `detail/` that uses them:
+/// advanced options, of which few are measured; `option_list` gives meaning, range and source of each.
+struct Options {
+  Effort effort = Effort::parts;
+  double grid = 0.25;       ///< m between samples seen from above
+  double face_price = 0.3;  ///< m² · m²; what an additional face must take off the sum of squared differences
+  double part_price = 2.0;  ///< the same, of an additional part, beside its faces
+  double robust = 3.0;      ///< m; greater differences count linearly, not squared: trees, debris
+  double margin = 0.4;      ///< m along the outline where a melted scan counts less
+  double least_area = 4.0;  ///< m²; smaller structures stay with the roof they are on
+
+  /// What the mesh shows, and how much a sample counts (site, refit, and wherever a wall is near).
+  struct Samples {
+    double margin_weight = 0.2;
+    double max_cells = 150'000;
+    double level_band = 0.5;  ///< m
+    double melt = 0.5;        ///< m
+  } samples;
+
+  /// Robust lines through heights (lines).
+  struct Lines {
+    double robust = 0.25;  ///< m
+    std::int64_t rounds = 8;
+    std::int64_t min_samples = 12;
+    double min_spread = 0.25;  ///< m
+  } lines;
+
+  /// The forms of roof that every part is tried with (forms).
+  struct Forms {
+    std::int64_t samples = 800;
+    double min_height = 0.5;  ///< m
+    double cap_percentile = 0.99;
+    double cap_clearance = 0.5;  ///< m
+    double cap_distinct = 0.05;  ///< m
+    double min_slope = 0.05;
+    double max_slope = 5;
+    std::int64_t max_axes = 3;
+    double axis_cosine = 0.9;
+    double across_cosine = 0.8;
+    double gable_turn = 0.5;
+    double gable_length = 1.2;
+  } forms;
+
+  /// A steep foot below a flatter roof (forms).
+  struct Mansard {
+    double min_split = 0.35;  ///< m
+    double min_depth = 0.7;   ///< m
+    double max_depth = 3;     ///< m
+    double min_rise = 1.5;    ///< m
+    double min_slope = 1.2;
+    double upper_share = 0.5;
+  } mansard;
+
+  /// A level strip along a side with something higher behind it (forms).
+  struct Setback {
+    double min_depth = 0.7;  ///< m
+    double max_depth = 4;    ///< m
+    double behind = 3;       ///< m
+    double min_rise = 0.8;   ///< m
+    double max_rest = 0.8;
+    double tower_reach = 1;  ///< m
+    double tower_share = 0.8;
+  } setback;
+
+  /// Planes moved to the samples on their own faces (refit).
+  struct Refit {
+    double min_slope = 0.03;
+    double max_slope = 12;
+    std::int64_t min_samples = 4;
+    std::int64_t min_cap_samples = 8;
+    double max_knot_move = 1.5;  ///< m
+  } refit;
+
+  /// The best roof over a fixed outline (roof_search).
+  struct Search {
+    double cap_gain = 0.95;
+    std::int64_t settle_rounds = 3;
+    std::int64_t starts = 4;
+    std::int64_t quick_starts = 2;
+    double hopeless = 2;
+    std::int64_t rounds = 2;
+    double round_gain = 0.98;
+    std::int64_t max_sides = 24;
+    double min_difference = 0.2;  ///< m
+    double opposite_cosine = 0.95;
+    double regular_gutter = 0.3;  ///< m
+    double regular_slope = 0.1;
+  } search;
+
+  /// Planes as they were before the scan melted them (sharpen).
+  struct Sharpen {
+    std::int64_t rounds = 2;
+    double flat_slope = 0.07;
+  } sharpen;
+
+  /// Plans cut in two and joined (pieces).
+  struct Pieces {
+    double aside = 0.02;  ///< m
+    double profile_share = 0.5;
+    double min_width = 0.6;  ///< m
+    double slit = 0.02;      ///< m
+    double straight = 1e-3;  ///< m
+  } pieces;
+
+  /// Which parts are joined, cut and cut again (work, owner).
+  struct Joins {
+    double touching = 0.05;  ///< m
+    double quick_excess = 1.25;
+    std::int64_t shared_faces = 8;
+    double recut_step = 0.5;   ///< m
+    double recut_reach = 1.5;  ///< m
+    std::int64_t max_pieces = 64;
+    std::int64_t rounds = 2;
+    double round_gain = 0.95;
+  } joins;
+
+  /// Cuts where the edges of wings go on inside (wings, work).
+  struct Wings {
+    double min_length = 1.5;  ///< m
+    double reflex_sine = 0.35;
+    std::int64_t max_cuts = 12;
+  } wings;
+
+  /// What may become a part of its own (propose).
+  struct Cuts {
+    double min_step = 0.5;   ///< m
+    double min_width = 1.2;  ///< m
+    std::int64_t max_count = 6;
+    double crisp_rms = 0.15;   ///< m
+    double smooth_rms = 0.35;  ///< m
+    double smooth_by_height = 0.12;
+    double fullness = 0.73;
+    std::int64_t fullness_part = 20;
+    double hipped_min_area = 16;  ///< m²
+    double fair_area = 30;        ///< m²
+    double fair_rms = 0.45;       ///< m
+    double plane_share = 0.7;
+    double large_area = 80;  ///< m²
+    double large_gain = 0.8;
+    double line_gain = 0.15;
+    double line_min_width = 1.25;  ///< m
+    double same_share = 0.25;
+    double shape_price = 0.04;
+    double askew_price = 0.25;
+    double new_direction = 0.14;  ///< rad
+    std::int64_t max_directions = 4;
+    double max_cells = 8000;
+    double sliver_area = 1;     ///< m²
+    double sliver_width = 0.5;  ///< m
+    double rise_reach = 2;      ///< m
+    double min_rise = 0.25;     ///< m
+  } cuts;
+
+  /// The directions of a part, and rasters along them (propose_raster).
+  struct Directions {
+    double same = 5 * std::numbers::pi / 180;    ///< rad
+    double other = 12 * std::numbers::pi / 180;  ///< rad
+    double second_share = 0.25;
+    double min_weight = 0.25;
+  } directions;
+
+  /// Connected regions above or below the model (propose_regions).
+  struct Regions {
+    std::int64_t gap_cells = 3;
+    double bin = 0.25;         ///< m
+    double max_residual = 40;  ///< m
+    double peak_share = 0.5;
+    double valley = 0.5;
+    std::int64_t max_levels = 6;
+    double level_clearance = 1.5;
+    double min_area_share = 0.75;
+    double seen_share = 0.6;
+    double hollow_share = 0.75;
+    std::int64_t rim_cells = 2;
+    double agreement = 0.6;
+  } regions;
+
+  /// Rectangles around such regions, and their walls (propose_outline).
+  struct Outlines {
+    std::int64_t cells = 48;
+    double outside_price = 0.05;
+    std::int64_t max_rectangles = 3;
+    double min_area_share = 0.4;
+    double min_addition = 0.08;
+    double min_width_share = 0.8;
+    double reach = 1.5;         ///< m
+    double min_contrast = 0.3;  ///< m
+    double max_move = 1;        ///< m
+    double max_slope = 1.5;
+    double row_share = 0.3;
+    std::int64_t step_rounds = 3;
+    std::int64_t settle_rounds = 2;
+    double trim_length = 2;  ///< m
+    double push_share = 0.9;
+    double near_edge = 0.6;   ///< m
+    double near_line = 0.25;  ///< m
+    double max_slant = 0.09;
+    double min_overlap = 0.5;  ///< m
+    double max_gap = 1;        ///< m
+  } outlines;
+
+  /// Straight lines across a part (propose_split).
+  struct Splits {
+    double apart = 1.5;  ///< m
+    std::int64_t max_count = 3;
+    std::int64_t rows_per_bin = 2;
+    double row_share = 0.6;
+    double step_share = 0.7;
+    double min_valley = 0.15;  ///< m
+  } splits;
+
+  /// Simple surfaces that cuts are judged by (propose_surface).
+  struct Surfaces {
+    double bin = 0.5;            ///< m
+    double ridge_min_area = 30;  ///< m²
+    double max_slope = 1.5;
+    double model_share = 0.5;
+    std::int64_t plane_rounds = 3;
+  } surfaces;
+};
+
+/// The seven of the objective, then the groups as advanced options: `Options::wings.min_length` is `wings_min_length`.
+[[nodiscard]] auto option_list(Options& options) -> base::OptionList;
+
+}  // namespace mansard::refine
