@@ -33,7 +33,9 @@ struct Building {
 /// How the city was made, repeated in every file.
 struct MadeBy {
   std::string version;
-  std::vector<std::pair<std::string, std::string>> options;  ///< module.name → value, as text
+  /// module.name → value, as text: all ordinary options, and those advanced ones that are not at their default.
+  std::vector<std::pair<std::string, std::string>> options;
+  std::vector<std::pair<std::string, std::string>> every_option;  ///< the same of all, for run.json alone
   std::vector<InputFile> inputs;
 };
 

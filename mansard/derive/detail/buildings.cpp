@@ -144,7 +144,7 @@ void reclaim(const Place& place, const Blobs& pieces, const std::vector<double>&
   }
 }
 
-/// Small pieces are buildings where more of the o.judged_area cells beside them are than are not.
+/// Small pieces are buildings where more of the judged cells beside them are than are not.
 void judge_small(const Place& place, const Blobs& pieces, const std::vector<bool>& small, const Mask& standing,
                  std::size_t rounds, Mask& building) {
   for (std::size_t round = 0; round < rounds; ++round) {

@@ -21,9 +21,14 @@ auto made_by(const model::Scene& scene, const Options& options) -> model::MadeBy
   model::MadeBy out;
   out.version = MANSARD_VERSION;
   out.inputs = scene.inputs;
-  Options copy = options;
-  for (const auto& list : option_lists(copy))
-    for (const auto& option : list.options()) out.options.emplace_back(list.module() + "." + option.name, option.get());
+  Options copy = options, defaults;
+  const auto used = option_lists(copy), usual = option_lists(defaults);
+  for (std::size_t l = 0; l < used.size(); ++l)
+    for (const auto& option : used[l].options()) {
+      out.every_option.emplace_back(used[l].module() + "." + option.name, option.get());
+      if (!option.advanced || option.get() != usual[l].find(option.name)->get())
+        out.options.push_back(out.every_option.back());
+    }
   return out;
 }
 

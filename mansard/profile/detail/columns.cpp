@@ -19,7 +19,7 @@ auto median(std::vector<double>& values) -> double {
   return *at;
 }
 
-/// Slopes of the plane through the columns [from, from + o.rising_tile) of neighbouring slices, by least squares.
+/// Slopes of the plane through the columns [from, from + rising_tile) of neighbouring slices, by least squares.
 struct Slope {
   double inward = 0, along = 0;
 };
@@ -96,7 +96,7 @@ void find_rising(std::vector<SliceColumns>& slices, const Options& o) {
       }
     }
     if (!found) continue;
-    // The last o.rising_tile may lean over the ridge.
+    // The last tile may lean over the ridge.
     std::size_t top = slice.first;
     for (std::size_t c = slice.first; c < slice.last; ++c)
       if (!std::isnan(slice.heights[c]) && !(slice.heights[c] < slice.heights[top])) top = c;

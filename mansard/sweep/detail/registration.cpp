@@ -257,7 +257,7 @@ auto without_overlaps(std::vector<Stretch> found, const Options& o) -> std::vect
   return kept;
 }
 
-/// Stretches on one o.footprint_straight line become one: corners between houses of a row must not cut their facade.
+/// Stretches on one straight line become one: corners between houses of a row must not cut their facade.
 auto joined(const std::vector<Stretch>& stretches, const Options& o) -> std::vector<Stretch> {
   std::vector<Stretch> out;
   std::vector<Point2> between;

@@ -250,7 +250,7 @@ class Lines {
     return Segment2{s.start + best.first * d, s.start + best.second * d};
   }
 
-  /// How far from a point in a direction the next line is met, within options_.step_reach.
+  /// How far from a point in a direction the next line is met, within reach.
   [[nodiscard]] auto next(Point2 from, Point2 direction) const -> std::optional<double> {
     std::optional<double> nearest;
     const Segment2 ray{from, from + options_.step_reach * direction};

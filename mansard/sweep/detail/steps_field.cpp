@@ -16,7 +16,7 @@ namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-// All in cells. The melted flank of a step lies within two cells of it; the slopes o.step_rows it are taken beyond.
+// All in cells. The melted flank of a step lies within step_near of it; the slopes beside it are taken beyond.
 /// Cells from the middle of a step to the ends of its flank, and to the ends of the slopes beside it.
 struct Window {
   std::size_t near, far;
