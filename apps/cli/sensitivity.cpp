@@ -6,8 +6,8 @@
 
 #include "apps/cli/exit.hpp"
 #include "apps/cli/output.hpp"
-#include "mansard/base/files.hpp"
 #include "lab/explore/sensitivity.hpp"
+#include "mansard/base/files.hpp"
 
 namespace mansard::cli {
 namespace {

@@ -7,8 +7,8 @@
 #include <mutex>
 #include <tuple>
 
-#include "mansard/base/text.hpp"
 #include "lab/explore/detail/measure.hpp"
+#include "mansard/base/text.hpp"
 #include "mansard/formats/write.hpp"
 
 namespace mansard::explore {
@@ -66,8 +66,7 @@ auto models_of(model::City city) -> base::Result<std::string> {
   return digest_of(*text);
 }
 
-auto trial_of(const model::Scene& scene, const pipeline::Options& options, Trial trial, const base::Run& run)
-    -> Trial {
+auto trial_of(const model::Scene& scene, const pipeline::Options& options, Trial trial, const base::Run& run) -> Trial {
   const auto result = pipeline::reconstruct(scene, options, run);
   if (!result) {
     trial.failure = base::to_string(result.error());

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "mansard/base/text.hpp"
 #include "lab/explore/detail/measure.hpp"
 #include "lab/explore/detail/page.hpp"
 #include "lab/explore/sensitivity.hpp"
+#include "mansard/base/text.hpp"
 
 namespace mansard::explore {
 namespace {

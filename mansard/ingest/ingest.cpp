@@ -319,7 +319,8 @@ auto option_list(Options& o) -> base::OptionList {
   list.numbers("mesh_offset", o.mesh_offset, "m", {-far, far}, "Offset added to the mesh's x, y and z.")
       .alias("mesh_offset")
       .source("none by default");
-  list.choice("up", o.up, {{"automatic", formats::UpAxis::automatic}, {"z", formats::UpAxis::z}, {"y", formats::UpAxis::y}},
+  list.choice("up", o.up,
+              {{"automatic", formats::UpAxis::automatic}, {"z", formats::UpAxis::z}, {"y", formats::UpAxis::y}},
               "Axis of the mesh that is up; automatic means y for glTF and z for the rest.")
       .alias("up")
       .source("glTF 2.0 specification: y; z as in GIS for the rest");
