@@ -10,6 +10,7 @@
 #include "apps/cli/exit.hpp"
 #include "apps/cli/output.hpp"
 #include "apps/cli/scan.hpp"
+#include "apps/cli/sensitivity.hpp"
 #include "apps/cli/verbs.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/base/text.hpp"
@@ -22,7 +23,7 @@ namespace fs = std::filesystem;
 struct Request {
   ScanRequest scan;
   std::string experiment, out, list, data;
-  std::vector<std::string> grids;
+  std::vector<std::string> grids, parameters;
   std::size_t most_runs = 100;
   double error_limit = 2.0;
   bool no_pictures = false;
@@ -108,10 +109,19 @@ auto datasets_of(const Request& request) -> base::Result<std::vector<explore::Da
   return std::vector<explore::Dataset>{{name, {inputs.begin(), inputs.end() - 1}, footprints, {}}};
 }
 
+/// Not among the experiments that vary every axis with every other one.
+constexpr auto sensitivity = "sensitivity";
+
 auto study_of(const Request& request, const std::vector<std::string>& words) -> base::Result<explore::Request> {
-  const auto experiment = explore::experiment_of(request.experiment);
+  const bool one_by_one = request.experiment == sensitivity;
+  if (one_by_one && !request.grids.empty())
+    return base::error("usage", "the experiment 'sensitivity' takes --parameters, not --grid");
+  if (!one_by_one && !request.parameters.empty())
+    return base::error("usage", "--parameters is for the experiment 'sensitivity'; use --grid");
+  const auto experiment = one_by_one ? explore::Experiment::table : explore::experiment_of(request.experiment);
   if (!experiment) {
-    const auto known = explore::experiment_names();
+    auto known = explore::experiment_names();
+    known.emplace_back(sensitivity);
     std::string all;
     for (const auto& name : known) all += (all.empty() ? "" : ", ") + name;
     return base::error(
@@ -171,6 +181,8 @@ void summarise(const explore::Study& study, Progress& progress) {
 auto explore_scans(const Request& request, const std::vector<std::string>& words, const base::Cancel& cancel) -> int {
   const auto study = study_of(request, words);
   if (!study) return give_up(study.errors());
+  if (request.experiment == sensitivity)
+    return explore_sensitivity(request.scan, *study, request.parameters, request.out, cancel);
   if (auto ready = check_outputs(request, *study); !ready) return give_up(ready.errors());
   Progress progress(request.scan.quiet);
   const auto run = start(request.scan, study->options.seed, cancel, progress);
@@ -196,6 +208,7 @@ auto explore_verb(CLI::App& app, std::vector<std::string> words, const base::Can
   auto request = std::make_shared<Request>();
   std::string names;
   for (const auto& name : explore::experiment_names()) names += (names.empty() ? "" : ", ") + name;
+  names += std::string(", ") + sensitivity;
   verb->add_option("EXPERIMENT", request->experiment, "The experiment: " + names)->required()->type_name("");
   add_to(*verb, request->scan, false);
   verb->remove_option(verb->get_option("--report"));  // the report is what it writes
@@ -204,6 +217,13 @@ auto explore_verb(CLI::App& app, std::vector<std::string> words, const base::Can
   verb->add_option("--grid", request->grids,
                    "Option with the values to run; may be given for several options, which are combined")
       ->type_name("KEY=A,B,C")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);
+  verb->add_option("--parameters", request->parameters,
+                   "Parameters that the experiment 'sensitivity' halves and doubles: module.name or module.*")
+      ->type_name("NAME")
+      ->delimiter(',')
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->allow_extra_args(false);

@@ -90,6 +90,26 @@ auto OptionList::integer(std::string name, std::int64_t& member, std::string uni
   return add(std::move(option));
 }
 
+auto OptionList::integer(std::string name, std::size_t& member, std::string unit, Range range, std::string meaning)
+    -> OptionList& {
+  assert(range.minimum >= 0);
+  Option option;
+  option.name = std::move(name);
+  option.meaning = std::move(meaning);
+  option.unit = std::move(unit);
+  option.kind = Option::Kind::integer;
+  option.range = range;
+  option.get = [&member] { return std::to_string(member); };
+  option.set = [&member, module = module_, option](std::string_view given) -> Result<void> {
+    const auto value = to_integer(given);
+    if (!value || !contains(option.range, static_cast<double>(*value)))
+      return bad_value(module, option, given, "a whole number" + in_words(option.range, option.unit));
+    member = static_cast<std::size_t>(*value);
+    return {};
+  };
+  return add(std::move(option));
+}
+
 auto OptionList::number(std::string name, double& member, std::string unit, Range range, std::string meaning)
     -> OptionList& {
   Option option;

@@ -48,6 +48,9 @@ class OptionList {
   auto flag(std::string name, bool& member, std::string meaning) -> OptionList&;
   auto integer(std::string name, std::int64_t& member, std::string unit, Range range, std::string meaning)
       -> OptionList&;
+  /// A count: the range begins at 0 or above.
+  auto integer(std::string name, std::size_t& member, std::string unit, Range range, std::string meaning)
+      -> OptionList&;
   auto number(std::string name, double& member, std::string unit, Range range, std::string meaning) -> OptionList&;
   auto number(std::string name, std::optional<double>& member, std::string unit, Range range, std::string meaning)
       -> OptionList&;

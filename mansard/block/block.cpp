@@ -10,9 +10,6 @@
 namespace mansard::block {
 namespace {
 
-/// Less level ground than this around a building, in m², is more likely an awning or the eaves than the street.
-constexpr double enough_ground = 5;
-
 /// The triangles asked for, with the vertices they name in their old order.
 auto part_of(const geometry::Mesh& mesh, const std::vector<std::uint32_t>& triangles) -> geometry::Mesh {
   geometry::Mesh out;
@@ -48,15 +45,16 @@ void set_ground(Block& block, const std::optional<model::HeightGrid>& terrain,
     if (of_block) return *of_block;
     std::vector<detail::Sample> all;
     for (const auto m : members) all.insert(all.end(), around[m].begin(), around[m].end());
-    of_block = detail::percentile(std::move(all), share, enough_ground);
-    if (!of_block) of_block = detail::percentile(detail::surface_samples(block.mesh), 0.02, 0);
+    of_block = detail::percentile(std::move(all), share, options.ground_area);
+    if (!of_block)
+      of_block = detail::percentile(detail::surface_samples(block.mesh), options.ground_rest_percentile / 100, 0);
     if (!of_block) of_block = whole_mesh;
     return *of_block;
   };
   std::vector<double> heights;
   for (std::size_t i = 0; i < members.size(); ++i) {
-    auto own = terrain ? detail::terrain_along(*terrain, block.members[i].polygons) : std::nullopt;
-    if (!own) own = detail::percentile(around[members[i]], share, enough_ground);
+    auto own = terrain ? detail::terrain_along(*terrain, block.members[i].polygons, options) : std::nullopt;
+    if (!own) own = detail::percentile(around[members[i]], share, options.ground_area);
     block.members[i].ground = own ? *own : fall_back();
     heights.push_back(block.members[i].ground);
   }
@@ -66,15 +64,39 @@ void set_ground(Block& block, const std::optional<model::HeightGrid>& terrain,
 }  // namespace
 
 auto option_list(Options& o) -> base::OptionList {
-  return std::move(
-      base::OptionList("block")
-          .number("touch", o.touch, "m", {0, 10}, "Footprints closer than this belong to one block.")
-          .number("padding", o.padding, "m", {0, 1000}, "The mesh is kept up to this distance from the footprints.")
-          .number("ground_ring", o.ground_ring, "m", {0, 1000},
-                  "Width of the ring outside the footprints where the ground is looked for.")
-          .number("ground_percentile", o.ground_percentile, "%", {0, 100},
-                  "Percentile of the mesh heights in that ring that is taken as the ground; low, because trees and "
-                  "cars are in the ring."));
+  base::OptionList list("block");
+  list.number("touch", o.touch, "m", {0, 10}, "Footprints closer to each other than this belong to one block.")
+      .source("chosen by hand; not measured");
+  list.number("padding", o.padding, "m", {0, 1000}, "The mesh is kept up to this distance from the footprints.")
+      .source("reference implementation chordatlas: 5 m");
+  list.number("ground_ring", o.ground_ring, "m", {0, 1000},
+              "Width of the ring outside the footprints in which the ground height is measured.")
+      .source("chosen by hand; not measured");
+  list.number("ground_percentile", o.ground_percentile, "%", {0, 100},
+              "Percentile of the mesh's heights in that ring that is the ground height; low, because trees and cars "
+              "stand on the ground.")
+      .source("chosen by hand; not measured");
+  list.number("ground_area", o.ground_area, "m²", {0, 10000},
+              "Minimum area of level mesh around a building for its ground height to be measured there.")
+      .advanced("chosen by hand; not measured");
+  list.number("ground_cosine", o.ground_cosine, "", {0, 1}, "Cosine of the maximum slope of mesh that may be ground.")
+      .advanced("45°; not measured");
+  list.number("ground_piece", o.ground_piece, "m", {0.05, 100},
+              "Maximum length in plan of the piece of a triangle that one sample of the ground represents.")
+      .advanced("chosen by hand; not measured");
+  list.number("ground_rest_percentile", o.ground_rest_percentile, "%", {0, 100},
+              "Percentile of all of the mesh's heights that is the ground height where no ground is visible.")
+      .advanced("chosen by hand; not measured");
+  list.number("terrain_step", o.terrain_step, "m", {0.05, 100},
+              "Spacing along an outline at which a terrain model is sampled.")
+      .advanced("chosen by hand; not measured");
+  list.number("terrain_share", o.terrain_share, "", {0, 1},
+              "Minimum share of an outline on which a terrain model is known for it to be used.")
+      .advanced("chosen by hand; not measured");
+  list.number("gap_area", o.gap_area, "m²", {0, 100},
+              "Gaps between the footprints of a block with less total area than this are not closed.")
+      .advanced("chosen by hand; not measured");
+  return list;
 }
 
 auto partition(const model::Scene& scene, const Options& options, const base::Run& run) -> std::vector<Block> {
@@ -99,7 +121,7 @@ auto partition(const model::Scene& scene, const Options& options, const base::Ru
       block.members.push_back({features[m], shapes[m], 0});
       all.insert(all.end(), shapes[m].begin(), shapes[m].end());
     }
-    block.outline = detail::outline_of(all, options.touch);
+    block.outline = detail::outline_of(all, options.touch, options.gap_area);
   });
   run.report("block", "", 0.2);
   if (run.cancelled()) return {};
@@ -117,9 +139,12 @@ auto partition(const model::Scene& scene, const Options& options, const base::Ru
   run.report("block", "", 0.6);
   if (run.cancelled()) return {};
 
-  const auto around = detail::ground_samples(scene.mesh, shapes, options.ground_ring);
+  const auto around = detail::ground_samples(scene.mesh, shapes, options);
   const bool bare = std::ranges::any_of(blocks, [](const Block& block) { return block.mesh.triangles.empty(); });
-  const double whole = bare ? detail::percentile(detail::surface_samples(scene.mesh), 0.02, 0).value_or(0) : 0;
+  const double whole =
+      bare
+          ? detail::percentile(detail::surface_samples(scene.mesh), options.ground_rest_percentile / 100, 0).value_or(0)
+          : 0;
   base::parallel_for(blocks.size(),
                      [&](std::size_t b) { set_ground(blocks[b], scene.terrain, around, groups[b], whole, options); });
   run.report("block", "", 1);

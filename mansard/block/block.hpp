@@ -33,6 +33,14 @@ struct Options {
   double padding = 5.0;             ///< m; the mesh is kept up to this distance from the footprints
   double ground_ring = 10.0;        ///< m; width of the ring outside the footprints where the ground is looked for
   double ground_percentile = 10.0;  ///< %; of the mesh's heights in that ring
+  double ground_area =
+      5.0;  ///< m²; less level ground around a building is more likely an awning or the eaves than the street
+  double ground_cosine = 0.7071;        ///< cosine of 45°: steeper is wall, hedge or the side of a car
+  double ground_piece = 2.0;            ///< m: the longest side, in plan, of what one sample stands for
+  double ground_rest_percentile = 2.0;  ///< %; of all heights of the mesh, where no ground is seen
+  double terrain_step = 1.0;            ///< m; between the places of an outline where the terrain is asked
+  double terrain_share = 0.9;           ///< of the outline: what lies beyond the terrain's edge may be another slope
+  double gap_area = 0.01;               ///< m²; gaps between touching footprints that are smaller stay open
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 

@@ -17,15 +17,6 @@ using detail::Mask;
 using detail::Place;
 using geometry::Polygon;
 
-/// The wall between two buildings is drawn once, by the higher one, whose roof shows it; the outline of the lower one
-/// is drawn
-/// as if it went on so far under it.
-constexpr double under = 2.0;  // m
-/// What is narrower where two footprints were parted is a slip of the outlines.
-constexpr double slip = 0.8;  // m
-/// More cells than this are refused.
-constexpr double most_cells = 4e8;
-
 /// The cells of one building, with a rim.
 struct Cutting {
   Place place;
@@ -50,8 +41,10 @@ auto extents_of(const Place& place, const detail::Cut& cut) -> std::vector<Exten
   return out;
 }
 
-/// Building `number` out of the whole grid, gone on a little under the higher ones that it touches.
-auto cut_out(const Place& place, const detail::Cut& cut, std::size_t number, const Extent& extent) -> Cutting {
+/// Building `number` out of the whole grid, gone on a little under the higher ones that it touches: the wall between
+/// two is drawn once, by the higher one, whose roof shows it.
+auto cut_out(const Place& place, const detail::Cut& cut, std::size_t number, const Extent& extent, double under)
+    -> Cutting {
   const std::size_t rim = place.cells(under) + 1;
   const std::size_t left = extent.left - std::min(rim, extent.left), low = extent.low - std::min(rim, extent.low);
   const std::size_t right = std::min(place.columns - 1, extent.right + rim),
@@ -95,12 +88,11 @@ auto outline_of(const Cutting& cutting, const Options& options) -> base::Result<
   const std::vector<std::int32_t> numbers(cutting.mask.begin(), cutting.mask.end());
   auto drawn = detail::polygons_of(cutting.place, numbers, 2);
   if (!drawn) return drawn.error();
-  const detail::Regularity how{options.cell, options.tolerance, options.shortest};
   std::vector<Polygon> out;
   for (auto& polygon : (*drawn)[1]) {
     std::erase_if(polygon.holes, [&](const auto& hole) { return -geometry::signed_area(hole) < options.least_area; });
     if (geometry::area(polygon) < options.least_area) continue;
-    for (const auto& straight : detail::regularised(polygon, how))
+    for (const auto& straight : detail::regularised(polygon, options))
       for (auto& piece : clipped(straight, cutting.within)) out.push_back(std::move(piece));
   }
   return out;
@@ -109,7 +101,7 @@ auto outline_of(const Cutting& cutting, const Options& options) -> base::Result<
 auto box_of(const Polygon& polygon) -> geometry::Box2 { return geometry::bounds(polygon.outer); }
 
 /// What of the polygons is not in those drawn before, without the slivers that are left of it.
-auto parted(std::vector<Polygon> polygons, const std::vector<Polygon>& before) -> std::vector<Polygon> {
+auto parted(std::vector<Polygon> polygons, const std::vector<Polygon>& before, double slip) -> std::vector<Polygon> {
   for (const auto& other : before) {
     std::vector<Polygon> rest;
     for (auto& polygon : polygons) {
@@ -197,47 +189,26 @@ auto stopped() -> base::Diagnostic { return base::error("cancelled", "stopped on
 
 }  // namespace
 
-auto option_list(Options& o) -> base::OptionList {
-  return std::move(
-      base::OptionList("derive")
-          .number("cell", o.cell, "m", {0.1, 5}, "Cell of the grid of heights that footprints are drawn from.")
-          .number("above_ground", o.above_ground, "m", {0.5, 100},
-                  "What stands less high above the ground is no building.")
-          .number("least_area", o.least_area, "m²", {1, 1e5},
-                  "Smaller buildings are left out, smaller courtyards closed.")
-          .number(
-              "widest", o.widest, "m", {10, 2000},
-              "The lowest surface in any square so wide is ground: wider than any roof, and than what is built around.")
-          .number("smooth", o.smooth, "", {0, 1},
-                  "Least share of a roof, around each place, that lies in planes; trees have next to none.")
-          .number("step", o.step, "m", {0, 500},
-                  "What stands so much above what it touches is a building of its own; 0 for never.")
-          .number("tolerance", o.tolerance, "m", {0.1, 20},
-                  "What is nearer to the line of a wall than this is that wall.")
-          .number("shortest", o.shortest, "m", {0, 50}, "Shorter sides are not drawn."));
-}
-
 auto footprints(const model::Scene& scene, const Options& options, const base::Run& run)
     -> base::Result<std::vector<model::Footprint>> {
   run.report("derive", "heights", 0);
   const Place place = detail::place_of(scene.mesh, options.cell);
   if (place.size() == 0) return nothing();
-  if (static_cast<double>(place.columns) * static_cast<double>(place.rows) > most_cells)
-    return base::error(
-        "derive-size",
-        "the grid of heights would have more than 400 million cells; raise derive.cell, or take less of the "
-        "mesh with --bbox");
+  if (static_cast<double>(place.columns) * static_cast<double>(place.rows) > options.maximum_cells)
+    return base::error("derive-size", "the grid of heights would have more than " +
+                                          base::to_text(options.maximum_cells / 1e6, 0) +
+                                          " million cells; raise derive.cell, or take less of the "
+                                          "mesh with --bbox");
   const auto top = detail::top_heights(scene.mesh, place);
   if (run.cancelled()) return stopped();
 
   run.report("derive", "ground", 0.3);
-  const auto ground =
-      scene.terrain ? detail::ground_of(place, *scene.terrain) : detail::ground_of(place, top, options.widest);
+  const auto ground = scene.terrain ? detail::ground_of(place, *scene.terrain) : detail::ground_of(place, top, options);
   if (run.cancelled()) return stopped();
 
   run.report("derive", "buildings", 0.5);
   const auto standing = detail::standing(top, ground, options.above_ground);
-  const auto planes = detail::in_planes(place, top, standing);
+  const auto planes = detail::in_planes(place, top, standing, options);
   const auto cut = detail::cut_at_steps(place, top, detail::buildings(place, top, standing, planes, options), options);
   if (run.cancelled()) return stopped();
 
@@ -251,7 +222,7 @@ auto footprints(const model::Scene& scene, const Options& options, const base::R
   for (const auto& vertex : scene.mesh.vertices) end.add(geometry::xy(vertex));
   base::parallel_for(extents.size(), [&](std::size_t b) {
     if (b == 0 || run.cancelled()) return;
-    auto cutting = cut_out(place, cut, b, extents[b]);
+    auto cutting = cut_out(place, cut, b, extents[b], options.underlap);
     cutting.within = end;
     auto outline = outline_of(cutting, options);
     if (outline) outlines[b] = std::move(*outline);
@@ -268,7 +239,7 @@ auto footprints(const model::Scene& scene, const Options& options, const base::R
   std::vector<Drawn> drawn;
   std::vector<Polygon> before;
   for (const std::size_t b : order)
-    for (auto& polygon : parted(std::move(outlines[b]), before)) {
+    for (auto& polygon : parted(std::move(outlines[b]), before, options.slip_width)) {
       if (geometry::area(polygon) < options.least_area || !geometry::is_simple(polygon)) continue;
       before.push_back(polygon);
       drawn.push_back({std::move(polygon), cuttings[b].height, cuttings[b].planes});

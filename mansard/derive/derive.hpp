@@ -4,24 +4,12 @@
 
 #include <vector>
 
-#include "mansard/base/options.hpp"
 #include "mansard/base/result.hpp"
 #include "mansard/base/run.hpp"
+#include "mansard/derive/options.hpp"
 #include "mansard/model/scene.hpp"
 
 namespace mansard::derive {
-
-struct Options {
-  double cell = 0.5;        ///< m; of the grid of heights
-  double above_ground = 2;  ///< m; what stands less high is no building
-  double least_area = 25;   ///< m²; of a building, and of a courtyard
-  double widest = 100;      ///< m; a square so wide holds some ground
-  double smooth = 0.25;     ///< 0 … 1; the least share of a roof that lies in planes
-  double step = 8;          ///< m; what stands so much above what it touches is a building of its own; 0: never
-  double tolerance = 1;     ///< m; what is nearer to a wall's line is that wall
-  double shortest = 1.5;    ///< m; of the sides that are drawn
-};
-[[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 
 /// Footprints of what stands on the ground of the scene's mesh, in its frame: on its terrain, where it has one. Their
 /// ids are "derived-1" and on, from north-west to south-east; each has `derived` set and the attributes ms_derived,

@@ -49,9 +49,13 @@ auto empty_map(const Grid& cells) -> ErrorMap {
 auto option_list(Options& o) -> base::OptionList {
   base::OptionList list("evaluate");
   list.number("grid", o.grid, "m", {0.01, 10}, "Distance between the samples of the vertical error.")
-      .number("margin", o.margin, "m", {0, 100}, "How far around the footprints' bounding box errors are measured.")
-      .number("inset", o.inset, "m", {0, 100},
-              "How deep inside the footprints the scores `inside` begin; 0: they are not measured.");
+      .source("paper: 0.25 m");
+  list.number("margin", o.margin, "m", {0, 100},
+              "Width of the strip around the footprints' bounding box in which errors are measured.")
+      .source("paper: the bounding box");
+  list.number("inset", o.inset, "m", {0, 100},
+              "Depth inside the footprints at which the scores `inside` begin; 0 does not measure them.")
+      .source("docs/evaluate.md: what scans melt and surveys are off by");
   return list;
 }
 

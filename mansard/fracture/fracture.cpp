@@ -1,6 +1,7 @@
 #include "mansard/fracture/fracture.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 
 #include "mansard/base/text.hpp"
@@ -40,6 +41,12 @@ auto rectangle_of(const std::vector<Cut>& cuts, const Box2& region, const Option
   return box;
 }
 
+// A cut laid down beside its place must stay within Tolerances::drift of it, which is two merging distances less the
+// slack: the farthest try leaves 0.8 of one for the vertices that draw it in. Its thirds are tried before it.
+constexpr std::array<double, 3> shifts{0.4, 0.8, 1.2};  // merging distances
+// Half a merging distance more attraction: still 0.5 of one within the drift.
+constexpr double wider_attraction = 1.5;
+
 /// What is tried for one cut, best first: as asked; drawn to vertices from farther away; laid down a little beside its
 /// place, first on the side of the rectangle's middle (so that a mirrored plane takes the mirrored choice); the same
 /// with no continuation but to the next edge.
@@ -48,11 +55,13 @@ auto attempts_for(const detail::Line& line, Point2 middle, double asked, double 
   std::vector<detail::Attempt> attempts;
   for (const double continuation : {asked, 0.0}) {
     attempts.push_back({continuation, 1, 0, 0});
-    attempts.push_back({continuation, 1.5, 0, 0});
-    for (const double by : {0.4 * inwards, 0.8 * inwards, 1.2 * inwards})
+    attempts.push_back({continuation, wider_attraction, 0, 0});
+    for (const double shift : shifts) {
+      const double by = shift * inwards;
       for (const auto& [start, end] :
            {std::pair(by, by), {-by, -by}, {by, -by}, {-by, by}, {by, 0.0}, {0.0, by}, {-by, 0.0}, {0.0, -by}})
         attempts.push_back({continuation, 1, start, end});
+    }
   }
   return attempts;
 }
@@ -66,7 +75,7 @@ struct Outcome {
 /// after every cut rather than once at the end.
 auto insert_all(const std::vector<Cut>& cuts, const Box2& rectangle, const Options& options, bool wary,
                 const base::Run& run) -> Outcome {
-  const detail::Tolerances tolerances(options.snap);
+  const detail::Tolerances tolerances(options);
   detail::Graph graph(rectangle, tolerances.merge);
   std::vector<detail::Line> lines;
   for (const Cut& cut : cuts) {
@@ -126,13 +135,23 @@ auto arrange(const std::vector<Cut>& cuts, const geometry::Box2& region, const O
   return std::move(outcome.arrangement);
 }
 
-auto option_list(Options& options) -> base::OptionList {
-  return std::move(base::OptionList("fracture")
-                       .number("continuation", options.continuation, "m", {0, 1000},
-                               "A line goes on for this far beyond both ends, then to the next edge.")
-                       .number("snap", options.snap, "m", {0.001, 1}, "Vertices and lines nearer than this become one.")
-                       .number("margin", options.margin, "m", {0, 1000},
-                               "Distance from the lines to the rectangle that bounds the fractured ground."));
+auto option_list(Options& o) -> base::OptionList {
+  base::OptionList list("fracture");
+  list.number("continuation", o.continuation, "m", {0, 1000},
+              "A line continues for this length beyond both ends, then to the next edge.")
+      .source("paper: 2 m");
+  list.number("snap", o.snap, "m", {0.001, 1}, "Vertices and lines nearer to each other than this become one.")
+      .source("chosen by hand; not measured");
+  list.number("margin", o.margin, "m", {0, 1000},
+              "Distance from the lines to the rectangle that bounds the fractured ground.")
+      .source("reference implementation chordatlas: 10 m");
+  list.integer("settle_steps", o.settle_steps, "", {1, 1e6},
+               "Number of steps after which a line that does not settle is tried otherwise.")
+      .advanced("lines that settle were seen to take 155 steps at most");
+  list.integer("settle_steps_per_crossing", o.settle_steps_per_crossing, "", {0, 1e6},
+               "Additional number of steps for every edge that the line crosses.")
+      .advanced("chosen by hand; not measured");
+  return list;
 }
 
 auto codes() -> std::vector<base::Code> {

@@ -315,31 +315,38 @@ auto read_alone(const std::filesystem::path& path, const Options& options, const
 
 auto option_list(Options& o) -> base::OptionList {
   constexpr double far = 1e8;
-  return std::move(
-      base::OptionList("ingest")
-          .numbers("mesh_offset", o.mesh_offset, "m", {-far, far}, "Added to the mesh's x, y and z.")
-          .alias("mesh_offset")
-          .choice("up", o.up,
-                  {{"automatic", formats::UpAxis::automatic}, {"z", formats::UpAxis::z}, {"y", formats::UpAxis::y}},
-                  "Which axis of the mesh is up; automatic means y for glTF and z for the rest.")
-          .alias("up")
-          .string("crs", o.crs,
-                  "CRS to work in: EPSG:n, or local; empty for the footprints', the mesh's, or the UTM zone.")
-          .alias("crs")
-          .string("id_attribute", o.id_attribute,
-                  "Attribute that names a footprint; empty to look for a well-known one.")
-          .alias("id_attribute")
-          .string("layer", o.layer, "Layer of the vector file; empty for its first one with polygons.")
-          .alias("layer")
-          .string("where", o.where, "Only footprints that pass this filter, as in SQL after WHERE.")
-          .alias("where")
-          .numbers("bbox", o.bbox, "m", {-far, far},
-                   "Only footprints that meet the box xmin ymin xmax ymax in the working CRS; four zeros for all.")
-          .alias("bbox")
-          .number("tile_error", o.tile_error, "m", {0, far},
-                  "Of a 3D Tiles tileset, take tiles once their geometric error is no more; 0 for the finest.")
-          .string("terrain", o.terrain, "Raster with the ground's heights; empty to find the ground in the mesh.")
-          .alias("dtm"));
+  base::OptionList list("ingest");
+  list.numbers("mesh_offset", o.mesh_offset, "m", {-far, far}, "Offset added to the mesh's x, y and z.")
+      .alias("mesh_offset")
+      .source("none by default");
+  list.choice("up", o.up,
+              {{"automatic", formats::UpAxis::automatic}, {"z", formats::UpAxis::z}, {"y", formats::UpAxis::y}},
+              "Axis of the mesh that is up; automatic means y for glTF and z for the rest.")
+      .alias("up")
+      .source("glTF 2.0 specification: y; z as in GIS for the rest");
+  list.string("crs", o.crs, "CRS to work in: EPSG:n, or local; empty for the footprints', the mesh's, or the UTM zone.")
+      .alias("crs")
+      .source("none by default");
+  list.string("id_attribute", o.id_attribute, "Attribute that names a footprint; empty to look for a well-known one.")
+      .alias("id_attribute")
+      .source("none by default");
+  list.string("layer", o.layer, "Layer of the vector file; empty for its first one with polygons.")
+      .alias("layer")
+      .source("none by default");
+  list.string("where", o.where, "Filter that footprints must pass, as in SQL after WHERE.")
+      .alias("where")
+      .source("none by default");
+  list.numbers("bbox", o.bbox, "m", {-far, far},
+               "Box xmin ymin xmax ymax in the working CRS that footprints must meet; four zeros for all.")
+      .alias("bbox")
+      .source("none by default");
+  list.number("tile_error", o.tile_error, "m", {0, far},
+              "Geometric error from which tiles of a 3D Tiles tileset are taken; 0 for the finest.")
+      .source("the finest tiles by default");
+  list.string("terrain", o.terrain, "Raster with the ground's heights; empty to find the ground in the mesh.")
+      .alias("dtm")
+      .source("none by default");
+  return list;
 }
 
 auto read_scene(const std::vector<std::filesystem::path>& meshes, const std::filesystem::path& footprints,

@@ -25,9 +25,22 @@ auto class_of(const model::Face& face, double lean) -> model::FaceClass {
 
 auto option_list(Options& o) -> base::OptionList {
   base::OptionList list("label");
-  list.number("wall_angle", o.wall_angle, "rad", {0, 1.5}, "A side leaning more than this from vertical is roof.")
-      .number("party_distance", o.party_distance, "m", {0, 2},
-              "A wall this near to a neighbour's opposite wall is a party wall.");
+  list.number("wall_angle", o.wall_angle, "rad", {0, 1.5},
+              "Maximum angle from vertical of a wall; a side that leans more is roof.")
+      .source("reference implementation chordatlas: 0.2 rad");
+  list.number("party_distance", o.party_distance, "m", {0, 2},
+              "Maximum distance of a party wall from a neighbour's opposite wall.")
+      .source("as block.touch; not measured");
+  list.number("party_share", o.party_share, "", {0, 1},
+              "Share of a wall's area that must face opposite walls for it to be a party wall.")
+      .advanced("most of it: one class a face is all that files can say");
+  list.number("party_cosine", o.party_cosine, "", {0, 1},
+              "Cosine of the maximum angle between a wall and the reverse of an opposite one.")
+      .advanced("chosen by hand; not measured");
+  list.number("party_strip", o.party_strip, "m", {0.001, 10},
+              "Maximum width of the vertical strips in which that area is measured, of which a wall has 32 at least "
+              "and 2000 at most.")
+      .advanced("half of label.party_distance: no wall is resolved better");
   return list;
 }
 
@@ -48,10 +61,10 @@ auto classify(std::vector<model::Solid> solids, const Options& options, const ba
   const auto walls = detail::walls_of(solids, is_wall);
   std::vector<double> shares(walls.size(), 0);
   base::parallel_for(walls.size(), [&](std::size_t i) {
-    if (!run.cancelled()) shares[i] = detail::covered_share(walls[i], walls, solids, options.party_distance);
+    if (!run.cancelled()) shares[i] = detail::covered_share(walls[i], walls, solids, options);
   });
   for (std::size_t i = 0; i < walls.size(); ++i)
-    if (shares[i] > 0.5) labelled[walls[i].solid].classes[walls[i].face] = model::FaceClass::party_wall;
+    if (shares[i] > options.party_share) labelled[walls[i].solid].classes[walls[i].face] = model::FaceClass::party_wall;
 
   for (std::size_t s = 0; s < solids.size(); ++s) labelled[s].solid = std::move(solids[s]);
   run.report("label", {}, 1);
@@ -59,7 +72,7 @@ auto classify(std::vector<model::Solid> solids, const Options& options, const ba
 }
 
 auto areas(const model::LabelledSolid& labelled) -> Areas {
-  constexpr double flat = 0.9962;  // cosine of 5°, as 3DBAG tells flat roofs from sloped ones
+  constexpr double flat = 0.9962;  // cosine of 5°: 3DBAG's definition of a flat roof
   Areas sum;
   for (std::size_t f = 0; f < labelled.solid.faces.size(); ++f) {
     const auto& face = labelled.solid.faces[f];

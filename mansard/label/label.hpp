@@ -15,12 +15,16 @@ namespace mansard::label {
 struct Options {
   double wall_angle = 0.2;      ///< rad from vertical; a side leaning more is roof
   double party_distance = 0.1;  ///< m; walls this near a neighbour's opposite wall are party walls
+  double party_share = 0.5;     ///< of a wall's area before which another one stands, from which it is a party wall
+  double party_cosine = 0.966;  ///< cosine of 15°: walls that face each other within that are opposite
+  double party_strip = 0.05;    ///< m; width of the strips in which that share is measured
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 
 /// Side faces within `wall_angle` of vertical and connectors are walls, the base is ground, soffits are soffits, all
-/// else roof. A wall is a party wall where more than half of its area faces a wall of another solid of the block,
-/// opposite and within `party_distance`. Guarantees: 1 one class per face · 2 the order of solids does not matter.
+/// else roof. A wall is a party wall where more than `party_share` of its area faces a wall of another solid of the
+/// block, opposite and within `party_distance`. Guarantees: 1 one class per face · 2 the order of solids does not
+/// matter.
 [[nodiscard]] auto classify(std::vector<model::Solid> solids, const Options& options, const base::Run& run = {})
     -> std::vector<model::LabelledSolid>;
 

@@ -24,7 +24,7 @@ struct Part {
 /// One GIS feature with the parts that overlap it most.
 struct Building {
   std::string id;
-  Attributes attributes;             ///< the source's own, then those with prefix ms_
+  Attributes attributes;                     ///< the source's own, then those with prefix ms_
   std::vector<geometry::Polygon> footprint;  ///< the GIS polygons, for LoD 0
   double ground = 0;                         ///< z, metres
   std::vector<Part> parts;
@@ -33,10 +33,10 @@ struct Building {
 /// How the city was made, repeated in every file.
 struct MadeBy {
   std::string version;
-  std::vector<std::pair<std::string, std::string>> options;  ///< module.name → value, as text
+  /// module.name → value, as text: all ordinary options, and those advanced ones that are not at their default.
+  std::vector<std::pair<std::string, std::string>> options;
+  std::vector<std::pair<std::string, std::string>> every_option;  ///< the same of all, for run.json alone
   std::vector<InputFile> inputs;
-  /// Advanced options that have their defaults: for reports; models name those alone that differ.
-  std::vector<std::pair<std::string, std::string>> usual;
 };
 
 struct City {

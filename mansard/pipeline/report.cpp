@@ -125,8 +125,8 @@ auto head(const model::MadeBy& made_by, const model::Scene& scene) -> Json {
   out["crs"] = scene.frame.crs.empty() ? Json(nullptr) : Json(scene.frame.crs);
   out["origin"] = scene.frame.origin;
   Json options = Json::object();
-  for (const auto& [name, value] : made_by.options) options[name] = value;
-  for (const auto& [name, value] : made_by.usual) options[name] = value;
+  for (const auto& [name, value] : made_by.every_option.empty() ? made_by.options : made_by.every_option)
+    options[name] = value;
   out["options"] = options;
   out["footprints_derived"] = std::ranges::any_of(scene.footprints, &model::Footprint::derived);
   const auto& m = scene.mesh_counts;

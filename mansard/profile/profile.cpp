@@ -35,20 +35,19 @@ auto ground_of(const segment::Part& part, const block::Block& block) -> double {
 auto slices_of(const Polygon& polygon, const Run& run, const detail::SectionIndex& index, double base,
                const Options& options, Fitted& fitted) -> std::vector<detail::SliceColumns> {
   Evidence& evidence = fitted.evidence;
-  const detail::ClimbOptions climbing{options.step, options.jump, options.low_height, base};
   std::vector<detail::SliceColumns> slices;
   std::vector<double> walls;
-  for (auto sample : detail::samples_of(polygon, run, options.spacing)) {
+  for (auto sample : detail::samples_of(polygon, run, options)) {
     ++evidence.attempted;
     fitted.choices.reach = std::max(fitted.choices.reach, sample.reach);
-    sample.reach = std::min(sample.reach, detail::slice_to);
-    const auto pieces = index.cut({sample.foot, sample.inward, detail::slice_from, sample.reach});
-    const auto climb = detail::climb(pieces, climbing);
+    sample.reach = std::min(sample.reach, options.slice_inward);
+    const auto pieces = index.cut({sample.foot, sample.inward, -options.slice_outward, sample.reach});
+    const auto climb = detail::climb(pieces, options, base);
     if (!climb) continue;
     ++evidence.slices;
-    const auto wall = detail::wall_position(*climb, climbing, options.vertical_angle);
+    const auto wall = detail::wall_position(*climb, options, base);
     if (wall) walls.push_back(*wall);
-    slices.push_back(detail::columns_of(pieces, *climb, sample, base, wall));
+    slices.push_back(detail::columns_of(pieces, *climb, sample, base, wall, options));
   }
   if (!walls.empty()) {
     std::ranges::sort(walls);
@@ -58,27 +57,25 @@ auto slices_of(const Polygon& polygon, const Run& run, const detail::SectionInde
 }
 
 /// Whether the roof behind the run is its own: enough of its slices rise inward, those near its corners set aside.
-auto is_pitched(const std::vector<detail::SliceColumns>& slices, double length) -> bool {
-  constexpr double corner = 1.0;  // m; at a hip the neighbour's roof begins there
-  constexpr double share = 0.4;   // dormers may take the rest
-  const double aside = length > 2.6 * corner ? corner : 0;
+auto is_pitched(const std::vector<detail::SliceColumns>& slices, double length, const Options& options) -> bool {
+  const double aside = length > options.hip_corner_from ? options.hip_corner : 0;
   std::size_t counted = 0, rising = 0;
   for (const auto& slice : slices) {
     if (slice.along < aside || slice.along > length - aside) continue;
     ++counted;
     rising += slice.first < slice.last ? 1 : 0;
   }
-  return counted > 0 && static_cast<double>(rising) >= share * static_cast<double>(counted);
+  return counted > 0 && static_cast<double>(rising) >= options.pitched_share * static_cast<double>(counted);
 }
 
 /// The roof that the slices agree on, with at most that many pitches; just the wall where they agree on none.
 auto pitched_profile(const std::vector<detail::SliceColumns>& slices, std::size_t pitches, const Options& options)
     -> std::optional<model::Profile> {
-  // One pitch stands for all that a roof does, so slices may stray from it.
-  const detail::SupportOptions support{options.support, pitches == 1 ? 1.0 : 0.3, options.low_height};
-  const auto line = detail::supported(detail::fit_line(detail::pool(slices), pitches), slices, support);
+  const double tolerance = pitches == 1 ? options.single_pitch_tolerance : options.pitch_tolerance;
+  const auto line =
+      detail::supported(detail::fit_line(detail::pool(slices, options), pitches, options), slices, tolerance, options);
   if (line.empty()) return std::nullopt;
-  auto profile = detail::profile_from(line, options.vertical_angle);
+  auto profile = detail::profile_from(line, options);
   if (profile.back().inward == 0) return std::nullopt;
   return profile;
 }
@@ -86,9 +83,9 @@ auto pitched_profile(const std::vector<detail::SliceColumns>& slices, std::size_
 /// Adds the profiles that the slices suggest, most pitches first; the wall is always the last of them.
 void suggest(std::vector<detail::SliceColumns>& slices, double length, double height, const Options& options,
              std::vector<model::Profile>& profiles) {
-  const auto wall = detail::vertical_profile(detail::edge_height(slices).value_or(height));
-  detail::find_rising(slices);
-  if (options.quality != Quality::simple && is_pitched(slices, length)) {
+  const auto wall = detail::vertical_profile(detail::edge_height(slices, options).value_or(height), options);
+  detail::find_rising(slices, options);
+  if (options.quality != Quality::simple && is_pitched(slices, length, options)) {
     for (const std::size_t pitches : {3U, 1U}) {
       if (options.quality == Quality::moderate && pitches > 1) continue;
       auto profile = pitched_profile(slices, pitches, options);
@@ -118,8 +115,8 @@ auto fit_run(const Polygon& polygon, const Run& run, const detail::SectionIndex&
   suggest(slices, length, height, options, profiles);
   if (options.quality != Quality::high) return fitted;
   // Evidence for a step back comes from the scan as a whole, so only refine() may choose it.
-  if (const auto setback = detail::find_setback(slices)) {
-    auto upper = detail::behind(slices, *setback);
+  if (const auto setback = detail::find_setback(slices, options)) {
+    auto upper = detail::behind(slices, *setback, options);
     std::vector<model::Profile> beyond;
     suggest(upper, length, height, options, beyond);
     for (const auto& profile : beyond) profiles.push_back(set_back(profile, *setback));
@@ -151,17 +148,16 @@ auto prepare(const segment::Part& part, const block::Block& block, const rays::S
   work.choices.resize(work.runs.size());
   work.evidence.resize(work.runs.size());
   work.chosen.assign(work.runs.size(), 0);
-  work.samples = detail::look_over(mesh, part.polygon, work.base);
+  work.samples = detail::look_over(mesh, part.polygon, work.base, options);
   for (const auto& sample : work.samples) work.heights.push_back(sample.height);
   std::ranges::sort(work.heights);
-  constexpr double assumed = 3.0;  // m; one storey, where nothing was seen at all
-  constexpr double least = 0.5;    // m
+  const double least = options.minimum_height;
   if (!work.heights.empty()) work.height = std::max(least, work.heights[work.heights.size() / 2]);
-  else work.height = part.height - work.base > least ? part.height - work.base : assumed;
+  else work.height = part.height - work.base > least ? part.height - work.base : options.assumed_storey;
   return work;
 }
 
-auto caps_of(const Work& work, const Polygon& polygon) -> std::vector<double> {
+auto caps_of(const Work& work, const Polygon& polygon, const Options& options) -> std::vector<double> {
   std::vector<detail::ProfileTop> tops;
   bool pitched = false;
   for (std::size_t r = 0; r < work.runs.size(); ++r) {
@@ -169,20 +165,19 @@ auto caps_of(const Work& work, const Polygon& polygon) -> std::vector<double> {
     tops.push_back({work.profile(r).back().height, detail::length_of(polygon, work.runs[r])});
     pitched = pitched || work.profile(r).back().inward > 0;
   }
-  return detail::caps_from(work.heights, std::move(tops), pitched, work.height);
+  return detail::caps_from(work.heights, std::move(tops), pitched, work.height, options);
 }
 
 /// Short runs (bevels, jogs, pieces of curves) see too little: they follow a neighbour that they hardly turn from, or
 /// stand as walls, unless the scan clearly says otherwise.
-void lead_short_runs(const Polygon& polygon, Work& work) {
-  constexpr double shortest = 1.0;  // m
+void lead_short_runs(const Polygon& polygon, Work& work, const Options& options) {
   for (std::size_t r = 0; r < work.runs.size(); ++r) {
-    if (work.evidence[r].slices == 0 || detail::length_of(polygon, work.runs[r]) >= shortest) continue;
+    if (work.evidence[r].slices == 0 || detail::length_of(polygon, work.runs[r]) >= options.short_run) continue;
     auto& profiles = work.choices[r].profiles;
     const auto wall = std::ranges::find_if(profiles, [](const auto& p) { return p.back().inward == 0; });
     if (wall != profiles.end()) std::rotate(profiles.begin(), wall, wall + 1);
-    for (const auto neighbour : detail::gentle_neighbours(polygon, work.runs, r)) {
-      if (detail::length_of(polygon, work.runs[neighbour]) < shortest) continue;
+    for (const auto neighbour : detail::gentle_neighbours(polygon, work.runs, r, options)) {
+      if (detail::length_of(polygon, work.runs[neighbour]) < options.short_run) continue;
       const auto lead = work.choices[neighbour].profiles.front();
       if (lead.back().inward > 0) profiles.insert(profiles.begin(), lead);
     }
@@ -190,12 +185,12 @@ void lead_short_runs(const Polygon& polygon, Work& work) {
 }
 
 /// Weighs the runs' candidates against each other and against the scan.
-void settle(Work& work, const Polygon& polygon) {
-  lead_short_runs(polygon, work);
-  work.caps = caps_of(work, polygon);
+void settle(Work& work, const Polygon& polygon, const Options& options) {
+  lead_short_runs(polygon, work, options);
+  work.caps = caps_of(work, polygon, options);
   if (work.samples.empty()) return;
-  work.chosen = detail::refine(polygon, work.runs, work.choices, work.samples, work.caps).chosen;
-  work.caps = caps_of(work, polygon);
+  work.chosen = detail::refine(polygon, work.runs, work.choices, work.samples, work.caps, options).chosen;
+  work.caps = caps_of(work, polygon, options);
 }
 
 /// The plan of a part, one profile a run.
@@ -224,22 +219,6 @@ auto alternatives_of(const Work& work) -> std::vector<std::vector<model::Profile
 
 }  // namespace
 
-auto option_list(Options& o) -> base::OptionList {
-  base::OptionList list("profile");
-  list.choice("quality", o.quality,
-              {{"simple", Quality::simple}, {"moderate", Quality::moderate}, {"high", Quality::high}},
-              "Walls only, one roof pitch an edge, or up to three.")
-      .number("spacing", o.spacing, "m", {0.05, 5}, "Distance between perpendicular slices along an edge.")
-      .number("step", o.step, "m", {0.05, 10}, "The climb goes on to a piece of mesh this near.")
-      .number("jump", o.jump, "m", {0.05, 20}, "Failing that, it jumps a hole or parapet this wide.")
-      .number("support", o.support, "", {0, 1}, "Share of an edge's slices that must agree with a pitch.")
-      .number("vertical_angle", o.vertical_angle, "rad", {0.001, 0.5}, "Parts this near to vertical become wall.")
-      .number("run_angle", o.run_angle, "rad", {0, 0.7}, "Edges that turn less than this share a profile.")
-      .number("low_height", o.low_height, "m", {0, 20},
-              "Height above ground below which cars, hedges and shops are expected and tolerances are wide.");
-  return list;
-}
-
 auto fit(const segment::Segmentation& segmentation, const block::Block& block, const rays::Scene& mesh,
          const Options& options, const base::Run& run) -> std::vector<ProfiledFootprint> {
   run.report("profile", block.name, 0);
@@ -257,14 +236,14 @@ auto fit(const segment::Segmentation& segmentation, const block::Block& block, c
     const auto [i, r] = tasks[task];
     Work& work = works[i];
     if (run.cancelled()) {
-      work.choices[r].profiles = {detail::vertical_profile(work.height)};
+      work.choices[r].profiles = {detail::vertical_profile(work.height, options)};
       return;
     }
     auto fitted = fit_run(parts[i].polygon, work.runs[r], index, work.base, work.height, options);
     work.choices[r] = std::move(fitted.choices);
     work.evidence[r] = fitted.evidence;
   });
-  base::parallel_for(parts.size(), [&](std::size_t i) { settle(works[i], parts[i].polygon); });
+  base::parallel_for(parts.size(), [&](std::size_t i) { settle(works[i], parts[i].polygon, options); });
 
   std::vector<ProfiledFootprint> footprints(parts.size());
   for (std::size_t i = 0; i < parts.size(); ++i) {

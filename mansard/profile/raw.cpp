@@ -22,10 +22,10 @@ auto RawProfiles::behind(const geometry::Polygon& polygon, std::size_t ring, std
                          const Options& options) const -> std::vector<RawProfile> {
   assert(ring <= polygon.holes.size());
   std::vector<RawProfile> out;
-  for (const auto& sample : detail::samples_of(polygon, {ring, {edge}}, options.spacing)) {
-    const double reach = std::min(sample.reach, detail::slice_to);
-    const auto pieces = parts_->index.cut({sample.foot, sample.inward, detail::slice_from, reach});
-    const auto climb = detail::climb(pieces, {options.step, options.jump, options.low_height, base});
+  for (const auto& sample : detail::samples_of(polygon, {ring, {edge}}, options)) {
+    const double reach = std::min(sample.reach, options.slice_inward);
+    const auto pieces = parts_->index.cut({sample.foot, sample.inward, -options.slice_outward, reach});
+    const auto climb = detail::climb(pieces, options, base);
     if (!climb) continue;
     auto& raw = out.emplace_back(RawProfile{sample.foot, sample.along, {}});
     for (const auto& point : climb->points) raw.points.push_back({point.inward, point.height - base});

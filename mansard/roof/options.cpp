@@ -38,18 +38,27 @@ auto option_list(Options& o) -> base::OptionList {
   list.string("profile", o.profile,
               "One profile for every edge, \"0,0 0,6 4,9\" (inward,height); empty: by attributes.")
       .alias("profile")
+      .source("none by default")
       .number("cap", o.cap, "m", {0.01, 2000}, "Height above the base at which a roof of roof.profile is cut off flat.")
-      .choice("shape", o.shape, std::move(shapes), "Roof where there is no roof:shape.")
+      .choice("shape", o.shape, std::move(shapes), "Shape of roofs without roof:shape.")
+      .source("OpenStreetMap wiki, Simple 3D Buildings: a building without roof:shape has a flat one")
       .number("default_height", o.default_height, "m", {0.1, 1500},
               "Height, roof included, of a building with neither height nor levels.")
       .alias("default_height")
+      .source("two storeys")
       .number("level_height", o.level_height, "m", {1, 20}, "Height of a storey.")
       .alias("level_height")
-      .number("pitch", o.pitch, "rad", {0.01, 1.48}, "Of roofs with neither roof:height nor roof:angle.")
+      .source("OpenStreetMap wiki, Simple 3D Buildings: 3 m a level")
+      .number("pitch", o.pitch, "rad", {0.01, 1.48}, "Pitch of roofs with neither roof:height nor roof:angle.")
       .alias("pitch")
-      .number("most_share", o.most_share, "", {0.01, 0.99}, "Such roofs take no more than this share of the height.")
+      .source("30°, common in Europe; not measured")
+      .number("most_share", o.most_share, "", {0.01, 0.99},
+              "Maximum share of a building's height that a roof with neither roof:height nor roof:angle takes.")
+      .source("chosen by hand; not measured")
       .number("half_hip", o.half_hip, "", {0.05, 0.95}, "Upright share of a half-hipped end.")
-      .number("ground", o.ground, "m", {-12000, 9000}, "z of the ground where no attribute says it.")
+      .source("chosen by hand so that roofs look drawn; not measured")
+      .number("ground", o.ground, "m", {-12000, 9000}, "z of the ground where no attribute gives it.")
+      .source("zero of the vertical datum")
       .string("building_height_attribute", o.building_height_attribute, "Attribute to take as height.")
       .alias("height_attribute")
       .string("building_levels_attribute", o.building_levels_attribute, "Attribute to take as building:levels.")
@@ -65,6 +74,50 @@ auto option_list(Options& o) -> base::OptionList {
       .string("angle_attribute", o.angle_attribute, "Attribute to take as roof:angle.")
       .string("orientation_attribute", o.orientation_attribute, "Attribute to take as roof:orientation.")
       .string("direction_attribute", o.direction_attribute, "Attribute to take as roof:direction.");
+  list.number("side_turn", o.side_turn, "rad", {0, 0.5}, "Consecutive edges that turn by less than this are one side.")
+      .advanced("chosen by hand; not measured");
+  list.number("minimum_rise", o.minimum_rise, "m", {0.0001, 1}, "Minimum height of a roof, and of the wall under it.")
+      .advanced("a centimetre: what surveys resolve");
+  list.number("cap_clearance", o.cap_clearance, "m", {0.0001, 1}, "Height of the cap above the ridge.")
+      .advanced("a centimetre, which no file shows: the roof closes below");
+  list.number("rectangle_fill", o.rectangle_fill, "", {0, 1},
+              "Minimum share of its smallest box that an outline with a single ridge fills.")
+      .advanced("chosen by hand; not measured");
+  list.number("wing_corner", o.wing_corner, "rad", {0, 1.5},
+              "Maximum deviation from a right angle at the corners of a wing's end.")
+      .advanced("chosen by hand; not measured");
+  list.number("wing_depth", o.wing_depth, "", {0, 10}, "Minimum depth of a wing, as a share of its width.")
+      .advanced("chosen by hand; not measured");
+  list.number("wing_clearance", o.wing_clearance, "", {0, 1},
+              "Minimum distance from the outline to the top of the triangle over a wing's end, as a share of the "
+              "triangle's height.")
+      .advanced("chosen by hand; not measured");
+  list.number("gambrel_run", o.gambrel_run, "", {0, 1}, "Share of a gambrel roof's run that is its steep part.")
+      .advanced("chosen by hand so that roofs look drawn; not measured");
+  list.number("gambrel_rise", o.gambrel_rise, "", {0, 1}, "Share of a gambrel roof's height that is its steep part.")
+      .advanced("chosen by hand so that roofs look drawn; not measured");
+  list.number("mansard_rise", o.mansard_rise, "", {0, 1}, "Share of a mansard roof's height that is its steep part.")
+      .advanced("chosen by hand so that roofs look drawn; not measured");
+  list.number("mansard_run", o.mansard_run, "", {0, 1}, "Maximum share of a mansard roof's run that is its steep part.")
+      .advanced("chosen by hand so that roofs look drawn; not measured");
+  list.number("mansard_slope", o.mansard_slope, "", {0.1, 100}, "Slope of the steep part of a mansard roof.")
+      .advanced("chosen by hand so that roofs look drawn; not measured");
+  list.number("level_cosine", o.level_cosine, "", {0, 1},
+              "Cosine of the maximum angle between a side that is level in a skillion roof and the direction across "
+              "its slope.")
+      .advanced("chosen by hand; not measured");
+  list.number("direction_cosine", o.direction_cosine, "", {0, 1},
+              "Cosine of the maximum angle between roof:direction and the edge that it is taken for.")
+      .advanced("chosen by hand; not measured");
+  list.number("corner_cut", o.corner_cut, "m", {0.001, 5},
+              "Width of the cut at a skillion roof's lowest corner, which makes an edge for the plane to start from.")
+      .advanced("wider than extrude's tolerances; not measured");
+  list.number("corner_cut_share", o.corner_cut_share, "", {0.01, 0.5},
+              "Maximum share of the sides beside a skillion roof's lowest corner that is cut off.")
+      .advanced("chosen by hand; not measured");
+  list.number("apex_distance", o.apex_distance, "m", {0.001, 20},
+              "Minimum distance between a pyramid's apex and the sides of its outline.")
+      .advanced("chosen by hand; not measured");
   return list;
 }
 

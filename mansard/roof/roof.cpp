@@ -15,9 +15,6 @@ using detail::Side;
 using geometry::Point2;
 using model::Profile;
 
-constexpr double thin = 0.01;       // m; a roof or a run less than this is none
-constexpr double above_top = 0.01;  // m; the cap stands so much over the ridge, so as not to cut it
-
 /// A plan whose edges all have the first profile, until they are given others. Equal profiles are one.
 class Draft {
  public:
@@ -62,7 +59,7 @@ struct Heights {
 };
 
 /// `run` is the horizontal distance over which the roof rises.
-auto heights_of(const Form& form, double run, Planned& out) -> Heights {
+auto heights_of(const Form& form, double run, const Options& o, Planned& out) -> Heights {
   const double room = form.height - form.base;
   const bool given = form.rise || form.angle;
   double rise = form.rise ? *form.rise : run * std::tan(form.angle ? *form.angle : form.pitch);
@@ -71,7 +68,7 @@ auto heights_of(const Form& form, double run, Planned& out) -> Heights {
     return {room, rise};
   }
   if (!given) rise = std::min(rise, room * form.most_share);
-  if (rise > room + thin) {
+  if (rise > room + o.minimum_rise) {
     const double lower = room * form.most_share;
     out.as_asked = false;
     out.warnings.push_back(base::warning("roof-height", "a roof of this pitch would be " + base::to_text(rise, 1) +
@@ -80,7 +77,7 @@ auto heights_of(const Form& form, double run, Planned& out) -> Heights {
                                                             base::to_text(lower, 1) + " m high"));
     rise = lower;
   }
-  if (room - rise < thin) rise = room;  // no wall a centimetre high
+  if (room - rise < o.minimum_rise) rise = room;  // no wall a centimetre high
   return {room - rise, rise};
 }
 
@@ -90,76 +87,76 @@ void make_flat(const geometry::Polygon& polygon, double top, Planned& out) {
   out.plan = Draft(polygon, out.plan.base, upright(top)).plan(top);
 }
 
-void make_skillion(const geometry::Polygon& polygon, const Form& form, Planned& out) {
-  const auto slope = detail::slope_of(polygon, form);
-  const auto [wall, rise] = heights_of(form, slope.run, out);
-  if (rise < thin) return make_flat(polygon, wall + rise, out);
+void make_skillion(const geometry::Polygon& polygon, const Form& form, const Options& o, Planned& out) {
+  const auto slope = detail::slope_of(polygon, form, o);
+  const auto [wall, rise] = heights_of(form, slope.run, o, out);
+  if (rise < o.minimum_rise) return make_flat(polygon, wall + rise, out);
   if (slope.cut > 0)
     out.warnings.push_back(
         base::warning("roof-corner-cut",
                       std::to_string(slope.cut) + " low corners were cut off by 8 cm, for the plane to start from"));
   const double steep = rise / slope.run;
   Draft draft(slope.polygon, out.plan.base, upright(wall + rise));
-  const auto sides = detail::sides_of(slope.polygon);
-  const auto level = detail::level_sides(sides, slope.uphill);
+  const auto sides = detail::sides_of(slope.polygon, o.side_turn);
+  const auto level = detail::level_sides(sides, slope.uphill, o);
   for (std::size_t i = 0; i < sides.size(); ++i) {
     if (!level[i]) continue;
     // Edges that start higher in the same plane stand on a wall up to there.
     const double above = steep * (dot(0.5 * (sides[i].start + sides[i].end), slope.uphill) - slope.low);
-    const double foot = wall + above < thin / 10 ? 0 : wall + above;
-    if (foot < wall + rise - thin) draft.give(sides[i], on_wall(foot, {{slope.run, rise}}));
+    const double foot = wall + above < o.minimum_rise / 10 ? 0 : wall + above;
+    if (foot < wall + rise - o.minimum_rise) draft.give(sides[i], on_wall(foot, {{slope.run, rise}}));
   }
-  out.plan = std::move(draft).plan(wall + rise + above_top);
+  out.plan = std::move(draft).plan(wall + rise + o.cap_clearance);
 }
 
 void make_pyramid(const geometry::Polygon& polygon, Point2 apex, const std::vector<Side>& sides, const Form& form,
-                  Planned& out) {
+                  const Options& o, Planned& out) {
   const auto distance = [&](const Side& side) {
     // The line through the middle of the side: its ends may bulge a little.
     return std::round(dot(apex - 0.5 * (side.start + side.end), side.inward) * 1e4) / 1e4;
   };
   double nearest = distance(sides.front());
   for (const Side& side : sides) nearest = std::min(nearest, distance(side));
-  const auto [wall, rise] = heights_of(form, nearest, out);
-  if (rise < thin) return make_flat(polygon, wall + rise, out);
+  const auto [wall, rise] = heights_of(form, nearest, o, out);
+  if (rise < o.minimum_rise) return make_flat(polygon, wall + rise, out);
   Draft draft(polygon, out.plan.base, on_wall(wall, {{distance(sides.front()), rise}}));
   for (const Side& side : sides) draft.give(side, on_wall(wall, {{distance(side), rise}}));
-  out.plan = std::move(draft).plan(wall + rise + above_top);
+  out.plan = std::move(draft).plan(wall + rise + o.cap_clearance);
 }
 
 /// The profile of a roof that reaches `rise` after `run`: one pitch, or a steep and a shallow one.
-auto pitched(Shape shape, double wall, double run, double rise) -> Profile {
-  if (shape == Shape::gambrel) return on_wall(wall, {{0.35 * run, 0.65 * rise}, {run, rise}});
+auto pitched(Shape shape, double wall, double run, double rise, const Options& o) -> Profile {
+  if (shape == Shape::gambrel) return on_wall(wall, {{o.gambrel_run * run, o.gambrel_rise * rise}, {run, rise}});
   if (shape == Shape::mansard) {
-    constexpr double share = 0.7, widest = 0.35, steep = 2.747;  // tan 70°
-    return on_wall(wall, {{std::min(share * rise / steep, widest * run), share * rise}, {run, rise}});
+    const double lower = o.mansard_rise * rise;
+    return on_wall(wall, {{std::min(lower / o.mansard_slope, o.mansard_run * run), lower}, {run, rise}});
   }
   return on_wall(wall, {{run, rise}});
 }
 
-void make_swept(const geometry::Polygon& polygon, const std::vector<Side>& sides, const Form& form,
-                const Options& options, const base::Run& run, Planned& out) {
-  auto design = detail::design_of(polygon, sides, form, options.half_hip);
+void make_swept(const geometry::Polygon& polygon, const std::vector<Side>& sides, const Form& form, const Options& o,
+                const base::Run& run, Planned& out) {
+  auto design = detail::design_of(polygon, sides, form, o);
   out.shape = design.shape;
   out.as_asked = out.as_asked && design.as_asked;
   out.warnings.insert(out.warnings.end(), design.warnings.begin(), design.warnings.end());
   auto crest = detail::crest_of(polygon, sides, design.sweeps, run);
-  if (!crest || *crest < thin) {
+  if (!crest || *crest < o.minimum_rise) {
     out.as_asked = false;
     out.warnings.push_back(base::warning("roof-shape-here", "no roof could be raised over this outline; made flat"));
     const double top = form.height - form.base + (form.roof_included ? 0 : form.rise.value_or(0));
     return make_flat(polygon, top, out);
   }
-  const auto [wall, rise] = heights_of(form, *crest, out);
-  if (rise < thin) return make_flat(polygon, wall + rise, out);
+  const auto [wall, rise] = heights_of(form, *crest, o, out);
+  if (rise < o.minimum_rise) return make_flat(polygon, wall + rise, out);
   const double steep = rise / *crest;
-  Draft draft(polygon, out.plan.base, pitched(design.shape, wall, *crest, rise));
+  Draft draft(polygon, out.plan.base, pitched(design.shape, wall, *crest, rise, o));
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const auto& sweep = design.sweeps[i];
     if (!sweep.moves) draft.give(sides[i], upright(wall + rise));
     else if (sweep.lag > 0) draft.give(sides[i], on_wall(wall + steep * sweep.lag, {{*crest, rise}}));
   }
-  out.plan = std::move(draft).plan(wall + rise + above_top);
+  out.plan = std::move(draft).plan(wall + rise + o.cap_clearance);
 }
 
 auto sound(const geometry::Polygon& polygon, const Form& form) -> bool {
@@ -172,7 +169,7 @@ auto sound(const geometry::Polygon& polygon, const Form& form) -> bool {
 
 }  // namespace
 
-auto plan_of(const geometry::Polygon& polygon, const Form& form, const Options& options, const base::Run& run)
+auto plan_of(const geometry::Polygon& polygon, const Form& form, const Options& o, const base::Run& run)
     -> base::Result<Planned> {
   if (!sound(polygon, form))
     return base::error("roof-form", "there is nothing between base (" + base::to_text(form.base, 2) + " m) and top (" +
@@ -180,25 +177,25 @@ auto plan_of(const geometry::Polygon& polygon, const Form& form, const Options& 
   Planned out;
   out.shape = form.shape;
   out.plan.base = form.ground + form.base;
-  const auto sides = detail::sides_of(polygon);
-  if (form.shape == Shape::flat || form.rise.value_or(1) < thin) {
+  const auto sides = detail::sides_of(polygon, o.side_turn);
+  if (form.shape == Shape::flat || form.rise.value_or(1) < o.minimum_rise) {
     make_flat(polygon, form.height - form.base, out);
   } else if (form.shape == Shape::skillion) {
-    make_skillion(polygon, form, out);
+    make_skillion(polygon, form, o, out);
   } else if (form.shape == Shape::pyramidal) {
-    if (const auto apex = detail::apex_of(polygon, sides)) {
-      make_pyramid(polygon, *apex, sides, form, out);
+    if (const auto apex = detail::apex_of(polygon, sides, o)) {
+      make_pyramid(polygon, *apex, sides, form, o, out);
     } else {
       Form hipped = form;
       hipped.shape = Shape::hipped;
       out.as_asked = false;
       out.warnings.push_back(base::warning("roof-shape-here", "no apex sees every side of this outline; made hipped"));
-      make_swept(polygon, sides, hipped, options, run, out);
+      make_swept(polygon, sides, hipped, o, run, out);
     }
   } else {
-    make_swept(polygon, sides, form, options, run, out);
+    make_swept(polygon, sides, form, o, run, out);
   }
-  if (out.shape != Shape::flat) out.top = out.flat_top = out.plan.cap - above_top;
+  if (out.shape != Shape::flat) out.top = out.flat_top = out.plan.cap - o.cap_clearance;
   if (out.top <= 0) return base::error("roof-form", "neither walls nor roof have a height");
   return out;
 }
@@ -239,7 +236,7 @@ auto plan_along(const geometry::Polygon& polygon, const Profile& profile, const 
   if (rise > 0 && run > 0) {
     // Every edge moves alike, so the outline is used up where the smallest box around it is.
     const auto extent = detail::extent_of(detail::sides_of(polygon));
-    out.top = std::max(last.height, before.height + (extent.width / 2 - before.inward) * rise / run) + above_top;
+    out.top = std::max(last.height, before.height + (extent.width / 2 - before.inward) * rise / run) + o.cap_clearance;
   }
   if (cap) out.top = std::min(out.top, *cap);
   out.flat_top = std::min(out.flat_top, out.top);

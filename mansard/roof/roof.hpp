@@ -59,6 +59,25 @@ struct Options {
   std::string building_height_attribute, building_levels_attribute, min_height_attribute, min_level_attribute,
       shape_attribute, height_attribute, levels_attribute, angle_attribute, orientation_attribute, direction_attribute,
       ground_attribute;
+
+  // How outlines are read, and what the shapes look like.
+  double side_turn = 0.026;           ///< rad, 1.5°; turns under this are none
+  double minimum_rise = 0.01;         ///< m; a roof or a wall less high than this is none
+  double cap_clearance = 0.01;        ///< m; the cap stands so much over the ridge, so as not to cut it
+  double rectangle_fill = 0.9;        ///< of its smallest box that an outline fills to be nearly a rectangle
+  double wing_corner = 0.35;          ///< rad; 90° ± 20°
+  double wing_depth = 0.3;            ///< of its width: shallower is a bay, not a wing
+  double wing_clearance = 0.95;       ///< of the height of the triangle over a wing's end, which must lie inside
+  double gambrel_run = 0.35;          ///< of the run: the steep part of a gambrel roof
+  double gambrel_rise = 0.65;         ///< of the rise
+  double mansard_rise = 0.7;          ///< of the rise: the steep part of a mansard roof
+  double mansard_run = 0.35;          ///< of the run, at most
+  double mansard_slope = 2.747;       ///< tangent of 70°: the steep part's slope
+  double level_cosine = 0.99966;      ///< cosine of 1.5°: sides level in a skillion's plane
+  double direction_cosine = 0.966;    ///< cosine of 15°: a direction is meant to be that of an edge
+  double corner_cut = 0.08;           ///< m; width of the cut at a skillion's lowest corner
+  double corner_cut_share = 1.0 / 3;  ///< of the sides beside it, at most
+  double apex_distance = 0.2;         ///< m; nearer to a side than this, its roof would be a wall
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 

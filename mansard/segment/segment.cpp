@@ -52,12 +52,12 @@ auto cuts_of(const sweep::SweepEdges& edges, const block::Block& block, const Op
     if (is_wall(i)) cuts.push_back({edges.edges[i].segment, i});
   if (options.gis_edges != GisEdges::ignore) {
     const auto footprints = detail::registered(block, edges.registration);
-    auto lines = detail::party_lines(footprints);
+    auto lines = detail::party_lines(footprints, options);
     sweep::SweepEdges walls;  // a step in the roof beside it does not show a wall
     walls.registration = edges.registration;
     std::ranges::copy_if(edges.edges, std::back_inserter(walls.edges),
                          [](const sweep::SweepEdge& e) { return e.evidence == sweep::Evidence::wall; });
-    const auto torn = detail::torn_lines(footprints, walls);
+    const auto torn = detail::torn_lines(footprints, walls, options);
     lines.insert(lines.end(), torn.begin(), torn.end());
     for (std::uint32_t j = 0; j < lines.size(); ++j) cuts.push_back({lines[j], gis_source + j});
   }
@@ -89,7 +89,8 @@ auto choose(const fracture::Arrangement& arrangement, const sweep::SweepEdges& e
   run.report("segment", block.name, 0.3);
   const auto start = std::chrono::steady_clock::now();
   detail::MulticutAnswer answer = detail::solve(
-      problem.multicut, {.seconds = options.seconds, .nodes = options.nodes, .cliques = options.cliques}, run);
+      problem.multicut,
+      {.seconds = options.seconds, .nodes = options.nodes, .cliques = options.cliques, .search = options.search}, run);
   segmentation.solve_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   run.report("segment", block.name, 0.9);
 
@@ -113,55 +114,10 @@ auto choose(const fracture::Arrangement& arrangement, const sweep::SweepEdges& e
   segmentation.variables = answer.variables;
   segmentation.warnings = std::move(answer.warnings);
 
-  detail::make_parts(arrangement, evidence, label_of_face, options.narrow, segmentation);
+  detail::make_parts(arrangement, evidence, label_of_face, options, segmentation);
   segmentation.faces = std::move(evidence.faces);
   run.report("segment", block.name, 1);
   return segmentation;
-}
-
-auto option_list(Options& o) -> base::OptionList {
-  return std::move(
-      base::OptionList("segment")
-          .number("alpha", o.alpha, "", {0, 1e6}, "Cost of leaving a metre of sweep-edge unused.")
-          .alias("alpha")
-          .number("beta", o.beta, "", {0, 1e6}, "Cost of a metre of footprint edge that lies on no sweep-edge.")
-          .alias("beta")
-          .number("height_weight", o.height_weight, "", {0, 1e6},
-                  "Cost of joining faces across a metre of edge, per metre of height difference.")
-          .number("step_full", o.step_full, "m", {0, 100},
-                  "A roof step of this height left unused costs as much as a wall, a lower one in proportion.")
-          .number("phi", o.phi, "", {0, 1e6},
-                  "Cost of a pair of edges that make a sliver or a needle, as a share of the total edge length.")
-          .number("thin_distance", o.thin_distance, "m", {0, 100}, "Opposite edges nearer than this make a sliver.")
-          .number("thin_angle", o.thin_angle, "rad", {0, 1.5}, "Adjacent edges under this angle make a needle.")
-          .choice("continuations", o.continuations, {{"sweep", Continuations::sweep}, {"plain", Continuations::plain}},
-                  "Whether the continuations of sweep-edges count as sweep-edges.")
-          .choice("thin_rule", o.thin_rule, {{"all", ThinRule::all}, {"unsupported", ThinRule::unsupported}},
-                  "Whether walls that were seen from both sides can make a sliver too.")
-          .choice("thin_reach", o.thin_reach, {{"face", ThinReach::face}, {"block", ThinReach::block}},
-                  "Whether slivers and needles are looked for within single faces, or across several too.")
-          .choice("height_measure", o.height_measure,
-                  {{"along", HeightMeasure::along}, {"median", HeightMeasure::median}},
-                  "Height differences: measured along the edge, or between the faces' medians.")
-          .number("height_offset", o.height_offset, "m", {0.01, 10},
-                  "How far to both sides of an edge heights are sampled along it.")
-          .choice("gis_edges", o.gis_edges,
-                  {{"ignore", GisEdges::ignore}, {"candidate", GisEdges::candidate}, {"hard", GisEdges::hard}},
-                  "Whether edges between two features cut the ground: not, where that pays, or always.")
-          .number("gis_alpha", o.gis_alpha, "", {0, 1e6},
-                  "Cost of leaving a metre of GIS edge unused, with gis_edges = candidate.")
-          .number("gis_ratio", o.gis_ratio, "", {0, 1},
-                  "A face is inside when at least this part of it is inside the footprints.")
-          .number("min_height", o.min_height, "m", {0, 1000}, "… and its median height above ground is at least this.")
-          .number("exposed", o.exposed, "", {0, 1e6},
-                  "Faces with more wall-less boundary than this share of the rest are peeled off.")
-          .number(
-              "narrow", o.narrow, "m", {0, 100},
-              "Parts of less mean width go to their neighbour, or are left out as strips outside a wall; 0 keeps them.")
-          .integer("samples", o.samples, "", {9, 100000}, "Height samples per face, at most.")
-          .number("seconds", o.seconds, "s", {0, 1e6}, "Time limit per block; none: until proven optimal.")
-          .integer("nodes", o.nodes, "", {0, 1e9}, "Limit of branch-and-bound nodes per solve.")
-          .flag("cliques", o.cliques, "Give the solver a row for every clique of conflicts as well."));
 }
 
 auto codes() -> std::vector<base::Code> {

@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "mansard/base/options.hpp"
 #include "mansard/base/result.hpp"
 #include "mansard/base/run.hpp"
 #include "mansard/block/block.hpp"
 #include "mansard/fracture/fracture.hpp"
 #include "mansard/geometry/polygon.hpp"
 #include "mansard/rays/rays.hpp"
+#include "mansard/segment/options.hpp"
 #include "mansard/solver/solver.hpp"
 #include "mansard/sweep/sweep.hpp"
 
@@ -21,45 +21,6 @@ namespace mansard::segment {
 
 /// Numbers for fracture::Cut::source: sweep-edge i is cut i, GIS edge j is cut gis_source + j.
 inline constexpr std::uint32_t gis_source = 0x80000000U;
-
-enum class GisEdges : std::uint8_t {
-  ignore,     ///< as in the paper: GIS edges are not inserted
-  candidate,  ///< edges between two features are inserted, and those no sweep-edge follows; the optimum decides
-  hard,       ///< the same, and no part spans two features
-};
-enum class Continuations : std::uint8_t { sweep, plain };  ///< do continuations count as sweep-edges in O1?
-enum class ThinRule : std::uint8_t { all, unsupported };  ///< O7 over all near pairs, or not where both sides are walls
-enum class ThinReach : std::uint8_t { face, block };      ///< O7 between edges of one face, or across several faces too
-enum class HeightMeasure : std::uint8_t {
-  along,   ///< mean difference of the mesh's heights on the two sides of the edge, sampled along it
-  median,  ///< difference of the two faces' median heights, as in the reference implementation
-};
-
-struct Options {
-  double alpha = 40.0;          ///< per metre of sweep-edge left unused
-  double beta = 60.0;           ///< per metre of footprint edge without a sweep-edge
-  double height_weight = 16.0;  ///< of O2, per metre and metre of height difference
-  double step_full = 1.0;       ///< m; an unused roof step of this height pays the whole α, a lower one its share
-  double phi = 0.5;             ///< of O7, times the total edge length
-  double thin_distance = 2.0;   ///< m; O7: opposite edges nearer than this
-  double thin_angle = 0.5235987755982988;  ///< rad; O7: adjacent edges under this angle
-  Continuations continuations = Continuations::plain;
-  ThinRule thin_rule = ThinRule::unsupported;
-  ThinReach thin_reach = ThinReach::face;
-  HeightMeasure height_measure = HeightMeasure::median;
-  double height_offset = 0.6;  ///< m; how far to both sides of an edge heights are sampled along it
-  GisEdges gis_edges = GisEdges::hard;
-  double gis_alpha = 10.0;        ///< per metre of GIS edge left unused, with gis_edges = candidate
-  double gis_ratio = 0.44;        ///< a face is inside when at least this part of it is inside the footprints …
-  double min_height = 2.0;        ///< m; … and its median height above ground at least this
-  double exposed = 0.4;           ///< faces with more wall-less boundary than this share of the rest are peeled off
-  double narrow = 1.0;            ///< m; parts of less mean width go to their neighbour, or out; 0 keeps them
-  std::int64_t samples = 64;      ///< height samples per face, at least 9
-  std::optional<double> seconds;  ///< time limit per block; none: until proven optimal or the node limit
-  std::int64_t nodes = 100000;    ///< branch-and-bound nodes per solve
-  bool cliques = false;           ///< give the solver a row for every clique of conflicts as well
-};
-[[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 
 /// The lines to fracture a block by: its walls longest first, then, unless ignored, the GIS edges between features and
 /// those of torn walls, then its roof steps, longest first: these go on to the next of all those lines and no farther.

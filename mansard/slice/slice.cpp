@@ -14,17 +14,16 @@ using geometry::Point2;
 using geometry::Point3;
 using geometry::Segment2;
 
-/// No building is 10 km high: stray vertices of a broken mesh must not cost the memory of millions of planes.
-constexpr double greatest_height = 10'000.0;
-
-/// The planes from the ground to the highest vertex.
-auto plane_heights(const block::Block& block, double interval) -> std::vector<double> {
+/// The planes from the ground to the highest vertex. Stray vertices of a broken mesh must not cost the memory of
+/// millions of planes.
+auto plane_heights(const block::Block& block, const Options& options) -> std::vector<double> {
+  const double interval = options.interval;
   double top = -std::numeric_limits<double>::infinity();
   for (const auto& triangle : block.mesh.triangles)
     for (const auto vertex : triangle) top = std::max(top, block.mesh.vertices[vertex].z);
   std::vector<double> heights;
   if (!std::isfinite(block.ground) || !(interval > 0)) return heights;
-  top = std::min(top, block.ground + greatest_height);
+  top = std::min(top, block.ground + options.maximum_height);
   for (std::size_t i = 0;; ++i) {
     const double height = block.ground + (static_cast<double>(i) + 0.5) * interval;
     if (!(height <= top)) return heights;
@@ -71,13 +70,18 @@ auto section(const std::array<Point3, 3>& corners, double height) -> std::option
 }  // namespace
 
 auto option_list(Options& options) -> base::OptionList {
-  return std::move(base::OptionList("slice").number("interval", options.interval, "m", {0.01, 10},
-                                                    "Vertical distance between slices."));
+  base::OptionList list("slice");
+  list.number("interval", options.interval, "m", {0.01, 10}, "Vertical distance between slices.")
+      .source("paper: 0.2 m");
+  list.number("maximum_height", options.maximum_height, "m", {10, 1e6},
+              "Height above ground up to which the mesh is sliced; higher vertices belong to a broken mesh.")
+      .advanced("no building is 10 km high");
+  return list;
 }
 
 auto cut(const block::Block& block, const Options& options, const base::Run& run) -> SliceStack {
   SliceStack stack{options.interval, {}};
-  const auto heights = plane_heights(block, options.interval);
+  const auto heights = plane_heights(block, options);
   if (heights.empty()) return stack;
   stack.slices.resize(heights.size());
 

@@ -21,7 +21,8 @@ struct SliceStack {
 };
 
 struct Options {
-  double interval = 0.2;  ///< m between slices
+  double interval = 0.2;            ///< m between slices
+  double maximum_height = 10000.0;  ///< m above ground; higher vertices belong to a broken mesh
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 

@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "mansard/base/options.hpp"
 #include "mansard/base/run.hpp"
 #include "mansard/block/block.hpp"
 #include "mansard/geometry/points.hpp"
 #include "mansard/rays/rays.hpp"
 #include "mansard/slice/slice.hpp"
+#include "mansard/sweep/options.hpp"
 
 namespace mansard::sweep {
 
@@ -51,23 +51,6 @@ struct SweepEdges {
   std::vector<Cluster> clusters;
   Registration registration;
 };
-
-struct Options {
-  double gamma = 10.0;         ///< m²; clusters with less mesh area are dropped
-  double line_distance = 0.3;  ///< m; segments this near a line belong to it
-  double line_gap = 0.6;       ///< m; gaps up to this are closed along a line
-  double gis_angle = 0.39;     ///< rad; lines turn to a GIS edge within this angle; 0 leaves them alone
-  double gis_distance = 3.0;   ///< m; … when the GIS edge is this near
-  double gis_offset = 0.75;    ///< m; edges seen up to this far outside a footprint's stand on it; 0: where seen
-  double gis_inward = 0.25;    ///< m; … and up to this far inside: a scan sees eaves, but nothing through a wall
-  double cluster_step = 0.8;   ///< m; greatest lateral step between neighbouring slices
-  double low_height = 4.0;     ///< m above ground; lines below weigh a tenth (cars, hedges)
-  double thin_distance = 4.0;  ///< m; lines lose weight for anti-parallel lines this near (buses, fences)
-  double setback = 1.0;        ///< m; wall feet this far off the median become sweep-edges of their own
-  double step_height = 0.35;   ///< m; roofs that jump by this along a straight line make sweep-edges; 0: none do
-  double step_length = 2.5;    ///< m; … of this length
-};
-[[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 
 /// The shift of the registration is 0 unless it stands out of what it leaves unexplained.
 /// Guarantees: 1 every edge's cluster has area ≥ gamma · 2 the result does not depend on the order of segments within

@@ -186,6 +186,46 @@ TEST(OptionLists, have_a_meaning_for_every_option_and_no_name_twice) {
     }
 }
 
+/// Those of the modules whose numbers have been gone through.
+TEST(OptionLists, say_where_every_default_comes_from) {
+  const std::set<std::string> modules{"block", "slice", "sweep", "fracture", "segment", "profile", "derive", "label"};
+  Options options;
+  for (const auto& list : option_lists(options))
+    for (const auto& option : list.options()) {
+      if (modules.contains(list.module())) EXPECT_FALSE(option.source.empty()) << list.module() << "." << option.name;
+      if (option.advanced) EXPECT_TRUE(option.alias.empty()) << option.name;
+    }
+}
+
+TEST(OptionLists, take_every_default_that_they_show) {
+  Options options;
+  for (const auto& list : option_lists(options))
+    for (const auto& option : list.options()) {
+      const auto value = option.get();
+      if (value.empty() && option.kind != base::Option::Kind::string) continue;  // a number that is absent
+      EXPECT_TRUE(option.set(value)) << list.module() << "." << option.name << " = " << value;
+      EXPECT_EQ(option.get(), value) << option.name;
+    }
+}
+
+TEST(MadeBy, has_advanced_options_in_files_only_where_they_differ_and_all_in_the_report) {
+  const auto scene = test::lone_house();
+  const auto usual = reconstructed(scene);
+  Options options;
+  options.sweep.column_width = 0.25;
+  const auto other = reconstruct(scene, options);
+  ASSERT_TRUE(other);
+  const auto has = [](const auto& pairs, const std::string& name) {
+    return std::ranges::any_of(pairs, [&](const auto& pair) { return pair.first == name; });
+  };
+  EXPECT_TRUE(has(usual.city.made_by.options, "sweep.gamma"));
+  EXPECT_FALSE(has(usual.city.made_by.options, "sweep.column_width"));
+  EXPECT_TRUE(has(other->city.made_by.options, "sweep.column_width"));
+  EXPECT_FALSE(has(other->city.made_by.options, "sweep.column_gap"));
+  const auto report = nlohmann::json::parse(report_json(usual, scene));
+  EXPECT_EQ(report["options"]["sweep.column_width"], "0.2");
+}
+
 TEST(Codes, are_listed_once_with_cause_and_remedy) {
   std::set<std::string> seen;
   for (const auto& code : codes()) {

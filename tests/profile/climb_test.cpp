@@ -10,7 +10,6 @@ namespace {
 
 using mansard::profile::detail::climb;
 using mansard::profile::detail::Climb;
-using mansard::profile::detail::ClimbOptions;
 using mansard::profile::detail::Piece;
 using mansard::profile::detail::SectionPoint;
 using mansard::profile::detail::wall_position;
@@ -65,7 +64,7 @@ TEST(Climb, goes_up_the_wall_and_the_roof_to_the_ridge_and_down_to_the_ground) {
   EXPECT_EQ(found->points.front().inward, 0);
   EXPECT_EQ(found->top(), 5.5);
   EXPECT_EQ(found->points.back().inward, 2.5);
-  EXPECT_EQ(wall_position(*found, {}, 0.1), 0.0);
+  EXPECT_EQ(wall_position(*found, {}), 0.0);
 }
 
 TEST(Climb, jumps_a_hole_of_up_to_three_metres) {
@@ -76,7 +75,7 @@ TEST(Climb, jumps_a_hole_of_up_to_three_metres) {
   const auto found = climb(drawn(section), {});
   ASSERT_TRUE(found);
   EXPECT_EQ(found->top(), 6.5);
-  ClimbOptions near;
+  mansard::profile::Options near;
   near.jump = 1.5;
   EXPECT_EQ(climb(drawn(section), near)->top(), 3.5);
 }
@@ -129,9 +128,7 @@ TEST(Climb, measures_heights_from_the_ground_it_is_told) {
   auto pieces = drawn({R"(      |   )", R"(      |   )", R"(      |   )", R"(      |   )", R"(      |   )",
                        R"(______|   )", R"(      ^   )"});
   for (auto& p : pieces) p.low.height += 40, p.high.height += 40;
-  ClimbOptions options;
-  options.ground = 40;
-  const auto found = climb(pieces, options);
+  const auto found = climb(pieces, {}, 40);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->points.front().height, 40);
   EXPECT_EQ(found->top(), 43);
@@ -140,9 +137,9 @@ TEST(Climb, measures_heights_from_the_ground_it_is_told) {
 TEST(Wall_position, looks_above_cars_and_hedges) {
   // Two metres of van before four metres of wall.
   const Climb climbed{{{-1, 0}, {-1, 2}, {0, 2}, {0, 6}}};
-  EXPECT_EQ(wall_position(climbed, {}, 0.1), 0.0);
+  EXPECT_EQ(wall_position(climbed, {}), 0.0);
   // A roof is no wall.
-  EXPECT_FALSE(wall_position(Climb{{{0, 5}, {4, 8}}}, {}, 0.1).has_value());
+  EXPECT_FALSE(wall_position(Climb{{{0, 5}, {4, 8}}}, {}).has_value());
 }
 
 }  // namespace

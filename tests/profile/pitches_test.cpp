@@ -14,6 +14,8 @@ using namespace mansard::profile::detail;  // NOLINT: the parts under test
 using mansard::geometry::Polygon;
 using mansard::model::Profile;
 
+const double bin = mansard::profile::Options{}.column_width;
+
 auto columns(std::size_t count, double (*height)(double), double noise = 0, std::uint64_t seed = 1)
     -> std::vector<Pooled> {
   mansard::base::Random random(seed);
@@ -83,34 +85,34 @@ TEST(Fit_line, refuses_too_few_columns) {
 }
 
 TEST(Profile_from, makes_a_wall_and_pitches) {
-  EXPECT_EQ(profile_from({{0, 6}, {2, 10}, {5, 11}}, 0.1), (Profile{{0, 0}, {0, 6}, {2, 10}, {5, 11}}));
+  EXPECT_EQ(profile_from({{0, 6}, {2, 10}, {5, 11}}), (Profile{{0, 0}, {0, 6}, {2, 10}, {5, 11}}));
 }
 
 TEST(Profile_from, leaves_level_ends_to_the_cap) {
-  const auto mansard = profile_from({{0, 6}, {2, 10}, {5, 10.05}}, 0.1);
+  const auto mansard = profile_from({{0, 6}, {2, 10}, {5, 10.05}});
   EXPECT_EQ(mansard, (Profile{{0, 0}, {0, 6}, {2, 10}}));
-  EXPECT_EQ(profile_from({{0, 6}, {5, 6.1}}, 0.1).back().inward, 0);
+  EXPECT_EQ(profile_from({{0, 6}, {5, 6.1}}).back().inward, 0);
 }
 
 TEST(Profile_from, takes_what_gains_little_for_a_rounded_edge) {
-  EXPECT_EQ(profile_from({{0, 6}, {1.5, 6.4}}, 0.1), vertical_profile(6));
+  EXPECT_EQ(profile_from({{0, 6}, {1.5, 6.4}}), vertical_profile(6));
 }
 
 TEST(Profile_from, turns_the_almost_vertical_upright_at_its_middle) {
   // A second wall, blurred over 0.4 m, stands 3 m in.
-  const auto profile = profile_from({{0, 4}, {2.8, 5.4}, {3.2, 10}, {6, 11.4}}, 0.1);
+  const auto profile = profile_from({{0, 4}, {2.8, 5.4}, {3.2, 10}, {6, 11.4}});
   ASSERT_EQ(profile.size(), 5U);
   EXPECT_NEAR(profile[2].inward, 3, 1e-9);
   EXPECT_NEAR(profile[3].inward, 3, 1e-9);
   EXPECT_NEAR(profile[2].height, 5.5, 1e-9);
   EXPECT_NEAR(profile[3].height, 9.9, 1e-9);
   // At the foot it is the wall; at the end a wall that no roof follows.
-  EXPECT_NEAR(profile_from({{0, 4}, {0.4, 9}, {3.4, 10.5}}, 0.1)[1].height, 8.8, 1e-9);
-  EXPECT_EQ(profile_from({{0, 4}, {3, 6}, {3.2, 10}}, 0.1).size(), 3U);
+  EXPECT_NEAR(profile_from({{0, 4}, {0.4, 9}, {3.4, 10.5}})[1].height, 8.8, 1e-9);
+  EXPECT_EQ(profile_from({{0, 4}, {3, 6}, {3.2, 10}}).size(), 3U);
 }
 
 TEST(Profile_from, never_falls_and_wants_a_wall_below) {
-  const auto profile = profile_from({{0, -1}, {4, 3}, {6, 2.5}, {8, 5}}, 0.1);
+  const auto profile = profile_from({{0, -1}, {4, 3}, {6, 2.5}, {8, 5}});
   EXPECT_GT(profile[1].height, 0);
   for (std::size_t i = 0; i + 1 < profile.size(); ++i) EXPECT_LE(profile[i].height, profile[i + 1].height);
 }
@@ -127,11 +129,12 @@ TEST(Supported, cuts_off_what_too_few_slices_show) {
     slices[s].last = 30;
   }
   const RoofLine line{{0, 6}, {3, 9}, {6, 12}};
-  EXPECT_EQ(supported(line, slices, {0.2, 0.3, 2}).size(), 2U);
-  EXPECT_EQ(supported(line, slices, {0.1, 0.3, 2}).size(), 3U);
-  EXPECT_EQ(supported(line, slices, {0.2, 2.0, 2}).size(), 3U);
+  const mansard::profile::Options tenth{.support = 0.1};
+  EXPECT_EQ(supported(line, slices, 0.3).size(), 2U);
+  EXPECT_EQ(supported(line, slices, 0.3, tenth).size(), 3U);
+  EXPECT_EQ(supported(line, slices, 2.0).size(), 3U);
   const RoofLine wrong{{0, 9}, {3, 12}};
-  EXPECT_TRUE(supported(wrong, slices, {0.2, 0.3, 2}).empty());
+  EXPECT_TRUE(supported(wrong, slices, 0.3).empty());
 }
 
 /// Twenty slices 8 m deep with that height over them.
@@ -246,7 +249,7 @@ TEST(Runs, make_one_of_a_circle_and_see_a_spike_turn) {
 
 TEST(Runs, slice_only_as_deep_as_the_polygon_goes) {
   const Polygon polygon{{{0, 0}, {10, 0}, {10, 8}, {0, 8}}, {{{4, 3}, {4, 5}, {6, 5}, {6, 3}}}};
-  const auto samples = samples_of(polygon, {0, {0}}, 0.2);
+  const auto samples = samples_of(polygon, {0, {0}});
   ASSERT_GT(samples.size(), 40U);
   for (const auto& sample : samples) {
     EXPECT_GE(sample.along, 0.3);
@@ -256,14 +259,14 @@ TEST(Runs, slice_only_as_deep_as_the_polygon_goes) {
     EXPECT_NEAR(sample.reach, before_hole ? 3 : 8, 1e-9) << sample.foot.x;
   }
   // The hole's south side looks south.
-  const auto hole = samples_of(polygon, {1, {3}}, 0.2);
+  const auto hole = samples_of(polygon, {1, {3}});
   for (const auto& sample : hole) EXPECT_NEAR(sample.reach, 3, 1e-9);
 }
 
 TEST(Runs, slice_long_edges_a_hundred_times_at_most_and_short_ones_once) {
   const Polygon polygon{{{0, 0}, {300, 0}, {300, 0.1}, {0, 0.1}}, {}};
-  EXPECT_EQ(samples_of(polygon, {0, {0}}, 0.2).size(), 100U);
-  EXPECT_EQ(samples_of(polygon, {0, {1}}, 0.2).size(), 1U);
+  EXPECT_EQ(samples_of(polygon, {0, {0}}).size(), 100U);
+  EXPECT_EQ(samples_of(polygon, {0, {1}}).size(), 1U);
 }
 
 TEST(Refine, drops_a_pitch_that_the_scan_contradicts) {

@@ -71,7 +71,7 @@ TEST(Parts, of_random_labels_are_simple_disjoint_and_cover_the_inside) {
       }
     }
     Segmentation s;
-    detail::make_parts(map.arrangement, evidence, label, 0, s);
+    detail::make_parts(map.arrangement, evidence, label, {.narrow = 0}, s);
     EXPECT_TRUE(s.warnings.empty());
     double sum = 0;
     for (const Part& part : s.parts) {

@@ -84,14 +84,14 @@ TEST(BusFilter, takes_weight_off_the_sides_of_thin_things_only) {
       weighed({{0, 52.5}, {12, 52.5}}, 0), weighed({{12, 50}, {0, 50}}, 0),    // a bus
       weighed({{0, 120}, {10, 120}}, 0),   weighed({{10, 110}, {0, 110}}, 0),  // a house
       weighed({{10, 123}, {0, 123}}, 0)};  // its neighbour across an alley, which faces it
-  weigh_thin(lines, 4);
+  weigh_thin(lines, {.thin_distance = 4});
   EXPECT_NEAR(lines[0].good, 10 * 0.3 / 4, 1e-9);
   EXPECT_NEAR(lines[1].good, 10 * 0.3 / 4, 1e-9);
   EXPECT_NEAR(lines[2].good, 12 * 2.5 / 4, 1e-9);
   EXPECT_EQ(lines[4].good, 10);
   EXPECT_EQ(lines[5].good, 10);
   EXPECT_EQ(lines[6].good, 10);
-  weigh_thin(lines, 0);
+  weigh_thin(lines, {.thin_distance = 0});
 }
 
 TEST(Clusters, follow_a_wall_into_its_roof) {

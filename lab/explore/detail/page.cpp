@@ -1,6 +1,7 @@
 #include "lab/explore/detail/page.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "lab/explore/detail/columns.hpp"
 #include "lab/explore/detail/figures.hpp"
@@ -189,21 +190,85 @@ auto figures(const Study& study) -> std::string {
   return out;
 }
 
+auto page_of(const std::string& title, const std::string& body) -> std::string {
+  const auto head = std::string("<meta charset=\"utf-8\"/>\n") +
+                    "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n" +
+                    tag("title", "mansard: " + title) + tag("style", style);
+  return "<!DOCTYPE html>\n" + tag("html", tag("head", head) + tag("body", tag("main", body)), {{"lang", "en"}});
+}
+
+/// What a run changes of one number: "+0.012" in place of the number itself.
+auto change(double value, double usual, int decimals) -> std::string {
+  if (value == usual) return "";
+  return (value > usual ? "+" : "") + base::to_text(value - usual, decimals);
+}
+
+auto effect_cells(const Effect& effect, const std::vector<Trial>& usual) -> std::string {
+  auto cells = tag("th", escape(effect.key), {{"scope", "row"}, {"class", "name"}}) + tag("td", escape(effect.usual)) +
+               tag("td", escape(effect.value)) +
+               tag("td", effect.none ? "no effect" : base::to_text(100 * effect.largest, 1) + " %");
+  for (std::size_t d = 0; d < usual.size(); ++d) {
+    const Trial &trial = effect.trials[d], &base = usual[d];
+    if (!trial.failure.empty()) {
+      cells += tag("td", escape(trial.failure), {{"class", "failure"}, {"colspan", "5"}});
+      continue;
+    }
+    cells += tag("td", change(trial.rmse, base.rmse, 3)) + tag("td", change(trial.rmse_inside, base.rmse_inside, 3)) +
+             tag("td", change(static_cast<double>(trial.faces), static_cast<double>(base.faces), 0)) +
+             tag("td", change(static_cast<double>(trial.parts), static_cast<double>(base.parts), 0)) +
+             tag("td", base::to_text(trial.seconds, 2), {{"class", "seconds"}});
+  }
+  return tag("tr", cells);
+}
+
+constexpr std::array trial_names{"RMSE, m", "RMSE inside, m", "faces", "parts", "work, s"};
+
+auto effect_table(const Sensitivity& result) -> std::string {
+  std::string head, body;
+  for (const auto* name : {"parameter", "usual", "value", "largest effect"})
+    head += tag("th", name, {{"scope", "col"}});
+  auto first =
+      tag("th", "as it is", {{"scope", "row"}, {"class", "name"}}) + tag("td", "") + tag("td", "") + tag("td", "");
+  for (const auto& trial : result.usual) {
+    for (const auto* name : trial_names) head += tag("th", escape(trial.dataset) + ": " + name, {{"scope", "col"}});
+    first += tag("td", base::to_text(trial.rmse, 3)) + tag("td", base::to_text(trial.rmse_inside, 3)) +
+             tag("td", std::to_string(trial.faces)) + tag("td", std::to_string(trial.parts)) +
+             tag("td", base::to_text(trial.seconds, 2), {{"class", "seconds"}});
+  }
+  body = tag("tr", first);
+  for (const auto& effect : result.effects) body += effect_cells(effect, result.usual);
+  return table_of(
+      "A row a parameter and value: what it changes. Every number is in <a href=\"results.csv\">results.csv</a> and "
+      "<a href=\"results.json\">results.json</a>.",
+      head, body);
+}
+
 }  // namespace
+
+auto sensitivity_html(const Sensitivity& result) -> std::string {
+  return page_of(
+      "Sensitivity",
+      tag("h1", "Sensitivity of the parameters") +
+          tag("p",
+              "Each parameter halved and doubled within its range, flags and choices at every other value, one "
+              "run each. Errors are those of the models against the scan, over the footprints and inside them. "
+              "The largest effect is the largest relative change of either error or of the number of faces on "
+              "any dataset; parameters are sorted by it. <b>No effect</b>: the models are the same bytes on "
+              "every dataset.") +
+          tag("pre", escape(result.command)) + effect_table(result) + tag("h2", "How it was made") +
+          tag("p", "mansard " + escape(result.version)));
+}
 
 auto index_html(const Study& study) -> std::string {
   const auto what = about(study.experiment);
   const auto drawn = plots(study);
   const bool by_block = study.experiment == Experiment::table || study.experiment == Experiment::datasets;
-  const auto head = std::string("<meta charset=\"utf-8\"/>\n") +
-                    "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n" +
-                    tag("title", std::string("mansard: ") + what.title) + tag("style", style);
   const auto body = tag("h1", what.title) + tag("p", what.words) + tag("pre", escape(study.command)) +
                     (drawn.empty() ? drawn : tag("h2", "Plots") + drawn) + tag("h2", "Numbers") + run_table(study) +
                     notes + (by_block ? block_table(study) : "") + figures(study) + tag("h2", "How it was made") +
                     tag("p", "mansard " + escape(study.version)) + inputs_table(study) + commands(study) +
                     options_table(study);
-  return "<!DOCTYPE html>\n" + tag("html", tag("head", head) + tag("body", tag("main", body)), {{"lang", "en"}});
+  return page_of(what.title, body);
 }
 
 }  // namespace mansard::explore::detail

@@ -17,15 +17,15 @@ using geometry::Polygon;
 
 using Triangle3 = std::array<Point3, 3>;
 
-constexpr double piece_size = 2.0;   // m: the longest side, in plan, of what one sample stands for
-constexpr double steepest = 0.7071;  // cosine of 45°: steeper is wall, hedge or the side of a car
+/// Twice as many halvings as take a side of a thousand kilometres down to a metre: against endless recursion only.
+constexpr int most_halvings = 40;
 
 auto plan(const Triangle3& t) -> PlanTriangle { return {xy(t[0]), xy(t[1]), xy(t[2])}; }
 
 /// Cuts a triangle at the middle of its longest side until its pieces are small, leaving out what the box does not
 /// meet.
 template <class Take>
-void cut_up(const Triangle3& t, const Box2& within, int depth, const Take& take) {
+void cut_up(const Triangle3& t, const Box2& within, double piece_size, int depth, const Take& take) {
   if (!box_of(plan(t)).overlaps(within)) return;
   std::size_t longest = 0;
   double most = 0;
@@ -37,8 +37,8 @@ void cut_up(const Triangle3& t, const Box2& within, int depth, const Take& take)
   if (most <= piece_size * piece_size || depth == 0) return take(t);
   const Point3 a = t[longest], b = t[(longest + 1) % 3], c = t[(longest + 2) % 3];
   const Point3 middle = 0.5 * (a + b);
-  cut_up({a, middle, c}, within, depth - 1, take);
-  cut_up({middle, b, c}, within, depth - 1, take);
+  cut_up({a, middle, c}, within, piece_size, depth - 1, take);
+  cut_up({middle, b, c}, within, piece_size, depth - 1, take);
 }
 
 /// Which of the shapes that come near a region hold a point.
@@ -68,8 +68,9 @@ auto percentile(std::vector<Sample> samples, double share, double least) -> std:
   return samples.back().z;
 }
 
-auto ground_samples(const geometry::Mesh& mesh, const std::vector<std::vector<Polygon>>& shapes, double reach)
+auto ground_samples(const geometry::Mesh& mesh, const std::vector<std::vector<Polygon>>& shapes, const Options& options)
     -> std::vector<std::vector<Sample>> {
+  const double reach = options.ground_ring;
   std::vector<Box2> boxes;
   for (const auto& shape : shapes) boxes.push_back(bounds(shape).grown(reach));
   const auto triangles = candidates(mesh, boxes);
@@ -99,8 +100,8 @@ auto ground_samples(const geometry::Mesh& mesh, const std::vector<std::vector<Po
       const Triangle3 corners{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
       const Point3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
       // Upside down is as good: orientation is not to be relied on.
-      if (normal.z * normal.z < steepest * steepest * dot(normal, normal)) continue;
-      cut_up(corners, boxes[i], 40, [&](const Triangle3& piece) {
+      if (normal.z * normal.z < options.ground_cosine * options.ground_cosine * dot(normal, normal)) continue;
+      cut_up(corners, boxes[i], options.ground_piece, most_halvings, [&](const Triangle3& piece) {
         const Point3 centre = (1.0 / 3) * (piece[0] + piece[1] + piece[2]);
         if (!near(xy(centre)) || obstacles.hold(xy(centre))) return;
         const double area = std::abs(cross(xy(piece[1]) - xy(piece[0]), xy(piece[2]) - xy(piece[0]))) / 2;
@@ -111,15 +112,14 @@ auto ground_samples(const geometry::Mesh& mesh, const std::vector<std::vector<Po
   return out;
 }
 
-auto terrain_along(const model::HeightGrid& terrain, const std::vector<Polygon>& shape) -> std::optional<double> {
-  constexpr double step = 1;      // m
-  constexpr double enough = 0.9;  // of the outline: what lies beyond the terrain's edge may be another slope
+auto terrain_along(const model::HeightGrid& terrain, const std::vector<Polygon>& shape, const Options& options)
+    -> std::optional<double> {
   std::vector<Sample> samples;
   double all = 0;
   const auto walk = [&](const geometry::Ring& ring) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const Point2 side = ring[(i + 1) % ring.size()] - ring[i];
-      const double pieces = std::ceil(length(side) / step), weight = length(side) / pieces;
+      const double pieces = std::ceil(length(side) / options.terrain_step), weight = length(side) / pieces;
       for (double k = 0; k < pieces; ++k) {
         const Point2 at = ring[i] + ((k + 0.5) / pieces) * side;
         all += weight;
@@ -131,7 +131,7 @@ auto terrain_along(const model::HeightGrid& terrain, const std::vector<Polygon>&
     walk(polygon.outer);
     for (const auto& hole : polygon.holes) walk(hole);
   }
-  return percentile(std::move(samples), 0.5, enough * all);
+  return percentile(std::move(samples), 0.5, options.terrain_share * all);
 }
 
 auto surface_samples(const geometry::Mesh& mesh) -> std::vector<Sample> {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "mansard/block/block.hpp"
 #include "mansard/geometry/mesh.hpp"
 #include "mansard/geometry/polygon.hpp"
 #include "mansard/model/scene.hpp"
@@ -19,15 +20,15 @@ struct Sample {
 /// The height below which that share (0 … 1) of the samples' area lies; nothing for less than `least` m² of them.
 [[nodiscard]] auto percentile(std::vector<Sample> samples, double share, double least) -> std::optional<double>;
 
-/// What may be ground within `reach` of each shape (polygons of one footprint): pieces under 2 m of triangles that are
+/// What may be ground within the ring of each shape (polygons of one footprint): small pieces of triangles that are
 /// not steep, outside all shapes. One list per shape, in the order of the mesh.
 [[nodiscard]] auto ground_samples(const geometry::Mesh& mesh, const std::vector<std::vector<geometry::Polygon>>& shapes,
-                                  double reach) -> std::vector<std::vector<Sample>>;
+                                  const Options& options) -> std::vector<std::vector<Sample>>;
 
-/// The median of a terrain's heights along the outlines, holes too, a metre apart at most, weighted by length. Nothing
-/// where the terrain is known along less than nine tenths of them.
-[[nodiscard]] auto terrain_along(const model::HeightGrid& terrain, const std::vector<geometry::Polygon>& shape)
-    -> std::optional<double>;
+/// The median of a terrain's heights along the outlines, holes too, terrain_step apart at most, weighted by length.
+/// Nothing where the terrain is known along less than terrain_share of them.
+[[nodiscard]] auto terrain_along(const model::HeightGrid& terrain, const std::vector<geometry::Polygon>& shape,
+                                 const Options& options) -> std::optional<double>;
 
 /// One sample per triangle of the whole mesh, by its area in space: walls count too.
 [[nodiscard]] auto surface_samples(const geometry::Mesh& mesh) -> std::vector<Sample>;

@@ -91,6 +91,8 @@ void restore(Polygons& polygons, const Polygons& originals) {
     for (const auto& hole : polygon.holes) known.insert(known.end(), hole.begin(), hole.end());
   }
   std::ranges::sort(known);
+  // GEOS computes an offset point from coordinates below 2²³ m (half a unit in the last place: 2⁻³⁰ m) in a few dozen
+  // operations: 64 · 2⁻³⁰ m < 1e-7 m; ten times that, and far below any two corners of a footprint.
   constexpr double rounding = 1e-6;
   const auto settle = [&](Ring& ring) {
     for (auto& p : ring) {
@@ -160,7 +162,7 @@ auto groups_of(const std::vector<Polygons>& shapes, double touch) -> std::vector
   return groups;
 }
 
-auto outline_of(const Polygons& shapes, double touch) -> Polygons {
+auto outline_of(const Polygons& shapes, double touch, double gap_area) -> Polygons {
   auto united = geometry::unite(shapes);
   if (!united) return shapes;
   if (touch <= 0) return std::move(*united);
@@ -171,7 +173,6 @@ auto outline_of(const Polygons& shapes, double touch) -> Polygons {
   Polygons both = *united;
   both.insert(both.end(), filled->begin(), filled->end());
   auto whole = geometry::unite(both);
-  constexpr double gap_area = 0.01;  // m²
   const bool simple = std::ranges::all_of(*united, [](const Polygon& p) { return geometry::is_simple(p); });
   if (!whole || (simple && whole->size() == united->size() && total(*whole) - total(*united) < gap_area))
     return std::move(*united);

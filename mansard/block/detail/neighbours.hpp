@@ -23,7 +23,8 @@ using Polygons = std::vector<geometry::Polygon>;
 [[nodiscard]] auto groups_of(const std::vector<Polygons>& shapes, double touch)
     -> std::vector<std::vector<std::size_t>>;
 
-/// The union, with gaps narrower than `touch` closed. Where there are none its points are those of the shapes.
-[[nodiscard]] auto outline_of(const Polygons& shapes, double touch) -> Polygons;
+/// The union, with gaps narrower than `touch` closed. Where those have less than `gap_area` m², or there are none, its
+/// points are those of the shapes.
+[[nodiscard]] auto outline_of(const Polygons& shapes, double touch, double gap_area) -> Polygons;
 
 }  // namespace mansard::block::detail

@@ -8,17 +8,6 @@
 namespace mansard::derive::detail {
 namespace {
 
-constexpr double off_plane = 0.25;    // m; off a plane by more is not in it
-constexpr double most_turned = 0.94;  // cosine of 20°: what looks elsewhere is not in it either
-constexpr double steepest = 1.75;     // rise for 1: what is steeper (60°) is no roof
-constexpr double least_patch = 6.0;   // m²; the crowns of trees have no planes so large
-constexpr double average = 2.0;       // m; half the width of the squares over which smoothness is averaged
-constexpr double rise = 2.0;          // m; cells side by side that differ by more are of two pieces
-constexpr double clutter = 3.0;       // m; half the width of a cluttered place on a roof
-constexpr double narrow_rim = 1.0, wide_rim = 3.0;  // m
-constexpr double judged = 8.0;     // m²; smaller pieces (chimneys, cells of walls) are what they stand on
-constexpr double narrowest = 2.0;  // m; what is narrower is no building
-
 struct Plane {
   double a = 0, b = 0, z = 0;  ///< z + a · columns + b · rows
   bool known = false;
@@ -46,8 +35,9 @@ auto plane_at(const Place& place, const Heights& top, const Mask& standing, std:
 /// Grows one plane over the standing cells, from a seed on. It is fitted again each time it has doubled.
 class Patch {
  public:
-  Patch(const Place& place, const Heights& top, const std::vector<Plane>& planes, std::size_t seed)
-      : place_(place), top_(top), planes_(planes) {
+  Patch(const Place& place, const Heights& top, const std::vector<Plane>& planes, std::size_t seed,
+        const Options& options)
+      : options_(options), place_(place), top_(top), planes_(planes) {
     const Plane& own = planes[seed];
     a_ = own.a, b_ = own.b;
     c_ = own.z - a_ * column(seed) - b_ * row(seed);
@@ -57,9 +47,9 @@ class Patch {
     if (!own.known) return false;
     const double squared = place_.cell * place_.cell, steep = 1 + (a_ * a_ + b_ * b_) / squared;
     const double off = top_[cell] - (a_ * column(cell) + b_ * row(cell) + c_);
-    if (off * off > off_plane * off_plane * steep) return false;
+    if (off * off > options_.plane_distance * options_.plane_distance * steep) return false;
     const double along = 1 + (a_ * own.a + b_ * own.b) / squared, other = 1 + (own.a * own.a + own.b * own.b) / squared;
-    return along * along >= most_turned * most_turned * steep * other;
+    return along * along >= options_.plane_cosine * options_.plane_cosine * steep * other;
   }
   void add(std::size_t cell) {
     const double x = column(cell), y = row(cell), z = top_[cell];
@@ -77,6 +67,7 @@ class Patch {
   [[nodiscard]] auto column(std::size_t cell) const -> double { return static_cast<double>(cell % place_.columns); }
   [[nodiscard]] auto row(std::size_t cell) const -> double { return static_cast<double>(cell / place_.columns); }
 
+  const Options& options_;
   const Place& place_;
   const Heights& top_;
   const std::vector<Plane>& planes_;
@@ -98,8 +89,8 @@ auto unevenness(const Place& place, const Heights& top, const Mask& standing, co
   return sum / (1 + plane.a * plane.a + plane.b * plane.b);
 }
 
-/// Cells of the mask joined over sides where the heights differ by at most `rise`.
-auto pieces_of(const Place& place, const Heights& top, const Mask& mask) -> Blobs {
+/// Cells of the mask joined over sides where the heights differ by at most piece_step.
+auto pieces_of(const Place& place, const Heights& top, const Mask& mask, const Options& o) -> Blobs {
   Blobs pieces;
   pieces.of.assign(place.size(), 0);
   std::vector<std::size_t> open;
@@ -114,7 +105,7 @@ auto pieces_of(const Place& place, const Heights& top, const Mask& mask) -> Blob
       open.pop_back();
       ++pieces.size.back();
       for_neighbours(place, cell, [&](std::size_t next) {
-        if (mask[next] == 0 || pieces.of[next] != 0 || std::abs(top[next] - top[cell]) > rise) return;
+        if (mask[next] == 0 || pieces.of[next] != 0 || std::abs(top[next] - top[cell]) > o.piece_step) return;
         pieces.of[next] = name;
         open.push_back(next);
       });
@@ -134,14 +125,15 @@ auto mean_of(const Blobs& pieces, const Heights& smooth) -> std::vector<double> 
 
 /// The rims of pieces: what is not in a plane there is cornice, parapet or melted wall. Of a piece that is mostly
 /// smooth, wider ones.
-void reclaim(const Place& place, const Blobs& pieces, const std::vector<double>& mean, double smooth, Mask& building) {
-  std::size_t rounds = place.cells(wide_rim);
-  const std::size_t narrow = place.cells(narrow_rim);
+void reclaim(const Place& place, const Blobs& pieces, const std::vector<double>& mean, const Options& o,
+             Mask& building) {
+  std::size_t rounds = place.cells(o.wide_rim);
+  const std::size_t narrow = place.cells(o.narrow_rim);
   for (std::size_t round = 0; round < rounds; ++round) {
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < building.size(); ++i) {
       const auto piece = static_cast<std::size_t>(pieces.of[i]);
-      if (building[i] != 0 || piece == 0 || (round >= narrow && mean[piece] < 1.5 * smooth)) continue;
+      if (building[i] != 0 || piece == 0 || (round >= narrow && mean[piece] < o.wide_rim_smooth * o.smooth)) continue;
       bool beside = false;
       for_neighbours(place, i, [&](std::size_t next) {
         beside = beside || (building[next] != 0 && pieces.of[next] == pieces.of[i]);
@@ -154,8 +146,8 @@ void reclaim(const Place& place, const Blobs& pieces, const std::vector<double>&
 
 /// Small pieces are buildings where more of the judged cells beside them are than are not.
 void judge_small(const Place& place, const Blobs& pieces, const std::vector<bool>& small, const Mask& standing,
-                 Mask& building) {
-  for (int round = 0; round < 3; ++round) {
+                 std::size_t rounds, Mask& building) {
+  for (std::size_t round = 0; round < rounds; ++round) {
     std::vector<std::int64_t> votes(pieces.size.size(), 0);
     for (std::size_t i = 0; i < building.size(); ++i) {
       const auto piece = static_cast<std::size_t>(pieces.of[i]);
@@ -263,7 +255,7 @@ auto standing(const Heights& top, const Heights& ground, double above) -> Mask {
   return out;
 }
 
-auto in_planes(const Place& place, const Heights& top, const Mask& standing) -> Mask {
+auto in_planes(const Place& place, const Heights& top, const Mask& standing, const Options& o) -> Mask {
   std::vector<Plane> planes(place.size());
   std::vector<float> uneven(place.size(), 0);
   base::parallel_for(place.rows, [&](std::size_t row) {
@@ -275,7 +267,7 @@ auto in_planes(const Place& place, const Heights& top, const Mask& standing) -> 
     }
   });
   std::vector<std::size_t> seeds;
-  const double steep = steepest * steepest * place.cell * place.cell;
+  const double steep = o.plane_slope * o.plane_slope * place.cell * place.cell;
   for (std::size_t i = 0; i < planes.size(); ++i)
     if (planes[i].known && planes[i].a * planes[i].a + planes[i].b * planes[i].b <= steep) seeds.push_back(i);
   std::ranges::stable_sort(seeds, {}, [&](std::size_t i) { return uneven[i]; });
@@ -284,7 +276,7 @@ auto in_planes(const Place& place, const Heights& top, const Mask& standing) -> 
   std::vector<std::size_t> cells;
   for (const std::size_t seed : seeds) {
     if (taken[seed] != 0) continue;
-    Patch patch(place, top, planes, seed);
+    Patch patch(place, top, planes, seed, o);
     cells.assign(1, seed);
     taken[seed] = 1;
     for (std::size_t next = 0; next < cells.size(); ++next) {
@@ -295,15 +287,15 @@ auto in_planes(const Place& place, const Heights& top, const Mask& standing) -> 
         cells.push_back(other);
       });
     }
-    if (static_cast<double>(cells.size()) * place.cell * place.cell < least_patch) continue;
+    if (static_cast<double>(cells.size()) * place.cell * place.cell < o.plane_area) continue;
     for (const std::size_t cell : cells) out[cell] = 1;
   }
   return out;
 }
 
-auto smoothness(const Place& place, const Mask& standing, const Mask& planes) -> Heights {
+auto smoothness(const Place& place, const Mask& standing, const Mask& planes, const Options& o) -> Heights {
   const std::vector<float> share(planes.begin(), planes.end()), counts(standing.begin(), standing.end());
-  const auto reach = place.cells(average);
+  const auto reach = place.cells(o.smooth_radius);
   const auto total = sums(place, share, reach), count = sums(place, counts, reach);
   Heights out(place.size(), none);
   for (std::size_t i = 0; i < out.size(); ++i)
@@ -311,35 +303,35 @@ auto smoothness(const Place& place, const Mask& standing, const Mask& planes) ->
   return out;
 }
 
-auto buildings(const Place& place, const Heights& top, const Mask& standing, const Mask& planes, const Options& options)
+auto buildings(const Place& place, const Heights& top, const Mask& standing, const Mask& planes, const Options& o)
     -> Mask {
   const double area = place.cell * place.cell;
-  const auto smooth = smoothness(place, standing, planes);
-  const auto pieces = pieces_of(place, top, standing);
+  const auto smooth = smoothness(place, standing, planes, o);
+  const auto pieces = pieces_of(place, top, standing, o);
   const auto mean = mean_of(pieces, smooth);
   std::vector<bool> small(mean.size(), false);
-  for (std::size_t p = 1; p < small.size(); ++p) small[p] = static_cast<double>(pieces.size[p]) * area < judged;
+  for (std::size_t p = 1; p < small.size(); ++p) small[p] = static_cast<double>(pieces.size[p]) * area < o.judged_area;
 
   // Cluttered places between smooth ones belong to the roof; a crown beside it is wider.
   Mask building(place.size(), 0);
-  for (std::size_t i = 0; i < building.size(); ++i) building[i] = smooth[i] >= options.smooth ? 1 : 0;
-  building = shrunk(place, grown(place, building, clutter / place.cell), clutter / place.cell);
+  for (std::size_t i = 0; i < building.size(); ++i) building[i] = smooth[i] >= o.smooth ? 1 : 0;
+  building = shrunk(place, grown(place, building, o.clutter_radius / place.cell), o.clutter_radius / place.cell);
   for (std::size_t i = 0; i < building.size(); ++i) {
     const auto piece = static_cast<std::size_t>(pieces.of[i]);
-    if (piece == 0 || small[piece] || mean[piece] < options.smooth) building[i] = 0;
+    if (piece == 0 || small[piece] || mean[piece] < o.smooth) building[i] = 0;
   }
-  reclaim(place, pieces, mean, options.smooth, building);
-  judge_small(place, pieces, small, standing, building);
-  without_small(place, building, options.least_area / area);
-  const double narrow = narrowest / 2 / place.cell;
+  reclaim(place, pieces, mean, o, building);
+  judge_small(place, pieces, small, standing, o.judged_rounds, building);
+  without_small(place, building, o.least_area / area);
+  const double narrow = o.minimum_width / 2 / place.cell;
   building = grown(place, shrunk(place, building, narrow), narrow);
-  without_small(place, building, options.least_area / area);
+  without_small(place, building, o.least_area / area);
   return building;
 }
 
 auto cut_at_steps(const Place& place, const Heights& top, const Mask& mask, const Options& options) -> Cut {
   Cut cut;
-  auto pieces = pieces_of(place, top, mask);
+  auto pieces = pieces_of(place, top, mask, options);
   const double least = options.least_area / (place.cell * place.cell);
   std::vector<std::int32_t> own(pieces.size.size());
   std::iota(own.begin(), own.end(), 0);

@@ -9,20 +9,22 @@ namespace mansard::derive::detail {
 /// Cells that stand at least `above` over the ground.
 [[nodiscard]] auto standing(const Heights& top, const Heights& ground, double above) -> Mask;
 
-/// The standing cells that lie in a plane of 6 m² or more, not steeper than 60°. Roofs do, cluttered ones in part; the
+/// The standing cells that lie in a plane that is large enough and not too steep. Roofs do, cluttered ones in part; the
 /// crowns of trees
 /// do not, whatever their height and density.
-[[nodiscard]] auto in_planes(const Place& place, const Heights& top, const Mask& standing) -> Mask;
+[[nodiscard]] auto in_planes(const Place& place, const Heights& top, const Mask& standing, const Options& options)
+    -> Mask;
 
-/// How smooth what stands is around each cell, 0 … 1: the share of the standing cells in a square of 4 m that lie in
+/// How smooth what stands is around each cell, 0 … 1: the share of the standing cells in a square that lie in
 /// planes.
 /// NaN where nothing stands.
-[[nodiscard]] auto smoothness(const Place& place, const Mask& standing, const Mask& planes) -> Heights;
+[[nodiscard]] auto smoothness(const Place& place, const Mask& standing, const Mask& planes, const Options& options)
+    -> Heights;
 
 /// Which of the standing cells are buildings: pieces without steps are judged as wholes, and their cells beside that.
 /// Holes
-/// less than `least_area` large are closed; what is narrower than 2 m, and blobs of less than `least_area`, are left
-/// out.
+/// less than `least_area` large are closed; what is narrower than minimum_width, and blobs of less than `least_area`,
+/// are left out.
 [[nodiscard]] auto buildings(const Place& place, const Heights& top, const Mask& standing, const Mask& planes,
                              const Options& options) -> Mask;
 

@@ -6,15 +6,6 @@
 namespace mansard::derive::detail {
 namespace {
 
-/// What rises more between neighbouring cells is a step: 0.6 for 1 (31°), and what a scan of level ground is off by.
-constexpr double steepest = 0.6, noise = 0.05;  // –, m
-/// So far above the lowest surface of its surroundings, what is there may still be ground to begin from.
-constexpr double seed_height = 0.5;  // m
-/// Ground is joined to ground over places at least this wide: no plank leads onto a roof.
-constexpr double narrowest = 1.5;  // m
-/// Pits narrower than this are holes of the scan.
-constexpr double pit = 4.0;  // m
-
 /// A plane through the low surface: what the opening must not take for a step where the ground slopes as a whole.
 struct Tilt {
   double a = 0, b = 0, c = 0;
@@ -49,16 +40,16 @@ void tilt_by(const Place& place, Heights& heights, const Tilt& tilt, float sign)
 }
 
 /// Cells near the lowest surface of a square `widest` wide around them.
-auto lowest_cells(const Place& place, const Heights& heights, std::size_t reach) -> Mask {
+auto lowest_cells(const Place& place, const Heights& heights, std::size_t reach, const Options& o) -> Mask {
   const auto opened = extreme(place, extreme(place, heights, reach, false), reach, true);
   Mask seeds(heights.size(), 0);
-  for (std::size_t i = 0; i < seeds.size(); ++i) seeds[i] = heights[i] - opened[i] <= seed_height ? 1 : 0;
+  for (std::size_t i = 0; i < seeds.size(); ++i) seeds[i] = heights[i] - opened[i] <= o.ground_seed ? 1 : 0;
   return seeds;
 }
 
 /// Cells without a step to any of their four neighbours.
-auto smooth_cells(const Place& place, const Heights& heights) -> Mask {
-  const auto step = static_cast<float>(steepest * place.cell + noise);
+auto smooth_cells(const Place& place, const Heights& heights, const Options& o) -> Mask {
+  const auto step = static_cast<float>(o.ground_slope * place.cell + o.ground_noise);
   Mask smooth(heights.size(), 0);
   base::parallel_for(place.rows, [&](std::size_t row) {
     for (std::size_t i = place.index(0, row); i < place.index(0, row + 1); ++i) {
@@ -153,21 +144,21 @@ auto top_heights(const geometry::Mesh& mesh, const Place& place) -> Heights {
   return top;
 }
 
-auto ground_of(const Place& place, const Heights& top, double widest) -> Heights {
+auto ground_of(const Place& place, const Heights& top, const Options& o) -> Heights {
   // Pits out: the greatest, then the least of small squares.
-  const std::size_t pit_reach = place.cells(pit / 2);
+  const std::size_t pit_reach = place.cells(o.pit_width / 2);
   Heights heights = extreme(place, extreme(place, top, pit_reach, true), pit_reach, false);
   for (std::size_t i = 0; i < heights.size(); ++i)
     if (std::isnan(top[i])) heights[i] = none;
 
-  const std::size_t reach = place.cells(widest / 2);
-  const auto level = plane_through(place, heights, lowest_cells(place, heights, reach));
+  const std::size_t reach = place.cells(o.widest / 2);
+  const auto level = plane_through(place, heights, lowest_cells(place, heights, reach, o));
   tilt_by(place, heights, level, -1);
-  const auto seeds = lowest_cells(place, heights, reach);
+  const auto seeds = lowest_cells(place, heights, reach, o);
   tilt_by(place, heights, level, 1);
 
-  const double narrow = std::max(1.0, narrowest / 2 / place.cell);
-  const auto core = shrunk(place, smooth_cells(place, top), narrow);
+  const double narrow = std::max(1.0, o.ground_width / 2 / place.cell);
+  const auto core = shrunk(place, smooth_cells(place, top, o), narrow);
   const auto found = grown(place, joined_to(place, seeds, core), narrow);
   Heights ground(top.size(), none);
   for (std::size_t i = 0; i < ground.size(); ++i)

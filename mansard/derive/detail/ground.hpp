@@ -5,6 +5,7 @@
 
 #include "mansard/base/result.hpp"
 #include "mansard/derive/detail/grid.hpp"
+#include "mansard/derive/options.hpp"
 #include "mansard/model/scene.hpp"
 
 namespace mansard::derive::detail {
@@ -19,7 +20,7 @@ namespace mansard::derive::detail {
 /// `widest`
 /// metres wide is ground, if it is not a hole; what is joined to that without a step is ground; the rest is filled in
 /// between. NaN everywhere where nothing is ground.
-[[nodiscard]] auto ground_of(const Place& place, const Heights& top, double widest) -> Heights;
+[[nodiscard]] auto ground_of(const Place& place, const Heights& top, const Options& options) -> Heights;
 
 /// The same of a terrain that was given; filled in where that has no height.
 [[nodiscard]] auto ground_of(const Place& place, const model::HeightGrid& terrain) -> Heights;

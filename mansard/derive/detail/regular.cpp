@@ -14,16 +14,6 @@ using geometry::Polygon;
 using geometry::Ring;
 using std::numbers::pi;
 
-/// Consecutive sides that turn by less are one.
-constexpr double least_turn = 0.26;  // rad, 15°
-/// No side is turned by more to be parallel to others, and none so that its ends move by more than so many tolerances.
-constexpr double most_turn = 0.7;  // rad, 40°
-constexpr double most_moved = 1.25;
-/// Lines that differ by less have no corner.
-constexpr double least_corner = 0.05;  // rad, 3°
-/// An outline that the straight one does not cover this well stays as it is.
-constexpr double least_overlap = 0.85;  // area of intersection over that of union
-
 /// A straight side: its line, and the samples of the outline that it stands for.
 struct Side {
   Point2 direction;        ///< unit; the interior is on the left
@@ -108,10 +98,10 @@ auto reach_of(const Side& side) -> double {
 }
 
 /// Between the bends; corners, which openings have rounded, do not count where a side is long enough without them.
-auto sides_of(const Ring& ring, const Regularity& how) -> std::vector<Side> {
+auto sides_of(const Ring& ring, const Options& how) -> std::vector<Side> {
   const auto points = samples_of(ring, how.cell);
   const auto bends = bends_of(points, how.tolerance);
-  const auto corner = static_cast<std::size_t>(std::ceil(1.5 * how.tolerance / how.cell));
+  const auto corner = static_cast<std::size_t>(std::ceil(how.corner_trim * how.tolerance / how.cell));
   std::vector<Side> sides;
   for (std::size_t k = 0; k < bends.size(); ++k) {
     std::size_t from = bends[k], to = k + 1 < bends.size() ? bends[k + 1] : bends[0] + points.size();
@@ -144,15 +134,14 @@ struct Weighted {
 };
 
 /// Where most of the length lies, then the mean around it: long sides know their direction best.
-auto peak_of(const std::vector<Weighted>& sides) -> double {
-  constexpr std::size_t bins = 180;
-  constexpr double width = 0.05;  // rad
+auto peak_of(const std::vector<Weighted>& sides, const Options& how) -> double {
+  constexpr std::size_t bins = 180;  // half a degree: a tenth of direction_width
   double best = 0, most = -1;
   for (std::size_t b = 0; b < bins; ++b) {
     const double angle = static_cast<double>(b) * (pi / 2) / bins;
     double sum = 0;
     for (const auto& side : sides) {
-      const double t = turn(angle, side.angle) / width;
+      const double t = turn(angle, side.angle) / how.direction_width;
       sum += side.length * side.length * std::exp(-0.5 * t * t);
     }
     if (sum > most) most = sum, best = angle;
@@ -161,7 +150,7 @@ auto peak_of(const std::vector<Weighted>& sides) -> double {
     double sum = 0, weight = 0;
     for (const auto& side : sides) {
       const double t = turn(best, side.angle);
-      if (std::abs(t) > 2 * width) continue;
+      if (std::abs(t) > 2 * how.direction_width) continue;
       const double w = side.length * side.length * side.length;
       sum += w * t, weight += w;
     }
@@ -171,13 +160,13 @@ auto peak_of(const std::vector<Weighted>& sides) -> double {
 }
 
 /// Turns the side about its middle into a direction that the building has, where that moves its ends by little.
-void snap(Side& side, const std::vector<double>& directions, const Regularity& how) {
+void snap(Side& side, const std::vector<double>& directions, const Options& how) {
   const double own = folded(side.direction), half = reach_of(side) / 2;
-  double least = most_turn;
+  double least = how.snap_turn;
   std::optional<double> by;
   for (const double direction : directions) {
     const double t = turn(own, direction);
-    if (std::abs(t) >= least || half * std::sin(std::abs(t)) > most_moved * how.tolerance) continue;
+    if (std::abs(t) >= least || half * std::sin(std::abs(t)) > how.snap_moved * how.tolerance) continue;
     least = std::abs(t);
     by = t;
   }
@@ -209,24 +198,25 @@ auto joined(Side a, const Side& b) -> Side {
   return a;
 }
 
-auto parallel(const Side& a, const Side& b) -> bool {
-  return std::abs(geometry::cross(a.direction, b.direction)) < std::sin(least_corner);
+auto parallel(const Side& a, const Side& b, const Options& how) -> bool {
+  return std::abs(geometry::cross(a.direction, b.direction)) < std::sin(how.parallel_turn);
 }
 
 /// Whether the lines of two neighbours meet near where the outline goes from one to the other.
-auto meet(const Side& a, const Side& b, double tolerance) -> bool {
-  if (parallel(a, b)) return false;
+auto meet(const Side& a, const Side& b, const Options& how) -> bool {
+  if (parallel(a, b, how)) return false;
   const Point2 corner = crossing(a, b), between = 0.5 * (a.on.back() + b.on.front());
-  return geometry::length(corner - between) <= 3 * tolerance + geometry::length(b.on.front() - a.on.back());
+  return geometry::length(corner - between) <=
+         how.corner_reach * how.tolerance + geometry::length(b.on.front() - a.on.back());
 }
 
 /// Neighbours on about one line are joined.
-void join_lines(std::vector<Side>& sides, double tolerance) {
+void join_lines(std::vector<Side>& sides, const Options& how) {
   for (std::size_t k = 0; k < sides.size() && sides.size() > 3;) {
     const std::size_t next = (k + 1) % sides.size();
     const Point2 normal = geometry::left_of(sides[k].direction);
     const double off = std::abs(geometry::dot(normal, mean_of(sides[next].on)) - sides[k].offset);
-    if (std::abs(angle_between(sides[k], sides[next])) < least_turn && off <= tolerance) {
+    if (std::abs(angle_between(sides[k], sides[next])) < how.corner_turn && off <= how.tolerance) {
       sides[k] = joined(sides[k], sides[next]);
       sides.erase(sides.begin() + static_cast<std::ptrdiff_t>(next));
       k = 0;
@@ -237,13 +227,13 @@ void join_lines(std::vector<Side>& sides, double tolerance) {
 }
 
 /// Neighbours that run the same way, or back, beside each other get a step between them.
-auto with_steps(const std::vector<Side>& sides, double tolerance) -> std::vector<Side> {
+auto with_steps(const std::vector<Side>& sides, const Options& how) -> std::vector<Side> {
   std::vector<Side> out;
   for (std::size_t k = 0; k < sides.size(); ++k) {
     out.push_back(sides[k]);
     const Side& next = sides[(k + 1) % sides.size()];
     const double angle = std::abs(angle_between(sides[k], next));
-    if ((angle >= least_turn && angle <= pi - least_turn) || meet(sides[k], next, tolerance)) continue;
+    if ((angle >= how.corner_turn && angle <= pi - how.corner_turn) || meet(sides[k], next, how)) continue;
     const Point2 from = sides[k].on.back(), to = next.on.front(), across = geometry::left_of(sides[k].direction);
     Side step;
     step.direction = geometry::dot(across, to - from) >= 0 ? across : -1.0 * across;
@@ -256,14 +246,14 @@ auto with_steps(const std::vector<Side>& sides, double tolerance) -> std::vector
 }
 
 /// Cut-off corners are corners: sides in a direction of their own, near to where their neighbours meet.
-void fill_corners(std::vector<Side>& sides, double tolerance) {
+void fill_corners(std::vector<Side>& sides, const Options& how) {
   for (std::size_t k = 0; k < sides.size() && sides.size() > 4;) {
     const Side &before = sides[(k + sides.size() - 1) % sides.size()], &next = sides[(k + 1) % sides.size()];
     const double angle = std::abs(angle_between(before, next));
-    if (sides[k].free && angle > least_turn && angle < pi - least_turn) {
+    if (sides[k].free && angle > how.corner_turn && angle < pi - how.corner_turn) {
       const Point2 corner = crossing(before, next);
       const double away = std::abs(geometry::dot(geometry::left_of(sides[k].direction), corner) - sides[k].offset);
-      if (away <= most_moved * tolerance && reach_of(sides[k]) <= 4 * tolerance) {
+      if (away <= how.snap_moved * how.tolerance && reach_of(sides[k]) <= how.bevel_length * how.tolerance) {
         sides.erase(sides.begin() + static_cast<std::ptrdiff_t>(k));
         k = 0;
         continue;
@@ -280,12 +270,12 @@ auto length_of(const std::vector<Side>& sides, std::size_t k) -> double {
 }
 
 /// Whether it went: its neighbours meet then, or become one.
-auto dropped(std::vector<Side>& sides, std::size_t k, double tolerance) -> bool {
+auto dropped(std::vector<Side>& sides, std::size_t k, const Options& how) -> bool {
   const std::size_t before = (k + sides.size() - 1) % sides.size(), next = (k + 1) % sides.size();
   const double angle = std::abs(angle_between(sides[before], sides[next]));
-  if (angle >= least_turn && angle <= pi - least_turn) {
+  if (angle >= how.corner_turn && angle <= pi - how.corner_turn) {
     const Point2 corner = crossing(sides[before], sides[next]);
-    if (geometry::length(corner - mean_of(sides[k].on)) > 4 * tolerance) return false;
+    if (geometry::length(corner - mean_of(sides[k].on)) > how.drop_reach * how.tolerance) return false;
     sides.erase(sides.begin() + static_cast<std::ptrdiff_t>(k));
     return true;
   }
@@ -298,7 +288,7 @@ auto dropped(std::vector<Side>& sides, std::size_t k, double tolerance) -> bool 
 }
 
 /// The shortest first, as long as one goes.
-void drop_short(std::vector<Side>& sides, const Regularity& how) {
+void drop_short(std::vector<Side>& sides, const Options& how) {
   for (bool more = true; more && sides.size() > 4;) {
     more = false;
     std::vector<std::pair<double, std::size_t>> order;
@@ -306,31 +296,31 @@ void drop_short(std::vector<Side>& sides, const Regularity& how) {
       if (const double length = length_of(sides, k); !(length >= how.shortest)) order.emplace_back(length, k);
     std::ranges::sort(order);
     for (const auto& [length, k] : order)
-      if (dropped(sides, k, how.tolerance)) {
+      if (dropped(sides, k, how)) {
         more = true;
         break;
       }
   }
 }
 
-auto straight_ring(const Ring& ring, const std::vector<double>& directions, const Regularity& how) -> Ring {
+auto straight_ring(const Ring& ring, const std::vector<double>& directions, const Options& how) -> Ring {
   auto sides = sides_of(ring, how);
   for (auto& side : sides) snap(side, directions, how);
-  join_lines(sides, how.tolerance);
-  fill_corners(sides, how.tolerance);
-  sides = with_steps(sides, how.tolerance);
+  join_lines(sides, how);
+  fill_corners(sides, how);
+  sides = with_steps(sides, how);
   if (sides.size() < 3) return {};
   drop_short(sides, how);
   Ring out;
   for (std::size_t k = 0; k < sides.size(); ++k) {
     const Side& before = sides[(k + sides.size() - 1) % sides.size()];
-    if (parallel(before, sides[k])) return {};
+    if (parallel(before, sides[k], how)) return {};
     out.push_back(crossing(before, sides[k]));
   }
   return out;
 }
 
-auto simplified_ring(const Ring& ring, const Regularity& how) -> Ring {
+auto simplified_ring(const Ring& ring, const Options& how) -> Ring {
   const auto points = samples_of(ring, how.cell);
   Ring out;
   for (const std::size_t bend : bends_of(points, how.cell)) out.push_back(points[bend % points.size()]);
@@ -352,7 +342,7 @@ auto overlap(const Polygon& a, const Polygon& b) -> double {
 
 }  // namespace
 
-auto directions_of(const Polygon& outline, const Regularity& how) -> std::vector<double> {
+auto directions_of(const Polygon& outline, const Options& how) -> std::vector<double> {
   std::vector<Weighted> sides;
   double perimeter = 0;
   const auto take = [&](const Ring& ring) {
@@ -365,24 +355,25 @@ auto directions_of(const Polygon& outline, const Regularity& how) -> std::vector
   take(outline.outer);
   for (const auto& hole : outline.holes) take(hole);
   std::vector<double> out;
-  while (!sides.empty() && out.size() < 3) {
+  while (!sides.empty() && out.size() < how.directions) {
     double left = 0;
     for (const auto& side : sides) left += side.length;
-    if (!out.empty() && left < 0.2 * perimeter) break;
-    out.push_back(peak_of(sides));
-    std::erase_if(sides, [&](const Weighted& side) { return std::abs(turn(out.back(), side.angle)) < least_turn; });
+    if (!out.empty() && left < how.direction_share * perimeter) break;
+    out.push_back(peak_of(sides, how));
+    std::erase_if(sides,
+                  [&](const Weighted& side) { return std::abs(turn(out.back(), side.angle)) < how.corner_turn; });
   }
   return out;
 }
 
-auto regularised(const Polygon& outline, const Regularity& how) -> std::vector<Polygon> {
+auto regularised(const Polygon& outline, const Options& how) -> std::vector<Polygon> {
   const auto directions = directions_of(outline, how);
   Polygon straight{straight_ring(outline.outer, directions, how), {}};
   for (const auto& hole : outline.holes)
     if (auto ring = straight_ring(hole, directions, how); ring.size() >= 3 && geometry::signed_area(ring) < 0)
       straight.holes.push_back(std::move(ring));
   if (straight.outer.size() >= 3 && geometry::signed_area(straight.outer) > 0 && geometry::is_simple(straight) &&
-      overlap(straight, outline) >= least_overlap)
+      overlap(straight, outline) >= how.minimum_overlap)
     return {straight};
   Polygon simple{simplified_ring(outline.outer, how), {}};
   for (const auto& hole : outline.holes) simple.holes.push_back(simplified_ring(hole, how));

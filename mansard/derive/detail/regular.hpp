@@ -3,23 +3,17 @@
 
 #include <vector>
 
+#include "mansard/derive/options.hpp"
 #include "mansard/geometry/polygon.hpp"
 
 namespace mansard::derive::detail {
 
-struct Regularity {
-  double cell = 0.5;       ///< m; of the outline's steps
-  double tolerance = 1.0;  ///< m; what is nearer to a wall than this is that wall
-  double shortest = 1.5;   ///< m; of the sides that are left
-};
-
 /// Directions of walls, radians from east, 0 … π/2: each stands for itself and those at right angles to it. The one
 /// with
-/// the longest sides comes first; later ones only where their sides make a fifth of the perimeter.
-[[nodiscard]] auto directions_of(const geometry::Polygon& outline, const Regularity& how) -> std::vector<double>;
+/// the longest sides comes first; later ones only where their sides make direction_share of the perimeter.
+[[nodiscard]] auto directions_of(const geometry::Polygon& outline, const Options& how) -> std::vector<double>;
 
 /// Simple polygons near the outline; the outline itself, simplified, where no straight walls are.
-[[nodiscard]] auto regularised(const geometry::Polygon& outline, const Regularity& how)
-    -> std::vector<geometry::Polygon>;
+[[nodiscard]] auto regularised(const geometry::Polygon& outline, const Options& how) -> std::vector<geometry::Polygon>;
 
 }  // namespace mansard::derive::detail

@@ -9,10 +9,6 @@
 namespace mansard::fracture::detail {
 namespace {
 
-/// Steps a cut may take to settle, beside those for each edge it crosses. One that goes round in circles is in the way
-/// of itself and takes for ever; of those that settle none was seen to take more than 155.
-constexpr std::size_t steps_to_begin_with = 300, steps_per_crossing = 4;
-
 /// Adds what lies on `other` to `traces`. A cut that comes back along an edge it has taken leaves it: a path that goes
 /// there and back again goes nowhere.
 void merge(std::vector<Trace>& traces, const std::vector<Trace>& other, bool reversed) {
@@ -143,8 +139,10 @@ auto Insertion::vertex_at(Point2 p) -> std::optional<std::uint32_t> {
   return std::nullopt;
 }
 
+/// A cut that goes round in circles is in the way of itself and would take for ever.
 auto Insertion::settle() -> bool {
-  const std::size_t most = steps_to_begin_with + steps_per_crossing * graph_.edges_across(lines_[cut_].whole).size();
+  const std::size_t most =
+      tolerances_.steps + tolerances_.steps_per_crossing * graph_.edges_across(lines_[cut_].whole).size();
   for (std::size_t steps = 0; !unsettled_.empty(); ++steps) {
     if (steps > most) return false;
     const std::uint32_t edge = unsettled_.front();

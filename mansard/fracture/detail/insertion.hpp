@@ -12,10 +12,16 @@ namespace mansard::fracture::detail {
 
 /// How near is too near.
 struct Tolerances {
-  explicit Tolerances(double snap) : merge(snap + slack), drift(2 * snap - slack) {}
+  explicit Tolerances(const Options& o)
+      : merge(o.snap + slack),
+        drift(2 * o.snap - slack),
+        steps(o.settle_steps),
+        steps_per_crossing(o.settle_steps_per_crossing) {}
 
   double merge;  ///< m; vertices nearer than this to a vertex or edge are drawn together
   double drift;  ///< m; no edge may be drawn farther than this from the line of a cut it comes of
+
+  std::size_t steps, steps_per_crossing;  ///< as Options::settle_steps has it
 
   /// Splitting an edge at a grid point moves it by up to 0.7 grid steps; this leaves room for a thousand of them.
   static constexpr double slack = 0x1.0p-14;

@@ -12,7 +12,9 @@ namespace {
 using geometry::Point2;
 using geometry::Point3;
 
-constexpr double opposite = -0.966;  // cosine; walls within 15° of facing each other
+/// A wall has so many strips: an estimate of its share needs a few dozen, and a wall of a hundred metres no more than
+/// two thousand.
+constexpr double fewest_strips = 32, most_strips = 2000;
 
 /// A wall's outline before another wall's vertical plane.
 struct Corner {
@@ -92,8 +94,9 @@ auto walls_of(std::span<const model::Solid> solids, const std::vector<std::vecto
   return walls;
 }
 
-auto covered_share(const Wall& wall, std::span<const Wall> walls, std::span<const model::Solid> solids, double distance)
-    -> double {
+auto covered_share(const Wall& wall, std::span<const Wall> walls, std::span<const model::Solid> solids,
+                   const Options& options) -> double {
+  const double distance = options.party_distance;
   const auto& solid = solids[wall.solid];
   const auto& face = solid.faces[wall.face];
   const Point2 along{-wall.outward.y, wall.outward.x};
@@ -104,7 +107,7 @@ auto covered_share(const Wall& wall, std::span<const Wall> walls, std::span<cons
   const auto end = std::ranges::upper_bound(walls, box.most.x, {}, [](const Wall& w) { return w.box.least.x; });
   for (auto other = walls.begin(); other != end; ++other) {
     if (other->solid == wall.solid || !box.overlaps(other->box)) continue;
-    if (dot(wall.outward, other->outward) > opposite) continue;
+    if (dot(wall.outward, other->outward) > -options.party_cosine) continue;
     neighbours.push_back(outline_in(frame, solids[other->solid], solids[other->solid].faces[other->face]));
   }
   if (neighbours.empty()) return 0;
@@ -115,7 +118,8 @@ auto covered_share(const Wall& wall, std::span<const Wall> walls, std::span<cons
     from = std::min(from, c.along);
     to = std::max(to, c.along);
   }
-  const auto strips = static_cast<std::size_t>(std::clamp((to - from) / 0.05, 32.0, 2000.0));
+  const auto strips =
+      static_cast<std::size_t>(std::clamp((to - from) / options.party_strip, fewest_strips, most_strips));
   double area = 0, covered = 0;
   std::vector<Interval> here, there;
   for (std::size_t i = 0; i < strips; ++i) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mansard/geometry/points.hpp"
+#include "mansard/label/label.hpp"
 #include "mansard/model/solid.hpp"
 
 namespace mansard::label::detail {
@@ -21,9 +22,9 @@ struct Wall {
 [[nodiscard]] auto walls_of(std::span<const model::Solid> solids, const std::vector<std::vector<bool>>& is_wall)
     -> std::vector<Wall>;
 
-/// The share of the wall's area that faces opposite walls of other solids within `distance` metres. Measured in
-/// vertical strips of at most 5 cm, on the wall's own vertical plane; overlapping neighbours count once.
+/// The share of the wall's area that faces opposite walls of other solids within party_distance. Measured in
+/// vertical strips of at most party_strip, on the wall's own vertical plane; overlapping neighbours count once.
 [[nodiscard]] auto covered_share(const Wall& wall, std::span<const Wall> walls, std::span<const model::Solid> solids,
-                                 double distance) -> double;
+                                 const Options& options) -> double;
 
 }  // namespace mansard::label::detail

@@ -22,12 +22,12 @@ auto made_by(const model::Scene& scene, const Options& options) -> model::MadeBy
   out.version = MANSARD_VERSION;
   out.inputs = scene.inputs;
   Options copy = options, defaults;
-  const auto lists = option_lists(copy), usual = option_lists(defaults);
-  for (std::size_t i = 0; i < lists.size(); ++i)
-    for (std::size_t k = 0; k < lists[i].options().size(); ++k) {
-      const auto& option = lists[i].options()[k];
-      const bool told = !option.advanced || option.get() != usual[i].options()[k].get();
-      (told ? out.options : out.usual).emplace_back(lists[i].module() + "." + option.name, option.get());
+  const auto used = option_lists(copy), usual = option_lists(defaults);
+  for (std::size_t l = 0; l < used.size(); ++l)
+    for (const auto& option : used[l].options()) {
+      out.every_option.emplace_back(used[l].module() + "." + option.name, option.get());
+      if (!option.advanced || option.get() != usual[l].find(option.name)->get())
+        out.options.push_back(out.every_option.back());
     }
   return out;
 }

@@ -3,6 +3,7 @@
 
 #include <span>
 #include <vector>
+#include "mansard/profile/options.hpp"
 
 namespace mansard::profile::detail {
 
@@ -11,10 +12,10 @@ struct ProfileTop {
   double height = 0, length = 0;
 };
 
-/// Candidates, the likeliest first: none nearer to an earlier one than a decimetre, all within `heights` (sorted) and
+/// Candidates, the likeliest first: none nearer to an earlier one than cap_distinct, all within `heights` (sorted) and
 /// above 0. `pitched`: some profile has a roof, whose own closing is likelier than a flat top. With no heights: the
 /// profiles' top, or `assumed`.
 [[nodiscard]] auto caps_from(std::span<const double> heights, std::vector<ProfileTop> tops, bool pitched,
-                             double assumed) -> std::vector<double>;
+                             double assumed, const Options& options = {}) -> std::vector<double>;
 
 }  // namespace mansard::profile::detail

@@ -49,7 +49,7 @@ class Ends {
 };
 
 /// Walks from the piece to ever higher ones, or ever lower ones for `sign` −1. Returns the points passed, in order.
-auto walk(std::span<const Piece> pieces, const Ends& ends, std::size_t start, double sign, const ClimbOptions& options,
+auto walk(std::span<const Piece> pieces, const Ends& ends, std::size_t start, double sign, const Options& options,
           double limit) -> std::vector<SectionPoint> {
   const auto far_end = [&](std::size_t i) { return sign > 0 ? pieces[i].high : pieces[i].low; };
   const auto near_end = [&](std::size_t i) { return sign > 0 ? pieces[i].low : pieces[i].high; };
@@ -74,19 +74,18 @@ auto walk(std::span<const Piece> pieces, const Ends& ends, std::size_t start, do
 }
 
 /// The piece nearest to the wall at a height that cars and hedges do not reach.
-auto wall_start(std::span<const Piece> pieces, const ClimbOptions& options) -> std::size_t {
-  constexpr double clear_of_ground = 1.0;  // m; lower pieces are terrain
-  const double target = options.ground + options.low_height + 0.5;
+auto wall_start(std::span<const Piece> pieces, const Options& options, double ground) -> std::size_t {
+  const double target = ground + options.low_height + options.climb_above_low;
   std::size_t best = none;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Piece& p = pieces[i];
-    if (p.high.height < options.ground + clear_of_ground) continue;
+    if (p.high.height < ground + options.climb_clear) continue;
     const double height = std::clamp(target, p.low.height, p.high.height);
     const double rise = p.high.height - p.low.height;
     const double t = rise > 0 ? (height - p.low.height) / rise : 0;
     const double inward = std::abs(p.low.inward + t * (p.high.inward - p.low.inward));
-    if (inward > options.near) continue;
+    if (inward > options.climb_near) continue;
     const double d = squared({inward, height}, {0, target});
     if (d < least) {
       least = d;
@@ -97,10 +96,10 @@ auto wall_start(std::span<const Piece> pieces, const ClimbOptions& options) -> s
 }
 
 /// The topmost piece over the first place inward of the foot that has one.
-auto roof_start(std::span<const Piece> pieces, const ClimbOptions& options) -> std::size_t {
-  for (double at = 0.6; at <= options.near; at += 0.3) {
+auto roof_start(std::span<const Piece> pieces, const Options& options, double ground) -> std::size_t {
+  for (double at = options.climb_roof_first; at <= options.climb_near; at += options.climb_roof_next) {
     std::size_t best = none;
-    double top = options.ground + 1.0;
+    double top = ground + options.climb_clear;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       const Piece& p = pieces[i];
       const double u0 = std::min(p.low.inward, p.high.inward), u1 = std::max(p.low.inward, p.high.inward);
@@ -118,8 +117,8 @@ auto roof_start(std::span<const Piece> pieces, const ClimbOptions& options) -> s
 
 }  // namespace
 
-auto climb(std::span<const Piece> pieces, const ClimbOptions& options) -> std::optional<Climb> {
-  const std::size_t wall = wall_start(pieces, options), roof = roof_start(pieces, options);
+auto climb(std::span<const Piece> pieces, const Options& options, double ground) -> std::optional<Climb> {
+  const std::size_t wall = wall_start(pieces, options, ground), roof = roof_start(pieces, options, ground);
   std::size_t start = wall != none ? wall : roof;
   if (start == none) return std::nullopt;
 
@@ -130,7 +129,7 @@ auto climb(std::span<const Piece> pieces, const ClimbOptions& options) -> std::o
     start = roof;
     up = walk(pieces, ends, start, 1, options, sky);
   }
-  const auto down = walk(pieces, ends, start, -1, options, options.ground);
+  const auto down = walk(pieces, ends, start, -1, options, ground);
 
   Climb result;
   result.points.assign(down.rbegin(), down.rend());
@@ -138,21 +137,22 @@ auto climb(std::span<const Piece> pieces, const ClimbOptions& options) -> std::o
   return result;
 }
 
-auto wall_position(const Climb& climb, const ClimbOptions& options, double vertical_angle) -> std::optional<double> {
-  // Near the ground cars, hedges and shop fronts stand before the wall: what is seen there weighs a fifth.
-  constexpr double low_weight = 0.2;
-  const double steep = 3 * std::tan(vertical_angle);  // single noisy triangles lean more than the wall they make
-  std::vector<std::pair<double, double>> walls;       // (inward, weight)
+auto wall_position(const Climb& climb, const Options& options, double ground) -> std::optional<double> {
+  // Near the ground cars, hedges and shop fronts stand before the wall: what is seen there weighs little.
+  const double steep =
+      options.wall_lean * std::tan(options.vertical_angle);  // single noisy triangles lean more than the wall they make
+  std::vector<std::pair<double, double>> walls;              // (inward, weight)
   double total = 0;
   for (std::size_t i = 0; i + 1 < climb.points.size(); ++i) {
     const SectionPoint a = climb.points[i], b = climb.points[i + 1];
     const double rise = b.height - a.height;
     if (rise <= 0 || std::abs(b.inward - a.inward) > steep * rise) continue;
-    const double weight = (a.height + b.height) / 2 < options.ground + options.low_height ? low_weight * rise : rise;
+    const double weight =
+        (a.height + b.height) / 2 < ground + options.low_height ? options.wall_low_weight * rise : rise;
     walls.emplace_back((a.inward + b.inward) / 2, weight);
     total += weight;
   }
-  if (total < 1) return std::nullopt;
+  if (total < options.wall_minimum) return std::nullopt;
   std::ranges::sort(walls);
   double sum = 0;
   for (const auto& [inward, weight] : walls)

@@ -8,15 +8,10 @@ namespace mansard::profile::detail {
 namespace {
 
 constexpr double hole = std::numeric_limits<double>::quiet_NaN();
-constexpr double corner = 0.3;        // m; scans round off gutters and ridges
-constexpr double least_slope = 0.1;   // of a roof that counts as rising (Δheight / Δinward)
-constexpr double oblique = 0.6;       // greatest slope along the run, as a share of the one across: about 30°
-constexpr double latest_start = 1.6;  // m; parapets and gutters may lie before the roof
-constexpr double shortest = 0.8;      // m; a rise over less is a rounded corner
-constexpr std::size_t tile = 5;       // columns; one metre
-constexpr std::size_t tile_step = 2;
 
-auto middle(std::size_t column) -> double { return (static_cast<double>(column) + 0.5) * bin; }
+auto middle(std::size_t column, const Options& o) -> double {
+  return (static_cast<double>(column) + 0.5) * o.column_width;
+}
 
 auto median(std::vector<double>& values) -> double {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -24,20 +19,20 @@ auto median(std::vector<double>& values) -> double {
   return *at;
 }
 
-/// Slopes of the plane through the columns [from, from + tile) of neighbouring slices, by least squares.
+/// Slopes of the plane through the columns [from, from + rising_tile) of neighbouring slices, by least squares.
 struct Slope {
   double inward = 0, along = 0;
 };
-auto slope_of(std::span<const SliceColumns> slices, std::size_t begin, std::size_t end, std::size_t from)
-    -> std::optional<Slope> {
+auto slope_of(std::span<const SliceColumns> slices, std::size_t begin, std::size_t end, std::size_t from,
+              const Options& o) -> std::optional<Slope> {
   double n = 0, u = 0, t = 0, h = 0, uu = 0, tt = 0, ut = 0, uh = 0, th = 0;
-  const double u0 = middle(from), t0 = slices[begin].along;
+  const double u0 = middle(from, o), t0 = slices[begin].along;
   std::size_t present = 0, possible = 0;
   for (std::size_t s = begin; s < end; ++s) {
-    for (std::size_t b = from; b < from + tile; ++b) {
+    for (std::size_t b = from; b < from + o.rising_tile; ++b) {
       ++possible;
       if (b >= slices[s].heights.size() || std::isnan(slices[s].heights[b])) continue;
-      const double du = middle(b) - u0, dt = slices[s].along - t0, height = slices[s].heights[b];
+      const double du = middle(b, o) - u0, dt = slices[s].along - t0, height = slices[s].heights[b];
       ++present;
       n += 1, u += du, t += dt, h += height;
       uu += du * du, tt += dt * dt, ut += du * dt, uh += du * height, th += dt * height;
@@ -55,47 +50,48 @@ auto slope_of(std::span<const SliceColumns> slices, std::size_t begin, std::size
 }  // namespace
 
 auto columns_of(std::span<const Piece> pieces, const Climb& climb, const Sample& sample, double base,
-                std::optional<double> wall) -> SliceColumns {
+                std::optional<double> wall, const Options& o) -> SliceColumns {
   // The far wall and what leans over it belong to another edge.
-  const double depth = sample.reach > 2 ? sample.reach - 0.4 : sample.reach;
+  const double depth = sample.reach > o.far_wall_from ? sample.reach - o.far_wall : sample.reach;
   SliceColumns columns{sample.along, {}, wall, 0, 0};
-  columns.heights.assign(static_cast<std::size_t>(std::max(0.0, depth) / bin), hole);
-  const double sky = climb.top() + 0.5;
+  columns.heights.assign(static_cast<std::size_t>(std::max(0.0, depth) / o.column_width), hole);
+  const double sky = climb.top() + o.sky_margin;
   for (const Piece& piece : pieces) {
     const double u0 = std::min(piece.low.inward, piece.high.inward), u1 = std::max(piece.low.inward, piece.high.inward);
     if (u1 <= 0 || u1 == u0) continue;
     const double slope = (piece.high.height - piece.low.height) / (piece.high.inward - piece.low.inward);
-    auto b = static_cast<std::size_t>(std::max(0.0, std::ceil(u0 / bin - 0.5)));
-    for (; b < columns.heights.size() && middle(b) <= u1; ++b) {
-      const double height = piece.low.height + slope * (middle(b) - piece.low.inward);
+    auto b = static_cast<std::size_t>(std::max(0.0, std::ceil(u0 / o.column_width - 0.5)));
+    for (; b < columns.heights.size() && middle(b, o) <= u1; ++b) {
+      const double height = piece.low.height + slope * (middle(b, o) - piece.low.inward);
       if (height <= sky && !(height - base <= columns.heights[b])) columns.heights[b] = height - base;
     }
   }
   return columns;
 }
 
-void find_rising(std::vector<SliceColumns>& slices) {
-  constexpr double beside = 0.5;  // m; slices this near help to tell the slope
+void find_rising(std::vector<SliceColumns>& slices, const Options& o) {
   for (std::size_t s = 0; s < slices.size(); ++s) {
     SliceColumns& slice = slices[s];
     slice.first = slice.last = 0;
     std::size_t begin = s, end = s + 1;
-    while (begin > 0 && (slice.along - slices[begin - 1].along <= beside || begin == s)) --begin;
-    while (end < slices.size() && (slices[end].along - slice.along <= beside || end == s + 1)) ++end;
+    while (begin > 0 && (slice.along - slices[begin - 1].along <= o.rising_beside || begin == s)) --begin;
+    while (end < slices.size() && (slices[end].along - slice.along <= o.rising_beside || end == s + 1)) ++end;
 
-    const double start = corner + std::clamp(slice.wall.value_or(0.0), 0.0, 1.5);
+    const double start = o.corner + std::clamp(slice.wall.value_or(0.0), 0.0, o.wall_deepest);
     bool found = false;
     std::size_t misses = 0;
-    auto b = static_cast<std::size_t>(std::ceil(start / bin - 0.5));
-    for (; b + tile <= slice.heights.size(); b += tile_step) {
-      const auto slope = slope_of(slices, begin, end, b);
-      const bool rises = slope && slope->inward >= least_slope && std::abs(slope->along) <= oblique * slope->inward;
+    auto b = static_cast<std::size_t>(std::ceil(start / o.column_width - 0.5));
+    for (; b + o.rising_tile <= slice.heights.size(); b += o.rising_tile_step) {
+      const auto slope = slope_of(slices, begin, end, b, o);
+      const bool rises =
+          slope && slope->inward >= o.rising_slope && std::abs(slope->along) <= o.rising_oblique * slope->inward;
       if (rises) {
         if (!found) slice.first = b;
         found = true;
         misses = 0;
-        slice.last = b + tile;
-      } else if (found ? ++misses > 2 : middle(b) > start + latest_start) {  // over a skylight or chimney, not farther
+        slice.last = b + o.rising_tile;
+      } else if (found ? ++misses > o.rising_misses
+                       : middle(b, o) > start + o.rising_start) {  // over a skylight or chimney, not farther
         break;
       }
     }
@@ -105,20 +101,21 @@ void find_rising(std::vector<SliceColumns>& slices) {
     for (std::size_t c = slice.first; c < slice.last; ++c)
       if (!std::isnan(slice.heights[c]) && !(slice.heights[c] < slice.heights[top])) top = c;
     slice.last = top + 1;
-    const auto rounded = static_cast<std::size_t>(corner / bin + 0.5);
-    if (static_cast<double>(slice.last - slice.first) * bin > 2 * shortest) slice.last -= rounded;
-    if (static_cast<double>(slice.last - slice.first) * bin < shortest) slice.first = slice.last = 0;
+    const auto rounded = static_cast<std::size_t>(o.corner / o.column_width + 0.5);
+    if (static_cast<double>(slice.last - slice.first) * o.column_width > 2 * o.rising_shortest) slice.last -= rounded;
+    if (static_cast<double>(slice.last - slice.first) * o.column_width < o.rising_shortest)
+      slice.first = slice.last = 0;
   }
 }
 
-auto pool(std::span<const SliceColumns> slices) -> std::vector<Pooled> {
+auto pool(std::span<const SliceColumns> slices, const Options& o) -> std::vector<Pooled> {
   std::size_t rising = 0, deepest = 0;
   for (const auto& slice : slices) {
     rising += slice.first < slice.last ? 1 : 0;
     deepest = std::max(deepest, slice.last);
   }
-  // A hip's triangle thins out towards its tip; what fewer than a quarter of the slices reach is not trusted.
-  const std::size_t enough = std::max<std::size_t>(1, (rising + 3) / 4);
+  // A hip's triangle thins out towards its tip; what too few of the slices reach is not trusted.
+  const auto enough = static_cast<std::size_t>(std::max(1.0, std::ceil(o.pool_share * static_cast<double>(rising))));
   std::vector<Pooled> pooled;
   for (std::size_t b = 0; b < deepest; ++b) {
     std::vector<double> heights;
@@ -126,18 +123,19 @@ auto pool(std::span<const SliceColumns> slices) -> std::vector<Pooled> {
       if (slice.first <= b && b < slice.last && !std::isnan(slice.heights[b])) heights.push_back(slice.heights[b]);
     if (heights.size() < enough) continue;
     const auto weight = static_cast<double>(heights.size());
-    pooled.push_back({middle(b), median(heights), weight});
+    pooled.push_back({middle(b, o), median(heights), weight});
   }
   return pooled;
 }
 
-auto edge_height(std::span<const SliceColumns> slices) -> std::optional<double> {
+auto edge_height(std::span<const SliceColumns> slices, const Options& o) -> std::optional<double> {
   std::vector<double> heights;
   for (const auto& slice : slices) {
-    const double start = corner + std::clamp(slice.wall.value_or(0.0), 0.0, 1.5);
-    const auto from = static_cast<std::size_t>(std::ceil(start / bin - 0.5));
+    const double start = o.corner + std::clamp(slice.wall.value_or(0.0), 0.0, o.wall_deepest);
+    const auto from = static_cast<std::size_t>(std::ceil(start / o.column_width - 0.5));
     std::vector<double> near;
-    for (std::size_t b = std::min(from, slice.heights.size()); b < std::min(from + tile, slice.heights.size()); ++b)
+    for (std::size_t b = std::min(from, slice.heights.size()); b < std::min(from + o.rising_tile, slice.heights.size());
+         ++b)
       if (!std::isnan(slice.heights[b])) near.push_back(slice.heights[b]);
     if (!near.empty()) heights.push_back(median(near));
   }
@@ -145,10 +143,7 @@ auto edge_height(std::span<const SliceColumns> slices) -> std::optional<double> 
   return median(heights);
 }
 
-auto find_setback(std::span<const SliceColumns> slices) -> std::optional<Setback> {
-  constexpr double least_step = 1.5, least_height = 1.5;  // m
-  constexpr std::size_t blur = 2;                         // columns to either side of the wall that a scan smears
-  constexpr std::size_t shallowest = 4;                   // columns
+auto find_setback(std::span<const SliceColumns> slices, const Options& o) -> std::optional<Setback> {
   std::size_t deepest = 0;
   for (const auto& slice : slices) deepest = std::max(deepest, slice.heights.size());
   std::vector<double> middles;  // median column by column, of all slices
@@ -161,41 +156,42 @@ auto find_setback(std::span<const SliceColumns> slices) -> std::optional<Setback
   }
   // The first step up, where it is steepest.
   std::size_t wall = 0;
-  double highest = least_step;
-  for (std::size_t b = shallowest; b + blur < middles.size(); ++b) {
-    const double step = middles[b + blur - 1] - middles[b - blur];
+  double highest = o.setback_step;
+  for (std::size_t b = o.setback_depth; b + o.setback_blur < middles.size(); ++b) {
+    const double step = middles[b + o.setback_blur - 1] - middles[b - o.setback_blur];
     if (step > highest) {
       highest = step;
       wall = b;
-    } else if (wall > 0 && b > wall + 2 * blur) {
+    } else if (wall > 0 && b > wall + 2 * o.setback_blur) {
       break;
     }
   }
   if (wall == 0) return std::nullopt;
-  const double halfway = (middles[wall - blur] + middles[wall + blur - 1]) / 2;
-  wall -= blur;
+  const double halfway = (middles[wall - o.setback_blur] + middles[wall + o.setback_blur - 1]) / 2;
+  wall -= o.setback_blur;
   while (middles[wall] < halfway) ++wall;
-  if (wall < shallowest) return std::nullopt;
-  const auto begin = middles.begin() + 1, end = middles.begin() + static_cast<std::ptrdiff_t>(wall - blur) + 1;
+  if (wall < o.setback_depth) return std::nullopt;
+  const auto begin = middles.begin() + 1,
+             end = middles.begin() + static_cast<std::ptrdiff_t>(wall - o.setback_blur) + 1;
   const auto [low, high] = std::minmax_element(begin, end);
-  constexpr double level = 1.0;  // m
-  if (*high - *low > level) return std::nullopt;
+  if (*high - *low > o.setback_level) return std::nullopt;
   std::vector<double> before(begin, end);
-  const Setback setback{static_cast<double>(wall) * bin, median(before)};
-  if (setback.height < least_height) return std::nullopt;
+  const Setback setback{static_cast<double>(wall) * o.column_width, median(before)};
+  if (setback.height < o.setback_height) return std::nullopt;
 
   std::size_t agreeing = 0;
   for (const auto& slice : slices) {
-    if (wall + blur >= slice.heights.size()) continue;
-    const double front = slice.heights[wall - blur], back = slice.heights[wall + blur];
-    agreeing += std::abs(front - setback.height) < level && back - front > least_step / 2 ? 1 : 0;
+    if (wall + o.setback_blur >= slice.heights.size()) continue;
+    const double front = slice.heights[wall - o.setback_blur], back = slice.heights[wall + o.setback_blur];
+    agreeing += std::abs(front - setback.height) < o.setback_level && back - front > o.setback_step / 2 ? 1 : 0;
   }
   if (2 * agreeing < slices.size()) return std::nullopt;
   return setback;
 }
 
-auto behind(std::span<const SliceColumns> slices, const Setback& setback) -> std::vector<SliceColumns> {
-  const auto skip = static_cast<std::size_t>(setback.depth / bin + 0.5);
+auto behind(std::span<const SliceColumns> slices, const Setback& setback, const Options& o)
+    -> std::vector<SliceColumns> {
+  const auto skip = static_cast<std::size_t>(setback.depth / o.column_width + 0.5);
   std::vector<SliceColumns> out(slices.begin(), slices.end());
   for (auto& slice : out) {
     const auto count = std::min(skip, slice.heights.size());

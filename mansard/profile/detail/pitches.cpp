@@ -8,8 +8,6 @@
 namespace mansard::profile::detail {
 namespace {
 
-constexpr double least_gutter = 0.5;  // m; the prior wants a wall under every roof
-constexpr double level = 0.05;        // slope; flatter is flat
 constexpr double far = std::numeric_limits<double>::infinity();
 
 /// Weighted sums of 1, u, u², h, uh over the columns from one on to the last.
@@ -114,11 +112,8 @@ auto height_on(const RoofLine& line, double inward) -> double {
 
 }  // namespace
 
-auto fit_line(std::span<const Pooled> columns, std::size_t most) -> RoofLine {
-  constexpr std::size_t least_columns = 4;  // of a piece
-  // A further pitch must take 0.1 m off the error of about fifteen columns (3 m of roof), or more off fewer.
-  constexpr double price = 0.15;  // m² · columns
-  if (columns.size() < least_columns) return {};
+auto fit_line(std::span<const Pooled> columns, std::size_t most, const Options& o) -> RoofLine {
+  if (columns.size() < o.pitch_columns) return {};
   // Heights relative to the first column keep the digits of the sums.
   std::vector<Pooled> relative(columns.begin(), columns.end());
   double heaviest = 0;
@@ -134,16 +129,16 @@ auto fit_line(std::span<const Pooled> columns, std::size_t most) -> RoofLine {
   const std::size_t n = relative.size();
   const auto consider = [&](std::span<const std::size_t> candidate) {
     const auto fit = hinges.solve(candidate);
-    const double c = fit.residual + price * static_cast<double>(candidate.size());
+    const double c = fit.residual + o.pitch_price * static_cast<double>(candidate.size());
     if (c < cost && rises(fit, candidate.size())) {
       best = fit;
       cost = c;
       knots.assign(candidate.begin(), candidate.end());
     }
   };
-  for (std::size_t a = least_columns; most > 1 && a + least_columns <= n; ++a) {
+  for (std::size_t a = o.pitch_columns; most > 1 && a + o.pitch_columns <= n; ++a) {
     consider(std::array{a});
-    for (std::size_t b = a + least_columns; most > 2 && b + least_columns <= n; ++b) consider(std::array{a, b});
+    for (std::size_t b = a + o.pitch_columns; most > 2 && b + o.pitch_columns <= n; ++b) consider(std::array{a, b});
   }
   if (best.residual == far) return {};
   auto line = line_of(relative, best, knots);
@@ -151,23 +146,23 @@ auto fit_line(std::span<const Pooled> columns, std::size_t most) -> RoofLine {
   return line;
 }
 
-auto supported(RoofLine line, std::span<const SliceColumns> slices, const SupportOptions& options) -> RoofLine {
+auto supported(RoofLine line, std::span<const SliceColumns> slices, double tolerance, const Options& o) -> RoofLine {
   for (std::size_t piece = 0; piece + 1 < line.size(); ++piece) {
     const double from = line[piece].inward, to = line[piece + 1].inward;
     std::size_t agreeing = 0;
     for (const auto& slice : slices) {
       std::size_t looked = 0, near = 0;
       for (std::size_t b = slice.first; b < slice.last; ++b) {
-        const double u = (static_cast<double>(b) + 0.5) * bin;
+        const double u = (static_cast<double>(b) + 0.5) * o.column_width;
         if (u < from || u > to || std::isnan(slice.heights[b])) continue;
         const double height = height_on(line, u);
         ++looked;
-        const double tolerance = (height < options.low_height ? 5 : 1) * options.tolerance;
-        near += std::abs(slice.heights[b] - height) <= tolerance ? 1 : 0;
+        const double wide = (height < o.low_height ? o.low_tolerance : 1) * tolerance;
+        near += std::abs(slice.heights[b] - height) <= wide ? 1 : 0;
       }
       agreeing += looked > 0 && 2 * near >= looked ? 1 : 0;
     }
-    if (static_cast<double>(agreeing) >= options.share * static_cast<double>(slices.size())) continue;
+    if (static_cast<double>(agreeing) >= o.support * static_cast<double>(slices.size())) continue;
     line.resize(piece + 1);
     break;
   }
@@ -175,17 +170,19 @@ auto supported(RoofLine line, std::span<const SliceColumns> slices, const Suppor
   return line;
 }
 
-auto vertical_profile(double height) -> model::Profile { return {{0, 0}, {0, std::max(least_gutter, height)}}; }
+auto vertical_profile(double height, const Options& o) -> model::Profile {
+  return {{0, 0}, {0, std::max(o.minimum_gutter, height)}};
+}
 
-auto profile_from(const RoofLine& line, double vertical_angle) -> model::Profile {
-  if (line.size() < 2) return vertical_profile(line.empty() ? 0 : line.front().height);
+auto profile_from(const RoofLine& line, const Options& o) -> model::Profile {
+  if (line.size() < 2) return vertical_profile(line.empty() ? 0 : line.front().height, o);
   /// A pitch on its own infinite line, as far as `end`.
   struct Pitch {
     model::ProfilePoint through;
     double slope = 0, end = 0;
     [[nodiscard]] auto at(double inward) const -> double { return through.height + slope * (inward - through.inward); }
   };
-  const double steep = 1 / std::tan(vertical_angle);
+  const double steep = 1 / std::tan(o.vertical_angle);
   std::vector<Pitch> pitches;
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
     const double run = line[i + 1].inward - line[i].inward;
@@ -194,16 +191,16 @@ auto profile_from(const RoofLine& line, double vertical_angle) -> model::Profile
       if (!pitches.empty()) pitches.back().end = line[i].inward + run / 2;
       continue;
     }
-    if (slope < level) slope = 0;
+    if (slope < o.level_slope) slope = 0;
     pitches.push_back({line[i + 1], slope, line[i + 1].inward});
   }
   while (!pitches.empty() && pitches.back().slope == 0) pitches.pop_back();
   // Scans round off the edges of flat roofs too: what gains less than that is no pitch.
-  constexpr double least_gain = 0.6;  // m
-  if (pitches.empty() || line.back().height < 2 * least_gutter || line.back().height - line.front().height < least_gain)
-    return vertical_profile(line.front().height);
+  if (pitches.empty() || line.back().height < 2 * o.minimum_gutter ||
+      line.back().height - line.front().height < o.pitch_gain)
+    return vertical_profile(line.front().height, o);
 
-  model::Profile profile = vertical_profile(pitches.front().at(0));
+  model::Profile profile = vertical_profile(pitches.front().at(0), o);
   const auto add = [&](double inward, double height) {
     const model::ProfilePoint next{inward, std::max(height, profile.back().height)};
     if (!(next == profile.back())) profile.push_back(next);

@@ -7,6 +7,7 @@
 
 #include "mansard/model/plan.hpp"
 #include "mansard/profile/detail/columns.hpp"
+#include "mansard/profile/options.hpp"
 
 namespace mansard::profile::detail {
 
@@ -15,22 +16,18 @@ using RoofLine = std::vector<model::ProfilePoint>;
 
 /// The continuous piecewise linear function with at most `most` (1 to 3) pieces that explains the columns best, a
 /// further piece having to earn its place. Empty for fewer than four columns. Cost: O(n²) for n columns.
-[[nodiscard]] auto fit_line(std::span<const Pooled> columns, std::size_t most) -> RoofLine;
+[[nodiscard]] auto fit_line(std::span<const Pooled> columns, std::size_t most, const Options& options = {}) -> RoofLine;
 
-struct SupportOptions {
-  double share = 0.2;       ///< of all slices
-  double tolerance = 0.3;   ///< m; a slice within it, over half of what it shows of a piece, supports the piece
-  double low_height = 2.0;  ///< m above ground; below, the tolerance is five times as wide
-};
-/// Cuts the line off at the first piece without enough support.
-[[nodiscard]] auto supported(RoofLine line, std::span<const SliceColumns> slices, const SupportOptions& options)
-    -> RoofLine;
+/// Cuts the line off at the first piece without enough support. A slice supports a piece when it lies within
+/// `tolerance` metres of it, more near the ground, over half of what it shows of it.
+[[nodiscard]] auto supported(RoofLine line, std::span<const SliceColumns> slices, double tolerance,
+                             const Options& options = {}) -> RoofLine;
 
 /// The line under the urban prior: wall up to the gutter, then pitches that never fall; pieces within `vertical_angle`
 /// of vertical become wall; nearly level ends are left to the cap. Just a wall when nothing remains.
-[[nodiscard]] auto profile_from(const RoofLine& line, double vertical_angle) -> model::Profile;
+[[nodiscard]] auto profile_from(const RoofLine& line, const Options& options = {}) -> model::Profile;
 
 /// A wall of that height, metres.
-[[nodiscard]] auto vertical_profile(double height) -> model::Profile;
+[[nodiscard]] auto vertical_profile(double height, const Options& options = {}) -> model::Profile;
 
 }  // namespace mansard::profile::detail

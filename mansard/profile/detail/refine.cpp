@@ -12,7 +12,6 @@ using geometry::Polygon;
 using model::Profile;
 
 constexpr double sky = std::numeric_limits<double>::infinity();
-constexpr double outlier = 3.0;  // m
 
 /// Height of the surface swept by a profile at a distance inward of its edge; a wall stands over nothing.
 auto height_at(const Profile& profile, double inward) -> double {
@@ -47,8 +46,13 @@ auto distances(const Polygon& polygon, const Run& run, double reach, std::span<c
 class Search {
  public:
   Search(const Polygon& polygon, std::span<const Run> runs, std::span<const Choices> choices,
-         std::span<const RoofSample> samples, std::span<const double> caps)
-      : choices_(choices), samples_(samples), caps_(caps), chosen_(runs.size(), 0), surfaces_(runs.size()) {
+         std::span<const RoofSample> samples, std::span<const double> caps, const Options& options)
+      : options_(options),
+        choices_(choices),
+        samples_(samples),
+        caps_(caps),
+        chosen_(runs.size(), 0),
+        surfaces_(runs.size()) {
     for (std::size_t r = 0; r < runs.size(); ++r) {
       const auto& profiles = choices[r].profiles;
       surfaces_[r].resize(profiles.size());
@@ -67,11 +71,10 @@ class Search {
 
   /// Tries the other candidates of a run; whether one was taken.
   auto improve(std::size_t run) -> bool {
-    constexpr double clearly = 0.97;  // the greedy choice has the closer look; noise must not overrule it
     const std::size_t count = surfaces_[run].size();
     if (count < 2) return false;
     std::size_t best = chosen_[run];
-    double least = clearly * error(run, best);
+    double least = options_.choice_gain * error(run, best);
     for (std::size_t c = 0; c < count; ++c) {
       if (c == chosen_[run]) continue;
       const double e = error(run, c);
@@ -97,7 +100,7 @@ class Search {
  private:
   void add(std::vector<double>& errors, double roof, double height) const {
     for (std::size_t k = 0; k < caps_.size(); ++k) {
-      const double d = std::min(std::abs(std::min(roof, caps_[k]) - height), outlier);
+      const double d = std::min(std::abs(std::min(roof, caps_[k]) - height), options_.choice_outlier);
       errors[k] += d * d;
     }
   }
@@ -136,6 +139,7 @@ class Search {
     }
   }
 
+  const Options& options_;
   std::span<const Choices> choices_;
   std::span<const RoofSample> samples_;
   std::span<const double> caps_;
@@ -147,9 +151,9 @@ class Search {
 
 }  // namespace
 
-auto look_over(const rays::Scene& mesh, const Polygon& polygon, double base) -> std::vector<RoofSample> {
-  constexpr double wanted = 3000;
-  const double grid = std::max(0.25, std::sqrt(geometry::area(polygon) / wanted));
+auto look_over(const rays::Scene& mesh, const Polygon& polygon, double base, const Options& o)
+    -> std::vector<RoofSample> {
+  const double grid = std::max(o.choice_grid, std::sqrt(geometry::area(polygon) / o.choice_samples));
   const auto box = geometry::bounds(polygon.outer);
   std::vector<RoofSample> samples;
   const auto columns = static_cast<std::int64_t>(std::floor(box.most.x / grid));
@@ -165,15 +169,14 @@ auto look_over(const rays::Scene& mesh, const Polygon& polygon, double base) -> 
 }
 
 auto refine(const Polygon& polygon, std::span<const Run> runs, std::span<const Choices> choices,
-            std::span<const RoofSample> samples, std::span<const double> caps) -> Refined {
-  Search search(polygon, runs, choices, samples, caps);
+            std::span<const RoofSample> samples, std::span<const double> caps, const Options& o) -> Refined {
+  Search search(polygon, runs, choices, samples, caps, o);
   // The longest runs own most of the roof: they decide first.
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t r = 0; r < runs.size(); ++r) order.emplace_back(-length_of(polygon, runs[r]), r);
   std::ranges::sort(order);
-  constexpr int rounds = 3;
   bool changed = true;
-  for (int round = 0; changed && round < rounds; ++round) {
+  for (std::size_t round = 0; changed && round < o.choice_rounds; ++round) {
     changed = false;
     for (const auto& [length, run] : order) changed = search.improve(run) || changed;
   }

@@ -9,6 +9,7 @@
 #include "mansard/geometry/polygon.hpp"
 #include "mansard/model/plan.hpp"
 #include "mansard/profile/detail/runs.hpp"
+#include "mansard/profile/options.hpp"
 #include "mansard/rays/rays.hpp"
 
 namespace mansard::profile::detail {
@@ -20,8 +21,8 @@ struct RoofSample {
 };
 
 /// The mesh's top surface over the polygon: a few thousand samples on a grid aligned to whole multiples of its spacing.
-[[nodiscard]] auto look_over(const rays::Scene& mesh, const geometry::Polygon& polygon, double base)
-    -> std::vector<RoofSample>;
+[[nodiscard]] auto look_over(const rays::Scene& mesh, const geometry::Polygon& polygon, double base,
+                             const Options& options = {}) -> std::vector<RoofSample>;
 
 /// The candidates of one run, the greedy one first; `reach`: metres, the farthest its perpendiculars go in the part.
 struct Choices {
@@ -36,9 +37,10 @@ struct Refined {
 
 /// Changes one run's profile at a time while that clearly reduces the error under the best of the caps. The raised roof
 /// is taken for the lower envelope of the runs' surfaces, each within its own strip widened by 45° to both sides: exact
-/// for convex parts with constant slopes, an estimate otherwise. Differences over 3 m (trees, steps) count as 3 m.
-/// Cost: O(samples · (edges + runs · candidates · caps)).
+/// for convex parts with constant slopes, an estimate otherwise. Differences over choice_outlier (trees, steps) count
+/// as that. Cost: O(samples · (edges + runs · candidates · caps)).
 [[nodiscard]] auto refine(const geometry::Polygon& polygon, std::span<const Run> runs, std::span<const Choices> choices,
-                          std::span<const RoofSample> samples, std::span<const double> caps) -> Refined;
+                          std::span<const RoofSample> samples, std::span<const double> caps,
+                          const Options& options = {}) -> Refined;
 
 }  // namespace mansard::profile::detail

@@ -24,7 +24,9 @@ auto turns(const Ring& ring, std::size_t vertex, double tangent) -> bool {
 
 /// How far the ray goes before it leaves the polygon. The half-open rule at vertices counts each crossing once.
 auto reach_of(const Polygon& polygon, Point2 foot, Point2 inward) -> double {
-  constexpr double own_edge = 1e-3;  // m; the edge the ray starts on
+  // The ray starts on its own edge, but for the rounding of the foot: coordinates up to 10⁷ m carry 2⁻³⁰ m, and nearly
+  // parallel edges stretch that up to a thousandfold, which is still a thousandth of this.
+  constexpr double own_edge = 1e-3;  // m
   const Point2 across = geometry::left_of(inward);
   double least = std::numeric_limits<double>::infinity();
   const auto look = [&](const Ring& ring) {
@@ -63,9 +65,7 @@ auto runs_of(const Polygon& polygon, double angle) -> std::vector<Run> {
   return runs;
 }
 
-auto samples_of(const Polygon& polygon, const Run& run, double spacing) -> std::vector<Sample> {
-  constexpr double margin = 0.3;  // m; corners are rounded in scans
-  constexpr double most = 100;    // slices an edge
+auto samples_of(const Polygon& polygon, const Run& run, const Options& o) -> std::vector<Sample> {
   const Ring& ring = ring_of(polygon, run.ring);
   std::vector<Sample> samples;
   double passed = 0;
@@ -74,9 +74,9 @@ auto samples_of(const Polygon& polygon, const Run& run, double spacing) -> std::
     const double length = geometry::length(vector);
     if (!(length > 0)) continue;
     const Point2 direction = (1 / length) * vector, inward = geometry::left_of(direction);
-    const double skip = std::min(margin, length / 4);
+    const double skip = std::min(o.slice_margin, length / 4);
     const double usable = length - 2 * skip;
-    const auto count = static_cast<std::size_t>(std::clamp(std::round(usable / spacing), 1.0, most));
+    const auto count = static_cast<std::size_t>(std::clamp(std::round(usable / o.spacing), 1.0, o.slices_per_edge));
     for (std::size_t i = 0; i < count; ++i) {
       const double along = skip + (static_cast<double>(i) + 0.5) / static_cast<double>(count) * usable;
       const Point2 foot = ring[edge] + along * direction;
@@ -94,9 +94,9 @@ auto length_of(const Polygon& polygon, const Run& run) -> double {
   return sum;
 }
 
-auto gentle_neighbours(const Polygon& polygon, const std::vector<Run>& runs, std::size_t run)
+auto gentle_neighbours(const Polygon& polygon, const std::vector<Run>& runs, std::size_t run, const Options& o)
     -> std::vector<std::size_t> {
-  constexpr double tangent = 0.5463;  // of 0.5 rad
+  const double tangent = o.gentle_turn;
   const auto same_ring = [&](std::size_t r) { return runs[r].ring == runs[run].ring; };
   std::size_t first = run, last = run;  // the ring's runs stand together
   while (first > 0 && same_ring(first - 1)) --first;

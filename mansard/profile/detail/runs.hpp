@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mansard/geometry/polygon.hpp"
+#include "mansard/profile/options.hpp"
 
 namespace mansard::profile::detail {
 
@@ -17,9 +18,6 @@ struct Run {
 /// Outer ring first, runs in the order of their first edge. `angle` in radians.
 [[nodiscard]] auto runs_of(const geometry::Polygon& polygon, double angle) -> std::vector<Run>;
 
-inline constexpr double slice_from = -2.0;  ///< m; inward of the edge, where a slice begins
-inline constexpr double slice_to = 40.0;    ///< m; and where it ends at the latest
-
 /// Where one perpendicular slice stands.
 struct Sample {
   geometry::Point2 foot;
@@ -28,14 +26,15 @@ struct Sample {
   double reach = 0;         ///< m inward to where the perpendicular leaves the polygon
 };
 
-/// Every `spacing` metres along each edge of the run, wider apart on edges that would get more than a hundred.
-[[nodiscard]] auto samples_of(const geometry::Polygon& polygon, const Run& run, double spacing) -> std::vector<Sample>;
+/// Every `spacing` metres along each edge of the run, wider apart on edges that would get more than slices_per_edge.
+[[nodiscard]] auto samples_of(const geometry::Polygon& polygon, const Run& run, const Options& options = {})
+    -> std::vector<Sample>;
 
 /// m; the whole run.
 [[nodiscard]] auto length_of(const geometry::Polygon& polygon, const Run& run) -> double;
 
-/// The runs before and after a run in its ring that it turns from by less than half a radian.
-[[nodiscard]] auto gentle_neighbours(const geometry::Polygon& polygon, const std::vector<Run>& runs, std::size_t run)
-    -> std::vector<std::size_t>;
+/// The runs before and after a run in its ring that it turns from by less than gentle_turn.
+[[nodiscard]] auto gentle_neighbours(const geometry::Polygon& polygon, const std::vector<Run>& runs, std::size_t run,
+                                     const Options& options = {}) -> std::vector<std::size_t>;
 
 }  // namespace mansard::profile::detail

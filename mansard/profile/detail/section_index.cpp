@@ -95,7 +95,9 @@ auto SectionIndex::cut(const SectionPlane& plane) const -> std::vector<Piece> {
     const double m0 = std::max(low, static_cast<double>(lane) * cell_);
     const double m1 = std::min(high, static_cast<double>(lane + 1) * cell_);
     const double o0 = other(a) + slope * (m0 - main(a)), o1 = other(a) + slope * (m1 - main(a));
-    constexpr double breadth = 1e-6;  // m; against rounding at cell borders
+    // m; coordinates of up to 10⁷ m carry a rounding of 2⁻³⁰ m, and a slope of at most 1 over a lane adds a few of
+    // them: a thousand times that.
+    constexpr double breadth = 1e-6;
     const auto from = static_cast<std::int64_t>(std::floor((std::min(o0, o1) - breadth) / cell_));
     const auto to = static_cast<std::int64_t>(std::floor((std::max(o0, o1) + breadth) / cell_));
     for (auto cross_lane = from; cross_lane <= to; ++cross_lane)

@@ -22,7 +22,7 @@ auto ridge_axis(const Extent& extent, const Form& form) -> Point2 {
 
 }  // namespace
 
-auto design_of(const geometry::Polygon& polygon, const std::vector<Side>& sides, const Form& form, double half_hip)
+auto design_of(const geometry::Polygon& polygon, const std::vector<Side>& sides, const Form& form, const Options& o)
     -> Design {
   Design out{form.shape, std::vector<Sweep>(sides.size()), true, {}};
   if (form.shape == Shape::hipped || form.shape == Shape::mansard) return out;
@@ -30,12 +30,12 @@ auto design_of(const geometry::Polygon& polygon, const std::vector<Side>& sides,
   const Extent extent = extent_of(sides);
   std::vector<bool> ends;
   double span = 0;  // of the whole roof, where it has one
-  if (nearly_rectangle(polygon, extent)) {
+  if (nearly_rectangle(polygon, extent, o)) {
     const Point2 axis = ridge_axis(extent, form);
     ends = ends_by_axis(sides, axis);
     span = std::abs(dot(axis, extent.axis)) > 0.5 ? extent.width : extent.length;
   } else {
-    ends = ends_of_wings(polygon, sides);
+    ends = ends_of_wings(polygon, sides, o);
     if (form.orientation == Orientation::across || form.direction)
       out.warnings.push_back(base::warning("roof-orientation", "every wing of this outline has a ridge of its own"));
   }
@@ -50,22 +50,20 @@ auto design_of(const geometry::Polygon& polygon, const std::vector<Side>& sides,
   }
   for (std::size_t i = 0; i < sides.size(); ++i) {
     if (!ends[i]) continue;
-    if (form.shape == Shape::half_hipped) out.sweeps[i].lag = half_hip * (span > 0 ? span : sides[i].length) / 2;
+    if (form.shape == Shape::half_hipped) out.sweeps[i].lag = o.half_hip * (span > 0 ? span : sides[i].length) / 2;
     else out.sweeps[i].moves = false;
   }
   return out;
 }
 
-auto level_sides(const std::vector<Side>& sides, Point2 uphill) -> std::vector<bool> {
-  constexpr double level = 0.99966;  // cosine of 1.5°
+auto level_sides(const std::vector<Side>& sides, Point2 uphill, const Options& o) -> std::vector<bool> {
   std::vector<bool> out;
-  for (const Side& side : sides) out.push_back(dot(side.inward, uphill) > level);
+  for (const Side& side : sides) out.push_back(dot(side.inward, uphill) > o.level_cosine);
   return out;
 }
 
-auto slope_of(const geometry::Polygon& polygon, const Form& form) -> Slope {
-  constexpr double near = 0.966;  // cosine of 15°: a direction is meant to be that of an edge
-  const auto sides = sides_of(polygon);
+auto slope_of(const geometry::Polygon& polygon, const Form& form, const Options& o) -> Slope {
+  const auto sides = sides_of(polygon, o.side_turn);
   Slope out{polygon, {}, 0, 0, 0};
   const auto longest = [&](auto&& allowed) -> const Side* {
     const Side* best = nullptr;
@@ -75,7 +73,7 @@ auto slope_of(const geometry::Polygon& polygon, const Form& form) -> Slope {
   };
   if (form.direction) {
     out.uphill = -1.0 * pointing(*form.direction);
-    if (const Side* side = longest([&](const Side& s) { return dot(s.inward, out.uphill) > near; }))
+    if (const Side* side = longest([&](const Side& s) { return dot(s.inward, out.uphill) > o.direction_cosine; }))
       out.uphill = side->inward;
   } else {
     const Point2 axis = extent_of(sides).axis;
@@ -86,8 +84,7 @@ auto slope_of(const geometry::Polygon& polygon, const Form& form) -> Slope {
   }
 
   // Where two upright sides meet lowest, no edge would sweep the plane: cut the corner off, level.
-  constexpr double cut_width = 0.08, most_of_side = 1.0 / 3;
-  const auto level = level_sides(sides, out.uphill);
+  const auto level = level_sides(sides, out.uphill, o);
   std::vector<geometry::Ring> rings(polygon.holes.size() + 1);
   std::size_t first = 0;
   for (std::size_t r = 0; r < rings.size(); ++r) {
@@ -106,8 +103,8 @@ auto slope_of(const geometry::Polygon& polygon, const Form& form) -> Slope {
       }
       const Point2 level_in = (1 / up_in) * normalised(in), level_on = (1 / up_on) * normalised(on);
       const double wide = length(level_on - level_in);  // of a cut one metre up
-      const double up =
-          std::min({cut_width / wide, most_of_side * dot(in, out.uphill), most_of_side * dot(on, out.uphill)});
+      const double up = std::min(
+          {o.corner_cut / wide, o.corner_cut_share * dot(in, out.uphill), o.corner_cut_share * dot(on, out.uphill)});
       rings[r].push_back(p + up * level_in);
       rings[r].push_back(p + up * level_on);
       ++out.cut;
@@ -125,14 +122,14 @@ auto slope_of(const geometry::Polygon& polygon, const Form& form) -> Slope {
   return out;
 }
 
-auto apex_of(const geometry::Polygon& polygon, const std::vector<Side>& sides) -> std::optional<Point2> {
+auto apex_of(const geometry::Polygon& polygon, const std::vector<Side>& sides, const Options& o)
+    -> std::optional<Point2> {
   if (!polygon.holes.empty()) return std::nullopt;
-  constexpr double least = 0.2;  // m; nearer to a side than this, its roof would be a wall
   const auto deepest = deepest_of(sides);
   const auto sees_all = [&](Point2 p, double enough) {
     return std::ranges::all_of(sides, [&](const Side& side) { return dot(p - side.start, side.inward) >= enough; });
   };
-  if (deepest.distance < least || !sees_all(deepest.place, least / 2)) return std::nullopt;
+  if (deepest.distance < o.apex_distance || !sees_all(deepest.place, o.apex_distance / 2)) return std::nullopt;
   const Point2 origin = polygon.outer.front();
   Point2 sum;
   double doubled = 0;

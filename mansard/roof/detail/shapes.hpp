@@ -17,7 +17,7 @@ struct Design {
   std::vector<base::Diagnostic> warnings;
 };
 [[nodiscard]] auto design_of(const geometry::Polygon& polygon, const std::vector<Side>& sides, const Form& form,
-                             double half_hip) -> Design;
+                             const Options& options) -> Design;
 
 /// A plane over the whole outline, swept by the edges that lie level in it.
 struct Slope {
@@ -26,12 +26,13 @@ struct Slope {
   double low = 0, run = 0;    ///< m; uphill · p is from low to low + run
   std::size_t cut = 0;        ///< how many corners
 };
-[[nodiscard]] auto slope_of(const geometry::Polygon& polygon, const Form& form) -> Slope;
+[[nodiscard]] auto slope_of(const geometry::Polygon& polygon, const Form& form, const Options& options) -> Slope;
 /// Per side of the slope's polygon: whether it is level in the plane, the plane rising from it.
-[[nodiscard]] auto level_sides(const std::vector<Side>& sides, geometry::Point2 uphill) -> std::vector<bool>;
+[[nodiscard]] auto level_sides(const std::vector<Side>& sides, geometry::Point2 uphill, const Options& options)
+    -> std::vector<bool>;
 
 /// The apex of a pyramid: the centroid if it sees all sides from far enough, else the place that sees them best.
-[[nodiscard]] auto apex_of(const geometry::Polygon& polygon, const std::vector<Side>& sides)
+[[nodiscard]] auto apex_of(const geometry::Polygon& polygon, const std::vector<Side>& sides, const Options& options)
     -> std::optional<geometry::Point2>;
 
 }  // namespace mansard::roof::detail

@@ -11,13 +11,11 @@ using geometry::Point2;
 
 namespace {
 
-constexpr double straight = 0.026;  // rad, 1.5°: turns under this are none
-
 auto turn_between(Point2 before, Point2 after) -> double {
   return std::atan2(cross(before, after), dot(before, after));
 }
 
-void add_sides(const geometry::Ring& ring, std::size_t index, std::vector<Side>& sides) {
+void add_sides(const geometry::Ring& ring, std::size_t index, double straight, std::vector<Side>& sides) {
   const std::size_t n = ring.size();
   const auto edge = [&](std::size_t i) { return ring[(i + 1) % n] - ring[i % n]; };
   std::vector<std::size_t> corners;
@@ -57,9 +55,9 @@ auto ring_of(const geometry::Polygon& polygon, std::size_t ring) -> const geomet
   return ring == 0 ? polygon.outer : polygon.holes[ring - 1];
 }
 
-auto sides_of(const geometry::Polygon& polygon) -> std::vector<Side> {
+auto sides_of(const geometry::Polygon& polygon, double side_turn) -> std::vector<Side> {
   std::vector<Side> sides;
-  for (std::size_t r = 0; r <= polygon.holes.size(); ++r) add_sides(ring_of(polygon, r), r, sides);
+  for (std::size_t r = 0; r <= polygon.holes.size(); ++r) add_sides(ring_of(polygon, r), r, side_turn, sides);
   return sides;
 }
 
@@ -82,9 +80,8 @@ auto extent_of(const std::vector<Side>& sides) -> Extent {
   return best;
 }
 
-auto nearly_rectangle(const geometry::Polygon& polygon, const Extent& extent) -> bool {
-  constexpr double filled = 0.9;
-  return polygon.holes.empty() && geometry::area(polygon) >= filled * extent.length * extent.width;
+auto nearly_rectangle(const geometry::Polygon& polygon, const Extent& extent, const Options& o) -> bool {
+  return polygon.holes.empty() && geometry::area(polygon) >= o.rectangle_fill * extent.length * extent.width;
 }
 
 auto ends_by_axis(const std::vector<Side>& sides, Point2 axis) -> std::vector<bool> {
@@ -94,24 +91,24 @@ auto ends_by_axis(const std::vector<Side>& sides, Point2 axis) -> std::vector<bo
   return ends;
 }
 
-auto ends_of_wings(const geometry::Polygon& polygon, const std::vector<Side>& sides) -> std::vector<bool> {
-  constexpr double square = 1.5708, off_square = 0.35;  // rad: 90° ± 20°
-  constexpr double least_depth = 0.3;                   // of the width: shallower is a bay, not a wing
-  constexpr double whole = 0.95;                        // of the triangle's height
+auto ends_of_wings(const geometry::Polygon& polygon, const std::vector<Side>& sides, const Options& o)
+    -> std::vector<bool> {
+  constexpr double square = 1.5708;  // rad, 90°
   const auto next_to = neighbours_of(sides);
   std::vector<std::size_t> candidates;
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const Side &side = sides[i], &before = sides[next_to[i].before], &after = sides[next_to[i].after];
     if (side.ring != 0) continue;
     const Point2 along = side.end - side.start;
-    const auto about_square = [&](double turn) { return std::abs(turn - square) < off_square; };
+    const auto about_square = [&](double turn) { return std::abs(turn - square) < o.wing_corner; };
     if (!about_square(turn_between(before.end - before.start, along)) ||
         !about_square(turn_between(along, after.end - after.start)))
       continue;
-    if (std::min(before.length, after.length) < least_depth * side.length) continue;
+    if (std::min(before.length, after.length) < o.wing_depth * side.length) continue;
     const double depth = side.length / 2;
     const Point2 peak = 0.5 * (side.start + side.end) + depth * side.inward;
-    if (!geometry::contains(polygon, peak) || geometry::boundary_distance(polygon, peak) < whole * depth) continue;
+    if (!geometry::contains(polygon, peak) || geometry::boundary_distance(polygon, peak) < o.wing_clearance * depth)
+      continue;
     candidates.push_back(i);
   }
   std::ranges::sort(candidates, [&](std::size_t a, std::size_t b) {

@@ -20,8 +20,8 @@ struct Side {
 
 [[nodiscard]] auto ring_of(const geometry::Polygon& polygon, std::size_t ring) -> const geometry::Ring&;
 
-/// Ring by ring, in order.
-[[nodiscard]] auto sides_of(const geometry::Polygon& polygon) -> std::vector<Side>;
+/// Ring by ring, in order. Turns under `side_turn` radians are none.
+[[nodiscard]] auto sides_of(const geometry::Polygon& polygon, double side_turn) -> std::vector<Side>;
 
 /// The smallest box around the outline, whatever its angle.
 struct Extent {
@@ -30,14 +30,16 @@ struct Extent {
 };
 [[nodiscard]] auto extent_of(const std::vector<Side>& sides) -> Extent;
 
-/// Whether the outline fills its smallest box but for a tenth, and has no courtyard.
-[[nodiscard]] auto nearly_rectangle(const geometry::Polygon& polygon, const Extent& extent) -> bool;
+/// Whether the outline fills its smallest box but for a little, and has no courtyard.
+[[nodiscard]] auto nearly_rectangle(const geometry::Polygon& polygon, const Extent& extent, const Options& options)
+    -> bool;
 
 /// Per side: whether it looks along the axis rather than across it.
 [[nodiscard]] auto ends_by_axis(const std::vector<Side>& sides, geometry::Point2 axis) -> std::vector<bool>;
 
 /// Per side: whether it ends a wing: convex and about square at both corners, and so that its hip would be a whole
 /// triangle, which no other side cuts into. Short ones first, never two neighbours.
-[[nodiscard]] auto ends_of_wings(const geometry::Polygon& polygon, const std::vector<Side>& sides) -> std::vector<bool>;
+[[nodiscard]] auto ends_of_wings(const geometry::Polygon& polygon, const std::vector<Side>& sides,
+                                 const Options& options) -> std::vector<bool>;
 
 }  // namespace mansard::roof::detail

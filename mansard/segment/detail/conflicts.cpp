@@ -11,11 +11,6 @@ namespace {
 
 using geometry::cross, geometry::dot, geometry::Point2;
 
-constexpr double run_turn = 0.1;               ///< rad; half-edges that turn less make one run
-constexpr double shortest = 0.2;               ///< m; runs shorter than that have no direction to speak of
-constexpr double least_overlap = 0.1;          ///< m; opposite runs must face each other along at least that
-const double parallel_cosine = std::cos(0.3);  // tolerance of the reference, facts 5
-
 /// Consecutive, nearly collinear half-edges of a face with one neighbour.
 struct Run {
   geometry::Segment2 segment;              ///< the face on its left
@@ -27,7 +22,7 @@ struct Run {
 
 /// The runs of a face are added to `runs`, in order around it; run_of half-edge is set.
 void add_runs(const fracture::Arrangement& arrangement, std::uint32_t face,
-              const std::vector<std::optional<std::uint32_t>>& candidate_of, std::vector<Run>& runs,
+              const std::vector<std::optional<std::uint32_t>>& candidate_of, const Options& o, std::vector<Run>& runs,
               std::vector<std::uint32_t>& run_of) {
   const auto direction = [&](std::uint32_t h) {
     const auto s = arrangement.segment(h);
@@ -35,7 +30,8 @@ void add_runs(const fracture::Arrangement& arrangement, std::uint32_t face,
   };
   const auto goes_on = [&](std::uint32_t h, std::uint32_t next) {
     const Point2 a = direction(h), b = direction(next);
-    return candidate_of[h] == candidate_of[next] && dot(a, b) > 0 && std::abs(cross(a, b)) <= run_turn * dot(a, b);
+    return candidate_of[h] == candidate_of[next] && dot(a, b) > 0 &&
+           std::abs(cross(a, b)) <= o.thin_run_turn * dot(a, b);
   };
   std::uint32_t first = arrangement.faces[face].edge;
   const std::uint32_t origin = first;
@@ -54,8 +50,8 @@ void add_runs(const fracture::Arrangement& arrangement, std::uint32_t face,
     run.length += length;
     // A sweep-edge has its outside on the left.
     bool in = false, out = false;
-    for (const fracture::Origin& o : edge.origins)
-      if (o.kind == fracture::Kind::hard && o.source < gis_source) (o.along ? in : out) = true;
+    for (const fracture::Origin& cause : edge.origins)
+      if (cause.kind == fracture::Kind::hard && cause.source < gis_source) (cause.along ? in : out) = true;
     if (in) run.facing_in += length;
     if (out) run.facing_out += length;
     h = edge.next;
@@ -63,30 +59,30 @@ void add_runs(const fracture::Arrangement& arrangement, std::uint32_t face,
 }
 
 /// Consecutive runs with an interior angle under the limit between them.
-auto is_needle(const Run& one, const Run& next, double angle) -> bool {
-  if (one.length < shortest || next.length < shortest) return false;
+auto is_needle(const Run& one, const Run& next, const Options& o) -> bool {
+  if (one.length < o.thin_shortest || next.length < o.thin_shortest) return false;
   const Point2 back = one.segment.start - one.segment.end, on = next.segment.end - next.segment.start;
-  return cross(on, back) > 0 && dot(on, back) > std::cos(angle) * length(on) * length(back);
+  return cross(on, back) > 0 && dot(on, back) > std::cos(o.thin_angle) * length(on) * length(back);
 }
 
 /// Where runs that face each other, nearer than the limit, are nearest on the first one.
-auto sliver_at(const Run& one, const Run& other, double distance) -> std::optional<Point2> {
-  if (one.length < shortest || other.length < shortest) return std::nullopt;
+auto sliver_at(const Run& one, const Run& other, const Options& o) -> std::optional<Point2> {
+  if (one.length < o.thin_shortest || other.length < o.thin_shortest) return std::nullopt;
   const Point2 a = one.segment.end - one.segment.start, b = other.segment.end - other.segment.start;
   const double la = length(a);
-  if (dot(a, b) > -parallel_cosine * la * length(b)) return std::nullopt;
+  if (dot(a, b) > -std::cos(o.thin_parallel) * la * length(b)) return std::nullopt;
   // In the frame of `one`: along it, and to its left; `other` runs backwards.
   const auto along = [&](Point2 p) { return dot(p - one.segment.start, a) / la; };
   const auto aside = [&](Point2 p) { return cross(a, p - one.segment.start) / la; };
   const double from = along(other.segment.end), to = along(other.segment.start);
   const double low = std::max(0.0, from), high = std::min(la, to);
-  if (high - low < least_overlap) return std::nullopt;
+  if (high - low < o.thin_overlap) return std::nullopt;
   const auto off = [&](double t) {
     const double s = (t - from) / (to - from);
     return (1 - s) * aside(other.segment.end) + s * aside(other.segment.start);
   };
   const double nearest = std::min(off(low), off(high)), farthest = std::max(off(low), off(high));
-  if (farthest <= 0 || nearest >= distance) return std::nullopt;
+  if (farthest <= 0 || nearest >= o.thin_distance) return std::nullopt;
   // Just inside the common stretch, so that a walk across starts beside both.
   const double inset = (high - low) / 8, at = off(low) < off(high) ? low + inset : high - inset;
   return one.segment.start + (at / la) * a;
@@ -105,7 +101,7 @@ class Search {
          const std::vector<std::optional<std::uint32_t>>& candidate_of, const Options& options)
       : arrangement_(arrangement), faces_(faces), options_(options), run_of_(arrangement.half_edges.size()) {
     for (std::uint32_t f = 0; f < faces.size(); ++f)
-      if (faces[f].inside) add_runs(arrangement, f, candidate_of, runs_, run_of_);
+      if (faces[f].inside) add_runs(arrangement, f, candidate_of, options, runs_, run_of_);
   }
 
   [[nodiscard]] auto found() -> std::vector<Conflict> {
@@ -130,7 +126,7 @@ class Search {
       const std::uint32_t arriving = arrangement_.half_edges[h].previous;
       if (run_of_[arriving] == i) return;  // all around
       const Run& before = runs_[run_of_[arriving]];
-      if (is_needle(before, run, options_.thin_angle) && !is_lens(h)) note(before, run);
+      if (is_needle(before, run, options_) && !is_lens(h)) note(before, run);
       const auto s = arrangement_.segment(arriving);
       const Point2 back = s.start - s.end, on = run.segment.end - run.segment.start;
       h = arrangement_.half_edges[arriving].twin;
@@ -159,8 +155,7 @@ class Search {
   void find_slivers_within_faces() {
     for (std::size_t i = 0; i < runs_.size(); ++i)
       for (std::size_t j = i + 1; j < runs_.size() && runs_[j].face == runs_[i].face; ++j)
-        if (sliver_at(runs_[i], runs_[j], options_.thin_distance) && !is_exempt(runs_[i], runs_[j]))
-          note(runs_[i], runs_[j]);
+        if (sliver_at(runs_[i], runs_[j], options_) && !is_exempt(runs_[i], runs_[j])) note(runs_[i], runs_[j]);
   }
 
   void find_slivers_anywhere() {
@@ -178,7 +173,7 @@ class Search {
       for (std::size_t l = k + 1; l < order.size() && boxes[order[l]].least.x <= reach.most.x; ++l) {
         if (!reach.overlaps(boxes[order[l]])) continue;
         const Run &one = runs_[order[k]], &other = runs_[order[l]];
-        const auto at = sliver_at(one, other, options_.thin_distance);
+        const auto at = sliver_at(one, other, options_);
         if (at && !is_exempt(one, other) && leads_to(one, *at, order[l])) note(one, other);
       }
     }

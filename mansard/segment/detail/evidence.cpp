@@ -11,9 +11,6 @@ namespace {
 
 using geometry::Box2, geometry::Point2, geometry::Ring;
 
-constexpr std::int64_t fewest_samples = 9;
-constexpr double samples_per_area = 2;  ///< per m²
-
 /// Points spread evenly over a face: its triangles in turn, each as often as its area asks for, a low-discrepancy
 /// pair of numbers (Roberts' R2 sequence) inside the triangle.
 auto spread(const Ring& ring, double area, const Options& options, base::Random random) -> std::vector<Point2> {
@@ -26,8 +23,9 @@ auto spread(const Ring& ring, double area, const Options& options, base::Random 
   for (const auto& [a, b, c] : triangles)
     up_to.push_back(sum += std::abs(geometry::cross(ring[b] - ring[a], ring[c] - ring[a])) / 2);
 
+  const auto fewest_samples = static_cast<std::int64_t>(options.minimum_samples);
   const auto most = std::max(options.samples, fewest_samples);
-  const auto wanted = static_cast<std::int64_t>(std::ceil(std::min(area, 1e6) * samples_per_area));
+  const auto wanted = static_cast<std::int64_t>(std::ceil(std::min(area, 1e6) * options.samples_per_area));
   const auto count = std::clamp(wanted, fewest_samples, most);
   const double shift = random.uniform(), shift_u = random.uniform(), shift_v = random.uniform();
   std::vector<Point2> points;
@@ -118,7 +116,7 @@ auto measure(const fracture::Arrangement& arrangement, const block::Block& block
       if (in && z) inside_heights.push_back(*z);
     }
     // A face that reaches over the footprints is judged by the part under them: how much that is, gis_ratio asks.
-    if (inside_heights.size() >= 3) samples.heights = std::move(inside_heights);
+    if (inside_heights.size() >= options.minimum_inside_samples) samples.heights = std::move(inside_heights);
     std::ranges::sort(samples.heights);
     const auto total = static_cast<double>(points.size());
     face.gis_share = static_cast<double>(inside) / total;
@@ -144,7 +142,7 @@ auto measure(const fracture::Arrangement& arrangement, const block::Block& block
   for (std::size_t f = 0; f < count; ++f) {
     FaceEvidence& face = evidence.faces[f];
     face.inside = face.gis_share >= options.gis_ratio &&
-                  (face.seen ? face.height - ground[f] >= options.min_height : face.gis_share > surely_inside);
+                  (face.seen ? face.height - ground[f] >= options.min_height : face.gis_share > options.surely_inside);
   }
   return evidence;
 }
@@ -165,7 +163,7 @@ void peel(const fracture::Arrangement& arrangement, const Options& options, std:
   for (bool any = true; any;) {
     any = false;
     for (std::uint32_t f = 0; f < faces.size(); ++f)
-      if (faces[f].inside && faces[f].gis_share < surely_inside && exposed_too_much(f))
+      if (faces[f].inside && faces[f].gis_share < options.surely_inside && exposed_too_much(f))
         faces[f].inside = false, any = true;
   }
 }

@@ -28,8 +28,4 @@ struct Evidence {
 /// Takes faces off from outside that nothing but the fracture's continuations bounds (reference facts 4.2).
 void peel(const fracture::Arrangement& arrangement, const Options& options, std::vector<FaceEvidence>& faces);
 
-/// Of a face's area in the footprints: over this share it is inside though the mesh lacks it; from this share on it is
-/// not peeled off.
-inline constexpr double surely_inside = 0.8;
-
 }  // namespace mansard::segment::detail

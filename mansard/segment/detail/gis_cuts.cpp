@@ -11,10 +11,6 @@ namespace {
 
 using geometry::Box2, geometry::Point2, geometry::Segment2;
 
-constexpr double near = 0.2;      ///< m; as far as the other member's boundary may be off
-constexpr double shortest = 0.2;  ///< m; of a stretch, and of a gap between stretches
-constexpr double parallel_sine = 0.1;
-
 auto edges_of(const block::Member& member) -> std::vector<Segment2> {
   std::vector<Segment2> edges;
   const auto add = [&](const geometry::Ring& ring) {
@@ -34,39 +30,39 @@ auto box_of(const Segment2& s) -> Box2 {
 }
 
 /// The part of `edge`, from 0 to its length, where `other` runs along it; empty (from ≥ to) if none.
-auto shared(const Segment2& edge, const Segment2& other) -> std::pair<double, double> {
+auto shared(const Segment2& edge, const Segment2& other, const Options& o) -> std::pair<double, double> {
   const Point2 a = edge.end - edge.start, b = other.end - other.start;
   const double la = geometry::length(a), lb = geometry::length(b);
-  if (la == 0 || lb == 0 || std::abs(geometry::cross(a, b)) > parallel_sine * la * lb) return {0, 0};
+  if (la == 0 || lb == 0 || std::abs(geometry::cross(a, b)) > o.gis_parallel_sine * la * lb) return {0, 0};
   double from = geometry::dot(other.start - edge.start, a) / la, to = geometry::dot(other.end - edge.start, a) / la;
   double aside_from = geometry::cross(a, other.start - edge.start) / la;
   double aside_to = geometry::cross(a, other.end - edge.start) / la;
   if (from > to) std::swap(from, to), std::swap(aside_from, aside_to);
-  // Where the other's distance, linear along it, is within ±near.
+  // Where the other's distance, linear along it, is within ±gis_near.
   const double slope = to > from ? (aside_to - aside_from) / (to - from) : 0;
   double low = from, high = to;
   if (slope != 0) {
-    double one = from + (-near - aside_from) / slope, two = from + (near - aside_from) / slope;
+    double one = from + (-o.gis_near - aside_from) / slope, two = from + (o.gis_near - aside_from) / slope;
     if (one > two) std::swap(one, two);
     low = std::max(low, one), high = std::min(high, two);
-  } else if (std::abs(aside_from) > near) {
+  } else if (std::abs(aside_from) > o.gis_near) {
     return {0, 0};
   }
   return {std::max(low, 0.0), std::min(high, la)};
 }
 
-/// Overlapping stretches, and those with less than `shortest` between them, become one.
-auto merged(std::vector<std::pair<double, double>> stretches) -> std::vector<std::pair<double, double>> {
+/// Overlapping stretches, and those with less than `gap` between them, become one.
+auto merged(std::vector<std::pair<double, double>> stretches, double gap) -> std::vector<std::pair<double, double>> {
   std::ranges::sort(stretches);
   std::vector<std::pair<double, double>> out;
   for (const auto& stretch : stretches)
-    if (!out.empty() && stretch.first <= out.back().second + shortest)
+    if (!out.empty() && stretch.first <= out.back().second + gap)
       out.back().second = std::max(out.back().second, stretch.second);
     else out.push_back(stretch);
   return out;
 }
 
-void add_piece(const Segment2& edge, double from, double to, std::vector<Segment2>& lines) {
+void add_piece(const Segment2& edge, double from, double to, double shortest, std::vector<Segment2>& lines) {
   const Point2 along = geometry::normalised(edge.end - edge.start);
   if (to - from >= shortest) lines.push_back({edge.start + from * along, edge.start + to * along});
 }
@@ -81,7 +77,7 @@ auto longest_first(std::vector<Segment2> lines) -> std::vector<Segment2> {
 
 }  // namespace
 
-auto party_lines(const block::Block& block) -> std::vector<Segment2> {
+auto party_lines(const block::Block& block, const Options& o) -> std::vector<Segment2> {
   std::vector<std::vector<Segment2>> edges;
   std::vector<Box2> boxes(block.members.size());
   for (std::size_t m = 0; m < block.members.size(); ++m) {
@@ -92,33 +88,34 @@ auto party_lines(const block::Block& block) -> std::vector<Segment2> {
   for (std::size_t m = 0; m < edges.size(); ++m) {
     std::vector<std::size_t> others;
     for (std::size_t n = m + 1; n < edges.size(); ++n)
-      if (!boxes[m].empty() && !boxes[n].empty() && boxes[m].grown(near).overlaps(boxes[n])) others.push_back(n);
+      if (!boxes[m].empty() && !boxes[n].empty() && boxes[m].grown(o.gis_near).overlaps(boxes[n])) others.push_back(n);
     for (const Segment2& edge : edges[m]) {
-      const Box2 box = box_of(edge).grown(near);
+      const Box2 box = box_of(edge).grown(o.gis_near);
       std::vector<std::pair<double, double>> stretches;
       for (const std::size_t n : others)
         for (const Segment2& other : edges[n]) {
           if (!box.overlaps(box_of(other))) continue;
-          const auto stretch = shared(edge, other);
+          const auto stretch = shared(edge, other, o);
           if (stretch.first < stretch.second) stretches.push_back(stretch);
         }
-      for (const auto& [from, to] : merged(std::move(stretches))) add_piece(edge, from, to, lines);
+      for (const auto& [from, to] : merged(std::move(stretches), o.gis_shortest))
+        add_piece(edge, from, to, o.gis_shortest, lines);
     }
   }
   return longest_first(std::move(lines));
 }
 
-auto torn_lines(const block::Block& block, const sweep::SweepEdges& sweeps) -> std::vector<Segment2> {
+auto torn_lines(const block::Block& block, const sweep::SweepEdges& sweeps, const Options& o) -> std::vector<Segment2> {
   std::vector<std::vector<Segment2>> edges;
   for (const auto& member : block.members) edges.push_back(edges_of(member));
   std::vector<Segment2> lines;
   for (std::size_t m = 0; m < edges.size(); ++m)
     for (const Segment2& edge : edges[m]) {
-      const Box2 box = box_of(edge).grown(near);
+      const Box2 box = box_of(edge).grown(o.gis_near);
       std::vector<std::pair<double, double>> known;  // stretches along which the wall is known already
       const auto look = [&](const Segment2& other) {
         if (!box.overlaps(box_of(other))) return;
-        const auto stretch = shared(edge, other);
+        const auto stretch = shared(edge, other, o);
         if (stretch.first < stretch.second) known.push_back(stretch);
       };
       for (const auto& sweep : sweeps.edges) look(sweep.segment);
@@ -126,11 +123,11 @@ auto torn_lines(const block::Block& block, const sweep::SweepEdges& sweeps) -> s
         if (n != m)
           for (const Segment2& other : edges[n]) look(other);
       double from = 0;
-      for (const auto& [first, last] : merged(std::move(known))) {
-        add_piece(edge, from, first, lines);
+      for (const auto& [first, last] : merged(std::move(known), o.gis_shortest)) {
+        add_piece(edge, from, first, o.gis_shortest, lines);
         from = last;
       }
-      add_piece(edge, from, geometry::length(edge.end - edge.start), lines);
+      add_piece(edge, from, geometry::length(edge.end - edge.start), o.gis_shortest, lines);
     }
   return longest_first(std::move(lines));
 }

@@ -10,8 +10,6 @@ namespace {
 
 using geometry::Point2;
 
-constexpr double spacing = 0.5;  ///< m between samples along an edge
-
 /// The mesh's height beside a place on a half-edge, inside its face: half-way to the face's far side at most.
 auto height_beside(const fracture::Arrangement& arrangement, const rays::Scene& mesh, std::uint32_t half_edge,
                    Point2 place, double offset) -> std::optional<double> {
@@ -31,7 +29,7 @@ void measure_steps(const fracture::Arrangement& arrangement, const rays::Scene& 
       base::Random random(run.seed, h);
       const geometry::Segment2 s = arrangement.segment(h);
       const double length = length_of(arrangement, h);
-      const auto count = static_cast<int>(std::ceil(std::min(length, 1e4) / spacing));
+      const auto count = static_cast<int>(std::ceil(std::min(length, 1e4) / options.height_spacing));
       for (int k = 0; k < count; ++k) {
         const Point2 place = s.start + ((k + random.uniform()) / count) * (s.end - s.start);
         const auto left = height_beside(arrangement, mesh, h, place, options.height_offset);

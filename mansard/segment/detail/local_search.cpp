@@ -12,14 +12,15 @@ namespace mansard::segment::detail {
 namespace {
 
 constexpr std::int64_t forbidden = std::numeric_limits<std::int64_t>::max() / 4;
-/// Sequences between larger pieces cost more than they find.
-constexpr std::size_t largest_for_sequences = 400, longest_sequence = 60;
-constexpr int passes = 20;
 
 class Search {
  public:
-  Search(const Multicut& problem, Labels labels)
-      : problem_(problem), labels_(std::move(labels)), edges_of_(problem.nodes), pairs_of_(problem.edges.size()) {
+  Search(const Multicut& problem, Labels labels, const SearchLimits& limits = {})
+      : problem_(problem),
+        limits_(limits),
+        labels_(std::move(labels)),
+        edges_of_(problem.nodes),
+        pairs_of_(problem.edges.size()) {
     for (std::uint32_t e = 0; e < problem.edges.size(); ++e) {
       edges_of_[problem.edges[e].a].push_back(e);
       edges_of_[problem.edges[e].b].push_back(e);
@@ -111,12 +112,12 @@ class Search {
     tried = stamp;
     std::vector<std::uint32_t> nodes = members_[one];
     if (other < fresh_) nodes.insert(nodes.end(), members_[other].begin(), members_[other].end());
-    if (nodes.size() < 2 || nodes.size() > largest_for_sequences) return false;
+    if (nodes.size() < 2 || nodes.size() > limits_.piece) return false;
     std::ranges::sort(nodes);
     std::vector<std::uint32_t> moved;
     std::int64_t sum = 0, best = 0;
     std::size_t keep = 0;
-    while (!nodes.empty() && moved.size() < longest_sequence) {
+    while (!nodes.empty() && moved.size() < limits_.sequence) {
       std::size_t pick = nodes.size();
       std::int64_t least = forbidden;
       for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -152,6 +153,7 @@ class Search {
   }
 
   const Multicut& problem_;
+  SearchLimits limits_;
   Labels labels_;
   std::vector<std::vector<std::uint32_t>> edges_of_, pairs_of_;
   std::uint32_t fresh_ = 0;                          ///< the lowest label not used yet
@@ -171,10 +173,10 @@ auto greedy(const Multicut& problem) -> Labels {
   return search.labels();
 }
 
-auto improved(const Multicut& problem, Labels labels) -> Labels {
+auto improved(const Multicut& problem, Labels labels, const SearchLimits& limits) -> Labels {
   // Pieces, not labels, are what is joined and moved: one label on unconnected pieces would tie them together.
-  Search search(problem, canonical(problem, labels));
-  for (int pass = 0; pass < passes; ++pass) {
+  Search search(problem, canonical(problem, labels), limits);
+  for (std::size_t pass = 0; pass < limits.passes; ++pass) {
     const bool moved = search.move();
     const bool joined = search.join(false);
     if (!moved && !joined) break;

@@ -186,21 +186,35 @@ struct Deadline {
   }
 };
 
-/// Costs are whole, so a proven bound may be rounded up; not by what the solver's arithmetic may be off.
+/// What the solver's bound may be too high by. CBC accepts rows and reduced costs that are violated by up to 1e-7 (its
+/// primal and dual tolerances): ten thousand rows of unit coefficients add up to 1e-3. Sums of costs carry a relative
+/// error of 2⁻⁵³ a term: with up to four million terms under 1e-9.
+constexpr double bound_slack = 1e-3, relative_bound_slack = 1e-9;
+
+/// Costs are whole, so a proven bound may be rounded up.
 auto rounded_up(double bound) -> std::int64_t {
-  return static_cast<std::int64_t>(std::ceil(bound - 1e-3 - 1e-9 * std::abs(bound)));
+  return static_cast<std::int64_t>(std::ceil(bound - bound_slack - relative_bound_slack * std::abs(bound)));
 }
+
+/// Edges of the relaxation under the threshold are joined: three starts more for the search. They change what is found
+/// before the optimum is proven, not the optimum.
+constexpr std::array relaxed_thresholds{0.3, 0.5, 0.7};
+/// Costs are whole: what is less than one unit from the bound is the optimum. A hundredth is left for rounding.
+constexpr double whole_gap = 0.99;
+/// Half-way between that and the next gap that a labelling of whole cost can have, 1.99.
+constexpr double next_gap = 1.5;
 
 auto solve_part(const Multicut& problem, const MulticutLimits& limits, const Deadline& deadline, const base::Run& run)
     -> MulticutAnswer {
   MulticutAnswer answer;
-  answer.labels = improved(problem, greedy(problem));
+  answer.labels = improved(problem, greedy(problem), limits.search);
   answer.objective = cost_of(problem, answer.labels).value();
   const auto offer = [&](const Labels& labels) {
     if (const auto cost = cost_of(problem, labels); cost && *cost < answer.objective)
       answer.objective = *cost, answer.labels = labels;
   };
-  if (const Labels together(problem.nodes, 0); cost_of(problem, together)) offer(improved(problem, together));
+  if (const Labels together(problem.nodes, 0); cost_of(problem, together))
+    offer(improved(problem, together, limits.search));
   answer.bound = trivial_bound(problem);
 
   solver::Program program = integer_program(problem, star_rows(problem), limits.cliques);
@@ -211,19 +225,19 @@ auto solve_part(const Multicut& problem, const MulticutLimits& limits, const Dea
     for (std::size_t e = 0; e < problem.edges.size(); ++e) program.variables[e].whole = true;
     if (relaxed && relaxed->status == solver::Status::optimal) {
       answer.bound = std::max(answer.bound, std::min(rounded_up(relaxed->bound), answer.objective));
-      for (const double threshold : {0.3, 0.5, 0.7}) {
+      for (const double threshold : relaxed_thresholds) {
         Pieces pieces(problem.nodes);
         for (std::size_t e = 0; e < problem.edges.size(); ++e)
           if (relaxed->values[e] < threshold) pieces.join(problem.edges[e].a, problem.edges[e].b);
-        if (const Labels near = numbered(pieces, problem.nodes); cost_of(problem, near)) offer(improved(problem, near));
+        if (const Labels near = numbered(pieces, problem.nodes); cost_of(problem, near))
+          offer(improved(problem, near, limits.search));
       }
     }
   }
   while (answer.bound < answer.objective) {
     const auto left = deadline.left();
     if ((left && *left <= 0) || run.cancelled()) break;
-    // A gap under 1 is none, as costs are whole.
-    const auto solution = solver::minimise(program, {.seconds = left, .nodes = limits.nodes, .gap = 0.99},
+    const auto solution = solver::minimise(program, {.seconds = left, .nodes = limits.nodes, .gap = whole_gap},
                                            values_of(problem, answer.labels));
     ++answer.rounds;
     if (!solution) {
@@ -244,11 +258,11 @@ auto solve_part(const Multicut& problem, const MulticutLimits& limits, const Dea
     const Labels labels = numbered(pieces, problem.nodes);
     offer(labels);
     std::vector<CycleRow> rows = broken_cycles(problem, chosen);
-    if (!rows.empty() && cost_of(problem, labels)) offer(improved(problem, labels));
+    if (!rows.empty() && cost_of(problem, labels)) offer(improved(problem, labels, limits.search));
     if (solution->status != solver::Status::optimal) break;
     if (rows.empty()) {
-      // The relaxation's optimum is a labelling: nothing is cheaper.
-      if (static_cast<double>(answer.objective) - solution->bound < 1.5) answer.bound = answer.objective;
+      // The program's optimum is a labelling: nothing is cheaper.
+      if (static_cast<double>(answer.objective) - solution->bound < next_gap) answer.bound = answer.objective;
       break;
     }
     for (auto& row : rows) {

@@ -49,6 +49,7 @@ struct MulticutLimits {
   std::optional<double> seconds;  ///< 0: heuristics and the trivial bound only
   std::int64_t nodes = 100000;    ///< of branch and bound, per solve
   bool cliques = false;           ///< rows for cliques of pairs from the start
+  SearchLimits search;
 };
 
 /// s_edge ≤ Σ s_path, by edges of the problem.

@@ -15,13 +15,6 @@ namespace {
 
 using LabelOfFace = std::vector<std::optional<std::uint32_t>>;
 
-constexpr double smallest_part = 1.0;  ///< m²
-constexpr double same_height = 2.0;    ///< m; strips within this of their neighbour's height are part of its roof …
-constexpr double low_share = 0.5;      ///< … as are those of at least this share of its height above ground
-constexpr double collinear = 0.01;     ///< m; corners this near to the edge without them are dropped
-constexpr double opening = 0.01;       ///< m; how far a part that touches itself draws back
-constexpr double least_cover = 1.0 / 3.0;  ///< of an edge, from which a sweep-edge counts as its origin
-
 /// Faces by label, labels and faces ascending.
 auto faces_by_label(const LabelOfFace& label_of_face) -> std::map<std::uint32_t, std::vector<std::uint32_t>> {
   std::map<std::uint32_t, std::vector<std::uint32_t>> faces;
@@ -112,7 +105,7 @@ auto reaches_outside(const fracture::Arrangement& arrangement, const std::vector
 /// the outside, less than half as high, is no roof but the space between a wall and a footprint drawn too wide: it is
 /// left out.
 void take_up_small_parts(const fracture::Arrangement& arrangement, const Evidence& evidence, LabelOfFace& label_of_face,
-                         double narrow, std::vector<base::Diagnostic>& warnings) {
+                         const Options& o, std::vector<base::Diagnostic>& warnings) {
   std::set<std::uint32_t> kept;  // narrow, but all there is of their feature
   for (;;) {
     const auto faces = faces_by_label(label_of_face);
@@ -122,21 +115,21 @@ void take_up_small_parts(const fracture::Arrangement& arrangement, const Evidenc
       features[label] = feature_of(arrangement, evidence, members);
       const double area = area_of(arrangement, members);
       if (kept.contains(label) || (smallest && std::pair(area, label) > *smallest)) continue;
-      if (area < smallest_part || width_of(arrangement, members, label_of_face, area) < narrow)
+      if (area < o.smallest_part || width_of(arrangement, members, label_of_face, area) < o.narrow)
         smallest = {area, label};
     }
     if (!smallest) return;
     const auto [area, label] = *smallest;
     const auto& members = faces.at(label);
     auto into = best_neighbour(arrangement, members, label_of_face, features);
-    if (area >= smallest_part && !into) {
+    if (area >= o.smallest_part && !into) {
       kept.insert(label);
       continue;
     }
     const double own = height_of(arrangement, evidence, members), ground = evidence.ground[members.front()];
     const double next = into ? height_of(arrangement, evidence, faces.at(*into)) : own;
-    const bool apart = into && area >= smallest_part && reaches_outside(arrangement, members, label_of_face) &&
-                       next - own > same_height && own - ground < low_share * (next - ground);
+    const bool apart = into && area >= o.smallest_part && reaches_outside(arrangement, members, label_of_face) &&
+                       next - own > o.same_height && own - ground < o.low_share * (next - ground);
     if (apart) into.reset();
     for (const std::uint32_t f : members) label_of_face[f] = into;
     warnings.push_back(base::warning("segment-part-small",
@@ -149,7 +142,7 @@ void take_up_small_parts(const fracture::Arrangement& arrangement, const Evidenc
 }
 
 auto origin_of(const fracture::Arrangement& arrangement, const std::vector<std::uint32_t>& half_edges,
-               const LabelOfFace& part_of_face) -> EdgeOrigin {
+               const LabelOfFace& part_of_face, const Options& o) -> EdgeOrigin {
   double total = 0;
   std::map<std::uint32_t, double> under, beside;
   for (const std::uint32_t h : half_edges) {
@@ -158,15 +151,15 @@ auto origin_of(const fracture::Arrangement& arrangement, const std::vector<std::
     total += length;
     std::set<std::uint32_t> sources;
     // The part is on the left; a sweep-edge that faces outwards here runs the other way, its outside on its left.
-    for (const fracture::Origin& o : edge.origins)
-      if (o.kind == fracture::Kind::hard && o.source < gis_source && !o.along) sources.insert(o.source);
+    for (const fracture::Origin& cause : edge.origins)
+      if (cause.kind == fracture::Kind::hard && cause.source < gis_source && !cause.along) sources.insert(cause.source);
     for (const std::uint32_t s : sources) under[s] += length;
     if (const auto other = arrangement.half_edges[edge.twin].face; other && part_of_face[*other])
       beside[*part_of_face[*other]] += length;
   }
   EdgeOrigin origin;
   for (const auto& [source, length] : under)
-    if (length >= least_cover * total) origin.sweep_edges.push_back(source);
+    if (length >= o.edge_cover * total) origin.sweep_edges.push_back(source);
   for (const auto& [part, length] : beside)
     if (length > total / 2) origin.neighbour = part;
   return origin;
@@ -178,11 +171,11 @@ auto is_simple(const std::vector<CornerRing>& rings) -> bool {
 }
 
 auto origins_of(const fracture::Arrangement& arrangement, const std::vector<CornerRing>& rings,
-                const LabelOfFace& part_of_face) -> std::vector<std::vector<EdgeOrigin>> {
+                const LabelOfFace& part_of_face, const Options& o) -> std::vector<std::vector<EdgeOrigin>> {
   std::vector<std::vector<EdgeOrigin>> origins;
   for (const CornerRing& ring : rings) {
     origins.emplace_back();
-    for (const Corner& c : ring) origins.back().push_back(origin_of(arrangement, c.half_edges, part_of_face));
+    for (const Corner& c : ring) origins.back().push_back(origin_of(arrangement, c.half_edges, part_of_face, o));
   }
   return origins;
 }
@@ -190,17 +183,17 @@ auto origins_of(const fracture::Arrangement& arrangement, const std::vector<Corn
 /// For outlines that opening does not make simple: shrunk, the largest piece, every edge with the origin of the
 /// nearest traced one.
 auto repaired(const fracture::Arrangement& arrangement, const std::vector<CornerRing>& rings,
-              const LabelOfFace& part_of_face, Part& part) -> bool {
+              const LabelOfFace& part_of_face, const Options& o, Part& part) -> bool {
   auto valid = geometry::make_valid(polygon_of(rings));
   if (!valid) return false;
   std::optional<geometry::Polygon> best;
   for (const auto& piece : *valid) {
-    const auto shrunk = geometry::buffer(piece, -opening);
+    const auto shrunk = geometry::buffer(piece, -o.opening);
     if (!shrunk) continue;
     for (const auto& p : *shrunk)
       if (geometry::is_simple(p) && (!best || geometry::area(p) > geometry::area(*best))) best = p;
   }
-  if (!best || geometry::area(*best) < smallest_part) return false;
+  if (!best || geometry::area(*best) < o.smallest_part) return false;
   part.polygon = *best;
   const auto nearest = [&](geometry::Point2 a, geometry::Point2 b) {
     const geometry::Point2 middle = 0.5 * (a + b), along = geometry::normalised(b - a);
@@ -211,7 +204,7 @@ auto repaired(const fracture::Arrangement& arrangement, const std::vector<Corner
         const double turned = 1 - geometry::dot(along, geometry::normalised(s.end - s.start));
         found = std::min(found, {geometry::distance(s, middle) + turned, r, i});
       }
-    return origin_of(arrangement, rings[std::get<1>(found)][std::get<2>(found)].half_edges, part_of_face);
+    return origin_of(arrangement, rings[std::get<1>(found)][std::get<2>(found)].half_edges, part_of_face, o);
   };
   part.edges.clear();
   const auto add = [&](const geometry::Ring& ring) {
@@ -225,18 +218,18 @@ auto repaired(const fracture::Arrangement& arrangement, const std::vector<Corner
 }
 
 /// Polygon and edges of a part; false where no simple polygon of 1 m² could be made of it.
-auto draw(const fracture::Arrangement& arrangement, const LabelOfFace& part_of_face, std::uint32_t number, Part& part,
-          std::vector<base::Diagnostic>& warnings) -> bool {
+auto draw(const fracture::Arrangement& arrangement, const LabelOfFace& part_of_face, std::uint32_t number,
+          const Options& o, Part& part, std::vector<base::Diagnostic>& warnings) -> bool {
   const std::vector<CornerRing> traced = trace(arrangement, part.faces, part_of_face);
-  for (const double tolerance : {collinear, 0.0}) {
-    const std::vector<CornerRing> rings = opened(straightened(traced, tolerance), opening);
+  for (const double tolerance : {o.collinear, 0.0}) {
+    const std::vector<CornerRing> rings = opened(straightened(traced, tolerance), o.opening);
     if (!is_simple(rings)) continue;
     part.polygon = polygon_of(rings);
-    part.edges = origins_of(arrangement, rings, part_of_face);
+    part.edges = origins_of(arrangement, rings, part_of_face, o);
     return true;
   }
   const std::string subject = "part " + std::to_string(number);
-  if (repaired(arrangement, traced, part_of_face, part)) {
+  if (repaired(arrangement, traced, part_of_face, o, part)) {
     warnings.push_back(base::warning("segment-part-repaired", "its outline crossed itself and was redrawn", subject));
     return true;
   }
@@ -247,8 +240,8 @@ auto draw(const fracture::Arrangement& arrangement, const LabelOfFace& part_of_f
 }  // namespace
 
 void make_parts(const fracture::Arrangement& arrangement, const Evidence& evidence, LabelOfFace label_of_face,
-                double narrow, Segmentation& segmentation) {
-  take_up_small_parts(arrangement, evidence, label_of_face, narrow, segmentation.warnings);
+                const Options& options, Segmentation& segmentation) {
+  take_up_small_parts(arrangement, evidence, label_of_face, options, segmentation.warnings);
 
   for (;;) {
     struct Order {
@@ -277,7 +270,7 @@ void make_parts(const fracture::Arrangement& arrangement, const Evidence& eviden
       part.faces = faces.at(order[p].label);
       if (!order[p].without) part.feature = order[p].feature;
       part.height = height_of(arrangement, evidence, part.faces);
-      if (!draw(arrangement, segmentation.part_of_face, p, part, warnings)) {
+      if (!draw(arrangement, segmentation.part_of_face, p, options, part, warnings)) {
         // Its faces belong to nothing then, and the others are numbered anew.
         for (const std::uint32_t f : part.faces) label_of_face[f] = std::nullopt;
         segmentation.warnings.push_back(warnings.back());

@@ -19,7 +19,7 @@ class GisEdges {
   [[nodiscard]] auto aligned(const geometry::Segment2& line) const -> geometry::Segment2;
 
  private:
-  double angle_, distance_;
+  Options options_;
   std::vector<geometry::Segment2> edges_;
   LineIndex index_;
 };

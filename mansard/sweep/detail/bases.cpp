@@ -13,19 +13,9 @@ using geometry::Segment2;
 
 namespace {
 
-constexpr double column_width = 0.2;  // m
-constexpr double least_wall = 1.0;    // m of height; less is a step in a roof
-constexpr double wall_slope = 0.546;  // m sideways per m upwards: the tangent of 0.5 rad
-constexpr double slope_window = 1.0;  // m of height a slope is taken over: single slices are too noisy
-constexpr double wall_spread = 0.5;   // m; a wall leaves its own median by less
-constexpr double untidy_zone = 2.5;   // m above ground where cars and hedges hide the wall
-constexpr double lower_wall = 0.3;    // of the tallest wall of the column: what a lower one must have to be the foot
-constexpr double group_gap = 1.5;     // m along the edge between columns of one setback
-constexpr std::size_t group_columns = 10;
-constexpr double edge_gap = 3.0;        // m without columns part an edge in two
-constexpr double least_edge = 1.0;      // m
-constexpr double gutter_rise = 1.0;     // m above the median gutter: the column is the end of a hip, not eaves
-constexpr double support_share = 0.25;  // of the median column's lines: less is the ragged end of an edge
+/// m; an extent is a difference of two heights up to 10 km, each off by half a unit in the last place (2⁻⁴⁰ m), plus
+/// the interval: 4 · 2⁻⁴⁰ m < 1e-9 m, and no slice interval is so fine.
+constexpr double height_rounding = 1e-9;
 
 struct Frame {
   Point2 origin, direction;
@@ -85,16 +75,16 @@ struct Column {
 };
 
 auto make_columns(const std::vector<WeighedLine>& lines, const slice::SliceStack& stack, const Frame& frame,
-                  double first, std::size_t count) -> std::vector<Column> {
+                  double first, std::size_t count, const Options& o) -> std::vector<Column> {
   std::vector<Column> columns(count);
   for (const auto& l : lines) {
     const double a = frame.along(l.line.segment.start), b = frame.along(l.line.segment.end);
     if (!(b > a)) continue;
     const double u = frame.outward(l.line.segment.start), v = frame.outward(l.line.segment.end);
     const double z = stack.slices[l.line.slice].height;
-    const auto from = static_cast<std::size_t>(std::max(0.0, std::ceil((a - first) / column_width - 0.5)));
+    const auto from = static_cast<std::size_t>(std::max(0.0, std::ceil((a - first) / o.column_width - 0.5)));
     for (auto k = from; k < count; ++k) {
-      const double s = first + (static_cast<double>(k) + 0.5) * column_width;
+      const double s = first + (static_cast<double>(k) + 0.5) * o.column_width;
       if (s > b) break;
       const double depth = u + (v - u) * (s - a) / (b - a);
       auto& column = columns[k];
@@ -112,7 +102,7 @@ struct Range {
 };
 
 /// The runs of samples that go up steeply, by the slope over a window around each.
-auto steep_runs(const std::vector<Sample>& samples, double interval) -> std::vector<Range> {
+auto steep_runs(const std::vector<Sample>& samples, double interval, const Options& o) -> std::vector<Range> {
   std::vector<Range> runs;
   bool open = false;
   double depth_sum = 0;
@@ -122,13 +112,14 @@ auto steep_runs(const std::vector<Sample>& samples, double interval) -> std::vec
       const double h = s.z - samples[i].z;
       n += 1, z += h, d += s.depth, zz += h * h, zd += h * s.depth;
     };
-    for (auto k = i; k < samples.size() && samples[k].z - samples[i].z <= 0.5 * slope_window; ++k) take(samples[k]);
-    for (auto k = i; k > 0 && samples[i].z - samples[k - 1].z <= 0.5 * slope_window; --k) take(samples[k - 1]);
+    for (auto k = i; k < samples.size() && samples[k].z - samples[i].z <= 0.5 * o.wall_window; ++k) take(samples[k]);
+    for (auto k = i; k > 0 && samples[i].z - samples[k - 1].z <= 0.5 * o.wall_window; --k) take(samples[k - 1]);
     const double spread = n * zz - z * z;
-    const bool steep = n >= 3 && spread > 0 && std::abs(n * zd - z * d) < wall_slope * spread;
+    const bool steep = n >= 3 && spread > 0 && std::abs(n * zd - z * d) < o.wall_slope * spread;
     const auto mean = [&] { return depth_sum / static_cast<double>(i - runs.back().first); };
-    const bool goes_on = open && samples[i].z - samples[i - 1].z <= std::max(3.1 * interval, 0.65) &&
-                         std::abs(samples[i].depth - mean()) < wall_spread;
+    const bool goes_on = open &&
+                         samples[i].z - samples[i - 1].z <= std::max(o.wall_gap_slices * interval, o.wall_gap) &&
+                         std::abs(samples[i].depth - mean()) < o.wall_spread;
     if (steep && goes_on) {
       runs.back().last = i;
       depth_sum += samples[i].depth;
@@ -142,12 +133,12 @@ auto steep_runs(const std::vector<Sample>& samples, double interval) -> std::vec
 }
 
 /// The lowest wall of the column that is not dwarfed by another one; above the untidy zone if there is one.
-void find_foot(Column& column, double interval, double tidy) {
+void find_foot(Column& column, double interval, double tidy, const Options& o) {
   const auto& samples = column.samples;
   if (samples.empty()) return;
   column.low = samples.front().z;
   column.high = samples.back().z;
-  const auto runs = steep_runs(samples, interval);
+  const auto runs = steep_runs(samples, interval, o);
   const auto extent = [&](const Range& r) { return samples[r.last].z - samples[r.first].z + interval; };
   for (const bool only_tidy : {true, false}) {
     std::vector<Range> walls;
@@ -156,12 +147,12 @@ void find_foot(Column& column, double interval, double tidy) {
       if (only_tidy)
         while (run.first < run.last && samples[run.first].z < tidy) ++run.first;
       if (only_tidy && samples[run.first].z < tidy) continue;
-      if (extent(run) < least_wall - 1e-9) continue;
+      if (extent(run) < o.wall_minimum_height - height_rounding) continue;
       walls.push_back(run);
       tallest = std::max(tallest, extent(run));
     }
-    const auto wall =
-        std::find_if(walls.begin(), walls.end(), [&](const Range& r) { return extent(r) >= lower_wall * tallest; });
+    const auto wall = std::find_if(walls.begin(), walls.end(),
+                                   [&](const Range& r) { return extent(r) >= o.wall_lower_share * tallest; });
     if (wall == walls.end()) continue;
     std::vector<double> depths;
     for (auto i = wall->first; i <= wall->last; ++i) depths.push_back(samples[i].depth);
@@ -177,10 +168,10 @@ void find_foot(Column& column, double interval, double tidy) {
 }
 
 /// Without walls: the gutter, where the roof is lowest.
-void find_gutter(Column& column) {
+void find_gutter(Column& column, const Options& o) {
   std::vector<double> depths;
   for (const auto& s : column.samples) {
-    if (s.z > column.samples.front().z + 0.5) break;
+    if (s.z > column.samples.front().z + o.gutter_band) break;
     depths.push_back(s.depth);
   }
   if (!depths.empty()) column.foot = median(std::move(depths));
@@ -190,12 +181,12 @@ void find_gutter(Column& column) {
 using Group = std::vector<std::size_t>;
 
 /// Columns of a roof that start high above its eaves.
-void drop_hips(const std::vector<Column>& columns, Group& used) {
+void drop_hips(const std::vector<Column>& columns, Group& used, const Options& o) {
   if (used.empty()) return;
   std::vector<double> lows;
   for (const auto k : used) lows.push_back(columns[k].low);
   const double eaves = median(std::move(lows));
-  std::erase_if(used, [&](std::size_t k) { return columns[k].low > eaves + gutter_rise; });
+  std::erase_if(used, [&](std::size_t k) { return columns[k].low > eaves + o.gutter_rise; });
 }
 
 /// Columns of cars and hedges in line with a wall that is taller than they.
@@ -206,10 +197,10 @@ void drop_clutter(const std::vector<Column>& columns, Group& used, double tidy) 
   std::erase_if(used, [&](std::size_t k) { return columns[k].high < tidy; });
 }
 
-auto split_at_gaps(const Group& group, double gap) -> std::vector<Group> {
+auto split_at_gaps(const Group& group, double gap, const Options& o) -> std::vector<Group> {
   std::vector<Group> parts;
   for (const auto k : group) {
-    if (parts.empty() || static_cast<double>(k - parts.back().back()) * column_width > gap + column_width)
+    if (parts.empty() || static_cast<double>(k - parts.back().back()) * o.column_width > gap + o.column_width)
       parts.emplace_back();
     parts.back().push_back(k);
   }
@@ -217,16 +208,16 @@ auto split_at_gaps(const Group& group, double gap) -> std::vector<Group> {
 }
 
 /// What stands a setback outward, and what inward, in groups wide enough; the rest comes first.
-auto part_by_setback(const std::vector<Column>& columns, const Group& used, double middle, double setback)
+auto part_by_setback(const std::vector<Column>& columns, const Group& used, double middle, const Options& o)
     -> std::vector<Group> {
   std::vector<Group> groups(1);
   std::vector<char> aside(columns.size(), 0);
   for (const double side : {1.0, -1.0}) {
     Group off;
     for (const auto k : used)
-      if (side * (*columns[k].foot - middle) >= setback) off.push_back(k);
-    for (auto& part : split_at_gaps(off, group_gap)) {
-      if (part.size() < group_columns) continue;
+      if (side * (*columns[k].foot - middle) >= o.setback) off.push_back(k);
+    for (auto& part : split_at_gaps(off, o.setback_gap, o)) {
+      if (part.size() < o.setback_columns) continue;
       for (const auto k : part) aside[k] = 1;
       groups.push_back(std::move(part));
     }
@@ -238,8 +229,8 @@ auto part_by_setback(const std::vector<Column>& columns, const Group& used, doub
 
 }  // namespace
 
-auto find_bases(const std::vector<WeighedLine>& lines, const slice::SliceStack& stack, double ground,
-                const Options& options) -> std::vector<Base> {
+auto find_bases(const std::vector<WeighedLine>& lines, const slice::SliceStack& stack, double ground, const Options& o)
+    -> std::vector<Base> {
   if (lines.empty()) return {};
   const Frame frame = main_frame(lines);
   double first = std::numeric_limits<double>::infinity(), last = -first;
@@ -248,56 +239,57 @@ auto find_bases(const std::vector<WeighedLine>& lines, const slice::SliceStack& 
     last = std::max(last, frame.along(l.line.segment.end));
   }
   if (!(last > first)) return {};
-  const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil((last - first) / column_width)));
-  auto columns = make_columns(lines, stack, frame, first, count);
+  const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil((last - first) / o.column_width)));
+  auto columns = make_columns(lines, stack, frame, first, count, o);
 
-  for (auto& column : columns) find_foot(column, stack.interval, ground + untidy_zone);
+  for (auto& column : columns) find_foot(column, stack.interval, ground + o.untidy_height, o);
   Group used;
   std::size_t covered = 0;
   for (std::size_t k = 0; k < count; ++k) {
     covered += columns[k].lines > 0 ? 1 : 0;
     if (columns[k].foot) used.push_back(k);
   }
-  const bool wall = 4 * used.size() >= covered && static_cast<double>(used.size()) * column_width >= least_edge;
+  const bool wall = static_cast<double>(used.size()) >= o.wall_share * static_cast<double>(covered) &&
+                    static_cast<double>(used.size()) * o.column_width >= o.minimum_length;
   if (!wall) {
     used.clear();
     for (std::size_t k = 0; k < count; ++k) {
       columns[k].foot.reset();
-      find_gutter(columns[k]);
+      find_gutter(columns[k], o);
       if (columns[k].foot) used.push_back(k);
     }
-    drop_hips(columns, used);
+    drop_hips(columns, used, o);
   } else {
-    drop_clutter(columns, used, ground + untidy_zone);
+    drop_clutter(columns, used, ground + o.untidy_height);
   }
   if (used.empty()) return {};
 
   std::vector<double> numbers, feet;
   for (const auto k : used) numbers.push_back(static_cast<double>(columns[k].lines));
-  const double needed = support_share * median(numbers);
+  const double needed = o.column_support * median(numbers);
   std::erase_if(used, [&](std::size_t k) { return static_cast<double>(columns[k].lines) < needed; });
   for (const auto k : used) feet.push_back(*columns[k].foot);
 
   std::vector<Base> bases;
-  for (const auto& group : part_by_setback(columns, used, median(feet), options.setback)) {
-    for (const auto& part : split_at_gaps(group, edge_gap)) {
-      const double start = first + static_cast<double>(part.front()) * column_width;
-      const double end = std::min(last, first + static_cast<double>(part.back() + 1) * column_width);
-      if (end - start < least_edge) continue;
+  for (const auto& group : part_by_setback(columns, used, median(feet), o)) {
+    for (const auto& part : split_at_gaps(group, o.column_gap, o)) {
+      const double start = first + static_cast<double>(part.front()) * o.column_width;
+      const double end = std::min(last, first + static_cast<double>(part.back() + 1) * o.column_width);
+      if (end - start < o.minimum_length) continue;
       std::vector<double> depths, lows, highs;
       double area = 0;
       for (const auto k : part) {
         depths.push_back(*columns[k].foot);
         lows.push_back(columns[k].low);
         highs.push_back(columns[k].high);
-        area += static_cast<double>(columns[k].lines) * column_width * stack.interval;
+        area += static_cast<double>(columns[k].lines) * o.column_width * stack.interval;
       }
       const double depth = median(depths);
       for (auto& d : depths) d = std::abs(d - depth);
       bases.push_back({{frame.point(start, depth), frame.point(end, depth)},
                        area,
-                       percentile(std::move(lows), 0.1),
-                       percentile(std::move(highs), 0.9),
+                       percentile(std::move(lows), o.height_percentile),
+                       percentile(std::move(highs), 1 - o.height_percentile),
                        wall,
                        median(std::move(depths))});
     }

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 
 #include "mansard/sweep/detail/line_index.hpp"
 
@@ -15,10 +14,6 @@ using geometry::Point2;
 using geometry::Segment2;
 
 namespace {
-
-constexpr std::size_t least_lines = 4;  // a metre of height, a slice missed; the reference asks for 3 m
-constexpr double low_weight = 0.1;      // of a line in the zone of cars and hedges
-constexpr std::ptrdiff_t reach = 2;     // slices up and down
 
 auto as_segments(const std::vector<WeighedLine>& lines) -> std::vector<Segment2> {
   std::vector<Segment2> segments;
@@ -36,14 +31,15 @@ struct Origin {
       : start(s.start), direction(normalised(s.end - s.start)), low(0), high(length(s.end - s.start)) {}
 
   /// The reference's rule: a good overlap allows for more turn than a fair one.
-  [[nodiscard]] auto accepts(const Segment2& s) const -> bool {
+  [[nodiscard]] auto accepts(const Segment2& s, const Options& o) const -> bool {
     const double a = dot(s.start - start, direction), b = dot(s.end - start, direction);
     if (b <= a) return false;
     const double shared = std::min(b, high) - std::max(a, low);
     const double overlap = a <= low && b >= high ? 1.0 : std::max(0.0, shared) / (b - a);
     const Point2 d = normalised(s.end - s.start);
     const double angle = std::atan2(std::abs(cross(direction, d)), dot(direction, d));
-    return (overlap > 0.8 && angle < 0.3) || (overlap > 0.5 && angle < 0.1);
+    return (overlap > o.cluster_overlap && angle < o.cluster_turn) ||
+           (overlap > o.cluster_overlap_parallel && angle < o.cluster_turn_parallel);
   }
   void stretch(const Segment2& s) {
     low = std::min(low, dot(s.start - start, direction));
@@ -63,7 +59,8 @@ auto lateral_step(const Segment2& from, const Segment2& to) -> double {
   return std::abs(cross(d, to.start + k * (to.end - to.start) - from.start));
 }
 
-void weigh_thin(std::vector<WeighedLine>& lines, double thin_distance) {
+void weigh_thin(std::vector<WeighedLine>& lines, const Options& options) {
+  const double thin_distance = options.thin_distance, opposite = std::cos(options.thin_turn);
   if (!(thin_distance > 0)) return;
   const LineIndex index(as_segments(lines), 8);
   for (auto& l : lines) {
@@ -73,7 +70,7 @@ void weigh_thin(std::vector<WeighedLine>& lines, double thin_distance) {
     for (const auto k : index.near(box_of(s).grown(thin_distance))) {
       const auto& o = lines[k].line.segment;
       const Point2 e = normalised(o.end - o.start);
-      if (dot(d, e) > std::cos(0.7 * std::numbers::pi)) continue;
+      if (dot(d, e) > opposite) continue;
       // Only what lies on the inner side: the far side of an alley says nothing against a wall.
       const double a = dot(o.end - s.start, d), b = dot(o.start - s.start, d);
       const double shared = std::min(b, l.length) - std::max(a, 0.0);
@@ -98,11 +95,15 @@ auto grow_clusters(const LineStack& stack, const Options& options, const base::R
   const auto at = [&](Place p) -> const WeighedLine& { return stack[p.slice][p.line]; };
   std::sort(order.begin(), order.end(), [&](Place p, Place q) {
     const auto &a = at(p), &b = at(q);
-    const double wa = a.good * (a.low ? low_weight : 1), wb = b.good * (b.low ? low_weight : 1);
+    const double wa = a.good * (a.low ? options.low_weight : 1), wb = b.good * (b.low ? options.low_weight : 1);
     if (wa != wb) return wa > wb;
     if (p.slice != q.slice) return p.slice < q.slice;
     return a.line.segment < b.line.segment;
   });
+
+  std::vector<std::ptrdiff_t> steps;  // up and down, the nearest first
+  for (std::size_t step = 1; step <= options.cluster_reach; ++step)
+    for (const int way : {1, -1}) steps.push_back(way * static_cast<std::ptrdiff_t>(step));
 
   std::vector<std::vector<char>> taken(stack.size());
   for (std::size_t i = 0; i < stack.size(); ++i) taken[i].assign(stack[i].size(), 0);
@@ -116,13 +117,13 @@ auto grow_clusters(const LineStack& stack, const Options& options, const base::R
     for (std::size_t next = 0; next < members.size(); ++next) {
       const Segment2 here = at(members[next]).line.segment;
       const auto i = static_cast<std::ptrdiff_t>(members[next].slice);
-      for (const std::ptrdiff_t step : {std::ptrdiff_t{1}, std::ptrdiff_t{-1}, reach, -reach}) {
+      for (const std::ptrdiff_t step : steps) {
         const auto j = i + step;
         if (j < 0 || j >= static_cast<std::ptrdiff_t>(stack.size())) continue;
         const auto slice = static_cast<std::uint32_t>(j);
         for (const auto k : index[slice].near(box_of(here).grown(options.cluster_step))) {
           const auto& candidate = stack[slice][k].line.segment;
-          if (taken[slice][k] != 0 || !origin.accepts(candidate)) continue;
+          if (taken[slice][k] != 0 || !origin.accepts(candidate, options)) continue;
           if (lateral_step(here, candidate) >= options.cluster_step) continue;
           taken[slice][k] = 1;
           members.push_back({slice, k});
@@ -130,7 +131,8 @@ auto grow_clusters(const LineStack& stack, const Options& options, const base::R
         }
       }
     }
-    if (members.size() < least_lines) {  // what it took may serve a later, better neighbour; the seed is spent
+    if (members.size() <
+        options.cluster_lines) {  // what it took may serve a later, better neighbour; the seed is spent
       for (std::size_t m = 1; m < members.size(); ++m) taken[members[m].slice][members[m].line] = 0;
       continue;
     }

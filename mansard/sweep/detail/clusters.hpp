@@ -23,7 +23,7 @@ using LineStack = std::vector<std::vector<WeighedLine>>;
 [[nodiscard]] auto lateral_step(const geometry::Segment2& from, const geometry::Segment2& to) -> double;
 
 /// Takes from each line's `good` length what faces the other side of a thin object (buses, fences) in its own slice.
-void weigh_thin(std::vector<WeighedLine>& lines, double thin_distance);
+void weigh_thin(std::vector<WeighedLine>& lines, const Options& options);
 
 /// Grows clusters from the best line left (weighted length; ties by height and coordinates), so that the result does
 /// not depend on any order of its input. Lines from below upwards.

@@ -19,13 +19,6 @@ namespace {
 using geometry::Point2;
 using geometry::Segment2;
 
-constexpr double node_spacing = 0.3;      // m; chains may be cut at nodes this far apart
-constexpr double least_length = 0.5;      // m; shorter lines are noise
-constexpr double longest_segment = 500;   // m across one triangle: it belongs to a stray vertex, not to a wall
-constexpr double least_chord = 0.6;       // of the chain's own length: a piece that winds more is vegetation
-constexpr double price_of_a_piece = 1.0;  // m of chain that lie line_distance off: what another piece must save
-constexpr double piece_cosine = 0.9;      // pieces within 26° may share a line; their ends decide
-
 struct Piece {
   Moments moments;  // relative to the slice's own origin
   Point2 direction, centre;
@@ -42,10 +35,10 @@ struct Nodes {
   std::vector<Moments> before;
 };
 
-auto place_nodes(const Chain& chain, Point2 origin) -> Nodes {
+auto place_nodes(const Chain& chain, Point2 origin, double spacing) -> Nodes {
   double total = 0;
   for (std::size_t i = 0; i + 1 < chain.size(); ++i) total += length(chain[i + 1] - chain[i]);
-  const auto count = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(total / node_spacing)));
+  const auto count = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(total / spacing)));
   const double step = total / static_cast<double>(count);
 
   Nodes nodes;
@@ -79,7 +72,7 @@ auto place_nodes(const Chain& chain, Point2 origin) -> Nodes {
 
 /// The cuts of least total cost. Optimal partitioning with the pruning of Killick, Fearnhead and Eckley (2012): the
 /// residual never shrinks as a piece grows, so a start that is beaten once is beaten for good.
-auto best_cuts(const Nodes& nodes, double tolerance) -> std::vector<std::size_t> {
+auto best_cuts(const Nodes& nodes, double tolerance, double price_of_a_piece) -> std::vector<std::size_t> {
   const std::size_t last = nodes.points.size() - 1;
   const double scale = 1 / (tolerance * tolerance);
   std::vector<double> best(last + 1, 0);
@@ -120,20 +113,21 @@ void fit(Piece& piece, Point2 heading, const Points& points) {
   }
 }
 
-void add_pieces(const Chain& chain, Point2 origin, double tolerance, std::vector<Piece>& pieces) {
-  const auto nodes = place_nodes(chain, origin);
-  const auto cuts = best_cuts(nodes, tolerance);
+void add_pieces(const Chain& chain, Point2 origin, double tolerance, const Options& o, std::vector<Piece>& pieces) {
+  const auto nodes = place_nodes(chain, origin, o.line_node_spacing);
+  const auto cuts = best_cuts(nodes, tolerance, o.line_piece_price);
   for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
     const auto a = cuts[k], b = cuts[k + 1];
     // A cut falls within half a spacing of the corner: the first and last bit may belong around it.
-    const auto trim = b - a >= 6 ? std::size_t{1} : std::size_t{0};
+    const auto trim = b - a >= o.line_trim_nodes ? std::size_t{1} : std::size_t{0};
     Piece piece;
     piece.moments = nodes.before[b - trim] - nodes.before[a + trim];
     const double arc = nodes.before[b].weight - nodes.before[a].weight;
     fit(piece, nodes.points[b] - nodes.points[a],
         std::vector<Point2>(nodes.points.begin() + static_cast<std::ptrdiff_t>(a),
                             nodes.points.begin() + static_cast<std::ptrdiff_t>(b) + 1));
-    if (piece.length() > 0 && length(nodes.points[b] - nodes.points[a]) >= least_chord * arc) pieces.push_back(piece);
+    if (piece.length() > 0 && length(nodes.points[b] - nodes.points[a]) >= o.line_straightness * arc)
+      pieces.push_back(piece);
   }
 }
 
@@ -142,8 +136,8 @@ auto longer(const Piece& a, const Piece& b) -> bool {
   return Segment2{a.start(), a.end()} < Segment2{b.start(), b.end()};
 }
 
-/// Grows each piece, longest first, by the pieces that lie on its line no farther than `gap` along it.
-auto merge(std::vector<Piece> pieces, double tolerance, double gap) -> std::vector<Piece> {
+/// Grows each piece, longest first, by the pieces that lie on its line no farther than line_gap along it.
+auto merge(std::vector<Piece> pieces, double tolerance, const Options& o) -> std::vector<Piece> {
   std::sort(pieces.begin(), pieces.end(), longer);
   std::vector<char> used(pieces.size(), 0);
   std::vector<Piece> merged;
@@ -156,11 +150,11 @@ auto merge(std::vector<Piece> pieces, double tolerance, double gap) -> std::vect
       grown = false;
       for (std::size_t k = seed + 1; k < pieces.size(); ++k) {
         const auto& other = pieces[k];
-        if (used[k] != 0 || dot(other.direction, line.direction) < piece_cosine) continue;
+        if (used[k] != 0 || dot(other.direction, line.direction) < o.line_merge_cosine) continue;
         const Point2 a = other.start() - line.centre, b = other.end() - line.centre;
         if (std::abs(cross(line.direction, a)) > tolerance || std::abs(cross(line.direction, b)) > tolerance) continue;
         const double s = dot(line.direction, a), t = dot(line.direction, b);
-        if (std::min(s, t) > line.high + gap || std::max(s, t) < line.low - gap) continue;
+        if (std::min(s, t) > line.high + o.line_gap || std::max(s, t) < line.low - o.line_gap) continue;
         used[k] = 1;
         grown = true;
         line.moments = line.moments + other.moments;
@@ -176,20 +170,20 @@ auto merge(std::vector<Piece> pieces, double tolerance, double gap) -> std::vect
 
 }  // namespace
 
-auto find_lines(const std::vector<Segment2>& segments, const Options& options) -> std::vector<Segment2> {
+auto find_lines(const std::vector<Segment2>& segments, const Options& o) -> std::vector<Segment2> {
   std::vector<Segment2> usable;
   usable.reserve(segments.size());
   for (const auto& s : segments)
-    if (length(s.end - s.start) < longest_segment) usable.push_back(s);
+    if (length(s.end - s.start) < o.line_maximum_segment) usable.push_back(s);
   const auto chains = join(std::move(usable));
   if (chains.empty()) return {};
-  const double tolerance = std::max(options.line_distance, 1e-3);
+  const double tolerance = std::max(o.line_distance, 1e-3);
   const Point2 origin = chains.front().front();  // keeps the moments' digits far from the frame's origin
 
   std::vector<Piece> pieces;
-  for (const auto& chain : chains) add_pieces(chain, origin, tolerance, pieces);
-  std::vector<Piece> lines = merge(std::move(pieces), tolerance, options.line_gap);
-  std::erase_if(lines, [](const Piece& line) { return line.length() < least_length; });
+  for (const auto& chain : chains) add_pieces(chain, origin, tolerance, o, pieces);
+  std::vector<Piece> lines = merge(std::move(pieces), tolerance, o);
+  std::erase_if(lines, [&](const Piece& line) { return line.length() < o.line_minimum_length; });
   std::sort(lines.begin(), lines.end(), longer);
 
   std::vector<Segment2> result;

@@ -18,24 +18,7 @@ using geometry::Segment2;
 
 namespace {
 
-constexpr double parallel_cosine = 0.995;  // 0.1 rad: edges that are compared by their distance
-constexpr double least_shared = 1.0;       // m of two edges beside each other before their distance says anything
-constexpr double farthest = 1.0;           // m; walls farther off their footprint are another thing,
-constexpr double farthest_astray = 1.5;    // m; unless all of them are
-constexpr double noise_floor = 0.02;       // m; distances under it are all alike
-constexpr double least_determined = 0.02;  // of the length: what must face across every direction to fix the shift
-constexpr double stands_out = 2.0;         // a shift is this many times what it leaves unexplained,
-constexpr double significant = 2.45;       // or its standard error (95 % of a normal distribution in the plane), where
-constexpr double explains = 0.15;          // it also takes this share off what was left over;
-constexpr double explains_astray = 0.5;    // and this share where footprints would be astray
-constexpr double fitted = 3;               // numbers: a shift and a distance outward
-constexpr double least_shift = 0.12;       // m; less is as likely the scan's own displacement as the footprints'
-constexpr int rounds = 30;
-
-constexpr double facing_cosine = 0.7;  // a wall follows edges turned from it by up to 45°: a bay, an apse
-constexpr double least_piece = 0.1;    // m
-constexpr double straight = 0.03;      // m; corners this near to the line without them do not bend it
-constexpr double least_rest = 1.0;     // m of a sweep-edge beside which there is no footprint edge
+constexpr double fitted = 3;  // numbers: a shift and a distance outward
 
 auto span(const Segment2& s) -> double { return length(s.end - s.start); }
 
@@ -58,7 +41,8 @@ struct Match {
   double weight;  // m that they run beside each other
 };
 
-auto matches_of(const std::vector<SweepEdge>& edges, const block::Block& block, double within) -> std::vector<Match> {
+auto matches_of(const std::vector<SweepEdge>& edges, const block::Block& block, double within, const Options& o)
+    -> std::vector<Match> {
   std::vector<Segment2> outline;
   for (const auto& polygon : block.outline) add_edges(polygon, {}, outline);
   const LineIndex index(outline, 8);
@@ -69,9 +53,9 @@ auto matches_of(const std::vector<SweepEdge>& edges, const block::Block& block, 
     for (const auto k : index.near(box_of(s).grown(within))) {
       const Segment2& g = outline[k];
       const Point2 u = normalised(g.end - g.start);
-      if (dot(u, d) < parallel_cosine) continue;
+      if (dot(u, d) < o.registration_cosine) continue;
       const double from = std::max(0.0, dot(g.start - s.start, d)), to = std::min(span(s), dot(g.end - s.start, d));
-      if (to - from < least_shared) continue;
+      if (to - from < o.registration_shared) continue;
       const double offset = cross(u, s.start + (0.5 * (from + to)) * d - g.start);
       if (std::abs(offset) <= within) matches.push_back({offset, geometry::left_of(u), to - from});
     }
@@ -104,10 +88,10 @@ auto median_rest(const std::vector<Match>& matches, const Common& common) -> dou
 }
 
 /// Mean of what is left, each capped.
-auto left_over(const std::vector<Match>& matches, const Common& common) -> double {
+auto left_over(const std::vector<Match>& matches, const Common& common, const Options& o) -> double {
   double sum = 0, total = 0;
   for (const auto& m : matches) {
-    sum += m.weight * std::min(std::abs(common.rest(m)), 0.5 * farthest);
+    sum += m.weight * std::min(std::abs(common.rest(m)), 0.5 * o.registration_distance);
     total += m.weight;
   }
   return sum / total;
@@ -128,24 +112,24 @@ auto solved(std::array<std::array<double, 4>, 3> m, double least_pivot) -> std::
 
 /// The common part with the least sum of absolute rests, by reweighted least squares; none where the walls face too few
 /// ways to tell a displacement from eaves.
-auto common_of(const std::vector<Match>& matches) -> std::optional<Common> {
+auto common_of(const std::vector<Match>& matches, const Options& o) -> std::optional<Common> {
   Common common;
   common.outward = [&] {
     std::vector<std::pair<double, double>> offsets;
     for (const auto& m : matches) offsets.emplace_back(m.offset, m.weight);
     return median(std::move(offsets));
   }();
-  for (int round = 0; round < rounds; ++round) {
+  for (std::size_t round = 0; round < o.registration_rounds; ++round) {
     std::array<std::array<double, 4>, 3> normal{};
     double total = 0;
     for (const auto& m : matches) {
-      const double w = m.weight / std::max(noise_floor, std::abs(common.rest(m)));
+      const double w = m.weight / std::max(o.registration_noise, std::abs(common.rest(m)));
       const std::array row{1.0, m.normal.x, m.normal.y, m.offset};
       total += w;
       for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 4; ++j) normal[i][j] += w * row[i] * row[j];
     }
-    const auto answer = solved(normal, least_determined * total);
+    const auto answer = solved(normal, o.registration_determined * total);
     if (!answer) return std::nullopt;
     common = {{(*answer)[1], (*answer)[2]}, (*answer)[0]};
   }
@@ -167,41 +151,44 @@ auto standard_error(const std::vector<Match>& matches, const Common& common) -> 
 }
 
 /// The shift of all footprints, where the walls are clear about it.
-auto clear_shift(const std::vector<Match>& matches, const Options& options) -> std::optional<Point2> {
-  const auto common = common_of(matches);
+auto clear_shift(const std::vector<Match>& matches, const Options& o) -> std::optional<Point2> {
+  const auto common = common_of(matches, o);
   if (!common) return std::nullopt;
   const Common shift{common->shift, 0};
-  const double moved = length(shift.shift), left = left_over(matches, shift), before = left_over(matches, {});
-  if (!(moved >= least_shift && moved <= options.gis_offset && left < before)) return std::nullopt;
+  const double moved = length(shift.shift), left = left_over(matches, shift, o), before = left_over(matches, {}, o);
+  if (!(moved >= o.registration_minimum_shift && moved <= o.gis_offset && left < before)) return std::nullopt;
   // The median: annexes and set-backs stand far from their outline wherever that lies.
-  const bool stands = moved >= stands_out * median_rest(matches, shift);
-  const bool sure = moved >= significant * standard_error(matches, *common) && left <= (1 - explains) * before;
+  const bool stands = moved >= o.registration_stands_out * median_rest(matches, shift);
+  const bool sure = moved >= o.registration_significance * standard_error(matches, *common) &&
+                    left <= (1 - o.registration_explains) * before;
   return stands || sure ? std::optional(shift.shift) : std::nullopt;
 }
 
 /// The same of footprints farther off, which must explain most of what was seen: walls of something else are as near.
-auto shift_astray(const std::vector<Match>& matches, const Options& options) -> std::optional<Point2> {
-  const auto common = common_of(matches);
+auto shift_astray(const std::vector<Match>& matches, const Options& o) -> std::optional<Point2> {
+  const auto common = common_of(matches, o);
   if (!common) return std::nullopt;
   const Common shift{common->shift, 0};
-  const double moved = length(shift.shift), most = options.gis_offset * farthest_astray / farthest;
-  const bool clear = moved > options.gis_offset && moved <= most && moved >= stands_out * median_rest(matches, shift) &&
-                     moved >= significant * standard_error(matches, *common) &&
-                     left_over(matches, shift) <= (1 - explains_astray) * left_over(matches, {});
+  const double moved = length(shift.shift),
+               most = o.gis_offset * o.registration_distance_astray / o.registration_distance;
+  const bool clear = moved > o.gis_offset && moved <= most &&
+                     moved >= o.registration_stands_out * median_rest(matches, shift) &&
+                     moved >= o.registration_significance * standard_error(matches, *common) &&
+                     left_over(matches, shift, o) <= (1 - o.registration_explains_astray) * left_over(matches, {}, o);
   return clear ? std::optional(shift.shift) : std::nullopt;
 }
 
 }  // namespace
 
-auto register_footprints(const std::vector<SweepEdge>& edges, const block::Block& block, const Options& options)
+auto register_footprints(const std::vector<SweepEdge>& edges, const block::Block& block, const Options& o)
     -> Registration {
   Registration registration;
-  if (!(options.gis_offset > 0)) return registration;
-  auto matches = matches_of(edges, block, farthest);
-  auto shift = matches.empty() ? std::nullopt : clear_shift(matches, options);
+  if (!(o.gis_offset > 0)) return registration;
+  auto matches = matches_of(edges, block, o.registration_distance, o);
+  auto shift = matches.empty() ? std::nullopt : clear_shift(matches, o);
   if (!shift) {
-    auto wider = matches_of(edges, block, farthest_astray);
-    if (!wider.empty()) shift = shift_astray(wider, options);
+    auto wider = matches_of(edges, block, o.registration_distance_astray, o);
+    if (!wider.empty()) shift = shift_astray(wider, o);
     if (shift) matches = std::move(wider);
   }
   if (matches.empty()) return registration;
@@ -220,10 +207,10 @@ struct Stretch {
 };
 
 /// The stretch along which `s` runs up to gis_offset outside and gis_inward inside of `g`; none if there is too little.
-auto follows(const Segment2& s, const Segment2& g, const Options& options) -> std::optional<Stretch> {
-  const double inward = options.gis_inward, outward = options.gis_offset;
+auto follows(const Segment2& s, const Segment2& g, const Options& o) -> std::optional<Stretch> {
+  const double inward = o.gis_inward, outward = o.gis_offset;
   const Point2 d = normalised(s.end - s.start), v = g.end - g.start;
-  if (dot(normalised(v), d) < facing_cosine) return std::nullopt;
+  if (dot(normalised(v), d) < o.footprint_cosine) return std::nullopt;
   const double a = dot(g.start - s.start, d), b = dot(g.end - s.start, d);
   double from = std::max(0.0, a), to = std::min(span(s), b);
   // How far outside of g the wall stands, at a and b; linear between.
@@ -237,13 +224,13 @@ auto follows(const Segment2& s, const Segment2& g, const Options& options) -> st
   } else if (out_a < -inward || out_a > outward) {
     return std::nullopt;
   }
-  if (to - from < least_piece) return std::nullopt;
+  if (to - from < o.footprint_piece) return std::nullopt;
   const auto at = [&](double x) { return g.start + ((x - a) / (b - a)) * v; };
   return Stretch{std::abs(out(0.5 * (from + to))), from, to, {at(from), at(to)}};
 }
 
 /// The nearest stretches first, each where no nearer one is; in order along the edge.
-auto without_overlaps(std::vector<Stretch> found) -> std::vector<Stretch> {
+auto without_overlaps(std::vector<Stretch> found, const Options& o) -> std::vector<Stretch> {
   std::sort(found.begin(), found.end(),
             [](const Stretch& a, const Stretch& b) { return a.away != b.away ? a.away < b.away : a.on < b.on; });
   std::vector<Stretch> kept;
@@ -259,7 +246,7 @@ auto without_overlaps(std::vector<Stretch> found) -> std::vector<Stretch> {
     }
     const Point2 v = stretch.on.end - stretch.on.start;
     for (const auto& [from, to] : open) {
-      if (to - from < least_piece) continue;
+      if (to - from < o.footprint_piece) continue;
       const auto at = [&](double x) {
         return stretch.on.start + ((x - stretch.from) / (stretch.to - stretch.from)) * v;
       };
@@ -271,15 +258,15 @@ auto without_overlaps(std::vector<Stretch> found) -> std::vector<Stretch> {
 }
 
 /// Stretches on one straight line become one: corners between houses of a row must not cut their facade.
-auto joined(const std::vector<Stretch>& stretches) -> std::vector<Stretch> {
+auto joined(const std::vector<Stretch>& stretches, const Options& o) -> std::vector<Stretch> {
   std::vector<Stretch> out;
   std::vector<Point2> between;
   for (const auto& next : stretches) {
-    if (!out.empty() && next.from - out.back().to < least_rest) {
+    if (!out.empty() && next.from - out.back().to < o.footprint_rest) {
       const Segment2 chord{out.back().on.start, next.on.end};
       auto passed = between;
       passed.insert(passed.end(), {out.back().on.end, next.on.start});
-      if (std::ranges::all_of(passed, [&](Point2 p) { return distance(chord, p) <= straight; })) {
+      if (std::ranges::all_of(passed, [&](Point2 p) { return distance(chord, p) <= o.footprint_straight; })) {
         out.back().on.end = next.on.end;
         out.back().to = next.to;
         between = std::move(passed);
@@ -295,8 +282,8 @@ auto joined(const std::vector<Stretch>& stretches) -> std::vector<Stretch> {
 }  // namespace
 
 auto put_on_footprints(const std::vector<SweepEdge>& edges, const block::Block& block, const Registration& registration,
-                       const Options& options) -> std::vector<SweepEdge> {
-  if (!(options.gis_offset > 0)) return edges;
+                       const Options& o) -> std::vector<SweepEdge> {
+  if (!(o.gis_offset > 0)) return edges;
   std::vector<Segment2> footprints;
   for (const auto& member : block.members)
     for (const auto& polygon : member.polygons) add_edges(polygon, registration.shift, footprints);
@@ -307,9 +294,9 @@ auto put_on_footprints(const std::vector<SweepEdge>& edges, const block::Block& 
     const Segment2& s = edge.segment;
     const double l = span(s);
     std::vector<Stretch> found;
-    for (const auto k : index.near(box_of(s).grown(options.gis_offset)))
-      if (const auto stretch = follows(s, footprints[k], options)) found.push_back(*stretch);
-    found = joined(without_overlaps(std::move(found)));
+    for (const auto k : index.near(box_of(s).grown(o.gis_offset)))
+      if (const auto stretch = follows(s, footprints[k], o)) found.push_back(*stretch);
+    found = joined(without_overlaps(std::move(found), o), o);
     const auto add = [&](const Segment2& at) {
       SweepEdge piece = edge;
       piece.segment = at;
@@ -322,7 +309,7 @@ auto put_on_footprints(const std::vector<SweepEdge>& edges, const block::Block& 
     }
     const Point2 d = normalised(s.end - s.start);
     const auto add_rest = [&](double from, double to) {
-      if (to - from >= least_rest) add({s.start + from * d, s.start + to * d});
+      if (to - from >= o.footprint_rest) add({s.start + from * d, s.start + to * d});
     };
     double reached = 0;
     for (const auto& stretch : found) {

@@ -20,22 +20,6 @@ namespace {
 
 using Side = std::vector<WeighedLine>;
 
-constexpr double same_line = 0.4;      // m; sides whose feet are this near stand on one line
-constexpr double same_line_gap = 2.0;  // m along it: a balcony, a bay, a tree before the wall
-constexpr double same_line_cosine = 0.98;
-constexpr double outline_margin = 2.0;  // m outside the footprints; farther off stand trees and neighbours
-constexpr double wall_margin = 0.75;    // m; a low thing farther outside is a hedge or a car
-constexpr double low_weight = 0.1;      // of such a thing
-constexpr double twin_distance = 0.5;   // m between edges that run along each other
-constexpr double twin_share = 0.8;      // of the smaller one's length
-constexpr double mostly = 0.8;
-constexpr double thin = 0.4;             // of a side's length left by the bus filter
-constexpr double look_down = 1.0;        // m below a roof's lower end
-constexpr double look_sideways = 1.2;    // m
-constexpr double ragged = 0.35;          // m of scatter: foliage
-constexpr double sample_spacing = 0.25;  // m
-constexpr double least_edge = 1.0;       // m
-
 auto area_of(const Side& side, double interval) -> double {
   double sum = 0;
   for (const auto& l : side) sum += l.length * interval;
@@ -49,14 +33,14 @@ struct Evidence {
 
 /// Fences and parapets have next to nothing left of their length after the bus filter. Narrow gabled houses lose to it
 /// too, towards the ridge, but keep half: they count in full.
-auto weigh(const Side& side, double interval) -> Evidence {
+auto weigh(const Side& side, double interval, const Options& o) -> Evidence {
   double all = 0, good = 0, low = 0;
   for (const auto& l : side) {
     all += l.length * interval;
     good += l.good * interval;
     if (l.low) low += l.length * interval;
   }
-  return {good < thin * all ? good : all, low > mostly * all};
+  return {good < o.thin_share * all ? good : all, low > o.low_share * all};
 }
 
 auto span(const Segment2& s) -> double { return length(s.end - s.start); }
@@ -81,8 +65,8 @@ class Outline {
   std::vector<geometry::Box2> boxes_;
 };
 
-auto samples_of(const Segment2& s) -> std::vector<Point2> {
-  const auto n = static_cast<std::size_t>(std::ceil(span(s) / sample_spacing)) + 1;
+auto samples_of(const Segment2& s, double spacing) -> std::vector<Point2> {
+  const auto n = static_cast<std::size_t>(std::ceil(span(s) / spacing)) + 1;
   std::vector<Point2> points;
   for (std::size_t k = 0; k <= n; ++k)
     points.push_back(s.start + (static_cast<double>(k) / static_cast<double>(n)) * (s.end - s.start));
@@ -90,26 +74,26 @@ auto samples_of(const Segment2& s) -> std::vector<Point2> {
 }
 
 /// From the first to the last point near the footprints.
-auto clipped(const Segment2& s, const Outline& outline) -> std::optional<Segment2> {
+auto clipped(const Segment2& s, const Outline& outline, const Options& o) -> std::optional<Segment2> {
   if (!outline.known()) return s;
-  const auto points = samples_of(s);
-  const auto near = [&](Point2 p) { return outline.within(p, outline_margin); };
+  const auto points = samples_of(s, o.outline_spacing);
+  const auto near = [&](Point2 p) { return outline.within(p, o.outline_margin); };
   const auto first = std::find_if(points.begin(), points.end(), near);
   if (first == points.end()) return std::nullopt;
   const auto last = std::find_if(points.rbegin(), points.rend(), near);
   return Segment2{*first, *last};
 }
 
-auto stands_at_the_outline(const Segment2& s, const Outline& outline) -> bool {
+auto stands_at_the_outline(const Segment2& s, const Outline& outline, const Options& o) -> bool {
   if (!outline.known()) return true;
-  const auto points = samples_of(s);
+  const auto points = samples_of(s, o.outline_spacing);
   const auto near =
-      std::count_if(points.begin(), points.end(), [&](Point2 p) { return outline.within(p, wall_margin); });
+      std::count_if(points.begin(), points.end(), [&](Point2 p) { return outline.within(p, o.low_margin); });
   return 2 * static_cast<std::size_t>(near) >= points.size();
 }
 
 /// Balconies, bays and bands cut one wall into several sides. The largest takes in those whose feet stand on its line.
-auto put_together(std::vector<Side> sides, const slice::SliceStack& stack, double ground, const Options& options)
+auto put_together(std::vector<Side> sides, const slice::SliceStack& stack, double ground, const Options& o)
     -> std::vector<Side> {
   struct Candidate {
     double area;
@@ -118,7 +102,7 @@ auto put_together(std::vector<Side> sides, const slice::SliceStack& stack, doubl
   };
   std::vector<std::optional<Candidate>> found(sides.size());
   base::parallel_for(sides.size(), [&](std::size_t i) {
-    const auto bases = find_bases(sides[i], stack, ground, options);
+    const auto bases = find_bases(sides[i], stack, ground, o);
     if (bases.empty()) return;
     const double area = area_of(sides[i], stack.interval);
     found[i] = Candidate{area, bases.front().segment, std::move(sides[i])};
@@ -139,17 +123,17 @@ auto put_together(std::vector<Side> sides, const slice::SliceStack& stack, doubl
     if (used[i] != 0) continue;
     used[i] = 1;
     Side side = std::move(candidates[i].side);
-    const Point2 o = bases[i].start, d = normalised(bases[i].end - o);
+    const Point2 origin = bases[i].start, d = normalised(bases[i].end - origin);
     double low = 0, high = span(bases[i]);
     for (bool grown = true; grown;) {
       grown = false;
-      const Segment2 reach{o + low * d, o + high * d};
-      for (const auto k : index.near(box_of(reach).grown(same_line_gap))) {
-        if (used[k] != 0 || dot(normalised(bases[k].end - bases[k].start), d) < same_line_cosine) continue;
-        const Point2 a = bases[k].start - o, b = bases[k].end - o;
-        if (std::abs(cross(d, a)) > same_line || std::abs(cross(d, b)) > same_line) continue;
+      const Segment2 reach{origin + low * d, origin + high * d};
+      for (const auto k : index.near(box_of(reach).grown(o.same_line_gap))) {
+        if (used[k] != 0 || dot(normalised(bases[k].end - bases[k].start), d) < o.same_line_cosine) continue;
+        const Point2 a = bases[k].start - origin, b = bases[k].end - origin;
+        if (std::abs(cross(d, a)) > o.same_line || std::abs(cross(d, b)) > o.same_line) continue;
         const double s = dot(d, a), t = dot(d, b);
-        if (s > high + same_line_gap || t < low - same_line_gap) continue;
+        if (s > high + o.same_line_gap || t < low - o.same_line_gap) continue;
         used[k] = 1;
         grown = true;
         low = std::min(low, s);
@@ -169,7 +153,8 @@ auto put_together(std::vector<Side> sides, const slice::SliceStack& stack, doubl
 /// side's roof, and its lower end no gutter.
 class RoofParts {
  public:
-  RoofParts(const LineStack& lines, double interval) : lines_(lines), interval_(interval), index_(lines.size()) {
+  RoofParts(const LineStack& lines, double interval, const Options& options)
+      : lines_(lines), interval_(interval), options_(options), index_(lines.size()) {
     base::parallel_for(lines.size(), [&](std::size_t i) {
       std::vector<Segment2> segments;
       for (const auto& l : lines[i]) segments.push_back(l.line.segment);
@@ -179,7 +164,8 @@ class RoofParts {
 
   [[nodiscard]] auto goes_on_below(const Side& side) const -> bool {
     const auto bottom = side.front().line.slice;
-    const auto zone = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(look_down / interval_)));
+    const auto zone =
+        std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(options_.roof_look_down / interval_)));
     double seen = 0, backed = 0;
     for (const auto& l : side) {
       if (l.line.slice > bottom + zone / 2) break;
@@ -197,23 +183,24 @@ class RoofParts {
  private:
   [[nodiscard]] auto has_like(const Segment2& s, std::size_t slice) const -> bool {
     const Point2 d = normalised(s.end - s.start);
-    for (const auto k : index_[slice].near(box_of(s).grown(look_sideways))) {
+    for (const auto k : index_[slice].near(box_of(s).grown(options_.roof_look_sideways))) {
       const auto& o = lines_[slice][k].line.segment;
-      if (dot(normalised(o.end - o.start), d) < 0.9) continue;
+      if (dot(normalised(o.end - o.start), d) < options_.roof_cosine) continue;
       const double a = std::max(0.0, dot(o.start - s.start, d)), b = std::min(span(s), dot(o.end - s.start, d));
-      if (b - a >= 0.5 * span(s) && lateral_step(s, o) < look_sideways) return true;
+      if (b - a >= options_.roof_share * span(s) && lateral_step(s, o) < options_.roof_look_sideways) return true;
     }
     return false;
   }
 
   const LineStack& lines_;
   double interval_;
+  const Options& options_;
   std::vector<LineIndex> index_;
 };
 
 /// Where two edges run along each other nearly on one line, the one of the larger side stays: two would only leave a
 /// sliver between them. The larger by cluster, so that a greater gamma never brings an edge back.
-void drop_twins(SweepEdges& found) {
+void drop_twins(SweepEdges& found, const Options& o) {
   std::vector<std::size_t> order(found.edges.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t k) {
@@ -230,11 +217,11 @@ void drop_twins(SweepEdges& found) {
     const Point2 d = normalised(large.end - large.start);
     for (std::size_t m = n + 1; m < order.size(); ++m) {
       const auto& small = found.edges[order[m]].segment;
-      if (dot(normalised(small.end - small.start), d) < same_line_cosine) continue;
+      if (dot(normalised(small.end - small.start), d) < o.same_line_cosine) continue;
       const Point2 a = small.start - large.start, b = small.end - large.start;
-      if (std::max(std::abs(cross(d, a)), std::abs(cross(d, b))) > twin_distance) continue;
+      if (std::max(std::abs(cross(d, a)), std::abs(cross(d, b))) > o.twin_distance) continue;
       const double shared = std::min(span(large), dot(d, b)) - std::max(0.0, dot(d, a));
-      if (shared >= twin_share * span(small)) gone[order[m]] = 1;
+      if (shared >= o.twin_share * span(small)) gone[order[m]] = 1;
     }
   }
   std::vector<SweepEdge> kept;
@@ -260,23 +247,23 @@ void renumber_clusters(SweepEdges& found) {
 }  // namespace
 
 auto select_edges(std::vector<Side> sides, const LineStack& lines, const slice::SliceStack& stack,
-                  const block::Block& block, const Options& options) -> SweepEdges {
-  sides = put_together(std::move(sides), stack, block.ground, options);
+                  const block::Block& block, const Options& o) -> SweepEdges {
+  sides = put_together(std::move(sides), stack, block.ground, o);
   const Outline outline(block);
-  const RoofParts roofs(lines, stack.interval);
+  const RoofParts roofs(lines, stack.interval, o);
 
   std::vector<std::vector<Base>> kept(sides.size());
   base::parallel_for(sides.size(), [&](std::size_t i) {
-    const auto evidence = weigh(sides[i], stack.interval);
-    if (evidence.area < options.gamma) return;
-    auto bases = find_bases(sides[i], stack, block.ground, options);
+    const auto evidence = weigh(sides[i], stack.interval, o);
+    if (evidence.area < o.gamma) return;
+    auto bases = find_bases(sides[i], stack, block.ground, o);
     for (auto& base : bases) {
-      const auto clip = clipped(base.segment, outline);
-      if (!clip || span(*clip) < least_edge) continue;
+      const auto clip = clipped(base.segment, outline, o);
+      if (!clip || span(*clip) < o.minimum_length) continue;
       base.segment = *clip;
-      const bool clutter = evidence.low && !stands_at_the_outline(*clip, outline);
-      if (clutter && low_weight * evidence.area < options.gamma) continue;
-      if (base.scatter > ragged) continue;
+      const bool clutter = evidence.low && !stands_at_the_outline(*clip, outline, o);
+      if (clutter && o.low_weight * evidence.area < o.gamma) continue;
+      if (base.scatter > o.maximum_scatter) continue;
       if (!base.wall && roofs.goes_on_below(sides[i])) continue;
       kept[i].push_back(base);
     }
@@ -291,7 +278,7 @@ auto select_edges(std::vector<Side> sides, const LineStack& lines, const slice::
     cluster.area = area_of(sides[i], stack.interval);
     for (const auto& l : sides[i]) cluster.lines.push_back(l.line);
   }
-  drop_twins(result);
+  drop_twins(result, o);
   renumber_clusters(result);
   sort_longest_first(result.edges);
   return result;

@@ -1,7 +1,6 @@
 #include "mansard/sweep/detail/steps_field.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -15,21 +14,15 @@ using geometry::Segment2;
 
 namespace {
 
-constexpr double same_grain = 0.06;   // rad; edges that differ by less, or by that from a right angle, run alike
-constexpr double least_edge = 1.0;    // m; shorter edges of a footprint tell no direction
-constexpr double least_grain = 8.0;   // m of edge that make a direction
-constexpr double member_share = 0.2;  // of a member's edges that make a direction its own
-constexpr double least_height = 2.0;  // m above ground; lower is no roof
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-// All in cells. The melted flank of a step lies within two cells of it; the slopes beside it are taken beyond.
-constexpr std::size_t near = 2, far = 5;
-constexpr std::size_t alone = 3;       // of two jumps nearer than this the higher one stands
-constexpr std::size_t beside = 3;      // rows to both sides that a jump is averaged over, against noise …
-constexpr double least_rows = 4;       // … of which so many must be known
-constexpr double own_share = 1.0 / 3;  // of that mean which the row itself must have
-constexpr double least_jump = 0.2;     // m; less is noise
-constexpr double roughest = 0.2;       // m; root mean square off the slope: foliage, chimneys
+// All in cells. The melted flank of a step lies within step_near of it; the slopes beside it are taken beyond.
+/// Cells from the middle of a step to the ends of its flank, and to the ends of the slopes beside it.
+struct Window {
+  std::size_t near, far;
+  explicit Window(const Options& o) : near(o.step_near), far(o.step_near + o.step_side) {}
+  [[nodiscard]] auto size() const -> std::size_t { return 2 * far + 1; }
+};
 
 struct Edge {
   double angle = 0, length = 0;  // rad in [0, π/2), m
@@ -38,14 +31,14 @@ struct Edge {
 
 auto quarter_turned(double a, double b) -> double { return std::remainder(a - b, std::numbers::pi / 2); }
 
-auto edges_of(const block::Block& block) -> std::vector<Edge> {
+auto edges_of(const block::Block& block, const Options& o) -> std::vector<Edge> {
   std::vector<Edge> edges;
   for (std::size_t m = 0; m < block.members.size(); ++m) {
     const auto add = [&](const geometry::Ring& ring) {
       for (std::size_t i = 0; i < ring.size(); ++i) {
         const Point2 d = ring[(i + 1) % ring.size()] - ring[i];
         const double size = length(d);
-        if (size < least_edge) continue;
+        if (size < o.step_grain_edge) continue;
         const double turned = std::fmod(std::atan2(d.y, d.x) + 2 * std::numbers::pi, std::numbers::pi / 2);
         edges.push_back({turned, size, m});
       }
@@ -103,6 +96,7 @@ auto slope_of(const double* z, std::size_t count) -> Slope {
 struct Look {
   double rise = nothing;         // m, over the flank; NaN where nothing can be said
   double before = 0, after = 0;  // m per cell, slopes on both sides
+  double cell = 0, span = 0;     // m; cells across the flank
   [[nodiscard]] auto known() const -> bool { return !std::isnan(rise); }
   /// The slope, of those between the two sides', that explains most of the rise.
   [[nodiscard]] auto slope() const -> double {
@@ -110,22 +104,22 @@ struct Look {
   }
   /// m square to the surface: on steep roofs noise is tall too.
   [[nodiscard]] auto jump() const -> double { return (rise - span * slope()) / std::hypot(1, slope() / cell); }
-  static constexpr double cell = HeightGrid::cell;
-  static constexpr double span = 2.0 * near;
 };
 
 /// `z` points to the heights from `far` cells before to `far` cells after.
-auto look_at(const double* z) -> Look {
-  constexpr std::size_t count = far - near + 1;
+auto look_at(const double* z, const Options& o) -> Look {
+  const auto [near, far] = Window(o);
+  const std::size_t count = far - near + 1;
   for (std::size_t k = 0; k <= 2 * far; ++k)
     if (std::isnan(z[k])) return {};
   const Slope before = slope_of(z, count), after = slope_of(z + far + near, count);
-  if (std::max(before.rough, after.rough) > roughest) return {};
-  return {z[far + near] - z[far - near], before.rise, after.rise};
+  if (std::max(before.rough, after.rough) > o.step_roughness) return {};
+  return {z[far + near] - z[far - near], before.rise, after.rise, o.step_cell, 2.0 * static_cast<double>(near)};
 }
 
 /// Cells from the centre to the middle of the flank: the mean place of what climbs more than the slope.
-auto middle_of(const double* z, const Look& look) -> double {
+auto middle_of(const double* z, const Look& look, const Window& window) -> double {
+  const auto [near, far] = window;
   double weight = 0, moment = 0;
   for (std::size_t k = far - near; k < far + near; ++k) {
     const double climb = (look.jump() > 0 ? 1 : -1) * (z[k + 1] - z[k] - look.slope());
@@ -138,7 +132,7 @@ auto middle_of(const double* z, const Look& look) -> double {
 
 /// Heights from `far` cells before to `far` cells after, each the mean with its two neighbours along the line, where
 /// all are known.
-auto mean_row(const HeightGrid& grid, std::size_t u, std::size_t t) -> std::vector<double> {
+auto mean_row(const HeightGrid& grid, std::size_t u, std::size_t t, std::size_t far) -> std::vector<double> {
   std::vector<double> row;
   for (std::size_t k = u - far; k <= u + far; ++k) {
     double z = grid.z(k, t);
@@ -151,8 +145,8 @@ auto mean_row(const HeightGrid& grid, std::size_t u, std::size_t t) -> std::vect
 
 }  // namespace
 
-auto grains_of(const block::Block& block) -> std::vector<Grain> {
-  const auto edges = edges_of(block);
+auto grains_of(const block::Block& block, const Options& o) -> std::vector<Grain> {
+  const auto edges = edges_of(block, o);
   std::vector<char> used(edges.size(), 0);
   std::vector<double> all(block.members.size(), 0);
   for (const Edge& e : edges) all[e.member] += e.length;
@@ -163,17 +157,17 @@ auto grains_of(const block::Block& block) -> std::vector<Grain> {
     std::vector<double> own(block.members.size(), 0);
     for (std::size_t k = i; k < edges.size(); ++k) {
       const double off = quarter_turned(edges[k].angle, edges[i].angle);
-      if (used[k] != 0 || std::abs(off) > same_grain) continue;
+      if (used[k] != 0 || std::abs(off) > o.step_grain_turn) continue;
       used[k] = 1;
       weight += edges[k].length;
       turn += edges[k].length * off;
       own[edges[k].member] += edges[k].length;
     }
-    if (weight < least_grain) continue;
+    if (weight < o.step_grain_length) continue;
     const double angle = edges[i].angle + turn / weight;
     Grain grain{{std::cos(angle), std::sin(angle)}, {}};
     for (std::size_t m = 0; m < own.size(); ++m)
-      if (own[m] > 0 && own[m] >= member_share * all[m]) grain.members.push_back(m);
+      if (own[m] > 0 && own[m] >= o.step_grain_share * all[m]) grain.members.push_back(m);
     if (!grain.members.empty()) found.emplace_back(weight, std::move(grain));
   }
   std::ranges::stable_sort(found, [](const auto& a, const auto& b) { return a.first > b.first; });
@@ -182,12 +176,13 @@ auto grains_of(const block::Block& block) -> std::vector<Grain> {
   return grains;
 }
 
-HeightGrid::HeightGrid(const block::Block& block, const Grain& grain, const rays::Scene& mesh)
-    : x_(grain.direction), y_(geometry::left_of(grain.direction)) {
+HeightGrid::HeightGrid(const block::Block& block, const Grain& grain, const rays::Scene& mesh, const Options& options)
+    : options_(options), x_(grain.direction), y_(geometry::left_of(grain.direction)) {
   geometry::Box2 box;
   for (const std::size_t m : grain.members)
     for (const auto& polygon : block.members[m].polygons) add_to(box, polygon, x_, y_);
   if (box.empty()) return;
+  const double cell = options.step_cell;
   origin_ = box.least.x * x_ + box.least.y * y_;
   nx_ = static_cast<std::size_t>(std::ceil((box.most.x - box.least.x) / cell));
   ny_ = static_cast<std::size_t>(std::ceil((box.most.y - box.least.y) / cell));
@@ -207,7 +202,7 @@ HeightGrid::HeightGrid(const block::Block& block, const Grain& grain, const rays
             const double u = (static_cast<double>(i) + 0.5) * cell;
             if (u > at[k + 1] - box.least.x) break;
             const auto z = mesh.top(origin_ + u * x_ + v * y_);
-            if (z && *z >= block.members[m].ground + least_height) z_[j * nx_ + i] = *z;
+            if (z && *z >= block.members[m].ground + options.step_ground) z_[j * nx_ + i] = *z;
           }
         }
       }
@@ -215,23 +210,26 @@ HeightGrid::HeightGrid(const block::Block& block, const Grain& grain, const rays
 }
 
 auto HeightGrid::jumps() const -> std::vector<Jump> {
+  const Options& o = options_;
+  const Window window(o);
+  const auto [near, far] = window;
   const std::size_t columns = across(), rows = along();
   std::vector<Look> looks(columns * rows);
   base::parallel_for(rows, [&](std::size_t t) {
     std::vector<double> row(columns);
     for (std::size_t u = 0; u < columns; ++u) row[u] = z(u, t);
-    for (std::size_t u = far; u + far < columns; ++u) looks[t * columns + u] = look_at(&row[u - far]);
+    for (std::size_t u = far; u + far < columns; ++u) looks[t * columns + u] = look_at(&row[u - far], o);
   });
   const auto mean_look = [&](std::size_t u, std::size_t t) {
     Look mean = looks[t * columns + u];
     if (!mean.known()) return mean;
     double n = 1;
-    for (std::size_t k = t - std::min(t, beside); k <= std::min(t + beside, rows - 1); ++k) {
+    for (std::size_t k = t - std::min(t, o.step_rows); k <= std::min(t + o.step_rows, rows - 1); ++k) {
       const Look& look = looks[k * columns + u];
       if (k == t || !look.known()) continue;
       mean.rise += look.rise, mean.before += look.before, mean.after += look.after, n += 1;
     }
-    if (n < least_rows) return Look{};
+    if (n < o.step_minimum_rows) return Look{};
     mean.rise /= n, mean.before /= n, mean.after /= n;
     return mean;
   };
@@ -241,21 +239,22 @@ auto HeightGrid::jumps() const -> std::vector<Jump> {
     for (std::size_t u = far; u + far < columns; ++u) {
       const Look look = mean_look(u, t);
       // The mean goes on for some rows beyond the end of a step.
-      if (look.known() && looks[t * columns + u].jump() / look.jump() >= own_share) heights[u] = look.jump();
+      if (look.known() && looks[t * columns + u].jump() / look.jump() >= o.step_own_share) heights[u] = look.jump();
     }
     for (std::size_t u = far; u + far < columns; ++u) {
       const double height = std::abs(heights[u]);
-      if (height < least_jump) continue;
+      if (height < o.step_noise) continue;
       bool highest = true;
-      for (std::size_t k = u - alone; k <= u + alone && highest; ++k) {
+      for (std::size_t k = u - o.step_alone; k <= u + o.step_alone && highest; ++k) {
         const double other = std::abs(heights[k]);
         highest = k == u || other < height || (other == height && k > u);
       }
       const double one = z(u - near, t), two = z(u + near, t);
       if (!highest) continue;
       // A sharp step looks as high from anywhere on its flank: the middle tells where it is.
-      const std::vector<double> around = mean_row(*this, u, t);
-      const double at = (static_cast<double>(u) + 0.5 + middle_of(around.data(), mean_look(u, t))) * cell;
+      const std::vector<double> around = mean_row(*this, u, t, far);
+      const double at =
+          (static_cast<double>(u) + 0.5 + middle_of(around.data(), mean_look(u, t), window)) * o.step_cell;
       if (at >= 0) by_row[t].push_back({at, t, heights[u], std::min(one, two), std::max(one, two)});
     }
   });
@@ -265,15 +264,18 @@ auto HeightGrid::jumps() const -> std::vector<Jump> {
 }
 
 auto HeightGrid::flank_of(std::span<const Jump> jumps, const Line& line) const -> Flank {
-  std::array<double, 2 * far + 1> sum{};
+  const Window window(options_);
+  const std::size_t far = window.far;
+  const double cell = options_.step_cell;
+  std::vector<double> sum(window.size(), 0);
   double n = 0;
   for (const Jump& j : jumps) {
     // Between the centres of two cells.
     const double place = line.at(static_cast<double>(j.row)) / cell - 0.5 - static_cast<double>(far);
-    if (place < 0 || place + 2 * far + 2 > static_cast<double>(across())) continue;
+    if (place < 0 || place + static_cast<double>(2 * far + 2) > static_cast<double>(across())) continue;
     const auto first = static_cast<std::size_t>(place);
     const double part = place - static_cast<double>(first);
-    std::array<double, 2 * far + 1> z_across{};
+    std::vector<double> z_across(window.size());
     bool known = true;
     for (std::size_t k = 0; k <= 2 * far; ++k) {
       z_across[k] = (1 - part) * z(first + k, j.row) + part * z(first + k + 1, j.row);
@@ -285,8 +287,8 @@ auto HeightGrid::flank_of(std::span<const Jump> jumps, const Line& line) const -
   }
   if (n == 0) return {};
   for (double& z_mean : sum) z_mean /= n;
-  const Look look = look_at(sum.data());
-  return look.known() ? Flank{look.jump(), cell * middle_of(sum.data(), look)} : Flank{};
+  const Look look = look_at(sum.data(), options_);
+  return look.known() ? Flank{look.jump(), cell * middle_of(sum.data(), look, window)} : Flank{};
 }
 
 }  // namespace mansard::sweep::detail

@@ -18,7 +18,7 @@ struct Grain {
 };
 
 /// The block's directions, the one with the most metres of edge first.
-[[nodiscard]] auto grains_of(const block::Block& block) -> std::vector<Grain>;
+[[nodiscard]] auto grains_of(const block::Block& block, const Options& options) -> std::vector<Grain>;
 
 /// A place where the surface jumps across a line that runs along the grid's rows or columns.
 struct Jump {
@@ -31,9 +31,7 @@ struct Jump {
 /// Heights at the centres of square cells; NaN outside the footprints and where nothing as high as a building stands.
 class HeightGrid {
  public:
-  static constexpr double cell = 0.25;  ///< m
-
-  HeightGrid(const block::Block& block, const Grain& grain, const rays::Scene& mesh);
+  HeightGrid(const block::Block& block, const Grain& grain, const rays::Scene& mesh, const Options& options);
 
   /// The same seen with the axes exchanged: `across` and `along` below are then the other ones.
   void transpose() { transposed_ = !transposed_; }
@@ -57,11 +55,13 @@ class HeightGrid {
   };
   struct Line {
     double across = 0, tangent = 0, pivot = 0;
+    double cell = 0;  ///< m
     [[nodiscard]] auto at(double row) const -> double { return across + tangent * (row - pivot) * cell; }
   };
   [[nodiscard]] auto flank_of(std::span<const Jump> jumps, const Line& line) const -> Flank;
 
  private:
+  const Options& options_;
   geometry::Point2 origin_, x_, y_;
   std::size_t nx_ = 0, ny_ = 0;
   std::vector<double> z_;

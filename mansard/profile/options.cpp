@@ -1,0 +1,184 @@
+#include "mansard/profile/options.hpp"
+
+namespace mansard::profile {
+
+auto option_list(Options& o) -> base::OptionList {
+  base::OptionList list("profile");
+  list.choice("quality", o.quality,
+              {{"simple", Quality::simple}, {"moderate", Quality::moderate}, {"high", Quality::high}},
+              "Detail of the profiles: walls only, one roof pitch an edge, or up to three.")
+      .source("paper, Figure 7");
+  list.number("spacing", o.spacing, "m", {0.05, 5}, "Distance between perpendicular slices along an edge.")
+      .source("paper: 0.2 m");
+  list.number("step", o.step, "m", {0.05, 10},
+              "Distance up to which a slice is followed from one piece of mesh to the next.")
+      .source("reference implementation chordatlas: 1 m");
+  list.number("jump", o.jump, "m", {0.05, 20}, "Width of a hole or parapet over which a slice is followed.")
+      .source("reference implementation chordatlas: 3 m");
+  list.number("support", o.support, "", {0, 1}, "Share of an edge's slices that must agree with a pitch.")
+      .source("reference implementation chordatlas: 0.2");
+  list.number("vertical_angle", o.vertical_angle, "rad", {0.001, 0.5},
+              "Parts of a profile within this angle of vertical become wall.")
+      .source("reference implementation chordatlas: 0.1 rad");
+  list.number("run_angle", o.run_angle, "rad", {0, 0.7},
+              "Consecutive edges that turn by less than this share a profile.")
+      .source("reference implementation chordatlas: 0.1 rad");
+  list.number("low_height", o.low_height, "m", {0, 20},
+              "Height above ground below which cars, hedges and shops are expected and tolerances are wide.")
+      .source("reference implementation chordatlas: 2 m");
+  list.number("slice_outward", o.slice_outward, "m", {0, 50}, "Distance outside an edge at which its slices begin.")
+      .advanced("chosen by hand; not measured");
+  list.number("slice_inward", o.slice_inward, "m", {1, 1000}, "Maximum length of a slice inside an edge.")
+      .advanced("chosen by hand; not measured");
+  list.number("slice_margin", o.slice_margin, "m", {0, 20},
+              "Distance from the ends of an edge within which no slice is made, because scans round off corners.")
+      .advanced("chosen by hand; not measured");
+  list.number("slices_per_edge", o.slices_per_edge, "", {1, 10000}, "Maximum number of slices of an edge.")
+      .advanced("keeps the time of long edges in bounds; 100 slices were enough for every edge looked at");
+  list.number("climb_near", o.climb_near, "m", {0.05, 20}, "Distance from an edge within which its wall is looked for.")
+      .advanced("chosen by hand; not measured");
+  list.number("climb_above_low", o.climb_above_low, "m", {0, 20},
+              "Height above profile.low_height at which a wall is looked for.")
+      .advanced("chosen by hand; not measured");
+  list.number("climb_clear", o.climb_clear, "m", {0, 20}, "Height above ground below which mesh is terrain.")
+      .advanced("chosen by hand; not measured");
+  list.number("climb_roof_first", o.climb_roof_first, "m", {0, 20},
+              "Distance inside an edge at which a roof without a wall is looked for first.")
+      .advanced("chosen by hand; not measured");
+  list.number("climb_roof_next", o.climb_roof_next, "m", {0.01, 20},
+              "Spacing of the places at which a roof without a wall is looked for.")
+      .advanced("chosen by hand; not measured");
+  list.number("wall_low_weight", o.wall_low_weight, "", {0, 1},
+              "Weight of mesh below profile.low_height in the position of a wall.")
+      .advanced("chosen by hand; not measured");
+  list.number("wall_lean", o.wall_lean, "", {1, 20},
+              "Maximum lean of a piece of wall, as a multiple of the tangent of profile.vertical_angle.")
+      .advanced("chosen by hand; not measured");
+  list.number("wall_minimum", o.wall_minimum, "m", {0, 50}, "Minimum height of wall that has a position.")
+      .advanced("reference implementation chordatlas: 1 m");
+  list.number("column_width", o.column_width, "m", {0.02, 5},
+              "Width of the columns in which the heights of a slice are kept.")
+      .advanced("as wide as slices are apart; not measured");
+  list.number("sky_margin", o.sky_margin, "m", {0, 50},
+              "Height above the top of the climb up to which mesh belongs to the roof.")
+      .advanced("chosen by hand; not measured");
+  list.number("far_wall", o.far_wall, "m", {0, 20}, "Distance before the far wall at which a slice ends.")
+      .advanced("chosen by hand; not measured");
+  list.number("far_wall_from", o.far_wall_from, "m", {0, 50},
+              "Minimum length of a slice that ends before the far wall.")
+      .advanced("chosen by hand; not measured");
+  list.number("wall_deepest", o.wall_deepest, "m", {0, 20},
+              "Maximum distance inside an edge by which a wall moves the start of its roof.")
+      .advanced("chosen by hand; not measured");
+  list.number("corner", o.corner, "m", {0, 5}, "Distance over which scans round off gutters and ridges.")
+      .advanced("chosen by hand; not measured");
+  list.number("rising_slope", o.rising_slope, "", {0, 10}, "Minimum slope of a roof that rises.")
+      .advanced("chosen by hand; not measured");
+  list.number("rising_oblique", o.rising_oblique, "", {0, 10},
+              "Maximum slope of a roof along its edge, as a share of the slope across.")
+      .advanced("chosen by hand; not measured");
+  list.number("rising_start", o.rising_start, "m", {0, 20},
+              "Maximum distance from the wall to the start of a rising roof.")
+      .advanced("chosen by hand; not measured");
+  list.number("rising_shortest", o.rising_shortest, "m", {0, 20}, "Minimum length of a rising roof.")
+      .advanced("chosen by hand; not measured");
+  list.integer("rising_tile", o.rising_tile, "", {2, 100}, "Number of columns in the plane whose slope is fitted.")
+      .advanced("chosen by hand; not measured");
+  list.integer("rising_tile_step", o.rising_tile_step, "", {1, 100},
+               "Number of columns between planes whose slopes are fitted.")
+      .advanced("chosen by hand; not measured");
+  list.integer("rising_misses", o.rising_misses, "", {0, 100},
+               "Number of consecutive planes without rise over which a roof continues.")
+      .advanced("chosen by hand; not measured");
+  list.number("rising_beside", o.rising_beside, "m", {0, 20},
+              "Distance along an edge within which slices contribute to a fitted slope.")
+      .advanced("chosen by hand; not measured");
+  list.number("pool_share", o.pool_share, "", {0, 1},
+              "Minimum share of rising slices that must reach a column for it to count.")
+      .advanced("chosen by hand; not measured");
+  list.number("setback_step", o.setback_step, "m", {0.1, 50}, "Minimum step of the wall behind a setback.")
+      .advanced("docs/decisions/0017; not measured");
+  list.number("setback_height", o.setback_height, "m", {0, 50}, "Minimum height of the part before a setback.")
+      .advanced("docs/decisions/0017; not measured");
+  list.integer("setback_blur", o.setback_blur, "", {1, 20},
+               "Number of columns to either side of a setback's wall that a scan smears.")
+      .advanced("chosen by hand; not measured");
+  list.integer("setback_depth", o.setback_depth, "", {1, 100}, "Minimum number of columns before a setback's wall.")
+      .advanced("chosen by hand; not measured");
+  list.number("setback_level", o.setback_level, "m", {0, 20},
+              "Maximum height difference within the part before a setback.")
+      .advanced("chosen by hand; not measured");
+  list.number("minimum_gutter", o.minimum_gutter, "m", {0.01, 20}, "Minimum height of the wall under a roof.")
+      .advanced("chosen by hand; not measured");
+  list.number("level_slope", o.level_slope, "", {0, 1}, "Slope below which a pitch is level.")
+      .advanced("chosen by hand; not measured");
+  list.integer("pitch_columns", o.pitch_columns, "", {2, 100}, "Minimum number of columns of a pitch.")
+      .advanced("chosen by hand; not measured");
+  list.number("pitch_price", o.pitch_price, "m²", {0, 1000},
+              "Sum of squared errors over the columns that an additional pitch must save.")
+      .advanced("chosen by hand; not measured");
+  list.number("pitch_gain", o.pitch_gain, "m", {0, 20}, "Minimum rise of a pitch.")
+      .advanced("chosen by hand; not measured");
+  list.number("pitch_tolerance", o.pitch_tolerance, "m", {0.001, 20},
+              "Distance within which a slice agrees with one of several pitches.")
+      .advanced("chosen by hand; not measured");
+  list.number("single_pitch_tolerance", o.single_pitch_tolerance, "m", {0.001, 20},
+              "Distance within which a slice agrees with a single pitch, which represents all of a roof.")
+      .advanced("chosen by hand; not measured");
+  list.number("low_tolerance", o.low_tolerance, "", {1, 100},
+              "Factor by which tolerances are wider below profile.low_height.")
+      .advanced("reference implementation chordatlas: 5");
+  list.number("hip_corner", o.hip_corner, "m", {0, 20},
+              "Distance from the ends of an edge within which slices do not count, because the neighbour's roof begins "
+              "there at a hip.")
+      .advanced("chosen by hand; not measured");
+  list.number("hip_corner_from", o.hip_corner_from, "m", {0, 100},
+              "Minimum length of an edge at whose ends slices do not count.")
+      .advanced("chosen by hand; not measured");
+  list.number("pitched_share", o.pitched_share, "", {0, 1},
+              "Minimum share of an edge's slices that must rise for it to have a pitched roof.")
+      .advanced("chosen by hand; not measured");
+  list.number("short_run", o.short_run, "m", {0, 50},
+              "Edges shorter than this take the profile of a neighbour, or are walls.")
+      .advanced("chosen by hand; not measured");
+  list.number("gentle_turn", o.gentle_turn, "", {0, 10},
+              "Tangent of the maximum angle between a short edge and the neighbour whose profile it takes.")
+      .advanced("chosen by hand; not measured");
+  list.number("assumed_storey", o.assumed_storey, "m", {0.5, 50},
+              "Height of a building over which the mesh shows nothing.")
+      .advanced("one storey");
+  list.number("minimum_height", o.minimum_height, "m", {0.01, 50}, "Minimum height of a building.")
+      .advanced("chosen by hand; not measured");
+  list.number("cap_distinct", o.cap_distinct, "m", {0, 20}, "Minimum difference between two candidate cap heights.")
+      .advanced("chosen by hand; not measured");
+  list.number("cap_clear", o.cap_clear, "m", {0, 20},
+              "Height of a cap above the tops of the profiles, so that roofs can close.")
+      .advanced("reference implementation chordatlas: 0.5 m");
+  list.number("cap_level", o.cap_level, "m", {0.01, 20}, "Height range that is one level of a flat roof.")
+      .advanced("chosen by hand; not measured");
+  list.number("cap_top_share", o.cap_top_share, "", {0, 1},
+              "Share of the edges' length whose profiles end below the common top.")
+      .advanced("reference implementation chordatlas: 90th percentile");
+  list.number("cap_high", o.cap_high, "", {0, 1}, "Percentile of the mesh's heights that is a candidate cap height.")
+      .advanced("chosen by hand; not measured");
+  list.number("cap_ridge", o.cap_ridge, "", {0, 1}, "Percentile of the mesh's heights that is the ridge height.")
+      .advanced("chosen by hand; not measured");
+  list.number("choice_samples", o.choice_samples, "", {10, 1e6},
+              "Maximum number of height samples per part when profiles are chosen.")
+      .advanced("chosen by hand; not measured");
+  list.number("choice_grid", o.choice_grid, "m", {0.02, 10},
+              "Minimum spacing of the height samples when profiles are chosen.")
+      .advanced("the cell of the paper's error measure");
+  list.number("choice_outlier", o.choice_outlier, "m", {0.1, 100},
+              "Differences between roof and mesh larger than this count as this, because of trees and steps.")
+      .advanced("chosen by hand; not measured");
+  list.number("choice_gain", o.choice_gain, "", {0, 1},
+              "Share of the error below which another profile replaces the first choice.")
+      .advanced("chosen by hand; not measured");
+  list.integer("choice_rounds", o.choice_rounds, "", {1, 1000},
+               "Maximum number of rounds in which profiles are chosen.")
+      .advanced("chosen by hand; not measured");
+  return list;
+}
+
+}  // namespace mansard::profile

@@ -1,0 +1,101 @@
+// The numbers that profile decides by; what each means and where it comes from is told in options.cpp.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "mansard/base/options.hpp"
+
+namespace mansard::profile {
+
+/// One vertical line; at most one pitch; all that is supported.
+enum class Quality : std::uint8_t { simple, moderate, high };
+
+struct Options {
+  Quality quality = Quality::high;
+  double spacing = 0.2;         ///< m between perpendicular slices along an edge
+  double step = 1.0;            ///< m; the climb goes on to a piece this near
+  double jump = 3.0;            ///< m; failing that, over a hole or parapet this wide
+  double support = 0.2;         ///< share of an edge's slices that must support a line
+  double vertical_angle = 0.1;  ///< rad; lines this near to vertical become vertical
+  double run_angle = 0.1;       ///< rad; edges turning less than this share a profile
+  double low_height = 2.0;      ///< m above ground; below, tolerances are wider (cars, hedges, shops)
+
+  // Slices.
+  double slice_outward = 2.0;    ///< m outside the edge where a slice begins
+  double slice_inward = 40.0;    ///< m inside the edge where a slice ends at the latest
+  double slice_margin = 0.3;     ///< m; corners are rounded in scans
+  double slices_per_edge = 100;  ///< slices an edge, at most
+
+  // The climb.
+  double climb_near = 1.5;        ///< m; the climb starts this near to the foot
+  double climb_above_low = 0.5;   ///< m above low_height where the climb starts
+  double climb_clear = 1.0;       ///< m above ground; lower pieces are terrain
+  double climb_roof_first = 0.6;  ///< m inward of the edge where, without a wall, a roof is looked for first
+  double climb_roof_next = 0.3;   ///< m between that and the next places
+  double wall_low_weight = 0.2;   ///< of what is seen below low_height
+  double wall_lean =
+      3.0;  ///< times the tangent of vertical_angle; single noisy triangles lean more than the wall they make
+  double wall_minimum = 1.0;  ///< m; less is no wall
+
+  // Columns of heights, and where they rise.
+  double column_width = 0.2;   ///< m
+  double sky_margin = 0.5;     ///< m above the climb's top; higher mesh hangs above the building
+  double far_wall = 0.4;       ///< m before the far wall where a slice ends
+  double far_wall_from = 2.0;  ///< m; shorter slices go on to it
+  double wall_deepest = 1.5;   ///< m inward of the edge; a wall farther in does not move the start of the roof any more
+  double corner = 0.3;         ///< m; scans round off gutters and ridges
+  double rising_slope = 0.1;   ///< Δheight / Δinward of a roof that counts as rising
+  double rising_oblique = 0.6;       ///< greatest slope along the run, as a share of the one across: about 30°
+  double rising_start = 1.6;         ///< m; parapets and gutters may lie before the roof
+  double rising_shortest = 0.8;      ///< m; a rise over less is a rounded corner
+  std::size_t rising_tile = 5;       ///< columns of the plane whose slope is taken: one metre
+  std::size_t rising_tile_step = 2;  ///< columns from one such plane to the next
+  std::size_t rising_misses = 2;     ///< planes in a row that need not rise: a skylight, a chimney
+  double rising_beside = 0.5;        ///< m; slices this near help to tell the slope
+  double pool_share = 0.25;          ///< of the slices that rise must reach a column: a hip thins out towards its tip
+
+  // Setbacks.
+  double setback_step = 1.5;      ///< m from the lower roof up
+  double setback_height = 1.5;    ///< m above the base
+  std::size_t setback_blur = 2;   ///< columns to either side of the wall that a scan smears
+  std::size_t setback_depth = 4;  ///< columns before the wall, at least
+  double setback_level = 1.0;     ///< m between the heights of the part before it
+
+  // Pitches.
+  double minimum_gutter = 0.5;    ///< m; the prior wants a wall under every roof
+  double level_slope = 0.05;      ///< slope; flatter is flat
+  std::size_t pitch_columns = 4;  ///< columns of a pitch, at least
+  double pitch_price = 0.15;  ///< m² · columns: what another pitch must save, 0.1 m over about fifteen columns (3 m of
+                              ///< roof), or more over fewer
+  double pitch_gain = 0.6;       ///< m; scans round off the edges of flat roofs too: what rises less is no pitch
+  double pitch_tolerance = 0.3;  ///< m; a slice within it, over half of what it shows of a pitch, supports the pitch
+  double single_pitch_tolerance = 1.0;  ///< m; the same for a single pitch, which stands for all that a roof does
+  double low_tolerance = 5.0;           ///< times the tolerance, below low_height
+  double hip_corner = 1.0;              ///< m; at a hip the neighbour's roof begins there
+  double hip_corner_from = 2.6;         ///< m; on shorter edges all slices count
+  double pitched_share = 0.4;           ///< of an edge's slices that must rise; dormers may take the rest
+  double short_run = 1.0;               ///< m; shorter runs follow a neighbour or stand as walls
+  double gentle_turn = 0.5463;          ///< tangent of 0.5 rad: runs follow neighbours that they turn from by less
+
+  // Heights and caps.
+  double assumed_storey = 3.0;  ///< m; where nothing was seen at all
+  double minimum_height = 0.5;  ///< m; of ground-level "buildings", so that there is a solid at all
+  double cap_distinct = 0.1;    ///< m between candidate caps
+  double cap_clear = 0.5;       ///< m above the profiles' tops, so that roofs can close
+  double cap_level = 0.5;       ///< m of height that are one level of a flat roof, whatever stands on it
+  double cap_top_share = 0.9;   ///< of the edges' length whose profiles end below the common top
+  double cap_high = 0.95;       ///< percentile of the heights where a roof may end
+  double cap_ridge = 0.99;      ///< percentile of the heights that counts as the ridge
+
+  // Choice between profiles.
+  double choice_samples = 3000;  ///< samples a part, at most
+  double choice_grid = 0.25;     ///< m between samples, at least
+  double choice_outlier = 3.0;   ///< m; larger differences (trees, steps) count as this
+  double choice_gain = 0.97;  ///< of the error that another profile may leave: the greedy choice has the closer look;
+                              ///< noise must not overrule it
+  std::size_t choice_rounds = 3;  ///< over all runs
+};
+[[nodiscard]] auto option_list(Options& options) -> base::OptionList;
+
+}  // namespace mansard::profile

@@ -1,0 +1,88 @@
+// The numbers that segment decides by; what each means and where it comes from is told in options.cpp.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "mansard/base/options.hpp"
+
+namespace mansard::segment {
+
+enum class GisEdges : std::uint8_t {
+  ignore,     ///< as in the paper: GIS edges are not inserted
+  candidate,  ///< edges between two features are inserted, and those no sweep-edge follows; the optimum decides
+  hard,       ///< the same, and no part spans two features
+};
+enum class Continuations : std::uint8_t { sweep, plain };  ///< do continuations count as sweep-edges in O1?
+enum class ThinRule : std::uint8_t { all, unsupported };  ///< O7 over all near pairs, or not where both sides are walls
+enum class ThinReach : std::uint8_t { face, block };      ///< O7 between edges of one face, or across several faces too
+enum class HeightMeasure : std::uint8_t {
+  along,   ///< mean difference of the mesh's heights on the two sides of the edge, sampled along it
+  median,  ///< difference of the two faces' median heights, as in the reference implementation
+};
+
+/// Of the heuristics that find a first grouping.
+struct SearchLimits {
+  std::size_t piece = 400;    ///< nodes; sequences between larger pieces cost more than they find
+  std::size_t sequence = 60;  ///< nodes moved one after the other, at most
+  std::size_t passes = 20;    ///< rounds of moving and joining, at most
+};
+
+struct Options {
+  double alpha = 40.0;          ///< per metre of sweep-edge left unused
+  double beta = 60.0;           ///< per metre of footprint edge without a sweep-edge
+  double height_weight = 16.0;  ///< of O2, per metre and metre of height difference
+  double step_full = 1.0;       ///< m; an unused roof step of this height pays the whole α, a lower one its share
+  double phi = 0.5;             ///< of O7, times the total edge length
+  double thin_distance = 2.0;   ///< m; O7: opposite edges nearer than this
+  double thin_angle = 0.5235987755982988;  ///< rad; O7: adjacent edges under this angle
+  Continuations continuations = Continuations::plain;
+  ThinRule thin_rule = ThinRule::unsupported;
+  ThinReach thin_reach = ThinReach::face;
+  HeightMeasure height_measure = HeightMeasure::median;
+  double height_offset = 0.6;  ///< m; how far to both sides of an edge heights are sampled along it
+  GisEdges gis_edges = GisEdges::hard;
+  double gis_alpha = 10.0;        ///< per metre of GIS edge left unused, with gis_edges = candidate
+  double gis_ratio = 0.44;        ///< a face is inside when at least this part of it is inside the footprints …
+  double min_height = 2.0;        ///< m; … and its median height above ground at least this
+  double exposed = 0.4;           ///< faces with more wall-less boundary than this share of the rest are peeled off
+  double narrow = 1.0;            ///< m; parts of less mean width go to their neighbour, or out; 0 keeps them
+  std::int64_t samples = 64;      ///< height samples per face, at most
+  std::optional<double> seconds;  ///< time limit per block; none: until proven optimal or the node limit
+  std::int64_t nodes = 100000;    ///< branch-and-bound nodes per solve
+  bool cliques = false;           ///< give the solver a row for every clique of conflicts as well
+
+  // Slivers and needles (O7).
+  double thin_run_turn = 0.1;  ///< tangent; half-edges that turn less make one run
+  double thin_shortest = 0.2;  ///< m; runs shorter than that have no direction to speak of
+  double thin_overlap = 0.1;   ///< m; opposite runs must face each other along at least that
+  double thin_parallel = 0.3;  ///< rad; opposite runs are parallel within this
+
+  // What is measured of a face, and along an edge.
+  double samples_per_area = 2.0;    ///< height samples per m² of a face
+  std::size_t minimum_samples = 9;  ///< height samples per face, at least
+  std::size_t minimum_inside_samples =
+      3;                        ///< heights within the footprints, from which they alone tell a face's height
+  double surely_inside = 0.8;   ///< of a face's area in the footprints: over this share it is inside though the mesh
+                                ///< lacks it; from it on it is not peeled off
+  double height_spacing = 0.5;  ///< m between samples along an edge, with height_measure = along
+
+  // GIS edges.
+  double gis_near = 0.2;           ///< m; as far as the other member's boundary, or a wall, may be off a GIS edge
+  double gis_shortest = 0.2;       ///< m; of a stretch of GIS edge, and of a gap between stretches
+  double gis_parallel_sine = 0.1;  ///< sine of the angle between a GIS edge and what runs along it
+
+  // From faces to parts.
+  double smallest_part = 1.0;     ///< m²; smaller parts go to their neighbour, or out
+  double same_height = 2.0;       ///< m; strips within this of their neighbour's height are part of its roof …
+  double low_share = 0.5;         ///< … as are those of at least this share of its height above ground
+  double collinear = 0.01;        ///< m; corners this near to the edge without them are dropped
+  double opening = 0.01;          ///< m; how far a part that touches itself draws back
+  double edge_cover = 1.0 / 3.0;  ///< of an edge, from which a sweep-edge counts as its origin
+
+  SearchLimits search;
+};
+[[nodiscard]] auto option_list(Options& options) -> base::OptionList;
+
+}  // namespace mansard::segment

@@ -1,0 +1,324 @@
+#include "mansard/sweep/options.hpp"
+
+namespace mansard::sweep {
+
+auto option_list(Options& o) -> base::OptionList {
+  base::OptionList list("sweep");
+  list.number("gamma", o.gamma, "m²", {0, 1e6}, "Sides of buildings with less mesh area than this are dropped.")
+      .alias("gamma")
+      .source("paper, section on computing the optimization inputs: 10 m²");
+  list.number("line_distance", o.line_distance, "m", {0.01, 5},
+              "Mesh at most this far from a line belongs to the line.")
+      .source("docs/sweep.md: precision and recall move by less than 0.03 between 0.2 and 0.45 m");
+  list.number("line_gap", o.line_gap, "m", {0, 20}, "Gaps along a line up to this length are closed.")
+      .source("reference implementation chordatlas: 0.56 m");
+  list.number("gis_angle", o.gis_angle, "rad", {0, 0.7},
+              "Lines turn to the direction of a footprint's edge within this angle; 0 leaves them unchanged.")
+      .source("reference implementation chordatlas: π/8");
+  list.number("gis_distance", o.gis_distance, "m", {0, 50},
+              "Maximum distance from a line to the footprint's edge that it turns to.")
+      .source("chosen by hand; not measured");
+  list.number("gis_offset", o.gis_offset, "m", {0, 5},
+              "Walls seen up to this far outside a footprint's edge are moved onto it; 0 leaves all walls where they "
+              "were seen.")
+      .source("docs/decisions/0015");
+  list.number("gis_inward", o.gis_inward, "m", {0, 5},
+              "Walls seen up to this far inside a footprint's edge are moved onto it.")
+      .source("docs/decisions/0015");
+  list.number("cluster_step", o.cluster_step, "m", {0.05, 10},
+              "Maximum lateral step of a side between neighbouring slices.")
+      .source("docs/sweep.md: recall of true walls 0.89, against 0.87 with the reference's 1.5 m");
+  list.number("low_height", o.low_height, "m", {0, 100},
+              "Lines at less than this height above ground weigh sweep.low_weight, because cars and hedges are there.")
+      .source("reference implementation chordatlas: 4 m");
+  list.number("thin_distance", o.thin_distance, "m", {0, 20},
+              "Lines backed by an opposite line within this distance lose weight, as buses and fences do.")
+      .source("reference implementation chordatlas: 4 m");
+  list.number("setback", o.setback, "m", {0.3, 20},
+              "Wall feet at least this far from their side's median become sweep-edges of their own.")
+      .source("reference implementation chordatlas: 1 m");
+  list.number("step_height", o.step_height, "m", {0, 20},
+              "Roofs that differ by at least this height along a straight line make a sweep-edge; 0 makes none.")
+      .source("docs/decisions/0016");
+  list.number("step_length", o.step_length, "m", {0.5, 100}, "Minimum length of a roof step that makes a sweep-edge.")
+      .source("docs/decisions/0016");
+  list.number("line_node_spacing", o.line_node_spacing, "m", {0.02, 10},
+              "Spacing of the points at which a chain of segments may be cut into straight pieces.")
+      .advanced("chosen by hand; not measured");
+  list.integer("line_trim_nodes", o.line_trim_nodes, "", {1, 1000},
+               "Pieces of at least this number of node spacings are fitted without their first and last spacing, which "
+               "may reach around a corner.")
+      .advanced("chosen by hand; not measured");
+  list.number("line_piece_price", o.line_piece_price, "m", {0, 1000},
+              "Length of chain at sweep.line_distance from its line that an additional straight piece must save.")
+      .advanced("chosen by hand; not measured");
+  list.number("line_straightness", o.line_straightness, "", {0, 1},
+              "Minimum ratio of a piece's chord to its length along the chain; pieces that wind more are vegetation.")
+      .advanced("chosen by hand; not measured");
+  list.number("line_merge_cosine", o.line_merge_cosine, "", {0, 1},
+              "Cosine of the maximum angle between two pieces that may be joined to one line.")
+      .advanced("chosen by hand; not measured");
+  list.number("line_minimum_length", o.line_minimum_length, "m", {0, 50}, "Minimum length of a line in a slice.")
+      .advanced("chosen by hand; not measured");
+  list.number("line_maximum_segment", o.line_maximum_segment, "m", {1, 1e6},
+              "Segments longer than this within one triangle are left out, because they belong to a stray vertex.")
+      .advanced("longer than any wall of the inputs in tools/datasets.toml; not measured");
+  list.number("gis_straight_turn", o.gis_straight_turn, "rad", {0, 0.7},
+              "Consecutive edges of a footprint that turn by less than this count as one edge when lines are turned to "
+              "them.")
+      .advanced("reference implementation chordatlas: 0.05 rad");
+  list.number("gis_minimum_edge", o.gis_minimum_edge, "m", {0, 50},
+              "Minimum length of a footprint's edge that lines turn to.")
+      .advanced("chosen by hand; not measured");
+  list.number("gis_square_score", o.gis_square_score, "", {0, 1},
+              "Score of an edge at right angles to a line, as a share of the score of a parallel edge.")
+      .advanced("reference implementation chordatlas: 0.2, with its sign corrected");
+  list.number("gis_maximum_swing", o.gis_maximum_swing, "m", {0, 100},
+              "Maximum movement of a line's ends when the line turns to a footprint's edge.")
+      .advanced("chosen by hand; not measured");
+  list.number("thin_turn", o.thin_turn, "rad", {1.6, 3.1},
+              "Minimum angle between the directions of two lines that are opposite sides of a thin object.")
+      .advanced("reference implementation chordatlas: 0.7 π");
+  list.number(
+          "low_weight", o.low_weight, "", {0, 1},
+          "Weight of lines below sweep.low_height, and of sides that are mostly below it and away from the footprints.")
+      .advanced("reference implementation chordatlas: 0.1");
+  list.integer("cluster_reach", o.cluster_reach, "", {1, 50},
+               "Number of slices up and down within which a cluster of lines continues.")
+      .advanced("reference implementation chordatlas: 2");
+  list.integer("cluster_lines", o.cluster_lines, "", {1, 1000}, "Minimum number of lines in a cluster.")
+      .advanced(
+          "a metre of height at 0.2 m, with one slice missed; the reference implementation asks for 6 lines at 0.5 m");
+  list.number("cluster_overlap", o.cluster_overlap, "", {0, 1},
+              "Minimum share of a line beside its cluster's first line when it is turned by up to sweep.cluster_turn.")
+      .advanced("reference implementation chordatlas: 0.8");
+  list.number("cluster_turn", o.cluster_turn, "rad", {0, 1.5},
+              "Maximum angle between a line and its cluster's first line.")
+      .advanced("reference implementation chordatlas: 0.3 rad");
+  list.number("cluster_overlap_parallel", o.cluster_overlap_parallel, "", {0, 1},
+              "Minimum share of a line beside its cluster's first line when it is turned by up to "
+              "sweep.cluster_turn_parallel.")
+      .advanced("reference implementation chordatlas: 0.5");
+  list.number("cluster_turn_parallel", o.cluster_turn_parallel, "rad", {0, 1.5},
+              "Maximum angle between a line and its cluster's first line when they overlap little.")
+      .advanced("reference implementation chordatlas: 0.1 rad");
+  list.number("column_width", o.column_width, "m", {0.02, 5},
+              "Width of the columns in which the foot of a wall is measured.")
+      .advanced("paper: profiles every 0.2 m");
+  list.number("column_gap", o.column_gap, "m", {0, 100},
+              "Gaps without wall feet longer than this divide a sweep-edge in two.")
+      .advanced("chosen by hand; not measured");
+  list.number("column_support", o.column_support, "", {0, 1},
+              "Columns with less than this share of the median column's lines are left out, as the ragged end of a "
+              "sweep-edge.")
+      .advanced("chosen by hand; not measured");
+  list.number("wall_minimum_height", o.wall_minimum_height, "m", {0, 50},
+              "Minimum height of a wall in a column; less is a step in a roof.")
+      .advanced("reference implementation chordatlas: 1 m of vertical profile");
+  list.number("wall_slope", o.wall_slope, "", {0, 10}, "Maximum lateral movement of a wall per metre of height.")
+      .advanced("reference implementation chordatlas: 0.5 rad from the vertical, here as a tangent");
+  list.number("wall_window", o.wall_window, "m", {0, 20}, "Height over which the slope of a wall is fitted.")
+      .advanced("chosen by hand; not measured");
+  list.number("wall_gap", o.wall_gap, "m", {0, 20}, "Height without samples over which a wall continues.")
+      .advanced("three slices of 0.2 m and a margin for rounding");
+  list.number("wall_gap_slices", o.wall_gap_slices, "", {0, 100},
+              "Number of slice intervals without samples over which a wall continues.")
+      .advanced("three slices, and a margin for rounding");
+  list.number("wall_spread", o.wall_spread, "m", {0, 20},
+              "Maximum distance of a wall's samples from the wall's mean position.")
+      .advanced("chosen by hand; not measured");
+  list.number("wall_lower_share", o.wall_lower_share, "", {0, 1},
+              "Minimum height of the lowest wall in a column, as a share of the tallest one's.")
+      .advanced("chosen by hand; not measured");
+  list.number("wall_share", o.wall_share, "", {0, 1},
+              "Minimum share of a side's columns with a wall; below it, the side is placed at its gutter.")
+      .advanced("chosen by hand; not measured");
+  list.number("untidy_height", o.untidy_height, "m", {0, 100},
+              "Height above ground up to which cars and hedges hide the foot of a wall.")
+      .advanced("chosen by hand; not measured");
+  list.number("setback_gap", o.setback_gap, "m", {0, 50}, "Maximum gap between the columns of one setback.")
+      .advanced("reference implementation chordatlas: 1.5 m");
+  list.integer("setback_columns", o.setback_columns, "", {1, 1000}, "Minimum number of columns in a setback.")
+      .advanced("reference implementation chordatlas: 2 m in columns of 0.2 m");
+  list.number("gutter_rise", o.gutter_rise, "m", {0, 50},
+              "Columns of a side without walls that begin more than this above the median gutter belong to a hip and "
+              "are left out.")
+      .advanced("chosen by hand; not measured");
+  list.number("gutter_band", o.gutter_band, "m", {0, 20},
+              "Height above a roof's lowest sample within which its gutter is measured.")
+      .advanced("chosen by hand; not measured");
+  list.number("height_percentile", o.height_percentile, "", {0, 0.5},
+              "Share of columns that may begin below, or end above, the height range of a sweep-edge.")
+      .advanced("chosen by hand; not measured");
+  list.number("minimum_length", o.minimum_length, "m", {0, 100}, "Minimum length of a sweep-edge.")
+      .advanced("chosen by hand; not measured");
+  list.number("same_line", o.same_line, "m", {0, 20},
+              "Maximum distance between the wall feet of sides that are put together.")
+      .advanced("chosen by hand; not measured");
+  list.number("same_line_gap", o.same_line_gap, "m", {0, 50},
+              "Maximum gap between sides on one line that are put together.")
+      .advanced("chosen by hand; not measured");
+  list.number("same_line_cosine", o.same_line_cosine, "", {0, 1},
+              "Cosine of the maximum angle between sides on one line.")
+      .advanced("chosen by hand; not measured");
+  list.number("outline_margin", o.outline_margin, "m", {0, 100},
+              "Sweep-edges are cut off at this distance outside the footprints.")
+      .advanced("reference implementation chordatlas: 2 m, written but not used");
+  list.number("outline_spacing", o.outline_spacing, "m", {0.01, 10},
+              "Spacing of the points at which a sweep-edge's distance to the footprints is tested.")
+      .advanced("the cell of the evaluation grid; not measured");
+  list.number("low_margin", o.low_margin, "m", {0, 100},
+              "Low sides farther outside the footprints than this are hedges or cars.")
+      .advanced("chosen by hand; not measured");
+  list.number("low_share", o.low_share, "", {0, 1},
+              "A side is low when more than this share of its area is below sweep.low_height.")
+      .advanced("chosen by hand; not measured");
+  list.number(
+          "thin_share", o.thin_share, "", {0, 1},
+          "Sides that keep less than this share of their length next to opposite lines count with that share alone.")
+      .advanced("chosen by hand; not measured");
+  list.number("maximum_scatter", o.maximum_scatter, "m", {0, 20},
+              "Sides whose wall feet scatter by more than this around their line are foliage.")
+      .advanced("chosen by hand; not measured");
+  list.number("roof_look_down", o.roof_look_down, "m", {0, 50},
+              "Height below a side without walls in which its continuation is looked for.")
+      .advanced("chosen by hand; not measured");
+  list.number("roof_look_sideways", o.roof_look_sideways, "m", {0, 50},
+              "Lateral distance within which the continuation of a side without walls is looked for.")
+      .advanced("chosen by hand; not measured");
+  list.number("roof_cosine", o.roof_cosine, "", {0, 1},
+              "Cosine of the maximum angle between a roof and its continuation below.")
+      .advanced("chosen by hand; not measured");
+  list.number("roof_share", o.roof_share, "", {0, 1},
+              "Minimum share of a roof's line that lies beside its continuation below.")
+      .advanced("chosen by hand; not measured");
+  list.number("twin_distance", o.twin_distance, "m", {0, 20},
+              "Of two sweep-edges nearer to each other than this, only the larger one is kept.")
+      .advanced("chosen by hand; not measured");
+  list.number("twin_share", o.twin_share, "", {0, 1},
+              "Minimum share of a sweep-edge's length beside a larger one for it to be left out.")
+      .advanced("chosen by hand; not measured");
+  list.number("registration_cosine", o.registration_cosine, "", {0, 1},
+              "Cosine of the maximum angle between a wall and the outline's edge it is compared with.")
+      .advanced("docs/decisions/0015");
+  list.number("registration_shared", o.registration_shared, "m", {0.01, 100},
+              "Minimum length along which a wall and an outline's edge are compared.")
+      .advanced("chosen by hand; not measured");
+  list.number("registration_distance", o.registration_distance, "m", {0.01, 20},
+              "Maximum distance between a wall and an outline's edge that are compared.")
+      .advanced("docs/decisions/0015");
+  list.number("registration_distance_astray", o.registration_distance_astray, "m", {0.01, 20},
+              "The same distance for footprints that are displaced by more than sweep.gis_offset.")
+      .advanced("docs/decisions/0018");
+  list.number("registration_noise", o.registration_noise, "m", {1e-6, 5},
+              "Distances below this weigh the same in the fit of the displacement.")
+      .advanced("chosen by hand; not measured");
+  list.number("registration_determined", o.registration_determined, "", {0, 1},
+              "Minimum share of the walls' length that must face across every direction for a displacement to be "
+              "determined.")
+      .advanced("chosen by hand; not measured");
+  list.number("registration_stands_out", o.registration_stands_out, "", {0, 100},
+              "A displacement counts when it is this many times the median distance that it leaves.")
+      .advanced("docs/decisions/0015");
+  list.number("registration_significance", o.registration_significance, "", {0, 100},
+              "A displacement also counts when it is this many times its standard error.")
+      .advanced("95 % of a normal distribution in the plane; docs/decisions/0018");
+  list.number("registration_explains", o.registration_explains, "", {0, 1},
+              "Share of the mean distance that a displacement must explain when it is judged by its standard error.")
+      .advanced("docs/decisions/0018");
+  list.number("registration_explains_astray", o.registration_explains_astray, "", {0, 1},
+              "Share of the mean distance that a displacement larger than sweep.gis_offset must explain.")
+      .advanced("docs/decisions/0018");
+  list.number("registration_minimum_shift", o.registration_minimum_shift, "m", {0, 20},
+              "Displacements of the footprints smaller than this are ignored.")
+      .advanced("docs/decisions/0015");
+  list.integer("registration_rounds", o.registration_rounds, "", {1, 10000},
+               "Number of rounds of the reweighted least squares that fit the displacement.")
+      .advanced("far more than the fit takes to converge; not measured");
+  list.number("footprint_cosine", o.footprint_cosine, "", {0, 1},
+              "Cosine of the maximum angle between a wall and the footprint's edge it is moved onto.")
+      .advanced("chosen by hand; not measured");
+  list.number("footprint_piece", o.footprint_piece, "m", {0.001, 50},
+              "Minimum length of a piece of a wall that is moved onto a footprint's edge.")
+      .advanced("chosen by hand; not measured");
+  list.number("footprint_straight", o.footprint_straight, "m", {0, 20},
+              "Corners of a footprint nearer than this to the line without them do not divide a wall.")
+      .advanced("chosen by hand; not measured");
+  list.number("footprint_rest", o.footprint_rest, "m", {0, 100},
+              "Minimum length of the rest of a wall beside which there is no footprint's edge.")
+      .advanced("chosen by hand; not measured");
+  list.number("step_cell", o.step_cell, "m", {0.05, 5},
+              "Cell size of the grid of heights in which roof steps are looked for.")
+      .advanced("the cell of the paper's error measure");
+  list.integer("step_near", o.step_near, "", {1, 20}, "Half width of a roof step's flank, in cells.")
+      .advanced("chosen by hand; not measured");
+  list.integer("step_side", o.step_side, "", {1, 20},
+               "Number of cell distances beside a roof step's flank over which the slope is fitted.")
+      .advanced("chosen by hand; not measured");
+  list.integer("step_alone", o.step_alone, "", {1, 20},
+               "Of two jumps within this number of cells only the higher one is kept.")
+      .advanced("chosen by hand; not measured");
+  list.integer("step_rows", o.step_rows, "", {0, 100}, "Number of rows to both sides over which a jump is averaged.")
+      .advanced("chosen by hand; not measured");
+  list.number("step_minimum_rows", o.step_minimum_rows, "", {1, 1000},
+              "Minimum number of rows with known heights in that average.")
+      .advanced("chosen by hand; not measured");
+  list.number("step_own_share", o.step_own_share, "", {0, 1},
+              "Minimum jump of a row, as a share of the mean over the rows around it.")
+      .advanced("chosen by hand; not measured");
+  list.number("step_noise", o.step_noise, "m", {0, 20}, "Minimum height of a jump in one row.")
+      .advanced("chosen by hand; not measured");
+  list.number("step_roughness", o.step_roughness, "m", {0, 20},
+              "Maximum root mean square distance of the heights beside a jump from their slope; rougher surfaces are "
+              "foliage or chimneys.")
+      .advanced("chosen by hand; not measured");
+  list.number("step_ground", o.step_ground, "m", {0, 100}, "Height above ground below which there is no roof.")
+      .advanced("segment.min_height; not measured");
+  list.number("step_grain_turn", o.step_grain_turn, "rad", {0, 0.5},
+              "Maximum angle between footprint edges of one direction.")
+      .advanced("chosen by hand; not measured");
+  list.number("step_grain_edge", o.step_grain_edge, "m", {0, 100},
+              "Minimum length of a footprint's edge that counts for a direction.")
+      .advanced("chosen by hand; not measured");
+  list.number("step_grain_length", o.step_grain_length, "m", {0, 1000},
+              "Minimum total length of the footprint edges of one direction.")
+      .advanced("chosen by hand; not measured");
+  list.number("step_grain_share", o.step_grain_share, "", {0, 1},
+              "Minimum share of a footprint's edges in a direction for roof steps to be looked for along it.")
+      .advanced("chosen by hand; not measured");
+  list.number("step_band", o.step_band, "m", {0, 20}, "Maximum distance of a jump from the line of its roof step.")
+      .advanced("chosen by hand; not measured");
+  list.number("step_gap", o.step_gap, "m", {0, 50}, "Maximum gap in a roof step.")
+      .advanced("chosen by hand; not measured");
+  list.number("step_wide_gap", o.step_wide_gap, "m", {0, 100},
+              "Maximum gap in a roof step whose two parts jump in opposite directions.")
+      .advanced("chosen by hand; not measured");
+  list.number("step_cover", o.step_cover, "", {0, 1}, "Minimum share of a roof step's length with a jump.")
+      .advanced("chosen by hand; not measured");
+  list.number("step_full_jump", o.step_full_jump, "m", {0.01, 50},
+              "Height above which a jump counts no more when roof steps are ranked.")
+      .advanced("chosen by hand; not measured");
+  list.number("step_bend", o.step_bend, "m", {0, 20},
+              "Lateral movement between the ends of a roof step from which it may be turned from its direction.")
+      .advanced("chosen by hand; not measured");
+  list.number("step_turn", o.step_turn, "", {0, 1},
+              "Tangent of the maximum angle by which a roof step is turned from its direction.")
+      .advanced("chosen by hand; not measured");
+  list.number("step_part", o.step_part, "m", {0, 100},
+              "Minimum length of a part of a roof step that jumps in one direction.")
+      .advanced("chosen by hand; not measured");
+  list.number("step_reach", o.step_reach, "m", {0, 50},
+              "Maximum length by which a roof step is extended to the next wall or footprint's edge.")
+      .advanced("chosen by hand; not measured");
+  list.number("step_same_line", o.step_same_line, "m", {0, 20},
+              "A roof step within this distance of a wall or a footprint's edge is the same line.")
+      .advanced("chosen by hand; not measured");
+  list.number("step_same_sine", o.step_same_sine, "", {0, 1},
+              "Sine of the maximum angle between a roof step and a line that is the same.")
+      .advanced("chosen by hand; not measured");
+  list.number("step_rest", o.step_rest, "m", {0, 100}, "Minimum length of a roof step beside which there is no wall.")
+      .advanced("chosen by hand; not measured");
+  return list;
+}
+
+}  // namespace mansard::sweep
