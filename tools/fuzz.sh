@@ -8,16 +8,7 @@ seconds=${1:?"SECONDS for each fuzzer"}
 targets=(plan_json extrude mesh_files tilesets models)
 [[ $# -lt 2 ]] || targets=("${@:2}")
 
-# clang is needed here and nowhere else, so packages.txt does not ask for it. Before 16 it cannot take the ranges of the
-# standard library of g++ 12.
-if ! command -v clang++-16 > /dev/null ||
-   ! compgen -G "$(clang++-16 -print-resource-dir)/lib/linux/libclang_rt.fuzzer-*" > /dev/null; then
-  as_root=(env DEBIAN_FRONTEND=noninteractive)
-  [[ $(id -u) -eq 0 ]] || as_root=(sudo "${as_root[@]}")
-  "${as_root[@]}" apt-get -qq update
-  "${as_root[@]}" apt-get -qq install -y --no-install-recommends clang-16 libclang-rt-16-dev
-fi
-
+tools/setup.sh build clang
 cmake --preset fuzz --log-level=WARNING > /dev/null
 cmake --build --preset fuzz --target "${targets[@]/#/fuzz_}"
 findings=$PWD/build/fuzz/findings
@@ -32,9 +23,11 @@ for target in "${targets[@]}"; do
   options=(-timeout=60 -rss_limit_mb=4096 -artifact_prefix="$findings/$target-")
   [[ ! -f fuzz/$target.dict ]] || options+=(-dict="fuzz/$target.dict")
   if "$program" "$grown" "fuzz/corpus/$target" -max_total_time="$seconds" -max_len=$length -print_final_stats=1 "${options[@]}"; then
+    echo "fuzz: $target: passed"
     continue
   fi
   code=1
+  echo "fuzz: $target: failed"
   for crash in "$findings/$target"-{crash,oom,timeout}-*; do
     [[ -e $crash ]] || continue
     "$program" -minimize_crash=1 -max_total_time=60 -exact_artifact_path="$crash.small" "$crash" > /dev/null 2>&1 || true
