@@ -14,6 +14,12 @@
 namespace mansard::explore {
 namespace {
 
+auto trial_of(std::string dataset, std::string key, std::string value) -> Trial {
+  Trial trial;
+  trial.dataset = std::move(dataset), trial.key = std::move(key), trial.value = std::move(value);
+  return trial;
+}
+
 /// Those that a reconstruction from meshes and footprints decides by. Options of `ingest` are for reading the scan
 /// once, those of `evaluate` are the measure itself.
 constexpr std::array<std::string_view, 10> modules{"block",   "slice",   "sweep",  "fracture", "segment",
@@ -145,7 +151,7 @@ auto effects_of(const std::vector<Trial>& usual, const std::vector<Trial>& trial
       Effect effect{axis.key, value, present.at(axis.key), {}, 0, true};
       for (const auto& base : usual) {
         const auto at = found.find({base.dataset, axis.key, value});
-        effect.trials.push_back(at != found.end() ? *at->second : Trial{base.dataset, axis.key, value});
+        effect.trials.push_back(at != found.end() ? *at->second : trial_of(base.dataset, axis.key, value));
         const Trial& trial = effect.trials.back();
         effect.largest = std::max(effect.largest, effect_on(trial, base));
         effect.none = effect.none && trial.failure.empty() && base.failure.empty() && trial.models == base.models;
@@ -182,7 +188,7 @@ auto sensitivity(const SensitivityRequest& request, const base::Run& run) -> bas
     base::Run inner{run.cancel, nullptr, static_cast<std::uint64_t>(options->seed)};
     base::parallel_for(settings.size(), [&](std::size_t i) {
       const auto& [key, value] = settings[i];
-      own[i] = {dataset.name, key, value};
+      own[i] = trial_of(dataset.name, key, value);
       if (run.cancelled()) return;
       if (const auto at = known.find({dataset.name, key, value}); at != known.end()) {
         own[i] = at->second;

@@ -208,7 +208,7 @@ auto raise_footprints(const model::Scene& scene, const Options& options, const b
     const auto& form = read[job.feature].form;
     const detail::Watch planning;
     auto planned = by_attributes ? roof::plan_of(polygon, form, options.roof, inner)
-                                 : roof::plan_along(polygon, profile, form, options.roof.cap);
+                                 : roof::plan_along(polygon, profile, form, options.roof);
     job.planning = planning.seconds();
     if (!planned) {
       job.full = false;

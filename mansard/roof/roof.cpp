@@ -227,7 +227,7 @@ auto profile_of(std::string_view text) -> base::Result<Profile> {
   return profile;
 }
 
-auto plan_along(const geometry::Polygon& polygon, const Profile& profile, const Form& form, std::optional<double> cap)
+auto plan_along(const geometry::Polygon& polygon, const Profile& profile, const Form& form, const Options& o)
     -> Planned {
   Planned out;
   const auto &last = profile.back(), &before = profile[profile.size() - 2];
@@ -235,10 +235,10 @@ auto plan_along(const geometry::Polygon& polygon, const Profile& profile, const 
   out.flat_top = out.top = last.height;
   if (rise > 0 && run > 0) {
     // Every edge moves alike, so the outline is used up where the smallest box around it is.
-    const auto extent = detail::extent_of(detail::sides_of(polygon));
+    const auto extent = detail::extent_of(detail::sides_of(polygon, o.side_turn));
     out.top = std::max(last.height, before.height + (extent.width / 2 - before.inward) * rise / run) + o.cap_clearance;
   }
-  if (cap) out.top = std::min(out.top, *cap);
+  if (o.cap) out.top = std::min(out.top, *o.cap);
   out.flat_top = std::min(out.flat_top, out.top);
   out.plan = Draft(polygon, form.ground + form.base, profile).plan(out.top);
   return out;

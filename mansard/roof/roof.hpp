@@ -117,7 +117,7 @@ struct Planned {
 /// The same profile for every edge, until the roofs meet, or up to `cap` metres above the base. A last part that is
 /// upright or level ends where it ends.
 [[nodiscard]] auto plan_along(const geometry::Polygon& polygon, const model::Profile& profile, const Form& form,
-                              std::optional<double> cap) -> Planned;
+                              const Options& options) -> Planned;
 
 /// Whether a layer with these attributes has all that options name. Gives up with "roof-attribute".
 [[nodiscard]] auto check_attributes(const model::Attributes& attributes, const Options& options) -> base::Result<void>;

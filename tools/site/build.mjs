@@ -26,8 +26,8 @@ const version = spawnSync(program, ["--version"], { encoding: "utf8" }).stdout.t
 
 // ---- the pages, in the order of the menu
 const there = (name) => fs.existsSync(path.join(root, name));
-const list = ["cmake/modules.cmake", "cmake/rooms.cmake"].find(there);
-const rooms = [...read(list).replace(/#.*/g, "").matchAll(/mansard_(?:module|room)\(([a-z_]+)/g)].map((match) => match[1]);
+const list = "cmake/modules.cmake";
+const rooms = [...read(list).replace(/#.*/g, "").matchAll(/mansard_module\(([a-z_]+)/g)].map((match) => match[1]);
 const tables = new Tables(rooms, known);
 const in_folder = (folder, ...first) => {
   const all = fs.readdirSync(path.join(root, folder)).filter((name) => name.endsWith(".md")).sort();

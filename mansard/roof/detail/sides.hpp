@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mansard/geometry/polygon.hpp"
+#include "mansard/roof/roof.hpp"
 
 namespace mansard::roof::detail {
 
