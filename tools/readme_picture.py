@@ -21,7 +21,7 @@ from mathutils.kdtree import KDTree
 
 numpy.bool = bool  # the glTF importer of Debian 12's Blender uses it; its numpy has it no more
 
-WALL, PARTY, GROUND, LINE, SCAN = "#f1ece2", "#e2d9ca", "#bcbdb4", "#3a302b", "#9fb3cf"
+WALL, PARTY, GROUND, LINE, SCAN = "#f1ece2", "#e2d9ca", "#bcbdb4", "#3a302b", "#8fa3bf"
 ROOFS = ["#ab6148", "#a25742", "#b56c4f", "#9c5340", "#b0664e"]  # one of these per building
 
 
@@ -151,6 +151,8 @@ def show_scan(path, glb, offset=(84800, 447400, 0)):
     scan.location = [a - b for a, b in zip(offset, origin_of(glb))]
     scan.data.materials.clear()
     scan.data.materials.append(material("scan", SCAN))
+    bpy.ops.mesh.primitive_plane_add(size=1000, location=(0, 0, -0.5))
+    bpy.context.view_layer.objects.active.data.materials.append(material("terrain", GROUND))
 
 
 def light():
