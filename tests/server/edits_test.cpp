@@ -77,7 +77,7 @@ TEST_F(Terrace, previews_without_writing) {
   ASSERT_EQ(reply.status, 200) << reply.text;
   const auto raised = reply.json()["buildings"][0];
   EXPECT_TRUE(raised["valid"].get<bool>());
-  // Raised by one metre over a base of 80 m².
+  // One metre higher over a base of 80 m².
   EXPECT_NEAR(raised["parts"][0]["volume"].get<double>() - before["parts"][0]["volume"].get<double>(), 80, 2);
   EXPECT_NEAR(raised["mse"].get<double>(), 1, 0.3);
   EXPECT_EQ(building(0), before);

@@ -98,14 +98,14 @@ TEST(Inputs, are_read_from_archives_and_compressed_files_and_recognised_again) {
   // The same from files on disk.
   fs::copy_file(hall + "mesh.off", folder / "mesh.off");
   ASSERT_EQ(std::system(("gzip " + (folder / "mesh.off").string()).c_str()), 0);
-  const Running packed(folder / "packed");
-  ASSERT_EQ(packed
+  const Running compressed(folder / "compressed");
+  ASSERT_EQ(compressed
                 .post("/api/project/inputs",
                       {{"meshes", {(folder / "mesh.off.gz").string()}}, {"footprints", hall + "footprints.geojson"}})
                 .status,
             200);
-  EXPECT_FALSE(some_changed(inputs_of(packed)));
-  EXPECT_EQ(packed.get("/api/scene").json()["triangles"], Json::parse(scene)["triangles"]);
+  EXPECT_FALSE(some_changed(inputs_of(compressed)));
+  EXPECT_EQ(compressed.get("/api/scene").json()["triangles"], Json::parse(scene)["triangles"]);
 }
 
 /// Heights in cells of a metre, from the south-west corner at (0, 0), of a flat house on flat ground.

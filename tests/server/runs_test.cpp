@@ -253,9 +253,9 @@ TEST_F(Runs, export_the_bytes_that_extrude_makes_from_their_plans) {
         EXPECT_EQ(bytes == read(folder / name), true) << name;
         continue;
       }
-      const auto packed = zip_of(folder / name.substr(0, name.size() - 4));
-      ASSERT_TRUE(packed);
-      EXPECT_EQ(bytes == *packed, true) << name;
+      const auto compressed = zip_of(folder / name.substr(0, name.size() - 4));
+      ASSERT_TRUE(compressed);
+      EXPECT_EQ(bytes == *compressed, true) << name;
     }
   EXPECT_EQ(fetched, written_formats().size() + 1) << "an OBJ has two files";
   EXPECT_THAT(read(folder / "plans.json"), HasSubstr("ms_edited"));

@@ -493,7 +493,7 @@ test("texts have enough contrast, and the keyboard is sufficient", async ({ clea
   await pick(page, house.id);
   expect(await faint(page), "Edit").toEqual([]);
 
-  // The gutter is raised by 10 cm without a mouse.
+  // The gutter moves up by 10 cm without a mouse.
   await pickEdge(page, pitched(house.parts[0]!.plan)[0]!);
   const before = await buildingOf(page, house.id);
   await page.getByRole("button", { name: /^point 1,/ }).focus();

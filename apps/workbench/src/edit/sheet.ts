@@ -38,10 +38,10 @@ export function fitted(sheet: Sheet, points: Point2[], margin: number): Sheet {
   if (points.length === 0 || sheet.width === 0 || sheet.height === 0) return sheet;
   const low: Point2 = [Math.min(...points.map((p) => p[0])), Math.min(...points.map((p) => p[1]))];
   const high: Point2 = [Math.max(...points.map((p) => p[0])), Math.max(...points.map((p) => p[1]))];
-  const room = (size: number) => Math.max(20, size - 2 * margin);
+  const available = (size: number) => Math.max(20, size - 2 * margin);
   const scale = Math.min(
-    room(sheet.width) / Math.max(high[0] - low[0], 0.5),
-    room(sheet.height) / Math.max(high[1] - low[1], 0.5),
+    available(sheet.width) / Math.max(high[0] - low[0], 0.5),
+    available(sheet.height) / Math.max(high[1] - low[1], 0.5),
   );
   return {
     ...sheet,

@@ -44,7 +44,7 @@ export function inwardAt(points: readonly (readonly [number, number])[], height:
   return points.at(-1)?.[0] ?? 0;
 }
 
-/** Clusters of profiles that differ by at most `near`, each with the profile of its longest edge; the greatest total length
+/** Clusters of profiles that differ by at most `near`, each with the profile of its longest edge; the largest total length
  *  first. */
 export function clusters(profiles: readonly EdgeProfile[], near = 0.4): Cluster[] {
   const found: (Cluster & { samples: number[]; top: number })[] = [];
