@@ -42,7 +42,7 @@ struct WriteOptions {
 };
 [[nodiscard]] auto option_list(WriteOptions& options) -> base::OptionList;
 
-/// Takes buildings one after the other. Memory does not grow with their number, but where docs/write.md says by how
+/// Takes buildings one after the other. Memory does not grow with their number, but where docs/formats.md says by how
 /// much. The same header, options and buildings give the same bytes.
 class CityWriter {
  public:

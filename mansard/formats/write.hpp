@@ -30,7 +30,7 @@ struct ObjFiles {
 /// Binary glTF 2.0, y up, single precision around the origin (kept in asset.extras), a node per part, colour by class.
 [[nodiscard]] auto glb(const model::City& city) -> base::Result<std::string>;
 
-/// Plan + profiles: a small JSON of its own, documented in docs/write.md; the source of truth of every part.
+/// Plan + profiles: a small JSON of its own, documented in docs/formats.md; the source of truth of every part.
 [[nodiscard]] auto plans(const model::City& city) -> std::string;
 
 /// Reads plan + profiles back: buildings and parts with plans but without models; from a file of plans, or from the

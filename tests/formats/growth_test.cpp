@@ -1,4 +1,4 @@
-// Writers do not keep what they have written: the heap grows by a bounded number of bytes a building (docs/write.md).
+// Writers do not keep what they have written: the heap grows by a bounded number of bytes a building (docs/formats.md).
 #include <gtest/gtest.h>
 
 #include <malloc.h>

@@ -44,10 +44,10 @@ plant docs/sweep.md $'| option | default | |\n|---|---|---|\n| `delta` | 11 m² 
 plant docs/solver.md 'Gives up with `solver-tired`.' 'the code solver-tired does not exist in the program'
 plant docs/solver.md 'Held by `Solver.never_errs`.' 'there is no test Solver.never_errs'
 plant docs/solver.md 'Held by `Solver.never_errs_…`.' 'there is no test Solver.never_errs_'
-plant docs/write.md 'Parts have `ms_colour`.' 'the attribute ms_colour does not exist in the program'
-plant docs/write.md 'See [there](nowhere.md).' 'the link nowhere.md leads nowhere'
-plant docs/write.md 'See [there](cli.md#no-such-section).' 'the link cli.md#no-such-section leads to no section'
-plant docs/write.md '![A picture](pictures/none.png)' 'the link pictures/none.png leads nowhere'
+plant docs/formats.md 'Parts have `ms_colour`.' 'the attribute ms_colour does not exist in the program'
+plant docs/formats.md 'See [there](nowhere.md).' 'the link nowhere.md leads nowhere'
+plant docs/formats.md 'See [there](cli.md#no-such-section).' 'the link cli.md#no-such-section leads to no section'
+plant docs/formats.md '![A picture](pictures/none.png)' 'the link pictures/none.png leads nowhere'
 plant docs/cli.md $'| exit code | when |\n|---|---|\n| 0 | all done |' 'the exit codes are'
 
 # In the sources, and of pages as a whole.

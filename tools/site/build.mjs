@@ -38,7 +38,7 @@ const module_pages = rooms.map((room) => `docs/${room}.md`).filter(there);
 // What users look for first, then modules and decisions. A page is called as here, otherwise by its title.
 const titles = {
   "README.md": "Overview", "docs/packaging.md": "Install", "data/README.md": "Sample data",
-  "docs/ingest.md": "Input formats", "docs/write.md": "Output formats", "docs/formats.md": "Formats",
+  "docs/ingest.md": "Input formats", "docs/formats.md": "Output formats",
   "docs/cli.md": "Command line", "docs/workbench.md": "The workbench", "docs/serve.md": "Server and projects",
   "docs/results.md": "Results", "docs/robustness.md": "Robustness", "docs/bench.md": "Benchmarks",
 };
@@ -46,7 +46,7 @@ const docs = (...names) => names.map((name) => `docs/${name}.md`).filter(there);
 const top = [
   ["Start", ["README.md", ...docs("packaging"), "data/README.md"]],
   ["Tutorials", in_folder("docs/tutorials", "one_house.md", "one_block.md", "one_city.md")],
-  ["Formats", docs("formats", "ingest", "write")],
+  ["Formats", docs("ingest", "formats")],
   ["Options", ["options.html", "attributes.html", "codes.html"]],
   ["Command line", [...docs("cli"), "verbs.html"]],
   ["Workbench", docs("workbench", "serve")],

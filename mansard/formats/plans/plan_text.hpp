@@ -1,4 +1,4 @@
-// Plan + profiles as JSON and back: docs/write.md and docs/plan.schema.json describe the format.
+// Plan + profiles as JSON and back: docs/formats.md and docs/plan.schema.json describe the format.
 #pragma once
 
 #include <string>
