@@ -105,20 +105,20 @@ async function call(method, path, { at = {}, query = {}, body, expect = 200 } = 
   return json;
 }
 
-// Every event is held against the schema as it comes.
+// Every event is validated against the schema when it arrives. The stream is read with a reader, which cancel() ends: in
+// Node 18, aborting the fetch does not end a loop over the body.
 const kinds = new Set();
-const listening = new AbortController();
 called.add("get /api/events");
+const stream = await fetch(base + "/api/events", { headers: { Authorization: `Bearer ${token}` } });
+assert.equal(stream.headers.get("Content-Type"), "text/event-stream");
+const reader = stream.body.getReader();
 const events = (async () => {
-  const response = await fetch(base + "/api/events", {
-    headers: { Authorization: `Bearer ${token}` },
-    signal: listening.signal,
-  });
-  assert.equal(response.headers.get("Content-Type"), "text/event-stream");
   let rest = "";
   const decoder = new TextDecoder();
-  for await (const piece of response.body) {
-    rest += decoder.decode(piece, { stream: true });
+  for (;;) {
+    const { value, done } = await reader.read();
+    if (done) return;
+    rest += decoder.decode(value, { stream: true });
     const blocks = rest.split("\n\n");
     rest = blocks.pop();
     for (const block of blocks) {
@@ -127,9 +127,7 @@ const events = (async () => {
       kinds.add(event.type);
     }
   }
-})().catch((e) => {
-  if (e.name !== "AbortError") throw e;
-});
+})();
 
 async function settled() {
   while ((await call("get", "/api/status")).busy) await new Promise((resolve) => setTimeout(resolve, 50));
@@ -210,7 +208,7 @@ await call("patch", "/api/runs/{run}", { at: of, body: { label: "renamed" } });
 await call("delete", "/api/runs/{run}", { at: { run: "run-2" } });
 await call("post", "/api/runs/{run}/undo", { at: { run: "run-2" }, body: {}, expect: 404 });
 
-listening.abort();
+await reader.cancel();
 await events;
 const all = Object.entries(api.paths).flatMap(([path, methods]) => Object.keys(methods).map((m) => `${m} ${path}`));
 assert.deepEqual([...called].sort(), all.sort(), "every endpoint has been called");
