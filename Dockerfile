@@ -5,9 +5,9 @@ FROM debian:12-slim AS build
 RUN apt-get -qq update && apt-get -qq install -y --no-install-recommends make ca-certificates
 WORKDIR /mansard
 # The set-up comes first: it changes least.
-COPY packages.txt Makefile ./
+COPY packages.txt ./
 COPY tools/setup.sh tools/setup.sh
-RUN make setup
+RUN tools/setup.sh build package
 COPY . .
 RUN make demo
 RUN cmake --build --preset release --target mansard_manual && cd build/release && cpack -G DEB -D CPACK_COMPONENTS_ALL=program

@@ -8,22 +8,27 @@ SHELL := /bin/bash
 JOBS ?= $(shell awk -v cores=$$(nproc) '/^MemAvailable/ { jobs = int($$2 / 1572864) } \
   END { if (jobs > cores) jobs = cores; print jobs < 1 ? 1 : jobs }' /proc/meminfo)
 
+# `make demo` needs no test packages, so it configures without tests, unless build/release has them from `make test` already.
+TESTS = $(if $(wildcard build/release/tests/CTestTestfile.cmake),ON,OFF)
+
 help:
 	@echo "make demo    reconstruct the samples of data/ into out/"
 	@echo "make test    run all tests"
-	@echo "make setup   install what packages.txt lists and this machine lacks"
+	@echo "make setup   install the packages that both need and this machine lacks"
 	@echo "make build   build everything into build/release (JOBS=$(JOBS))"
 	@echo "make clean   remove build/release and out"
 
-demo: configure
+demo:
+	@tools/setup.sh build
+	@cmake --preset release -DMANSARD_TESTS=$(TESTS) --log-level=WARNING > /dev/null
 	cmake --build --preset release --target mansard -j $(JOBS)
 	@tools/demo.sh
 
 test: build
-	ctest --preset release --no-tests=error -j 2
+	ctest --preset release --no-tests=error -j 2 --output-junit junit.xml
 
 setup:
-	@tools/setup.sh
+	@tools/setup.sh build test package
 
 configure: setup
 	@cmake --preset release --log-level=WARNING > /dev/null

@@ -7,7 +7,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 results=${1:-${TMPDIR:-/tmp}/mansard-bench.json}
 shift || true
 
-tools/setup.sh
+tools/setup.sh build bench
 cmake --preset bench --log-level=WARNING > /dev/null
 cmake --build --preset bench --target bench_extrude > /dev/null
 # CGAL takes seconds to minutes for one polygon of 5,000 corners: those that it takes minutes for are left out. With

@@ -10,7 +10,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 results=${1:-${TMPDIR:-/tmp}/mansard-bench-segment.json}
 shift || true
 
-tools/setup.sh
+tools/setup.sh build bench
 cmake --preset bench --log-level=WARNING \
   -DMANSARD_MODULES='base;geometry;rays;solver;model;solid;crs;formats;ingest;block;slice;sweep;fracture;segment;extrude' > /dev/null
 cmake --build --preset bench --target bench_segment > /dev/null

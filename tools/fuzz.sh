@@ -8,16 +8,7 @@ seconds=${1:?"SECONDS for each fuzzer"}
 targets=(plan_json extrude mesh_files tilesets models)
 [[ $# -lt 2 ]] || targets=("${@:2}")
 
-# clang is needed here and nowhere else, so packages.txt does not ask for it. Before 16 it cannot take the ranges of the
-# standard library of g++ 12.
-if ! command -v clang++-16 > /dev/null ||
-   ! compgen -G "$(clang++-16 -print-resource-dir)/lib/linux/libclang_rt.fuzzer-*" > /dev/null; then
-  as_root=(env DEBIAN_FRONTEND=noninteractive)
-  [[ $(id -u) -eq 0 ]] || as_root=(sudo "${as_root[@]}")
-  "${as_root[@]}" apt-get -qq update
-  "${as_root[@]}" apt-get -qq install -y --no-install-recommends clang-16 libclang-rt-16-dev
-fi
-
+tools/setup.sh build clang
 cmake --preset fuzz --log-level=WARNING > /dev/null
 cmake --build --preset fuzz --target "${targets[@]/#/fuzz_}"
 findings=$PWD/build/fuzz/findings

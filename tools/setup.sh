@@ -1,27 +1,41 @@
 #!/usr/bin/env bash
-# setup.sh [LIST]: installs what LIST (packages.txt) lists and this machine lacks; when nothing is missing it takes no time
-# and needs no root.
+# Installs the missing packages of packages.txt: tools/setup.sh [--list FILE] [PURPOSE…]
+# A PURPOSE is a section of the list, for example `build`; without one, all sections are installed. When nothing is missing it
+# takes no time and needs no root.
 # A line is a package, or `package unless:command`, which is skipped where that command can be found.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-list=${1:-packages.txt}
-wanted=()
+list=packages.txt
+if [[ ${1:-} == --list ]]; then
+  list=${2:?"setup: --list FILE"}
+  shift 2
+fi
+fail() { echo "setup: $*" >&2; exit 1; }
+
+wanted=() purpose='' purposes=()
 while read -r package condition; do
+  if [[ $package =~ ^\[(.*)\]$ ]]; then
+    purpose=${BASH_REMATCH[1]}
+    purposes+=("$purpose")
+    continue
+  fi
+  [[ -n $package ]] || continue
   case $condition in
     '') ;;
     unless:?*) if command -v "${condition#unless:}" > /dev/null; then continue; fi ;;
-    *) echo "setup: $list: $package: '$condition' is not unless:command" >&2; exit 1 ;;
+    *) fail "$list: $package: '$condition' is not unless:command" ;;
   esac
-  [[ -z $package ]] || wanted+=("$package")
+  [[ $# -eq 0 || " $* " == *" $purpose "* ]] || continue
+  [[ " ${wanted[*]} " == *" $package "* ]] || wanted+=("$package")
 done < <(sed -e 's/#.*//' "$list")
-if [[ ${#wanted[@]} -eq 0 ]]; then
-  echo "setup: $list lists nothing" >&2
-  exit 1
-fi
+for name in "$@"; do
+  [[ " ${purposes[*]} " == *" $name "* ]] || fail "$list has no section [$name]; it has: ${purposes[*]}"
+done
+[[ ${#wanted[@]} -gt 0 ]] || fail "$list lists nothing"
 
 if ! command -v dpkg-query > /dev/null || ! command -v apt-get > /dev/null; then
-  echo "setup: no apt on this machine; going on in the hope that the equivalents of $list are installed" >&2
+  echo "setup: this machine has no apt; continuing on the assumption that the equivalents of $list are installed" >&2
   exit 0
 fi
 
@@ -37,10 +51,8 @@ fi
 echo "setup: installing ${missing[*]}" >&2
 as_root=(env DEBIAN_FRONTEND=noninteractive)
 if [[ $(id -u) -ne 0 ]]; then
-  if ! command -v sudo > /dev/null; then
-    echo "setup: neither root nor sudo; as root, run: apt-get install --no-install-recommends ${missing[*]}" >&2
-    exit 1
-  fi
+  command -v sudo > /dev/null ||
+    fail "neither root nor sudo; as root, run: apt-get install --no-install-recommends ${missing[*]}"
   as_root=(sudo "${as_root[@]}")
 fi
 # Another apt may be at work: wait for its lock rather than fail.

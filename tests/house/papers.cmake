@@ -4,11 +4,14 @@ set(complaints "")
 
 # docs/dependencies.md has every package that is installed and every library that a module uses.
 file(READ ${ROOT}/docs/dependencies.md dependencies)
-file(STRINGS ${ROOT}/packages.txt lines)
+file(READ ${ROOT}/packages.txt lines)
+string(REGEX REPLACE "[][]" "@" lines "${lines}")  # brackets and semicolons mean something in CMake's lists
+string(REPLACE ";" "," lines "${lines}")
+string(REPLACE "\n" ";" lines "${lines}")
 set(packages "")
 foreach(line IN LISTS lines)
   string(REGEX REPLACE "[ \t#].*" "" package "${line}")  # a comment, or unless:command
-  if(NOT package STREQUAL "")
+  if(NOT package MATCHES "^$|^@.*@$")
     list(APPEND packages ${package})
     string(FIND "${dependencies}" "`${package}`" found)
     if(found EQUAL -1)

@@ -12,6 +12,7 @@ export PATH=$scratch/bin:$PATH
 
 fail() { echo "$*" >&2; echo "calls were:" >&2; cat "$calls" >&2; exit 1; }
 stand_in() {  # name, body
+  mkdir -p "$(dirname "$scratch/bin/$1")"
   printf '#!/bin/bash\necho "%s $*" >> "%s"\n%s\n' "$1" "$calls" "$2" > "$scratch/bin/$1"
   chmod +x "$scratch/bin/$1"
 }
@@ -24,12 +25,10 @@ machine() {  # user id, missing packages as a regex
   stand_in sudo '"$@"'
   stand_in id "echo $1"
 }
-setup() { "${1:-$repository}/tools/setup.sh" > "$scratch/stdout" 2> "$scratch/stderr"; }
-setup_with() {  # an edit of packages.txt, by sed
-  mkdir "$scratch/tools"
-  cp "$repository/tools/setup.sh" "$scratch/tools/"
+setup() { "$repository/tools/setup.sh" "$@" > "$scratch/stdout" 2> "$scratch/stderr"; }
+setup_with() {  # an edit of packages.txt, by sed; purposes
   sed "$1" "$repository/packages.txt" > "$scratch/packages.txt"
-  setup "$scratch"
+  setup --list "$scratch/packages.txt" "${@:2}"
 }
 
 # demo: a program that leaves what `reconstruct` leaves and ends with the code given
@@ -45,6 +44,19 @@ END
   chmod +x "$scratch/bin/mansard"
 }
 demo() { MANSARD=$scratch/bin/mansard RESULTS=$scratch/out "$repository/tools/demo.sh" > "$scratch/stdout"; }
+
+# the Makefile: in a folder of its own, with stand-ins for all that it calls
+makefile() {
+  cp "$repository/Makefile" "$scratch/"
+  mkdir "$scratch/tools"
+  for tool in setup demo; do
+    stand_in "tools/$tool.sh" ''
+    mv "$scratch/bin/tools/$tool.sh" "$scratch/tools/"
+  done
+  stand_in cmake ''
+  stand_in ctest ''
+}
+called_make() { (cd "$scratch" && JOBS=1 make "$1") > "$scratch/stdout" 2>&1; }
 
 case $2 in
   setup_with_nothing_missing_calls_neither_apt_nor_sudo)
@@ -75,6 +87,31 @@ case $2 in
     setup_with 's/unless:npm/unless:no-such-command/' || fail "setup failed"
     called '^apt-get .*install -y --no-install-recommends make npm$' || fail "not these two"
     ;;
+  setup_installs_only_what_the_purposes_need)
+    machine 0 'chromium|libcgal-dev|libpng-dev|libbenchmark-dev'
+    setup build || fail "setup failed"
+    called '^apt-get .*install -y --no-install-recommends libpng-dev$' || fail "[build] has libpng-dev and not the others"
+    : > "$calls"
+    setup build bench || fail "setup failed"
+    called '^apt-get .*install .* libpng-dev libbenchmark-dev libcgal-dev$' || fail "not what [build] and [bench] need"
+    ;;
+  setup_installs_a_package_of_two_purposes_once)
+    machine 0 'libcgal-dev'
+    setup test bench || fail "setup failed"
+    called '^apt-get .*install -y --no-install-recommends libcgal-dev$' || fail "not once"
+    ;;
+  setup_fails_when_a_purpose_is_unknown)
+    machine 0 'make'
+    ! setup build biuld || fail "the purpose was ignored"
+    grep -q 'no section \[biuld\]; it has: build test' "$scratch/stderr" || fail "the error does not list the purposes"
+    ! called '^apt-get' || fail "installed nevertheless"
+    ;;
+  setup_takes_a_list_without_sections)
+    machine 0 'left-pad'
+    printf 'left-pad  # for a test\n' > "$scratch/list"
+    setup --list "$scratch/list" || fail "setup failed"
+    called '^apt-get .*install .*left-pad$' || fail "not installed"
+    ;;
   setup_fails_when_a_line_cannot_be_understood)
     machine 0 'nothing'
     ! setup_with 's/unless:npm/unles:npm/' || fail "the line was swallowed"
@@ -84,6 +121,29 @@ case $2 in
     machine 0 'cmake'
     stand_in apt-get '[[ "$*" != *install* ]]'
     ! setup || fail "the failure was swallowed"
+    ;;
+  make_demo_installs_and_configures_nothing_for_tests)
+    makefile
+    called_make demo || fail "make demo failed"
+    called '^tools/setup.sh build$' || fail "not the packages of [build] alone"
+    called '^cmake --preset release -DMANSARD_TESTS=OFF' || fail "configured with tests"
+    called '^cmake --build --preset release --target mansard' || fail "not built"
+    called '^tools/demo.sh' || fail "no demo"
+    ;;
+  make_demo_keeps_the_tests_that_make_test_configured)
+    makefile
+    mkdir -p "$scratch/build/release/tests"
+    touch "$scratch/build/release/tests/CTestTestfile.cmake"
+    called_make demo || fail "make demo failed"
+    called '^cmake --preset release -DMANSARD_TESTS=ON' || fail "configured without tests"
+    ;;
+  make_test_installs_configures_and_builds_all)
+    makefile
+    called_make test || fail "make test failed"
+    called '^tools/setup.sh build test package$' || fail "not the packages of tests too"
+    ! called 'MANSARD_TESTS=OFF' || fail "configured without tests"
+    called '^cmake --build --preset release -j 1$' || fail "not all was built"
+    called '^ctest --preset release --no-tests=error' || fail "no tests, or none would pass"
     ;;
   demo_names_a_model_and_a_picture_that_exist)
     program 0
