@@ -1,7 +1,7 @@
 # Two commands: `make demo` and `make test`. Both start with what they need, on a fresh Debian 12 machine too.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help demo test setup configure build clean
+.PHONY: help demo test setup configure build clean jobs
 .NOTPARALLEL:
 
 # A compiler at work on one file may want 1.5 GB.
@@ -25,7 +25,7 @@ demo:
 	@tools/demo.sh
 
 test: build
-	ctest --preset release --no-tests=error -j 2 --output-junit junit.xml
+	ctest --preset release --no-tests=error -j 2
 
 setup:
 	@tools/setup.sh build test package
@@ -35,6 +35,9 @@ configure: setup
 
 build: configure
 	cmake --build --preset release -j $(JOBS)
+
+jobs:
+	@echo $(JOBS)
 
 clean:
 	rm -rf build/release out

@@ -72,7 +72,7 @@ enter() {
     exec chroot "$root" /usr/bin/env -i "$@"' enter "$folder" "$data" "$cache" "${environment[@]}" "$@"
 }
 
-# ---- a Debian 12 with make, certificates and git, as apt would install them
+# ---- a Debian 12 with git and make
 if [[ -n $continue ]]; then
   [[ -e $marker ]] || fail "--continue: $folder was not made by this script"
 else
@@ -85,7 +85,7 @@ trap '[[ -n $keep ]] || remove' EXIT
 # The mirror that this machine uses, if it is a Debian 12 itself.
 mirror_of() {  # codename
   apt-get indextargets --format '$(ORIGIN) $(CODENAME) $(REPO_URI)' 'Created-By: Packages' 2> /dev/null |
-    awk -v codename="$1" '$1 == "Debian" && $2 == codename { print $3; exit }'
+    awk -v codename="$1" '$1 == "Debian" && $2 == codename && !seen++ { print $3 }' || true
 }
 mirror=${MIRROR:-$(mirror_of bookworm)}
 mirror=${mirror:-http://deb.debian.org/debian}
@@ -168,8 +168,12 @@ step() {  # name of its log, command
   { time enter bash -c "cd /src/mansard && $2" > "$log" 2>&1 || said=FAILED; } 2> "$logs/time"
   printf '%-7s %s   %d s, %d s of CPU   %s\n' "$said" "$2" $((SECONDS - start)) \
     "$(awk '{ printf "%d", $1 + $2 }' "$logs/time")" "$log"
-  sed -n '/^[0-9]*% tests passed,/,$p' "$log"
-  [[ $said == passed ]] || { failed=1; tail -30 "$log" | sed 's/^/    /'; }
+  [[ $said == passed ]] || failed=1
+  if grep -q '^[0-9]*% tests passed,' "$log"; then
+    sed -n '/^[0-9]*% tests passed,/,$p' "$log"
+  elif [[ $said == FAILED ]]; then
+    tail -30 "$log"
+  fi
 }
 for name in "${steps[@]}"; do step "$name" "make $name"; done
 count=0

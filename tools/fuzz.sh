@@ -23,9 +23,11 @@ for target in "${targets[@]}"; do
   options=(-timeout=60 -rss_limit_mb=4096 -artifact_prefix="$findings/$target-")
   [[ ! -f fuzz/$target.dict ]] || options+=(-dict="fuzz/$target.dict")
   if "$program" "$grown" "fuzz/corpus/$target" -max_total_time="$seconds" -max_len=$length -print_final_stats=1 "${options[@]}"; then
+    echo "fuzz: $target: passed"
     continue
   fi
   code=1
+  echo "fuzz: $target: failed"
   for crash in "$findings/$target"-{crash,oom,timeout}-*; do
     [[ -e $crash ]] || continue
     "$program" -minimize_crash=1 -max_total_time=60 -exact_artifact_path="$crash.small" "$crash" > /dev/null 2>&1 || true

@@ -1,35 +1,122 @@
-#!/bin/sh
-# The long run of the extrusion kernel's tests: every guarantee of docs/extrude.md over 100,000 random plans and more (a
-# test run takes 5,000), from a seed that is new every night, and the shared polygons.
-#
-#   tools/nightly.sh [test_extrude [runs [seed]]]        build/release/bin/test_extrude 100000 <the date>
-#
-# The same program as in the test run, steered by the environment:
-#   MANSARD_RUNS=n            random plans for all guarantees together
-#   RC_PARAMS="seed=n"        where they begin; a failure says which seed repeats it
-#   MANSARD_KEEP_FAILURES=1   every failing plan, made small, is written to tests/extrude/fixtures, where it is raised and
-#                             judged in every test run from then on
-# Uses every core. Exit code 1 when anything failed; what each part said is in nightly-*.log beside the program.
-set -u
-program=${1:-build/release/bin/test_extrude}
-runs=${2:-100000}
-seed=${3:-$(date +%Y%m%d)}
-cores=$(nproc)
-logs=$(dirname "$program")
+#!/usr/bin/env bash
+# The long runs, which are not part of `make test`: tools/nightly.sh [LANE…]; without LANE all of them, in this order.
+#   debug       compiled without optimisation, with the standard library's assertions: all tests
+#   asan        address and undefined behaviour sanitizers in the whole program: all tests
+#   clang       compiled with clang 16: all tests
+#   fuzz        every fuzzer for FUZZ_SECONDS (600)
+#   properties  the guarantees of docs/extrude.md over RUNS (100000) random plans from SEED (the date), where a test run takes
+#               5,000. Every failing plan is reduced and written to tests/extrude/fixtures, which every test run replays
+#   clean       `make demo` and `make test` in a new Debian 12: tools/clean_debian.sh, as root. CLEAN has its options, for
+#               example CLEAN="--ccache /var/cache/ccache"
+# A lane replaces its row of docs/nightly.md; the others keep what they say. Logs: build/nightly/LANE.log. Exit code 1 when a
+# lane fails.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+all=(debug asan clang fuzz properties clean)
+declare -A meaning=(
+  [debug]="not optimised, standard library's assertions: all tests"
+  [asan]="address and undefined behaviour sanitizers: all tests"
+  [clang]="compiled with clang 16: all tests"
+  [fuzz]="each fuzzer for ${FUZZ_SECONDS:=600} s"
+  [properties]="extrusion kernel: ${RUNS:=100000} random plans"
+  [clean]="\`make demo\` and \`make test\` in a new Debian 12")
+lanes=("$@")
+[[ $# -gt 0 ]] || lanes=("${all[@]}")
+for lane in "${lanes[@]}"; do
+  [[ -n ${meaning[$lane]:-} ]] || { echo "nightly: unknown lane '$lane'; expected ${all[*]}" >&2; exit 2; }
+done
+page=docs/nightly.md
+logs=$PWD/build/nightly
+mkdir -p "$logs"
+jobs=${JOBS:-$(make -s jobs)}
 
-export MANSARD_RUNS="$runs" RC_PARAMS="seed=$seed" MANSARD_KEEP_FAILURES=1
-echo "$runs random plans from seed $seed on $cores cores"
-failed=0
-shard=0
-pids=""
-while [ "$shard" -lt "$cores" ]; do
-  GTEST_TOTAL_SHARDS=$cores GTEST_SHARD_INDEX=$shard "$program" \
-    --gtest_filter='Guarantee.*:*SharedPolygons*:*Fixture*' >"$logs/nightly-$shard.log" 2>&1 &
-  pids="$pids $!"
-  shard=$((shard + 1))
+# ---- the lanes
+all_tests() {  # preset, further packages
+  tools/setup.sh build test package "${@:2}" && cmake --preset "$1" --log-level=WARNING &&
+    cmake --build --preset "$1" -j "$jobs" && ctest --preset "$1" --no-tests=error -j 2
+}
+run_debug() { all_tests debug; }
+run_asan() { all_tests asan; }
+run_clang() { all_tests clang clang; }
+run_fuzz() { tools/fuzz.sh "$FUZZ_SECONDS"; }
+run_properties() {
+  tools/setup.sh build test && cmake --preset release --log-level=WARNING &&
+    cmake --build --preset release --target test_extrude -j "$jobs" || return
+  local cores shard pids=() code=0
+  cores=$(nproc)
+  export MANSARD_RUNS=$RUNS MANSARD_KEEP_FAILURES=1
+  export RC_PARAMS="seed=${SEED:-$(date +%Y%m%d)}"  # a failure says which seed repeats it
+  echo "$RUNS random plans, $RC_PARAMS, on $cores cores"
+  for ((shard = 0; shard < cores; ++shard)); do
+    GTEST_TOTAL_SHARDS=$cores GTEST_SHARD_INDEX=$shard build/release/bin/test_extrude \
+      --gtest_filter='Guarantee.*:*SharedPolygons*:*Fixture*' > "$logs/properties-$shard.log" 2>&1 &
+    pids+=($!)
+  done
+  for pid in "${pids[@]}"; do wait "$pid" || code=1; done
+  for ((shard = 0; shard < cores; ++shard)); do cat "$logs/properties-$shard.log"; done
+  return $code
+}
+# shellcheck disable=SC2086  # CLEAN is several words
+run_clean() { tools/clean_debian.sh ${CLEAN:-}; }
+
+# What a lane's log says: passed, failed and skipped, then the names of what failed, separated by commas.
+results_of() {  # lane
+  awk -v lane="$1" '
+    function add(name) { if (!(name in seen)) names = names (names == "" ? "" : ",") name; seen[name] = 1 }
+    lane == "fuzz" && /^fuzz: [a-z_]+: passed$/ { ++passed }
+    lane == "fuzz" && /^fuzz: [a-z_]+: failed$/ { ++failed; sub(":", "", $2); add($2) }
+    lane == "properties" && /^\[  PASSED  \] [0-9]+ test/ { passed += $4 }
+    lane == "properties" && /^\[  FAILED  \] [0-9]+ test/ { failed += $4; next }
+    lane == "properties" && /^\[  FAILED  \] / { sub(",", "", $4); add($4) }
+    lane ~ /^(debug|asan|clang|clean)$/ && /^[0-9]+% tests passed, [0-9]+ tests? failed out of [0-9]+$/ {
+      failed = $4; passed = $NF - failed; skipped = 0; summary = 1
+    }
+    summary && /^\t *[0-9]+ - .* \((Skipped|Disabled)\)$/ { ++skipped; if (/Skipped/) --passed; next }
+    summary && /^\t *[0-9]+ - / { add($3) }
+    END { printf "%d %d %d %s\n", passed, failed, skipped, names }' "$logs/$1.log"
+}
+
+# ---- the page
+row_of() { grep -m1 "^| \`$1\` |" "$page" 2> /dev/null || echo "| \`$1\` | ${meaning[$1]} | not run | | | | | | |"; }
+write_page() {  # the new row, and what failed in it
+  local lane rows='' failures=''
+  for lane in "${all[@]}"; do
+    if [[ $1 == "| \`$lane\` |"* ]]; then
+      rows+=$1$'\n'
+      [[ -z $2 ]] || failures+="- \`$lane\`: $2"$'\n'
+    else
+      rows+=$(row_of "$lane")$'\n'
+      failures+=$(grep "^- \`$lane\`: " "$page" 2> /dev/null && echo x || true)
+      failures=${failures%x}
+    fi
+  done
+  {
+    echo '# Nightly runs'
+    echo 'Results of the last run of each lane of [tools/nightly.sh](../tools/nightly.sh), written by that script.'
+    echo
+    echo '| lane | what | result | passed | failed | skipped | CPU minutes | date | version, commit |'
+    echo '|---|---|---|---|---|---|---|---|---|'
+    printf '%s' "$rows"
+    [[ -z $failures ]] || printf '\nFailed:\n\n%s' "$failures"
+  } > "$page.new"
+  mv "$page.new" "$page"
+}
+
+git=(git -c 'safe.directory=*')
+commit=$("${git[@]}" rev-parse --short HEAD)
+[[ -z $("${git[@]}" status --porcelain -- . ":!$page" ':!tests/extrude/fixtures') ]] || commit+=' with changes'
+version=$(sed -nE 's/^project\(mansard VERSION ([0-9.]+).*/\1/p' CMakeLists.txt)
+code=0
+for lane in "${lanes[@]}"; do
+  echo "== $lane: log in $logs/$lane.log"
+  result=passed
+  TIMEFORMAT='%U %S'
+  { time "run_$lane" > "$logs/$lane.log" 2>&1 || result=failed; } 2> "$logs/time"
+  read -r passed failed skipped names < <(results_of "$lane")
+  minutes=$(awk '{ printf "%.0f", ($1 + $2) / 60 }' "$logs/time")
+  write_page "| \`$lane\` | ${meaning[$lane]} | $result | $passed | $failed | $skipped | $minutes | $(date +%F) | $version, $commit |" \
+    "${names//,/, }"
+  echo "$result: $passed passed, $failed failed${names:+ ($names)}, $skipped skipped; $minutes minutes of CPU"
+  [[ $result == passed ]] || code=1
 done
-for pid in $pids; do
-  wait "$pid" || failed=1
-done
-grep -hE '^\[  (PASSED|FAILED)' "$logs"/nightly-*.log
-exit $failed
+exit $code

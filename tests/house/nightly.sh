@@ -1,0 +1,75 @@
+#!/usr/bin/env bash
+# Runs tools/nightly.sh among stand-ins for the tools it calls, and reads the page that it writes.
+#   nightly.sh REPOSITORY CASE
+set -euo pipefail
+repository=$1
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+mkdir -p "$scratch/bin" "$scratch/tools" "$scratch/docs" "$scratch/build/release/bin"
+export PATH=$scratch/bin:$PATH
+calls=$scratch/calls
+: > "$calls"
+page=$scratch/docs/nightly.md
+
+fail() { echo "$*" >&2; cat "$scratch/stdout" "$page" "$calls" >&2; exit 1; }
+stand_in() {  # path, body
+  printf '#!/bin/bash\necho "%s $*" >> "%s"\n%s\n' "$1" "$calls" "$2" > "$scratch/$1"
+  chmod +x "$scratch/$1"
+}
+says() { grep -qE -- "$1" "$page"; }
+nightly() { "$scratch/tools/nightly.sh" "$@" > "$scratch/stdout" 2>&1; }
+
+cp "$repository/tools/nightly.sh" "$scratch/tools/"
+echo 'project(mansard VERSION 1.2.3 LANGUAGES CXX)' > "$scratch/CMakeLists.txt"
+stand_in bin/make 'echo 1'
+stand_in bin/cmake ''
+stand_in bin/git '[[ "$*" != *rev-parse* ]] || echo abc1234'
+stand_in tools/setup.sh ''
+stand_in bin/ctest 'printf "100%% tests passed, 0 tests failed out of 12\n\nThe following tests did not run:\n\t  3 - a.b (Skipped)\n\t 40 - a.c (Disabled)\n"'
+
+case $2 in
+  nightly_says_which_lanes_were_not_run)
+    nightly debug || fail "failed"
+    says '^\| `debug` \| .* \| passed \| 11 \| 0 \| 2 \| 0 \| 20[0-9-]+ \| 1\.2\.3, abc1234 \|$' || fail "no row of debug"
+    for lane in asan clang fuzz properties clean; do
+      says "^\| \`$lane\` \| .* \| not run \| \| \| \| \| \| \|$" || fail "$lane was not run"
+    done
+    ;;
+  nightly_keeps_the_rows_of_other_lanes)
+    nightly debug || fail "failed"
+    stand_in bin/ctest 'printf "50%% tests passed, 6 tests failed out of 12\n\nThe following tests FAILED:\n\t  3 - a.b (Timeout)\n\t 40 - a.c (Not Run)\n"; exit 8'
+    ! nightly asan || fail "a failed lane is a failure"
+    says '^\| `debug` \| .* \| passed \| 11 \|' || fail "debug is gone"
+    says '^\| `asan` \| .* \| failed \| 6 \| 6 \| 0 \|' || fail "no row of asan"
+    says '^- `asan`: a\.b, a\.c$' || fail "what failed is not named"
+    nightly debug || [[ $? -eq 1 ]] || fail "failed"
+    says '^- `asan`: a\.b, a\.c$' || fail "what failed in asan is gone"
+    says '^- `debug`: a\.b, a\.c$' || fail "what failed in debug is not named"
+    [[ $(grep -c '^| `' "$page") -eq 6 ]] || fail "a lane has not one row"
+    ;;
+  nightly_reports_a_lane_that_does_not_build)
+    stand_in bin/cmake '[[ "$*" != *--build* ]]'
+    ! nightly clang || fail "passed"
+    says '^\| `clang` \| .* \| failed \| 0 \| 0 \| 0 \|' || fail "no row of clang"
+    ! grep -q '^bin/ctest' "$calls" || fail "tests without a build"
+    grep -q '^tools/setup.sh build test package clang$' "$calls" || fail "clang was not installed"
+    ;;
+  nightly_counts_fuzzers_and_properties)
+    stand_in tools/fuzz.sh 'printf "noise\nfuzz: plan_json: passed\nfuzz: extrude: failed\nfuzz: models: passed\n"; exit 1'
+    stand_in build/release/bin/test_extrude 'printf "[  PASSED  ] 7 tests.\n[  FAILED  ] Guarantee.holds (12 ms)\n[  FAILED  ] 1 test, listed below:\n[  FAILED  ] Guarantee.holds\n"; exit 1'
+    stand_in bin/nproc 'echo 2'
+    FUZZ_SECONDS=5 RUNS=10 nightly fuzz properties || [[ $? -eq 1 ]] || fail "failed"
+    grep -q '^tools/fuzz.sh 5$' "$calls" || fail "not the seconds given"
+    says '^\| `fuzz` \| each fuzzer for 5 s \| failed \| 2 \| 1 \| 0 \|' || fail "no row of fuzz"
+    says '^\| `properties` \| .*10 random plans \| failed \| 14 \| 2 \| 0 \|' || fail "no row of properties"
+    says '^- `fuzz`: extrude$' && says '^- `properties`: Guarantee.holds$' || fail "what failed is not named"
+    ;;
+  nightly_refuses_a_lane_that_does_not_exist)
+    ! nightly debug asam || fail "passed"
+    grep -q "unknown lane 'asam'; expected debug asan" "$scratch/stdout" || fail "the error does not list the lanes"
+    [[ ! -e $page ]] || fail "a page was written"
+    ;;
+  *)
+    fail "no such case: $2"
+    ;;
+esac
