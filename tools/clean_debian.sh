@@ -12,6 +12,7 @@
 # the certificates are those of this machine; MIRROR names another mirror. Data in ../shared/data can be read inside.
 # Every command runs in mount and process namespaces of its own: when it ends, nothing stays mounted and nothing runs on.
 set -euo pipefail
+{  # bash reads all of it before it begins: the checkout may change meanwhile
 repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 fail() { echo "clean_debian: $*" >&2; exit 2; }
 
@@ -180,3 +181,4 @@ count=0
 for command in "${commands[@]}"; do step "run-$((count += 1))" "$command"; done
 [[ -z $keep ]] || echo "== $folder is kept"
 exit $failed
+}

@@ -11,6 +11,7 @@
 # A lane replaces its row of docs/nightly.md; the others keep what they say. Logs: build/nightly/LANE.log. Exit code 1 when a
 # lane fails.
 set -euo pipefail
+{  # bash reads all of it before it begins: the checkout may change meanwhile
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 all=(debug asan clang fuzz properties clean)
 declare -A meaning=(
@@ -120,3 +121,4 @@ for lane in "${lanes[@]}"; do
   [[ $result == passed ]] || code=1
 done
 exit $code
+}
