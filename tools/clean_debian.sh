@@ -157,7 +157,7 @@ if [[ -n $continue && -d $checkout/.git ]]; then
   git -C "$checkout" checkout --quiet --detach FETCH_HEAD
 else
   mkdir -p "$folder/src"
-  git clone --quiet "$folder/HEAD.bundle" "$checkout"
+  git -c advice.detachedHead=false clone --quiet "$folder/HEAD.bundle" "$checkout"
 fi
 echo "== mansard $commit in $folder/src/mansard"
 
