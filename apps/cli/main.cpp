@@ -17,6 +17,7 @@
 #include "apps/cli/layout.hpp"
 #include "apps/cli/output.hpp"
 #include "apps/cli/verbs.hpp"
+#include "mansard/base/options.hpp"
 #include "mansard/base/text.hpp"
 
 namespace mansard::cli {

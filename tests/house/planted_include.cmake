@@ -5,7 +5,7 @@
 cmake_minimum_required(VERSION 3.25)
 
 file(REMOVE_RECURSE ${SCRATCH})
-foreach(folder IN ITEMS cmake mansard apps bench tests tools)
+foreach(folder IN ITEMS cmake mansard lab apps bench tests tools)
   if(IS_DIRECTORY ${ROOT}/${folder})
     file(COPY ${ROOT}/${folder} DESTINATION ${SCRATCH}
       FILES_MATCHING PATTERN *.hpp PATTERN *.cpp PATTERN *.h PATTERN *.cmake)
