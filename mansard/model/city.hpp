@@ -35,8 +35,8 @@ struct MadeBy {
   std::string version;
   /// module.name → value, as text: all ordinary options, and those advanced ones that are not at their default.
   std::vector<std::pair<std::string, std::string>> options;
-  std::vector<std::pair<std::string, std::string>> every_option;  ///< the same of all, for run.json alone
   std::vector<InputFile> inputs;
+  std::vector<std::pair<std::string, std::string>> every_option;  ///< all options, for run.json only
 };
 
 struct City {

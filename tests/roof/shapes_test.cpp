@@ -277,7 +277,9 @@ TEST(Profiles, are_read_from_pairs) {
 
 TEST(Profiles, rise_from_every_edge_until_roofs_meet_or_the_cap) {
   const auto raise_along = [](const char* text, std::optional<double> cap) {
-    const auto planned = plan_along(box(12, 8), *profile_of(text), Form{}, cap);
+    Options options;
+    options.cap = cap;
+    const auto planned = plan_along(box(12, 8), *profile_of(text), Form{}, options);
     auto raised = extrude::raise(planned.plan);
     EXPECT_TRUE(raised);
     return solid::volume(raised->solid);

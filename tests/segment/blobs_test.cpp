@@ -71,7 +71,9 @@ TEST(Parts, of_random_labels_are_simple_disjoint_and_cover_the_inside) {
       }
     }
     Segmentation s;
-    detail::make_parts(map.arrangement, evidence, label, {.narrow = 0}, s);
+    Options options;
+    options.narrow = 0;
+    detail::make_parts(map.arrangement, evidence, label, options, s);
     EXPECT_TRUE(s.warnings.empty());
     double sum = 0;
     for (const Part& part : s.parts) {

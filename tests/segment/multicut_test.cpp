@@ -143,7 +143,7 @@ TEST(Multicut, is_valid_with_a_true_bound_when_given_no_time) {
   for (int round = 0; round < 20; ++round) {
     const Multicut problem = random_grid(3, 3, {1000, 1500, 0.7, round % 2 == 0 ? 0.0 : 0.1}, random);
     const std::int64_t best = testing::least_by_trying_all(problem);
-    const MulticutAnswer none = detail::solve(problem, {.seconds = 0.0, .nodes = 1000});
+    const MulticutAnswer none = detail::solve(problem, {.seconds = 0.0, .nodes = 1000, .search = {}});
     expect_sound(problem, none);
     EXPECT_LE(none.bound, best);
     EXPECT_GE(none.objective, best);
@@ -153,7 +153,7 @@ TEST(Multicut, is_valid_with_a_true_bound_when_given_no_time) {
     const Multicut problem = random_grid(6, 6, {1000, 1500, 0.9, 0.02}, random);
     const std::int64_t best = detail::solve(problem, {}).objective;
     for (const std::int64_t nodes : {0, 1, 3}) {
-      const MulticutAnswer few = detail::solve(problem, {.seconds = std::nullopt, .nodes = nodes});
+      const MulticutAnswer few = detail::solve(problem, {.seconds = std::nullopt, .nodes = nodes, .search = {}});
       expect_sound(problem, few);
       EXPECT_LE(few.bound, best);
       EXPECT_GE(few.objective, best);
