@@ -9,6 +9,7 @@
 #include "apps/cli/scan.hpp"
 #include "apps/cli/verbs.hpp"
 #include "mansard/base/text.hpp"
+#include "mansard/formats/layers.hpp"
 
 namespace mansard::cli {
 namespace {
@@ -112,7 +113,8 @@ void summarise(const pipeline::Segmented& result, const Request& request, Progre
 
 auto write_all(const Request& request, const pipeline::Segmented& result, const model::Scene& scene,
                const NamedBytes& mps, const base::Run& run) -> base::Result<void> {
-  const auto layers = formats::geopackage(pipeline::segment_layers(scene, result.segmented, result.made_by), scene.frame);
+  const auto layers =
+      formats::geopackage(pipeline::segment_layers(scene, result.segmented, result.made_by), scene.frame);
   if (!layers) return layers.error();
   const std::string report = pipeline::report_json(result, scene);
   std::vector<base::FileToWrite> files{{request.out, *layers}};

@@ -5,6 +5,7 @@
 
 #include "mansard/base/files.hpp"
 #include "mansard/evaluate/evaluate.hpp"
+#include "mansard/formats/plans.hpp"
 #include "mansard/solid/solid.hpp"
 
 namespace mansard::server {

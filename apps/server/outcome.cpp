@@ -1,6 +1,8 @@
 #include "apps/server/outcome.hpp"
 
 #include <algorithm>
+#include "mansard/formats/layers.hpp"
+#include "mansard/formats/plans.hpp"
 
 namespace mansard::server {
 namespace {
@@ -37,7 +39,7 @@ auto reconstruct(const OpenScene& scene, RunRecord record, const base::Run& how)
   if (!result) return result.error();
   run.report("write", "", 1);
   auto layers = formats::geopackage(pipeline::segment_layers(scene.scene(), result->segmented, result->city.made_by),
-                                  scene.scene().frame);
+                                    scene.scene().frame);
   if (!layers) return layers.error();
   RunOutcome out{std::move(record), {}};
   count(*result, out.record);
