@@ -25,8 +25,10 @@ auto cityjson(const model::City& city) -> base::Result<std::string> {
   detail::CityObjects text(header, vertices, 0);
   for (std::size_t b = 0; b < city.buildings.size(); ++b)
     text.add(city.buildings[b], {keys->buildings[b], keys->parts[b]});
-  std::string out = detail::cityjson_head(header, text.extent(), 0) + text.end();
-  return out.append(detail::cityjson_waist).append(vertices.text).append(detail::cityjson_foot);
+  detail::JsonText json = detail::cityjson_head(header, text.extent(), 0);
+  json.raw(text.end()).line().key("vertices").begin_array();
+  if (!vertices.text.empty()) json.raw(vertices.text);
+  return json.end_array().line().end_object().take() + "\n";
 }
 
 auto obj(const model::City& city, const std::string& mtl_name) -> base::Result<ObjFiles> {
