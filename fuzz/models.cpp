@@ -7,8 +7,11 @@
 
 #include "fuzz/files.hpp"
 #include "mansard/base/files.hpp"
-#include "mansard/ingest/model.hpp"
+#include "mansard/formats/codes.hpp"
+#include "mansard/formats/documents.hpp"
+#include "mansard/formats/plans.hpp"
 #include "mansard/formats/stream.hpp"
+#include "mansard/ingest/model.hpp"
 
 namespace {
 

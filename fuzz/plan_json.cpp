@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "fuzz/files.hpp"
-#include "mansard/formats/write.hpp"
+#include "mansard/formats/plans.hpp"
 
 namespace {
 

@@ -8,7 +8,7 @@
 
 #include "apps/cli/settings.hpp"
 #include "mansard/base/run.hpp"
-#include "mansard/formats/write.hpp"
+#include "mansard/formats/layers.hpp"
 
 namespace mansard::cli {
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mansard/base/outputs.hpp"
+#include "mansard/formats/layers.hpp"
 #include "mansard/formats/results.hpp"
 
 namespace mansard::cli {

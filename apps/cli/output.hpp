@@ -10,7 +10,7 @@
 
 #include "mansard/base/files.hpp"
 #include "mansard/base/result.hpp"
-#include "mansard/formats/write.hpp"
+#include "mansard/formats/layers.hpp"
 
 namespace mansard::cli {
 

@@ -10,6 +10,7 @@
 #include "apps/cli/scan.hpp"
 #include "apps/cli/verbs.hpp"
 #include "mansard/base/text.hpp"
+#include "mansard/formats/layers.hpp"
 
 namespace mansard::cli {
 namespace {

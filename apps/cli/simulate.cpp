@@ -13,6 +13,8 @@
 #include "apps/cli/output.hpp"
 #include "apps/cli/scan.hpp"
 #include "apps/cli/verbs.hpp"
+#include "mansard/formats/documents.hpp"
+#include "mansard/formats/plans.hpp"
 #include "mansard/picture/picture.hpp"
 #include "mansard/pipeline/stored.hpp"
 

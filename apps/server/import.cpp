@@ -4,6 +4,7 @@
 #include "apps/server/options.hpp"
 #include "mansard/formats/input_file.hpp"
 #include "mansard/formats/input_name.hpp"
+#include "mansard/formats/plans.hpp"
 #include "mansard/pipeline/stored.hpp"
 #include "mansard/solid/solid.hpp"
 

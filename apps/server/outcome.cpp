@@ -1,6 +1,8 @@
 #include "apps/server/outcome.hpp"
 
 #include <algorithm>
+#include "mansard/formats/layers.hpp"
+#include "mansard/formats/plans.hpp"
 
 #include "apps/server/options.hpp"
 

@@ -7,7 +7,7 @@
 #include "mansard/base/nesting.hpp"
 #include "mansard/base/options.hpp"
 #include "mansard/base/text.hpp"
-#include "mansard/formats/write.hpp"
+#include "mansard/formats/plans.hpp"
 
 namespace mansard::server {
 namespace {

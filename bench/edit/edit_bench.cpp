@@ -13,6 +13,8 @@
 
 #include "mansard/base/text.hpp"
 #include "mansard/edit/edit.hpp"
+#include "mansard/formats/documents.hpp"
+#include "mansard/formats/plans.hpp"
 #include "mansard/picture/tiles.hpp"
 
 namespace {
@@ -225,7 +227,8 @@ auto main(int argc, char** argv) -> int {
   const double exporting = milliseconds([&] { city = edit::edited_city(run->city, history, mesh_of, options); });
   if (!city) return std::puts(base::to_string(city.error()).c_str()), 1;
   const bool same = *formats::cityjson(*city) == *formats::cityjson(run->city) &&
-                    formats::plans(*city) == formats::plans(run->city) && *formats::glb(*city) == *formats::glb(run->city);
+                    formats::plans(*city) == formats::plans(run->city) &&
+                    *formats::glb(*city) == *formats::glb(run->city);
   std::printf("edited_city %.0f ms; without edits it is the run's to the byte: %s\n", exporting, same ? "yes" : "NO");
 
   auto edited = edit::edited_city(run->city, cut, mesh_of, options);

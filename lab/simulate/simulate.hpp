@@ -15,12 +15,12 @@
 #include "mansard/base/options.hpp"
 #include "mansard/base/result.hpp"
 #include "mansard/base/run.hpp"
-#include "mansard/formats/write.hpp"
 #include "mansard/geometry/mesh.hpp"
 #include "mansard/geometry/polygon.hpp"
 #include "mansard/ingest/ingest.hpp"
 #include "mansard/ingest/model.hpp"
 #include "mansard/label/label.hpp"
+#include "mansard/model/city.hpp"
 #include "mansard/solid/solid.hpp"
 
 namespace mansard::simulate {

@@ -18,10 +18,10 @@
 #include "mansard/geometry/mesh.hpp"
 #include "mansard/geometry/polygon.hpp"
 #include "mansard/label/label.hpp"
+#include "mansard/model/city.hpp"
 #include "mansard/model/plan.hpp"
 #include "mansard/pipeline/pipeline.hpp"
 #include "mansard/rays/rays.hpp"
-#include "mansard/formats/write.hpp"
 
 namespace mansard::edit {
 

@@ -7,6 +7,7 @@
 
 #include "mansard/base/nesting.hpp"
 #include "mansard/edit/edit.hpp"
+#include "mansard/formats/plans.hpp"
 
 namespace mansard::edit {
 namespace {

@@ -11,7 +11,8 @@
 #include "mansard/base/options.hpp"
 #include "mansard/base/outputs.hpp"
 #include "mansard/formats/drivers.hpp"
-#include "mansard/formats/write.hpp"
+#include "mansard/formats/layers.hpp"
+#include "mansard/model/city.hpp"
 
 namespace mansard::formats {
 

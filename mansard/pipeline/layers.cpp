@@ -38,13 +38,13 @@ auto as_text(const model::Value& value) -> model::Value {
 
 /// Sources have one type per attribute, but scenes need not: whole and real numbers make real ones, others text.
 auto type_for(const model::Value& value, std::optional<formats::FieldType> before) -> formats::FieldType {
-  const auto own = std::holds_alternative<bool>(value)           ? flag
-                   : std::holds_alternative<std::int64_t>(value) ? whole
+  const auto own = std::holds_alternative<bool>(value)           ? boolean
+                   : std::holds_alternative<std::int64_t>(value) ? integer
                    : std::holds_alternative<double>(value)       ? real
-                                                                 : text;
+                                                                 : string;
   if (!before || *before == own) return own;
-  const auto is_number = [](formats::FieldType type) { return type == whole || type == real; };
-  return is_number(own) && is_number(*before) ? real : text;
+  const auto is_number = [](formats::FieldType type) { return type == integer || type == real; };
+  return is_number(own) && is_number(*before) ? real : string;
 }
 
 /// Every attribute of any feature, in the order of their first appearance.
@@ -58,16 +58,16 @@ auto attribute_fields(const std::vector<model::Footprint>& footprints) -> std::v
       if (!std::holds_alternative<std::monostate>(value)) at->second = type_for(value, at->second);
     }
   std::vector<formats::Field> fields;
-  for (const auto& name : names) fields.push_back({name, types[name].value_or(text)});
+  for (const auto& name : names) fields.push_back({name, types[name].value_or(string)});
   return fields;
 }
 
 auto gis_footprints(const model::Scene& scene, const std::vector<SegmentedBlock>& blocks) -> formats::Layer {
   formats::Layer layer{"gis_footprints",
-                     "The footprints as they were read, with their own attributes",
-                     formats::Shape::polygons,
-                     {{"feature"}, {"block"}, {"parts", whole}, {"defect"}},
-                     {}};
+                       "The footprints as they were read, with their own attributes",
+                       formats::Shape::polygons,
+                       {{"feature"}, {"block"}, {"parts", integer}, {"defect"}},
+                       {}};
   const auto attributes = attribute_fields(scene.footprints);
   layer.fields.insert(layer.fields.end(), attributes.begin(), attributes.end());
   std::vector<model::Value> block_of(scene.footprints.size());
@@ -79,7 +79,7 @@ auto gis_footprints(const model::Scene& scene, const std::vector<SegmentedBlock>
     Values values{footprint.id, block_of[f], as_whole(parts[f]), model::Value()};
     if (footprint.defect) values.back() = footprint.defect->message;
     std::map<std::string, model::Value> own(footprint.attributes.begin(), footprint.attributes.end());
-    for (const auto& [name, type] : attributes) values.push_back(type == text ? as_text(own[name]) : own[name]);
+    for (const auto& [name, type] : attributes) values.push_back(type == string ? as_text(own[name]) : own[name]);
     layer.features.push_back({{}, footprint.polygons, std::move(values)});
   }
   return layer;
@@ -103,7 +103,7 @@ auto empty_sweep_edges() -> formats::Layer {
           "Walls and roof steps as the mesh shows them, in plan; outside on the left",
           formats::Shape::line,
           {{"block"},
-           {"number", whole},
+           {"number", integer},
            {"evidence"},
            {"area", real},
            {"low", real},
@@ -128,13 +128,13 @@ auto empty_faces() -> formats::Layer {
           "The fractured ground",
           formats::Shape::polygon,
           {{"block"},
-           {"number", whole},
-           {"inside", flag},
+           {"number", integer},
+           {"inside", boolean},
            {"height", real},
-           {"seen", flag},
+           {"seen", boolean},
            {"gis_share", real},
            {"feature"},
-           {"part", whole},
+           {"part", integer},
            {"area", real}},
           {}};
 }
@@ -179,9 +179,9 @@ auto empty_edges() -> formats::Layer {
           "cut or not",
           formats::Shape::lines,
           {{"block"},
-           {"number", whole},
-           {"left", whole},
-           {"right", whole},
+           {"number", integer},
+           {"left", integer},
+           {"right", integer},
            {"length", real},
            {"sweep_length", real},
            {"unsupported_length", real},
@@ -194,10 +194,10 @@ auto empty_edges() -> formats::Layer {
            {"cost_sweep_unused", real},
            {"cost_height", real},
            {"cost_gis_unused", real},
-           {"sweep", flag},
-           {"forced", flag},
-           {"solved", flag},
-           {"chosen", flag},
+           {"sweep", boolean},
+           {"forced", boolean},
+           {"solved", boolean},
+           {"chosen", boolean},
            {"variable"},
            {"why"}},
           {}};
@@ -238,7 +238,7 @@ auto empty_conflicts() -> formats::Layer {
   return {"conflicts",
           "Bad pairs: two edges, or one and the outline, which make a sliver or a needle if both are cut",
           formats::Shape::lines,
-          {{"block"}, {"number", whole}, {"first", whole}, {"second", whole}, {"phi", real}, {"paid", flag}},
+          {{"block"}, {"number", integer}, {"first", integer}, {"second", integer}, {"phi", real}, {"paid", boolean}},
           {}};
 }
 
@@ -260,7 +260,7 @@ auto empty_footprints() -> formats::Layer {
   return {"footprints",
           "The parts: faces that were put together",
           formats::Shape::polygon,
-          {{"block"}, {"number", whole}, {"feature"}, {"height", real}, {"area", real}, {"faces", whole}},
+          {{"block"}, {"number", integer}, {"feature"}, {"height", real}, {"area", real}, {"faces", integer}},
           {}};
 }
 
@@ -294,18 +294,19 @@ auto segment_layers(const model::Scene& scene, const std::vector<SegmentedBlock>
 }
 
 auto diagnostics_layer(const Reconstruction& reconstruction, const model::Scene& scene) -> formats::Layer {
-  formats::Layer layer{"diagnostics",
-                     "What went otherwise than it should, and why: a row for each reason of each feature, and for each "
-                     "warning of the run, which has no place.",
-                     formats::Shape::polygons,
-                     {{"feature", text},
-                      {"block", text},
-                      {"outcome", text},
-                      {"severity", text},
-                      {"code", text},
-                      {"subject", text},
-                      {"message", text}},
-                     {}};
+  formats::Layer layer{
+      "diagnostics",
+      "What went otherwise than it should, and why: a row for each reason of each feature, and for each "
+      "warning of the run, which has no place.",
+      formats::Shape::polygons,
+      {{"feature", string},
+       {"block", string},
+       {"outcome", string},
+       {"severity", string},
+       {"code", string},
+       {"subject", string},
+       {"message", string}},
+      {}};
   const auto add = [&](const base::Diagnostic& reason, Values where, const std::vector<geometry::Polygon>& polygons) {
     where.insert(where.end(), {Value(std::string(reason.severity == base::Severity::error ? "error" : "warning")),
                                Value(reason.code), Value(reason.subject), Value(reason.message)});

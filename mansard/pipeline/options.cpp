@@ -1,5 +1,6 @@
 // Every room's options in one place, and the presets.
 #include "mansard/base/files.hpp"
+#include "mansard/formats/codes.hpp"
 #include "mansard/pipeline/pipeline.hpp"
 #include "mansard/solid/solid.hpp"
 #include "mansard/solver/solver.hpp"

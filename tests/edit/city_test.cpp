@@ -6,6 +6,8 @@
 #include "base/scratch.hpp"
 #include "edit/plans.hpp"
 #include "mansard/base/files.hpp"
+#include "mansard/formats/documents.hpp"
+#include "mansard/formats/plans.hpp"
 #include "pipeline/houses.hpp"
 
 namespace mansard::edit {

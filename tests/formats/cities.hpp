@@ -6,7 +6,9 @@
 #include <set>
 #include <string>
 
-#include "mansard/formats/write.hpp"
+#include "mansard/formats/documents.hpp"
+#include "mansard/formats/plans.hpp"
+#include "mansard/model/city.hpp"
 
 namespace cities {
 

@@ -8,6 +8,7 @@
 
 #include "cities.hpp"
 #include "mansard/base/text.hpp"
+#include "mansard/formats/codes.hpp"
 
 namespace {
 

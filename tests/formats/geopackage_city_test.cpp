@@ -8,6 +8,7 @@
 #include "cities.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/crs/gdal.hpp"
+#include "mansard/formats/layers.hpp"
 #include "mansard/formats/stream.hpp"
 
 namespace {

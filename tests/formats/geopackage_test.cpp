@@ -7,7 +7,7 @@
 
 #include "mansard/base/run.hpp"
 #include "mansard/crs/gdal.hpp"
-#include "mansard/formats/write.hpp"
+#include "mansard/formats/layers.hpp"
 
 namespace mansard::formats {
 namespace {

@@ -10,6 +10,7 @@
 #include "cities.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/crs/gdal.hpp"
+#include "mansard/formats/layers.hpp"
 #include "mansard/formats/stream.hpp"
 
 namespace {
@@ -106,10 +107,10 @@ auto segment_layers() -> std::vector<Layer> {
   const auto square = rectangle(0, 0, 1, 1);
   return {
       {"sweep_edges", "", Shape::line, {{"evidence"}}, {{line, {}, {std::string("roof step")}}}},
-      {"faces", "", Shape::polygon, {{"inside", FieldType::flag}}, {{{}, {square}, {true}}}},
-      {"edges", "", Shape::lines, {{"chosen", FieldType::flag}}, {{line, {}, {false}}}},
-      {"conflicts", "", Shape::lines, {{"paid", FieldType::flag}}, {{line, {}, {true}}}},
-      {"footprints", "", Shape::polygon, {{"faces", FieldType::whole}}, {{{}, {square}, {std::int64_t{3}}}}},
+      {"faces", "", Shape::polygon, {{"inside", FieldType::boolean}}, {{{}, {square}, {true}}}},
+      {"edges", "", Shape::lines, {{"chosen", FieldType::boolean}}, {{line, {}, {false}}}},
+      {"conflicts", "", Shape::lines, {{"paid", FieldType::boolean}}, {{line, {}, {true}}}},
+      {"footprints", "", Shape::polygon, {{"faces", FieldType::integer}}, {{{}, {square}, {std::int64_t{3}}}}},
       {"diagnostics", "", Shape::polygons, {{"severity"}}, {{{}, {square}, {std::string("error")}}}},
   };
 }

@@ -7,6 +7,7 @@
 
 #include "formats/cities.hpp"
 #include "mansard/base/files.hpp"
+#include "mansard/formats/plans.hpp"
 #include "mansard/formats/scan.hpp"
 #include "mansard/formats/stream.hpp"
 #include "mansard/pipeline/pipeline.hpp"

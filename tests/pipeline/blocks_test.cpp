@@ -1,6 +1,8 @@
 // Runs of some blocks only, and plans raised again.
 #include <gmock/gmock.h>
 
+#include "mansard/formats/documents.hpp"
+#include "mansard/formats/plans.hpp"
 #include "mansard/pipeline/pipeline.hpp"
 #include "pipeline/houses.hpp"
 

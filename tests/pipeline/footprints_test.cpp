@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "mansard/formats/documents.hpp"
+#include "mansard/formats/plans.hpp"
 #include "mansard/pipeline/pipeline.hpp"
 #include "mansard/solid/solid.hpp"
 #include "pipeline/houses.hpp"

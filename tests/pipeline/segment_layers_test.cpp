@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "mansard/formats/documents.hpp"
+#include "mansard/formats/layers.hpp"
 #include "mansard/pipeline/detail/why.hpp"
 #include "mansard/pipeline/pipeline.hpp"
 #include "pipeline/houses.hpp"

@@ -2,6 +2,8 @@
 
 #include "lab/simulate/simulate.hpp"
 #include "mansard/extrude/extrude.hpp"
+#include "mansard/formats/documents.hpp"
+#include "mansard/formats/plans.hpp"
 #include "mansard/solid/solid.hpp"
 #include "simulate/houses.hpp"
 

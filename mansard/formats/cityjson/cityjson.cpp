@@ -224,7 +224,7 @@ void CityObjects::append_loops(const Loops& loops) {
   json_.end_array();
 }
 
-auto cityjson_head(const Header& header, const Extent& extent, int level) -> std::string {
+auto cityjson_head(const Header& header, const Extent& extent, int level) -> JsonText {
   JsonText json;
   json.begin_object().key("type").text("CityJSON").key("version").text("2.0");
   json.line(level).key("extensions").begin_object().key(extension_name).begin_object();
@@ -235,7 +235,7 @@ auto cityjson_head(const Header& header, const Extent& extent, int level) -> std
   append_made_by(json.line(level).key("+mansard").begin_object().key("made_by"), header.made_by);
   append_frame(json.key("frame"), header.frame);
   json.end_object().line(level).key("CityObjects");
-  return json.take();
+  return json;
 }
 
 auto cityjson_feature(const model::Building& building, const Gate::Keyed& keys, const Header& header) -> std::string {
@@ -244,8 +244,9 @@ auto cityjson_feature(const model::Building& building, const Gate::Keyed& keys, 
   objects.add(building, keys);
   JsonText json;
   json.begin_object().key("type").text("CityJSONFeature").key("id").text(keys.building);
-  json.key("CityObjects").raw(objects.end()).key("vertices").raw("[" + vertices.text + "]").end_object();
-  return json.take() + "\n";
+  json.key("CityObjects").raw(objects.end()).key("vertices").begin_array();
+  if (!vertices.text.empty()) json.raw(vertices.text);
+  return json.end_array().end_object().take() + "\n";
 }
 
 }  // namespace mansard::formats::detail

@@ -52,12 +52,9 @@ class CityObjects {
   JsonText json_;
 };
 
-/// A CityJSON object up to the value of "CityObjects"; its members on lines of that level, or on one line when
-/// negative.
-[[nodiscard]] auto cityjson_head(const Header& header, const Extent& extent, int level) -> std::string;
-/// Between the city objects and the vertices of a file, and after these.
-inline constexpr std::string_view cityjson_waist = ",\n\"vertices\":[";
-inline constexpr std::string_view cityjson_foot = "]\n}\n";
+/// A CityJSON object up to the value of "CityObjects", which comes next; its members on lines of that level, or on one
+/// line when negative.
+[[nodiscard]] auto cityjson_head(const Header& header, const Extent& extent, int level) -> JsonText;
 
 /// A building as a CityJSONFeature on one line.
 [[nodiscard]] auto cityjson_feature(const model::Building& building, const Gate::Keyed& keys, const Header& header)

@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 
+#include "mansard/formats/cityjson/cityjson_document.hpp"
 #include "mansard/formats/cityjson/quantised.hpp"
 
 namespace mansard::formats::detail {
@@ -78,20 +79,20 @@ auto normal_of(const model::Solid& solid, const std::vector<std::vector<std::uin
 /// Of a roof: the measured normal, moved no further than it takes to be written with the same slope and azimuth again.
 /// Two decimals of a degree alone would be up to a millimetre beside a face of ten metres, more than a face may bend.
 auto roof_normal(const Json& semantics, Point3 measured) -> Point3 {
-  const auto slope = semantics.find("ms_slope"), azimuth = semantics.find("ms_azimuth");
-  if (slope == semantics.end() || !slope->is_number()) return measured;
-  const bool looks = azimuth != semantics.end() && azimuth->is_number();
+  const Json &slope = formats::member(semantics, "ms_slope"), &azimuth = formats::member(semantics, "ms_azimuth");
+  if (!slope.is_number()) return measured;
+  const bool looks = azimuth.is_number();
   // Half a hundredth to either side; on the border of what counts as flat (0.5°) on the side where it was.
   constexpr double half = 0.00499, border = 0.5, little = 1e-9, radians = std::numbers::pi / 180;
   const double lowest = looks ? border + little : 0, highest = looks ? 90 : border - little;
   const double across = std::hypot(measured.x, measured.y);
-  const double written = slope->get<double>();
+  const double written = slope.get<double>();
   const double steep =
       std::clamp(std::clamp(std::atan2(across, measured.z) / radians, written - half, written + half), lowest, highest);
   double towards = std::atan2(measured.x, measured.y) / radians;
   if (looks)
     towards -= [&] {
-      const double off = std::remainder(towards - azimuth->get<double>(), 360);
+      const double off = std::remainder(towards - azimuth.get<double>(), 360);
       return off - std::clamp(off, -half, half);
     }();
   if (steep == 0) return {0, 0, 1};
@@ -100,15 +101,12 @@ auto roof_normal(const Json& semantics, Point3 measured) -> Point3 {
 }
 
 auto class_of(const Json& semantics, Point3 normal) -> FaceClass {
-  const auto type = semantics.find("type");
-  const std::string name = type != semantics.end() && type->is_string() ? type->get<std::string>() : std::string();
+  const std::string name = text_of(formats::member(semantics, "type"));
   if (name == "RoofSurface") return FaceClass::roof;
   if (name == "GroundSurface") return FaceClass::ground;
   if (name == "OuterCeilingSurface") return FaceClass::soffit;
-  if (name == "WallSurface") {
-    const auto party = semantics.find("ms_party_wall");
-    return party != semantics.end() && *party == true ? FaceClass::party_wall : FaceClass::wall;
-  }
+  if (name == "WallSurface")
+    return formats::member(semantics, "ms_party_wall") == true ? FaceClass::party_wall : FaceClass::wall;
   constexpr double upright = 0.2;  // as label::Options::wall_angle
   return normal.z > upright ? FaceClass::roof : normal.z < -upright ? FaceClass::ground : FaceClass::wall;
 }
@@ -122,20 +120,6 @@ auto kind_of(FaceClass c, Point3 normal) -> FaceKind {
   }
 }
 
-/// What "values" names for a face of the only shell; an empty object where nothing.
-auto semantics_of(const Item& geometry, std::size_t face) -> const Json& {
-  static const Json nothing = Json::object();
-  const auto semantics = geometry.json.find("semantics");
-  if (semantics == geometry.json.end() || !semantics->is_object()) return nothing;
-  const auto surfaces = semantics->find("surfaces"), values = semantics->find("values");
-  if (surfaces == semantics->end() || values == semantics->end()) return nothing;
-  if (!surfaces->is_array() || !values->is_array() || values->empty() || !values->front().is_array()) return nothing;
-  const Json& shell = values->front();
-  if (face >= shell.size() || !shell[face].is_number_unsigned()) return nothing;
-  const auto named = shell[face].get<std::size_t>();
-  return named < surfaces->size() && (*surfaces)[named].is_object() ? (*surfaces)[named] : nothing;
-}
-
 template <class Work>
 void each_geometry(const Item& object, std::string_view lod, std::string_view type, Work work) {
   if (!object.has("geometry")) return;
@@ -143,6 +127,16 @@ void each_geometry(const Item& object, std::string_view lod, std::string_view ty
     if (geometry.json.is_object() && geometry.has("lod") && geometry.json["lod"] == lod && geometry.has("type") &&
         geometry.json["type"] == type)
       work(geometry);
+  });
+}
+
+/// Each surface; throws a Defect if the boundaries are missing or not lists.
+template <class Work>
+void each_strict_surface(const Item& geometry, Work work) {
+  (void)geometry.member("boundaries");
+  each_shell(geometry, [&](const CityShell& shell) {
+    if (!shell.surfaces.json.is_array()) shell.surfaces.refuse("an array");
+    each_surface(shell, work);
   });
 }
 
@@ -171,9 +165,9 @@ auto Vertices::at(const Item& index) const -> Point3 {
 
 void read_lod_0(const Item& object, const Vertices& vertices, model::Building& building) {
   each_geometry(object, "0", "MultiSurface", [&](const Item& geometry) {
-    geometry.member("boundaries").each([&](const Item& surface) {
+    each_strict_surface(geometry, [&](const CitySurface& surface) {
       geometry::Polygon polygon;
-      surface.each([&](const Item& loop) {
+      surface.rings.each([&](const Item& loop) {
         auto& ring = loop.place.index == 0 ? polygon.outer : polygon.holes.emplace_back();
         loop.each([&](const Item& index) {
           const Point3 p = vertices.at(index);
@@ -198,24 +192,21 @@ auto read_model(const Item& object, const Vertices& vertices) -> model::Labelled
   each_geometry(object, "2.2", "Solid", [&](const Item& geometry) {
     const Item shells = geometry.member("boundaries");
     if (!shells.json.is_array() || shells.json.size() != 1) shells.refuse("one shell");
-    shells.each([&](const Item& shell) {
-      shell.each([&](const Item& surface) {
-        model::Face face;
-        surface.each([&](const Item& loop) {
-          auto& corners = face.loops.emplace_back();
-          loop.each([&](const Item& index) { corners.push_back(number(index)); });
-          if (corners.size() < 3) loop.refuse("a ring of at least 3 vertices");
-        });
-        if (face.loops.empty()) surface.refuse("a surface with a ring");
-        const Json& semantics = semantics_of(geometry, surface.place.index);
-        face.normal = normal_of(model.solid, face.loops);
-        const FaceClass c = class_of(semantics, face.normal);
-        if (c == FaceClass::ground || c == FaceClass::soffit) face.normal = {0, 0, -1};
-        if (c == FaceClass::roof) face.normal = roof_normal(semantics, face.normal);
-        face.kind = kind_of(c, face.normal);
-        model.solid.faces.push_back(std::move(face));
-        model.classes.push_back(c);
+    each_strict_surface(geometry, [&](const CitySurface& surface) {
+      model::Face face;
+      surface.rings.each([&](const Item& loop) {
+        auto& corners = face.loops.emplace_back();
+        loop.each([&](const Item& index) { corners.push_back(number(index)); });
+        if (corners.size() < 3) loop.refuse("a ring of at least 3 vertices");
       });
+      if (face.loops.empty()) surface.rings.refuse("a surface with a ring");
+      face.normal = normal_of(model.solid, face.loops);
+      const FaceClass c = class_of(surface.semantics, face.normal);
+      if (c == FaceClass::ground || c == FaceClass::soffit) face.normal = {0, 0, -1};
+      if (c == FaceClass::roof) face.normal = roof_normal(surface.semantics, face.normal);
+      face.kind = kind_of(c, face.normal);
+      model.solid.faces.push_back(std::move(face));
+      model.classes.push_back(c);
     });
   });
   return model;

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "mansard/formats/json/json_item.hpp"
-#include "mansard/formats/write.hpp"
+#include "mansard/model/city.hpp"
 
 namespace mansard::formats::detail {
 

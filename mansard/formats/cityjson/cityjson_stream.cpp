@@ -25,11 +25,12 @@ class WholeFile : public CityWriter {
 
   [[nodiscard]] auto finish() -> base::Result<void> override {
     objects_->append(text_.end());
-    file_.append(cityjson_head(header_, text_.extent(), 0));
+    JsonText json = cityjson_head(header_, text_.extent(), 0);
+    file_.append(json.take());
     if (auto copied = objects_->copy_to(file_); !copied) return copied;
-    file_.append(cityjson_waist);
+    file_.append(json.aside().line().key("vertices").begin_array().take());
     if (auto copied = vertices_->copy_to(file_); !copied) return copied;
-    file_.append(cityjson_foot);
+    file_.append(json.aside().end_array().line().end_object().take() + "\n");
     return {};
   }
 
@@ -44,7 +45,9 @@ class WholeFile : public CityWriter {
 class Sequence : public CityWriter {
  public:
   Sequence(Header header, base::Sink& file) : header_(std::move(header)), file_(file) {
-    file_.append(cityjson_head(header_, std::nullopt, -1) + "{},\"vertices\":[]}\n");
+    JsonText json = cityjson_head(header_, std::nullopt, -1);
+    json.begin_object().end_object().key("vertices").begin_array().end_array().end_object();
+    file_.append(json.take() + "\n");
   }
 
   [[nodiscard]] auto add(const model::Building& building) -> base::Result<void> override {

@@ -1,25 +1,22 @@
 // CityJSON 1.0 to 2.0 and CityJSONSeq: the buildings of a city model.
-#include <algorithm>
-#include <array>
-#include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 
-#include "mansard/base/nesting.hpp"
 #include "mansard/base/text.hpp"
-#include "mansard/formats/json/json_access.hpp"
+#include "mansard/formats/cityjson/cityjson_document.hpp"
 #include "mansard/formats/models.hpp"
-#include "mansard/formats/files/words.hpp"
 
 namespace mansard::formats {
 namespace {
 
 using geometry::Point3;
 
-auto bad(const std::string& what, const std::string& name) -> base::Diagnostic {
-  return base::error("ingest-model-format", what + "; check what the file is, or export it again", name);
+auto complaints_about(const std::string& name) -> CityComplaints {
+  return {"ingest-model-format", name, [](std::size_t line, bool first) {
+            return first ? "it is neither CityJSON nor OBJ, or it is cut short"
+                         : "line " + std::to_string(line) + " is not JSON";
+          }};
 }
 
 /// An array to go through; an empty one for anything else.
@@ -28,45 +25,7 @@ auto all_of(const Json& value) -> const Json& {
   return value.is_array() ? value : none;
 }
 
-/// A LoD is text since CityJSON 1.1 and was a number before.
-auto lod_of(const Json& geometry) -> std::string {
-  const Json& lod = member(geometry, "lod");
-  if (lod.is_number()) return base::to_text(lod.get<double>());
-  return text_of(lod);
-}
-
 auto value_of(const std::string& lod) -> double { return base::to_number(lod).value_or(0); }
-
-struct Transform {
-  std::array<double, 3> scale{1, 1, 1}, translate{0, 0, 0};
-};
-
-auto transform_of(const Json& document) -> Transform {
-  Transform out;
-  const Json& transform = member(document, "transform");
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (const Json& s = item(member(transform, "scale"), axis); s.is_number()) out.scale[axis] = s.get<double>();
-    if (const Json& t = item(member(transform, "translate"), axis); t.is_number())
-      out.translate[axis] = t.get<double>();
-  }
-  return out;
-}
-
-auto vertices_of(const Json& document, const Transform& transform) -> std::vector<Point3> {
-  constexpr double lost = std::numeric_limits<double>::quiet_NaN();
-  std::vector<Point3> out;
-  const Json& vertices = member(document, "vertices");
-  if (!vertices.is_array()) return out;
-  out.reserve(vertices.size());
-  for (const Json& vertex : vertices) {
-    std::array<double, 3> c{lost, lost, lost};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      if (const Json& number = item(vertex, axis); number.is_number())
-        c[axis] = number.get<double>() * transform.scale[axis] + transform.translate[axis];
-    out.push_back({c[0], c[1], c[2]});
-  }
-  return out;
-}
 
 /// The class of a semantic surface; none for one that does not say. The outer ceiling is the underside of the eaves,
 /// the outer floor a terrace: both belong to the roof.
@@ -87,19 +46,18 @@ struct Tally {
 
 class Reader {
  public:
-  Reader(const std::string& lod, const std::string& name) : wanted_(lod), name_(name) {}
+  Reader(const std::string& lod, const std::string& name, const CityComplaints& complaints)
+      : wanted_(lod), name_(name), bad_(complaints) {}
 
-  auto add(const Json& document, const Transform& transform) -> base::Result<void> {
-    vertices_ = vertices_of(document, transform);
-    const Json& objects = member(document, "CityObjects");
-    if (!objects.is_object()) return bad("it has no CityObjects", name_);
+  auto add(const CityDocument& document) -> base::Result<void> {
+    const Json& objects = document.objects();
     for (const auto& [id, object] : objects.items()) {
       const std::string type = text_of(member(object, "type"));
       if (!is_building(type)) {
         ++tally_.objects[type];
         continue;
       }
-      if (auto done = add_object(objects, id, object); !done) return done;
+      if (auto done = add_object(document, id, object); !done) return done;
     }
     return {};
   }
@@ -148,19 +106,21 @@ class Reader {
     return parts[p->second];
   }
 
-  auto add_object(const Json& objects, const std::string& id, const Json& object) -> base::Result<void> {
-    model::ModelPart& part = place_of(objects, id, object);
+  auto add_object(const CityDocument& document, const std::string& id, const Json& object) -> base::Result<void> {
+    model::ModelPart& part = place_of(document.objects(), id, object);
     const Json* geometry = choose(member(object, "geometry"));
-    if (geometry == nullptr) return {};
-    const std::string type = text_of(member(*geometry, "type"));
-    const Json& boundaries = member(*geometry, "boundaries");
-    const Json& semantics = member(*geometry, "semantics");
-    const Json &values = member(semantics, "values"), &surfaces = member(semantics, "surfaces");
-    if (type == "MultiSurface" || type == "CompositeSurface") return add_surfaces(boundaries, values, surfaces, part);
-    if (type == "Solid") return add_solid(boundaries, values, surfaces, part);
-    for (std::size_t i = 0; i < boundaries.size(); ++i)
-      if (auto done = add_solid(item(boundaries, i), item(values, i), surfaces, part); !done) return done;
-    return {};
+    base::Result<void> done;
+    if (geometry == nullptr) return done;
+    detail::each_shell({*geometry, {}}, [&](const detail::CityShell& shell) {
+      if (!done) return;
+      if (shell.number > 0) ++tally_.shells;
+      else if (!shell.surfaces.json.is_array()) done = bad_("the boundaries of '" + part.id + "' are no array");
+      else
+        detail::each_surface(shell, [&](const detail::CitySurface& surface) {
+          if (done) done = add_surface(document, surface, part);
+        });
+    });
+    return done;
   }
 
   /// The geometry to read: of the LoD asked for, or of the highest one; LoD 0 is a footprint.
@@ -169,11 +129,9 @@ class Reader {
     std::string lod;
     bool any = false;
     for (const Json& geometry : all_of(geometries)) {
-      const std::string type = text_of(member(geometry, "type")), own = lod_of(geometry);
-      static const std::set<std::string> known{"MultiSurface", "CompositeSurface", "Solid", "MultiSolid",
-                                               "CompositeSolid"};
-      if (!known.contains(type)) {
-        ++tally_.geometries[type];
+      const std::string own = lod_of(geometry);
+      if (!shell_depth(geometry)) {
+        ++tally_.geometries[text_of(member(geometry, "type"))];
         continue;
       }
       if (!own.empty() && value_of(own) < 1) continue;
@@ -190,33 +148,22 @@ class Reader {
     return best;
   }
 
-  auto add_solid(const Json& shells, const Json& values, const Json& surfaces, model::ModelPart& part)
+  auto add_surface(const CityDocument& document, const detail::CitySurface& surface, model::ModelPart& part)
       -> base::Result<void> {
-    if (shells.is_array() && shells.size() > 1) tally_.shells += shells.size() - 1;
-    return add_surfaces(item(shells, 0), item(values, 0), surfaces, part);
-  }
-
-  auto add_surfaces(const Json& boundaries, const Json& values, const Json& surfaces, model::ModelPart& part)
-      -> base::Result<void> {
-    if (!boundaries.is_array()) return bad("the boundaries of '" + part.id + "' are no array", name_);
-    for (std::size_t i = 0; i < boundaries.size(); ++i) {
-      model::ModelFace face;
-      for (const Json& ring : all_of(boundaries[i])) {
-        auto& loop = face.loops.emplace_back();
-        for (const Json& corner : all_of(ring)) {
-          if (!corner.is_number_integer() || corner.get<std::int64_t>() < 0 ||
-              corner.get<std::uint64_t>() >= vertices_.size())
-            return bad("'" + part.id + "' names a vertex that does not exist (" + corner.dump() + ")", name_);
-          loop.push_back(vertices_[corner.get<std::size_t>()]);
-        }
+    model::ModelFace face;
+    for (const Json& ring : all_of(surface.rings.json)) {
+      auto& loop = face.loops.emplace_back();
+      for (const Json& corner : all_of(ring)) {
+        const Point3* vertex = document.vertex(corner);
+        if (vertex == nullptr)
+          return bad_("'" + part.id + "' names a vertex that does not exist (" + corner.dump() + ")");
+        loop.push_back(*vertex);
       }
-      const Json& value = item(values, i);
-      const Json& surface = value.is_number_unsigned() ? item(surfaces, value.get<std::size_t>()) : Json();
-      const auto kind = class_of(text_of(member(surface, "type")));
-      face.kind = kind.value_or(model::SurfaceClass::other);
-      face.by_normal = !kind;
-      part.faces.push_back(std::move(face));
     }
+    const auto kind = class_of(text_of(member(surface.semantics, "type")));
+    face.kind = kind.value_or(model::SurfaceClass::other);
+    face.by_normal = !kind;
+    part.faces.push_back(std::move(face));
     return {};
   }
 
@@ -245,7 +192,7 @@ class Reader {
 
   std::string wanted_;
   const std::string& name_;
-  std::vector<Point3> vertices_;
+  const CityComplaints& bad_;
   std::vector<model::ModelBuilding> buildings_;
   std::map<std::string, std::size_t> building_of_;
   std::map<std::pair<std::size_t, std::string>, std::size_t> part_of_;
@@ -253,50 +200,14 @@ class Reader {
   Tally tally_;
 };
 
-auto check_head(const Json& document, const std::string& name) -> base::Result<void> {
-  if (text_of(member(document, "type")) != "CityJSON") return bad("it is JSON, but no CityJSON", name);
-  const std::string version = text_of(member(document, "version"));
-  if (version.starts_with("1.") || version.starts_with("2.")) return {};
-  return bad("it is CityJSON " + (version.empty() ? "without a version" : version) + ", and 1.0 to 2.0 are read", name);
-}
-
-/// A line per document: the first is the head, the others are features with vertices of their own.
-auto read_lines(std::string_view bytes, Reader& reader, Json& head, const std::string& name) -> base::Result<void> {
-  std::size_t number = 0;
-  Transform transform;
-  while (!bytes.empty()) {
-    const auto line = take_line(bytes);
-    ++number;
-    if (line.find_first_not_of(" \t") == line.npos) continue;
-    Json document = Json::parse(line, nullptr, false);
-    if (document.is_discarded())
-      return bad(head.is_null() ? "it is neither CityJSON nor OBJ, or it is cut short"
-                                : "line " + std::to_string(number) + " is not JSON",
-                 name);
-    if (head.is_null()) {
-      if (auto sound = check_head(document, name); !sound) return sound;
-      transform = transform_of(document);
-      head = document;
-    }
-    if (auto done = reader.add(document, transform); !done) return done;
-  }
-  return {};
-}
-
 }  // namespace
 
 auto read_cityjson(std::string_view bytes, const std::string& lod, const std::string& name) -> base::Result<RawModel> {
-  if (base::nests_too_deep(bytes)) return bad("its JSON nests too deep", name);
-  Reader reader(lod, name);
-  Json document = Json::parse(bytes, nullptr, false);
-  if (document.is_discarded()) {
-    document = Json();
-    if (auto done = read_lines(bytes, reader, document, name); !done) return done.error();
-  } else {
-    if (auto sound = check_head(document, name); !sound) return sound.error();
-    if (auto done = reader.add(document, transform_of(document)); !done) return done.error();
-  }
-  return reader.finish(text_of(member(member(document, "metadata"), "referenceSystem")));
+  const CityComplaints complaints = complaints_about(name);
+  Reader reader(lod, name, complaints);
+  auto crs = each_document(bytes, complaints, [&](const CityDocument& document) { return reader.add(document); });
+  if (!crs) return crs.error();
+  return reader.finish(*std::move(crs));
 }
 
 }  // namespace mansard::formats

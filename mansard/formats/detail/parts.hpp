@@ -6,8 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "mansard/base/result.hpp"
 #include "mansard/formats/json/json_text.hpp"
-#include "mansard/formats/write.hpp"
+#include "mansard/model/city.hpp"
 
 namespace mansard::formats::detail {
 

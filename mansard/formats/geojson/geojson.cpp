@@ -21,9 +21,9 @@ constexpr std::string_view in_metres =
 constexpr std::string_view start_of_record = R"(,"mansard":)";
 
 /// From the local frame to the coordinates of the file.
-class Pen {
+class LonLatPen {
  public:
-  explicit Pen(const model::Frame& frame)
+  explicit LonLatPen(const model::Frame& frame)
       : origin_{static_cast<double>(frame.origin[0]), static_cast<double>(frame.origin[1])} {}
 
   /// False where the frame has a CRS that cannot be brought to longitude and latitude.
@@ -78,7 +78,7 @@ class Pen {
 
 class GeoJsonWriter : public CityWriter {
  public:
-  GeoJsonWriter(Pen pen, const Header& header, base::Sink& file) : pen_(std::move(pen)), file_(file) {
+  GeoJsonWriter(LonLatPen pen, const Header& header, base::Sink& file) : pen_(std::move(pen)), file_(file) {
     file_.append(start_of_file);
     file_.append(header_record(header));
     if (header.frame.crs.empty()) file_.append(in_metres);
@@ -116,10 +116,9 @@ class GeoJsonWriter : public CityWriter {
                          "its coordinates are in",
                          id);
     append_properties(json.key("properties"), building, part);
-    std::string line = std::move(json).str();  // its last bracket is still due
-    if (!record.empty()) line.append(start_of_record).append(record);
+    if (!record.empty()) json.key("mansard").raw(record);
     file_.append(first_ ? "\n" : ",\n");
-    file_.append(line + "}");
+    file_.append(json.end_object().str());
     first_ = false;
     return {};
   }
@@ -154,7 +153,7 @@ class GeoJsonWriter : public CityWriter {
     json.end_object();
   }
 
-  Pen pen_;
+  LonLatPen pen_;
   base::Sink& file_;
   Gate gate_;
   bool first_ = true;
@@ -214,7 +213,7 @@ class GeoJsonReader : public CityReader {
 }  // namespace
 
 auto geojson_writer(const Path& path, const Header& header, base::Outputs& outputs) -> WriterResult {
-  Pen pen(header.frame);
+  LonLatPen pen(header.frame);
   const CPLErrorHandlerPusher quiet(CPLQuietErrorHandler);
   CPLErrorReset();
   if (!pen.begin(header.frame))

@@ -16,10 +16,10 @@ using geometry::Point2;
 auto fits(const model::Value& value, FieldType type) -> bool {
   if (std::holds_alternative<std::monostate>(value)) return true;
   switch (type) {
-    case FieldType::whole: return std::holds_alternative<std::int64_t>(value);
+    case FieldType::integer: return std::holds_alternative<std::int64_t>(value);
     case FieldType::real: return std::holds_alternative<double>(value) || std::holds_alternative<std::int64_t>(value);
-    case FieldType::text: return std::holds_alternative<std::string>(value);
-    case FieldType::flag: return std::holds_alternative<bool>(value);
+    case FieldType::string: return std::holds_alternative<std::string>(value);
+    case FieldType::boolean: return std::holds_alternative<bool>(value);
   }
   return false;
 }

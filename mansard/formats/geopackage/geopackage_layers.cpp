@@ -19,10 +19,10 @@ auto shape_of(OGRwkbGeometryType type) -> std::optional<Shape> {
 
 auto type_of(const OGRFieldDefn& field) -> std::optional<FieldType> {
   switch (field.GetType()) {
-    case OFTInteger: return field.GetSubType() == OFSTBoolean ? FieldType::flag : FieldType::whole;
-    case OFTInteger64: return FieldType::whole;
+    case OFTInteger: return field.GetSubType() == OFSTBoolean ? FieldType::boolean : FieldType::integer;
+    case OFTInteger64: return FieldType::integer;
     case OFTReal: return FieldType::real;
-    case OFTString: return FieldType::text;
+    case OFTString: return FieldType::string;
     default: return std::nullopt;
   }
 }
@@ -30,10 +30,10 @@ auto type_of(const OGRFieldDefn& field) -> std::optional<FieldType> {
 auto value_of(const OGRFeature& row, int column, FieldType type) -> model::Value {
   if (row.IsFieldSetAndNotNull(column) == 0) return {};
   switch (type) {
-    case FieldType::flag: return row.GetFieldAsInteger(column) != 0;
-    case FieldType::whole: return static_cast<std::int64_t>(row.GetFieldAsInteger64(column));
+    case FieldType::boolean: return row.GetFieldAsInteger(column) != 0;
+    case FieldType::integer: return static_cast<std::int64_t>(row.GetFieldAsInteger64(column));
     case FieldType::real: return row.GetFieldAsDouble(column);
-    case FieldType::text: break;
+    case FieldType::string: break;
   }
   return std::string(row.GetFieldAsString(column));
 }

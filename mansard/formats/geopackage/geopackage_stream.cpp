@@ -1,12 +1,10 @@
 // A city as a GeoPackage, written building by building into one transaction, and read back.
-#include <algorithm>
-#include <array>
 #include <map>
-#include <numbers>
 
 #include "mansard/crs/gdal.hpp"
 #include "mansard/formats/detail/records.hpp"
 #include "mansard/formats/detail/writers.hpp"
+#include "mansard/formats/geopackage/city_tables.hpp"
 #include "mansard/formats/geopackage/geopackage_tables.hpp"
 #include "mansard/formats/geopackage/qgis_styles.hpp"
 #include "mansard/solid/solid.hpp"
@@ -14,36 +12,17 @@
 namespace mansard::formats::detail {
 namespace {
 
-using enum FieldType;
 using model::Value;
 using Values = std::vector<Value>;
 using model::FaceClass;
 
-constexpr const char* records_name = "mansard_records";
-/// The layers that a city makes, in their order.
-constexpr std::array<std::string_view, 8> own_layers{"gis_footprints", "footprints", "edges",   "roof_planes",
-                                                     "walls",          "profiles",   "made_by", records_name};
-
-auto is_own(std::string_view layer) -> bool { return std::ranges::find(own_layers, layer) != own_layers.end(); }
-
-auto as_whole(std::size_t number) -> Value { return static_cast<std::int64_t>(number); }
-
-/// Degrees from the horizontal, and clockwise from north where it looks: absent below half a degree of slope, as in
-/// CityJSON.
-auto slope_and_azimuth(geometry::Point3 normal) -> std::pair<Value, Value> {
-  constexpr double degrees = 180 / std::numbers::pi, level = 0.5;
-  const double slope = std::acos(std::clamp(normal.z, -1.0, 1.0)) * degrees;
-  if (slope < level) return {slope, Value()};
-  const double azimuth = std::atan2(normal.x, normal.y) * degrees;
-  return {slope, azimuth < 0 ? azimuth + 360 : azimuth};
+auto is_own(std::string_view layer) -> bool {
+  bool own = false;
+  each_city_table([&](const auto& table) { own = own || layer == table.name; });
+  return own;
 }
 
-auto profile_json(const model::Profile& profile) -> std::string {
-  JsonText json;
-  json.begin_array();
-  for (const auto& point : profile) json.begin_array().number(point.inward).number(point.height).end_array();
-  return std::move(json.end_array()).str();
-}
+auto is_wall(FaceClass c) -> bool { return c == FaceClass::wall || c == FaceClass::party_wall; }
 
 /// Of every edge that walls rise from, whether most of their area stands against another solid.
 auto party_edges(const model::LabelledSolid& model) -> std::map<std::pair<std::uint32_t, std::uint32_t>, double> {
@@ -51,7 +30,7 @@ auto party_edges(const model::LabelledSolid& model) -> std::map<std::pair<std::u
   for (std::size_t f = 0; f < model.solid.faces.size(); ++f) {
     const auto& face = model.solid.faces[f];
     const FaceClass c = model.classes[f];
-    if (!face.provenance || (c != FaceClass::wall && c != FaceClass::party_wall)) continue;
+    if (!face.provenance || !is_wall(c)) continue;
     const double area = solid::area(model.solid, face);
     party_less_open[{face.provenance->ring, face.provenance->edge}] += c == FaceClass::party_wall ? area : -area;
   }
@@ -95,7 +74,7 @@ class GeoPackageWriter : public CityWriter {
     const std::string record = building_record(named);
     record_sizes_.push_back(record.size());
     records_->append(record);
-    return row("mansard_records", {std::string("building"), building.id, record});
+    return add_row(records_table, {record_building, building.id, record});
   }
 
   auto finish() -> base::Result<void> override {
@@ -112,56 +91,32 @@ class GeoPackageWriter : public CityWriter {
   }
 
  private:
-  auto make(const std::string& name, const std::string& meaning, OGRwkbGeometryType type,
-            const std::vector<Field>& fields) -> base::Result<void> {
-    auto table = GeopackageTable::make(*file_, name, meaning, type, *crs_);
+  template <class Row>
+  auto make(const CityTable<Row>& given) -> base::Result<void> {
+    auto table = GeopackageTable::make(*file_, given.name, given.meaning, given.geometry, *crs_);
     if (!table) return table.error();
-    if (auto done = table->add_fields(fields); !done) return done;
+    if (auto done = table->add_fields(given.fields()); !done) return done;
     table->take_place();
-    tables_.emplace(name, *std::move(table));
+    tables_.emplace(given.name, *std::move(table));
     return {};
   }
-  auto row(const std::string& table, const Values& values, std::unique_ptr<OGRGeometry> geometry = nullptr)
-      -> base::Result<void> {
-    return tables_.at(table).add_row(values, std::move(geometry));
+  /// `more` are the values of the columns for attributes.
+  template <class Row>
+  auto add_row(const CityTable<Row>& table, const Row& row, std::unique_ptr<OGRGeometry> geometry = nullptr,
+               const Values& more = {}) -> base::Result<void> {
+    Values values = table.values(row);
+    values.insert(values.end(), more.begin(), more.end());
+    return tables_.at(table.name).add_row(values, std::move(geometry));
   }
 
   auto make_tables() -> base::Result<void> {
-    const std::vector<Field> ids{{"building_id"}, {"part_id"}};
-    const auto with = [&](std::vector<Field> fields) {
-      fields.insert(fields.begin(), ids.begin(), ids.end());
-      return fields;
-    };
-    struct Plan {
-      const char *name, *meaning;
-      OGRwkbGeometryType type;
-      std::vector<Field> fields;
-    };
-    const std::vector<Plan> plans{
-        {"gis_footprints",
-         "The footprints as they were read, with their own attributes and those of the buildings",
-         wkbMultiPolygon,
-         {{"building_id"}, {"parts", whole}, {"ground", real}}},
-        {"footprints", "The plans of the parts, with the attributes of their models", wkbPolygon,
-         with({{"base", real}, {"top", real}, {"area", real}})},
-        {"edges", "The edges of the plans; the part is on their left", wkbLineString,
-         with({{"ring", whole}, {"edge", whole}, {"profile", whole}, {"length", real}, {"party", flag}})},
-        {"roof_planes", "The faces of the roofs", wkbMultiPolygon25D,
-         with({{"face", whole}, {"class"}, {"slope", real}, {"azimuth", real}, {"area", real}})},
-        {"walls", "The walls, which stand upright: in plan they are lines", wkbMultiPolygon25D,
-         with({{"face", whole}, {"class"}, {"azimuth", real}, {"area", real}, {"ring", whole}, {"edge", whole}})},
-        {"profiles", "The profiles that edges rise along: [inward, height] in metres from the foot of the edge",
-         wkbNone, with({{"profile", whole}, {"points"}})},
-        {"made_by", "How this file was made", wkbNone, {{"name"}, {"value"}}},
-        {records_name,
-         "What mansard reads this file back from: plan + profiles",
-         wkbNone,
-         {{"kind"}, {"id"}, {"json"}}},
-    };
-    for (const auto& plan : plans)
-      if (auto made = make(plan.name, plan.meaning, plan.type, plan.fields); !made) return made;
+    base::Result<void> made;
+    each_city_table([&](const auto& table) {
+      if (made) made = make(table);
+    });
+    if (!made) return made;
     if (auto done = add_made_by(); !done) return done;
-    return row(records_name, {std::string("header"), Value(), header_record(header_)});
+    return add_row(records_table, {record_header, Value(), header_record(header_)});
   }
 
   auto add_made_by() -> base::Result<void> {
@@ -169,15 +124,14 @@ class GeoPackageWriter : public CityWriter {
     for (const auto& input : header_.made_by.inputs) said.emplace_back("input", input.path + " sha256:" + input.sha256);
     said.insert(said.end(), header_.made_by.options.begin(), header_.made_by.options.end());
     for (const auto& [name, value] : said)
-      if (auto done = row("made_by", {name, value}); !done) return done;
+      if (auto done = add_row(made_by_table, {name, value}); !done) return done;
     return {};
   }
 
   auto add_edges(const std::string& building, const model::Part& part, const model::LabelledSolid& model)
       -> base::Result<void> {
     for (std::size_t i = 0; i < part.plan.profiles.size(); ++i)
-      if (auto done = row("profiles", {building, part.id, as_whole(i), profile_json(part.plan.profiles[i])}); !done)
-        return done;
+      if (auto done = add_row(profiles_table, {building, part.id, i, part.plan.profiles[i]}); !done) return done;
     const auto party = party_edges(model);
     std::vector<const model::PlanRing*> rings{&part.plan.outer};
     for (const auto& hole : part.plan.holes) rings.push_back(&hole);
@@ -187,11 +141,7 @@ class GeoPackageWriter : public CityWriter {
         const auto found = party.find({r, e});
         Value is_party;
         if (found != party.end()) is_party = found->second > 0;
-        if (auto done = row("edges",
-                            {building, part.id, as_whole(r), as_whole(e), as_whole(rings[r]->profile_of_edge[e]),
-                             length(b - a), is_party},
-                            pen_.line({a, b}));
-            !done)
+        if (auto done = add_row(edges_table, {building, part.id, *rings[r], r, e, is_party}, pen_.line({a, b})); !done)
           return done;
       }
     return {};
@@ -200,36 +150,27 @@ class GeoPackageWriter : public CityWriter {
   auto add_faces(const std::string& building, const std::string& part, const model::LabelledSolid& model)
       -> base::Result<void> {
     for (std::size_t f = 0; f < model.solid.faces.size(); ++f) {
-      const auto& face = model.solid.faces[f];
-      const auto [slope, azimuth] = slope_and_azimuth(face.normal);
-      const double area = solid::area(model.solid, face);
+      const CityTable<FaceRow>* table = model.classes[f] == FaceClass::roof ? &roof_planes_table
+                                        : is_wall(model.classes[f])         ? &walls_table
+                                                                            : nullptr;
+      if (table == nullptr) continue;
       auto polygons = std::make_unique<OGRMultiPolygon>();
-      polygons->addGeometryDirectly(pen_.face(model.solid, face).release());
-      base::Result<void> done;
-      if (model.classes[f] == FaceClass::roof) {
-        constexpr double flat = 5;  // degrees, as of ms_area_roof_flat
-        const std::string kind = std::get<double>(slope) <= flat ? "flat" : "sloped";
-        done = row("roof_planes", {building, part, as_whole(f), kind, slope, azimuth, area}, std::move(polygons));
-      } else if (model.classes[f] == FaceClass::wall || model.classes[f] == FaceClass::party_wall) {
-        Values values{building, part, as_whole(f), std::string(class_name(model.classes[f])), azimuth, area, {}, {}};
-        if (face.provenance) values[6] = as_whole(face.provenance->ring), values[7] = as_whole(face.provenance->edge);
-        done = row("walls", values, std::move(polygons));
-      }
-      if (!done) return done;
+      polygons->addGeometryDirectly(pen_.face(model.solid, model.solid.faces[f]).release());
+      if (auto done = add_row(*table, {building, part, model, f}, std::move(polygons)); !done) return done;
     }
     return {};
   }
 
   /// Once all attributes are known.
   auto add_footprints() -> base::Result<void> {
-    if (auto done = tables_.at("gis_footprints").add_fields(gis_columns_.fields()); !done) return done;
-    if (auto done = tables_.at("footprints").add_fields(part_columns_.fields()); !done) return done;
+    if (auto done = tables_.at(gis_footprints_table.name).add_fields(gis_columns_.fields()); !done) return done;
+    if (auto done = tables_.at(footprints_table.name).add_fields(part_columns_.fields()); !done) return done;
     std::uint64_t at = 0;
     for (const std::size_t size : record_sizes_) {
       const auto record = records_->read(at, size);
       if (!record) return record.error();
       at += size;
-      const auto building = read_building_record(*record, records_name);
+      const auto building = read_building_record(*record, records_table.name);
       if (!building) return building.error();
       if (auto done = add_footprints(*building); !done) return done;
     }
@@ -247,20 +188,14 @@ class GeoPackageWriter : public CityWriter {
   }
 
   auto add_footprints(const model::Building& building) -> base::Result<void> {
-    const auto joined = [](Values values, const Values& more) {
-      values.insert(values.end(), more.begin(), more.end());
-      return values;
-    };
-    const Values gis{building.id, as_whole(building.parts.size()), pen_.height(building.ground)};
-    if (auto done = row("gis_footprints", joined(gis, gis_columns_.values(building.attributes)),
-                        gis_geometry(building.footprint));
+    if (auto done = add_row(gis_footprints_table, {building, pen_}, gis_geometry(building.footprint),
+                            gis_columns_.values(building.attributes));
         !done)
       return done;
     for (const model::Part& part : building.parts) {
-      const auto polygon = model::polygon_of(part.plan);
-      const Values values{building.id, part.id, pen_.height(part.plan.base),
-                          pen_.height(part.plan.base + part.plan.cap), geometry::area(polygon)};
-      if (auto done = row("footprints", joined(values, part_columns_.values(part.attributes)), pen_.polygon(polygon));
+      const auto outline = model::polygon_of(part.plan);
+      if (auto done = add_row(footprints_table, {building.id, part, outline, pen_}, pen_.polygon(outline),
+                              part_columns_.values(part.attributes));
           !done)
         return done;
     }
@@ -282,7 +217,9 @@ class GeoPackageWriter : public CityWriter {
 /// Those of the same name say the same of the footprints and the making; what else has a taken name is of a
 /// segmentation.
 auto beside_ours(std::vector<Layer> more) -> std::vector<Layer> {
-  std::erase_if(more, [](const Layer& layer) { return layer.name == "gis_footprints" || layer.name == "made_by"; });
+  std::erase_if(more, [](const Layer& layer) {
+    return layer.name == gis_footprints_table.name || layer.name == made_by_table.name;
+  });
   for (Layer& layer : more)
     if (is_own(layer.name)) layer.name = "segment_" + layer.name;
   return more;
@@ -295,10 +232,11 @@ class GeoPackageReader : public CityReader {
 
   auto begin() -> base::Result<void> {
     const GeopackageManners manners;
-    columns_ = {records_.GetLayerDefn()->GetFieldIndex("kind"), records_.GetLayerDefn()->GetFieldIndex("json")};
+    columns_ = {records_.GetLayerDefn()->GetFieldIndex(record_kind),
+                records_.GetLayerDefn()->GetFieldIndex(record_json)};
     if (columns_.first < 0 || columns_.second < 0) return no_plans("its table mansard_records lacks a column");
     const OGRFeatureUniquePtr row(records_.GetNextFeature());
-    if (!row || row->GetFieldAsString(columns_.first) != std::string_view("header"))
+    if (!row || row->GetFieldAsString(columns_.first) != std::string_view(record_header))
       return no_plans("its table mansard_records does not begin with a header");
     auto header = read_header_record(row->GetFieldAsString(columns_.second), name_);
     if (!header) return header.error();
@@ -377,7 +315,7 @@ auto geopackage_reader(const Path& path) -> ReaderResult {
   if (!file)
     return base::error("write-read-format",
                        "this is no GeoPackage" + crs::gdal_words() + "; give one that mansard wrote", path.string());
-  OGRLayer* records = file->GetLayerByName(records_name);
+  OGRLayer* records = file->GetLayerByName(records_table.name);
   if (records == nullptr)
     return base::error("write-read-plans",
                        "this GeoPackage has no plans in it; give one that mansard wrote, or its "

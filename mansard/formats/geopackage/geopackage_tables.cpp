@@ -28,7 +28,7 @@ auto geometry_type(Shape shape) -> OGRwkbGeometryType {
 auto add_field(const std::string& name, FieldType type, OGRLayer& table) -> bool {
   static constexpr OGRFieldType types[] = {OFTInteger64, OFTReal, OFTString, OFTInteger};
   OGRFieldDefn definition(name.c_str(), types[static_cast<std::size_t>(type)]);
-  if (type == FieldType::flag) definition.SetSubType(OFSTBoolean);
+  if (type == FieldType::boolean) definition.SetSubType(OFSTBoolean);
   return table.CreateField(&definition) == OGRERR_NONE;
 }
 
@@ -52,13 +52,13 @@ auto ring_of(const geometry::Ring& points, geometry::Point3 origin) -> std::uniq
 }
 
 auto type_for(const model::Value& value, std::optional<FieldType> before) -> FieldType {
-  const auto own = std::holds_alternative<bool>(value)           ? FieldType::flag
-                   : std::holds_alternative<std::int64_t>(value) ? FieldType::whole
+  const auto own = std::holds_alternative<bool>(value)           ? FieldType::boolean
+                   : std::holds_alternative<std::int64_t>(value) ? FieldType::integer
                    : std::holds_alternative<double>(value)       ? FieldType::real
-                                                                 : FieldType::text;
+                                                                 : FieldType::string;
   if (!before || *before == own) return own;
-  const auto is_number = [](FieldType type) { return type == FieldType::whole || type == FieldType::real; };
-  return is_number(own) && is_number(*before) ? FieldType::real : FieldType::text;
+  const auto is_number = [](FieldType type) { return type == FieldType::integer || type == FieldType::real; };
+  return is_number(own) && is_number(*before) ? FieldType::real : FieldType::string;
 }
 
 auto as_text(const model::Value& value) -> model::Value {
@@ -178,7 +178,7 @@ void AttributeColumns::add(const model::Attributes& attributes) {
 
 auto AttributeColumns::fields() const -> std::vector<Field> {
   std::vector<Field> fields;
-  for (const auto& [name, type] : columns_) fields.push_back({name, type.value_or(FieldType::text)});
+  for (const auto& [name, type] : columns_) fields.push_back({name, type.value_or(FieldType::string)});
   return fields;
 }
 
@@ -187,7 +187,7 @@ auto AttributeColumns::values(const model::Attributes& attributes) const -> std:
   for (const auto& [name, value] : attributes) {
     const auto at = number_.find(name);
     if (at == number_.end()) continue;
-    values[at->second] = columns_[at->second].type == FieldType::text ? as_text(value) : value;
+    values[at->second] = columns_[at->second].type == FieldType::string ? as_text(value) : value;
   }
   return values;
 }

@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "mansard/crs/gdal_frame.hpp"
-#include "mansard/formats/write.hpp"
+#include "mansard/formats/layers.hpp"
+#include "mansard/model/solid.hpp"
 
 namespace mansard::formats::detail {
 

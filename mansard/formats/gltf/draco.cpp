@@ -9,9 +9,9 @@ namespace mansard::formats {
 namespace {
 
 /// Numbers off the front, as the bitstream has them; zeros when it has run out.
-class Header {
+class DracoBytes {
  public:
-  explicit Header(std::span<const unsigned char> bytes) : rest_(bytes) {}
+  explicit DracoBytes(std::span<const unsigned char> bytes) : rest_(bytes) {}
 
   auto byte() -> std::uint64_t {
     if (rest_.empty()) return 0;
@@ -42,7 +42,7 @@ class Header {
 };
 
 /// What is told of a mesh and its attributes before it: blocks of names with values, with blocks in them.
-void skip_metadata(Header& bytes) {
+void skip_metadata(DracoBytes& bytes) {
   const auto skip_blocks = [&bytes] {
     for (std::uint64_t left = 1; left > 0 && !bytes.empty(); --left) {
       for (std::uint64_t entries = bytes.varint(); entries > 0 && !bytes.empty(); --entries) {
@@ -62,7 +62,7 @@ void skip_metadata(Header& bytes) {
 
 /// The number of faces that a mesh says it has (Draco bitstream specification 2.2, sections 3 to 5).
 auto faces_in(std::span<const unsigned char> all) -> std::uint64_t {
-  Header bytes(all);
+  DracoBytes bytes(all);
   bytes.skip(5);  // "DRACO"
   const std::uint64_t major = bytes.byte(), minor = bytes.byte(), version = 256 * major + minor;
   bytes.skip(1);  // a mesh, or points

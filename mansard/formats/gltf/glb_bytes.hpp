@@ -1,8 +1,8 @@
 // A city as binary glTF 2.0, building by building or at once.
 #pragma once
 
-#include "mansard/formats/gltf/gltf_file.hpp"
 #include "mansard/formats/detail/parts.hpp"
+#include "mansard/formats/gltf/gltf_file.hpp"
 #include "mansard/formats/stream.hpp"
 
 namespace mansard::formats::detail {
@@ -26,8 +26,8 @@ class GlbBytes {
   std::int64_t buildings_ = 0;
 };
 
-/// "crs", "origin" and "header" (that of a plans.json) of a file, and the members of `more`, as an object.
-[[nodiscard]] auto file_extras(const Header& header, std::string_view more = {}) -> std::string;
+/// The members "crs", "origin" and "header" (that of a plans.json) of a file.
+void append_file_extras(JsonText& json, const Header& header);
 
 /// The whole city in memory.
 [[nodiscard]] auto glb_bytes(const model::City& city, const Keys& keys) -> base::Result<std::string>;

@@ -5,13 +5,12 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "mansard/base/nesting.hpp"
 #include "mansard/formats/detail/records.hpp"
+#include "mansard/formats/gltf/glb_container.hpp"
+#include "mansard/formats/json/json_access.hpp"
 
 namespace mansard::formats::detail {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 auto no_glb(const Path& path, const std::string& what) -> base::Diagnostic {
   return base::error("write-read-format", what + "; give a file that mansard wrote", path.string());
@@ -56,26 +55,19 @@ auto numbers(const std::string& bytes) -> std::vector<T> {
 
 struct Chunks {
   Json json;
-  std::uint64_t binary = 0, binary_size = 0;  ///< where the second chunk starts in the file
+  ByteRange binary;
 };
 
 auto chunks_of(File& file, const Path& path) -> base::Result<Chunks> {
-  const auto head = file.read(0, std::min<std::uint64_t>(20, file.size()));
-  if (!head) return head.error();
-  if (head->size() < 20 || head->substr(0, 4) != "glTF" || head->substr(16, 4) != "JSON")
-    return no_glb(path, "this is no binary glTF");
-  if (numbers<std::uint32_t>(head->substr(8, 4))[0] > file.size()) return no_glb(path, "this GLB is cut short");
-  const std::uint64_t json_size = numbers<std::uint32_t>(head->substr(12, 4))[0];
-  const auto text = file.read(20, json_size);
+  const auto glb = read_glb(file.size(), [&](ByteRange range) { return file.read(range.offset, range.size); });
+  if (!glb) return glb.error();
+  if (!glb->is_glb) return no_glb(path, "this is no binary glTF");
+  if (glb->size > file.size()) return no_glb(path, "this GLB is cut short");
+  if (!glb->json_complete) return no_glb(path, "the file is cut short");
+  const auto text = file.read(glb->json.offset, glb->json.size);
   if (!text) return text.error();
-  Chunks chunks{base::nests_too_deep(*text) ? Json() : Json::parse(*text, nullptr, false), 0, 0};
+  Chunks chunks{parse_gltf(*text), glb->binary};
   if (!chunks.json.is_object()) return no_glb(path, "the JSON of this GLB is broken");
-  if (file.size() >= 28 + json_size) {
-    const auto binary = file.read(20 + json_size, 4);
-    if (!binary) return binary.error();
-    chunks.binary = 28 + json_size;
-    chunks.binary_size = std::min<std::uint64_t>(numbers<std::uint32_t>(*binary)[0], file.size() - chunks.binary);
-  }
   return chunks;
 }
 
@@ -104,8 +96,8 @@ auto view_of(const Chunks& chunks, const Json& number) -> std::optional<RecordPl
   const Json& offset_json = at(view, {"byteOffset"});
   const auto offset = offset_json.is_null() ? std::optional<std::uint64_t>(0) : whole_of(offset_json);
   const auto size = whole_of(at(view, {"byteLength"}));
-  if (!offset || !size || *offset > chunks.binary_size || *size > chunks.binary_size - *offset) return std::nullopt;
-  return RecordPlace{0, chunks.binary + *offset, *size};
+  if (!offset || !size || *offset > chunks.binary.size || *size > chunks.binary.size - *offset) return std::nullopt;
+  return RecordPlace{0, chunks.binary.offset + *offset, *size};
 }
 
 auto table_of(const Chunks& chunks) -> const Json& {

@@ -1,6 +1,6 @@
-#include "mansard/formats/gltf/glb_bytes.hpp"
 #include "mansard/formats/detail/records.hpp"
 #include "mansard/formats/detail/writers.hpp"
+#include "mansard/formats/gltf/glb_bytes.hpp"
 
 namespace mansard::formats::detail {
 namespace {
@@ -24,13 +24,10 @@ class GlbWriter : public CityWriter {
 
 }  // namespace
 
-auto file_extras(const Header& header, std::string_view more) -> std::string {
-  JsonText json;
-  json.begin_object().key("crs").text(header.frame.crs).key("origin").begin_array();
+void append_file_extras(JsonText& json, const Header& header) {
+  json.key("crs").text(header.frame.crs).key("origin").begin_array();
   for (const auto metres : header.frame.origin) json.whole(metres);
   json.end_array().key("header").raw(header_record(header));
-  if (!more.empty()) json.raw(more);
-  return std::move(json.end_object()).str();
 }
 
 auto GlbBytes::open(const Header& header, bool compress) -> base::Result<GlbBytes> {
@@ -61,7 +58,9 @@ auto GlbBytes::add(const model::Building& building, const std::vector<std::strin
 
 auto GlbBytes::write(base::Sink& sink) -> base::Result<void> {
   columns_.settle();
-  return file_->write(sink, "mansard " + header_.made_by.version, file_extras(header_), columns_);
+  JsonText extras;
+  append_file_extras(extras.begin_object(), header_);
+  return file_->write(sink, "mansard " + header_.made_by.version, extras.end_object().str(), columns_);
 }
 
 auto glb_bytes(const model::City& city, const Keys& keys) -> base::Result<std::string> {

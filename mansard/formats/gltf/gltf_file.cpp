@@ -19,7 +19,7 @@ static_assert(std::endian::native == std::endian::little, "glTF buffers are litt
 using geometry::Point3;
 
 enum Component : std::int64_t { short_number = 5122, unsigned_int = 5125, float_number = 5126 };
-enum Target : std::int64_t { array_buffer = 34962, element_array_buffer = 34963 };
+enum BufferTarget : std::int64_t { array_buffer = 34962, element_array_buffer = 34963 };
 
 /// Meshes are compressed together until they have so many vertices: the JSON of a view would outweigh a part's.
 constexpr std::size_t chunk_size = 16384;
@@ -174,14 +174,14 @@ void GltfFile::append_accessor(View view, std::size_t offset, std::size_t count,
   ++accessors_;
 }
 
-void GltfFile::append_primitives(std::size_t vertex, std::size_t index, const std::array<Float3, 2>& bounds) {
+void GltfFile::append_primitives(JsonText& json, std::size_t vertex, std::size_t index,
+                                 const std::array<Float3, 2>& bounds) {
   const std::size_t count = mesh_.positions.size();
   const std::int64_t first = accessors_;
   append_accessor(position_view, vertex * sizeof(Float3), count, &bounds);
   append_accessor(normal_view, vertex * (compress_ ? 8 : sizeof(Float3)), count, nullptr);
   append_accessor(part_view, vertex * sizeof(float), count, nullptr);
   append_accessor(surface_view, vertex * sizeof(float), count, nullptr);
-  JsonText json;
   json.begin_array();
   for (std::size_t c = 0; c < class_count; ++c) {
     if (mesh_.indices[c].empty()) continue;
@@ -197,7 +197,7 @@ void GltfFile::append_primitives(std::size_t vertex, std::size_t index, const st
     append_accessor(index_view, index * sizeof(std::uint32_t), mesh_.indices[c].size(), nullptr);
     index += mesh_.indices[c].size();
   }
-  spools_.meshes->append(json.end_array().str());
+  json.end_array();
 }
 
 void GltfFile::end_mesh(const std::string& name, std::string_view extras) {
@@ -222,9 +222,8 @@ void GltfFile::end_mesh(const std::string& name, std::string_view extras) {
     node.begin_object().key("name").text(name).key("mesh").whole(nodes_);
     if (!extras.empty()) node.key("extras").raw(extras);
     append_items(*spools_.nodes, node.end_object().str());
-    append_items(*spools_.meshes, mesh.begin_object().key("name").text(name).key("primitives").str());
-    append_primitives(vertex, index, *bounds);
-    spools_.meshes->append("}");
+    append_primitives(mesh.begin_object().key("name").text(name).key("primitives"), vertex, index, *bounds);
+    append_items(*spools_.meshes, mesh.end_object().str());
     ++nodes_;
     vertices_ += mesh_.positions.size();
     indices_ += corners;
@@ -330,6 +329,38 @@ void GltfFile::append_extensions(JsonText& json, const TableBytes& parts, const 
   if (packed) json.key("extensionsRequired").begin_array().text(used[used.size() - 2]).text(used.back()).end_array();
 }
 
+auto GltfFile::mesh_bytes() const -> std::uint64_t {
+  std::uint64_t bytes = spools_.packed->size();
+  if (!compress_)
+    for (const auto& view : spools_.of_view) bytes += padded(view->size());
+  return bytes;
+}
+
+/// Of meshes that are not compressed.
+void GltfFile::append_views(JsonText& json) const {
+  if (compress_ || nodes_ == 0) return;
+  std::uint64_t offset = spools_.packed->size();
+  for (std::size_t view = 0; view < view_count; ++view) {
+    const auto size = spools_.of_view[view]->size();
+    json.begin_object().key("buffer").whole(0).key("byteOffset").whole(whole(offset));
+    json.key("byteLength").whole(whole(size));
+    if (view != index_view) json.key("byteStride").whole(whole(view < part_view ? sizeof(Float3) : sizeof(float)));
+    json.key("target").whole(view == index_view ? element_array_buffer : array_buffer).end_object();
+    offset += padded(size);
+  }
+}
+
+/// The binary chunk, and one that exists only to be decompressed into.
+void GltfFile::append_buffers(JsonText& json, std::uint64_t binary) const {
+  json.key("buffers").begin_array().begin_object().key("byteLength").whole(whole(binary)).end_object();
+  if (compress_ && nodes_ > 0) {
+    json.begin_object().key("byteLength").whole(whole(unpacked_bytes_)).key("extensions").begin_object();
+    json.key("EXT_meshopt_compression").begin_object().key("fallback").flag(true).end_object();
+    json.end_object().end_object();
+  }
+  json.end_array();
+}
+
 auto GltfFile::write(base::Sink& sink, const std::string& generator, std::string_view extras,
                      const PartColumns& columns) -> base::Result<void> {
   if (compress_) pack();
@@ -341,86 +372,45 @@ auto GltfFile::write(base::Sink& sink, const std::string& generator, std::string
   TableBytes parts(*spools_.tables), surfaces(*spools_.tables);
   if (auto filled = fill_tables(parts, surfaces, columns); !filled) return filled;
 
-  std::uint64_t mesh_bytes = spools_.packed->size();
-  JsonText views;
-  views.begin_array();
-  if (!compress_ && nodes_ > 0)
-    for (std::size_t view = 0; view < view_count; ++view) {
-      const auto size = spools_.of_view[view]->size();
-      views.begin_object()
-          .key("buffer")
-          .whole(0)
-          .key("byteOffset")
-          .whole(whole(mesh_bytes))
-          .key("byteLength")
-          .whole(whole(size));
-      if (view != index_view) views.key("byteStride").whole(whole(view < part_view ? sizeof(Float3) : sizeof(float)));
-      views.key("target").whole(view == index_view ? element_array_buffer : array_buffer).end_object();
-      mesh_bytes += padded(size);
-    }
-  std::string all_views = std::move(views).str();
-  JsonText table_views;
-  table_views.begin_array();
-  for (const TableBytes* table : {&parts, &surfaces})
-    for (const TableView& view : table->views())
-      table_views.begin_object()
-          .key("buffer")
-          .whole(0)
-          .key("byteOffset")
-          .whole(whole(mesh_bytes + view.offset))
-          .key("byteLength")
-          .whole(whole(view.bytes))
-          .end_object();
-  std::string more_views = std::move(table_views).str().substr(1);
-
-  // The JSON in pieces: what is before, between and after the long lists that were put aside.
-  JsonText head, tail;
-  head.begin_object().key("asset").begin_object().key("version").text("2.0").key("generator").text(generator);
-  if (!extras.empty()) head.key("extras").raw(extras);
-  head.end_object().key("scene").whole(0).key("scenes").begin_array().begin_object();
+  const std::uint64_t meshes = mesh_bytes(), binary = padded(meshes + spools_.tables->size());
+  // The JSON in pieces: the long lists that were put aside come between what is made here.
+  JsonText json;
+  std::vector<std::pair<std::string, base::Spool*>> pieces;
+  const auto insert = [&](base::Spool& items) {
+    pieces.emplace_back(json.take(), &items);
+    json.aside(items.size() > 0);
+  };
+  json.begin_object().key("asset").begin_object().key("version").text("2.0").key("generator").text(generator);
+  if (!extras.empty()) json.key("extras").raw(extras);
+  json.end_object().key("scene").whole(0).key("scenes").begin_array().begin_object();
   if (nodes_ > 0) {
-    head.key("nodes").begin_array();
-    for (std::int64_t i = 0; i < nodes_; ++i) head.whole(i);
-    head.end_array();
+    json.key("nodes").begin_array();
+    for (std::int64_t i = 0; i < nodes_; ++i) json.whole(i);
+    json.end_array();
   }
-  head.end_object().end_array();
-  append_extensions(head, parts, surfaces, columns);
-  if (nodes_ > 0) append_materials(head);
-  std::string before = std::move(head).str();
-  const std::uint64_t binary = padded(mesh_bytes + spools_.tables->size());
-  if (binary > 0) {
-    tail.begin_object().key("buffers").begin_array().begin_object().key("byteLength").whole(whole(binary)).end_object();
-    if (compress_ && nodes_ > 0) {
-      tail.begin_object().key("byteLength").whole(whole(unpacked_bytes_)).key("extensions").begin_object();
-      tail.key("EXT_meshopt_compression")
-          .begin_object()
-          .key("fallback")
-          .flag(true)
-          .end_object()
-          .end_object()
-          .end_object();
-    }
-    tail.end_array();
-  } else {
-    tail.begin_object();
-  }
-  std::string after = std::move(tail.end_object()).str();
-  if (after == "{}") after = "}";
-  else after[0] = ',';
-
-  std::vector<std::pair<std::string, base::Spool*>> pieces{{before, nullptr}};
+  json.end_object().end_array();
+  append_extensions(json, parts, surfaces, columns);
   if (nodes_ > 0) {
-    pieces.emplace_back(",\"nodes\":[", spools_.nodes.get());
-    pieces.emplace_back("],\"meshes\":[", spools_.meshes.get());
-    pieces.emplace_back("],\"accessors\":[", spools_.accessors.get());
-    pieces.emplace_back("]", nullptr);
+    append_materials(json);
+    for (const auto& [name, items] :
+         {std::pair{"nodes", &spools_.nodes}, {"meshes", &spools_.meshes}, {"accessors", &spools_.accessors}}) {
+      json.key(name).begin_array();
+      insert(**items);
+      json.end_array();
+    }
   }
   if (binary > 0) {
-    const bool comma = (compress_ ? spools_.views->size() > 0 : all_views.size() > 1) && more_views.size() > 0;
-    pieces.emplace_back(",\"bufferViews\":" + all_views, spools_.views.get());
-    pieces.emplace_back((comma ? "," : "") + more_views + "]", nullptr);
+    json.key("bufferViews").begin_array();
+    append_views(json);
+    insert(*spools_.views);
+    for (const TableBytes* table : {&parts, &surfaces})
+      for (const TableView& view : table->views()) {
+        json.begin_object().key("buffer").whole(0).key("byteOffset").whole(whole(meshes + view.offset));
+        json.key("byteLength").whole(whole(view.bytes)).end_object();
+      }
+    append_buffers(json.end_array(), binary);
   }
-  pieces.emplace_back(after, nullptr);
+  pieces.emplace_back(json.end_object().take(), nullptr);
 
   std::uint64_t json_size = 0;
   for (const auto& [text, spool] : pieces) json_size += text.size() + (spool != nullptr ? spool->size() : 0);

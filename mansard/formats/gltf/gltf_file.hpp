@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "mansard/base/outputs.hpp"
+#include "mansard/formats/detail/parts.hpp"
 #include "mansard/formats/gltf/gltf_mesh.hpp"
 #include "mansard/formats/gltf/gltf_table.hpp"
-#include "mansard/formats/detail/parts.hpp"
 
 namespace mansard::formats::detail {
 
@@ -58,7 +58,7 @@ class GltfFile {
   GltfFile(bool compress, Spools spools) : compress_(compress), spools_(std::move(spools)) {}
   void append_view(View view, std::string_view bytes);
   void append_accessor(View view, std::size_t offset, std::size_t count, const std::array<Float3, 2>* bounds);
-  void append_primitives(std::size_t vertex, std::size_t index, const std::array<Float3, 2>& bounds);
+  void append_primitives(JsonText& json, std::size_t vertex, std::size_t index, const std::array<Float3, 2>& bounds);
   void pack();
   void quantise();
   [[nodiscard]] auto fill_tables(TableBytes& parts, TableBytes& surfaces, const PartColumns& columns)
@@ -66,6 +66,10 @@ class GltfFile {
   void append_extensions(JsonText& json, const TableBytes& parts, const TableBytes& surfaces,
                          const PartColumns& columns) const;
   void append_materials(JsonText& json) const;
+  void append_views(JsonText& json) const;
+  void append_buffers(JsonText& json, std::uint64_t binary) const;
+  /// Bytes of all meshes in the binary chunk.
+  [[nodiscard]] auto mesh_bytes() const -> std::uint64_t;
 
   bool compress_;
   Spools spools_;

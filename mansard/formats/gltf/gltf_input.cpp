@@ -9,8 +9,9 @@
 
 #include "mansard/base/nesting.hpp"
 #include "mansard/formats/files/hash.hpp"
-#include "mansard/formats/gltf/meshopt.hpp"
 #include "mansard/formats/files/named_file.hpp"
+#include "mansard/formats/gltf/glb_container.hpp"
+#include "mansard/formats/gltf/meshopt.hpp"
 
 namespace mansard::formats {
 namespace {
@@ -73,37 +74,22 @@ auto skip_image(tinygltf::Image*, const int, std::string*, std::string*, int, in
   return true;
 }
 
-auto word_at(std::string_view bytes, std::size_t at) -> std::uint32_t {
-  std::uint32_t word = 0;
-  for (std::size_t i = 0; i < 4; ++i)
-    word |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[at + i])) << (8 * i);
-  return word;
-}
-
 /// The two chunks of a GLB.
 struct Parts {
   std::string_view json, binary;
 };
 
-/// The header, then chunks of (size, kind, bytes), little endian.
 auto parts_of(std::string_view bytes, const std::string& name) -> base::Result<Parts> {
-  const std::uint32_t length = bytes.size() >= 12 ? word_at(bytes, 8) : 0;
-  if (bytes.size() < 20 || length > bytes.size())
+  const Glb glb = read_glb(bytes);
+  if (bytes.size() < 20 || glb.size > bytes.size())
     return base::error("ingest-mesh-truncated",
-                       "the file has " + std::to_string(bytes.size()) + " bytes of the " + std::to_string(length) +
+                       "the file has " + std::to_string(bytes.size()) + " bytes of the " + std::to_string(glb.size) +
                            " it promises; copy or export it again",
                        name);
-  if (word_at(bytes, 4) == 1)
+  if (glb.version == 1)
     return base::error("ingest-mesh-format", "it is glTF 1.0, which is not read; convert it to glTF 2.0", name);
-  Parts parts;
-  const std::size_t size = word_at(bytes, 12);
-  if (size > bytes.size() - 20)
-    return base::error("ingest-mesh-truncated", "its JSON ends too early; copy it again", name);
-  parts.json = bytes.substr(20, size);
-  const std::size_t next = 20 + size;
-  if (bytes.size() >= next + 8)
-    parts.binary = bytes.substr(next + 8, std::min<std::size_t>(word_at(bytes, next), bytes.size() - next - 8));
-  return parts;
+  if (!glb.json_complete) return base::error("ingest-mesh-truncated", "its JSON ends too early; copy it again", name);
+  return Parts{bytes.substr(glb.json.offset, glb.json.size), bytes.substr(glb.binary.offset, glb.binary.size)};
 }
 
 /// A buffer that exists only to be unpacked into, and how large it says it is.
@@ -154,7 +140,7 @@ auto rewritten(const Parts& parts, const std::string& name) -> base::Result<Rewr
   const auto bad = [&name] {
     return base::error("ingest-mesh-format", "its JSON is damaged; export the mesh again", name);
   };
-  auto json = Json::parse(parts.json, nullptr, false);
+  Json json(parse_gltf(parts.json));  // whose members stay where they are when others are added
   if (!json.is_object()) return bad();
   try {  // members of another kind than the standard says
     std::vector<Room> rooms;
@@ -249,7 +235,7 @@ auto unknown_extension(const tinygltf::Model& model) -> std::optional<std::strin
 
 }  // namespace
 
-auto load_gltf(std::string_view bytes, const std::filesystem::path& path) -> base::Result<GltfFile> {
+auto load_gltf(std::string_view bytes, const std::filesystem::path& path) -> base::Result<GltfInput> {
   const std::string name = path.string();
   bool binary = bytes.starts_with("glTF");
   Parts parts{bytes, {}};
@@ -277,7 +263,7 @@ auto load_gltf(std::string_view bytes, const std::filesystem::path& path) -> bas
   tinygltf::TinyGLTF loader;
   loader.SetImageLoader(&skip_image, nullptr);
   loader.SetFsCallbacks({&exists, &same_name, &read_buffer, &write_nothing, &around});
-  GltfFile file;
+  GltfInput file;
   std::string errors, warnings;
   const std::string folder = path.parent_path().string();
   const auto size = static_cast<unsigned int>(bytes.size());

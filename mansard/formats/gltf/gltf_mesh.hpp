@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mansard/base/result.hpp"
-#include "mansard/formats/write.hpp"
+#include "mansard/model/city.hpp"
 
 namespace mansard::formats::detail {
 

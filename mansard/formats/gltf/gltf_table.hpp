@@ -10,7 +10,7 @@
 
 #include "mansard/base/outputs.hpp"
 #include "mansard/formats/json/json_text.hpp"
-#include "mansard/formats/write.hpp"
+#include "mansard/model/city.hpp"
 
 namespace mansard::formats::detail {
 

@@ -10,10 +10,9 @@
 #include <vector>
 
 #include "mansard/base/result.hpp"
+#include "mansard/formats/json/json_access.hpp"
 
 namespace mansard::formats::detail {
-
-using Json = nlohmann::ordered_json;
 
 /// What is wrong with a file; thrown and caught by readers, never beyond this room.
 struct Defect {

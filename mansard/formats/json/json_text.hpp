@@ -35,6 +35,13 @@ class JsonText {
   [[nodiscard]] auto str() const& -> const std::string& { return text_; }
   /// What there is so far, to be written by now; what is told next goes on from there.
   [[nodiscard]] auto take() -> std::string { return std::exchange(text_, {}); }
+  /// The value of the last key, or items of the innermost array, were put aside: they are written between what was
+  /// taken and what comes next. Without any (`some` is false) nothing changes.
+  auto aside(bool some = true) -> JsonText& {
+    first_ = first_ && !some;
+    after_key_ = after_key_ && !some;
+    return *this;
+  }
   [[nodiscard]] auto str() && -> std::string { return std::move(text_); }
 
  private:

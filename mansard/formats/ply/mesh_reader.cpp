@@ -9,9 +9,9 @@
 
 #include "mansard/base/run.hpp"
 #include "mansard/base/text.hpp"
+#include "mansard/formats/files/words.hpp"
 #include "mansard/formats/mesh/mesh_formats.hpp"
 #include "mansard/formats/mesh/text_chunks.hpp"
-#include "mansard/formats/files/words.hpp"
 
 namespace mansard::formats {
 namespace {
@@ -57,10 +57,10 @@ struct Element {
   std::vector<Property> properties;
 };
 
-enum class Format { none, ascii, little, big };
+enum class Encoding { none, ascii, little, big };
 
-struct Header {
-  Format format = Format::none;
+struct PlyHeader {
+  Encoding format = Encoding::none;
   std::vector<Element> elements;
 };
 
@@ -325,7 +325,7 @@ auto took_line(std::string_view line, const Element& element, bool classed, RawM
   return true;
 }
 
-auto read_text_lines(std::string_view body, const Header& header) -> std::optional<RawMesh> {
+auto read_text_lines(std::string_view body, const PlyHeader& header) -> std::optional<RawMesh> {
   std::size_t lines = 0;
   std::vector<std::pair<std::size_t, const Element*>> ends;  // the line after each element's last
   bool any_class = false;
@@ -359,7 +359,7 @@ auto took_side_by_side(BinaryValues<order>& values, const Element& element, RawM
 }
 
 template <class Values>
-auto take_elements(Values values, const Header& header, const std::string& name) -> base::Result<RawMesh> {
+auto take_elements(Values values, const PlyHeader& header, const std::string& name) -> base::Result<RawMesh> {
   RawMesh mesh;
   std::vector<double> list;
   std::vector<std::uint32_t> corners;
@@ -422,8 +422,8 @@ auto take_elements(Values values, const Header& header, const std::string& name)
 }
 
 /// Takes the header off the front; the body follows its last line's end exactly.
-auto take_header(std::string_view& bytes, const std::string& name) -> base::Result<Header> {
-  Header header;
+auto take_header(std::string_view& bytes, const std::string& name) -> base::Result<PlyHeader> {
+  PlyHeader header;
   std::size_t count = 1;
   const auto bad = [&](const std::string& what) {
     return base::error("ingest-mesh-format", "line " + std::to_string(count) + ": " + what + "; export the mesh again",
@@ -435,16 +435,16 @@ auto take_header(std::string_view& bytes, const std::string& name) -> base::Resu
     std::string_view line = take_line(bytes);
     const std::string_view keyword = take_word(line);
     if (keyword == "end_header") {
-      if (header.format == Format::none) return bad("the header names no format");
+      if (header.format == Encoding::none) return bad("the header names no format");
       return header;
     }
     if (keyword == "format") {
       const std::string_view word = take_word(line);
-      header.format = word == "ascii"                  ? Format::ascii
-                      : word == "binary_little_endian" ? Format::little
-                      : word == "binary_big_endian"    ? Format::big
-                                                       : Format::none;
-      if (header.format == Format::none) return bad("format '" + std::string(word) + "' is not known");
+      header.format = word == "ascii"                  ? Encoding::ascii
+                      : word == "binary_little_endian" ? Encoding::little
+                      : word == "binary_big_endian"    ? Encoding::big
+                                                       : Encoding::none;
+      if (header.format == Encoding::none) return bad("format '" + std::string(word) + "' is not known");
     } else if (keyword == "element") {
       const std::string element(take_word(line));
       const auto size = base::to_integer(take_word(line));
@@ -471,7 +471,7 @@ auto take_header(std::string_view& bytes, const std::string& name) -> base::Resu
   return truncated("its header does", name);
 }
 
-auto find(const Header& header, std::string_view name) -> const Element* {
+auto find(const PlyHeader& header, std::string_view name) -> const Element* {
   for (const auto& element : header.elements)
     if (element.name == name) return &element;
   return nullptr;
@@ -489,8 +489,8 @@ auto read_ply(std::string_view bytes, const std::string& name) -> base::Result<R
       if (property.name == "x" || property.name == "y" || property.name == "z") axes += property.count ? 0 : 1;
   if (axes != 3) return base::error("ingest-mesh-format", "the PLY file has no vertices with x, y and z", name);
   switch (header->format) {
-    case Format::little: return take_elements(BinaryValues<std::endian::little>{bytes}, *header, name);
-    case Format::big: return take_elements(BinaryValues<std::endian::big>{bytes}, *header, name);
+    case Encoding::little: return take_elements(BinaryValues<std::endian::little>{bytes}, *header, name);
+    case Encoding::big: return take_elements(BinaryValues<std::endian::big>{bytes}, *header, name);
     default:
       if (auto lines = read_text_lines(bytes, *header)) return *std::move(lines);
       return take_elements(TextValues{bytes}, *header, name);

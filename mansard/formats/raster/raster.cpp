@@ -41,9 +41,9 @@ struct Window {
   int left = 0, top = 0, columns = 0, rows = 0;
 };
 
-class Raster {
+class RasterFile {
  public:
-  static auto open(const fs::path& path) -> base::Result<Raster>;
+  static auto open(const fs::path& path) -> base::Result<RasterFile>;
 
   [[nodiscard]] auto affine() const -> const Affine& { return affine_; }
   [[nodiscard]] auto crs() const -> const OGRSpatialReference* { return crs_.get(); }
@@ -87,11 +87,11 @@ class Raster {
   std::vector<base::Diagnostic> warnings_;
 };
 
-auto Raster::open(const fs::path& path) -> base::Result<Raster> {
+auto RasterFile::open(const fs::path& path) -> base::Result<RasterFile> {
   crs::register_gdal();
   if (!is_there(path)) return why_missing(path);
   const crs::GdalMessages messages;
-  Raster out;
+  RasterFile out;
   out.path_ = path;
   out.dataset_.reset(GDALDataset::Open(name_for_gdal(path).c_str(),
                                        GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr, nullptr,
@@ -104,7 +104,7 @@ auto Raster::open(const fs::path& path) -> base::Result<Raster> {
   return out;
 }
 
-auto Raster::understand() -> base::Result<void> {
+auto RasterFile::understand() -> base::Result<void> {
   band_ = dataset_->GetRasterBand(1);
   const int bands = dataset_->GetRasterCount();
   const auto colour = band_->GetColorInterpretation();
@@ -140,7 +140,7 @@ auto Raster::understand() -> base::Result<void> {
 }
 
 /// Metres a unit of height, by the band or else by the vertical part of the CRS.
-auto Raster::to_metres() const -> base::Result<double> {
+auto RasterFile::to_metres() const -> base::Result<double> {
   std::string unit = band_->GetUnitType();
   std::ranges::transform(unit, unit.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
   if (unit.empty() && crs_ && crs_->IsVertical() != 0) return crs_->GetTargetLinearUnits("VERT_CS");
@@ -153,7 +153,7 @@ auto Raster::to_metres() const -> base::Result<double> {
   return bad("its heights are in '" + base::on_one_line(unit) + "'; give them in metres or feet", path_);
 }
 
-auto Raster::read(const Window& window, int first, int count, std::vector<double>& heights) -> base::Result<void> {
+auto RasterFile::read(const Window& window, int first, int count, std::vector<double>& heights) -> base::Result<void> {
   const crs::GdalMessages messages;
   const std::size_t cells = static_cast<std::size_t>(window.columns) * static_cast<std::size_t>(count);
   heights.resize(cells);
@@ -177,7 +177,7 @@ auto Raster::read(const Window& window, int first, int count, std::vector<double
 /// Vertices and triangles, a row of cells at a time.
 class Weaver {
  public:
-  Weaver(const Raster& raster, const Window& window, RawMesh& mesh)
+  Weaver(const RasterFile& raster, const Window& window, RawMesh& mesh)
       : raster_(raster),
         window_(window),
         mesh_(mesh),
@@ -218,7 +218,7 @@ class Weaver {
     }
   }
 
-  const Raster& raster_;
+  const RasterFile& raster_;
   const Window& window_;
   RawMesh& mesh_;
   bool mirrored_;  // rows run from south to north
@@ -238,7 +238,7 @@ auto wkt_of(const OGRSpatialReference* crs) -> std::string {
 /// From the frame's CRS to a raster's cells and back. Where one of the two has no CRS they are taken to be the same.
 class Path {
  public:
-  static auto between(const model::Frame& frame, const Raster& raster, const fs::path& path) -> base::Result<Path> {
+  static auto between(const model::Frame& frame, const RasterFile& raster, const fs::path& path) -> base::Result<Path> {
     Path out(frame, raster);
     if (frame.crs.empty() || raster.crs() == nullptr) return out;
     const crs::GdalMessages messages;
@@ -272,7 +272,7 @@ class Path {
   }
 
  private:
-  Path(const model::Frame& frame, const Raster& raster)
+  Path(const model::Frame& frame, const RasterFile& raster)
       : origin_{static_cast<double>(frame.origin[0]), static_cast<double>(frame.origin[1])}, affine_(raster.affine()) {}
 
   static void go(OGRCoordinateTransformation* way, std::vector<Point2>& points) {
@@ -378,7 +378,7 @@ auto between(const std::vector<float>& heights, const Window& window, Point2 cel
 auto is_raster(const fs::path& path) -> bool { return has_extension(path, &Reads::raster); }
 
 auto read_raster(const fs::path& path, const std::optional<Box2>& within) -> base::Result<RasterMesh> {
-  auto raster = Raster::open(path);
+  auto raster = RasterFile::open(path);
   if (!raster) return raster.error();
   RasterMesh out;
   out.crs = wkt_of(raster->crs());
@@ -403,7 +403,7 @@ auto read_raster(const fs::path& path, const std::optional<Box2>& within) -> bas
 
 auto read_terrain(const fs::path& path, const model::Frame& frame, const Box2& within)
     -> base::Result<model::HeightGrid> {
-  auto raster = Raster::open(path);
+  auto raster = RasterFile::open(path);
   if (!raster) return raster.error();
   const auto way = Path::between(frame, *raster, path);
   if (!way) return way.error();

@@ -9,7 +9,7 @@ namespace {
 
 using geometry::Box2;
 using geometry::Point3;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 template <std::size_t N>
 auto numbers_of(const Json& object, const char* key) -> std::optional<std::array<double, N>> {

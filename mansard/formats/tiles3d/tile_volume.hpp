@@ -6,9 +6,9 @@
 #include <optional>
 #include <variant>
 
-#include "mansard/geometry/points.hpp"
 #include "mansard/crs/mesh_crs.hpp"
 #include "mansard/formats/mesh/transform.hpp"
+#include "mansard/geometry/points.hpp"
 
 namespace mansard::formats {
 
@@ -26,7 +26,7 @@ struct TileBox {
 using Volume = std::variant<std::monostate, DegreeBox, TileBox>;
 
 /// Of a "boundingVolume": region, box, or sphere (as the box around it).
-[[nodiscard]] auto volume_of(const nlohmann::json& object) -> Volume;
+[[nodiscard]] auto volume_of(const nlohmann::ordered_json& object) -> Volume;
 /// A region is where it is, a box goes with the tile.
 [[nodiscard]] auto placed(const Volume& volume, const Transform& by) -> Volume;
 

@@ -191,6 +191,9 @@ class TilesWriter : public CityWriter {
     columns_.settle();
     tree_ = tile_tree(items_, options_.tile_triangles);
     made_.resize(tree_.tiles.size());
+    parents_.resize(tree_.tiles.size());
+    for (std::size_t t = 0; t < tree_.tiles.size(); ++t)
+      for (const std::size_t child : tree_.tiles[t].children) parents_[child] = t;
     for (std::size_t t = 0; t < tree_.tiles.size(); ++t)
       if (auto placed = place(t); !placed) return placed;
     std::error_code failure;
@@ -333,6 +336,7 @@ class TilesWriter : public CityWriter {
     const Tile& tile = tree_.tiles[t];
     JsonText json;
     json.begin_object();
+    if (t != 0) append_transform(json, made_[parents_[t]].place, made_[t].place);
     append_box(json, made_[t].box);
     json.key("geometricError").number(std::ceil(made_[t].error * 1000) / 1000);
     if (t == 0) json.key("refine").text("REPLACE");
@@ -340,9 +344,7 @@ class TilesWriter : public CityWriter {
     if (made_[t].content) json.key("content").begin_object().key("uri").text("tiles/" + name_of(tile)).end_object();
     if (!tile.children.empty()) json.key("children").begin_array();
     for (const std::size_t child : tile.children) {
-      JsonText transform;
-      append_transform(transform, made_[t].place, made_[child].place);
-      json.line().raw("{" + transform.str() + "," + made_[child].json.substr(1));
+      json.line().raw(made_[child].json);
       made_[child].json = {};
     }
     if (!tile.children.empty()) json.end_array();
@@ -352,18 +354,18 @@ class TilesWriter : public CityWriter {
   auto tileset() const -> std::string {
     const Box& box = made_[0].box;
     using enum crs::Globe::Heights;
-    JsonText heights, json;
-    heights.text(
+    const char* heights =
         !globe_ ? "There is no coordinate system: the tileset is in the local frame, not on Earth."
         : globe_->heights() == of_the_crs ? "Heights are those of the coordinate system."
         : globe_->heights() == without_geoid
             ? "There was no geoid for the heights of the coordinate system: they are taken as heights above the "
               "ellipsoid of WGS 84."
-            : "The coordinate system has no heights: they are taken as heights above the ellipsoid of WGS 84.");
+            : "The coordinate system has no heights: they are taken as heights above the ellipsoid of WGS 84.";
+    JsonText json;
     json.begin_object().key("asset").begin_object().key("version").text("1.1").key("extras");
-    json.raw(file_extras(header_, "\"generator\":" + detail::quoted("mansard " + header_.made_by.version) +
-                                      ",\"heights\":" + heights.str()))
-        .end_object();
+    append_file_extras(json.begin_object(), header_);
+    json.key("generator").text("mansard " + header_.made_by.version).key("heights").text(heights);
+    json.end_object().end_object();
     // Without the tileset, all of it is missing.
     json.line().key("geometricError").number(std::ceil(length(box.most - box.least)));
     json.line().key("root").raw(made_[0].json).line().end_object();
@@ -380,6 +382,7 @@ class TilesWriter : public CityWriter {
   std::vector<TileItem> items_;
   TileTree tree_;
   std::vector<Made> made_;
+  std::vector<std::size_t> parents_;         ///< of tiles; nothing for the root
   std::vector<std::array<Point3, 3>> axes_;  ///< of the local frame, in the tile's
 };
 

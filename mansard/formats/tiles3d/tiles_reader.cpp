@@ -1,17 +1,14 @@
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "mansard/base/files.hpp"
-#include "mansard/base/nesting.hpp"
-#include "mansard/formats/gltf/glb_reader.hpp"
 #include "mansard/formats/detail/records.hpp"
 #include "mansard/formats/detail/writers.hpp"
+#include "mansard/formats/gltf/glb_reader.hpp"
+#include "mansard/formats/tiles3d/tileset_json.hpp"
 
 namespace mansard::formats::detail {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct TileRecord {
   std::uint32_t file = 0;
@@ -19,15 +16,12 @@ struct TileRecord {
 };
 
 /// The contents of leaves, in the order of the tileset. Only these carry records.
-void append_leaves(const Json& tile, std::vector<std::string>& uris) {
+void append_leaves(const TileJson& tile, std::vector<std::string>& uris) {
   if (!tile.is_object()) return;
-  if (tile.contains("children") && tile["children"].is_array() && !tile["children"].empty()) {
-    for (const Json& child : tile["children"]) append_leaves(child, uris);
-    return;
-  }
-  if (tile.contains("content") && tile["content"].is_object() && tile["content"].contains("uri") &&
-      tile["content"]["uri"].is_string())
-    uris.push_back(tile["content"]["uri"].get<std::string>());
+  const auto children = tile.children();
+  for (const TileJson& child : children) append_leaves(child, uris);
+  if (!children.empty()) return;
+  for (auto& content : tile.contents()) uris.push_back(std::move(content.uri));
 }
 
 /// Whether a name stays within the folder of its tileset.
@@ -80,16 +74,16 @@ auto tiles_reader(const Path& folder) -> ReaderResult {
   const Path path = std::filesystem::is_directory(folder, failure) ? folder / "tileset.json" : folder;
   const auto text = base::read_file(path);
   if (!text) return text.error();
-  const Json tileset = base::nests_too_deep(*text) ? Json() : Json::parse(*text, nullptr, false);
-  const Json::json_pointer to_header("/asset/extras/header");
-  if (!tileset.is_object() || !tileset.contains("root"))
+  const TilesetJson tileset(*text);
+  if (tileset.fault() != TilesetJson::Fault::none)
     return base::error("write-read-format", "this is no tileset.json; give a folder of 3D Tiles", path.string());
-  if (!tileset.contains(to_header) || !tileset[to_header].is_object())
+  const nlohmann::ordered_json::json_pointer to_header("/asset/extras/header");
+  if (!tileset.json().contains(to_header) || !tileset.json()[to_header].is_object())
     return base::error("write-read-plans", "these tiles carry no plans; give some that mansard wrote", path.string());
-  auto header = read_header_record(tileset[to_header].dump(), path.string());
+  auto header = read_header_record(tileset.json()[to_header].dump(), path.string());
   if (!header) return header.error();
   std::vector<std::string> uris;
-  append_leaves(tileset["root"], uris);
+  append_leaves(tileset.root(), uris);
   std::vector<Path> files;
   std::set<std::string> named;  // a tile has its content for itself: what is named again has been read
   for (const auto& uri : uris) {

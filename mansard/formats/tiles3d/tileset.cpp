@@ -11,101 +11,45 @@
 #include "mansard/formats/files/hash.hpp"
 #include "mansard/formats/files/named_file.hpp"
 #include "mansard/formats/tiles3d/tile_subtree.hpp"
+#include "mansard/formats/tiles3d/tileset_json.hpp"
 
 namespace mansard::formats {
 namespace {
 
 namespace fs = std::filesystem;
 using geometry::Point3;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 auto bad(const std::string& what, const std::string& name) -> base::Diagnostic {
   return base::error("ingest-mesh-format", what, name);
 }
 
-/// A member that is an object, or an empty one.
-auto object_in(const Json& from, const char* key) -> const Json& {
-  static const Json nothing = Json::object();
-  const auto found = from.find(key);
-  return found != from.end() && found->is_object() ? *found : nothing;
-}
-
-auto text_in(const Json& from, const char* key) -> std::string {
-  const auto found = from.find(key);
-  return found != from.end() && found->is_string() ? found->get<std::string>() : std::string();
-}
-
-auto number_in(const Json& from, const char* key) -> std::optional<double> {
-  const auto found = from.find(key);
-  return found != from.end() && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;
-}
-
-auto transform_of(const Json& tile, const std::string& name) -> base::Result<Transform> {
-  const auto found = tile.find("transform");
-  if (found == tile.end()) return Transform{};
-  const bool numbers = found->is_array() && found->size() == 16 &&
-                       std::ranges::all_of(*found, [](const Json& n) { return n.is_number(); });
-  if (!numbers) return bad("the transform of a tile is not 16 numbers; export the tileset again", name);
-  return Transform::by_columns(found->get<std::vector<double>>());
+auto transform_of(const TileJson& tile, const std::string& name) -> base::Result<Transform> {
+  const auto own = tile.transform();
+  if (!own) return bad("the transform of a tile is not 16 numbers; export the tileset again", name);
+  return *own;
 }
 
 /// glTF is y up by its standard; tilesets from before 3D Tiles 1.0 say what theirs is.
-auto turn_of(const Json& tileset, UpAxis up) -> Transform {
-  const auto axis = text_in(object_in(tileset, "asset"), "gltfUpAxis");
+auto turn_of(const TilesetJson& tileset, UpAxis up) -> Transform {
+  const auto axis = text_in(tileset.asset(), "gltfUpAxis");
   if (up == UpAxis::z || (up == UpAxis::automatic && (axis == "Z" || axis == "z"))) return {};
   if (up == UpAxis::automatic && (axis == "X" || axis == "x")) return {{{{0, 0, -1, 0}, {0, 1, 0, 0}, {1, 0, 0, 0}}}};
   return Transform::from_y_up();
 }
 
-struct Content {
-  std::string uri;
-  Volume volume;
-};
-
-/// One content, several (1.1), or several by the extension to 1.0.
-auto contents_of(const Json& tile) -> std::vector<Content> {
-  std::vector<Content> out;
-  const auto add = [&out](const Json& content) {
-    if (!content.is_object()) return;
-    auto uri = text_in(content, "uri");
-    if (uri.empty()) uri = text_in(content, "url");
-    if (!uri.empty()) out.push_back({uri, volume_of(object_in(content, "boundingVolume"))});
-  };
-  const auto add_list = [&add](const Json& holder, const char* key) {
-    const auto list = holder.find(key);
-    if (list != holder.end() && list->is_array()) std::ranges::for_each(*list, add);
-  };
-  add(object_in(tile, "content"));
-  add_list(tile, "contents");
-  const Json& several = object_in(object_in(tile, "extensions"), "3DTILES_multiple_contents");
-  add_list(several, "content");
-  add_list(several, "contents");
-  return out;
-}
-
-auto parse_tileset(std::string_view bytes, const std::string& name) -> base::Result<Json> {
-  if (base::nests_too_deep(bytes))
+auto parse_tileset(std::string_view bytes, const std::string& name) -> base::Result<TilesetJson> {
+  TilesetJson tileset(bytes);
+  if (tileset.fault() == TilesetJson::Fault::too_deep)
     return bad(
         "its JSON nests more than " + std::to_string(base::deepest_json) + " levels deep; export the tileset again",
         name);
-  auto json = Json::parse(bytes, nullptr, false);
-  if (!json.is_object() || object_in(json, "asset").empty() || object_in(json, "root").empty())
+  if (tileset.fault() != TilesetJson::Fault::none || tileset.asset().empty() ||
+      object_in(tileset.json(), "root").empty())
     return bad("the file is no tileset of 3D Tiles: it has no asset and root; check what it is", name);
-  static constexpr std::array<std::string_view, 7> known{"3DTILES_content_gltf",
-                                                         "3DTILES_multiple_contents",
-                                                         "3DTILES_implicit_tiling",
-                                                         "3DTILES_metadata",
-                                                         "3DTILES_bounding_volume_S2",
-                                                         "3DTILES_batch_table_hierarchy",
-                                                         "MAXAR_grid"};
-  const auto required = json.find("extensionsRequired");
-  if (required != json.end() && required->is_array())
-    for (const Json& extension : *required)
-      if (extension.is_string() && std::ranges::find(known, extension.get<std::string>()) == known.end())
-        return bad("the tileset requires the extension " + extension.get<std::string>() +
-                       ", which is not read; write it without",
-                   name);
-  return json;
+  if (const auto extension = tileset.unknown_extension())
+    return bad("the tileset requires the extension " + *extension + ", which is not read; write it without", name);
+  return tileset;
 }
 
 /// On the ellipsoid of WGS 84.
@@ -158,7 +102,7 @@ class Walk {
     bool add = false, octree = false;
     std::uint32_t subtree_levels = 0, levels = 0;
     std::string subtrees;  ///< template
-    std::vector<Content> contents;
+    std::vector<TileContentName> contents;
     int depth = 0;  ///< of the root
   };
 
@@ -171,11 +115,11 @@ class Walk {
     if (run_.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
     const auto bytes = within == nullptr ? Bytes::of(path) : bytes_of_named(path);
     if (!bytes) return bytes.error();
-    const auto json = parse_tileset(bytes->view(), name);
-    if (!json) return json.error();
+    const auto tileset = parse_tileset(bytes->view(), name);
+    if (!tileset) return tileset.error();
     list_.inputs.push_back({name, bytes->view().size(), sha256(bytes->view())});
-    const Sheet sheet{path, turn_of(*json, up_), within};
-    return take_tile((*json)["root"], sheet, outer, false, depth);
+    const Sheet sheet{path, turn_of(*tileset, up_), within};
+    return take_tile(tileset->root(), sheet, outer, false, depth);
   }
 
   /// Tiles can name the same file again and again, and an implicit tiling all tiles of thirty levels in a few words:
@@ -187,7 +131,7 @@ class Walk {
                sheet.path.string());
   }
 
-  auto take_tile(const Json& tile, const Sheet& sheet, const Transform& outer, bool add, int depth)
+  auto take_tile(const TileJson& tile, const Sheet& sheet, const Transform& outer, bool add, int depth)
       -> base::Result<void> {
     const std::string name = sheet.path.string();
     if (!tile.is_object()) return bad("a tile is not an object; export the tileset again", name);
@@ -195,32 +139,27 @@ class Walk {
     const auto own = transform_of(tile, name);
     if (!own) return own.error();
     const Transform place = outer.after(*own);
-    const Volume volume = placed(volume_of(object_in(tile, "boundingVolume")), place);
+    const Volume volume = placed(tile.volume(), place);
     if (!filter_.passes(volume)) return ++list_.beside, base::Result<void>();
     if (auto counted = count_tile(sheet); !counted) return counted;
-    // Kept on the way down where a tile does not say; in capitals since 1.0.
-    if (const auto refine = text_in(tile, "refine"); !refine.empty()) add = refine == "ADD" || refine == "add";
-    const double error = number_in(tile, "geometricError").value_or(0);
-
-    const Json& implicit = tile.contains("implicitTiling")
-                               ? object_in(tile, "implicitTiling")
-                               : object_in(object_in(tile, "extensions"), "3DTILES_implicit_tiling");
-    if (!implicit.empty())
+    add = tile.adds().value_or(add);  // kept on the way down where a tile does not say
+    const double error = tile.geometric_error();
+    if (const Json& implicit = tile.implicit_tiling(); !implicit.empty())
       return take_implicit(tile, implicit, sheet, {place, volume, error, add, false, 0, 0, "", {}, depth});
-    const auto contents = contents_of(tile);
-    const auto children = tile.find("children");
-    const bool has_children = children != tile.end() && children->is_array() && !children->empty();
+    const auto contents = tile.contents();
+    const auto children = tile.children();
+    const bool has_children = !children.empty();
     const bool descend = has_children && (error > error_ || contents.empty());
     if (add || !descend)
       for (const auto& content : contents)
         if (auto done = take_content(content, sheet, place, depth); !done) return done;
     if (descend)
-      for (const Json& child : *children)
+      for (const TileJson& child : children)
         if (auto done = take_tile(child, sheet, place, add, depth + 1); !done) return done;
     return {};
   }
 
-  auto take_content(const Content& content, const Sheet& sheet, const Transform& place, int depth)
+  auto take_content(const TileContentName& content, const Sheet& sheet, const Transform& place, int depth)
       -> base::Result<void> {
     if (!filter_.passes(placed(content.volume, place))) return {};
     const fs::path path = address_beside(sheet.path, content.uri);
@@ -231,7 +170,7 @@ class Walk {
     return {};
   }
 
-  auto take_implicit(const Json& tile, const Json& words, const Sheet& sheet, Implicit tree) -> base::Result<void> {
+  auto take_implicit(const TileJson& tile, const Json& words, const Sheet& sheet, Implicit tree) -> base::Result<void> {
     const auto count = [&words](const char* key) {
       const double number = number_in(words, key).value_or(-1);
       return number >= 0 && number <= 30 ? static_cast<std::uint32_t>(number) : 0U;
@@ -240,7 +179,7 @@ class Walk {
     tree.subtree_levels = count("subtreeLevels");
     tree.levels = words.contains("availableLevels") ? count("availableLevels") : count("maximumLevel") + 1;
     tree.subtrees = text_in(object_in(words, "subtrees"), "uri");
-    tree.contents = contents_of(tile);
+    tree.contents = tile.contents();
     if (tree.subtree_levels == 0 || tree.subtree_levels > (tree.octree ? 7U : 10U) || tree.subtrees.empty())
       return bad("the implicit tiling does not say its subtrees' levels and address; export the tileset again",
                  sheet.path.string());
@@ -354,14 +293,14 @@ auto Tileset::open(const fs::path& path) -> base::Result<Tileset> {
   const std::string name = path.string();
   const auto bytes = Bytes::of(path);
   if (!bytes) return bytes.error();
-  const auto json = parse_tileset(bytes->view(), name);
-  if (!json) return json.error();
-  const Json& root = (*json)["root"];
+  const auto tileset = parse_tileset(bytes->view(), name);
+  if (!tileset) return tileset.error();
+  const TileJson root = tileset->root();
   const auto place = transform_of(root, name);
   if (!place) return place.error();
   Tileset out;
   out.path_ = path;
-  const Volume volume = placed(volume_of(object_in(root, "boundingVolume")), *place);
+  const Volume volume = placed(root.volume(), *place);
   if (const auto* region = std::get_if<DegreeBox>(&volume)) {
     out.geocentric_ = true;
     out.middle_ = from_degrees((region->west + region->east) / 2, (region->south + region->north) / 2, 0);

@@ -8,8 +8,8 @@
 
 #include "mansard/base/result.hpp"
 #include "mansard/base/run.hpp"
-#include "mansard/formats/tiles3d/tile_volume.hpp"
 #include "mansard/formats/mesh/mesh_formats.hpp"
+#include "mansard/formats/tiles3d/tile_volume.hpp"
 #include "mansard/model/frame.hpp"
 
 namespace mansard::formats {
