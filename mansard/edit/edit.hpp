@@ -15,13 +15,13 @@
 
 #include "mansard/base/result.hpp"
 #include "mansard/base/run.hpp"
+#include "mansard/formats/write.hpp"
 #include "mansard/geometry/mesh.hpp"
 #include "mansard/geometry/polygon.hpp"
 #include "mansard/label/label.hpp"
 #include "mansard/model/plan.hpp"
 #include "mansard/pipeline/pipeline.hpp"
 #include "mansard/rays/rays.hpp"
-#include "mansard/formats/write.hpp"
 
 namespace mansard::edit {
 
