@@ -24,7 +24,7 @@ struct Part {
 /// One GIS feature with the parts that overlap it most.
 struct Building {
   std::string id;
-  Attributes attributes;             ///< the source's own, then those with prefix ms_
+  Attributes attributes;                     ///< the source's own, then those with prefix ms_
   std::vector<geometry::Polygon> footprint;  ///< the GIS polygons, for LoD 0
   double ground = 0;                         ///< z, metres
   std::vector<Part> parts;

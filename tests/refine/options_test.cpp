@@ -28,7 +28,8 @@ TEST(RefineOptions, all_but_the_objective_are_advanced) {
 
 TEST(RefineOptions, each_says_what_it_means_and_where_its_default_comes_from) {
   Options options;
-  for (const auto& option : option_list(options).options()) {
+  const auto list = option_list(options);
+  for (const auto& option : list.options()) {
     EXPECT_THAT(option.meaning, testing::EndsWith(".")) << option.name;
     EXPECT_THAT(option.meaning, testing::MatchesRegex("[A-Z].*")) << option.name;
     EXPECT_FALSE(option.source.empty()) << option.name;
@@ -37,7 +38,8 @@ TEST(RefineOptions, each_says_what_it_means_and_where_its_default_comes_from) {
 
 TEST(RefineOptions, each_number_has_a_range_that_holds_its_default) {
   Options options;
-  for (const auto& option : option_list(options).options()) {
+  const auto list = option_list(options);
+  for (const auto& option : list.options()) {
     if (!is_number(option)) continue;
     EXPECT_GT(option.range.minimum, -1) << option.name;
     EXPECT_LT(option.range.maximum, 1e10) << option.name;
