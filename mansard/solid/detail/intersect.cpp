@@ -121,21 +121,21 @@ constexpr double side_error = 16 * 0x1.0p-53;
 constexpr double turn_error = 8 * 0x1.0p-53;
 /// Underflow takes 2⁻¹⁰⁷⁴ from a product at most, times 2⁸⁰ for coordinates below 1e24: far less than the bounds times
 /// this.
-constexpr double least_safe = 1e-280;
+constexpr double no_underflow = 1e-280;
 
 /// The side of the plane on which p surely lies; 0 when rounding leaves it open.
 auto sure_side(const Plate& t, Point3 p) -> int {
   const Point3 d = p - t.at[0];
   const double det = dot(t.normal, d);
   const double size = t.terms.x * std::abs(d.x) + t.terms.y * std::abs(d.y) + t.terms.z * std::abs(d.z);
-  if (std::abs(det) <= side_error * size || std::abs(det) < least_safe) return 0;
+  if (std::abs(det) <= side_error * size || std::abs(det) < no_underflow) return 0;
   return det > 0 ? 1 : -1;
 }
 
 /// The side of the line from a to b on which c surely lies.
 auto sure_turn(Point2 a, Point2 b, Point2 c) -> int {
   const double l = (b.x - a.x) * (c.y - a.y), r = (b.y - a.y) * (c.x - a.x), det = l - r;
-  if (std::abs(det) <= turn_error * (std::abs(l) + std::abs(r)) || std::abs(det) < least_safe) return 0;
+  if (std::abs(det) <= turn_error * (std::abs(l) + std::abs(r)) || std::abs(det) < no_underflow) return 0;
   return det > 0 ? 1 : -1;
 }
 

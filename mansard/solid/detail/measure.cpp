@@ -38,12 +38,13 @@ auto triangles_of(const model::Solid& solid, const model::Face& face) -> base::R
 constexpr double turn_error = 3.3306690738754716e-16, above_error = 7.771561172376103e-16;
 /// Shewchuk's bounds leave out underflow. It takes 2⁻¹⁰⁷⁴ from a product at most, in above() times a difference below
 /// 2⁸⁰ (coordinates below 1e24 m): 6e-300, which is less than the bounds times this, 3e-296.
-constexpr double least = 1e-280;
+constexpr double no_underflow = 1e-280;
 
 auto turn(Point2 a, Point2 b, Point2 c) -> int {
   const double ux = a.x - c.x, uy = a.y - c.y, vx = b.x - c.x, vy = b.y - c.y;
   const double l = ux * vy, r = uy * vx, area = l - r;
-  if (std::abs(area) > turn_error * (std::abs(l) + std::abs(r)) && std::abs(area) > least) return area > 0 ? 1 : -1;
+  if (std::abs(area) > turn_error * (std::abs(l) + std::abs(r)) && std::abs(area) > no_underflow)
+    return area > 0 ? 1 : -1;
   // Where the differences are exact, as they are on a grid, two equal products with equal errors are no area at all.
   const auto exact = [](double p, double q, double difference) {
     return p - difference == q && difference + q == p;  // then the rounding error of the difference is 0
@@ -51,7 +52,7 @@ auto turn(Point2 a, Point2 b, Point2 c) -> int {
   if (exact(a.x, c.x, ux) && exact(a.y, c.y, uy) && exact(b.x, c.x, vx) && exact(b.y, c.y, vy)) {
     if ((ux == 0 || vy == 0) && (uy == 0 || vx == 0)) return 0;
     // The errors of both products are multiples of 2^-104 of them and more, so that no digit of them underflows.
-    if (l == r && std::abs(l) > least) {
+    if (l == r && std::abs(l) > no_underflow) {
       const double el = std::fma(ux, vy, -l), er = std::fma(uy, vx, -r);
       return (el > er) - (el < er);
     }
@@ -105,7 +106,7 @@ auto above(Point3 a, Point3 b, Point3 c, Point3 d) -> int {
                            std::abs(p.z) * (std::abs(qx_ry) + std::abs(qy_rx)) +
                            std::abs(q.z) * (std::abs(rx_py) + std::abs(ry_px));
   // Positive means d below, as the paper defines it.
-  if (std::abs(det) > above_error * magnitude && std::abs(det) > least) return det > 0 ? -1 : 1;
+  if (std::abs(det) > above_error * magnitude && std::abs(det) > no_underflow) return det > 0 ? -1 : 1;
   // Corners on a raster of 2^-20 m within 2^20 m, the kernel's own among them: differences are whole numbers below
   // 2^40, minors below 2^81, their products with a third below 2^121, and the sum of three below 2^123.
   std::array<std::int64_t, 9> k{};
