@@ -146,6 +146,14 @@ auto make_valid(const Polygon& polygon) -> base::Result<std::vector<Polygon>> {
   });
 }
 
+auto simple_pieces(const Polygon& polygon, double apart) -> base::Result<std::vector<Polygon>> {
+  if (is_simple(polygon)) return std::vector{polygon};
+  auto pieces = buffer(polygon, -apart);
+  if (pieces && !std::ranges::all_of(*pieces, is_simple))
+    return base::error("geometry-boolean", "rings touch even after they were moved apart");
+  return pieces;
+}
+
 auto triangulate(const Polygon& polygon) -> base::Result<std::vector<std::array<std::uint32_t, 3>>> {
   if (!computable(polygon)) return base::error("geometry-triangulate", not_computable);
   std::map<Point2, std::uint32_t> index;

@@ -59,6 +59,9 @@ struct Polygon {
 [[nodiscard]] auto buffer(const Polygon& polygon, double by) -> base::Result<std::vector<Polygon>>;
 /// Repairs self-intersections, spikes and repeated points as the even-odd rule reads them.
 [[nodiscard]] auto make_valid(const Polygon& polygon) -> base::Result<std::vector<Polygon>>;
+/// The simple polygons of a valid one, whose rings may touch each other in points: itself where it is simple, otherwise
+/// shrunk by `apart` metres, which separates its rings. Empty where nothing is as wide as that.
+[[nodiscard]] auto simple_pieces(const Polygon& polygon, double apart) -> base::Result<std::vector<Polygon>>;
 
 [[nodiscard]] auto codes() -> std::vector<base::Code>;
 

@@ -130,6 +130,13 @@ auto codes() -> std::vector<base::Code> {
        "The message says why; please report it.", 1},
       {"pipeline-overlap", "Two solids share more ground than strips a millimetre wide: they stand in each other.",
        "Look whether the input's footprints overlap, or repeat a building.", 0},
+      {"pipeline-cover-unchecked",
+       "The outlines of its neighbours' parts could not be subtracted from a footprint without a part of its own.",
+       "The footprint is modelled nevertheless; see whether its model overlaps another one (pipeline-overlap), and "
+       "repair the footprints there.",
+       0},
+      {"pipeline-overlap-unchecked", "Whether two models share ground could not be computed.",
+       "Look at the two models named; repair the outlines of their footprints.", 0},
       {"pipeline-block-unknown", "A run of some blocks names one that there is not.",
        "Take a name from the report of a whole run, or of 'mansard segment'.", 4},
   });

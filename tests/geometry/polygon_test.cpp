@@ -123,6 +123,18 @@ TEST(Boolean, operations_fail_on_coordinates_that_are_not_finite_or_too_large) {
   EXPECT_FALSE(buffer(square, std::numeric_limits<double>::quiet_NaN()));
 }
 
+TEST(SimplePieces, of_rings_that_touch_are_separated_and_of_a_simple_polygon_are_itself) {
+  EXPECT_EQ(*simple_pieces(courtyard, 0.01), std::vector{courtyard});
+  const Polygon touching{{{0, 0}, {20, 0}, {20, 10}, {0, 10}}, {{{10, 0}, {8, 3}, {10, 6}, {12, 3}}}};
+  ASSERT_FALSE(is_simple(touching));
+  const auto pieces = simple_pieces(touching, 0.01);
+  ASSERT_TRUE(pieces);
+  EXPECT_NEAR(total(*pieces), area(touching), 1);
+  for (const auto& piece : *pieces) EXPECT_TRUE(is_simple(piece));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(simple_pieces(touching, nan));
+}
+
 TEST(MakeValid, opens_a_bow_tie_into_its_two_wings) {
   const auto wings = make_valid({{{0, 0}, {4, 4}, {4, 0}, {0, 4}}, {}});
   ASSERT_TRUE(wings);

@@ -343,6 +343,7 @@ auto total_area(const std::vector<Polygon>& polygons) -> double {
   return sum;
 }
 
+/// Intersection over union; 0, so that the straight outline is not taken, where it cannot be computed.
 auto overlap(const Polygon& a, const Polygon& b) -> double {
   const auto common = geometry::intersect(a, b);
   if (!common) return 0;
@@ -375,7 +376,7 @@ auto directions_of(const Polygon& outline, const Regularity& how) -> std::vector
   return out;
 }
 
-auto regularised(const Polygon& outline, const Regularity& how) -> std::vector<Polygon> {
+auto regularised(const Polygon& outline, const Regularity& how) -> base::Result<std::vector<Polygon>> {
   const auto directions = directions_of(outline, how);
   Polygon straight{straight_ring(outline.outer, directions, how), {}};
   for (const auto& hole : outline.holes)
@@ -383,11 +384,10 @@ auto regularised(const Polygon& outline, const Regularity& how) -> std::vector<P
       straight.holes.push_back(std::move(ring));
   if (straight.outer.size() >= 3 && geometry::signed_area(straight.outer) > 0 && geometry::is_simple(straight) &&
       overlap(straight, outline) >= least_overlap)
-    return {straight};
+    return std::vector{straight};
   Polygon simple{simplified_ring(outline.outer, how), {}};
   for (const auto& hole : outline.holes) simple.holes.push_back(simplified_ring(hole, how));
-  if (auto valid = geometry::make_valid(simple)) return *valid;
-  return {};
+  return geometry::make_valid(simple);
 }
 
 }  // namespace mansard::derive::detail

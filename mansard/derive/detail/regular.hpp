@@ -18,8 +18,9 @@ struct Regularity {
 /// the longest sides comes first; later ones only where their sides make a fifth of the perimeter.
 [[nodiscard]] auto directions_of(const geometry::Polygon& outline, const Regularity& how) -> std::vector<double>;
 
-/// Simple polygons near the outline; the outline itself, simplified, where no straight walls are.
+/// Simple polygons near the outline; the outline itself, simplified, where no straight walls are. Fails with
+/// "geometry-boolean" where the simplified outline crosses itself and cannot be repaired.
 [[nodiscard]] auto regularised(const geometry::Polygon& outline, const Regularity& how)
-    -> std::vector<geometry::Polygon>;
+    -> base::Result<std::vector<geometry::Polygon>>;
 
 }  // namespace mansard::derive::detail
