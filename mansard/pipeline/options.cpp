@@ -137,6 +137,9 @@ auto codes() -> std::vector<base::Code> {
        0},
       {"pipeline-overlap-unchecked", "Whether two models share ground could not be computed.",
        "Look at the two models named; repair the outlines of their footprints.", 0},
+      {"pipeline-evaluation-unchecked",
+       "An outline of a model, or the ground that two outlines share, could not be computed.",
+       "The scores count it as missing or not matched; repair the faces of that building.", 0},
       {"pipeline-block-unknown", "A run of some blocks names one that there is not.",
        "Take a name from the report of a whole run, or of 'mansard segment'.", 4},
   });
