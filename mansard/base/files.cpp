@@ -1,6 +1,7 @@
 #include "mansard/base/files.hpp"
 
 #include <unistd.h>
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -60,11 +61,20 @@ auto read_file(const std::filesystem::path& path) -> Result<std::string> {
     return error("file-read", "this is a folder, not a file; name a file in it", path.string());
   File file(std::fopen(path.c_str(), "rb"));
   if (!file) return error("file-read", std::string("cannot read: ") + std::strerror(errno), path.string());
+  // Pipes have no size, and files of /proc are larger than they say: both are read to their end.
+  const auto size = std::filesystem::file_size(path, status);
+  const std::size_t stated = status ? 0 : size;
+  constexpr std::size_t piece = 1 << 16;
   std::string bytes;
-  if (const auto size = std::filesystem::file_size(path, status); !status) bytes.resize(size);
-  const std::size_t got = std::fread(bytes.data(), 1, bytes.size(), file.get());
-  if (got != bytes.size() || std::ferror(file.get()) != 0)
-    return error("file-read", "the file ended before its stated size; copy it again", path.string());
+  std::size_t got = 0;
+  do {
+    bytes.resize(got == 0 && stated > 0 ? stated + 1 : got + piece);  // one more, to see the end
+    got += std::fread(bytes.data() + got, 1, bytes.size() - got, file.get());
+  } while (got == bytes.size());
+  if (std::ferror(file.get()) != 0)
+    return error("file-read", std::string("cannot be read to its end: ") + std::strerror(errno), path.string());
+  if (got < stated) return error("file-read", "the file ended before its stated size; copy it again", path.string());
+  bytes.resize(got);
   return bytes;
 }
 

@@ -7,6 +7,7 @@
 #include "mansard/derive/detail/buildings.hpp"
 #include "mansard/derive/detail/ground.hpp"
 #include "mansard/derive/detail/outline.hpp"
+#include "mansard/derive/detail/parting.hpp"
 #include "mansard/derive/detail/regular.hpp"
 
 namespace mansard::derive {
@@ -75,16 +76,8 @@ auto cut_out(const Place& place, const detail::Cut& cut, std::size_t number, con
   return out;
 }
 
-/// What a straight wall would add beyond the end of the mesh is taken off.
-auto clipped(const Polygon& polygon, const geometry::Box2& to) -> std::vector<Polygon> {
-  const auto box = geometry::bounds(polygon.outer);
-  if (to.contains(box.least) && to.contains(box.most)) return {polygon};
-  const Polygon frame{{to.least, {to.most.x, to.least.y}, to.most, {to.least.x, to.most.y}}, {}};
-  auto common = geometry::intersect(polygon, frame);
-  return common ? std::move(*common) : std::vector<Polygon>{};
-}
-
-auto outline_of(const Cutting& cutting, const Options& options) -> base::Result<std::vector<Polygon>> {
+auto outline_of(const Cutting& cutting, const Options& options, std::vector<base::Diagnostic>& warnings)
+    -> base::Result<std::vector<Polygon>> {
   const std::vector<std::int32_t> numbers(cutting.mask.begin(), cutting.mask.end());
   auto drawn = detail::polygons_of(cutting.place, numbers, 2);
   if (!drawn) return drawn.error();
@@ -92,44 +85,12 @@ auto outline_of(const Cutting& cutting, const Options& options) -> base::Result<
   for (auto& polygon : (*drawn)[1]) {
     std::erase_if(polygon.holes, [&](const auto& hole) { return -geometry::signed_area(hole) < options.least_area; });
     if (geometry::area(polygon) < options.least_area) continue;
-    for (const auto& straight : detail::regularised(polygon, options))
-      for (auto& piece : clipped(straight, cutting.within)) out.push_back(std::move(piece));
+    const auto regular = detail::regularised(polygon, options);
+    if (!regular) warnings.push_back(detail::kept("could not be straightened", regular.error(), polygon));
+    for (const auto& straight : regular ? *regular : std::vector{polygon})
+      for (auto& piece : detail::clipped(straight, cutting.within, warnings)) out.push_back(std::move(piece));
   }
   return out;
-}
-
-auto box_of(const Polygon& polygon) -> geometry::Box2 { return geometry::bounds(polygon.outer); }
-
-/// What of the polygons is not in those drawn before, without the slivers that are left of it.
-auto parted(std::vector<Polygon> polygons, const std::vector<Polygon>& before, double slip) -> std::vector<Polygon> {
-  for (const auto& other : before) {
-    std::vector<Polygon> rest;
-    for (auto& polygon : polygons) {
-      if (!box_of(polygon).overlaps(box_of(other))) {
-        rest.push_back(std::move(polygon));
-        continue;
-      }
-      const auto common = geometry::intersect(polygon, other);
-      if (common && common->empty()) {
-        rest.push_back(std::move(polygon));
-        continue;
-      }
-      auto left = geometry::subtract(polygon, other);
-      if (!left) continue;
-      for (const auto& piece : *left) {
-        auto core = geometry::buffer(piece, -slip / 2);
-        if (!core) continue;
-        for (const auto& part : *core) {
-          const auto whole = geometry::buffer(part, slip / 2);
-          if (!whole) continue;
-          for (const auto& one : *whole)
-            if (auto apart = geometry::subtract(one, other)) rest.insert(rest.end(), apart->begin(), apart->end());
-        }
-      }
-    }
-    polygons = std::move(rest);
-  }
-  return polygons;
 }
 
 /// One footprint before it has a name.
@@ -140,7 +101,7 @@ struct Drawn {
 
 auto named(std::vector<Drawn> drawn) -> std::vector<model::Footprint> {
   const auto along = [](const Drawn& one) {
-    const auto box = box_of(one.polygon);
+    const auto box = geometry::bounds(one.polygon.outer);
     return std::tuple(box.least.x + box.most.x - box.least.y - box.most.y, box.least.x, box.least.y);
   };
   std::ranges::stable_sort(drawn, {}, along);
@@ -189,8 +150,7 @@ auto stopped() -> base::Diagnostic { return base::error("cancelled", "stopped on
 
 }  // namespace
 
-auto footprints(const model::Scene& scene, const Options& options, const base::Run& run)
-    -> base::Result<std::vector<model::Footprint>> {
+auto footprints(const model::Scene& scene, const Options& options, const base::Run& run) -> base::Result<Derived> {
   run.report("derive", "heights", 0);
   const Place place = detail::place_of(scene.mesh, options.cell);
   if (place.size() == 0) return nothing();
@@ -217,6 +177,7 @@ auto footprints(const model::Scene& scene, const Options& options, const base::R
   std::vector<Cutting> cuttings(extents.size());
   std::vector<std::vector<Polygon>> outlines(extents.size());
   std::vector<std::optional<base::Diagnostic>> failures(extents.size());
+  std::vector<std::vector<base::Diagnostic>> warnings(extents.size());
   measure(cut, top, ground, planes, cuttings);
   geometry::Box2 end;
   for (const auto& vertex : scene.mesh.vertices) end.add(geometry::xy(vertex));
@@ -224,7 +185,7 @@ auto footprints(const model::Scene& scene, const Options& options, const base::R
     if (b == 0 || run.cancelled()) return;
     auto cutting = cut_out(place, cut, b, extents[b], options.underlap);
     cutting.within = end;
-    auto outline = outline_of(cutting, options);
+    auto outline = outline_of(cutting, options, warnings[b]);
     if (outline) outlines[b] = std::move(*outline);
     else failures[b] = outline.error();
   });
@@ -238,15 +199,22 @@ auto footprints(const model::Scene& scene, const Options& options, const base::R
   std::ranges::stable_sort(order, std::greater(), [&](std::size_t b) { return cut.height[b]; });
   std::vector<Drawn> drawn;
   std::vector<Polygon> before;
-  for (const std::size_t b : order)
-    for (auto& polygon : parted(std::move(outlines[b]), before, options.slip_width)) {
-      if (geometry::area(polygon) < options.least_area || !geometry::is_simple(polygon)) continue;
-      before.push_back(polygon);
-      drawn.push_back({std::move(polygon), cuttings[b].height, cuttings[b].planes});
+  Derived out;
+  for (const std::size_t b : order) {
+    out.warnings.insert(out.warnings.end(), warnings[b].begin(), warnings[b].end());
+    for (const auto& polygon : detail::parted(std::move(outlines[b]), before, options.slip_width, out.warnings)) {
+      if (geometry::area(polygon) < options.least_area) continue;
+      for (auto& piece : detail::simple(polygon, out.warnings)) {
+        if (geometry::area(piece) < options.least_area) continue;
+        before.push_back(piece);
+        drawn.push_back({std::move(piece), cuttings[b].height, cuttings[b].planes});
+      }
     }
+  }
   if (drawn.empty()) return nothing();
   run.report("derive", "outlines", 1);
-  return named(std::move(drawn));
+  out.footprints = named(std::move(drawn));
+  return out;
 }
 
 auto codes() -> std::vector<base::Code> {
@@ -257,6 +225,10 @@ auto codes() -> std::vector<base::Code> {
        "Raise derive.cell, or take less of the mesh with --bbox.", 4},
       {"derive-outline", "The outlines of the buildings could not be drawn from the grid.",
        "The message has the library's words; raise derive.cell, and please report it.", 5},
+      {"derive-outline-kept",
+       "An outline could not be straightened, clipped or parted from its neighbours, because an operation on polygons "
+       "failed.",
+       "The message says what was left undone; look at the footprint there, and correct it by hand.", 0},
   };
 }
 

@@ -16,6 +16,8 @@ auto codes() -> std::vector<base::Code> {
        "Take out that line and those after it, or restore the file; the edits before it are kept.", 3},
       {"edit-overlap", "Two parts overlap by a strip wider than 2 cm, more than 0.01 m².",
        "Move the corners back, or move the neighbour's too.", 2},
+      {"edit-overlap-unchecked", "Whether a part shares ground with another one could not be computed.",
+       "Move the corners of the part a little, or repair the other outline.", 2},
       {"edit-split", "A line does not divide a part: it ends inside, crosses itself, or cuts off next to nothing.",
        "Draw it from outside the part to the outside again.", 2},
       {"edit-merge",

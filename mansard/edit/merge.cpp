@@ -156,8 +156,12 @@ auto merge(const model::Plan& first, const model::Plan& second) -> base::Result<
   const auto polygon = model::polygon_of(first), other = model::polygon_of(second);
   if (!geometry::is_simple(polygon) || !geometry::is_simple(other))
     return refusal("the outline of one of the parts crosses itself; repair it first");
-  if (const double area = detail::overlap(polygon, other); area > detail::least_area)
-    return refusal("the parts overlap by " + base::to_text(area, 2) + " m²; move their corners together first");
+  const auto overlap = detail::overlap(polygon, other);
+  if (!overlap)
+    return refusal("whether the parts overlap could not be computed (" + overlap.error().message +
+                   "); move their corners together first");
+  if (*overlap > detail::least_area)
+    return refusal("the parts overlap by " + base::to_text(*overlap, 2) + " m²; move their corners together first");
 
   const double base = std::min(first.base, second.base);
   const double rise = first.base - base, other_rise = second.base - base;

@@ -42,15 +42,23 @@ auto box_of(std::span<const NamedPlan> parts) -> Box2 {
   return box;
 }
 
-/// Ground that parts share, m², with neighbours or with each other.
-auto shared_with(std::span<const Polygon> parts, const Polygon& neighbour) -> double {
+/// Ground that parts share, m², with neighbours or with each other. Fails where a pair cannot be computed.
+auto shared_with(std::span<const Polygon> parts, const Polygon& neighbour) -> base::Result<double> {
   double sum = 0;
-  for (const auto& part : parts) sum += detail::overlap(part, neighbour);
+  for (const auto& part : parts) {
+    const auto area = detail::overlap(part, neighbour);
+    if (!area) return area;
+    sum += *area;
+  }
   return sum;
 }
-auto shared_among(std::span<const Polygon> parts) -> double {
+auto shared_among(std::span<const Polygon> parts) -> base::Result<double> {
   double sum = 0;
-  for (std::size_t i = 0; i < parts.size(); ++i) sum += shared_with(parts.subspan(0, i), parts[i]);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto area = shared_with(parts.subspan(0, i), parts[i]);
+    if (!area) return area;
+    sum += *area;
+  }
   return sum;
 }
 
@@ -69,6 +77,22 @@ auto overlap_of(const std::string& with, double area, const std::string& subject
                      subject);
 }
 
+/// An overlap that cannot be computed counts as one; a warning is enough where it could not be computed before the
+/// edit.
+auto unknown_overlap(const std::string& with, const base::Diagnostic& why, const std::string& subject,
+                     const base::Result<double>& before) -> base::Diagnostic {
+  return {before ? base::Severity::error : base::Severity::warning, "edit-overlap-unchecked",
+          "whether it shares ground with " + with + " could not be computed (" + why.message +
+              "); move its corners a little, or the neighbour's",
+          subject};
+}
+
+/// Whether more ground is shared than before the edit. What could not be computed before excuses nothing that can be
+/// computed now.
+auto more_than(double area, const base::Result<double>& before) -> bool {
+  return !before || area > *before + detail::least_area;
+}
+
 /// `parts` are those with a solid, and so with a sound outline.
 void find_overlaps(std::span<const NamedPlan* const> parts, std::span<const model::Plan* const> neighbours,
                    std::span<const NamedPlan> before, std::vector<base::Diagnostic>& diagnostics) {
@@ -84,11 +108,16 @@ void find_overlaps(std::span<const NamedPlan* const> parts, std::span<const mode
   double sum = 0;
   for (std::size_t i = 0; i < polygons.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
-      const double area = detail::overlap(polygons[i], polygons[j]);
-      sum += area;
-      if (area > detail::least_area) own.push_back(overlap_of("part " + parts[j]->id, area, parts[i]->id));
+      const auto area = detail::overlap(polygons[i], polygons[j]);
+      if (!area) {
+        diagnostics.push_back(
+            unknown_overlap("part " + parts[j]->id, area.error(), parts[i]->id, shared_among(earlier())));
+        continue;
+      }
+      sum += *area;
+      if (*area > detail::least_area) own.push_back(overlap_of("part " + parts[j]->id, *area, parts[i]->id));
     }
-  if (!own.empty() && sum > shared_among(earlier()) + detail::least_area)
+  if (!own.empty() && more_than(sum, shared_among(earlier())))
     diagnostics.insert(diagnostics.end(), own.begin(), own.end());
 
   for (const auto* neighbour : neighbours) {
@@ -96,13 +125,18 @@ void find_overlaps(std::span<const NamedPlan* const> parts, std::span<const mode
     double total = 0, most = 0;
     std::size_t worst = 0;
     for (std::size_t i = 0; i < polygons.size(); ++i) {
-      const double area = detail::overlap(polygons[i], polygon);
-      total += area;
-      if (area <= most) continue;
-      most = area;
+      const auto area = detail::overlap(polygons[i], polygon);
+      if (!area) {
+        diagnostics.push_back(
+            unknown_overlap("a neighbouring building", area.error(), parts[i]->id, shared_with(earlier(), polygon)));
+        continue;
+      }
+      total += *area;
+      if (*area <= most) continue;
+      most = *area;
       worst = i;
     }
-    if (total > detail::least_area && total > shared_with(earlier(), polygon) + detail::least_area)
+    if (total > detail::least_area && more_than(total, shared_with(earlier(), polygon)))
       diagnostics.push_back(overlap_of("a neighbouring building", total, parts[worst]->id));
   }
 }

@@ -26,7 +26,7 @@ auto area_of(const Outline& outline) -> double {
   return sum;
 }
 
-auto flat(const model::ModelFace& face) -> std::vector<Polygon> {
+auto flat(const model::ModelFace& face) -> base::Result<std::vector<Polygon>> {
   Polygon polygon;
   for (const auto& loop : face.loops) {
     geometry::Ring ring;
@@ -34,8 +34,7 @@ auto flat(const model::ModelFace& face) -> std::vector<Polygon> {
     if (&loop == &face.loops.front()) polygon.outer = std::move(ring);
     else polygon.holes.push_back(std::move(ring));
   }
-  auto valid = geometry::make_valid(geometry::oriented(std::move(polygon)));
-  return valid ? std::move(*valid) : std::vector<Polygon>();
+  return geometry::make_valid(geometry::oriented(std::move(polygon)));
 }
 
 auto edges_of(const Outline& outline) -> std::vector<Segment2> {
@@ -110,36 +109,40 @@ struct Pair {
 };
 
 auto pairs_of(std::span<const Outline> truth, std::span<const Outline> model, const std::vector<double>& truth_areas,
-              const std::vector<double>& model_areas) -> std::vector<Pair> {
+              const std::vector<double>& model_areas, std::size_t& unchecked) -> std::vector<Pair> {
   std::vector<Pair> pairs;
   for (std::size_t t = 0; t < truth.size(); ++t)
-    for (std::size_t m = 0; m < model.size(); ++m)
-      if (const double common = common_area(truth[t], model[m]); common > 0)
-        pairs.push_back({t, m, common, common / (truth_areas[t] + model_areas[m] - common)});
+    for (std::size_t m = 0; m < model.size(); ++m) {
+      const auto common = common_area(truth[t], model[m]);
+      if (!common) ++unchecked;
+      else if (*common > 0) pairs.push_back({t, m, *common, *common / (truth_areas[t] + model_areas[m] - *common)});
+    }
   return pairs;
 }
 
 }  // namespace
 
-auto outline_of(std::span<const model::ModelPart> parts) -> Outline {
+auto outline_of(std::span<const model::ModelPart> parts) -> base::Result<Outline> {
   std::vector<Polygon> ground, above;
   for (const auto& part : parts)
     for (const auto& face : part.faces) {
       if (face.kind == SurfaceClass::wall) continue;
-      auto pieces = flat(face);
+      const auto pieces = flat(face);
+      if (!pieces) return pieces;
       auto& list = face.kind == SurfaceClass::ground ? ground : above;
-      list.insert(list.end(), pieces.begin(), pieces.end());
+      list.insert(list.end(), pieces->begin(), pieces->end());
     }
-  auto united = geometry::unite(ground.empty() ? above : ground);
-  return united ? std::move(*united) : Outline();
+  return geometry::unite(ground.empty() ? above : ground);
 }
 
-auto common_area(const Outline& a, const Outline& b) -> double {
+auto common_area(const Outline& a, const Outline& b) -> base::Result<double> {
   double sum = 0;
   for (const auto& p : a)
     for (const auto& q : b) {
       if (!geometry::bounds(p.outer).overlaps(geometry::bounds(q.outer))) continue;
-      if (const auto both = geometry::intersect(p, q)) sum += area_of(*both);
+      const auto both = geometry::intersect(p, q);
+      if (!both) return both.failure();
+      sum += area_of(*both);
     }
   return sum;
 }
@@ -148,11 +151,12 @@ auto compare_partition(std::span<const Outline> truth, std::span<const Outline> 
   std::vector<double> truth_areas, model_areas;
   for (const auto& outline : truth) truth_areas.push_back(area_of(outline));
   for (const auto& outline : model) model_areas.push_back(area_of(outline));
-  auto pairs = pairs_of(truth, model, truth_areas, model_areas);
+  std::size_t unchecked = 0;
+  auto pairs = pairs_of(truth, model, truth_areas, model_areas, unchecked);
   const auto positive = [](const std::vector<double>& areas) {
     return static_cast<std::size_t>(std::ranges::count_if(areas, [](double a) { return a > 0; }));
   };
-  Partition out{positive(truth_areas), positive(model_areas), 0, 0, 0, 0};
+  Partition out{positive(truth_areas), positive(model_areas), unchecked, 0, 0, 0, 0};
 
   // The best pairs first, each part once: parts may overlap, as a tower and its podium do.
   std::ranges::stable_sort(pairs, std::ranges::greater{}, &Pair::iou);

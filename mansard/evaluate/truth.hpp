@@ -16,16 +16,17 @@ namespace mansard::evaluate {
 /// The ground that a part or a building stands on.
 using Outline = std::vector<geometry::Polygon>;
 
-/// Seen from above: the union of the ground faces, or of all faces but walls where there are none. Empty where that is
-/// no polygon.
-[[nodiscard]] auto outline_of(std::span<const model::ModelPart> parts) -> Outline;
+/// Seen from above: the union of the ground faces, or of all faces but walls where there are none. Empty where the
+/// faces have no area from above. Fails with "geometry-boolean".
+[[nodiscard]] auto outline_of(std::span<const model::ModelPart> parts) -> base::Result<Outline>;
 
-/// m² that two outlines have in common; what cannot be intersected has nothing in common.
-[[nodiscard]] auto common_area(const Outline& a, const Outline& b) -> double;
+/// m² that two outlines have in common. Fails with "geometry-boolean".
+[[nodiscard]] auto common_area(const Outline& a, const Outline& b) -> base::Result<double>;
 
 /// Two divisions of the same ground. Parts may overlap, as a tower and its podium do.
 struct Partition {
   std::size_t truth = 0, model = 0;  ///< parts with an outline
+  std::size_t unchecked = 0;         ///< pairs whose intersection could not be computed; they are not matched
   std::size_t matched = 0;  ///< pairs whose intersection over union is at least one half, one to one, best first
   double iou = 0;           ///< mean of the matched
   std::size_t splits =

@@ -1,7 +1,9 @@
 // Boolean operations and triangulation by GEOS, through its re-entrant C interface.
 #include <geos_c.h>
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <initializer_list>
 #include <map>
 #include <memory>
 #include <string>
@@ -77,23 +79,39 @@ void collect(Context& context, const GEOSGeometry* g, std::vector<Polygon>& out)
   }
 }
 
+/// Whether products of the coordinates can be computed. GEOS makes no ring of coordinates that are not numbers and
+/// loses polygons without a word where its products overflow.
+auto computable(const Polygon& polygon) -> bool {
+  constexpr double limit = 1e150;  // m; the square of a difference stays below 1e301
+  const auto good = [](Point2 p) { return std::abs(p.x) <= limit && std::abs(p.y) <= limit; };
+  return std::ranges::all_of(polygon.outer, good) &&
+         std::ranges::all_of(polygon.holes, [&](const Ring& hole) { return std::ranges::all_of(hole, good); });
+}
+
+constexpr const char* not_computable = "a coordinate is not a number, or beyond 1e150 m";
+
 using Operation = std::function<GEOSGeometry*(Context&)>;
 
-auto polygons_of(const Operation& operation) -> base::Result<std::vector<Polygon>> {
+auto polygons_of(std::initializer_list<std::span<const Polygon>> inputs, const Operation& operation)
+    -> base::Result<std::vector<Polygon>> {
+  for (const auto& polygons : inputs)
+    if (!std::ranges::all_of(polygons, computable)) return base::error("geometry-boolean", not_computable);
   Context context;
   const Shape result = keep(context, operation(context));
-  if (!result) return base::error("geometry-boolean", context.message);
   // A normal form, so that the order does not depend on the library's inner workings.
-  GEOSNormalize_r(context.handle, result.get());
+  if (!result || GEOSNormalize_r(context.handle, result.get()) != 0)
+    return base::error("geometry-boolean", context.message);
   std::vector<Polygon> out;
   collect(context, result.get(), out);
   return out;
 }
 
+auto one(const Polygon& polygon) -> std::span<const Polygon> { return {&polygon, 1}; }
+
 }  // namespace
 
 auto unite(std::span<const Polygon> polygons) -> base::Result<std::vector<Polygon>> {
-  return polygons_of([&](Context& context) {
+  return polygons_of({polygons}, [&](Context& context) {
     std::vector<GEOSGeometry*> shapes;
     for (const auto& polygon : polygons) shapes.push_back(to_shape(context, polygon).release());
     const Shape all = keep(context, GEOSGeom_createCollection_r(context.handle, GEOS_MULTIPOLYGON, shapes.data(),
@@ -103,30 +121,41 @@ auto unite(std::span<const Polygon> polygons) -> base::Result<std::vector<Polygo
 }
 
 auto intersect(const Polygon& a, const Polygon& b) -> base::Result<std::vector<Polygon>> {
-  return polygons_of([&](Context& context) {
+  return polygons_of({one(a), one(b)}, [&](Context& context) {
     return GEOSIntersection_r(context.handle, to_shape(context, a).get(), to_shape(context, b).get());
   });
 }
 
 auto subtract(const Polygon& a, const Polygon& b) -> base::Result<std::vector<Polygon>> {
-  return polygons_of([&](Context& context) {
+  return polygons_of({one(a), one(b)}, [&](Context& context) {
     return GEOSDifference_r(context.handle, to_shape(context, a).get(), to_shape(context, b).get());
   });
 }
 
 auto buffer(const Polygon& polygon, double by) -> base::Result<std::vector<Polygon>> {
-  return polygons_of([&](Context& context) {
+  if (!std::isfinite(by)) return base::error("geometry-boolean", "the distance is not a finite number");
+  return polygons_of({one(polygon)}, [&](Context& context) {
     return GEOSBufferWithStyle_r(context.handle, to_shape(context, polygon).get(), by, 8, GEOSBUF_CAP_FLAT,
                                  GEOSBUF_JOIN_MITRE, 2.0);
   });
 }
 
 auto make_valid(const Polygon& polygon) -> base::Result<std::vector<Polygon>> {
-  return polygons_of(
-      [&](Context& context) { return GEOSMakeValid_r(context.handle, to_shape(context, polygon).get()); });
+  return polygons_of({one(polygon)}, [&](Context& context) {
+    return GEOSMakeValid_r(context.handle, to_shape(context, polygon).get());
+  });
+}
+
+auto simple_pieces(const Polygon& polygon, double apart) -> base::Result<std::vector<Polygon>> {
+  if (is_simple(polygon)) return std::vector{polygon};
+  auto pieces = buffer(polygon, -apart);
+  if (pieces && !std::ranges::all_of(*pieces, is_simple))
+    return base::error("geometry-boolean", "rings touch even after they were moved apart");
+  return pieces;
 }
 
 auto triangulate(const Polygon& polygon) -> base::Result<std::vector<std::array<std::uint32_t, 3>>> {
+  if (!computable(polygon)) return base::error("geometry-triangulate", not_computable);
   std::map<Point2, std::uint32_t> index;
   std::uint32_t count = 0;
   for (const Point2 p : polygon.outer) index.emplace(p, count++);

@@ -132,7 +132,8 @@ auto codes() -> std::vector<base::Code> {
   return {
       {"geometry-triangulate", "A polygon could not be cut into triangles because it is not valid.",
        "Repair the footprint (self-intersections, repeated points).", 1},
-      {"geometry-boolean", "A union or intersection of polygons failed.", "Repair the footprints involved.", 1},
+      {"geometry-boolean", "A union, intersection, difference or buffer of polygons failed.",
+       "Repair the footprints involved (self-intersections, coordinates that are not numbers).", 1},
   };
 }
 

@@ -49,7 +49,9 @@ struct Polygon {
 [[nodiscard]] auto triangulate(const Polygon& polygon) -> base::Result<std::vector<std::array<std::uint32_t, 3>>>;
 
 /// Boolean operations; results are valid polygons in the convention above, slivers of zero area dropped, in an order
-/// that depends on the input only. Give up with "geometry-boolean" (the library's words).
+/// that depends on the input only. A polygon with fewer than three corners is empty. They fail with "geometry-boolean"
+/// (the library's words), above all for polygons that are not valid, and for coordinates that are not finite or beyond
+/// 1e150 m. A failure is not an empty result: callers must not take it for "nothing in common" or "nothing left".
 [[nodiscard]] auto unite(std::span<const Polygon> polygons) -> base::Result<std::vector<Polygon>>;
 [[nodiscard]] auto intersect(const Polygon& a, const Polygon& b) -> base::Result<std::vector<Polygon>>;
 [[nodiscard]] auto subtract(const Polygon& a, const Polygon& b) -> base::Result<std::vector<Polygon>>;
@@ -57,6 +59,9 @@ struct Polygon {
 [[nodiscard]] auto buffer(const Polygon& polygon, double by) -> base::Result<std::vector<Polygon>>;
 /// Repairs self-intersections, spikes and repeated points as the even-odd rule reads them.
 [[nodiscard]] auto make_valid(const Polygon& polygon) -> base::Result<std::vector<Polygon>>;
+/// The simple polygons of a valid one, whose rings may touch each other in points: itself where it is simple, otherwise
+/// shrunk by `apart` metres, which separates its rings. Empty where nothing is as wide as that.
+[[nodiscard]] auto simple_pieces(const Polygon& polygon, double apart) -> base::Result<std::vector<Polygon>>;
 
 [[nodiscard]] auto codes() -> std::vector<base::Code>;
 

@@ -5,6 +5,15 @@
 namespace mansard::geometry {
 namespace {
 
+/// Shewchuk's bound (Adaptive Precision Floating-Point Arithmetic, 1997, section 4.3) on the rounding error of
+/// orientation's `area` relative to |left| + |right|: (3 + 16 u) u with u = 2^-53. It holds where nothing underflows.
+constexpr double relative_bound = 3.3306690738754716e-16;
+
+/// What underflow adds: sums and differences of doubles never underflow; each product, and the product of the bound
+/// above, is then off by at most 2^-1075. The four together stay below 2^-1073, so any area above this number, which is
+/// far greater (2^-963), is greater than all of it.
+constexpr double underflow_bound = 1e-290;
+
 auto sign(double value) -> int { return (value > 0) - (value < 0); }
 
 auto within(const Segment2& s, Point2 p) -> bool {
@@ -18,9 +27,9 @@ auto orientation(Point2 a, Point2 b, Point2 c) -> int {
   const double left = (a.x - c.x) * (b.y - c.y);
   const double right = (a.y - c.y) * (b.x - c.x);
   const double area = left - right;
-  // Shewchuk's bound for this expression: (3 + 16u)u with u = 2^-53; products that underflow fail it and go on.
-  constexpr double bound = 3.3306690738754716e-16;
-  if (std::abs(area) > bound * (std::abs(left) + std::abs(right)) && std::abs(area) > 1e-290) return sign(area);
+  // Where differences or products overflow, `area` is infinite or no number and fails the comparison.
+  if (std::abs(area) > relative_bound * (std::abs(left) + std::abs(right)) && std::abs(area) > underflow_bound)
+    return sign(area);
   const mpq_class ax(a.x), ay(a.y), bx(b.x), by(b.y), cx(c.x), cy(c.y);
   return sgn(mpq_class((ax - cx) * (by - cy) - (ay - cy) * (bx - cx)));
 }

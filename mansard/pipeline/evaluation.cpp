@@ -28,24 +28,47 @@ void move_to(const model::Frame& frame, model::Scene& scene) {
     }
 }
 
-auto outline_of(const model::ModelBuilding& building) -> Outline { return evaluate::outline_of(building.parts); }
+using Warnings = std::vector<base::Diagnostic>;
 
-auto building_outlines(const model::Model& model) -> std::vector<Outline> {
-  std::vector<Outline> out(model.buildings.size());
-  base::parallel_for(out.size(), [&](std::size_t b) { out[b] = outline_of(model.buildings[b]); });
+auto unchecked(const std::string& what, const base::Diagnostic& why, const std::string& subject) -> base::Diagnostic {
+  return base::warning("pipeline-evaluation-unchecked", what + " (" + why.message + ")", subject);
+}
+
+/// The outlines, empty with a warning where one cannot be computed; `subjects` are what they are of.
+auto without_failures(const std::vector<base::Result<Outline>>& found, const std::vector<std::string>& subjects,
+                      Warnings& warnings) -> std::vector<Outline> {
+  std::vector<Outline> out;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    out.push_back(found[i] ? *found[i] : Outline());
+    if (!found[i])
+      warnings.push_back(
+          unchecked("its outline could not be computed, and it counts as missing", found[i].error(), subjects[i]));
+  }
   return out;
 }
 
-auto part_outlines(const model::Model& model) -> std::vector<Outline> {
-  std::vector<Outline> out;
+auto building_outlines(const model::Model& model, Warnings& warnings) -> std::vector<Outline> {
+  std::vector<base::Result<Outline>> found(model.buildings.size(), Outline());
+  std::vector<std::string> subjects;
+  for (const auto& building : model.buildings) subjects.push_back(building.id);
+  base::parallel_for(found.size(), [&](std::size_t b) { found[b] = evaluate::outline_of(model.buildings[b].parts); });
+  return without_failures(found, subjects, warnings);
+}
+
+auto part_outlines(const model::Model& model, Warnings& warnings) -> std::vector<Outline> {
+  std::vector<base::Result<Outline>> found;
+  std::vector<std::string> subjects;
   for (const auto& building : model.buildings)
-    for (const auto& part : building.parts) out.push_back(evaluate::outline_of({&part, 1}));
-  return out;
+    for (const auto& part : building.parts) {
+      found.push_back(evaluate::outline_of({&part, 1}));
+      subjects.push_back(building.id);
+    }
+  return without_failures(found, subjects, warnings);
 }
 
 /// The footprints that a model stands on itself.
-auto footprints_of(const model::Model& model) -> std::vector<model::Footprint> {
-  auto outlines = building_outlines(model);
+auto footprints_of(const model::Model& model, Warnings& warnings) -> std::vector<model::Footprint> {
+  auto outlines = building_outlines(model, warnings);
   std::vector<model::Footprint> out;
   for (std::size_t b = 0; b < outlines.size(); ++b) {
     auto& footprint = out.emplace_back();
@@ -76,7 +99,7 @@ auto read_reference(const EvaluationFiles& files, const ingest::Options& options
   const model::Frame frame = input.model.frame;
   if (files.footprints.empty()) {
     input.reference = input.truth ? Reference::truth : Reference::model;
-    scene.footprints = footprints_of(input.truth ? *input.truth : input.model);
+    scene.footprints = footprints_of(input.truth ? *input.truth : input.model, scene.warnings);
     return {};
   }
   input.reference = Reference::footprints;
@@ -100,18 +123,28 @@ auto read_reference(const EvaluationFiles& files, const ingest::Options& options
                      files.footprints.string());
 }
 
-/// Which block each building of the model stands on: the one it shares most ground with; none for one beside all.
-auto block_of_buildings(const std::vector<Outline>& outlines, const std::vector<block::Block>& blocks)
+/// Which block each building of the model stands on: the one it shares most ground with; none for one beside all. Where
+/// shared ground cannot be computed, the building counts as standing on that block.
+auto block_of_buildings(const ingest::Model& model, const std::vector<Outline>& outlines,
+                        const std::vector<block::Block>& blocks, Warnings& warnings)
     -> std::vector<std::optional<std::size_t>> {
   std::vector<std::optional<std::size_t>> out(outlines.size());
+  std::vector<Warnings> own(outlines.size());
   base::parallel_for(outlines.size(), [&](std::size_t m) {
     double most = 0;
-    for (std::size_t b = 0; b < blocks.size(); ++b)
-      if (const double common = evaluate::common_area(outlines[m], blocks[b].outline); common > most) {
-        most = common;
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      const auto common = evaluate::common_area(outlines[m], blocks[b].outline);
+      if (common && *common > most) {
+        most = *common;
         out[m] = b;
       }
+      if (common) continue;
+      if (!out[m]) out[m] = b;
+      own[m].push_back(unchecked("the ground it shares with " + blocks[b].name + " could not be computed",
+                                 common.error(), model.buildings[m].id));
+    }
   });
+  for (const auto& one : own) warnings.insert(warnings.end(), one.begin(), one.end());
   return out;
 }
 
@@ -235,13 +268,18 @@ auto counts_of(const model::Model& model) -> ModelCounts {
   return out;
 }
 
-auto against(const model::Model& truth, const model::Model& model, const model::ModelSurface& surface,
-             const Options& options, const base::Run& run) -> TruthScores {
+auto against(const model::Model& truth, const model::Model& model, const std::vector<Outline>& buildings,
+             const model::ModelSurface& surface, const Options& options, const base::Run& run, Warnings& warnings)
+    -> TruthScores {
   TruthScores out;
-  const auto true_buildings = building_outlines(truth), true_parts = part_outlines(truth);
-  const auto parts = part_outlines(model);
+  const auto true_buildings = building_outlines(truth, warnings), true_parts = part_outlines(truth, warnings);
+  const auto parts = part_outlines(model, warnings);
   out.parts = evaluate::compare_partition(true_parts, parts);
-  out.buildings = evaluate::compare_partition(true_buildings, building_outlines(model));
+  out.buildings = evaluate::compare_partition(true_buildings, buildings);
+  if (const auto pairs = out.parts.unchecked + out.buildings.unchecked; pairs > 0)
+    warnings.push_back(base::warning("pipeline-evaluation-unchecked",
+                                     std::to_string(pairs) + " pairs of a true and a modelled outline could not be "
+                                                             "intersected, and count as not matched"));
   // A wall between two buildings must be found; a wall between two parts of one may be.
   out.party_walls = evaluate::compare_party_walls(true_buildings, parts);
   out.party_walls.right = evaluate::compare_party_walls(true_parts, parts).right;
@@ -322,8 +360,8 @@ auto evaluate_model(const EvaluationInput& input, const Options& options, const 
                        std::string(to_string(input.reference)));
 
   const auto surface = model::surface_of(input.model);
-  const auto outlines = building_outlines(input.model);
-  const auto stands_on = block_of_buildings(outlines, blocks);
+  const auto outlines = building_outlines(input.model, out.warnings);
+  const auto stands_on = block_of_buildings(input.model, outlines, blocks, out.warnings);
   std::optional<rays::Scene> truth;
   if (input.truth) truth.emplace(model::surface_of(*input.truth).mesh);
   Totals totals;
@@ -349,7 +387,7 @@ auto evaluate_model(const EvaluationInput& input, const Options& options, const 
   }
   out.counts = counts_of(input.model);
   if (input.truth) {
-    out.truth = against(*input.truth, input.model, surface, options, run);
+    out.truth = against(*input.truth, input.model, outlines, surface, options, run, out.warnings);
     out.truth->scores = totals.model_from_truth.all();
     out.truth->prism = totals.prism_from_truth.all();
   }

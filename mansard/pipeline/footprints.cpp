@@ -58,8 +58,16 @@ void raise(Raising& job, bool ridge_known, const Options& options, const base::R
   auto& plan = job.planned.plan;
   auto raised = raise_part(plan, options, run);
   if (raised && raised->outcome == extrude::Outcome::prism && plan.cap != job.planned.flat_top) {
-    plan.cap = job.planned.flat_top;  // a flat roof where the ridge would have been, and not above it
-    if (auto prism = extrude::prism(plan, detail::with_grid(options.extrude))) raised->solid = std::move(*prism);
+    auto flat = plan;
+    flat.cap = job.planned.flat_top;  // a flat roof where the ridge would have been, and not above it
+    if (auto prism = extrude::prism(flat, detail::with_grid(options.extrude))) {
+      plan.cap = flat.cap;
+      raised->solid = std::move(*prism);
+    } else {
+      raised->warnings.push_back(base::warning(
+          prism.error().code, "its flat roof stays " + base::to_text(plan.cap, 2) + " m above its base instead of " +
+                                  base::to_text(flat.cap, 2) + " m: " + prism.error().message));
+    }
   }
   if (!raised) {
     job.full = false;

@@ -12,9 +12,10 @@ auto read_inputs(const InputPaths& paths, const Options& options, const base::Ru
                        paths.footprints.string());
   auto scene = ingest::read_scene(paths.meshes, paths.footprints, options.ingest, run);
   if (!scene || !paths.derive_footprints) return scene;
-  auto footprints = derive::footprints(*scene, options.derive, run);
-  if (!footprints) return footprints.error();
-  scene->footprints = std::move(*footprints);
+  auto derived = derive::footprints(*scene, options.derive, run);
+  if (!derived) return derived.failure();
+  scene->footprints = std::move(derived->footprints);
+  scene->warnings.insert(scene->warnings.end(), derived->warnings.begin(), derived->warnings.end());
   return scene;
 }
 

@@ -131,6 +131,16 @@ auto codes() -> std::vector<base::Code> {
        "The message says why; please report it.", 1},
       {"pipeline-overlap", "Two solids overlap by more than strips a millimetre wide.",
        "Look whether the input's footprints overlap, or repeat a building.", 0},
+      {"pipeline-cover-unchecked",
+       "The outlines of its neighbours' parts could not be subtracted from a footprint without a part of its own.",
+       "The footprint is modelled nevertheless; see whether its model overlaps another one (pipeline-overlap), and "
+       "repair the footprints there.",
+       0},
+      {"pipeline-overlap-unchecked", "Whether two models share ground could not be computed.",
+       "Look at the two models named; repair the outlines of their footprints.", 0},
+      {"pipeline-evaluation-unchecked",
+       "An outline of a model, or the ground that two outlines share, could not be computed.",
+       "The scores count it as missing or not matched; repair the faces of that building.", 0},
       {"pipeline-block-unknown", "A run of some blocks names an unknown block.",
        "Take a name from the report of a whole run, or of 'mansard segment'.", 4},
   });

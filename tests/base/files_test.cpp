@@ -1,6 +1,10 @@
 #include "mansard/base/files.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <fstream>
+#include <thread>
 
 #include "base/scratch.hpp"
 
@@ -33,6 +37,16 @@ TEST_F(Files, leave_nothing_half_written_behind) {
 TEST_F(Files, that_are_missing_or_folders_are_told_apart) {
   EXPECT_EQ(read_file(folder_ / "nothing").error().code, "file-missing");
   EXPECT_EQ(read_file(folder_).error().code, "file-read");
+}
+
+TEST_F(Files, that_have_no_size_are_read_to_their_end) {
+  const auto pipe = folder_ / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const std::string bytes(200'000, 'x');
+  std::thread writer([&] { std::ofstream(pipe) << bytes; });
+  EXPECT_EQ(*read_file(pipe), bytes);
+  writer.join();
+  EXPECT_FALSE(read_file("/proc/self/status")->empty());  // says that it has no bytes
 }
 
 }  // namespace

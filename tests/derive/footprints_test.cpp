@@ -91,7 +91,7 @@ auto overlap(const Polygon& a, const Polygon& b) -> double {
 auto drawn(const model::Scene& scene, const Options& options = {}) -> std::vector<model::Footprint> {
   auto result = footprints(scene, options);
   EXPECT_TRUE(result) << result.error().message;
-  return result ? *result : std::vector<model::Footprint>{};
+  return result ? result->footprints : std::vector<model::Footprint>{};
 }
 
 auto number(const model::Footprint& footprint, const std::string& name) -> double {

@@ -116,6 +116,20 @@ TEST(Raise, does_not_hold_against_an_edit_what_overlapped_before) {
   EXPECT_TRUE(raise(two, {.neighbours = {}, .before = two, .mesh = nullptr}, {}).valid());
 }
 
+TEST(Raise, refuses_an_edit_whose_overlap_cannot_be_computed_unless_it_could_not_be_before) {
+  const std::vector<NamedPlan> parts{{"a-1", test::house()}};
+  const std::vector<Plan> neighbours{test::plan_of({{{5, 5}, {15, 15}, {15, 5}, {5, 15}}, {}}, {test::wall})};
+  const auto raised = raise(parts, {.neighbours = neighbours, .before = {}, .mesh = nullptr}, {});
+  EXPECT_FALSE(raised.valid());
+  ASSERT_EQ(raised.diagnostics.size(), 1U);
+  EXPECT_EQ(raised.diagnostics[0].code, "edit-overlap-unchecked");
+  EXPECT_EQ(raised.diagnostics[0].subject, "a-1");
+  const auto again = raise(parts, {.neighbours = neighbours, .before = parts, .mesh = nullptr}, {});
+  EXPECT_TRUE(again.valid());
+  ASSERT_EQ(again.diagnostics.size(), 1U);
+  EXPECT_EQ(again.diagnostics[0].severity, base::Severity::warning);
+}
+
 TEST(Raise, says_of_a_part_that_cannot_be_raised_why_and_raises_the_others) {
   std::vector<NamedPlan> parts{{"a-1", test::plan_of({{{0, 0}, {4, 4}, {4, 0}, {0, 6}}, {}}, {test::wall})},
                                {"a-2", test::house(20)},

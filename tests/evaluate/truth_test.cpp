@@ -22,10 +22,30 @@ auto rectangle(double x0, double y0, double x1, double y1) -> Outline {
 
 TEST(Outline, is_the_ground_or_what_is_seen_from_above_without_one) {
   auto model = model_of({{box({0, 0}, {10, 8}, 0, 6), box({10, 0}, {20, 8}, 0, 6)}});
-  EXPECT_NEAR(mansard::geometry::area(outline_of(model.buildings[0].parts).at(0)), 160, 1e-9);
+  EXPECT_NEAR(mansard::geometry::area(outline_of(model.buildings[0].parts)->at(0)), 160, 1e-9);
   for (auto& part : model.buildings[0].parts)
     std::erase_if(part.faces, [](const auto& face) { return face.kind == SurfaceClass::ground; });
-  EXPECT_NEAR(mansard::geometry::area(outline_of(model.buildings[0].parts).at(0)), 160, 1e-9);
+  EXPECT_NEAR(mansard::geometry::area(outline_of(model.buildings[0].parts)->at(0)), 160, 1e-9);
+}
+
+TEST(Outline, of_faces_that_cannot_be_united_is_a_failure_and_not_empty) {
+  auto model = model_of({{box({0, 0}, {10, 8}, 0, 6)}});
+  for (auto& face : model.buildings[0].parts[0].faces)
+    if (face.kind == SurfaceClass::ground) face.loops[0][1].x = std::nan("");
+  const auto outline = outline_of(model.buildings[0].parts);
+  ASSERT_FALSE(outline);
+  EXPECT_EQ(outline.error().code, "geometry-boolean");
+}
+
+TEST(Partition, counts_the_pairs_that_cannot_be_intersected) {
+  const Outline bow_tie{{{{0, 0}, {6, 10}, {6, 0}, {0, 10}}, {}}};
+  EXPECT_FALSE(common_area(bow_tie, rectangle(0, 0, 6, 10)));
+  const auto result = compare_partition(std::vector<Outline>{rectangle(0, 0, 6, 10), rectangle(6, 0, 12, 10)},
+                                        std::vector<Outline>{bow_tie, rectangle(6, 0, 12, 10)});
+  EXPECT_EQ(result.unchecked, 1U);
+  EXPECT_EQ(result.matched, 1U);
+  const std::vector<Outline> sound{rectangle(0, 0, 6, 10)};
+  EXPECT_EQ(compare_partition(sound, sound).unchecked, 0U);
 }
 
 TEST(Partition, of_a_model_against_itself_is_perfect) {

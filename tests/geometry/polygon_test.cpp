@@ -1,6 +1,7 @@
 #include "mansard/geometry/polygon.hpp"
 
 #include <gmock/gmock.h>
+#include <limits>
 
 namespace mansard::geometry {
 namespace {
@@ -89,6 +90,49 @@ TEST(Boolean, operations_agree_on_areas) {
   EXPECT_DOUBLE_EQ(total(*shrunk), 4 * 2);
   EXPECT_TRUE(intersect(square, Polygon{{{20, 0}, {21, 0}, {21, 1}}, {}})->empty());
   for (const auto& p : *all) EXPECT_TRUE(is_simple(p));
+}
+
+TEST(Boolean, operations_fail_on_polygons_that_cross_themselves_rather_than_find_nothing) {
+  const Polygon square{{{0, 0}, {10, 0}, {10, 10}, {0, 10}}, {}}, bow_tie{{{0, 0}, {10, 10}, {10, 0}, {0, 10}}, {}};
+  const Polygon other{{{5, 5}, {15, 5}, {15, 15}, {5, 15}}, {}};
+  for (const auto& result : {intersect(bow_tie, other), subtract(square, bow_tie), subtract(bow_tie, other),
+                             unite(std::vector{square, bow_tie})}) {
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, "geometry-boolean");
+    EXPECT_FALSE(result.error().message.empty());
+  }
+}
+
+TEST(Boolean, operations_fail_on_coordinates_that_are_not_finite_or_too_large) {
+  const Polygon square{{{0, 0}, {10, 0}, {10, 10}, {0, 10}}, {}};
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity, 1e308, -1e200})
+    for (const bool in_hole : {false, true}) {
+      Polygon wrong = square;
+      wrong.holes.push_back({{2, 2}, {2, 4}, {4, 4}, {4, 2}});
+      (in_hole ? wrong.holes[0] : wrong.outer)[1].y = bad;
+      for (const auto& result :
+           {intersect(square, wrong), intersect(wrong, square), subtract(square, wrong), subtract(wrong, square),
+            unite(std::vector{square, wrong}), buffer(wrong, 1), make_valid(wrong)}) {
+        ASSERT_FALSE(result) << bad;
+        EXPECT_EQ(result.error().code, "geometry-boolean");
+      }
+      EXPECT_EQ(triangulate(wrong).error().code, "geometry-triangulate");
+    }
+  EXPECT_FALSE(buffer(square, infinity));
+  EXPECT_FALSE(buffer(square, std::numeric_limits<double>::quiet_NaN()));
+}
+
+TEST(SimplePieces, of_rings_that_touch_are_separated_and_of_a_simple_polygon_are_itself) {
+  EXPECT_EQ(*simple_pieces(courtyard, 0.01), std::vector{courtyard});
+  const Polygon touching{{{0, 0}, {20, 0}, {20, 10}, {0, 10}}, {{{10, 0}, {8, 3}, {10, 6}, {12, 3}}}};
+  ASSERT_FALSE(is_simple(touching));
+  const auto pieces = simple_pieces(touching, 0.01);
+  ASSERT_TRUE(pieces);
+  EXPECT_NEAR(total(*pieces), area(touching), 1);
+  for (const auto& piece : *pieces) EXPECT_TRUE(is_simple(piece));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(simple_pieces(touching, nan));
 }
 
 TEST(MakeValid, opens_a_bow_tie_into_its_two_wings) {

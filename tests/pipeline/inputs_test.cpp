@@ -41,8 +41,8 @@ TEST(Reconstruct, tells_of_derived_footprints_in_city_and_report) {
   auto scene = test::lone_house();
   const auto drawn = derive::footprints(scene, options.derive);
   ASSERT_TRUE(drawn) << drawn.error().message;
-  ASSERT_EQ(drawn->size(), 1U);
-  scene.footprints = *drawn;
+  ASSERT_EQ(drawn->footprints.size(), 1U);
+  scene.footprints = drawn->footprints;
 
   const auto made = reconstruct(scene, options);
   ASSERT_TRUE(made) << made.error().message;

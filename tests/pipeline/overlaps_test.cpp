@@ -1,6 +1,7 @@
 // Solids that stand in each other are reported, and neighbours do not.
 #include <gmock/gmock.h>
 
+#include "mansard/pipeline/detail/overlaps.hpp"
 #include "mansard/pipeline/pipeline.hpp"
 #include "pipeline/houses.hpp"
 
@@ -41,6 +42,39 @@ TEST(Overlaps, are_none_between_neighbours_that_straighten_their_wall_by_themsel
   ASSERT_TRUE(r);
   EXPECT_THAT(codes_of(r->warnings), testing::Not(testing::Contains("pipeline-overlap")));
   EXPECT_NEAR(r->city.buildings[1].parts[0].plan.outer.points[1].y, 0, 1e-4);
+}
+
+/// A part with nothing but a ground face, 3 m high.
+auto part_on(const std::string& id, const geometry::Ring& ring) -> write::Part {
+  write::Part part;
+  part.id = id;
+  auto& solid = part.model.solid;
+  extrude::Face face;
+  face.kind = extrude::FaceKind::base;
+  face.loops.emplace_back();
+  for (const auto p : ring) {
+    face.loops[0].push_back(static_cast<std::uint32_t>(solid.vertices.size()));
+    solid.vertices.push_back({p.x, p.y, 0});
+  }
+  solid.vertices.push_back({ring[0].x, ring[0].y, 3});
+  solid.faces.push_back(face);
+  return part;
+}
+
+TEST(Overlaps, that_cannot_be_computed_are_reported_in_both_buildings_and_once) {
+  Reconstruction r;
+  r.buildings.resize(3);
+  for (const char* id : {"a", "b", "c"}) r.city.buildings.emplace_back().id = id;
+  r.city.buildings[0].parts.push_back(part_on("a-1", {{0, 0}, {10, 10}, {10, 0}, {0, 10}}));  // crosses itself
+  r.city.buildings[1].parts.push_back(part_on("b-1", {{5, 5}, {15, 5}, {15, 15}, {5, 15}}));
+  r.city.buildings[2].parts.push_back(part_on("c-1", {{14, 5}, {24, 5}, {24, 15}, {14, 15}}));  // 10 m² in b
+  detail::report_overlaps(r);
+  EXPECT_THAT(codes_of(r.warnings), testing::ElementsAre("pipeline-overlap-unchecked", "pipeline-overlap"));
+  EXPECT_THAT(r.warnings[1].message, HasSubstr("1 pair "));
+  EXPECT_THAT(codes_of(r.buildings[0].reasons), testing::ElementsAre("pipeline-overlap-unchecked"));
+  EXPECT_THAT(codes_of(r.buildings[1].reasons), testing::ElementsAre("pipeline-overlap-unchecked", "pipeline-overlap"));
+  EXPECT_THAT(codes_of(r.buildings[2].reasons), testing::ElementsAre("pipeline-overlap"));
+  EXPECT_THAT(r.buildings[1].reasons[0].message, HasSubstr("with a-1 could not be computed"));
 }
 
 }  // namespace

@@ -333,6 +333,7 @@ auto total_area(const std::vector<Polygon>& polygons) -> double {
   return sum;
 }
 
+/// Intersection over union; 0, so that the straight outline is not taken, where it cannot be computed.
 auto overlap(const Polygon& a, const Polygon& b) -> double {
   const auto common = geometry::intersect(a, b);
   if (!common) return 0;
@@ -366,7 +367,7 @@ auto directions_of(const Polygon& outline, const Options& how) -> std::vector<do
   return out;
 }
 
-auto regularised(const Polygon& outline, const Options& how) -> std::vector<Polygon> {
+auto regularised(const Polygon& outline, const Options& how) -> base::Result<std::vector<Polygon>> {
   const auto directions = directions_of(outline, how);
   Polygon straight{straight_ring(outline.outer, directions, how), {}};
   for (const auto& hole : outline.holes)
@@ -374,11 +375,10 @@ auto regularised(const Polygon& outline, const Options& how) -> std::vector<Poly
       straight.holes.push_back(std::move(ring));
   if (straight.outer.size() >= 3 && geometry::signed_area(straight.outer) > 0 && geometry::is_simple(straight) &&
       overlap(straight, outline) >= how.minimum_overlap)
-    return {straight};
+    return std::vector{straight};
   Polygon simple{simplified_ring(outline.outer, how), {}};
   for (const auto& hole : outline.holes) simple.holes.push_back(simplified_ring(hole, how));
-  if (auto valid = geometry::make_valid(simple)) return *valid;
-  return {};
+  return geometry::make_valid(simple);
 }
 
 }  // namespace mansard::derive::detail

@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "mansard/base/result.hpp"
+
 #include "mansard/derive/options.hpp"
 #include "mansard/geometry/polygon.hpp"
 
@@ -13,7 +15,9 @@ namespace mansard::derive::detail {
 /// the longest sides comes first; later ones only where their sides make direction_share of the perimeter.
 [[nodiscard]] auto directions_of(const geometry::Polygon& outline, const Options& how) -> std::vector<double>;
 
-/// Simple polygons near the outline; the outline itself, simplified, where no straight walls are.
-[[nodiscard]] auto regularised(const geometry::Polygon& outline, const Options& how) -> std::vector<geometry::Polygon>;
+/// Simple polygons near the outline; the outline itself, simplified, where no straight walls are. Fails with
+/// "geometry-boolean" where the simplified outline crosses itself and cannot be repaired.
+[[nodiscard]] auto regularised(const geometry::Polygon& outline, const Options& how)
+    -> base::Result<std::vector<geometry::Polygon>>;
 
 }  // namespace mansard::derive::detail

@@ -140,15 +140,15 @@ auto broken_at(std::span<const Edge> edges, std::vector<std::vector<geometry::Po
   return out;
 }
 
-auto overlap(const geometry::Polygon& a, const geometry::Polygon& b) -> double {
-  if (!geometry::bounds(a.outer).overlaps(geometry::bounds(b.outer))) return 0;
+auto overlap(const geometry::Polygon& a, const geometry::Polygon& b) -> base::Result<double> {
+  if (!geometry::bounds(a.outer).overlaps(geometry::bounds(b.outer))) return 0.0;
   const auto common = geometry::intersect(a, b);
-  if (!common) return 0;
+  if (!common) return common.failure();
   double sum = 0;
   for (const auto& piece : *common) {
     if (geometry::area(piece) <= least_area) continue;
     const auto core = geometry::buffer(piece, -snap);
-    if (!core) continue;
+    if (!core) return core.failure();
     for (const auto& polygon : *core) sum += geometry::area(polygon);
   }
   return sum;

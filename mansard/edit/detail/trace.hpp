@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "mansard/base/result.hpp"
 #include "mansard/geometry/points.hpp"
 #include "mansard/model/plan.hpp"
 
@@ -50,7 +51,7 @@ struct Outline {
 [[nodiscard]] auto broken_at(std::span<const Edge> edges, std::vector<std::vector<geometry::Point2>> on)
     -> std::vector<Edge>;
 
-/// m²; of what two polygons share once a centimetre is taken off all around.
-[[nodiscard]] auto overlap(const geometry::Polygon& a, const geometry::Polygon& b) -> double;
+/// m²; of what two polygons share once a centimetre is taken off all around. Fails with "geometry-boolean".
+[[nodiscard]] auto overlap(const geometry::Polygon& a, const geometry::Polygon& b) -> base::Result<double>;
 
 }  // namespace mansard::edit::detail

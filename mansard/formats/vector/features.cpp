@@ -352,16 +352,23 @@ auto keep_where(std::vector<RawFeature>& features, const std::string& where, con
     -> base::Result<void> {
   const crs::GdalMessages messages;
   crs::register_gdal();
+  const auto failed = [&] {
+    return base::error("ingest-where",
+                       "its attributes could not be filtered (" + messages.failure() +
+                           "); filter the file beforehand, as with ogr2ogr -where",
+                       subject);
+  };
   GDALDriver* maker = GetGDALDriverManager()->GetDriverByName("Memory");
-  const GDALDatasetUniquePtr made(maker->Create("", 0, 0, 0, GDT_Unknown, nullptr));
-  OGRLayer* table = made->CreateLayer("buildings", nullptr, wkbNone, nullptr);
+  const GDALDatasetUniquePtr made(maker == nullptr ? nullptr : maker->Create("", 0, 0, 0, GDT_Unknown, nullptr));
+  OGRLayer* table = made == nullptr ? nullptr : made->CreateLayer("buildings", nullptr, wkbNone, nullptr);
+  if (table == nullptr) return failed();
   for (const auto& feature : features)
     for (const auto& [name, value] : feature.attributes) {
       if (table->GetLayerDefn()->GetFieldIndex(name.c_str()) >= 0 || value.index() == 0) continue;
       OGRFieldDefn field(name.c_str(), std::holds_alternative<double>(value)        ? OFTReal
                                        : std::holds_alternative<std::string>(value) ? OFTString
                                                                                     : OFTInteger64);
-      table->CreateField(&field);
+      if (table->CreateField(&field) != OGRERR_NONE) return failed();
     }
   for (std::size_t i = 0; i < features.size(); ++i) {
     const OGRFeatureUniquePtr row(OGRFeature::CreateFeature(table->GetLayerDefn()));
@@ -373,7 +380,7 @@ auto keep_where(std::vector<RawFeature>& features, const std::string& where, con
       if (const auto* number = std::get_if<double>(&value)) row->SetField(field, *number);
       if (const auto* flag = std::get_if<bool>(&value)) row->SetField(field, *flag ? 1 : 0);
     }
-    if (table->CreateFeature(row.get()) != OGRERR_NONE) break;
+    if (table->CreateFeature(row.get()) != OGRERR_NONE) return failed();
   }
   if (table->SetAttributeFilter(where.c_str()) != OGRERR_NONE)
     return base::error("ingest-where",

@@ -192,7 +192,8 @@ void note(Repaired& out, const std::string& words) {
 void unite_overlapping(Repaired& out) {
   if (out.polygons.size() < 2) return;
   auto united = geometry::unite(out.polygons);
-  if (!united || total(out.polygons) - total(*united) <= 1e-6 * total(out.polygons)) return;
+  if (!united) return note(out, "whether its parts overlap could not be computed");
+  if (total(out.polygons) - total(*united) <= 1e-6 * total(out.polygons)) return;
   std::erase_if(*united, [](const Polygon& p) { return geometry::area(p) < least_area; });
   std::vector<Polygon> good;
   for (const auto& polygon : *united) {
@@ -201,10 +202,10 @@ void unite_overlapping(Repaired& out) {
     } else if (auto pieces = bridged(polygon)) {
       good.insert(good.end(), pieces->begin(), pieces->end());
     } else {
-      return;
+      return note(out, "its parts overlap and could not be united");
     }
   }
-  if (good.empty()) return;
+  if (good.empty()) return note(out, "its parts overlap and could not be united");
   out.polygons = std::move(good);
   note(out, "parts that overlap were united");
 }

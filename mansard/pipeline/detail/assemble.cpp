@@ -112,6 +112,15 @@ auto assemble(const model::Scene& scene, const std::vector<block::Block>& blocks
       reports[f].reasons.push_back(base::warning(
           "pipeline-covered", "the ground of this footprint went to its neighbours' models", reports[f].id));
     }
+    for (const auto& [f, why] : results[b].failed) {
+      reports[f].outcome = reports[f].parts == 0 ? Outcome::refused : Outcome::fallback;
+      reports[f].reasons.push_back(base::warning(why.code, why.message, reports[f].id));
+    }
+    for (auto& [f, warning] : results[b].unchecked) {
+      warning.subject = reports[f].id;
+      reports[f].reasons.push_back(warning);
+      out.warnings.push_back(std::move(warning));
+    }
     out.blocks.push_back(std::move(results[b].report));
     out.error_maps.push_back(std::move(results[b].map));
     out.warnings.insert(out.warnings.end(), results[b].warnings.begin(), results[b].warnings.end());

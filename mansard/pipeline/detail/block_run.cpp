@@ -2,6 +2,7 @@
 
 #include "mansard/pipeline/detail/assemble.hpp"
 #include "mansard/pipeline/detail/model_attributes.hpp"
+#include "mansard/pipeline/detail/uncovered.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -22,7 +23,7 @@ auto no_mesh() -> base::Diagnostic {
 /// why it is no more than that.
 auto plain_prism(std::size_t feature, const Polygon& polygon, double ground, const std::vector<double>& heights,
                  const Options& options, const base::Diagnostic& why, const base::Run& run)
-    -> std::optional<PartResult> {
+    -> base::Result<PartResult> {
   PartResult part;
   part.feature = feature;
   part.full = false;
@@ -34,7 +35,7 @@ auto plain_prism(std::size_t feature, const Polygon& polygon, double ground, con
   }
   part.plan = profile::vertical_plan(polygon, ground, height);
   auto raised = raise_part(part.plan, options, run);
-  if (!raised) return std::nullopt;
+  if (!raised) return raised.failure();
   part.model.solid = std::move(raised->solid);
   return part;
 }
@@ -55,6 +56,11 @@ auto refining_of(const Options& options) -> refine::Options {
   return out;
 }
 
+auto not_raised(const base::Diagnostic& why, const block::Block& block, std::size_t part) -> base::Diagnostic {
+  return base::warning(why.code, "a part of the segmentation could not be raised: " + why.message,
+                       block.name + " part " + std::to_string(part));
+}
+
 /// Parts from the segmentation, each raised along its profiles.
 auto raise_parts(const segment::Segmentation& segmentation, const block::Block& block, const rays::Scene& mesh,
                  const Options& options, const base::Run& run, BlockResult& out) -> std::vector<PartResult> {
@@ -71,8 +77,9 @@ auto raise_parts(const segment::Segmentation& segmentation, const block::Block& 
     const std::size_t feature = source.feature.value_or(block.members.front().feature);
     if (heights_over(mesh, source.polygon, options.roof_grid)
             .empty()) {  // the footprints alone say there is a building
-      if (auto prism = plain_prism(feature, source.polygon, fitted[i].plan.base, {}, options, no_mesh(), run))
-        parts.push_back(std::move(*prism));
+      auto prism = plain_prism(feature, source.polygon, fitted[i].plan.base, {}, options, no_mesh(), run);
+      if (prism) parts.push_back(std::move(*prism));
+      else out.warnings.push_back(not_raised(prism.error(), block, i));
       continue;
     }
     part_of_draft.push_back(i);
@@ -89,46 +96,25 @@ auto raise_parts(const segment::Segmentation& segmentation, const block::Block& 
     part.changes = std::move(from.changes);
     parts.push_back(std::move(part));
   }
-  for (const auto& [draft, why] : refined.failed)
-    out.warnings.push_back(base::warning(why.code, "a part of the segmentation could not be raised: " + why.message,
-                                         block.name + " part " + std::to_string(part_of_draft[draft])));
+  for (const auto& [draft, why] : refined.failed) out.warnings.push_back(not_raised(why, block, part_of_draft[draft]));
   out.report.times.push_back({"refine", refining.seconds()});
   return parts;
 }
 
-/// What is left of a feature's polygons once the parts of others are taken off.
-auto uncovered(const block::Member& member, const std::vector<PartResult>& parts) -> std::vector<Polygon> {
-  constexpr double least_area = 1.0;  // m²; less is a sliver along a neighbour
-  constexpr double least_width = 0.5;
-  std::vector<Polygon> left = member.polygons;
-  for (const auto& part : parts) {
-    const auto other = model::polygon_of(part.plan);
-    const auto box = geometry::bounds(other.outer);
-    std::vector<Polygon> rest;
-    for (auto& polygon : left) {
-      if (!box.overlaps(geometry::bounds(polygon.outer))) {
-        rest.push_back(std::move(polygon));
-        continue;
-      }
-      if (auto pieces = geometry::subtract(polygon, other)) rest.insert(rest.end(), pieces->begin(), pieces->end());
-    }
-    left = std::move(rest);
-  }
-  std::erase_if(left, [](const Polygon& p) {
-    return geometry::area(p) < least_area || geometry::area(p) < least_width * geometry::perimeter(p.outer) / 2 ||
-           !geometry::is_simple(p);
-  });
-  return left;
-}
-
-/// Every feature without a part becomes a prism, or is reported as covered by its neighbours.
+/// Every feature without a part becomes a prism, or is reported as covered by its neighbours, or as refused where
+/// nothing can be raised on the ground that is left.
 void fill_in(const block::Block& block, const rays::Scene& mesh, const Options& options,
              const std::optional<base::Diagnostic>& block_failure, std::vector<PartResult>& parts, BlockResult& out,
              const base::Run& run) {
   for (const auto& member : block.members) {
     if (std::ranges::any_of(parts, [&](const auto& part) { return part.feature == member.feature; })) continue;
+    std::vector<Polygon> others;
+    for (const auto& part : parts) others.push_back(geometry::polygon_of(part.plan));
+    const auto left = uncovered(member.polygons, others);
+    for (const auto& warning : left.warnings) out.unchecked.emplace_back(member.feature, warning);
     bool any = false;
-    for (const auto& polygon : uncovered(member, parts)) {
+    std::optional<base::Diagnostic> failure;
+    for (const auto& polygon : left.polygons) {
       const auto heights = heights_over(mesh, polygon, options.roof_grid);
       const bool low = !heights.empty() && percentile(heights, 0.5) - member.ground < options.segment.min_height;
       const auto why =
@@ -139,9 +125,12 @@ void fill_in(const block::Block& block, const rays::Scene& mesh, const Options& 
       if (auto part = plain_prism(member.feature, polygon, member.ground, heights, options, why, run)) {
         parts.push_back(std::move(*part));
         any = true;
+      } else {
+        failure = part.error();
       }
     }
-    if (!any) out.covered.push_back(member.feature);
+    if (failure) out.failed.emplace_back(member.feature, *failure);
+    if (!any && !failure) out.covered.push_back(member.feature);
   }
   std::ranges::stable_sort(parts, {}, &PartResult::feature);
 }

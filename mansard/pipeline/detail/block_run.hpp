@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "mansard/pipeline/pipeline.hpp"
@@ -52,6 +53,10 @@ struct BlockResult {
   std::vector<PartResult> parts;  ///< by feature
   evaluate::ErrorMap map;
   std::vector<std::size_t> covered;  ///< features whose ground went to their neighbours
+  /// Features of which some ground has no model, because not even a prism can be raised there, and why.
+  std::vector<std::pair<std::size_t, base::Diagnostic>> failed;
+  /// Features whose ground could not be told from that of their neighbours' parts, and why.
+  std::vector<std::pair<std::size_t, base::Diagnostic>> unchecked;
   std::vector<base::Diagnostic> warnings;
   std::optional<SegmentedBlock> segmented;  ///< with Keep::segmentations
 };

@@ -43,17 +43,33 @@ auto standing(std::size_t order, std::size_t building, const model::Part& part) 
 }
 
 /// m²; strips no wider than rounding and straightening leave them are not counted.
-auto shared_ground(const Standing& a, const Standing& b) -> double {
+auto shared_ground(const Standing& a, const Standing& b) -> base::Result<double> {
   constexpr double narrow = 1e-3;  // m, on average
   double sum = 0;
   for (const auto& p : a.ground)
-    for (const auto& q : b.ground)
-      if (const auto shared = geometry::intersect(p, q))
-        for (const auto& polygon : *shared) {
-          const double area = geometry::area(polygon);
-          if (2 * area > narrow * geometry::perimeter(polygon.outer)) sum += area;
-        }
+    for (const auto& q : b.ground) {
+      const auto shared = geometry::intersect(p, q);
+      if (!shared) return shared.failure();
+      for (const auto& polygon : *shared) {
+        const double area = geometry::area(polygon);
+        if (2 * area > narrow * geometry::perimeter(polygon.outer)) sum += area;
+      }
+    }
   return sum;
+}
+
+/// Among the reasons of both buildings, and of the whole.
+void report_unchecked(const Standing& a, const Standing& b, const base::Diagnostic& why,
+                      Reconstruction& reconstruction) {
+  const auto between = [&](const Standing& one, const Standing& other) {
+    return base::warning("pipeline-overlap-unchecked",
+                         "whether it shares ground with " + other.part->id + " could not be computed (" + why.message +
+                             "); look at both",
+                         one.part->id);
+  };
+  reconstruction.buildings[a.building].reasons.push_back(between(a, b));
+  if (a.building != b.building) reconstruction.buildings[b.building].reasons.push_back(between(b, a));
+  reconstruction.warnings.push_back(between(a, b));
 }
 
 }  // namespace
@@ -66,7 +82,7 @@ void report_overlaps(Reconstruction& reconstruction) {
 
   struct Pair {
     const Standing *a, *b;
-    double area = 0;
+    base::Result<double> area = 0.0;
   };
   std::vector<Pair> pairs;
   std::vector<std::size_t> open;  // those that reach as far as the next begins
@@ -74,19 +90,26 @@ void report_overlaps(Reconstruction& reconstruction) {
     std::erase_if(open, [&](std::size_t k) { return all[k].box.most.x < all[i].box.least.x; });
     for (const std::size_t k : open)
       if (all[k].box.overlaps(all[i].box) && std::min(all[k].high, all[i].high) > std::max(all[k].low, all[i].low))
-        pairs.push_back({&all[k], &all[i], 0});
+        pairs.push_back({&all[k], &all[i], 0.0});
     open.push_back(i);
   }
   base::parallel_for(pairs.size(), [&](std::size_t i) { pairs[i].area = shared_ground(*pairs[i].a, *pairs[i].b); });
-  std::erase_if(pairs, [](const Pair& pair) { return pair.area == 0; });
+  std::erase_if(pairs, [](const Pair& pair) { return pair.area && *pair.area == 0; });
   // By the source's order, not by place.
   for (auto& pair : pairs)
     if (pair.b->order < pair.a->order) std::swap(pair.a, pair.b);
   std::ranges::sort(pairs, {}, [](const Pair& pair) { return std::pair(pair.a->order, pair.b->order); });
 
   double most = 0;
+  std::size_t known = 0;
   std::string where;
-  for (const auto& [a, b, area] : pairs) {
+  for (const auto& [a, b, shared] : pairs) {
+    if (!shared) {
+      report_unchecked(*a, *b, shared.error(), reconstruction);
+      continue;
+    }
+    ++known;
+    const double area = *shared;
     const double height = std::min(a->high, b->high) - std::max(a->low, b->low);
     const auto tell = [&](const Standing& one, const Standing& other) {
       reconstruction.buildings[one.building].reasons.push_back(
@@ -101,9 +124,9 @@ void report_overlaps(Reconstruction& reconstruction) {
     most = area * height;
     where = a->part->id + " and " + b->part->id;
   }
-  if (!pairs.empty())
+  if (known > 0)
     reconstruction.warnings.push_back(base::warning(
-        "pipeline-overlap", std::to_string(pairs.size()) + (pairs.size() == 1 ? " pair" : " pairs") +
+        "pipeline-overlap", std::to_string(known) + (known == 1 ? " pair" : " pairs") +
                                 " of solids overlap, by at most " + base::to_text(most, 3) + " m³: " + where));
 }
 
