@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "mansard/formats/plans.hpp"
 #include "mansard/solid/solid.hpp"
 
 namespace mansard::server {

@@ -8,6 +8,7 @@
 #include "apps/server/options.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/evaluate/evaluate.hpp"
+#include "mansard/formats/plans.hpp"
 #include "mansard/solid/solid.hpp"
 
 namespace mansard::server {

@@ -9,7 +9,7 @@
 
 #include "lab/explore/detail/measure.hpp"
 #include "mansard/base/text.hpp"
-#include "mansard/formats/plans.hpp"
+#include "mansard/formats/documents.hpp"
 
 namespace mansard::explore {
 namespace {

@@ -15,7 +15,6 @@
 
 #include "mansard/base/result.hpp"
 #include "mansard/base/run.hpp"
-#include "mansard/formats/write.hpp"
 #include "mansard/geometry/mesh.hpp"
 #include "mansard/geometry/polygon.hpp"
 #include "mansard/label/label.hpp"
