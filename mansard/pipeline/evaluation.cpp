@@ -125,7 +125,7 @@ auto read_reference(const EvaluationFiles& files, const ingest::Options& options
 
 /// Which block each building of the model stands on: the one it shares most ground with; none for one beside all. Where
 /// shared ground cannot be computed, the building counts as standing on that block.
-auto block_of_buildings(const ingest::Model& model, const std::vector<Outline>& outlines,
+auto block_of_buildings(const model::Model& model, const std::vector<Outline>& outlines,
                         const std::vector<block::Block>& blocks, Warnings& warnings)
     -> std::vector<std::optional<std::size_t>> {
   std::vector<std::optional<std::size_t>> out(outlines.size());

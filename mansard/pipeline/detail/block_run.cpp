@@ -109,7 +109,7 @@ void fill_in(const block::Block& block, const rays::Scene& mesh, const Options& 
   for (const auto& member : block.members) {
     if (std::ranges::any_of(parts, [&](const auto& part) { return part.feature == member.feature; })) continue;
     std::vector<Polygon> others;
-    for (const auto& part : parts) others.push_back(geometry::polygon_of(part.plan));
+    for (const auto& part : parts) others.push_back(model::polygon_of(part.plan));
     const auto left = uncovered(member.polygons, others);
     for (const auto& warning : left.warnings) out.unchecked.emplace_back(member.feature, warning);
     bool any = false;

@@ -82,7 +82,7 @@ void report_overlaps(Reconstruction& reconstruction) {
 
   struct Pair {
     const Standing *a, *b;
-    base::Result<double> area = 0.0;
+    std::size_t number = 0;  // of its area
   };
   std::vector<Pair> pairs;
   std::vector<std::size_t> open;  // those that reach as far as the next begins
@@ -90,11 +90,12 @@ void report_overlaps(Reconstruction& reconstruction) {
     std::erase_if(open, [&](std::size_t k) { return all[k].box.most.x < all[i].box.least.x; });
     for (const std::size_t k : open)
       if (all[k].box.overlaps(all[i].box) && std::min(all[k].high, all[i].high) > std::max(all[k].low, all[i].low))
-        pairs.push_back({&all[k], &all[i], 0.0});
+        pairs.push_back({&all[k], &all[i], pairs.size()});
     open.push_back(i);
   }
-  base::parallel_for(pairs.size(), [&](std::size_t i) { pairs[i].area = shared_ground(*pairs[i].a, *pairs[i].b); });
-  std::erase_if(pairs, [](const Pair& pair) { return pair.area && *pair.area == 0; });
+  std::vector<base::Result<double>> areas(pairs.size(), 0.0);
+  base::parallel_for(pairs.size(), [&](std::size_t i) { areas[i] = shared_ground(*pairs[i].a, *pairs[i].b); });
+  std::erase_if(pairs, [&](const Pair& pair) { return areas[pair.number] && *areas[pair.number] == 0; });
   // By the source's order, not by place.
   for (auto& pair : pairs)
     if (pair.b->order < pair.a->order) std::swap(pair.a, pair.b);
@@ -103,7 +104,8 @@ void report_overlaps(Reconstruction& reconstruction) {
   double most = 0;
   std::size_t known = 0;
   std::string where;
-  for (const auto& [a, b, shared] : pairs) {
+  for (const auto& [a, b, number] : pairs) {
+    const auto& shared = areas[number];
     if (!shared) {
       report_unchecked(*a, *b, shared.error(), reconstruction);
       continue;
