@@ -164,6 +164,7 @@ void Settings::add_list(CLI::App& verb, const base::OptionList& list) {
     given.option = verb.add_option(names, given.words, option.meaning);
     given.option->expected(given.flag ? 0 : static_cast<int>(words), static_cast<int>(words));
     given.option->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->group(list.module())->allow_extra_args(false);
+    if (given.flag) given.option->default_str("");  // what it is without a word; CLI11 would give the empty list's text
     static constexpr std::array kinds{"", "N", "X", "TEXT", "WORD"};
     given.option->type_name(words == 3   ? "X Y Z"
                             : words == 4 ? "XMIN YMIN XMAX YMAX"
