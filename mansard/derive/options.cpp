@@ -66,10 +66,11 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("wide_rim_smooth", o.wide_rim_smooth, "", {0, 100},
               "Smoothness from which a piece is mostly smooth, as a multiple of derive.smooth.")
       .advanced("chosen by hand; not measured");
-  list.number("judged_area", o.judged_area, "m²", {0, 1000}, "Pieces smaller than this belong to what they stand on.")
+  list.number("judged_area", o.judged_area, "m²", {0, 1000},
+              "Pieces smaller than this belong to the piece that they are on.")
       .advanced("chosen by hand; not measured");
   list.integer("judged_rounds", o.judged_rounds, "", {0, 1000},
-               "Number of rounds in which small pieces are judged by their neighbours.")
+               "Number of rounds in which small pieces are assigned by their neighbours.")
       .advanced("chosen by hand; not measured");
   list.number("minimum_width", o.minimum_width, "m", {0, 50}, "Minimum width of a building.")
       .advanced("chosen by hand; not measured");

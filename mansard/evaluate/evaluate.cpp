@@ -55,7 +55,7 @@ auto option_list(Options& o) -> base::OptionList {
       .source("paper: the bounding box");
   list.number("inset", o.inset, "m", {0, 100},
               "Depth inside the footprints at which the scores `inside` begin; 0 does not measure them.")
-      .source("docs/evaluate.md: what scans melt and surveys are off by");
+      .source("docs/evaluate.md: strip in which smoothed corners and errors of surveys dominate");
   return list;
 }
 

@@ -144,8 +144,7 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("gentle_turn", o.gentle_turn, "", {0, 10},
               "Tangent of the maximum angle between a short edge and the neighbour whose profile it takes.")
       .advanced("chosen by hand; not measured");
-  list.number("assumed_storey", o.assumed_storey, "m", {0.5, 50},
-              "Height of a building over which the mesh shows nothing.")
+  list.number("assumed_storey", o.assumed_storey, "m", {0.5, 50}, "Height of a building without mesh coverage.")
       .advanced("one storey");
   list.number("minimum_height", o.minimum_height, "m", {0.01, 50}, "Minimum height of a building.")
       .advanced("chosen by hand; not measured");

@@ -189,8 +189,7 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("roof_cosine", o.roof_cosine, "", {0, 1},
               "Cosine of the maximum angle between a roof and its continuation below.")
       .advanced("chosen by hand; not measured");
-  list.number("roof_share", o.roof_share, "", {0, 1},
-              "Minimum share of a roof's line that lies beside its continuation below.")
+  list.number("roof_share", o.roof_share, "", {0, 1}, "Minimum share of a roof's line next to its continuation below.")
       .advanced("chosen by hand; not measured");
   list.number("twin_distance", o.twin_distance, "m", {0, 20},
               "Of two sweep-edges nearer to each other than this, only the larger one is kept.")
@@ -224,7 +223,7 @@ auto option_list(Options& o) -> base::OptionList {
               "A displacement also counts when it is this many times its standard error.")
       .advanced("95 % of a normal distribution in the plane; docs/decisions/0018");
   list.number("registration_explains", o.registration_explains, "", {0, 1},
-              "Share of the mean distance that a displacement must explain when it is judged by its standard error.")
+              "Share of the mean distance that a displacement must explain when its standard error decides.")
       .advanced("docs/decisions/0018");
   list.number("registration_explains_astray", o.registration_explains_astray, "", {0, 1},
               "Share of the mean distance that a displacement larger than sweep.gis_offset must explain.")
