@@ -25,15 +25,15 @@ const Polygon bow_tie{{{5, -5}, {15, 5}, {15, -5}, {5, 5}}, {}};  // no operatio
 
 TEST(Parting, takes_off_what_was_drawn_before_and_what_is_narrow_then) {
   std::vector<base::Diagnostic> warnings;
-  EXPECT_DOUBLE_EQ(area_of(parted({box(0, 0, 20, 10)}, {box(10, 0, 30, 10)}, warnings)), 100);
-  EXPECT_TRUE(parted({box(0, 0, 20, 10)}, {box(0.5, -1, 30, 11)}, warnings).empty());
+  EXPECT_DOUBLE_EQ(area_of(parted({box(0, 0, 20, 10)}, {box(10, 0, 30, 10)}, 0.8, warnings)), 100);
+  EXPECT_TRUE(parted({box(0, 0, 20, 10)}, {box(0.5, -1, 30, 11)}, 0.8, warnings).empty());
   EXPECT_TRUE(warnings.empty());
 }
 
 TEST(Parting, keeps_an_outline_from_which_another_cannot_be_subtracted) {
   ASSERT_FALSE(geometry::subtract(box(0, 0, 20, 10), bow_tie)) << "the test needs a subtraction that fails";
   std::vector<base::Diagnostic> warnings;
-  const auto left = parted({box(0, 0, 20, 10)}, {bow_tie, box(10, 0, 30, 10)}, warnings);
+  const auto left = parted({box(0, 0, 20, 10)}, {bow_tie, box(10, 0, 30, 10)}, 0.8, warnings);
   EXPECT_DOUBLE_EQ(area_of(left), 100);
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_EQ(warnings[0].code, "derive-outline-kept");
