@@ -103,7 +103,7 @@ inline auto plan_of(const Polygon& polygon, double base, double height) -> Plan 
 inline auto street() -> City {
   City city;
   city.frame = {{84800, 447400, 0}, "EPSG:28992"};
-  city.made_by = {"0.1.0", {{"slice.interval", "0.2"}, {"segment.alpha", "40"}}, {{"mesh.ply", 123, "abc0"}}};
+  city.made_by = {"0.1.0", {{"slice.interval", "0.2"}, {"segment.alpha", "40"}}, {{"mesh.ply", 123, "abc0"}}, {}};
 
   Building house;
   house.id = "house";

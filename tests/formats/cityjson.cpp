@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cities.hpp"
+#include "mansard/base/run.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/formats/codes.hpp"
 

@@ -160,7 +160,7 @@ auto others() -> std::vector<Layer> {
   using enum FieldType;
   const std::vector<mansard::model::Value> values{std::int64_t{1} << 40, 0.1, std::string("\xC3\xA9"), true};
   const std::vector<mansard::model::Value> nothing(4);
-  const std::vector<Field> fields{{"count", whole}, {"share", real}, {"why"}, {"chosen", flag}};
+  const std::vector<Field> fields{{"count", integer}, {"share", real}, {"why"}, {"chosen", boolean}};
   Polygon holed = rectangle(1. / 3, 0, 10, 10);
   holed.holes = {{{2, 2}, {2, 4}, {4, 4}, {4, 2}}};
   return {{"sweep_edges", "lines & more", Shape::line, fields, {{{{{0.1, 0.2}, {3.3, 4.4}}}, {}, values}}},

@@ -30,7 +30,7 @@ auto every_shape() -> std::vector<Layer> {
   Layer parts{"parts",
               "Parts & their numbers",
               Shape::polygon,
-              {{"name"}, {"number", FieldType::whole}, {"area", FieldType::real}, {"seen", FieldType::flag}, {"note"}},
+              {{"name"}, {"number", FieldType::integer}, {"area", FieldType::real}, {"seen", FieldType::boolean}, {"note"}},
               {}};
   for (int i = 0; i < 50; ++i)
     parts.features.push_back(
@@ -207,7 +207,7 @@ TEST(GeoPackage, refuses_layers_that_are_not_consistent) {
     return made ? "none" : made.error().code;
   };
   const auto with = [](Shape shape, Feature feature) {
-    return std::vector<Layer>{{"a", "", shape, {{"x", FieldType::whole}}, {std::move(feature)}}};
+    return std::vector<Layer>{{"a", "", shape, {{"x", FieldType::integer}}, {std::move(feature)}}};
   };
   const Value one = std::int64_t{1};
   const std::vector<std::vector<geometry::Point2>> line{{{0, 0}, {1, 0}}};
