@@ -11,7 +11,7 @@
 
 namespace mansard::formats {
 
-/// Plan + profiles: a small JSON of its own, documented in docs/write.md; the source of truth of every part.
+/// Plan + profiles: a small JSON of its own, documented in docs/formats.md; the source of truth of every part.
 [[nodiscard]] auto plans(const model::City& city) -> std::string;
 
 /// Reads plan + profiles back: buildings and parts with plans but without models; from a file of plans, or from the

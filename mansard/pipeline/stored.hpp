@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "mansard/formats/stream.hpp"
 #include "mansard/ingest/model.hpp"
 #include "mansard/pipeline/pipeline.hpp"
-#include "mansard/formats/stream.hpp"
 
 namespace mansard::pipeline {
 

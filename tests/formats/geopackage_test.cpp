@@ -27,11 +27,12 @@ const std::string odd_text = "O'Brien \"Straße\" – 橋; DROP TABLE x";
 
 /// A layer of every shape, with every type of field.
 auto every_shape() -> std::vector<Layer> {
-  Layer parts{"parts",
-              "Parts & their numbers",
-              Shape::polygon,
-              {{"name"}, {"number", FieldType::integer}, {"area", FieldType::real}, {"seen", FieldType::boolean}, {"note"}},
-              {}};
+  Layer parts{
+      "parts",
+      "Parts & their numbers",
+      Shape::polygon,
+      {{"name"}, {"number", FieldType::integer}, {"area", FieldType::real}, {"seen", FieldType::boolean}, {"note"}},
+      {}};
   for (int i = 0; i < 50; ++i)
     parts.features.push_back(
         {{}, {with_hole(20 * i, 0.1 * i)}, {odd_text, std::int64_t{1} << 40, 0.1 * i, i % 2 == 0, Value()}});

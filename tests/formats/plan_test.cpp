@@ -8,9 +8,9 @@
 
 namespace {
 
-using mansard::model::Plan;
 using mansard::formats::plan_json;
 using mansard::formats::read_plan;
+using mansard::model::Plan;
 using testing::HasSubstr;
 
 auto plan() -> Plan {

@@ -11,8 +11,8 @@
 #include "cities.hpp"
 #include "gltf.hpp"
 #include "mansard/base/files.hpp"
-#include "mansard/formats/tiles3d/tiles_tree.hpp"
 #include "mansard/formats/stream.hpp"
+#include "mansard/formats/tiles3d/tiles_tree.hpp"
 
 namespace {
 

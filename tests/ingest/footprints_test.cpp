@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 
 #include "ingest/workshop.hpp"
-#include "mansard/geometry/polygon.hpp"
 #include "mansard/crs/gdal.hpp"
+#include "mansard/geometry/polygon.hpp"
 
 namespace mansard::ingest::test {
 namespace {

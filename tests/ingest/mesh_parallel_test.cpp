@@ -4,10 +4,10 @@
 
 #include "ingest/workshop.hpp"
 #include "mansard/base/run.hpp"
-#include "mansard/ingest/detail/clean.hpp"
+#include "mansard/formats/files/words.hpp"
 #include "mansard/formats/mesh/mesh_formats.hpp"
 #include "mansard/formats/mesh/text_chunks.hpp"
-#include "mansard/formats/files/words.hpp"
+#include "mansard/ingest/detail/clean.hpp"
 
 namespace mansard::ingest::test {
 namespace {

@@ -170,7 +170,8 @@ TEST_F(Rasters, of_text_are_read_and_those_that_are_none_refused) {
   const auto bytes =
       base::read_file(tiff("whole.tif", {.columns = 300, .rows = 300}, [](int, int) { return 1; })).value();
   EXPECT_THAT(why(file("half.tif", bytes.substr(0, bytes.size() / 2))), HasSubstr("ingest-raster: "));
-  EXPECT_TRUE(formats::is_raster("a/b.TIFF") && formats::is_raster("/vsizip/a.zip/b.asc") && !formats::is_raster("a.obj"));
+  EXPECT_TRUE(formats::is_raster("a/b.TIFF") && formats::is_raster("/vsizip/a.zip/b.asc") &&
+              !formats::is_raster("a.obj"));
 }
 
 const model::Frame delft{{84000, 447000, -5}, "EPSG:28992"};

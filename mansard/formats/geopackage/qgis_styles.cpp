@@ -4,8 +4,8 @@
 #include <span>
 
 #include "mansard/base/text.hpp"
-#include "mansard/formats/geopackage/geopackage_tables.hpp"
 #include "mansard/formats/detail/parts.hpp"
+#include "mansard/formats/geopackage/geopackage_tables.hpp"
 
 namespace mansard::formats::detail {
 namespace {

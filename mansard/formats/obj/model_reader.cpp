@@ -4,9 +4,9 @@
 #include <map>
 #include <optional>
 
-#include "mansard/formats/models.hpp"
-#include "mansard/formats/mesh/raw_mesh.hpp"
 #include "mansard/formats/files/words.hpp"
+#include "mansard/formats/mesh/raw_mesh.hpp"
+#include "mansard/formats/models.hpp"
 
 namespace mansard::formats {
 namespace {

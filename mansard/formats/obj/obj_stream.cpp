@@ -1,7 +1,7 @@
 #include <fstream>
 
-#include "mansard/formats/obj/obj_text.hpp"
 #include "mansard/formats/detail/records.hpp"
+#include "mansard/formats/obj/obj_text.hpp"
 
 namespace mansard::formats::detail {
 namespace {

@@ -3,9 +3,9 @@
 #include <string>
 
 #include "mansard/base/text.hpp"
+#include "mansard/formats/files/words.hpp"
 #include "mansard/formats/mesh/mesh_formats.hpp"
 #include "mansard/formats/mesh/text_chunks.hpp"
-#include "mansard/formats/files/words.hpp"
 
 namespace mansard::formats {
 namespace {

@@ -2,10 +2,10 @@
 #include <set>
 
 #include "mansard/formats/cityjson/cityjson.hpp"
+#include "mansard/formats/detail/writers.hpp"
 #include "mansard/formats/plans.hpp"
 #include "mansard/formats/plans/plan_items.hpp"
 #include "mansard/formats/plans/plan_text.hpp"
-#include "mansard/formats/detail/writers.hpp"
 
 namespace mansard::formats::detail {
 namespace {

@@ -1,5 +1,5 @@
-#include "mansard/formats/plans/plan_text.hpp"
 #include "mansard/formats/detail/writers.hpp"
+#include "mansard/formats/plans/plan_text.hpp"
 
 namespace mansard::formats::detail {
 namespace {

@@ -25,8 +25,8 @@ struct CleanMesh {
 /// Drops what cannot be used, makes corners at the same place one, takes out what then has no area or is there twice.
 /// `shift` is added to all coordinates; with `within`, triangles whose box misses it are left out uncounted.
 /// Cost: linear in vertices and triangles but for sorting around each vertex.
-[[nodiscard]] auto clean(formats::RawMesh raw, const std::array<double, 3>& shift, const std::optional<geometry::Box2>& within)
-    -> CleanMesh;
+[[nodiscard]] auto clean(formats::RawMesh raw, const std::array<double, 3>& shift,
+                         const std::optional<geometry::Box2>& within) -> CleanMesh;
 
 /// One warning for each kind of fault that was found.
 [[nodiscard]] auto warnings_of(const model::MeshCounts& counts, const std::string& subject)

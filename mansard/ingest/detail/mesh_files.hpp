@@ -51,12 +51,12 @@ class MeshReading {
   struct Source {
     Kind kind = Kind::file;
     std::filesystem::path path;
-    std::optional<crs::MeshCrs> crs;      ///< what it says of itself, or metadata.xml says for it
-    bool by_metadata = false;        ///< … the latter
+    std::optional<crs::MeshCrs> crs;          ///< what it says of itself, or metadata.xml says for it
+    bool by_metadata = false;                 ///< … the latter
     std::optional<formats::Tileset> tileset;  ///< of a tileset
     formats::MeshPiece piece;                 ///< of a file
     std::vector<formats::TileFile> tiles;     ///< of a tileset
-    std::optional<crs::WayOfMesh> way;    ///< to the working CRS; none where coordinates stay
+    std::optional<crs::WayOfMesh> way;        ///< to the working CRS; none where coordinates stay
   };
 
   explicit MeshReading(const Options& options) : options_(options) {}

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "mansard/base/result.hpp"
-#include "mansard/geometry/polygon.hpp"
 #include "mansard/formats/vector/features.hpp"
+#include "mansard/geometry/polygon.hpp"
 
 namespace mansard::ingest::detail {
 
@@ -21,6 +21,7 @@ struct Repaired {
 /// Local frame; `origin` is added to the coordinates that messages name. Repeated points (closer than 1 mm) go
 /// silently; spikes and small crossings are repaired as long as the area stays within 1 %; rings that touch are bridged
 /// by 5 cm.
-[[nodiscard]] auto repair(const std::vector<formats::RawPolygon>& parts, const std::array<double, 2>& origin) -> Repaired;
+[[nodiscard]] auto repair(const std::vector<formats::RawPolygon>& parts, const std::array<double, 2>& origin)
+    -> Repaired;
 
 }  // namespace mansard::ingest::detail
