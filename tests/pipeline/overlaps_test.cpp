@@ -45,12 +45,12 @@ TEST(Overlaps, are_none_between_neighbours_that_straighten_their_wall_by_themsel
 }
 
 /// A part with nothing but a ground face, 3 m high.
-auto part_on(const std::string& id, const geometry::Ring& ring) -> write::Part {
-  write::Part part;
+auto part_on(const std::string& id, const geometry::Ring& ring) -> model::Part {
+  model::Part part;
   part.id = id;
   auto& solid = part.model.solid;
-  extrude::Face face;
-  face.kind = extrude::FaceKind::base;
+  model::Face face;
+  face.kind = model::FaceKind::base;
   face.loops.emplace_back();
   for (const auto p : ring) {
     face.loops[0].push_back(static_cast<std::uint32_t>(solid.vertices.size()));
