@@ -31,8 +31,8 @@ foreach(module IN LISTS modules)
     set(component extrude)
   endif()
   install(TARGETS mansard_${module} EXPORT mansard_${module} COMPONENT ${component})
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/mansard/${module} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/mansard
-    COMPONENT ${component} FILES_MATCHING PATTERN *.hpp PATTERN detail EXCLUDE)
+  file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/mansard/${module}/*.hpp)  # the public ones
+  install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/mansard/${module} COMPONENT ${component})
   install(EXPORT mansard_${module} NAMESPACE mansard:: FILE mansard_${module}.cmake DESTINATION ${package_dir}
     COMPONENT ${component})
 endforeach()

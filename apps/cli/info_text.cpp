@@ -97,7 +97,7 @@ void add_validity(const Json& validity, Lines& lines) {
   std::size_t told = 0;
   for (const auto& solid : validity["invalid"]) {
     if (++told > 10) {
-      lines.add("", "… --json lists all");
+      lines.add("", "--json lists the others");
       break;
     }
     const auto& reason = solid["reasons"][0];

@@ -73,8 +73,8 @@ auto option_list(Options& o) -> base::OptionList {
               "Width of the ring outside the footprints in which the ground height is measured.")
       .source("chosen by hand; not measured");
   list.number("ground_percentile", o.ground_percentile, "%", {0, 100},
-              "Percentile of the mesh's heights in that ring that is the ground height; low, because trees and cars "
-              "stand on the ground.")
+              "Percentile of the mesh's heights in that ring that is the ground height; low, because of trees and cars "
+              "on the ground.")
       .source("chosen by hand; not measured");
   list.number("ground_area", o.ground_area, "m²", {0, 10000},
               "Minimum area of level mesh around a building for its ground height to be measured there.")

@@ -45,7 +45,7 @@ auto option_list(Options& options) -> base::OptionList {
   base::OptionList list("extrude");
   list.number("merge_angle", options.merge_angle, "rad", {0, 0.2},
               "Turns of the footprint under this are straightened.")
-      .source("half a degree: less than surveys tell apart; docs/canonical-footprint.md")
+      .source("half a degree: less than surveys distinguish; docs/canonical-footprint.md")
       .number("tolerance", options.tolerance, "m", {0.001, 1},
               "The footprint that is extruded is nowhere farther than this from the given one.")
       .source("docs/canonical-footprint.md")

@@ -4,7 +4,7 @@ namespace mansard::formats {
 
 auto codes() -> std::vector<base::Code> {
   return {
-      {"write-duplicate-id", "Two buildings have the same id, so a city model cannot tell them apart.",
+      {"write-duplicate-id", "Two buildings have the same id, so a city model cannot distinguish them.",
        "Name an attribute that is unique with --ingest-id-attribute.", 3},
       {"write-model", "A model that was to be written is broken: a coordinate that is not finite, a missing vertex.",
        "This is a bug: please report it with the input.", 70},

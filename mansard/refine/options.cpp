@@ -39,7 +39,7 @@ void add_objective(OptionList& list, Options& o) {
               "Differences from the mesh greater than this count linearly, not squared: trees, debris.")
       .source(decision_14)
       .number("margin", o.margin, "m", {0, 5},
-              "Samples within this distance of a part's outline count less, because scans melt walls.")
+              "Samples within this distance of a part's outline count less, because scans round off walls.")
       .source(decision_14)
       .number("least_area", o.least_area, "m²", {0.5, 1000},
               "A structure with a smaller ground area stays with the roof around it.")
@@ -68,7 +68,7 @@ void add_lines(OptionList& list, Options::Lines& o) {
   list.number("lines_robust", o.robust, "m", {0.001, 100},
               "Samples farther than this from a fitted line count linearly, not squared.")
       .advanced("three times the noise of a fair scan; not measured")
-      .integer("lines_rounds", o.rounds, "", count, "Number of times that the samples of a line are weighted anew.")
+      .integer("lines_rounds", o.rounds, "", count, "Number of times that the samples of a line are weighted again.")
       .advanced("reweighing converges well before; not measured")
       .integer("lines_min_samples", o.min_samples, "", {2, 10'000},
                "A line is fitted to at least this many samples; each side of a split has as many.")
@@ -152,7 +152,7 @@ void add_setback(OptionList& list, Options::Setback& o) {
               "Distance behind a step in which the share of raised samples is counted.")
       .advanced(decision_17)
       .number("setback_tower_share", o.tower_share, "", share,
-              "A step is proposed where at least this share of the samples behind it is raised; else it is a tower.")
+              "A step is proposed where at least this share of the samples behind it is higher; else it is a tower.")
       .advanced(decision_17);
 }
 
@@ -254,7 +254,7 @@ void add_joins(OptionList& list, Options::Joins& o) {
       .integer("joins_max_pieces", o.max_pieces, "", some,
                "The parts of a feature are not cut into more pieces than this.")
       .advanced(by_hand)
-      .integer("joins_rounds", o.rounds, "", count, "Maximum number of rounds of joining, cutting and cutting anew.")
+      .integer("joins_rounds", o.rounds, "", count, "Maximum number of rounds of joining, cutting and cutting again.")
       .advanced("what one step leaves behind may be what another needed; not measured")
       .number("joins_round_gain", o.round_gain, "", share,
               "Another round follows where the last one reduced the cost to at most this share.")
@@ -285,10 +285,10 @@ void add_roughness(OptionList& list, Options::Cuts& o) {
               "A structure may leave a root mean square of this share of its height above the roof around it.")
       .advanced("the clutter of a tower is larger; not measured")
       .number("cuts_fullness", o.fullness, "", share,
-              "A structure fills its box where its mean height is at least this share of its greatest height.")
+              "A structure fills its box where its mean height is at least this share of its maximum height.")
       .advanced(by_hand)
       .integer("cuts_fullness_part", o.fullness_part, "", {2, 1'000'000},
-               "The greatest height of a structure is exceeded by one sample in this many.")
+               "The maximum height of a structure is exceeded by one sample in this many.")
       .advanced(by_hand)
       .number("cuts_hipped_min_area", o.hipped_min_area, "m²", area,
               "A structure of at least this area is also compared with a roof of four hips.")
@@ -317,8 +317,7 @@ void add_cuts(OptionList& list, Options::Cuts& o) {
               "this.")
       .advanced(by_hand)
       .number("cuts_min_width", o.min_width, "m", length,
-              "A structure with a smaller mean width is a chimney or a melted "
-              "edge.")
+              "A structure with a smaller mean width is a chimney or a rounded edge.")
       .advanced(by_hand)
       .integer("cuts_max_count", o.max_count, "", count, "Number of cuts of a part that are tried at a time.")
       .advanced(by_hand);
@@ -357,9 +356,9 @@ void add_cuts(OptionList& list, Options::Cuts& o) {
               "The height of a structure above the roof around it is read up to this distance from its walls. It is "
               "only told, and decides nothing.")
       .advanced("four times refine.samples_melt; not measured")
-      .number(
-          "cuts_min_rise", o.min_rise, "m", height,
-          "A structure whose height differs by less than this is told as a roof of its own. It decides nothing else.")
+      .number("cuts_min_rise", o.min_rise, "m", height,
+              "A structure whose height differs by less than this is reported as a roof of its own. Nothing else "
+              "depends on it.")
       .advanced("half of refine.cuts_min_step; not measured");
 }
 
@@ -454,7 +453,7 @@ void add_outlines(OptionList& list, Options::Outlines& o) {
       .number("outlines_row_share", o.row_share, "", share,
               "A column beside a wall is used where at least this share of its rows was sampled.")
       .advanced(by_hand)
-      .integer("outlines_step_rounds", o.step_rounds, "", count, "Number of times that a step is looked for anew.")
+      .integer("outlines_step_rounds", o.step_rounds, "", count, "Number of times that a step is searched for again.")
       .advanced(by_hand)
       .integer("outlines_settle_rounds", o.settle_rounds, "", count,
                "Number of times that all walls of an outline are moved to steps.")
@@ -509,9 +508,10 @@ void add_surfaces(OptionList& list, Options::Surfaces& o) {
       .number("surfaces_max_slope", o.max_slope, "", slope,
               "A ridge whose sides have a greater slope (rise per run) is not a roof.")
       .advanced("1.5 is 56°; steeper is a wall that melted; not measured")
-      .number("surfaces_model_share", o.model_share, "", share,
-              "A cut is judged by what two surfaces explain beyond one where one explains at least all but this share "
-              "of the model's error.")
+      .number(
+          "surfaces_model_share", o.model_share, "", share,
+          "A cut is evaluated by what two surfaces explain beyond one where one explains at least all but this share "
+          "of the model's error.")
       .advanced(by_hand)
       .integer("surfaces_plane_rounds", o.plane_rounds, "", {1, 20},
                "Number of times that a plane takes in the samples near it, each time within half of the distance.")

@@ -7,7 +7,7 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("alpha", o.alpha, "", {0, 1e6}, "Cost of leaving a metre of sweep-edge unused.")
       .alias("alpha")
       .source("paper: 40");
-  list.number("beta", o.beta, "", {0, 1e6}, "Cost of a metre of footprint edge that lies on no sweep-edge.")
+  list.number("beta", o.beta, "", {0, 1e6}, "Cost of a metre of footprint edge that is not on a sweep-edge.")
       .alias("beta")
       .source("paper: 60");
   list.number("height_weight", o.height_weight, "", {0, 1e6},

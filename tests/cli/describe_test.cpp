@@ -102,7 +102,7 @@ TEST_F(Describe, zsh_and_fish_take_their_scripts) {
 
 TEST_F(Describe, a_shell_without_a_completion_is_refused_with_those_there_are) {
   const auto outcome = run("completion tcsh");
-  expect_refusal(outcome, 2, "usage", "bash, zsh and fish");
+  expect_refusal(outcome, 2, "usage", "bash, zsh or fish");
 }
 
 TEST_F(Describe, the_manual_page_is_set_by_groff_without_a_warning) {

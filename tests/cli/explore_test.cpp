@@ -55,13 +55,13 @@ TEST_F(Explore, reads_a_list_of_datasets_from_beside_it_or_from_the_folder_it_is
 
 TEST_F(Explore, refuses_a_list_with_something_wrong_in_it) {
   const std::string whole = "[[dataset]]\nname = \"one\"\nmeshes = [\"house.obj\"]\nfootprints = \"house.geojson\"\n";
-  for (const auto& [text, words] :
-       std::vector<std::pair<std::string, std::string>>{{"dataset = [", "line 1"},
-                                                        {"[[datasets]]\nname = \"one\"\n", "[[dataset]]"},
-                                                        {"[[dataset]]\nname = \"one\"\n", "lacks"},
-                                                        {whole + "colour = \"red\"\n", "'colour'"},
-                                                        {whole + "options = { \"sweep.gamma\" = 20 }\n", "in quotes"},
-                                                        {whole + whole, "two datasets"}}) {
+  for (const auto& [text, words] : std::vector<std::pair<std::string, std::string>>{
+           {"dataset = [", "line 1"},
+           {"[[datasets]]\nname = \"one\"\n", "[[dataset]]"},
+           {"[[dataset]]\nname = \"one\"\n", "has no name, no meshes or no footprints"},
+           {whole + "colour = \"red\"\n", "'colour'"},
+           {whole + "options = { \"sweep.gamma\" = 20 }\n", "in quotes"},
+           {whole + whole, "two datasets"}}) {
     const auto list = put("list.toml", text);
     expect_refusal(run("explore -q table -o " + at("out") + " --datasets " + list), 4, "explore-list", words);
   }

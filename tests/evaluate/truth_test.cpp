@@ -40,8 +40,8 @@ TEST(Outline, of_faces_that_cannot_be_united_is_a_failure_and_not_empty) {
 TEST(Partition, counts_the_pairs_that_cannot_be_intersected) {
   const Outline bow_tie{{{{0, 0}, {6, 10}, {6, 0}, {0, 10}}, {}}};
   EXPECT_FALSE(common_area(bow_tie, rectangle(0, 0, 6, 10)));
-  const auto result = compare_partition(std::vector<Outline>{rectangle(0, 0, 6, 10), rectangle(6, 0, 12, 10)},
-                                        std::vector<Outline>{bow_tie, rectangle(6, 0, 12, 10)});
+  const auto result = compare_partition(std::vector<Outline>{rectangle(0, 0, 6, 10), rectangle(8, 0, 14, 10)},
+                                        std::vector<Outline>{bow_tie, rectangle(8, 0, 14, 10)});
   EXPECT_EQ(result.unchecked, 1U);
   EXPECT_EQ(result.matched, 1U);
   const std::vector<Outline> sound{rectangle(0, 0, 6, 10)};

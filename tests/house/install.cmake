@@ -51,7 +51,7 @@ set(prefix ${SCRATCH}/prefix)
 run("" ${CMAKE_COMMAND} --install ${BUILD} --component extrude --prefix ${prefix})
 
 if(WHAT STREQUAL "kernel")
-  expect_installed("base|geometry|extrude" "include/mansard/extrude/extrude.hpp;include/mansard/geometry/plan.hpp;\
+  expect_installed("base|geometry|model|solid|extrude" "include/mansard/extrude/extrude.hpp;include/mansard/model/plan.hpp;\
 include/mansard/base/result.hpp;libmansard_extrude[.]a;libmansard_geometry[.]a;libmansard_base[.]a;\
 mansardConfig.cmake;mansardConfigVersion.cmake;/LICENSE;/NOTICE")
   build_outside(consumer)
@@ -78,6 +78,7 @@ elseif(WHAT STREQUAL "engine")
   run("" ${CMAKE_COMMAND} --install ${BUILD} --component engine --prefix ${prefix})
   file(READ ${ROOT}/cmake/modules.cmake list)
   string(REGEX REPLACE "#[^\n]*" "" list "${list}")
+  string(REGEX REPLACE "mansard_module[(][a-z_]+ +IN [^)]*[)]" "" list "${list}")  # not installed
   string(REGEX MATCHALL "mansard_module[(][a-z_]+" calls "${list}")
   set(modules "")
   set(wanted "")

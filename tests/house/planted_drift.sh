@@ -10,7 +10,7 @@ mkdir -p "$scratch"
 copy() {
   rm -rf "$scratch/tree"
   mkdir -p "$scratch/tree"
-  for name in "$repository"/*; do
+  for name in "$repository"/* "$repository/.ci" "$repository/.github"; do
     case $(basename "$name") in
       build* | out) ;;
       docs | mansard) cp -r "$name" "$scratch/tree/" ;;

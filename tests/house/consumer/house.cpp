@@ -1,6 +1,7 @@
 #include <cstdio>
 
 #include "mansard/extrude/extrude.hpp"
+#include "mansard/solid/solid.hpp"
 
 int main() {
   mansard::model::Plan plan;
