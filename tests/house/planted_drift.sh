@@ -74,6 +74,6 @@ done
 cp "$repository/docs/rays.md" "$scratch/tree/docs/rays.md"
 
 # A page that the search must find no longer has the words.
-sed -i 's/Debian/Fedora/g' "$scratch/tree/docs/packaging.md"
+sed -i -E 's/Debian/Fedora/g; s/[Pp]ackag(e|es|ed|ing)\b/bundle/g' "$scratch/tree/docs/packaging.md"
 refuses "search: 'Debian package' does not find docs/packaging.html"
 rm -rf "$scratch"
