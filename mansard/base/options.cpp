@@ -25,6 +25,29 @@ auto in_words(const Range& range, const std::string& unit) -> std::string {
 
 auto contains(const Range& range, double value) -> bool { return value >= range.minimum && value <= range.maximum; }
 
+auto described(Option::Kind kind, std::string name, std::string meaning, std::string unit, Range range) -> Option {
+  Option option;
+  option.kind = kind;
+  option.name = std::move(name);
+  option.meaning = std::move(meaning);
+  option.unit = std::move(unit);
+  option.range = range;
+  return option;
+}
+
+template <class Integer>
+auto integer_option(Option option, Integer& member, const std::string& module) -> Option {
+  option.get = [&member] { return std::to_string(member); };
+  option.set = [&member, module, described = option](std::string_view given) -> Result<void> {
+    const auto value = to_integer(given);
+    if (!value || !contains(described.range, static_cast<double>(*value)))
+      return bad_value(module, described, given, "an integer" + in_words(described.range, described.unit));
+    member = static_cast<Integer>(*value);
+    return {};
+  };
+  return option;
+}
+
 }  // namespace
 
 auto OptionList::add(Option option) -> OptionList& {
@@ -73,51 +96,20 @@ auto OptionList::flag(std::string name, bool& member, std::string meaning) -> Op
 
 auto OptionList::integer(std::string name, std::int64_t& member, std::string unit, Range range, std::string meaning)
     -> OptionList& {
-  Option option;
-  option.name = std::move(name);
-  option.meaning = std::move(meaning);
-  option.unit = std::move(unit);
-  option.kind = Option::Kind::integer;
-  option.range = range;
-  option.get = [&member] { return std::to_string(member); };
-  option.set = [&member, module = module_, option](std::string_view given) -> Result<void> {
-    const auto value = to_integer(given);
-    if (!value || !contains(option.range, static_cast<double>(*value)))
-      return bad_value(module, option, given, "an integer" + in_words(option.range, option.unit));
-    member = *value;
-    return {};
-  };
-  return add(std::move(option));
+  return add(integer_option(
+      described(Option::Kind::integer, std::move(name), std::move(meaning), std::move(unit), range), member, module_));
 }
 
 auto OptionList::integer(std::string name, std::size_t& member, std::string unit, Range range, std::string meaning)
     -> OptionList& {
   assert(range.minimum >= 0);
-  Option option;
-  option.name = std::move(name);
-  option.meaning = std::move(meaning);
-  option.unit = std::move(unit);
-  option.kind = Option::Kind::integer;
-  option.range = range;
-  option.get = [&member] { return std::to_string(member); };
-  option.set = [&member, module = module_, option](std::string_view given) -> Result<void> {
-    const auto value = to_integer(given);
-    if (!value || !contains(option.range, static_cast<double>(*value)))
-      return bad_value(module, option, given, "a whole number" + in_words(option.range, option.unit));
-    member = static_cast<std::size_t>(*value);
-    return {};
-  };
-  return add(std::move(option));
+  return add(integer_option(
+      described(Option::Kind::integer, std::move(name), std::move(meaning), std::move(unit), range), member, module_));
 }
 
 auto OptionList::number(std::string name, double& member, std::string unit, Range range, std::string meaning)
     -> OptionList& {
-  Option option;
-  option.name = std::move(name);
-  option.meaning = std::move(meaning);
-  option.unit = std::move(unit);
-  option.kind = Option::Kind::number;
-  option.range = range;
+  Option option = described(Option::Kind::number, std::move(name), std::move(meaning), std::move(unit), range);
   option.get = [&member] { return to_text(member); };
   option.set = [&member, module = module_, option](std::string_view given) -> Result<void> {
     const auto value = to_number(given);
@@ -131,12 +123,7 @@ auto OptionList::number(std::string name, double& member, std::string unit, Rang
 
 auto OptionList::number(std::string name, std::optional<double>& member, std::string unit, Range range,
                         std::string meaning) -> OptionList& {
-  Option option;
-  option.name = std::move(name);
-  option.meaning = std::move(meaning);
-  option.unit = std::move(unit);
-  option.kind = Option::Kind::number;
-  option.range = range;
+  Option option = described(Option::Kind::number, std::move(name), std::move(meaning), std::move(unit), range);
   option.get = [&member] { return member ? to_text(*member) : std::string(); };
   option.set = [&member, module = module_, option](std::string_view given) -> Result<void> {
     if (given.empty()) return member.reset(), Result<void>{};
@@ -151,12 +138,7 @@ auto OptionList::number(std::string name, std::optional<double>& member, std::st
 
 auto OptionList::numbers(std::string name, std::span<double> members, std::string unit, Range range,
                          std::string meaning) -> OptionList& {
-  Option option;
-  option.name = std::move(name);
-  option.meaning = std::move(meaning);
-  option.unit = std::move(unit);
-  option.kind = Option::Kind::string;
-  option.range = range;
+  Option option = described(Option::Kind::string, std::move(name), std::move(meaning), std::move(unit), range);
   option.get = [members] {
     std::string all;
     for (const double member : members) all += (all.empty() ? "" : " ") + to_text(member);
