@@ -7,6 +7,7 @@
 
 #include "mansard/base/run.hpp"
 #include "mansard/formats/stream.hpp"
+#include "mansard/geometry/points.hpp"
 
 namespace mansard::cli {
 
@@ -19,8 +20,7 @@ class Extent3 {
   [[nodiscard]] auto json() const -> Json;
 
  private:
-  std::array<double, 3> minimum_{}, maximum_{};
-  bool empty_ = true;
+  geometry::Box3 box_;
 };
 
 /// A file of models that mansard wrote. `all_options`: those at their defaults too.

@@ -154,18 +154,13 @@ auto add_all(formats::CityReader& reader, const base::Run& run, Tally& tally) ->
 }  // namespace
 
 void Extent3::add(geometry::Point3 p, const model::Frame& frame) {
-  const std::array at{p.x + static_cast<double>(frame.origin[0]), p.y + static_cast<double>(frame.origin[1]),
-                      p.z + static_cast<double>(frame.origin[2])};
-  for (std::size_t i = 0; i < 3; ++i) {
-    minimum_[i] = empty_ ? at[i] : std::min(minimum_[i], at[i]);
-    maximum_[i] = empty_ ? at[i] : std::max(maximum_[i], at[i]);
-  }
-  empty_ = false;
+  box_.add({p.x + static_cast<double>(frame.origin[0]), p.y + static_cast<double>(frame.origin[1]),
+            p.z + static_cast<double>(frame.origin[2])});
 }
 
 auto Extent3::json() const -> Json {
-  if (empty_) return nullptr;
-  return {minimum_[0], minimum_[1], minimum_[2], maximum_[0], maximum_[1], maximum_[2]};
+  if (box_.empty()) return nullptr;
+  return {box_.least.x, box_.least.y, box_.least.z, box_.most.x, box_.most.y, box_.most.z};
 }
 
 auto info_of_city(const fs::path& path, formats::CityReader& reader, bool all_options, const base::Run& run)

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "mansard/base/text.hpp"
+
 namespace mansard::cli {
 
 namespace fs = std::filesystem;
@@ -22,9 +24,7 @@ auto named_as_file(const fs::path& path) -> bool {
                                   ".geojson", ".glb",  ".gltf",  ".gml", ".gpkg", ".gz",  ".html", ".ifc",  ".json",
                                   ".jsonl",   ".kml",  ".las",   ".laz", ".obj",  ".off", ".ply",  ".png",  ".shp",
                                   ".skp",     ".stl",  ".svg",   ".tif", ".tiff", ".txt", ".usd",  ".usdz", ".zip"};
-  std::string own = path.extension().string();
-  std::ranges::transform(own, own.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  return std::ranges::find(extensions, own) != extensions.end();
+  return std::ranges::find(extensions, base::lower(path.extension().string())) != extensions.end();
 }
 
 /// One name of a place, whatever it is called by; what cannot be followed (a name too long, links in a circle) keeps

@@ -5,16 +5,12 @@
 #include <array>
 #include <cctype>
 
+#include "mansard/base/text.hpp"
+
 namespace mansard::server {
 namespace {
 
 constexpr std::string_view bearer = "Bearer ";
-
-auto lower(std::string_view text) -> std::string {
-  std::string out(text);
-  std::ranges::transform(out, out.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return out;
-}
 
 /// Whether it is an IP address: a DNS entry cannot redirect it.
 auto is_number(std::string_view host) -> bool {
@@ -51,12 +47,12 @@ auto is_loopback(std::string_view address) -> bool {
 }
 
 Guard::Guard(std::string address, int port, std::string token)
-    : address_(lower(address.find(':') == std::string::npos ? address : "[" + address + "]")),
+    : address_(base::lower(address.find(':') == std::string::npos ? address : "[" + address + "]")),
       port_(std::to_string(port)),
       token_(std::move(token)) {}
 
 auto Guard::ours(std::string_view given) const -> bool {
-  const auto whole = lower(given);
+  const auto whole = base::lower(given);
   std::string_view host = whole;
   const auto colon = host.rfind(':');
   const bool has_port = colon != std::string_view::npos && host.find(']', colon) == std::string_view::npos;

@@ -35,22 +35,14 @@ auto json_of(const std::vector<geometry::Polygon>& polygons) -> Json {
   return out;
 }
 
-struct Box3 {
-  geometry::Point3 low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
-  void add(geometry::Point3 p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-};
-
 /// In plan the box of the outline, without the padding of the block's mesh.
-auto box_of(const block::Block& block) -> Box3 {
-  Box3 box;
+auto box_of(const block::Block& block) -> geometry::Box3 {
+  geometry::Box3 box;
   for (const auto& polygon : block.outline)
     for (const auto& p : polygon.outer) box.add({p.x, p.y, block.ground});
   for (const auto& v : block.mesh.vertices) {
-    box.low.z = std::min(box.low.z, v.z);
-    box.high.z = std::max(box.high.z, v.z);
+    box.least.z = std::min(box.least.z, v.z);
+    box.most.z = std::max(box.most.z, v.z);
   }
   return box;
 }
@@ -61,8 +53,8 @@ auto json_of(const block::Block& block, const model::Scene& scene) -> Json {
   const auto box = box_of(block);
   return {{"name", block.name},
           {"buildings", buildings},
-          {"low", json_of(box.low)},
-          {"high", json_of(box.high)},
+          {"low", json_of(box.least)},
+          {"high", json_of(box.most)},
           {"triangles", block.mesh.triangles.size()}};
 }
 
@@ -268,13 +260,12 @@ auto json_of(const model::Scene& scene, std::span<const block::Block> blocks) ->
                           {"ground", ground[f]},
                           {"defect", or_null(footprint.defect)}});
   }
-  Box3 box;
-  for (const auto& v : scene.mesh.vertices) box.add(v);
+  const auto box = geometry::Box3::of(scene.mesh.vertices);
   return {{"origin", scene.frame.origin},
           {"crs", scene.frame.crs},
           {"triangles", scene.mesh.triangles.size()},
-          {"low", json_of(box.low)},
-          {"high", json_of(box.high)},
+          {"low", json_of(box.least)},
+          {"high", json_of(box.most)},
           {"blocks", std::move(block_list)},
           {"footprints", std::move(footprints)},
           {"warnings", json_of(scene.warnings)}};

@@ -11,8 +11,7 @@ namespace mansard::server {
 
 [[nodiscard]] inline auto box_of(const std::vector<edit::NamedPlan>& parts) -> geometry::Box2 {
   geometry::Box2 box;
-  for (const auto& part : parts)
-    for (const auto& point : part.plan.outer.points) box.add(point);
+  for (const auto& part : parts) box.include(geometry::Box2::of(part.plan.outer.points));
   return box;
 }
 

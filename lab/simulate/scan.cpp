@@ -86,9 +86,7 @@ auto scan(const Surface& surface, const ScanOptions& options, std::uint64_t seed
     -> base::Result<Scan> {
   if (surface.mesh.triangles.empty())
     return base::error("simulate-nothing", "there is no building to be scanned; give a model with solids");
-  geometry::Box2 area;
-  for (const auto v : surface.mesh.vertices) area.add(xy(v));
-  area = area.grown(options.margin);
+  const auto area = geometry::Box2::of(surface.mesh.vertices).grown(options.margin);
 
   if (auto fits = check_size(surface, area, options.resolution); !fits) return fits.error();
 

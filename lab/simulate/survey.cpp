@@ -36,9 +36,7 @@ auto with_eaves(std::vector<std::vector<Polygon>> outlines, double eaves)
     -> base::Result<std::vector<std::vector<Polygon>>> {
   if (eaves <= 0) return outlines;
   auto boxes = std::vector<geometry::Box2>(outlines.size());
-  for (std::size_t f = 0; f < outlines.size(); ++f)
-    for (const auto& polygon : outlines[f])
-      for (const Point2 p : polygon.outer) boxes[f].add(p);
+  for (std::size_t f = 0; f < outlines.size(); ++f) boxes[f] = geometry::bounds(outlines[f]);
   for (std::size_t f = 0; f < outlines.size(); ++f) {
     std::vector<Polygon> grown;
     for (const auto& polygon : outlines[f]) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "mansard/base/statistics.hpp"
 #include "mansard/block/detail/ground.hpp"
 #include "mansard/block/detail/near.hpp"
 #include "mansard/block/detail/neighbours.hpp"
@@ -26,12 +27,6 @@ auto part_of(const geometry::Mesh& mesh, const std::vector<std::uint32_t>& trian
     for (auto& v : triangle) v = static_cast<std::uint32_t>(std::ranges::lower_bound(used, v) - used.begin());
   }
   return out;
-}
-
-auto median(std::vector<double> values) -> double {
-  std::ranges::sort(values);
-  const std::size_t n = values.size();
-  return n == 0 ? 0 : (values[(n - 1) / 2] + values[n / 2]) / 2;
 }
 
 /// Ground of each member: by the terrain, else around itself, else around the block, else the low end of what mesh
@@ -58,7 +53,7 @@ void set_ground(Block& block, const std::optional<model::HeightGrid>& terrain,
     block.members[i].ground = own ? *own : fall_back();
     heights.push_back(block.members[i].ground);
   }
-  block.ground = median(std::move(heights));
+  block.ground = heights.empty() ? 0 : base::mean_median(std::move(heights));
 }
 
 }  // namespace
@@ -127,7 +122,7 @@ auto partition(const model::Scene& scene, const Options& options, const base::Ru
   if (run.cancelled()) return {};
 
   std::vector<geometry::Box2> regions;
-  for (const auto& block : blocks) regions.push_back(detail::bounds(block.outline).grown(options.padding));
+  for (const auto& block : blocks) regions.push_back(geometry::bounds(block.outline).grown(options.padding));
   const auto near_by = detail::candidates(scene.mesh, regions);
   base::parallel_for(blocks.size(), [&](std::size_t b) {
     const detail::Nearness near(blocks[b].outline, options.padding);

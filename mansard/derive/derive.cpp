@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "mansard/base/statistics.hpp"
 #include "mansard/derive/detail/buildings.hpp"
 #include "mansard/derive/detail/ground.hpp"
 #include "mansard/derive/detail/outline.hpp"
@@ -132,10 +133,8 @@ void measure(const detail::Cut& cut, const Heights& top, const Heights& ground, 
   }
   for (std::size_t b = 1; b < cuttings.size(); ++b) {
     if (heights[b].empty()) continue;
-    const auto middle = heights[b].begin() + static_cast<std::ptrdiff_t>(heights[b].size() / 2);
-    std::ranges::nth_element(heights[b], middle);
-    cuttings[b].height = *middle;
     cuttings[b].planes = in[b] / static_cast<double>(heights[b].size());
+    cuttings[b].height = base::median(std::move(heights[b]));
   }
 }
 

@@ -37,8 +37,7 @@ auto attempt(const model::Plan& plan, const pipeline::Options& options, const ba
 
 auto box_of(std::span<const NamedPlan> parts) -> Box2 {
   Box2 box;
-  for (const auto& part : parts)
-    for (const auto p : part.plan.outer.points) box.add(p);
+  for (const auto& part : parts) box.include(Box2::of(part.plan.outer.points));
   return box;
 }
 

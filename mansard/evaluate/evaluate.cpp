@@ -28,12 +28,6 @@ auto surface_of(std::span<const model::LabelledSolid> model) -> geometry::Mesh {
   return mesh;
 }
 
-auto box_of(const geometry::Mesh& mesh) -> Box2 {
-  Box2 box;
-  for (const auto& v : mesh.vertices) box.add(geometry::xy(v));
-  return box;
-}
-
 auto empty_map(const Grid& cells) -> ErrorMap {
   ErrorMap map;
   map.origin = cells.centre(0, 0);
@@ -72,14 +66,11 @@ auto compare(const geometry::Mesh& surface, const rays::Scene& mesh, std::span<c
   const detail::Plan plan(footprints, options.inset);
 
   // Errors are measured over the footprints' bounding box, as in the paper; what is invented may lie outside it.
-  Box2 box = detail::box_of(footprints).grown(options.margin);
-  const Box2 model_box = box_of(surface);
+  Box2 box = geometry::bounds(footprints).grown(options.margin);
+  const Box2 model_box = Box2::of(surface.vertices);
   if (footprints.empty()) box = model_box.grown(options.margin);
   const Grid inner = detail::grid_over(box, options.grid);
-  if (!model_box.empty()) {
-    box.add(model_box.least);
-    box.add(model_box.most);
-  }
+  box.include(model_box);
   const Grid outer = detail::grid_over(box, options.grid);
 
   Comparison out;

@@ -13,13 +13,6 @@ using geometry::Polygon;
 using geometry::Segment2;
 using model::SurfaceClass;
 
-auto box_of(const Outline& outline) -> Box2 {
-  Box2 box;
-  for (const auto& polygon : outline)
-    for (const auto p : polygon.outer) box.add(p);
-  return box;
-}
-
 auto area_of(const Outline& outline) -> double {
   double sum = 0;
   for (const auto& polygon : outline) sum += geometry::area(polygon);
@@ -62,7 +55,7 @@ auto shared_of(std::span<const Outline> outlines) -> std::vector<Shared> {
   std::vector<Box2> boxes;
   for (const auto& outline : outlines) {
     edges.push_back(edges_of(outline));
-    boxes.push_back(box_of(outline).grown(party_touch));
+    boxes.push_back(geometry::bounds(outline).grown(party_touch));
   }
   std::vector<Shared> shared;
   for (std::size_t a = 0; a < outlines.size(); ++a) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mansard/base/statistics.hpp"
 #include "mansard/evaluate/detail/grid.hpp"
 #include "mansard/evaluate/detail/normals.hpp"
 #include "mansard/evaluate/truth.hpp"
@@ -84,13 +85,6 @@ auto places_on(const FromAbove& truth, std::size_t buildings, const Planes& plan
   return places;
 }
 
-auto quantile(std::vector<double>& values, double share) -> double {
-  if (values.empty()) return 0;
-  const auto at = static_cast<std::size_t>(std::floor(share * static_cast<double>(values.size() - 1) + 0.5));
-  std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(at));
-  return values[at];
-}
-
 }  // namespace
 
 auto compare_roofs(const model::Model& truth_model, const model::Model& model_model, double grid) -> Roofs {
@@ -134,10 +128,11 @@ auto compare_roofs(const model::Model& truth_model, const model::Model& model_mo
   out.right_height = static_cast<double>(by_height) / all;
   out.right = static_cast<double>(by_both) / all;
   for (const double angle : angles) out.angle_mean += angle / static_cast<double>(angles.size());
-  out.angle_median = quantile(angles, 0.5);
-  out.offset_median = quantile(offsets, 0.5);
+  if (angles.empty()) return out;
+  out.angle_median = base::percentile(std::move(angles), 0.5);
+  out.offset_median = base::percentile(offsets, 0.5);
   for (double& offset : offsets) offset = std::abs(offset);
-  out.offset_p95_absolute = quantile(offsets, 0.95);
+  out.offset_p95_absolute = base::percentile(std::move(offsets), 0.95);
   return out;
 }
 

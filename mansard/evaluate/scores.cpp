@@ -2,22 +2,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mansard/base/statistics.hpp"
 #include "mansard/evaluate/detail/sums.hpp"
 
 namespace mansard::evaluate {
 namespace {
 
-/// The cell of a share of the way through the sorted values.
-auto quantile(std::vector<float>& values, double share) -> double {
-  const auto at = static_cast<std::size_t>(std::floor(share * static_cast<double>(values.size() - 1) + 0.5));
-  std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(at));
-  return values[at];
-}
-
 auto median_absolute(std::vector<float> values) -> double {
   if (values.empty()) return 0;
   for (float& value : values) value = std::abs(value);
-  return quantile(values, 0.5);
+  return base::percentile(std::move(values), 0.5);
 }
 
 /// Calls see(cell, depth) for every cell over the footprints, from the south-west.
@@ -25,7 +19,7 @@ template <class See>
 void each_footprint_cell(std::span<const geometry::Polygon> footprints, const rays::Scene* model,
                          const rays::Scene& mesh, const Options& options, See see) {
   const detail::Plan plan(footprints, options.inset);
-  const auto cells = detail::grid_over(detail::box_of(footprints), options.grid);
+  const auto cells = detail::grid_over(geometry::bounds(footprints), options.grid);
   for (std::int64_t j = 0; j < cells.rows; ++j) {
     const auto depth = plan.depths(cells, j);
     const auto inside = plan.cover.row(cells, j);
@@ -105,7 +99,7 @@ auto prism_over(const rays::Scene& mesh, std::span<const geometry::Polygon> foot
     if (cell.scanned) heights.push_back(static_cast<float>(*cell.scanned));
   });
   if (heights.empty()) return {};
-  return prism_over(mesh, footprints, quantile(heights, 0.5), options);
+  return prism_over(mesh, footprints, base::percentile(std::move(heights), 0.5), options);
 }
 
 void set_quantiles(std::span<const float> differences, Scores& scores) {
@@ -114,10 +108,10 @@ void set_quantiles(std::span<const float> differences, Scores& scores) {
   for (const float d : differences)
     if (!std::isnan(d)) values.push_back(d);
   if (values.empty()) return;
-  scores.median = quantile(values, 0.5);
+  scores.median = base::percentile(values, 0.5);
   for (float& d : values) d = std::abs(d);
-  scores.median_absolute = quantile(values, 0.5);
-  scores.p95_absolute = quantile(values, 0.95);
+  scores.median_absolute = base::percentile(values, 0.5);
+  scores.p95_absolute = base::percentile(std::move(values), 0.95);
 }
 
 void set_quantiles(const Differences& differences, Scores& scores) {

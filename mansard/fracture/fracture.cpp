@@ -32,7 +32,7 @@ auto first_unusable(const std::vector<Cut>& cuts, const Box2& region) -> std::op
 /// Around everything, with room for at least two merged vertices a side.
 auto rectangle_of(const std::vector<Cut>& cuts, const Box2& region, const Options& options) -> Box2 {
   Box2 box = region.empty() ? Box2{} : region;
-  for (const Cut& cut : cuts) box.add(cut.segment.start), box.add(cut.segment.end);
+  for (const Cut& cut : cuts) box.include(Box2::of(cut.segment));
   const double margin = to_grid(options.margin);
   box = Box2{to_grid(box.least), to_grid(box.most)}.grown(margin);
   const double least = to_grid(2 * options.snap), room = 2 * least;

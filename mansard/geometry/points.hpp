@@ -39,6 +39,7 @@ template <class P>
   return l > 0 ? (1 / l) * a : a;
 }
 [[nodiscard]] constexpr auto xy(Point3 a) -> Point2 { return {a.x, a.y}; }
+[[nodiscard]] constexpr auto xy(Point2 a) -> Point2 { return a; }
 /// Turned by 90° to the left: the interior side of a counter-clockwise ring's edge.
 [[nodiscard]] constexpr auto left_of(Point2 direction) -> Point2 { return {-direction.y, direction.x}; }
 
@@ -47,14 +48,31 @@ struct Segment2 {
   friend auto operator<=>(const Segment2&, const Segment2&) = default;
 };
 
-/// An axis-parallel box; empty until something is put in.
+/// A rectangle along the axes; empty until points are added.
 struct Box2 {
   Point2 least{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   Point2 most{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
 
+  /// Of a range of points, in plan or in space.
+  template <class Points>
+  [[nodiscard]] static auto of(const Points& points) -> Box2 {
+    Box2 box;
+    for (const auto& p : points) box.add(xy(p));
+    return box;
+  }
+  [[nodiscard]] static auto of(const Segment2& segment) -> Box2 {
+    Box2 box;
+    box.add(segment.start);
+    box.add(segment.end);
+    return box;
+  }
   void add(Point2 p) {
     least = {std::min(least.x, p.x), std::min(least.y, p.y)};
     most = {std::max(most.x, p.x), std::max(most.y, p.y)};
+  }
+  void include(const Box2& o) {
+    least = {std::min(least.x, o.least.x), std::min(least.y, o.least.y)};
+    most = {std::max(most.x, o.most.x), std::max(most.y, o.most.y)};
   }
   [[nodiscard]] auto empty() const -> bool { return least.x > most.x; }
   [[nodiscard]] auto grown(double by) const -> Box2 { return {least - Point2{by, by}, most + Point2{by, by}}; }
@@ -63,6 +81,34 @@ struct Box2 {
   }
   [[nodiscard]] auto contains(Point2 p) const -> bool {
     return p.x >= least.x && p.x <= most.x && p.y >= least.y && p.y <= most.y;
+  }
+};
+
+/// The same in space.
+struct Box3 {
+  Point3 least{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+               std::numeric_limits<double>::infinity()};
+  Point3 most{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+              -std::numeric_limits<double>::infinity()};
+
+  template <class Points>
+  [[nodiscard]] static auto of(const Points& points) -> Box3 {
+    Box3 box;
+    for (const Point3& p : points) box.add(p);
+    return box;
+  }
+  void add(Point3 p) {
+    least = {std::min(least.x, p.x), std::min(least.y, p.y), std::min(least.z, p.z)};
+    most = {std::max(most.x, p.x), std::max(most.y, p.y), std::max(most.z, p.z)};
+  }
+  void include(const Box3& o) {
+    least = {std::min(least.x, o.least.x), std::min(least.y, o.least.y), std::min(least.z, o.least.z)};
+    most = {std::max(most.x, o.most.x), std::max(most.y, o.most.y), std::max(most.z, o.most.z)};
+  }
+  [[nodiscard]] auto empty() const -> bool { return least.x > most.x; }
+  [[nodiscard]] auto plan() const -> Box2 { return {xy(least), xy(most)}; }
+  [[nodiscard]] auto overlaps(const Box3& o) const -> bool {
+    return plan().overlaps(o.plan()) && least.z <= o.most.z && o.least.z <= most.z;
   }
 };
 

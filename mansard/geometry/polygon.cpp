@@ -27,9 +27,11 @@ auto perimeter(std::span<const Point2> ring) -> double {
   return sum;
 }
 
-auto bounds(std::span<const Point2> ring) -> Box2 {
+auto bounds(std::span<const Point2> ring) -> Box2 { return Box2::of(ring); }
+
+auto bounds(std::span<const Polygon> polygons) -> Box2 {
   Box2 box;
-  for (const Point2 p : ring) box.add(p);
+  for (const auto& polygon : polygons) box.include(bounds(polygon.outer));
   return box;
 }
 

@@ -25,6 +25,7 @@ struct Polygon {
 [[nodiscard]] auto area(const Polygon& polygon) -> double;
 [[nodiscard]] auto perimeter(std::span<const Point2> ring) -> double;
 [[nodiscard]] auto bounds(std::span<const Point2> ring) -> Box2;
+[[nodiscard]] auto bounds(std::span<const Polygon> polygons) -> Box2;
 
 /// Whether the point is in the closed ring or polygon, whatever the orientation. Exact.
 [[nodiscard]] auto contains(std::span<const Point2> ring, Point2 p) -> bool;

@@ -58,7 +58,7 @@ auto keep_within(std::vector<formats::RawFeature>& features, const Box2& wanted,
 /// Whole metres. Coordinates that are small anyway stay as they are, so that a local frame is read and written without
 /// a single rounding; others are counted from the middle of the footprints and the foot of the mesh, which loses
 /// nothing either where that makes the numbers smaller.
-auto choose_origin(const Box2& footprints, const detail::Box3& mesh) -> std::array<std::int64_t, 3> {
+auto choose_origin(const Box2& footprints, const geometry::Box3& mesh) -> std::array<std::int64_t, 3> {
   constexpr double small = 1024;
   const auto along = [](double least, double most, double from) -> std::int64_t {
     if (std::max(std::abs(least), std::abs(most)) <= small) return 0;
@@ -66,10 +66,9 @@ auto choose_origin(const Box2& footprints, const detail::Box3& mesh) -> std::arr
   };
   const Point2 middle = 0.5 * (footprints.least + footprints.most);
   Box2 all = footprints;
-  all.add(mesh.plan.least);
-  all.add(mesh.plan.most);
+  all.include(mesh.plan());
   return {along(all.least.x, all.most.x, middle.x), along(all.least.y, all.most.y, middle.y),
-          along(mesh.low, mesh.high, mesh.low)};
+          along(mesh.least.z, mesh.most.z, mesh.least.z)};
 }
 
 auto defect_without_polygons(const formats::RawFeature& feature) -> base::Diagnostic {
@@ -220,11 +219,7 @@ auto take_terrain(const Options& options, const Box2& around, model::Scene& scen
   return {};
 }
 
-auto plan_of(const geometry::Mesh& mesh) -> Box2 {
-  Box2 box;
-  for (const auto& v : mesh.vertices) box.add(xy(v));
-  return box;
-}
+auto plan_of(const geometry::Mesh& mesh) -> Box2 { return Box2::of(mesh.vertices); }
 
 auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::filesystem::path& footprint_path,
           const Options& options, const base::Run& run) -> base::Result<model::Scene> {
@@ -240,17 +235,17 @@ auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::files
   run.report("ingest", mesh_name, 0.5);
   auto meshes = reading->finish(ground->way.name, ground->kept, run);
   if (!meshes) return meshes.error();
-  const detail::Box3 mesh_box = detail::bounds(meshes->mesh, options.mesh_offset);
-  if (mesh_box.plan.empty())
+  const geometry::Box3 mesh_box = detail::bounds(meshes->mesh, options.mesh_offset);
+  if (mesh_box.empty())
     return base::error("ingest-mesh-unusable",
                        "none of the " + std::to_string(meshes->mesh.triangles.size()) +
                            " triangles has finite corners that exist; export the mesh again",
                        mesh_name);
-  if (auto met = check_overlap(*ground, mesh_box.plan, subject); !met) return met.error();
+  if (auto met = check_overlap(*ground, mesh_box.plan(), subject); !met) return met.error();
   model::Scene scene;
   scene.frame.crs = ground->way.name;
   scene.frame.origin =
-      choose_origin(!ground->box.empty() ? ground->box : ground->kept.value_or(mesh_box.plan), mesh_box);
+      choose_origin(!ground->box.empty() ? ground->box : ground->kept.value_or(mesh_box.plan()), mesh_box);
 
   run.report("ingest", mesh_name, 0.7);
   std::array<double, 3> shift{};
@@ -264,7 +259,7 @@ auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::files
   if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
 
   run.report("ingest", subject, 0.9);
-  const Box2 local{mesh_box.plan.least - origin, mesh_box.plan.most - origin};
+  const Box2 local{xy(mesh_box.least) - origin, xy(mesh_box.most) - origin};
   auto finished = finish_all(ground->file, options, scene.frame, local, subject);
   if (!finished) return finished.error();
 
@@ -300,7 +295,8 @@ auto read_alone(const std::filesystem::path& path, const Options& options, const
   model::Scene scene;
   const Box2 box = bounds(file->features);
   scene.frame.crs = way->name;
-  if (!box.empty()) scene.frame.origin = choose_origin(box, {box, 0, 0});
+  if (!box.empty())
+    scene.frame.origin = choose_origin(box, {{box.least.x, box.least.y, 0}, {box.most.x, box.most.y, 0}});
   constexpr double far = std::numeric_limits<double>::infinity();
   auto finished = finish_all(*file, options, scene.frame, {{-far, -far}, {far, far}}, subject);
   if (!finished) return finished.error();

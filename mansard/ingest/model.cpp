@@ -17,6 +17,7 @@
 namespace mansard::ingest {
 namespace {
 
+using geometry::Box3;
 using geometry::Point2;
 using geometry::Point3;
 
@@ -26,28 +27,13 @@ auto usable(Point3 p) -> bool {
   return std::abs(p.x) < farthest && std::abs(p.y) < farthest && std::abs(p.z) < farthest;  // false for NaN
 }
 
-/// An axis-parallel box in space.
-struct Extent {
-  geometry::Box2 plan;
-  double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
-
-  void add(Point3 p) {
-    plan.add(xy(p));
-    low = std::min(low, p.z);
-    high = std::max(high, p.z);
-  }
-  [[nodiscard]] auto overlaps(const Extent& other) const -> bool {
-    return plan.overlaps(other.plan) && low <= other.high && other.low <= high;
-  }
-};
-
-auto in_words(const Extent& e, const model::Frame& frame) -> std::string {
+auto in_words(const Box3& e, const model::Frame& frame) -> std::string {
   const auto range = [&](const char* axis, double least, double most, std::size_t i) {
     const auto at = static_cast<double>(frame.origin[i]);
     return std::string(axis) + " " + base::to_text(least + at, 1) + " to " + base::to_text(most + at, 1);
   };
-  return range("x", e.plan.least.x, e.plan.most.x, 0) + ", " + range("y", e.plan.least.y, e.plan.most.y, 1) + ", " +
-         range("z", e.low, e.high, 2);
+  return range("x", e.least.x, e.most.x, 0) + ", " + range("y", e.least.y, e.most.y, 1) + ", " +
+         range("z", e.least.z, e.most.z, 2);
 }
 
 template <class Act>
@@ -85,14 +71,14 @@ auto drop_unusable(std::vector<model::ModelBuilding>& buildings) -> std::size_t 
 }
 
 /// Whole metres, as for footprints: nothing for coordinates that are small anyway, else the middle and the foot.
-auto origin_of(const Extent& e) -> std::array<std::int64_t, 3> {
+auto origin_of(const Box3& e) -> std::array<std::int64_t, 3> {
   constexpr double small = 1024;
   const auto along = [](double least, double most, double from) -> std::int64_t {
     return std::max(std::abs(least), std::abs(most)) <= small ? 0 : static_cast<std::int64_t>(std::floor(from));
   };
-  const Point2 middle = 0.5 * (e.plan.least + e.plan.most);
-  return {along(e.plan.least.x, e.plan.most.x, middle.x), along(e.plan.least.y, e.plan.most.y, middle.y),
-          along(e.low, e.high, e.low)};
+  const Point2 middle = 0.5 * (xy(e.least) + xy(e.most));
+  return {along(e.least.x, e.most.x, middle.x), along(e.least.y, e.most.y, middle.y),
+          along(e.least.z, e.most.z, e.least.z)};
 }
 
 void shift(model::Model& model, Point3 by) {
@@ -101,11 +87,7 @@ void shift(model::Model& model, Point3 by) {
   });
 }
 
-auto is_obj(const std::filesystem::path& path) -> bool {
-  std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-  return ending == ".obj";
-}
+auto is_obj(const std::filesystem::path& path) -> bool { return base::lower(path.extension().string()) == ".obj"; }
 
 /// The CRS to work in: the model's own, unless the user says there is none, or names it where the model does not.
 auto working_crs(const std::string& spelt, const std::string& option, const std::string& subject)
@@ -154,7 +136,7 @@ auto read(const std::filesystem::path& path, const ModelOptions& options) -> bas
   if (guessed > 0)
     say("ingest-model-semantics", std::to_string(guessed) + " of " + std::to_string(faces) +
                                       " surfaces do not say whether they are wall, roof or ground; told by direction");
-  Extent extent;
+  Box3 extent;
   each_loop(model, [&](const auto& loop) {
     for (const auto p : loop) extent.add(p);
   });
@@ -164,11 +146,7 @@ auto read(const std::filesystem::path& path, const ModelOptions& options) -> bas
   return model;
 }
 
-auto extent_of(const geometry::Mesh& mesh) -> Extent {
-  Extent e;
-  for (const Point3 p : mesh.vertices) e.add(p);
-  return e;
-}
+auto extent_of(const geometry::Mesh& mesh) -> Box3 { return Box3::of(mesh.vertices); }
 
 }  // namespace
 
@@ -241,7 +219,7 @@ auto read_mesh(const std::vector<std::filesystem::path>& paths, const model::Fra
 auto check_overlap(const geometry::Mesh& first, const geometry::Mesh& second,
                    const std::pair<std::string, std::string>& what, const model::Frame& frame,
                    const std::string& subject) -> base::Result<void> {
-  const Extent a = extent_of(first), b = extent_of(second);
+  const Box3 a = extent_of(first), b = extent_of(second);
   if (a.overlaps(b)) return {};
   return base::error("ingest-model-overlap",
                      what.first + " and " + what.second + " do not overlap: the " + what.first + " lies in " +

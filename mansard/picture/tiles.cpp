@@ -14,6 +14,7 @@
 namespace mansard::picture {
 namespace {
 
+using geometry::Box3;
 using geometry::Mesh;
 using geometry::Point3;
 using geometry::Triangle;
@@ -26,18 +27,8 @@ void in_pieces(std::size_t count, const Work& work) {
   });
 }
 
-struct Box {
-  Point3 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
-             std::numeric_limits<double>::infinity()};
-  Point3 high{-low.x, -low.y, -low.z};
-  void add(Point3 p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-};
-
-auto box_of(const Mesh& mesh) -> Box {
-  Box box;
+auto box_of(const Mesh& mesh) -> Box3 {
+  Box3 box;
   for (const auto& t : mesh.triangles)
     for (const auto v : t) box.add(mesh.vertices[v]);
   return box;
@@ -113,14 +104,14 @@ auto counts_of(const std::vector<Place>& places) -> std::map<Place, std::size_t>
 }
 
 /// The side of level 0's tiles: halved until the fullest has few enough, or would be no bigger than a house.
-auto tile_size(const Mesh& mesh, const Box& box, std::size_t most) -> double {
+auto tile_size(const Mesh& mesh, const Box3& box, std::size_t most) -> double {
   constexpr double least = 16;  // m
-  double size = std::max({box.high.x - box.low.x, box.high.y - box.low.y, 1.0});
+  double size = std::max({box.most.x - box.least.x, box.most.y - box.least.y, 1.0});
   size = std::nextafter(size, 2 * size);  // the far side is inside
   if (mesh.triangles.size() <= most) return size;
   while (size > 2 * least) size /= 2;
   // From the smallest up: four tiles make one, exactly, since sizes differ by powers of two.
-  auto counts = counts_of(places_of(mesh, box.low, size));
+  auto counts = counts_of(places_of(mesh, box.least, size));
   while (counts.size() > 1) {
     std::map<Place, std::size_t> larger;
     std::size_t fullest = 0;
@@ -140,12 +131,12 @@ auto tile_of(const Mesh& mesh, std::span<const std::uint32_t> group) -> Tile {
   for (const auto t : group) used.insert(used.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
   std::ranges::sort(used);
   used.erase(std::ranges::unique(used).begin(), used.end());
-  Box box;
+  Box3 box;
   for (const auto v : used) box.add(mesh.vertices[v]);
-  tile.low = box.low;
-  tile.high = box.high;
+  tile.low = box.least;
+  tile.high = box.most;
   // A whole metre: what is added back is exact.
-  const Point3 middle = 0.5 * (box.low + box.high);
+  const Point3 middle = 0.5 * (box.least + box.most);
   tile.centre = {std::round(middle.x), std::round(middle.y), std::round(middle.z)};
   tile.positions.reserve(3 * used.size());
   for (const auto v : used) {
@@ -189,25 +180,25 @@ void add_level(const Mesh& mesh, Point3 low, double size, std::size_t level, dou
 auto tiles(const Mesh& mesh, const TileOptions& options, const base::Run& run) -> std::vector<Tile> {
   std::vector<Tile> out;
   if (mesh.triangles.empty()) return out;
-  const Box box = box_of(mesh);
+  const Box3 box = box_of(mesh);
   double size = tile_size(mesh, box, options.most), cell = options.error;
   run.report("tiles", "level 0", 0);
-  add_level(mesh, box.low, size, 0, 0, out);
+  add_level(mesh, box.least, size, 0, 0, out);
 
   std::size_t before = mesh.triangles.size();
-  const double extent = std::max({box.high.x - box.low.x, box.high.y - box.low.y, box.high.z - box.low.z});
+  const double extent = std::max({box.most.x - box.least.x, box.most.y - box.least.y, box.most.z - box.least.z});
   for (std::size_t level = 1; before > options.coarsest && cell < extent; ++level) {
     // Clustering the mesh itself, not the level before: a vertex moves within one cell, errors do not add up.
     Mesh coarse;
     for (;; cell *= 2) {
       if (run.cancelled()) return {};
-      coarse = clustered(mesh, box.low, cell);
+      coarse = clustered(mesh, box.least, cell);
       if (coarse.triangles.size() <= before / 2 || cell >= extent) break;  // else it is hardly worth a level
     }
     size *= 2;
     run.report("tiles", "level " + std::to_string(level),
                1 - static_cast<double>(coarse.triangles.size()) / static_cast<double>(mesh.triangles.size()));
-    add_level(coarse, box.low, size, level, cell, out);
+    add_level(coarse, box.least, size, level, cell, out);
     before = coarse.triangles.size();
     cell *= 2;
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "mansard/base/statistics.hpp"
 #include "mansard/pipeline/detail/model_attributes.hpp"
 #include "mansard/solid/solid.hpp"
 
@@ -103,18 +104,14 @@ auto ridge_height(const model::LabelledSolid& model) -> std::optional<double> {
   return highest;
 }
 
-auto percentile(const std::vector<double>& sorted, double share) -> double {
-  return sorted[static_cast<std::size_t>(std::lround(share * static_cast<double>(sorted.size() - 1)))];
-}
-
 auto model_attributes(const model::LabelledSolid& model, const model::Plan& plan, const std::vector<double>& roof,
                       const std::optional<double>& mse, const std::string& fallback, double z0) -> model::Attributes {
   const auto areas = label::areas(model);
   model::Attributes out;
   out.emplace_back("ms_h_ground", z0 + plan.base);
   out.emplace_back("ms_h_roof_min", z0 + roof.front());
-  out.emplace_back("ms_h_roof_50p", z0 + percentile(roof, 0.5));
-  out.emplace_back("ms_h_roof_70p", z0 + percentile(roof, 0.7));
+  out.emplace_back("ms_h_roof_50p", z0 + base::percentile_of_sorted(roof, 0.5));
+  out.emplace_back("ms_h_roof_70p", z0 + base::percentile_of_sorted(roof, 0.7));
   out.emplace_back("ms_h_roof_max", z0 + roof.back());
   if (const auto ridge = ridge_height(model)) out.emplace_back("ms_h_ridge", z0 + *ridge);
   out.emplace_back("ms_roof_type", roof_type(model));

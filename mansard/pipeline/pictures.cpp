@@ -16,9 +16,7 @@ using geometry::Point3;
 auto frame_of(const model::Scene& scene) -> geometry::Box2 {
   constexpr double street = 8;
   geometry::Box2 box;
-  for (const auto& footprint : scene.footprints)
-    for (const auto& polygon : footprint.polygons)
-      for (const Point2 p : polygon.outer) box.add(p);
+  for (const auto& footprint : scene.footprints) box.include(geometry::bounds(footprint.polygons));
   return box.grown(street);
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "mansard/base/statistics.hpp"
 #include "mansard/profile/detail/caps.hpp"
 #include "mansard/profile/detail/climb.hpp"
 #include "mansard/profile/detail/columns.hpp"
@@ -51,7 +52,7 @@ auto slices_of(const Polygon& polygon, const Run& run, const detail::SectionInde
   }
   if (!walls.empty()) {
     std::ranges::sort(walls);
-    evidence.offset = -walls[walls.size() / 2];
+    evidence.offset = -base::median_of_sorted(walls);
   }
   return slices;
 }
@@ -152,7 +153,7 @@ auto prepare(const segment::Part& part, const block::Block& block, const rays::S
   for (const auto& sample : work.samples) work.heights.push_back(sample.height);
   std::ranges::sort(work.heights);
   const double least = options.minimum_height;
-  if (!work.heights.empty()) work.height = std::max(least, work.heights[work.heights.size() / 2]);
+  if (!work.heights.empty()) work.height = std::max(least, base::median_of_sorted(work.heights));
   else work.height = part.height - work.base > least ? part.height - work.base : options.assumed_storey;
   return work;
 }

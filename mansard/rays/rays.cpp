@@ -104,14 +104,9 @@ Scene::Scene(const geometry::Mesh& mesh) : parts_(std::make_unique<Parts>()) {
   p.empty = mesh.triangles.empty();
   if (p.empty) return;
 
-  constexpr double far = std::numeric_limits<double>::infinity();
-  Point3 least{far, far, far}, most{-far, -far, -far};
-  for (const Point3& v : mesh.vertices) {
-    least = {std::min(least.x, v.x), std::min(least.y, v.y), std::min(least.z, v.z)};
-    most = {std::max(most.x, v.x), std::max(most.y, v.y), std::max(most.z, v.z)};
-  }
-  p.centre = 0.5 * (least + most);
-  p.top = most.z - p.centre.z + 1;  // m; floats below 1e6 m are exact to 0.06 m
+  const auto box = geometry::Box3::of(mesh.vertices);
+  p.centre = 0.5 * (box.least + box.most);
+  p.top = box.most.z - p.centre.z + 1;  // m; floats below 1e6 m are exact to 0.06 m
 
   // One builder thread: the tree, and so which of two equally near triangles is hit, is the same every time.
   p.device = rtcNewDevice("threads=1,set_affinity=0");

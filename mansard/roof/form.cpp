@@ -150,7 +150,7 @@ class Reader {
   auto orientation() -> std::optional<Orientation> {
     const auto tag = tags_.find(keys::orientation());
     if (!tag) return std::nullopt;
-    const auto word = detail::lower(tag->text);
+    const auto word = base::lower(tag->text);
     if (word == "along") return Orientation::along;
     if (word == "across") return Orientation::across;
     warn("roof-value", *tag, "is neither along nor across; it is left out");

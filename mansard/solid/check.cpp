@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
+#include "mansard/base/disjoint_sets.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/solid/detail/connectivity.hpp"
 #include "mansard/solid/detail/intersect.hpp"
@@ -128,24 +128,16 @@ class Check {
       if (length(face.normal) > 0 && dot(face.normal, areas_[f]) <= 0)
         fault("solid-orientation", "the normal of face " + std::to_string(f) + " is against its boundary");
     }
-    std::vector<std::uint32_t> shell(solid_.faces.size());
-    std::iota(shell.begin(), shell.end(), 0U);
-    const auto root = [&](std::uint32_t f) {
-      while (shell[f] != f) f = shell[f] = shell[shell[f]];
-      return f;
-    };
+    base::DisjointSets shells(solid_.faces.size());
     const HalfEdges& edges = connectivity_.half_edges;
-    for (std::uint32_t h = 0; h < edges.size(); ++h) {
-      if (edges.twin[h] == HalfEdges::none) continue;
-      const std::uint32_t a = root(edges.face[h]), b = root(edges.face[edges.twin[h]]);
-      shell[std::max(a, b)] = std::min(a, b);
-    }
+    for (std::uint32_t h = 0; h < edges.size(); ++h)
+      if (edges.twin[h] != HalfEdges::none) shells.join(edges.face[h], edges.face[edges.twin[h]]);
     std::vector<double> volumes(solid_.faces.size(), 0);
     const Point3 o = solid_.vertices[solid_.faces[0].loops[0][0]];
     for (std::uint32_t f = 0; f < solid_.faces.size(); ++f)
-      volumes[root(f)] += dot(areas_[f], solid_.vertices[solid_.faces[f].loops[0][0]] - o) / 6;
+      volumes[shells.of(f)] += dot(areas_[f], solid_.vertices[solid_.faces[f].loops[0][0]] - o) / 6;
     for (std::uint32_t f = 0; f < solid_.faces.size(); ++f)
-      if (shell[f] == f && volumes[f] <= 0)
+      if (shells.of(f) == f && volumes[f] <= 0)
         fault("solid-orientation", "the shell of face " + std::to_string(f) + " is inside out");
   }
 

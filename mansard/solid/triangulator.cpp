@@ -1,6 +1,7 @@
 #include "mansard/solid/triangulator.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "mansard/geometry/polygon.hpp"
@@ -226,9 +227,7 @@ auto Triangulator::bridge_holes() -> bool {
 auto Triangulator::sees(std::uint32_t a, std::uint32_t b) const -> bool {
   if (!opens_towards(a, corners_[b].at) || !opens_towards(b, corners_[a].at)) return false;
   const geometry::Segment2 sight{corners_[a].at, corners_[b].at};
-  geometry::Box2 box;
-  box.add(sight.start);
-  box.add(sight.end);
+  const auto box = geometry::Box2::of(sight);
   return std::ranges::none_of(corners_, [&](const Corner& from) {
     const Corner& to = corners_[from.next];
     for (const std::uint32_t end : {corners_[a].vertex, corners_[b].vertex})
@@ -283,8 +282,7 @@ void Triangulator::gather_reflex() {
 auto Triangulator::is_ear(std::uint32_t v) const -> bool {
   const Corner &b = corners_[v], &a = corners_[b.prev], &c = corners_[b.next];
   if (b.reflex) return false;
-  geometry::Box2 box;
-  for (const Point2 p : {a.at, b.at, c.at}) box.add(p);
+  const auto box = geometry::Box2::of(std::array{a.at, b.at, c.at});
   const auto from = std::ranges::lower_bound(reflex_, along(box.least, long_axis_), {},
                                              [&](std::uint32_t u) { return along(corners_[u].at, long_axis_); });
   const double end = along(box.most, long_axis_);

@@ -13,13 +13,6 @@ namespace {
 
 using geometry::Point2;
 
-auto bounds_of(const std::vector<geometry::Polygon>& polygons) -> geometry::Box2 {
-  geometry::Box2 box;
-  for (const auto& polygon : polygons)
-    for (const auto& p : polygon.outer) box.add(p);
-  return box;
-}
-
 /// A number per part that none before it nearby has: boxes that touch count as near.
 auto colours_of(const std::vector<geometry::Polygon>& parts) -> std::vector<std::size_t> {
   constexpr double near = 0.5;  // m
@@ -45,7 +38,7 @@ constexpr double least_run = 0.05;  // m
 auto plan_drawing(const std::vector<geometry::Polygon>& parts, const std::vector<geometry::Polygon>& footprints,
                   double size, std::string_view label) -> std::string {
   constexpr double margin = 4;  // pixels
-  const auto box = bounds_of(footprints.empty() ? parts : footprints);
+  const auto box = geometry::bounds(footprints.empty() ? parts : footprints);
   const Point2 extent = box.empty() ? Point2{1, 1} : box.most - box.least;
   const double height = std::clamp(size * extent.y / std::max(extent.x, 1e-9), size / 3, size * 1.5);
   const Frame frame(box, size - 2 * margin, height - 2 * margin);

@@ -83,8 +83,7 @@ class Lines {
     for (std::size_t i = 0; i < 3; ++i) v[i] = world_.surface.mesh.vertices[corners[i]];
     const double doubled = cross(xy(v[1]) - xy(v[0]), xy(v[2]) - xy(v[0]));
     if (doubled == 0) return;
-    geometry::Box2 box;
-    for (const Point3 p : v) box.add(xy(p));
+    const auto box = geometry::Box2::of(v);
     const auto nodes = [&](double least, double most, double origin, std::int64_t first, std::int64_t count) {
       const auto from = static_cast<std::int64_t>(std::floor((least - origin) / lattice_.step - 0.5)) - first;
       const auto to = static_cast<std::int64_t>(std::ceil((most - origin) / lattice_.step + 0.5)) - first;

@@ -43,8 +43,7 @@ auto Nearest::row(double y) const -> std::int64_t {
 }
 
 Nearest::Nearest(const Surface& surface) : surface_(&surface) {
-  geometry::Box2 box;
-  for (const Point3 v : surface.mesh.vertices) box.add(xy(v));
+  auto box = geometry::Box2::of(surface.mesh.vertices);
   if (box.empty()) box.add({0, 0});
   origin_ = box.least;
   columns_ = static_cast<std::int64_t>((box.most.x - box.least.x) / cell) + 1;

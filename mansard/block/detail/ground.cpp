@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mansard/base/run.hpp"
+#include "mansard/base/statistics.hpp"
 #include "mansard/block/detail/near.hpp"
 #include "mansard/block/detail/neighbours.hpp"
 
@@ -26,7 +27,7 @@ auto plan(const Triangle3& t) -> PlanTriangle { return {xy(t[0]), xy(t[1]), xy(t
 /// meet.
 template <class Take>
 void cut_up(const Triangle3& t, const Box2& within, double piece_size, int depth, const Take& take) {
-  if (!box_of(plan(t)).overlaps(within)) return;
+  if (!Box2::of(plan(t)).overlaps(within)) return;
   std::size_t longest = 0;
   double most = 0;
   for (std::size_t k = 0; k < 3; ++k)
@@ -60,19 +61,14 @@ auto percentile(std::vector<Sample> samples, double share, double least) -> std:
   double all = 0;
   for (const auto& sample : samples) all += sample.weight;
   if (samples.empty() || !(all >= least)) return std::nullopt;
-  double below = 0;
-  for (const auto& sample : samples) {
-    below += sample.weight;
-    if (below >= share * all) return sample.z;
-  }
-  return samples.back().z;
+  return base::weighted_percentile_of_sorted(samples, share, &Sample::z, &Sample::weight);
 }
 
 auto ground_samples(const geometry::Mesh& mesh, const std::vector<std::vector<Polygon>>& shapes, const Options& options)
     -> std::vector<std::vector<Sample>> {
   const double reach = options.ground_ring;
   std::vector<Box2> boxes;
-  for (const auto& shape : shapes) boxes.push_back(bounds(shape).grown(reach));
+  for (const auto& shape : shapes) boxes.push_back(geometry::bounds(shape).grown(reach));
   const auto triangles = candidates(mesh, boxes);
 
   // Shapes sorted by x, so that those near a region are found without looking at all.

@@ -13,12 +13,6 @@ using geometry::Point2;
 using geometry::Ring;
 using geometry::Segment2;
 
-auto box_of(const PlanTriangle& t) -> Box2 {
-  Box2 box;
-  for (const Point2 p : t) box.add(p);
-  return box;
-}
-
 Nearness::Nearness(const std::vector<geometry::Polygon>& area, double reach) : area_(area), reach_(reach) {
   const auto add = [this](const Ring& ring) {
     for (std::size_t i = 0; i < ring.size(); ++i) edges_.push_back({ring[i], ring[(i + 1) % ring.size()]});
@@ -27,7 +21,7 @@ Nearness::Nearness(const std::vector<geometry::Polygon>& area, double reach) : a
     add(polygon.outer);
     for (const auto& hole : polygon.holes) add(hole);
   }
-  box_ = bounds(area_).grown(reach);
+  box_ = geometry::bounds(area_).grown(reach);
   if (edges_.empty()) return;
 
   // Some thousand cells: few enough to be made quickly, small enough to leave few triangles to the exact test.
@@ -64,12 +58,9 @@ auto Nearness::place(double along, double least, std::size_t count) const -> std
 }
 
 auto Nearness::exactly(const PlanTriangle& t) const -> bool {
-  const Box2 reach = box_of(t).grown(reach_);
+  const Box2 reach = Box2::of(t).grown(reach_);
   for (const auto& edge : edges_) {
-    Box2 box;
-    box.add(edge.start);
-    box.add(edge.end);
-    if (!reach.overlaps(box)) continue;
+    if (!reach.overlaps(Box2::of(edge))) continue;
     for (std::size_t k = 0; k < 3; ++k)
       if (detail::distance({t[k], t[(k + 1) % 3]}, edge) <= reach_) return true;
   }
@@ -86,7 +77,7 @@ auto Nearness::operator()(Point2 p) const -> bool {
 }
 
 auto Nearness::operator()(const PlanTriangle& t) const -> bool {
-  const Box2 box = box_of(t);
+  const Box2 box = Box2::of(t);
   if (edges_.empty() || !box_.overlaps(box)) return false;
   for (const Point2 p : t)
     if (box_.contains(p) &&
@@ -141,7 +132,7 @@ auto candidates(const geometry::Mesh& mesh, const std::vector<Box2>& regions)
   base::parallel_for(pieces, [&](std::size_t k) {
     std::vector<std::uint32_t> near;
     for (std::size_t t = k * piece; t < std::min(mesh.triangles.size(), (k + 1) * piece); ++t) {
-      const Box2 box = box_of(plan_of(mesh, mesh.triangles[t]));
+      const Box2 box = Box2::of(plan_of(mesh, mesh.triangles[t]));
       if (!box.overlaps(all)) continue;
       near.clear();
       const auto [c0, c1, r0, r1] = range(box);

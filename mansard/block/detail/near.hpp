@@ -16,8 +16,6 @@ using PlanTriangle = std::array<geometry::Point2, 3>;
   return {xy(mesh.vertices[t[0]]), xy(mesh.vertices[t[1]]), xy(mesh.vertices[t[2]])};
 }
 
-[[nodiscard]] auto box_of(const PlanTriangle& t) -> geometry::Box2;
-
 /// Answers whether a triangle, seen from above, has a point within `reach` metres of an area (or in it). Most triangles
 /// are decided by the cells of a raster that are wholly near or wholly far; the rest by exact distances to the edges.
 class Nearness {

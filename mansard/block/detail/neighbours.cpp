@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "mansard/base/disjoint_sets.hpp"
 #include "mansard/geometry/predicates.hpp"
 
 namespace mansard::block::detail {
@@ -14,19 +15,12 @@ using geometry::Polygon;
 using geometry::Ring;
 using geometry::Segment2;
 
-auto box_of(const Segment2& s) -> Box2 {
-  Box2 box;
-  box.add(s.start);
-  box.add(s.end);
-  return box;
-}
-
 auto edges_within(const Polygons& polygons, const Box2& reach) -> std::vector<Segment2> {
   std::vector<Segment2> out;
   const auto add = [&](const Ring& ring) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const Segment2 edge{ring[i], ring[(i + 1) % ring.size()]};
-      if (box_of(edge).overlaps(reach)) out.push_back(edge);
+      if (Box2::of(edge).overlaps(reach)) out.push_back(edge);
     }
   };
   for (const auto& polygon : polygons) {
@@ -39,24 +33,6 @@ auto edges_within(const Polygons& polygons, const Box2& reach) -> std::vector<Se
 auto holds(const Polygons& polygons, Point2 p) -> bool {
   return std::ranges::any_of(polygons, [p](const Polygon& polygon) { return geometry::contains(polygon, p); });
 }
-
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
-  auto root(std::size_t i) -> std::size_t {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  /// The lower index leads, so that the result does not depend on the order of calls.
-  void join(std::size_t a, std::size_t b) {
-    a = root(a);
-    b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 auto total(const Polygons& polygons) -> double {
   double sum = 0;
@@ -112,13 +88,6 @@ void restore(Polygons& polygons, const Polygons& originals) {
 
 }  // namespace
 
-auto bounds(const Polygons& polygons) -> Box2 {
-  Box2 box;
-  for (const auto& polygon : polygons)
-    for (const Point2 p : polygon.outer) box.add(p);
-  return box;
-}
-
 auto distance(const Segment2& a, const Segment2& b) -> double {
   if (geometry::meet(a, b)) return 0;
   return std::min({geometry::distance(a, b.start), geometry::distance(a, b.end), geometry::distance(b, a.start),
@@ -126,13 +95,13 @@ auto distance(const Segment2& a, const Segment2& b) -> double {
 }
 
 auto are_near(const Polygons& a, const Polygons& b, double touch) -> bool {
-  const Box2 reach_a = bounds(a).grown(touch), reach_b = bounds(b).grown(touch);
-  if (a.empty() || b.empty() || !reach_a.overlaps(bounds(b))) return false;
+  const Box2 reach_a = geometry::bounds(a).grown(touch), reach_b = geometry::bounds(b).grown(touch);
+  if (a.empty() || b.empty() || !reach_a.overlaps(geometry::bounds(b))) return false;
   const auto edges_a = edges_within(a, reach_b), edges_b = edges_within(b, reach_a);
   for (const auto& edge : edges_a) {
-    const Box2 reach = box_of(edge).grown(touch);
+    const Box2 reach = Box2::of(edge).grown(touch);
     for (const auto& other : edges_b) {
-      if (!reach.overlaps(box_of(other))) continue;
+      if (!reach.overlaps(Box2::of(other))) continue;
       if (const double apart = distance(edge, other); apart == 0 || apart < touch) return true;
     }
   }
@@ -142,22 +111,22 @@ auto are_near(const Polygons& a, const Polygons& b, double touch) -> bool {
 
 auto groups_of(const std::vector<Polygons>& shapes, double touch) -> std::vector<std::vector<std::size_t>> {
   std::vector<Box2> boxes;
-  for (const auto& shape : shapes) boxes.push_back(bounds(shape).grown(touch / 2));
-  std::vector<std::size_t> order(shapes.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair(boxes[i].least.x, i); });
+  for (const auto& shape : shapes) boxes.push_back(geometry::bounds(shape).grown(touch / 2));
+  std::vector<std::uint32_t> order(shapes.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::ranges::sort(order, {}, [&](std::uint32_t i) { return std::pair(boxes[i].least.x, i); });
 
-  Sets sets(shapes.size());
-  std::vector<std::size_t> open;  // those whose box may still meet the next one's
-  for (const std::size_t i : order) {
-    std::erase_if(open, [&](std::size_t j) { return boxes[j].most.x < boxes[i].least.x; });
-    for (const std::size_t j : open)
-      if (boxes[i].overlaps(boxes[j]) && sets.root(i) != sets.root(j) && are_near(shapes[i], shapes[j], touch))
+  base::DisjointSets sets(shapes.size());
+  std::vector<std::uint32_t> open;  // those whose box may still meet the next one's
+  for (const std::uint32_t i : order) {
+    std::erase_if(open, [&](std::uint32_t j) { return boxes[j].most.x < boxes[i].least.x; });
+    for (const std::uint32_t j : open)
+      if (boxes[i].overlaps(boxes[j]) && sets.of(i) != sets.of(j) && are_near(shapes[i], shapes[j], touch))
         sets.join(i, j);
     open.push_back(i);
   }
   std::vector<std::vector<std::size_t>> groups(shapes.size());
-  for (std::size_t i = 0; i < shapes.size(); ++i) groups[sets.root(i)].push_back(i);
+  for (std::uint32_t i = 0; i < shapes.size(); ++i) groups[sets.of(i)].push_back(i);
   std::erase_if(groups, [](const auto& group) { return group.empty(); });
   return groups;
 }

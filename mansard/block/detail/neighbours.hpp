@@ -10,8 +10,6 @@ namespace mansard::block::detail {
 
 using Polygons = std::vector<geometry::Polygon>;
 
-[[nodiscard]] auto bounds(const Polygons& polygons) -> geometry::Box2;
-
 /// m between two closed segments; 0 where they meet.
 [[nodiscard]] auto distance(const geometry::Segment2& a, const geometry::Segment2& b) -> double;
 

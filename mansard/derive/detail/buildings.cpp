@@ -3,7 +3,10 @@
 #include <map>
 #include <numeric>
 
+#include "mansard/base/disjoint_sets.hpp"
 #include "mansard/base/run.hpp"
+#include "mansard/base/statistics.hpp"
+#include "mansard/geometry/fit.hpp"
 
 namespace mansard::derive::detail {
 namespace {
@@ -16,20 +19,17 @@ struct Plane {
 /// Through the cell and those of its eight neighbours that stand too, by least squares.
 auto plane_at(const Place& place, const Heights& top, const Mask& standing, std::size_t column, std::size_t row)
     -> Plane {
-  double n = 0, sx = 0, sy = 0, sz = 0, sxx = 0, sxy = 0, syy = 0, sxz = 0, syz = 0;
+  geometry::PlaneSums sums;
   for (int dy = -1; dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx) {
       const std::size_t i = place.index(column + static_cast<std::size_t>(dx), row + static_cast<std::size_t>(dy));
-      if (standing[i] == 0) continue;
-      const double z = top[i];
-      n += 1, sx += dx, sy += dy, sz += z, sxx += dx * dx, sxy += dx * dy, syy += dy * dy, sxz += dx * z, syz += dy * z;
+      if (standing[i] != 0) sums.add(dx, dy, top[i]);
     }
-  if (n < 4) return {};
-  const double xx = sxx - sx * sx / n, xy = sxy - sx * sy / n, yy = syy - sy * sy / n, xz = sxz - sx * sz / n,
-               yz = syz - sy * sz / n, det = xx * yy - xy * xy;
-  if (det < 0.5) return {};
-  const double a = (xz * yy - yz * xy) / det, b = (yz * xx - xz * xy) / det;
-  return {a, b, (sz - a * sx - b * sy) / n, true};
+  if (sums.count < 4) return {};
+  const auto equations = sums.centred();
+  if (equations.determinant() < 0.5) return {};
+  const auto plane = sums.plane(equations.slopes());
+  return {plane.slope.x, plane.slope.y, plane.at_zero, true};
 }
 
 /// Grows one plane over the standing cells, from a seed on. It is fitted again each time it has doubled.
@@ -52,15 +52,13 @@ class Patch {
     return along * along >= options_.plane_cosine * options_.plane_cosine * steep * other;
   }
   void add(std::size_t cell) {
-    const double x = column(cell), y = row(cell), z = top_[cell];
-    n_ += 1, sx_ += x, sy_ += y, sz_ += z, sxx_ += x * x, sxy_ += x * y, syy_ += y * y, sxz_ += x * z, syz_ += y * z;
-    if (n_ < next_fit_) return;
+    sums_.add(column(cell), row(cell), top_[cell]);
+    if (sums_.count < next_fit_) return;
     next_fit_ *= 2;
-    const double xx = sxx_ - sx_ * sx_ / n_, xy = sxy_ - sx_ * sy_ / n_, yy = syy_ - sy_ * sy_ / n_,
-                 xz = sxz_ - sx_ * sz_ / n_, yz = syz_ - sy_ * sz_ / n_, det = xx * yy - xy * xy;
-    if (det <= 1e-6 * xx * yy) return;
-    a_ = (xz * yy - yz * xy) / det, b_ = (yz * xx - xz * xy) / det;
-    c_ = (sz_ - a_ * sx_ - b_ * sy_) / n_;
+    const auto equations = sums_.centred();
+    if (equations.determinant() <= 1e-6 * equations.xx * equations.yy) return;
+    const auto plane = sums_.plane(equations.slopes());
+    a_ = plane.slope.x, b_ = plane.slope.y, c_ = plane.at_zero;
   }
 
  private:
@@ -72,7 +70,8 @@ class Patch {
   const Heights& top_;
   const std::vector<Plane>& planes_;
   double a_ = 0, b_ = 0, c_ = 0;
-  double n_ = 0, sx_ = 0, sy_ = 0, sz_ = 0, sxx_ = 0, sxy_ = 0, syy_ = 0, sxz_ = 0, syz_ = 0, next_fit_ = 12;
+  geometry::PlaneSums sums_;
+  double next_fit_ = 12;
 };
 
 /// How far the cell and its neighbours are off their plane, m²: the order in which cells are seeds.
@@ -202,9 +201,7 @@ auto median_heights(const Heights& top, const std::vector<std::int32_t>& of, std
   std::vector<double> out(count, 0);
   for (std::size_t b = 1; b < count; ++b) {
     if (heights[b].empty()) continue;
-    const auto middle = heights[b].begin() + static_cast<std::ptrdiff_t>(heights[b].size() / 2);
-    std::nth_element(heights[b].begin(), middle, heights[b].end());
-    out[b] = *middle;
+    out[b] = base::median(std::move(heights[b]));
   }
   return out;
 }
@@ -212,12 +209,7 @@ auto median_heights(const Heights& top, const std::vector<std::int32_t>& of, std
 /// Joins numbers that touch and differ by less than the step, nearest heights first.
 auto joined(const Place& place, const std::vector<std::int32_t>& of, const std::vector<double>& height, double step)
     -> std::vector<std::int32_t> {
-  std::vector<std::int32_t> root(height.size());
-  std::iota(root.begin(), root.end(), 0);
-  const auto find = [&root](std::int32_t at) {
-    while (root[static_cast<std::size_t>(at)] != at) at = root[static_cast<std::size_t>(at)];
-    return at;
-  };
+  base::DisjointSets sets(height.size());
   std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> touching;
   for (std::size_t i = 0; i < of.size(); ++i)
     for_neighbours(place, i, [&](std::size_t next) {
@@ -227,10 +219,11 @@ auto joined(const Place& place, const std::vector<std::int32_t>& of, const std::
     const double difference =
         height[static_cast<std::size_t>(pair.first)] - height[static_cast<std::size_t>(pair.second)];
     if (std::abs(difference) >= step) continue;
-    const auto a = find(pair.first), b = find(pair.second);
-    root[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    sets.join(static_cast<std::uint32_t>(pair.first), static_cast<std::uint32_t>(pair.second));
   }
-  for (auto& r : root) r = find(r);
+  std::vector<std::int32_t> root;
+  for (std::uint32_t number = 0; number < height.size(); ++number)
+    root.push_back(static_cast<std::int32_t>(sets.of(number)));
   return root;
 }
 

@@ -1,6 +1,7 @@
 #include "mansard/derive/detail/ground.hpp"
 
 #include "mansard/base/run.hpp"
+#include "mansard/geometry/fit.hpp"
 #include "mansard/rays/rays.hpp"
 
 namespace mansard::derive::detail {
@@ -16,21 +17,20 @@ struct Tilt {
 
 /// Least squares over the cells that have a height and a weight.
 auto plane_through(const Place& place, const Heights& heights, const Mask& use) -> Tilt {
-  double n = 0, sx = 0, sy = 0, sz = 0, sxx = 0, sxy = 0, syy = 0, sxz = 0, syz = 0;
+  geometry::PlaneSums sums;
   const double mx = static_cast<double>(place.columns) / 2, my = static_cast<double>(place.rows) / 2;
   for (std::size_t row = 0; row < place.rows; ++row)
     for (std::size_t column = 0; column < place.columns; ++column) {
       const std::size_t i = place.index(column, row);
       if (use[i] == 0 || std::isnan(heights[i])) continue;
-      const double x = static_cast<double>(column) - mx, y = static_cast<double>(row) - my, z = heights[i];
-      n += 1, sx += x, sy += y, sz += z, sxx += x * x, sxy += x * y, syy += y * y, sxz += x * z, syz += y * z;
+      sums.add(static_cast<double>(column) - mx, static_cast<double>(row) - my, heights[i]);
     }
-  if (n < 3) return {};
-  const double xx = sxx - sx * sx / n, xy = sxy - sx * sy / n, yy = syy - sy * sy / n, xz = sxz - sx * sz / n,
-               yz = syz - sy * sz / n, det = xx * yy - xy * xy;
-  if (det <= 1e-9 * xx * yy) return {0, 0, sz / n};
-  const double a = (xz * yy - yz * xy) / det, b = (yz * xx - xz * xy) / det;
-  return {a, b, (sz - a * sx - b * sy) / n - a * mx - b * my};
+  if (sums.count < 3) return {};
+  const auto equations = sums.centred();
+  if (equations.determinant() <= 1e-9 * equations.xx * equations.yy) return {0, 0, sums.z / sums.count};
+  const auto plane = sums.plane(equations.slopes());
+  const auto [a, b] = plane.slope;
+  return {a, b, plane.at_zero - a * mx - b * my};
 }
 
 void tilt_by(const Place& place, Heights& heights, const Tilt& tilt, float sign) {

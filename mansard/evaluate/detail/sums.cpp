@@ -11,13 +11,6 @@ auto mean_square(std::span<const float> values) -> double {
 
 }  // namespace
 
-auto box_of(std::span<const geometry::Polygon> polygons) -> geometry::Box2 {
-  geometry::Box2 box;
-  for (const auto& polygon : polygons)
-    for (const auto p : polygon.outer) box.add(p);
-  return box;
-}
-
 Plan::Plan(std::span<const geometry::Polygon> footprints, double inset)
     : cover(footprints),
       of_union(inset > 0 ? Strip::along_union(footprints, inset) : Strip{}),

@@ -9,8 +9,6 @@
 
 namespace mansard::evaluate::detail {
 
-[[nodiscard]] auto box_of(std::span<const geometry::Polygon> polygons) -> geometry::Box2;
-
 /// How far inside a cell is: past the strip along the boundary of the union, past that of each footprint.
 struct Depth {
   bool inside = false, inside_each = false;

@@ -15,10 +15,9 @@ auto snapped(double metres) -> double {
 }
 
 auto box_of(GridPoint a, GridPoint b) -> Box2 {
-  Box2 box;
-  box.add({static_cast<double>(a.x), static_cast<double>(a.y)});
-  box.add({static_cast<double>(b.x), static_cast<double>(b.y)});
-  return box;  // conversion is monotone: boxes that overlap still do
+  // Conversion is monotone: boxes that overlap still do.
+  return Box2::of(geometry::Segment2{{static_cast<double>(a.x), static_cast<double>(a.y)},
+                                     {static_cast<double>(b.x), static_cast<double>(b.y)}});
 }
 
 auto within(GridPoint a, GridPoint b, GridPoint p) -> bool {

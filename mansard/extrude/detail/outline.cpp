@@ -62,10 +62,7 @@ auto clash_in(const std::vector<std::vector<ExactPoint>>& corners) -> std::optio
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t j = i + 1 < n ? i + 1 : 0;
       edges.push_back({&corners[r][i], &corners[r][j], rounded[r][i], rounded[r][j], r, i, n});
-      geometry::Box2 box;
-      box.add(rounded[r][i]);
-      box.add(rounded[r][j]);
-      boxes.push_back(box.grown(2 * off));
+      boxes.push_back(geometry::Box2::of(geometry::Segment2{rounded[r][i], rounded[r][j]}).grown(2 * off));
     }
     // A ring that came out the wrong way round has edges that cross, or none that are long enough to be kept.
     if ((geometry::signed_area(rounded[r]) > 0) != (r == 0)) return Clash{r, 0, r, 0};

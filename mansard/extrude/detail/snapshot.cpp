@@ -4,6 +4,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "mansard/base/disjoint_sets.hpp"
 #include "mansard/extrude/detail/wavefront.hpp"
 
 namespace mansard::extrude::detail {
@@ -52,7 +53,7 @@ struct Wavefront::Meeting {
   const double t;
   std::vector<std::uint32_t> vertices;                          ///< involved, sorted
   std::vector<Triple> planes;                                   ///< that meet at them
-  std::vector<std::uint32_t> leader;                            ///< of equal vertices
+  base::DisjointSets equals;                                    ///< of vertices at one place
   std::vector<std::uint32_t> site_of;                           ///< by place in `vertices`
   std::vector<std::pair<std::uint32_t, std::uint32_t>> inside;  ///< edge, vertex that touches it between its ends
   std::vector<Site> sites;
@@ -66,15 +67,6 @@ struct Wavefront::Meeting {
     const auto at = std::ranges::lower_bound(vertices, vertex);
     if (at == vertices.end() || *at != vertex) return none;
     return static_cast<std::uint32_t>(at - vertices.begin());
-  }
-  [[nodiscard]] auto root(std::uint32_t i) -> std::uint32_t {
-    while (leader[i] != i) i = leader[i] = leader[leader[i]];
-    return i;
-  }
-  void unite(std::uint32_t i, std::uint32_t j) {
-    i = root(i);
-    j = root(j);
-    leader[std::max(i, j)] = std::min(i, j);
   }
 
   /// Which vertices are involved, which of them are at one place, and which lie inside an edge.
@@ -108,16 +100,15 @@ struct Wavefront::Meeting {
         vertices.push_back(i.vertex);
         planes.push_back(wave.triple_of(contacts[i.contact]));
       }
-    leader.resize(vertices.size());
-    std::iota(leader.begin(), leader.end(), 0U);
-    for (const auto& [v, w] : equal) unite(index_of(v), index_of(w));
+    equals = base::DisjointSets(vertices.size());
+    for (const auto& [v, w] : equal) equals.join(index_of(v), index_of(w));
     std::ranges::sort(inside);
     inside.erase(std::ranges::unique(inside).begin(), inside.end());
   }
 
   /// Where vertex v lies along the edge relative to vertex w, both on it.
   [[nodiscard]] auto order_along(std::uint32_t edge, std::uint32_t v, std::uint32_t w) -> int {
-    if (root(index_of(v)) == root(index_of(w))) return 0;
+    if (equals.of(index_of(v)) == equals.of(index_of(w))) return 0;
     const PlaneId line = wave.plane_at(edge);
     // A line through v that is not along the edge; where w lies beside it.
     PlaneId through = wave.start_plane(v);
@@ -154,7 +145,7 @@ struct Wavefront::Meeting {
         first->second = order[i].vertex;
         if (i > 0 && order[i - 1].most >= order[i].least &&
             order_along(edge, order[i - 1].vertex, order[i].vertex) == 0)
-          unite(index_of(order[i - 1].vertex), index_of(order[i].vertex));
+          equals.join(index_of(order[i - 1].vertex), index_of(order[i].vertex));
       }
     }
   }
@@ -162,7 +153,7 @@ struct Wavefront::Meeting {
   void name_sites() {
     site_of.assign(vertices.size(), none);
     for (std::uint32_t i = 0; i < vertices.size(); ++i) {
-      const std::uint32_t r = root(i);
+      const std::uint32_t r = equals.of(i);
       if (site_of[r] == none) {
         site_of[r] = static_cast<std::uint32_t>(sites.size());
         const std::uint32_t point = wave.trace_.point(wave.traced(planes[r]));

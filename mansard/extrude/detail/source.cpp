@@ -178,8 +178,7 @@ class Thinning {
  public:
   Thinning(Source& source, double size) : source_(source), size_(size) {
     geometry::Box2 box;
-    for (const auto& ring : source.rings)
-      for (const Point2 p : ring.points) box.add(p);
+    for (const auto& ring : source.rings) box.include(geometry::Box2::of(ring.points));
     const Point2 origin = origin_of(box);
     for (const auto& ring : source.rings) {
       grid_.push_back(on_fine_grid(ring.points, origin));

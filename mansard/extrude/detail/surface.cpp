@@ -22,14 +22,11 @@ auto Trace::node(FaceNode node) -> std::uint32_t {
   const auto index = static_cast<std::uint32_t>(nodes_.size());
   own_names_.push_back(node.provenance);
   nodes_.push_back(std::move(node));
-  parent_.push_back(index);
+  sets_.grow();
   return index;
 }
 
-auto Trace::root(std::uint32_t node) const -> std::uint32_t {
-  while (parent_[node] != node) node = parent_[node] = parent_[parent_[node]];
-  return node;
-}
+auto Trace::root(std::uint32_t node) const -> std::uint32_t { return sets_.of(node); }
 
 void Trace::unite(std::uint32_t a, std::uint32_t b) {
   a = root(a);
@@ -37,7 +34,7 @@ void Trace::unite(std::uint32_t a, std::uint32_t b) {
   if (a == b) return;
   // The face is named after the first of the edges that sweep it.
   if (nodes_[b].provenance < nodes_[a].provenance) std::swap(nodes_[a].provenance, nodes_[b].provenance);
-  parent_[std::max(a, b)] = std::min(a, b);
+  sets_.join(a, b);
   if (b < a) nodes_[b].provenance = nodes_[a].provenance;
 }
 

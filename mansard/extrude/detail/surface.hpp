@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "mansard/base/disjoint_sets.hpp"
 #include "mansard/extrude/detail/plane.hpp"
 #include "mansard/extrude/extrude.hpp"
 
@@ -82,7 +83,7 @@ class Trace {
   std::vector<geometry::Point3> places_;
   std::vector<FaceNode> nodes_;
   std::vector<model::Provenance> own_names_;  ///< of the nodes, before any were united
-  mutable std::vector<std::uint32_t> parent_;
+  mutable base::DisjointSets sets_;           ///< of nodes; looking one up shortens paths
   std::vector<Arc> arcs_;
   std::vector<std::int64_t> cuts_;
 };

@@ -7,6 +7,7 @@
 
 #include "mansard/formats/cityjson/cityjson_document.hpp"
 #include "mansard/formats/cityjson/quantised.hpp"
+#include "mansard/geometry/fit.hpp"
 
 namespace mansard::formats::detail {
 namespace {
@@ -37,15 +38,14 @@ auto fitted(const model::Solid& solid, const std::vector<std::uint32_t>& corners
   double all = 0;
   for (const double weight : weights) all += weight;
   for (std::size_t i = 0; i < corners.size(); ++i) middle = middle + (weights[i] / all) * solid.vertices[corners[i]];
-  double uu = 0, uv = 0, vv = 0, un = 0, vn = 0;
+  geometry::SlopeEquations equations;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Point3 d = solid.vertices[corners[i]] - middle;
-    const double x = dot(u, d), y = dot(v, d), off = dot(normal, d), w = weights[i] / all;
-    uu += w * x * x, uv += w * x * y, vv += w * y * y, un += w * x * off, vn += w * y * off;
+    equations.add(dot(u, d), dot(v, d), dot(normal, d), weights[i] / all);
   }
-  const double det = uu * vv - uv * uv;
-  if (!(det > 1e-9 * (uu + vv) * (uu + vv))) return normal;  // nearly on one line
-  const double a = (un * vv - vn * uv) / det, b = (vn * uu - un * uv) / det;
+  const double size = equations.xx + equations.yy;
+  if (!(equations.determinant() > 1e-9 * size * size)) return normal;  // nearly on one line
+  const auto [a, b] = equations.slopes();
   const Point3 best = geometry::normalised(normal - (a * u + b * v));
   for (std::size_t i = 0; i < corners.size(); ++i)
     weights[i] *= std::abs(dot(best, solid.vertices[corners[i]] - middle));

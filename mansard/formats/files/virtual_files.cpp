@@ -11,6 +11,7 @@
 #include <algorithm>
 
 #include "mansard/base/files.hpp"
+#include "mansard/base/text.hpp"
 #include "mansard/crs/gdal_messages.hpp"
 
 namespace mansard::formats {
@@ -19,9 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 auto ends_with(const fs::path& path, std::string_view ending) -> bool {
-  std::string own = path.extension().string();
-  std::ranges::transform(own, own.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-  return own == ending;
+  return base::lower(path.extension().string()) == ending;
 }
 
 auto is_gdals(const fs::path& path) -> bool { return path.string().starts_with("/vsi"); }

@@ -1,18 +1,12 @@
 #include "mansard/formats/geopackage/geopackage_tables.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <set>
 
 #include "mansard/base/text.hpp"
 
 namespace mansard::formats::detail {
 namespace {
-
-auto lower(std::string text) -> std::string {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 auto geometry_type(Shape shape) -> OGRwkbGeometryType {
   switch (shape) {
@@ -137,10 +131,10 @@ auto GeopackageTable::make(GDALDataset& file, const std::string& name, const std
 auto GeopackageTable::add_fields(const std::vector<Field>& fields) -> base::Result<void> {
   std::set<std::string> taken{"fid", "geom"};
   for (int i = 0; i < layer_->GetLayerDefn()->GetFieldCount(); ++i)
-    taken.insert(lower(layer_->GetLayerDefn()->GetFieldDefn(i)->GetNameRef()));
+    taken.insert(base::lower(layer_->GetLayerDefn()->GetFieldDefn(i)->GetNameRef()));
   for (const Field& field : fields) {
     std::string name = field.name;
-    for (int n = 2; !taken.insert(lower(name)).second; ++n) name = field.name + "_" + std::to_string(n);
+    for (int n = 2; !taken.insert(base::lower(name)).second; ++n) name = field.name + "_" + std::to_string(n);
     if (!add_field(name, field.type, *layer_)) return geopackage_failure("make the field " + name);
   }
   return {};

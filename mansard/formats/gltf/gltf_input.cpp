@@ -8,6 +8,7 @@
 #include <string>
 
 #include "mansard/base/nesting.hpp"
+#include "mansard/base/text.hpp"
 #include "mansard/formats/files/hash.hpp"
 #include "mansard/formats/files/named_file.hpp"
 #include "mansard/formats/gltf/glb_container.hpp"
@@ -36,9 +37,7 @@ auto is_image(const std::string& name) -> bool {
                                                            ".ktx", ".ktx2", ".dds",  ".basis"};
   const auto dot = name.rfind('.');
   if (dot == name.npos) return false;
-  std::string ending = name.substr(dot);
-  std::ranges::transform(ending, ending.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-  return std::ranges::find(endings, ending) != endings.end();
+  return std::ranges::find(endings, base::lower(name.substr(dot))) != endings.end();
 }
 
 auto exists(const std::string& name, void*) -> bool { return !is_image(name); }

@@ -1,9 +1,9 @@
 // OBJ as modellers write it: `o` is a building, groups and materials are classes.
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <optional>
 
+#include "mansard/base/text.hpp"
 #include "mansard/formats/files/words.hpp"
 #include "mansard/formats/mesh/raw_mesh.hpp"
 #include "mansard/formats/models.hpp"
@@ -13,15 +13,9 @@ namespace {
 
 using geometry::Point3;
 
-auto lower(std::string_view text) -> std::string {
-  std::string out(text);
-  std::ranges::transform(out, out.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return out;
-}
-
 /// The class that a group or a material is named for, if any. Soffits are the undersides of roofs.
 auto class_in(std::string_view name) -> std::optional<model::SurfaceClass> {
-  const std::string word = lower(name);
+  const std::string word = base::lower(name);
   const auto has = [&](std::string_view part) { return word.find(part) != word.npos; };
   if (has("wall")) return model::SurfaceClass::wall;
   if (has("roof") || has("soffit")) return model::SurfaceClass::roof;

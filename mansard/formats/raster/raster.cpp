@@ -141,8 +141,7 @@ auto RasterFile::understand() -> base::Result<void> {
 
 /// Metres a unit of height, by the band or else by the vertical part of the CRS.
 auto RasterFile::to_metres() const -> base::Result<double> {
-  std::string unit = band_->GetUnitType();
-  std::ranges::transform(unit, unit.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+  const std::string unit = base::lower(band_->GetUnitType());
   if (unit.empty() && crs_ && crs_->IsVertical() != 0) return crs_->GetTargetLinearUnits("VERT_CS");
   if (unit.empty() || unit == "m" || unit == "metre" || unit == "meter" || unit == "metres" || unit == "meters")
     return 1.0;
@@ -307,7 +306,7 @@ auto edge_of(const Box2& box) -> std::vector<Point2> {
   return out;
 }
 
-auto box_of(const std::vector<Point2>& points) -> Box2 {
+auto finite_box_of(const std::vector<Point2>& points) -> Box2 {
   Box2 box;
   for (const auto p : points)
     if (std::isfinite(p.x) && std::isfinite(p.y)) box.add(p);
@@ -409,7 +408,7 @@ auto read_terrain(const fs::path& path, const model::Frame& frame, const Box2& w
   if (!way) return way.error();
   auto own_edge = edge_of({{0, 0}, {raster->columns() - 1.0, raster->rows() - 1.0}});
   way->to_frame(own_edge);
-  const Box2 covered = box_of(own_edge);
+  const Box2 covered = finite_box_of(own_edge);
   const Point2 origin{static_cast<double>(frame.origin[0]), static_cast<double>(frame.origin[1])};
   const Box2 box{{std::max(covered.least.x, within.least.x), std::max(covered.least.y, within.least.y)},
                  {std::min(covered.most.x, within.most.x), std::min(covered.most.y, within.most.y)}};
@@ -425,7 +424,7 @@ auto read_terrain(const fs::path& path, const model::Frame& frame, const Box2& w
       edge_of({grid.centre, grid.centre + grid.cell * Point2{double(grid.columns - 1), double(grid.rows - 1)}});
   way->to_cells(cells);
   // Curved edges may reach a little farther than the points on them.
-  const Window window = raster->window_of_cells(box_of(cells).grown(2));
+  const Window window = raster->window_of_cells(finite_box_of(cells).grown(2));
   if (window.columns <= 0 || window.rows <= 0) return beside();
   std::vector<double> read;
   std::vector<float> heights;

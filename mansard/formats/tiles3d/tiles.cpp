@@ -14,6 +14,7 @@
 namespace mansard::formats::detail {
 namespace {
 
+using geometry::Box3;
 using geometry::Point3;
 
 /// Boxes are so much larger than what is in them: the JSON of a matrix and single precision are coarser than a double.
@@ -87,20 +88,16 @@ auto flat_mesh(const model::Part& part, const PartMesh& fine, const model::Frame
 
 /// Where it lies and how large it is: by its models, else by its footprint.
 void measure(TileItem& item, const model::Building& building, const std::vector<PartMesh>& meshes) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Point3 least{infinity, infinity, infinity}, most{-infinity, -infinity, -infinity};
-  const auto grow = [&](Point3 p) {
-    least = {std::min(least.x, p.x), std::min(least.y, p.y), std::min(least.z, p.z)};
-    most = {std::max(most.x, p.x), std::max(most.y, p.y), std::max(most.z, p.z)};
-  };
+  Box3 box;
   for (const auto& mesh : meshes) {
     item.triangles += static_cast<std::uint32_t>(mesh.indices.size() / 3);
-    for (const Point3& v : mesh.vertices) grow(v);
+    for (const Point3& v : mesh.vertices) box.add(v);
   }
-  if (least.x > most.x)
+  if (box.empty())
     for (const auto& polygon : building.footprint)
-      for (const auto& p : polygon.outer) grow({p.x, p.y, building.ground});
-  if (least.x > most.x) grow({0, 0, 0});
+      for (const auto& p : polygon.outer) box.add({p.x, p.y, building.ground});
+  if (box.empty()) box.add({0, 0, 0});
+  const auto &least = box.least, &most = box.most;
   item.centre = {(least.x + most.x) / 2, (least.y + most.y) / 2};
   item.ground = least.z;
   item.height = most.z - least.z;
@@ -109,27 +106,17 @@ void measure(TileItem& item, const model::Building& building, const std::vector<
 
 // ---- the tileset
 
-/// A box along the axes of a tile.
-struct Box {
-  Point3 least{0, 0, 0}, most{0, 0, 0};
-  bool empty = true;
-  void grow(Point3 p) {
-    if (empty) least = most = p;
-    empty = false;
-    least = {std::min(least.x, p.x), std::min(least.y, p.y), std::min(least.z, p.z)};
-    most = {std::max(most.x, p.x), std::max(most.y, p.y), std::max(most.z, p.z)};
-  }
-  auto corners() const -> std::array<Point3, 8> {
-    std::array<Point3, 8> out;
-    for (unsigned i = 0; i < 8; ++i)
-      out[i] = {(i & 1U) != 0 ? most.x : least.x, (i & 2U) != 0 ? most.y : least.y, (i & 4U) != 0 ? most.z : least.z};
-    return out;
-  }
-};
+auto corners_of(const Box3& box) -> std::array<Point3, 8> {
+  const auto &least = box.least, &most = box.most;
+  std::array<Point3, 8> out;
+  for (unsigned i = 0; i < 8; ++i)
+    out[i] = {(i & 1U) != 0 ? most.x : least.x, (i & 2U) != 0 ? most.y : least.y, (i & 4U) != 0 ? most.z : least.z};
+  return out;
+}
 
 void append_point(JsonText& json, Point3 p) { json.number(p.x).number(p.y).number(p.z); }
 
-void append_box(JsonText& json, const Box& box) {
+void append_box(JsonText& json, const Box3& box) {
   const Point3 half = 0.5 * (box.most - box.least) + Point3{margin, margin, margin};
   json.key("boundingVolume").begin_object().key("box").begin_array();
   append_point(json, 0.5 * (box.least + box.most));
@@ -209,7 +196,7 @@ class TilesWriter : public CityWriter {
  private:
   struct Made {
     crs::Place place;
-    Box box;
+    Box3 box;  ///< along the axes of the tile
     double error = 0;
     bool content = false;
     std::string json;  ///< with its children; until its parent is made
@@ -239,15 +226,14 @@ class TilesWriter : public CityWriter {
   auto place(std::size_t t) -> base::Result<void> {
     const Tile& tile = tree_.tiles[t];
     if (tile.count == 0) return {};
-    geometry::Point2 least = items_[tree_.order[tile.first]].centre, most = least;
+    geometry::Box2 centres;
     double ground = std::numeric_limits<double>::infinity();
     for (std::size_t i = tile.first; i < tile.first + tile.count; ++i) {
       const TileItem& item = items_[tree_.order[i]];
-      least = {std::min(least.x, item.centre.x), std::min(least.y, item.centre.y)};
-      most = {std::max(most.x, item.centre.x), std::max(most.y, item.centre.y)};
+      centres.add(item.centre);
       ground = std::min(ground, item.ground);
     }
-    const Point3 centre{(least.x + most.x) / 2, (least.y + most.y) / 2, ground};
+    const Point3 centre{(centres.least.x + centres.most.x) / 2, (centres.least.y + centres.most.y) / 2, ground};
     made_[t].place.origin = centre;
     if (!globe_) return {};
     auto place = globe_->place(centre);
@@ -317,10 +303,10 @@ class TilesWriter : public CityWriter {
       if (auto added = add_building(**file, t, number); !added) return added;
     (*file)->end_mesh("buildings");
     if (const auto& bounds = (*file)->bounds())  // z up again
-      for (const Float3& p : *bounds) made.box.grow({p[0], -static_cast<double>(p[2]), p[1]});
+      for (const Float3& p : *bounds) made.box.add({p[0], -static_cast<double>(p[2]), p[1]});
     for (const std::size_t child : tile.children)
-      for (const Point3& corner : made_[child].box.corners())
-        made.box.grow(made.place.inside(made_[child].place.outside(corner)));
+      for (const Point3& corner : corners_of(made_[child].box))
+        made.box.add(made.place.inside(made_[child].place.outside(corner)));
     made.content = !buildings.empty();
     if (made.content) {
       base::TextSink sink;
@@ -352,7 +338,7 @@ class TilesWriter : public CityWriter {
   }
 
   auto tileset() const -> std::string {
-    const Box& box = made_[0].box;
+    const Box3& box = made_[0].box;
     using enum crs::Globe::Heights;
     const char* heights =
         !globe_ ? "There is no coordinate system: the tileset is in the local frame, not on Earth."

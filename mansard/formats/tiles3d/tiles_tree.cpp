@@ -35,13 +35,9 @@ class Builder {
   auto halves(Range r) -> std::array<Range, 2> {
     const auto begin = tree_.order.begin() + static_cast<std::ptrdiff_t>(r.first);
     const auto end = begin + static_cast<std::ptrdiff_t>(r.count);
-    geometry::Point2 least = (*items_)[*begin].centre, most = least;
-    for (auto i = begin; i != end; ++i) {
-      const auto& c = (*items_)[*i].centre;
-      least = {std::min(least.x, c.x), std::min(least.y, c.y)};
-      most = {std::max(most.x, c.x), std::max(most.y, c.y)};
-    }
-    const bool across_x = most.x - least.x >= most.y - least.y;
+    geometry::Box2 box;
+    for (auto i = begin; i != end; ++i) box.add((*items_)[*i].centre);
+    const bool across_x = box.most.x - box.least.x >= box.most.y - box.least.y;
     std::sort(begin, end, [&](std::uint32_t a, std::uint32_t b) {
       const auto &p = (*items_)[a].centre, &q = (*items_)[b].centre;
       const double u = across_x ? p.x : p.y, v = across_x ? q.x : q.y;

@@ -116,12 +116,6 @@ auto value_of(const OGRFeature& feature, int field) -> model::Value {
   }
 }
 
-auto lower(std::string_view text) -> std::string {
-  std::string out(text);
-  for (char& c : out) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-  return out;
-}
-
 auto text_of(const model::Value& value) -> std::string {
   if (const auto* text = std::get_if<std::string>(&value)) return *text;
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);
@@ -207,14 +201,14 @@ auto ids_of(const std::vector<RawFeature>& features, const std::string& attribut
   const std::vector<std::string> names = names_of(features);
   const auto find = [&names](std::string_view wanted) -> std::optional<std::string> {
     for (const auto& name : names)
-      if (lower(name) == lower(wanted)) return name;
+      if (base::lower(name) == base::lower(wanted)) return name;
     return std::nullopt;
   };
 
   if (!attribute.empty()) {
     const auto at = find(attribute);
     // Drivers keep the number of a feature apart from its attributes, where others show it as a column.
-    if (!at && lower(attribute) == "fid")
+    if (!at && base::lower(attribute) == "fid")
       if (auto numbers = numbers_of(features); all_different(numbers)) return numbers;
     if (!at) {
       const auto nearest = base::nearest_word(attribute, names);

@@ -442,11 +442,7 @@ auto bounds(const RawFeature& feature) -> geometry::Box2 {
 
 auto bounds(const std::vector<RawFeature>& features) -> geometry::Box2 {
   geometry::Box2 box;
-  for (const auto& feature : features)
-    if (const auto own = bounds(feature); !own.empty()) {
-      box.add(own.least);
-      box.add(own.most);
-    }
+  for (const auto& feature : features) box.include(bounds(feature));
   return box;
 }
 

@@ -50,8 +50,7 @@ auto Graph::edges_near(Point2 p, double distance) const -> std::vector<std::uint
 auto Graph::edges_across(const Segment2& segment) const -> std::vector<std::uint32_t> {
   using geometry::orientation;
   const Point2 a = segment.start, b = segment.end;
-  Box2 box;
-  box.add(a), box.add(b);
+  const Box2 box = Box2::of(segment);
   std::vector<std::uint32_t> found;
   edge_cells_.near(segment, 0, [&](std::uint32_t e) {
     if (!edges_[e].alive) return;

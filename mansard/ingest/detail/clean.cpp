@@ -275,33 +275,22 @@ void compact(geometry::Mesh& mesh) {
 
 }  // namespace
 
-auto bounds(const formats::RawMesh& raw, const std::array<double, 3>& offset) -> Box3 {
-  std::vector<Box3> boxes(blocks_of(raw.triangles.size()));
+auto bounds(const formats::RawMesh& raw, const std::array<double, 3>& offset) -> geometry::Box3 {
+  std::vector<geometry::Box3> boxes(blocks_of(raw.triangles.size()));
   each_block(raw.triangles.size(), [&](std::size_t block, std::size_t first, std::size_t end) {
-    Box3 box;
+    geometry::Box3 box;
     for (std::size_t i = first; i < end; ++i) {
       const Triangle& t = raw.triangles[i];
       if (!in_range(t, raw.vertices.size())) continue;
       const std::array<Point3, 3> p{moved(raw.vertices[t[0]], offset), moved(raw.vertices[t[1]], offset),
                                     moved(raw.vertices[t[2]], offset)};
       if (!usable(p[0]) || !usable(p[1]) || !usable(p[2])) continue;
-      if (box.plan.empty()) box.low = box.high = p[0].z;
-      for (const auto& corner : p) {
-        box.plan.add(xy(corner));
-        box.low = std::min(box.low, corner.z);
-        box.high = std::max(box.high, corner.z);
-      }
+      for (const auto& corner : p) box.add(corner);
     }
     boxes[block] = box;
   });
-  Box3 all;
-  for (const Box3& box : boxes) {
-    if (box.plan.empty()) continue;
-    all.low = all.plan.empty() ? box.low : std::min(all.low, box.low);
-    all.high = all.plan.empty() ? box.high : std::max(all.high, box.high);
-    all.plan.add(box.plan.least);
-    all.plan.add(box.plan.most);
-  }
+  geometry::Box3 all;
+  for (const auto& box : boxes) all.include(box);
   return all;
 }
 
@@ -331,11 +320,7 @@ auto clean(formats::RawMesh raw, const std::array<double, 3>& shift, const std::
       t = {place[t[0]], place[t[1]], place[t[2]]};
       if (std::ranges::find(t, formats::no_vertex) != t.end()) return ++found[block].not_finite, false;
       const Point3 a = raw.vertices[t[0]], b = raw.vertices[t[1]], c = raw.vertices[t[2]];
-      if (within) {
-        geometry::Box2 box;
-        for (const Point3 p : {a, b, c}) box.add(xy(p));
-        if (!box.overlaps(*within)) return false;
-      }
+      if (within && !geometry::Box2::of(std::array{a, b, c}).overlaps(*within)) return false;
       return has_area(a, b, c) || (++found[block].degenerate, false);
     });
   }

@@ -8,13 +8,8 @@
 
 namespace mansard::ingest::detail {
 
-struct Box3 {
-  geometry::Box2 plan;
-  double low = 0, high = 0;  ///< metres; both 0 when the box is empty
-};
-
 /// Of the triangles that can be used, in raw coordinates plus the offset.
-[[nodiscard]] auto bounds(const formats::RawMesh& raw, const std::array<double, 3>& offset) -> Box3;
+[[nodiscard]] auto bounds(const formats::RawMesh& raw, const std::array<double, 3>& offset) -> geometry::Box3;
 
 struct CleanMesh {
   geometry::Mesh mesh;

@@ -210,7 +210,7 @@ auto MeshReading::plan() const -> Box2 {
   const Point2 offset{options_.mesh_offset[0], options_.mesh_offset[1]};
   for (const auto& source : sources_) {
     Box2 box;
-    if (source.kind == Kind::file) box = bounds(source.piece.mesh, {0, 0, 0}).plan;
+    if (source.kind == Kind::file) box = bounds(source.piece.mesh, {0, 0, 0}).plan();
     if (source.tileset) box = source.tileset->plan();
     if (box.empty()) continue;
     out.add(box.least + offset);

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "mansard/base/statistics.hpp"
+
 namespace mansard::label::detail {
 namespace {
 
@@ -17,8 +19,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Terrain::Terrain(const geometry::Mesh& mesh, const std::function<bool(std::size_t)>& use, double size, double steepest)
     : size_(size) {
-  geometry::Box2 box;
-  for (const Point3 v : mesh.vertices) box.add(xy(v));
+  const auto box = geometry::Box2::of(mesh.vertices);
   if (box.empty()) return;
   origin_ = box.least;
   columns_ = static_cast<std::int64_t>((box.most.x - box.least.x) / size) + 1;
@@ -36,9 +37,8 @@ Terrain::Terrain(const geometry::Mesh& mesh, const std::function<bool(std::size_
       cells_.push_back({infinity, infinity});
       continue;
     }
-    const auto low = heights.begin() + static_cast<std::ptrdiff_t>((heights.size() - 1) / 10);
-    std::ranges::nth_element(heights, low);
-    cells_.push_back({*low, *low});
+    const double low = base::percentile(std::move(heights), 0.1, base::Rank::below);
+    cells_.push_back({low, low});
   }
   level(steepest);
 }

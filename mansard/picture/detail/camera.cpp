@@ -26,18 +26,13 @@ auto camera_for(const View& view, std::span<const Point3> points) -> Camera {
     camera.up = geometry::cross(camera.towards, camera.right);
   }
 
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Point3 least{infinity, infinity, infinity}, most{-infinity, -infinity, -infinity};
-  for (const Point3& p : points) {
-    const Point3 q{dot(p, camera.right), dot(p, camera.up), dot(p, camera.towards)};
-    least = {std::min(least.x, q.x), std::min(least.y, q.y), std::min(least.z, q.z)};
-    most = {std::max(most.x, q.x), std::max(most.y, q.y), std::max(most.z, q.z)};
-  }
-  const Point3 middle = 0.5 * (least + most), size = most - least;
+  geometry::Box3 box;
+  for (const Point3& p : points) box.add({dot(p, camera.right), dot(p, camera.up), dot(p, camera.towards)});
+  const Point3 middle = 0.5 * (box.least + box.most), size = box.most - box.least;
   const double room = 1 - 2 * margin;
   camera.pixel = std::max(
       {size.x / (room * static_cast<double>(view.width)), size.y / (room * static_cast<double>(view.height)), 1e-6});
-  camera.eye = middle.x * camera.right + middle.y * camera.up + (most.z + 1) * camera.towards;
+  camera.eye = middle.x * camera.right + middle.y * camera.up + (box.most.z + 1) * camera.towards;
   return camera;
 }
 

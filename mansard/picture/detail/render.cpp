@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "mansard/base/statistics.hpp"
+
 namespace mansard::picture::detail {
 namespace {
 
@@ -99,19 +101,17 @@ class Renderer {
         sky_(sky_directions()),
         disc_(sun_disc()) {
     std::vector<double> heights;
-    Point3 least = model.mesh.vertices[model.mesh.triangles[0][0]], most = least;
+    geometry::Box3 box;
     for (const auto& t : model.mesh.triangles)
       for (const auto v : t) {
         const Point3& p = model.mesh.vertices[v];
         heights.push_back(p.z);
-        least = {std::min(least.x, p.x), std::min(least.y, p.y), std::min(least.z, p.z)};
-        most = {std::max(most.x, p.x), std::max(most.y, p.y), std::max(most.z, p.z)};
+        box.add(p);
       }
     // Scans have debris far below the ground; the paper lies under all but the lowest hundredth.
-    const auto low = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 100);
-    std::nth_element(heights.begin(), low, heights.end());
-    paper_height_ = *low - 1e-3;
-    const double size = length(most - least);
+    const auto hundredth = heights.size() / 100;
+    paper_height_ = base::ranked(std::move(heights), hundredth) - 1e-3;
+    const double size = length(box.most - box.least);
     reach_ = 0.2 * size;
     lift_ = 1e-3 + 2e-5 * size;
   }

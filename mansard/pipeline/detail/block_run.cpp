@@ -1,5 +1,6 @@
 #include "mansard/pipeline/detail/block_run.hpp"
 
+#include "mansard/base/statistics.hpp"
 #include "mansard/pipeline/detail/assemble.hpp"
 #include "mansard/pipeline/detail/model_attributes.hpp"
 #include "mansard/pipeline/detail/uncovered.hpp"
@@ -31,7 +32,7 @@ auto plain_prism(std::size_t feature, const Polygon& polygon, double ground, con
   double height = options.assumed_height;
   if (!heights.empty()) {
     constexpr double least_height = 0.5;  // lower than a step is no building; keeps the prism a solid
-    height = std::max(least_height, percentile(heights, 0.5) - ground);
+    height = std::max(least_height, base::percentile_of_sorted(heights, 0.5) - ground);
   }
   part.plan = profile::vertical_plan(polygon, ground, height);
   auto raised = raise_part(part.plan, options, run);
@@ -116,7 +117,8 @@ void fill_in(const block::Block& block, const rays::Scene& mesh, const Options& 
     std::optional<base::Diagnostic> failure;
     for (const auto& polygon : left.polygons) {
       const auto heights = heights_over(mesh, polygon, options.roof_grid);
-      const bool low = !heights.empty() && percentile(heights, 0.5) - member.ground < options.segment.min_height;
+      const bool low =
+          !heights.empty() && base::percentile_of_sorted(heights, 0.5) - member.ground < options.segment.min_height;
       const auto why =
           heights.empty() ? no_mesh()
           : block_failure ? *block_failure

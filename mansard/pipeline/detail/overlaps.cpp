@@ -33,7 +33,7 @@ auto standing(std::size_t order, std::size_t building, const model::Part& part) 
     for (const auto& loop : face.loops) {
       geometry::Ring ring;
       for (const auto v : loop) ring.push_back(geometry::xy(solid.vertices[v]));
-      for (const auto p : ring) out.box.add(p);
+      out.box.include(geometry::bounds(ring));
       if (polygon.outer.empty()) polygon.outer = std::move(ring);
       else polygon.holes.push_back(std::move(ring));
     }

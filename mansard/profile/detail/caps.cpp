@@ -4,25 +4,16 @@
 #include <cmath>
 #include <optional>
 
-#include "mansard/base/sorted.hpp"
+#include "mansard/base/statistics.hpp"
 
 namespace mansard::profile::detail {
 namespace {
-
-auto percentile(std::span<const double> sorted, double share) -> double {
-  const auto last = static_cast<double>(sorted.size() - 1);
-  return sorted[static_cast<std::size_t>(std::floor(share * last + 0.5))];
-}
 
 /// The height under which that share of the runs' length ends.
 auto common_top(std::vector<ProfileTop>& tops, double share) -> std::optional<double> {
   if (tops.empty()) return std::nullopt;
   std::ranges::sort(tops, {}, &ProfileTop::height);
-  double total = 0, passed = 0;
-  for (const auto& top : tops) total += top.length;
-  for (const auto& top : tops)
-    if ((passed += top.length) >= share * total) return top.height;
-  return tops.back().height;
+  return base::weighted_percentile_of_sorted(tops, share, &ProfileTop::height, &ProfileTop::length);
 }
 
 }  // namespace
@@ -32,8 +23,9 @@ auto caps_from(std::span<const double> heights, std::vector<ProfileTop> tops, bo
   const auto top = common_top(tops, o.cap_top_share);
   if (heights.empty()) return {std::max(o.minimum_height, pitched && top ? *top + o.cap_clear : assumed)};
 
-  const double median = percentile(heights, 0.5), high = percentile(heights, o.cap_high),
-               ridge = percentile(heights, o.cap_ridge);
+  const double median = base::percentile_of_sorted(heights, 0.5),
+               high = base::percentile_of_sorted(heights, o.cap_high),
+               ridge = base::percentile_of_sorted(heights, o.cap_ridge);
   std::vector<double> wanted;
   if (pitched) {
     // First a cap the roofs close under: a ridge cut off flat a little too low would be seen on every house.

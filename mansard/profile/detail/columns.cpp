@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "mansard/base/statistics.hpp"
+#include "mansard/geometry/fit.hpp"
+
 namespace mansard::profile::detail {
 namespace {
 
@@ -13,38 +16,31 @@ auto middle(std::size_t column, const Options& o) -> double {
   return (static_cast<double>(column) + 0.5) * o.column_width;
 }
 
-auto median(std::vector<double>& values) -> double {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, at);
-  return *at;
-}
-
 /// Slopes of the plane through the columns [from, from + rising_tile) of neighbouring slices, by least squares.
 struct Slope {
   double inward = 0, along = 0;
 };
 auto slope_of(std::span<const SliceColumns> slices, std::size_t begin, std::size_t end, std::size_t from,
               const Options& o) -> std::optional<Slope> {
-  double n = 0, u = 0, t = 0, h = 0, uu = 0, tt = 0, ut = 0, uh = 0, th = 0;
+  geometry::PlaneSums sums;  // heights over inward and along
   const double u0 = middle(from, o), t0 = slices[begin].along;
   std::size_t present = 0, possible = 0;
   for (std::size_t s = begin; s < end; ++s) {
     for (std::size_t b = from; b < from + o.rising_tile; ++b) {
       ++possible;
       if (b >= slices[s].heights.size() || std::isnan(slices[s].heights[b])) continue;
-      const double du = middle(b, o) - u0, dt = slices[s].along - t0, height = slices[s].heights[b];
       ++present;
-      n += 1, u += du, t += dt, h += height;
-      uu += du * du, tt += dt * dt, ut += du * dt, uh += du * height, th += dt * height;
+      sums.add(middle(b, o) - u0, slices[s].along - t0, slices[s].heights[b]);
     }
   }
   if (present < 3 || 2 * present < possible) return std::nullopt;
-  uu -= u * u / n, tt -= t * t / n, ut -= u * t / n, uh -= u * h / n, th -= t * h / n;
-  if (uu <= 0) return std::nullopt;
-  const double determinant = uu * tt - ut * ut;
+  const auto equations = sums.centred();
+  if (equations.xx <= 0) return std::nullopt;
   // A single slice, or as good as one, says nothing about the slope along the run.
-  if (tt < 1e-6 * uu || determinant < 1e-9) return Slope{uh / uu, 0};
-  return Slope{(uh * tt - th * ut) / determinant, (th * uu - uh * ut) / determinant};
+  if (equations.yy < 1e-6 * equations.xx || equations.determinant() < 1e-9)
+    return Slope{equations.xz / equations.xx, 0};
+  const auto slope = equations.slopes();
+  return Slope{slope.x, slope.y};
 }
 
 }  // namespace
@@ -123,7 +119,7 @@ auto pool(std::span<const SliceColumns> slices, const Options& o) -> std::vector
       if (slice.first <= b && b < slice.last && !std::isnan(slice.heights[b])) heights.push_back(slice.heights[b]);
     if (heights.size() < enough) continue;
     const auto weight = static_cast<double>(heights.size());
-    pooled.push_back({middle(b, o), median(heights), weight});
+    pooled.push_back({middle(b, o), base::median(std::move(heights)), weight});
   }
   return pooled;
 }
@@ -137,10 +133,10 @@ auto edge_height(std::span<const SliceColumns> slices, const Options& o) -> std:
     for (std::size_t b = std::min(from, slice.heights.size()); b < std::min(from + o.rising_tile, slice.heights.size());
          ++b)
       if (!std::isnan(slice.heights[b])) near.push_back(slice.heights[b]);
-    if (!near.empty()) heights.push_back(median(near));
+    if (!near.empty()) heights.push_back(base::median(std::move(near)));
   }
   if (heights.empty()) return std::nullopt;
-  return median(heights);
+  return base::median(std::move(heights));
 }
 
 auto find_setback(std::span<const SliceColumns> slices, const Options& o) -> std::optional<Setback> {
@@ -152,7 +148,7 @@ auto find_setback(std::span<const SliceColumns> slices, const Options& o) -> std
     for (const auto& slice : slices)
       if (b < slice.heights.size() && !std::isnan(slice.heights[b])) heights.push_back(slice.heights[b]);
     if (2 * heights.size() < slices.size()) break;
-    middles.push_back(median(heights));
+    middles.push_back(base::median(std::move(heights)));
   }
   // The first step up, where it is steepest.
   std::size_t wall = 0;
@@ -175,8 +171,7 @@ auto find_setback(std::span<const SliceColumns> slices, const Options& o) -> std
              end = middles.begin() + static_cast<std::ptrdiff_t>(wall - o.setback_blur) + 1;
   const auto [low, high] = std::minmax_element(begin, end);
   if (*high - *low > o.setback_level) return std::nullopt;
-  std::vector<double> before(begin, end);
-  const Setback setback{static_cast<double>(wall) * o.column_width, median(before)};
+  const Setback setback{static_cast<double>(wall) * o.column_width, base::median(std::vector<double>(begin, end))};
   if (setback.height < o.setback_height) return std::nullopt;
 
   std::size_t agreeing = 0;

@@ -15,9 +15,7 @@ using geometry::Point2;
 using geometry::Point3;
 
 auto box_of(const Mesh& mesh, const geometry::Triangle& triangle) -> Box2 {
-  Box2 box;
-  for (const auto corner : triangle) box.add(geometry::xy(mesh.vertices[corner]));
-  return box;
+  return Box2::of(std::array{mesh.vertices[triangle[0]], mesh.vertices[triangle[1]], mesh.vertices[triangle[2]]});
 }
 
 /// Keeps the part of the piece between two inward distances.
@@ -35,8 +33,7 @@ auto clipped(SectionPoint a, SectionPoint b, double from, double to)
 
 }  // namespace
 
-SectionIndex::SectionIndex(const Mesh& mesh) : mesh_(&mesh) {
-  for (const Point3& v : mesh.vertices) box_.add(geometry::xy(v));
+SectionIndex::SectionIndex(const Mesh& mesh) : mesh_(&mesh), box_(Box2::of(mesh.vertices)) {
   if (mesh.triangles.empty() || box_.empty()) return;
   // Metre cells suit scans of a few triangles per square metre; at most some four million of them.
   const double width = box_.most.x - box_.least.x, depth = box_.most.y - box_.least.y;

@@ -8,7 +8,8 @@
 #include <span>
 #include <utility>
 
-#include "mansard/base/sorted.hpp"
+#include "mansard/base/statistics.hpp"
+#include "mansard/geometry/fit.hpp"
 #include "mansard/refine/detail/lines.hpp"
 
 namespace mansard::refine::detail {
@@ -52,45 +53,23 @@ auto common_line(std::span<const Look> looks, const Options::Lines& options) -> 
   return line_through(looks, {mean / static_cast<double>(looks.size()), 0}, options);
 }
 
-/// Σ weighed squares that the best line leaves of looks, from running sums.
-struct Sums {
-  double w = 0, x = 0, z = 0, xx = 0, xz = 0, zz = 0;
-  void add(const Look& look) {
-    w += look.weight;
-    x += look.weight * look.inward;
-    z += look.weight * look.height;
-    xx += look.weight * look.inward * look.inward;
-    xz += look.weight * look.inward * look.height;
-    zz += look.weight * look.height * look.height;
-  }
-  [[nodiscard]] auto less(const Sums& o) const -> Sums {
-    return {w - o.w, x - o.x, z - o.z, xx - o.xx, xz - o.xz, zz - o.zz};
-  }
-  [[nodiscard]] auto left() const -> double {
-    if (!(w > 0)) return 0;
-    const double across = xx - x * x / w, along = xz - x * z / w, all = zz - z * z / w;
-    return across > 0 ? std::max(0.0, all - along * along / across) : all;
-  }
-  [[nodiscard]] auto left_level() const -> double { return w > 0 ? std::max(0.0, zz - z * z / w) : 0; }
-};
-
 /// A steep roof and a flatter one above it, of whatever distance from the sides parts them best. A melted corner, or a
 /// wall behind the outline, looks the same but for its size.
 auto mansard_line(std::vector<Look> looks, const Options& options) -> std::optional<Profile> {
   const auto& mansard = options.mansard;
   const auto fewest = static_cast<std::size_t>(options.lines.min_samples);
   std::ranges::stable_sort(looks, {}, &Look::inward);
-  std::vector<Sums> sums(1);
+  std::vector<geometry::LineSums> sums(1);
   for (const Look& look : looks) {
     sums.push_back(sums.back());
-    sums.back().add(look);
+    sums.back().add(look.inward, look.height, look.weight);
   }
   std::size_t best = 0;
-  double least = sums.back().left();
+  double least = sums.back().residual();
   for (std::size_t i = fewest; i + fewest < looks.size(); ++i) {
     if (looks[i].inward < mansard.min_split) continue;
     if (looks[i].inward > mansard.max_depth) break;
-    const double left = sums[i].left() + sums.back().less(sums[i]).left();
+    const double left = sums[i].residual() + (sums.back() - sums[i]).residual();
     if (left < least) {
       least = left;
       best = i;
@@ -124,17 +103,17 @@ auto setback(std::vector<Look> looks, const Options& options) -> std::vector<Pro
   const auto fewest = static_cast<std::size_t>(options.lines.min_samples);
   std::ranges::stable_sort(looks, {}, &Look::inward);
   std::erase_if(looks, [&](const Look& look) { return look.inward > o.max_depth + o.behind; });
-  std::vector<Sums> sums(1);
+  std::vector<geometry::LineSums> sums(1);
   for (const Look& look : looks) {
     sums.push_back(sums.back());
-    sums.back().add(look);
+    sums.back().add(look.inward, look.height, look.weight);
   }
   std::size_t best = 0;
-  double least = o.max_rest * sums.back().left();
+  double least = o.max_rest * sums.back().residual();
   for (std::size_t i = fewest; i + fewest < looks.size(); ++i) {
     if (looks[i].inward < o.min_depth) continue;
     if (looks[i].inward > o.max_depth) break;
-    const double left = sums[i].left_level() + sums.back().less(sums[i]).left();
+    const double left = sums[i].residual_level() + (sums.back() - sums[i]).residual();
     if (left < least) {
       least = left;
       best = i;
@@ -250,9 +229,7 @@ auto forms_of(const Plan& plan, const Site& site, const Options& options) -> std
   std::vector<Plan> out;
   if (site.sorted.empty()) return out;
   const auto& forms = options.forms;
-  const auto share = [&](double s) {
-    return site.sorted[static_cast<std::size_t>(s * static_cast<double>(site.sorted.size() - 1))];
-  };
+  const auto share = [&](double s) { return base::percentile_of_sorted(site.sorted, s, base::Rank::below); };
   const double top = std::max(forms.min_height, share(forms.cap_percentile) + forms.cap_clearance);
 
   for (const double level : {commonest(site.sorted, options), share(0.5)}) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mansard/geometry/fit.hpp"
+
 namespace mansard::refine::detail {
 namespace {
 
@@ -18,23 +20,14 @@ auto line_through(std::span<const Look> looks, RoofLine start, const Options::Li
   if (std::ssize(looks) < options.min_samples) return std::nullopt;
   RoofLine line = start;
   for (std::int64_t round = 0; round < options.rounds; ++round) {
-    double w = 0, x = 0, z = 0, xx = 0, xz = 0;
-    for (const Look& look : looks) {
-      const double weight = weight_of(look, line, options.robust);
-      w += weight;
-      x += weight * look.inward;
-      z += weight * look.height;
-    }
-    if (!(w > 0)) return std::nullopt;
-    x /= w;
-    z /= w;
-    for (const Look& look : looks) {
-      const double weight = weight_of(look, line, options.robust);
-      xx += weight * (look.inward - x) * (look.inward - x);
-      xz += weight * (look.inward - x) * (look.height - z);
-    }
-    const double slope = xx > 0 ? xz / xx : 0;
-    if (!((1 + slope * slope) * xx >= options.min_spread * options.min_spread * w)) return std::nullopt;
+    geometry::LineSums all, centred;
+    for (const Look& look : looks) all.add(look.inward, look.height, weight_of(look, line, options.robust));
+    if (!(all.weight > 0)) return std::nullopt;
+    const double x = all.x / all.weight, z = all.z / all.weight;
+    for (const Look& look : looks) centred.add(look.inward - x, look.height - z, weight_of(look, line, options.robust));
+    const double slope = centred.xx > 0 ? centred.xz / centred.xx : 0;
+    if (!((1 + slope * slope) * centred.xx >= options.min_spread * options.min_spread * all.weight))
+      return std::nullopt;
     line.slope = slope;
     line.at_edge = z - line.slope * x;
   }

@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "mansard/base/statistics.hpp"
 #include "mansard/refine/detail/forms.hpp"
 
 namespace mansard::refine::detail {
@@ -73,9 +74,7 @@ auto cleaned(const Ring& ring, double straight) -> Ring {
 auto caps_of(const Site& site, double otherwise, const Options& options) -> std::vector<double> {
   if (site.sorted.empty()) return {otherwise};
   const auto& forms = options.forms;
-  const auto share = [&](double s) {
-    return site.sorted[static_cast<std::size_t>(s * static_cast<double>(site.sorted.size() - 1))];
-  };
+  const auto share = [&](double s) { return base::percentile_of_sorted(site.sorted, s, base::Rank::below); };
   std::vector<double> caps;
   const double top = share(forms.cap_percentile);
   for (double cap : {commonest(site.sorted, options), top + forms.cap_clearance, top, share(0.5)}) {

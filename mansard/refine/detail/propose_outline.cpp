@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "mansard/geometry/fit.hpp"
+
 namespace mansard::refine::detail::carve {
 namespace {
 
@@ -235,15 +237,15 @@ auto profile_near(const Raster& raster, double at, const std::vector<int>& rows,
 /// The level at which a roof on one side of a wall meets it, by the line through what is clear of the wall's melt.
 auto level_beside(const std::vector<Place>& profile, double wall, int way, const Options& options)
     -> std::optional<double> {
-  double n = 0, x = 0, z = 0, xx = 0, xz = 0;
+  geometry::LineSums sums;
   for (const Place& place : profile) {
     const double d = way * (place.x - wall);
     if (d < options.samples.melt || d > options.outlines.reach) continue;
-    n += 1, x += d, z += place.level, xx += d * d, xz += d * place.level;
+    sums.add(d, place.level);
   }
-  if (n < 2) return std::nullopt;
-  const double spread = xx - x * x / n, slope = n > 2 ? (xz - x * z / n) / spread : 0;
-  return std::abs(slope) > options.outlines.max_slope ? z / n : z / n - slope * x / n;
+  if (sums.weight < 2) return std::nullopt;
+  const double slope = sums.weight > 2 ? sums.joint() / sums.spread() : 0;
+  return std::abs(slope) > options.outlines.max_slope ? sums.z / sums.weight : sums.line(slope).at_zero;
 }
 
 }  // namespace

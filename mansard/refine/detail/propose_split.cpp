@@ -13,14 +13,14 @@ namespace {
 /// Running sums over columns; entry i is of the columns before i.
 struct Sums {
   std::vector<Moments> cells;
-  std::vector<LineMoments> along;  // t is x, from the raster's corner
-  std::vector<double> area;        // cells in the part, seen or not
+  std::vector<geometry::LineSums> along;  // x from the raster's corner
+  std::vector<double> area;               // cells in the part, seen or not
 };
 
 auto sums_of(const Raster& raster) -> Sums {
   const auto count = static_cast<std::size_t>(raster.columns);
   std::vector<Moments> cells(count);
-  std::vector<LineMoments> along(count);
+  std::vector<geometry::LineSums> along(count);
   std::vector<double> area(count, 0);
   for (int j = 0; j < raster.rows; ++j)
     for (std::size_t i = 0; i < count; ++i) {
@@ -31,7 +31,8 @@ auto sums_of(const Raster& raster) -> Sums {
       cells[i].add(t, raster.spacing * j, raster.z[k], raster.residual[k]);
       along[i].add(t, raster.z[k]);
     }
-  Sums out{std::vector<Moments>(count + 1), std::vector<LineMoments>(count + 1), std::vector<double>(count + 1, 0)};
+  Sums out{std::vector<Moments>(count + 1), std::vector<geometry::LineSums>(count + 1),
+           std::vector<double>(count + 1, 0)};
   for (std::size_t i = 0; i < count; ++i) {
     out.cells[i + 1] = out.cells[i];
     out.cells[i + 1] += cells[i];
@@ -125,7 +126,7 @@ void add_ridges_along(const Raster& raster, const std::vector<std::uint8_t>& ask
   const auto bins = static_cast<std::size_t>((raster.rows + rows_per_bin - 1) / rows_per_bin);
   const double step = raster.spacing * rows_per_bin, first = -raster.spacing / 2;
   const auto sweep = [&](std::vector<double>& errors, bool backwards) {
-    std::vector<LineMoments> heap(bins), sums(bins + 1);
+    std::vector<geometry::LineSums> heap(bins), sums(bins + 1);
     for (int c = 0; c < raster.columns; ++c) {
       const int column = backwards ? raster.columns - 1 - c : c;
       for (int j = 0; j < raster.rows; ++j) {
@@ -158,7 +159,7 @@ auto gains_of(const Raster& raster, const std::vector<Crossing>& crossings, cons
                sums.area.back() - sums.area[i] >= least_cells;
   asked[count] = 1;  // the whole part
   std::vector<double> before(count + 1, 0), from(count + 1, 0), out(count + 1, -1);
-  const std::span<const LineMoments> along(sums.along);
+  const std::span<const geometry::LineSums> along(sums.along);
   for (std::size_t i = 0; i <= count; ++i) {
     if (!asked[i]) continue;
     Moments rest = sums.cells.back();
@@ -172,8 +173,8 @@ auto gains_of(const Raster& raster, const std::vector<Crossing>& crossings, cons
   for (std::size_t i = 0; i < count; ++i)
     if (asked[i]) {
       const Moments &all = sums.cells.back(), &left = sums.cells[i];
-      out[i] = gain_of({left.n, left.rr, before[i]}, {all.n - left.n, all.rr - left.rr, from[i]},
-                       {all.n, all.rr, before.back()}, options.surfaces);
+      out[i] = gain_of({left.count, left.rr, before[i]}, {all.count - left.count, all.rr - left.rr, from[i]},
+                       {all.count, all.rr, before.back()}, options.surfaces);
     }
   return out;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "mansard/base/statistics.hpp"
+
 namespace mansard::refine::detail::carve {
 namespace {
 
@@ -15,7 +17,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 
 struct Bins {
   double first = 0;  ///< m, where the first bin begins
-  std::vector<LineMoments> inside, outside;
+  std::vector<geometry::LineSums> inside, outside;
 };
 
 auto bins_of(const Raster& raster, const std::vector<std::uint8_t>& mask, geometry::Point2 along, double bin) -> Bins {
@@ -39,8 +41,8 @@ auto bins_of(const Raster& raster, const std::vector<std::uint8_t>& mask, geomet
   return out;
 }
 
-auto ridge_over(const std::vector<LineMoments>& bins, double first, const Options::Surfaces& options) -> double {
-  std::vector<LineMoments> sums(bins.size() + 1);
+auto ridge_over(const std::vector<geometry::LineSums>& bins, double first, const Options::Surfaces& options) -> double {
+  std::vector<geometry::LineSums> sums(bins.size() + 1);
   for (std::size_t i = 0; i < bins.size(); ++i) {
     sums[i + 1] = sums[i];
     sums[i + 1] += bins[i];
@@ -63,22 +65,11 @@ auto moments_of(const Raster& raster, const std::vector<std::uint8_t>& mask) -> 
   return out;
 }
 
-struct Plane {
-  double level = 0, x = 0, y = 0;  // z = level + x·x + y·y
-  [[nodiscard]] auto at(double px, double py) const -> double { return level + x * px + y * py; }
-};
-
-auto plane_of(const Moments& m) -> Plane {
-  const double xx = m.xx - m.x * m.x / m.n, xy = m.xy - m.x * m.y / m.n, yy = m.yy - m.y * m.y / m.n;
-  const double xz = m.xz - m.x * m.z / m.n, yz = m.yz - m.y * m.z / m.n;
-  const double det = xx * yy - xy * xy;
-  Plane out;
-  if (det > singular * xx * yy && det > 0) {
-    out.x = (xz * yy - yz * xy) / det;
-    out.y = (yz * xx - xz * xy) / det;
-  }
-  out.level = (m.z - out.x * m.x - out.y * m.y) / m.n;
-  return out;
+auto plane_of(const Moments& m) -> geometry::FittedPlane {
+  const auto equations = m.centred();
+  const double det = equations.determinant();
+  if (det > singular * equations.xx * equations.yy && det > 0) return m.plane(equations.slopes());
+  return m.plane({});
 }
 
 /// From the median height to a plane, taking in what comes near it, closer each time.
@@ -88,9 +79,8 @@ auto share_on_plane(const Raster& raster, const std::vector<std::uint8_t>& mask,
   for (std::size_t k = 0; k < mask.size(); ++k)
     if (mask[k] && raster.state[k] == Cell::seen) heights.push_back(raster.z[k]);
   if (heights.empty()) return 0;
-  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-  std::ranges::nth_element(heights, middle);
-  Plane plane{*middle, 0, 0};
+  const auto seen = static_cast<double>(heights.size());
+  geometry::FittedPlane plane{base::median(std::move(heights)), {}};
   double share = 0;
   for (std::int64_t round = options.plane_rounds; round-- > 0;) {
     const double near = std::ldexp(tolerance, static_cast<int>(round));
@@ -102,8 +92,8 @@ auto share_on_plane(const Raster& raster, const std::vector<std::uint8_t>& mask,
         if (mask[k] && raster.state[k] == Cell::seen && std::abs(raster.z[k] - plane.at(x, y)) <= near)
           m.add(x, y, raster.z[k], 0);
       }
-    if (m.n < 1) return 0;
-    share = m.n / static_cast<double>(heights.size());
+    if (m.count < 1) return 0;
+    share = m.count / seen;
     plane = plane_of(m);
   }
   return share;
@@ -112,49 +102,39 @@ auto share_on_plane(const Raster& raster, const std::vector<std::uint8_t>& mask,
 }  // namespace
 
 void Moments::add(double px, double py, double pz, double pr) {
-  n += 1, x += px, y += py, xx += px * px, xy += px * py, yy += py * py;
-  z += pz, xz += px * pz, yz += py * pz, zz += pz * pz, r += pr, rr += pr * pr;
+  PlaneSums::add(px, py, pz);
+  zz += pz * pz, r += pr, rr += pr * pr;
 }
 
 auto Moments::operator+=(const Moments& o) -> Moments& {
-  n += o.n, x += o.x, y += o.y, xx += o.xx, xy += o.xy, yy += o.yy;
-  z += o.z, xz += o.xz, yz += o.yz, zz += o.zz, r += o.r, rr += o.rr;
+  PlaneSums::operator+=(o);
+  zz += o.zz, r += o.r, rr += o.rr;
   return *this;
 }
 
 auto Moments::operator-=(const Moments& o) -> Moments& {
-  n -= o.n, x -= o.x, y -= o.y, xx -= o.xx, xy -= o.xy, yy -= o.yy;
-  z -= o.z, xz -= o.xz, yz -= o.yz, zz -= o.zz, r -= o.r, rr -= o.rr;
+  PlaneSums::operator-=(o);
+  zz -= o.zz, r -= o.r, rr -= o.rr;
   return *this;
-}
-
-void LineMoments::add(double pt, double pz) { n += 1, t += pt, tt += pt * pt, z += pz, tz += pt * pz, zz += pz * pz; }
-
-auto LineMoments::operator+=(const LineMoments& o) -> LineMoments& {
-  n += o.n, t += o.t, tt += o.tt, z += o.z, tz += o.tz, zz += o.zz;
-  return *this;
-}
-
-auto operator-(LineMoments a, const LineMoments& b) -> LineMoments {
-  a.n -= b.n, a.t -= b.t, a.tt -= b.tt, a.z -= b.z, a.tz -= b.tz, a.zz -= b.zz;
-  return a;
 }
 
 auto plain_error(const Moments& m) -> double {
-  if (m.n < half_a_cell) return 0;
-  const double lifted = m.rr - m.r * m.r / m.n, level = m.zz - m.z * m.z / m.n;
+  if (m.count < half_a_cell) return 0;
+  const double lifted = m.rr - m.r * m.r / m.count, level = m.zz - m.z * m.z / m.count;
   double best = std::min({m.rr, lifted, level});
-  const Plane plane = plane_of(m);
-  best = std::min(best, level - plane.x * (m.xz - m.x * m.z / m.n) - plane.y * (m.yz - m.y * m.z / m.n));
+  const auto slope = plane_of(m).slope;
+  const auto equations = m.centred();
+  best = std::min(best, level - slope.x * equations.xz - slope.y * equations.yz);
   return std::max(0.0, best);
 }
 
-auto ridge_error(const LineMoments& left, const LineMoments& right, double knot, double max_slope) -> double {
+auto ridge_error(const geometry::LineSums& left, const geometry::LineSums& right, double knot, double max_slope)
+    -> double {
   // Height at the ridge, and a fall per metre away from it on either side.
-  const double n = left.n + right.n;
-  const double a = knot * left.n - left.t, aa = (knot * left.n - 2 * left.t) * knot + left.tt;
-  const double b = right.t - knot * right.n, bb = right.tt - (2 * right.t - knot * right.n) * knot;
-  const double az = knot * left.z - left.tz, bz = right.tz - knot * right.z;
+  const double n = left.weight + right.weight;
+  const double a = knot * left.weight - left.x, aa = (knot * left.weight - 2 * left.x) * knot + left.xx;
+  const double b = right.x - knot * right.weight, bb = right.xx - (2 * right.x - knot * right.weight) * knot;
+  const double az = knot * left.z - left.xz, bz = right.xz - knot * right.z;
   if (aa < singular || bb < singular) return infinite;
   const double s = n - a * a / aa - b * b / bb;
   if (s < singular * n) return infinite;
@@ -164,12 +144,12 @@ auto ridge_error(const LineMoments& left, const LineMoments& right, double knot,
   return std::max(0.0, left.zz + right.zz - az * az / aa - bz * bz / bb - q * top);
 }
 
-auto best_ridge_error(std::span<const LineMoments> sums, double first_knot, double step,
+auto best_ridge_error(std::span<const geometry::LineSums> sums, double first_knot, double step,
                       const Options::Surfaces& options) -> double {
   double best = infinite;
   for (std::size_t i = 1; i + 1 < sums.size(); ++i) {
-    const LineMoments left = sums[i] - sums.front(), right = sums.back() - sums[i];
-    if (left.n < half_a_cell || right.n < half_a_cell) continue;
+    const geometry::LineSums left = sums[i] - sums.front(), right = sums.back() - sums[i];
+    if (left.weight < half_a_cell || right.weight < half_a_cell) continue;
     best = std::min(best, ridge_error(left, right, first_knot + step * static_cast<double>(i), options.max_slope));
   }
   return best;
@@ -188,19 +168,19 @@ auto errors_of(const Raster& raster, const std::vector<std::uint8_t>& mask, cons
   const auto [inside, outside] = moments_of(raster, mask);
   Moments all = inside;
   all += outside;
-  const auto mean = [](const Moments& m) { return m.n > 0 ? m.r / m.n : 0; };
-  Errors out{{inside.n, inside.rr, plain_error(inside)},
-             {outside.n, outside.rr, plain_error(outside)},
-             {all.n, all.rr, plain_error(all)},
+  const auto mean = [](const Moments& m) { return m.count > 0 ? m.r / m.count : 0; };
+  Errors out{{inside.count, inside.rr, plain_error(inside)},
+             {outside.count, outside.rr, plain_error(outside)},
+             {all.count, all.rr, plain_error(all)},
              mean(inside),
              mean(outside)};
   const auto improve = [](Error& error, double by) { error.best = std::min(error.best, by); };
   const double least = options.ridge_min_area / raster.cell_area();
   for (const geometry::Point2 along : {ridges.axis, geometry::left_of(ridges.axis)}) {
     const Bins bins = bins_of(raster, mask, along, options.bin);
-    if (inside.n > least) improve(out.inside, ridge_over(bins.inside, bins.first, options));
-    if (outside.n > least) improve(out.outside, ridge_over(bins.outside, bins.first, options));
-    std::vector<LineMoments> both = bins.inside;
+    if (inside.count > least) improve(out.inside, ridge_over(bins.inside, bins.first, options));
+    if (outside.count > least) improve(out.outside, ridge_over(bins.outside, bins.first, options));
+    std::vector<geometry::LineSums> both = bins.inside;
     for (std::size_t i = 0; i < both.size(); ++i) both[i] += bins.outside[i];
     improve(out.whole, ridge_over(both, bins.first, options));
   }
@@ -210,14 +190,14 @@ auto errors_of(const Raster& raster, const std::vector<std::uint8_t>& mask, cons
 auto fit_of(const Raster& raster, const std::vector<std::uint8_t>& mask, const Frame& ridges, double tolerance,
             const Options::Surfaces& options) -> Fit {
   const Moments inside = moments_of(raster, mask).inside;
-  if (inside.n < 1) return {infinite, 0};
+  if (inside.count < 1) return {infinite, 0};
   double error = plain_error(inside);
-  if (inside.n > options.ridge_min_area / raster.cell_area())
+  if (inside.count > options.ridge_min_area / raster.cell_area())
     for (const geometry::Point2 along : {ridges.axis, geometry::left_of(ridges.axis)}) {
       const Bins bins = bins_of(raster, mask, along, options.bin);
       error = std::min(error, ridge_over(bins.inside, bins.first, options));
     }
-  return {std::sqrt(error / inside.n), share_on_plane(raster, mask, tolerance, options)};
+  return {std::sqrt(error / inside.count), share_on_plane(raster, mask, tolerance, options)};
 }
 
 auto fullness_of(const Raster& raster, const std::vector<std::uint8_t>& mask, std::int64_t part) -> double {
@@ -229,24 +209,22 @@ auto fullness_of(const Raster& raster, const std::vector<std::uint8_t>& mask, st
   for (const float r : residuals) mean += r / static_cast<double>(residuals.size());
   if (mean < 0)
     for (float& r : residuals) r = -r;
-  const auto high = residuals.begin() + std::ssize(residuals) * (part - 1) / part;
-  std::ranges::nth_element(residuals, high);
-  return *high > 0 ? std::abs(mean) / *high : 1;
+  const auto rank = static_cast<std::size_t>(std::ssize(residuals) * (part - 1) / part);
+  const float high = base::ranked(std::move(residuals), rank);
+  return high > 0 ? std::abs(mean) / high : 1;
 }
 
 auto hipped_error(const Raster& raster, const std::vector<std::uint8_t>& mask, const geometry::Polygon& polygon)
     -> double {
-  LineMoments m;
+  geometry::LineSums m;
   for (int j = 0; j < raster.rows; ++j)
     for (int i = 0; i < raster.columns; ++i) {
       const std::size_t k = raster.at(i, j);
       if (!mask[k] || raster.state[k] != Cell::seen) continue;
       m.add(geometry::boundary_distance(polygon, raster.frame.back({raster.x(i), raster.y(j)})), raster.z[k]);
     }
-  if (m.n < 1) return infinite;
-  const double tt = m.tt - m.t * m.t / m.n, tz = m.tz - m.t * m.z / m.n, zz = m.zz - m.z * m.z / m.n;
-  if (tt <= 0 || tz < 0) return infinite;
-  return std::sqrt(std::max(0.0, zz - tz * tz / tt) / m.n);
+  if (m.weight < 1 || m.spread() <= 0 || m.joint() < 0) return infinite;
+  return std::sqrt(m.residual() / m.weight);
 }
 
 }  // namespace mansard::refine::detail::carve

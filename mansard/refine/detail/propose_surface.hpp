@@ -5,24 +5,17 @@
 #include <span>
 #include <vector>
 
+#include "mansard/geometry/fit.hpp"
 #include "mansard/refine/detail/propose_raster.hpp"
 
 namespace mansard::refine::detail::carve {
 
 /// Sums over cells; x and y from the raster's corner, metres.
-struct Moments {
-  double n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0, z = 0, xz = 0, yz = 0, zz = 0, r = 0, rr = 0;
+struct Moments : geometry::PlaneSums {
+  double zz = 0, r = 0, rr = 0;  ///< r: residuals of the model
   void add(double px, double py, double pz, double pr);
   auto operator+=(const Moments& o) -> Moments&;
   auto operator-=(const Moments& o) -> Moments&;
-};
-
-/// Sums over cells along one direction.
-struct LineMoments {
-  double n = 0, t = 0, tt = 0, z = 0, tz = 0, zz = 0;
-  void add(double pt, double pz);
-  auto operator+=(const LineMoments& o) -> LineMoments&;
-  friend auto operator-(LineMoments a, const LineMoments& b) -> LineMoments;
 };
 
 /// Σ squared error, m² × cells, of the best of: the model, the model lifted, a level, a plane.
@@ -30,12 +23,12 @@ struct LineMoments {
 
 /// Of the best roof with its ridge at `knot` across the direction, sums given left and right of it. Infinite where the
 /// two slopes make a valley, which is two roofs, or one is too steep for a roof.
-[[nodiscard]] auto ridge_error(const LineMoments& left, const LineMoments& right, double knot, double max_slope)
-    -> double;
+[[nodiscard]] auto ridge_error(const geometry::LineSums& left, const geometry::LineSums& right, double knot,
+                               double max_slope) -> double;
 
 /// Of the best of all ridges over a row of bins, given as running sums: bin i is sums[i + 1] − sums[i], knots between
 /// bins at first_knot + i·step.
-[[nodiscard]] auto best_ridge_error(std::span<const LineMoments> sums, double first_knot, double step,
+[[nodiscard]] auto best_ridge_error(std::span<const geometry::LineSums> sums, double first_knot, double step,
                                     const Options::Surfaces& options) -> double;
 
 /// Errors of one set of cells, m² × cells: of the model as it is, and of the best simple surface (or the model).

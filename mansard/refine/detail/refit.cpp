@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "mansard/base/sorted.hpp"
+#include "mansard/base/statistics.hpp"
 #include "mansard/refine/detail/lines.hpp"
 
 namespace mansard::refine::detail {

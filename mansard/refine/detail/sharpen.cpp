@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "mansard/base/statistics.hpp"
 #include "mansard/refine/detail/forms.hpp"
 #include "mansard/refine/detail/refit.hpp"
 
@@ -28,7 +29,7 @@ auto nearly_level(const Plan& plan, double flattest) -> bool {
 /// Flat, at the height of most of what is seen.
 auto levelled(const Plan& plan, const Site& site, const Options::Forms& options) -> Plan {
   Plan flat = plan;
-  flat.cap = std::max(options.min_height, site.sorted[site.sorted.size() / 2]);
+  flat.cap = std::max(options.min_height, base::median_of_sorted(site.sorted));
   for (auto& profile : flat.profiles) profile = wall(flat.cap, options);
   return flat;
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "mansard/base/sorted.hpp"
+#include "mansard/base/statistics.hpp"
 
 namespace mansard::refine::detail {
 namespace {
@@ -46,9 +46,7 @@ auto grid_over(const Polygon& polygon, double spacing) -> Heights {
 /// Calls see(cell) for every cell of the grid whose centre is nearer to the edge than `within`.
 template <class See>
 void each_near(Point2 a, Point2 b, double within, const Heights& grid, See see) {
-  geometry::Box2 box;
-  box.add(a);
-  box.add(b);
+  const auto box = geometry::Box2::of(geometry::Segment2{a, b});
   const auto index = [&grid](double v, double origin, std::size_t count) {
     return static_cast<std::size_t>(
         std::clamp(std::ceil((v - origin) / grid.spacing), 0.0, static_cast<double>(count)));

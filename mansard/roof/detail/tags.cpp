@@ -48,14 +48,8 @@ auto text_of(const model::Value& value) -> std::string {
 
 }  // namespace
 
-auto lower(std::string_view text) -> std::string {
-  std::string out(text);
-  for (char& c : out) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-  return out;
-}
-
 auto plain(std::string_view name) -> std::string {
-  std::string out = lower(name);
+  std::string out = base::lower(name);
   for (char& c : out)
     if (c == ':' || c == '-' || c == '.' || c == ' ') c = '_';
   return out;
@@ -174,7 +168,7 @@ auto in_hstore(std::string_view text, std::string_view key) -> std::optional<std
       const auto end = std::min(text.find_first_of(",}", sign), text.size());
       value = std::string(trimmed(text.substr(sign, end - sign)));
       at = end;
-      if (const auto word = lower(value); word == "null") value.clear();
+      if (const auto word = base::lower(value); word == "null") value.clear();
     } else if (!next(value)) {
       return std::nullopt;
     }
@@ -188,7 +182,7 @@ auto length_of(std::string_view text) -> std::optional<double> {
   text = trimmed(text);
   const auto number = take_number(text);
   if (!number) return std::nullopt;
-  const std::string unit = lower(trimmed(text));
+  const std::string unit = base::lower(trimmed(text));
   static constexpr std::array metres{"", "m", "m.", "meter", "meters", "metre", "metres"};
   if (std::ranges::find(metres, unit) != metres.end()) return *number;
   if (unit == "cm") return *number / 100;
@@ -220,7 +214,7 @@ auto count_of(std::string_view text) -> std::optional<double> {
 auto angle_of(std::string_view text) -> std::optional<double> {
   text = trimmed(text);
   const auto number = take_number(text);
-  const std::string unit = lower(trimmed(text));
+  const std::string unit = base::lower(trimmed(text));
   if (!number || (!unit.empty() && unit != "\xc2\xb0" && unit != "deg" && unit != "degree" && unit != "degrees"))
     return std::nullopt;
   return *number * std::numbers::pi / 180;
@@ -233,7 +227,7 @@ auto bearing_of(std::string_view text) -> std::optional<double> {
     return turned < 0 ? turned + round : turned;
   }
   std::string word;  // "north-east" becomes "ne"
-  const std::string given = lower(trimmed(text));
+  const std::string given = base::lower(trimmed(text));
   for (std::size_t at = 0; at < given.size();) {
     const std::string_view rest = std::string_view(given).substr(at);
     bool found = false;

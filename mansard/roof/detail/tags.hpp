@@ -59,7 +59,6 @@ class Tags {
 /// The value of a key in hstore text ("a"=>"b", "c"=>"d") or a JSON object of texts.
 [[nodiscard]] auto in_hstore(std::string_view text, std::string_view key) -> std::optional<std::string>;
 
-[[nodiscard]] auto lower(std::string_view text) -> std::string;
 /// Lower case with '_' for ':', '-', '.' and blanks.
 [[nodiscard]] auto plain(std::string_view name) -> std::string;
 

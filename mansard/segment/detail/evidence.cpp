@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "mansard/base/statistics.hpp"
 #include "mansard/segment/detail/origins.hpp"
 
 namespace mansard::segment::detail {
@@ -51,11 +52,6 @@ auto is_in(const MemberBoxes& m, Point2 p) -> bool {
   for (std::size_t i = 0; i < m.boxes.size(); ++i)
     if (m.boxes[i].contains(p) && geometry::contains(m.member->polygons[i], p)) return true;
   return false;
-}
-
-auto median_of_sorted(const std::vector<double>& values) -> double {
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
 }
 
 /// Heights where the mesh has a hole over the footprints: the neighbour's across the longest edge that is no wall,
@@ -121,7 +117,7 @@ auto measure(const fracture::Arrangement& arrangement, const block::Block& block
     const auto total = static_cast<double>(points.size());
     face.gis_share = static_cast<double>(inside) / total;
     face.seen = !samples.heights.empty();
-    if (face.seen) face.height = median_of_sorted(samples.heights);
+    if (face.seen) face.height = base::mean_median_of_sorted(samples.heights);
     std::size_t most = 0;
     for (std::size_t i = 0; i < near.size(); ++i) {
       if (hits[i] == 0) continue;

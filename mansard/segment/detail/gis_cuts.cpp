@@ -23,12 +23,6 @@ auto edges_of(const block::Member& member) -> std::vector<Segment2> {
   return edges;
 }
 
-auto box_of(const Segment2& s) -> Box2 {
-  Box2 box;
-  box.add(s.start), box.add(s.end);
-  return box;
-}
-
 /// The part of `edge`, from 0 to its length, where `other` runs along it; empty (from ≥ to) if none.
 auto shared(const Segment2& edge, const Segment2& other, const Options& o) -> std::pair<double, double> {
   const Point2 a = edge.end - edge.start, b = other.end - other.start;
@@ -90,11 +84,11 @@ auto party_lines(const block::Block& block, const Options& o) -> std::vector<Seg
     for (std::size_t n = m + 1; n < edges.size(); ++n)
       if (!boxes[m].empty() && !boxes[n].empty() && boxes[m].grown(o.gis_near).overlaps(boxes[n])) others.push_back(n);
     for (const Segment2& edge : edges[m]) {
-      const Box2 box = box_of(edge).grown(o.gis_near);
+      const Box2 box = Box2::of(edge).grown(o.gis_near);
       std::vector<std::pair<double, double>> stretches;
       for (const std::size_t n : others)
         for (const Segment2& other : edges[n]) {
-          if (!box.overlaps(box_of(other))) continue;
+          if (!box.overlaps(Box2::of(other))) continue;
           const auto stretch = shared(edge, other, o);
           if (stretch.first < stretch.second) stretches.push_back(stretch);
         }
@@ -111,10 +105,10 @@ auto torn_lines(const block::Block& block, const sweep::SweepEdges& sweeps, cons
   std::vector<Segment2> lines;
   for (std::size_t m = 0; m < edges.size(); ++m)
     for (const Segment2& edge : edges[m]) {
-      const Box2 box = box_of(edge).grown(o.gis_near);
+      const Box2 box = Box2::of(edge).grown(o.gis_near);
       std::vector<std::pair<double, double>> known;  // stretches along which the wall is known already
       const auto look = [&](const Segment2& other) {
-        if (!box.overlaps(box_of(other))) return;
+        if (!box.overlaps(Box2::of(other))) return;
         const auto stretch = shared(edge, other, o);
         if (stretch.first < stretch.second) known.push_back(stretch);
       };

@@ -6,6 +6,9 @@
 #include <limits>
 #include <optional>
 
+#include "mansard/base/statistics.hpp"
+#include "mansard/geometry/fit.hpp"
+
 namespace mansard::sweep::detail {
 
 using geometry::Point2;
@@ -25,19 +28,6 @@ struct Frame {
     return origin + s * direction + depth * geometry::left_of(direction);
   }
 };
-
-auto median(std::vector<double> values) -> double {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
-
-auto percentile(std::vector<double> values, double share) -> double {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 /// The median direction by length: where most lines were turned to one GIS edge it is that edge's, to the last digit.
 auto main_frame(const std::vector<WeighedLine>& lines) -> Frame {
@@ -107,15 +97,12 @@ auto steep_runs(const std::vector<Sample>& samples, double interval, const Optio
   bool open = false;
   double depth_sum = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    double n = 0, z = 0, d = 0, zz = 0, zd = 0;
-    const auto take = [&](const Sample& s) {
-      const double h = s.z - samples[i].z;
-      n += 1, z += h, d += s.depth, zz += h * h, zd += h * s.depth;
-    };
+    geometry::LineSums sums;  // depth over height
+    const auto take = [&](const Sample& s) { sums.add(s.z - samples[i].z, s.depth); };
     for (auto k = i; k < samples.size() && samples[k].z - samples[i].z <= 0.5 * o.wall_window; ++k) take(samples[k]);
     for (auto k = i; k > 0 && samples[i].z - samples[k - 1].z <= 0.5 * o.wall_window; --k) take(samples[k - 1]);
-    const double spread = n * zz - z * z;
-    const bool steep = n >= 3 && spread > 0 && std::abs(n * zd - z * d) < o.wall_slope * spread;
+    const double n = sums.weight, spread = n * sums.xx - sums.x * sums.x;
+    const bool steep = n >= 3 && spread > 0 && std::abs(n * sums.xz - sums.x * sums.z) < o.wall_slope * spread;
     const auto mean = [&] { return depth_sum / static_cast<double>(i - runs.back().first); };
     const bool goes_on = open &&
                          samples[i].z - samples[i - 1].z <= std::max(o.wall_gap_slices * interval, o.wall_gap) &&
@@ -156,7 +143,7 @@ void find_foot(Column& column, double interval, double tidy, const Options& o) {
     if (wall == walls.end()) continue;
     std::vector<double> depths;
     for (auto i = wall->first; i <= wall->last; ++i) depths.push_back(samples[i].depth);
-    column.foot = median(std::move(depths));
+    column.foot = base::mean_median(std::move(depths));
     // The wall goes on down through the zone that was left out.
     double low = samples[wall->first].z;
     for (const auto& r : runs)
@@ -174,7 +161,7 @@ void find_gutter(Column& column, const Options& o) {
     if (s.z > column.samples.front().z + o.gutter_band) break;
     depths.push_back(s.depth);
   }
-  if (!depths.empty()) column.foot = median(std::move(depths));
+  if (!depths.empty()) column.foot = base::mean_median(std::move(depths));
 }
 
 /// Column numbers that belong together, ascending.
@@ -185,7 +172,7 @@ void drop_hips(const std::vector<Column>& columns, Group& used, const Options& o
   if (used.empty()) return;
   std::vector<double> lows;
   for (const auto k : used) lows.push_back(columns[k].low);
-  const double eaves = median(std::move(lows));
+  const double eaves = base::mean_median(std::move(lows));
   std::erase_if(used, [&](std::size_t k) { return columns[k].low > eaves + o.gutter_rise; });
 }
 
@@ -193,7 +180,7 @@ void drop_hips(const std::vector<Column>& columns, Group& used, const Options& o
 void drop_clutter(const std::vector<Column>& columns, Group& used, double tidy) {
   std::vector<double> highs;
   for (const auto k : used) highs.push_back(columns[k].high);
-  if (highs.empty() || median(std::move(highs)) < tidy) return;
+  if (highs.empty() || base::mean_median(std::move(highs)) < tidy) return;
   std::erase_if(used, [&](std::size_t k) { return columns[k].high < tidy; });
 }
 
@@ -266,12 +253,12 @@ auto find_bases(const std::vector<WeighedLine>& lines, const slice::SliceStack& 
 
   std::vector<double> numbers, feet;
   for (const auto k : used) numbers.push_back(static_cast<double>(columns[k].lines));
-  const double needed = o.column_support * median(numbers);
+  const double needed = o.column_support * base::mean_median(numbers);
   std::erase_if(used, [&](std::size_t k) { return static_cast<double>(columns[k].lines) < needed; });
   for (const auto k : used) feet.push_back(*columns[k].foot);
 
   std::vector<Base> bases;
-  for (const auto& group : part_by_setback(columns, used, median(feet), o)) {
+  for (const auto& group : part_by_setback(columns, used, base::mean_median(feet), o)) {
     for (const auto& part : split_at_gaps(group, o.column_gap, o)) {
       const double start = first + static_cast<double>(part.front()) * o.column_width;
       const double end = std::min(last, first + static_cast<double>(part.back() + 1) * o.column_width);
@@ -284,14 +271,14 @@ auto find_bases(const std::vector<WeighedLine>& lines, const slice::SliceStack& 
         highs.push_back(columns[k].high);
         area += static_cast<double>(columns[k].lines) * o.column_width * stack.interval;
       }
-      const double depth = median(depths);
+      const double depth = base::mean_median(depths);
       for (auto& d : depths) d = std::abs(d - depth);
       bases.push_back({{frame.point(start, depth), frame.point(end, depth)},
                        area,
-                       percentile(std::move(lows), o.height_percentile),
-                       percentile(std::move(highs), 1 - o.height_percentile),
+                       base::percentile(std::move(lows), o.height_percentile),
+                       base::percentile(std::move(highs), 1 - o.height_percentile),
                        wall,
-                       median(std::move(depths))});
+                       base::mean_median(std::move(depths))});
     }
   }
   return bases;

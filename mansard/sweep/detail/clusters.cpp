@@ -67,7 +67,7 @@ void weigh_thin(std::vector<WeighedLine>& lines, const Options& options) {
     const auto& s = l.line.segment;
     const Point2 d = normalised(s.end - s.start);
     double lost = 0;
-    for (const auto k : index.near(box_of(s).grown(thin_distance))) {
+    for (const auto k : index.near(geometry::Box2::of(s).grown(thin_distance))) {
       const auto& o = lines[k].line.segment;
       const Point2 e = normalised(o.end - o.start);
       if (dot(d, e) > opposite) continue;
@@ -121,7 +121,7 @@ auto grow_clusters(const LineStack& stack, const Options& options, const base::R
         const auto j = i + step;
         if (j < 0 || j >= static_cast<std::ptrdiff_t>(stack.size())) continue;
         const auto slice = static_cast<std::uint32_t>(j);
-        for (const auto k : index[slice].near(box_of(here).grown(options.cluster_step))) {
+        for (const auto k : index[slice].near(geometry::Box2::of(here).grown(options.cluster_step))) {
           const auto& candidate = stack[slice][k].line.segment;
           if (taken[slice][k] != 0 || !origin.accepts(candidate, options)) continue;
           if (lateral_step(here, candidate) >= options.cluster_step) continue;

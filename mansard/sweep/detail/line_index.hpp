@@ -12,20 +12,13 @@
 
 namespace mansard::sweep::detail {
 
-[[nodiscard]] inline auto box_of(const geometry::Segment2& s) -> geometry::Box2 {
-  geometry::Box2 box;
-  box.add(s.start);
-  box.add(s.end);
-  return box;
-}
-
 /// A grid of cells kept as a sorted vector: no iteration order but the cells' own.
 class LineIndex {
  public:
   LineIndex() = default;
   LineIndex(const std::vector<geometry::Segment2>& lines, double cell) : cell_(cell) {
     for (std::uint32_t i = 0; i < lines.size(); ++i) {
-      boxes_.push_back(box_of(lines[i]));
+      boxes_.push_back(geometry::Box2::of(lines[i]));
       const auto [x0, y0, x1, y1] = cells(boxes_.back());
       for (auto y = y0; y <= y1; ++y)
         for (auto x = x0; x <= x1; ++x) entries_.push_back({{y, x}, i});

@@ -10,8 +10,8 @@
 #include <limits>
 #include <utility>
 
+#include "mansard/geometry/fit.hpp"
 #include "mansard/sweep/detail/chains.hpp"
-#include "mansard/sweep/detail/line_fit.hpp"
 
 namespace mansard::sweep::detail {
 namespace {
@@ -20,7 +20,7 @@ using geometry::Point2;
 using geometry::Segment2;
 
 struct Piece {
-  Moments moments;  // relative to the slice's own origin
+  geometry::AxisSums moments;  // relative to the slice's own origin
   Point2 direction, centre;
   double low = 0, high = 0;  // extent along the direction from the centre
 
@@ -32,7 +32,7 @@ struct Piece {
 /// Places along a chain where it may be cut, and the moments of all that comes before each.
 struct Nodes {
   std::vector<Point2> points;
-  std::vector<Moments> before;
+  std::vector<geometry::AxisSums> before;
 };
 
 auto place_nodes(const Chain& chain, Point2 origin, double spacing) -> Nodes {
@@ -44,7 +44,7 @@ auto place_nodes(const Chain& chain, Point2 origin, double spacing) -> Nodes {
   Nodes nodes;
   nodes.points.reserve(count + 1);
   nodes.before.reserve(count + 1);
-  Moments sum;
+  geometry::AxisSums sum;
   double walked = 0;
   nodes.points.push_back(chain.front() - origin);
   nodes.before.push_back(sum);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "mansard/base/statistics.hpp"
 #include "mansard/geometry/polygon.hpp"
 #include "mansard/sweep/detail/line_index.hpp"
 
@@ -50,7 +51,7 @@ auto matches_of(const std::vector<SweepEdge>& edges, const block::Block& block, 
   for (const auto& edge : edges) {
     const Segment2& s = edge.segment;
     const Point2 d = normalised(s.end - s.start);
-    for (const auto k : index.near(box_of(s).grown(within))) {
+    for (const auto k : index.near(geometry::Box2::of(s).grown(within))) {
       const Segment2& g = outline[k];
       const Point2 u = normalised(g.end - g.start);
       if (dot(u, d) < o.registration_cosine) continue;
@@ -66,11 +67,8 @@ auto matches_of(const std::vector<SweepEdge>& edges, const block::Block& block, 
 /// By weight.
 auto median(std::vector<std::pair<double, double>> values) -> double {
   std::sort(values.begin(), values.end());
-  double total = 0, sum = 0;
-  for (const auto& v : values) total += v.second;
-  for (const auto& v : values)
-    if ((sum += v.second) >= 0.5 * total) return v.first;
-  return 0;
+  using Weighed = std::pair<double, double>;
+  return values.empty() ? 0 : base::weighted_percentile_of_sorted(values, 0.5, &Weighed::first, &Weighed::second);
 }
 
 /// What all distances have in common: footprints displaced by `shift`, walls seen `outward` of them.
@@ -294,7 +292,7 @@ auto put_on_footprints(const std::vector<SweepEdge>& edges, const block::Block& 
     const Segment2& s = edge.segment;
     const double l = span(s);
     std::vector<Stretch> found;
-    for (const auto k : index.near(box_of(s).grown(o.gis_offset)))
+    for (const auto k : index.near(geometry::Box2::of(s).grown(o.gis_offset)))
       if (const auto stretch = follows(s, footprints[k], o)) found.push_back(*stretch);
     found = joined(without_overlaps(std::move(found), o), o);
     const auto add = [&](const Segment2& at) {

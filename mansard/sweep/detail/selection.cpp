@@ -128,7 +128,7 @@ auto put_together(std::vector<Side> sides, const slice::SliceStack& stack, doubl
     for (bool grown = true; grown;) {
       grown = false;
       const Segment2 reach{origin + low * d, origin + high * d};
-      for (const auto k : index.near(box_of(reach).grown(o.same_line_gap))) {
+      for (const auto k : index.near(geometry::Box2::of(reach).grown(o.same_line_gap))) {
         if (used[k] != 0 || dot(normalised(bases[k].end - bases[k].start), d) < o.same_line_cosine) continue;
         const Point2 a = bases[k].start - origin, b = bases[k].end - origin;
         if (std::abs(cross(d, a)) > o.same_line || std::abs(cross(d, b)) > o.same_line) continue;
@@ -183,7 +183,7 @@ class RoofParts {
  private:
   [[nodiscard]] auto has_like(const Segment2& s, std::size_t slice) const -> bool {
     const Point2 d = normalised(s.end - s.start);
-    for (const auto k : index_[slice].near(box_of(s).grown(options_.roof_look_sideways))) {
+    for (const auto k : index_[slice].near(geometry::Box2::of(s).grown(options_.roof_look_sideways))) {
       const auto& o = lines_[slice][k].line.segment;
       if (dot(normalised(o.end - o.start), d) < options_.roof_cosine) continue;
       const double a = std::max(0.0, dot(o.start - s.start, d)), b = std::min(span(s), dot(o.end - s.start, d));

@@ -8,7 +8,8 @@
 #include <tuple>
 #include <utility>
 
-#include "mansard/base/sorted.hpp"
+#include "mansard/base/statistics.hpp"
+#include "mansard/geometry/fit.hpp"
 #include "mansard/sweep/detail/line_index.hpp"
 #include "mansard/sweep/detail/steps_field.hpp"
 
@@ -132,14 +133,13 @@ auto line_of(const Stretch& stretch, const Options& o) -> Line {
   double row = 0, n = 0;
   for (const Jump& j : stretch) at.push_back(j.across), row += static_cast<double>(j.row), n += 1;
   Line line{base::median(at), 0, row / n, o.step_cell};
-  double mean = 0, moment = 0, spread = 0;
+  double mean = 0;
+  geometry::LineSums sums;  // across over along, about the pivot
   for (const double a : at) mean += a / n;
   for (const Jump& j : stretch) {
-    const double s = (static_cast<double>(j.row) - line.pivot) * o.step_cell;
-    moment += s * (j.across - mean);
-    spread += s * s;
+    sums.add((static_cast<double>(j.row) - line.pivot) * o.step_cell, j.across - mean);
   }
-  const double tangent = spread > 0 ? std::clamp(moment / spread, -o.step_turn, o.step_turn) : 0;
+  const double tangent = sums.xx > 0 ? std::clamp(sums.xz / sums.xx, -o.step_turn, o.step_turn) : 0;
   if (std::abs(tangent) * length_of(stretch, o) > o.step_bend) line = {mean, tangent, line.pivot, o.step_cell};
   return line;
 }
@@ -228,7 +228,7 @@ class Lines {
     const Point2 d = geometry::normalised(s.end - s.start);
     const double size = length(s.end - s.start);
     std::vector<std::pair<double, double>> taken;
-    for (const auto k : index_.near(box_of(s).grown(options_.step_same_line))) {
+    for (const auto k : index_.near(geometry::Box2::of(s).grown(options_.step_same_line))) {
       const Point2 a = lines_[k].start - s.start, b = lines_[k].end - s.start, along = b - a;
       if (std::abs(cross(d, along)) > options_.step_same_sine * length(along)) continue;
       const double from = std::max(0.0, std::min(dot(d, a), dot(d, b)));
@@ -254,7 +254,7 @@ class Lines {
   [[nodiscard]] auto next(Point2 from, Point2 direction) const -> std::optional<double> {
     std::optional<double> nearest;
     const Segment2 ray{from, from + options_.step_reach * direction};
-    for (const auto k : index_.near(box_of(ray))) {
+    for (const auto k : index_.near(geometry::Box2::of(ray))) {
       const Point2 along = lines_[k].end - lines_[k].start;
       const double turn = cross(direction, along);
       if (std::abs(turn) < options_.step_same_sine * length(along)) continue;
