@@ -56,7 +56,6 @@ TEST_F(Gltf, names_part_and_surface_of_every_vertex) {
       const auto part = glb.accessor<float>(attributes["_FEATURE_ID_0"]),
                  surface = glb.accessor<float>(attributes["_FEATURE_ID_1"]);
       const auto normals = glb.accessor<gltf::Float3>(attributes["NORMAL"]);
-      std::set<float> seen, seen_parts;
       for (const auto i : glb.accessor<std::uint32_t>(primitive["indices"])) {
         EXPECT_EQ(parts.at(static_cast<std::size_t>(part.at(i))), node["name"]);
         const auto s = static_cast<std::size_t>(surface.at(i));
@@ -65,9 +64,9 @@ TEST_F(Gltf, names_part_and_surface_of_every_vertex) {
         if (azimuths.at(s) >= 0)
           EXPECT_NEAR(std::sin(azimuths[s] * M_PI / 180) * std::sin(slopes[s] * M_PI / 180), normals[i][0], 1e-3);
         else EXPECT_LT(slopes[s], 0.5F);
-        seen.insert(surface[i]);
-        seen_parts.insert(part[i]);
       }
+      // EXT_mesh_features: the number of unique values of the attribute, which all primitives of a mesh share.
+      const std::set<float> seen(surface.begin(), surface.end()), seen_parts(part.begin(), part.end());
       const auto& ids = primitive["extensions"]["EXT_mesh_features"]["featureIds"];
       EXPECT_EQ(ids[0]["featureCount"], seen_parts.size());
       EXPECT_EQ(ids[1]["featureCount"], seen.size());

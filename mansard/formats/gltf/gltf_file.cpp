@@ -102,6 +102,7 @@ void GltfFile::add_part(const Row& row, std::string_view record, const PartMesh&
 
   const auto base = static_cast<std::uint32_t>(mesh_.positions.size());
   for (const Point3& place : places) mesh_.positions.push_back(y_up(place));
+  if (!places.empty()) ++mesh_.parts;
   mesh_.part_ids.resize(mesh_.positions.size(), static_cast<float>(parts_));
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     const FaceMesh& face = mesh.faces[f];
@@ -110,11 +111,7 @@ void GltfFile::add_part(const Row& row, std::string_view record, const PartMesh&
     mesh_.surface_ids.insert(mesh_.surface_ids.end(), face.vertices, static_cast<float>(surfaces_));
     for (std::uint32_t i = 0; i < face.indices; ++i)
       mesh_.indices[c].push_back(base + mesh.indices[face.first_index + i]);
-    if (face.indices > 0) {
-      ++mesh_.surfaces[c];
-      if (mesh_.last_part[c] != parts_ + 1) ++mesh_.parts[c];
-      mesh_.last_part[c] = static_cast<std::uint32_t>(parts_ + 1);
-    }
+    if (face.vertices > 0) ++mesh_.surfaces;
     const auto& n = face.normal;
     const float slope = degrees(std::atan2(std::hypot(n.x, n.y), std::abs(n.z)));
     const double azimuth = std::atan2(n.x, n.y);
@@ -189,9 +186,9 @@ void GltfFile::append_primitives(JsonText& json, std::size_t vertex, std::size_t
     json.key("_FEATURE_ID_0").whole(first + 2).key("_FEATURE_ID_1").whole(first + 3).end_object();
     json.key("indices").whole(accessors_).key("material").whole(whole(c)).key("extensions").begin_object();
     json.key("EXT_mesh_features").begin_object().key("featureIds").begin_array();
-    json.begin_object().key("featureCount").whole(mesh_.parts[c]).key("attribute").whole(0);
+    json.begin_object().key("featureCount").whole(mesh_.parts).key("attribute").whole(0);
     json.key("label").text("part").key("propertyTable").whole(0).end_object();
-    json.begin_object().key("featureCount").whole(mesh_.surfaces[c]).key("attribute").whole(1);
+    json.begin_object().key("featureCount").whole(mesh_.surfaces).key("attribute").whole(1);
     json.key("label").text("surface").key("propertyTable").whole(1).end_object();
     json.end_array().end_object().end_object().end_object();
     append_accessor(index_view, index * sizeof(std::uint32_t), mesh_.indices[c].size(), nullptr);

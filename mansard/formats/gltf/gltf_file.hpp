@@ -46,8 +46,7 @@ class GltfFile {
     std::vector<Float3> positions, normals;
     std::vector<float> part_ids, surface_ids;
     std::array<std::vector<std::uint32_t>, class_count> indices;
-    std::array<std::uint32_t, class_count> surfaces{}, parts{};  ///< with triangles of that class
-    std::array<std::uint32_t, class_count> last_part{};
+    std::uint32_t surfaces = 0, parts = 0;  ///< with vertices; the primitives share one accessor of ids
   };
   struct Spools {
     std::array<std::unique_ptr<base::Spool>, view_count> of_view;
