@@ -27,12 +27,13 @@ mansard_module(evaluate DEPENDS base geometry rays model solid block label      
 mansard_module(derive   DEPENDS base geometry rays model crs                    USES GDAL::GDAL TESTED_WITH ingest)
 mansard_module(roof     DEPENDS base geometry model extrude)
 mansard_module(picture  DEPENDS base geometry rays                              USES PNG::PNG)
-mansard_module(pipeline DEPENDS base geometry rays solver model solid crs formats ingest block slice sweep fracture segment profile extrude refine label evaluate derive roof picture USES nlohmann_json)
-mansard_module(edit     DEPENDS base geometry rays model solid formats ingest extrude label evaluate pipeline USES nlohmann_json)
+mansard_module(report   DEPENDS base geometry rays model solid formats sweep fracture segment label evaluate picture USES nlohmann_json TESTED_WITH pipeline)
+mansard_module(pipeline DEPENDS base geometry rays solver model solid crs formats ingest block slice sweep fracture segment profile extrude refine label evaluate derive roof picture report)
+mansard_module(edit     DEPENDS base geometry rays model solid formats ingest extrude label evaluate report pipeline USES nlohmann_json)
 
 # Experiments: used by the programs and the tests, not part of what is installed.
 mansard_module(simulate IN lab DEPENDS base geometry rays model solid formats ingest extrude label USES nlohmann_json)
-mansard_module(explore  IN lab DEPENDS base geometry rays model solid formats ingest block fracture segment profile extrude evaluate picture pipeline USES nlohmann_json)
+mansard_module(explore  IN lab DEPENDS base geometry rays model solid formats ingest block fracture segment profile extrude evaluate picture report pipeline USES nlohmann_json)
 
 # Results say which version made them.
 if(TARGET mansard_pipeline)

@@ -16,8 +16,8 @@
 #include "lab/simulate/attributes.hpp"
 #include "lab/simulate/simulate.hpp"
 #include "mansard/edit/attributes.hpp"
-#include "mansard/pipeline/attributes.hpp"
 #include "mansard/pipeline/pipeline.hpp"
+#include "mansard/report/attributes.hpp"
 
 namespace mansard::cli {
 namespace {
@@ -182,7 +182,7 @@ void print_json(const Known& known, const CLI::App& app, bool all) {
 }
 
 auto all_attributes() -> std::vector<formats::Attribute> {
-  auto all = pipeline::attributes();
+  auto all = report::attributes();
   for (const auto& own : {edit::attributes(), simulate::attributes()}) all.insert(all.end(), own.begin(), own.end());
   return all;
 }

@@ -11,6 +11,7 @@
 #include "mansard/formats/scan.hpp"
 #include "mansard/picture/picture.hpp"
 #include "mansard/pipeline/evaluation.hpp"
+#include "mansard/report/evaluation.hpp"
 
 namespace mansard::cli {
 namespace {
@@ -50,7 +51,7 @@ auto files_of(const Request& request) -> pipeline::EvaluationFiles {
 }
 
 /// The report, and in a folder the error maps too: in a colour scale that is the same for every model, and as numbers.
-auto write_all(const Request& request, const pipeline::Evaluation& result, const pipeline::EvaluationInput& input,
+auto write_all(const Request& request, const report::Evaluation& result, const report::EvaluationInput& input,
                const std::string& report, const base::Cancel& cancel) -> base::Result<void> {
   if (is_file(request.out)) return base::write_files({{request.out, report}}, &cancel);
   NamedBytes files{{"report.json", report}};
@@ -80,10 +81,10 @@ auto evaluate(const Request& request, const base::Cancel& cancel) -> int {
   if (!result) return give_up(result.errors());
   for (const auto& warning : result->warnings) progress.say(base::to_string(warning));
   if (!request.out.empty()) {
-    const auto report = pipeline::evaluation_json(*result, *input, options);
+    const auto report = report::evaluation_json(*result, *input);
     if (auto written = write_all(request, *result, *input, report, cancel); !written) return give_up(written.errors());
   }
-  std::fputs(pipeline::evaluation_table(*result, *input, options).c_str(), stdout);
+  std::fputs(report::evaluation_table(*result, *input).c_str(), stdout);
   if (!request.out.empty()) std::printf("%s\n", request.out.c_str());
   return all_done;
 }

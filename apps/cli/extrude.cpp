@@ -15,6 +15,7 @@
 #include "apps/cli/verbs.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/pipeline/stored.hpp"
+#include "mansard/report/pictures.hpp"
 
 namespace mansard::cli {
 namespace {
@@ -142,7 +143,7 @@ auto write_out(const model::City& city, const std::string& report, const pipelin
   if (!request.report.empty())
     if (auto written = write_bytes(request.report, report, outputs); !written) return written;
   if (request.picture) {
-    auto bytes = picture::png(pipeline::picture_of(city, {}, run));
+    auto bytes = picture::png(report::picture_of(city, {}, run));
     if (!bytes) return bytes.failure();
     if (auto written = write_bytes(picture_file(out), *bytes, outputs); !written) return written;
   }

@@ -9,17 +9,17 @@
 namespace mansard::cli {
 namespace {
 
-auto count(const pipeline::Reconstruction& r, pipeline::Outcome outcome) -> std::size_t {
-  return static_cast<std::size_t>(std::ranges::count(r.buildings, outcome, &pipeline::BuildingReport::outcome));
+auto count(const report::Reconstruction& r, report::Outcome outcome) -> std::size_t {
+  return static_cast<std::size_t>(std::ranges::count(r.buildings, outcome, &report::BuildingReport::outcome));
 }
 
-void summarise(const pipeline::Reconstruction& r, const ExtrudeRequest& request, Progress& progress) {
+void summarise(const report::Reconstruction& r, const ExtrudeRequest& request, Progress& progress) {
   const auto remarks = std::ranges::count_if(
-      r.buildings, [](const auto& b) { return b.outcome == pipeline::Outcome::full && !b.reasons.empty(); });
-  progress.say(std::to_string(count(r, pipeline::Outcome::full)) + " of " + std::to_string(r.buildings.size()) +
+      r.buildings, [](const auto& b) { return b.outcome == report::Outcome::full && !b.reasons.empty(); });
+  progress.say(std::to_string(count(r, report::Outcome::full)) + " of " + std::to_string(r.buildings.size()) +
                " buildings in full (" + std::to_string(remarks) + " of them with remarks), " +
-               std::to_string(count(r, pipeline::Outcome::fallback)) + " fell back, " +
-               std::to_string(count(r, pipeline::Outcome::refused)) + " refused");
+               std::to_string(count(r, report::Outcome::fallback)) + " fell back, " +
+               std::to_string(count(r, report::Outcome::refused)) + " refused");
   for (const auto& building : r.buildings)
     if (request.verbose || r.buildings.size() <= 20)
       for (const auto& reason : building.reasons) progress.say(base::to_string(reason));
@@ -47,11 +47,11 @@ auto extrude_footprints(const ExtrudeRequest& request, const base::Cancel& cance
   if (!result) return give_up(result.errors());
   for (const auto& warning : result->warnings) progress.say(base::to_string(warning));
   progress.show("write", request.out, 1);
-  const auto report = pipeline::report_json(*result, *scene);
+  const auto report = report::run_json(*result, *scene);
   if (auto written = write_out(result->city, report, options, request, run); !written) return give_up(written.errors());
   summarise(*result, request, progress);
   std::printf("%s\n", request.out.c_str());
-  return count(*result, pipeline::Outcome::full) == result->buildings.size() ? all_done : some_fell_back;
+  return count(*result, report::Outcome::full) == result->buildings.size() ? all_done : some_fell_back;
 }
 
 }  // namespace mansard::cli

@@ -15,6 +15,7 @@
 #include "mansard/label/scan.hpp"
 #include "mansard/pipeline/evaluation.hpp"
 #include "mansard/pipeline/stored.hpp"
+#include "mansard/report/evaluation.hpp"
 
 namespace mansard::cli {
 namespace {
@@ -152,7 +153,7 @@ void print(const Input& input, const Classes& classes) {
     const auto area = label::confusion_of(input.mesh.mesh, input.truth, *given);
     const std::string all = right_share(area, area.size()), known = right_share(area, area.size() - 1);
     std::printf("\n%s: %s of the area is right; %s without the class other\n%s", name, all.c_str(), known.c_str(),
-                pipeline::confusion_table(area).c_str());
+                report::confusion_table(area).c_str());
   }
 }
 

@@ -11,6 +11,8 @@
 #include "apps/cli/verbs.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/base/text.hpp"
+#include "mansard/report/layers.hpp"
+#include "mansard/report/pictures.hpp"
 
 namespace mansard::cli {
 namespace {
@@ -25,22 +27,22 @@ struct Request {
   double error_limit = 2.0;
 };
 
-auto count(const pipeline::Reconstruction& r, pipeline::Outcome outcome) -> std::size_t {
+auto count(const report::Reconstruction& r, report::Outcome outcome) -> std::size_t {
   std::size_t n = 0;
   for (const auto& building : r.buildings) n += building.outcome == outcome ? 1 : 0;
   return n;
 }
 
-void summarise(const pipeline::Reconstruction& r, const Request& request, Progress& progress) {
-  const auto full = count(r, pipeline::Outcome::full);
+void summarise(const report::Reconstruction& r, const Request& request, Progress& progress) {
+  const auto full = count(r, report::Outcome::full);
   progress.say(std::to_string(full) + " of " + std::to_string(r.buildings.size()) + " buildings in full, " +
-               std::to_string(count(r, pipeline::Outcome::fallback)) + " fell back, " +
-               std::to_string(count(r, pipeline::Outcome::covered)) + " covered by neighbours, " +
-               std::to_string(count(r, pipeline::Outcome::refused)) + " refused");
+               std::to_string(count(r, report::Outcome::fallback)) + " fell back, " +
+               std::to_string(count(r, report::Outcome::covered)) + " covered by neighbours, " +
+               std::to_string(count(r, report::Outcome::refused)) + " refused");
   progress.say("mean squared vertical error " + base::to_text(r.scores.mse, 3) + " m² over the blocks, " +
                base::to_text(r.scores.footprint_mse, 3) + " m² over the footprints");
   for (const auto& building : r.buildings)
-    if (building.outcome != pipeline::Outcome::full && (request.scan.verbose || r.buildings.size() <= 20))
+    if (building.outcome != report::Outcome::full && (request.scan.verbose || r.buildings.size() <= 20))
       for (const auto& reason : building.reasons) progress.say(base::to_string(reason));
 }
 
@@ -51,9 +53,9 @@ auto targets_of(const Request& request) -> base::Result<std::vector<Target>> {
   return targets_in(request.out, *formats);
 }
 
-auto write_pictures(const Request& request, const pipeline::Reconstruction& result, const model::Scene& scene,
+auto write_pictures(const Request& request, const report::Reconstruction& result, const model::Scene& scene,
                     const base::Run& run, base::Outputs& outputs) -> base::Result<void> {
-  const auto pictures = pipeline::pictures(result, scene, request.error_limit, run);
+  const auto pictures = report::pictures(result, scene, request.error_limit, run);
   for (const auto& [name, image] : {std::pair{"picture.png", &pictures.angle}, std::pair{"above.png", &pictures.above},
                                     std::pair{"error.png", &pictures.error}}) {
     const auto bytes = picture::png(*image);
@@ -70,19 +72,19 @@ auto is_result(const std::string& name) -> bool {
 }
 
 auto write_all(const Request& request, const std::vector<Target>& targets, const pipeline::Options& options,
-               const pipeline::Reconstruction& result, const model::Scene& scene, const base::Run& run,
+               const report::Reconstruction& result, const model::Scene& scene, const base::Run& run,
                Progress& progress) -> base::Result<void> {
   base::Outputs outputs;
   std::vector<formats::Layer> layers;
   if (request.layers) {
-    layers = pipeline::segment_layers(scene, result.segmented, result.city.made_by);
-    layers.push_back(pipeline::diagnostics_layer(result, scene));
+    layers = report::segment_layers(scene, result.segmented, result.city.made_by);
+    layers.push_back(report::diagnostics_layer(result, scene));
   }
   progress.show("write", "", 1);
   const auto warnings = write_models(result.city, targets, options.write, outputs, layers);
   if (!warnings) return warnings.failure();
   for (const auto& warning : *warnings) progress.say(base::to_string(warning));
-  const std::string report = pipeline::report_json(result, scene);
+  const std::string report = report::run_json(result, scene);
   const auto report_path = fs::path(request.out) / "run.json";
   if (auto written = write_bytes(report_path, report, outputs); !written) return written;
   if (!request.scan.report.empty())
@@ -138,7 +140,7 @@ auto reconstruct(const Request& request, const base::Cancel& cancel) -> int {
   std::printf("%s\n", targets->front().path.c_str());
   if (request.picture) std::printf("%s\n", (fs::path(request.out) / "picture.png").c_str());
   if (request.layers) std::printf("%s\n", (fs::path(request.out) / "model.gpkg").c_str());
-  return count(*result, pipeline::Outcome::full) == result->buildings.size() ? all_done : some_fell_back;
+  return count(*result, report::Outcome::full) == result->buildings.size() ? all_done : some_fell_back;
 }
 
 }  // namespace

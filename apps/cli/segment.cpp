@@ -11,6 +11,7 @@
 #include "apps/cli/verbs.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/formats/layers.hpp"
+#include "mansard/report/layers.hpp"
 
 namespace mansard::cli {
 namespace {
@@ -46,8 +47,8 @@ auto check_outputs(const Request& request) -> base::Result<void> {
 }
 
 /// The programs of the blocks with faces inside. One takes the name that was given; several have the block's in it.
-auto programs(const Request& request, const pipeline::Segmented& result) -> base::Result<NamedBytes> {
-  std::vector<const pipeline::SegmentedBlock*> blocks;
+auto programs(const Request& request, const report::Segmented& result) -> base::Result<NamedBytes> {
+  std::vector<const report::SegmentedBlock*> blocks;
   for (const auto& block : result.segmented)
     if (block.segmentation && std::ranges::any_of(block.segmentation->faces, &segment::FaceEvidence::inside))
       blocks.push_back(&block);
@@ -69,18 +70,17 @@ auto programs(const Request& request, const pipeline::Segmented& result) -> base
   return files;
 }
 
-auto total(const std::vector<pipeline::BlockReport>& blocks, std::size_t pipeline::BlockReport::*member)
-    -> std::size_t {
+auto total(const std::vector<report::BlockReport>& blocks, std::size_t report::BlockReport::*member) -> std::size_t {
   std::size_t sum = 0;
   for (const auto& block : blocks) sum += block.*member;
   return sum;
 }
 
-auto with_status(const std::vector<pipeline::BlockReport>& blocks, std::string_view status) -> std::string {
-  return std::to_string(std::ranges::count(blocks, status, &pipeline::BlockReport::status));
+auto with_status(const std::vector<report::BlockReport>& blocks, std::string_view status) -> std::string {
+  return std::to_string(std::ranges::count(blocks, status, &report::BlockReport::status));
 }
 
-void say_terms(const std::vector<pipeline::BlockReport>& blocks, Progress& progress) {
+void say_terms(const std::vector<report::BlockReport>& blocks, Progress& progress) {
   segment::Terms sum;
   for (const auto& block : blocks) {
     sum.sweep_unused += block.terms.sweep_unused;
@@ -95,8 +95,8 @@ void say_terms(const std::vector<pipeline::BlockReport>& blocks, Progress& progr
                ", conflicts " + amount(sum.thin) + ", unused GIS edges " + amount(sum.gis_unused));
 }
 
-void summarise(const pipeline::Segmented& result, const Request& request, Progress& progress) {
-  using pipeline::BlockReport;
+void summarise(const report::Segmented& result, const Request& request, Progress& progress) {
+  using report::BlockReport;
   const auto& blocks = result.blocks;
   const auto count = [&](std::size_t BlockReport::*member) { return std::to_string(total(blocks, member)); };
   progress.say(std::to_string(blocks.size()) + (blocks.size() == 1 ? " block: " : " blocks: ") +
@@ -112,12 +112,11 @@ void summarise(const pipeline::Segmented& result, const Request& request, Progre
     for (const auto& warning : result.warnings) progress.say(base::to_string(warning));
 }
 
-auto write_all(const Request& request, const pipeline::Segmented& result, const model::Scene& scene,
+auto write_all(const Request& request, const report::Segmented& result, const model::Scene& scene,
                const NamedBytes& mps, const base::Run& run) -> base::Result<void> {
-  const auto layers =
-      formats::geopackage(pipeline::segment_layers(scene, result.segmented, result.made_by), scene.frame);
+  const auto layers = formats::geopackage(report::segment_layers(scene, result.segmented, result.made_by), scene.frame);
   if (!layers) return layers.failure();
-  const std::string report = pipeline::report_json(result, scene);
+  const std::string report = report::run_json(result, scene);
   std::vector<base::FileToWrite> files{{request.out, *layers}};
   for (const auto& [path, bytes] : mps) files.push_back({path, bytes});
   if (!request.scan.report.empty()) files.push_back({request.scan.report, report});
@@ -140,7 +139,7 @@ auto segment_scan(const Request& request, const base::Cancel& cancel) -> int {
   if (auto written = write_all(request, *result, *scene, *mps, run); !written) return give_up(written.errors());
 
   summarise(*result, request, progress);
-  const auto parts = pipeline::parts_by_feature(*scene, result->segmented);
+  const auto parts = report::parts_by_feature(*scene, result->segmented);
   const auto without = std::ranges::count(parts, 0U);
   if (without > 0)
     progress.say(

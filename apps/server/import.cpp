@@ -62,23 +62,23 @@ auto text_at(const model::Attributes& attributes, std::string_view name) -> std:
 
 /// The report of a building, from its attributes.
 auto report_of(const model::Building& building, const pipeline::RaisedPlans& raised, std::size_t at)
-    -> pipeline::BuildingReport {
-  pipeline::BuildingReport report;
+    -> report::BuildingReport {
+  report::BuildingReport report;
   report.id = building.id;
   report.parts = building.parts.size();
   report.ground = building.ground + static_cast<double>(raised.city.frame.origin[2]);
-  if (building.parts.empty()) report.outcome = pipeline::Outcome::covered;
+  if (building.parts.empty()) report.outcome = report::Outcome::covered;
   for (const auto& part : building.parts) {
     if (report.block.empty()) report.block = text_at(part.attributes, "ms_block");
     report.volume += solid::volume(part.model.solid);
     if (const auto why = text_at(part.attributes, "ms_fallback"); !why.empty()) {
-      report.outcome = pipeline::Outcome::fallback;
+      report.outcome = report::Outcome::fallback;
       report.reasons.push_back(base::warning(why, "the part was simplified by the run that made it", part.id));
     }
   }
   for (const auto& less : raised.fell_short)
     if (less.building == at) {
-      report.outcome = pipeline::Outcome::fallback;
+      report.outcome = report::Outcome::fallback;
       report.reasons.insert(report.reasons.end(), less.reasons.begin(), less.reasons.end());
     }
   return report;
@@ -98,7 +98,7 @@ auto import_city(const fs::path& path, const std::optional<model::Frame>& frame,
   auto reader = read(path);
   if (!reader) return reader.error();
   pipeline::Options options;
-  pipeline::Reconstruction result;
+  report::Reconstruction result;
   result.warnings = pipeline::take_options((*reader)->header().made_by, options);
   auto city = formats::read_whole(**reader);
   if (!city) return city.error();
@@ -117,7 +117,7 @@ auto import_city(const fs::path& path, const std::optional<model::Frame>& frame,
   scene.frame = raised->city.frame;
   if (auto file = formats::input_file(path)) scene.inputs.push_back(std::move(*file));
   result.city = std::move(raised->city);
-  out.files.emplace_back("report.json", pipeline::report_json(result, scene));
+  out.files.emplace_back("report.json", report::run_json(result, scene));
   out.files.emplace_back("plans.json", formats::plans(result.city));
   out.files.emplace_back("layers.json", text_of(layers_json({})));
   if (run.cancelled()) return base::error("cancelled", "stopped on request");

@@ -185,7 +185,7 @@ auto json_of(const std::string& id, std::uint64_t revision, std::span<const edit
           {"mse", or_null(raised.mse)}};
 }
 
-auto layers_json(const std::vector<pipeline::SegmentedBlock>& blocks) -> Json {
+auto layers_json(const std::vector<report::SegmentedBlock>& blocks) -> Json {
   Json sweep_edges = Json::array(), faces = Json::array(), edges = Json::array();
   for (const auto& block : blocks) {
     for (const auto& edge : block.sweep_edges)

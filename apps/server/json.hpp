@@ -42,7 +42,7 @@ using Json = nlohmann::ordered_json;
                            const edit::RaisedBuilding& raised) -> Json;
 
 /// Layers.
-[[nodiscard]] auto layers_json(const std::vector<pipeline::SegmentedBlock>& blocks) -> Json;
+[[nodiscard]] auto layers_json(const std::vector<report::SegmentedBlock>& blocks) -> Json;
 
 /// Id of a tile: "1-3-4".
 [[nodiscard]] auto id_of(const picture::Tile& tile) -> std::string;

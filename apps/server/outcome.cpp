@@ -5,6 +5,7 @@
 #include "mansard/formats/plans.hpp"
 
 #include "apps/server/options.hpp"
+#include "mansard/report/layers.hpp"
 
 namespace mansard::server {
 namespace {
@@ -15,10 +16,10 @@ auto bytes_of(const std::vector<float>& values) -> std::string {
 
 }  // namespace
 
-void count_models(const std::vector<pipeline::BuildingReport>& reports, const model::City& city, RunRecord& record) {
+void count_models(const std::vector<report::BuildingReport>& reports, const model::City& city, RunRecord& record) {
   record.buildings = reports.size();
-  record.full = static_cast<std::size_t>(
-      std::ranges::count(reports, pipeline::Outcome::full, &pipeline::BuildingReport::outcome));
+  record.full =
+      static_cast<std::size_t>(std::ranges::count(reports, report::Outcome::full, &report::BuildingReport::outcome));
   record.parts = record.faces = 0;
   for (const auto& building : city.buildings)
     for (const auto& part : building.parts) {
@@ -37,7 +38,7 @@ auto reconstruct(const OpenScene& scene, RunRecord record, const base::Run& how)
   const auto result = pipeline::reconstruct(scene.scene(), options, run, pipeline::Keep::segmentations, record.blocks);
   if (!result) return result.error();
   run.report("write", "", 1);
-  auto layers = formats::geopackage(pipeline::segment_layers(scene.scene(), result->segmented, result->city.made_by),
+  auto layers = formats::geopackage(report::segment_layers(scene.scene(), result->segmented, result->city.made_by),
                                     scene.scene().frame);
   if (!layers) return layers.error();
   RunOutcome out{std::move(record), {}};
@@ -46,7 +47,7 @@ auto reconstruct(const OpenScene& scene, RunRecord record, const base::Run& how)
       RunScores{s.mse, s.footprint_mse, s.footprint_median_absolute, s.inside.mse, s.missed, s.invented};
   out.record.times = result->times;
   count_models(result->buildings, result->city, out.record);
-  out.files.emplace_back("report.json", pipeline::report_json(*result, scene.scene()));
+  out.files.emplace_back("report.json", report::run_json(*result, scene.scene()));
   out.files.emplace_back("plans.json", formats::plans(result->city));
   out.files.emplace_back("layers.json", text_of(layers_json(result->segmented)));
   out.files.emplace_back("segment.gpkg", std::move(*layers));

@@ -22,7 +22,7 @@ struct RunOutcome {
 };
 
 /// Sets the numbers of buildings, parts and faces of a run.
-void count_models(const std::vector<pipeline::BuildingReport>& reports, const model::City& city, RunRecord& record);
+void count_models(const std::vector<report::BuildingReport>& reports, const model::City& city, RunRecord& record);
 
 /// Gives up as pipeline::reconstruct does, and with "write-…".
 [[nodiscard]] auto reconstruct(const OpenScene& scene, RunRecord record, const base::Run& run)

@@ -120,7 +120,7 @@ auto main(int argc, char** argv) -> int {
   for (const auto& block : block::partition(*scene, options.block)) meshes.emplace(block.name, block.mesh);
   const edit::History history(run->city);
   const auto mesh_of = [&](std::string_view id) -> const rays::Scene* {
-    const auto report_of = std::ranges::find(run->buildings, id, &pipeline::BuildingReport::id);
+    const auto report_of = std::ranges::find(run->buildings, id, &report::BuildingReport::id);
     const auto found = meshes.find(report_of->block);
     return found != meshes.end() ? &found->second : nullptr;
   };

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "mansard/edit/edit.hpp"
+#include "mansard/report/attributes.hpp"
 
 namespace mansard::edit {
 namespace {
@@ -69,12 +70,13 @@ auto edited_city(const model::City& city, const History& history, const MeshOf& 
         continue;
       }
       const auto why = fallback.find({b, p});
-      part.attributes = pipeline::part_attributes(part, why != fallback.end() ? why->second : std::string(),
-                                                  mesh_of ? mesh_of(building.id) : nullptr, z0, options);
+      part.attributes = report::part_attributes(part, why != fallback.end() ? why->second : std::string(),
+                                                mesh_of ? mesh_of(building.id) : nullptr, z0,
+                                                {options.roof_grid, options.evaluate.grid});
       set(part.attributes, edited_mark, true);
     }
     if (!history.edited(building.id)) return;
-    building.attributes = pipeline::building_attributes(building, z0);
+    building.attributes = report::building_attributes(building, z0);
     set(building.attributes, edited_mark, true);
   });
   return out;

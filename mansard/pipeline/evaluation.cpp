@@ -7,6 +7,7 @@
 
 #include "mansard/base/text.hpp"
 #include "mansard/block/block.hpp"
+#include "mansard/pipeline/detail/assemble.hpp"
 #include "mansard/pipeline/stored.hpp"
 
 namespace mansard::pipeline {
@@ -94,15 +95,15 @@ auto in_words(const geometry::Box2& box, const model::Frame& frame) -> std::stri
 }
 
 auto read_reference(const EvaluationFiles& files, const ingest::Options& options, const base::Run& run,
-                    EvaluationInput& input) -> base::Result<void> {
+                    report::EvaluationInput& input) -> base::Result<void> {
   auto& scene = input.scene;
   const model::Frame frame = input.model.frame;
   if (files.footprints.empty()) {
-    input.reference = input.truth ? Reference::truth : Reference::model;
+    input.reference = input.truth ? report::Reference::truth : report::Reference::model;
     scene.footprints = footprints_of(input.truth ? *input.truth : input.model, scene.warnings);
     return {};
   }
-  input.reference = Reference::footprints;
+  input.reference = report::Reference::footprints;
   auto wanted = options;
   if (wanted.crs.empty()) wanted.crs = frame.crs;
   auto read = ingest::read_footprints(files.footprints, wanted, run);
@@ -174,8 +175,8 @@ struct Totals {
 };
 
 struct BlockWork {
-  BlockScores block;
-  std::vector<BuildingScores> buildings;
+  report::BlockScores block;
+  std::vector<report::BuildingScores> buildings;
   std::vector<std::size_t> features;  ///< of the buildings, in the scene
   std::vector<double> from_model, from_scan;
   evaluate::ErrorMap map;
@@ -183,8 +184,9 @@ struct BlockWork {
 
 /// One building of a block against the mesh, and against the truth where there is one.
 auto building_scores(const block::Member& member, const rays::Scene& model, const rays::Scene& scan,
-                     const rays::Scene* truth, const evaluate::Options& options, Totals& totals) -> BuildingScores {
-  BuildingScores out;
+                     const rays::Scene* truth, const evaluate::Options& options, Totals& totals)
+    -> report::BuildingScores {
+  report::BuildingScores out;
   out.scores = evaluate::scores_over(model, scan, member.polygons, member.ground, options);
   out.prism = evaluate::prism_over(scan, member.polygons, options);
   totals.prism.add(out.prism);
@@ -234,7 +236,7 @@ auto work_on(const block::Block& block, const model::ModelSurface& model, const 
 }
 
 /// What is known of all blocks together.
-void sum_up(std::vector<BlockWork>& work, Evaluation& out) {
+void sum_up(std::vector<BlockWork>& work, report::Evaluation& out) {
   std::vector<evaluate::ErrorMap> maps;
   std::vector<double> from_model, from_scan;
   for (auto& one : work) {
@@ -247,16 +249,16 @@ void sum_up(std::vector<BlockWork>& work, Evaluation& out) {
   out.from_scan = evaluate::spread_of(std::move(from_scan));
   out.map = evaluate::merged(maps);
 
-  std::vector<std::pair<std::size_t, BuildingScores>> buildings;
+  std::vector<std::pair<std::size_t, report::BuildingScores>> buildings;
   for (auto& one : work)
     for (std::size_t i = 0; i < one.buildings.size(); ++i)
       buildings.emplace_back(one.features[i], std::move(one.buildings[i]));
-  std::ranges::sort(buildings, {}, &std::pair<std::size_t, BuildingScores>::first);
+  std::ranges::sort(buildings, {}, &std::pair<std::size_t, report::BuildingScores>::first);
   for (auto& [feature, building] : buildings) out.buildings.push_back(std::move(building));
 }
 
-auto counts_of(const model::Model& model) -> ModelCounts {
-  ModelCounts out;
+auto counts_of(const model::Model& model) -> report::ModelCounts {
+  report::ModelCounts out;
   out.buildings = model.buildings.size();
   for (const auto& building : model.buildings) {
     out.parts += building.parts.size();
@@ -270,8 +272,8 @@ auto counts_of(const model::Model& model) -> ModelCounts {
 
 auto against(const model::Model& truth, const model::Model& model, const std::vector<Outline>& buildings,
              const model::ModelSurface& surface, const Options& options, const base::Run& run, Warnings& warnings)
-    -> TruthScores {
-  TruthScores out;
+    -> report::TruthScores {
+  report::TruthScores out;
   const auto true_buildings = building_outlines(truth, warnings), true_parts = part_outlines(truth, warnings);
   const auto parts = part_outlines(model, warnings);
   out.parts = evaluate::compare_partition(true_parts, parts);
@@ -290,27 +292,9 @@ auto against(const model::Model& truth, const model::Model& model, const std::ve
 
 }  // namespace
 
-auto to_string(Reference reference) -> std::string_view {
-  switch (reference) {
-    case Reference::footprints: return "footprints";
-    case Reference::truth: return "truth";
-    case Reference::model: return "model";
-  }
-  return "";
-}
-
-auto worse_than_prism(const BuildingScores& building) -> bool {
-  return building.scores.footprint_mse > building.prism.scores.footprint_mse + worse_by;
-}
-
-auto worse_than_prism_from_truth(const BuildingScores& building) -> bool {
-  return building.from_truth &&
-         building.from_truth->footprint_mse > building.prism_from_truth->footprint_mse + worse_by;
-}
-
 auto read_evaluation(const EvaluationFiles& files, const ingest::Options& options, const base::Run& run)
-    -> base::Result<EvaluationInput> {
-  EvaluationInput input;
+    -> base::Result<report::EvaluationInput> {
+  report::EvaluationInput input;
   auto model = read_any_model(files.model, {files.lod, options.crs}, run);
   if (!model) return model.error();
   input.model = std::move(*model);
@@ -349,9 +333,12 @@ auto read_evaluation(const EvaluationFiles& files, const ingest::Options& option
   return input;
 }
 
-auto evaluate_model(const EvaluationInput& input, const Options& options, const base::Run& run)
-    -> base::Result<Evaluation> {
-  Evaluation out;
+auto evaluate_model(const report::EvaluationInput& input, const Options& options, const base::Run& run)
+    -> base::Result<report::Evaluation> {
+  report::Evaluation out;
+  out.options = options.evaluate;
+  out.seed = options.seed;
+  out.version = detail::version();
   for (const auto& footprint : input.scene.footprints)
     if (footprint.defect) out.warnings.push_back(*footprint.defect);
   const auto blocks = block::partition(input.scene, options.block, run);

@@ -6,9 +6,9 @@
 #include "mansard/base/text.hpp"
 #include "mansard/extrude/align.hpp"
 #include "mansard/pipeline/detail/assemble.hpp"
-#include "mansard/pipeline/detail/model_attributes.hpp"
 #include "mansard/pipeline/detail/overlaps.hpp"
 #include "mansard/pipeline/pipeline.hpp"
+#include "mansard/report/attributes.hpp"
 #include "mansard/solid/solid.hpp"
 
 namespace mansard::pipeline {
@@ -97,7 +97,7 @@ auto eaves_of(const model::LabelledSolid& model) -> double {
   return low;
 }
 
-auto attributes_of(const model::LabelledSolid& model, const Raising& job, const BuildingReport& building)
+auto attributes_of(const model::LabelledSolid& model, const Raising& job, const report::BuildingReport& building)
     -> model::Attributes {
   const auto areas = label::areas(model);
   model::Attributes out;
@@ -105,8 +105,8 @@ auto attributes_of(const model::LabelledSolid& model, const Raising& job, const 
   add("ms_h_ground", job.planned.plan.base);
   add("ms_h_roof_min", eaves_of(model));
   add("ms_h_roof_max", top_of(model.solid));
-  if (const auto ridge = detail::ridge_height(model)) add("ms_h_ridge", *ridge);
-  add("ms_roof_type", detail::roof_type(model));
+  if (const auto ridge = report::ridge_height(model)) add("ms_h_ridge", *ridge);
+  add("ms_roof_type", report::roof_type(model));
   add("ms_roof_shape", building.roof);
   add("ms_height_from", building.height_from);
   add("ms_volume_lod22", solid::volume(model.solid));
@@ -120,7 +120,7 @@ auto attributes_of(const model::LabelledSolid& model, const Raising& job, const 
 }
 
 /// Adds a part to its building and to the building's report.
-void take(Raising job, model::LabelledSolid model, model::Building& building, BuildingReport& report) {
+void take(Raising job, model::LabelledSolid model, model::Building& building, report::BuildingReport& report) {
   auto attributes = attributes_of(model, job, report);
   const double low = eaves_of(model), high = top_of(model.solid);
   report.roof_min = report.parts == 0 ? low : std::min(report.roof_min, low);
@@ -133,7 +133,8 @@ void take(Raising job, model::LabelledSolid model, model::Building& building, Bu
 }
 
 /// Buildings and reports, still without parts.
-void begin(const model::Scene& scene, const std::vector<roof::Read>& read, bool by_attributes, Reconstruction& out) {
+void begin(const model::Scene& scene, const std::vector<roof::Read>& read, bool by_attributes,
+           report::Reconstruction& out) {
   for (std::size_t i = 0; i < scene.footprints.size(); ++i) {
     const auto& footprint = scene.footprints[i];
     auto& building = out.city.buildings.emplace_back();
@@ -143,7 +144,7 @@ void begin(const model::Scene& scene, const std::vector<roof::Read>& read, bool 
     building.footprint = footprint.polygons;
     building.ground = report.ground = read[i].form.ground;
     if (footprint.defect) {
-      report.outcome = Outcome::refused;
+      report.outcome = report::Outcome::refused;
       report.reasons.push_back(*footprint.defect);
       continue;
     }
@@ -153,7 +154,7 @@ void begin(const model::Scene& scene, const std::vector<roof::Read>& read, bool 
 }
 
 /// The attributes that only the whole building has; the ids of its reasons; a word on heights out of thin air.
-void finish(const model::Scene& scene, Reconstruction& out) {
+void finish(const model::Scene& scene, report::Reconstruction& out) {
   std::size_t assumed = 0;
   for (std::size_t i = 0; i < out.buildings.size(); ++i) {
     auto& report = out.buildings[i];
@@ -177,7 +178,7 @@ void finish(const model::Scene& scene, Reconstruction& out) {
 }  // namespace
 
 auto raise_footprints(const model::Scene& scene, const Options& options, const base::Run& run)
-    -> base::Result<Reconstruction> {
+    -> base::Result<report::Reconstruction> {
   const auto usable = std::ranges::find_if(scene.footprints, [](const auto& f) { return !f.defect.has_value(); });
   if (usable == scene.footprints.end())
     return base::error("pipeline-nothing",
@@ -256,23 +257,23 @@ auto raise_footprints(const model::Scene& scene, const Options& options, const b
     if (job.solid) solids.push_back(std::move(*job.solid));
   auto models = label::classify(std::move(solids), options.label, inner);
 
-  Reconstruction out;
+  report::Reconstruction out;
   out.city.frame = scene.frame;
   out.city.made_by = detail::made_by(scene, options);
   begin(scene, read, by_attributes, out);
-  StageTime planning{"roof", 0}, raising{"extrude", aligned_in};
+  report::StageTime planning{"roof", 0}, raising{"extrude", aligned_in};
   std::size_t next = 0;
   for (auto& job : jobs) {
     planning.seconds += job.planning;
     raising.seconds += job.raising;
     auto& report = out.buildings[job.feature];
     append(report.reasons, job.reasons);
-    if (!job.full) report.outcome = Outcome::fallback;
+    if (!job.full) report.outcome = report::Outcome::fallback;
     if (by_attributes && report.roof.empty()) report.roof = roof::to_string(job.planned.shape);
     if (job.solid) take(std::move(job), std::move(models[next++]), out.city.buildings[job.feature], report);
   }
   for (auto& report : out.buildings)
-    if (report.parts == 0) report.outcome = Outcome::refused;
+    if (report.parts == 0) report.outcome = report::Outcome::refused;
   out.times = {planning, raising, {"label", labelling.seconds()}};
   detail::report_overlaps(out);
   finish(scene, out);

@@ -1,6 +1,7 @@
 // Every room's options in one place, and the presets.
 #include "mansard/base/files.hpp"
 #include "mansard/formats/codes.hpp"
+#include "mansard/picture/picture.hpp"
 #include "mansard/pipeline/pipeline.hpp"
 #include "mansard/solid/solid.hpp"
 #include "mansard/solver/solver.hpp"

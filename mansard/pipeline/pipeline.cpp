@@ -12,18 +12,19 @@
 namespace mansard::pipeline {
 namespace {
 
-auto combined(const std::vector<BlockReport>& blocks) -> evaluate::Scores {
+auto combined(const std::vector<report::BlockReport>& blocks) -> evaluate::Scores {
   std::vector<evaluate::Scores> scores;
   for (const auto& block : blocks) scores.push_back(block.scores);
   return evaluate::combined(scores);
 }
 
 /// Per stage over all blocks, after the one before them.
-auto summed(const StageTime& before, const std::vector<BlockReport>& blocks) -> std::vector<StageTime> {
-  std::vector<StageTime> sum{before};
+auto summed(const report::StageTime& before, const std::vector<report::BlockReport>& blocks)
+    -> std::vector<report::StageTime> {
+  std::vector<report::StageTime> sum{before};
   for (const auto& block : blocks)
     for (const auto& time : block.times) {
-      const auto at = std::ranges::find(sum, time.stage, &StageTime::stage);
+      const auto at = std::ranges::find(sum, time.stage, &report::StageTime::stage);
       if (at == sum.end()) sum.push_back(time);
       else at->seconds += time.seconds;
     }
@@ -32,7 +33,7 @@ auto summed(const StageTime& before, const std::vector<BlockReport>& blocks) -> 
 
 struct Division {
   std::vector<block::Block> blocks;
-  StageTime time;
+  report::StageTime time;
 };
 
 auto divide(const model::Scene& scene, const Options& options, const base::Run& run) -> base::Result<Division> {
@@ -88,7 +89,7 @@ auto keep_only(std::vector<block::Block>& blocks, std::span<const std::string> o
 }
 
 /// Takes out what belongs to no block of these.
-void keep_only(const std::vector<block::Block>& blocks, Reconstruction& out) {
+void keep_only(const std::vector<block::Block>& blocks, report::Reconstruction& out) {
   std::vector<bool> kept(out.buildings.size(), false);
   for (const auto& block : blocks)
     for (const auto& member : block.members) kept[member.feature] = true;
@@ -109,23 +110,8 @@ auto cancelled() -> base::Diagnostic { return base::error("cancelled", "stopped 
 
 }  // namespace
 
-auto to_string(Outcome outcome) -> std::string_view {
-  switch (outcome) {
-    case Outcome::full: return "full";
-    case Outcome::fallback: return "fallback";
-    case Outcome::covered: return "covered";
-    case Outcome::refused: return "refused";
-  }
-  return "";
-}
-
-auto relative_gap(const BlockReport& block) -> double {
-  const double gap = block.objective - block.bound;
-  return gap > 0 && block.objective != 0 ? gap / std::abs(block.objective) : 0;
-}
-
 auto reconstruct(const model::Scene& scene, const Options& options, const base::Run& run, Keep keep,
-                 std::span<const std::string> only) -> base::Result<Reconstruction> {
+                 std::span<const std::string> only) -> base::Result<report::Reconstruction> {
   auto division = divide(scene, options, run);
   if (!division) return division.error();
   if (auto known = keep_only(division->blocks, only); !known) return known.error();
@@ -134,10 +120,10 @@ auto reconstruct(const model::Scene& scene, const Options& options, const base::
   });
   if (run.cancelled()) return cancelled();
 
-  std::vector<SegmentedBlock> segmented;
+  std::vector<report::SegmentedBlock> segmented;
   for (auto& result : results)
     if (result.segmented) segmented.push_back(std::move(*result.segmented));
-  Reconstruction out = detail::assemble(scene, division->blocks, std::move(results), options);
+  report::Reconstruction out = detail::assemble(scene, division->blocks, std::move(results), options);
   if (!only.empty()) keep_only(division->blocks, out);
   out.segmented = std::move(segmented);
   out.times = summed(division->time, out.blocks);
@@ -146,12 +132,13 @@ auto reconstruct(const model::Scene& scene, const Options& options, const base::
   return out;
 }
 
-auto segment(const model::Scene& scene, const Options& options, const base::Run& run) -> base::Result<Segmented> {
+auto segment(const model::Scene& scene, const Options& options, const base::Run& run)
+    -> base::Result<report::Segmented> {
   const auto division = divide(scene, options, run);
   if (!division) return division.error();
   struct Result {
-    BlockReport report;
-    SegmentedBlock segmented;
+    report::BlockReport report;
+    report::SegmentedBlock segmented;
     std::vector<base::Diagnostic> warnings;
   };
   auto results = for_every(division->blocks, run, [&](const auto& block, const auto& inner, const auto& tell) {
@@ -162,7 +149,7 @@ auto segment(const model::Scene& scene, const Options& options, const base::Run&
   });
   if (run.cancelled()) return cancelled();
 
-  Segmented out;
+  report::Segmented out;
   out.made_by = detail::made_by(scene, options);
   for (auto& result : results) {
     out.blocks.push_back(std::move(result.report));
@@ -171,17 +158,6 @@ auto segment(const model::Scene& scene, const Options& options, const base::Run&
   }
   out.times = summed(division->time, out.blocks);
   return out;
-}
-
-auto parts_by_feature(const model::Scene& scene, const std::vector<SegmentedBlock>& blocks)
-    -> std::vector<std::size_t> {
-  std::vector<std::size_t> parts(scene.footprints.size(), 0);
-  for (const auto& block : blocks) {
-    if (!block.segmentation) continue;
-    for (const auto& part : block.segmentation->parts)
-      if (part.feature) ++parts[*part.feature];
-  }
-  return parts;
 }
 
 auto raise_part(const model::Plan& plan, const Options& options, const base::Run& run)

@@ -1,6 +1,7 @@
 // Plans raised without a scan.
 #include <utility>
 
+#include "mansard/pipeline/detail/assemble.hpp"
 #include "mansard/pipeline/pipeline.hpp"
 
 namespace mansard::pipeline {
@@ -43,7 +44,7 @@ auto raise_plans(model::City city, const Options& options, const base::Run& run)
   auto labelled = label::classify(std::move(solids), options.label, run);
   for (std::size_t i = 0; i < places.size(); ++i) part_at(places[i]).model = std::move(labelled[i]);
   out.city = std::move(city);
-  out.city.made_by.version = MANSARD_VERSION;
+  out.city.made_by.version = detail::version();
   return out;
 }
 

@@ -39,7 +39,7 @@ auto value(const model::Attributes& attributes, std::string_view name) -> std::o
 struct Town {
   model::Scene scene = mansard::test::terrace();
   pipeline::Options options;
-  pipeline::Reconstruction run = *pipeline::reconstruct(scene, options);
+  report::Reconstruction run = *pipeline::reconstruct(scene, options);
   rays::Scene mesh{scene.mesh};
   History history{run.city};
 

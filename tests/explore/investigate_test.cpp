@@ -228,7 +228,7 @@ TEST(ReferenceVariables, follow_the_formula) {
                                         {{{10, 0}, {10, 10}}, 4}};
   fracture::Options options;
   options.continuation = 0;
-  pipeline::SegmentedBlock block;
+  report::SegmentedBlock block;
   geometry::Box2 region;
   region.add({0, 0});
   region.add({20, 10});

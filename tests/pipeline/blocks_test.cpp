@@ -25,7 +25,7 @@ auto street() -> model::Scene {
   return scene;
 }
 
-auto run_of(const model::Scene& scene, const std::vector<std::string>& only) -> Reconstruction {
+auto run_of(const model::Scene& scene, const std::vector<std::string>& only) -> report::Reconstruction {
   auto result = reconstruct(scene, {}, {}, Keep::segmentations, only);
   EXPECT_TRUE(result) << base::to_string(result.error());
   return std::move(*result);

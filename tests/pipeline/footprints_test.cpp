@@ -23,7 +23,7 @@ auto tagged(std::string id, geometry::Polygon polygon, Attributes attributes) ->
   return footprint;
 }
 
-auto raised(const model::Scene& scene, const Options& options = {}) -> Reconstruction {
+auto raised(const model::Scene& scene, const Options& options = {}) -> report::Reconstruction {
   auto result = raise_footprints(scene, options);
   EXPECT_TRUE(result) << base::to_string(result.error());
   for (const auto& building : result->city.buildings)
@@ -43,7 +43,7 @@ TEST(RaiseFootprints, gives_walls_and_roofs_the_areas_worked_out_by_hand) {
   scene.footprints.push_back(tagged("flat", rectangle(40, 0, 52, 8), house("flat")));
   const auto r = raised(scene);
   for (const auto& building : r.buildings) {
-    EXPECT_EQ(building.outcome, Outcome::full);
+    EXPECT_EQ(building.outcome, report::Outcome::full);
     EXPECT_EQ(building.roof, building.id);
     EXPECT_EQ(building.height_from, "height");
     EXPECT_NEAR(building.roof_max, 9, 1e-3);
@@ -95,16 +95,16 @@ TEST(RaiseFootprints, lets_a_bad_building_cost_only_itself_and_names_building_an
         return true;
     return false;
   };
-  EXPECT_EQ(r.buildings[0].outcome, Outcome::full);
+  EXPECT_EQ(r.buildings[0].outcome, report::Outcome::full);
   EXPECT_TRUE(said(0, "roof-value", "\"tall\""));
   EXPECT_EQ(r.buildings[0].height_from, "assumed");
-  EXPECT_EQ(r.buildings[1].outcome, Outcome::refused);
-  EXPECT_EQ(r.buildings[2].outcome, Outcome::full);
+  EXPECT_EQ(r.buildings[1].outcome, report::Outcome::refused);
+  EXPECT_EQ(r.buildings[2].outcome, report::Outcome::full);
   EXPECT_TRUE(said(2, "roof-conflict", "roof:height = \"9\""));
   EXPECT_TRUE(said(3, "roof-value", "\"-3\""));
   EXPECT_TRUE(said(3, "roof-shape-unknown", "\"dome\""));
   EXPECT_EQ(r.buildings[3].roof, "pyramidal");
-  EXPECT_EQ(r.buildings[4].outcome, Outcome::fallback);
+  EXPECT_EQ(r.buildings[4].outcome, report::Outcome::fallback);
   EXPECT_TRUE(said(4, "roof-shape-here", "hipped"));
   EXPECT_EQ(r.buildings[4].roof, "hipped");
   ASSERT_EQ(r.warnings.size(), 1U);
@@ -143,7 +143,7 @@ TEST(RaiseFootprints, gives_the_same_bytes_at_any_thread_count) {
     base::limit_threads(threads);
     auto r = raised(scene);
     r.times.clear();
-    bytes.push_back(*formats::cityjson(r.city) + report_json(r, scene));
+    bytes.push_back(*formats::cityjson(r.city) + report::run_json(r, scene));
   }
   base::limit_threads(0);
   EXPECT_EQ(bytes[0], bytes[1]);
@@ -153,7 +153,7 @@ TEST(RaiseFootprints, gives_the_same_bytes_at_any_thread_count) {
 TEST(RaiseFootprints, reports_every_building_without_blocks_or_scores) {
   model::Scene scene;
   scene.footprints.push_back(tagged("a", rectangle(0, 0, 12, 8), {{"height", 6.0}}));
-  const auto report = nlohmann::json::parse(report_json(raised(scene), scene));
+  const auto report = nlohmann::json::parse(report::run_json(raised(scene), scene));
   EXPECT_EQ(report["counts"]["full"], 1);
   EXPECT_FALSE(report.contains("mesh") || report.contains("scores") || report.contains("blocks"));
   EXPECT_EQ(report["buildings"][0]["roof"], "flat");

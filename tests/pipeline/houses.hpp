@@ -66,4 +66,20 @@ inline auto terrace() -> model::Scene {
   return scene;
 }
 
+/// An L of two wings of 6 and 9 m under one footprint, beside the terrace of two footprints, 100 m above the datum.
+inline auto town() -> model::Scene {
+  auto scene = terrace();
+  add_house(scene.mesh, 30, 0, 42, 10, 6, 6);
+  add_house(scene.mesh, 30, 10, 36, 24, 9, 9);
+  scene.footprints.push_back(footprint("wings", {{{30, 0}, {42, 0}, {42, 10}, {36, 10}, {36, 24}, {30, 24}}, {}}));
+  scene.frame = {{84800, 447400, 100}, "EPSG:28992"};
+  return scene;
+}
+
+/// A footprint so far away that its ground cannot be fractured.
+inline auto with_a_bad_block(model::Scene scene) -> model::Scene {
+  scene.footprints.push_back(footprint("far", rectangle(2e7, 0, 2e7 + 12, 8)));
+  return scene;
+}
+
 }  // namespace mansard::test

@@ -50,7 +50,7 @@ TEST(Reconstruct, tells_of_derived_footprints_in_city_and_report) {
   EXPECT_THAT(values_of(made->city.buildings[0].attributes, "ms_derived"), ::testing::ElementsAre(model::Value(true)));
   EXPECT_GT(made->buildings[0].parts, 0U);
 
-  const auto report = nlohmann::json::parse(report_json(*made, scene));
+  const auto report = nlohmann::json::parse(report::run_json(*made, scene));
   EXPECT_EQ(report["footprints_derived"], true);
   EXPECT_EQ(report["buildings"][0]["derived"], true);
   EXPECT_EQ(report["options"]["derive.cell"], "0.5");

@@ -30,7 +30,7 @@ TEST(Overlaps, are_told_in_both_buildings_and_once) {
   EXPECT_THAT(codes_of(r->buildings[2].reasons), testing::Not(testing::Contains("pipeline-overlap")));
   EXPECT_THAT(r->buildings[0].reasons.back().message, HasSubstr("8.000 m² of ground"));
   EXPECT_THAT(r->buildings[0].reasons.back().message, HasSubstr("with b-1"));
-  EXPECT_EQ(r->buildings[0].outcome, Outcome::full);
+  EXPECT_EQ(r->buildings[0].outcome, report::Outcome::full);
 }
 
 TEST(Overlaps, are_none_between_neighbours_that_straighten_their_wall_by_themselves) {
@@ -62,7 +62,7 @@ auto part_on(const std::string& id, const geometry::Ring& ring) -> model::Part {
 }
 
 TEST(Overlaps, that_cannot_be_computed_are_reported_in_both_buildings_and_once) {
-  Reconstruction r;
+  report::Reconstruction r;
   r.buildings.resize(3);
   for (const char* id : {"a", "b", "c"}) r.city.buildings.emplace_back().id = id;
   r.city.buildings[0].parts.push_back(part_on("a-1", {{0, 0}, {10, 10}, {10, 0}, {0, 10}}));  // crosses itself

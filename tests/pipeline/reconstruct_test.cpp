@@ -13,13 +13,13 @@ namespace {
 using test::footprint;
 using test::rectangle;
 
-auto reconstructed(const model::Scene& scene, const Options& options = {}) -> Reconstruction {
+auto reconstructed(const model::Scene& scene, const Options& options = {}) -> report::Reconstruction {
   auto result = reconstruct(scene, options);
   EXPECT_TRUE(result) << base::to_string(result.error());
   return std::move(*result);
 }
 
-void expect_valid(const Reconstruction& r) {
+void expect_valid(const report::Reconstruction& r) {
   for (const auto& building : r.city.buildings)
     for (const auto& part : building.parts) EXPECT_THAT(solid::check(part.model.solid), testing::IsEmpty()) << part.id;
 }
@@ -28,7 +28,7 @@ TEST(Reconstruct, raises_a_gabled_house_as_it_stands) {
   const auto r = reconstructed(test::lone_house());
   ASSERT_EQ(r.city.buildings.size(), 1U);
   ASSERT_EQ(r.city.buildings[0].parts.size(), 1U);
-  EXPECT_EQ(r.buildings[0].outcome, Outcome::full) << base::to_string(r.buildings[0].reasons.at(0));
+  EXPECT_EQ(r.buildings[0].outcome, report::Outcome::full) << base::to_string(r.buildings[0].reasons.at(0));
   expect_valid(r);
   EXPECT_NEAR(r.buildings[0].volume, 12 * 8 * 5 + 12 * 8 * 3 / 2, 15);
   EXPECT_NEAR(r.buildings[0].roof_max, 8, 0.3);
@@ -47,7 +47,7 @@ TEST(Reconstruct, keeps_the_identity_of_every_feature) {
     EXPECT_EQ(building.id, i == 0 ? "low" : "high");
     EXPECT_EQ(building.attributes.front().first, "use");
     ASSERT_EQ(building.parts.size(), 1U);
-    EXPECT_EQ(r.buildings[i].outcome, Outcome::full);
+    EXPECT_EQ(r.buildings[i].outcome, report::Outcome::full);
     EXPECT_NEAR(r.buildings[i].roof_max, i == 0 ? 6 : 9, 0.2);
     EXPECT_GT(r.buildings[i].areas.party_wall, 40);
   }
@@ -89,9 +89,9 @@ TEST(Reconstruct, lets_a_bad_footprint_cost_only_itself) {
   scene.footprints.insert(scene.footprints.begin(), bad);
   const auto r = reconstructed(scene);
   ASSERT_EQ(r.buildings.size(), 2U);
-  EXPECT_EQ(r.buildings[0].outcome, Outcome::refused);
+  EXPECT_EQ(r.buildings[0].outcome, report::Outcome::refused);
   EXPECT_EQ(r.buildings[0].reasons.at(0).message, "crosses itself");
-  EXPECT_EQ(r.buildings[1].outcome, Outcome::full);
+  EXPECT_EQ(r.buildings[1].outcome, report::Outcome::full);
   const auto alone = reconstructed(test::lone_house());
   EXPECT_EQ(r.city.buildings[1].parts[0].plan, alone.city.buildings[0].parts[0].plan);
 }
@@ -102,7 +102,7 @@ TEST(Reconstruct, raises_a_footprint_without_mesh_as_a_prism_and_says_so) {
   Options options;
   options.assumed_height = 4;
   const auto r = reconstructed(scene, options);
-  EXPECT_EQ(r.buildings[1].outcome, Outcome::fallback);
+  EXPECT_EQ(r.buildings[1].outcome, report::Outcome::fallback);
   EXPECT_EQ(r.buildings[1].reasons.at(0).code, "pipeline-no-mesh");
   EXPECT_NEAR(r.buildings[1].volume, 10 * 8 * 4, 1e-6);
   expect_valid(r);
@@ -112,7 +112,7 @@ TEST(Reconstruct, raises_a_footprint_on_bare_ground_as_a_low_prism_and_says_so) 
   auto scene = test::lone_house();
   scene.footprints.push_back(footprint("meadow", rectangle(22, 22, 30, 30)));
   const auto r = reconstructed(scene);
-  EXPECT_EQ(r.buildings[1].outcome, Outcome::fallback);
+  EXPECT_EQ(r.buildings[1].outcome, report::Outcome::fallback);
   EXPECT_EQ(r.buildings[1].reasons.at(0).code, "pipeline-low");
   expect_valid(r);
 }
@@ -134,25 +134,6 @@ TEST(Reconstruct, gives_up_when_no_footprint_can_be_used) {
   const auto result = reconstruct(scene, {});
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().code, "pipeline-nothing");
-}
-
-TEST(Report, counts_every_footprint_and_every_term) {
-  const auto scene = test::terrace();
-  const auto report = nlohmann::json::parse(report_json(reconstructed(scene), scene));
-  EXPECT_EQ(report["counts"]["footprints"], 2);
-  EXPECT_EQ(report["counts"]["full"], 2);
-  EXPECT_EQ(report["buildings"].size(), 2U);
-  const auto& block = report["blocks"][0];
-  for (const auto* key : {"triangles", "slices", "slice_segments", "sweep_edges", "faces"})
-    EXPECT_GT(block[key], 0) << key;
-  const auto& o = block["objective"];
-  EXPECT_NEAR(o["total"].get<double>(),
-              o["sweep_unused"].get<double>() + o["unsupported"].get<double>() + o["height"].get<double>() +
-                  o["thin"].get<double>(),
-              1e-6);
-  for (const auto* stage : {"block", "slice", "sweep", "fracture", "segment", "profile", "refine", "label", "evaluate"})
-    EXPECT_TRUE(report["seconds"].contains(stage)) << stage;
-  EXPECT_EQ(report["options"]["segment.alpha"], "40");
 }
 
 TEST(Presets, only_name_options_that_exist) {
@@ -224,7 +205,7 @@ TEST(MadeBy, has_advanced_options_in_files_only_where_they_differ_and_all_in_the
   EXPECT_FALSE(has(usual.city.made_by.options, "sweep.column_width"));
   EXPECT_TRUE(has(other->city.made_by.options, "sweep.column_width"));
   EXPECT_FALSE(has(other->city.made_by.options, "sweep.column_gap"));
-  const auto report = nlohmann::json::parse(report_json(usual, scene));
+  const auto report = nlohmann::json::parse(report::run_json(usual, scene));
   EXPECT_EQ(report["options"]["sweep.column_width"], "0.2");
 }
 
@@ -233,16 +214,6 @@ TEST(Codes, are_listed_once_with_cause_and_remedy) {
   for (const auto& code : codes()) {
     EXPECT_TRUE(seen.insert(code.code).second) << code.code;
     EXPECT_FALSE(code.cause.empty() || code.remedy.empty()) << code.code;
-  }
-}
-
-TEST(Pictures, are_drawn_for_a_reconstruction) {
-  const auto scene = test::lone_house();
-  const auto r = reconstructed(scene);
-  const auto p = pictures(r, scene, 2.0);
-  for (const auto* image : {&p.above, &p.angle, &p.error}) {
-    EXPECT_GT(image->width, 100U);
-    EXPECT_EQ(image->pixels.size(), 3 * image->width * image->height);
   }
 }
 

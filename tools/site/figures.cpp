@@ -12,6 +12,7 @@
 #include "mansard/base/text.hpp"
 #include "mansard/edit/edit.hpp"
 #include "mansard/pipeline/pipeline.hpp"
+#include "mansard/report/pictures.hpp"
 
 namespace {
 
@@ -246,7 +247,7 @@ void rooms_in_plan(const Figures& to, const model::Scene& scene, const pipeline:
     auto with = options;
     with.refine.effort = effort;
     const auto made = need(pipeline::reconstruct(scene, with, {}, pipeline::Keep::models, std::vector{block.name}));
-    before_after.push_back(pipeline::pictures(made, scene, 2).error);
+    before_after.push_back(report::pictures(made, scene, 2).error);
   }
   to.put("refine.png", picture::beside(before_after));
 
@@ -298,7 +299,7 @@ void surfaces(const Figures& to, const model::Scene& scene, const pipeline::Opti
          picture::error_map(heights, columns, rows, (sorted[sorted.size() * 49 / 50] - sorted[sorted.size() / 50]) / 2,
                             "TOP HEIGHT"));
 
-  to.put("label.png", pipeline::picture_of(need(pipeline::reconstruct(scene, options)).city, view));
+  to.put("label.png", report::picture_of(need(pipeline::reconstruct(scene, options)).city, view));
 }
 
 /// The scan from above with the footprints that are drawn of it.

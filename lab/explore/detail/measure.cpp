@@ -10,11 +10,12 @@
 #include "mansard/picture/picture.hpp"
 #include "mansard/profile/profile.hpp"
 #include "mansard/rays/rays.hpp"
+#include "mansard/report/pictures.hpp"
 
 namespace mansard::explore::detail {
 namespace {
 
-auto numbers_of(const pipeline::BlockReport& block, const pipeline::SegmentedBlock& segmented) -> Numbers {
+auto numbers_of(const report::BlockReport& block, const report::SegmentedBlock& segmented) -> Numbers {
   Numbers n;
   n.triangles = block.triangles;
   n.footprints = block.buildings;
@@ -59,17 +60,17 @@ void add(const Numbers& block, Numbers& sum) {
 }
 
 /// Blocks know neither their buildings' outcomes nor the faces of their models.
-void count_buildings(const pipeline::Reconstruction& result, Row& row) {
+void count_buildings(const report::Reconstruction& result, Row& row) {
   const auto in = [&](const std::string& block) -> Numbers* {
     const auto at = std::ranges::find(row.blocks, block, &BlockRow::name);
     return at == row.blocks.end() ? nullptr : &at->numbers;
   };
-  const auto count = [](Numbers& n, pipeline::Outcome outcome) {
+  const auto count = [](Numbers& n, report::Outcome outcome) {
     switch (outcome) {
-      case pipeline::Outcome::full: ++n.full; return;
-      case pipeline::Outcome::fallback: ++n.fallback; return;
-      case pipeline::Outcome::covered: ++n.covered; return;
-      case pipeline::Outcome::refused: ++n.refused; return;
+      case report::Outcome::full: ++n.full; return;
+      case report::Outcome::fallback: ++n.fallback; return;
+      case report::Outcome::covered: ++n.covered; return;
+      case report::Outcome::refused: ++n.refused; return;
     }
   };
   for (const auto& building : result.buildings) {
@@ -113,11 +114,11 @@ void add_rises(const profile::ProfiledFootprint& part, const pipeline::Options& 
                      part.evidence[i].attempted});
 }
 
-auto rises_of(const pipeline::Reconstruction& result, const model::Scene& scene, const pipeline::Options& options,
+auto rises_of(const report::Reconstruction& result, const model::Scene& scene, const pipeline::Options& options,
               const base::Run& run) -> std::vector<Rise> {
   std::vector<Rise> rises;
   for (const auto& block : block::partition(scene, options.block, run)) {
-    const auto segmented = std::ranges::find(result.segmented, block.name, &pipeline::SegmentedBlock::name);
+    const auto segmented = std::ranges::find(result.segmented, block.name, &report::SegmentedBlock::name);
     if (segmented == result.segmented.end() || !segmented->segmentation) continue;
     const rays::Scene mesh(block.mesh);
     for (const auto& part : profile::fit(*segmented->segmentation, block, mesh, options.profile, run))
@@ -135,11 +136,11 @@ void add_picture(const picture::Image& image, std::string name, std::string alt,
 constexpr auto error_alt =
     "vertical error, model minus mesh: blue where the model is too low, red where it is too high";
 
-void draw(const pipeline::Reconstruction& result, const model::Scene& scene, const Request& request, std::size_t number,
+void draw(const report::Reconstruction& result, const model::Scene& scene, const Request& request, std::size_t number,
           const base::Run& run, Row& row) {
   const std::string prefix = "run-" + std::to_string(number) + "-";
   if (request.experiment == Experiment::datasets) {
-    const auto pictures = pipeline::pictures(result, scene, request.error_limit, run);
+    const auto pictures = report::pictures(result, scene, request.error_limit, run);
     add_picture(pictures.angle, prefix + "angle.png", "scan with footprints, and models, at an angle", row);
     add_picture(pictures.above, prefix + "above.png", "scan with footprints, and models, from above", row);
     add_picture(pictures.error, prefix + "error.png", error_alt, row);
@@ -147,7 +148,7 @@ void draw(const pipeline::Reconstruction& result, const model::Scene& scene, con
   if (request.experiment == Experiment::quality) {
     picture::View view;
     view.width = 1000, view.height = 750;
-    add_picture(pipeline::picture_of(result.city, view, run), prefix + "models.png", "models at an angle", row);
+    add_picture(report::picture_of(result.city, view, run), prefix + "models.png", "models at an angle", row);
     const auto map = evaluate::merged(result.error_maps);
     add_picture(picture::error_map(map.difference, map.columns, map.rows, request.error_limit, "model - mesh, m"),
                 prefix + "error.png", error_alt, row);
@@ -175,7 +176,7 @@ auto typed(const std::string& key, const std::string& value, bool words) -> std:
 
 }  // namespace
 
-auto reference_variables(const pipeline::SegmentedBlock& block) -> std::size_t {
+auto reference_variables(const report::SegmentedBlock& block) -> std::size_t {
   if (!block.segmentation) return 0;
   const auto& faces = block.segmentation->faces;
   const auto inside = [&](const fracture::HalfEdge& h) { return h.face && faces[*h.face].inside; };

@@ -9,7 +9,7 @@ namespace mansard::explore::detail {
 /// faces inside, H the half-edges around them (both sides of an edge between two of them, which are H_int), B the bad
 /// pairs; as it is in the reference: six colours a face, four variables a half-edge, an exclusive or per colour of an
 /// interior one.
-[[nodiscard]] auto reference_variables(const pipeline::SegmentedBlock& block) -> std::size_t;
+[[nodiscard]] auto reference_variables(const report::SegmentedBlock& block) -> std::size_t;
 
 /// Fills in everything but dataset, setting and command. `number` names the pictures.
 [[nodiscard]] auto measure(const model::Scene& scene, const pipeline::Options& options, const Request& request,

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mansard/pipeline/detail/model_attributes.hpp"
+#include "mansard/report/attributes.hpp"
 
 namespace mansard::pipeline::detail {
 
@@ -17,9 +17,11 @@ void add(label::Areas& sum, const label::Areas& more) {
   sum.ground += more.ground;
 }
 
+auto version() -> std::string { return MANSARD_VERSION; }
+
 auto made_by(const model::Scene& scene, const Options& options) -> model::MadeBy {
   model::MadeBy out;
-  out.version = MANSARD_VERSION;
+  out.version = version();
   out.inputs = scene.inputs;
   Options copy = options, defaults;
   const auto used = option_lists(copy), usual = option_lists(defaults);
@@ -35,9 +37,9 @@ auto made_by(const model::Scene& scene, const Options& options) -> model::MadeBy
 namespace {
 
 /// The attributes of outputs.md, in the file's heights.
-auto attributes_of(const PartResult& part, const BlockReport& block, double z0) -> model::Attributes {
+auto attributes_of(const PartResult& part, const report::BlockReport& block, double z0) -> model::Attributes {
   const std::string why = part.reasons.empty() ? "unknown" : part.reasons.front().code;
-  auto out = model_attributes(part.model, part.plan, part.roof, part.mse, part.full ? std::string() : why, z0);
+  auto out = report::model_attributes(part.model, part.plan, part.roof, part.mse, part.full ? std::string() : why, z0);
   if (!part.changes.empty()) {
     std::string words;
     for (const auto& change : part.changes) words += (words.empty() ? "" : "; ") + change;
@@ -54,8 +56,8 @@ struct Account {
   double squared = 0;  // Σ mse × area, for the building's RMSE
   double area = 0;
 };
-void take(PartResult part, const BlockReport& block, double z0, model::Building& building, BuildingReport& report,
-          Account& account) {
+void take(PartResult part, const report::BlockReport& block, double z0, model::Building& building,
+          report::BuildingReport& report, Account& account) {
   report.roof_min = report.parts == 0 ? z0 + part.roof.front() : std::min(report.roof_min, z0 + part.roof.front());
   report.roof_max = report.parts == 0 ? z0 + part.roof.back() : std::max(report.roof_max, z0 + part.roof.back());
   ++report.parts;
@@ -66,7 +68,7 @@ void take(PartResult part, const BlockReport& block, double z0, model::Building&
     account.squared += *part.mse * areas.ground;
     account.area += areas.ground;
   }
-  if (!part.full) report.outcome = Outcome::fallback;
+  if (!part.full) report.outcome = report::Outcome::fallback;
   for (auto reason : part.reasons) {
     if (reason.subject.empty()) reason.subject = building.id;
     report.reasons.push_back(std::move(reason));
@@ -79,12 +81,12 @@ void take(PartResult part, const BlockReport& block, double z0, model::Building&
 }  // namespace
 
 auto assemble(const model::Scene& scene, const std::vector<block::Block>& blocks, std::vector<BlockResult> results,
-              const Options& options) -> Reconstruction {
-  Reconstruction out;
+              const Options& options) -> report::Reconstruction {
+  report::Reconstruction out;
   const auto z0 = static_cast<double>(scene.frame.origin[2]);
   const std::size_t count = scene.footprints.size();
   std::vector<model::Building> buildings(count);
-  std::vector<BuildingReport> reports(count);
+  std::vector<report::BuildingReport> reports(count);
   std::vector<Account> accounts(count);
   for (std::size_t i = 0; i < count; ++i) {
     const auto& footprint = scene.footprints[i];
@@ -93,7 +95,7 @@ auto assemble(const model::Scene& scene, const std::vector<block::Block>& blocks
     buildings[i].attributes = footprint.attributes;
     buildings[i].footprint = footprint.polygons;
     if (footprint.defect) {
-      reports[i].outcome = Outcome::refused;
+      reports[i].outcome = report::Outcome::refused;
       reports[i].reasons.push_back(*footprint.defect);
     }
   }
@@ -108,12 +110,12 @@ auto assemble(const model::Scene& scene, const std::vector<block::Block>& blocks
       take(std::move(part), results[b].report, z0, buildings[f], reports[f], accounts[f]);
     }
     for (const std::size_t f : results[b].covered) {
-      reports[f].outcome = Outcome::covered;
+      reports[f].outcome = report::Outcome::covered;
       reports[f].reasons.push_back(base::warning(
           "pipeline-covered", "the ground of this footprint went to its neighbours' models", reports[f].id));
     }
     for (const auto& [f, why] : results[b].failed) {
-      reports[f].outcome = reports[f].parts == 0 ? Outcome::refused : Outcome::fallback;
+      reports[f].outcome = reports[f].parts == 0 ? report::Outcome::refused : report::Outcome::fallback;
       reports[f].reasons.push_back(base::warning(why.code, why.message, reports[f].id));
     }
     for (auto& [f, warning] : results[b].unchecked) {

@@ -9,7 +9,7 @@ namespace mansard::pipeline::detail {
 
 /// `results[i]` belongs to `blocks[i]`. Fills the city, the reports and the warnings.
 [[nodiscard]] auto assemble(const model::Scene& scene, const std::vector<block::Block>& blocks,
-                            std::vector<BlockResult> results, const Options& options) -> Reconstruction;
+                            std::vector<BlockResult> results, const Options& options) -> report::Reconstruction;
 
 /// Files have 0.1 mm: what is checked is what is written.
 [[nodiscard]] inline auto with_grid(extrude::Options options) -> extrude::Options {
@@ -18,6 +18,8 @@ namespace mansard::pipeline::detail {
 }
 
 void add(label::Areas& sum, const label::Areas& more);
+/// Of mansard.
+[[nodiscard]] auto version() -> std::string;
 /// Version, inputs and every option.
 [[nodiscard]] auto made_by(const model::Scene& scene, const Options& options) -> model::MadeBy;
 

@@ -2,8 +2,8 @@
 
 #include "mansard/base/statistics.hpp"
 #include "mansard/pipeline/detail/assemble.hpp"
-#include "mansard/pipeline/detail/model_attributes.hpp"
 #include "mansard/pipeline/detail/uncovered.hpp"
+#include "mansard/report/attributes.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -44,7 +44,7 @@ auto plain_prism(std::size_t feature, const Polygon& polygon, double ground, con
 /// The heights of the model's roof and its vertical error against the mesh.
 void measure(PartResult& part, const rays::Scene& mesh, const Options& options) {
   const auto polygon = model::polygon_of(part.plan);
-  part.roof = roof_heights(part.model, part.plan, options.roof_grid);
+  part.roof = report::roof_heights(part.model, part.plan, options.roof_grid);
   const double mse = evaluate::error_over(part.model.solid, polygon, mesh, options.evaluate.grid);
   if (std::isfinite(mse)) part.mse = mse;
 }
@@ -76,7 +76,7 @@ auto raise_parts(const segment::Segmentation& segmentation, const block::Block& 
   for (std::size_t i = 0; i < fitted.size(); ++i) {
     const auto& source = segmentation.parts[i];
     const std::size_t feature = source.feature.value_or(block.members.front().feature);
-    if (heights_over(mesh, source.polygon, options.roof_grid)
+    if (report::heights_over(mesh, source.polygon, options.roof_grid)
             .empty()) {  // the footprints alone say there is a building
       auto prism = plain_prism(feature, source.polygon, fitted[i].plan.base, {}, options, no_mesh(), run);
       if (prism) parts.push_back(std::move(*prism));
@@ -116,7 +116,7 @@ void fill_in(const block::Block& block, const rays::Scene& mesh, const Options& 
     bool any = false;
     std::optional<base::Diagnostic> failure;
     for (const auto& polygon : left.polygons) {
-      const auto heights = heights_over(mesh, polygon, options.roof_grid);
+      const auto heights = report::heights_over(mesh, polygon, options.roof_grid);
       const bool low =
           !heights.empty() && base::percentile_of_sorted(heights, 0.5) - member.ground < options.segment.min_height;
       const auto why =
@@ -165,9 +165,9 @@ void classify(std::vector<PartResult>& parts, const Options& options, const base
 auto run_block(const block::Block& block, const Options& options, const base::Run& run, const Tell& tell, Keep keep)
     -> BlockResult {
   BlockResult out;
-  BlockReport& report = out.report;
+  report::BlockReport& report = out.report;
   const rays::Scene mesh(block.mesh);
-  SegmentedBlock segmented = segment_block(block, mesh, options, run, tell, report, out.warnings);
+  report::SegmentedBlock segmented = segment_block(block, mesh, options, run, tell, report, out.warnings);
 
   std::vector<PartResult> parts;
   if (segmented.segmentation) {

@@ -28,7 +28,7 @@ using Tell = std::function<void(std::string_view)>;
 
 /// Does the work and adds its time to the report.
 template <class Work>
-[[nodiscard]] auto stage(const char* name, const Tell& tell, BlockReport& report, Work&& work) {
+[[nodiscard]] auto stage(const char* name, const Tell& tell, report::BlockReport& report, Work&& work) {
   tell(name);
   const Watch watch;
   auto product = work();
@@ -49,7 +49,7 @@ struct PartResult {
 };
 
 struct BlockResult {
-  BlockReport report;
+  report::BlockReport report;
   std::vector<PartResult> parts;  ///< by feature
   evaluate::ErrorMap map;
   std::vector<std::size_t> covered;  ///< features whose ground went to their neighbours
@@ -58,13 +58,13 @@ struct BlockResult {
   /// Features whose ground could not be told from that of their neighbours' parts, and why.
   std::vector<std::pair<std::size_t, base::Diagnostic>> unchecked;
   std::vector<base::Diagnostic> warnings;
-  std::optional<SegmentedBlock> segmented;  ///< with Keep::segmentations
+  std::optional<report::SegmentedBlock> segmented;  ///< with Keep::segmentations
 };
 
 /// From slices to the segmentation. Never fails: what goes wrong is in `failure`, among the warnings and in the report.
 [[nodiscard]] auto segment_block(const block::Block& block, const rays::Scene& mesh, const Options& options,
-                                 const base::Run& run, const Tell& tell, BlockReport& report,
-                                 std::vector<base::Diagnostic>& warnings) -> SegmentedBlock;
+                                 const base::Run& run, const Tell& tell, report::BlockReport& report,
+                                 std::vector<base::Diagnostic>& warnings) -> report::SegmentedBlock;
 
 /// Never fails: what cannot be segmented or raised becomes prisms with a reason.
 [[nodiscard]] auto run_block(const block::Block& block, const Options& options, const base::Run& run, const Tell& tell,

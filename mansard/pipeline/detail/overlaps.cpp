@@ -60,7 +60,7 @@ auto shared_ground(const Standing& a, const Standing& b) -> base::Result<double>
 
 /// Among the reasons of both buildings, and of the whole.
 void report_unchecked(const Standing& a, const Standing& b, const base::Diagnostic& why,
-                      Reconstruction& reconstruction) {
+                      report::Reconstruction& reconstruction) {
   const auto between = [&](const Standing& one, const Standing& other) {
     return base::warning("pipeline-overlap-unchecked",
                          "whether it shares ground with " + other.part->id + " could not be computed (" + why.message +
@@ -74,7 +74,7 @@ void report_unchecked(const Standing& a, const Standing& b, const base::Diagnost
 
 }  // namespace
 
-void report_overlaps(Reconstruction& reconstruction) {
+void report_overlaps(report::Reconstruction& reconstruction) {
   std::vector<Standing> all;
   for (std::size_t i = 0; i < reconstruction.city.buildings.size(); ++i)
     for (const auto& part : reconstruction.city.buildings[i].parts) all.push_back(standing(all.size(), i, part));

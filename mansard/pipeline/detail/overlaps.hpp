@@ -11,6 +11,6 @@ namespace mansard::pipeline::detail {
 /// what they share: "pipeline-overlap" among the reasons of both buildings, and once for all among the warnings.
 /// Two parts whose ground cannot be intersected are reported in the same places as "pipeline-overlap-unchecked".
 /// `buildings[i]` is the report on `city.buildings[i]`. Overhanging eaves are not looked at.
-void report_overlaps(Reconstruction& reconstruction);
+void report_overlaps(report::Reconstruction& reconstruction);
 
 }  // namespace mansard::pipeline::detail

@@ -14,7 +14,7 @@ void keep(const std::vector<base::Diagnostic>& more, const std::string& block,
   }
 }
 
-void enter(const segment::Segmentation& chosen, BlockReport& report) {
+void enter(const segment::Segmentation& chosen, report::BlockReport& report) {
   report.inside_faces = static_cast<std::size_t>(
       std::ranges::count_if(chosen.part_of_face, [](const auto& part) { return part.has_value(); }));
   report.parts = chosen.parts.size();
@@ -39,11 +39,12 @@ auto region_of(const block::Block& block) -> geometry::Box2 {
 }  // namespace
 
 auto segment_block(const block::Block& block, const rays::Scene& mesh, const Options& options, const base::Run& run,
-                   const Tell& tell, BlockReport& report, std::vector<base::Diagnostic>& warnings) -> SegmentedBlock {
+                   const Tell& tell, report::BlockReport& report, std::vector<base::Diagnostic>& warnings)
+    -> report::SegmentedBlock {
   report.name = block.name;
   report.buildings = block.members.size();
   report.triangles = block.mesh.triangles.size();
-  SegmentedBlock out;
+  report::SegmentedBlock out;
   out.name = block.name;
   for (const auto& member : block.members) out.features.push_back(member.feature);
 

@@ -7,7 +7,7 @@
 
 #include "mansard/segment/segment.hpp"
 
-namespace mansard::pipeline::detail {
+namespace mansard::report::detail {
 
 /// With how many other candidates that are cut each candidate is in conflict: what cutting it would cost beside its
 /// own.
@@ -17,4 +17,4 @@ namespace mansard::pipeline::detail {
 /// against 0". `walls` is of walls_in_conflict, at `phi` each.
 [[nodiscard]] auto why(const segment::Candidate& candidate, std::size_t walls, double phi) -> std::string;
 
-}  // namespace mansard::pipeline::detail
+}  // namespace mansard::report::detail

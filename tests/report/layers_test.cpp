@@ -8,24 +8,24 @@
 
 #include "mansard/formats/documents.hpp"
 #include "mansard/formats/layers.hpp"
-#include "mansard/pipeline/detail/why.hpp"
 #include "mansard/pipeline/pipeline.hpp"
+#include "mansard/report/layers.hpp"
 #include "pipeline/houses.hpp"
 
-namespace mansard::pipeline {
+namespace mansard::report {
 namespace {
 
 using model::Value;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-auto segmented(const model::Scene& scene, const Options& options = {}) -> Segmented {
-  auto result = segment(scene, options);
+auto segmented(const model::Scene& scene, const pipeline::Options& options = {}) -> Segmented {
+  auto result = pipeline::segment(scene, options);
   EXPECT_TRUE(result) << base::to_string(result.error());
   return std::move(*result);
 }
 
-auto layers_of(const model::Scene& scene, const Options& options = {}) -> std::vector<formats::Layer> {
+auto layers_of(const model::Scene& scene, const pipeline::Options& options = {}) -> std::vector<formats::Layer> {
   const auto result = segmented(scene, options);
   return segment_layers(scene, result.segmented, result.made_by);
 }
@@ -48,25 +48,8 @@ auto column_of(const formats::Layer& layer, const std::string& field) -> std::ve
   return values;
 }
 
-/// An L of two wings of 6 and 9 m under one footprint, beside the terrace of two footprints, 100 m above the datum.
-auto town() -> model::Scene {
-  auto scene = test::terrace();
-  test::add_house(scene.mesh, 30, 0, 42, 10, 6, 6);
-  test::add_house(scene.mesh, 30, 10, 36, 24, 9, 9);
-  scene.footprints.push_back(
-      test::footprint("wings", {{{30, 0}, {42, 0}, {42, 10}, {36, 10}, {36, 24}, {30, 24}}, {}}));
-  scene.frame = {{84800, 447400, 100}, "EPSG:28992"};
-  return scene;
-}
-
-/// A footprint so far away that its ground cannot be fractured.
-auto with_a_bad_block(model::Scene scene) -> model::Scene {
-  scene.footprints.push_back(test::footprint("far", test::rectangle(2e7, 0, 2e7 + 12, 8)));
-  return scene;
-}
-
 TEST(SegmentLayers, are_seven_and_a_geopackage_takes_them) {
-  const auto layers = layers_of(town());
+  const auto layers = layers_of(test::town());
   std::vector<std::string> names;
   for (const auto& layer : layers) names.push_back(layer.name);
   EXPECT_THAT(names, testing::ElementsAre("gis_footprints", "sweep_edges", "faces", "edges", "conflicts", "footprints",
@@ -78,7 +61,7 @@ TEST(SegmentLayers, are_seven_and_a_geopackage_takes_them) {
   }
   for (const auto* name : {"gis_footprints", "sweep_edges", "faces", "edges", "footprints", "made_by"})
     EXPECT_FALSE(named(layers, name).features.empty()) << name;
-  const auto bytes = formats::geopackage(layers, town().frame);
+  const auto bytes = formats::geopackage(layers, test::town().frame);
   EXPECT_TRUE(bytes) << base::to_string(bytes.error());
 }
 
@@ -86,7 +69,7 @@ TEST(SegmentLayers, have_costs_that_add_up_to_the_objective) {
   const std::filesystem::path folder = std::filesystem::path(MANSARD_DATA) / "b9";  // torn walls: every term is paid
   const auto scene = ingest::read_scene({folder / "mesh.off"}, folder / "footprints.geojson", {});
   ASSERT_TRUE(scene) << base::to_string(scene.error());
-  Options options;
+  pipeline::Options options;
   options.segment.gis_edges = segment::GisEdges::candidate;
   auto result = segmented(*scene, options);
   for (auto& block : result.segmented)  // what is joined or left out afterwards is not the objective's business
@@ -122,7 +105,7 @@ TEST(SegmentLayers, have_costs_that_add_up_to_the_objective) {
 }
 
 TEST(SegmentLayers, give_faces_and_parts_that_belong_together) {
-  const auto layers = layers_of(town());
+  const auto layers = layers_of(test::town());
   const auto& faces = named(layers, "faces");
   const auto& footprints = named(layers, "footprints");
   std::map<std::pair<Value, Value>, double> area, count;  // by block and part
@@ -141,7 +124,7 @@ TEST(SegmentLayers, give_faces_and_parts_that_belong_together) {
 }
 
 TEST(SegmentLayers, give_heights_in_the_frame_of_the_file) {
-  const auto layers = layers_of(town());
+  const auto layers = layers_of(test::town());
   const auto& footprints = named(layers, "footprints");
   std::map<std::string, double> height;
   for (std::size_t p = 0; p < footprints.features.size(); ++p)
@@ -152,13 +135,13 @@ TEST(SegmentLayers, give_heights_in_the_frame_of_the_file) {
 }
 
 TEST(DiagnosticsLayer, has_a_row_for_every_reason_with_the_footprint_it_is_about) {
-  auto scene = town();
+  auto scene = test::town();
   model::Footprint bad = test::footprint("bad", {{{50, 0}, {60, 0}, {60, 10}}, {}});
   bad.polygons.clear();
   bad.defect = base::error("ingest-footprint-empty", "it has no geometry", "bad");
   scene.footprints.push_back(bad);
   scene.warnings.push_back(base::warning("ingest-mesh-duplicate", "two triangles are there twice", "mesh.ply"));
-  const auto result = reconstruct(scene, {});
+  const auto result = pipeline::reconstruct(scene, {});
   ASSERT_TRUE(result) << base::to_string(result.error());
   const auto layer = diagnostics_layer(*result, scene);
   std::size_t reasons = scene.warnings.size() + result->warnings.size();
@@ -172,7 +155,7 @@ TEST(DiagnosticsLayer, has_a_row_for_every_reason_with_the_footprint_it_is_about
 }
 
 TEST(SegmentLayers, name_variables_as_the_exported_program_does) {
-  const auto scene = town();
+  const auto scene = test::town();
   const auto result = segmented(scene);
   const auto layers = segment_layers(scene, result.segmented, result.made_by);
   const auto& edges = named(layers, "edges");
@@ -190,7 +173,7 @@ TEST(SegmentLayers, name_variables_as_the_exported_program_does) {
 }
 
 TEST(SegmentLayers, keep_the_sources_attributes_and_what_could_not_be_used) {
-  auto scene = town();
+  auto scene = test::town();
   scene.footprints[0].attributes = {{"levels", std::int64_t{2}}, {"year", std::int64_t{1900}}, {"use", Value()}};
   scene.footprints[1].attributes = {{"levels", 2.5}, {"year", std::string("unknown")}, {"block", true}};
   scene.footprints[2].defect = base::error("ingest-footprint-crossing", "crosses itself", "wings");
@@ -219,144 +202,5 @@ TEST(SegmentLayers, say_that_a_wall_is_between_two_features) {
   EXPECT_GT(between, 0U);
 }
 
-TEST(Segment, leaves_the_other_blocks_alone_when_one_fails_and_says_so) {
-  const auto good = town(), bad = with_a_bad_block(good);
-  const auto alone = segmented(good), together = segmented(bad);
-  ASSERT_EQ(together.blocks.size(), alone.blocks.size() + 1);
-  EXPECT_EQ(together.blocks.back().status, "failed");
-  ASSERT_TRUE(together.segmented.back().failure);
-  EXPECT_EQ(together.segmented.back().failure->code, "pipeline-block");
-  EXPECT_THAT(together.warnings, testing::Contains(*together.segmented.back().failure));
-  const auto before = segment_layers(good, alone.segmented, alone.made_by);
-  const auto after = segment_layers(bad, together.segmented, together.made_by);
-  for (const auto* name : {"faces", "edges", "conflicts", "footprints"}) {
-    const auto &one = named(before, name), &other = named(after, name);
-    ASSERT_EQ(one.features.size(), other.features.size()) << name;
-    for (std::size_t i = 0; i < one.features.size(); ++i) EXPECT_EQ(one.features[i].values, other.features[i].values);
-  }
-  EXPECT_TRUE(formats::geopackage(after, bad.frame));
-  const auto report = nlohmann::json::parse(report_json(together, bad));
-  EXPECT_EQ(report["blocks"].back()["objective"]["status"], "failed");
-  EXPECT_EQ(report["counts"]["without_part"], 1);
-}
-
-TEST(Segment, gives_the_same_geopackage_at_any_thread_count) {
-  const auto scene = town();
-  std::vector<std::string> files;
-  for (const std::size_t threads : {1U, 2U, 4U}) {
-    base::limit_threads(threads);
-    files.push_back(*formats::geopackage(layers_of(scene), scene.frame));
-  }
-  base::limit_threads(0);
-  EXPECT_TRUE(files[0] == files[1]);
-  EXPECT_TRUE(files[0] == files[2]);
-}
-
-TEST(Segment, reports_every_term_and_a_relative_gap) {
-  const auto scene = town();
-  const auto report = nlohmann::json::parse(report_json(segmented(scene), scene));
-  EXPECT_FALSE(report.contains("scores") || report.contains("buildings"));
-  ASSERT_EQ(report["blocks"].size(), 2U);
-  for (const auto& block : report["blocks"]) {
-    EXPECT_FALSE(block.contains("scores"));
-    const auto& o = block["objective"];
-    double sum = 0;
-    for (const auto* term : {"sweep_unused", "unsupported", "height", "thin", "gis_unused"})
-      sum += o[term].get<double>();
-    EXPECT_NEAR(sum, o["total"].get<double>(), 1e-9);
-    EXPECT_EQ(o["status"], "optimal");
-    EXPECT_EQ(o["relative_gap"], 0.0);
-    EXPECT_GT(block["parts"], 0);
-  }
-  for (const auto* stage : {"block", "slice", "sweep", "fracture", "segment"})
-    EXPECT_TRUE(report["seconds"].contains(stage)) << stage;
-}
-
-TEST(Segment, gives_up_as_reconstruct_does) {
-  base::Cancel cancel;
-  cancel.request();
-  base::Run run;
-  run.cancel = &cancel;
-  EXPECT_EQ(segment(town(), {}, run).error().code, "cancelled");
-  EXPECT_EQ(segment({}, {}).error().code, "pipeline-nothing");
-}
-
-TEST(RelativeGap, is_a_share_of_the_objective) {
-  BlockReport block;
-  EXPECT_EQ(relative_gap(block), 0);
-  block.objective = 200;
-  block.bound = 150;
-  EXPECT_EQ(relative_gap(block), 0.25);
-  block.bound = 200;
-  EXPECT_EQ(relative_gap(block), 0);
-}
-
-TEST(Reconstruct, keeps_the_segmentations_when_asked_and_they_are_those_of_segment) {
-  const auto scene = town();
-  const auto asked = reconstruct(scene, {}, {}, Keep::segmentations);
-  ASSERT_TRUE(asked);
-  const auto layers = segment_layers(scene, asked->segmented, asked->city.made_by);
-  EXPECT_TRUE(*formats::geopackage(layers, scene.frame) == *formats::geopackage(layers_of(scene), scene.frame));
-  const auto unasked = reconstruct(scene, {});
-  ASSERT_TRUE(unasked);
-  EXPECT_THAT(unasked->segmented, IsEmpty());
-  EXPECT_EQ(*formats::cityjson(asked->city), *formats::cityjson(unasked->city));
-}
-
-// ---- the sentences
-
-auto candidate(bool solved, const segment::Costs& costs) -> segment::Candidate {
-  segment::Candidate c;
-  c.length = c.sweep_length = c.unsupported_length = c.gis_length = 12;
-  c.height_difference = 8;
-  c.solved = c.chosen = solved;
-  c.costs = costs;
-  return c;
-}
-
-TEST(Why, weighs_what_was_done_against_what_was_not) {
-  EXPECT_EQ(detail::why(candidate(true, {0, 0, 480, 0, 0}), 0, 100),
-            "cut: 480 for leaving 12.0 m of sweep-edge unused against 0");
-  EXPECT_EQ(detail::why(candidate(false, {720, 0, 0, 96, 0}), 0, 100),
-            "not cut: 720 for 12.0 m without a sweep-edge against 96 for the height step of 8.0 m");
-  EXPECT_EQ(detail::why(candidate(true, {0, 0, 0, 4.26, 120}), 0, 100),
-            "cut: 4.3 for the height step of 8.0 m and 120 for leaving 12.0 m of GIS edge unused against 0");
-  EXPECT_EQ(detail::why(candidate(false, {0, 0, 0, 0, 0}), 0, 100), "not cut: 0 against 0");
-  EXPECT_EQ(detail::why(candidate(true, {0, 0, 0, 0.01, 0}), 0, 100),
-            "cut: under 0.1 for the height step of 8.0 m against 0");
-}
-
-TEST(Why, says_when_other_edges_decided) {
-  EXPECT_EQ(
-      detail::why(candidate(true, {720, 0, 0, 96, 0}), 0, 100),
-      "cut though dearer by itself (720 for 12.0 m without a sweep-edge against 96 for the height step of 8.0 m): "
-      "its ends need a wall");
-  EXPECT_EQ(detail::why(candidate(false, {0, 0, 480, 0, 0}), 0, 100),
-            "not cut though cheaper by itself (0 against 480 for leaving 12.0 m of sweep-edge unused): the walls that "
-            "its ends need cost more");
-}
-
-TEST(Why, counts_conflicts_with_the_outline_and_with_other_walls) {
-  EXPECT_EQ(detail::why(candidate(false, {0, 500, 480, 0, 0}), 0, 100),
-            "not cut: 500 for its conflict with the outline against 480 for leaving 12.0 m of sweep-edge unused");
-  EXPECT_EQ(detail::why(candidate(false, {0, 0, 480, 0, 0}), 1, 500),
-            "not cut: 500 for its conflict with another wall against 480 for leaving 12.0 m of sweep-edge unused");
-  EXPECT_THAT(detail::why(candidate(true, {0, 0, 480, 0, 0}), 3, 500),
-              HasSubstr("dearer by itself (1500 for its conflicts with 3 other walls against 480"));
-  segment::Segmentation s;
-  s.candidates = {candidate(true, {}), candidate(false, {}), candidate(true, {})};
-  s.conflicts = {{0, std::nullopt}, {0, 1}, {1, 2}};
-  EXPECT_THAT(detail::walls_in_conflict(s), testing::ElementsAre(0, 2, 0));
-}
-
-TEST(Why, says_when_features_or_small_parts_decided) {
-  auto c = candidate(true, {720, 0, 0, 0, 0});
-  c.forced = true;
-  EXPECT_EQ(detail::why(c, 0, 100), "cut: between two features");
-  c.chosen = false;
-  EXPECT_EQ(detail::why(c, 0, 100),
-            "cut by the program, but one side is too small or narrow for a part: joined or left out");
-}
-
 }  // namespace
-}  // namespace mansard::pipeline
+}  // namespace mansard::report

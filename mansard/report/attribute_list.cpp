@@ -1,6 +1,6 @@
-#include "mansard/pipeline/attributes.hpp"
+#include "mansard/report/attributes.hpp"
 
-namespace mansard::pipeline {
+namespace mansard::report {
 
 auto attributes() -> std::vector<formats::Attribute> {
   using Objects = std::vector<std::string>;
@@ -56,4 +56,4 @@ auto attributes() -> std::vector<formats::Attribute> {
   return all;
 }
 
-}  // namespace mansard::pipeline
+}  // namespace mansard::report

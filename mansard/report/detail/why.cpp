@@ -1,10 +1,10 @@
-#include "mansard/pipeline/detail/why.hpp"
+#include "mansard/report/detail/why.hpp"
 
 #include <utility>
 
 #include "mansard/base/text.hpp"
 
-namespace mansard::pipeline::detail {
+namespace mansard::report::detail {
 namespace {
 
 using Amounts = std::vector<std::pair<double, std::string>>;
@@ -65,4 +65,4 @@ auto why(const segment::Candidate& c, std::size_t walls, double phi) -> std::str
                             "): the walls that its ends need cost more";
 }
 
-}  // namespace mansard::pipeline::detail
+}  // namespace mansard::report::detail

@@ -4,10 +4,9 @@
 #include <numbers>
 
 #include "mansard/base/text.hpp"
-#include "mansard/pipeline/detail/assemble.hpp"
-#include "mansard/pipeline/evaluation.hpp"
+#include "mansard/report/evaluation.hpp"
 
-namespace mansard::pipeline {
+namespace mansard::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -237,20 +236,37 @@ auto confusion_table(const ClassAreas& area) -> std::string {
   return out;
 }
 
-auto evaluation_json(const Evaluation& e, const EvaluationInput& input, const Options& options) -> std::string {
+auto to_string(Reference reference) -> std::string_view {
+  switch (reference) {
+    case Reference::footprints: return "footprints";
+    case Reference::truth: return "truth";
+    case Reference::model: return "model";
+  }
+  return "";
+}
+
+auto worse_than_prism(const BuildingScores& building) -> bool {
+  return building.scores.footprint_mse > building.prism.scores.footprint_mse + worse_by;
+}
+
+auto worse_than_prism_from_truth(const BuildingScores& building) -> bool {
+  return building.from_truth &&
+         building.from_truth->footprint_mse > building.prism_from_truth->footprint_mse + worse_by;
+}
+
+auto evaluation_json(const Evaluation& e, const EvaluationInput& input) -> std::string {
   const bool independent = input.reference != Reference::model;
-  const auto made_by = detail::made_by(input.scene, options);
   Json out;
-  out["mansard"] = made_by.version;
+  out["mansard"] = e.version;
   Json inputs = Json::array();
   for (const auto& file : input.scene.inputs)
     inputs.push_back({{"path", file.path}, {"bytes", file.bytes}, {"sha256", file.sha256}});
   out["inputs"] = inputs;
   out["crs"] = input.scene.frame.crs.empty() ? Json(nullptr) : Json(input.scene.frame.crs);
   out["lod"] = input.model.lod.empty() ? Json(nullptr) : Json(input.model.lod);
-  out["grid_m"] = options.evaluate.grid;
-  out["inset_m"] = options.evaluate.inset;
-  out["seed"] = options.seed;
+  out["grid_m"] = e.options.grid;
+  out["inset_m"] = e.options.inset;
+  out["seed"] = e.seed;
   out["footprints_of"] = to_string(input.reference);
   out["model"] = json_of(e.counts);
   out["scores"] = json_of(e.scores, independent);
@@ -278,8 +294,8 @@ auto evaluation_json(const Evaluation& e, const EvaluationInput& input, const Op
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-auto evaluation_table(const Evaluation& e, const EvaluationInput& input, const Options& options) -> std::string {
-  const double inset = options.evaluate.inset;
+auto evaluation_table(const Evaluation& e, const EvaluationInput& input) -> std::string {
+  const double inset = e.options.inset;
   const auto& s = e.scores;
   const auto& c = e.counts;
   const std::string whose = input.reference == Reference::footprints ? "the footprints given"
@@ -308,4 +324,4 @@ auto evaluation_table(const Evaluation& e, const EvaluationInput& input, const O
   return out;
 }
 
-}  // namespace mansard::pipeline
+}  // namespace mansard::report

@@ -1,13 +1,19 @@
-// What a model says of itself in attributes: heights, roof type, volume, areas, error.
+// Attributes of models: heights, roof type, volume, areas, error; and what each attribute means.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "mansard/pipeline/pipeline.hpp"
+#include "mansard/formats/attributes.hpp"
+#include "mansard/geometry/polygon.hpp"
+#include "mansard/model/city.hpp"
+#include "mansard/rays/rays.hpp"
 
-namespace mansard::pipeline::detail {
+namespace mansard::report {
+
+/// Those of `formats`, and those that describe how a model was made and what it measures.
+[[nodiscard]] auto attributes() -> std::vector<formats::Attribute>;
 
 /// Heights of a top surface over a polygon, sorted; on a grid aligned to whole multiples of `grid`, coarser for
 /// polygons so large that it would not matter.
@@ -23,13 +29,23 @@ namespace mansard::pipeline::detail {
 /// z of the highest corner of a pitched face, where there is one.
 [[nodiscard]] auto ridge_height(const model::LabelledSolid& model) -> std::optional<double>;
 
-/// The value below which that share (0 … 1) of the sorted, non-empty values lies.
-[[nodiscard]] auto percentile(const std::vector<double>& sorted, double share) -> double;
-
 /// The attributes that speak of the model, in the file's heights: `z0` is that of the origin. `roof` is of
 /// roof_heights; `fallback` the code of the reason why the model is simpler than its plan, empty when it is not.
 [[nodiscard]] auto model_attributes(const model::LabelledSolid& model, const model::Plan& plan,
                                     const std::vector<double>& roof, const std::optional<double>& mse,
                                     const std::string& fallback, double z0) -> model::Attributes;
 
-}  // namespace mansard::pipeline::detail
+/// The grids on which a model is measured.
+struct Sampling {
+  double roof_grid;   ///< m; of the roof's heights
+  double error_grid;  ///< m; of the vertical error
+};
+/// The attributes of a part that speak of its model (heights, roof type, volume, areas, error, fallback), measured
+/// anew; all others stay as `part` has them. `mesh` may be null: no error then. `fallback`: the code of the reason why
+/// the model is simpler than its plan; empty when it is not. `z0`: z of the frame's origin, metres.
+[[nodiscard]] auto part_attributes(const model::Part& part, const std::string& fallback, const rays::Scene* mesh,
+                                   double z0, const Sampling& sampling) -> model::Attributes;
+/// The same for a building, of the attributes of its parts.
+[[nodiscard]] auto building_attributes(const model::Building& building, double z0) -> model::Attributes;
+
+}  // namespace mansard::report

@@ -1,14 +1,18 @@
 // Attributes of models: those of a run, and those of parts and buildings whose plans were changed after it.
+#include "mansard/report/attributes.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <string_view>
 
 #include "mansard/base/statistics.hpp"
-#include "mansard/pipeline/detail/model_attributes.hpp"
+#include "mansard/evaluate/evaluate.hpp"
+#include "mansard/label/label.hpp"
+#include "mansard/report/report.hpp"
 #include "mansard/solid/solid.hpp"
 
-namespace mansard::pipeline {
+namespace mansard::report {
 namespace {
 
 /// Those that model_attributes() makes.
@@ -44,8 +48,6 @@ auto value_of(const model::Attributes& attributes, std::string_view name) -> con
 }
 
 }  // namespace
-
-namespace detail {
 
 auto heights_over(const rays::Scene& surface, const geometry::Polygon& polygon, double grid) -> std::vector<double> {
   constexpr double most_samples = 250'000;
@@ -126,18 +128,16 @@ auto model_attributes(const model::LabelledSolid& model, const model::Plan& plan
   return out;
 }
 
-}  // namespace detail
-
 auto part_attributes(const model::Part& part, const std::string& fallback, const rays::Scene* mesh, double z0,
-                     const Options& options) -> model::Attributes {
+                     const Sampling& sampling) -> model::Attributes {
   std::optional<double> mse;
   if (mesh != nullptr) {
     const double error =
-        evaluate::error_over(part.model.solid, model::polygon_of(part.plan), *mesh, options.evaluate.grid);
+        evaluate::error_over(part.model.solid, model::polygon_of(part.plan), *mesh, sampling.error_grid);
     if (std::isfinite(error)) mse = error;
   }
-  const auto roof = detail::roof_heights(part.model, part.plan, options.roof_grid);
-  return with(part.attributes, of_model, detail::model_attributes(part.model, part.plan, roof, mse, fallback, z0));
+  const auto roof = roof_heights(part.model, part.plan, sampling.roof_grid);
+  return with(part.attributes, of_model, model_attributes(part.model, part.plan, roof, mse, fallback, z0));
 }
 
 auto building_attributes(const model::Building& building, double z0) -> model::Attributes {
@@ -167,4 +167,4 @@ auto building_attributes(const model::Building& building, double z0) -> model::A
   return with(building.attributes, of_building, std::move(now));
 }
 
-}  // namespace mansard::pipeline
+}  // namespace mansard::report

@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mansard/pipeline/pipeline.hpp"
 #include "mansard/rays/rays.hpp"
+#include "mansard/report/pictures.hpp"
 #include "mansard/solid/solid.hpp"
 
-namespace mansard::pipeline {
+namespace mansard::report {
 namespace {
 
 using geometry::Point2;
@@ -127,4 +127,4 @@ auto pictures(const Reconstruction& reconstruction, const model::Scene& scene, d
           picture::error_map(map.difference, map.columns, map.rows, limit, "model - mesh, m")};
 }
 
-}  // namespace mansard::pipeline
+}  // namespace mansard::report

@@ -3,10 +3,10 @@
 #include <map>
 
 #include "mansard/base/text.hpp"
-#include "mansard/pipeline/detail/why.hpp"
-#include "mansard/pipeline/pipeline.hpp"
+#include "mansard/report/detail/why.hpp"
+#include "mansard/report/layers.hpp"
 
-namespace mansard::pipeline {
+namespace mansard::report {
 namespace {
 
 using enum formats::FieldType;
@@ -323,4 +323,4 @@ auto diagnostics_layer(const Reconstruction& reconstruction, const model::Scene&
   return layer;
 }
 
-}  // namespace mansard::pipeline
+}  // namespace mansard::report

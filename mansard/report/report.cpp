@@ -3,9 +3,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "mansard/pipeline/pipeline.hpp"
+#include "mansard/report/report.hpp"
 
-namespace mansard::pipeline {
+namespace mansard::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -156,7 +156,33 @@ auto text_of(const Json& report) -> std::string {
 
 }  // namespace
 
-auto report_json(const Reconstruction& r, const model::Scene& scene) -> std::string {
+auto to_string(Outcome outcome) -> std::string_view {
+  switch (outcome) {
+    case Outcome::full: return "full";
+    case Outcome::fallback: return "fallback";
+    case Outcome::covered: return "covered";
+    case Outcome::refused: return "refused";
+  }
+  return "";
+}
+
+auto relative_gap(const BlockReport& block) -> double {
+  const double gap = block.objective - block.bound;
+  return gap > 0 && block.objective != 0 ? gap / std::abs(block.objective) : 0;
+}
+
+auto parts_by_feature(const model::Scene& scene, const std::vector<SegmentedBlock>& blocks)
+    -> std::vector<std::size_t> {
+  std::vector<std::size_t> parts(scene.footprints.size(), 0);
+  for (const auto& block : blocks) {
+    if (!block.segmentation) continue;
+    for (const auto& part : block.segmentation->parts)
+      if (part.feature) ++parts[*part.feature];
+  }
+  return parts;
+}
+
+auto run_json(const Reconstruction& r, const model::Scene& scene) -> std::string {
   Json out = head(r.city.made_by, scene);
   const bool scanned = !scene.mesh.triangles.empty();
   out["counts"] = {{"footprints", r.buildings.size()},        {"full", count(r, Outcome::full)},
@@ -172,7 +198,7 @@ auto report_json(const Reconstruction& r, const model::Scene& scene) -> std::str
   return text_of(out);
 }
 
-auto report_json(const Segmented& s, const model::Scene& scene) -> std::string {
+auto run_json(const Segmented& s, const model::Scene& scene) -> std::string {
   Json out = head(s.made_by, scene);
   const auto parts = parts_by_feature(scene, s.segmented);
   const auto refused = std::ranges::count_if(scene.footprints, [](const auto& f) { return f.defect.has_value(); });
@@ -186,4 +212,4 @@ auto report_json(const Segmented& s, const model::Scene& scene) -> std::string {
   return text_of(out);
 }
 
-}  // namespace mansard::pipeline
+}  // namespace mansard::report

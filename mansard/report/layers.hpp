@@ -1,0 +1,20 @@
+// Layers for a GIS: why walls were drawn, and what went otherwise than it should.
+#pragma once
+
+#include <vector>
+
+#include "mansard/formats/layers.hpp"
+#include "mansard/report/report.hpp"
+
+namespace mansard::report {
+
+/// Why a wall was drawn or not, as layers for formats::geopackage: gis_footprints, sweep_edges, faces, edges,
+/// conflicts, footprints, made_by. Their fields are listed in docs/report.md. Heights are z of the file frame.
+[[nodiscard]] auto segment_layers(const model::Scene& scene, const std::vector<SegmentedBlock>& blocks,
+                                  const model::MadeBy& made_by) -> std::vector<formats::Layer>;
+
+/// What went otherwise than it should, as one more layer: `diagnostics`, a row per reason of a building and per
+/// warning. `reconstruction` must be of the whole scene.
+[[nodiscard]] auto diagnostics_layer(const Reconstruction& reconstruction, const model::Scene& scene) -> formats::Layer;
+
+}  // namespace mansard::report

@@ -1,0 +1,59 @@
+#include "mansard/report/report.hpp"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "mansard/pipeline/pipeline.hpp"
+#include "mansard/report/pictures.hpp"
+#include "pipeline/houses.hpp"
+
+namespace mansard::report {
+namespace {
+
+auto reconstructed(const model::Scene& scene) -> Reconstruction {
+  auto result = pipeline::reconstruct(scene, {});
+  EXPECT_TRUE(result) << base::to_string(result.error());
+  return std::move(*result);
+}
+
+TEST(Report, counts_every_footprint_and_every_term) {
+  const auto scene = test::terrace();
+  const auto report = nlohmann::json::parse(run_json(reconstructed(scene), scene));
+  EXPECT_EQ(report["counts"]["footprints"], 2);
+  EXPECT_EQ(report["counts"]["full"], 2);
+  EXPECT_EQ(report["buildings"].size(), 2U);
+  const auto& block = report["blocks"][0];
+  for (const auto* key : {"triangles", "slices", "slice_segments", "sweep_edges", "faces"})
+    EXPECT_GT(block[key], 0) << key;
+  const auto& o = block["objective"];
+  EXPECT_NEAR(o["total"].get<double>(),
+              o["sweep_unused"].get<double>() + o["unsupported"].get<double>() + o["height"].get<double>() +
+                  o["thin"].get<double>(),
+              1e-6);
+  for (const auto* stage : {"block", "slice", "sweep", "fracture", "segment", "profile", "refine", "label", "evaluate"})
+    EXPECT_TRUE(report["seconds"].contains(stage)) << stage;
+  EXPECT_EQ(report["options"]["segment.alpha"], "40");
+}
+
+TEST(RelativeGap, is_a_share_of_the_objective) {
+  BlockReport block;
+  EXPECT_EQ(relative_gap(block), 0);
+  block.objective = 200;
+  block.bound = 150;
+  EXPECT_EQ(relative_gap(block), 0.25);
+  block.bound = 200;
+  EXPECT_EQ(relative_gap(block), 0);
+}
+
+TEST(Pictures, are_drawn_for_a_reconstruction) {
+  const auto scene = test::lone_house();
+  const auto r = reconstructed(scene);
+  const auto p = pictures(r, scene, 2.0);
+  for (const auto* image : {&p.above, &p.angle, &p.error}) {
+    EXPECT_GT(image->width, 100U);
+    EXPECT_EQ(image->pixels.size(), 3 * image->width * image->height);
+  }
+}
+
+}  // namespace
+}  // namespace mansard::report
