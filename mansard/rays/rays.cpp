@@ -3,6 +3,10 @@
 #include <embree3/rtcore.h>
 
 #include <cmath>
+#include <mutex>
+#include <utility>
+
+#include "mansard/rays/detail/from_above.hpp"
 
 namespace mansard::rays {
 
@@ -79,66 +83,82 @@ auto look_at(RTCPointQueryFunctionArguments* at) -> bool {
   return true;
 }
 
-}  // namespace
-
-struct Scene::Parts {
+/// The mesh as Embree has it.
+struct Tree {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   const float* vertices = nullptr;  ///< as Embree keeps them
   const unsigned* indices = nullptr;
   Point3 centre;
-  double top = 0;  ///< a z above everything, relative to the centre
-  bool empty = true;
 
-  Parts() = default;
-  Parts(const Parts&) = delete;
-  auto operator=(const Parts&) -> Parts& = delete;
-  ~Parts() {
+  explicit Tree(const geometry::Mesh& mesh);
+  Tree(const Tree&) = delete;
+  auto operator=(const Tree&) -> Tree& = delete;
+  ~Tree() {
     if (scene != nullptr) rtcReleaseScene(scene);
     if (device != nullptr) rtcReleaseDevice(device);
   }
 };
 
-Scene::Scene(const geometry::Mesh& mesh) : parts_(std::make_unique<Parts>()) {
-  Parts& p = *parts_;
-  p.empty = mesh.triangles.empty();
-  if (p.empty) return;
-
+Tree::Tree(const geometry::Mesh& mesh) {
   const auto box = geometry::Box3::of(mesh.vertices);
-  p.centre = 0.5 * (box.least + box.most);
-  p.top = box.most.z - p.centre.z + 1;  // m; floats below 1e6 m are exact to 0.06 m
+  centre = 0.5 * (box.least + box.most);
 
-  // One builder thread: the tree, and so which of two equally near triangles is hit, is the same every time.
-  p.device = rtcNewDevice("threads=1,set_affinity=0");
-  p.scene = rtcNewScene(p.device);
-  rtcSetSceneFlags(p.scene, RTC_SCENE_FLAG_ROBUST);
-  RTCGeometry triangles = rtcNewGeometry(p.device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(triangles, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                               3 * sizeof(float), mesh.vertices.size()));
-  auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(triangles, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                                 3 * sizeof(unsigned), mesh.triangles.size()));
-  p.vertices = vertices;
-  p.indices = indices;
+  // One builder thread: the tree, and so which of two equally near triangles is hit, is the same every time. No
+  // configuration files of the machine.
+  device = rtcNewDevice("threads=1,set_affinity=0,ignore_config_files=1");
+  scene = rtcNewScene(device);
+  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+  RTCGeometry triangles = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* to_vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
+      triangles, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.vertices.size()));
+  auto* to_indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
+      triangles, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), mesh.triangles.size()));
+  vertices = to_vertices;
+  indices = to_indices;
   for (const Point3& v : mesh.vertices) {
-    *vertices++ = static_cast<float>(v.x - p.centre.x);
-    *vertices++ = static_cast<float>(v.y - p.centre.y);
-    *vertices++ = static_cast<float>(v.z - p.centre.z);
+    *to_vertices++ = static_cast<float>(v.x - centre.x);
+    *to_vertices++ = static_cast<float>(v.y - centre.y);
+    *to_vertices++ = static_cast<float>(v.z - centre.z);
   }
   for (const auto& t : mesh.triangles)
-    for (const auto corner : t) *indices++ = corner;
+    for (const auto corner : t) *to_indices++ = corner;
   rtcCommitGeometry(triangles);
-  rtcAttachGeometry(p.scene, triangles);
+  rtcAttachGeometry(scene, triangles);
   rtcReleaseGeometry(triangles);
-  rtcCommitScene(p.scene);
+  rtcCommitScene(scene);
 }
 
+}  // namespace
+
+/// Each structure is built when it is first needed: most scenes are only looked at from above.
+struct Scene::Parts {
+  geometry::Mesh mesh;
+  std::once_flag tree_once, above_once;
+  std::optional<Tree> tree_;
+  std::optional<detail::FromAbove> above_;
+
+  explicit Parts(geometry::Mesh of) : mesh(std::move(of)) {}
+  [[nodiscard]] auto empty() const -> bool { return mesh.triangles.empty(); }
+  auto tree() -> const Tree& {
+    std::call_once(tree_once, [&] { tree_.emplace(mesh); });
+    return *tree_;
+  }
+  auto above() -> const detail::FromAbove& {
+    std::call_once(above_once, [&] { above_.emplace(mesh); });
+    return *above_;
+  }
+};
+
+Scene::Scene(geometry::Mesh mesh) : parts_(std::make_unique<Parts>(std::move(mesh))) {}
 Scene::Scene(Scene&&) noexcept = default;
 auto Scene::operator=(Scene&&) noexcept -> Scene& = default;
 Scene::~Scene() = default;
 
 auto Scene::cast(Point3 origin, Point3 direction) const -> std::optional<Hit> {
-  if (parts_->empty) return std::nullopt;
-  const Point3 o = origin - parts_->centre;
+  if (parts_->empty()) return std::nullopt;
+  const Tree& tree = parts_->tree();
+  const Point3 o = origin - tree.centre;
   const Point3 d = geometry::normalised(direction);
   RTCRayHit query{};
   query.ray.org_x = static_cast<float>(o.x);
@@ -152,17 +172,15 @@ auto Scene::cast(Point3 origin, Point3 direction) const -> std::optional<Hit> {
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  rtcIntersect1(parts_->scene, &context, &query);
+  rtcIntersect1(tree.scene, &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   return Hit{query.ray.tfar, query.hit.primID};
 }
 
 auto Scene::seen_from_above(Point2 at) const -> std::optional<Seen> {
-  if (parts_->empty) return std::nullopt;
-  const double z = parts_->centre.z + parts_->top;
-  const auto hit = cast({at.x, at.y, z}, {0, 0, -1});
-  if (!hit) return std::nullopt;
-  return Seen{z - hit->distance, hit->triangle};
+  if (parts_->empty()) return std::nullopt;
+  const auto seen = parts_->above()(at);
+  return seen ? std::optional(Seen{seen->z, seen->triangle}) : std::nullopt;
 }
 
 auto Scene::top(Point2 at) const -> std::optional<double> {
@@ -173,9 +191,10 @@ auto Scene::top(Point2 at) const -> std::optional<double> {
 auto Scene::nearest(Point3 to, double within) const -> std::optional<Nearest> { return nearest(to, within, {}); }
 
 auto Scene::nearest(Point3 to, double within, const Extra& extra) const -> std::optional<Nearest> {
-  if (parts_->empty) return std::nullopt;
-  const Point3 at = to - parts_->centre;
-  Search search{parts_->vertices, parts_->indices, at, within, extra ? &extra : nullptr, 0, false, 0, {}};
+  if (parts_->empty()) return std::nullopt;
+  const Tree& tree = parts_->tree();
+  const Point3 at = to - tree.centre;
+  Search search{tree.vertices, tree.indices, at, within, extra ? &extra : nullptr, 0, false, 0, {}};
   search.slack = place_error * (std::abs(at.x) + std::abs(at.y) + std::abs(at.z));
   RTCPointQuery query{};
   query.x = static_cast<float>(at.x);
@@ -184,9 +203,9 @@ auto Scene::nearest(Point3 to, double within, const Extra& extra) const -> std::
   query.radius = static_cast<float>(search.radius_for(within));
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
-  rtcPointQuery(parts_->scene, &query, &context, &look_at, &search);
+  rtcPointQuery(tree.scene, &query, &context, &look_at, &search);
   if (!search.found) return std::nullopt;
-  search.best.point = search.best.point + parts_->centre;
+  search.best.point = search.best.point + tree.centre;
   return search.best;
 }
 

@@ -23,12 +23,15 @@ struct Nearest {
   std::uint32_t triangle = 0;  ///< index into the mesh's triangles
 };
 
-/// A mesh prepared for rays. Positions are held in single precision relative to the mesh's own centre, so heights are
-/// good to about 0.1 mm over a kilometre. Queries may run on any thread.
-/// Cost: O(n log n) to build, O(log n) a ray.
+/// A mesh prepared for rays. What `top` and `seen_from_above` return is computed in doubles and is a function of the
+/// triangles alone, so it has the same bits on every processor; `cast` computes in single precision relative to the
+/// mesh's centre (about 0.1 mm over a kilometre) with the instructions that the processor has, and is for pictures and
+/// simulated scans. `nearest` takes its candidates from a tree in single precision, with a margin for its rounding, and
+/// decides in doubles. Queries may run on any thread.
+/// Cost: O(n log n) to build (each structure when it is first needed), O(log n) a ray.
 class Scene {
  public:
-  explicit Scene(const geometry::Mesh& mesh);
+  explicit Scene(geometry::Mesh mesh);
   Scene(Scene&&) noexcept;
   auto operator=(Scene&&) noexcept -> Scene&;
   Scene(const Scene&) = delete;
@@ -37,7 +40,8 @@ class Scene {
 
   /// The nearest triangle hit, from either side.
   [[nodiscard]] auto cast(geometry::Point3 origin, geometry::Point3 direction) const -> std::optional<Hit>;
-  /// z of the topmost surface above or below (x, y): what a satellite sees.
+  /// z of the topmost surface above or below (x, y): what a satellite sees. Vertical triangles have no top. Of
+  /// triangles that are equally high there, the one with the lower index is seen.
   [[nodiscard]] auto top(geometry::Point2 at) const -> std::optional<double>;
   /// The triangle that `top` saw, and its z.
   struct Seen {
