@@ -49,7 +49,7 @@ auto box_of(const block::Block& block) -> geometry::Box3 {
 
 auto json_of(const block::Block& block, const model::Scene& scene) -> Json {
   Json buildings = Json::array();
-  for (const auto& member : block.members) buildings.push_back(scene.footprints[member.feature].id);
+  for (const auto& member : block.members) buildings.push_back(scene.feature(member.feature).id);
   const auto box = box_of(block);
   return {{"name", block.name},
           {"buildings", buildings},
@@ -248,6 +248,7 @@ auto json_of(const model::Scene& scene, std::span<const block::Block> blocks) ->
   for (const auto& block : blocks) {
     block_list.push_back(json_of(block, scene));
     for (const auto& member : block.members) {
+      if (member.feature >= scene.footprints.size()) continue;
       block_of[member.feature] = block.name;
       ground[member.feature] = member.ground;
     }

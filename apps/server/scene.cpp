@@ -36,7 +36,7 @@ auto OpenScene::read(const Inputs& inputs, const base::Run& run) -> base::Result
   if (run.cancelled()) return base::error("cancelled", "stopped on request");
   out->prepared_.resize(out->blocks_.size());
   for (std::size_t b = 0; b < out->blocks_.size(); ++b)
-    for (const auto& member : out->blocks_[b].members) out->block_of_[out->scene_.footprints[member.feature].id] = b;
+    for (const auto& member : out->blocks_[b].members) out->block_of_[out->scene_.feature(member.feature).id] = b;
   for (std::size_t t = 0; t < out->tiles_.size(); ++t) out->tile_of_[id_of(out->tiles_[t])] = t;
   out->scene_json_ = text_of(json_of(out->scene_, out->blocks_));
   out->tiles_json_ = text_of(json_of(out->tiles_));

@@ -2,6 +2,13 @@
 #include "mansard/block/block.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string_view>
+#include <tuple>
 
 #include "mansard/base/statistics.hpp"
 #include "mansard/block/detail/ground.hpp"
@@ -11,56 +18,246 @@
 namespace mansard::block {
 namespace {
 
-/// The triangles asked for, with the vertices they name in their old order.
-auto part_of(const geometry::Mesh& mesh, const std::vector<std::uint32_t>& triangles) -> geometry::Mesh {
-  geometry::Mesh out;
+using detail::Polygons;
+using geometry::Point2;
+using geometry::Point3;
+
+auto as_point(const std::array<std::int64_t, 3>& origin) -> Point3 {
+  return {static_cast<double>(origin[0]), static_cast<double>(origin[1]), static_cast<double>(origin[2])};
+}
+
+void shift(Polygons& polygons, Point2 by) {
+  for (auto& polygon : polygons) {
+    for (Point2& p : polygon.outer) p = p + by;
+    for (auto& hole : polygon.holes)
+      for (Point2& p : hole) p = p + by;
+  }
+}
+
+auto shifted(Polygons polygons, Point2 by) -> Polygons {
+  shift(polygons, by);
+  return polygons;
+}
+
+/// The order of shapes by their coordinates: one that no file decides.
+auto before(const Polygons& a, const Polygons& b) -> bool {
+  const auto box_a = geometry::bounds(a), box_b = geometry::bounds(b);
+  if (box_a.least != box_b.least) return box_a.least < box_b.least;
+  return std::ranges::lexicographical_compare(
+      a, b, [](const auto& p, const auto& q) { return std::tie(p.outer, p.holes) < std::tie(q.outer, q.holes); });
+}
+
+auto rounded(Point2 p) -> Point2 { return {model::rounded(p.x), model::rounded(p.y)}; }
+auto rounded(Point3 p) -> Point3 { return {model::rounded(p.x), model::rounded(p.y), model::rounded(p.z)}; }
+
+void round_all(Polygons& polygons) {
+  for (auto& polygon : polygons) {
+    for (Point2& p : polygon.outer) p = rounded(p);
+    for (auto& hole : polygon.holes)
+      for (Point2& p : hole) p = rounded(p);
+  }
+}
+
+/// The triangles asked for, moved by −origin and rounded, in an order that their coordinates alone decide: vertices by
+/// x, y, z, every triangle from its first vertex on, triangles by their vertices. What has become one in rounding is
+/// one, and triangles without three corners are gone.
+auto part_of(const geometry::Mesh& mesh, const std::vector<std::uint32_t>& triangles, Point3 origin) -> geometry::Mesh {
   std::vector<std::uint32_t> used;
   used.reserve(3 * triangles.size());
   for (const auto t : triangles) used.insert(used.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
   std::ranges::sort(used);
   used.erase(std::unique(used.begin(), used.end()), used.end());
-  out.vertices.reserve(used.size());
-  for (const auto v : used) out.vertices.push_back(mesh.vertices[v]);
+  std::vector<Point3> places;
+  places.reserve(used.size());
+  for (const auto v : used) places.push_back(rounded(mesh.vertices[v] - origin));
+  geometry::Mesh out;
+  out.vertices = places;
+  std::ranges::sort(out.vertices);
+  out.vertices.erase(std::unique(out.vertices.begin(), out.vertices.end()), out.vertices.end());
+  std::vector<std::uint32_t> rank;
+  rank.reserve(places.size());
+  for (const Point3 p : places)
+    rank.push_back(static_cast<std::uint32_t>(std::ranges::lower_bound(out.vertices, p) - out.vertices.begin()));
   out.triangles.reserve(triangles.size());
   for (const auto t : triangles) {
-    auto& triangle = out.triangles.emplace_back(mesh.triangles[t]);
-    for (auto& v : triangle) v = static_cast<std::uint32_t>(std::ranges::lower_bound(used, v) - used.begin());
+    geometry::Triangle triangle = mesh.triangles[t];
+    for (auto& v : triangle) v = rank[static_cast<std::size_t>(std::ranges::lower_bound(used, v) - used.begin())];
+    if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0]) continue;
+    std::ranges::rotate(triangle, std::ranges::min_element(triangle));
+    out.triangles.push_back(triangle);
   }
+  std::ranges::sort(out.triangles);
+  out.triangles.erase(std::unique(out.triangles.begin(), out.triangles.end()), out.triangles.end());
   return out;
 }
 
-/// Ground of each member: by the terrain, else around itself, else around the block, else the low end of what mesh
-/// there is. Never NaN.
-void set_ground(Block& block, const std::optional<model::HeightGrid>& terrain,
-                const std::vector<std::vector<detail::Sample>>& around, const std::vector<std::size_t>& members,
-                double whole_mesh, const Options& options) {
-  const double share = options.ground_percentile / 100;
+/// Heights are rounded to this, so that the last digits of sums over samples do not reach the models. 1 mm: ground is
+/// not known better.
+constexpr double ground_unit = 0x1p-10;
+
+/// All that the ground of a block is found in, in the block's frame.
+struct Surroundings {
+  geometry::Mesh mesh;           ///< as far as the ring around the footprints
+  std::vector<Polygons> shapes;  ///< the members', then those of others nearby
+};
+
+/// Ground of each member: by the terrain, else around itself, else around the block, else the low end of the block's
+/// mesh, else that of the mesh within reach. Everything is in the block's frame but the terrain.
+void set_ground(Block& block, const model::Scene& scene, const Surroundings& around,
+                const std::vector<std::uint32_t>& within_reach, const Options& options) {
+  const double share = options.ground_percentile / 100, rest = options.ground_rest_percentile / 100;
+  const Point3 origin = as_point(block.origin);
+  const auto samples = detail::ground_samples(around.mesh, around.shapes, block.members.size(), options);
   std::optional<double> of_block;
-  const auto fall_back = [&]() -> double {
-    if (of_block) return *of_block;
+  const auto fall_back = [&]() -> std::optional<double> {
+    if (of_block) return of_block;
     std::vector<detail::Sample> all;
-    for (const auto m : members) all.insert(all.end(), around[m].begin(), around[m].end());
+    for (const auto& some : samples) all.insert(all.end(), some.begin(), some.end());
     of_block = detail::percentile(std::move(all), share, options.ground_area);
+    if (!of_block) of_block = detail::percentile(detail::surface_samples(block.mesh), rest, 0);
+    if (!of_block) of_block = detail::percentile(detail::surface_samples(around.mesh), rest, 0);
     if (!of_block)
-      of_block = detail::percentile(detail::surface_samples(block.mesh), options.ground_rest_percentile / 100, 0);
-    if (!of_block) of_block = whole_mesh;
-    return *of_block;
+      of_block = detail::percentile(detail::surface_samples(part_of(scene.mesh, within_reach, origin)), rest, 0);
+    return of_block;
   };
   std::vector<double> heights;
-  for (std::size_t i = 0; i < members.size(); ++i) {
-    auto own = terrain ? detail::terrain_along(*terrain, block.members[i].polygons, options) : std::nullopt;
-    if (!own) own = detail::percentile(around[members[i]], share, options.ground_area);
-    block.members[i].ground = own ? *own : fall_back();
+  for (std::size_t i = 0; i < block.members.size(); ++i) {
+    auto own = scene.terrain ? detail::terrain_along(*scene.terrain, around.shapes[i], origin, options) : std::nullopt;
+    if (!own) own = detail::percentile(samples[i], share, options.ground_area);
+    if (!own) own = fall_back();
+    if (!own) block.ground_known = false;
+    block.members[i].ground = own ? std::floor(*own / ground_unit + 0.5) * ground_unit : 0;
     heights.push_back(block.members[i].ground);
   }
   block.ground = heights.empty() ? 0 : base::mean_median(std::move(heights));
 }
 
+/// Moves everything by whole metres.
+void move(Block& block, Point3 by) {
+  for (auto& member : block.members) {
+    shift(member.polygons, xy(by));
+    member.ground += by.z;
+  }
+  shift(block.outline, xy(by));
+  for (Point3& v : block.mesh.vertices) v = v + by;
+  block.ground += by.z;
+}
+
+/// Characters that mean something in a path or an address become "~" and their number.
+auto name_of(const std::vector<std::size_t>& members, const model::Scene& scene) -> std::string {
+  const std::string* first = nullptr;
+  for (const auto m : members) {
+    const std::string& id = scene.feature(m).id;
+    if (first == nullptr ||
+        std::pair(id.size(), std::string_view(id)) < std::pair(first->size(), std::string_view(*first)))
+      first = &id;
+  }
+  std::string name = "block-";
+  for (const char c : *first) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain = byte >= 0x80 || std::isalnum(byte) != 0 || c == '-' || c == '_' || c == '.';
+    constexpr std::string_view digits = "0123456789abcdef";
+    if (plain) name += c;
+    else name += {'~', digits[byte / 16], digits[byte % 16]};
+  }
+  return name;
+}
+
+/// The footprints of a scene and its surroundings, rounded.
+struct Shapes {
+  std::vector<std::size_t> features;  ///< ascending
+  std::vector<Polygons> polygons;
+  std::vector<geometry::Box2> boxes;
+
+  explicit Shapes(const model::Scene& scene) {
+    for (std::size_t f = 0; f < scene.footprints.size() + scene.surroundings.size(); ++f) {
+      const auto& footprint = scene.feature(f);
+      if (footprint.defect || footprint.polygons.empty()) continue;
+      features.push_back(f);
+      polygons.push_back(footprint.polygons);
+      round_all(polygons.back());
+      boxes.push_back(geometry::bounds(polygons.back()));
+    }
+  }
+};
+
+/// Members, outline and the plan of the frame, from what was grouped.
+auto outlined(const std::vector<std::size_t>& group, const Shapes& shapes, const model::Scene& scene,
+              const Options& options) -> Block {
+  Block block;
+  geometry::Box2 box;
+  for (const auto m : group) {
+    box.include(shapes.boxes[m]);
+    block.members.push_back({shapes.features[m], shapes.polygons[m], 0});
+  }
+  std::vector<std::size_t> numbers;
+  for (const auto& member : block.members) numbers.push_back(member.feature);
+  block.name = name_of(numbers, scene);
+  block.origin = {static_cast<std::int64_t>(std::floor(box.least.x)),
+                  static_cast<std::int64_t>(std::floor(box.least.y)), 0};
+  const Point2 to_own = -1.0 * xy(as_point(block.origin));
+  std::vector<Polygons> own;
+  for (auto& member : block.members) {
+    shift(member.polygons, to_own);
+    own.push_back(member.polygons);
+  }
+  std::ranges::sort(own, before);
+  Polygons all;
+  for (const auto& shape : own) all.insert(all.end(), shape.begin(), shape.end());
+  block.outline = detail::outline_of(all, options.touch, options.gap_area);
+  round_all(block.outline);
+  return block;
+}
+
+/// The foot of its frame: whole metres, not above any of these triangles.
+auto foot_of(const geometry::Mesh& mesh, const std::vector<std::uint32_t>& triangles) -> std::int64_t {
+  double low = std::numeric_limits<double>::infinity();
+  for (const auto t : triangles)
+    for (const auto v : mesh.triangles[t]) low = std::min(low, mesh.vertices[v].z);
+  return std::isfinite(low) ? static_cast<std::int64_t>(std::floor(low)) : 0;
+}
+
+/// Of the others, those that come into the box, in the block's frame and in an order of their own.
+auto others_near(const geometry::Box2& box, const std::vector<std::size_t>& group, const Shapes& shapes,
+                 const std::vector<std::uint32_t>& candidates, Point2 to_own) -> std::vector<Polygons> {
+  std::vector<Polygons> out;
+  for (const auto i : candidates)
+    if (!std::ranges::binary_search(group, std::size_t{i}) && shapes.boxes[i].overlaps(box))
+      out.push_back(shifted(shapes.polygons[i], to_own));
+  std::ranges::sort(out, before);
+  return out;
+}
+
+/// The boxes as a mesh of flat triangles: each its diagonal, so that detail::candidates finds them too.
+auto as_mesh(const std::vector<geometry::Box2>& boxes) -> geometry::Mesh {
+  geometry::Mesh mesh;
+  for (const auto& box : boxes) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.push_back({box.least.x, box.least.y, 0});
+    mesh.vertices.push_back({box.most.x, box.most.y, 0});
+    mesh.triangles.push_back({first, first + 1, first});
+  }
+  return mesh;
+}
+
 }  // namespace
+
+auto in_own_frame(Block block) -> OwnFrame {
+  OwnFrame out;
+  move(block, -1.0 * as_point(block.origin));
+  std::ranges::stable_sort(block.members,
+                           [](const Member& a, const Member& b) { return before(a.polygons, b.polygons); });
+  for (std::size_t i = 0; i < block.members.size(); ++i) {
+    out.features.push_back(block.members[i].feature);
+    block.members[i].feature = i;
+  }
+  out.block = std::move(block);
+  return out;
+}
 
 auto option_list(Options& o) -> base::OptionList {
   base::OptionList list("block");
-  list.number("touch", o.touch, "m", {0, 10}, "Footprints closer to each other than this belong to one block.")
+  list.number("touch", o.touch, "m", {0, 1}, "Footprints closer to each other than this belong to one block.")
       .source("chosen by hand; not measured");
   list.number("padding", o.padding, "m", {0, 1000}, "The mesh is kept up to this distance from the footprints.")
       .source("reference implementation chordatlas: 5 m");
@@ -82,6 +279,10 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("ground_rest_percentile", o.ground_rest_percentile, "%", {0, 100},
               "Percentile of all of the mesh's heights that is the ground height where no ground is visible.")
       .advanced("chosen by hand; not measured");
+  list.number("ground_reach", o.ground_reach, "m", {0, 1000},
+              "Maximum distance from a block at which the mesh is still used for its ground height where there is none "
+              "nearer; a block without mesh within it is refused.")
+      .advanced("chosen by hand; not measured");
   list.number("terrain_step", o.terrain_step, "m", {0.05, 100},
               "Spacing along an outline at which a terrain model is sampled.")
       .advanced("chosen by hand; not measured");
@@ -96,52 +297,48 @@ auto option_list(Options& o) -> base::OptionList {
 
 auto partition(const model::Scene& scene, const Options& options, const base::Run& run) -> std::vector<Block> {
   run.report("block", "", 0);
-  std::vector<std::size_t> features;
-  std::vector<detail::Polygons> shapes;
-  for (std::size_t f = 0; f < scene.footprints.size(); ++f) {
-    const auto& footprint = scene.footprints[f];
-    if (footprint.defect || footprint.polygons.empty()) continue;
-    features.push_back(f);
-    shapes.push_back(footprint.polygons);
-  }
-  const auto groups = detail::groups_of(shapes, options.touch);
+  const Shapes shapes(scene);
+  auto groups = detail::groups_of(shapes.polygons, options.touch);
+  std::erase_if(groups, [&](const auto& group) { return shapes.features[group.front()] >= scene.footprints.size(); });
   if (run.cancelled()) return {};
 
   std::vector<Block> blocks(groups.size());
-  base::parallel_for(groups.size(), [&](std::size_t b) {
-    Block& block = blocks[b];
-    block.name = "block-" + std::to_string(features[groups[b].front()]);
-    detail::Polygons all;
-    for (const auto m : groups[b]) {
-      block.members.push_back({features[m], shapes[m], 0});
-      all.insert(all.end(), shapes[m].begin(), shapes[m].end());
-    }
-    block.outline = detail::outline_of(all, options.touch, options.gap_area);
-  });
+  base::parallel_for(groups.size(), [&](std::size_t b) { blocks[b] = outlined(groups[b], shapes, scene, options); });
   run.report("block", "", 0.2);
   if (run.cancelled()) return {};
 
-  std::vector<geometry::Box2> regions;
-  for (const auto& block : blocks) regions.push_back(geometry::bounds(block.outline).grown(options.padding));
+  std::vector<geometry::Box2> regions, reaches;
+  for (const auto& block : blocks) {
+    const auto box = geometry::bounds(shifted(block.outline, xy(as_point(block.origin))));
+    regions.push_back(box.grown(std::max(options.padding, options.ground_ring)));
+    reaches.push_back(box.grown(options.ground_reach));
+  }
   const auto near_by = detail::candidates(scene.mesh, regions);
-  base::parallel_for(blocks.size(), [&](std::size_t b) {
-    const detail::Nearness near(blocks[b].outline, options.padding);
-    std::vector<std::uint32_t> kept;
-    for (const auto t : near_by[b])
-      if (near(detail::plan_of(scene.mesh, scene.mesh.triangles[t]))) kept.push_back(t);
-    blocks[b].mesh = part_of(scene.mesh, kept);
-  });
-  run.report("block", "", 0.6);
+  const auto others = detail::candidates(as_mesh(shapes.boxes), regions);
+  // Only where nothing is nearer does the mesh farther away matter.
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    if (!near_by[b].empty()) reaches[b] = {};
+  const auto within_reach = detail::candidates(scene.mesh, reaches);
+  run.report("block", "", 0.4);
   if (run.cancelled()) return {};
 
-  const auto around = detail::ground_samples(scene.mesh, shapes, options);
-  const bool bare = std::ranges::any_of(blocks, [](const Block& block) { return block.mesh.triangles.empty(); });
-  const double whole =
-      bare
-          ? detail::percentile(detail::surface_samples(scene.mesh), options.ground_rest_percentile / 100, 0).value_or(0)
-          : 0;
-  base::parallel_for(blocks.size(),
-                     [&](std::size_t b) { set_ground(blocks[b], scene.terrain, around, groups[b], whole, options); });
+  base::parallel_for(blocks.size(), [&](std::size_t b) {
+    if (run.cancelled()) return;
+    Block& block = blocks[b];
+    block.origin[2] = foot_of(scene.mesh, near_by[b].empty() ? within_reach[b] : near_by[b]);
+    const Point3 origin = as_point(block.origin);
+    Surroundings around{part_of(scene.mesh, near_by[b], origin), {}};
+    const detail::Nearness near(block.outline, options.padding);
+    std::vector<std::uint32_t> kept;
+    for (std::uint32_t t = 0; t < around.mesh.triangles.size(); ++t)
+      if (near(detail::plan_of(around.mesh, around.mesh.triangles[t]))) kept.push_back(t);
+    block.mesh = part_of(around.mesh, kept, {});
+    for (const auto& member : block.members) around.shapes.push_back(member.polygons);
+    const auto beside = others_near(regions[b], groups[b], shapes, others[b], -1.0 * xy(origin));
+    around.shapes.insert(around.shapes.end(), beside.begin(), beside.end());
+    set_ground(block, scene, around, within_reach[b], options);
+    move(block, origin);
+  });
   run.report("block", "", 1);
   return blocks;
 }

@@ -1,7 +1,9 @@
 // Groups footprints that touch into blocks, each with its piece of the mesh and its ground.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -15,18 +17,28 @@ namespace mansard::block {
 
 /// One footprint of a block.
 struct Member {
-  std::size_t feature = 0;  ///< index into Scene::footprints
+  std::size_t feature = 0;  ///< number in the scene: Scene::feature
   std::vector<geometry::Polygon> polygons;
   double ground = 0;  ///< z of the ground around it, metres
 };
 
 struct Block {
-  std::string name;                        ///< "block-3": numbered by the lowest feature index in it
-  std::vector<Member> members;             ///< by feature index
+  std::string name;  ///< "block-" and the first id of its members: the shortest, of these the first in the alphabet
+  std::vector<Member> members;             ///< by feature number
   std::vector<geometry::Polygon> outline;  ///< the union of the members, gaps under the touch tolerance closed
   geometry::Mesh mesh;                     ///< the triangles within the padding of the outline
   double ground = 0;                       ///< z, metres: the median of the members'
+  bool ground_known = true;                ///< false where neither terrain nor mesh is near; then all grounds are 0
+  std::array<std::int64_t, 3> origin{};    ///< of its own frame, in that of the scene; whole metres
 };
+
+/// A block in its own frame, which begins at whole metres below it, and with its members in an order of their own: all
+/// that is computed from it is a function of the block alone, wherever it lies in whatever scene.
+struct OwnFrame {
+  Block block;                        ///< members by their coordinates; Member::feature counts from 0 in this order
+  std::vector<std::size_t> features;  ///< the scene's numbers of the members
+};
+[[nodiscard]] auto in_own_frame(Block block) -> OwnFrame;
 
 struct Options {
   double touch = 0.1;               ///< m; footprints closer than this belong to one block
@@ -38,6 +50,7 @@ struct Options {
   double ground_cosine = 0.7071;        ///< cosine of 45°: steeper is wall, hedge or the side of a car
   double ground_piece = 2.0;            ///< m: the longest side, in plan, of what one sample stands for
   double ground_rest_percentile = 2.0;  ///< %; of all heights of the mesh, where no ground is seen
+  double ground_reach = 50.0;           ///< m; how far from a block, at most, the mesh says something of its ground
   double terrain_step = 1.0;            ///< m; between the places of an outline where the terrain is asked
   double terrain_share = 0.9;           ///< of the outline: what lies beyond the terrain's edge may be another slope
   double gap_area = 0.01;               ///< m²; gaps between touching footprints that are smaller stay open
@@ -45,10 +58,13 @@ struct Options {
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 
 /// The ground is the scene's terrain where that is known along a footprint's outline, else what the mesh shows around
-/// it. Footprints with a defect are left out. Guarantees: 1 every usable footprint is in exactly one block · 2 blocks
-/// and members are ordered by feature index, whatever the thread count · 3 every triangle of the scene within the
-/// padding of a block's outline is in that block's mesh, and none entirely farther away. Cost: O((n + m) log m) for n
-/// triangles, m footprints.
+/// it, rounded to 2⁻¹⁰ m. Footprints with a defect are left out, and so are blocks of surroundings alone.
+/// Guarantees: 1 every usable footprint is in exactly one block · 2 blocks and members are ordered by feature number,
+/// whatever the thread count · 3 every triangle of the scene within the padding of a block's outline is in that block's
+/// mesh, and none entirely farther away · 4 a block depends on its members, on the footprints and the mesh near it and
+/// on nothing else: not on their order in the files, nor on where the scene's frame begins, nor on what else is in the
+/// scene. Its coordinates are rounded to model::coordinate_unit.
+/// Cost: O((n + m) log m) for n triangles, m footprints.
 [[nodiscard]] auto partition(const model::Scene& scene, const Options& options, const base::Run& run = {})
     -> std::vector<Block>;
 

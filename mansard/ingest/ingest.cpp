@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <new>
+#include <set>
 
 #include "mansard/base/text.hpp"
 #include "mansard/formats/input_file.hpp"
@@ -15,6 +16,7 @@
 #include "mansard/ingest/detail/crs.hpp"
 #include "mansard/ingest/detail/mesh_files.hpp"
 #include "mansard/ingest/detail/rings.hpp"
+#include "mansard/ingest/detail/surroundings.hpp"
 
 namespace mansard::ingest {
 namespace {
@@ -30,8 +32,34 @@ auto in_words(const Box2& box) -> std::string {
          base::to_text(box.least.y, 1) + " to " + base::to_text(box.most.y, 1);
 }
 
+/// Without the filter: what does not pass it is still around what does.
 auto query_of(const Options& options) -> formats::FeatureQuery {
-  return {options.layer, options.where, options.crs, options.bbox};
+  return {options.layer, "", options.crs, options.bbox};
+}
+
+/// The features of a source, and which of them are asked for.
+struct Chosen {
+  formats::FeatureFile file;
+  std::vector<bool> wanted;
+};
+
+auto read_chosen(const std::filesystem::path& path, const Options& options, const base::Run& run)
+    -> base::Result<Chosen> {
+  auto query = query_of(options);
+  std::optional<std::set<std::int64_t>> passing;
+  if (!options.where.empty()) {
+    query.where = options.where;
+    const auto some = formats::read_features(path, query, run);
+    if (!some) return some.failure();
+    passing.emplace();
+    for (const auto& feature : some->features) passing->insert(feature.number);
+    query.where.clear();
+  }
+  auto file = formats::read_features(path, query, run);
+  if (!file) return file.failure();
+  Chosen out{std::move(*file), {}};
+  for (const auto& feature : out.file.features) out.wanted.push_back(!passing || passing->contains(feature.number));
+  return out;
 }
 
 auto wanted_box(const Options& options) -> base::Result<std::optional<Box2>> {
@@ -42,17 +70,47 @@ auto wanted_box(const Options& options) -> base::Result<std::optional<Box2>> {
   return std::optional<Box2>(Box2{{b[0], b[1]}, {b[2], b[3]}});
 }
 
-auto keep_within(std::vector<formats::RawFeature>& features, const Box2& wanted, const std::string& subject)
-    -> base::Result<void> {
-  const Box2 all = bounds(features);
-  std::erase_if(features, [&](const auto& feature) {
-    const Box2 box = bounds(feature);
-    return box.empty() || !box.overlaps(wanted);
-  });
-  if (!features.empty()) return {};
+auto want_within(Chosen& chosen, const Box2& box, const std::string& subject) -> base::Result<void> {
+  bool any = false;
+  Box2 all;
+  for (std::size_t i = 0; i < chosen.wanted.size(); ++i) {
+    if (!chosen.wanted[i]) continue;
+    const Box2 own = bounds(chosen.file.features[i]);
+    all.include(own);
+    chosen.wanted[i] = !own.empty() && own.overlaps(box);
+    any = any || chosen.wanted[i];
+  }
+  if (any) return {};
   return base::error("ingest-footprints-none",
-                     "no footprint lies in the box asked for (" + in_words(wanted) + "); they lie in " + in_words(all),
+                     "no footprint lies in the box asked for (" + in_words(box) + "); they lie in " + in_words(all),
                      subject);
+}
+
+/// The bounds of the wanted features and of what they touch. Leaves only these and what is near them.
+auto keep_surroundings(Chosen& chosen) -> Box2 {
+  auto& features = chosen.file.features;
+  const auto box_of_marked = [&](const std::vector<bool>& marked) {
+    Box2 box;
+    for (std::size_t i = 0; i < features.size(); ++i) {
+      if (!marked[i]) continue;
+      box.include(bounds(features[i]));
+    }
+    return box;
+  };
+  if (std::ranges::find(chosen.wanted, false) == chosen.wanted.end()) return box_of_marked(chosen.wanted);
+  std::vector<bool> near = chosen.wanted;
+  detail::close_under_touching(features, near);
+  const Box2 blocks = box_of_marked(near);
+  const Box2 reach = blocks.grown(mesh_margin);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    if (!chosen.wanted[i] && !bounds(features[i]).overlaps(reach)) continue;
+    if (kept != i) features[kept] = std::move(features[i]);
+    chosen.wanted[kept++] = chosen.wanted[i];
+  }
+  features.resize(kept);
+  chosen.wanted.resize(kept);
+  return blocks;
 }
 
 /// Whole metres. Coordinates that are small anyway stay as they are, so that a local frame is read and written without
@@ -147,18 +205,19 @@ auto finish_all(formats::FeatureFile& file, const Options& options, const model:
   return finished;
 }
 
-void take(std::vector<Finished> finished, model::Scene& scene) {
-  for (auto& one : finished) {
-    if (one.warning) scene.warnings.push_back(std::move(*one.warning));
-    scene.footprints.push_back(std::move(one.footprint));
+void take(std::vector<Finished> finished, const std::vector<bool>& wanted, model::Scene& scene) {
+  for (std::size_t i = 0; i < finished.size(); ++i) {
+    auto& one = finished[i];
+    if (wanted[i] && one.warning) scene.warnings.push_back(std::move(*one.warning));
+    (wanted[i] ? scene.footprints : scene.surroundings).push_back(std::move(one.footprint));
   }
 }
 
 /// The footprints in the working CRS, and what it is.
 struct Ground {
-  formats::FeatureFile file;  ///< without features where no footprints are given
+  Chosen chosen;  ///< without features where no footprints are given
   detail::Way way;
-  Box2 box;                  ///< of the features; empty for none
+  Box2 box;                  ///< of the features asked for and of all that they touch; empty for none
   std::optional<Box2> kept;  ///< what of the mesh is to be read; nothing for all of it
 };
 
@@ -173,16 +232,16 @@ auto read_ground(const std::filesystem::path& path, const Options& options, cons
     if (!way) return way.error();
     out.way = std::move(*way);
   } else {
-    auto file = formats::read_features(path, query_of(options), run);
-    if (!file) return file.error();
-    auto way = detail::choose_way(*file, options.crs, meshes.plan(), meshes.own_crs(), subject);
-    if (!way) return way.error();
-    if (auto gone = detail::go(*way, file->features, subject); !gone) return gone.error();
+    auto chosen = read_chosen(path, options, run);
+    if (!chosen) return chosen.failure();
+    auto way = detail::choose_way(chosen->file, options.crs, meshes.plan(), meshes.own_crs(), subject);
+    if (!way) return way.failure();
+    if (auto gone = detail::go(*way, chosen->file.features, subject); !gone) return gone.failure();
     if (*wanted)
-      if (auto kept = keep_within(file->features, **wanted, subject); !kept) return kept.error();
-    out.file = std::move(*file);
+      if (auto any = want_within(*chosen, **wanted, subject); !any) return any.failure();
+    out.box = keep_surroundings(*chosen);
+    out.chosen = std::move(*chosen);
     out.way = std::move(*way);
-    out.box = bounds(out.file.features);
   }
   if (*wanted) {
     out.kept = **wanted;
@@ -260,19 +319,19 @@ auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::files
 
   run.report("ingest", subject, 0.9);
   const Box2 local{xy(mesh_box.least) - origin, xy(mesh_box.most) - origin};
-  auto finished = finish_all(ground->file, options, scene.frame, local, subject);
+  auto finished = finish_all(ground->chosen.file, options, scene.frame, local, subject);
   if (!finished) return finished.error();
 
   scene.mesh = std::move(clean.mesh);
   scene.mesh_counts = clean.counts;
   scene.inputs = std::move(meshes->inputs);
   if (auto taken = take_terrain(options, plan_of(scene.mesh), scene); !taken) return taken.error();
-  scene.inputs.insert(scene.inputs.end(), ground->file.inputs.begin(), ground->file.inputs.end());
+  scene.inputs.insert(scene.inputs.end(), ground->chosen.file.inputs.begin(), ground->chosen.file.inputs.end());
   append(scene.warnings, std::move(meshes->warnings));
   append(scene.warnings, detail::warnings_of(scene.mesh_counts, mesh_name));
-  append(scene.warnings, std::move(ground->file.warnings));
+  append(scene.warnings, std::move(ground->chosen.file.warnings));
   append(scene.warnings, ground->way.warnings);
-  take(std::move(*finished), scene);
+  take(std::move(*finished), ground->chosen.wanted, scene);
   run.report("ingest", subject, 1);
   return scene;
 }
@@ -283,17 +342,18 @@ auto read_alone(const std::filesystem::path& path, const Options& options, const
   const auto wanted = wanted_box(options);
   if (!wanted) return wanted.error();
   run.report("ingest", subject, 0);
-  auto file = formats::read_features(path, query_of(options), run);
-  if (!file) return file.error();
+  auto chosen = read_chosen(path, options, run);
+  if (!chosen) return chosen.failure();
+  auto* const file = &chosen->file;
   // Without a mesh to lie on, the footprints' own place stands for it.
   const auto way = detail::choose_way(*file, options.crs, bounds(file->features), {}, subject);
   if (!way) return way.error();
   if (auto gone = detail::go(*way, file->features, subject); !gone) return gone.error();
   if (*wanted)
-    if (auto kept = keep_within(file->features, **wanted, subject); !kept) return kept.error();
+    if (auto any = want_within(*chosen, **wanted, subject); !any) return any.failure();
 
   model::Scene scene;
-  const Box2 box = bounds(file->features);
+  const Box2 box = keep_surroundings(*chosen);
   scene.frame.crs = way->name;
   if (!box.empty())
     scene.frame.origin = choose_origin(box, {{box.least.x, box.least.y, 0}, {box.most.x, box.most.y, 0}});
@@ -303,7 +363,7 @@ auto read_alone(const std::filesystem::path& path, const Options& options, const
   scene.inputs = std::move(file->inputs);
   append(scene.warnings, std::move(file->warnings));
   append(scene.warnings, way->warnings);
-  take(std::move(*finished), scene);
+  take(std::move(*finished), chosen->wanted, scene);
   return scene;
 }
 
@@ -329,11 +389,15 @@ auto option_list(Options& o) -> base::OptionList {
   list.string("layer", o.layer, "Layer of the vector file; empty for its first one with polygons.")
       .alias("layer")
       .source("none by default");
-  list.string("where", o.where, "Filter that footprints must pass, as in SQL after WHERE.")
+  list.string(
+          "where", o.where,
+          "Filter that footprints must pass to be written, as in SQL after WHERE; those around them are still known.")
       .alias("where")
       .source("none by default");
   list.numbers("bbox", o.bbox, "m", {-far, far},
-               "Box xmin ymin xmax ymax in the working CRS that footprints must meet; four zeros for all.")
+               "Box xmin ymin xmax ymax in the working CRS that footprints must meet to be written; those around it "
+               "are still known; "
+               "four zeros for all.")
       .alias("bbox")
       .source("none by default");
   list.number("tile_error", o.tile_error, "m", {0, far},

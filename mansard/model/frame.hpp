@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string>
 
@@ -14,6 +15,14 @@ struct Frame {
   std::array<std::int64_t, 3> origin{0, 0, 0};
   std::string crs;  ///< "EPSG:n" where known, WKT otherwise, empty for a local frame
 };
+
+/// What is computed from footprints and meshes starts from coordinates rounded to whole multiples of this, in metres:
+/// such coordinates can be shifted by whole metres without a rounding, up to 2³² m, so that the same data at another
+/// place have the same digits. One micrometre is a thousandth of what any scan or survey resolves.
+inline constexpr double coordinate_unit = 0x1p-20;
+[[nodiscard]] inline auto rounded(double coordinate) -> double {
+  return std::floor(coordinate / coordinate_unit + 0.5) * coordinate_unit;
+}
 
 struct InputFile {
   std::string path;

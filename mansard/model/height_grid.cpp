@@ -15,7 +15,7 @@ auto HeightGrid::at(geometry::Point2 p) const -> std::optional<double> {
   const double z = (1 - v) * ((1 - u) * value(i, j) + u * value(i + 1, j)) +
                    v * ((1 - u) * value(i, j + 1) + u * value(i + 1, j + 1));
   if (std::isnan(z)) return std::nullopt;
-  return z;
+  return z - base;
 }
 
 }  // namespace mansard::model

@@ -32,7 +32,8 @@ struct HeightGrid {
   geometry::Point2 centre;  ///< of cell (0, 0), the south-west one; local frame, metres
   double cell = 1;          ///< m
   std::size_t columns = 0, rows = 0;
-  std::vector<float> values;  ///< z, metres, local frame; row by row from the south; NaN for none
+  std::vector<float> values;  ///< z, metres, as the file has them; row by row from the south; NaN for none
+  double base = 0;            ///< m; to be taken off the values: z of the local frame's origin in the file's heights
   /// Between the four nearest centres; none beyond them, or where one of them has no value.
   [[nodiscard]] auto at(geometry::Point2 p) const -> std::optional<double>;
 };
@@ -40,11 +41,18 @@ struct HeightGrid {
 struct Scene {
   geometry::Mesh mesh;  ///< local frame
   std::vector<Footprint> footprints;
+  /// What is known around them, of the same source, but not asked for: it belongs to blocks, and is never written.
+  std::vector<Footprint> surroundings;
   std::optional<HeightGrid> terrain;  ///< the ground, where it was given; else blocks look for it in the mesh
   Frame frame;
   std::vector<InputFile> inputs;
   MeshCounts mesh_counts;
   std::vector<base::Diagnostic> warnings;
+
+  /// By the numbers that blocks have for their members: the footprints, then their surroundings.
+  [[nodiscard]] auto feature(std::size_t number) const -> const Footprint& {
+    return number < footprints.size() ? footprints[number] : surroundings[number - footprints.size()];
+  }
 };
 
 }  // namespace mansard::model

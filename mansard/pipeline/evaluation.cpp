@@ -109,7 +109,7 @@ auto read_reference(const EvaluationFiles& files, const ingest::Options& options
   auto read = ingest::read_footprints(files.footprints, wanted, run);
   if (!read) return read.error();
   move_to(frame, *read);
-  scene.footprints = std::move(read->footprints);
+  scene.footprints = std::move(read->footprints);  // and not their surroundings: these are not measured
   scene.inputs.insert(scene.inputs.end(), read->inputs.begin(), read->inputs.end());
   append(scene.warnings, read->warnings);
   geometry::Box2 drawn, built;

@@ -8,6 +8,7 @@
 #include "mansard/pipeline/detail/assemble.hpp"
 #include "mansard/pipeline/detail/block_run.hpp"
 #include "mansard/pipeline/detail/overlaps.hpp"
+#include "mansard/pipeline/detail/place.hpp"
 
 namespace mansard::pipeline {
 namespace {
@@ -81,7 +82,7 @@ auto keep_only(std::vector<block::Block>& blocks, std::span<const std::string> o
     for (const auto& block : blocks) known.push_back(block.name);
     return base::error("pipeline-block-unknown",
                        "no block has this name" + base::did_you_mean(base::nearest_word(name, known)) +
-                           "; blocks are named by the lowest number of their footprints",
+                           "; blocks are named by the first id of their footprints",
                        name);
   }
   std::erase_if(blocks, [&](const auto& block) { return std::ranges::find(only, block.name) == only.end(); });
@@ -92,7 +93,8 @@ auto keep_only(std::vector<block::Block>& blocks, std::span<const std::string> o
 void keep_only(const std::vector<block::Block>& blocks, report::Reconstruction& out) {
   std::vector<bool> kept(out.buildings.size(), false);
   for (const auto& block : blocks)
-    for (const auto& member : block.members) kept[member.feature] = true;
+    for (const auto& member : block.members)
+      if (member.feature < kept.size()) kept[member.feature] = true;
   std::size_t count = 0;
   for (std::size_t i = 0; i < kept.size(); ++i) {
     if (!kept[i]) continue;
@@ -116,7 +118,11 @@ auto reconstruct(const model::Scene& scene, const Options& options, const base::
   if (!division) return division.error();
   if (auto known = keep_only(division->blocks, only); !known) return known.error();
   auto results = for_every(division->blocks, run, [&](const auto& block, const auto& inner, const auto& tell) {
-    return detail::run_block(block, options, inner, tell, keep);
+    if (!block.ground_known) return detail::refused(block, options.block);
+    const auto own = block::in_own_frame(block);
+    auto result = detail::run_block(own.block, options, inner, tell, keep);
+    detail::place(result, own);
+    return result;
   });
   if (run.cancelled()) return cancelled();
 
@@ -143,8 +149,17 @@ auto segment(const model::Scene& scene, const Options& options, const base::Run&
   };
   auto results = for_every(division->blocks, run, [&](const auto& block, const auto& inner, const auto& tell) {
     Result result;
-    const rays::Scene mesh(block.mesh);
-    result.segmented = detail::segment_block(block, mesh, options, inner, tell, result.report, result.warnings);
+    if (!block.ground_known) {
+      auto none = detail::refused(block, options.block);
+      result.report = std::move(none.report);
+      result.segmented = detail::unsegmented(block, none.failed.front().second);
+      result.warnings.push_back(*result.segmented.failure);
+      return result;
+    }
+    const auto own = block::in_own_frame(block);
+    const rays::Scene mesh(own.block.mesh);
+    result.segmented = detail::segment_block(own.block, mesh, options, inner, tell, result.report, result.warnings);
+    detail::place(result.segmented, own);
     return result;
   });
   if (run.cancelled()) return cancelled();

@@ -22,7 +22,7 @@ auto as_whole(const std::optional<T>& number) -> model::Value {
 }
 
 auto id_of(const model::Scene& scene, const std::optional<std::size_t>& feature) -> model::Value {
-  return feature ? model::Value(scene.footprints[*feature].id) : model::Value();
+  return feature ? model::Value(scene.feature(*feature).id) : model::Value();
 }
 
 auto length_of(const geometry::Segment2& s) -> double { return geometry::length(s.end - s.start); }
@@ -72,7 +72,8 @@ auto gis_footprints(const model::Scene& scene, const std::vector<SegmentedBlock>
   layer.fields.insert(layer.fields.end(), attributes.begin(), attributes.end());
   std::vector<model::Value> block_of(scene.footprints.size());
   for (const auto& block : blocks)
-    for (const std::size_t f : block.features) block_of[f] = block.name;
+    for (const std::size_t f : block.features)
+      if (f < block_of.size()) block_of[f] = block.name;
   const auto parts = parts_by_feature(scene, blocks);
   for (std::size_t f = 0; f < scene.footprints.size(); ++f) {
     const auto& footprint = scene.footprints[f];

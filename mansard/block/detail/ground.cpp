@@ -64,12 +64,13 @@ auto percentile(std::vector<Sample> samples, double share, double least) -> std:
   return base::weighted_percentile_of_sorted(samples, share, &Sample::z, &Sample::weight);
 }
 
-auto ground_samples(const geometry::Mesh& mesh, const std::vector<std::vector<Polygon>>& shapes, const Options& options)
-    -> std::vector<std::vector<Sample>> {
+auto ground_samples(const geometry::Mesh& mesh, const std::vector<std::vector<Polygon>>& shapes, std::size_t count,
+                    const Options& options) -> std::vector<std::vector<Sample>> {
   const double reach = options.ground_ring;
   std::vector<Box2> boxes;
   for (const auto& shape : shapes) boxes.push_back(geometry::bounds(shape).grown(reach));
-  const auto triangles = candidates(mesh, boxes);
+  const auto triangles =
+      candidates(mesh, std::vector(boxes.begin(), boxes.begin() + static_cast<std::ptrdiff_t>(count)));
 
   // Shapes sorted by x, so that those near a region are found without looking at all.
   std::vector<std::size_t> order(shapes.size());
@@ -78,8 +79,8 @@ auto ground_samples(const geometry::Mesh& mesh, const std::vector<std::vector<Po
   double widest = 0;
   for (const auto& box : boxes) widest = std::max(widest, box.empty() ? 0 : box.most.x - box.least.x);
 
-  std::vector<std::vector<Sample>> out(shapes.size());
-  base::parallel_for(shapes.size(), [&](std::size_t i) {
+  std::vector<std::vector<Sample>> out(count);
+  base::parallel_for(count, [&](std::size_t i) {
     if (boxes[i].empty()) return;
     Obstacles obstacles;
     auto at =
@@ -108,8 +109,8 @@ auto ground_samples(const geometry::Mesh& mesh, const std::vector<std::vector<Po
   return out;
 }
 
-auto terrain_along(const model::HeightGrid& terrain, const std::vector<Polygon>& shape, const Options& options)
-    -> std::optional<double> {
+auto terrain_along(const model::HeightGrid& terrain, const std::vector<Polygon>& shape, Point3 origin,
+                   const Options& options) -> std::optional<double> {
   std::vector<Sample> samples;
   double all = 0;
   const auto walk = [&](const geometry::Ring& ring) {
@@ -119,7 +120,7 @@ auto terrain_along(const model::HeightGrid& terrain, const std::vector<Polygon>&
       for (double k = 0; k < pieces; ++k) {
         const Point2 at = ring[i] + ((k + 0.5) / pieces) * side;
         all += weight;
-        if (const auto z = terrain.at(at)) samples.push_back({at, *z, weight});
+        if (const auto z = terrain.at(at + xy(origin))) samples.push_back({at, *z - origin.z, weight});
       }
     }
   };

@@ -20,15 +20,16 @@ struct Sample {
 /// The height below which that share (0 … 1) of the samples' area lies; nothing for less than `least` m² of them.
 [[nodiscard]] auto percentile(std::vector<Sample> samples, double share, double least) -> std::optional<double>;
 
-/// What may be ground within the ring of each shape (polygons of one footprint): small pieces of triangles that are
-/// not steep, outside all shapes. One list per shape, in the order of the mesh.
+/// What may be ground within the ring of each of the first `count` shapes (polygons of one footprint): small pieces of
+/// triangles that are not steep, outside all shapes. One list per shape, in the order of the mesh.
 [[nodiscard]] auto ground_samples(const geometry::Mesh& mesh, const std::vector<std::vector<geometry::Polygon>>& shapes,
-                                  const Options& options) -> std::vector<std::vector<Sample>>;
+                                  std::size_t count, const Options& options) -> std::vector<std::vector<Sample>>;
 
 /// The median of a terrain's heights along the outlines, holes too, terrain_step apart at most, weighted by length.
-/// Nothing where the terrain is known along less than terrain_share of them.
+/// Nothing where the terrain is known along less than terrain_share of them. `origin`: of the shape's frame, in the
+/// terrain's; the height is in the shape's frame.
 [[nodiscard]] auto terrain_along(const model::HeightGrid& terrain, const std::vector<geometry::Polygon>& shape,
-                                 const Options& options) -> std::optional<double>;
+                                 geometry::Point3 origin, const Options& options) -> std::optional<double>;
 
 /// One sample per triangle of the whole mesh, by its area in space: walls count too.
 [[nodiscard]] auto surface_samples(const geometry::Mesh& mesh) -> std::vector<Sample>;

@@ -420,6 +420,7 @@ auto read_terrain(const fs::path& path, const model::Frame& frame, const Box2& w
   if (!(box.least.x <= box.most.x && box.least.y <= box.most.y)) return beside();
 
   model::HeightGrid grid = lay_out(*way, raster->affine(), box);
+  grid.base = static_cast<double>(frame.origin[2]);
   auto cells =
       edge_of({grid.centre, grid.centre + grid.cell * Point2{double(grid.columns - 1), double(grid.rows - 1)}});
   way->to_cells(cells);
@@ -431,7 +432,7 @@ auto read_terrain(const fs::path& path, const model::Frame& frame, const Box2& w
   constexpr int strip = 256;
   for (int first = 0; first < window.rows; first += strip) {
     if (auto done = raster->read(window, first, std::min(strip, window.rows - first), read); !done) return done.error();
-    for (const double z : read) heights.push_back(static_cast<float>(z - static_cast<double>(frame.origin[2])));
+    for (const double z : read) heights.push_back(static_cast<float>(z));
   }
   bool any = false;
   std::vector<Point2> line(grid.columns);

@@ -143,25 +143,35 @@ struct Around {
   }
 };
 
-/// Marks triangles that have the corners of an earlier one, whichever way round.
+/// Marks triangles that have the corners of another one, whichever way round. Which is kept depends on where the
+/// corners are, not on the order of the triangles or vertices.
 template <class Index>
-auto find_repeated(const std::vector<Triangle>& triangles, const Around<Index>& around, std::size_t vertices)
-    -> std::vector<char> {
+auto find_repeated(const std::vector<Triangle>& triangles, const Around<Index>& around,
+                   const std::vector<Point3>& points) -> std::vector<char> {
+  const auto ascends = [&](const Triangle& t) {
+    return (points[t[0]] < points[t[1]]) + (points[t[1]] < points[t[2]]) + (points[t[2]] < points[t[0]]) == 2;
+  };
   struct Item {
     std::uint32_t middle = 0, last = 0;
     Index triangle = 0;
     auto operator<=>(const Item&) const = default;
   };
   std::vector<char> repeated(triangles.size(), 0);
-  each_block(vertices, [&](std::size_t, std::size_t first, std::size_t end) {
+  each_block(points.size(), [&](std::size_t, std::size_t first, std::size_t last) {
     std::vector<Item> own;
-    for (std::size_t v = first; v < end; ++v) {
+    for (std::size_t v = first; v < last; ++v) {
       own.clear();
       for (const Index i : around.of(v))
         if (const Triangle t = sorted(triangles[i]); t[0] == v) own.push_back({t[1], t[2], i});
       std::ranges::sort(own);
-      for (std::size_t i = 1; i < own.size(); ++i)
-        if (own[i].middle == own[i - 1].middle && own[i].last == own[i - 1].last) repeated[own[i].triangle] = 1;
+      for (std::size_t i = 0, end = 0; i < own.size(); i = end) {
+        // Of triangles over the same corners one is kept: the first that is the right way round, if any is.
+        std::size_t kept = i;
+        for (end = i; end < own.size() && own[end].middle == own[i].middle && own[end].last == own[i].last; ++end)
+          if (!ascends(triangles[own[kept].triangle]) && ascends(triangles[own[end].triangle])) kept = end;
+        for (std::size_t k = i; k < end; ++k)
+          if (k != kept) repeated[own[k].triangle] = 1;
+      }
     }
   });
   return repeated;
@@ -238,13 +248,13 @@ void keep(std::vector<Triangle>& triangles, std::vector<std::uint8_t>& classes, 
 
 /// Takes out triangles that are there twice, and counts what is odd about the edges of the others.
 template <class Index>
-void look_at_neighbours(CleanMesh& mesh, std::size_t vertices) {
+void look_at_neighbours(CleanMesh& mesh, const std::vector<Point3>& points) {
   auto& triangles = mesh.mesh.triangles;
   std::vector<char> repeated;
   {
-    const Around<Index> around(triangles, vertices);
-    repeated = find_repeated(triangles, around, vertices);
-    count_edges(triangles, repeated, around, vertices, mesh.counts);
+    const Around<Index> around(triangles, points.size());
+    repeated = find_repeated(triangles, around, points);
+    count_edges(triangles, repeated, around, points.size(), mesh.counts);
   }
   const std::size_t before = triangles.size();
   keep(triangles, mesh.classes, [&](std::size_t, std::size_t i) { return repeated[i] == 0; });
@@ -329,8 +339,8 @@ auto clean(formats::RawMesh raw, const std::array<double, 3>& shift, const std::
     counts.not_finite += one.not_finite;
     counts.degenerate += one.degenerate;
   }
-  if (2 * triangles.size() < formats::no_vertex) look_at_neighbours<std::uint32_t>(out, raw.vertices.size());
-  else look_at_neighbours<std::uint64_t>(out, raw.vertices.size());
+  if (2 * triangles.size() < formats::no_vertex) look_at_neighbours<std::uint32_t>(out, raw.vertices);
+  else look_at_neighbours<std::uint64_t>(out, raw.vertices);
   out.mesh.vertices = std::move(raw.vertices);
   compact(out.mesh);
   triangles.shrink_to_fit();

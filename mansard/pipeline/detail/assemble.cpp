@@ -84,12 +84,12 @@ auto assemble(const model::Scene& scene, const std::vector<block::Block>& blocks
               const Options& options) -> report::Reconstruction {
   report::Reconstruction out;
   const auto z0 = static_cast<double>(scene.frame.origin[2]);
-  const std::size_t count = scene.footprints.size();
+  const std::size_t count = scene.footprints.size() + scene.surroundings.size();
   std::vector<model::Building> buildings(count);
   std::vector<report::BuildingReport> reports(count);
   std::vector<Account> accounts(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const auto& footprint = scene.footprints[i];
+    const auto& footprint = scene.feature(i);
     buildings[i].id = reports[i].id = footprint.id;
     reports[i].derived = footprint.derived;
     buildings[i].attributes = footprint.attributes;
@@ -121,7 +121,7 @@ auto assemble(const model::Scene& scene, const std::vector<block::Block>& blocks
     for (auto& [f, warning] : results[b].unchecked) {
       warning.subject = reports[f].id;
       reports[f].reasons.push_back(warning);
-      out.warnings.push_back(std::move(warning));
+      if (f < scene.footprints.size()) out.warnings.push_back(std::move(warning));
     }
     out.blocks.push_back(std::move(results[b].report));
     out.error_maps.push_back(std::move(results[b].map));
@@ -138,6 +138,8 @@ auto assemble(const model::Scene& scene, const std::vector<block::Block>& blocks
       if (reports[i].rmse) attributes.emplace_back("ms_rmse_lod22", *reports[i].rmse);
     }
   }
+  buildings.resize(scene.footprints.size());
+  reports.resize(scene.footprints.size());
   out.city.frame = scene.frame;
   out.city.made_by = made_by(scene, options);
   out.city.buildings = std::move(buildings);

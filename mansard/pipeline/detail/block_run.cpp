@@ -162,6 +162,28 @@ void classify(std::vector<PartResult>& parts, const Options& options, const base
 
 }  // namespace
 
+auto refused(const block::Block& block, const block::Options& options) -> BlockResult {
+  BlockResult out;
+  out.report.name = block.name;
+  out.report.buildings = block.members.size();
+  out.report.status = "failed";
+  for (const auto& member : block.members)
+    out.failed.emplace_back(
+        member.feature,
+        base::warning("pipeline-no-ground",
+                      "there is no mesh within " + base::to_text(options.ground_reach, 0) +
+                          " m of it, so that its ground is not known; give the mesh there, or a terrain"));
+  return out;
+}
+
+auto unsegmented(const block::Block& block, const base::Diagnostic& why) -> SegmentedBlock {
+  SegmentedBlock out;
+  out.name = block.name;
+  for (const auto& member : block.members) out.features.push_back(member.feature);
+  out.failure = base::warning(why.code, why.message, block.name);
+  return out;
+}
+
 auto run_block(const block::Block& block, const Options& options, const base::Run& run, const Tell& tell, Keep keep)
     -> BlockResult {
   BlockResult out;

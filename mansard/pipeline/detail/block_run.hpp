@@ -66,6 +66,11 @@ struct BlockResult {
                                  const base::Run& run, const Tell& tell, report::BlockReport& report,
                                  std::vector<base::Diagnostic>& warnings) -> report::SegmentedBlock;
 
+/// The result of a block of which not even the ground is known: all its members are refused.
+[[nodiscard]] auto refused(const block::Block& block, const block::Options& options) -> BlockResult;
+
+[[nodiscard]] auto unsegmented(const block::Block& block, const base::Diagnostic& why) -> SegmentedBlock;
+
 /// Never fails: what cannot be segmented or raised becomes prisms with a reason.
 [[nodiscard]] auto run_block(const block::Block& block, const Options& options, const base::Run& run, const Tell& tell,
                              Keep keep) -> BlockResult;

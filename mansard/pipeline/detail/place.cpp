@@ -1,0 +1,86 @@
+#include "mansard/pipeline/detail/place.hpp"
+
+#include <algorithm>
+
+namespace mansard::pipeline::detail {
+namespace {
+
+using geometry::Point2;
+using geometry::Point3;
+
+/// From a block's own frame to the scene's.
+struct Way {
+  Point3 by;
+  const std::vector<std::size_t>& features;
+
+  explicit Way(const block::OwnFrame& frame)
+      : by{static_cast<double>(frame.block.origin[0]), static_cast<double>(frame.block.origin[1]),
+           static_cast<double>(frame.block.origin[2])},
+        features(frame.features) {}
+
+  void move(Point2& p) const { p = p + xy(by); }
+  void move(geometry::Ring& ring) const {
+    for (Point2& p : ring) move(p);
+  }
+  void move(geometry::Polygon& polygon) const {
+    move(polygon.outer);
+    for (auto& hole : polygon.holes) move(hole);
+  }
+  void move(model::Plan& plan) const {
+    move(plan.outer.points);
+    for (auto& hole : plan.holes) move(hole.points);
+    plan.base += by.z;
+  }
+  void number(std::size_t& feature) const { feature = features[feature]; }
+  void number(std::optional<std::size_t>& feature) const {
+    if (feature) number(*feature);
+  }
+};
+
+void place(segment::Segmentation& chosen, const Way& way) {
+  for (auto& face : chosen.faces) {
+    face.height += way.by.z;
+    way.number(face.feature);
+  }
+  for (auto& part : chosen.parts) {
+    way.move(part.polygon);
+    part.height += way.by.z;
+    way.number(part.feature);
+  }
+}
+
+void place(PartResult& part, const Way& way) {
+  way.number(part.feature);
+  way.move(part.plan);
+  for (Point3& v : part.model.solid.vertices) v = v + way.by;
+  for (double& z : part.roof) z += way.by.z;
+}
+
+}  // namespace
+
+void place(SegmentedBlock& block, const block::OwnFrame& frame) {
+  const Way way(frame);
+  for (auto& feature : block.features) way.number(feature);
+  std::ranges::sort(block.features);
+  for (auto& edge : block.sweep_edges) {
+    way.move(edge.segment.start);
+    way.move(edge.segment.end);
+    edge.low += way.by.z;
+    edge.high += way.by.z;
+  }
+  for (Point2& vertex : block.arrangement.vertices) way.move(vertex);
+  if (block.segmentation) place(*block.segmentation, way);
+}
+
+void place(BlockResult& result, const block::OwnFrame& frame) {
+  const Way way(frame);
+  for (auto& part : result.parts) place(part, way);
+  std::ranges::stable_sort(result.parts, {}, &PartResult::feature);
+  way.move(result.map.origin);
+  for (auto& feature : result.covered) way.number(feature);
+  for (auto& [feature, why] : result.failed) way.number(feature);
+  for (auto& [feature, why] : result.unchecked) way.number(feature);
+  if (result.segmented) place(*result.segmented, frame);
+}
+
+}  // namespace mansard::pipeline::detail

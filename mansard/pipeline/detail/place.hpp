@@ -1,0 +1,13 @@
+// What was made of a block in its own frame, put where the block lies in the scene.
+#pragma once
+
+#include "mansard/block/block.hpp"
+#include "mansard/pipeline/detail/block_run.hpp"
+
+namespace mansard::pipeline::detail {
+
+/// Moves coordinates by the frame's origin and gives features their numbers in the scene; parts are ordered by these.
+void place(SegmentedBlock& block, const block::OwnFrame& frame);
+void place(BlockResult& result, const block::OwnFrame& frame);
+
+}  // namespace mansard::pipeline::detail
