@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "mansard/geometry/angles.hpp"
+
 #include "lab/simulate/detail/party.hpp"
 #include "lab/simulate/detail/raising.hpp"
 #include "lab/simulate/simulate.hpp"
@@ -80,7 +82,7 @@ auto furnished_houses(const model::Scene& scene, const BlockOptions& options, st
                       std::vector<base::Diagnostic>& warnings) -> std::vector<House> {
   const auto party = party_edges(scene);
   const double bearing = options.turn.value_or(0);
-  const Point2 uphill{std::cos(bearing), std::sin(bearing)};
+  const Point2 uphill{geometry::cosine(bearing), geometry::sine(bearing)};
   std::vector<House> houses;
   for (std::size_t f = 0; f < scene.footprints.size(); ++f) {
     const auto& footprint = scene.footprints[f];

@@ -4,6 +4,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "mansard/geometry/angles.hpp"
+
 #include "lab/simulate/detail/noise.hpp"
 #include "lab/simulate/detail/raising.hpp"
 #include "lab/simulate/simulate.hpp"
@@ -82,8 +84,8 @@ auto moved(Point2 p, const SurveyOptions& options, std::uint64_t seed) -> Point2
   const auto x = std::lround(p.x * 100), y = std::lround(p.y * 100);
   const double way = 2 * std::numbers::pi * detail::drawn(seed, 3, x, y);
   const double far = options.jitter * detail::drawn(seed, 4, x, y);
-  return p + options.displacement * Point2{std::cos(angle), std::sin(angle)} +
-         far * Point2{std::cos(way), std::sin(way)};
+  return p + options.displacement * Point2{geometry::cosine(angle), geometry::sine(angle)} +
+         far * Point2{geometry::cosine(way), geometry::sine(way)};
 }
 
 /// What remains when outlines are drawn with less care than they were built: mostly one polygon.

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "mansard/geometry/angles.hpp"
+
 #include "lab/simulate/detail/raising.hpp"
 #include "lab/simulate/simulate.hpp"
 
@@ -12,7 +14,7 @@ namespace {
 using geometry::Point2;
 
 void turn(geometry::Polygon& polygon, double angle) {
-  const Point2 u{std::cos(angle), std::sin(angle)};
+  const Point2 u{geometry::cosine(angle), geometry::sine(angle)};
   const auto turn_ring = [&](geometry::Ring& ring) {
     for (auto& p : ring) p = p.x * u + p.y * left_of(u);
   };

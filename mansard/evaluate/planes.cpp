@@ -1,4 +1,5 @@
 #include "mansard/evaluate/planes.hpp"
+#include "mansard/geometry/angles.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -57,7 +58,7 @@ struct Faces {
 };
 
 auto lies_in(const model::ModelFace& face, Point3 normal, const Plane& plane, const PlaneOptions& options) -> bool {
-  if (face.kind != plane.kind || dot(normal, plane.normal) < std::cos(options.angle)) return false;
+  if (face.kind != plane.kind || dot(normal, plane.normal) < geometry::cosine(options.angle)) return false;
   return std::ranges::all_of(
       face.loops.front(), [&](Point3 p) { return std::abs(dot(p - plane.point, plane.normal)) <= options.distance; });
 }

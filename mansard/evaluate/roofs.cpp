@@ -6,6 +6,7 @@
 #include "mansard/evaluate/detail/grid.hpp"
 #include "mansard/evaluate/detail/normals.hpp"
 #include "mansard/evaluate/truth.hpp"
+#include "mansard/geometry/angles.hpp"
 
 namespace mansard::evaluate {
 namespace {
@@ -31,7 +32,9 @@ struct Place {
 };
 
 /// Radians between the normals, whichever way the faces are turned.
-auto angle_between(Point3 a, Point3 b) -> double { return std::acos(std::clamp(std::abs(dot(a, b)), 0.0, 1.0)); }
+auto angle_between(Point3 a, Point3 b) -> double {
+  return geometry::arc_cosine(std::clamp(std::abs(dot(a, b)), 0.0, 1.0));
+}
 
 /// The places of one building of the truth, on the grid over it.
 auto places_of(std::uint32_t building, const geometry::Box2& box, const FromAbove& truth, const Planes& planes,

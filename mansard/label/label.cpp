@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "mansard/geometry/angles.hpp"
 #include "mansard/label/detail/walls.hpp"
 
 namespace mansard::label {
@@ -48,7 +49,7 @@ auto classify(std::vector<model::Solid> solids, const Options& options, const ba
     -> std::vector<model::LabelledSolid> {
   run.report("label", {}, 0);
   // A face leaning by a from vertical has a normal with |z| = sin a.
-  const double lean = std::sin(options.wall_angle);
+  const double lean = geometry::sine(options.wall_angle);
   std::vector<model::LabelledSolid> labelled(solids.size());
   std::vector<std::vector<bool>> is_wall(solids.size());
   for (std::size_t s = 0; s < solids.size(); ++s) {

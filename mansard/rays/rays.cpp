@@ -3,7 +3,9 @@
 #include <embree3/rtcore.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <mutex>
+#include <string>
 #include <utility>
 
 #include "mansard/rays/detail/from_above.hpp"
@@ -105,8 +107,10 @@ Tree::Tree(const geometry::Mesh& mesh) {
   centre = 0.5 * (box.least + box.most);
 
   // One builder thread: the tree, and so which of two equally near triangles is hit, is the same every time. No
-  // configuration files of the machine.
-  device = rtcNewDevice("threads=1,set_affinity=0,ignore_config_files=1");
+  // configuration files of the machine. Tests add "isa=…" to compute as another processor would.
+  const char* more = std::getenv("MANSARD_EMBREE");
+  const std::string config = "threads=1,set_affinity=0,ignore_config_files=1";
+  device = rtcNewDevice((more != nullptr ? config + "," + more : config).c_str());
   scene = rtcNewScene(device);
   rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
   RTCGeometry triangles = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "mansard/base/text.hpp"
+#include "mansard/geometry/angles.hpp"
 #include "mansard/roof/detail/shapes.hpp"
 
 namespace mansard::roof {
@@ -62,7 +63,7 @@ struct Heights {
 auto heights_of(const Form& form, double run, const Options& o, Planned& out) -> Heights {
   const double room = form.height - form.base;
   const bool given = form.rise || form.angle;
-  double rise = form.rise ? *form.rise : run * std::tan(form.angle ? *form.angle : form.pitch);
+  double rise = form.rise ? *form.rise : run * geometry::tangent(form.angle ? *form.angle : form.pitch);
   if (!form.roof_included) {
     if (!given && room > 0) rise = std::min(rise, room * form.most_share / (1 - form.most_share));
     return {room, rise};

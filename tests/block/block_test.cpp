@@ -108,7 +108,7 @@ TEST(Partition, closes_gaps_in_the_outline_and_else_keeps_every_point) {
   auto points = shared[0].outline[0].outer;
   for (const Point2 p :
        {Point2{0.1, 0.3}, Point2{20, 0.3}, Point2{20, 12}, Point2{10, 12}, Point2{10, 10}, Point2{0.1, 10}})
-    EXPECT_THAT(points, ::testing::Contains(p));
+    EXPECT_THAT(points, ::testing::Contains(Point2{model::rounded(p.x), model::rounded(p.y)}));
 }
 
 TEST(Partition, keeps_courtyards_and_counts_corners_that_touch_as_touching) {
@@ -170,8 +170,16 @@ TEST(Partition, keeps_exactly_the_triangles_within_the_padding) {
     std::vector<std::array<Point3, 3>> kept, wanted;
     for (const auto& t : blocks[0].mesh.triangles)
       kept.push_back({blocks[0].mesh.vertices[t[0]], blocks[0].mesh.vertices[t[1]], blocks[0].mesh.vertices[t[2]]});
-    for (const auto& t : mesh.triangles)
-      if (near(t, padding)) wanted.push_back({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]});
+    for (const auto& t : mesh.triangles) {
+      if (!near(t, padding)) continue;
+      auto& corners = wanted.emplace_back();
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Point3 p = mesh.vertices[t[k]];
+        corners[k] = {model::rounded(p.x), model::rounded(p.y), model::rounded(p.z)};
+      }
+      std::ranges::rotate(corners, std::ranges::min_element(corners));
+    }
+    std::ranges::sort(wanted);
     EXPECT_EQ(kept, wanted) << "padding " << padding;
     EXPECT_EQ(blocks[0].mesh.vertices.size(), 3 * wanted.size());
     EXPECT_GT(wanted.size(), 100U);
@@ -223,6 +231,54 @@ TEST(Partition, is_the_same_at_any_number_of_threads) {
     EXPECT_EQ(one[b].mesh.vertices, many[b].mesh.vertices);
     EXPECT_EQ(one[b].mesh.triangles, many[b].mesh.triangles);
     EXPECT_EQ(one[b].ground, many[b].ground);
+  }
+}
+
+TEST(Partition, knows_surroundings_but_makes_no_block_of_them_alone) {
+  auto scene = scene_of(field(0, 0, 60, 40, 2, level(0)), {{box(0, 0, 10, 10)}});
+  scene.surroundings = {{"x", {box(10, 0, 20, 10)}, {}, {}}, {"y", {box(40, 0, 50, 10)}, {}, {}}};
+  const auto blocks = partition(scene, {});
+  EXPECT_THAT(members(blocks), ElementsAre(ElementsAre(0, 1)));
+  EXPECT_EQ(scene.feature(1).id, "x");
+}
+
+TEST(Partition, names_a_block_after_the_first_id_whatever_else_is_there) {
+  auto scene = scene_of(field(0, 0, 60, 40, 2, level(0)), {{box(0, 0, 10, 10)}, {box(10, 0, 20, 10)}});
+  scene.footprints[0].id = "way/20";
+  scene.footprints[1].id = "way/3";
+  EXPECT_EQ(partition(scene, {})[0].name, "block-way~2f3");
+  std::ranges::reverse(scene.footprints);
+  EXPECT_EQ(partition(scene, {})[0].name, "block-way~2f3");
+}
+
+TEST(Partition, gives_the_same_block_in_its_own_frame_anywhere_and_in_any_order) {
+  base::Random random(11);
+  Mesh mesh = field(-20, -20, 60, 40, 1.3, [&](Point2 p) { return std::sin(p.x) + p.y / 7; });
+  std::vector<std::vector<Polygon>> shapes{{box(0.1, 0.2, 10.3, 9.7)}, {box(10.3, 0.2, 19, 11)}, {box(30, 3, 34, 9)}};
+  const auto first = partition(scene_of(mesh, shapes), {});
+  ASSERT_EQ(first.size(), 2U);
+  for (const Point3 by : {Point3{84800, 447400, -3}, Point3{-512, 1, 1000}}) {
+    Mesh moved = mesh;
+    auto other = shapes;
+    for (Point3& v : moved.vertices) v = v + by;
+    for (auto& shape : other)
+      for (Point2& p : shape[0].outer) p = p + xy(by);
+    std::ranges::reverse(moved.triangles);
+    std::ranges::reverse(other);
+    const auto again = partition(scene_of(moved, other), {});
+    ASSERT_EQ(again.size(), 2U);
+    const auto a = in_own_frame(first[0]), b = in_own_frame(again[1]);
+    EXPECT_EQ(a.block.mesh.vertices, b.block.mesh.vertices);
+    EXPECT_EQ(a.block.mesh.triangles, b.block.mesh.triangles);
+    EXPECT_EQ(a.block.outline, b.block.outline);
+    EXPECT_EQ(a.block.ground, b.block.ground);
+    ASSERT_EQ(b.features.size(), 2U);
+    EXPECT_THAT(a.features, ElementsAre(0, 1));
+    EXPECT_THAT(b.features, ElementsAre(2, 1));
+    for (std::size_t m = 0; m < 2; ++m) {
+      EXPECT_EQ(a.block.members[m].polygons, b.block.members[m].polygons);
+      EXPECT_EQ(a.block.members[m].ground, b.block.members[m].ground);
+    }
   }
 }
 
@@ -280,11 +336,13 @@ TEST(Ground, of_a_house_without_a_street_is_its_neighbours_or_the_foot_of_the_me
     cut.triangles.push_back({v, v + 2, v + 3});
   }
   EXPECT_EQ(partition(scene_of(cut, {{box(0, 0, 10, 10)}}), {})[0].ground, 1);
-  // No mesh near: the foot of what there is. No mesh at all: a number still.
-  const auto far = partition(scene_of(field(500, 500, 510, 510, 1, level(12)), {{box(0, 0, 10, 10)}}), {});
-  EXPECT_EQ(far[0].ground, 12);
-  EXPECT_TRUE(far[0].mesh.triangles.empty());
-  EXPECT_EQ(partition(scene_of({}, {{box(0, 0, 10, 10)}}), {})[0].ground, 0);
+  // No mesh beside it, but within reach: the foot of that. None within reach: it is not known.
+  const auto near = partition(scene_of(field(50, 0, 60, 10, 1, level(12)), {{box(0, 0, 10, 10)}}), {});
+  EXPECT_EQ(near[0].ground, 12);
+  EXPECT_TRUE(near[0].ground_known);
+  EXPECT_TRUE(near[0].mesh.triangles.empty());
+  EXPECT_FALSE(partition(scene_of(field(500, 500, 510, 510, 1, level(12)), {{box(0, 0, 10, 10)}}), {})[0].ground_known);
+  EXPECT_FALSE(partition(scene_of({}, {{box(0, 0, 10, 10)}}), {})[0].ground_known);
 }
 
 TEST(Ground, is_the_terrain_where_that_is_known_along_the_outline) {

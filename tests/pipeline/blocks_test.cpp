@@ -59,11 +59,11 @@ TEST(SomeBlocks, come_out_as_in_a_run_of_all) {
 }
 
 TEST(SomeBlocks, refuse_a_name_that_no_block_has) {
-  const auto result = reconstruct(street(), {}, {}, Keep::models, std::vector<std::string>{"block-3", "blokc-1"});
+  const auto result = reconstruct(street(), {}, {}, Keep::models, std::vector<std::string>{"block-behind", "blokc-behind"});
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().code, "pipeline-block-unknown");
-  EXPECT_EQ(result.error().subject, "blokc-1");
-  EXPECT_THAT(result.error().message, HasSubstr("did you mean 'block-1'"));
+  EXPECT_EQ(result.error().subject, "blokc-behind");
+  EXPECT_THAT(result.error().message, HasSubstr("did you mean 'block-behind'"));
 }
 
 TEST(RaisePlans, makes_the_models_of_the_run_again) {

@@ -98,13 +98,16 @@ TEST(Reconstruct, lets_a_bad_footprint_cost_only_itself) {
 
 TEST(Reconstruct, raises_a_footprint_without_mesh_as_a_prism_and_says_so) {
   auto scene = test::lone_house();
-  scene.footprints.push_back(footprint("nowhere", rectangle(100, 100, 110, 108)));
+  scene.footprints.push_back(footprint("nowhere", rectangle(60, 60, 70, 68)));
+  scene.footprints.push_back(footprint("far", rectangle(500, 100, 510, 108)));
   Options options;
   options.assumed_height = 4;
   const auto r = reconstructed(scene, options);
   EXPECT_EQ(r.buildings[1].outcome, report::Outcome::fallback);
   EXPECT_EQ(r.buildings[1].reasons.at(0).code, "pipeline-no-mesh");
   EXPECT_NEAR(r.buildings[1].volume, 10 * 8 * 4, 1e-6);
+  EXPECT_EQ(r.buildings[2].outcome, Outcome::refused);
+  EXPECT_EQ(r.buildings[2].reasons.at(0).code, "pipeline-no-ground");
   expect_valid(r);
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <span>
 
+#include "mansard/geometry/angles.hpp"
+
 namespace mansard::simulate::detail {
 namespace {
 
@@ -226,7 +228,7 @@ void blur(Cells& cells, double deviation) {
   double sum = 0;
   for (auto i = -reach; i <= reach; ++i) {
     const double x = static_cast<double>(i) / deviation;
-    exact.push_back(std::exp(-x * x / 2));
+    exact.push_back(geometry::exponential(-x * x / 2));
     sum += exact.back();
   }
   std::vector<float> weights, scratch;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "mansard/base/disjoint_sets.hpp"
+#include "mansard/geometry/angles.hpp"
 #include "mansard/rays/rays.hpp"
 
 namespace mansard::simulate::detail {
@@ -28,7 +29,8 @@ auto cameras(double tilt) -> std::vector<Point3> {
   constexpr int sides = 8;
   for (int i = 0; i < sides; ++i) {
     const double angle = 2 * std::numbers::pi * (i + 0.25) / sides;
-    all.push_back({std::sin(tilt) * std::cos(angle), std::sin(tilt) * std::sin(angle), std::cos(tilt)});
+    all.push_back({geometry::sine(tilt) * geometry::cosine(angle), geometry::sine(tilt) * geometry::sine(angle),
+                   geometry::cosine(tilt)});
   }
   return all;
 }

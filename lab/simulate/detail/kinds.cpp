@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "mansard/geometry/angles.hpp"
+
 #include "lab/simulate/detail/lots.hpp"
 
 namespace mansard::simulate::detail {
@@ -148,7 +150,7 @@ class Layout {
         const double turn = random_.uniform(-0.1, 0.1) + (row == 0 ? 0 : chance(random_, 0.3) ? 1.5707963267948966 : 0);
         const Point2 middle{plot * (column - 0.5 * (columns - 1)) + random_.uniform(-1, 1),
                             plot * row + random_.uniform(-1, 1)};
-        cottage(middle, {std::cos(turn), std::sin(turn)});
+        cottage(middle, {geometry::cosine(turn), geometry::sine(turn)});
       }
   }
 

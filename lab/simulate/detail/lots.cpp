@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "mansard/extrude/extrude.hpp"
+#include "mansard/geometry/angles.hpp"
 
 namespace mansard::simulate::detail {
 namespace {
@@ -24,7 +25,8 @@ auto leaning(const Lot& lot) -> Profile {
   if (lot.gutter) profile.push_back({gutter_width, wall});
   if (lot.roof == Roof::mansard)
     profile.push_back({profile.back().inward + steep_run, profile.back().height + steep_rise});
-  profile.push_back({profile.back().inward + long_run, profile.back().height + long_run * std::tan(lot.pitch)});
+  profile.push_back(
+      {profile.back().inward + long_run, profile.back().height + long_run * geometry::tangent(lot.pitch)});
   return profile;
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 
+#include "mansard/geometry/angles.hpp"
 #include "mansard/rays/rays.hpp"
 
 namespace mansard::simulate::detail {
@@ -55,7 +56,7 @@ void add_tree(std::vector<Object>& objects, Point3 foot, base::Random& random) {
   objects.push_back({Object::Form::ellipsoid, crown, {1, 0}, {radius, radius, radius * high}});
   for (int lump = 0; lump < 4; ++lump) {
     const double angle = random.uniform(0, 2 * std::numbers::pi), r = random.uniform(0.4, 0.7) * radius;
-    const Point3 off{0.6 * radius * std::cos(angle), 0.6 * radius * std::sin(angle),
+    const Point3 off{0.6 * radius * geometry::cosine(angle), 0.6 * radius * geometry::sine(angle),
                      random.uniform(-0.5, 0.6) * radius};
     objects.push_back({Object::Form::ellipsoid, crown + off, {1, 0}, {r, r, r}});
   }
@@ -208,7 +209,7 @@ auto objects_of(const Surface& surface, const Nearest& nearest, const Terrain& t
   for (std::size_t i = 0; i < tries(options.cars); ++i) {
     const Point2 p = place();
     const double angle = random.uniform(0, 2 * std::numbers::pi);
-    const Point2 axis = ground.along(p, {std::cos(angle), std::sin(angle)});
+    const Point2 axis = ground.along(p, {geometry::cosine(angle), geometry::sine(angle)});
     if (ground.free(p, 2.5)) add_car(objects, ground.foot(p), axis, random);
   }
   add_chimneys(objects, surface, options, seed);

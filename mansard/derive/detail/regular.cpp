@@ -1,4 +1,5 @@
 #include "mansard/derive/detail/regular.hpp"
+#include "mansard/geometry/angles.hpp"
 
 #include <algorithm>
 #include <array>
@@ -81,8 +82,8 @@ auto direction_through(const std::vector<Point2>& points) -> Point2 {
     const Point2 d = p - middle;
     xx += d.x * d.x, xy += d.x * d.y, yy += d.y * d.y;
   }
-  const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
-  const Point2 axis{std::cos(angle), std::sin(angle)};
+  const double angle = 0.5 * geometry::arc_tangent(2 * xy, xx - yy);
+  const Point2 axis{geometry::cosine(angle), geometry::sine(angle)};
   return geometry::dot(axis, chord) >= 0 ? axis : -1.0 * axis;
 }
 
@@ -117,7 +118,7 @@ auto sides_of(const Ring& ring, const Options& how) -> std::vector<Side> {
 
 /// 0 … π/2.
 auto folded(Point2 direction) -> double {
-  const double angle = std::fmod(std::atan2(direction.y, direction.x) + 2 * pi, pi / 2);
+  const double angle = std::fmod(geometry::arc_tangent(direction.y, direction.x) + 2 * pi, pi / 2);
   return angle < pi / 2 ? angle : 0;
 }
 
@@ -142,7 +143,7 @@ auto peak_of(const std::vector<Weighted>& sides, const Options& how) -> double {
     double sum = 0;
     for (const auto& side : sides) {
       const double t = turn(angle, side.angle) / how.direction_width;
-      sum += side.length * side.length * std::exp(-0.5 * t * t);
+      sum += side.length * side.length * geometry::exponential(-0.5 * t * t);
     }
     if (sum > most) most = sum, best = angle;
   }
@@ -166,19 +167,19 @@ void snap(Side& side, const std::vector<double>& directions, const Options& how)
   std::optional<double> by;
   for (const double direction : directions) {
     const double t = turn(own, direction);
-    if (std::abs(t) >= least || half * std::sin(std::abs(t)) > how.snap_moved * how.tolerance) continue;
+    if (std::abs(t) >= least || half * geometry::sine(std::abs(t)) > how.snap_moved * how.tolerance) continue;
     least = std::abs(t);
     by = t;
   }
   if (!by) return;
-  const double angle = std::atan2(side.direction.y, side.direction.x) + *by;
-  side.direction = {std::cos(angle), std::sin(angle)};
+  const double angle = geometry::arc_tangent(side.direction.y, side.direction.x) + *by;
+  side.direction = {geometry::cosine(angle), geometry::sine(angle)};
   side.free = false;
   fit_offset(side);
 }
 
 auto angle_between(const Side& a, const Side& b) -> double {
-  return std::atan2(geometry::cross(a.direction, b.direction), geometry::dot(a.direction, b.direction));
+  return geometry::arc_tangent(geometry::cross(a.direction, b.direction), geometry::dot(a.direction, b.direction));
 }
 
 auto crossing(const Side& a, const Side& b) -> Point2 {
@@ -199,7 +200,7 @@ auto joined(Side a, const Side& b) -> Side {
 }
 
 auto parallel(const Side& a, const Side& b, const Options& how) -> bool {
-  return std::abs(geometry::cross(a.direction, b.direction)) < std::sin(how.parallel_turn);
+  return std::abs(geometry::cross(a.direction, b.direction)) < geometry::sine(how.parallel_turn);
 }
 
 /// Whether the lines of two neighbours meet near where the outline goes from one to the other.

@@ -1,4 +1,5 @@
 #include "mansard/extrude/detail/runs.hpp"
+#include "mansard/geometry/angles.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -64,7 +65,7 @@ auto deviation(const GridRing& ring, std::size_t first, std::size_t last) -> dou
 
 auto straightened(const GridRing& ring, double merge_angle, double allowed) -> std::vector<Run> {
   const std::size_t n = ring.size();
-  const double tangent = std::tan(merge_angle);
+  const double tangent = geometry::tangent(merge_angle);
   std::vector<std::size_t> corners;
   for (std::size_t i = 0; i < n; ++i) {
     const GridPoint before = ring[i] - ring[i > 0 ? i - 1 : n - 1], after = ring[i + 1 < n ? i + 1 : 0] - ring[i];

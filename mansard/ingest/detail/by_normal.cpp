@@ -1,4 +1,5 @@
 #include "mansard/ingest/detail/by_normal.hpp"
+#include "mansard/geometry/angles.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +25,7 @@ auto class_of(const model::ModelFace& face, const Heights& building) -> model::S
   constexpr double foot = 0.1;        // m; so near to the lowest point is at it
   constexpr double storey = 1.0;      // m; what is lower has no roof above its ground
   const Point3 normal = geometry::normalised(model::area_vector(face.loops.front()));
-  if (std::abs(normal.z) <= std::sin(wall_angle)) return model::SurfaceClass::wall;
+  if (std::abs(normal.z) <= geometry::sine(wall_angle)) return model::SurfaceClass::wall;
   Heights own;
   own.add(face);
   // Not by looking down: many files turn their faces either way.

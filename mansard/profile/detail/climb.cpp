@@ -1,4 +1,5 @@
 #include "mansard/profile/detail/climb.hpp"
+#include "mansard/geometry/angles.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -140,8 +141,9 @@ auto climb(std::span<const Piece> pieces, const Options& options, double ground)
 auto wall_position(const Climb& climb, const Options& options, double ground) -> std::optional<double> {
   // Near the ground cars, hedges and shop fronts stand before the wall: what is seen there weighs little.
   const double steep =
-      options.wall_lean * std::tan(options.vertical_angle);  // single noisy triangles lean more than the wall they make
-  std::vector<std::pair<double, double>> walls;              // (inward, weight)
+      options.wall_lean *
+      geometry::tangent(options.vertical_angle);  // single noisy triangles lean more than the wall they make
+  std::vector<std::pair<double, double>> walls;   // (inward, weight)
   double total = 0;
   for (std::size_t i = 0; i + 1 < climb.points.size(); ++i) {
     const SectionPoint a = climb.points[i], b = climb.points[i + 1];

@@ -1,4 +1,5 @@
 #include "mansard/profile/detail/pitches.hpp"
+#include "mansard/geometry/angles.hpp"
 
 #include <algorithm>
 #include <array>
@@ -182,7 +183,7 @@ auto profile_from(const RoofLine& line, const Options& o) -> model::Profile {
     double slope = 0, end = 0;
     [[nodiscard]] auto at(double inward) const -> double { return through.height + slope * (inward - through.inward); }
   };
-  const double steep = 1 / std::tan(o.vertical_angle);
+  const double steep = 1 / geometry::tangent(o.vertical_angle);
   std::vector<Pitch> pitches;
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
     const double run = line[i + 1].inward - line[i].inward;

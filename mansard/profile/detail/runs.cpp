@@ -1,4 +1,5 @@
 #include "mansard/profile/detail/runs.hpp"
+#include "mansard/geometry/angles.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -47,7 +48,7 @@ auto reach_of(const Polygon& polygon, Point2 foot, Point2 inward) -> double {
 }  // namespace
 
 auto runs_of(const Polygon& polygon, double angle) -> std::vector<Run> {
-  const double tangent = std::tan(angle);
+  const double tangent = geometry::tangent(angle);
   std::vector<Run> runs;
   for (std::size_t r = 0; r <= polygon.holes.size(); ++r) {
     const Ring& ring = ring_of(polygon, r);

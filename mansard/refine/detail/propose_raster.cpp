@@ -1,4 +1,5 @@
 #include "mansard/refine/detail/propose_raster.hpp"
+#include "mansard/geometry/angles.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -93,7 +94,7 @@ auto look(const Heights& measured, const Heights& model, Point2 p, double min_we
 
 /// In [0, 90°).
 auto angle_of(Point2 along) -> double {
-  const double a = std::fmod(std::atan2(along.y, along.x) + 2 * std::numbers::pi, quarter);
+  const double a = std::fmod(geometry::arc_tangent(along.y, along.x) + 2 * std::numbers::pi, quarter);
   return a >= quarter ? 0 : a;
 }
 
@@ -198,7 +199,7 @@ auto directions_of(const Polygon& part, const Options::Directions& options) -> s
     }
     if (best <= 0 || (round == 1 && best < options.second_share * total)) break;
     // Edges that go exactly along the axes keep them so.
-    const Point2 axis{std::cos(best_angle), std::sin(best_angle)};
+    const Point2 axis{geometry::cosine(best_angle), geometry::sine(best_angle)};
     out.push_back({std::abs(axis.y) < on_axis ? Point2{1, 0} : axis});
     std::erase_if(ways, [&](const Way& way) { return std::abs(turn(way.angle, best_angle)) < options.other; });
   }

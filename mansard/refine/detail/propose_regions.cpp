@@ -5,6 +5,7 @@
 #include <complex>
 
 #include "mansard/base/disjoint_sets.hpp"
+#include "mansard/geometry/angles.hpp"
 
 namespace mansard::refine::detail::carve {
 namespace {
@@ -266,8 +267,8 @@ auto own_direction(const Raster& raster, const Region& region, const Options::Re
       total += size;
     }
   if (total <= 0 || std::abs(sum) < options.agreement * total) return false;
-  const double angle = std::arg(sum) / 4;
-  const geometry::Point2 own{std::cos(angle), std::sin(angle)};
+  const double angle = geometry::arc_tangent(sum.imag(), sum.real()) / 4;
+  const geometry::Point2 own{geometry::cosine(angle), geometry::sine(angle)};
   direction = {raster.frame.back(own), false};
   return true;
 }

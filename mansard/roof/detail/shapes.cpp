@@ -1,4 +1,5 @@
 #include "mansard/roof/detail/shapes.hpp"
+#include "mansard/geometry/angles.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,7 @@ namespace {
 
 using geometry::Point2;
 
-auto pointing(double bearing) -> Point2 { return {std::sin(bearing), std::cos(bearing)}; }
+auto pointing(double bearing) -> Point2 { return {geometry::sine(bearing), geometry::cosine(bearing)}; }
 
 /// The way the ridge of a near-rectangle goes.
 auto ridge_axis(const Extent& extent, const Form& form) -> Point2 {

@@ -1,4 +1,5 @@
 #include "mansard/roof/detail/sides.hpp"
+#include "mansard/geometry/angles.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +13,7 @@ using geometry::Point2;
 namespace {
 
 auto turn_between(Point2 before, Point2 after) -> double {
-  return std::atan2(cross(before, after), dot(before, after));
+  return geometry::arc_tangent(cross(before, after), dot(before, after));
 }
 
 void add_sides(const geometry::Ring& ring, std::size_t index, double straight, std::vector<Side>& sides) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <set>
 
+#include "mansard/geometry/angles.hpp"
 #include "mansard/segment/detail/candidates.hpp"
 #include "mansard/segment/detail/walk.hpp"
 
@@ -62,7 +63,7 @@ void add_runs(const fracture::Arrangement& arrangement, std::uint32_t face,
 auto is_needle(const Run& one, const Run& next, const Options& o) -> bool {
   if (one.length < o.thin_shortest || next.length < o.thin_shortest) return false;
   const Point2 back = one.segment.start - one.segment.end, on = next.segment.end - next.segment.start;
-  return cross(on, back) > 0 && dot(on, back) > std::cos(o.thin_angle) * length(on) * length(back);
+  return cross(on, back) > 0 && dot(on, back) > geometry::cosine(o.thin_angle) * length(on) * length(back);
 }
 
 /// Where runs that face each other, nearer than the limit, are nearest on the first one.
@@ -70,7 +71,7 @@ auto sliver_at(const Run& one, const Run& other, const Options& o) -> std::optio
   if (one.length < o.thin_shortest || other.length < o.thin_shortest) return std::nullopt;
   const Point2 a = one.segment.end - one.segment.start, b = other.segment.end - other.segment.start;
   const double la = length(a);
-  if (dot(a, b) > -std::cos(o.thin_parallel) * la * length(b)) return std::nullopt;
+  if (dot(a, b) > -geometry::cosine(o.thin_parallel) * la * length(b)) return std::nullopt;
   // In the frame of `one`: along it, and to its left; `other` runs backwards.
   const auto along = [&](Point2 p) { return dot(p - one.segment.start, a) / la; };
   const auto aside = [&](Point2 p) { return cross(a, p - one.segment.start) / la; };

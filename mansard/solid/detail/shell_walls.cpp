@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "mansard/base/disjoint_sets.hpp"
+#include "mansard/geometry/angles.hpp"
 #include "mansard/geometry/polygon.hpp"
 
 namespace mansard::solid::detail {
@@ -101,7 +102,7 @@ class Remainder {
     for (const Edge& other : edges_) {
       if (other == edge) continue;
       const Point2 a = flat(other.first) - middle, b = flat(other.second) - middle;
-      turns += std::atan2(cross(a, b), dot(a, b)) / (2 * std::numbers::pi);
+      turns += geometry::arc_tangent(cross(a, b), dot(a, b)) / (2 * std::numbers::pi);
     }
     return static_cast<int>(std::lround(turns));
   }
@@ -147,7 +148,7 @@ class Remainder {
     const Point2 back = flat(from) - flat(at);
     const auto turn = [&](std::uint32_t to) {  // clockwise from where we came
       const Point2 on = flat(to) - flat(at);
-      const double angle = -std::atan2(cross(back, on), dot(back, on));
+      const double angle = -geometry::arc_tangent(cross(back, on), dot(back, on));
       return angle <= 0 ? angle + 2 * std::numbers::pi : angle;
     };
     return std::ranges::min_element(ways, {}, turn);

@@ -1,4 +1,5 @@
 #include "mansard/sweep/detail/alignment.hpp"
+#include "mansard/geometry/angles.hpp"
 
 #include <cmath>
 
@@ -12,7 +13,7 @@ namespace {
 /// Consecutive edges that bend less than gis_straight_turn count as one: vertices of party walls must not shorten a
 /// facade.
 void collect(const geometry::Ring& ring, const Options& o, std::vector<Segment2>& edges) {
-  const double straight = std::cos(o.gis_straight_turn);
+  const double straight = geometry::cosine(o.gis_straight_turn);
   const auto n = ring.size();
   if (n < 3) return;
   const auto turns = [&](std::size_t i) {
@@ -60,8 +61,8 @@ auto GisEdges::aligned(const Segment2& line) const -> Segment2 {
     for (const bool square : {false, true}) {
       Point2 d = square ? geometry::left_of(direction) : direction;
       if (dot(d, along) < 0) d = -1.0 * d;
-      const double angle = std::atan2(std::abs(cross(along, d)), dot(along, d));
-      if (angle >= angle_limit || 0.5 * l * std::sin(angle) > options_.gis_maximum_swing) continue;
+      const double angle = geometry::arc_tangent(std::abs(cross(along, d)), dot(along, d));
+      if (angle >= angle_limit || 0.5 * l * geometry::sine(angle) > options_.gis_maximum_swing) continue;
       const double score = (square ? options_.gis_square_score : 1.0) * (1 - angle / angle_limit) * (1 - away / reach);
       if (score > best) best = score, target = d;
     }

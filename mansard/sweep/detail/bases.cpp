@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "mansard/base/statistics.hpp"
+#include "mansard/geometry/angles.hpp"
 #include "mansard/geometry/fit.hpp"
 
 namespace mansard::sweep::detail {
@@ -38,7 +39,7 @@ auto main_frame(const std::vector<WeighedLine>& lines) -> Frame {
   double total = 0;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const Point2 v = lines[i].line.segment.end - lines[i].line.segment.start;
-    turns.push_back({std::atan2(cross(mean, v), dot(mean, v)), i});
+    turns.push_back({geometry::arc_tangent(cross(mean, v), dot(mean, v)), i});
     total += lines[i].length;
   }
   std::sort(turns.begin(), turns.end());

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "mansard/geometry/angles.hpp"
 #include "mansard/sweep/detail/line_index.hpp"
 
 namespace mansard::sweep::detail {
@@ -37,7 +38,7 @@ struct Origin {
     const double shared = std::min(b, high) - std::max(a, low);
     const double overlap = a <= low && b >= high ? 1.0 : std::max(0.0, shared) / (b - a);
     const Point2 d = normalised(s.end - s.start);
-    const double angle = std::atan2(std::abs(cross(direction, d)), dot(direction, d));
+    const double angle = geometry::arc_tangent(std::abs(cross(direction, d)), dot(direction, d));
     return (overlap > o.cluster_overlap && angle < o.cluster_turn) ||
            (overlap > o.cluster_overlap_parallel && angle < o.cluster_turn_parallel);
   }
@@ -60,7 +61,7 @@ auto lateral_step(const Segment2& from, const Segment2& to) -> double {
 }
 
 void weigh_thin(std::vector<WeighedLine>& lines, const Options& options) {
-  const double thin_distance = options.thin_distance, opposite = std::cos(options.thin_turn);
+  const double thin_distance = options.thin_distance, opposite = geometry::cosine(options.thin_turn);
   if (!(thin_distance > 0)) return;
   const LineIndex index(as_segments(lines), 8);
   for (auto& l : lines) {

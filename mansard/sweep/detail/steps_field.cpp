@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "mansard/geometry/angles.hpp"
 #include "mansard/geometry/polygon.hpp"
 
 namespace mansard::sweep::detail {
@@ -39,7 +40,7 @@ auto edges_of(const block::Block& block, const Options& o) -> std::vector<Edge> 
         const Point2 d = ring[(i + 1) % ring.size()] - ring[i];
         const double size = length(d);
         if (size < o.step_grain_edge) continue;
-        const double turned = std::fmod(std::atan2(d.y, d.x) + 2 * std::numbers::pi, std::numbers::pi / 2);
+        const double turned = std::fmod(geometry::arc_tangent(d.y, d.x) + 2 * std::numbers::pi, std::numbers::pi / 2);
         edges.push_back({turned, size, m});
       }
     };
@@ -165,7 +166,7 @@ auto grains_of(const block::Block& block, const Options& o) -> std::vector<Grain
     }
     if (weight < o.step_grain_length) continue;
     const double angle = edges[i].angle + turn / weight;
-    Grain grain{{std::cos(angle), std::sin(angle)}, {}};
+    Grain grain{{geometry::cosine(angle), geometry::sine(angle)}, {}};
     for (std::size_t m = 0; m < own.size(); ++m)
       if (own[m] > 0 && own[m] >= o.step_grain_share * all[m]) grain.members.push_back(m);
     if (!grain.members.empty()) found.emplace_back(weight, std::move(grain));

@@ -1,0 +1,167 @@
+// The same building, whatever else is in the files, wherever they lie and whoever computes: building by building, by
+// the coordinates and attributes in CityJSON.
+#include <array>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+
+namespace mansard::cli {
+namespace {
+
+using Json = nlohmann::json;
+
+/// A real mesh (simulated from an LoD2 model of Rotterdam) with 29 footprints in 5 blocks.
+class SameBuilding : public Command {
+ protected:
+  using Buildings = std::map<std::string, Json>;
+
+  static void SetUpTestSuite() {
+    const fs::path data = fs::path(MANSARD_SHARED_DATA) / "sim_rotterdam";
+    mesh() = (data / "block_A_sim_mesh.ply").string();
+    footprints() = Json::parse(read(data / "block_A_footprints.geojson"));
+  }
+  static auto mesh() -> std::string& {
+    static std::string name;
+    return name;
+  }
+  static auto footprints() -> Json& {
+    static Json json;
+    return json;
+  }
+
+  /// Every building of a run, its parts with it: attributes and faces, with coordinates as whole units of the file.
+  /// `shift`: whole metres that the input was moved by.
+  auto buildings(const std::string& meshes, const Json& gis, const std::string& more = "",
+                 const std::array<int, 3>& shift = {}, const std::string& environment = "") -> Buildings {
+    put("gis.geojson", gis.dump());
+    fs::remove_all(at("out"));
+    const auto outcome =
+        run_in(environment, "reconstruct -q " + meshes + " " + at("gis.geojson") + " -o " + at("out") + " " + more);
+    EXPECT_LE(outcome.exit, 1) << outcome.err;
+    const Json city = Json::parse(read(at("out") + "/model.city.json"));
+    Buildings out;
+    for (const auto& [id, object] : city["CityObjects"].items()) {
+      const std::string building = object.contains("parents") ? object["parents"][0].get<std::string>() : id;
+      out[building][id] = {object["attributes"], absolute(object.value("geometry", Json::array()), city, shift)};
+    }
+    return out;
+  }
+
+  auto run_in(const std::string& environment, const std::string& arguments) const -> Outcome {
+    const std::string command = environment + " " + MANSARD_BINARY + " " + arguments + " >" + at("stdout") + " 2>" +
+                                at("stderr") + " </dev/null";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(at("stdout")), read(at("stderr"))};
+  }
+
+  static void expect_same(const Buildings& some, const Buildings& all) {
+    EXPECT_FALSE(some.empty());
+    for (const auto& [id, building] : some) {
+      ASSERT_TRUE(all.contains(id)) << id;
+      EXPECT_TRUE(building == all.at(id)) << id << "\n" << Json::diff(building, all.at(id)).dump().substr(0, 600);
+    }
+  }
+
+  /// The mesh in two files, cut in the middle of its list of triangles; each has all vertices.
+  auto halves() -> std::array<std::string, 2> {
+    const std::string bytes = read(mesh());
+    const std::string end = "end_header\n";
+    const std::size_t start = bytes.find(end) + end.size();
+    const auto count = [&](const std::string& what) {
+      return std::stoul(bytes.substr(bytes.find("element " + what) + what.size() + 9));
+    };
+    const std::size_t vertices = count("vertex"), faces = count("face");
+    constexpr std::size_t vertex_size = 12, face_size = 13;
+    EXPECT_EQ(bytes.size(), start + vertices * vertex_size + faces * face_size);
+    const auto piece = [&](const std::string& name, std::size_t first, std::size_t last) {
+      std::string header = bytes.substr(0, start);
+      const std::string old = "element face " + std::to_string(faces);
+      header.replace(header.find(old), old.size(), "element face " + std::to_string(last - first));
+      return put(name,
+                 header + bytes.substr(start, vertices * vertex_size) +
+                     bytes.substr(start + vertices * vertex_size + first * face_size, (last - first) * face_size));
+    };
+    return {piece("first.ply", 0, faces / 2), piece("second.ply", faces / 2, faces)};
+  }
+
+ private:
+  /// Indices of vertices become their coordinates.
+  static auto absolute(const Json& geometry, const Json& city, const std::array<int, 3>& shift) -> Json {
+    const auto& scale = city["transform"]["scale"];
+    const auto& translate = city["transform"]["translate"];
+    const auto place = [&](std::size_t vertex) {
+      Json out = Json::array();
+      for (std::size_t k = 0; k < 3; ++k)
+        out.push_back(city["vertices"][vertex][k].get<std::int64_t>() +
+                      std::llround((translate[k].get<double>() - shift[k]) / scale[k].get<double>()));
+      return out;
+    };
+    const std::function<Json(const Json&)> deep = [&](const Json& nested) -> Json {
+      if (nested.is_number()) return place(nested.get<std::size_t>());
+      Json out = Json::array();
+      for (const auto& one : nested) out.push_back(deep(one));
+      return out;
+    };
+    Json out = Json::array();
+    for (const auto& one : geometry) out.push_back({one["type"], one["lod"], deep(one["boundaries"])});
+    return out;
+  }
+};
+
+TEST_F(SameBuilding, in_any_selection_order_and_division_of_the_files) {
+  const auto all = buildings(mesh(), footprints());
+  EXPECT_GT(all.size(), 25U);
+
+  // Some of them, by a box and by a filter: what is around is known all the same.
+  const auto boxed = buildings(mesh(), footprints(), "--bbox 640 330 700 380");
+  EXPECT_LT(boxed.size(), all.size());
+  expect_same(boxed, all);
+  const auto filtered = buildings(mesh(), footprints(), "--where 'zmax > 15'");
+  EXPECT_LT(filtered.size(), all.size());
+  expect_same(filtered, all);
+
+  // The footprints in another order, and with as many again far away.
+  Json more = footprints();
+  std::ranges::reverse(more["features"]);
+  for (auto feature : footprints()["features"]) {
+    feature["properties"]["id"] = "far " + feature["properties"]["id"].get<std::string>();
+    for (auto& ring : feature["geometry"]["coordinates"])
+      for (auto& p : ring) p[0] = p[0].get<double>() - 150;
+    more["features"].push_back(feature);
+  }
+  expect_same(all, buildings(mesh(), more));
+
+  // The mesh as two files, the later half of its triangles first.
+  const auto [first, second] = halves();
+  expect_same(all, buildings(second + " " + first, footprints()));
+  expect_same(all, buildings(mesh(), footprints(), "-j 1"));
+}
+
+TEST_F(SameBuilding, at_any_place_a_whole_number_of_metres_away) {
+  const auto all = buildings(mesh(), footprints());
+  for (const std::array<int, 2> by : {std::array{512, 0}, {84813, 447331}, {-3, -100000}}) {
+    Json moved = footprints();
+    for (auto& feature : moved["features"])
+      for (auto& ring : feature["geometry"]["coordinates"])
+        for (auto& p : ring)
+          for (std::size_t k = 0; k < 2; ++k) p[k] = p[k].get<double>() + by[k];
+    const std::string offset = std::to_string(by[0]) + " " + std::to_string(by[1]) + " 0";
+    expect_same(all, buildings(mesh(), moved, "--mesh-offset " + offset, {by[0], by[1], 0}));
+  }
+}
+
+TEST_F(SameBuilding, on_any_processor) {
+  // What glibc, Embree and the BLAS would choose on older processors. Those that this one lacks are not tested.
+  const auto all = buildings(mesh(), footprints());
+  const std::string sse = "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX_Usable,-AVX2_Usable,-FMA_Usable,-AVX,-AVX2,-FMA,-FMA4 ";
+  expect_same(all, buildings(mesh(), footprints(), "", {}, sse + "MANSARD_EMBREE=isa=sse2 OPENBLAS_CORETYPE=Prescott"));
+  expect_same(all, buildings(mesh(), footprints(), "", {}, "MANSARD_EMBREE=isa=avx2 OPENBLAS_CORETYPE=Haswell"));
+  if (__builtin_cpu_supports("avx512f"))
+    expect_same(all, buildings(mesh(), footprints(), "", {}, "MANSARD_EMBREE=isa=avx512 OPENBLAS_CORETYPE=SkylakeX"));
+}
+
+}  // namespace
+}  // namespace mansard::cli
