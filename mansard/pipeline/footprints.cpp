@@ -116,6 +116,7 @@ auto attributes_of(const model::LabelledSolid& model, const Raising& job, const 
   add("ms_area_party_wall", areas.party_wall);
   if (job.full) add("ms_fallback", std::monostate{});
   else add("ms_fallback", job.reasons.empty() ? std::string("unknown") : job.reasons.front().code);
+  report::round_measures(out);
   return out;
 }
 
@@ -167,6 +168,7 @@ void finish(const model::Scene& scene, report::Reconstruction& out) {
     attributes.emplace_back("ms_h_ground", report.ground);
     attributes.emplace_back("ms_h_roof_max", report.roof_max);
     attributes.emplace_back("ms_volume_lod22", report.volume);
+    report::round_measures(attributes);
   }
   if (assumed > 0)
     out.warnings.push_back(base::warning("roof-assumed",

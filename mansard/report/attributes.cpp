@@ -128,6 +128,13 @@ auto model_attributes(const model::LabelledSolid& model, const model::Plan& plan
   return out;
 }
 
+void round_measures(model::Attributes& attributes) {
+  constexpr double unit = 1e4;
+  for (auto& [name, value] : attributes)
+    if (auto* number = std::get_if<double>(&value); number != nullptr && name.starts_with("ms_"))
+      *number = std::round(*number * unit) / unit;
+}
+
 auto part_attributes(const model::Part& part, const std::string& fallback, const rays::Scene* mesh, double z0,
                      const Sampling& sampling) -> model::Attributes {
   std::optional<double> mse;
@@ -137,7 +144,9 @@ auto part_attributes(const model::Part& part, const std::string& fallback, const
     if (std::isfinite(error)) mse = error;
   }
   const auto roof = roof_heights(part.model, part.plan, sampling.roof_grid);
-  return with(part.attributes, of_model, model_attributes(part.model, part.plan, roof, mse, fallback, z0));
+  auto now = model_attributes(part.model, part.plan, roof, mse, fallback, z0);
+  round_measures(now);
+  return with(part.attributes, of_model, std::move(now));
 }
 
 auto building_attributes(const model::Building& building, double z0) -> model::Attributes {
@@ -164,6 +173,7 @@ auto building_attributes(const model::Building& building, double z0) -> model::A
     now.emplace_back("ms_volume_lod22", volume);
     if (area > 0) now.emplace_back("ms_rmse_lod22", std::sqrt(squared / area));
   }
+  detail::round_measures(now);
   return with(building.attributes, of_building, std::move(now));
 }
 

@@ -48,4 +48,8 @@ struct Sampling {
 /// The same for a building, of the attributes of its parts.
 [[nodiscard]] auto building_attributes(const model::Building& building, double z0) -> model::Attributes;
 
+/// Rounds the measured numbers (ms_…) to four decimals: 0.1 mm, 1 cm², 100 cm³. What is beyond them depends on where
+/// the frame begins.
+void round_measures(model::Attributes& attributes);
+
 }  // namespace mansard::report

@@ -177,7 +177,7 @@ auto parts_by_feature(const model::Scene& scene, const std::vector<SegmentedBloc
   for (const auto& block : blocks) {
     if (!block.segmentation) continue;
     for (const auto& part : block.segmentation->parts)
-      if (part.feature) ++parts[*part.feature];
+      if (part.feature && *part.feature < parts.size()) ++parts[*part.feature];
   }
   return parts;
 }

@@ -45,7 +45,10 @@ class SameBuilding : public Command {
     Buildings out;
     for (const auto& [id, object] : city["CityObjects"].items()) {
       const std::string building = object.contains("parents") ? object["parents"][0].get<std::string>() : id;
-      out[building][id] = {object["attributes"], absolute(object.value("geometry", Json::array()), city, shift)};
+      Json attributes = object["attributes"];
+      for (const auto* plan : {"+ms_plan", "+ms_footprint"})
+        if (attributes.contains(plan)) attributes[plan] = placed(attributes[plan], shift);
+      out[building][id] = {std::move(attributes), absolute(object.value("geometry", Json::array()), city, shift)};
     }
     return out;
   }
@@ -62,6 +65,15 @@ class SameBuilding : public Command {
     for (const auto& [id, building] : some) {
       ASSERT_TRUE(all.contains(id)) << id;
       EXPECT_TRUE(building == all.at(id)) << id << "\n" << Json::diff(building, all.at(id)).dump().substr(0, 600);
+    }
+  }
+
+  /// GeoJSON's coordinates of any depth.
+  static void move(Json& coordinates, const std::array<int, 2>& by) {
+    if (coordinates[0].is_array()) {
+      for (auto& one : coordinates) move(one, by);
+    } else {
+      for (std::size_t k = 0; k < 2; ++k) coordinates[k] = coordinates[k].get<double>() + by[k];
     }
   }
 
@@ -88,6 +100,26 @@ class SameBuilding : public Command {
   }
 
  private:
+  /// A plan, or a footprint, with absolute coordinates to the micrometre: each counts from an origin of its own.
+  static auto placed(Json plan, const std::array<int, 3>& shift) -> Json {
+    const auto origin = plan["origin"];
+    plan.erase("origin");
+    const std::function<void(Json&)> move = [&](Json& points) {
+      if (points.is_array() && points.size() == 2 && points[0].is_number()) {
+        for (std::size_t k = 0; k < 2; ++k)
+          points[k] = std::llround((points[k].get<double>() + origin[k].get<double>() - shift[k]) * 1e6);
+      } else if (points.is_object()) {
+        for (auto& [key, one] : points.items())
+          if (key != "profile_of_edge") move(one);
+      } else if (points.is_array()) {
+        for (auto& one : points) move(one);
+      }
+    };
+    for (const auto* ring : {"outer", "holes", "polygons"})
+      if (plan.contains(ring)) move(plan[ring]);
+    return plan;
+  }
+
   /// Indices of vertices become their coordinates.
   static auto absolute(const Json& geometry, const Json& city, const std::array<int, 3>& shift) -> Json {
     const auto& scale = city["transform"]["scale"];
@@ -128,8 +160,7 @@ TEST_F(SameBuilding, in_any_selection_order_and_division_of_the_files) {
   std::ranges::reverse(more["features"]);
   for (auto feature : footprints()["features"]) {
     feature["properties"]["id"] = "far " + feature["properties"]["id"].get<std::string>();
-    for (auto& ring : feature["geometry"]["coordinates"])
-      for (auto& p : ring) p[0] = p[0].get<double>() - 150;
+    move(feature["geometry"]["coordinates"], {-5000, 0});
     more["features"].push_back(feature);
   }
   expect_same(all, buildings(mesh(), more));
@@ -144,10 +175,7 @@ TEST_F(SameBuilding, at_any_place_a_whole_number_of_metres_away) {
   const auto all = buildings(mesh(), footprints());
   for (const std::array<int, 2> by : {std::array{512, 0}, {84813, 447331}, {-3, -100000}}) {
     Json moved = footprints();
-    for (auto& feature : moved["features"])
-      for (auto& ring : feature["geometry"]["coordinates"])
-        for (auto& p : ring)
-          for (std::size_t k = 0; k < 2; ++k) p[k] = p[k].get<double>() + by[k];
+    for (auto& feature : moved["features"]) move(feature["geometry"]["coordinates"], by);
     const std::string offset = std::to_string(by[0]) + " " + std::to_string(by[1]) + " 0";
     expect_same(all, buildings(mesh(), moved, "--mesh-offset " + offset, {by[0], by[1], 0}));
   }

@@ -65,6 +65,19 @@ TEST_F(MeshFaults, repeated_triangles_are_dropped_whichever_way_round) {
   EXPECT_TRUE(has_warning(*scene, "ingest-mesh-duplicate"));
 }
 
+TEST_F(MeshFaults, of_a_triangle_given_both_ways_round_the_same_one_is_kept_in_any_order) {
+  const auto one = mesh(file("m.obj", std::string(corners) + "f 1 2 3\nf 1 3 2\n"));
+  const auto other = mesh(file("n.obj", std::string(corners) + "f 3 2 1\nf 2 3 1\n"));
+  ASSERT_TRUE(one && other);
+  ASSERT_EQ(one->mesh.triangles.size(), 1U);
+  const auto normal = [](const model::Scene& scene) {
+    const auto& t = scene.mesh.triangles[0];
+    const auto& v = scene.mesh.vertices;
+    return cross(v[t[1]] - v[t[0]], v[t[2]] - v[t[0]]);
+  };
+  EXPECT_EQ(normal(*one), normal(*other));
+}
+
 TEST_F(MeshFaults, flipped_neighbours_and_fins_are_kept_and_counted) {
   const auto flipped = mesh(file("m.obj", std::string(corners) + "f 1 2 3\nf 2 3 4\n"));
   ASSERT_TRUE(flipped);

@@ -76,7 +76,7 @@ inline auto town() -> model::Scene {
   return scene;
 }
 
-/// A footprint so far away that its ground cannot be fractured.
+/// A footprint so far away that its ground is not known.
 inline auto with_a_bad_block(model::Scene scene) -> model::Scene {
   scene.footprints.push_back(footprint("far", rectangle(2e7, 0, 2e7 + 12, 8)));
   return scene;

@@ -165,10 +165,12 @@ auto find_repeated(const std::vector<Triangle>& triangles, const Around<Index>& 
         if (const Triangle t = sorted(triangles[i]); t[0] == v) own.push_back({t[1], t[2], i});
       std::ranges::sort(own);
       for (std::size_t i = 0, end = 0; i < own.size(); i = end) {
-        // Of triangles over the same corners one is kept: the first that is the right way round, if any is.
-        std::size_t kept = i;
+        // Of triangles over the same corners one is kept: the first of those that most agree with.
+        std::size_t up = 0;
         for (end = i; end < own.size() && own[end].middle == own[i].middle && own[end].last == own[i].last; ++end)
-          if (!ascends(triangles[own[kept].triangle]) && ascends(triangles[own[end].triangle])) kept = end;
+          up += ascends(triangles[own[end].triangle]) ? 1 : 0;
+        std::size_t kept = i;
+        while (ascends(triangles[own[kept].triangle]) != (2 * up >= end - i)) ++kept;
         for (std::size_t k = i; k < end; ++k)
           if (k != kept) repeated[own[k].triangle] = 1;
       }

@@ -48,6 +48,7 @@ auto attributes_of(const PartResult& part, const report::BlockReport& block, dou
   out.emplace_back("ms_block", block.name);
   out.emplace_back("ms_opt_status", block.status);
   out.emplace_back("ms_opt_gap", block.objective - block.bound);
+  report::round_measures(out);
   return out;
 }
 
@@ -136,6 +137,7 @@ auto assemble(const model::Scene& scene, const std::vector<block::Block>& blocks
       attributes.emplace_back("ms_h_roof_max", reports[i].roof_max);
       attributes.emplace_back("ms_volume_lod22", reports[i].volume);
       if (reports[i].rmse) attributes.emplace_back("ms_rmse_lod22", *reports[i].rmse);
+      report::round_measures(attributes);
     }
   }
   buildings.resize(scene.footprints.size());

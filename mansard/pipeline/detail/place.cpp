@@ -1,12 +1,17 @@
 #include "mansard/pipeline/detail/place.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace mansard::pipeline::detail {
 namespace {
 
 using geometry::Point2;
 using geometry::Point3;
+
+/// A nanometre: numbers of 4 000 km keep it.
+constexpr double plan_unit = 0x1p-30;
+auto rounded(double x) -> double { return std::floor(x / plan_unit + 0.5) * plan_unit; }
 
 /// From a block's own frame to the scene's.
 struct Way {
@@ -26,10 +31,15 @@ struct Way {
     move(polygon.outer);
     for (auto& hole : polygon.holes) move(hole);
   }
+  /// Plans are rounded first, to numbers that can be moved without another rounding.
   void move(model::Plan& plan) const {
-    move(plan.outer.points);
-    for (auto& hole : plan.holes) move(hole.points);
-    plan.base += by.z;
+    const auto settle = [&](geometry::Ring& ring) {
+      for (Point2& p : ring) p = {rounded(p.x), rounded(p.y)};
+      move(ring);
+    };
+    settle(plan.outer.points);
+    for (auto& hole : plan.holes) settle(hole.points);
+    plan.base = rounded(plan.base) + by.z;
   }
   void number(std::size_t& feature) const { feature = features[feature]; }
   void number(std::optional<std::size_t>& feature) const {
