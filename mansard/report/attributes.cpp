@@ -173,7 +173,7 @@ auto building_attributes(const model::Building& building, double z0) -> model::A
     now.emplace_back("ms_volume_lod22", volume);
     if (area > 0) now.emplace_back("ms_rmse_lod22", std::sqrt(squared / area));
   }
-  detail::round_measures(now);
+  round_measures(now);
   return with(building.attributes, of_building, std::move(now));
 }
 

@@ -34,7 +34,7 @@ TEST(Segment, leaves_the_other_blocks_alone_when_one_fails_and_says_so) {
   ASSERT_EQ(together.blocks.size(), alone.blocks.size() + 1);
   EXPECT_EQ(together.blocks.back().status, "failed");
   ASSERT_TRUE(together.segmented.back().failure);
-  EXPECT_EQ(together.segmented.back().failure->code, "pipeline-block");
+  EXPECT_EQ(together.segmented.back().failure->code, "pipeline-no-ground");
   EXPECT_THAT(together.warnings, testing::Contains(*together.segmented.back().failure));
   const auto before = report::segment_layers(good, alone.segmented, alone.made_by);
   const auto after = report::segment_layers(bad, together.segmented, together.made_by);

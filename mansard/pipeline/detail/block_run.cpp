@@ -176,8 +176,8 @@ auto refused(const block::Block& block, const block::Options& options) -> BlockR
   return out;
 }
 
-auto unsegmented(const block::Block& block, const base::Diagnostic& why) -> SegmentedBlock {
-  SegmentedBlock out;
+auto unsegmented(const block::Block& block, const base::Diagnostic& why) -> report::SegmentedBlock {
+  report::SegmentedBlock out;
   out.name = block.name;
   for (const auto& member : block.members) out.features.push_back(member.feature);
   out.failure = base::warning(why.code, why.message, block.name);

@@ -69,7 +69,7 @@ struct BlockResult {
 /// The result of a block of which not even the ground is known: all its members are refused.
 [[nodiscard]] auto refused(const block::Block& block, const block::Options& options) -> BlockResult;
 
-[[nodiscard]] auto unsegmented(const block::Block& block, const base::Diagnostic& why) -> SegmentedBlock;
+[[nodiscard]] auto unsegmented(const block::Block& block, const base::Diagnostic& why) -> report::SegmentedBlock;
 
 /// Never fails: what cannot be segmented or raised becomes prisms with a reason.
 [[nodiscard]] auto run_block(const block::Block& block, const Options& options, const base::Run& run, const Tell& tell,

@@ -68,7 +68,7 @@ void place(PartResult& part, const Way& way) {
 
 }  // namespace
 
-void place(SegmentedBlock& block, const block::OwnFrame& frame) {
+void place(report::SegmentedBlock& block, const block::OwnFrame& frame) {
   const Way way(frame);
   for (auto& feature : block.features) way.number(feature);
   std::ranges::sort(block.features);

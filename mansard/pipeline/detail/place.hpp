@@ -7,7 +7,7 @@
 namespace mansard::pipeline::detail {
 
 /// Moves coordinates by the frame's origin and gives features their numbers in the scene; parts are ordered by these.
-void place(SegmentedBlock& block, const block::OwnFrame& frame);
+void place(report::SegmentedBlock& block, const block::OwnFrame& frame);
 void place(BlockResult& result, const block::OwnFrame& frame);
 
 }  // namespace mansard::pipeline::detail
