@@ -5,6 +5,7 @@
 
 #include "mansard/base/text.hpp"
 #include "mansard/extrude/detail/footprint.hpp"
+#include "mansard/extrude/detail/narrow.hpp"
 #include "mansard/extrude/detail/rounding.hpp"
 #include "mansard/extrude/detail/source.hpp"
 #include "mansard/extrude/detail/sweep.hpp"
@@ -48,7 +49,9 @@ auto last_rung(const detail::Source& source, const model::Plan& plan, const Opti
   auto solid = prism_over(source, plan, options);
   if (!solid) solid = prism_over(detail::simplified(source, options.simpler.detail), plan, options);
   if (solid) return solid;
-  return base::error("extrude-not-simple", "no solid can be made over the footprint: " + solid.error().message);
+  const std::string place = detail::narrow_place(source);
+  return base::error("extrude-narrow", "not even a flat-roofed prism can be made of the outline: " +
+                                           (place.empty() ? solid.error().message : place));
 }
 
 /// The same without exceptions: nothing, and why, where an invariant of the sweep broke too.
@@ -126,7 +129,11 @@ auto raise(const model::Plan& plan, const Options& options, const base::Run& run
     raised.outcome = outcome;
     return true;
   };
-  if (succeeds(*source, options, Outcome::full)) return raised;
+  if (succeeds(*source, options, Outcome::full)) {
+    if (auto edges = detail::small_edges(*source, raised.solid, options.tolerance); !edges.empty())
+      raised.warnings.push_back(base::warning("extrude-small-edge", std::move(edges)));
+    return raised;
+  }
 
   // Down the ladder: small details and shallow turns go first, then all but one pitch, then the roof.
   Options coarse = options;
@@ -170,15 +177,24 @@ auto codes() -> std::vector<base::Code> {
   return {
       {"extrude-not-simple", "A footprint's edges cross or touch, or a hole lies outside of it.",
        "Repair the footprint; parts that touch in a point only must be separate.", 1},
+      {"extrude-narrow", "A footprint is so narrow somewhere that two of its walls coincide in the files.",
+       "Remove the sliver, needle or neck that the message names, or widen it to at least 5 mm.", 1},
       {"extrude-no-area", "A footprint has no area.", "Remove it, or give it at least three corners.", 1},
       {"extrude-profile", "A profile does not start at (0, 0), leans outwards, goes down, or is missing.",
        "Correct the plan's profile: inward and height must never decrease.", 1},
-      {"extrude-cap", "The height at which the extrusion ends is not above the base.", "Set the plan's cap above 0.",
+      {"extrude-cap", "The height at which the extrusion ends is not above the base, or more than 100 km above it.",
+       "Set the plan's cap to a height between 0.1 mm and 100 km; a steep last pitch makes high roofs on wide "
+       "outlines.",
        1},
       {"extrude-canonical", "A footprint has no simple outline on exact lines within tolerance.",
        "Widen the narrow place that the message names, or raise --extrude-tolerance.", 1},
       {"extrude-straightened", "Shallow turns of a footprint were straightened by more than a centimetre.",
        "Lower --extrude-merge-angle to keep them.", 0},
+      {"extrude-small-edge",
+       "An edge shorter than the tolerance has a profile of its own. Whether it decides a large part of the roof or "
+       "none "
+       "depends on millimetres of the outline.",
+       "Give the edge the profile of a neighbour, or remove it.", 0},
       {"extrude-nudged",
        "Vertical walls met exactly in a line, which no manifold can; runs were shortened by up to 1 %, or walls moved "
        "by up to 3 mm.",

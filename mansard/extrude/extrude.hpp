@@ -70,7 +70,7 @@ struct Raised {
 /// Raises the plan. Speeds are never negative, so the roof is a height field above vertical walls.
 /// Guarantees: the numbers of docs/extrude.md; the solid passes check(). Never fails for a simple polygon with area:
 /// the ladder ends at the prism, or at that of the outline without its details. Gives up with: "extrude-not-simple",
-/// "extrude-no-area", "extrude-profile", "extrude-cap".
+/// "extrude-no-area", "extrude-narrow", "extrude-profile", "extrude-cap".
 [[nodiscard]] auto raise(const model::Plan& plan, const Options& options = {}, const base::Run& run = {})
     -> base::Result<Raised>;
 

@@ -1,12 +1,12 @@
 // Everything that can be wrong with a solid, looked for without trust in how it was made.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "mansard/base/disjoint_sets.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/solid/detail/connectivity.hpp"
+#include "mansard/solid/detail/flatness.hpp"
 #include "mansard/solid/detail/intersect.hpp"
 #include "mansard/solid/detail/measure.hpp"
 #include "mansard/solid/solid.hpp"
@@ -21,9 +21,13 @@ auto place(Point3 p) -> std::string {
   return "(" + base::to_text(p.x, 3) + ", " + base::to_text(p.y, 3) + ", " + base::to_text(p.z, 3) + ")";
 }
 
-/// m²: twice an area below this is none. Corners below 1e4 m are exact to 1e-12 m, so that over edges of 1 m rounding
-/// alone makes 1e-12 m².
+/// m²; twice an area below this is none, wherever the face is.
 constexpr double no_area = 1e-12;
+/// How much of twice a face's area may be rounding. Coordinates are decimals, off by u = 2⁻⁵³ of themselves; the
+/// differences that area_vector multiplies by others, below the face's extent, are off by 2 u of the largest
+/// coordinate, and there are two such products in each of the three components: less than 2 · 2 · √3 · 2 u a corner. 16
+/// u is more.
+constexpr double area_rounding = 16 * 0x1.0p-53;
 
 class Check {
  public:
@@ -46,6 +50,20 @@ class Check {
   void fault(std::string code, std::string message) {
     if (std::ranges::none_of(faults_, [&](const auto& f) { return f.code == code; }))
       faults_.push_back(base::error(std::move(code), std::move(message)));
+  }
+
+  [[nodiscard]] auto area_error(const model::Face& face) const -> double {
+    const Point3 o = solid_.vertices[face.loops[0][0]];
+    double far = 0, extent = 0;
+    std::size_t corners = 0;
+    for (const auto& loop : face.loops)
+      for (const std::uint32_t v : loop) {
+        const Point3 p = solid_.vertices[v], d = p - o;
+        far = std::max({far, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+        extent = std::max({extent, std::abs(d.x), std::abs(d.y), std::abs(d.z)});
+        ++corners;
+      }
+    return area_rounding * static_cast<double>(corners) * far * extent;
   }
 
   auto find_degenerate() -> bool {
@@ -73,7 +91,8 @@ class Check {
         }
       }
       areas_.push_back(detail::area_vector(solid_, face));
-      if (length(areas_.back()) < no_area) fault("solid-degenerate", name(f) + " has no area");
+      if (length(areas_.back()) < std::max(no_area, area_error(face)))
+        fault("solid-degenerate", name(f) + " has no area");
     }
     std::ranges::sort(used, {}, [&](std::uint32_t v) { return solid_.vertices[v]; });
     for (std::size_t i = 0; i + 1 < used.size(); ++i)
@@ -105,19 +124,11 @@ class Check {
   void find_bent_faces() {
     for (std::size_t f = 0; f < solid_.faces.size(); ++f) {
       const model::Face& face = solid_.faces[f];
-      const double l = length(face.normal);
-      const Point3 n = l > 0 ? (1 / l) * face.normal : normalised(areas_[f]);
-      const Point3 o = solid_.vertices[face.loops[0][0]];
-      double least = std::numeric_limits<double>::infinity(), most = -least;
-      for (const auto& loop : face.loops)
-        for (const std::uint32_t v : loop) {
-          const double d = dot(n, solid_.vertices[v] - o);
-          least = std::min(least, d);
-          most = std::max(most, d);
-        }
-      if ((most - least) / 2 > planar_)
-        fault("solid-not-planar",
-              "face " + std::to_string(f) + " bends by " + base::to_text((most - least) / 2, 4) + " m");
+      // The given normal is nearly always near enough; whether the face is planar does not depend on it.
+      double bend = detail::bend(solid_, face, length(face.normal) > 0 ? face.normal : areas_[f]);
+      if (bend > planar_) bend = detail::least_bend(solid_, face, areas_[f], planar_);
+      if (bend > planar_)
+        fault("solid-not-planar", "face " + std::to_string(f) + " bends by " + base::to_text(bend, 4) + " m");
     }
   }
 

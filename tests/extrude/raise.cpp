@@ -353,6 +353,54 @@ TEST(Raise, says_what_is_wrong_with_a_plan) {
     EXPECT_TRUE(std::ranges::any_of(known, [&](const auto& c) { return c.code == named; })) << named;
 }
 
+TEST(Raise, names_the_cap_that_is_too_high) {
+  const auto raised = extrude::raise(plan(box(300, 300), {{{0, 0}, {0, 6}, {0.01, 16}}}, {}, 150006));
+  ASSERT_FALSE(raised);
+  EXPECT_EQ(raised.error().code, "extrude-cap");
+  EXPECT_THAT(raised.error().message,
+              testing::HasSubstr("the cap is 150006 m above the base, and the maximum is 100000 m"));
+  EXPECT_THAT(extrude::raise(plan(box(10, 10), {hip}, {}, -2)).error().message, testing::HasSubstr("-2.000000 m"));
+}
+
+TEST(Raise, says_where_an_outline_is_too_narrow_even_for_a_prism) {
+  extrude::Options on_file_grid;
+  on_file_grid.grid = 1e-4;
+  const auto why = [&](const Ring& ring) -> std::string {
+    const auto raised = extrude::raise(plan(ring, {hip}, {}, 6), on_file_grid);
+    return raised ? "raised" : raised.error().code + ": " + raised.error().message;
+  };
+  EXPECT_THAT(
+      why({{0, 0}, {20, 0}, {20, 2e-5}, {0, 2e-5}}),
+      testing::AllOf(testing::StartsWith("extrude-narrow"), testing::HasSubstr("sliver, on average 0.0200 mm wide")));
+  // A neck of a micrometre between two yards.
+  EXPECT_THAT(
+      why({{0, 0}, {5, 4.9999995}, {10, 0}, {10, 10}, {5, 5.0000005}, {0, 10}}),
+      testing::AllOf(testing::StartsWith("extrude-narrow"), testing::HasSubstr("corner 1 at (5.000, 5.000) is "),
+                     testing::HasSubstr("widen that place to 5.0000 mm")));
+}
+
+TEST(Raise, reports_a_small_edge_with_a_profile_of_its_own) {
+  // A chamfer of 2.6 cm with a pitch of 6° between edges of 45°.
+  const Profile shallow{{0, 0}, {0, 3}, {10, 4}};
+  const double c = 0.026 / std::sqrt(2);
+  const auto small = [](const Plan& p) {
+    const auto raised = extrude::raise(p);
+    EXPECT_TRUE(raised && raised->outcome == Outcome::full);
+    std::string message;
+    for (const auto& warning : raised->warnings)
+      if (warning.code == "extrude-small-edge") message = warning.message;
+    return message;
+  };
+  EXPECT_THAT(small(plan({{0, 0}, {10 - c, 0}, {10, c}, {10, 8}, {0, 8}}, {hip, shallow}, {0, 1, 0, 0, 0})),
+              testing::AllOf(testing::HasSubstr("edge 1 at (9.982, 0.000) is only 0.026 m long"),
+                             testing::HasSubstr("m² of roof rise")));
+  // The same edge nearly in line with its neighbours, into whose line it is straightened.
+  EXPECT_THAT(
+      small(plan({{0, 0}, {5, -0.03}, {5.026, -0.03}, {10, 0}, {10, 8}, {0, 8}}, {hip, shallow}, {0, 1, 0, 0, 0, 0})),
+      testing::HasSubstr("edge 1 at (5.000, -0.030) is only 0.026 m long"));
+  EXPECT_EQ(small(plan({{0, 0}, {10 - c, 0}, {10, c}, {10, 8}, {0, 8}}, {hip, shallow}, {0, 0, 0, 0, 0})), "");
+}
+
 TEST(Raise, cuts_off_a_needle_shorter_than_a_detail) {
   // 20 cm long and a tenth of a micrometre wide: its sides are one direction.
   const Ring needle{{0, 0}, {10, 0}, {10, 10}, {5.0000001, 10}, {5.00000005, 10.2}, {5, 10}, {0, 10}};

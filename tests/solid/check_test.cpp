@@ -48,6 +48,46 @@ TEST(Check, finds_nothing_wrong_with_two_cubes_apart) {
   EXPECT_THAT(codes_of(together(cube(), cube({2.001, 0, 0}))), testing::IsEmpty());
 }
 
+TEST(Check, asks_of_the_corners_and_not_of_the_normal_whether_a_face_is_planar) {
+  // A narrow roof of 12 m: a normal that is off by the two decimals of a degree of a file seems to bend it.
+  Solid solid = *extrude::prism(plan(box(12, 2), {wall}, {}, 2));
+  for (Face& face : solid.faces)
+    if (face.kind == model::FaceKind::cap) face.normal = normalised(Point3{1e-4, 0, 1});
+  EXPECT_THAT(codes_of(solid), testing::IsEmpty());
+  solid.vertices[5].z += 0.01;
+  EXPECT_THAT(codes_of(solid), testing::Contains("solid-not-planar"));
+}
+
+TEST(Check, finds_the_least_bend_of_a_narrow_face) {
+  // 10 m long and 1 cm wide, its corners 0.05 mm to either side of a plane that Newell's normal misses.
+  mansard::base::Random random(5);
+  for (int round = 0; round < 200; ++round) {
+    Solid solid = *extrude::prism(plan(box(10, 0.01), {wall}, {}, 2));
+    for (Point3& p : solid.vertices) p = p + Point3{0, 0, random.uniform(-0.9e-4, 0.9e-4)};
+    for (Face& face : solid.faces) face.normal = {};
+    for (const auto& code : codes_of(solid)) EXPECT_NE(code, "solid-not-planar") << "round " << round;
+  }
+}
+
+TEST(Check, finds_a_face_whose_area_is_rounding) {
+  // Three corners of a line, in coordinates of 100 km: their products are off by more than the area of any dust.
+  for (const double far : {0.0, 1234.5678, 98765.4321}) {
+    Solid solid = cube({far, far, 0});
+    const auto n = static_cast<std::uint32_t>(solid.vertices.size());
+    solid.vertices.push_back({far + 0.1, far + 0.3, 2});
+    solid.vertices.push_back({far + 0.2, far + 0.6, 2});
+    solid.vertices.push_back({far + 0.4, far + 1.2, 2});
+    Face sliver;
+    sliver.loops = {{n, n + 1, n + 2}};
+    sliver.normal = {0, 0, 1};
+    solid.faces.push_back(sliver);
+    const auto faults = solid::check(solid);
+    ASSERT_FALSE(faults.empty());
+    EXPECT_EQ(faults[0].code, "solid-degenerate");
+    EXPECT_THAT(faults[0].message, testing::HasSubstr("has no area"));
+  }
+}
+
 TEST(Check, finds_a_missing_face) {
   Solid solid = cube();
   solid.faces.pop_back();

@@ -104,11 +104,22 @@ auto in_words(const Source& source, const Meetings& meetings, std::size_t most, 
   return out;
 }
 
+/// What is wrong with the heights of a plan; empty if nothing is.
+auto fault_of_heights(const model::Plan& plan) -> std::string {
+  if (!std::isfinite(plan.base)) return "the base is not finite";
+  if (!std::isfinite(plan.cap)) return "the cap is not finite";
+  if (plan.cap < 2 * quantum)
+    return "the cap is " + base::to_text(plan.cap, 6) + " m above the base; it must be above it by at least 0.1 mm";
+  if (plan.cap > highest_cap)
+    return "the cap is " + base::to_text(plan.cap, 0) + " m above the base, and the maximum is " +
+           base::to_text(highest_cap, 0) + " m; lower the cap, or make the last pitch of the profiles less steep";
+  return {};
+}
+
 }  // namespace
 
 auto prepared(const model::Plan& plan) -> base::Result<Source> {
-  if (!std::isfinite(plan.cap) || !std::isfinite(plan.base) || plan.cap < 2 * quantum || plan.cap > 1e5)
-    return base::error("extrude-cap", "the cap must lie above the base");
+  if (auto fault = fault_of_heights(plan); !fault.empty()) return base::error("extrude-cap", std::move(fault));
   for (std::size_t p = 0; p < plan.profiles.size(); ++p)
     if (const char* fault = fault_of(plan.profiles[p]))
       return base::error("extrude-profile", "profile " + std::to_string(p) + " " + fault);
