@@ -7,6 +7,7 @@
 #include "mansard/extrude/align.hpp"
 #include "mansard/pipeline/detail/assemble.hpp"
 #include "mansard/pipeline/detail/overlaps.hpp"
+#include "mansard/pipeline/detail/place.hpp"
 #include "mansard/pipeline/pipeline.hpp"
 #include "mansard/report/attributes.hpp"
 #include "mansard/solid/solid.hpp"
@@ -14,9 +15,10 @@
 namespace mansard::pipeline {
 namespace {
 
-/// One polygon of a feature, raised.
+/// One polygon of a feature, raised. All coordinates are in its block's own frame until it is placed.
 struct Raising {
-  std::size_t feature = 0, polygon = 0;
+  std::size_t feature = 0;
+  geometry::Polygon outline;
   roof::Planned planned;
   std::optional<model::Solid> solid;
   bool full = true;
@@ -32,6 +34,31 @@ auto top_of(const model::Solid& solid) -> double {
   double top = solid.vertices.front().z;
   for (const auto& v : solid.vertices) top = std::max(top, v.z);
   return top;
+}
+
+/// The polygons of all blocks, those of one after the other. A building is made where its block's frame begins, so that
+/// it depends on nothing else.
+struct BlockJobs {
+  std::size_t first = 0, count = 0;  ///< of the jobs
+  geometry::Point3 origin;
+};
+
+auto divide(const model::Scene& scene, const Options& options, const base::Run& run, std::vector<Raising>& jobs)
+    -> std::vector<BlockJobs> {
+  std::vector<BlockJobs> out;
+  for (auto& block : block::partition(scene, options.block, run)) {
+    const auto own = block::in_own_frame(std::move(block));
+    const auto& origin = own.block.origin;
+    out.push_back({jobs.size(), 0, {static_cast<double>(origin[0]), static_cast<double>(origin[1]), 0}});
+    for (std::size_t m = 0; m < own.block.members.size(); ++m)
+      for (const auto& polygon : own.block.members[m].polygons) {
+        auto& job = jobs.emplace_back();
+        job.feature = own.features[m];
+        job.outline = polygon;
+      }
+    out.back().count = jobs.size() - out.back().first;
+  }
+  return out;
 }
 
 /// How far the top lies from where the plan was made to have it, m.
@@ -198,16 +225,12 @@ auto raise_footprints(const model::Scene& scene, const Options& options, const b
   }
 
   std::vector<roof::Read> read;
-  std::vector<Raising> jobs;
-  for (std::size_t i = 0; i < scene.footprints.size(); ++i) {
-    read.push_back(roof::form_of(scene.footprints[i].attributes, options.roof));
+  for (std::size_t i = 0; i < scene.footprints.size() + scene.surroundings.size(); ++i) {
+    read.push_back(roof::form_of(scene.feature(i).attributes, options.roof));
     if (!by_attributes) read.back().form.base = 0;
-    for (std::size_t p = 0; p < scene.footprints[i].polygons.size(); ++p) {
-      jobs.emplace_back();
-      jobs.back().feature = i;
-      jobs.back().polygon = p;
-    }
   }
+  std::vector<Raising> jobs;
+  const auto blocks = divide(scene, options, run, jobs);
 
   base::Run inner = run;
   inner.progress = nullptr;
@@ -215,7 +238,7 @@ auto raise_footprints(const model::Scene& scene, const Options& options, const b
   base::parallel_for(jobs.size(), [&](std::size_t i) {
     if (run.cancelled()) return;
     Raising& job = jobs[i];
-    const auto& polygon = scene.footprints[job.feature].polygons[job.polygon];
+    const auto& polygon = job.outline;
     const auto& form = read[job.feature].form;
     const detail::Watch planning;
     auto planned = by_attributes ? roof::plan_of(polygon, form, options.roof, inner)
@@ -231,9 +254,13 @@ auto raise_footprints(const model::Scene& scene, const Options& options, const b
     }
   });
   const detail::Watch aligning;
-  std::vector<model::Plan> plans;
-  for (const auto& job : jobs) plans.push_back(job.planned.plan);
-  const auto aligned = extrude::align(plans, options.extrude);
+  std::vector<std::optional<model::Plan>> aligned(jobs.size());
+  base::parallel_for(blocks.size(), [&](std::size_t b) {
+    std::vector<model::Plan> plans;
+    for (std::size_t i = 0; i < blocks[b].count; ++i) plans.push_back(jobs[blocks[b].first + i].planned.plan);
+    std::ranges::move(extrude::align(plans, options.extrude),
+                      aligned.begin() + static_cast<std::ptrdiff_t>(blocks[b].first));
+  });
   const double aligned_in = aligning.seconds();
 
   std::mutex progress;
@@ -254,25 +281,38 @@ auto raise_footprints(const model::Scene& scene, const Options& options, const b
   if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
 
   const detail::Watch labelling;
-  std::vector<model::Solid> solids;
-  for (auto& job : jobs)
-    if (job.solid) solids.push_back(std::move(*job.solid));
-  auto models = label::classify(std::move(solids), options.label, inner);
+  std::vector<std::optional<model::LabelledSolid>> models(jobs.size());
+  base::parallel_for(blocks.size(), [&](std::size_t b) {
+    std::vector<std::size_t> raised;
+    std::vector<model::Solid> solids;
+    for (std::size_t i = blocks[b].first; i < blocks[b].first + blocks[b].count; ++i) {
+      if (!jobs[i].solid) continue;
+      raised.push_back(i);
+      solids.push_back(std::move(*jobs[i].solid));
+    }
+    auto labelled = label::classify(std::move(solids), options.label, inner);
+    for (std::size_t k = 0; k < raised.size(); ++k) {
+      detail::move(jobs[raised[k]].planned.plan, blocks[b].origin);
+      detail::move(labelled[k].solid, blocks[b].origin);
+      models[raised[k]] = std::move(labelled[k]);
+    }
+  });
 
   report::Reconstruction out;
   out.city.frame = scene.frame;
   out.city.made_by = detail::made_by(scene, options);
   begin(scene, read, by_attributes, out);
   report::StageTime planning{"roof", 0}, raising{"extrude", aligned_in};
-  std::size_t next = 0;
-  for (auto& job : jobs) {
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    auto& job = jobs[i];
     planning.seconds += job.planning;
     raising.seconds += job.raising;
+    if (job.feature >= out.buildings.size()) continue;  // it stands around what was asked for
     auto& report = out.buildings[job.feature];
     append(report.reasons, job.reasons);
     if (!job.full) report.outcome = report::Outcome::fallback;
     if (by_attributes && report.roof.empty()) report.roof = roof::to_string(job.planned.shape);
-    if (job.solid) take(std::move(job), std::move(models[next++]), out.city.buildings[job.feature], report);
+    if (models[i]) take(std::move(job), std::move(*models[i]), out.city.buildings[job.feature], report);
   }
   for (auto& report : out.buildings)
     if (report.parts == 0) report.outcome = report::Outcome::refused;

@@ -106,7 +106,7 @@ TEST(Reconstruct, raises_a_footprint_without_mesh_as_a_prism_and_says_so) {
   EXPECT_EQ(r.buildings[1].outcome, report::Outcome::fallback);
   EXPECT_EQ(r.buildings[1].reasons.at(0).code, "pipeline-no-mesh");
   EXPECT_NEAR(r.buildings[1].volume, 10 * 8 * 4, 1e-6);
-  EXPECT_EQ(r.buildings[2].outcome, Outcome::refused);
+  EXPECT_EQ(r.buildings[2].outcome, report::Outcome::refused);
   EXPECT_EQ(r.buildings[2].reasons.at(0).code, "pipeline-no-ground");
   expect_valid(r);
 }

@@ -31,16 +31,6 @@ struct Way {
     move(polygon.outer);
     for (auto& hole : polygon.holes) move(hole);
   }
-  /// Plans are rounded first, to numbers that can be moved without another rounding.
-  void move(model::Plan& plan) const {
-    const auto settle = [&](geometry::Ring& ring) {
-      for (Point2& p : ring) p = {rounded(p.x), rounded(p.y)};
-      move(ring);
-    };
-    settle(plan.outer.points);
-    for (auto& hole : plan.holes) settle(hole.points);
-    plan.base = rounded(plan.base) + by.z;
-  }
   void number(std::size_t& feature) const { feature = features[feature]; }
   void number(std::optional<std::size_t>& feature) const {
     if (feature) number(*feature);
@@ -61,12 +51,25 @@ void place(segment::Segmentation& chosen, const Way& way) {
 
 void place(PartResult& part, const Way& way) {
   way.number(part.feature);
-  way.move(part.plan);
-  for (Point3& v : part.model.solid.vertices) v = v + way.by;
+  move(part.plan, way.by);
+  move(part.model.solid, way.by);
   for (double& z : part.roof) z += way.by.z;
 }
 
 }  // namespace
+
+void move(model::Plan& plan, Point3 by) {
+  const auto settle = [&](geometry::Ring& ring) {
+    for (Point2& p : ring) p = Point2{rounded(p.x), rounded(p.y)} + xy(by);
+  };
+  settle(plan.outer.points);
+  for (auto& hole : plan.holes) settle(hole.points);
+  plan.base = rounded(plan.base) + by.z;
+}
+
+void move(model::Solid& solid, Point3 by) {
+  for (Point3& v : solid.vertices) v = v + by;
+}
 
 void place(report::SegmentedBlock& block, const block::OwnFrame& frame) {
   const Way way(frame);
