@@ -82,17 +82,15 @@ auto with_status(const std::vector<report::BlockReport>& blocks, std::string_vie
 
 void say_terms(const std::vector<report::BlockReport>& blocks, Progress& progress) {
   segment::Terms sum;
-  for (const auto& block : blocks) {
-    sum.sweep_unused += block.terms.sweep_unused;
-    sum.unsupported += block.terms.unsupported;
-    sum.height += block.terms.height;
-    sum.thin += block.terms.thin;
-    sum.gis_unused += block.terms.gis_unused;
-  }
+  for (const auto& block : blocks) sum += block.terms;
   const auto amount = [](double cost) { return base::to_text(cost, 1); };
-  progress.say("objective " + amount(sum.sum()) + ": unused sweep-edges " + amount(sum.sweep_unused) +
-               ", walls without a sweep-edge " + amount(sum.unsupported) + ", height steps " + amount(sum.height) +
-               ", conflicts " + amount(sum.thin) + ", unused GIS edges " + amount(sum.gis_unused));
+  std::string text = "objective " + amount(sum.sum());
+  const char* before = ": ";
+  for (const auto& info : segment::terms()) {
+    text += before + std::string(info.words) + " " + amount(sum[info.term]);
+    before = ", ";
+  }
+  progress.say(text);
 }
 
 void summarise(const report::Segmented& result, const Request& request, Progress& progress) {

@@ -213,8 +213,8 @@ auto layers_json(const std::vector<report::SegmentedBlock>& blocks) -> Json {
       edges.push_back({{"block", block.name},
                        {"lines", std::move(lines)},
                        {"chosen", candidate.chosen},
-                       {"cost_cut", candidate.costs.cut()},
-                       {"cost_uncut", candidate.costs.uncut()}});
+                       {"cost_cut", candidate.costs.sum(segment::Paid::cut)},
+                       {"cost_uncut", candidate.costs.sum(segment::Paid::uncut)}});
     }
   }
   return {{"sweep_edges", std::move(sweep_edges)}, {"faces", std::move(faces)}, {"edges", std::move(edges)}};

@@ -140,7 +140,8 @@ auto half_edges(const Segmentation& s) -> Program {
   for (std::size_t i = 0; i < s.candidates.size(); ++i) {
     const Candidate& c = s.candidates[i];
     const std::size_t sides = 2 * c.half_edges.size();
-    const double unsupported = std::round(1000 * c.costs.unsupported), unused = std::round(1000 * c.costs.sweep_unused);
+    const double unsupported = std::round(1000 * c.costs[segment::Term::unsupported]),
+                 unused = std::round(1000 * c.costs[segment::Term::sweep_unused]);
     // What is neither of O1 costs or saves by being an edge: O2, conflicts with the outline, rounding.
     const Shares b = shared(unsupported, sides), a = shared(unused, sides),
                  rest = shared(multicut.variables[i].cost - unsupported + unused, sides);

@@ -1,5 +1,6 @@
 // The segmentation as layers: what was measured, what each edge would have cost, and what was made of it.
 #include <algorithm>
+#include <functional>
 #include <map>
 
 #include "mansard/base/text.hpp"
@@ -174,64 +175,71 @@ auto variable_name(std::size_t number) -> std::string {
   return "X" + std::string(digits.size() < 7 ? 7 - digits.size() : 0, '0') + digits;
 }
 
+/// A field of the edges and its value: the list of both.
+struct EdgeField {
+  formats::Field field;
+  std::function<Value(const segment::Candidate&)> value;
+};
+
+/// What the terms are paid for: lengths of the edge first, then what is measured on all of it.
+auto amount_fields() -> std::vector<EdgeField> {
+  std::vector<EdgeField> fields;
+  for (const bool of_length : {true, false})
+    for (const auto& info : segment::terms())
+      if (!info.amount.empty() && (info.share != nullptr) == of_length)
+        fields.push_back(
+            {{std::string(info.amount), real}, [term = info.term](const auto& c) { return c.amounts[term]; }});
+  return fields;
+}
+
+/// What the edge costs then, altogether and by term.
+auto cost_fields(const char* name, segment::Paid paid) -> std::vector<EdgeField> {
+  std::vector<EdgeField> fields{{{name, real}, [paid](const auto& c) { return c.costs.sum(paid); }}};
+  for (const auto& info : segment::terms())
+    if (info.paid == paid)
+      fields.push_back({{std::string(info.cost), real}, [term = info.term](const auto& c) { return c.costs[term]; }});
+  return fields;
+}
+
+auto edge_fields() -> std::vector<EdgeField> {
+  std::vector<EdgeField> fields{{{"left", integer}, [](const auto& c) { return as_whole(c.left); }},
+                                {{"right", integer}, [](const auto& c) { return as_whole(c.right); }},
+                                {{"length", real}, [](const auto& c) { return c.length; }}};
+  const auto add = [&fields](std::vector<EdgeField> more) {
+    for (auto& field : more) fields.push_back(std::move(field));
+  };
+  add(amount_fields());
+  add(cost_fields("cost_if_cut", segment::Paid::cut));
+  add(cost_fields("cost_if_uncut", segment::Paid::uncut));
+  add({{{"sweep", boolean}, [](const auto& c) { return c.sweep; }},
+       {{"forced", boolean}, [](const auto& c) { return c.forced; }},
+       {{"solved", boolean}, [](const auto& c) { return c.solved; }},
+       {{"chosen", boolean}, [](const auto& c) { return c.chosen; }}});
+  return fields;
+}
+
 auto empty_edges() -> formats::Layer {
-  return {"edges",
-          "Edges between inside faces, one variable of the program each, with what they cost and why they were "
-          "cut or not",
-          formats::Shape::lines,
-          {{"block"},
-           {"number", integer},
-           {"left", integer},
-           {"right", integer},
-           {"length", real},
-           {"sweep_length", real},
-           {"unsupported_length", real},
-           {"gis_length", real},
-           {"height_difference", real},
-           {"cost_if_cut", real},
-           {"cost_unsupported", real},
-           {"cost_outline_conflict", real},
-           {"cost_if_uncut", real},
-           {"cost_sweep_unused", real},
-           {"cost_height", real},
-           {"cost_gis_unused", real},
-           {"sweep", boolean},
-           {"forced", boolean},
-           {"solved", boolean},
-           {"chosen", boolean},
-           {"variable"},
-           {"why"}},
-          {}};
+  formats::Layer layer{"edges",
+                       "Edges between inside faces, one variable of the program each, with what they cost and why they "
+                       "were cut or not",
+                       formats::Shape::lines,
+                       {{"block"}, {"number", integer}},
+                       {}};
+  for (auto& field : edge_fields()) layer.fields.push_back(std::move(field.field));
+  layer.fields.insert(layer.fields.end(), {{"variable"}, {"why"}});
+  return layer;
 }
 
 void add_edges(const SegmentedBlock& block, formats::Layer& layer) {
+  const auto fields = edge_fields();
   const auto walls = detail::walls_in_conflict(*block.segmentation);
   for (std::size_t i = 0; i < block.segmentation->candidates.size(); ++i) {
     const auto& c = block.segmentation->candidates[i];
-    layer.features.push_back({lines_of(block, c),
-                              {},
-                              {block.name,
-                               as_whole(i),
-                               as_whole(c.left),
-                               as_whole(c.right),
-                               c.length,
-                               c.sweep_length,
-                               c.unsupported_length,
-                               c.gis_length,
-                               c.height_difference,
-                               c.costs.cut(),
-                               c.costs.unsupported,
-                               c.costs.outline_conflict,
-                               c.costs.uncut(),
-                               c.costs.sweep_unused,
-                               c.costs.height,
-                               c.costs.gis_unused,
-                               c.sweep,
-                               c.forced,
-                               c.solved,
-                               c.chosen,
-                               variable_name(i),
-                               detail::why(c, walls[i], block.segmentation->phi)}});
+    Values values{block.name, as_whole(i)};
+    for (const auto& field : fields) values.push_back(field.value(c));
+    values.emplace_back(variable_name(i));
+    values.emplace_back(detail::why(c, walls[i], block.segmentation->phi));
+    layer.features.push_back({lines_of(block, c), {}, std::move(values)});
   }
 }
 

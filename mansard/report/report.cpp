@@ -50,6 +50,15 @@ auto json_of(const evaluate::Scores& s) -> Json {
 
 /// Scores are of models; blocks that are only segmented have none.
 auto json_of(const BlockReport& b, bool with_scores) -> Json {
+  Json objective = Json::object();
+  for (const auto& info : segment::terms()) objective[std::string(info.name)] = b.terms[info.term];
+  objective.update({{"total", b.objective},
+                    {"bound", b.bound},
+                    {"gap", b.objective - b.bound},
+                    {"relative_gap", relative_gap(b)},
+                    {"status", b.status},
+                    {"rounds", b.rounds},
+                    {"nodes", b.nodes}});
   Json out{{"name", b.name},
            {"buildings", b.buildings},
            {"parts", b.parts},
@@ -62,19 +71,7 @@ auto json_of(const BlockReport& b, bool with_scores) -> Json {
            {"candidate_edges", b.candidates},
            {"variables", b.variables},
            {"conflicts", b.conflicts},
-           {"objective",
-            {{"sweep_unused", b.terms.sweep_unused},
-             {"unsupported", b.terms.unsupported},
-             {"height", b.terms.height},
-             {"thin", b.terms.thin},
-             {"gis_unused", b.terms.gis_unused},
-             {"total", b.objective},
-             {"bound", b.bound},
-             {"gap", b.objective - b.bound},
-             {"relative_gap", relative_gap(b)},
-             {"status", b.status},
-             {"rounds", b.rounds},
-             {"nodes", b.nodes}}}};
+           {"objective", std::move(objective)}};
   if (with_scores) out["scores"] = json_of(b.scores);
   out["seconds"] = json_of(b.times);
   return out;

@@ -1,24 +1,13 @@
-// The room's options and codes.
+// The options and codes of the module.
 #include <algorithm>
 
+#include "mansard/roof/detail/shape_list.hpp"
 #include "mansard/roof/detail/tags.hpp"
 #include "mansard/roof/roof.hpp"
 
 namespace mansard::roof {
 
-auto to_string(Shape shape) -> std::string_view {
-  switch (shape) {
-    case Shape::flat: return "flat";
-    case Shape::skillion: return "skillion";
-    case Shape::gabled: return "gabled";
-    case Shape::half_hipped: return "half-hipped";
-    case Shape::hipped: return "hipped";
-    case Shape::pyramidal: return "pyramidal";
-    case Shape::gambrel: return "gambrel";
-    case Shape::mansard: return "mansard";
-  }
-  return "";
-}
+auto to_string(Shape shape) -> std::string_view { return detail::info_of(shape).name; }
 
 auto to_string(Source source) -> std::string_view {
   switch (source) {
@@ -31,9 +20,7 @@ auto to_string(Source source) -> std::string_view {
 
 auto option_list(Options& o) -> base::OptionList {
   std::vector<std::pair<std::string, Shape>> shapes;
-  for (const auto shape : {Shape::flat, Shape::skillion, Shape::gabled, Shape::half_hipped, Shape::hipped,
-                           Shape::pyramidal, Shape::gambrel, Shape::mansard})
-    shapes.emplace_back(to_string(shape), shape);
+  for (const auto& info : detail::shapes()) shapes.emplace_back(info.name, info.shape);
   base::OptionList list("roof");
   list.string("profile", o.profile,
               "One profile for every edge, \"0,0 0,6 4,9\" (inward,height); empty: by attributes.")
@@ -145,6 +132,8 @@ auto check_attributes(const model::Attributes& attributes, const Options& given)
 }
 
 auto codes() -> std::vector<base::Code> {
+  std::string names;
+  for (const auto& info : detail::shapes()) names += (names.empty() ? "" : ", ") + std::string(info.name);
   return {
       {"roof-profile", "The profile cannot be read, leans outwards or goes down.",
        "Write pairs inward,height in metres that never decrease, from 0,0: \"0,0 0,6 4,9\".", 4},
@@ -157,7 +146,7 @@ auto codes() -> std::vector<base::Code> {
       {"roof-conflict", "Two tags of a building contradict each other; the one named was left out.",
        "Correct one of them in the source.", 0},
       {"roof-shape-unknown", "roof:shape has a value that is not made here; the nearest shape was taken.",
-       "Nothing to do, or choose one of flat, skillion, gabled, half-hipped, hipped, pyramidal, gambrel, mansard.", 0},
+       "Nothing to do, or choose one of " + names + ".", 0},
       {"roof-assumed", "Buildings have neither height nor levels; their height was assumed.",
        "Say --default-height, or name the attribute with --height-attribute or --levels-attribute.", 0},
       {"roof-orientation", "The ridge cannot follow roof:orientation or roof:direction on this outline.",

@@ -7,11 +7,13 @@
 
 #include "mansard/base/text.hpp"
 #include "mansard/geometry/angles.hpp"
+#include "mansard/roof/detail/shape_list.hpp"
 #include "mansard/roof/detail/shapes.hpp"
 
 namespace mansard::roof {
 namespace {
 
+using detail::on_wall;
 using detail::Side;
 using geometry::Point2;
 using model::Profile;
@@ -45,14 +47,6 @@ class Draft {
 };
 
 auto upright(double height) -> Profile { return {{0, 0}, {0, height}}; }
-
-/// Wall, then what comes above it; without a wall of no height.
-auto on_wall(double wall, std::initializer_list<model::ProfilePoint> above) -> Profile {
-  Profile profile{{0, 0}};
-  if (wall > 0) profile.push_back({0, wall});
-  for (const auto& point : above) profile.push_back({point.inward, wall + point.height});
-  return profile;
-}
 
 /// What is wall and what is roof, in metres.
 struct Heights {
@@ -125,16 +119,6 @@ void make_pyramid(const geometry::Polygon& polygon, Point2 apex, const std::vect
   out.plan = std::move(draft).plan(wall + rise + o.cap_clearance);
 }
 
-/// The profile of a roof that reaches `rise` after `run`: one pitch, or a steep and a shallow one.
-auto pitched(Shape shape, double wall, double run, double rise, const Options& o) -> Profile {
-  if (shape == Shape::gambrel) return on_wall(wall, {{o.gambrel_run * run, o.gambrel_rise * rise}, {run, rise}});
-  if (shape == Shape::mansard) {
-    const double lower = o.mansard_rise * rise;
-    return on_wall(wall, {{std::min(lower / o.mansard_slope, o.mansard_run * run), lower}, {run, rise}});
-  }
-  return on_wall(wall, {{run, rise}});
-}
-
 void make_swept(const geometry::Polygon& polygon, const std::vector<Side>& sides, const Form& form, const Options& o,
                 const base::Run& run, Planned& out) {
   auto design = detail::design_of(polygon, sides, form, o);
@@ -151,7 +135,7 @@ void make_swept(const geometry::Polygon& polygon, const std::vector<Side>& sides
   const auto [wall, rise] = heights_of(form, *crest, o, out);
   if (rise < o.minimum_rise) return make_flat(polygon, wall + rise, out);
   const double steep = rise / *crest;
-  Draft draft(polygon, out.plan.base, pitched(design.shape, wall, *crest, rise, o));
+  Draft draft(polygon, out.plan.base, detail::info_of(design.shape).profile({wall, *crest, rise}, o));
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const auto& sweep = design.sweeps[i];
     if (!sweep.moves) draft.give(sides[i], upright(wall + rise));
@@ -188,7 +172,7 @@ auto plan_of(const geometry::Polygon& polygon, const Form& form, const Options& 
       make_pyramid(polygon, *apex, sides, form, o, out);
     } else {
       Form hipped = form;
-      hipped.shape = Shape::hipped;
+      hipped.shape = detail::info_of(form.shape).without_ends;
       out.as_asked = false;
       out.warnings.push_back(base::warning("roof-shape-here", "no apex sees every side of this outline; made hipped"));
       make_swept(polygon, sides, hipped, o, run, out);

@@ -14,6 +14,7 @@
 #include "mansard/geometry/polygon.hpp"
 #include "mansard/rays/rays.hpp"
 #include "mansard/segment/options.hpp"
+#include "mansard/segment/terms.hpp"
 #include "mansard/solver/solver.hpp"
 #include "mansard/sweep/sweep.hpp"
 
@@ -36,26 +37,18 @@ struct FaceEvidence {
   std::optional<std::size_t> feature;  ///< index into Scene::footprints of the feature with the largest share
 };
 
-/// What an interior edge costs, in the objective's units.
-struct Costs {
-  double unsupported = 0, outline_conflict = 0;         ///< if it is cut: β; φ for each conflict with the outline
-  double sweep_unused = 0, height = 0, gis_unused = 0;  ///< if it is not: α; O2; gis_alpha
-  [[nodiscard]] auto cut() const -> double { return unsupported + outline_conflict; }
-  [[nodiscard]] auto uncut() const -> double { return sweep_unused + height + gis_unused; }
-};
-
 /// One interior edge of the program: a run of half-edges between two faces.
 struct Candidate {
-  std::uint32_t left = 0, right = 0;                                ///< faces
-  std::vector<std::uint32_t> half_edges;                            ///< those with `left` on their left
-  double length = 0, height_difference = 0;                         ///< m
-  double sweep_length = 0, unsupported_length = 0, gis_length = 0;  ///< m that pay α uncut (of a low roof
-                                                                    ///< step its share); β cut; gis_alpha uncut
-  bool sweep = false;                                               ///< isSweepEdge, most of it
-  bool forced = false;                                              ///< between two features, with gis_edges = hard
-  bool solved = false;                                              ///< cut by the program's answer
+  std::uint32_t left = 0, right = 0;      ///< faces
+  std::vector<std::uint32_t> half_edges;  ///< those with `left` on their left
+  double length = 0;                      ///< m
+  /// What each term is paid for: m of the edge (of a low roof step its share); for `height` the difference, m.
+  Terms amounts;
+  bool sweep = false;   ///< isSweepEdge, most of it
+  bool forced = false;  ///< between two features, with gis_edges = hard
+  bool solved = false;  ///< cut by the program's answer
   bool chosen = false;  ///< between two parts, after small and narrow parts were joined
-  Costs costs;
+  Terms costs;          ///< in the objective's units; for `thin` φ for each conflict with the outline
 };
 
 /// A bad pair of O7: two candidates; a candidate and the outline, or itself, where `second` is absent.
@@ -70,15 +63,6 @@ struct Conflict {
 struct CycleRow {
   std::uint32_t edge = 0;
   std::vector<std::uint32_t> path;  ///< ascending
-};
-
-struct Terms {
-  double sweep_unused = 0;  ///< O1, α
-  double unsupported = 0;   ///< O1, β
-  double height = 0;        ///< O2
-  double thin = 0;          ///< O7
-  double gis_unused = 0;    ///< gis_alpha; 0 unless gis_edges = candidate
-  [[nodiscard]] auto sum() const -> double { return sweep_unused + unsupported + height + thin + gis_unused; }
 };
 
 /// Where a footprint's edge comes from.

@@ -2,18 +2,23 @@
 #include "mansard/report/detail/why.hpp"
 
 #include <gmock/gmock.h>
+#include <array>
 
 namespace mansard::report {
 namespace {
 
 using testing::HasSubstr;
 
-auto candidate(bool solved, const segment::Costs& costs) -> segment::Candidate {
+/// In the order: unsupported, conflicts with the outline, unused sweep-edge, height, unused GIS edge.
+auto candidate(bool solved, std::array<double, 5> costs) -> segment::Candidate {
+  using enum segment::Term;
   segment::Candidate c;
-  c.length = c.sweep_length = c.unsupported_length = c.gis_length = 12;
-  c.height_difference = 8;
+  c.length = 12;
+  c.amounts.values.fill(12);
+  c.amounts[height] = 8;
   c.solved = c.chosen = solved;
-  c.costs = costs;
+  c.costs[unsupported] = costs[0], c.costs[thin] = costs[1], c.costs[sweep_unused] = costs[2];
+  c.costs[height] = costs[3], c.costs[gis_unused] = costs[4];
   return c;
 }
 

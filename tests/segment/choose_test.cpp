@@ -26,7 +26,7 @@ TEST(Choose, cuts_where_a_sweep_edge_runs_between_two_heights) {
   ASSERT_EQ(s.candidates.size(), 1U);
   EXPECT_TRUE(s.candidates[0].sweep && s.candidates[0].chosen);
   EXPECT_NEAR(s.candidates[0].length, 10, 1e-9);
-  EXPECT_NEAR(s.candidates[0].height_difference, 4, 1e-9);
+  EXPECT_NEAR(s.candidates[0].amounts[Term::height], 4, 1e-9);
   EXPECT_NEAR(s.objective, 0, 1e-9);
 }
 
@@ -35,7 +35,7 @@ TEST(Choose, joins_where_nothing_supports_a_wall) {
   const Segmentation s = c.run();
   expect_guarantees(c.map.arrangement, s);
   ASSERT_EQ(s.parts.size(), 1U);
-  EXPECT_NEAR(s.terms.height, 10 * 4, 1e-6);  // O2: 10 m by 4 m
+  EXPECT_NEAR(s.terms[Term::height], 10 * 4, 1e-6);  // O2: 10 m by 4 m
   EXPECT_THAT(s.parts[0].polygon.outer, ::testing::SizeIs(4)) << "collinear corners are dropped";
 }
 
@@ -47,7 +47,7 @@ TEST(Choose, cuts_without_support_once_the_height_step_pays_for_it) {
   c.options.height_weight = 2;
   const Segmentation s = c.run();
   EXPECT_EQ(s.parts.size(), 2U);
-  EXPECT_NEAR(s.terms.unsupported, 60 * 10, 1e-6);
+  EXPECT_NEAR(s.terms[Term::unsupported], 60 * 10, 1e-6);
 }
 
 TEST(Choose, pays_for_every_stretch_of_an_edge_by_itself) {
@@ -60,7 +60,7 @@ TEST(Choose, pays_for_every_stretch_of_an_edge_by_itself) {
   c.options.alpha = 20;  // 200
   s = c.run();
   EXPECT_EQ(s.parts.size(), 1U);
-  EXPECT_NEAR(s.terms.sweep_unused, 200, 1e-6);
+  EXPECT_NEAR(s.terms[Term::sweep_unused], 200, 1e-6);
 }
 
 TEST(Choose, reads_continuations_as_told) {
@@ -117,7 +117,7 @@ TEST(Choose, uses_no_fewer_metres_of_sweep_edge_with_a_greater_alpha) {
       const Segmentation s = c.run();
       EXPECT_EQ(s.status, "optimal");
       expect_guarantees(c.map.arrangement, s);
-      const double unused = alpha > 0 ? s.terms.sweep_unused / alpha : 1e299;
+      const double unused = alpha > 0 ? s.terms[Term::sweep_unused] / alpha : 1e299;
       EXPECT_LE(unused, before + 1e-6) << "alpha " << alpha;
       before = unused;
     }
@@ -134,17 +134,17 @@ TEST(Choose, forbids_slivers_by_phi_but_not_thin_walls_seen_from_both_sides) {
   Segmentation s = c.run();
   EXPECT_EQ(s.parts.size(), 3U);
   EXPECT_EQ(s.conflicts.size(), 0U) << "seen from both sides";
-  EXPECT_EQ(s.terms.thin, 0);
+  EXPECT_EQ(s.terms[Term::thin], 0);
   c.options.thin_rule = ThinRule::all;
   s = c.run();
   expect_guarantees(c.map.arrangement, s);
   EXPECT_EQ(s.conflicts.size(), 1U);
   EXPECT_EQ(s.parts.size(), 3U) << "φ is the smaller evil here: two walls of 4 m and 12 m of height";
-  EXPECT_NEAR(s.terms.thin, 0.5 * (9 + 9 + 4 * 4), 1e-6) << "half the length of all edges";
+  EXPECT_NEAR(s.terms[Term::thin], 0.5 * (9 + 9 + 4 * 4), 1e-6) << "half the length of all edges";
   c.options.phi = 100;
   s = c.run();
   EXPECT_EQ(s.parts.size(), 2U);
-  EXPECT_EQ(s.terms.thin, 0);
+  EXPECT_EQ(s.terms[Term::thin], 0);
   c.options.phi = 0;
   EXPECT_EQ(c.run().parts.size(), 3U);
 }

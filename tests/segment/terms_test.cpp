@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "case.hpp"
 
@@ -25,8 +26,8 @@ TEST(GisCandidate, finds_the_party_wall_between_equal_houses) {
   expect_guarantees(c.map.arrangement, s);
   EXPECT_EQ(s.parts.size(), 2U);
   EXPECT_FALSE(s.candidates[0].forced);
-  EXPECT_NEAR(s.candidates[0].gis_length, 10, 1e-9);
-  EXPECT_NEAR(s.candidates[0].costs.gis_unused, c.options.gis_alpha * 10, 1e-9);
+  EXPECT_NEAR(s.candidates[0].amounts[Term::gis_unused], 10, 1e-9);
+  EXPECT_NEAR(s.candidates[0].costs[Term::gis_unused], c.options.gis_alpha * 10, 1e-9);
   EXPECT_NEAR(s.objective, 0, 1e-9) << "a GIS edge pays no β";
 }
 
@@ -50,16 +51,16 @@ TEST(GisCandidate, gives_way_to_a_sweep_edge_beside_it) {
   expect_guarantees(c.map.arrangement, s);
   ASSERT_EQ(s.parts.size(), 2U);
   EXPECT_EQ(c.part(s, 'A'), c.part(s, 'B'));
-  EXPECT_NEAR(s.terms.gis_unused, 6 * c.options.gis_alpha, 1e-6);
-  EXPECT_EQ(s.terms.sweep_unused, 0);
+  EXPECT_NEAR(s.terms[Term::gis_unused], 6 * c.options.gis_alpha, 1e-6);
+  EXPECT_EQ(s.terms[Term::sweep_unused], 0);
 }
 
 TEST(GisCandidate, pays_by_the_sweep_edge_where_both_run) {
   Case c = equal_houses();
   c.map.wall({10, 0}, {10, 10}, 0);
   const Segmentation s = c.run();
-  EXPECT_EQ(s.candidates[0].gis_length, 0);
-  EXPECT_NEAR(s.candidates[0].costs.uncut(), c.options.alpha * 10, 1e-6);
+  EXPECT_EQ(s.candidates[0].amounts[Term::gis_unused], 0);
+  EXPECT_NEAR(s.candidates[0].costs.sum(Paid::uncut), c.options.alpha * 10, 1e-6);
 }
 
 TEST(RoofStep, pays_alpha_by_its_height_when_left_unused) {
@@ -76,8 +77,8 @@ TEST(RoofStep, pays_alpha_by_its_height_when_left_unused) {
     expect_guarantees(map.arrangement, s);
     EXPECT_TRUE(s.candidates[0].sweep);
     EXPECT_EQ(s.parts.size(), 2U);
-    EXPECT_EQ(s.candidates[0].costs.cut(), 0) << "it is supported, however low";
-    return s.candidates[0].costs.sweep_unused / options.alpha;
+    EXPECT_EQ(s.candidates[0].costs.sum(Paid::cut), 0) << "it is supported, however low";
+    return s.candidates[0].costs[Term::sweep_unused] / options.alpha;
   };
   EXPECT_NEAR(pays(0.5, 1), 5, 1e-9);
   EXPECT_NEAR(pays(1.0, 1), 10, 1e-9);
@@ -97,7 +98,7 @@ TEST(HeightMeasure, sees_the_step_at_the_edge_which_medians_do_not) {
     const auto s = choose(map.arrangement, sweep_edges(0), map.block({"AB"}), mesh, options);
     EXPECT_TRUE(s);
     EXPECT_EQ(s->candidates.size(), 1U);
-    return s->candidates[0].height_difference;
+    return s->candidates[0].amounts[Term::height];
   };
   EXPECT_NEAR(step(HeightMeasure::median), 2, 0.01);
   EXPECT_NEAR(step(HeightMeasure::along), 6, 0.01);
@@ -111,13 +112,13 @@ TEST(HeightMeasure, sees_none_across_a_ridge_that_is_off_the_middle) {
   Options options;
   options.height_measure = HeightMeasure::along;
   const auto s = choose(map.arrangement, sweep_edges(0), map.block({"AB"}), mesh, options).value();
-  EXPECT_NEAR(s.candidates[0].height_difference, 0, 0.01);
+  EXPECT_NEAR(s.candidates[0].amounts[Term::height], 0, 0.01);
 }
 
 TEST(HeightMeasure, falls_back_to_medians_where_the_mesh_shows_nothing) {
   Case c = plain({"AABB", "AABB"}, {{'A', 10}}, {"AB"});
   c.options.height_measure = HeightMeasure::along;
-  EXPECT_EQ(c.run().candidates[0].height_difference, 0) << "B borrows its height from A";
+  EXPECT_EQ(c.run().candidates[0].amounts[Term::height], 0) << "B borrows its height from A";
 }
 
 TEST(ThinReach, looks_across_several_faces_when_told_to) {
@@ -200,10 +201,10 @@ TEST(Limits, no_thin_cost_with_phi_0_and_no_paid_conflict_with_a_huge_one) {
     Case c = random_rooms(random);
     c.options.phi = 0;
     const Segmentation free = c.run();
-    EXPECT_EQ(free.terms.thin, 0);
+    EXPECT_EQ(free.terms[Term::thin], 0);
     c.options.phi = 1e4;
     const Segmentation dear = c.run();
-    EXPECT_EQ(dear.terms.thin, 0) << "cutting nothing has no conflict, so the optimum has none";
+    EXPECT_EQ(dear.terms[Term::thin], 0) << "cutting nothing has no conflict, so the optimum has none";
     EXPECT_GE(dear.objective, free.objective - 1e-6);
     for (const Conflict& conflict : dear.conflicts)
       EXPECT_FALSE(dear.candidates[conflict.first].solved &&
@@ -221,8 +222,8 @@ TEST(Limits, no_more_metres_without_support_with_a_greater_beta) {
       c.options.beta = beta;
       const Segmentation s = c.run();
       EXPECT_EQ(s.status, "optimal");
-      EXPECT_LE(s.terms.unsupported / beta, before + 1e-6) << "beta " << beta;
-      before = s.terms.unsupported / beta;
+      EXPECT_LE(s.terms[Term::unsupported] / beta, before + 1e-6) << "beta " << beta;
+      before = s.terms[Term::unsupported] / beta;
     }
   }
 }
@@ -283,6 +284,24 @@ TEST(Invariance, of_the_objective_when_the_plane_is_turned_and_faces_are_numbere
     EXPECT_NEAR(after->objective, before.objective, 1e-4 * before.objective + 0.05);
     EXPECT_EQ(after->parts.size(), before.parts.size());
   }
+}
+
+TEST(Terms, have_names_weights_and_reasons_and_add_up) {
+  std::set<std::string_view> names, costs;
+  Terms all;
+  for (const TermInfo& info : terms()) {
+    EXPECT_FALSE(info.symbol.empty() || info.words.empty() || info.caption.empty()) << info.name;
+    EXPECT_FALSE(info.reason(12).empty()) << info.name;
+    names.insert(info.name);
+    costs.insert(info.cost);
+    all[info.term] = 1;
+  }
+  EXPECT_EQ(names.size(), term_count);
+  EXPECT_EQ(costs.size(), term_count);
+  EXPECT_EQ(all.sum(), term_count);
+  EXPECT_EQ(all.sum(Paid::cut) + all.sum(Paid::uncut), all.sum());
+  all += all;
+  EXPECT_EQ(all[Term::gis_unused], 2);
 }
 
 }  // namespace

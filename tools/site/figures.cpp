@@ -315,7 +315,8 @@ void derived(const Figures& to, const model::Scene& scene) {
       outlines.segments.push_back({{{a.x, a.y, highest + 1}, {b.x, b.y, highest + 1}}});
     }
   };
-  for (const auto& footprint : need(derive::footprints(scene, {})))
+  const auto derived = need(derive::footprints(scene, {}));
+  for (const auto& footprint : derived.footprints)
     for (const auto& polygon : footprint.polygons) {
       add(polygon.outer);
       for (const auto& hole : polygon.holes) add(hole);

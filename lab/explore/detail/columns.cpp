@@ -18,10 +18,8 @@ auto real(std::string key, std::string heading, int decimals, bool shown, std::f
   return {std::move(key), std::move(heading), decimals, shown, std::move(value)};
 }
 
-}  // namespace
-
-auto columns() -> const std::vector<Column>& {
-  static const std::vector<Column> all{
+auto before_terms() -> std::vector<Column> {
+  return {
       count("triangles", "triangles", &Numbers::triangles, false),
       count("footprints", "footprints", &Numbers::footprints),
       count("full", "in full", &Numbers::full),
@@ -41,11 +39,11 @@ auto columns() -> const std::vector<Column>& {
       count("optimal", "proven optimal", &Numbers::optimal),
       real("objective", "objective", 1, true, [](const auto& n) { return n.objective; }),
       real("bound", "bound", 1, false, [](const auto& n) { return n.bound; }),
-      real("sweep_unused", "O1 α", 1, false, [](const auto& n) { return n.terms.sweep_unused; }),
-      real("unsupported", "O1 β", 1, false, [](const auto& n) { return n.terms.unsupported; }),
-      real("height", "O2", 1, false, [](const auto& n) { return n.terms.height; }),
-      real("thin", "O7", 1, false, [](const auto& n) { return n.terms.thin; }),
-      real("gis_unused", "GIS", 1, false, [](const auto& n) { return n.terms.gis_unused; }),
+  };
+}
+
+auto after_terms() -> std::vector<Column> {
+  return {
       real("vertical_mse_m2", "vertical MSE, m²", 3, true, [](const auto& n) { return n.scores.mse; }),
       real("footprint_mse_m2", "over footprints, m²", 3, true, [](const auto& n) { return n.scores.footprint_mse; }),
       real("median_m", "median, m", 3, false, [](const auto& n) { return n.scores.median; }),
@@ -56,6 +54,19 @@ auto columns() -> const std::vector<Column>& {
       real("optimise_s", "optimise, s", 3, true, [](const auto& n) { return n.optimise_seconds; }),
       real("work_s", "work, s", 2, true, [](const auto& n) { return n.work_seconds; }),
   };
+}
+
+}  // namespace
+
+auto columns() -> const std::vector<Column>& {
+  static const std::vector<Column> all = [] {
+    auto columns = before_terms();
+    for (const auto& info : segment::terms())
+      columns.push_back(real(std::string(info.name), std::string(info.symbol), 1, false,
+                             [term = info.term](const Numbers& n) { return n.terms[term]; }));
+    for (auto& column : after_terms()) columns.push_back(std::move(column));
+    return columns;
+  }();
   return all;
 }
 

@@ -100,9 +100,13 @@ auto setting_text(const Setting& setting) -> std::string {
 
 auto terms_text(const Numbers& n) -> std::string {
   const auto amount = [](double cost) { return base::to_text(cost, 0); };
-  return "objective " + amount(n.objective) + " = unused " + amount(n.terms.sweep_unused) + " + unsupported " +
-         amount(n.terms.unsupported) + " + steps " + amount(n.terms.height) + " + thin " + amount(n.terms.thin) +
-         " + GIS " + amount(n.terms.gis_unused);
+  std::string text = "objective " + amount(n.objective);
+  const char* before = " = ";
+  for (const auto& info : segment::terms()) {
+    text += before + std::string(info.caption) + " " + amount(n.terms[info.term]);
+    before = " + ";
+  }
+  return text;
 }
 
 /// A plan with what was chosen and what it cost.

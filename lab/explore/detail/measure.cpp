@@ -49,11 +49,7 @@ void add(const Numbers& block, Numbers& sum) {
   sum.variables += block.variables;
   sum.reference_variables += block.reference_variables;
   sum.parts += block.parts;
-  sum.terms.sweep_unused += block.terms.sweep_unused;
-  sum.terms.unsupported += block.terms.unsupported;
-  sum.terms.height += block.terms.height;
-  sum.terms.thin += block.terms.thin;
-  sum.terms.gis_unused += block.terms.gis_unused;
+  sum.terms += block.terms;
   sum.objective += block.objective;
   sum.bound += block.bound;
   sum.optimise_seconds += block.optimise_seconds;

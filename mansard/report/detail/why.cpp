@@ -15,8 +15,6 @@ auto rounded(double cost) -> std::string {
   return cost < least ? "under 0.1" : base::to_text(cost, cost < 10 ? 1 : 0);
 }
 
-auto metres(double length) -> std::string { return base::to_text(length, 1) + " m"; }
-
 /// "480 for this and 96 for that"; "0" where nothing costs anything.
 auto listed(const Amounts& amounts) -> std::string {
   std::string text;
@@ -25,18 +23,19 @@ auto listed(const Amounts& amounts) -> std::string {
   return text.empty() ? "0" : text;
 }
 
-auto if_cut(const segment::Candidate& c, std::size_t walls, double phi) -> Amounts {
-  return {
-      {c.costs.unsupported, metres(c.unsupported_length) + " without a sweep-edge"},
-      {c.costs.outline_conflict, "its conflict with the outline"},
-      {static_cast<double>(walls) * phi,
-       walls == 1 ? "its conflict with another wall" : "its conflicts with " + std::to_string(walls) + " other walls"}};
+auto paid(const segment::Candidate& c, segment::Paid when) -> Amounts {
+  Amounts amounts;
+  for (const auto& info : segment::terms())
+    if (info.paid == when) amounts.emplace_back(c.costs[info.term], info.reason(c.amounts[info.term]));
+  return amounts;
 }
 
-auto if_uncut(const segment::Candidate& c) -> Amounts {
-  return {{c.costs.sweep_unused, "leaving " + metres(c.sweep_length) + " of sweep-edge unused"},
-          {c.costs.height, "the height step of " + metres(c.height_difference)},
-          {c.costs.gis_unused, "leaving " + metres(c.gis_length) + " of GIS edge unused"}};
+auto if_cut(const segment::Candidate& c, std::size_t walls, double phi) -> Amounts {
+  auto amounts = paid(c, segment::Paid::cut);
+  amounts.emplace_back(
+      static_cast<double>(walls) * phi,
+      walls == 1 ? "its conflict with another wall" : "its conflicts with " + std::to_string(walls) + " other walls");
+  return amounts;
 }
 
 }  // namespace
@@ -55,8 +54,9 @@ auto why(const segment::Candidate& c, std::size_t walls, double phi) -> std::str
   if (c.solved && !c.chosen)
     return "cut by the program, but one side is too small or narrow for a part: joined or left out";
   if (c.forced) return "cut: between two features";
-  const double cut = c.costs.cut() + static_cast<double>(walls) * phi, uncut = c.costs.uncut();
-  const std::string of_cut = listed(if_cut(c, walls, phi)), of_uncut = listed(if_uncut(c));
+  const double cut = c.costs.sum(segment::Paid::cut) + static_cast<double>(walls) * phi,
+               uncut = c.costs.sum(segment::Paid::uncut);
+  const std::string of_cut = listed(if_cut(c, walls, phi)), of_uncut = listed(paid(c, segment::Paid::uncut));
   if (c.solved)
     return cut <= uncut ? "cut: " + of_uncut + " against " + of_cut
                         : "cut though dearer by itself (" + of_cut + " against " + of_uncut + "): its ends need a wall";

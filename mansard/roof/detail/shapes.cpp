@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mansard/roof/detail/shape_list.hpp"
+
 namespace mansard::roof::detail {
 namespace {
 
@@ -26,7 +28,8 @@ auto ridge_axis(const Extent& extent, const Form& form) -> Point2 {
 auto design_of(const geometry::Polygon& polygon, const std::vector<Side>& sides, const Form& form, const Options& o)
     -> Design {
   Design out{form.shape, std::vector<Sweep>(sides.size()), true, {}};
-  if (form.shape == Shape::hipped || form.shape == Shape::mansard) return out;
+  const ShapeInfo& info = info_of(form.shape);
+  if (info.ends == Ends::move) return out;
 
   const Extent extent = extent_of(sides);
   std::vector<bool> ends;
@@ -42,7 +45,7 @@ auto design_of(const geometry::Polygon& polygon, const std::vector<Side>& sides,
   }
   const bool any = std::ranges::find(ends, true) != ends.end(), all = std::ranges::find(ends, false) == ends.end();
   if (!any || all) {
-    out.shape = form.shape == Shape::gambrel ? Shape::mansard : Shape::hipped;
+    out.shape = info.without_ends;
     out.as_asked = false;
     out.warnings.push_back(base::warning("roof-shape-here", "no side of this outline is fit for a gable; made " +
                                                                 std::string(to_string(out.shape)) + " instead of " +
@@ -51,7 +54,7 @@ auto design_of(const geometry::Polygon& polygon, const std::vector<Side>& sides,
   }
   for (std::size_t i = 0; i < sides.size(); ++i) {
     if (!ends[i]) continue;
-    if (form.shape == Shape::half_hipped) out.sweeps[i].lag = o.half_hip * (span > 0 ? span : sides[i].length) / 2;
+    if (info.ends == Ends::half_upright) out.sweeps[i].lag = o.half_hip * (span > 0 ? span : sides[i].length) / 2;
     else out.sweeps[i].moves = false;
   }
   return out;

@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "mansard/base/text.hpp"
+#include "mansard/roof/detail/shape_list.hpp"
 
 namespace mansard::roof::detail {
 namespace {
@@ -249,59 +251,15 @@ auto bearing_of(std::string_view text) -> std::optional<double> {
 }
 
 auto shape_of(std::string_view text) -> std::optional<Named> {
-  struct Word {
-    std::string_view name;
-    Shape shape;
-    bool exact;
+  const std::string name = plain(trimmed(text.substr(0, text.find(';'))));
+  const auto has = [&](std::span<const std::string_view> names) {
+    return std::ranges::find(names, name) != names.end();
   };
-  // OpenStreetMap's values that are not among the eight, by what they look like from afar.
-  static constexpr std::array words{
-      Word{"flat", Shape::flat, true},
-      Word{"skillion", Shape::skillion, true},
-      Word{"lean_to", Shape::skillion, true},
-      Word{"shed", Shape::skillion, true},
-      Word{"monopitched", Shape::skillion, true},
-      Word{"gabled", Shape::gabled, true},
-      Word{"half_hipped", Shape::half_hipped, true},
-      Word{"hipped", Shape::hipped, true},
-      Word{"pyramidal", Shape::pyramidal, true},
-      Word{"gambrel", Shape::gambrel, true},
-      Word{"mansard", Shape::mansard, true},
-      Word{"pyramid", Shape::pyramidal, true},
-      Word{"gable", Shape::gabled, true},
-      Word{"hip", Shape::hipped, true},
-      Word{"dome", Shape::pyramidal, false},
-      Word{"onion", Shape::pyramidal, false},
-      Word{"cone", Shape::pyramidal, false},
-      Word{"conical", Shape::pyramidal, false},
-      Word{"bulb", Shape::pyramidal, false},
-      Word{"spherical", Shape::pyramidal, false},
-      Word{"tented", Shape::pyramidal, false},
-      Word{"helm", Shape::pyramidal, false},
-      Word{"round", Shape::gambrel, false},
-      Word{"barrel", Shape::gambrel, false},
-      Word{"gabled_row", Shape::gabled, false},
-      Word{"pitched", Shape::gabled, false},
-      Word{"saltbox", Shape::gabled, false},
-      Word{"cross_gabled", Shape::gabled, false},
-      Word{"crosspitched", Shape::gabled, false},
-      Word{"crossgabled", Shape::gabled, false},
-      Word{"double_saltbox", Shape::gambrel, false},
-      Word{"quadruple_saltbox", Shape::mansard, false},
-      Word{"side_hipped", Shape::hipped, false},
-      Word{"side_half_hipped", Shape::half_hipped, false},
-      Word{"hipped_and_gabled", Shape::half_hipped, false},
-      Word{"gabled_and_hipped", Shape::half_hipped, false},
-      Word{"skillion_with_setback", Shape::skillion, false},
-      Word{"sawtooth", Shape::flat, false},
-      Word{"butterfly", Shape::flat, false},
-      Word{"terrace", Shape::flat, false},
-  };
-  std::string name = plain(trimmed(text.substr(0, text.find(';'))));
-  if (name == "halfhipped") name = "half_hipped";
-  const auto at = std::ranges::find(words, std::string_view(name), &Word::name);
-  if (at == words.end()) return std::nullopt;
-  return Named{at->shape, at->exact};
+  for (const ShapeInfo& info : shapes()) {
+    if (name == info.name || has(info.same)) return Named{info.shape, true};
+    if (has(info.similar)) return Named{info.shape, false};
+  }
+  return std::nullopt;
 }
 
 }  // namespace mansard::roof::detail

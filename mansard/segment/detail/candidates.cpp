@@ -28,13 +28,12 @@ auto candidates_of(const fracture::Arrangement& arrangement, const sweep::SweepE
       const double length = length_of(arrangement, h);
       c.length += length;
       // A candidate may be a wall along one stretch and none along another: each stretch pays for itself.
-      c.sweep_length += sweep_share(edge, edges, options) * length;
+      for (const TermInfo& info : terms())
+        if (info.share != nullptr) c.amounts[info.term] += info.share(edge, edges, options) * length;
       if (is_sweep(edge, options)) on_sweep += length;
-      if (!is_supported(edge, options)) c.unsupported_length += length;
-      if (pays_as_gis(edge, options)) c.gis_length += length;
     }
     c.half_edges = std::move(half_edges);
-    c.height_difference = std::abs(faces[c.left].height - faces[c.right].height);
+    c.amounts[Term::height] = std::abs(faces[c.left].height - faces[c.right].height);
     c.sweep = on_sweep > c.length / 2;
     c.forced = options.gis_edges == GisEdges::hard && faces[c.left].feature != faces[c.right].feature;
     candidates.push_back(std::move(c));
@@ -64,10 +63,11 @@ auto phi_of(const fracture::Arrangement& arrangement, const std::vector<FaceEvid
 void price(std::vector<Candidate>& candidates, const std::vector<Conflict>& conflicts, double phi,
            const Options& options) {
   for (Candidate& c : candidates)
-    c.costs = {options.beta * c.unsupported_length, 0, options.alpha * c.sweep_length,
-               options.height_weight * c.length * c.height_difference, options.gis_alpha * c.gis_length};
+    for (const TermInfo& info : terms())
+      if (info.weight != nullptr)
+        c.costs[info.term] = options.*info.weight * (info.share != nullptr ? 1 : c.length) * c.amounts[info.term];
   for (const Conflict& conflict : conflicts)
-    if (!conflict.second) candidates[conflict.first].costs.outline_conflict += phi;
+    if (!conflict.second) candidates[conflict.first].costs[Term::thin] += phi;
 }
 
 namespace {
@@ -94,9 +94,9 @@ auto stars_of(const fracture::Arrangement& arrangement, const std::vector<std::o
 void add_edges(const std::vector<Candidate>& candidates, const std::vector<Conflict>& conflicts, double phi,
                Problem& problem) {
   for (const Candidate& c : candidates) {
-    const std::int64_t uncut = thousandths(c.costs.uncut());
+    const std::int64_t uncut = thousandths(c.costs.sum(Paid::uncut));
     problem.constant += uncut;
-    problem.multicut.edges.push_back({c.left, c.right, thousandths(c.costs.cut()) - uncut, c.forced});
+    problem.multicut.edges.push_back({c.left, c.right, thousandths(c.costs.sum(Paid::cut)) - uncut, c.forced});
   }
   for (const Conflict& conflict : conflicts)
     if (conflict.second) problem.multicut.pairs.push_back({conflict.first, *conflict.second, thousandths(phi)});
@@ -124,26 +124,26 @@ auto terms_of(const fracture::Arrangement& arrangement, const sweep::SweepEdges&
               const std::vector<std::optional<std::uint32_t>>& label_of_face, const std::vector<Candidate>& candidates,
               const std::vector<std::optional<std::uint32_t>>& candidate_of, const std::vector<Conflict>& conflicts,
               double phi, const Options& options) -> Terms {
-  Terms terms;
+  Terms sums;
   for (std::uint32_t h = 0; h < arrangement.half_edges.size(); h += 2) {
     const fracture::HalfEdge& edge = arrangement.half_edges[h];
     const auto one = edge.face, other = arrangement.half_edges[edge.twin].face;
     if (!one || !other || !label_of_face[*one] || !label_of_face[*other]) continue;
     const double length = length_of(arrangement, h);
-    if (*label_of_face[*one] == *label_of_face[*other]) {
-      terms.sweep_unused += options.alpha * sweep_share(edge, edges, options) * length;
-      if (pays_as_gis(edge, options)) terms.gis_unused += options.gis_alpha * length;
-      terms.height += options.height_weight * length * candidates[*candidate_of[h]].height_difference;
-    } else if (!is_supported(edge, options)) {
-      terms.unsupported += options.beta * length;
+    const Paid paid = *label_of_face[*one] == *label_of_face[*other] ? Paid::uncut : Paid::cut;
+    for (const TermInfo& info : terms()) {
+      if (info.paid != paid || info.weight == nullptr) continue;
+      sums[info.term] += info.share != nullptr
+                             ? options.*info.weight * info.share(edge, edges, options) * length
+                             : options.*info.weight * length * candidates[*candidate_of[h]].amounts[info.term];
     }
   }
   const auto cut = [&](std::uint32_t c) {
     return label_of_face[candidates[c].left] != label_of_face[candidates[c].right];
   };
   for (const Conflict& conflict : conflicts)
-    if (cut(conflict.first) && (!conflict.second || cut(*conflict.second))) terms.thin += phi;
-  return terms;
+    if (cut(conflict.first) && (!conflict.second || cut(*conflict.second))) sums[Term::thin] += phi;
+  return sums;
 }
 
 }  // namespace mansard::segment::detail

@@ -40,7 +40,7 @@ void measure_steps(const fracture::Arrangement& arrangement, const rays::Scene& 
         weight += length / count;
       }
     }
-    if (weight > 0) candidates[i].height_difference = sum / weight;
+    if (weight > 0) candidates[i].amounts[Term::height] = sum / weight;
   });
 }
 

@@ -6,7 +6,10 @@
 #include <optional>
 #include <vector>
 
+#include "mansard/fracture/fracture.hpp"
+#include "mansard/segment/options.hpp"
 #include "mansard/segment/segment.hpp"
+#include "mansard/sweep/sweep.hpp"
 
 namespace mansard::segment::detail {
 
