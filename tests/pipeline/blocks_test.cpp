@@ -35,7 +35,7 @@ TEST(SomeBlocks, come_out_as_in_a_run_of_all) {
   const auto scene = street();
   const auto all = run_of(scene, {});
   ASSERT_EQ(all.blocks.size(), 2U);
-  ASSERT_EQ(all.blocks[1].name, "block-"+scene.footprints[3].id);
+  ASSERT_EQ(all.blocks[1].name, "block-" + scene.footprints[3].id);
   for (std::size_t b = 0; b < 2; ++b) {
     const auto some = run_of(scene, {all.blocks[b].name});
     ASSERT_EQ(some.blocks.size(), 1U);
@@ -59,7 +59,8 @@ TEST(SomeBlocks, come_out_as_in_a_run_of_all) {
 }
 
 TEST(SomeBlocks, refuse_a_name_that_no_block_has) {
-  const auto result = reconstruct(street(), {}, {}, Keep::models, std::vector<std::string>{"block-behind", "blokc-behind"});
+  const auto result =
+      reconstruct(street(), {}, {}, Keep::models, std::vector<std::string>{"block-behind", "blokc-behind"});
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().code, "pipeline-block-unknown");
   EXPECT_EQ(result.error().subject, "blokc-behind");
