@@ -124,7 +124,9 @@ auto convert(const Request& request, const base::Cancel& cancel) -> int {
     if (!raised) return give_up(raised.errors());
     for (const auto& part : raised->fell_short)
       for (const auto& reason : part.reasons) progress.say(base::to_string(reason));
-    all_full = raised->fell_short.empty();
+    for (const auto& part : raised->refused) std::fprintf(stderr, "mansard: %s\n", base::to_string(part).c_str());
+    for (const auto& remark : raised->remarks) progress.say(base::to_string(remark));
+    all_full = raised->fell_short.empty() && raised->refused.empty();
     const auto written = write_models(raised->city, *targets, options.write, outputs, beside->layers);
     if (!written) return give_up(written.errors());
     for (const auto& warning : *written) progress.say(base::to_string(warning));

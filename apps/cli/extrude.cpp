@@ -57,8 +57,11 @@ auto extrude_plans(formats::CityReader& reader, const ExtrudeRequest& request, c
   pipeline::Options options;
   tell(pipeline::take_options(reader.header().made_by, options), request);
   if (auto applied = request.settings.apply(options); !applied) return give_up(applied.errors());
-  auto city = formats::read_whole(reader);
+  std::vector<base::Diagnostic> refused;
+  auto city = formats::read_whole(reader, &refused);
   if (!city) return give_up(city.errors());
+  if (!refused.empty() && std::ranges::all_of(city->buildings, [](const auto& b) { return b.parts.empty(); }))
+    return give_up(refused);
   const auto targets = targets_of(request);
   if (!targets) return give_up(targets.errors());
   const auto beside = layers_beside(reader, request.input, *targets);
@@ -69,12 +72,15 @@ auto extrude_plans(formats::CityReader& reader, const ExtrudeRequest& request, c
   pipeline::note_options(options, city->made_by);
   const auto raised = pipeline::raise_plans(std::move(*city), options, run);
   if (!raised) return give_up(raised.errors());
+  refused.insert(refused.end(), raised->refused.begin(), raised->refused.end());
+  for (const auto& part : refused) std::fprintf(stderr, "mansard: %s\n", base::to_string(part).c_str());
   for (const auto& part : raised->fell_short) tell(part.reasons, request);
+  tell(raised->remarks, request);
   tell(beside->warnings, request);
   if (auto written = write_out(raised->city, {}, options, request, run, beside->layers); !written)
     return give_up(written.errors());
   std::printf("%s\n", request.out.c_str());
-  return raised->fell_short.empty() ? all_done : some_fell_back;
+  return raised->fell_short.empty() && refused.empty() ? all_done : some_fell_back;
 }
 
 /// JSON in which no member is what GeoJSON, TopoJSON, ESRI JSON or CityJSON have: a plan file that lacks its type,

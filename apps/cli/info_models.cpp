@@ -133,12 +133,14 @@ auto size_of(const fs::path& path) -> std::uintmax_t {
 }
 
 /// Adds every building, its model rebuilt where the file has none. Whether there were models.
-auto add_all(formats::CityReader& reader, const base::Run& run, Tally& tally) -> base::Result<bool> {
+auto add_all(formats::CityReader& reader, const base::Run& run, Tally& tally, std::vector<base::Diagnostic>& warnings)
+    -> base::Result<bool> {
   if (!reader.has_models()) {
     pipeline::Options options;
-    (void)pipeline::take_options(reader.header().made_by, options);
+    warnings = pipeline::take_options(reader.header().made_by, options);
     const auto raised = pipeline::read_raised(reader, options, run);
     if (!raised) return raised.failure();
+    warnings.insert(warnings.end(), raised->refused.begin(), raised->refused.end());
     for (const auto& building : raised->city.buildings) tally.add(building);
     return false;
   }
@@ -168,7 +170,8 @@ auto info_of_city(const fs::path& path, formats::CityReader& reader, bool all_op
   // The header stays while buildings are read.
   const formats::Header header = reader.header();
   Tally tally(header.frame);
-  const auto has_models = add_all(reader, run, tally);
+  std::vector<base::Diagnostic> warnings;
+  const auto has_models = add_all(reader, run, tally, warnings);
   if (!has_models) return has_models.failure();
   // By its name; the content distinguishes CityJSON from plans, which may both have the extension ".json".
   auto format = formats::format_of(path).value_or(formats::Format::plans);
@@ -189,6 +192,9 @@ auto info_of_city(const fs::path& path, formats::CityReader& reader, bool all_op
   out["fallbacks"] = tally.fallbacks();
   out["footprints"] = tally.footprints();
   out["made_by"] = made_by_json(header.made_by, all_options);
+  out["warnings"] = Json::array();
+  for (const auto& warning : warnings)
+    out["warnings"].push_back({{"code", warning.code}, {"subject", warning.subject}, {"message", warning.message}});
   if (format == formats::Format::tiles) out["tileset"] = info_of_tileset(path);
   if (format == formats::Format::geopackage) {
     auto layers = info_of_layers(path);

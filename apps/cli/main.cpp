@@ -116,6 +116,23 @@ auto help_of(const CLI::App& app, bool all) -> std::string {
   return all ? full_help(form) : short_help(form);
 }
 
+/// The command line with `--flag` as `--flag=true`, unless the word after it says true or false: the word would be
+/// taken as the flag's value else, whatever it is.
+auto with_flags_closed(const std::vector<Verb>& verbs, int argc, char** argv) -> std::vector<std::string> {
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  if (words.empty()) return words;
+  const auto verb = std::ranges::find(verbs, words.front(), [](const Verb& v) { return v.app->get_name(); });
+  if (verb == verbs.end()) return words;
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    const auto* option = words[i].starts_with("--") ? verb->app->get_option_no_throw(words[i]) : nullptr;
+    const bool flag =
+        option != nullptr && option->get_items_expected_min() == 0 && option->get_items_expected_max() == 1;
+    const bool says = i + 1 < words.size() && (words[i + 1] == "true" || words[i + 1] == "false");
+    if (flag && !says) words[i] += "=true";
+  }
+  return words;
+}
+
 auto run(int argc, char** argv) -> int {
   CLI::App app("", "mansard");
   app.set_version_flag("--version", std::string("mansard ") + MANSARD_VERSION);
@@ -138,7 +155,9 @@ auto run(int argc, char** argv) -> int {
                                 manual_verb(app)};
   for (const auto& verb : verbs) verb.app->allow_extras();  // so that we can suggest the right one
   try {
-    app.parse(argc, argv);
+    auto words = with_flags_closed(verbs, argc, argv);
+    std::ranges::reverse(words);  // as CLI11 takes them
+    app.parse(std::move(words));
   } catch (const CLI::CallForHelp&) {
     std::fputs(help_of(app, false).c_str(), stdout);
     return all_done;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "apps/cli/catalogue.hpp"
+#include "mansard/base/bound_text.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/base/text.hpp"
 
@@ -16,14 +17,6 @@ auto joined(const std::vector<std::string>& words) -> std::string {
   std::string all;
   for (const auto& word : words) all += (all.empty() ? "" : " ") + word;
   return all;
-}
-
-/// A bound as people write it: 1e6 rather than 1e+06.
-auto bound_text(double bound) -> std::string {
-  std::string text = base::to_text(bound);
-  for (const char* sign : {"e+0", "e+"})
-    if (const auto at = text.find(sign); at != std::string::npos) text.replace(at, std::string(sign).size(), "e");
-  return text;
 }
 
 /// A TOML value as the text an option takes: arrays become words separated by spaces.
@@ -131,9 +124,10 @@ auto dashed(std::string text) -> std::string {
 
 auto range_text(const base::Option& option) -> std::string {
   const auto& [minimum, maximum] = option.range;
-  if (std::isfinite(minimum) && std::isfinite(maximum)) return bound_text(minimum) + " to " + bound_text(maximum);
-  if (std::isfinite(minimum)) return "at least " + bound_text(minimum);
-  return std::isfinite(maximum) ? "at most " + bound_text(maximum) : "";
+  if (std::isfinite(minimum) && std::isfinite(maximum))
+    return base::bound_text(minimum) + " to " + base::bound_text(maximum);
+  if (std::isfinite(minimum)) return "at least " + base::bound_text(minimum);
+  return std::isfinite(maximum) ? "at most " + base::bound_text(maximum) : "";
 }
 
 void Settings::add_to(CLI::App& verb) {

@@ -101,12 +101,13 @@ auto import_city(const fs::path& path, const std::optional<model::Frame>& frame,
   report::Reconstruction result;
   result.warnings = pipeline::take_options((*reader)->header().made_by, options);
   auto city = formats::read_whole(**reader);
-  if (!city) return city.error();
+  if (!city) return city.failure();
   if (frame)
     if (auto moved = move_into(*frame, *city, path); !moved) return moved.error();
   run.report("extrude", path.string(), 0.3);
   auto raised = pipeline::raise_plans(std::move(*city), options, run);
   if (!raised) return raised.error();
+  if (!raised->refused.empty()) return base::Failure{std::move(raised->refused)};
   for (std::size_t b = 0; b < raised->city.buildings.size(); ++b)
     result.buildings.push_back(report_of(raised->city.buildings[b], *raised, b));
 

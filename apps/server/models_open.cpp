@@ -121,7 +121,8 @@ auto Models::read_reports(const std::filesystem::path& path) -> base::Result<voi
 /// All plans at once, as for an export. Buildings without edits keep the error that the run measured.
 auto Models::raise_all(const OpenScene* scene) -> base::Result<void> {
   auto raised = pipeline::raise_plans(edited_plans(city_, history_), options_, {});
-  if (!raised) return raised.error();
+  if (!raised) return raised.failure();
+  if (!raised->refused.empty()) return base::Failure{std::move(raised->refused)};
   auto view = std::make_shared<View>();
   view->history = text_of(json_of(history_));
   auto fell_short = raised->fell_short.begin();

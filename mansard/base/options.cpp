@@ -4,6 +4,8 @@
 #include <cassert>
 #include <numeric>
 
+#include "mansard/base/bound_text.hpp"
+
 namespace mansard::base {
 namespace {
 
@@ -17,9 +19,9 @@ auto in_words(const Range& range, const std::string& unit) -> std::string {
   const bool low = range.minimum > -std::numeric_limits<double>::infinity();
   const bool high = range.maximum < std::numeric_limits<double>::infinity();
   const std::string tail = unit.empty() ? "" : " " + unit;
-  if (low && high) return " from " + to_text(range.minimum) + " to " + to_text(range.maximum) + tail;
-  if (low) return " of at least " + to_text(range.minimum) + tail;
-  if (high) return " of at most " + to_text(range.maximum) + tail;
+  if (low && high) return " from " + bound_text(range.minimum) + " to " + bound_text(range.maximum) + tail;
+  if (low) return " of at least " + bound_text(range.minimum) + tail;
+  if (high) return " of at most " + bound_text(range.maximum) + tail;
   return "";
 }
 
@@ -49,6 +51,13 @@ auto integer_option(Option option, Integer& member, const std::string& module) -
 }
 
 }  // namespace
+
+auto bound_text(double bound) -> std::string {
+  std::string text = to_text(bound);
+  for (const std::string_view sign : {"e+0", "e+"})
+    if (const auto at = text.find(sign); at != std::string::npos) text.replace(at, sign.size(), "e");
+  return text;
+}
 
 auto OptionList::add(Option option) -> OptionList& {
   assert(find(option.name) == nullptr);

@@ -51,7 +51,8 @@ auto edited_city(const model::City& city, const History& history, const MeshOf& 
   for (std::size_t b = 0; b < city.buildings.size(); ++b)
     plans.buildings.push_back(with_plans(city.buildings[b], *history.parts(city.buildings[b].id), unchanged[b]));
   auto raised = pipeline::raise_plans(std::move(plans), options, run);
-  if (!raised) return raised.error();
+  if (!raised) return raised.failure();
+  if (!raised->refused.empty()) return base::Failure{std::move(raised->refused)};
 
   std::map<std::pair<std::size_t, std::size_t>, std::string> fallback;
   for (const auto& less : raised->fell_short)

@@ -19,10 +19,6 @@ struct Defect {
   std::string what;
 };
 
-auto quoted(const std::string& text) -> std::string {
-  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 auto member(const Json& object, const char* name) -> const Json& {
   const auto found = object.find(name);
   if (found == object.end()) throw Defect{std::string("there is no \"") + name + "\""};
@@ -103,16 +99,16 @@ auto complete_lines(std::string_view journal) -> std::vector<std::string_view> {
 }  // namespace
 
 auto journal_line(const Edit& edit) -> std::string {
-  std::string line = "{\"what\":" + quoted(edit.what) + ",\"changes\":[";
+  using Ordered = nlohmann::ordered_json;
+  Ordered line{{"what", edit.what}, {"changes", Ordered::array()}};
   for (const auto& change : edit.changes) {
-    line += std::string(&change != &edit.changes.front() ? "," : "") + "{\"building\":" + quoted(change.building) +
-            ",\"revision\":" + std::to_string(change.revision) + ",\"parts\":[";
+    Ordered parts = Ordered::array();
     for (const auto& part : change.parts)
-      line += std::string(&part != &change.parts.front() ? "," : "") + "{\"id\":" + quoted(part.id) +
-              ",\"plan\":" + formats::plan_json(part.plan) + "}";
-    line += "]}";
+      parts.push_back({{"id", part.id}, {"plan", Ordered::parse(formats::plan_json(part.plan))}});
+    line["changes"].push_back(
+        {{"building", change.building}, {"revision", change.revision}, {"parts", std::move(parts)}});
   }
-  return line + "]}";
+  return line.dump(-1, ' ', false, Ordered::error_handler_t::replace);
 }
 
 auto replay(const model::City& city, std::string_view journal) -> base::Result<Replayed> {

@@ -105,7 +105,8 @@ auto table() -> std::vector<Driver> {
       {"shapefile", "Shapefile", {".shp"}, footprints, {}, "Esri Shapefile, with its .dbf and .prj beside it.", {}},
       {"flatgeobuf", "FlatGeobuf", {".fgb"}, footprints, {}, "FlatGeobuf.", {}},
       {"gml", "GML", {".gml"}, footprints, {}, "Geography Markup Language.", {}},
-      {"osm", "OpenStreetMap", {".osm.pbf", ".osm"}, footprints, {}, "OpenStreetMap extract.", {}},
+      {"kml", "KML", {".kml"}, footprints, {}, "Keyhole Markup Language.", {}},
+      {"osm", "OpenStreetMap", {".osm.pbf", ".osm", ".pbf"}, footprints, {}, "OpenStreetMap extract.", {}},
   };
 }
 

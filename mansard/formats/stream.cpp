@@ -123,14 +123,18 @@ auto read_city(const std::filesystem::path& path) -> base::Result<std::unique_pt
                      path.string());
 }
 
-auto read_whole(CityReader& reader) -> base::Result<model::City> {
+auto read_whole(CityReader& reader, std::vector<base::Diagnostic>* refused) -> base::Result<model::City> {
   model::City city{reader.header().frame, reader.header().made_by, {}};
   for (;;) {
     auto next = reader.next();
-    if (!next) return next.error();
-    if (!*next) return city;
+    if (!next) return next.failure();
+    if (!*next) break;
     city.buildings.push_back(std::move(**next));
   }
+  auto without = reader.refused();
+  if (refused == nullptr && !without.empty()) return base::Failure{std::move(without)};
+  if (refused != nullptr) *refused = std::move(without);
+  return city;
 }
 
 }  // namespace mansard::formats

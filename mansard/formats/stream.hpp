@@ -88,6 +88,9 @@ class CityReader {
   [[nodiscard]] virtual auto has_models() const -> bool = 0;
   /// None after the last one.
   [[nodiscard]] virtual auto next() -> base::Result<std::optional<model::Building>> = 0;
+  /// Parts of a file of plans that are at fault, and that its buildings therefore lack: "write-plan-…", whose message
+  /// says where. Complete after the last next().
+  [[nodiscard]] virtual auto refused() const -> std::vector<base::Diagnostic> { return {}; }
   /// The layers of a GeoPackage that are not of the city's making, for open_writer to take: those of a segmentation,
   /// and what others put in, all in memory. Nothing of other formats. Before the first next(), or after it.
   [[nodiscard]] virtual auto beside() -> base::Result<Beside> { return Beside(); }
@@ -99,7 +102,9 @@ class CityReader {
 /// "write-plan-…", "file-…".
 [[nodiscard]] auto read_city(const std::filesystem::path& path) -> base::Result<std::unique_ptr<CityReader>>;
 
-/// All that a file has.
-[[nodiscard]] auto read_whole(CityReader& reader) -> base::Result<model::City>;
+/// All that a file has. Parts that are at fault are left out and listed in `refused`, if there is one; else they are
+/// the failure, one diagnostic for each.
+[[nodiscard]] auto read_whole(CityReader& reader, std::vector<base::Diagnostic>* refused = nullptr)
+    -> base::Result<model::City>;
 
 }  // namespace mansard::formats

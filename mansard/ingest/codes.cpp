@@ -92,6 +92,8 @@ auto codes() -> std::vector<base::Code> {
        "Nothing to do; add semantics if classes come out wrong.", 0},
       {"ingest-raster-bands", "A raster has several bands, of which the first was read.",
        "Nothing to do, unless the heights are in another one; gdal_translate -b chooses.", 0},
+      {"ingest-attribute-range", "Integer attributes are at the limit of 64 bits, where GDAL puts larger ones.",
+       "Write integers beyond 2^63 as strings in the source.", 0},
       {"ingest-id-duplicate", "Features lack an id, or share one.",
        "Choose another attribute with --ingest-id-attribute.", 0},
   };

@@ -30,12 +30,6 @@ void append(std::vector<base::Diagnostic>& all, const std::vector<base::Diagnost
   all.insert(all.end(), more.begin(), more.end());
 }
 
-auto top_of(const model::Solid& solid) -> double {
-  double top = solid.vertices.front().z;
-  for (const auto& v : solid.vertices) top = std::max(top, v.z);
-  return top;
-}
-
 /// The polygons of all blocks, those of one after the other. A building is made where its block's frame begins, so that
 /// it depends on nothing else.
 struct BlockJobs {
@@ -63,7 +57,7 @@ auto divide(const model::Scene& scene, const Options& options, const base::Run& 
 
 /// How far the top lies from where the plan was made to have it, m.
 auto missed(const model::Solid& solid, const roof::Planned& planned) -> double {
-  return std::abs(top_of(solid) - planned.plan.base - planned.top);
+  return std::abs(report::top_of(solid) - planned.plan.base - planned.top);
 }
 constexpr double far_off = 0.05;  // m
 
@@ -80,10 +74,25 @@ auto raise_aligned(Raising& job, model::Plan aligned, bool ridge_known, const Op
   return true;
 }
 
+/// Where a roof would rise beyond what a plan can hold: the same, cut off flat where its profile ends.
+auto raise_cut_off(Raising& job, const base::Diagnostic& why, const Options& options, const base::Run& run)
+    -> base::Result<extrude::Raised> {
+  auto& plan = job.planned.plan;
+  plan.cap = job.planned.flat_top;
+  auto raised = raise_part(plan, options, run);
+  if (!raised) return raised;
+  job.full = false;
+  job.reasons.push_back(base::warning(
+      why.code, why.message + "; the roof is cut off flat " + base::to_text(plan.cap, 2) + " m above the base"));
+  return raised;
+}
+
 /// The plan as a checked solid; what the ladder did, and a ridge that is not where it should be, are reasons.
 void raise(Raising& job, bool ridge_known, const Options& options, const base::Run& run) {
   auto& plan = job.planned.plan;
   auto raised = raise_part(plan, options, run);
+  if (!raised && raised.error().code == "extrude-cap" && plan.cap > job.planned.flat_top)
+    raised = raise_cut_off(job, raised.error(), options, run);
   if (raised && raised->outcome == extrude::Outcome::prism && plan.cap != job.planned.flat_top) {
     auto flat = plan;
     flat.cap = job.planned.flat_top;  // a flat roof where the ridge would have been, and not above it
@@ -107,7 +116,7 @@ void raise(Raising& job, bool ridge_known, const Options& options, const base::R
   }
   if (ridge_known && raised->outcome != extrude::Outcome::prism && missed(raised->solid, job.planned) > far_off) {
     job.full = false;
-    const double top = top_of(raised->solid) - plan.base;
+    const double top = report::top_of(raised->solid) - plan.base;
     job.reasons.push_back(base::warning("roof-missed", "its ridge is " + base::to_text(top, 2) +
                                                            " m above its base instead of " +
                                                            base::to_text(job.planned.top, 2) + " m"));
@@ -117,7 +126,7 @@ void raise(Raising& job, bool ridge_known, const Options& options, const base::R
 
 /// z of the roof's lowest corner.
 auto eaves_of(const model::LabelledSolid& model) -> double {
-  double low = top_of(model.solid);
+  double low = report::top_of(model.solid);
   for (std::size_t f = 0; f < model.solid.faces.size(); ++f)
     if (model.classes[f] == model::FaceClass::roof)
       for (const auto v : model.solid.faces[f].loops.front()) low = std::min(low, model.solid.vertices[v].z);
@@ -131,7 +140,7 @@ auto attributes_of(const model::LabelledSolid& model, const Raising& job, const 
   const auto add = [&out](const char* name, model::Value value) { out.push_back({name, std::move(value)}); };
   add("ms_h_ground", job.planned.plan.base);
   add("ms_h_roof_min", eaves_of(model));
-  add("ms_h_roof_max", top_of(model.solid));
+  add("ms_h_roof_max", report::top_of(model.solid));
   if (const auto ridge = report::ridge_height(model)) add("ms_h_ridge", *ridge);
   add("ms_roof_type", report::roof_type(model));
   add("ms_roof_shape", building.roof);
@@ -150,7 +159,7 @@ auto attributes_of(const model::LabelledSolid& model, const Raising& job, const 
 /// Adds a part to its building and to the building's report.
 void take(Raising job, model::LabelledSolid model, model::Building& building, report::BuildingReport& report) {
   auto attributes = attributes_of(model, job, report);
-  const double low = eaves_of(model), high = top_of(model.solid);
+  const double low = eaves_of(model), high = report::top_of(model.solid);
   report.roof_min = report.parts == 0 ? low : std::min(report.roof_min, low);
   report.roof_max = report.parts == 0 ? high : std::max(report.roof_max, high);
   ++report.parts;

@@ -107,10 +107,13 @@ struct RaisedPlans {
     extrude::Outcome outcome = extrude::Outcome::full;
     std::vector<base::Diagnostic> reasons;  ///< the subject is the part's id
   };
-  std::vector<Short> fell_short;  ///< the parts that are simpler than their plans, in order
+  std::vector<Short> fell_short;          ///< the parts that are simpler than their plans, in order
+  std::vector<base::Diagnostic> remarks;  ///< on parts that are as their plans say: "extrude-small-edge"
+  /// Why parts have no solid, and are missing from the city: as raise_part gives up. The subject is the part's id.
+  std::vector<base::Diagnostic> refused;
 };
-/// The same plans and options give the same models at any thread count. Gives up with "cancelled", and as raise_part
-/// does with the first part that has no solid.
+/// The same plans and options give the same models at any thread count. Gives up with "cancelled", and where no part
+/// has a solid with the reasons of all.
 [[nodiscard]] auto raise_plans(model::City city, const Options& options, const base::Run& run = {})
     -> base::Result<RaisedPlans>;
 

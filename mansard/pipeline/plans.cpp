@@ -1,4 +1,6 @@
 // Plans raised without a scan.
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "mansard/pipeline/detail/assemble.hpp"
@@ -26,23 +28,31 @@ auto raise_plans(model::City city, const Options& options, const base::Run& run)
 
   RaisedPlans out;
   std::vector<model::Solid> solids;
+  std::vector<std::vector<model::Part>> kept(city.buildings.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const auto& id = part_at(places[i]).id;
+    model::Part& part = part_at(places[i]);
     auto& result = *raised[i];
     if (!result) {
-      auto why = result.error();
-      why.subject = id;
-      return why;
+      for (const auto& why : result.errors()) out.refused.push_back({why.severity, why.code, why.message, part.id});
+      continue;
     }
-    if (result->outcome != extrude::Outcome::full) {
-      auto& less = out.fell_short.emplace_back();
-      less = {places[i].building, places[i].part, result->outcome, std::move(result->warnings)};
-      for (auto& reason : less.reasons) reason.subject = id;
-    }
+    for (auto& warning : result->warnings) warning.subject = part.id;
+    auto& parts = kept[places[i].building];
+    if (result->outcome != extrude::Outcome::full)
+      out.fell_short.push_back({places[i].building, parts.size(), result->outcome, std::move(result->warnings)});
+    else
+      std::ranges::copy_if(result->warnings, std::back_inserter(out.remarks),
+                           [](const auto& warning) { return warning.code == "extrude-small-edge"; });
     solids.push_back(std::move(result->solid));
+    parts.push_back(std::move(part));
   }
+  if (solids.empty() && !out.refused.empty()) return base::Failure{std::move(out.refused)};
   auto labelled = label::classify(std::move(solids), options.label, run);
-  for (std::size_t i = 0; i < places.size(); ++i) part_at(places[i]).model = std::move(labelled[i]);
+  auto next = labelled.begin();
+  for (std::size_t b = 0; b < kept.size(); ++b) {
+    for (auto& part : kept[b]) part.model = std::move(*next++);
+    city.buildings[b].parts = std::move(kept[b]);
+  }
   out.city = std::move(city);
   out.city.made_by.version = detail::version();
   return out;

@@ -149,12 +149,15 @@ void complete(std::span<model::Building> buildings, const Options& options, cons
 
 auto read_raised(formats::CityReader& reader, const Options& options, const base::Run& run)
     -> base::Result<RaisedPlans> {
-  auto city = formats::read_whole(reader);
-  if (!city) return city.error();
+  std::vector<base::Diagnostic> refused;
+  auto city = formats::read_whole(reader, &refused);
+  if (!city) return city.failure();
   const bool as_made = same_options(city->made_by, options);
   note_options(options, city->made_by);
-  if (reader.has_models() && as_made) return RaisedPlans{std::move(*city), {}};
-  return raise_plans(std::move(*city), options, run);
+  if (reader.has_models() && as_made) return RaisedPlans{std::move(*city), {}, {}, std::move(refused)};
+  auto raised = raise_plans(std::move(*city), options, run);
+  if (raised) raised->refused.insert(raised->refused.begin(), refused.begin(), refused.end());
+  return raised;
 }
 
 auto model_of(const model::City& city) -> model::Model {
@@ -181,7 +184,9 @@ auto read_any_model(const fs::path& path, const ingest::ModelOptions& wanted, co
   Options options;
   auto warnings = take_options((*reader)->header().made_by, options);
   auto raised = read_raised(**reader, options, run);
-  if (!raised) return raised.error();
+  if (!raised) return raised.failure();
+  for (const auto& part : raised->refused)
+    warnings.push_back(base::warning(part.code, part.message + "; the part is left out", part.subject));
   auto model = model_of(raised->city);
   if (model.buildings.empty())
     return base::error("ingest-model-empty", "there is no building with a surface in it", subject);

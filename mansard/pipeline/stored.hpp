@@ -30,7 +30,7 @@ void note_options(const Options& options, model::MadeBy& made_by);
 void complete(std::span<model::Building> buildings, const Options& options, const base::Run& run = {});
 
 /// All that is left in a file, with models: the file's own, or raised with `options` where there are none or where it
-/// was made with others. Gives up as the reader and raise_plans do.
+/// was made with others. Parts that could not be read are `refused` too. Gives up as the reader and raise_plans do.
 [[nodiscard]] auto read_raised(formats::CityReader& reader, const Options& options, const base::Run& run = {})
     -> base::Result<RaisedPlans>;
 

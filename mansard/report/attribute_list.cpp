@@ -18,8 +18,7 @@ auto attributes() -> std::vector<formats::Attribute> {
       "z of the roof's lowest sample on a grid of pipeline.roof_grid; without a mesh, of its lowest corner.");
   add("ms_h_roof_50p", part, "number", "m", "z below which half of the roof's samples lie; only with a mesh.");
   add("ms_h_roof_70p", part, "number", "m", "z below which 70 % of the roof's samples lie; only with a mesh.");
-  add("ms_h_roof_max", both, "number", "m",
-      "z of the roof's highest sample; without a mesh, of its highest corner; of a building where it has parts.");
+  add("ms_h_roof_max", both, "number", "m", "z of the roof's highest corner; of a building where it has parts.");
   add("ms_h_ridge", part, "number", "m", "z of the highest corner of a pitched face; absent where there is none.");
   add("ms_roof_type", part, "string", "",
       "slanted: more than 5 % of the roof's area is steeper than 5°; multiple horizontal: levels more than 0.5 m "

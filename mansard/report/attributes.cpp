@@ -106,6 +106,10 @@ auto ridge_height(const model::LabelledSolid& model) -> std::optional<double> {
   return highest;
 }
 
+auto top_of(const model::Solid& solid) -> double {
+  return std::ranges::max(solid.vertices, {}, &geometry::Point3::z).z;
+}
+
 auto model_attributes(const model::LabelledSolid& model, const model::Plan& plan, const std::vector<double>& roof,
                       const std::optional<double>& mse, const std::string& fallback, double z0) -> model::Attributes {
   const auto areas = label::areas(model);
@@ -114,7 +118,7 @@ auto model_attributes(const model::LabelledSolid& model, const model::Plan& plan
   out.emplace_back("ms_h_roof_min", z0 + roof.front());
   out.emplace_back("ms_h_roof_50p", z0 + base::percentile_of_sorted(roof, 0.5));
   out.emplace_back("ms_h_roof_70p", z0 + base::percentile_of_sorted(roof, 0.7));
-  out.emplace_back("ms_h_roof_max", z0 + roof.back());
+  out.emplace_back("ms_h_roof_max", z0 + top_of(model.solid));
   if (const auto ridge = ridge_height(model)) out.emplace_back("ms_h_ridge", z0 + *ridge);
   out.emplace_back("ms_roof_type", roof_type(model));
   out.emplace_back("ms_volume_lod22", solid::volume(model.solid));

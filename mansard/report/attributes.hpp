@@ -29,6 +29,9 @@ namespace mansard::report {
 /// z of the highest corner of a pitched face, where there is one.
 [[nodiscard]] auto ridge_height(const model::LabelledSolid& model) -> std::optional<double>;
 
+/// z of the highest corner; the solid has one.
+[[nodiscard]] auto top_of(const model::Solid& solid) -> double;
+
 /// The attributes that speak of the model, in the file's heights: `z0` is that of the origin. `roof` is of
 /// roof_heights; `fallback` the code of the reason why the model is simpler than its plan, empty when it is not.
 [[nodiscard]] auto model_attributes(const model::LabelledSolid& model, const model::Plan& plan,

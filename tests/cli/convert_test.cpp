@@ -149,6 +149,58 @@ TEST_F(Convert, leaves_a_model_that_another_program_changed_as_it_is) {
   EXPECT_NEAR(greatest_y(after) - greatest_y(before), 1, 1e-3);
 }
 
+TEST_F(Convert, takes_no_file_for_the_value_of_a_flag) {
+  make_all();
+  const auto first = run("convert -q --write-compress " + out("plans.json") + " -o " + at("a.glb"));
+  ASSERT_EQ(first.exit, 0) << first.err;
+  ASSERT_EQ(convert(out("plans.json"), at("b.glb"), "--write-compress true").exit, 0);
+  ASSERT_EQ(convert(out("plans.json"), at("c.glb"), "--write-compress=false").exit, 0);
+  EXPECT_TRUE(read(at("a.glb")) == read(at("b.glb")));
+  EXPECT_LT(read(at("a.glb")).size(), read(at("c.glb")).size());
+  EXPECT_EQ(run("convert -q --write-compress=1 " + out("plans.json") + " -o " + at("d.glb")).exit, 4);
+}
+
+TEST_F(Convert, raises_the_good_parts_of_a_file_of_plans_and_lists_the_bad_ones) {
+  make_all();
+  auto plans = nlohmann::ordered_json::parse(read(out("plans.json")));
+  auto& parts = plans["buildings"][0]["parts"];
+  ASSERT_EQ(parts.size(), 1U);
+  for (const auto* id : {"crossed", "low"}) {
+    auto other = parts[0];
+    other["id"] = id;
+    parts.push_back(other);
+  }
+  parts[1]["plan"]["outer"] = {{"points", {{0, 0}, {9, 4}, {9, 0}, {0, 5}}}, {"profile_of_edge", {0, 0, 0, 0}}};
+  parts[2]["plan"]["cap"] = -1;
+  const auto bad = put("bad.json", plans.dump());
+  for (const std::string verb : {"extrude -q ", "convert -q "}) {
+    const auto to = at(verb.substr(0, 4) + ".city.json");
+    const auto outcome = run(verb + bad + " -o " + to);
+    EXPECT_EQ(outcome.exit, 1) << outcome.err;
+    EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("parts[2].plan.cap"), HasSubstr("crossed: edge")));
+    const auto city = nlohmann::json::parse(read(to));
+    EXPECT_EQ(city["CityObjects"][plans["buildings"][0]["id"].get<std::string>()]["children"].size(), 1U);
+  }
+  const auto info = nlohmann::json::parse(run("info --json " + bad).out);
+  EXPECT_EQ(info[0]["counts"]["parts"], 1);
+  EXPECT_EQ(info[0]["warnings"].size(), 2U);
+}
+
+TEST_F(Convert, raises_plans_whose_coordinates_are_far_from_their_origin) {
+  make_all();
+  auto plans = nlohmann::ordered_json::parse(read(out("plans.json")));
+  for (auto& building : plans["buildings"]) {
+    building.erase("footprint");
+    for (auto& part : building["parts"])
+      for (auto& point : part["plan"]["outer"]["points"]) point[0] = point[0].get<double>() + 1.5e7;
+  }
+  const auto far = put("far.json", plans.dump());
+  for (const auto* to : {"far.city.json", "far.glb", "far.gpkg", "far.obj"}) {
+    const auto outcome = run("extrude -q " + far + " -o " + at(to));
+    EXPECT_EQ(outcome.exit, 0) << to << ": " << outcome.err;
+  }
+}
+
 TEST_F(Convert, names_each_result_on_stdout) {
   make_all();
   const auto outcome = convert(out("plans.json"), at("a.glb") + " -o " + at("b.gpkg"));

@@ -71,13 +71,13 @@ TEST_F(Plans, are_the_same_text_after_a_round_trip) {
 
 TEST_F(Plans, come_back_to_the_bit_whatever_the_numbers) {
   mansard::base::Random random(11);
-  const auto wild = [&] {  // any magnitude, most digits
-    return random.uniform(-1, 1) * std::pow(10.0, random.uniform(-12, 12));
+  const auto wild = [&] {  // any magnitude near the origin, most digits
+    return random.uniform(-1, 1) * std::pow(10.0, random.uniform(-12, 4.9));
   };
   for (int round = 0; round < 50; ++round) {
     City city;
-    city.frame.origin = {static_cast<std::int64_t>(random.next() >> 20U),
-                         -static_cast<std::int64_t>(random.next() >> 30U), 7};
+    city.frame.origin = {static_cast<std::int64_t>(random.next() >> 35U),
+                         -static_cast<std::int64_t>(random.next() >> 40U), 7};
     city.frame.crs = "PROJCS[\"lo\ncal\"]";
     for (std::size_t b = random.index(4); b-- > 0;) {
       Building building;
@@ -138,6 +138,95 @@ TEST_F(Plans, follow_the_published_schema) {
   spoilt = Json::parse(mansard::formats::plans(street()));
   spoilt["buildings"][0]["parts"][0]["plan"]["outer"]["points"][2] = {1};
   EXPECT_EQ(schema::first_fault(json, spoilt), "buildings/0/parts/0/plan/outer/points/2: too short");
+}
+
+TEST_F(Plans, are_refused_by_reader_and_schema_beyond_the_same_limits) {
+  const auto text = mansard::base::read_file(std::filesystem::path(MANSARD_TEST_DATA) / "../../docs/plan.schema.json");
+  ASSERT_TRUE(text) << to_string(text.error());
+  const Json schema = Json::parse(*text);
+  const std::vector<std::pair<const char*, std::pair<double, double>>> limits{
+      {"/buildings/0/parts/0/plan/outer/points/2/0", {1e8, 1.0000001e8}},
+      {"/buildings/0/parts/0/plan/outer/points/2/1", {-1e8, -1.0000001e8}},
+      {"/buildings/0/parts/0/plan/base", {-1e8, -1.0000001e8}},
+      {"/buildings/0/parts/0/plan/cap", {1e5, 1.0001e5}},
+      {"/buildings/0/parts/0/plan/profiles/0/1/1", {1e6, 1.0001e6}},
+      {"/buildings/0/ground", {1e8, 1.0000001e8}},
+      {"/frame/origin/0", {1e9, 1.000001e9}},
+      {"/frame/origin/2", {-1e9, -1.000001e9}}};
+  for (const auto& [pointer, values] : limits)
+    for (const bool beyond : {false, true}) {
+      Json plans = Json::parse(mansard::formats::plans(street()));
+      const double value = beyond ? values.second : values.first;
+      Json& place = plans[Json::json_pointer(pointer)];
+      if (std::string(pointer).starts_with("/frame")) place = static_cast<std::int64_t>(value);
+      else place = value;
+      EXPECT_EQ(schema::first_fault(schema, plans).empty(), !beyond) << pointer << " " << value;
+      const auto city = read(plans.dump());
+      EXPECT_EQ(city.has_value(), !beyond) << pointer << " " << value << (city ? "" : city.error().message);
+    }
+}
+
+TEST_F(Plans, far_from_their_origin_get_one_near_them) {
+  City city = street();
+  const City near = city;
+  const auto moved = [](Point2 p) { return p + Point2{1.5e7, -2e7}; };
+  for (auto& building : city.buildings) {
+    for (auto& polygon : building.footprint) {
+      for (Point2& p : polygon.outer) p = moved(p);
+      for (auto& hole : polygon.holes)
+        for (Point2& p : hole) p = moved(p);
+    }
+    for (auto& part : building.parts) {
+      for (Point2& p : part.plan.outer.points) p = moved(p);
+      for (auto& hole : part.plan.holes)
+        for (Point2& p : hole.points) p = moved(p);
+    }
+  }
+  const auto back = read(mansard::formats::plans(city));
+  ASSERT_TRUE(back) << to_string(back.error());
+  const auto& origin = back->frame.origin;
+  EXPECT_NE(origin, near.frame.origin);
+  for (std::size_t b = 0; b < near.buildings.size(); ++b)
+    for (std::size_t p = 0; p < near.buildings[b].parts.size(); ++p) {
+      const auto &before = city.buildings[b].parts[p].plan.outer.points,
+                 &now = back->buildings[b].parts[p].plan.outer.points;
+      for (std::size_t i = 0; i < before.size(); ++i) {
+        EXPECT_LT(std::abs(now[i].x), 1e3);
+        EXPECT_EQ(now[i].x + static_cast<double>(origin[0] - near.frame.origin[0]), before[i].x);
+        EXPECT_EQ(now[i].y + static_cast<double>(origin[1] - near.frame.origin[1]), before[i].y);
+      }
+    }
+}
+
+TEST_F(Plans, with_bad_parts_list_all_of_them_and_give_the_others) {
+  Json plans = Json::parse(mansard::formats::plans(street()));
+  plans["buildings"][0]["parts"][0]["plan"]["cap"] = 0;
+  plans["buildings"][1]["parts"][1]["plan"]["profiles"][0][1][0] = -1;
+  const auto strict = read(plans.dump());
+  ASSERT_FALSE(strict);
+  ASSERT_EQ(strict.errors().size(), 2U);
+  EXPECT_THAT(strict.errors()[0].message, HasSubstr("buildings[0].parts[0].plan.cap"));
+  EXPECT_THAT(strict.errors()[1].message, HasSubstr("buildings[1].parts[1].plan.profiles[0]"));
+
+  auto reader = mansard::formats::read_city(file(plans.dump()));
+  ASSERT_TRUE(reader);
+  std::vector<mansard::base::Diagnostic> refused;
+  const auto city = mansard::formats::read_whole(**reader, &refused);
+  ASSERT_TRUE(city);
+  EXPECT_EQ(refused, strict.errors());
+  ASSERT_EQ(city->buildings.size(), 2U);
+  EXPECT_TRUE(city->buildings[0].parts.empty());
+  ASSERT_EQ(city->buildings[1].parts.size(), 1U);
+  EXPECT_EQ(city->buildings[1].parts[0].id, "block-1");
+}
+
+TEST_F(Plans, keep_integers_beyond_64_bits_as_they_are_written) {
+  Json plans = Json::parse(mansard::formats::plans(street()));
+  plans["buildings"][0]["attributes"] = {{"n", 9223372036854775808ULL}, {"k", 9223372036854775807LL}};
+  const auto city = read(plans.dump());
+  ASSERT_TRUE(city) << to_string(city.error());
+  EXPECT_EQ(city->buildings[0].attributes[0].second, mansard::model::Value(std::string("9223372036854775808")));
+  EXPECT_EQ(city->buildings[0].attributes[1].second, mansard::model::Value(std::int64_t{9223372036854775807LL}));
 }
 
 TEST_F(Plans, may_be_written_by_hand_without_what_is_optional) {

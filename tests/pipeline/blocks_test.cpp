@@ -79,14 +79,31 @@ TEST(RaisePlans, makes_the_models_of_the_run_again) {
   EXPECT_EQ(*formats::glb(raised->city), *formats::glb(run.city));
 }
 
-TEST(RaisePlans, names_the_part_that_has_no_solid) {
-  auto city = run_of(street(), {}).city;
-  for (auto& building : city.buildings)
+TEST(RaisePlans, names_the_parts_that_have_no_solid_and_gives_the_others) {
+  const auto whole = run_of(street(), {}).city;
+  auto city = whole;
+  std::size_t parts = 0;
+  for (auto& building : city.buildings) {
+    parts += building.parts.size();
     if (building.id == "high") building.parts[0].plan.cap = -1;
-  const auto raised = raise_plans(std::move(city), {});
-  ASSERT_FALSE(raised);
-  EXPECT_EQ(raised.error().code, "extrude-cap");
-  EXPECT_EQ(raised.error().subject, "high-1");
+  }
+  const auto raised = raise_plans(city, {});
+  ASSERT_TRUE(raised);
+  ASSERT_EQ(raised->refused.size(), 1U);
+  EXPECT_EQ(raised->refused[0].code, "extrude-cap");
+  EXPECT_EQ(raised->refused[0].subject, "high-1");
+  std::size_t left = 0;
+  for (const auto& building : raised->city.buildings)
+    for (const auto& part : building.parts) {
+      ++left;
+      EXPECT_FALSE(part.model.solid.faces.empty()) << part.id;
+    }
+  EXPECT_EQ(left, parts - 1);
+  for (auto& building : city.buildings)
+    for (auto& part : building.parts) part.plan.cap = -1;
+  const auto none = raise_plans(std::move(city), {});
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.errors().size(), parts);
 }
 
 TEST(RaisePlans, stops_on_request) {

@@ -67,6 +67,23 @@ TEST(RaiseFootprints, gives_walls_and_roofs_the_areas_worked_out_by_hand) {
   EXPECT_NEAR(std::get<double>(of("ms_h_ridge")), 9, 1e-3);
 }
 
+TEST(RaiseFootprints, cuts_a_roof_off_flat_that_would_rise_beyond_what_a_plan_can_hold) {
+  model::Scene scene;
+  scene.footprints.push_back(tagged("small", rectangle(0, 0, 10, 8), {}));
+  scene.footprints.push_back(tagged("wide", rectangle(100, 0, 400, 300), {}));
+  Options options;
+  options.roof.profile = "0,0 0,6 0.01,16";
+  const auto r = raised(scene, options);
+  EXPECT_EQ(r.buildings[0].outcome, Outcome::full);
+  ASSERT_EQ(r.buildings[1].outcome, Outcome::fallback);
+  ASSERT_EQ(r.buildings[1].reasons.size(), 1U);
+  EXPECT_EQ(r.buildings[1].reasons[0].code, "extrude-cap");
+  EXPECT_THAT(r.buildings[1].reasons[0].message,
+              testing::AllOf(HasSubstr("the maximum is 100000 m"), HasSubstr("cut off flat 16.00 m above the base")));
+  ASSERT_EQ(r.city.buildings[1].parts.size(), 1U);
+  EXPECT_NEAR(r.buildings[1].roof_max, 16, 1e-3);
+}
+
 TEST(RaiseFootprints, finds_party_walls_between_neighbours) {
   model::Scene scene;
   for (int i = 0; i < 2; ++i)

@@ -39,6 +39,25 @@ TEST(Reconstruct, raises_a_gabled_house_as_it_stands) {
   EXPECT_NEAR(areas.wall, 2 * 12 * 5 + 2 * (8 * 5 + 12), 8);  // the gables are wall up to the ridge
 }
 
+TEST(Reconstruct, has_no_ridge_above_the_highest_point_of_the_roof) {
+  const auto r = reconstructed(test::lone_house());
+  const auto value = [](const model::Attributes& attributes, std::string_view name) {
+    for (const auto& [key, found] : attributes)
+      if (key == name) return std::get<double>(found);
+    return std::nan("");
+  };
+  const auto& building = r.city.buildings.at(0);
+  double ridge = 0, top = 0;
+  for (const auto& part : building.parts) {
+    for (const auto& v : part.model.solid.vertices)
+      top = std::max(top, v.z + static_cast<double>(r.city.frame.origin[2]));
+    ridge = value(part.attributes, "ms_h_ridge");
+    EXPECT_GE(value(part.attributes, "ms_h_roof_max"), ridge) << part.id;
+  }
+  EXPECT_DOUBLE_EQ(value(building.attributes, "ms_h_roof_max"), top);
+  EXPECT_DOUBLE_EQ(r.buildings[0].roof_max, top);
+}
+
 TEST(Reconstruct, keeps_the_identity_of_every_feature) {
   const auto r = reconstructed(test::terrace());
   ASSERT_EQ(r.city.buildings.size(), 2U);

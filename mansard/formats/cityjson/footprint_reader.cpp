@@ -83,6 +83,9 @@ class Reader {
   static auto to_value(const Json& value) -> model::Value {
     if (value.is_null()) return {};
     if (value.is_boolean()) return value.get<bool>();
+    // What no 64 bits with a sign hold stays as it is written.
+    if (value.is_number_unsigned() && value.get<std::uint64_t>() > std::numeric_limits<std::int64_t>::max())
+      return value.dump();
     if (value.is_number_integer()) return value.get<std::int64_t>();
     if (value.is_number()) return value.get<double>();
     if (value.is_string()) return value.get<std::string>();

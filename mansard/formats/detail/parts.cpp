@@ -34,8 +34,8 @@ auto check_models(const model::City& city) -> base::Result<void> {
 }
 
 auto check_model(const model::Building& building) -> base::Result<void> {
-  // Beyond this, quantising to 0.1 mm would leave the range where doubles are that fine.
-  constexpr double far = 1e7;
+  // m; plans reach 1e8 m from an origin that may move by as much. Doubles are 6e-8 m apart here, files have 1e-4 m.
+  constexpr double far = 4e8;
   const auto sound = [&](double v) { return std::abs(v) <= far; };
   for (const model::Part& part : building.parts) {
     const auto& [vertices, faces] = part.model.solid;

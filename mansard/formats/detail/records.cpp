@@ -18,7 +18,7 @@ auto header_record(const Header& header) -> std::string {
 }
 
 auto read_building_record(std::string_view json, const std::string& name) -> base::Result<model::Building> {
-  return parsed<model::Building>(json, name, read_building);
+  return parsed<model::Building>(json, name, [](const Item& item) { return read_building(item); });
 }
 
 auto read_header_record(std::string_view json, const std::string& name) -> base::Result<Header> {

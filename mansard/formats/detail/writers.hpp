@@ -27,8 +27,9 @@ using Path = std::filesystem::path;
 /// CityJSON and CityJSONSeq, with models.
 [[nodiscard]] auto cityjson_reader(const Path& path) -> ReaderResult;
 [[nodiscard]] auto plans_reader(const Path& path) -> ReaderResult;
-/// The buildings of a city that was read as a whole, one after the other.
-[[nodiscard]] auto whole_reader(model::City city, bool with_models) -> std::unique_ptr<CityReader>;
+/// The buildings of a city that was read as a whole, one after the other; `refused` are the parts that it lacks.
+[[nodiscard]] auto whole_reader(model::City city, bool with_models, std::vector<base::Diagnostic> refused = {})
+    -> std::unique_ptr<CityReader>;
 [[nodiscard]] auto obj_reader(const Path& path) -> ReaderResult;
 [[nodiscard]] auto glb_reader(const Path& path) -> ReaderResult;
 [[nodiscard]] auto tiles_reader(const Path& folder) -> ReaderResult;

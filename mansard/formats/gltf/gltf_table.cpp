@@ -333,10 +333,12 @@ auto TableBytes::add(const Column& column, std::uint32_t number, base::Spool& ro
   bool any = false;
   const auto looked = for_each_row(rows, [&](const Row& row) {
     const model::Value* value = value_in(row);
-    any = any || (value != nullptr && (column.kind != Kind::text || !text_of(*value).empty()));
+    any = any || (value != nullptr && !text_of(*value).empty());
   });
   if (!looked) return looked.error();
-  if (!any || count == 0) return {};
+  // A view must not be empty, and texts without a value would be one. Numbers are written even so: readers, the 3D
+  // Tiles validator among them, expect a column of every property that the class declares.
+  if (count == 0 || (!any && column.kind == Kind::text)) return {};
   begin();
   ColumnWriter writer(*this, column.kind);
   if (auto written = for_each_row(rows, [&](const Row& row) { writer.add(value_in(row)); }); !written)

@@ -87,7 +87,7 @@ class TableBytes {
   auto end() -> std::size_t;
   void append(std::string_view bytes) { spool_->append(bytes); }
 
-  /// One column of rows that were put aside by append_row, each after its length. Columns without a value are left out.
+  /// One column of rows that were put aside by append_row, each after its length. Texts without a value are left out.
   [[nodiscard]] auto add(const PartColumns::Column& column, std::uint32_t number, base::Spool& rows,
                          std::uint64_t count) -> base::Result<void>;
   /// Texts that are there already, with their ends.

@@ -1,10 +1,12 @@
 #include "mansard/formats/json/json_item.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "mansard/base/nesting.hpp"
 #include "mansard/base/options.hpp"
+#include "mansard/base/text.hpp"
 
 namespace mansard::formats::detail {
 
@@ -62,6 +64,12 @@ auto Item::number() const -> double {
   if (!json.is_number()) refuse("a number");
   // Of the two zeros always the one: "-0", as the other is written, reads back as a whole number.
   return json.get<double>() + 0.0;
+}
+
+auto Item::number_up_to(double most) const -> double {
+  const double value = number();
+  if (!(std::abs(value) <= most)) refuse("a number from -" + base::to_text(most, 0) + " to " + base::to_text(most, 0));
+  return value;
 }
 
 auto Item::whole() const -> std::int64_t {

@@ -51,6 +51,8 @@ struct Item {
 
   [[nodiscard]] auto text() const -> std::string;
   [[nodiscard]] auto number() const -> double;
+  /// A number of that size at most, either sign.
+  [[nodiscard]] auto number_up_to(double most) const -> double;
   [[nodiscard]] auto whole() const -> std::int64_t;
   template <std::size_t n>
   [[nodiscard]] auto numbers() const -> std::array<double, n> {

@@ -1,6 +1,11 @@
 // Reads plan + profiles. Every complaint says where in the file, in the manner of buildings[3].parts[0].plan.cap.
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <set>
 
+#include "mansard/base/files.hpp"
+#include "mansard/base/text.hpp"
 #include "mansard/formats/cityjson/cityjson.hpp"
 #include "mansard/formats/detail/writers.hpp"
 #include "mansard/formats/plans.hpp"
@@ -16,6 +21,8 @@ auto read_ring(const Item& item) -> geometry::Ring {
   geometry::Ring ring;
   item.each([&](const Item& point) {
     const auto [x, y] = point.numbers<2>();
+    if (std::max(std::abs(x), std::abs(y)) > farthest)
+      point.refuse("within " + base::to_text(farthest, 0) + " m of the origin");
     ring.push_back({x, y});
   });
   if (ring.size() < 3) item.refuse("a ring of at least 3 points");
@@ -60,6 +67,8 @@ auto read_profile(const Item& item) -> model::Profile {
   for (std::size_t i = 1; i < profile.size(); ++i) {
     const auto& a = profile[i - 1];
     const auto& b = profile[i];
+    if (std::max(b.inward, b.height) > longest_profile)
+      refuse("reaches beyond " + base::to_text(longest_profile, 0) + " m at point " + std::to_string(i));
     if (a == b) refuse("repeats point " + std::to_string(i - 1));
     if (b.inward < a.inward) refuse("goes outward at point " + std::to_string(i) + "; overhangs are not possible");
     if (b.height < a.height) refuse("goes down at point " + std::to_string(i) + "; heights must not decrease");
@@ -72,9 +81,10 @@ constexpr std::initializer_list<const char*> plan_members{"base", "cap", "outer"
 /// The members of a plan; the caller has looked for unknown ones.
 auto read_plan(const Item& item) -> model::Plan {
   model::Plan plan;
-  plan.base = item.member("base").number();
+  plan.base = item.member("base").number_up_to(farthest);
   const Item cap = item.member("cap");
-  if (plan.cap = cap.number(); plan.cap <= 0) cap.refuse("a height above the base, more than 0");
+  if (plan.cap = cap.number(); !(plan.cap > 0 && plan.cap <= highest_cap))
+    cap.refuse("a height above the base, more than 0 and up to " + base::to_text(highest_cap, 0) + " m");
   item.member("profiles").each([&](const Item& profile) { plan.profiles.push_back(read_profile(profile)); });
   plan.outer = read_plan_ring(item.member("outer"), plan.profiles.size());
   item.member("holes").each(
@@ -99,14 +109,69 @@ auto is_of_type(const Json& json, std::string_view type) -> bool {
   return json.is_object() && json.contains("type") && json["type"] == type;
 }
 
-auto read_city(const Item& file) -> model::City {
+auto read_part(const Item& item, std::set<std::string>& ids) -> model::Part {
+  item.object({"id", "attributes", "plan"});
+  model::Part part;
+  part.id = new_id(item, ids);
+  if (item.has("attributes")) part.attributes = read_attributes(item.member("attributes"));
+  part.plan = read_plan_item(item.member("plan"));
+  return part;
+}
+
+/// Everything that is placed by whole metres elsewhere.
+void move(model::City& city, const std::array<std::int64_t, 3>& by) {
+  const Point2 across{static_cast<double>(by[0]), static_cast<double>(by[1])};
+  const auto up = static_cast<double>(by[2]);
+  const auto move_ring = [&](geometry::Ring& ring) {
+    for (Point2& p : ring) p = p - across;
+  };
+  for (auto& building : city.buildings) {
+    building.ground -= up;
+    for (auto& polygon : building.footprint) {
+      move_ring(polygon.outer);
+      for (auto& hole : polygon.holes) move_ring(hole);
+    }
+    for (auto& part : building.parts) {
+      part.plan.base -= up;
+      move_ring(part.plan.outer.points);
+      for (auto& hole : part.plan.holes) move_ring(hole.points);
+    }
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) city.frame.origin[axis] += by[axis];
+}
+
+/// Plans whose middle is far from their origin get one near it, as footprints do: models are kept in single precision
+/// in some files. Differences of doubles that are near to each other are exact, so that no coordinate changes in the
+/// world.
+void bring_near(model::City& city) {
+  constexpr double far = 1e5;  // m; single precision is 8 mm there
+  std::array<double, 3> least{}, most{};
+  bool any = false;
+  for (const auto& building : city.buildings)
+    for (const auto& part : building.parts)
+      for (const Point2 p : part.plan.outer.points) {
+        const std::array<double, 3> at{p.x, p.y, part.plan.base};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          least[axis] = any ? std::min(least[axis], at[axis]) : at[axis];
+          most[axis] = any ? std::max(most[axis], at[axis]) : at[axis];
+        }
+        any = true;
+      }
+  std::array<std::int64_t, 3> by{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (const double middle = 0.5 * (least[axis] + most[axis]); std::abs(middle) > far) by[axis] = std::llround(middle);
+  if (by != std::array<std::int64_t, 3>{}) move(city, by);
+}
+
+auto read_city(const Item& file, std::vector<base::Diagnostic>& refused) -> model::City {
   auto header = read_header(file, {"buildings"});
   model::City city{std::move(header.frame), std::move(header.made_by), {}};
   std::set<std::string> ids;
   file.member("buildings").each([&](const Item& item) {
-    city.buildings.push_back(read_building(item));
+    city.buildings.push_back(read_building(item, &refused));
     (void)new_id(item, ids);
   });
+  bring_near(city);
   return city;
 }
 
@@ -120,6 +185,8 @@ auto read_attributes(const Item& item) -> model::Attributes {
     if (value.is_boolean()) out = value.get<bool>();
     else if (value.is_string()) out = value.get<std::string>();
     else if (value.is_number_float()) out = value.get<double>();
+    else if (value.is_number_unsigned() && value.get<std::uint64_t>() > std::numeric_limits<std::int64_t>::max())
+      out = value.dump();  // as it is written: no 64 bits with a sign hold it
     else if (value.is_number()) out = Item{value, {&item.place, key, 0}}.whole();
     else if (!value.is_null()) Item{value, {&item.place, key, 0}}.refuse("a text, a number, true, false or null");
     attributes.emplace_back(key, std::move(out));
@@ -152,7 +219,10 @@ auto read_made_by(const Item& item) -> model::MadeBy {
 auto read_origin(const Item& item) -> std::array<std::int64_t, 3> {
   std::array<std::int64_t, 3> origin{};
   if (!item.json.is_array() || item.json.size() != 3) item.refuse("an array of 3 whole numbers");
-  item.each([&](const Item& metres) { origin[metres.place.index] = metres.whole(); });
+  item.each([&](const Item& metres) {
+    (void)metres.number_up_to(farthest_origin);
+    origin[metres.place.index] = metres.whole();
+  });
   return origin;
 }
 
@@ -211,29 +281,32 @@ auto read_header(const Item& item, std::initializer_list<const char*> others) ->
   return header;
 }
 
-auto read_building(const Item& item) -> model::Building {
+auto read_building(const Item& item, std::vector<base::Diagnostic>* refused) -> model::Building {
   item.object({"id", "attributes", "ground", "footprint", "parts"});
   model::Building building;
   building.id = item.member("id").text();
   if (item.has("attributes")) building.attributes = read_attributes(item.member("attributes"));
-  if (item.has("ground")) building.ground = item.member("ground").number();
+  if (item.has("ground")) building.ground = item.member("ground").number_up_to(farthest);
   if (item.has("footprint")) building.footprint = read_footprint(item.member("footprint"));
   std::set<std::string> part_ids;
   item.member("parts").each([&](const Item& each) {
-    each.object({"id", "attributes", "plan"});
-    model::Part part;
-    part.id = new_id(each, part_ids);
-    if (each.has("attributes")) part.attributes = read_attributes(each.member("attributes"));
-    part.plan = read_plan_item(each.member("plan"));
-    building.parts.push_back(std::move(part));
+    try {
+      building.parts.push_back(read_part(each, part_ids));
+    } catch (const Defect& defect) {
+      if (refused == nullptr) throw;
+      refused->push_back(base::error(defect.code, defect.message));
+    }
   });
   return building;
 }
 
-auto parse_plans(std::string_view text, const std::string& name) -> base::Result<model::City> {
-  return parsed<model::City>(text, name, [](const Item& file) {
-    return is_of_type(file.json, "CityJSON") ? read_cityjson_plans(file) : read_city(file);
+auto parse_plans(std::string_view text, const std::string& name, std::vector<base::Diagnostic>& refused)
+    -> base::Result<model::City> {
+  auto city = parsed<model::City>(text, name, [&](const Item& file) {
+    return is_of_type(file.json, "CityJSON") ? read_cityjson_plans(file) : read_city(file, refused);
   });
+  for (auto& part : refused) part.subject = name;
+  return city;
 }
 
 auto parse_plan(std::string_view text, const std::string& name) -> base::Result<model::Plan> {
@@ -241,9 +314,12 @@ auto parse_plan(std::string_view text, const std::string& name) -> base::Result<
 }
 
 auto plans_reader(const Path& path) -> ReaderResult {
-  auto city = read_plans(path);
-  if (!city) return city.error();
-  return ReaderResult(whole_reader(*std::move(city), false));
+  const auto text = base::read_file(path);
+  if (!text) return text.failure();
+  std::vector<base::Diagnostic> refused;
+  auto city = parse_plans(*text, path.string(), refused);
+  if (!city) return city.failure();
+  return ReaderResult(whole_reader(*std::move(city), false, std::move(refused)));
 }
 
 }  // namespace mansard::formats::detail

@@ -32,8 +32,10 @@ class PlansText {
   base::Sink& sink_;
 };
 
-/// `name` is the file's, for messages. Gives up with the "write-plan-…" codes.
-[[nodiscard]] auto parse_plans(std::string_view text, const std::string& name) -> base::Result<model::City>;
+/// `name` is the file's, for messages. Gives up with the "write-plan-…" codes; parts that are at fault are left out,
+/// and `refused` has the same codes.
+[[nodiscard]] auto parse_plans(std::string_view text, const std::string& name, std::vector<base::Diagnostic>& refused)
+    -> base::Result<model::City>;
 /// One plan by itself; the same codes.
 [[nodiscard]] auto parse_plan(std::string_view text, const std::string& name) -> base::Result<model::Plan>;
 

@@ -17,7 +17,10 @@ auto plans(const model::City& city) -> std::string {
 auto read_plans(const std::filesystem::path& path) -> base::Result<model::City> {
   const auto text = base::read_file(path);
   if (!text) return text.error();
-  return detail::parse_plans(*text, path.string());
+  std::vector<base::Diagnostic> refused;
+  auto city = detail::parse_plans(*text, path.string(), refused);
+  if (city && !refused.empty()) return base::Failure{std::move(refused)};
+  return city;
 }
 
 auto plan_json(const model::Plan& plan) -> std::string {

@@ -2,6 +2,7 @@
 
 #include <ogrsf_frmts.h>
 #include <algorithm>
+#include <limits>
 
 #include "mansard/base/options.hpp"
 #include "mansard/base/text.hpp"
@@ -218,6 +219,7 @@ class Source {
       if (auto done = take_all(layer); !done) return done.error();
     }
     if (auto sound = check(layer, box.has_value()); !sound) return sound.error();
+    warn_of_limits();
     if (is_database(path_)) std::ranges::sort(out_.features, {}, &RawFeature::number);
     if (is_elsewhere(path_)) out_.inputs = {input_of(out_.features, subject_)};
     return std::move(out_);
@@ -291,6 +293,27 @@ class Source {
       }
       out_.features.push_back(std::move(raw));
     }
+  }
+
+  /// GDAL keeps integers in 64 bits, and puts the limit where a file has more.
+  void warn_of_limits() {
+    std::size_t count = 0;
+    std::string first;
+    for (const auto& feature : out_.features)
+      for (const auto& [name, value] : feature.attributes)
+        if (const auto* whole = std::get_if<std::int64_t>(&value);
+            whole != nullptr &&
+            (*whole == std::numeric_limits<std::int64_t>::max() ||
+             *whole == std::numeric_limits<std::int64_t>::min()) &&
+            count++ == 0)
+          first =
+              "'" + name + "' of feature " + std::to_string(feature.number) + " was read as " + std::to_string(*whole);
+    if (count > 0)
+      out_.warnings.push_back(base::warning("ingest-attribute-range",
+                                            std::to_string(count) +
+                                                " integer attributes are at the limit of 64 bits, " + first +
+                                                "; write larger integers as strings",
+                                            subject_));
   }
 
   auto check(OGRLayer& layer, bool boxed) const -> base::Result<void> {

@@ -60,7 +60,8 @@ struct Account {
 void take(PartResult part, const report::BlockReport& block, double z0, model::Building& building,
           report::BuildingReport& report, Account& account) {
   report.roof_min = report.parts == 0 ? z0 + part.roof.front() : std::min(report.roof_min, z0 + part.roof.front());
-  report.roof_max = report.parts == 0 ? z0 + part.roof.back() : std::max(report.roof_max, z0 + part.roof.back());
+  const double top = z0 + report::top_of(part.model.solid);
+  report.roof_max = report.parts == 0 ? top : std::max(report.roof_max, top);
   ++report.parts;
   report.volume += solid::volume(part.model.solid);
   const auto areas = label::areas(part.model);

@@ -13,11 +13,13 @@ namespace {
 using geometry::Box2, geometry::Point2, geometry::Ring;
 
 /// Points spread evenly over a face: its triangles in turn, each as often as its area asks for, a low-discrepancy
-/// pair of numbers (Roberts' R2 sequence) inside the triangle.
+/// pair of numbers (Roberts' R2 sequence) inside the triangle. A face that cannot be cut into triangles gives those of
+/// its first corner with all others, and only the points that are inside; one of them where none is.
 auto spread(const Ring& ring, double area, const Options& options, base::Random random) -> std::vector<Point2> {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   if (auto made = geometry::triangulate({ring, {}})) triangles = std::move(*made);
-  if (triangles.empty())
+  const bool is_fan = triangles.empty();
+  if (is_fan)
     for (std::uint32_t i = 1; i + 1 < ring.size(); ++i) triangles.push_back({0, i, i + 1});
   std::vector<double> up_to;
   double sum = 0;
@@ -39,6 +41,11 @@ auto spread(const Ring& ring, double area, const Options& options, base::Random 
     double v = std::fmod(shift_v + 0.5698402909980532 * static_cast<double>(k), 1.0);
     if (u + v > 1) u = 1 - u, v = 1 - v;
     points.push_back(ring[a] + u * (ring[b] - ring[a]) + v * (ring[c] - ring[a]));
+  }
+  if (is_fan) {
+    const Point2 first = points.front();
+    std::erase_if(points, [&](Point2 p) { return !geometry::contains(geometry::Polygon{ring, {}}, p); });
+    if (points.empty()) points.push_back(first);
   }
   return points;
 }
