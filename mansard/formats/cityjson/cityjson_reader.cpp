@@ -119,7 +119,7 @@ class Objects {
   void read_own_footprint(const Item& own, model::Building& building) const {
     own.object({"origin", "ground", "polygons"});
     const auto offset = offset_between(read_origin(own.member("origin")), origin_);
-    building.ground = own.member("ground").number() + offset.z;
+    building.ground = own.member("ground").number_up_to(farthest) + offset.z;
     building.footprint = read_footprint(own.member("polygons"));
     if (offset == geometry::Point3{}) return;
     for (auto& polygon : building.footprint) {
