@@ -10,6 +10,7 @@
 #include "base/scratch.hpp"
 #include "cities.hpp"
 #include "mansard/base/files.hpp"
+#include "mansard/formats/stream.hpp"
 #include "schema.hpp"
 
 namespace {
@@ -149,7 +150,7 @@ TEST_F(Plans, are_refused_by_reader_and_schema_beyond_the_same_limits) {
       {"/buildings/0/parts/0/plan/outer/points/2/1", {-1e8, -1.0000001e8}},
       {"/buildings/0/parts/0/plan/base", {-1e8, -1.0000001e8}},
       {"/buildings/0/parts/0/plan/cap", {1e5, 1.0001e5}},
-      {"/buildings/0/parts/0/plan/profiles/0/1/1", {1e6, 1.0001e6}},
+      {"/buildings/0/parts/0/plan/profiles/0/2/1", {1e6, 1.0001e6}},
       {"/buildings/0/ground", {1e8, 1.0000001e8}},
       {"/frame/origin/0", {1e9, 1.000001e9}},
       {"/frame/origin/2", {-1e9, -1.000001e9}}};

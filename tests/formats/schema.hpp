@@ -58,6 +58,8 @@ inline auto first_fault(const Json& root, const Json& value, const Json& rule, c
       if (value.size() > meaning.get<std::size_t>()) return fault("too long");
     } else if (word == "minimum") {
       if (value < meaning) return fault("too small");
+    } else if (word == "maximum") {
+      if (value > meaning) return fault("too large");
     } else if (word == "exclusiveMinimum") {
       if (value <= meaning) return fault("too small");
     } else if (word != "$schema" && word != "$id" && word != "title" && word != "description" && word != "$defs") {
