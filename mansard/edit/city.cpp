@@ -66,8 +66,8 @@ auto edited_city(const model::City& city, const History& history, const MeshOf& 
       auto& part = building.parts[p];
       if (unchanged[b][p]) {
         const auto areas = label::areas(part.model);
-        set(part.attributes, "ms_area_wall", areas.wall);
-        set(part.attributes, "ms_area_party_wall", areas.party_wall);
+        set(part.attributes, "ms_area_wall", report::rounded_measure(areas.wall));
+        set(part.attributes, "ms_area_party_wall", report::rounded_measure(areas.party_wall));
         continue;
       }
       const auto why = fallback.find({b, p});

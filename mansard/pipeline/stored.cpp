@@ -152,6 +152,8 @@ auto read_raised(formats::CityReader& reader, const Options& options, const base
   std::vector<base::Diagnostic> refused;
   auto city = formats::read_whole(reader, &refused);
   if (!city) return city.failure();
+  if (!refused.empty() && std::ranges::all_of(city->buildings, [](const auto& b) { return b.parts.empty(); }))
+    return base::Failure{std::move(refused)};
   const bool as_made = same_options(city->made_by, options);
   note_options(options, city->made_by);
   if (reader.has_models() && as_made) return RaisedPlans{std::move(*city), {}, {}, std::move(refused)};

@@ -132,11 +132,15 @@ auto model_attributes(const model::LabelledSolid& model, const model::Plan& plan
   return out;
 }
 
-void round_measures(model::Attributes& attributes) {
+auto rounded_measure(double value) -> double {
   constexpr double unit = 1e4;
+  return std::round(value * unit) / unit;
+}
+
+void round_measures(model::Attributes& attributes) {
   for (auto& [name, value] : attributes)
     if (auto* number = std::get_if<double>(&value); number != nullptr && name.starts_with("ms_"))
-      *number = std::round(*number * unit) / unit;
+      *number = rounded_measure(*number);
 }
 
 auto part_attributes(const model::Part& part, const std::string& fallback, const rays::Scene* mesh, double z0,

@@ -54,5 +54,6 @@ struct Sampling {
 /// Rounds the measured numbers (ms_…) to four decimals: 0.1 mm, 1 cm², 100 cm³. What is beyond them depends on where
 /// the frame begins.
 void round_measures(model::Attributes& attributes);
+[[nodiscard]] auto rounded_measure(double value) -> double;
 
 }  // namespace mansard::report

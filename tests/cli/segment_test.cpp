@@ -69,18 +69,18 @@ TEST_F(Segment, has_footprints_that_mansard_itself_can_raise) {
 TEST_F(Segment, gives_every_block_a_program_of_its_own) {
   const auto outcome = segment(two_blocks(), "-q --export-mps " + at("out.mps"));
   EXPECT_EQ(outcome.exit, 0) << outcome.err;
-  EXPECT_EQ(outcome.out, at("out.gpkg") + "\n" + at("out-block-0.mps") + "\n" + at("out-block-1.mps") + "\n");
-  EXPECT_THAT(results(), testing::ElementsAre("out-block-0.mps", "out-block-1.mps", "out.gpkg"));
+  EXPECT_EQ(outcome.out, at("out.gpkg") + "\n" + at("out-block-a.mps") + "\n" + at("out-block-b.mps") + "\n");
+  EXPECT_THAT(results(), testing::ElementsAre("out-block-a.mps", "out-block-b.mps", "out.gpkg"));
 }
 
 TEST_F(Segment, overwrites_nothing_silently) {
   const auto footprints = two_blocks();
-  put("out-block-1.mps", "mine");
-  expect_refusal(segment(footprints, "-q --export-mps " + at("out.mps")), 2, "output-exists", "out-block-1.mps");
-  EXPECT_THAT(results(), testing::ElementsAre("out-block-1.mps"));
-  EXPECT_EQ(read(at("out-block-1.mps")), "mine");
+  put("out-block-b.mps", "mine");
+  expect_refusal(segment(footprints, "-q --export-mps " + at("out.mps")), 2, "output-exists", "out-block-b.mps");
+  EXPECT_THAT(results(), testing::ElementsAre("out-block-b.mps"));
+  EXPECT_EQ(read(at("out-block-b.mps")), "mine");
   EXPECT_EQ(segment(footprints, "-q --overwrite --export-mps " + at("out.mps")).exit, 0);
-  EXPECT_THAT(read(at("out-block-1.mps")), StartsWith("NAME"));
+  EXPECT_THAT(read(at("out-block-b.mps")), StartsWith("NAME"));
   expect_refusal(segment(footprints, "-q"), 2, "output-exists", "out.gpkg");
 }
 
@@ -90,8 +90,8 @@ TEST_F(Segment, writes_no_two_results_into_one_file) {
                            "--export-mps " + at("out.mps") + " --report " + at("out.mps")})
     expect_refusal(segment(at("house.geojson"), "-q --overwrite " + more), 2, "usage", "two outputs");
   // The names that several blocks give their programs are known only when they are.
-  expect_refusal(segment(two_blocks(), "-q --export-mps " + at("out.mps") + " --report " + at("out-block-1.mps")), 2,
-                 "usage", "out-block-1.mps");
+  expect_refusal(segment(two_blocks(), "-q --export-mps " + at("out.mps") + " --report " + at("out-block-b.mps")), 2,
+                 "usage", "out-block-b.mps");
   EXPECT_THAT(results(), testing::IsEmpty());
 }
 

@@ -74,8 +74,8 @@ TEST(RaiseFootprints, cuts_a_roof_off_flat_that_would_rise_beyond_what_a_plan_ca
   Options options;
   options.roof.profile = "0,0 0,6 0.01,16";
   const auto r = raised(scene, options);
-  EXPECT_EQ(r.buildings[0].outcome, Outcome::full);
-  ASSERT_EQ(r.buildings[1].outcome, Outcome::fallback);
+  EXPECT_EQ(r.buildings[0].outcome, report::Outcome::full);
+  ASSERT_EQ(r.buildings[1].outcome, report::Outcome::fallback);
   ASSERT_EQ(r.buildings[1].reasons.size(), 1U);
   EXPECT_EQ(r.buildings[1].reasons[0].code, "extrude-cap");
   EXPECT_THAT(r.buildings[1].reasons[0].message,

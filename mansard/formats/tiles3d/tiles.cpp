@@ -307,6 +307,7 @@ class TilesWriter : public CityWriter {
     for (const std::size_t child : tile.children)
       for (const Point3& corner : corners_of(made_[child].box))
         made.box.add(made.place.inside(made_[child].place.outside(corner)));
+    if (made.box.empty()) made.box.add({0, 0, 0});
     made.content = !buildings.empty();
     if (made.content) {
       base::TextSink sink;

@@ -67,7 +67,8 @@ void take(PartResult part, const report::BlockReport& block, double z0, model::B
   const auto areas = label::areas(part.model);
   add(report.areas, areas);
   if (part.mse) {
-    account.squared += *part.mse * areas.ground;
+    const double rmse = report::rounded_measure(std::sqrt(*part.mse));  // as its attribute says
+    account.squared += rmse * rmse * areas.ground;
     account.area += areas.ground;
   }
   if (!part.full) report.outcome = report::Outcome::fallback;

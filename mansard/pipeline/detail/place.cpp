@@ -68,7 +68,10 @@ void move(model::Plan& plan, Point3 by) {
 }
 
 void move(model::Solid& solid, Point3 by) {
-  for (Point3& v : solid.vertices) v = v + by;
+  // Corners lie on the grid of the files (with_grid): the double nearest to it is what a file gives back.
+  constexpr double steps = 1e4;
+  const auto moved = [](double x, double shift) { return std::round((x + shift) * steps) / steps; };
+  for (Point3& v : solid.vertices) v = {moved(v.x, by.x), moved(v.y, by.y), moved(v.z, by.z)};
 }
 
 void place(report::SegmentedBlock& block, const block::OwnFrame& frame) {
