@@ -65,7 +65,7 @@ def block_a():
     row("block_A against mesh", "MSE over footprints, m²", report["prism"]["footprint_mse_m2"], None,
         report["scores"]["footprint_mse_m2"])
     worse("block_A against mesh", report, report["worse_than_prism"], "")
-    found = re.search(r"of this one ([\d.]+) %, as labelled ([\d.]+) %, by the normal alone ([\d.]+) %",
+    found = re.search(r"of the model ([\d.]+) %, by this labelling ([\d.]+) %, by the normal alone ([\d.]+) %",
                       (OUT / "block_A" / "labels.txt").read_text(encoding="utf-8"))
     nearest, labelled, normal = (float(x) / 100 for x in found.groups())
     # The prism's share is by a model of prisms, which is not made here: the number is the published one.

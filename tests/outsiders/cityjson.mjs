@@ -31,7 +31,7 @@ assert(extensionRules(extension), `the extension: ${ajv.errorsText(extensionRule
 const plans = JSON.parse(
   JSON.stringify(json(join(data, '../docs/plan.schema.json'))).replaceAll('#/$defs/', '#/definitions/'),
 );
-for (const name of ['plan_ring', 'profile', 'polygon', 'ring', 'pair'])
+for (const name of ['plan_ring', 'profile', 'polygon', 'ring', 'pair', 'coordinate'])
   assert.deepEqual(extension.definitions[name], plans.$defs[name], name);
 for (const [name, rule] of Object.entries(plans.$defs.plan.properties))
   assert.deepEqual(extension.definitions.plan.properties[name], rule, name);
