@@ -144,10 +144,10 @@ void move(Block& block, Point3 by) {
 }
 
 /// Characters that mean something in a path or an address become "~" and their number.
-auto name_of(const std::vector<std::size_t>& members, const model::Scene& scene) -> std::string {
+auto name_of(const std::vector<Member>& members, const model::Scene& scene) -> std::string {
   const std::string* first = nullptr;
-  for (const auto m : members) {
-    const std::string& id = scene.feature(m).id;
+  for (const auto& member : members) {
+    const std::string& id = scene.feature(member.feature).id;
     if (first == nullptr ||
         std::pair(id.size(), std::string_view(id)) < std::pair(first->size(), std::string_view(*first)))
       first = &id;
@@ -190,9 +190,7 @@ auto outlined(const std::vector<std::size_t>& group, const Shapes& shapes, const
     box.include(shapes.boxes[m]);
     block.members.push_back({shapes.features[m], shapes.polygons[m], 0});
   }
-  std::vector<std::size_t> numbers;
-  for (const auto& member : block.members) numbers.push_back(member.feature);
-  block.name = name_of(numbers, scene);
+  block.name = name_of(block.members, scene);
   block.origin = {static_cast<std::int64_t>(std::floor(box.least.x)),
                   static_cast<std::int64_t>(std::floor(box.least.y)), 0};
   const Point2 to_own = -1.0 * xy(as_point(block.origin));
@@ -217,13 +215,12 @@ auto foot_of(const geometry::Mesh& mesh, const std::vector<std::uint32_t>& trian
   return std::isfinite(low) ? static_cast<std::int64_t>(std::floor(low)) : 0;
 }
 
-/// Of the others, those that come into the box, in the block's frame and in an order of their own.
-auto others_near(const geometry::Box2& box, const std::vector<std::size_t>& group, const Shapes& shapes,
-                 const std::vector<std::uint32_t>& candidates, Point2 to_own) -> std::vector<Polygons> {
+/// Of the shapes near a block, those of others, in the block's frame and in an order of their own.
+auto others_of(const std::vector<std::uint32_t>& near, const std::vector<std::size_t>& group, const Shapes& shapes,
+               Point2 to_own) -> std::vector<Polygons> {
   std::vector<Polygons> out;
-  for (const auto i : candidates)
-    if (!std::ranges::binary_search(group, std::size_t{i}) && shapes.boxes[i].overlaps(box))
-      out.push_back(shifted(shapes.polygons[i], to_own));
+  for (const auto i : near)
+    if (!std::ranges::binary_search(group, std::size_t{i})) out.push_back(shifted(shapes.polygons[i], to_own));
   std::ranges::sort(out, before);
   return out;
 }
@@ -314,7 +311,7 @@ auto partition(const model::Scene& scene, const Options& options, const base::Ru
     reaches.push_back(box.grown(options.ground_reach));
   }
   const auto near_by = detail::candidates(scene.mesh, regions);
-  const auto others = detail::candidates(as_mesh(shapes.boxes), regions);
+  const auto shapes_near = detail::candidates(as_mesh(shapes.boxes), regions);
   // Only where nothing is nearer does the mesh farther away matter.
   for (std::size_t b = 0; b < blocks.size(); ++b)
     if (!near_by[b].empty()) reaches[b] = {};
@@ -334,7 +331,7 @@ auto partition(const model::Scene& scene, const Options& options, const base::Ru
       if (near(detail::plan_of(around.mesh, around.mesh.triangles[t]))) kept.push_back(t);
     block.mesh = part_of(around.mesh, kept, {});
     for (const auto& member : block.members) around.shapes.push_back(member.polygons);
-    const auto beside = others_near(regions[b], groups[b], shapes, others[b], -1.0 * xy(origin));
+    const auto beside = others_of(shapes_near[b], groups[b], shapes, -1.0 * xy(origin));
     around.shapes.insert(around.shapes.end(), beside.begin(), beside.end());
     set_ground(block, scene, around, within_reach[b], options);
     move(block, origin);

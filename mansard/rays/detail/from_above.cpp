@@ -44,10 +44,12 @@ FromAbove::FromAbove(const geometry::Mesh& mesh) : mesh_(&mesh) {
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
     const auto& t = mesh.triangles[i];
     const Point2 a = xy(mesh.vertices[t[0]]), b = xy(mesh.vertices[t[1]]), c = xy(mesh.vertices[t[2]]);
-    if (geometry::orientation(a, b, c) == 0) continue;
+    const int turn = geometry::orientation(a, b, c);
+    if (turn == 0) continue;
     Box2 box;
     for (const Point2 p : {a, b, c}) box.add(p);
     flat_.push_back(i);
+    turns_.push_back(static_cast<std::int8_t>(turn));
     boxes_.push_back(box);
     box_.add(box.least);
     box_.add(box.most);
@@ -104,8 +106,7 @@ auto FromAbove::operator()(Point2 at) const -> std::optional<Seen> {
     const auto& t = mesh_->triangles[flat_[i]];
     const Point3 a = mesh_->vertices[t[0]], b = mesh_->vertices[t[1]], c = mesh_->vertices[t[2]];
     if (best && std::max({a.z, b.z, c.z}) <= best->z) continue;
-    const std::array<Point2, 3> plan{xy(a), xy(b), xy(c)};
-    if (!holds(plan, geometry::orientation(plan[0], plan[1], plan[2]), at)) continue;
+    if (!holds({xy(a), xy(b), xy(c)}, turns_[i], at)) continue;
     if (const double z = height(a, b, c, at); !best || z > best->z) best = Seen{z, flat_[i]};
   }
   return best;

@@ -39,6 +39,7 @@ class FromAbove {
   const geometry::Mesh* mesh_;
   std::vector<std::uint32_t> flat_;    ///< triangles with an area in plan
   std::vector<geometry::Box2> boxes_;  ///< of these, in plan
+  std::vector<std::int8_t> turns_;     ///< the orientation of each, in plan
   geometry::Box2 box_;
   Axis x_, y_;
   std::vector<std::size_t> start_;     ///< of cell i: inside_[start_[i]] … inside_[start_[i + 1] - 1]
