@@ -32,7 +32,7 @@ auto attributes_of_new(const model::Building& building) -> Attributes {
 /// part.
 auto with_plans(const model::Building& before, const std::vector<NamedPlan>& plans, std::vector<bool>& unchanged)
     -> model::Building {
-  model::Building building{before.id, before.attributes, before.footprint, before.ground, {}};
+  model::Building building{before.id, before.attributes, before.footprint, before.ground, {}, {}};
   for (const auto& [id, plan] : plans) {
     const auto same = std::ranges::find(before.parts, id, &model::Part::id);
     const bool known = same != before.parts.end();

@@ -53,10 +53,6 @@ auto codes() -> std::vector<base::Code> {
        0},
       {"write-geopackage", "GDAL could not make a GeoPackage.",
        "The message has GDAL's words; its GPKG driver and PROJ's data must be installed, and there must be memory.", 3},
-      {"write-stl-shell",
-       "Parts that touch cannot be one closed shell of an STL: where towers meet at a corner, or outlines "
-       "overlap. They are several sound shells with walls between them.",
-       "Change the plans at the place that is named, or take the shells as they are.", 0},
       {"write-stl-size", "There are more triangles than the 4,294,967,295 that an STL can count.",
        "Run smaller areas (--bbox).", 2},
       {"write-geojson", "Footprints cannot be brought to longitude and latitude, which GeoJSON is in.",

@@ -22,10 +22,11 @@ auto cityjson(const model::City& city) -> base::Result<std::string> {
   if (!keys) return keys.error();
   const Header header{city.frame, city.made_by};
   base::TextSink vertices;
-  detail::CityObjects text(header, vertices, 0);
+  std::vector<base::Diagnostic> warnings;
+  detail::CityObjects text(header, WriteOptions().solids, vertices, 0);
   for (std::size_t b = 0; b < city.buildings.size(); ++b)
-    text.add(city.buildings[b], {keys->buildings[b], keys->parts[b]});
-  detail::JsonText json = detail::cityjson_head(header, text.extent(), 0);
+    text.add(city.buildings[b], {keys->buildings[b], keys->parts[b]}, warnings);
+  detail::JsonText json = detail::cityjson_head(header, text.solids(), text.extent(), 0);
   json.raw(text.end()).line().key("vertices").begin_array();
   if (!vertices.text.empty()) json.raw(vertices.text);
   return json.end_array().line().end_object().take() + "\n";
@@ -35,7 +36,7 @@ auto obj(const model::City& city, const std::string& mtl_name) -> base::Result<O
   const auto keys = checked_keys(city);
   if (!keys) return keys.error();
   const Header header{city.frame, city.made_by};
-  detail::ObjText text(header);
+  detail::ObjText text(header, WriteOptions().solids);
   ObjFiles files{detail::ObjText::head(header, mtl_name), detail::mtl_text()};
   for (std::size_t b = 0; b < city.buildings.size(); ++b) {
     const auto more = text.of(city.buildings[b], {keys->buildings[b], keys->parts[b]});

@@ -31,6 +31,8 @@ auto format_of(const std::filesystem::path& path) -> std::optional<Format> {
 auto option_list(WriteOptions& o) -> base::OptionList {
   return std::move(
       base::OptionList("write")
+          .choice("solids", o.solids, {{"building", Solids::building}, {"part", Solids::part}},
+                  "What one solid of CityJSON, OBJ, GLB and 3D Tiles contains.")
           .choice("stl_shell", o.stl_shell,
                   {{"part", Shell::part}, {"building", Shell::building}, {"block", Shell::block}},
                   "What one closed shell of an STL contains.")
@@ -41,9 +43,9 @@ auto option_list(WriteOptions& o) -> base::OptionList {
 auto open_writer(Format format, const std::filesystem::path& path, const Header& header, const WriteOptions& options,
                  base::Outputs& outputs, const std::vector<Layer>& more) -> base::Result<std::unique_ptr<CityWriter>> {
   switch (format) {
-    case Format::cityjson: return detail::cityjson_writer(path, header, outputs);
-    case Format::cityjsonseq: return detail::cityjsonseq_writer(path, header, outputs);
-    case Format::obj: return detail::obj_writer(path, header, outputs);
+    case Format::cityjson: return detail::cityjson_writer(path, header, options, outputs);
+    case Format::cityjsonseq: return detail::cityjsonseq_writer(path, header, options, outputs);
+    case Format::obj: return detail::obj_writer(path, header, options, outputs);
     case Format::glb: return detail::glb_writer(path, header, options, outputs);
     case Format::tiles: return detail::tiles_writer(path, header, options, outputs);
     case Format::geopackage: return detail::geopackage_writer(path, header, more, outputs);

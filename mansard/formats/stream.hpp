@@ -36,7 +36,11 @@ struct Header {
 /// What one closed shell of an STL stands for.
 enum class Shell : std::uint8_t { part, building, block };
 
+/// What one solid of a file contains.
+enum class Solids : std::uint8_t { building, part };
+
 struct WriteOptions {
+  Solids solids = Solids::building;  ///< of CityJSON, OBJ, GLB and tiles
   Shell stl_shell = Shell::building;
   bool compress = false;          ///< meshes of glb and tiles: EXT_meshopt_compression and KHR_mesh_quantization
   double tile_triangles = 20000;  ///< of a leaf of a tileset, at most, where one building has not more
@@ -83,8 +87,8 @@ class CityReader {
   auto operator=(const CityReader&) -> CityReader& = delete;
   virtual ~CityReader() = default;
   [[nodiscard]] virtual auto header() const -> const Header& = 0;
-  /// Whether buildings come with their models. CityJSON and CityJSONSeq do; of the others they come with plans and
-  /// attributes, and the models are raised from them again.
+  /// Whether parts come with their models, as those of CityJSON and CityJSONSeq do that was written with a solid for
+  /// each part; of the others they come with plans and attributes, and the models are raised from them again.
   [[nodiscard]] virtual auto has_models() const -> bool = 0;
   /// None after the last one.
   [[nodiscard]] virtual auto next() -> base::Result<std::optional<model::Building>> = 0;

@@ -21,6 +21,12 @@ struct Part {
   Attributes attributes;  ///< with prefix ms_
 };
 
+/// A solid made of parts.
+struct PartsSolid {
+  std::vector<std::size_t> parts;  ///< by their place in the building, rising
+  LabelledSolid model;
+};
+
 /// One GIS feature with the parts that overlap it most.
 struct Building {
   std::string id;
@@ -28,6 +34,7 @@ struct Building {
   std::vector<geometry::Polygon> footprint;  ///< the GIS polygons, for LoD 0
   double ground = 0;                         ///< z, metres
   std::vector<Part> parts;
+  std::vector<PartsSolid> solids{};  ///< what is written of it: the union of its parts; empty where it was not made
 };
 
 /// How the city was made, repeated in every file.

@@ -327,6 +327,7 @@ auto raise_footprints(const model::Scene& scene, const Options& options, const b
     if (report.parts == 0) report.outcome = report::Outcome::refused;
   out.times = {planning, raising, {"label", labelling.seconds()}};
   detail::report_overlaps(out);
+  detail::add_solids(out);
   finish(scene, out);
   return out;
 }

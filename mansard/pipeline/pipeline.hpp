@@ -108,7 +108,8 @@ struct RaisedPlans {
     std::vector<base::Diagnostic> reasons;  ///< the subject is the part's id
   };
   std::vector<Short> fell_short;          ///< the parts that are simpler than their plans, in order
-  std::vector<base::Diagnostic> remarks;  ///< on parts that are as their plans say: "extrude-small-edge"
+  /// On parts that are as their plans say ("extrude-small-edge"), and those of solid::unite, by building.
+  std::vector<base::Diagnostic> remarks;
   /// Why parts have no solid, and are missing from the city: as raise_part gives up. The subject is the part's id.
   std::vector<base::Diagnostic> refused;
 };

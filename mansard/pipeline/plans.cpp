@@ -5,6 +5,7 @@
 
 #include "mansard/pipeline/detail/assemble.hpp"
 #include "mansard/pipeline/pipeline.hpp"
+#include "mansard/pipeline/solids.hpp"
 
 namespace mansard::pipeline {
 
@@ -55,6 +56,8 @@ auto raise_plans(model::City city, const Options& options, const base::Run& run)
   }
   out.city = std::move(city);
   out.city.made_by.version = detail::version();
+  for (auto& [building, warnings] : unite_parts(out.city))
+    out.remarks.insert(out.remarks.end(), warnings.begin(), warnings.end());
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include "mansard/base/disjoint_sets.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/solid/detail/connectivity.hpp"
+#include "mansard/solid/detail/fitted_plane.hpp"
 #include "mansard/solid/detail/flatness.hpp"
 #include "mansard/solid/detail/intersect.hpp"
 #include "mansard/solid/detail/measure.hpp"
@@ -31,7 +32,7 @@ constexpr double area_rounding = 16 * 0x1.0p-53;
 
 class Check {
  public:
-  Check(const model::Solid& solid, double planar) : solid_(solid), planar_(planar) {}
+  Check(const model::Solid& solid, const Rules& rules) : solid_(solid), rules_(rules), planar_(rules.planar) {}
 
   auto all() -> std::vector<base::Diagnostic> {
     if (solid_.faces.empty()) fault("solid-degenerate", "the solid has no faces");
@@ -42,6 +43,8 @@ class Check {
     find_inside_out();
     find_intersections();
     find_needles();
+    if (rules_.snap > 0) find_near_vertices();
+    if (rules_.one_shell) find_several_shells();
     return std::move(faults_);
   }
 
@@ -124,6 +127,13 @@ class Check {
   void find_bent_faces() {
     for (std::size_t f = 0; f < solid_.faces.size(); ++f) {
       const model::Face& face = solid_.faces[f];
+      if (rules_.fitted) {
+        if (face.loops.size() == 1 && face.loops[0].size() == 3) continue;
+        const double furthest = detail::fitted_plane(solid_, face).furthest;
+        if (furthest > planar_)
+          fault("solid-not-planar", "face " + std::to_string(f) + " bends by " + base::to_text(furthest, 5) + " m");
+        continue;
+      }
       // The given normal is nearly always near enough; whether the face is planar does not depend on it.
       double bend = detail::bend(solid_, face, length(face.normal) > 0 ? face.normal : areas_[f]);
       if (bend > planar_) bend = detail::least_bend(solid_, face, areas_[f], planar_);
@@ -180,7 +190,35 @@ class Check {
     }
   }
 
+  void find_near_vertices() {
+    std::vector<std::uint8_t> is_used(solid_.vertices.size(), 0);
+    for (const auto& face : solid_.faces)
+      for (const auto& loop : face.loops)
+        for (const auto v : loop) is_used[v] = 1;
+    std::vector<Point3> used;
+    for (std::size_t v = 0; v < is_used.size(); ++v)
+      if (is_used[v] != 0) used.push_back(solid_.vertices[v]);
+    std::ranges::sort(used);
+    for (std::size_t i = 0; i < used.size(); ++i)
+      for (std::size_t k = i; k-- > 0 && used[i].x - used[k].x < rules_.snap;)
+        if (length(used[i] - used[k]) < rules_.snap)
+          return fault("solid-near-vertices", "two vertices are " + base::to_text(length(used[i] - used[k]), 5) +
+                                                  " m apart at " + place(used[i]));
+  }
+
+  void find_several_shells() {
+    base::DisjointSets sets(solid_.vertices.size());
+    for (const auto& face : solid_.faces)
+      for (const auto& loop : face.loops)
+        for (const auto v : loop) sets.join(v, face.loops[0][0]);
+    const std::uint32_t first = sets.of(solid_.faces[0].loops[0][0]);
+    for (std::size_t f = 0; f < solid_.faces.size(); ++f)
+      if (sets.of(solid_.faces[f].loops[0][0]) != first)
+        return fault("solid-several-shells", "face " + std::to_string(f) + " is not connected with the first face");
+  }
+
   const model::Solid& solid_;
+  const Rules rules_;
   const double planar_;
   detail::Connectivity connectivity_;
   std::vector<Point3> areas_;  ///< Newell's vectors of the faces
@@ -191,8 +229,13 @@ class Check {
 
 }  // namespace
 
-auto check(const model::Solid& solid, double planar) -> std::vector<base::Diagnostic> {
-  return Check(solid, planar).all();
+auto written_rules() -> Rules {
+  constexpr double snap = 1e-3;  // m; val3dity's default
+  return {1e-4, true, snap, true};
+}
+
+auto check(const model::Solid& solid, const Rules& rules) -> std::vector<base::Diagnostic> {
+  return Check(solid, rules).all();
 }
 
 }  // namespace mansard::solid

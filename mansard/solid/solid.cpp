@@ -44,6 +44,17 @@ auto codes() -> std::vector<base::Code> {
        "This is a fault of the program that made it.", 1},
       {"solid-degenerate", "A solid has a face without area, a repeated vertex or a value that is not finite.",
        "This is a fault of the program that made it.", 1},
+      {"solid-near-vertices", "Two vertices of a solid are less than 1 mm apart.",
+       "Validators merge them; merge them in the file.", 1},
+      {"solid-several-shells", "The faces of a solid are not all connected.", "Write each shell as a solid.", 1},
+      {"solid-not-united", "The parts of a building are several solids.",
+       "Parts that touch in an edge or a point only, or that overlap, have no union that is a valid solid; edit their "
+       "plans where the message says so.",
+       0},
+      {"solid-simplified", "A part of a building is written as a prism, because its solid is not valid in a file.",
+       "Look for edges shorter than 1 mm in its plan.", 1},
+      {"solid-left-out", "A part of a building is not written: no valid solid can be made of it.",
+       "Remove the part, or widen it.", 1},
   };
 }
 

@@ -10,11 +10,21 @@
 
 namespace mansard::solid {
 
-/// Everything wrong with a solid: "solid-open", "solid-non-manifold", "solid-orientation", "solid-not-planar" (a vertex
-/// more than `planar` metres off its face's plane), "solid-self-intersection", "solid-needle" (a triangle that looks
-/// aside by more than 20°; not asked where `planar` is over 1e-4), "solid-degenerate". Empty means valid.
+/// How strict check() is.
+struct Rules {
+  double planar = 1e-4;    ///< m; how far a vertex may be off its face's plane
+  bool fitted = false;     ///< whether that plane is fitted to the vertices instead of taken from the face's normal
+  double snap = 0;         ///< m; vertices nearer than this are taken for one ("solid-near-vertices")
+  bool one_shell = false;  ///< whether faces must be connected ("solid-several-shells")
+};
+/// The rules of files: those of val3dity 2.6 at its defaults (vertices snapped at 1 mm), with planes to 0.1 mm.
+[[nodiscard]] auto written_rules() -> Rules;
+
+/// Everything wrong with a solid: "solid-open", "solid-non-manifold", "solid-orientation", "solid-not-planar",
+/// "solid-self-intersection", "solid-needle" (a triangle that looks aside by more than 20°; not asked where
+/// `planar` is over 1e-4), "solid-degenerate", and what the rules add. Empty means valid.
 /// Cost: O(n log n) for faces of bounded size.
-[[nodiscard]] auto check(const model::Solid& solid, double planar = 1e-4) -> std::vector<base::Diagnostic>;
+[[nodiscard]] auto check(const model::Solid& solid, const Rules& rules = {}) -> std::vector<base::Diagnostic>;
 
 /// m³ by the divergence theorem.
 [[nodiscard]] auto volume(const model::Solid& solid) -> double;

@@ -115,7 +115,7 @@ TEST(Stl, says_what_could_not_be_one_shell) {
   }
   const Stl stl = written(city, Shell::building);
   ASSERT_EQ(stl.warnings.size(), 1U);
-  EXPECT_EQ(stl.warnings[0].code, "write-stl-shell");
+  EXPECT_EQ(stl.warnings[0].code, "solid-not-united");
   EXPECT_EQ(stl.warnings[0].subject, "house");
   closed_volume(stl);
 }

@@ -19,7 +19,7 @@ using model::Solid;
 
 auto codes_of(const Solid& solid, double planar = 1e-4) -> std::vector<std::string> {
   std::vector<std::string> out;
-  for (const auto& fault : solid::check(solid, planar)) out.push_back(fault.code);
+  for (const auto& fault : solid::check(solid, {.planar = planar})) out.push_back(fault.code);
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "mansard/base/text.hpp"
+#include "mansard/formats/detail/drawn.hpp"
 #include "mansard/formats/plans/plan_text.hpp"
 
 namespace mansard::formats::detail {
@@ -132,19 +133,23 @@ auto from_undeclared(const std::string& name) -> std::string {
   return name.starts_with('_') && undeclared(name) != name ? name.substr(1) : name;
 }
 
-void CityObjects::add(const model::Building& building, const Gate::Keyed& keys) {
+void CityObjects::add(const model::Building& building, const Gate::Keyed& keys,
+                      std::vector<base::Diagnostic>& warnings) {
   std::vector<Loops> footprint;
   for (const auto& polygon : building.footprint)
     if (auto loops = quantised(polygon, building.ground); !loops.empty()) footprint.push_back(std::move(loops));
-  std::vector<Drawn> drawn;
-  for (const model::Part& part : building.parts) {
+  const Drawn solids = drawn(building, keys, solids_);
+  warnings.insert(warnings.end(), solids.warnings.begin(), solids.warnings.end());
+  std::vector<Shape> shapes;
+  for (const auto& [part, first] : solids.solids) {
     auto fine = quantised(part.model);
-    drawn.push_back({flat_prism(fine, roof_height(fine, part.attributes, frame_.origin[2])), std::move(fine)});
+    const double top = roof_height(fine, part.attributes, frame_.origin[2]);
+    shapes.push_back({part.id, flat_prism(fine, top), std::move(fine)});
   }
   Extent extent;  // of the building with its parts, whose objects come after its own
   for (const auto& loops : footprint) widen(extent, loops);
-  for (const auto& [flat, fine] : drawn)
-    for (const auto* surfaces : {&flat, &fine})
+  for (const auto& shape : shapes)
+    for (const auto* surfaces : {&shape.flat, &shape.fine})
       for (const Surface& surface : *surfaces) widen(extent, surface.loops);
 
   json_.line(level_).key(keys.building).begin_object().key("type").text("Building");
@@ -153,16 +158,27 @@ void CityObjects::add(const model::Building& building, const Gate::Keyed& keys) 
   append_origin(json_.key(footprint_name).begin_object(), frame_);
   detail::append_footprint(json_.key("ground").number(building.ground).key("polygons"), building.footprint);
   json_.end_object().end_object();
+  std::vector<const Shape*> more;  // pieces that are no part
+  const Shape* own = nullptr;
+  for (const Shape& shape : shapes) {
+    if (shape.key == keys.building) own = &shape;
+    else if (std::ranges::find(keys.parts, shape.key) == keys.parts.end()) more.push_back(&shape);
+  }
   if (!keys.parts.empty()) {
     json_.key("children").begin_array();
     for (const auto& key : keys.parts) json_.text(key);
+    for (const Shape* shape : more) json_.text(shape->key);
     json_.end_array();
   }
   json_.key("geometry").begin_array();
   append_footprint(footprint);
+  if (own != nullptr) append_solids(*own);
   json_.end_array().end_object();
-  for (std::size_t p = 0; p < building.parts.size(); ++p)
-    append_part(building.parts[p], drawn[p], keys.parts[p], keys.building);
+  for (std::size_t p = 0; p < building.parts.size(); ++p) {
+    const auto shape = std::ranges::find(shapes, keys.parts[p], &Shape::key);
+    append_part(keys.parts[p], &building.parts[p], shape == shapes.end() ? nullptr : &*shape, keys.building);
+  }
+  for (const Shape* shape : more) append_part(shape->key, nullptr, shape, keys.building);
 }
 
 auto CityObjects::end() -> std::string {
@@ -177,19 +193,28 @@ void CityObjects::append_footprint(const std::vector<Loops>& surfaces) {
   json_.end_array().end_object();
 }
 
-void CityObjects::append_part(const model::Part& part, const Drawn& drawn, const std::string& key,
+void CityObjects::append_part(const std::string& key, const model::Part* part, const Shape* shape,
                               const std::string& parent) {
   json_.line(level_).key(key).begin_object().key("type").text("BuildingPart");
-  append_attributes(json_.key("attributes").begin_object(), without(part.attributes, {plan_name, old_plan_name}));
-  json_.key(plan_name).begin_object().key("type").text(plan_type).key("version").whole(plan_version);
-  append_origin(json_, frame_);
-  append_plan(json_, part.plan);
-  json_.end_object().end_object();
+  if (part != nullptr) {
+    append_attributes(json_.key("attributes").begin_object(), without(part->attributes, {plan_name, old_plan_name}));
+    json_.key(plan_name).begin_object().key("type").text(plan_type).key("version").whole(plan_version);
+    append_origin(json_, frame_);
+    append_plan(json_, part->plan);
+    json_.end_object().end_object();
+  }
   json_.key("parents").begin_array().text(parent).end_array();
-  json_.key("geometry").begin_array();
-  append_solid("1.2", drawn.flat);
-  append_solid("2.2", drawn.fine);
-  json_.end_array().end_object();
+  if (shape != nullptr) {
+    json_.key("geometry").begin_array();
+    append_solids(*shape);
+    json_.end_array();
+  }
+  json_.end_object();
+}
+
+void CityObjects::append_solids(const Shape& shape) {
+  append_solid("1.2", shape.flat);
+  append_solid("2.2", shape.fine);
 }
 
 void CityObjects::append_solid(std::string_view lod, const std::vector<Surface>& surfaces) {
@@ -224,7 +249,7 @@ void CityObjects::append_loops(const Loops& loops) {
   json_.end_array();
 }
 
-auto cityjson_head(const Header& header, const Extent& extent, int level) -> JsonText {
+auto cityjson_head(const Header& header, Solids solids, const Extent& extent, int level) -> JsonText {
   JsonText json;
   json.begin_object().key("type").text("CityJSON").key("version").text("2.0");
   json.line(level).key("extensions").begin_object().key(extension_name).begin_object();
@@ -234,14 +259,16 @@ auto cityjson_head(const Header& header, const Extent& extent, int level) -> Jso
   // The core's metadata are six; how the file was made is a member of the extension.
   append_made_by(json.line(level).key("+mansard").begin_object().key("made_by"), header.made_by);
   append_frame(json.key("frame"), header.frame);
+  json.key("solids").text(solids == Solids::part ? "part" : "building");
   json.end_object().line(level).key("CityObjects");
   return json;
 }
 
-auto cityjson_feature(const model::Building& building, const Gate::Keyed& keys, const Header& header) -> std::string {
+auto cityjson_feature(const model::Building& building, const Gate::Keyed& keys, const Header& header, Solids solids,
+                      std::vector<base::Diagnostic>& warnings) -> std::string {
   base::TextSink vertices;
-  CityObjects objects(header, vertices, -1);
-  objects.add(building, keys);
+  CityObjects objects(header, solids, vertices, -1);
+  objects.add(building, keys, warnings);
   JsonText json;
   json.begin_object().key("type").text("CityJSONFeature").key("id").text(keys.building);
   json.key("CityObjects").raw(objects.end()).key("vertices").begin_array();

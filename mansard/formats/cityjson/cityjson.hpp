@@ -26,27 +26,32 @@ inline constexpr std::string_view footprint_name = "+ms_footprint";
 class CityObjects {
  public:
   /// Objects on lines of that level, or on one line when negative.
-  CityObjects(const Header& header, base::Sink& vertices, int level)
-      : frame_(header.frame), level_(level), pool_(vertices) {
+  CityObjects(const Header& header, Solids solids, base::Sink& vertices, int level)
+      : frame_(header.frame), solids_(solids), level_(level), pool_(vertices) {
     json_.begin_object();
   }
-  void add(const model::Building& building, const Gate::Keyed& keys);
+  /// Warnings are those of solid::unite.
+  void add(const model::Building& building, const Gate::Keyed& keys, std::vector<base::Diagnostic>& warnings);
   /// What was not taken yet.
   [[nodiscard]] auto take() -> std::string { return json_.take(); }
   [[nodiscard]] auto end() -> std::string;
   [[nodiscard]] auto extent() const -> const Extent& { return pool_.extent(); }
+  [[nodiscard]] auto solids() const -> Solids { return solids_; }
 
  private:
-  /// The surfaces of a part, at the two levels of detail.
-  struct Drawn {
+  /// The surfaces of a solid, at the two levels of detail.
+  struct Shape {
+    std::string key;  ///< of the object that it belongs to
     std::vector<Surface> flat, fine;
   };
-  void append_part(const model::Part& part, const Drawn& drawn, const std::string& key, const std::string& parent);
+  void append_part(const std::string& key, const model::Part* part, const Shape* shape, const std::string& parent);
+  void append_solids(const Shape& shape);
   void append_footprint(const std::vector<Loops>& surfaces);
   void append_solid(std::string_view lod, const std::vector<Surface>& surfaces);
   void append_loops(const Loops& loops);
 
   const model::Frame frame_;
+  const Solids solids_;
   const int level_;
   VertexPool pool_;
   JsonText json_;
@@ -54,11 +59,11 @@ class CityObjects {
 
 /// A CityJSON object up to the value of "CityObjects", which comes next; its members on lines of that level, or on one
 /// line when negative.
-[[nodiscard]] auto cityjson_head(const Header& header, const Extent& extent, int level) -> JsonText;
+[[nodiscard]] auto cityjson_head(const Header& header, Solids solids, const Extent& extent, int level) -> JsonText;
 
 /// A building as a CityJSONFeature on one line.
-[[nodiscard]] auto cityjson_feature(const model::Building& building, const Gate::Keyed& keys, const Header& header)
-    -> std::string;
+[[nodiscard]] auto cityjson_feature(const model::Building& building, const Gate::Keyed& keys, const Header& header,
+                                    Solids solids, std::vector<base::Diagnostic>& warnings) -> std::string;
 
 /// The plans that travel in a CityJSON file as mansard wrote it, without models. Throws a Defect: "write-plan-type",
 /// and those of plans.

@@ -76,6 +76,13 @@ auto read_file_header(const Item& file) -> std::optional<Header> {
   return std::nullopt;
 }
 
+/// Whether the solids of a file are those of parts. Before version 0.3 they always were.
+auto solids_are_parts(const Item& file) -> bool {
+  if (!file.has("+mansard")) return true;
+  const Item own = file.member("+mansard");
+  return !own.has("solids") || own.member("solids").text() == "part";
+}
+
 [[noreturn]] void refuse_foreign(const std::string& code) {
   throw Defect{code, "this CityJSON carries no plans (no part has an attribute \"" + std::string(plan_name) +
                          "\"); give a file that mansard wrote"};
@@ -84,8 +91,10 @@ auto read_file_header(const Item& file) -> std::optional<Header> {
 /// Reads the buildings among city objects.
 class Objects {
  public:
+  enum class Models : std::uint8_t { none, of_parts, of_buildings };
+
   /// Without vertices there are no models.
-  Objects(const Item& objects, const Vertices* vertices, const model::Frame& frame, bool models)
+  Objects(const Item& objects, const Vertices* vertices, const model::Frame& frame, Models models)
       : objects_(objects), vertices_(vertices), origin_(frame.origin), models_(models) {
     if (!objects.json.is_object()) objects.refuse("an object");
     for (const auto& [id, object] : objects.json.items()) object_of_.emplace(id, &object);
@@ -100,14 +109,21 @@ class Objects {
     if (const auto [name, own] = find_own(json, names); own != nullptr)
       read_own_footprint({*own, {&object.place, name, 0}}, building);
     else if (vertices_ != nullptr) read_lod_0(object, *vertices_, building);
+    const auto own = solid_of(object);
     if (object.has("children"))
       object.member("children").each([&](const Item& child) {
         const auto found = object_of_.find(child.text());
         if (found == object_of_.end()) child.refuse("the id of a city object");
         // Of a plan that is named a thousand times there would be a thousand.
         if (!taken_.insert(found->first).second) child.refuse("the id of a city object that is named once");
+        auto solid = solid_of({*found->second, {&objects_.place, found->first, 0}});
+        if (solid) building.solids.push_back({{building.parts.size()}, *std::move(solid)});
         if (auto part = read_part(found->first, *found->second)) building.parts.push_back(*std::move(part));
       });
+    if (own) {
+      building.solids.push_back({{}, *own});
+      for (std::size_t p = 0; p < building.parts.size(); ++p) building.solids.back().parts.push_back(p);
+    }
     return building;
   }
 
@@ -137,14 +153,21 @@ class Objects {
                      read_embedded_plan({*plan, {&object.place, name, 0}}, origin_),
                      {},
                      read_plain_attributes(json)};
-    if (models_ && vertices_ != nullptr) part.model = read_model(object, *vertices_);
+    if (models_ == Models::of_parts && vertices_ != nullptr) part.model = read_model(object, *vertices_);
     return part;
+  }
+
+  [[nodiscard]] auto solid_of(const Item& object) const -> std::optional<model::LabelledSolid> {
+    if (models_ != Models::of_buildings || vertices_ == nullptr) return std::nullopt;
+    auto model = read_model(object, *vertices_);
+    if (model.solid.faces.empty()) return std::nullopt;
+    return model;
   }
 
   const Item& objects_;
   const Vertices* vertices_;
   const std::array<std::int64_t, 3> origin_;
-  const bool models_;
+  const Models models_;
   std::map<std::string_view, const Json*> object_of_;
   std::set<std::string_view> taken_;  ///< as children
 };
@@ -155,7 +178,8 @@ auto read_whole_file(const Item& file, bool models, const std::string& code) -> 
   model::City city{header->frame, header->made_by, {}};
   const Item transform = file.member("transform"), list = file.member("vertices"), all = file.member("CityObjects");
   const Vertices vertices(transform, list, city.frame.origin);
-  Objects objects(all, &vertices, city.frame, models);
+  using enum Objects::Models;
+  Objects objects(all, &vertices, city.frame, !models ? none : solids_are_parts(file) ? of_parts : of_buildings);
   for (const auto& [id, object] : all.json.items())
     if (Objects::is_building(object)) city.buildings.push_back(objects.building(id, object));
   return city;
@@ -164,10 +188,14 @@ auto read_whole_file(const Item& file, bool models, const std::string& code) -> 
 /// A feature a line; no more than one line is in memory.
 class ReadFeatures : public CityReader {
  public:
-  ReadFeatures(std::string name, std::ifstream file, Header header, std::string transform)
-      : name_(std::move(name)), file_(std::move(file)), header_(std::move(header)), transform_(std::move(transform)) {}
+  ReadFeatures(std::string name, std::ifstream file, Header header, std::string transform, bool of_parts)
+      : name_(std::move(name)),
+        file_(std::move(file)),
+        header_(std::move(header)),
+        transform_(std::move(transform)),
+        of_parts_(of_parts) {}
   [[nodiscard]] auto header() const -> const Header& override { return header_; }
-  [[nodiscard]] auto has_models() const -> bool override { return true; }
+  [[nodiscard]] auto has_models() const -> bool override { return of_parts_; }
   [[nodiscard]] auto next() -> base::Result<std::optional<model::Building>> override {
     for (std::string line; std::getline(file_, line);) {
       ++line_;
@@ -188,7 +216,8 @@ class ReadFeatures : public CityReader {
     const Json at = parse_json(transform_);
     const Item transform{at, {}}, list = feature.member("vertices"), all = feature.member("CityObjects");
     const Vertices vertices(transform, list, header_.frame.origin);
-    Objects objects(all, &vertices, header_.frame, true);
+    using enum Objects::Models;
+    Objects objects(all, &vertices, header_.frame, of_parts_ ? of_parts : of_buildings);
     const std::string id = feature.member("id").text();
     const auto found = all.json.find(id);
     if (found == all.json.end() || !Objects::is_building(*found))
@@ -200,19 +229,22 @@ class ReadFeatures : public CityReader {
   std::ifstream file_;
   const Header header_;
   const std::string transform_;
+  const bool of_parts_;
   std::size_t line_ = 1;
 };
 
 auto open_features(std::ifstream file, const std::string& first, const std::string& name) -> ReaderResult {
   std::string transform;
+  bool of_parts = true;
   const auto header = parsed<Header>(first, name + ":1", [&](const Item& item) {
     transform = item.member("transform").json.dump();
     auto found = read_file_header(item);
     if (!found) refuse_foreign("write-read-plans");
+    of_parts = solids_are_parts(item);
     return *std::move(found);
   });
   if (!header) return header.error();
-  return ReaderResult(std::make_unique<ReadFeatures>(name, std::move(file), *header, std::move(transform)));
+  return ReaderResult(std::make_unique<ReadFeatures>(name, std::move(file), *header, std::move(transform), of_parts));
 }
 
 /// Whether the first line is a whole object and another follows.
@@ -240,13 +272,16 @@ auto cityjson_reader(const Path& path) -> ReaderResult {
   }
   const auto text = base::read_file(path);
   if (!text) return text.error();
-  auto city = parsed<model::City>(*text, name, [](const Item& file) {
+  bool of_parts = true;
+  auto city = parsed<model::City>(*text, name, [&](const Item& file) {
     if (!file.json.is_object() || !file.has("type") || file.json["type"] != "CityJSON")
       throw Defect{"write-read-format", "this is JSON but not CityJSON; give a file that mansard wrote"};
-    return read_whole_file(file, true, "write-read-plans");
+    auto read = read_whole_file(file, true, "write-read-plans");
+    of_parts = solids_are_parts(file);
+    return read;
   });
   if (!city) return city.error();
-  return ReaderResult(whole_reader(*std::move(city), true));
+  return ReaderResult(whole_reader(*std::move(city), of_parts));
 }
 
 }  // namespace mansard::formats::detail

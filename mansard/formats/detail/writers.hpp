@@ -10,9 +10,12 @@ using WriterResult = base::Result<std::unique_ptr<CityWriter>>;
 using ReaderResult = base::Result<std::unique_ptr<CityReader>>;
 using Path = std::filesystem::path;
 
-[[nodiscard]] auto cityjson_writer(const Path& path, const Header& header, base::Outputs& outputs) -> WriterResult;
-[[nodiscard]] auto cityjsonseq_writer(const Path& path, const Header& header, base::Outputs& outputs) -> WriterResult;
-[[nodiscard]] auto obj_writer(const Path& path, const Header& header, base::Outputs& outputs) -> WriterResult;
+[[nodiscard]] auto cityjson_writer(const Path& path, const Header& header, const WriteOptions& options,
+                                   base::Outputs& outputs) -> WriterResult;
+[[nodiscard]] auto cityjsonseq_writer(const Path& path, const Header& header, const WriteOptions& options,
+                                      base::Outputs& outputs) -> WriterResult;
+[[nodiscard]] auto obj_writer(const Path& path, const Header& header, const WriteOptions& options,
+                              base::Outputs& outputs) -> WriterResult;
 [[nodiscard]] auto plans_writer(const Path& path, const Header& header, base::Outputs& outputs) -> WriterResult;
 [[nodiscard]] auto glb_writer(const Path& path, const Header& header, const WriteOptions& options,
                               base::Outputs& outputs) -> WriterResult;

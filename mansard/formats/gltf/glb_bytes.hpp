@@ -1,26 +1,31 @@
 // A city as binary glTF 2.0, building by building or at once.
 #pragma once
 
-#include "mansard/formats/detail/parts.hpp"
+#include "mansard/formats/detail/writers.hpp"
 #include "mansard/formats/gltf/gltf_file.hpp"
 #include "mansard/formats/stream.hpp"
 
 namespace mansard::formats::detail {
 
-/// A node for each part, in the order they are told. Memory grows by about 12 bytes a part.
+/// A node for each solid, in the order they are told. Memory grows by about 12 bytes a solid.
 class GlbBytes {
  public:
   /// Gives up with "file-write".
-  [[nodiscard]] static auto open(const Header& header, bool compress) -> base::Result<GlbBytes>;
-  /// `parts` are the keys of the parts. Gives up with "write-triangulate".
-  [[nodiscard]] auto add(const model::Building& building, const std::vector<std::string>& parts) -> base::Result<void>;
+  [[nodiscard]] static auto open(const Header& header, bool compress, Solids solids) -> base::Result<GlbBytes>;
+  /// Gives up with "write-triangulate".
+  [[nodiscard]] auto add(const model::Building& building, const Gate::Keyed& keys) -> base::Result<void>;
+  /// Of solid::unite.
+  [[nodiscard]] auto warnings() const -> const std::vector<base::Diagnostic>& { return warnings_; }
   /// Gives up with "write-glb-size", "file-write".
   [[nodiscard]] auto write(base::Sink& sink) -> base::Result<void>;
 
  private:
-  GlbBytes(Header header, std::unique_ptr<GltfFile> file) : header_(std::move(header)), file_(std::move(file)) {}
+  GlbBytes(Header header, Solids solids, std::unique_ptr<GltfFile> file)
+      : header_(std::move(header)), solids_(solids), file_(std::move(file)) {}
 
   Header header_;
+  Solids solids_;
+  std::vector<base::Diagnostic> warnings_;
   std::unique_ptr<GltfFile> file_;
   PartColumns columns_;
   std::int64_t buildings_ = 0;

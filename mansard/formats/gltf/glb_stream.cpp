@@ -1,3 +1,4 @@
+#include "mansard/formats/detail/drawn.hpp"
 #include "mansard/formats/detail/records.hpp"
 #include "mansard/formats/detail/writers.hpp"
 #include "mansard/formats/gltf/glb_bytes.hpp"
@@ -12,9 +13,10 @@ class GlbWriter : public CityWriter {
   auto add(const model::Building& building) -> base::Result<void> override {
     const auto keyed = gate_.admit(building);
     if (!keyed) return keyed.error();
-    return bytes_.add(building, keyed->parts);
+    return bytes_.add(building, *keyed);
   }
   auto finish() -> base::Result<void> override { return bytes_.write(*sink_); }
+  [[nodiscard]] auto warnings() const -> std::vector<base::Diagnostic> override { return bytes_.warnings(); }
 
  private:
   Gate gate_;
@@ -30,27 +32,29 @@ void append_file_extras(JsonText& json, const Header& header) {
   json.end_array().key("header").raw(header_record(header));
 }
 
-auto GlbBytes::open(const Header& header, bool compress) -> base::Result<GlbBytes> {
+auto GlbBytes::open(const Header& header, bool compress, Solids solids) -> base::Result<GlbBytes> {
   auto file = GltfFile::open(compress);
   if (!file) return file.error();
-  return GlbBytes(header, std::move(*file));
+  return GlbBytes(header, solids, std::move(*file));
 }
 
-auto GlbBytes::add(const model::Building& building, const std::vector<std::string>& parts) -> base::Result<void> {
+auto GlbBytes::add(const model::Building& building, const Gate::Keyed& keys) -> base::Result<void> {
   const std::string record = building_record(building);
+  const Drawn solids = drawn(building, keys, solids_);
+  warnings_.insert(warnings_.end(), solids.warnings.begin(), solids.warnings.end());
   JsonText extras;
   extras.begin_object().key("building").text(building.id).end_object();
-  for (std::size_t p = 0; p < building.parts.size(); ++p) {
-    const model::Part& part = building.parts[p];
+  for (std::size_t s = 0; s < solids.solids.size(); ++s) {
+    const model::Part& part = solids.solids[s].part;
     const auto mesh = part_mesh(part.model, part.id);
     if (!mesh) return mesh.error();
     std::vector<geometry::Point3> normals;
     for (const FaceMesh& face : mesh->faces) normals.push_back(face.normal);
-    file_->add_part(columns_.row(building, building.id, buildings_, &part, parts[p]), p == 0 ? record : "", *mesh,
+    file_->add_part(columns_.row(building, building.id, buildings_, &part, part.id), s == 0 ? record : "", *mesh,
                     mesh->vertices, normals);
-    file_->end_mesh(parts[p], extras.str());
+    file_->end_mesh(part.id, extras.str());
   }
-  if (building.parts.empty())
+  if (solids.solids.empty())
     file_->add_part(columns_.row(building, building.id, buildings_, nullptr, {}), record, {}, {}, {});
   ++buildings_;
   return {};
@@ -64,10 +68,10 @@ auto GlbBytes::write(base::Sink& sink) -> base::Result<void> {
 }
 
 auto glb_bytes(const model::City& city, const Keys& keys) -> base::Result<std::string> {
-  auto bytes = GlbBytes::open({city.frame, city.made_by}, false);
+  auto bytes = GlbBytes::open({city.frame, city.made_by}, false, WriteOptions().solids);
   if (!bytes) return bytes.error();
   for (std::size_t b = 0; b < city.buildings.size(); ++b)
-    if (auto added = bytes->add(city.buildings[b], keys.parts[b]); !added) return added.error();
+    if (auto added = bytes->add(city.buildings[b], {keys.buildings[b], keys.parts[b]}); !added) return added.error();
   base::TextSink sink;
   if (auto written = bytes->write(sink); !written) return written.error();
   return std::move(sink.text);
@@ -77,7 +81,7 @@ auto glb_writer(const Path& path, const Header& header, const WriteOptions& opti
     -> WriterResult {
   auto sink = outputs.file(path);
   if (!sink) return sink.error();
-  auto bytes = GlbBytes::open(header, options.compress);
+  auto bytes = GlbBytes::open(header, options.compress, options.solids);
   if (!bytes) return bytes.error();
   return std::unique_ptr<CityWriter>(std::make_unique<GlbWriter>(std::move(*bytes), **sink));
 }

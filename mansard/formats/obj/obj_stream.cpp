@@ -8,7 +8,7 @@ namespace {
 
 class Obj : public CityWriter {
  public:
-  Obj(const Header& header, base::Sink& file) : text_(header), file_(file) {}
+  Obj(const Header& header, Solids solids, base::Sink& file) : text_(header, solids), file_(file) {}
   [[nodiscard]] auto add(const model::Building& building) -> base::Result<void> override {
     const auto keys = gate_.admit(building);
     if (!keys) return keys.error();
@@ -18,6 +18,7 @@ class Obj : public CityWriter {
     return {};
   }
   [[nodiscard]] auto finish() -> base::Result<void> override { return {}; }
+  [[nodiscard]] auto warnings() const -> std::vector<base::Diagnostic> override { return text_.warnings(); }
 
  private:
   Gate gate_;
@@ -74,7 +75,8 @@ class ReadObj : public CityReader {
 
 }  // namespace
 
-auto obj_writer(const Path& path, const Header& header, base::Outputs& outputs) -> WriterResult {
+auto obj_writer(const Path& path, const Header& header, const WriteOptions& options, base::Outputs& outputs)
+    -> WriterResult {
   auto library = path;
   library.replace_extension(".mtl");
   const auto file = outputs.file(path);
@@ -83,7 +85,7 @@ auto obj_writer(const Path& path, const Header& header, base::Outputs& outputs) 
   if (!materials) return materials.error();
   (*materials)->append(mtl_text());
   (*file)->append(ObjText::head(header, library.filename().string()));
-  return WriterResult(std::make_unique<Obj>(header, **file));
+  return WriterResult(std::make_unique<Obj>(header, options.solids, **file));
 }
 
 auto obj_reader(const Path& path) -> ReaderResult { return ReadObj::open(path); }

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "mansard/base/text.hpp"
+#include "mansard/formats/detail/drawn.hpp"
 #include "mansard/formats/detail/records.hpp"
 #include "mansard/formats/detail/triangles.hpp"
 
@@ -67,12 +68,14 @@ auto ObjText::head(const Header& header, const std::string& mtl_name) -> std::st
 
 auto ObjText::of(const model::Building& building, const Gate::Keyed& keys) -> base::Result<std::string> {
   std::string out = std::string(obj_building) + building_record(building) + "\n";
-  for (std::size_t p = 0; p < building.parts.size(); ++p) {
-    const auto facets = facets_of(building.parts[p]);
+  const Drawn solids = drawn(building, keys, solids_);
+  warnings_.insert(warnings_.end(), solids.warnings.begin(), solids.warnings.end());
+  if (!solids.solids.empty()) out += "o " + one_word(keys.building) + "\n";
+  for (const auto& [part, first] : solids.solids) {
+    const auto facets = facets_of(part);
     if (!facets) return facets.error();
-    if (p == 0) out += "o " + one_word(keys.building) + "\n";
-    out += "g " + one_word(keys.parts[p]) + "\n";
-    append_part(out, building.parts[p], *facets);
+    out += "g " + one_word(part.id) + "\n";
+    append_part(out, part, *facets);
   }
   return out;
 }

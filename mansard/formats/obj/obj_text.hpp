@@ -14,17 +14,21 @@ inline constexpr std::string_view obj_header = "#mansard header ", obj_building 
 /// An OBJ file, building by building. Buildings must have passed a Gate.
 class ObjText {
  public:
-  explicit ObjText(const Header& header) : frame_(header.frame) {}
+  ObjText(const Header& header, Solids solids) : frame_(header.frame), solids_(solids) {}
   /// What stands before the first building.
   [[nodiscard]] static auto head(const Header& header, const std::string& mtl_name) -> std::string;
   /// Gives up with "write-triangulate".
   [[nodiscard]] auto of(const model::Building& building, const Gate::Keyed& keys) -> base::Result<std::string>;
+  /// Of solid::unite.
+  [[nodiscard]] auto warnings() const -> const std::vector<base::Diagnostic>& { return warnings_; }
 
  private:
   void append_part(std::string& out, const model::Part& part,
                    const std::array<std::vector<std::vector<std::uint32_t>>, class_count>& facets);
 
   const model::Frame frame_;
+  const Solids solids_;
+  std::vector<base::Diagnostic> warnings_;
   std::size_t written_ = 0;  ///< vertices; OBJ counts them through the whole file, from 1
 };
 

@@ -1,13 +1,17 @@
 #include <bit>
+#include <map>
 
+#include "mansard/base/disjoint_sets.hpp"
+#include "mansard/formats/detail/drawn.hpp"
 #include "mansard/formats/detail/triangles.hpp"
 #include "mansard/formats/detail/writers.hpp"
-#include "mansard/solid/shell.hpp"
+#include "mansard/solid/unite.hpp"
 
 namespace mansard::formats::detail {
 namespace {
 
 using geometry::Point3;
+using model::LabelledSolid;
 using model::Solid;
 
 template <class T>
@@ -43,17 +47,20 @@ class StlWriter : public CityWriter {
   auto add(const model::Building& building) -> base::Result<void> override {
     const auto keyed = gate_.admit(building);
     if (!keyed) return keyed.error();
-    if (shell_ == Shell::part) {
+    if (shell_ == Shell::block) {
       for (const model::Part& part : building.parts)
-        if (auto put = append(part.model.solid, part.id); !put) return put;
+        if (!part.model.solid.faces.empty()) parts_.push_back({part.model, building.id});
       return {};
     }
-    for (const model::Part& part : building.parts) solids_.push_back({part.model.solid, building.id});
-    return shell_ == Shell::building ? join_and_append() : base::Result<void>();
+    const Drawn all = drawn(building, *keyed, shell_ == Shell::part ? Solids::part : Solids::building);
+    warnings_.insert(warnings_.end(), all.warnings.begin(), all.warnings.end());
+    for (const auto& [part, first] : all.solids)
+      if (auto put = append(part.model.solid, part.id); !put) return put;
+    return {};
   }
 
   auto finish() -> base::Result<void> override {
-    if (auto put = join_and_append(); !put) return put;
+    if (auto put = append_blocks(); !put) return put;
     constexpr std::uint64_t most = UINT32_MAX;
     if (count_ > most)
       return base::error("write-stl-size", "there are " + std::to_string(count_) +
@@ -67,26 +74,35 @@ class StlWriter : public CityWriter {
 
  private:
   struct Placed {
-    Solid solid;
+    LabelledSolid model;
     std::string building;
   };
 
-  auto join_and_append() -> base::Result<void> {
-    std::vector<const Solid*> solids;
-    for (const auto& placed : solids_) solids.push_back(&placed.solid);
-    for (const auto& group : solid::join(solids).groups) {
-      const auto& building = solids_[group.of.front()].building;
-      if (!group.why.empty())
-        warnings_.push_back(base::warning(
-            "write-stl-shell",
-            std::to_string(group.of.size()) + " parts that touch became " + std::to_string(group.shells.size()) +
-                " shells with walls between them, since one would not be sound (" + group.why +
-                "); change their plans there, or take the shells as they are, each sound, but wall against wall",
-            building));
-      for (const Solid& shell : group.shells)
-        if (auto put = append(shell, building); !put) return put;
+  /// Parts whose boxes meet belong to one block.
+  auto append_blocks() -> base::Result<void> {
+    std::vector<geometry::Box2> boxes(parts_.size());
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      for (const auto v : parts_[p].model.solid.vertices) boxes[p].add(geometry::xy(v));
+    base::DisjointSets sets(parts_.size());
+    constexpr double near = 2e-3;  // m
+    for (std::uint32_t p = 0; p < parts_.size(); ++p)
+      for (std::uint32_t q = 0; q < p; ++q)
+        if (boxes[q].grown(near).overlaps(boxes[p])) sets.join(p, q);
+    std::map<std::uint32_t, std::vector<std::size_t>> blocks;
+    for (std::uint32_t p = 0; p < parts_.size(); ++p) blocks[sets.of(p)].push_back(p);
+    for (const auto& [name, block] : blocks) {
+      std::vector<const LabelledSolid*> models;
+      for (const std::size_t p : block) models.push_back(&parts_[p].model);
+      auto united = solid::unite(models);
+      const auto& building = parts_[block.front()].building;
+      for (auto& warning : united.warnings) {
+        warning.subject = building;
+        warnings_.push_back(std::move(warning));
+      }
+      for (const auto& one : united.solids)
+        if (auto put = append(one.model.solid, building); !put) return put;
     }
-    solids_.clear();
+    parts_.clear();
     return {};
   }
 
@@ -113,7 +129,7 @@ class StlWriter : public CityWriter {
   base::Sink& file_;
   Gate gate_;
   std::uint64_t count_ = 0;
-  std::vector<Placed> solids_;  ///< not joined yet
+  std::vector<Placed> parts_;  ///< of blocks
   std::vector<base::Diagnostic> warnings_;
 };
 

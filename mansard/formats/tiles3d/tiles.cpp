@@ -6,6 +6,7 @@
 
 #include "mansard/base/files.hpp"
 #include "mansard/crs/globe.hpp"
+#include "mansard/formats/detail/drawn.hpp"
 #include "mansard/formats/detail/records.hpp"
 #include "mansard/formats/detail/writers.hpp"
 #include "mansard/formats/gltf/glb_bytes.hpp"
@@ -159,7 +160,9 @@ class TilesWriter : public CityWriter {
     if (!keyed) return keyed.error();
     TileItem item;
     std::vector<PartMesh> fine, flat;
-    for (const model::Part& part : building.parts) {
+    const Drawn solids = drawn(building, *keyed, options_.solids);
+    warnings_.insert(warnings_.end(), solids.warnings.begin(), solids.warnings.end());
+    for (const auto& [part, first] : solids.solids) {
       auto mesh = part_mesh(part.model, part.id);
       if (!mesh) return mesh.error();
       auto coarse = flat_mesh(part, *mesh, header_.frame, item);
@@ -169,7 +172,7 @@ class TilesWriter : public CityWriter {
       flat.push_back(std::move(*coarse));
     }
     measure(item, building, fine);
-    put_aside(item, building, *keyed, std::move(fine), std::move(flat));
+    put_aside(item, building, *keyed, solids, std::move(fine), std::move(flat));
     items_.push_back(item);
     return {};
   }
@@ -190,7 +193,9 @@ class TilesWriter : public CityWriter {
     return base::write_file(folder_ / "tileset.json", tileset());
   }
   [[nodiscard]] auto warnings() const -> std::vector<base::Diagnostic> override {
-    return globe_ ? globe_->warnings() : std::vector<base::Diagnostic>();
+    auto all = globe_ ? globe_->warnings() : std::vector<base::Diagnostic>();
+    all.insert(all.end(), warnings_.begin(), warnings_.end());
+    return all;
   }
 
  private:
@@ -202,12 +207,12 @@ class TilesWriter : public CityWriter {
     std::string json;  ///< with its children; until its parent is made
   };
 
-  void put_aside(TileItem& item, const model::Building& building, const Gate::Keyed& keyed, std::vector<PartMesh> fine,
-                 std::vector<PartMesh> flat) {
+  void put_aside(TileItem& item, const model::Building& building, const Gate::Keyed& keyed, const Drawn& solids,
+                 std::vector<PartMesh> fine, std::vector<PartMesh> flat) {
     const auto order = static_cast<std::int64_t>(items_.size());
     std::vector<Row> rows;
-    for (std::size_t p = 0; p < building.parts.size(); ++p)
-      rows.push_back(columns_.row(building, keyed.building, order, &building.parts[p], keyed.parts[p]));
+    for (const auto& [part, first] : solids.solids)
+      rows.push_back(columns_.row(building, keyed.building, order, &part, part.id));
     if (rows.empty()) {
       rows.push_back(columns_.row(building, keyed.building, order, nullptr, {}));
       fine.resize(1);
@@ -367,6 +372,7 @@ class TilesWriter : public CityWriter {
   Gate gate_;
   PartColumns columns_;
   std::vector<TileItem> items_;
+  std::vector<base::Diagnostic> warnings_;
   TileTree tree_;
   std::vector<Made> made_;
   std::vector<std::size_t> parents_;         ///< of tiles; nothing for the root

@@ -1,0 +1,123 @@
+#include "mansard/formats/detail/drawn.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "mansard/solid/unite.hpp"
+
+namespace mansard::formats::detail {
+namespace {
+
+enum class Rule : std::uint8_t { least, greatest, sum, mean, mean_square, first_text, same };
+
+auto rule_of(std::string_view name) -> Rule {
+  if (name.ends_with("_min") || name == "ms_h_ground") return Rule::least;
+  if (name.ends_with("_max") || name == "ms_h_ridge") return Rule::greatest;
+  if (name.starts_with("ms_volume") || name.starts_with("ms_area")) return Rule::sum;
+  if (name.starts_with("ms_rmse")) return Rule::mean_square;
+  if (name.starts_with("ms_h_")) return Rule::mean;
+  if (name == "ms_fallback") return Rule::first_text;
+  return Rule::same;
+}
+
+struct Known {
+  double value, weight;
+};
+
+auto reduced(Rule rule, const std::vector<Known>& known) -> double {
+  double least = known.front().value, most = least, sum = 0, weighted = 0, squared = 0, weight = 0;
+  for (const auto& [v, w] : known) {
+    least = std::min(least, v), most = std::max(most, v), sum += v;
+    weighted += w * v, squared += w * v * v, weight += w;
+  }
+  switch (rule) {
+    case Rule::least: return least;
+    case Rule::greatest: return most;
+    case Rule::sum: return sum;
+    case Rule::mean_square: return weight > 0 ? std::sqrt(squared / weight) : most;
+    default: return weight > 0 ? weighted / weight : most;
+  }
+}
+
+auto value_in(const model::Attributes& attributes, std::string_view name) -> const model::Value* {
+  const model::Value* found = nullptr;
+  for (const auto& [key, value] : attributes)
+    if (key == name) found = &value;
+  return found;
+}
+
+auto merged(std::string_view name, const std::vector<const model::Part*>& parts) -> model::Value {
+  const Rule rule = rule_of(name);
+  std::vector<Known> known;
+  const model::Value* first = nullptr;
+  bool same = true;
+  for (const model::Part* part : parts) {
+    const model::Value* value = value_in(part->attributes, name);
+    if (value == nullptr || std::holds_alternative<std::monostate>(*value)) {
+      same = same && rule == Rule::first_text;
+      continue;
+    }
+    if (const double* number = std::get_if<double>(value))
+      known.push_back({*number, geometry::area(geometry::oriented(model::polygon_of(part->plan)))});
+    if (first == nullptr) first = value;
+    else same = same && (*first == *value || rule == Rule::first_text);
+  }
+  if (!known.empty() && rule != Rule::same && rule != Rule::first_text) return reduced(rule, known);
+  return first != nullptr && same ? *first : model::Value();
+}
+
+}  // namespace
+
+auto merged_attributes(const std::vector<const model::Part*>& parts) -> model::Attributes {
+  if (parts.size() == 1) return parts.front()->attributes;
+  model::Attributes out;
+  std::set<std::string_view> seen;
+  for (const model::Part* part : parts)
+    for (const auto& [name, value] : part->attributes)
+      if (seen.insert(name).second) out.emplace_back(name, merged(name, parts));
+  return out;
+}
+
+auto drawn(const model::Building& building, const Gate::Keyed& keys, Solids solids) -> Drawn {
+  Drawn out;
+  const auto take = [&](solid::United united, const std::vector<std::size_t>& numbers) {
+    const bool one = solids == Solids::building && united.solids.size() == 1;
+    std::set<std::string> taken;
+    for (auto& solid : united.solids) {
+      std::vector<const model::Part*> parts;
+      for (const std::size_t p : solid.of) parts.push_back(&building.parts[numbers[p]]);
+      const std::size_t first = numbers[solid.of.front()];
+      std::string key = one ? keys.building : keys.parts[first];
+      while (!taken.insert(key).second) key += "-piece";
+      out.solids.push_back({{std::move(key), {}, std::move(solid.model), merged_attributes(parts)}, first});
+    }
+    for (auto& warning : united.warnings) {
+      warning.subject = building.id;
+      out.warnings.push_back(std::move(warning));
+    }
+  };
+  std::vector<std::size_t> numbers;
+  if (solids == Solids::building && !building.solids.empty()) {
+    solid::United made;
+    for (const auto& [parts, model] : building.solids) made.solids.push_back({parts, model, {}});
+    for (std::size_t p = 0; p < building.parts.size(); ++p) numbers.push_back(p);
+    take(std::move(made), numbers);
+    return out;
+  }
+  std::vector<const model::LabelledSolid*> models;
+  for (std::size_t p = 0; p < building.parts.size(); ++p) {
+    const auto& model = building.parts[p].model;
+    if (model.solid.faces.empty()) continue;
+    models.push_back(&model);
+    numbers.push_back(p);
+  }
+  if (solids == Solids::building) {
+    take(solid::unite(models), numbers);
+    return out;
+  }
+  for (std::size_t i = 0; i < models.size(); ++i) take(solid::unite(std::span(&models[i], 1)), {numbers[i]});
+  return out;
+}
+
+}  // namespace mansard::formats::detail

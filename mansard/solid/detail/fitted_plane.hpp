@@ -1,0 +1,16 @@
+// The plane through a face that is nearest to its corners.
+#pragma once
+
+#include "mansard/solid/solid.hpp"
+
+namespace mansard::solid::detail {
+
+struct FittedPlane {
+  geometry::Point3 middle, normal;  ///< unit, on the side of Newell's
+  double furthest = 0;              ///< m; the distance of the furthest corner
+};
+
+/// By least squares of the distances of the corners of all loops, as validators take it.
+[[nodiscard]] auto fitted_plane(const model::Solid& solid, const model::Face& face) -> FittedPlane;
+
+}  // namespace mansard::solid::detail

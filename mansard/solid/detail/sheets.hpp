@@ -1,0 +1,68 @@
+// The faces of several solids over one integer plan, in which every point that lies on a wall is a corner of it.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "mansard/solid/solid.hpp"
+
+namespace mansard::solid::detail {
+
+/// Points are whole multiples of 0.1 mm, the grid of the files.
+inline constexpr double quanta_per_metre = 10000;
+/// Quanta. Points nearer than this become one: a little more than the 1 mm within which validators take two for one.
+inline constexpr std::int64_t near = 11;
+
+using Place = std::array<std::int64_t, 2>;  ///< x and y from the origin of the sheets
+
+/// A corner: a point of the plan, by its number, and a height.
+struct Node {
+  std::uint32_t at = 0;
+  std::int64_t z = 0;
+  friend auto operator<=>(const Node&, const Node&) = default;
+};
+using Path = std::vector<Node>;
+using Step = std::pair<std::uint32_t, std::uint32_t>;  ///< from one point of the plan to another
+
+enum class Facing : std::uint8_t { up, down, aside };
+
+/// A face of one of the solids.
+struct Sheet {
+  Facing facing = Facing::up;
+  std::uint32_t solid = 0, face = 0;
+  std::vector<Path> paths;  ///< as the loops of a face
+};
+
+struct Sheets {
+  Place origin{};
+  std::vector<Place> places;
+  std::vector<Sheet> sheets;
+  std::vector<std::int64_t> base;    ///< of each solid
+  std::vector<std::uint8_t> pinned;  ///< by place: a corner of another building too, which stays
+};
+
+/// None where a solid has more than one level of ground, or soffits: it is no height field then.
+[[nodiscard]] auto sheets_of(std::span<const model::LabelledSolid* const> parts) -> std::optional<Sheets>;
+
+/// What a solid has on one side of a step: the roof over it, from its start to its end.
+struct Side {
+  std::uint32_t sheet = 0;
+  std::int64_t z0 = 0, z1 = 0;
+};
+/// By the step that has the side on its left.
+using Sides = std::map<Step, Side>;
+
+/// None where two roofs claim the same side of a step: the solids overlap.
+[[nodiscard]] auto sides_of(const Sheets& sheets) -> std::optional<Sides>;
+
+/// Merges points that are nearer than `near` in space, breaks walls where points come as near in plan, where they
+/// cross, and where one roof passes through another along them. False where this does not come to an end.
+[[nodiscard]] auto conform(Sheets& sheets) -> bool;
+
+}  // namespace mansard::solid::detail

@@ -1,0 +1,344 @@
+#include "mansard/solid/unite.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "mansard/base/disjoint_sets.hpp"
+#include "mansard/base/run.hpp"
+#include "mansard/solid/detail/union_faces.hpp"
+
+namespace mansard::solid {
+namespace {
+
+using model::LabelledSolid;
+using Parts = std::vector<std::size_t>;
+using One = United::One;
+
+/// m; what validators grant at their strictest is 1e-4. They find their own plane, and cut faces their own way.
+constexpr double planar = 0.95e-4;
+
+/// Solids without a common edge, one after the other.
+auto apart(const LabelledSolid& model, const std::vector<std::uint32_t>& part_of_face) -> std::vector<One> {
+  base::DisjointSets sets(model.solid.vertices.size());
+  for (const auto& face : model.solid.faces)
+    for (const auto& loop : face.loops)
+      for (const auto v : loop) sets.join(v, face.loops[0][0]);
+  std::map<std::uint32_t, One> found;
+  std::vector<std::uint32_t> number(model.solid.vertices.size(), UINT32_MAX);
+  for (std::size_t f = 0; f < model.solid.faces.size(); ++f) {
+    model::Face face = model.solid.faces[f];
+    One& one = found[sets.of(face.loops[0][0])];
+    for (auto& loop : face.loops)
+      for (auto& v : loop) {
+        if (number[v] == UINT32_MAX) {
+          number[v] = static_cast<std::uint32_t>(one.model.solid.vertices.size());
+          one.model.solid.vertices.push_back(model.solid.vertices[v]);
+        }
+        v = number[v];
+      }
+    one.model.solid.faces.push_back(std::move(face));
+    one.model.classes.push_back(model.classes[f]);
+    one.part_of_face.push_back(part_of_face[f]);
+  }
+  std::vector<One> all;
+  for (auto& [name, one] : found) {
+    const std::set<std::uint32_t> of(one.part_of_face.begin(), one.part_of_face.end());
+    one.of.assign(of.begin(), of.end());
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+auto volume_of(const std::vector<One>& ones) -> double {
+  double sum = 0;
+  for (const One& one : ones) sum += volume(one.model.solid);
+  return sum;
+}
+
+struct Attempt {
+  std::vector<One> solids;
+  std::string why;
+};
+
+/// The union of those solids of which there are sheets.
+auto made_of(const detail::Sheets& sheets, std::span<const LabelledSolid* const> parts) -> Attempt {
+  auto made = detail::union_of(sheets, parts);
+  if (!made.why.empty()) return {{}, made.why};
+  if (!detail::finish(made, planar)) return {{}, "a face crosses itself"};
+  auto solids = apart(made.model, made.solid_of_face);
+  for (const One& one : solids)
+    if (const auto faults = check(one.model.solid, written_rules()); !faults.empty())
+      return {{}, faults.front().message};
+  std::set<std::uint32_t> of;
+  for (const auto& sheet : sheets.sheets) of.insert(sheet.solid);
+  double whole = 0, surface = 0;
+  for (const std::uint32_t p : of) {
+    whole += volume(parts[p]->solid);
+    for (const auto& face : parts[p]->solid.faces) surface += area(parts[p]->solid, face);
+  }
+  constexpr double thickness = 1.2e-3;  // m; by which merging points may move a face
+  if (std::abs(volume_of(solids) - whole) > thickness * surface) return {{}, "parts overlap"};
+  return {std::move(solids), ""};
+}
+
+class Uniting {
+ public:
+  /// `plan` is that of the parts and their neighbours, if there is one.
+  explicit Uniting(std::span<const LabelledSolid* const> parts, std::optional<detail::Sheets> plan = std::nullopt)
+      : parts_(parts), plan_(std::move(plan)) {}
+
+  auto run() -> United {
+    const Parts all = all_of(parts_.size());
+    if (all.empty()) return {};
+    Attempt attempt = united(all);
+    if (attempt.why.empty()) take(std::move(attempt.solids));
+    else if (all.size() == 1) alone(0, attempt.why);
+    else neighbour_by_neighbour(attempt.why);
+    std::ranges::stable_sort(out_.solids, {}, [](const One& one) { return one.of.front(); });
+    return std::move(out_);
+  }
+
+ private:
+  void take(std::vector<One> solids) {
+    for (One& one : solids) out_.solids.push_back(std::move(one));
+  }
+
+  /// The union of some parts, or what is wrong with it: over the plan of all where that can be made.
+  auto united(const Parts& which, bool pinned = false) -> Attempt {
+    if (!plan_) {
+      plan_ = detail::sheets_of(parts_);
+      if (!plan_) why_ = "it has overhanging eaves";
+      else if (!detail::conform(*plan_)) why_ = "edges cross again and again";
+    }
+    if (why_.empty()) return made_of(sheets_of(which, pinned), parts_);
+    if (which.size() == parts_.size()) return {{}, why_};
+    std::vector<const LabelledSolid*> parts;
+    for (const std::size_t p : which) parts.push_back(parts_[p]);
+    Attempt made = Uniting(parts).united(all_of(parts.size()));
+    for (One& one : made.solids) {
+      for (auto& p : one.of) p = which[p];
+      for (auto& p : one.part_of_face) p = static_cast<std::uint32_t>(which[p]);
+    }
+    return made;
+  }
+
+  /// Those of some parts; what they share with others pinned.
+  [[nodiscard]] auto sheets_of(const Parts& which, bool pinned) const -> detail::Sheets {
+    detail::Sheets own = *plan_;
+    const auto is_own = [&](const detail::Sheet& sheet) { return std::ranges::binary_search(which, sheet.solid); };
+    own.pinned.resize(own.places.size(), 0);
+    for (const auto& sheet : own.sheets)
+      if (pinned && !is_own(sheet))
+        for (const auto& path : sheet.paths)
+          for (const auto& node : path) own.pinned[node.at] = 1;
+    std::erase_if(own.sheets, [&](const auto& sheet) { return !is_own(sheet); });
+    return own;
+  }
+
+  static auto all_of(std::size_t count) -> Parts {
+    Parts all;
+    for (std::size_t p = 0; p < count; ++p) all.push_back(p);
+    return all;
+  }
+
+  /// Joins what can be: one corner that no solid can have leaves the others whole.
+  void neighbour_by_neighbour(const std::string& why) {
+    std::vector<Attempt> heaps;
+    std::vector<Parts> members;
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      heaps.push_back(united({p}));
+      members.push_back({p});
+    }
+    std::size_t joined = 0;
+    for (std::size_t p = 1; p < parts_.size(); ++p) {
+      if (!heaps[p].why.empty()) continue;
+      for (std::size_t q = 0; q < p; ++q) {
+        if (members[q].empty() || members[p].empty() || !heaps[q].why.empty()) continue;
+        if (!boxes_meet(members[q], members[p])) continue;
+        Parts both = members[q];
+        both.insert(both.end(), members[p].begin(), members[p].end());
+        std::ranges::sort(both);
+        Attempt attempt = united(both);
+        if (!attempt.why.empty() || attempt.solids.size() >= heaps[q].solids.size() + heaps[p].solids.size()) continue;
+        heaps[p] = std::move(attempt);
+        members[p] = std::move(both);
+        heaps[q] = {};
+        members[q].clear();
+        ++joined;
+      }
+    }
+    out_.warnings.push_back(base::warning(
+        "solid-not-united",
+        std::to_string(parts_.size()) + " parts became " + std::to_string(parts_.size() - joined) + " solids: " + why));
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      if (members[p].empty()) continue;
+      if (Attempt shared = united(members[p], true); shared.why.empty()) heaps[p] = std::move(shared);
+      if (heaps[p].why.empty()) take(std::move(heaps[p].solids));
+      else alone(p, heaps[p].why);
+    }
+  }
+
+  [[nodiscard]] auto box_of(const Parts& parts) const -> geometry::Box2 {
+    geometry::Box2 box;
+    for (const std::size_t p : parts)
+      for (const auto v : parts_[p]->solid.vertices) box.add(geometry::xy(v));
+    return box;
+  }
+  [[nodiscard]] auto boxes_meet(const Parts& a, const Parts& b) const -> bool {
+    return box_of(a).grown(2e-3).overlaps(box_of(b));
+  }
+
+  /// A part that cannot be finished: as it is where it is valid, else its ground as a prism.
+  void alone(std::size_t p, const std::string& why) {
+    const LabelledSolid& part = *parts_[p];
+    if (check(part.solid, written_rules()).empty()) {
+      out_.solids.push_back(
+          {{p}, part, std::vector<std::uint32_t>(part.solid.faces.size(), static_cast<std::uint32_t>(p))});
+      return;
+    }
+    const LabelledSolid flat = prism_of(part);
+    const std::array<const LabelledSolid*, 1> one{&flat};
+    Attempt attempt = Uniting(one).united({0});
+    if (!attempt.why.empty()) {
+      out_.warnings.push_back(base::warning("solid-left-out", "no valid solid can be made of a part: " + why));
+      return;
+    }
+    for (One& solid : attempt.solids) {
+      solid.of = {p};
+      std::ranges::fill(solid.part_of_face, static_cast<std::uint32_t>(p));
+    }
+    take(std::move(attempt.solids));
+    out_.warnings.push_back(base::warning("solid-simplified", "a part became a flat-roofed prism: " + why));
+  }
+
+  /// The ground of a part raised to half-way between its lowest and its highest roof corner.
+  static auto prism_of(const LabelledSolid& part) -> LabelledSolid {
+    double least = 1e300, most = -1e300;
+    for (std::size_t f = 0; f < part.solid.faces.size(); ++f)
+      if (part.classes[f] == model::FaceClass::roof)
+        for (const auto v : part.solid.faces[f].loops[0]) {
+          least = std::min(least, part.solid.vertices[v].z);
+          most = std::max(most, part.solid.vertices[v].z);
+        }
+    return prism_over_ground(part, (least + most) / 2);
+  }
+
+  std::span<const LabelledSolid* const> parts_;
+  std::optional<detail::Sheets> plan_;  ///< of all parts
+  std::string why_;                     ///< there is no plan of all
+  United out_;
+};
+
+/// Buildings that may touch, over one plan.
+void unite_group(std::span<const std::vector<const LabelledSolid*>> buildings, const std::vector<std::uint32_t>& group,
+                 std::vector<United>& out) {
+  const auto by_itself = [&](std::uint32_t b) { out[b] = Uniting(buildings[b]).run(); };
+  if (group.size() == 1) return by_itself(group.front());
+  std::vector<const LabelledSolid*> parts;
+  std::vector<std::uint32_t> owner, number;
+  for (const std::uint32_t b : group)
+    for (std::uint32_t p = 0; p < buildings[b].size(); ++p) {
+      parts.push_back(buildings[b][p]);
+      owner.push_back(b), number.push_back(p);
+    }
+  auto all = detail::sheets_of(parts);
+  if (!all || !detail::conform(*all)) {
+    for (const std::uint32_t b : group) by_itself(b);
+    return;
+  }
+  std::vector<std::uint32_t> user(all->places.size(), UINT32_MAX);
+  all->pinned.assign(all->places.size(), 0);
+  for (const auto& sheet : all->sheets)
+    for (const auto& path : sheet.paths)
+      for (const auto& node : path) {
+        if (user[node.at] == UINT32_MAX) user[node.at] = owner[sheet.solid];
+        else if (user[node.at] != owner[sheet.solid]) all->pinned[node.at] = 1;
+      }
+  for (const std::uint32_t b : group) {
+    detail::Sheets own = *all;
+    std::erase_if(own.sheets, [&](const detail::Sheet& sheet) { return owner[sheet.solid] != b; });
+    for (auto& sheet : own.sheets) sheet.solid = number[sheet.solid];
+    own.base.clear();
+    for (std::size_t p = 0; p < parts.size(); ++p)
+      if (owner[p] == b) own.base.push_back(all->base[p]);
+    out[b] = Uniting(buildings[b], std::move(own)).run();
+  }
+}
+
+}  // namespace
+
+auto prism_over_ground(const LabelledSolid& model, double z) -> LabelledSolid {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, bool> party;
+  for (std::size_t f = 0; f < model.solid.faces.size(); ++f)
+    for (const auto& loop : model.solid.faces[f].loops)
+      for (std::size_t i = 0; i < loop.size(); ++i)
+        if (model.classes[f] == model::FaceClass::party_wall) party[{loop[i], loop[(i + 1) % loop.size()]}] = true;
+  LabelledSolid out;
+  std::map<std::uint32_t, std::uint32_t> low;
+  const auto vertex = [&](std::uint32_t v) {  // of the ground; that of the roof is the next
+    const auto [entry, added] = low.try_emplace(v, static_cast<std::uint32_t>(out.solid.vertices.size()));
+    if (added) {
+      const auto p = model.solid.vertices[v];
+      out.solid.vertices.push_back(p);
+      out.solid.vertices.push_back({p.x, p.y, z});
+    }
+    return entry->second;
+  };
+  const auto add = [&](model::Face face, model::FaceClass kind) {
+    out.solid.faces.push_back(std::move(face));
+    out.classes.push_back(kind);
+  };
+  for (std::size_t f = 0; f < model.solid.faces.size(); ++f) {
+    if (model.classes[f] != model::FaceClass::ground) continue;
+    model::Face ground{{}, model::FaceKind::base, {}, {0, 0, -1}}, roof{{}, model::FaceKind::cap, {}, {0, 0, 1}};
+    for (const auto& loop : model.solid.faces[f].loops) {
+      auto& below = ground.loops.emplace_back();
+      auto& above = roof.loops.emplace_back();
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        if (model.solid.vertices[loop[i]].z >= z) return {};
+        const std::uint32_t from = loop[i], to = loop[(i + 1) % loop.size()], a = vertex(from), b = vertex(to);
+        below.push_back(a);
+        above.insert(above.begin(), a + 1);
+        const auto along = out.solid.vertices[a] - out.solid.vertices[b];  // as the wall runs, seen from outside
+        add({{{b, a, a + 1, b + 1}},
+             model::FaceKind::side,
+             {},
+             geometry::normalised(geometry::Point3{along.y, -along.x, 0})},
+            party.contains({to, from}) ? model::FaceClass::party_wall : model::FaceClass::wall);
+      }
+    }
+    add(std::move(ground), model::FaceClass::ground);
+    add(std::move(roof), model::FaceClass::roof);
+  }
+  return out;
+}
+
+auto unite(std::span<const LabelledSolid* const> parts) -> United { return Uniting(parts).run(); }
+
+auto unite_all(std::span<const std::vector<const LabelledSolid*>> buildings) -> std::vector<United> {
+  std::vector<geometry::Box2> boxes(buildings.size());
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t b = 0; b < buildings.size(); ++b) {
+    for (const auto* part : buildings[b])
+      for (const auto v : part->solid.vertices) boxes[b].add(geometry::xy(v));
+    if (!boxes[b].empty()) order.push_back(b);
+  }
+  std::ranges::sort(order, {}, [&](std::uint32_t b) { return std::pair(boxes[b].least.x, b); });
+  base::DisjointSets sets(buildings.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const auto box = boxes[order[i]].grown(2e-3);
+    for (std::size_t k = i + 1; k < order.size() && boxes[order[k]].least.x <= box.most.x; ++k)
+      if (box.overlaps(boxes[order[k]])) sets.join(order[i], order[k]);
+  }
+  std::map<std::uint32_t, std::vector<std::uint32_t>> groups;
+  for (std::uint32_t b = 0; b < buildings.size(); ++b) groups[sets.of(b)].push_back(b);
+  std::vector<std::vector<std::uint32_t>> list;
+  for (auto& [name, group] : groups) list.push_back(std::move(group));
+  std::vector<United> out(buildings.size());
+  base::parallel_for(list.size(), [&](std::size_t g) { unite_group(buildings, list[g], out); });
+  return out;
+}
+
+}  // namespace mansard::solid

@@ -1,0 +1,45 @@
+// The solids of a building: the union of its parts, as it is written to files.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mansard/solid/solid.hpp"
+
+namespace mansard::solid {
+
+/// Solids made of parts.
+struct United {
+  struct One {
+    std::vector<std::size_t> of;  ///< the parts in it, rising
+    model::LabelledSolid model;
+    std::vector<std::uint32_t> part_of_face;  ///< the part that each face comes from
+  };
+  std::vector<One> solids;                 ///< by their first part
+  std::vector<base::Diagnostic> warnings;  ///< what could not be made as asked, without subject
+};
+
+/// The union of parts that are vertical walls under a roof, as are those that extrude::raise() makes without
+/// overhanging eaves: what one part's wall has behind it of another part goes. Vertices are multiples of 0.1 mm.
+/// Guarantees: 1 every solid passes check() by the rules for files, written_rules(); if no valid solid can be made of
+/// a part, its solid is left out with a warning · 2 there is one solid for parts that share walls, unless their union
+/// is no 2-manifold: then they are joined neighbour by neighbour as far as they can be · 3 the volume is that of the
+/// parts within 0.1 mm times their surface, overlaps of parts counted once · 4 the same parts give the same solids.
+/// Warnings: "solid-not-united" (parts that touch stay apart, or a part with overhanging eaves stays by itself),
+/// "solid-simplified" (a part became a prism), "solid-left-out".
+/// Cost: O(n log n) for n edges spread in plan; a group that has no union costs that for every two neighbours.
+[[nodiscard]] auto unite(std::span<const model::LabelledSolid* const> parts) -> United;
+
+/// The same for every building of a city, over one plan of each group of buildings that touch: walls of neighbours lie
+/// on the same points, so that solids of different buildings share walls exactly, or leave a gap, and overlap only
+/// where their parts do by more than 1 mm. A building that has no valid solid over that plan is made by itself. Cost:
+/// as unite(), for all parts of a group.
+[[nodiscard]] auto unite_all(std::span<const std::vector<const model::LabelledSolid*>> buildings)
+    -> std::vector<United>;
+
+/// The ground of a model raised to a flat roof at z. It stands on the corners of the model's ground, and its walls are
+/// party walls where the model's are. Empty where z is not above the ground.
+[[nodiscard]] auto prism_over_ground(const model::LabelledSolid& model, double z) -> model::LabelledSolid;
+
+}  // namespace mansard::solid

@@ -1,0 +1,199 @@
+// The union of parts that stand wall to wall: drawn examples, each with what is left of the walls between them.
+#include <gmock/gmock.h>
+
+#include <random>
+#include <set>
+
+#include "cities.hpp"
+#include "mansard/solid/unite.hpp"
+
+namespace {
+
+using namespace cities;
+using mansard::solid::unite;
+using mansard::solid::United;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+auto box(double x, double y, double width, double depth, double base, double top) -> LabelledSolid {
+  return prism(rectangle(x, y, width, depth), base, top);
+}
+
+auto united(const std::vector<LabelledSolid>& parts) -> United {
+  std::vector<const LabelledSolid*> all;
+  for (const auto& part : parts) all.push_back(&part);
+  United made = unite(all);
+  for (const auto& one : made.solids)
+    for (const auto& fault : mansard::solid::check(one.model.solid, mansard::solid::written_rules()))
+      ADD_FAILURE() << fault.code << ": " << fault.message;
+  return made;
+}
+
+/// m² of the faces that look along an axis.
+auto area_towards(const Solid& solid, Point3 axis) -> double {
+  double sum = 0;
+  for (const auto& face : solid.faces)
+    if (dot(face.normal, axis) > 0.999) sum += mansard::solid::area(solid, face);
+  return sum;
+}
+const Point3 east{1, 0, 0}, west{-1, 0, 0}, south{0, -1, 0}, up{0, 0, 1}, down{0, 0, -1};
+
+/// One valid solid with the volume of all.
+auto one_solid(const std::vector<LabelledSolid>& parts, double within = 1e-6) -> Solid {
+  const auto made = united(parts);
+  EXPECT_THAT(made.warnings, IsEmpty());
+  EXPECT_EQ(made.solids.size(), 1U);
+  const Solid& solid = made.solids.front().model.solid;
+  double volume = 0;
+  for (const auto& part : parts) volume += mansard::solid::volume(part.solid);
+  EXPECT_NEAR(mansard::solid::volume(solid), volume, within);
+  return solid;
+}
+
+TEST(Union, of_two_boxes_keeps_only_what_stands_higher_of_the_wall_between) {
+  const Solid solid = one_solid({box(0, 0, 10, 8, 0, 6), box(10, 0, 5, 8, 0, 4)});
+  EXPECT_NEAR(area_towards(solid, east), 5 * 0 + 8 * 2 + 8 * 4, 1e-9) << "the step, and the end";
+  EXPECT_NEAR(area_towards(solid, west), 8 * 6, 1e-9);
+  EXPECT_NEAR(area_towards(solid, up), 15 * 8, 1e-9);
+}
+
+TEST(Union, of_boxes_of_one_height_has_nothing_between) {
+  const Solid solid = one_solid({box(0, 0, 10, 8, 0, 6), box(10, 0, 5, 8, 0, 6)});
+  EXPECT_NEAR(area_towards(solid, east), 8 * 6, 1e-9);
+  EXPECT_NEAR(area_towards(solid, west), 8 * 6, 1e-9);
+}
+
+TEST(Union, of_an_l_has_the_corners_of_both_on_the_longer_wall) {
+  const Solid solid = one_solid({box(0, 0, 10, 20, 0, 6), box(10, 5, 5, 8, -1, 4)});
+  EXPECT_NEAR(area_towards(solid, east), 20 * 6 - 8 * 4 + 8 * 5, 1e-9);
+  EXPECT_NEAR(area_towards(solid, west), 20 * 6 + 8 * 1, 1e-9) << "the annex reaches a metre deeper";
+}
+
+TEST(Union, of_three_around_a_corner) {
+  const Solid solid = one_solid({box(0, 0, 10, 10, 0, 9), box(10, 0, 10, 10, 0, 6), box(0, 10, 10, 10, 0, 3)});
+  EXPECT_NEAR(area_towards(solid, east), 10 * 9 + 10 * 3, 1e-9) << "of the first its step, of the others their ends";
+  EXPECT_NEAR(area_towards(solid, down), 300, 1e-9);
+}
+
+TEST(Union, around_a_courtyard_is_one_with_a_hole) {
+  const Solid solid = one_solid(
+      {box(0, 0, 30, 10, 0, 9), box(0, 20, 30, 10, 0, 9), box(0, 10, 10, 10, 0, 6), box(20, 10, 10, 10, 0, 12)});
+  EXPECT_NEAR(area_towards(solid, down), 800, 1e-9);
+  EXPECT_NEAR(area_towards(solid, east), 10 * 9 * 2 + 10 * 12 + 10 * 6, 1e-9) << "the east end, and into the court";
+}
+
+TEST(Union, breaks_roofs_where_a_gable_rises_above_a_flat_roof) {
+  // The gable's end is a pentagon of eaves 3 and ridge 7; the flat roof at 5 hides what is lower.
+  const Solid solid = one_solid({gable(0, 0, 10, 8, 0, 3, 7), box(10, 0, 6, 8, 0, 5)});
+  EXPECT_NEAR(area_towards(solid, west), 8 * 3 + 8 * 4 / 2.0 + 2 * (2 * 2 / 2.0), 1e-9)
+      << "of the box two corners show";
+  EXPECT_NEAR(area_towards(solid, east), 8 * 5 + 4 * 2 / 2.0, 1e-9) << "of the gable its tip";
+}
+
+TEST(Union, breaks_both_roofs_where_two_gables_cross) {
+  const Solid solid = one_solid({gable(0, 0, 10, 8, 0, 3, 7), gable(10, 0, 10, 8, 0, 4, 6)});
+  EXPECT_EQ(solid.vertices.size(), 4U + 4 + 2 + 4 + 4 + 2 - 2 + 2)
+      << "two corners fall together, two crossings are new";
+}
+
+TEST(Union, leaves_parts_that_touch_in_a_line_only_two_solids) {
+  const auto made = united({box(0, 0, 10, 10, 0, 9), box(10, 10, 10, 10, 0, 6)});
+  EXPECT_EQ(made.solids.size(), 2U);
+  ASSERT_EQ(made.warnings.size(), 1U);
+  EXPECT_EQ(made.warnings[0].code, "solid-not-united");
+}
+
+TEST(Union, makes_two_solids_of_towers_across_a_corner_and_says_why) {
+  // Above the low ones four walls meet in one line: no 2-manifold can have that.
+  const auto made =
+      united({box(0, 0, 10, 10, 0, 9), box(10, 0, 10, 10, 0, 3), box(10, 10, 10, 10, 0, 9), box(0, 10, 10, 10, 0, 3)});
+  ASSERT_EQ(made.warnings.size(), 1U);
+  EXPECT_THAT(made.warnings[0].message, testing::HasSubstr("more than two faces"));
+  EXPECT_EQ(made.solids.size(), 2U);
+  double volume = 0;
+  for (const auto& one : made.solids) volume += mansard::solid::volume(one.model.solid);
+  EXPECT_NEAR(volume, 2400, 1e-6);
+}
+
+TEST(Union, keeps_parts_that_overlap_apart_and_says_so) {
+  const auto made = united({box(0, 0, 10, 8, 0, 6), box(9, 0, 5, 8, 0, 4)});
+  EXPECT_EQ(made.solids.size(), 2U);
+  EXPECT_EQ(made.warnings.size(), 1U);
+}
+
+TEST(Union, merges_vertices_nearer_than_a_millimetre) {
+  const auto solid = one_solid({prism({{{0, 0}, {10, 0}, {10, 8}, {9.9995, 8}, {0, 8}}, {}}, 0, 6)}, 0.1);
+  EXPECT_EQ(solid.vertices.size(), 8U);
+}
+
+TEST(Union, joins_parts_whose_walls_are_a_tenth_of_a_millimetre_apart_or_in_each_other) {
+  for (const double off : {-0.0002, -0.0001, 0.0001, 0.0002})
+    one_solid({box(0, 0, 10, 8, 0, 6), box(10 + off, 1, 5, 4, 0, 4)}, 0.1);
+}
+
+TEST(Union, puts_the_corners_of_a_neighbour_on_both_walls) {
+  const std::vector<LabelledSolid> parts{gable(0, 0, 10, 8, 0, 3, 7), box(10, 1, 5, 4, 0, 4)};
+  const auto made = mansard::solid::unite_all(std::vector<std::vector<const LabelledSolid*>>{{&parts[0]}, {&parts[1]}});
+  ASSERT_EQ(made.size(), 2U);
+  std::set<std::pair<double, double>> first;
+  for (const auto& v : made[0].solids.at(0).model.solid.vertices) first.emplace(v.x, v.y);
+  EXPECT_TRUE(first.contains({10, 1}));
+  EXPECT_TRUE(first.contains({10, 5}));
+  EXPECT_THAT(mansard::solid::check(made[0].solids[0].model.solid, mansard::solid::written_rules()), IsEmpty());
+}
+
+TEST(Union, makes_valid_solids_of_random_grids_turned_any_way) {
+  const unsigned seed = 20261122;
+  std::mt19937 random(seed);
+  const auto any = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  for (int round = 0; round < 300; ++round) {
+    SCOPED_TRACE("seed " + std::to_string(seed) + ", round " + std::to_string(round));
+    const double angle = any(0, 6.28), c = std::cos(angle), s = std::sin(angle);
+    const auto turn = [&](LabelledSolid model) {
+      for (auto& v : model.solid.vertices)
+        v = {std::round((c * v.x - s * v.y) * 1e4) / 1e4, std::round((s * v.x + c * v.y) * 1e4) / 1e4,
+             std::round(v.z * 1e4) / 1e4};
+      for (auto& face : model.solid.faces)
+        face.normal = {c * face.normal.x - s * face.normal.y, s * face.normal.x + c * face.normal.y, face.normal.z};
+      return model;
+    };
+    std::vector<LabelledSolid> parts;
+    double volume = 0;
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 2; ++k) {
+        const double x = 10 * i, y = k == 0 ? 0 : 7.3, depth = k == 0 ? 7.3 : 5.1,
+                     eaves = std::round(any(2, 6) * 2) / 2;
+        parts.push_back(turn(any(0, 1) < 0.5 ? box(x, y, 10, depth, 0, eaves)
+                                             : gable(x, y, 10, depth, 0, eaves, eaves + any(0.5, 6))));
+        volume += mansard::solid::volume(parts.back().solid);
+      }
+    double sum = 0;
+    for (const auto& one : united(parts).solids) sum += mansard::solid::volume(one.model.solid);
+    EXPECT_NEAR(sum, volume, 1.0);
+  }
+}
+
+TEST(Union, has_a_gap_where_walls_stand_apart) {
+  const auto made = united({box(0, 0, 10, 8, 0, 6), box(10.1, 0, 5, 8, 0, 4)});
+  EXPECT_EQ(made.solids.size(), 2U);
+  EXPECT_THAT(made.warnings, IsEmpty());
+}
+
+TEST(Union, joins_walls_turned_any_way_and_of_uneven_coordinates) {
+  for (int i = 0; i < 40; ++i) {
+    const double c = std::cos(0.37 * i), s = std::sin(0.37 * i);
+    const auto turn = [&](LabelledSolid model) {
+      for (auto& v : model.solid.vertices)
+        v = {std::round((c * v.x - s * v.y) * 1e4) / 1e4, std::round((s * v.x + c * v.y) * 1e4) / 1e4, v.z};
+      for (auto& face : model.solid.faces)
+        face.normal = {c * face.normal.x - s * face.normal.y, s * face.normal.x + c * face.normal.y, face.normal.z};
+      return model;
+    };
+    SCOPED_TRACE(i);
+    one_solid(
+        {turn(gable(0, 0, 10, 8, 0, 3, 7)), turn(gable(10, 1, 10, 5, 0.5, 4.2, 6.3)), turn(box(3, 8, 12, 4, 0, 2.5))},
+        0.3);
+  }
+}
+
+}  // namespace
