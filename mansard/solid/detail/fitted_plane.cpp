@@ -11,9 +11,14 @@ namespace {
 using geometry::Point3;
 using Matrix = std::array<std::array<double, 3>, 3>;
 
-/// The eigenvector of the least eigenvalue of a symmetric matrix, by Jacobi's rotations (G. H. Golub, C. F. Van Loan,
+struct Axes {
+  Point3 least;                 ///< the eigenvector of the least eigenvalue
+  std::array<double, 3> sizes;  ///< the eigenvalues, rising
+};
+
+/// Those of a symmetric matrix, by Jacobi's rotations (G. H. Golub, C. F. Van Loan,
 /// Matrix Computations, section 8.5).
-auto least_axis(Matrix m) -> Point3 {
+auto axes_of(Matrix m) -> Axes {
   Matrix v{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   constexpr int most_sweeps = 30;
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {
@@ -41,7 +46,9 @@ auto least_axis(Matrix m) -> Point3 {
   std::size_t least = 0;
   for (std::size_t i = 1; i < 3; ++i)
     if (m[i][i] < m[least][least]) least = i;
-  return geometry::normalised(Point3{v[0][least], v[1][least], v[2][least]});
+  std::array sizes{m[0][0], m[1][1], m[2][2]};
+  std::ranges::sort(sizes);
+  return {geometry::normalised(Point3{v[0][least], v[1][least], v[2][least]}), sizes};
 }
 
 }  // namespace
@@ -61,7 +68,9 @@ auto fitted_plane(const model::Solid& solid, const model::Face& face) -> FittedP
       for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t k = 0; k < 3; ++k) m[i][k] += d[i] * d[k];
     }
-  plane.normal = least_axis(m);
+  const Axes axes = axes_of(m);
+  plane.normal = axes.least;
+  plane.narrow = axes.sizes[2] > 0 ? std::sqrt(std::max(0.0, axes.sizes[1]) / axes.sizes[2]) : 0;
   if (dot(plane.normal, area_vector(solid, face)) < 0) plane.normal = -1 * plane.normal;
   for (const auto& loop : face.loops)
     for (const auto v : loop)

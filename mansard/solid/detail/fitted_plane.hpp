@@ -8,6 +8,7 @@ namespace mansard::solid::detail {
 struct FittedPlane {
   geometry::Point3 middle, normal;  ///< unit, on the side of Newell's
   double furthest = 0;              ///< m; the distance of the furthest corner
+  double narrow = 0;                ///< the width of the face as a share of its length: 0 … 1
 };
 
 /// By least squares of the distances of the corners of all loops, as validators take it.

@@ -26,7 +26,11 @@ struct Cut {
 /// Rounds of merging and breaking until nothing is left to do.
 class Conforming {
  public:
-  explicit Conforming(Sheets& sheets) : s_(sheets) {}
+  explicit Conforming(Sheets& sheets) : s_(sheets) {
+    level_bases();
+    bases_ = s_.base;
+    std::ranges::sort(bases_);
+  }
 
   auto run() -> bool {
     constexpr int most_rounds = 40;
@@ -50,6 +54,20 @@ class Conforming {
     for (Sheet& sheet : s_.sheets)
       for (Path& path : sheet.paths)
         for (Node& node : path) work(node, sheet);
+  }
+
+  /// Ground floors at nearly one height come to be at the lowest of them.
+  void level_bases() {
+    std::vector<std::uint32_t> order(s_.base.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::ranges::sort(order, {}, [&](std::uint32_t i) { return std::pair(s_.base[i], i); });
+    std::vector<std::int64_t> to = s_.base;
+    for (std::size_t i = 1; i < order.size(); ++i)
+      if (s_.base[order[i]] - s_.base[order[i - 1]] < near) to[order[i]] = to[order[i - 1]];
+    each_node([&](Node& node, const Sheet& sheet) {
+      if (node.z == s_.base[sheet.solid]) node.z = to[sheet.solid];
+    });
+    s_.base = to;
   }
 
   /// Nodes near each other in space share their point of the plan, and nodes near each other above it their height.
@@ -98,7 +116,7 @@ class Conforming {
         if (std::next(first) != last) {
           auto most = first;
           for (auto h = first; h != last; ++h)
-            if (h->second > most->second) most = h;
+            if (std::pair(is_base(h->first), h->second) > std::pair(is_base(most->first), most->second)) most = h;
           for (auto h = first; h != last; ++h) to[{at, h->first}] = most->first;
         }
         first = last;
@@ -109,6 +127,8 @@ class Conforming {
       if (const auto found = to.find(node); found != to.end()) node.z = found->second;
     });
   }
+
+  [[nodiscard]] auto is_base(std::int64_t z) const -> bool { return std::ranges::binary_search(bases_, z); }
 
   void tidy() {
     for (Sheet& sheet : s_.sheets) {
@@ -285,6 +305,7 @@ class Conforming {
   }
 
   Sheets& s_;
+  std::vector<std::int64_t> bases_;  ///< rising
   std::vector<Step> steps_;
   std::vector<std::uint32_t> points_;  ///< by place
   std::map<Step, std::vector<Cut>> cuts_;

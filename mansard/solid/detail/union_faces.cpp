@@ -196,7 +196,11 @@ class Building {
     for (const Piece* piece : group)
       if (length(run(*piece)) > length(run(*longest))) longest = piece;
     const Point2 along = geometry::normalised(run(*longest)), start = flat_of({longest->step.first, 0});
-    constexpr double most = 1.5;  // quanta
+    // A wall that another solid has too must be the same there, so it must be planar exactly.
+    const auto is_pinned = [&](const Node& node) { return node.at < s_.pinned.size() && s_.pinned[node.at] != 0; };
+    const bool shared =
+        std::ranges::any_of(group, [&](const Piece* piece) { return std::ranges::any_of(piece->path, is_pinned); });
+    const double most = shared ? 1e-3 : 1.5;  // quanta
     std::vector<Path> paths;
     for (const Piece* piece : group) {
       if (dot(run(*piece), along) <= 0) return false;
