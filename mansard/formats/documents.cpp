@@ -17,13 +17,13 @@ auto checked_keys(const model::City& city) -> base::Result<detail::Keys> {
 
 }  // namespace
 
-auto cityjson(const model::City& city) -> base::Result<std::string> {
+auto cityjson(const model::City& city, Solids solids) -> base::Result<std::string> {
   const auto keys = checked_keys(city);
   if (!keys) return keys.error();
   const Header header{city.frame, city.made_by};
   base::TextSink vertices;
   std::vector<base::Diagnostic> warnings;
-  detail::CityObjects text(header, WriteOptions().solids, vertices, 0);
+  detail::CityObjects text(header, solids, vertices, 0);
   for (std::size_t b = 0; b < city.buildings.size(); ++b)
     text.add(city.buildings[b], {keys->buildings[b], keys->parts[b]}, warnings);
   detail::JsonText json = detail::cityjson_head(header, text.solids(), text.extent(), 0);
@@ -32,11 +32,11 @@ auto cityjson(const model::City& city) -> base::Result<std::string> {
   return json.end_array().line().end_object().take() + "\n";
 }
 
-auto obj(const model::City& city, const std::string& mtl_name) -> base::Result<ObjFiles> {
+auto obj(const model::City& city, const std::string& mtl_name, Solids solids) -> base::Result<ObjFiles> {
   const auto keys = checked_keys(city);
   if (!keys) return keys.error();
   const Header header{city.frame, city.made_by};
-  detail::ObjText text(header, WriteOptions().solids);
+  detail::ObjText text(header, solids);
   ObjFiles files{detail::ObjText::head(header, mtl_name), detail::mtl_text()};
   for (std::size_t b = 0; b < city.buildings.size(); ++b) {
     const auto more = text.of(city.buildings[b], {keys->buildings[b], keys->parts[b]});
@@ -46,10 +46,10 @@ auto obj(const model::City& city, const std::string& mtl_name) -> base::Result<O
   return files;
 }
 
-auto glb(const model::City& city) -> base::Result<std::string> {
+auto glb(const model::City& city, Solids solids) -> base::Result<std::string> {
   const auto keys = checked_keys(city);
   if (!keys) return keys.error();
-  return detail::glb_bytes(city, *keys);
+  return detail::glb_bytes(city, *keys, solids);
 }
 
 }  // namespace mansard::formats

@@ -18,7 +18,7 @@ using Json = nlohmann::json;
 using mansard::formats::cityjson;
 
 auto parsed(const City& city) -> Json {
-  const auto text = cityjson(city);
+  const auto text = cityjson(city, mansard::formats::Solids::part);
   EXPECT_TRUE(text) << mansard::base::to_string(text.error());
   return Json::parse(*text);
 }
@@ -363,6 +363,21 @@ TEST(CityJson, writes_a_feature_without_parts_and_an_empty_city) {
   EXPECT_EQ(nothing["vertices"], Json::array());
 }
 
+TEST(CityJson, gives_a_building_one_solid_at_each_level_of_detail_and_its_parts_none) {
+  const Json file = Json::parse(*cityjson(street()));
+  for (const char* lod : {"1.2", "2.2"}) {
+    const Json solid = geometry_of(file, "block", lod);
+    EXPECT_EQ(solid["type"], "Solid");
+    EXPECT_EQ(solid["boundaries"].size(), 1U);
+  }
+  expect_valid_solid(file, geometry_of(file, "block", "2.2"), 300 * 12 + 100 * 4);
+  for (const char* part : {"house-1", "block-1", "block-2"}) {
+    EXPECT_FALSE(file["CityObjects"][part].contains("geometry"));
+    EXPECT_TRUE(file["CityObjects"][part]["attributes"].contains("+ms_plan"));
+  }
+  EXPECT_EQ(file["+mansard"]["solids"], "building");
+}
+
 TEST(CityJson, refuses_two_buildings_of_one_id) {
   City city = street();
   city.buildings[1].id = "house";
@@ -408,7 +423,7 @@ TEST(CityJson, refuses_broken_models) {
   const auto code_after = [](auto&& spoil) {
     City city = street();
     spoil(city.buildings[1].parts[1].model);
-    const auto text = cityjson(city);
+    const auto text = cityjson(city, mansard::formats::Solids::part);
     EXPECT_FALSE(text);
     if (!text) {
       EXPECT_EQ(text.error().subject, "block-2");

@@ -13,6 +13,8 @@
 
 namespace {
 
+constexpr auto parts = mansard::formats::Solids::part;
+
 using namespace cities;
 using Json = nlohmann::json;
 using testing::ElementsAre;
@@ -59,7 +61,7 @@ auto area_of(const std::vector<Point3>& loop) -> Point3 {
 }
 
 auto street_obj() -> ReadObj {
-  const auto files = mansard::formats::obj(street(), "model.mtl");
+  const auto files = mansard::formats::obj(street(), "model.mtl", parts);
   EXPECT_TRUE(files);
   return read_obj(files->obj);
 }
@@ -73,7 +75,7 @@ TEST(Obj, has_a_group_for_every_part) {
 TEST(Obj, gives_coordinates_in_full_in_the_frame_of_the_file) {
   const auto obj = street_obj();
   EXPECT_EQ(obj.vertices.front(), (Point3{84801.0625, 447402.125, 1.25})) << "to the bit";
-  const auto files = mansard::formats::obj(street(), "model.mtl");
+  const auto files = mansard::formats::obj(street(), "model.mtl", parts);
   EXPECT_THAT(files->obj, testing::HasSubstr("v 84801.0625 447402.125 1.25\n"));
 }
 
@@ -136,7 +138,7 @@ TEST(Obj, uses_a_material_for_each_class) {
   EXPECT_NEAR(areas["wall"], 80 + 20 + 20, 1e-6);
   EXPECT_NEAR(areas["roof"], 100, 1e-6);
   EXPECT_NEAR(areas["ground"], 100, 1e-6);
-  const auto mtl = mansard::formats::obj(street(), "m")->mtl;
+  const auto mtl = mansard::formats::obj(street(), "m", parts)->mtl;
   for (const char* name : {"wall", "party_wall", "roof", "ground"})
     EXPECT_THAT(mtl, testing::HasSubstr(std::string("newmtl ") + name + "\nKd 0."));
 }
@@ -145,7 +147,7 @@ TEST(Obj, writes_names_as_one_word_and_comments_as_one_line) {
   City city = street();
   city.buildings[0].parts[0].id = "my house #1\nv 0 0 0";
   city.frame.crs = "PROJCS[\n\"x\"]";
-  const auto obj = mansard::formats::obj(city, "m.mtl")->obj;
+  const auto obj = mansard::formats::obj(city, "m.mtl", parts)->obj;
   EXPECT_THAT(obj, testing::HasSubstr("g my_house__1_v_0_0_0\n"));
   EXPECT_THAT(obj, testing::HasSubstr("# crs PROJCS[ \"x\"]\n"));
 }
@@ -195,7 +197,7 @@ using Float3 = std::array<float, 3>;
 auto z_up(const Float3& v) -> Point3 { return {v[0], -static_cast<double>(v[2]), v[1]}; }
 
 TEST(Glb, has_a_node_for_every_part) {
-  const auto glb = read_glb(*mansard::formats::glb(street()));
+  const auto glb = read_glb(*mansard::formats::glb(street(), parts));
   ASSERT_EQ(glb.json["nodes"].size(), 3U);
   EXPECT_EQ(glb.json["scenes"][0]["nodes"], Json({0, 1, 2}));
   EXPECT_EQ(glb.json["nodes"][2]["name"], "block-2");
@@ -203,7 +205,7 @@ TEST(Glb, has_a_node_for_every_part) {
 }
 
 TEST(Glb, keeps_origin_reference_system_and_how_it_was_made) {
-  const auto asset = read_glb(*mansard::formats::glb(street())).json["asset"];
+  const auto asset = read_glb(*mansard::formats::glb(street(), parts)).json["asset"];
   EXPECT_EQ(asset["version"], "2.0");
   EXPECT_EQ(asset["extras"]["origin"], Json({84800, 447400, 0}));
   EXPECT_EQ(asset["extras"]["crs"], "EPSG:28992");
@@ -211,7 +213,7 @@ TEST(Glb, keeps_origin_reference_system_and_how_it_was_made) {
 }
 
 TEST(Glb, holds_closed_outward_parts_with_y_up) {
-  const auto glb = read_glb(*mansard::formats::glb(street()));
+  const auto glb = read_glb(*mansard::formats::glb(street(), parts));
   const std::map<std::string, double> expected{{"house-1", 640}, {"block-1", 3600}, {"block-2", 400}};
   for (const auto& mesh : glb.json["meshes"]) {
     double volume = 0;
@@ -236,7 +238,7 @@ TEST(Glb, holds_closed_outward_parts_with_y_up) {
 }
 
 TEST(Glb, states_the_exact_bounds_of_positions) {
-  const auto glb = read_glb(*mansard::formats::glb(street()));
+  const auto glb = read_glb(*mansard::formats::glb(street(), parts));
   for (const auto& mesh : glb.json["meshes"])
     for (const auto& primitive : mesh["primitives"]) {
       const std::size_t index = primitive["attributes"]["POSITION"];
@@ -252,7 +254,7 @@ TEST(Glb, states_the_exact_bounds_of_positions) {
 }
 
 TEST(Glb, colours_by_class) {
-  const auto glb = read_glb(*mansard::formats::glb(street()));
+  const auto glb = read_glb(*mansard::formats::glb(street(), parts));
   std::map<std::string, double> areas;
   for (const auto& primitive : glb.json["meshes"][2]["primitives"]) {
     const auto positions = glb.accessor<Float3>(primitive["attributes"]["POSITION"]);
@@ -271,18 +273,18 @@ TEST(Glb, colours_by_class) {
 TEST(Glb, is_valid_without_any_part) {
   City city = street();
   for (auto& building : city.buildings) building.parts.clear();
-  const auto glb = read_glb(*mansard::formats::glb(city));
+  const auto glb = read_glb(*mansard::formats::glb(city, parts));
   EXPECT_FALSE(glb.json.contains("meshes"));
   EXPECT_EQ(glb.json["extensions"]["EXT_structural_metadata"]["propertyTables"][0]["count"], 2) << "the buildings";
   city.buildings.clear();
-  const auto empty = read_glb(*mansard::formats::glb(city));
+  const auto empty = read_glb(*mansard::formats::glb(city, parts));
   EXPECT_FALSE(empty.json.contains("buffers"));
   EXPECT_TRUE(empty.binary.empty());
 }
 
 TEST(Formats, are_the_same_bytes_every_time) {
-  EXPECT_EQ(*mansard::formats::glb(street()), *mansard::formats::glb(street()));
-  EXPECT_EQ(mansard::formats::obj(street(), "m")->obj, mansard::formats::obj(street(), "m")->obj);
+  EXPECT_EQ(*mansard::formats::glb(street(), parts), *mansard::formats::glb(street(), parts));
+  EXPECT_EQ(mansard::formats::obj(street(), "m", parts)->obj, mansard::formats::obj(street(), "m", parts)->obj);
   EXPECT_EQ(*mansard::formats::cityjson(street()), *mansard::formats::cityjson(street()));
 }
 
@@ -290,10 +292,10 @@ TEST(Formats, refuse_two_buildings_of_one_id_and_broken_models) {
   City twice = street(), broken = street();
   twice.buildings[1].id = "house";
   broken.buildings[0].parts[0].model.solid.vertices[0].x = std::nan("");
-  EXPECT_EQ(mansard::formats::glb(twice).error().code, "write-duplicate-id");
-  EXPECT_EQ(mansard::formats::obj(twice, "m").error().code, "write-duplicate-id");
-  EXPECT_EQ(mansard::formats::glb(broken).error().code, "write-model");
-  EXPECT_EQ(mansard::formats::obj(broken, "m").error().code, "write-model");
+  EXPECT_EQ(mansard::formats::glb(twice, parts).error().code, "write-duplicate-id");
+  EXPECT_EQ(mansard::formats::obj(twice, "m", parts).error().code, "write-duplicate-id");
+  EXPECT_EQ(mansard::formats::glb(broken, parts).error().code, "write-model");
+  EXPECT_EQ(mansard::formats::obj(broken, "m", parts).error().code, "write-model");
 }
 
 TEST(Formats, give_up_when_a_face_cannot_be_cut) {
@@ -301,9 +303,9 @@ TEST(Formats, give_up_when_a_face_cannot_be_cut) {
   auto& faces = city.buildings[1].parts[0].model.solid.faces;
   for (auto& face : faces)
     if (face.loops.size() == 2) std::swap(face.loops[0], face.loops[1]);  // the hole around the outside
-  EXPECT_EQ(mansard::formats::glb(city).error().code, "write-triangulate");
-  EXPECT_EQ(mansard::formats::obj(city, "m").error().code, "write-triangulate");
-  EXPECT_EQ(mansard::formats::obj(city, "m").error().subject, "block-1");
+  EXPECT_EQ(mansard::formats::glb(city, parts).error().code, "write-triangulate");
+  EXPECT_EQ(mansard::formats::obj(city, "m", parts).error().code, "write-triangulate");
+  EXPECT_EQ(mansard::formats::obj(city, "m", parts).error().subject, "block-1");
 }
 
 }  // namespace

@@ -116,7 +116,11 @@ auto drawn(const model::Building& building, const Gate::Keyed& keys, Solids soli
     take(solid::unite(models), numbers);
     return out;
   }
-  for (std::size_t i = 0; i < models.size(); ++i) take(solid::unite(std::span(&models[i], 1)), {numbers[i]});
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    auto one = solid::unite(std::span(&models[i], 1));
+    if (one.solids.empty()) one = {{{{0}, *models[i], {}}}, {}};  // its writer says what is wrong with it
+    take(std::move(one), {numbers[i]});
+  }
   return out;
 }
 

@@ -67,8 +67,8 @@ auto GlbBytes::write(base::Sink& sink) -> base::Result<void> {
   return file_->write(sink, "mansard " + header_.made_by.version, extras.end_object().str(), columns_);
 }
 
-auto glb_bytes(const model::City& city, const Keys& keys) -> base::Result<std::string> {
-  auto bytes = GlbBytes::open({city.frame, city.made_by}, false, WriteOptions().solids);
+auto glb_bytes(const model::City& city, const Keys& keys, Solids solids) -> base::Result<std::string> {
+  auto bytes = GlbBytes::open({city.frame, city.made_by}, false, solids);
   if (!bytes) return bytes.error();
   for (std::size_t b = 0; b < city.buildings.size(); ++b)
     if (auto added = bytes->add(city.buildings[b], {keys.buildings[b], keys.parts[b]}); !added) return added.error();
