@@ -312,22 +312,25 @@ auto raise_footprints(const model::Scene& scene, const Options& options, const b
   out.city.made_by = detail::made_by(scene, options);
   begin(scene, read, by_attributes, out);
   report::StageTime planning{"roof", 0}, raising{"extrude", aligned_in};
+  out.city.buildings.resize(read.size());  // with those that stand around what was asked for
+  out.buildings.resize(read.size());
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     auto& job = jobs[i];
     planning.seconds += job.planning;
     raising.seconds += job.raising;
-    if (job.feature >= out.buildings.size()) continue;  // it stands around what was asked for
     auto& report = out.buildings[job.feature];
     append(report.reasons, job.reasons);
     if (!job.full) report.outcome = report::Outcome::fallback;
     if (by_attributes && report.roof.empty()) report.roof = roof::to_string(job.planned.shape);
     if (models[i]) take(std::move(job), std::move(*models[i]), out.city.buildings[job.feature], report);
   }
+  detail::add_solids(out.city.buildings, out.buildings);
+  out.city.buildings.resize(scene.footprints.size());
+  out.buildings.resize(scene.footprints.size());
   for (auto& report : out.buildings)
     if (report.parts == 0) report.outcome = report::Outcome::refused;
   out.times = {planning, raising, {"label", labelling.seconds()}};
   detail::report_overlaps(out);
-  detail::add_solids(out);
   finish(scene, out);
   return out;
 }

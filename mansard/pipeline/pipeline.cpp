@@ -135,7 +135,6 @@ auto reconstruct(const model::Scene& scene, const Options& options, const base::
   out.times = summed(division->time, out.blocks);
   out.scores = combined(out.blocks);
   detail::report_overlaps(out);
-  detail::add_solids(out);
   return out;
 }
 

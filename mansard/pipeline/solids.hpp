@@ -1,6 +1,7 @@
 // The solids that are written of a city's buildings.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "mansard/base/result.hpp"
@@ -15,6 +16,6 @@ struct SolidsOf {
 };
 
 /// Gives every building the union of its parts (solid::unite_all), over one plan of each group of buildings that touch.
-[[nodiscard]] auto unite_parts(model::City& city) -> std::vector<SolidsOf>;
+[[nodiscard]] auto unite_parts(std::span<model::Building> buildings) -> std::vector<SolidsOf>;
 
 }  // namespace mansard::pipeline

@@ -169,10 +169,28 @@ class Check {
         fault("solid-self-intersection", "the boundary of face " + std::to_string(f) + " crosses itself");
       face_of_.resize(triangles_.size(), f);
     }
+    find_crowded_diagonals();
     const auto [p, q] = detail::first_intersection(solid_, triangles_, face_of_);
     if (p < triangles_.size())
       fault("solid-self-intersection", "faces " + std::to_string(face_of_[p]) + " and " + std::to_string(face_of_[q]) +
                                            " meet near " + place(solid_.vertices[triangles_[p][0]]));
+  }
+
+  /// An edge that runs through the inside of a face from corner to corner: triangles that share corners there do not
+  /// intersect, but three or four of them meet in one edge.
+  void find_crowded_diagonals() {
+    std::vector<std::pair<std::array<std::uint32_t, 2>, std::uint32_t>> edges;  // with a face
+    for (std::size_t t = 0; t < triangles_.size(); ++t)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto [a, b] = std::minmax(triangles_[t][i], triangles_[t][(i + 1) % 3]);
+        edges.push_back({{a, b}, face_of_[t]});
+      }
+    std::ranges::sort(edges);
+    for (std::size_t i = 2; i < edges.size(); ++i)
+      if (edges[i].first == edges[i - 2].first)
+        fault("solid-self-intersection", "faces " + std::to_string(edges[i - 2].second) + " and " +
+                                             std::to_string(edges[i].second) + " meet near " +
+                                             place(solid_.vertices[edges[i].first[0]]));
   }
 
   /// A face may be flat within tolerance and yet have triangles, as wide as that tolerance, that look anywhere. Viewers

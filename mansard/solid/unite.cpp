@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "mansard/base/disjoint_sets.hpp"
 #include "mansard/base/run.hpp"
@@ -57,12 +58,22 @@ auto volume_of(const std::vector<One>& ones) -> double {
   return sum;
 }
 
+/// From the origin and level of sheets to where the parts are.
+void place(model::Solid& solid, const detail::Sheets& sheets) {
+  const auto moved = [](double metres, std::int64_t by) {
+    return static_cast<double>(std::llround(metres * detail::quanta_per_metre) + by) / detail::quanta_per_metre;
+  };
+  for (auto& v : solid.vertices)
+    v = {moved(v.x, sheets.origin[0]), moved(v.y, sheets.origin[1]), moved(v.z, sheets.level)};
+}
+
 struct Attempt {
   std::vector<One> solids;
   std::string why;
 };
 
-/// The union of those solids of which there are sheets.
+/// The union of those solids of which there are sheets. It is made and checked near the origin, where no coordinate has
+/// more digits than another.
 auto made_of(const detail::Sheets& sheets, std::span<const LabelledSolid* const> parts) -> Attempt {
   auto made = detail::union_of(sheets, parts);
   if (!made.why.empty()) return {{}, made.why};
@@ -78,16 +89,18 @@ auto made_of(const detail::Sheets& sheets, std::span<const LabelledSolid* const>
     whole += volume(parts[p]->solid);
     for (const auto& face : parts[p]->solid.faces) surface += area(parts[p]->solid, face);
   }
-  constexpr double thickness = 1.2e-3;  // m; by which merging points may move a face
+  const double thickness = static_cast<double>(sheets.near + 1) / detail::quanta_per_metre;  // m; merging moves faces
   if (std::abs(volume_of(solids) - whole) > thickness * surface) return {{}, "parts overlap"};
+  for (One& one : solids) place(one.model.solid, sheets);
   return {std::move(solids), ""};
 }
 
 class Uniting {
  public:
-  /// `plan` is that of the parts and their neighbours, if there is one.
-  explicit Uniting(std::span<const LabelledSolid* const> parts, std::optional<detail::Sheets> plan = std::nullopt)
-      : parts_(parts), plan_(std::move(plan)) {}
+  Uniting(std::span<const LabelledSolid* const> parts, std::int64_t near) : parts_(parts), near_(near) {}
+  /// `plan` is that of the parts and their neighbours.
+  Uniting(std::span<const LabelledSolid* const> parts, detail::Sheets plan)
+      : parts_(parts), near_(plan.near), plan_(std::move(plan)) {}
 
   auto run() -> United {
     const Parts all = all_of(parts_.size());
@@ -108,7 +121,7 @@ class Uniting {
   /// The union of some parts, or what is wrong with it: over the plan of all where that can be made.
   auto united(const Parts& which, bool pinned = false) -> Attempt {
     if (!plan_) {
-      plan_ = detail::sheets_of(parts_);
+      plan_ = detail::sheets_of(parts_, near_);
       if (!plan_) why_ = "it has overhanging eaves";
       else if (!detail::conform(*plan_)) why_ = "edges cross again and again";
     }
@@ -116,7 +129,7 @@ class Uniting {
     if (which.size() == parts_.size()) return {{}, why_};
     std::vector<const LabelledSolid*> parts;
     for (const std::size_t p : which) parts.push_back(parts_[p]);
-    Attempt made = Uniting(parts).united(all_of(parts.size()));
+    Attempt made = Uniting(parts, near_).united(all_of(parts.size()));
     for (One& one : made.solids) {
       for (auto& p : one.of) p = which[p];
       for (auto& p : one.part_of_face) p = static_cast<std::uint32_t>(which[p]);
@@ -200,7 +213,7 @@ class Uniting {
     }
     const LabelledSolid flat = prism_of(part);
     const std::array<const LabelledSolid*, 1> one{&flat};
-    Attempt attempt = Uniting(one).united({0});
+    Attempt attempt = Uniting(one, near_).united({0});
     if (!attempt.why.empty()) {
       out_.warnings.push_back(base::warning("solid-left-out", "no valid solid can be made of a part: " + why));
       return;
@@ -226,44 +239,123 @@ class Uniting {
   }
 
   std::span<const LabelledSolid* const> parts_;
+  std::int64_t near_;
   std::optional<detail::Sheets> plan_;  ///< of all parts
   std::string why_;                     ///< there is no plan of all
   United out_;
 };
 
-/// Buildings that may touch, over one plan.
-void unite_group(std::span<const std::vector<const LabelledSolid*>> buildings, const std::vector<std::uint32_t>& group,
-                 std::vector<United>& out) {
-  const auto by_itself = [&](std::uint32_t b) { out[b] = Uniting(buildings[b]).run(); };
-  if (group.size() == 1) return by_itself(group.front());
-  std::vector<const LabelledSolid*> parts;
-  std::vector<std::uint32_t> owner, number;
-  for (const std::uint32_t b : group)
-    for (std::uint32_t p = 0; p < buildings[b].size(); ++p) {
-      parts.push_back(buildings[b][p]);
-      owner.push_back(b), number.push_back(p);
+/// Quanta. Where parts overlap by more than the least, or a face is caught between points that near, 5 mm and 2 cm
+/// help.
+constexpr std::array reaches{detail::least_near, std::int64_t{50}, std::int64_t{200}};
+
+/// The first result without a warning, over plans in which ever more becomes one; else that with the fewest parts
+/// simplified or left out, and of those the one with the fewest solids.
+template <class Make>
+auto best(Make make) {
+  std::optional<std::vector<United>> chosen;
+  std::array<std::size_t, 2> least{};
+  for (const std::int64_t near : reaches) {
+    std::vector<United> made = make(near);
+    std::array<std::size_t, 2> lacking{};
+    bool as_asked = true;
+    for (const United& one : made) {
+      for (const auto& warning : one.warnings) lacking[0] += warning.code == "solid-not-united" ? 0 : 1;
+      as_asked = as_asked && one.warnings.empty();
+      lacking[1] += one.solids.size();
     }
-  auto all = detail::sheets_of(parts);
+    if (!chosen || lacking < least) chosen = std::move(made), least = lacking;
+    if (as_asked) break;
+  }
+  return std::move(*chosen);
+}
+
+auto united_alone(std::span<const LabelledSolid* const> parts) -> United {
+  return best([&](std::int64_t near) { return std::vector<United>{Uniting(parts, near).run()}; }).front();
+}
+
+/// What buildings are ordered by, so that their union does not depend on the order in which they are given.
+auto content(const std::vector<const LabelledSolid*>& building) {
+  geometry::Point3 least{1e300, 1e300, 1e300}, most{-1e300, -1e300, -1e300};
+  std::size_t count = 0;
+  for (const auto* part : building)
+    for (const auto v : part->solid.vertices) {
+      least = std::min(least, v);
+      most = std::max(most, v);
+      ++count;
+    }
+  return std::tuple(least, most, count);
+}
+
+/// Buildings that are united together: their parts in a row.
+struct Group {
+  std::vector<const LabelledSolid*> parts;
+  std::vector<std::uint32_t> owner;   ///< of each part, by its place in `buildings`
+  std::vector<std::uint32_t> number;  ///< of each part among its owner's
+  std::vector<std::uint32_t> buildings;
+
+  Group(std::span<const std::vector<const LabelledSolid*>> all, std::vector<std::uint32_t> which)
+      : buildings(std::move(which)) {
+    std::ranges::sort(buildings, {}, [&](std::uint32_t b) { return std::pair(content(all[b]), b); });
+    for (std::uint32_t k = 0; k < buildings.size(); ++k)
+      for (std::uint32_t p = 0; p < all[buildings[k]].size(); ++p) {
+        parts.push_back(all[buildings[k]][p]);
+        owner.push_back(k), number.push_back(p);
+      }
+  }
+};
+
+/// Buildings that touch, over one plan. By their order in the group.
+auto united_over_one_plan(std::span<const std::vector<const LabelledSolid*>> buildings, const Group& group,
+                          std::int64_t near) -> std::vector<United> {
+  std::vector<United> out;
+  auto all = detail::sheets_of(group.parts, near);
   if (!all || !detail::conform(*all)) {
-    for (const std::uint32_t b : group) by_itself(b);
-    return;
+    for (const std::uint32_t b : group.buildings) out.push_back(Uniting(buildings[b], near).run());
+    return out;
   }
   std::vector<std::uint32_t> user(all->places.size(), UINT32_MAX);
   all->pinned.assign(all->places.size(), 0);
   for (const auto& sheet : all->sheets)
     for (const auto& path : sheet.paths)
       for (const auto& node : path) {
-        if (user[node.at] == UINT32_MAX) user[node.at] = owner[sheet.solid];
-        else if (user[node.at] != owner[sheet.solid]) all->pinned[node.at] = 1;
+        if (user[node.at] == UINT32_MAX) user[node.at] = group.owner[sheet.solid];
+        else if (user[node.at] != group.owner[sheet.solid]) all->pinned[node.at] = 1;
       }
-  for (const std::uint32_t b : group) {
+  for (std::uint32_t k = 0; k < group.buildings.size(); ++k) {
     detail::Sheets own = *all;
-    std::erase_if(own.sheets, [&](const detail::Sheet& sheet) { return owner[sheet.solid] != b; });
-    for (auto& sheet : own.sheets) sheet.solid = number[sheet.solid];
+    std::erase_if(own.sheets, [&](const detail::Sheet& sheet) { return group.owner[sheet.solid] != k; });
+    for (auto& sheet : own.sheets) sheet.solid = group.number[sheet.solid];
     own.base.clear();
-    for (std::size_t p = 0; p < parts.size(); ++p)
-      if (owner[p] == b) own.base.push_back(all->base[p]);
-    out[b] = Uniting(buildings[b], std::move(own)).run();
+    for (std::size_t p = 0; p < group.parts.size(); ++p)
+      if (group.owner[p] == k) own.base.push_back(all->base[p]);
+    out.push_back(Uniting(buildings[group.buildings[k]], std::move(own)).run());
+  }
+  return out;
+}
+
+/// Buildings whose boxes meet. Those with overhanging eaves stay by themselves.
+void unite_group(std::span<const std::vector<const LabelledSolid*>> buildings, const std::vector<std::uint32_t>& which,
+                 std::vector<United>& out) {
+  std::vector<std::uint32_t> fields;
+  for (const std::uint32_t b : which) {
+    if (which.size() > 1 && detail::sheets_of(buildings[b])) fields.push_back(b);
+    else out[b] = united_alone(buildings[b]);
+  }
+  if (fields.empty()) return;
+  const Group together(buildings, std::move(fields));
+  const auto sets = detail::touching(*detail::sheets_of(together.parts), together.owner,
+                                     static_cast<std::uint32_t>(together.buildings.size()));
+  std::map<std::uint32_t, std::vector<std::uint32_t>> groups;
+  for (std::size_t k = 0; k < sets.size(); ++k) groups[sets[k]].push_back(together.buildings[k]);
+  for (auto& [name, group] : groups) {
+    if (group.size() == 1) {
+      out[group.front()] = united_alone(buildings[group.front()]);
+      continue;
+    }
+    const Group one(buildings, std::move(group));
+    auto made = best([&](std::int64_t near) { return united_over_one_plan(buildings, one, near); });
+    for (std::size_t k = 0; k < made.size(); ++k) out[one.buildings[k]] = std::move(made[k]);
   }
 }
 
@@ -315,7 +407,7 @@ auto prism_over_ground(const LabelledSolid& model, double z) -> LabelledSolid {
   return out;
 }
 
-auto unite(std::span<const LabelledSolid* const> parts) -> United { return Uniting(parts).run(); }
+auto unite(std::span<const LabelledSolid* const> parts) -> United { return united_alone(parts); }
 
 auto unite_all(std::span<const std::vector<const LabelledSolid*>> buildings) -> std::vector<United> {
   std::vector<geometry::Box2> boxes(buildings.size());

@@ -22,23 +22,36 @@ using testing::ElementsAre;
 
 class Gltf : public testing::Test {
  protected:
-  auto written(const City& city, bool compress = false) const -> std::string {
+  auto written(const City& city, bool compress = false, formats::Solids solids = formats::Solids::part) const
+      -> std::string {
     formats::WriteOptions options;
     options.compress = compress;
+    options.solids = solids;
     base::Outputs outputs;
     auto writer = formats::open_writer(formats::Format::glb, path_, {city.frame, city.made_by}, options, outputs);
     EXPECT_TRUE(writer);
     const auto done = formats::write_city(city, **writer);
     EXPECT_TRUE(done) << (done ? "" : to_string(done.error()));
     EXPECT_TRUE(outputs.commit());
+    for (const auto& warning : (*writer)->warnings()) warnings_.push_back(warning.code);
     return *base::read_file(path_);
   }
 
   test::Scratch folder_;
   std::filesystem::path path_ = folder_ / "city.glb";
+  mutable std::vector<std::string> warnings_;
 };
 
-TEST_F(Gltf, is_the_same_building_by_building_and_at_once) { EXPECT_EQ(written(street()), *formats::glb(street())); }
+TEST_F(Gltf, is_the_same_building_by_building_and_at_once) {
+  EXPECT_EQ(written(street()), *formats::glb(street(), formats::Solids::part));
+  EXPECT_EQ(written(street(), false, formats::Solids::building), *formats::glb(street()));
+}
+
+TEST_F(Gltf, has_one_solid_a_building_unless_parts_are_asked_for) {
+  const Glb glb(written(street(), false, formats::Solids::building));
+  EXPECT_THAT(glb.texts(0, "part_id"), ElementsAre("house", "block"));
+  EXPECT_THAT(warnings_, testing::IsEmpty());
+}
 
 TEST_F(Gltf, names_part_and_surface_of_every_vertex) {
   const City city = street();

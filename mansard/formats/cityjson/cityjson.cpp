@@ -141,10 +141,13 @@ void CityObjects::add(const model::Building& building, const Gate::Keyed& keys,
   const Drawn solids = drawn(building, keys, solids_);
   warnings.insert(warnings.end(), solids.warnings.begin(), solids.warnings.end());
   std::vector<Shape> shapes;
-  for (const auto& [part, first] : solids.solids) {
+  for (const auto& [part, first, parts] : solids.solids) {
     auto fine = quantised(part.model);
     const double top = roof_height(fine, part.attributes, frame_.origin[2]);
-    shapes.push_back({part.id, flat_prism(fine, top), std::move(fine)});
+    const bool own = part.id == keys.building || (parts.size() == 1 && part.id == keys.parts[first]);
+    Shape& shape = shapes.emplace_back(Shape{part.id, {}, flat_prism(fine, top), std::move(fine)});
+    if (!own)
+      for (const std::size_t p : parts) shape.of.push_back(keys.parts[p]);
   }
   Extent extent;  // of the building with its parts, whose objects come after its own
   for (const auto& loops : footprint) widen(extent, loops);
@@ -196,13 +199,21 @@ void CityObjects::append_footprint(const std::vector<Loops>& surfaces) {
 void CityObjects::append_part(const std::string& key, const model::Part* part, const Shape* shape,
                               const std::string& parent) {
   json_.line(level_).key(key).begin_object().key("type").text("BuildingPart");
+  const bool joined = shape != nullptr && !shape->of.empty();
+  if (part != nullptr || joined) json_.key("attributes").begin_object();
   if (part != nullptr) {
-    append_attributes(json_.key("attributes").begin_object(), without(part->attributes, {plan_name, old_plan_name}));
+    append_attributes(json_, without(part->attributes, {plan_name, old_plan_name, solid_of_name}));
     json_.key(plan_name).begin_object().key("type").text(plan_type).key("version").whole(plan_version);
     append_origin(json_, frame_);
     append_plan(json_, part->plan);
-    json_.end_object().end_object();
+    json_.end_object();
   }
+  if (joined) {
+    json_.key(solid_of_name).begin_array();
+    for (const auto& name : shape->of) json_.text(name);
+    json_.end_array();
+  }
+  if (part != nullptr || joined) json_.end_object();
   json_.key("parents").begin_array().text(parent).end_array();
   if (shape != nullptr) {
     json_.key("geometry").begin_array();

@@ -8,12 +8,12 @@
 namespace mansard::formats::detail {
 
 /// The extension that declares what is ours, docs/mansard.ext.json: "+mansard" at the root, "+ms_footprint" of
-/// buildings,
-/// "+ms_plan" of their parts.
+/// buildings, "+ms_plan" of their parts, and "+ms_solid_of" of those whose solid is that of several.
 inline constexpr std::string_view extension_name = "Mansard";
 inline constexpr std::string_view extension_version = "1.0";
 /// Version 0.1 had no extension, and the plan without the '+'.
 inline constexpr std::string_view plan_name = "+ms_plan", old_plan_name = plan_name.substr(1);
+inline constexpr std::string_view solid_of_name = "+ms_solid_of";
 inline constexpr std::string_view footprint_name = "+ms_footprint";
 
 /// A '+' in front is for what an extension declares. A source's own attribute of such a name gets a '_' before it, as
@@ -41,7 +41,8 @@ class CityObjects {
  private:
   /// The surfaces of a solid, at the two levels of detail.
   struct Shape {
-    std::string key;  ///< of the object that it belongs to
+    std::string key;              ///< of the object that it belongs to
+    std::vector<std::string> of;  ///< the keys of the parts in it, where they are not those of that object
     std::vector<Surface> flat, fine;
   };
   void append_part(const std::string& key, const model::Part* part, const Shape* shape, const std::string& parent);

@@ -109,20 +109,30 @@ class Objects {
     if (const auto [name, own] = find_own(json, names); own != nullptr)
       read_own_footprint({*own, {&object.place, name, 0}}, building);
     else if (vertices_ != nullptr) read_lod_0(object, *vertices_, building);
-    const auto own = solid_of(object);
+    std::vector<Found> solids;
+    std::map<std::string, std::size_t, std::less<>> number;  // of parts
     if (object.has("children"))
       object.member("children").each([&](const Item& child) {
         const auto found = object_of_.find(child.text());
         if (found == object_of_.end()) child.refuse("the id of a city object");
         // Of a plan that is named a thousand times there would be a thousand.
         if (!taken_.insert(found->first).second) child.refuse("the id of a city object that is named once");
-        auto solid = solid_of({*found->second, {&objects_.place, found->first, 0}});
-        if (solid) building.solids.push_back({{building.parts.size()}, *std::move(solid)});
-        if (auto part = read_part(found->first, *found->second)) building.parts.push_back(*std::move(part));
+        const Place place{&objects_.place, found->first, 0};
+        find_solid({*found->second, place}, {std::string(found->first)}, solids);
+        auto part = read_part(found->first, *found->second);
+        if (!part) return;
+        number.emplace(found->first, building.parts.size());
+        building.parts.push_back(*std::move(part));
       });
-    if (own) {
-      building.solids.push_back({{}, *own});
-      for (std::size_t p = 0; p < building.parts.size(); ++p) building.solids.back().parts.push_back(p);
+    std::vector<std::string> all;
+    for (const auto& part : building.parts) all.push_back(part.id);
+    find_solid(object, std::move(all), solids);
+    for (auto& solid : solids) {
+      std::vector<std::size_t> parts;
+      for (const auto& name : solid.of)
+        if (const auto part = number.find(name); part != number.end()) parts.push_back(part->second);
+      std::ranges::sort(parts);
+      if (!parts.empty()) building.solids.push_back({std::move(parts), std::move(solid.model)});
     }
     return building;
   }
@@ -157,11 +167,23 @@ class Objects {
     return part;
   }
 
-  [[nodiscard]] auto solid_of(const Item& object) const -> std::optional<model::LabelledSolid> {
-    if (models_ != Models::of_buildings || vertices_ == nullptr) return std::nullopt;
+  struct Found {
+    std::vector<std::string> of;  ///< parts
+    model::LabelledSolid model;
+  };
+  /// The solid of an object, which is of these parts unless it names others.
+  void find_solid(const Item& object, std::vector<std::string> of, std::vector<Found>& solids) const {
+    if (models_ != Models::of_buildings || vertices_ == nullptr) return;
     auto model = read_model(object, *vertices_);
-    if (model.solid.faces.empty()) return std::nullopt;
-    return model;
+    if (model.solid.faces.empty()) return;
+    if (object.has("attributes")) {
+      const Item attributes = object.member("attributes");
+      if (attributes.json.is_object() && attributes.has(std::string(solid_of_name).c_str())) {
+        of.clear();
+        attributes.member(solid_of_name).each([&](const Item& name) { of.push_back(name.text()); });
+      }
+    }
+    solids.push_back({std::move(of), std::move(model)});
   }
 
   const Item& objects_;

@@ -86,11 +86,15 @@ auto drawn(const model::Building& building, const Gate::Keyed& keys, Solids soli
     std::set<std::string> taken;
     for (auto& solid : united.solids) {
       std::vector<const model::Part*> parts;
-      for (const std::size_t p : solid.of) parts.push_back(&building.parts[numbers[p]]);
-      const std::size_t first = numbers[solid.of.front()];
+      for (std::size_t& p : solid.of) {
+        p = numbers[p];
+        parts.push_back(&building.parts[p]);
+      }
+      const std::size_t first = solid.of.front();
       std::string key = one ? keys.building : keys.parts[first];
       while (!taken.insert(key).second) key += "-piece";
-      out.solids.push_back({{std::move(key), {}, std::move(solid.model), merged_attributes(parts)}, first});
+      out.solids.push_back(
+          {{std::move(key), {}, std::move(solid.model), merged_attributes(parts)}, first, std::move(solid.of)});
     }
     for (auto& warning : united.warnings) {
       warning.subject = building.id;
@@ -116,10 +120,13 @@ auto drawn(const model::Building& building, const Gate::Keyed& keys, Solids soli
     take(solid::unite(models), numbers);
     return out;
   }
-  for (std::size_t i = 0; i < models.size(); ++i) {
-    auto one = solid::unite(std::span(&models[i], 1));
-    if (one.solids.empty()) one = {{{{0}, *models[i], {}}}, {}};  // its writer says what is wrong with it
-    take(std::move(one), {numbers[i]});
+  // Over one plan, so that parts share walls exactly.
+  std::vector<std::vector<const model::LabelledSolid*>> each;
+  for (const auto* model : models) each.push_back({model});
+  auto made = solid::unite_all(each);
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    if (made[i].solids.empty()) made[i] = {{{{0}, *models[i], {}}}, {}};  // its writer says what is wrong with it
+    take(std::move(made[i]), {numbers[i]});
   }
   return out;
 }

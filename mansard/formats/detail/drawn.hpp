@@ -9,6 +9,7 @@ namespace mansard::formats::detail {
 struct DrawnSolid {
   model::Part part;
   std::size_t first = 0;  ///< the first of its parts
+  std::vector<std::size_t> parts;
 };
 
 struct Drawn {

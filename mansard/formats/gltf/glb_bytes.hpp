@@ -35,7 +35,6 @@ class GlbBytes {
 void append_file_extras(JsonText& json, const Header& header);
 
 /// The whole city in memory.
-[[nodiscard]] auto glb_bytes(const model::City& city, const Keys& keys, Solids solids)
-    -> base::Result<std::string>;
+[[nodiscard]] auto glb_bytes(const model::City& city, const Keys& keys, Solids solids) -> base::Result<std::string>;
 
 }  // namespace mansard::formats::detail

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mansard/pipeline/solids.hpp"
 #include "mansard/report/attributes.hpp"
 
 namespace mansard::pipeline::detail {
@@ -32,6 +33,14 @@ auto made_by(const model::Scene& scene, const Options& options) -> model::MadeBy
         out.options.push_back(out.every_option.back());
     }
   return out;
+}
+
+void add_solids(std::span<model::Building> buildings, std::span<report::BuildingReport> reports) {
+  for (auto& [building, warnings] : unite_parts(buildings))
+    for (auto& warning : warnings) {
+      if (warning.code != "solid-not-united") reports[building].outcome = report::Outcome::fallback;
+      reports[building].reasons.push_back(std::move(warning));
+    }
 }
 
 namespace {
@@ -130,6 +139,7 @@ auto assemble(const model::Scene& scene, const std::vector<block::Block>& blocks
     out.error_maps.push_back(std::move(results[b].map));
     out.warnings.insert(out.warnings.end(), results[b].warnings.begin(), results[b].warnings.end());
   }
+  add_solids(buildings, reports);
   for (std::size_t i = 0; i < count; ++i) {
     if (accounts[i].area > 0) reports[i].rmse = std::sqrt(accounts[i].squared / accounts[i].area);
     auto& attributes = buildings[i].attributes;

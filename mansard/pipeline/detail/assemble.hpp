@@ -1,6 +1,7 @@
 // Puts the parts of all blocks together as buildings, with their attributes and their reports.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "mansard/pipeline/detail/block_run.hpp"
@@ -16,6 +17,10 @@ namespace mansard::pipeline::detail {
   options.grid = 1e-4;
   return options;
 }
+
+/// Gives the buildings their solids; `reports[i]` is on `buildings[i]`. Of a building that is more than one solid, or a
+/// simpler one, the reasons say so.
+void add_solids(std::span<model::Building> buildings, std::span<report::BuildingReport> reports);
 
 void add(label::Areas& sum, const label::Areas& more);
 /// Of mansard.

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "mansard/base/text.hpp"
-#include "mansard/pipeline/solids.hpp"
 
 namespace mansard::pipeline::detail {
 namespace {
@@ -131,17 +130,6 @@ void report_overlaps(report::Reconstruction& reconstruction) {
     reconstruction.warnings.push_back(base::warning(
         "pipeline-overlap", std::to_string(known) + (known == 1 ? " pair" : " pairs") +
                                 " of solids overlap, by at most " + base::to_text(most, 3) + " m³: " + where));
-}
-
-void add_solids(Reconstruction& reconstruction) {
-  for (auto& [building, warnings] : unite_parts(reconstruction.city)) {
-    auto& report = reconstruction.buildings[building];
-    for (auto& warning : warnings) {
-      if (warning.code != "solid-not-united") report.outcome = Outcome::fallback;
-      report.reasons.push_back(warning);
-      reconstruction.warnings.push_back(std::move(warning));
-    }
-  }
 }
 
 }  // namespace mansard::pipeline::detail

@@ -13,7 +13,4 @@ namespace mansard::pipeline::detail {
 /// `buildings[i]` is the report on `city.buildings[i]`. Overhanging eaves are not looked at.
 void report_overlaps(report::Reconstruction& reconstruction);
 
-/// Gives the buildings their solids. Of a building that is more than one solid, or a simpler one, the reasons say so.
-void add_solids(Reconstruction& reconstruction);
-
 }  // namespace mansard::pipeline::detail

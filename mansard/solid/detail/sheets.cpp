@@ -26,7 +26,7 @@ struct Cut {
 /// Rounds of merging and breaking until nothing is left to do.
 class Conforming {
  public:
-  explicit Conforming(Sheets& sheets) : s_(sheets) {
+  explicit Conforming(Sheets& sheets) : s_(sheets), near_(sheets.near) {
     level_bases();
     bases_ = s_.base;
     std::ranges::sort(bases_);
@@ -36,7 +36,7 @@ class Conforming {
     constexpr int most_rounds = 40;
     for (int round = 0; round < most_rounds; ++round) {
       merge();
-      if (at_points() || at_crossings() || at_inversions()) continue;
+      if (at_points() || lift_roofs() || at_crossings() || at_inversions()) continue;
       return true;
     }
     return false;
@@ -63,7 +63,7 @@ class Conforming {
     std::ranges::sort(order, {}, [&](std::uint32_t i) { return std::pair(s_.base[i], i); });
     std::vector<std::int64_t> to = s_.base;
     for (std::size_t i = 1; i < order.size(); ++i)
-      if (s_.base[order[i]] - s_.base[order[i - 1]] < near) to[order[i]] = to[order[i - 1]];
+      if (s_.base[order[i]] - s_.base[order[i - 1]] < near_) to[order[i]] = to[order[i - 1]];
     each_node([&](Node& node, const Sheet& sheet) {
       if (node.z == s_.base[sheet.solid]) node.z = to[sheet.solid];
     });
@@ -85,10 +85,10 @@ class Conforming {
       std::ranges::sort(nodes, {}, [&](const Node& n) { return std::pair(place(n.at), n); });
       base::DisjointSets sets(s_.places.size());
       for (std::size_t i = 0; i < nodes.size(); ++i)
-        for (std::size_t k = i; k-- > 0 && place(nodes[i].at)[0] - place(nodes[k].at)[0] < near;) {
+        for (std::size_t k = i; k-- > 0 && place(nodes[i].at)[0] - place(nodes[k].at)[0] < near_;) {
           if (nodes[i].at == nodes[k].at) continue;
           const std::int64_t dz = nodes[i].z - nodes[k].z, d2 = apart2(nodes[i].at, nodes[k].at);
-          if (d2 == 0 || d2 + dz * dz < near * near) {
+          if (d2 == 0 || d2 + dz * dz < near_ * near_) {
             again = again || sets.of(nodes[i].at) != sets.of(nodes[k].at);
             sets.join(nodes[i].at, nodes[k].at);
           }
@@ -99,9 +99,34 @@ class Conforming {
       for (std::uint32_t p = 0; p < chosen.size(); ++p)
         if (auto& at = chosen[sets.of(p)]; on_ground[p] > on_ground[at]) at = p;
       if (again) each_node([&](Node& node, const Sheet&) { node.at = chosen[sets.of(node.at)]; });
+      flatten_upright();
       level();
       tidy();
     }
+  }
+
+  /// Where merging made an edge of a steep roof upright, its ends come to be one: cut into triangles, the roof could
+  /// otherwise lie in the wall below it.
+  void flatten_upright() {
+    constexpr std::int64_t steepest = 57;  // a roof of 89° rises so many times as far as it goes
+    std::map<Node, std::int64_t> to;
+    for (const Sheet& sheet : s_.sheets) {
+      if (sheet.facing != Facing::up) continue;
+      for (const Path& path : sheet.paths)
+        for (std::size_t i = 0; i < path.size(); ++i) {
+          const Node &a = path[i], &b = path[(i + 1) % path.size()];
+          if (a.at == b.at && a.z != b.z && std::abs(a.z - b.z) < steepest * near_)
+            to[std::max(a, b)] = std::min(a, b).z;
+        }
+    }
+    set_heights(to);
+  }
+
+  void set_heights(const std::map<Node, std::int64_t>& to) {
+    if (to.empty()) return;
+    each_node([&](Node& node, const Sheet&) {
+      if (const auto found = to.find(node); found != to.end()) node.z = found->second;
+    });
   }
 
   void level() {
@@ -112,7 +137,7 @@ class Conforming {
       auto first = heights.begin();
       while (first != heights.end()) {
         auto last = std::next(first);
-        while (last != heights.end() && last->first - std::prev(last)->first < near) ++last;
+        while (last != heights.end() && last->first - std::prev(last)->first < near_) ++last;
         if (std::next(first) != last) {
           auto most = first;
           for (auto h = first; h != last; ++h)
@@ -122,10 +147,7 @@ class Conforming {
         first = last;
       }
     }
-    if (to.empty()) return;
-    each_node([&](Node& node, const Sheet&) {
-      if (const auto found = to.find(node); found != to.end()) node.z = found->second;
-    });
+    set_heights(to);
   }
 
   [[nodiscard]] auto is_base(std::int64_t z) const -> bool { return std::ranges::binary_search(bases_, z); }
@@ -140,6 +162,25 @@ class Conforming {
       std::erase_if(sheet.paths, [](const Path& path) { return path.size() < 3; });
     }
     std::erase_if(s_.sheets, [](const Sheet& sheet) { return sheet.paths.empty(); });
+  }
+
+  /// A roof that comes down to the ground beside another solid gets a wall of its own there, twice as high as what
+  /// becomes one: in one solid with the other, its edge would lie inside the ground.
+  auto lift_roofs() -> bool {
+    constexpr std::uint32_t nobody = UINT32_MAX, several = UINT32_MAX - 1;
+    std::vector<std::uint32_t> user(s_.places.size(), nobody);
+    each_node([&](const Node& node, const Sheet& sheet) {
+      if (user[node.at] == nobody) user[node.at] = sheet.solid;
+      else if (user[node.at] != sheet.solid) user[node.at] = several;
+    });
+    bool lifted = false;
+    for (Sheet& sheet : s_.sheets) {
+      if (sheet.facing != Facing::up) continue;
+      for (Path& path : sheet.paths)
+        for (Node& node : path)
+          if (node.z == s_.base[sheet.solid] && user[node.at] == several) node.z += 2 * near_, lifted = true;
+    }
+    return lifted;
   }
 
   /// Steps of walls, and the points at their ends.
@@ -167,14 +208,14 @@ class Conforming {
       const Place &a = place(step.first), &b = place(step.second);
       const double dx = static_cast<double>(b[0] - a[0]), dy = static_cast<double>(b[1] - a[1]);
       const double length2 = dx * dx + dy * dy;
-      const std::int64_t least = std::min(a[0], b[0]) - near, most = std::max(a[0], b[0]) + near;
-      const std::int64_t low = std::min(a[1], b[1]) - near, high = std::max(a[1], b[1]) + near;
+      const std::int64_t least = std::min(a[0], b[0]) - near_, most = std::max(a[0], b[0]) + near_;
+      const std::int64_t low = std::min(a[1], b[1]) - near_, high = std::max(a[1], b[1]) + near_;
       auto p = std::ranges::lower_bound(points_, least, {}, [&](std::uint32_t i) { return place(i)[0]; });
       for (; p != points_.end() && place(*p)[0] <= most; ++p) {
         if (*p == step.first || *p == step.second || place(*p)[1] < low || place(*p)[1] > high) continue;
         const double px = static_cast<double>(place(*p)[0] - a[0]), py = static_cast<double>(place(*p)[1] - a[1]);
         const double t = (px * dx + py * dy) / length2, off = px * dy - py * dx;
-        if (t > 0 && t < 1 && off * off < length2 * static_cast<double>(near * near)) cuts_[step].push_back({t, *p});
+        if (t > 0 && t < 1 && off * off < length2 * static_cast<double>(near_ * near_)) cuts_[step].push_back({t, *p});
       }
     }
     return apply();
@@ -231,9 +272,9 @@ class Conforming {
     const auto sides = sides_of(s_);
     if (!sides) return false;
     gather();
-    bool levelled = false;
+    std::set<std::uint32_t> levelled;  // points of the plan
     for (const auto& [step, left] : *sides) {
-      if (step.first > step.second) continue;
+      if (step.first > step.second || levelled.contains(step.first) || levelled.contains(step.second)) continue;
       const auto back = sides->find({step.second, step.first});
       if (back == sides->end()) continue;
       const Side& right = back->second;
@@ -245,22 +286,22 @@ class Conforming {
         const Place &a = place(step.first), &b = place(step.second);
         const double dx = static_cast<double>(b[0] - a[0]), dy = static_cast<double>(b[1] - a[1]);
         const double reach = std::hypot(dx, dy, static_cast<double>(lines[i][1] - lines[i][0]));
-        const bool at_start = t * reach < static_cast<double>(near),
-                   at_end = (1 - t) * reach < static_cast<double>(near);
+        const bool at_start = t * reach < static_cast<double>(near_),
+                   at_end = (1 - t) * reach < static_cast<double>(near_);
         const std::uint32_t p = point_at(static_cast<double>(a[0]) + t * dx, static_cast<double>(a[1]) + t * dy);
         if (at_start || at_end || p == step.first || p == step.second) {
           const bool start = at_start || p == step.first;
           const std::uint32_t end = start ? step.first : step.second;
           set_height({end, lines[i][start ? 0 : 1]}, lines[k][start ? 0 : 1]);
-          levelled = true;
+          levelled.insert(end);
           break;
         }
         cuts_[step].push_back({t, p});
         break;
       }
-      if (levelled) break;
     }
-    return levelled || apply();
+    const bool broken = apply();
+    return broken || !levelled.empty();
   }
 
   [[nodiscard]] auto ground(const Side& side) const -> std::array<std::int64_t, 2> {
@@ -305,6 +346,7 @@ class Conforming {
   }
 
   Sheets& s_;
+  std::int64_t near_;
   std::vector<std::int64_t> bases_;  ///< rising
   std::vector<Step> steps_;
   std::vector<std::uint32_t> points_;  ///< by place
@@ -314,9 +356,11 @@ class Conforming {
 
 }  // namespace
 
-auto sheets_of(std::span<const model::LabelledSolid* const> parts) -> std::optional<Sheets> {
+auto sheets_of(std::span<const model::LabelledSolid* const> parts, std::int64_t near) -> std::optional<Sheets> {
   Sheets out;
-  const auto quanta = [](double v) { return std::llround(v * quanta_per_metre); };
+  out.near = near;
+  // Halves go up everywhere, so that a shift by whole metres shifts the result.
+  const auto quanta = [](double v) { return static_cast<std::int64_t>(std::floor(v * quanta_per_metre + 0.5)); };
   bool first = true;
   for (const auto* part : parts)
     for (const Point3 p : part->solid.vertices) {
@@ -353,6 +397,7 @@ auto sheets_of(std::span<const model::LabelledSolid* const> parts) -> std::optio
     if (!base) return std::nullopt;
     out.base.push_back(*base);
   }
+  if (!out.base.empty()) out.level = *std::ranges::min_element(out.base);
   return out;
 }
 

@@ -17,7 +17,7 @@ namespace mansard::solid::detail {
 /// Points are whole multiples of 0.1 mm, the grid of the files.
 inline constexpr double quanta_per_metre = 10000;
 /// Quanta. Points nearer than this become one: a little more than the 1 mm within which validators take two for one.
-inline constexpr std::int64_t near = 11;
+inline constexpr std::int64_t least_near = 11;
 
 using Place = std::array<std::int64_t, 2>;  ///< x and y from the origin of the sheets
 
@@ -41,6 +41,8 @@ struct Sheet {
 
 struct Sheets {
   Place origin{};
+  std::int64_t level = 0;  ///< whole quanta, as `origin`: heights of a union count from here until it is finished
+  std::int64_t near = least_near;  ///< quanta; points nearer than this become one
   std::vector<Place> places;
   std::vector<Sheet> sheets;
   std::vector<std::int64_t> base;    ///< of each solid
@@ -48,7 +50,8 @@ struct Sheets {
 };
 
 /// None where a solid has more than one level of ground, or soffits: it is no height field then.
-[[nodiscard]] auto sheets_of(std::span<const model::LabelledSolid* const> parts) -> std::optional<Sheets>;
+[[nodiscard]] auto sheets_of(std::span<const model::LabelledSolid* const> parts, std::int64_t near = least_near)
+    -> std::optional<Sheets>;
 
 /// What a solid has on one side of a step: the roof over it, from its start to its end.
 struct Side {
@@ -61,7 +64,12 @@ using Sides = std::map<Step, Side>;
 /// None where two roofs claim the same side of a step: the solids overlap.
 [[nodiscard]] auto sides_of(const Sheets& sheets) -> std::optional<Sides>;
 
-/// Merges points that are nearer than `near` in space, breaks walls where points come as near in plan, where they
+/// By solids of several owners: the first of the owners that each belongs to, when those are put together whose ground
+/// comes nearer than Sheets::near in plan.
+[[nodiscard]] auto touching(const Sheets& sheets, const std::vector<std::uint32_t>& owner_of_solid,
+                            std::uint32_t owners) -> std::vector<std::uint32_t>;
+
+/// Merges points that are nearer than Sheets::near in space, breaks walls where points come as near in plan, where they
 /// cross, and where one roof passes through another along them. False where this does not come to an end.
 [[nodiscard]] auto conform(Sheets& sheets) -> bool;
 

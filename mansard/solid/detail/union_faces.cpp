@@ -240,7 +240,7 @@ class Building {
     if (added) {
       const Place& place = s_.places[node.at];
       const auto metres = [](std::int64_t quanta) { return static_cast<double>(quanta) / quanta_per_metre; };
-      vertices.push_back({metres(place[0] + s_.origin[0]), metres(place[1] + s_.origin[1]), metres(node.z)});
+      vertices.push_back({metres(place[0]), metres(place[1]), metres(node.z - s_.level)});
       out_.pinned.push_back(node.at < s_.pinned.size() ? s_.pinned[node.at] : 0);
     }
     return entry->second;

@@ -8,7 +8,8 @@
 
 namespace mansard::solid::detail {
 
-/// A solid, or what is wrong with it. `solid_of_face` says which of the solids each face comes from.
+/// A solid, from the sheets' origin and level, or what is wrong with it. `solid_of_face` says which of the solids each
+/// face comes from.
 struct Union {
   model::LabelledSolid model;
   std::vector<std::uint32_t> solid_of_face;

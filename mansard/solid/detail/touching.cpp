@@ -1,0 +1,81 @@
+// Which buildings stand so near each other that they are laid over one plan.
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "mansard/base/disjoint_sets.hpp"
+#include "mansard/solid/detail/sheets.hpp"
+
+namespace mansard::solid::detail {
+namespace {
+
+/// An edge of the ground.
+struct Edge {
+  Place from{}, to{};
+  std::uint32_t owner = 0;
+
+  [[nodiscard]] auto least(int axis) const -> std::int64_t { return std::min(from[axis], to[axis]); }
+  [[nodiscard]] auto most(int axis) const -> std::int64_t { return std::max(from[axis], to[axis]); }
+};
+
+auto minus(const Place& a, const Place& b) -> std::array<double, 2> {
+  return {static_cast<double>(a[0] - b[0]), static_cast<double>(a[1] - b[1])};
+}
+
+/// From a point to an edge.
+auto distance(const Place& p, const Edge& edge) -> double {
+  const auto along = minus(edge.to, edge.from), to = minus(p, edge.from);
+  const double length2 = along[0] * along[0] + along[1] * along[1];
+  const double t = length2 > 0 ? std::clamp((to[0] * along[0] + to[1] * along[1]) / length2, 0.0, 1.0) : 0.0;
+  return std::hypot(to[0] - t * along[0], to[1] - t * along[1]);
+}
+
+/// Sign of the area of the triangle from an edge to a point. Places reach 2⁴⁰ quanta, 10⁵ km; their products are
+/// compared in long double.
+auto side(const Edge& edge, const Place& p) -> int {
+  const long double left = static_cast<long double>(edge.to[0] - edge.from[0]) *
+                           static_cast<long double>(p[1] - edge.from[1]),
+                    right = static_cast<long double>(edge.to[1] - edge.from[1]) *
+                            static_cast<long double>(p[0] - edge.from[0]);
+  return (left > right) - (left < right);
+}
+
+auto meet(const Edge& a, const Edge& b, std::int64_t near) -> bool {
+  if (side(a, b.from) * side(a, b.to) < 0 && side(b, a.from) * side(b, a.to) < 0) return true;
+  const auto reach = static_cast<double>(near);
+  return distance(a.from, b) < reach || distance(a.to, b) < reach || distance(b.from, a) < reach ||
+         distance(b.to, a) < reach;
+}
+
+auto edges_of(const Sheets& sheets, const std::vector<std::uint32_t>& owner_of_solid) -> std::vector<Edge> {
+  std::vector<Edge> edges;
+  for (const Sheet& sheet : sheets.sheets) {
+    if (sheet.facing != Facing::down) continue;
+    for (const Path& path : sheet.paths)
+      for (std::size_t i = 0; i < path.size(); ++i)
+        edges.push_back(
+            {sheets.places[path[i].at], sheets.places[path[(i + 1) % path.size()].at], owner_of_solid[sheet.solid]});
+  }
+  std::ranges::sort(edges, {}, [](const Edge& e) { return std::tuple(e.least(0), e.from, e.to, e.owner); });
+  return edges;
+}
+
+}  // namespace
+
+auto touching(const Sheets& sheets, const std::vector<std::uint32_t>& owner_of_solid, std::uint32_t owners)
+    -> std::vector<std::uint32_t> {
+  const auto edges = edges_of(sheets, owner_of_solid);
+  const std::int64_t near = sheets.near;
+  base::DisjointSets sets(owners);
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    for (std::size_t k = i + 1; k < edges.size() && edges[k].least(0) <= edges[i].most(0) + near; ++k) {
+      if (edges[k].least(1) > edges[i].most(1) + near || edges[i].least(1) > edges[k].most(1) + near) continue;
+      if (sets.of(edges[i].owner) != sets.of(edges[k].owner) && meet(edges[i], edges[k], near))
+        sets.join(edges[i].owner, edges[k].owner);
+    }
+  std::vector<std::uint32_t> out(owners);
+  for (std::uint32_t o = 0; o < owners; ++o) out[o] = sets.of(o);
+  return out;
+}
+
+}  // namespace mansard::solid::detail
