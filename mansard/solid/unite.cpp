@@ -407,6 +407,15 @@ auto prism_over_ground(const LabelledSolid& model, double z) -> LabelledSolid {
   return out;
 }
 
+auto share_walls(std::span<const LabelledSolid* const> parts) -> bool {
+  for (const auto* part : parts)
+    if (!check(part->solid, written_rules()).empty()) return false;
+  auto sheets = detail::sheets_of(parts);
+  if (!sheets) return true;
+  const auto before = sheets->sheets;
+  return detail::conform(*sheets) && sheets->sheets == before;
+}
+
 auto unite(std::span<const LabelledSolid* const> parts) -> United { return united_alone(parts); }
 
 auto unite_all(std::span<const std::vector<const LabelledSolid*>> buildings) -> std::vector<United> {

@@ -123,9 +123,10 @@ auto drawn(const model::Building& building, const Gate::Keyed& keys, Solids soli
   // Over one plan, so that parts share walls exactly.
   std::vector<std::vector<const model::LabelledSolid*>> each;
   for (const auto* model : models) each.push_back({model});
-  auto made = solid::unite_all(each);
+  auto made = solid::share_walls(models) ? std::vector<solid::United>(models.size()) : solid::unite_all(each);
   for (std::size_t i = 0; i < made.size(); ++i) {
-    if (made[i].solids.empty()) made[i] = {{{{0}, *models[i], {}}}, {}};  // its writer says what is wrong with it
+    if (made[i].solids.empty())
+      made[i] = {{{{0}, *models[i], {}}}, {}};  // as it is; its writer says what is wrong with it
     take(std::move(made[i]), {numbers[i]});
   }
   return out;

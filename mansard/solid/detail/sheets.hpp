@@ -37,6 +37,7 @@ struct Sheet {
   Facing facing = Facing::up;
   std::uint32_t solid = 0, face = 0;
   std::vector<Path> paths;  ///< as the loops of a face
+  friend auto operator==(const Sheet&, const Sheet&) -> bool = default;
 };
 
 struct Sheets {
