@@ -108,3 +108,5 @@ case $group in
     ;;
 esac
 python3 "$here/targets.py" "$out" "$group"
+echo
+python3 "$here/form.py" "$out"

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mansard/evaluate/detail/plan_of_face.hpp"
+#include "mansard/evaluate/detail/shared_boundary.hpp"
 #include "mansard/evaluate/truth.hpp"
 
 namespace mansard::evaluate {
@@ -19,29 +21,6 @@ auto area_of(const Outline& outline) -> double {
   return sum;
 }
 
-auto flat(const model::ModelFace& face) -> base::Result<std::vector<Polygon>> {
-  Polygon polygon;
-  for (const auto& loop : face.loops) {
-    geometry::Ring ring;
-    for (const auto p : loop) ring.push_back(xy(p));
-    if (&loop == &face.loops.front()) polygon.outer = std::move(ring);
-    else polygon.holes.push_back(std::move(ring));
-  }
-  return geometry::make_valid(geometry::oriented(std::move(polygon)));
-}
-
-auto edges_of(const Outline& outline) -> std::vector<Segment2> {
-  std::vector<Segment2> edges;
-  const auto add = [&](const geometry::Ring& ring) {
-    for (std::size_t i = 0; i < ring.size(); ++i) edges.push_back({ring[i], ring[(i + 1) % ring.size()]});
-  };
-  for (const auto& polygon : outline) {
-    add(polygon.outer);
-    for (const auto& hole : polygon.holes) add(hole);
-  }
-  return edges;
-}
-
 /// A short piece of an outline that runs along another outline.
 struct Shared {
   Point2 middle;
@@ -50,11 +29,10 @@ struct Shared {
 
 /// The pieces, of at most 10 cm, of every outline whose middles lie within `party_touch` of another one.
 auto shared_of(std::span<const Outline> outlines) -> std::vector<Shared> {
-  constexpr double piece = 0.1;  // m
   std::vector<std::vector<Segment2>> edges;
   std::vector<Box2> boxes;
   for (const auto& outline : outlines) {
-    edges.push_back(edges_of(outline));
+    edges.push_back(detail::edges_of(outline));
     boxes.push_back(geometry::bounds(outline).grown(party_touch));
   }
   std::vector<Shared> shared;
@@ -64,13 +42,10 @@ auto shared_of(std::span<const Outline> outlines) -> std::vector<Shared> {
       if (b != a && !boxes[a].empty() && boxes[b].overlaps(boxes[a]))
         others.insert(others.end(), edges[b].begin(), edges[b].end());
     for (const auto& edge : edges[a]) {
-      const Point2 along = edge.end - edge.start;
-      const auto n = static_cast<std::size_t>(std::ceil(length(along) / piece));
-      for (std::size_t k = 0; k < n; ++k) {
-        const Point2 middle = edge.start + ((static_cast<double>(k) + 0.5) / static_cast<double>(n)) * along;
+      detail::each_piece(edge, [&](Point2 middle, double length) {
         if (std::ranges::any_of(others, [&](const auto& o) { return geometry::distance(o, middle) <= party_touch; }))
-          shared.push_back({middle, length(along) / static_cast<double>(n)});
-      }
+          shared.push_back({middle, length});
+      });
     }
   }
   return shared;
@@ -115,12 +90,39 @@ auto pairs_of(std::span<const Outline> truth, std::span<const Outline> model, co
 
 }  // namespace
 
+auto detail::edges_of(const Outline& outline) -> std::vector<Segment2> {
+  std::vector<Segment2> edges;
+  const auto add = [&](const geometry::Ring& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i) edges.push_back({ring[i], ring[(i + 1) % ring.size()]});
+  };
+  for (const auto& polygon : outline) {
+    add(polygon.outer);
+    for (const auto& hole : polygon.holes) add(hole);
+  }
+  return edges;
+}
+
+auto detail::shared_boundary(const Outline& first, const Outline& second) -> double {
+  if (first.empty() || second.empty()) return 0;
+  const auto box = geometry::bounds(second).grown(party_touch);
+  if (!geometry::bounds(first).overlaps(box)) return 0;
+  const auto others = edges_of(second);
+  double sum = 0;
+  for (const auto& edge : edges_of(first))
+    each_piece(edge, [&](Point2 middle, double piece) {
+      if (!box.contains(middle)) return;
+      const auto touches = [&](const auto& o) { return geometry::distance(o, middle) <= party_touch; };
+      if (std::ranges::any_of(others, touches)) sum += piece;
+    });
+  return sum;
+}
+
 auto outline_of(std::span<const model::ModelPart> parts) -> base::Result<Outline> {
   std::vector<Polygon> ground, above;
   for (const auto& part : parts)
     for (const auto& face : part.faces) {
       if (face.kind == SurfaceClass::wall) continue;
-      const auto pieces = flat(face);
+      const auto pieces = detail::plan_of_face(face);
       if (!pieces) return pieces;
       auto& list = face.kind == SurfaceClass::ground ? ground : above;
       list.insert(list.end(), pieces->begin(), pieces->end());

@@ -1,4 +1,6 @@
 #include "mansard/evaluate/planes.hpp"
+
+#include "mansard/evaluate/detail/plan_of_face.hpp"
 #include "mansard/geometry/angles.hpp"
 
 #include <algorithm>
@@ -19,14 +21,6 @@ auto to_millimetres(Point3 p) -> Corner {
   return {std::llround(p.x * 1e3), std::llround(p.y * 1e3), std::llround(p.z * 1e3)};
 }
 
-/// Twice the area, as a vector; holes turn the other way and so are taken off.
-auto area_vector(const model::ModelFace& face) -> Point3 {
-  Point3 sum;
-  for (const auto& loop : face.loops)
-    for (std::size_t i = 0; i + 1 < loop.size(); ++i) sum = sum + cross(loop[i] - loop[0], loop[i + 1] - loop[0]);
-  return sum;
-}
-
 /// One building's faces, and which of them share an edge.
 struct Faces {
   std::vector<const model::ModelFace*> faces;
@@ -37,7 +31,7 @@ struct Faces {
   explicit Faces(const model::ModelBuilding& building) {
     for (const auto& part : building.parts)
       for (const auto& face : part.faces) {
-        const Point3 twice = area_vector(face);
+        const Point3 twice = detail::area_vector(face);
         faces.push_back(&face);
         normals.push_back(normalised(twice));
         areas.push_back(length(twice) / 2);

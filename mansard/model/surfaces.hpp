@@ -29,6 +29,7 @@ struct ModelFace {
 struct ModelPart {
   std::string id;
   std::vector<ModelFace> faces;
+  std::string role{};  ///< "dormer", … where the file says so (attribute ms_role)
 };
 
 struct ModelBuilding {

@@ -290,6 +290,37 @@ auto against(const model::Model& truth, const model::Model& model, const std::ve
   return out;
 }
 
+/// What the form of a model is measured on.
+struct Roof {
+  const model::Model& model;
+  evaluate::RoofPlanes planes;
+  std::vector<evaluate::RoofLine> lines;
+  std::vector<evaluate::RoofStructure> structures;
+
+  Roof(const model::Model& of, double grid)
+      : model(of),
+        planes(evaluate::roof_planes_of(of)),
+        lines(evaluate::roof_lines_of(of, planes)),
+        structures(evaluate::roof_structures_of(of, planes, grid)) {}
+  [[nodiscard]] auto input() const -> evaluate::FormInput { return {model, planes, lines, structures}; }
+};
+
+void measure_form(const report::EvaluationInput& input, double grid, report::Evaluation& out) {
+  const Roof model(input.model, grid);
+  out.form = evaluate::form_of(model.input(), input.scene.mesh);
+  auto unchecked = out.form.unchecked;
+  if (input.truth) {
+    const Roof truth(*input.truth, grid);
+    out.truth->form = evaluate::compare_form(truth.input(), model.input(), grid);
+    out.truth->form.form = evaluate::form_of(truth.input(), input.scene.mesh);
+    unchecked += out.truth->form.unchecked + out.truth->form.form.unchecked;
+  }
+  if (unchecked > 0)
+    out.warnings.push_back(base::warning("pipeline-evaluation-unchecked",
+                                         "the plan of " + std::to_string(unchecked) +
+                                             " roof planes or parts could not be computed for the form scores"));
+}
+
 }  // namespace
 
 auto read_evaluation(const EvaluationFiles& files, const ingest::Options& options, const base::Run& run)
@@ -378,6 +409,7 @@ auto evaluate_model(const report::EvaluationInput& input, const Options& options
     out.truth->scores = totals.model_from_truth.all();
     out.truth->prism = totals.prism_from_truth.all();
   }
+  measure_form(input, options.evaluate.grid, out);
   if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
   return out;
 }

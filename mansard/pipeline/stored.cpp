@@ -40,6 +40,8 @@ auto class_of(model::FaceClass kind) -> model::SurfaceClass {
 
 auto part_of(const model::Part& part) -> model::ModelPart {
   model::ModelPart out{part.id, {}};
+  for (const auto& [key, value] : part.attributes)
+    if (const auto* text = std::get_if<std::string>(&value); text && key == "ms_role") out.role = *text;
   const auto& solid = part.model.solid;
   for (std::size_t f = 0; f < solid.faces.size(); ++f) {
     auto& face = out.faces.emplace_back();

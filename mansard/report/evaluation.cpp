@@ -1,9 +1,11 @@
 // What an evaluation found, as JSON and as a table.
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "mansard/base/text.hpp"
+#include "mansard/report/detail/form.hpp"
 #include "mansard/report/evaluation.hpp"
 
 namespace mansard::report {
@@ -150,7 +152,9 @@ auto json_of(const std::vector<base::Diagnostic>& all) -> Json {
 /// One line of the table: what it is, then what it came to.
 auto line(const std::string& what, const std::string& value) -> std::string {
   constexpr std::size_t width = 36;
-  return what + std::string(what.size() < width ? width - what.size() : 1, ' ') + value + "\n";
+  // Characters, not bytes: continuation bytes of UTF-8 take no room.
+  const auto size = static_cast<std::size_t>(std::ranges::count_if(what, [](char c) { return (c & 0xC0) != 0x80; }));
+  return what + std::string(size < width ? width - size : 1, ' ') + value + "\n";
 }
 
 auto in_words(const evaluate::Spread& s) -> std::string {
@@ -214,6 +218,8 @@ auto table_of(const Evaluation& e, double inset) -> std::string {
                                           to_text(r.offset_p95_absolute, 3) + " m");
   out += line("  classes right", percent(t.classes.accuracy(), 1) + " of the area within 1 m of the truth (" +
                                      to_text(t.classes.beyond, 1) + " m² beyond)");
+  out += "form against the truth\n";
+  for (const auto& [what, value] : detail::lines_of(t.form, e.form)) out += line(what, value);
   return out + "\n" + confusion_table(t.classes.area);
 }
 
@@ -269,12 +275,14 @@ auto evaluation_json(const Evaluation& e, const EvaluationInput& input) -> std::
   out["seed"] = e.seed;
   out["footprints_of"] = to_string(input.reference);
   out["model"] = json_of(e.counts);
+  out["form"] = detail::json_of(e.form);
   out["scores"] = json_of(e.scores, independent);
   out["distances"] = {{"model_to_mesh", json_of(e.from_model)}, {"mesh_to_model", json_of(e.from_scan)}};
   out["prism"] = json_of_prism(e.prism);
   out["worse_than_prism"] = ids_of(e.buildings, worse_than_prism);
   if (e.truth) {
     out["truth"] = json_of(*e.truth);
+    out["truth"]["form"] = detail::json_of(e.truth->form, e.form);
     out["truth"]["worse_than_prism"] = ids_of(e.buildings, worse_than_prism_from_truth);
   }
   out["beside_all_footprints"] = e.beside;
@@ -320,6 +328,8 @@ auto evaluation_table(const Evaluation& e, const EvaluationInput& input) -> std:
   if (!e.beside.empty()) out += line("on no footprint", std::to_string(e.beside.size()) + " buildings of the model");
   out += line("model to mesh", in_words(e.from_model));
   out += line("mesh to model", in_words(e.from_scan));
+  out += "form\n";
+  for (const auto& [what, value] : detail::lines_of(e.form)) out += line(what, value);
   if (e.truth) out += table_of(e, inset);
   return out;
 }

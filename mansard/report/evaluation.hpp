@@ -11,6 +11,7 @@
 #include "mansard/base/result.hpp"
 #include "mansard/evaluate/distances.hpp"
 #include "mansard/evaluate/evaluate.hpp"
+#include "mansard/evaluate/form.hpp"
 #include "mansard/evaluate/truth.hpp"
 #include "mansard/model/scene.hpp"
 #include "mansard/model/surfaces.hpp"
@@ -62,10 +63,12 @@ struct TruthScores {
   evaluate::PartyWalls party_walls;  ///< truth, found: of its buildings; model, right: of all parts
   evaluate::Roofs roofs;
   evaluate::Confusion classes;
+  evaluate::FormTruth form;
 };
 
 struct Evaluation {
   ModelCounts counts;
+  evaluate::Form form;
   evaluate::Scores scores;                 ///< over all blocks; quantiles of all cells
   evaluate::Scores prism;                  ///< of the buildings' prisms
   evaluate::Spread from_model, from_scan;  ///< m

@@ -102,7 +102,7 @@ class Reader {
     if (is_new) buildings_.push_back({id, {}});
     auto& parts = buildings_[b->second].parts;
     const auto [p, is_first] = part_of_.try_emplace({b->second, part}, parts.size());
-    if (is_first) parts.push_back({part, {}});
+    if (is_first) parts.push_back({part, {}, text_of(member(member(objects.at(part), "attributes"), "ms_role"))});
     return parts[p->second];
   }
 

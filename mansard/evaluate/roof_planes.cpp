@@ -1,0 +1,131 @@
+// The roof faces of a building, grouped into planes.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "mansard/evaluate/detail/plan_of_face.hpp"
+#include "mansard/evaluate/form.hpp"
+#include "mansard/geometry/angles.hpp"
+
+namespace mansard::evaluate {
+namespace {
+
+using geometry::Point2;
+using geometry::Point3;
+
+constexpr double degree = std::numbers::pi / 180;
+
+struct RoofFace {
+  const model::ModelFace* face = nullptr;
+  Point3 normal;  ///< unit, upward
+  double area = 0;
+  std::size_t number = 0;  ///< counted through all parts
+};
+
+auto lies_in(const RoofFace& face, const RoofPlane& plane) -> bool {
+  if (dot(face.normal, plane.normal) < geometry::cosine(same_plane_angle * degree)) return false;
+  return std::ranges::all_of(face.face->loops.front(), [&](Point3 p) {
+    return std::abs(dot(p - plane.point, plane.normal)) <= same_plane_distance;
+  });
+}
+
+auto roof_faces(const model::ModelBuilding& building, std::size_t& number) -> std::vector<RoofFace> {
+  std::vector<RoofFace> faces;
+  for (const auto& part : building.parts)
+    for (const auto& face : part.faces) {
+      const auto at = number++;
+      if (face.kind != model::SurfaceClass::roof) continue;
+      const Point3 twice = detail::area_vector(face);
+      if (!(length(twice) > 0)) continue;
+      const Point3 normal = normalised(twice);
+      faces.push_back({&face, normal.z < 0 ? -1 * normal : normal, length(twice) / 2, at});
+    }
+  return faces;
+}
+
+auto convex_hull(std::vector<Point2> points) -> std::vector<Point2> {
+  std::ranges::sort(points);
+  points.erase(std::ranges::unique(points).begin(), points.end());
+  if (points.size() < 3) return points;
+  std::vector<Point2> hull;
+  const auto add_chain = [&](auto first, auto last) {
+    const auto base = hull.size();
+    for (auto p = first; p != last; ++p) {
+      while (hull.size() >= base + 2 && cross(hull.back() - hull[hull.size() - 2], *p - hull.back()) <= 0)
+        hull.pop_back();
+      hull.push_back(*p);
+    }
+    hull.pop_back();
+  };
+  add_chain(points.begin(), points.end());
+  add_chain(points.rbegin(), points.rend());
+  return hull;
+}
+
+/// The shorter side of the rectangle of the smallest area around the points. A side of it lies on the hull.
+auto width_of(const Outline& plan) -> double {
+  std::vector<Point2> points;
+  for (const auto& polygon : plan) points.insert(points.end(), polygon.outer.begin(), polygon.outer.end());
+  const auto hull = convex_hull(std::move(points));
+  if (hull.size() < 3) return 0;
+  double least = std::numeric_limits<double>::infinity(), width = 0;
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Point2 along = normalised(hull[(i + 1) % hull.size()] - hull[i]), across = geometry::left_of(along);
+    double from = 0, to = 0, deep = 0;
+    for (const auto p : hull) {
+      const double a = dot(along, p - hull[i]);
+      from = std::min(from, a), to = std::max(to, a), deep = std::max(deep, dot(across, p - hull[i]));
+    }
+    if ((to - from) * deep < least) least = (to - from) * deep, width = std::min(to - from, deep);
+  }
+  return width;
+}
+
+/// Sets the plan and the width of a plane of these faces; false where the plan could not be computed.
+auto set_plan(RoofPlane& plane, const std::vector<const model::ModelFace*>& faces) -> bool {
+  std::vector<geometry::Polygon> pieces;
+  for (const auto* face : faces) {
+    auto flat = detail::plan_of_face(*face);
+    if (!flat) return false;
+    pieces.insert(pieces.end(), flat->begin(), flat->end());
+  }
+  auto plan = geometry::unite(pieces);
+  if (!plan) return false;
+  plane.plan = std::move(*plan);
+  plane.width = width_of(plane.plan);
+  return true;
+}
+
+}  // namespace
+
+auto roof_planes_of(const model::Model& model) -> RoofPlanes {
+  RoofPlanes out;
+  std::size_t number = 0;
+  std::vector<std::vector<const model::ModelFace*>> faces_of;
+  for (std::uint32_t b = 0; b < model.buildings.size(); ++b) {
+    auto faces = roof_faces(model.buildings[b], number);
+    out.plane_of_face.resize(number, no_plane);
+    // The largest faces first: their planes are the surest.
+    std::ranges::stable_sort(faces, std::ranges::greater{}, &RoofFace::area);
+    const auto first = out.planes.size();
+    for (const auto& face : faces) {
+      auto at = first;
+      while (at < out.planes.size() && !lies_in(face, out.planes[at])) ++at;
+      if (at == out.planes.size()) {
+        out.planes.push_back({face.normal, face.face->loops[0][0], 0, {}, 0, b});
+        faces_of.emplace_back();
+      }
+      out.planes[at].area += face.area;
+      faces_of[at].push_back(face.face);
+      out.plane_of_face[face.number] = static_cast<std::uint32_t>(at);
+    }
+  }
+  std::vector<char> done(out.planes.size(), 0);
+  base::parallel_for(done.size(), [&](std::size_t p) { done[p] = set_plan(out.planes[p], faces_of[p]) ? 1 : 0; });
+  out.unchecked = static_cast<std::size_t>(std::ranges::count(done, 0));
+  return out;
+}
+
+}  // namespace mansard::evaluate
