@@ -14,7 +14,7 @@ import struct
 import sys
 
 # ---- bytes: the file without its timings ----
-JSON_SECONDS = re.compile(rb'("seconds"\s*:\s*)(\{[^{}]*\}|[-+0-9.eE]+)')
+JSON_TIMES = re.compile(rb'("(?:times|seconds)"\s*:\s*)(\{(?:[^{}]|\{(?:[^{}]|\{[^{}]*\})*\})*\}|[-+0-9.eE]+)')
 TABLE_SECONDS = re.compile(rb'(<td class="seconds">)[^<]*')
 
 
@@ -27,7 +27,7 @@ def without_timed_columns(text):
 def bytes_of(path):
     data = path.read_bytes()
     if path.suffix == ".json":
-        return JSON_SECONDS.sub(rb"\1null", data)
+        return JSON_TIMES.sub(rb"\1null", data)
     if path.suffix == ".html":
         return TABLE_SECONDS.sub(rb"\1", data)
     if path.suffix == ".csv":
@@ -36,7 +36,7 @@ def bytes_of(path):
 
 
 # ---- shapes: coordinates and numbers without options, versions, attributes and sentences ----
-NOT_MEASURED = {"seconds", "options", "inputs", "made_by", "bytes", "schema"}
+NOT_MEASURED = {"seconds", "times", "options", "inputs", "made_by", "bytes", "schema"}
 LAYERS = ("footprints", "edges", "roof_planes", "walls", "profiles", "faces", "sweep_edges", "conflicts", "gis_footprints")
 
 

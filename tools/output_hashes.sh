@@ -9,7 +9,7 @@
 #   diff -r out/old/work/out/hall out/new/work/out/hall
 #
 # OUT/hashes.txt has a line 'sha256  case/file' for every result of every case, for what it printed (stdout, stderr) and for
-# its exit code. Timings are taken out first: members and table cells called seconds, columns that end in _s.
+# its exit code. Timings are taken out first: members called times or seconds, table cells called seconds, columns that end in _s.
 # OUT/shapes.txt has a line for every file that describes buildings, scans or measurements: coordinates and numbers alone,
 # without attributes, options, versions and sentences. With --shapes only the cases that have any are run, and there is no
 # hashes.txt. What is left out of a file: tools/output_hashes.py.

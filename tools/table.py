@@ -10,7 +10,8 @@ def row(path):
     blocks, counts, scores = run["blocks"], run["counts"], run["scores"]
     total = lambda key: sum(block[key] for block in blocks)
     optimal = sum(block["objective"]["status"] == "optimal" for block in blocks)
-    seconds = run["seconds"]
+    times = run["times"]
+    segment = times["stages"].get("segment", {"cpu_seconds": 0})
     return [
         path.parent.name,
         f'{run["mesh"]["triangles"]:,}',
@@ -21,8 +22,8 @@ def row(path):
         f'{total("inside_faces")} of {total("faces")}',
         f'{total("variables"):,}',
         f'{optimal} of {len(blocks)}',
-        f'{sum(seconds.values()):.1f}',
-        f'{seconds.get("segment", 0):.2f}',
+        f'{times["cpu_seconds"]:.1f}',
+        f'{segment["cpu_seconds"]:.2f}',
         f'{scores["vertical_mse_m2"]:.3f}',
         f'{scores["footprint_mse_m2"]:.3f}',
         f'{scores["median_absolute_m"]:.3f}',
@@ -30,7 +31,7 @@ def row(path):
 
 
 HEAD = ["data", "triangles", "footprints", "parts", "sweep-edges", "faces inside", "variables", "blocks optimal",
-        "work s", "of it segment s", "vertical MSE m²", "over footprints m²", "median abs. m"]
+        "CPU s", "of it segment s", "vertical MSE m²", "over footprints m²", "median abs. m"]
 print("| " + " | ".join(HEAD) + " |")
 print("|" + "---|" * len(HEAD))
 for name in sys.argv[1:]:

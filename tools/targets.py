@@ -80,8 +80,9 @@ def seconds(data, name):
     run = read(name, "model/run.json")
     row(data, "CPU seconds, all", None, None, total, digits=2)
     row(data, "CPU seconds, reading alone", None, None, reading, digits=2)
-    slowest = sorted(run["seconds"].items(), key=lambda item: -item[1])[:3]
-    notes.append(f"{data}: seconds of work of all stages {sum(run['seconds'].values()):.2f}, most of it "
+    stages = {stage: spent["cpu_seconds"] for stage, spent in run["times"]["stages"].items()}
+    slowest = sorted(stages.items(), key=lambda item: -item[1])[:3]
+    notes.append(f"{data}: CPU seconds without reading and writing {run['times']['cpu_seconds']:.2f}, most of it "
                  + ", ".join(f"{stage} {time:.2f}" for stage, time in slowest))
 
 

@@ -89,6 +89,21 @@ auto json_of(const MapInfo& map) -> Json {
           {"rows", map.rows}};
 }
 
+auto json_of(const base::Spent& spent) -> Json {
+  return {{"cpu_seconds", spent.cpu_seconds}, {"wall_seconds", spent.wall_seconds}};
+}
+
+auto json_of(const report::Times& times) -> Json {
+  Json stages = Json::array();
+  for (const auto& [stage, spent] : times.stages) {
+    stages.push_back({{"stage", stage}});
+    stages.back().update(json_of(spent));
+  }
+  Json out = json_of(times.total);
+  out["stages"] = std::move(stages);
+  return out;
+}
+
 auto json_of(const RunRecord& run, std::size_t edits) -> Json {
   Json scores = nullptr;
   if (run.scores)
@@ -98,8 +113,6 @@ auto json_of(const RunRecord& run, std::size_t edits) -> Json {
               {"inside_mse", run.scores->inside_mse},
               {"missed", run.scores->missed},
               {"invented", run.scores->invented}};
-  Json times = Json::array();
-  for (const auto& time : run.times) times.push_back({{"stage", time.stage}, {"seconds", time.seconds}});
   return {{"id", run.id},
           {"label", run.label},
           {"state", to_string(run.state)},
@@ -109,7 +122,7 @@ auto json_of(const RunRecord& run, std::size_t edits) -> Json {
           {"options", run.options},
           {"blocks", run.blocks},
           {"scores", scores},
-          {"times", times},
+          {"times", json_of(run.times)},
           {"buildings", run.buildings},
           {"full", run.full},
           {"parts", run.parts},

@@ -102,6 +102,23 @@ auto diagnostic_of(const Json& json) -> base::Diagnostic {
           json.at("subject").get<std::string>()};
 }
 
+auto spent_of(const Json& json) -> base::Spent { return {json.at("cpu_seconds"), json.at("wall_seconds"), {}}; }
+
+/// Runs of earlier versions have a list of elapsed times.
+auto times_of(const Json& json) -> report::Times {
+  report::Times times;
+  if (json.is_array()) {
+    for (const auto& stage : json) {
+      times.stages.push_back({stage.at("stage"), {0, stage.at("seconds"), {}}});
+      times.total.wall_seconds += times.stages.back().spent.wall_seconds;
+    }
+    return times;
+  }
+  times.total = spent_of(json);
+  for (const auto& stage : json.at("stages")) times.stages.push_back({stage.at("stage"), spent_of(stage)});
+  return times;
+}
+
 auto record_of(const Json& json) -> RunRecord {
   RunRecord run;
   if (json.at("version") != format) throw std::runtime_error("it was written by another version of mansard");
@@ -116,7 +133,7 @@ auto record_of(const Json& json) -> RunRecord {
   if (const auto& s = json.at("scores"); !s.is_null())
     run.scores = RunScores{s.at("mse"),        s.at("footprint_mse"), s.at("footprint_median_absolute"),
                            s.at("inside_mse"), s.at("missed"),        s.at("invented")};
-  for (const auto& time : json.at("times")) run.times.push_back({time.at("stage"), time.at("seconds")});
+  run.times = times_of(json.at("times"));
   run.buildings = json.at("buildings");
   run.full = json.at("full");
   run.parts = json.at("parts");

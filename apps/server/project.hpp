@@ -75,7 +75,7 @@ struct RunRecord {
   Texts options;  ///< values that differ from the defaults, including those that the inputs are read with
   std::vector<std::string> blocks;  ///< empty: all
   std::optional<RunScores> scores;
-  std::vector<report::StageTime> times;
+  report::Times times;
   std::size_t buildings = 0, full = 0, parts = 0, faces = 0;
   std::vector<MapInfo> maps;
 };

@@ -119,7 +119,7 @@ auto measure(const Instance& instance, const Settings& settings) -> Line {
   line.objective = program_objective(s);
   line.bound = line.objective - 1000 * (s.objective - s.bound);
   line.choose_seconds = instance.choose_seconds;
-  line.solve_seconds = s.solve_seconds;
+  line.solve_seconds = s.solve_cpu_seconds;
   const solver::Program lean = lean_colours(s), half = half_edges(s);
   if (!settings.programs.empty()) {
     keep(lean, settings.programs, line.name, "colours");

@@ -84,8 +84,8 @@ struct Numbers {
   segment::Terms terms;
   double objective = 0, bound = 0;
   evaluate::Scores scores;
-  double optimise_seconds = 0;  ///< from the program to the labels
-  double work_seconds = 0;      ///< all stages, added up over blocks
+  double optimise_cpu_seconds = 0;  ///< from the program to the labels, added up over blocks
+  double cpu_seconds = 0;           ///< of the whole reconstruction, without reading and writing
 };
 
 /// A profile of a part, up to the part's crest.

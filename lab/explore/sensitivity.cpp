@@ -85,7 +85,7 @@ auto trial_of(const model::Scene& scene, const pipeline::Options& options, Trial
       ++trial.parts;
       trial.faces += part.model.solid.faces.size();
     }
-  for (const auto& time : result->times) trial.seconds += time.seconds;
+  trial.cpu_seconds = result->times.total.cpu_seconds;
   const auto models = models_of(result->city);
   if (models) trial.models = *models;
   else trial.failure = base::to_string(models.error());

@@ -23,7 +23,7 @@ struct Trial {
   std::string dataset, key, value;
   double rmse = 0, rmse_inside = 0;  ///< m, model against scan, over the footprints and inside them
   std::size_t faces = 0, parts = 0;  ///< of all models
-  double seconds = 0;                ///< of work in all stages; comparable between runs on one thread only
+  double cpu_seconds = 0;            ///< of the whole reconstruction, without reading and writing
   std::string models;                ///< a digest of all models, but for how they were made
   std::string failure;               ///< why there is nothing, if so
 };

@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view headings = "dataset,parameter,value,rmse_m,rmse_inside_m,faces,parts,work_s,models,failure";
+constexpr std::string_view headings = "dataset,parameter,value,rmse_m,rmse_inside_m,faces,parts,cpu_s,models,failure";
 
 auto csv_cell(const std::string& text) -> std::string {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
@@ -43,7 +43,7 @@ auto json_of(const Trial& trial) -> Json {
                 {"faces", trial.faces},
                 {"parts", trial.parts},
                 {"models", trial.models},
-                {"seconds", {{"work", trial.seconds}}}});
+                {"seconds", {{"cpu", trial.cpu_seconds}}}});
   return out;
 }
 
@@ -70,10 +70,10 @@ auto results_json(const Sensitivity& result) -> std::string {
 
 auto results_csv(const Sensitivity& result) -> std::string {
   std::string out = "parameter,usual,value,effect,no_effect,";
-  out += std::string(headings.substr(0, headings.find(','))) + ",rmse_m,rmse_inside_m,faces,parts,work_s,failure\n";
+  out += std::string(headings.substr(0, headings.find(','))) + ",rmse_m,rmse_inside_m,faces,parts,cpu_s,failure\n";
   const auto add = [&](const std::string& first, const Trial& t) {
     out += first + "," + csv_cell(t.dataset) + "," + base::to_text(t.rmse) + "," + base::to_text(t.rmse_inside) + "," +
-           std::to_string(t.faces) + "," + std::to_string(t.parts) + "," + base::to_text(t.seconds, 3) + "," +
+           std::to_string(t.faces) + "," + std::to_string(t.parts) + "," + base::to_text(t.cpu_seconds, 3) + "," +
            csv_cell(t.failure) + "\n";
   };
   for (const auto& trial : result.usual) add(",,,,", trial);
@@ -97,7 +97,7 @@ auto trials_head(const SensitivityRequest& request) -> std::string {
 auto trial_line(const Trial& t) -> std::string {
   return csv_cell(t.dataset) + "," + csv_cell(t.key) + "," + csv_cell(t.value) + "," + base::to_text(t.rmse) + "," +
          base::to_text(t.rmse_inside) + "," + std::to_string(t.faces) + "," + std::to_string(t.parts) + "," +
-         base::to_text(t.seconds, 3) + "," + t.models + "," + csv_cell(t.failure) + "\n";
+         base::to_text(t.cpu_seconds, 3) + "," + t.models + "," + csv_cell(t.failure) + "\n";
 }
 
 auto trials_from(std::string_view text, const SensitivityRequest& request) -> std::vector<Trial> {

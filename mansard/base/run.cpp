@@ -1,5 +1,8 @@
 #include "mansard/base/run.hpp"
 
+#include "mansard/base/watch.hpp"
+
+#include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <memory>
@@ -7,7 +10,11 @@
 namespace mansard::base {
 
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& work) {
-  tbb::parallel_for(std::size_t{0}, count, work);
+  const auto account = detail::current_account();
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const tbb::blocked_range<std::size_t>& range) {
+    const detail::Charge charge(account);
+    for (std::size_t i = range.begin(); i != range.end(); ++i) work(i);
+  });
 }
 
 void limit_threads(std::size_t threads) {

@@ -23,7 +23,6 @@ struct Raising {
   std::optional<model::Solid> solid;
   bool full = true;
   std::vector<base::Diagnostic> reasons;
-  double planning = 0, raising = 0;  ///< s
 };
 
 void append(std::vector<base::Diagnostic>& all, const std::vector<base::Diagnostic>& more) {
@@ -224,6 +223,7 @@ auto raise_footprints(const model::Scene& scene, const Options& options, const b
                            ? "there are no footprints"
                            : "none of the " + std::to_string(scene.footprints.size()) +
                                  " footprints can be used; the first: " + scene.footprints.front().defect->message);
+  base::Watch total;
   if (auto known = roof::check_attributes(usable->attributes, options.roof); !known) return known.error();
   const bool by_attributes = options.roof.profile.empty();
   model::Profile profile;
@@ -238,6 +238,7 @@ auto raise_footprints(const model::Scene& scene, const Options& options, const b
     read.push_back(roof::form_of(scene.feature(i).attributes, options.roof));
     if (!by_attributes) read.back().form.base = 0;
   }
+  base::Watch planning;
   std::vector<Raising> jobs;
   const auto blocks = divide(scene, options, run, jobs);
 
@@ -249,10 +250,8 @@ auto raise_footprints(const model::Scene& scene, const Options& options, const b
     Raising& job = jobs[i];
     const auto& polygon = job.outline;
     const auto& form = read[job.feature].form;
-    const detail::Watch planning;
     auto planned = by_attributes ? roof::plan_of(polygon, form, options.roof, inner)
                                  : roof::plan_along(polygon, profile, form, options.roof);
-    job.planning = planning.seconds();
     if (!planned) {
       job.full = false;
       job.reasons.push_back(base::warning(planned.error().code, planned.error().message));
@@ -262,7 +261,8 @@ auto raise_footprints(const model::Scene& scene, const Options& options, const b
       job.reasons = job.planned.warnings;
     }
   });
-  const detail::Watch aligning;
+  const base::Spent planned_in = planning.stop();
+  base::Watch raising;
   std::vector<std::optional<model::Plan>> aligned(jobs.size());
   base::parallel_for(blocks.size(), [&](std::size_t b) {
     std::vector<model::Plan> plans;
@@ -270,7 +270,6 @@ auto raise_footprints(const model::Scene& scene, const Options& options, const b
     std::ranges::move(extrude::align(plans, options.extrude),
                       aligned.begin() + static_cast<std::ptrdiff_t>(blocks[b].first));
   });
-  const double aligned_in = aligning.seconds();
 
   std::mutex progress;
   std::size_t done = 0;
@@ -278,18 +277,17 @@ auto raise_footprints(const model::Scene& scene, const Options& options, const b
   base::parallel_for(jobs.size(), [&](std::size_t i) {
     Raising& job = jobs[i];
     if (run.cancelled()) return;
-    const detail::Watch raising;
     const bool is_planned = !job.planned.plan.outer.points.empty();
     if (is_planned && !(aligned[i] && raise_aligned(job, *aligned[i], by_attributes, options, inner)))
       raise(job, by_attributes, options, inner);
-    job.raising = raising.seconds();
     const std::scoped_lock lock(progress);
     if (++done % 64 == 0 || done == jobs.size())
       run.report("extrude", {}, static_cast<double>(done) / static_cast<double>(jobs.size()));
   });
   if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
 
-  const detail::Watch labelling;
+  const base::Spent raised_in = raising.stop();
+  base::Watch labelling;
   std::vector<std::optional<model::LabelledSolid>> models(jobs.size());
   base::parallel_for(blocks.size(), [&](std::size_t b) {
     std::vector<std::size_t> raised;
@@ -306,18 +304,16 @@ auto raise_footprints(const model::Scene& scene, const Options& options, const b
       models[raised[k]] = std::move(labelled[k]);
     }
   });
+  const base::Spent labelled_in = labelling.stop();
 
   report::Reconstruction out;
   out.city.frame = scene.frame;
   out.city.made_by = detail::made_by(scene, options);
   begin(scene, read, by_attributes, out);
-  report::StageTime planning{"roof", 0}, raising{"extrude", aligned_in};
   out.city.buildings.resize(read.size());  // with those that stand around what was asked for
   out.buildings.resize(read.size());
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     auto& job = jobs[i];
-    planning.seconds += job.planning;
-    raising.seconds += job.raising;
     auto& report = out.buildings[job.feature];
     append(report.reasons, job.reasons);
     if (!job.full) report.outcome = report::Outcome::fallback;
@@ -329,9 +325,9 @@ auto raise_footprints(const model::Scene& scene, const Options& options, const b
   out.buildings.resize(scene.footprints.size());
   for (auto& report : out.buildings)
     if (report.parts == 0) report.outcome = report::Outcome::refused;
-  out.times = {planning, raising, {"label", labelling.seconds()}};
   detail::report_overlaps(out);
   finish(scene, out);
+  out.times = {total.stop(), {{"roof", planned_in}, {"extrude", raised_in}, {"label", labelled_in}}};
   return out;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <mutex>
 
 #include "mansard/pipeline/detail/assemble.hpp"
@@ -20,16 +21,19 @@ auto combined(const std::vector<report::BlockReport>& blocks) -> evaluate::Score
 }
 
 /// Per stage over all blocks, after the one before them.
-auto summed(const report::StageTime& before, const std::vector<report::BlockReport>& blocks)
+auto stage_times(const report::StageTime& before, const std::vector<report::BlockReport>& blocks)
     -> std::vector<report::StageTime> {
-  std::vector<report::StageTime> sum{before};
+  std::vector<std::string> names;
+  std::map<std::string, std::vector<base::Spent>> of_stage;
   for (const auto& block : blocks)
-    for (const auto& time : block.times) {
-      const auto at = std::ranges::find(sum, time.stage, &report::StageTime::stage);
-      if (at == sum.end()) sum.push_back(time);
-      else at->seconds += time.seconds;
+    for (const auto& [name, spent] : block.times.stages) {
+      auto& pieces = of_stage[name];
+      if (pieces.empty()) names.push_back(name);
+      pieces.push_back(spent);
     }
-  return sum;
+  std::vector<report::StageTime> out{before};
+  for (const auto& name : names) out.push_back({name, base::combined(of_stage[name])});
+  return out;
 }
 
 struct Division {
@@ -45,9 +49,9 @@ auto divide(const model::Scene& scene, const Options& options, const base::Run& 
                            ? "there are no footprints"
                            : "none of the " + std::to_string(scene.footprints.size()) +
                                  " footprints can be used; the first: " + scene.footprints.front().defect->message);
-  const detail::Watch watch;
+  base::Watch watch;
   auto blocks = block::partition(scene, options.block, run);
-  return Division{std::move(blocks), {"block", watch.seconds()}};
+  return Division{std::move(blocks), {"block", watch.stop()}};
 }
 
 /// A result per block. Blocks are independent: they run side by side, and each writes only to its own place.
@@ -114,6 +118,7 @@ auto cancelled() -> base::Diagnostic { return base::error("cancelled", "stopped 
 
 auto reconstruct(const model::Scene& scene, const Options& options, const base::Run& run, Keep keep,
                  std::span<const std::string> only) -> base::Result<report::Reconstruction> {
+  base::Watch watch;
   auto division = divide(scene, options, run);
   if (!division) return division.error();
   if (auto known = keep_only(division->blocks, only); !known) return known.error();
@@ -132,14 +137,15 @@ auto reconstruct(const model::Scene& scene, const Options& options, const base::
   report::Reconstruction out = detail::assemble(scene, division->blocks, std::move(results), options);
   if (!only.empty()) keep_only(division->blocks, out);
   out.segmented = std::move(segmented);
-  out.times = summed(division->time, out.blocks);
   out.scores = combined(out.blocks);
   detail::report_overlaps(out);
+  out.times = {watch.stop(), stage_times(division->time, out.blocks)};
   return out;
 }
 
 auto segment(const model::Scene& scene, const Options& options, const base::Run& run)
     -> base::Result<report::Segmented> {
+  base::Watch watch;
   const auto division = divide(scene, options, run);
   if (!division) return division.error();
   struct Result {
@@ -148,6 +154,7 @@ auto segment(const model::Scene& scene, const Options& options, const base::Run&
     std::vector<base::Diagnostic> warnings;
   };
   auto results = for_every(division->blocks, run, [&](const auto& block, const auto& inner, const auto& tell) {
+    base::Watch own_watch;
     Result result;
     if (!block.ground_known) {
       auto none = detail::refused(block, options.block);
@@ -160,6 +167,7 @@ auto segment(const model::Scene& scene, const Options& options, const base::Run&
     const rays::Scene mesh(own.block.mesh);
     result.segmented = detail::segment_block(own.block, mesh, options, inner, tell, result.report, result.warnings);
     detail::place(result.segmented, own);
+    result.report.times.total = own_watch.stop();
     return result;
   });
   if (run.cancelled()) return cancelled();
@@ -171,7 +179,7 @@ auto segment(const model::Scene& scene, const Options& options, const base::Run&
     out.segmented.push_back(std::move(result.segmented));
     out.warnings.insert(out.warnings.end(), result.warnings.begin(), result.warnings.end());
   }
-  out.times = summed(division->time, out.blocks);
+  out.times = {watch.stop(), stage_times(division->time, out.blocks)};
   return out;
 }
 

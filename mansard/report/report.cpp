@@ -23,9 +23,16 @@ auto json_of(const std::vector<base::Diagnostic>& all) -> Json {
   return out;
 }
 
-auto json_of(const std::vector<StageTime>& times) -> Json {
-  Json out = Json::object();
-  for (const auto& time : times) out[time.stage] = std::round(time.seconds * 1e4) / 1e4;
+auto json_of(const base::Spent& spent) -> Json {
+  const auto shown = [](double seconds) { return std::round(seconds * 1e4) / 1e4; };
+  return {{"cpu_seconds", shown(spent.cpu_seconds)}, {"wall_seconds", shown(spent.wall_seconds)}};
+}
+
+auto json_of(const Times& times) -> Json {
+  Json stages = Json::object();
+  for (const auto& time : times.stages) stages[time.stage] = json_of(time.spent);
+  Json out = json_of(times.total);
+  out["stages"] = std::move(stages);
   return out;
 }
 
@@ -73,7 +80,7 @@ auto json_of(const BlockReport& b, bool with_scores) -> Json {
            {"conflicts", b.conflicts},
            {"objective", std::move(objective)}};
   if (with_scores) out["scores"] = json_of(b.scores);
-  out["seconds"] = json_of(b.times);
+  out["times"] = json_of(b.times);
   return out;
 }
 
@@ -186,7 +193,7 @@ auto run_json(const Reconstruction& r, const model::Scene& scene) -> std::string
                    {"fallback", count(r, Outcome::fallback)}, {"covered", count(r, Outcome::covered)},
                    {"refused", count(r, Outcome::refused)},   {"blocks", r.blocks.size()}};
   if (scanned) out["scores"] = json_of(r.scores);
-  out["seconds"] = json_of(r.times);
+  out["times"] = json_of(r.times);
   out["warnings"] = all_warnings(scene, r.warnings);
   if (scanned) out["blocks"] = json_of(r.blocks, true);
   Json buildings = Json::array();
@@ -203,7 +210,7 @@ auto run_json(const Segmented& s, const model::Scene& scene) -> std::string {
                    {"refused", refused},
                    {"without_part", std::ranges::count(parts, 0U) - refused},
                    {"blocks", s.blocks.size()}};
-  out["seconds"] = json_of(s.times);
+  out["times"] = json_of(s.times);
   out["warnings"] = all_warnings(scene, s.warnings);
   out["blocks"] = json_of(s.blocks, false);
   return text_of(out);

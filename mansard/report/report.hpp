@@ -1,6 +1,6 @@
 // What a run made and how it went, per block and per building, and its report as JSON.
 //
-// Guarantees: 1 everything in the report but the members called "seconds" is the same in every run of the same scene,
+// Guarantees: 1 everything in the report but the members called "times" is the same in every run of the same scene,
 // options and seed · 2 every input feature is in it once, in the order of the source · 3 the terms of a block's
 // objective add up to its total. Cost: linear in blocks and buildings.
 #pragma once
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "mansard/base/result.hpp"
+#include "mansard/base/watch.hpp"
 #include "mansard/evaluate/evaluate.hpp"
 #include "mansard/fracture/fracture.hpp"
 #include "mansard/label/label.hpp"
@@ -22,9 +23,17 @@
 
 namespace mansard::report {
 
+/// What a stage took, of a block or of all blocks. Blocks run side by side: over several, the stages' times by the
+/// clock overlap and do not add up to the total.
 struct StageTime {
   std::string stage;
-  double seconds = 0;  ///< summed over blocks; blocks run side by side, so this is work, not waiting
+  base::Spent spent;
+};
+
+/// Reading and writing files are not included.
+struct Times {
+  base::Spent total;  ///< also of what belongs to no stage
+  std::vector<StageTime> stages;
 };
 
 /// Table 1 of the paper, for one block.
@@ -38,7 +47,7 @@ struct BlockReport {
   std::string status;
   std::int64_t rounds = 0, nodes = 0;
   evaluate::Scores scores;
-  std::vector<StageTime> times;
+  Times times;
 };
 
 /// (objective − bound) / |objective|: how much cheaper, at most, a segmentation of the block could be. 0 without a gap,
@@ -81,7 +90,7 @@ struct Reconstruction {
   std::vector<BlockReport> blocks;
   std::vector<BuildingReport> buildings;       ///< every input feature, in the source's order
   std::vector<evaluate::ErrorMap> error_maps;  ///< per block
-  std::vector<StageTime> times;
+  Times times;
   evaluate::Scores scores;  ///< over all blocks, weighted by cells
   std::vector<base::Diagnostic> warnings;
   std::vector<SegmentedBlock> segmented;  ///< per block with Keep::segmentations, else empty
@@ -92,7 +101,7 @@ struct Segmented {
   model::MadeBy made_by;
   std::vector<BlockReport> blocks;        ///< without scores
   std::vector<SegmentedBlock> segmented;  ///< per block
-  std::vector<StageTime> times;
+  Times times;
   std::vector<base::Diagnostic> warnings;
 };
 
@@ -100,7 +109,7 @@ struct Segmented {
 [[nodiscard]] auto parts_by_feature(const model::Scene& scene, const std::vector<SegmentedBlock>& blocks)
     -> std::vector<std::size_t>;
 
-/// The report as JSON. Everything but the members called "seconds" is the same in every run. Without a mesh it has no
+/// The report as JSON. Everything but the members called "times" is the same in every run. Without a mesh it has no
 /// "mesh", "scores" and "blocks".
 [[nodiscard]] auto run_json(const Reconstruction& reconstruction, const model::Scene& scene) -> std::string;
 /// The same for blocks without models: no "scores", no "buildings".

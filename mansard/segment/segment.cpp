@@ -1,11 +1,11 @@
 #include "mansard/segment/segment.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <iterator>
 #include <utility>
 
+#include "mansard/base/watch.hpp"
 #include "mansard/segment/detail/candidates.hpp"
 #include "mansard/segment/detail/evidence.hpp"
 #include "mansard/segment/detail/gis_cuts.hpp"
@@ -87,11 +87,11 @@ auto choose(const fracture::Arrangement& arrangement, const sweep::SweepEdges& e
   const detail::Problem problem = detail::problem_of(arrangement, evidence.faces, segmentation.candidates, candidate_of,
                                                      segmentation.conflicts, segmentation.phi);
   run.report("segment", block.name, 0.3);
-  const auto start = std::chrono::steady_clock::now();
+  base::Watch solving;
   detail::MulticutAnswer answer = detail::solve(
       problem.multicut,
       {.seconds = options.seconds, .nodes = options.nodes, .cliques = options.cliques, .search = options.search}, run);
-  segmentation.solve_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  segmentation.solve_cpu_seconds = solving.stop().cpu_seconds;
   run.report("segment", block.name, 0.9);
 
   const auto label_of_face = labels_by_face(problem, answer.labels);

@@ -96,7 +96,7 @@ struct Segmentation {
                          ///< solver gave up; labels are the best found, and the gap is true)
   std::int64_t rounds = 0, nodes = 0;
   std::size_t variables = 0;
-  double solve_seconds = 0;  ///< from the candidates and conflicts to the labels
+  double solve_cpu_seconds = 0;  ///< from the candidates and conflicts to the labels
   std::vector<base::Diagnostic> warnings;
 };
 

@@ -159,7 +159,7 @@ TEST(RaiseFootprints, gives_the_same_bytes_at_any_thread_count) {
   for (const std::size_t threads : {1U, 2U, 4U}) {
     base::limit_threads(threads);
     auto r = raised(scene);
-    r.times.clear();
+    r.times = {};
     bytes.push_back(*formats::cityjson(r.city) + report::run_json(r, scene));
   }
   base::limit_threads(0);

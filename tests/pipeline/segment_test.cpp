@@ -78,7 +78,7 @@ TEST(Segment, reports_every_term_and_a_relative_gap) {
     EXPECT_GT(block["parts"], 0);
   }
   for (const auto* stage : {"block", "slice", "sweep", "fracture", "segment"})
-    EXPECT_TRUE(report["seconds"].contains(stage)) << stage;
+    EXPECT_TRUE(report["times"]["stages"].contains(stage)) << stage;
 }
 
 TEST(Segment, gives_up_as_reconstruct_does) {

@@ -31,7 +31,7 @@ TEST(Report, counts_every_footprint_and_every_term) {
                   o["thin"].get<double>(),
               1e-6);
   for (const auto* stage : {"block", "slice", "sweep", "fracture", "segment", "profile", "refine", "label", "evaluate"})
-    EXPECT_TRUE(report["seconds"].contains(stage)) << stage;
+    EXPECT_TRUE(report["times"]["stages"].contains(stage)) << stage;
   EXPECT_EQ(report["options"]["segment.alpha"], "40");
 }
 

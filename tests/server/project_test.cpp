@@ -62,7 +62,7 @@ TEST(Project, stores_inputs_and_runs) {
                 {{"sweep.gamma", "15"}},
                 {"block-1"},
                 RunScores{1, 2, 3, 4, 5, 6},
-                {{"block", 0.5}},
+                {{0.75, 0.5, {}}, {{"block", {0.25, 0.5, {}}}}},
                 7,
                 6,
                 9,
@@ -98,7 +98,9 @@ TEST(Project, stores_inputs_and_runs) {
   EXPECT_EQ(kept.options, run.options);
   EXPECT_EQ(kept.blocks, run.blocks);
   EXPECT_EQ(kept.scores->invented, 6);
-  EXPECT_EQ(kept.times.front().seconds, 0.5);
+  EXPECT_EQ(kept.times.total.cpu_seconds, 0.75);
+  EXPECT_EQ(kept.times.total.wall_seconds, 0.5);
+  EXPECT_EQ(kept.times.stages.front().spent.cpu_seconds, 0.25);
   EXPECT_EQ(kept.faces, 80U);
   EXPECT_EQ(kept.maps.front().columns, 3U);
 }
@@ -123,6 +125,24 @@ TEST(Project, reads_files_of_earlier_versions_and_stores_no_password) {
   auto kept = inputs;
   kept.footprints = "PG:host=h";
   EXPECT_TRUE(inputs.same_request(kept));
+}
+
+TEST(Project, reads_the_times_of_runs_of_earlier_versions) {
+  const Folder folder;
+  auto project = Project::open(folder / "p");
+  ASSERT_TRUE(project);
+  RunRecord run;
+  run.id = *project->new_run();
+  run.state = State::done;
+  ASSERT_TRUE(project->save(run));
+  const auto path = folder / "p/runs/run-1/run.json";
+  auto json = nlohmann::json::parse(read(path));
+  json["times"] = {{{"stage", "slice"}, {"seconds", 0.5}}, {{"stage", "sweep"}, {"seconds", 0.25}}};
+  write(path, json.dump());
+  const auto runs = project->runs();
+  ASSERT_TRUE(runs) << runs.error().message;
+  EXPECT_EQ(runs->front().times.stages.back().stage, "sweep");
+  EXPECT_EQ(runs->front().times.total.wall_seconds, 0.75);
 }
 
 TEST(Project, marks_unfinished_runs_as_interrupted_and_never_reuses_numbers) {

@@ -51,8 +51,8 @@ auto after_terms() -> std::vector<Column> {
       real("p95_absolute_m", "95 % abs., m", 3, false, [](const auto& n) { return n.scores.p95_absolute; }),
       real("missed_m2", "missed, m²", 1, false, [](const auto& n) { return n.scores.missed; }),
       real("invented_m2", "invented, m²", 1, false, [](const auto& n) { return n.scores.invented; }),
-      real("optimise_s", "optimise, s", 3, true, [](const auto& n) { return n.optimise_seconds; }),
-      real("work_s", "work, s", 2, true, [](const auto& n) { return n.work_seconds; }),
+      real("optimise_cpu_s", "optimise, CPU s", 3, true, [](const auto& n) { return n.optimise_cpu_seconds; }),
+      real("cpu_s", "CPU s", 2, true, [](const auto& n) { return n.cpu_seconds; }),
   };
 }
 

@@ -33,8 +33,8 @@ auto numbers_of(const report::BlockReport& block, const report::SegmentedBlock& 
   n.objective = block.objective;
   n.bound = block.bound;
   n.scores = block.scores;
-  if (segmented.segmentation) n.optimise_seconds = segmented.segmentation->solve_seconds;
-  for (const auto& time : block.times) n.work_seconds += time.seconds;
+  if (segmented.segmentation) n.optimise_cpu_seconds = segmented.segmentation->solve_cpu_seconds;
+  n.cpu_seconds = block.times.total.cpu_seconds;
   return n;
 }
 
@@ -52,7 +52,7 @@ void add(const Numbers& block, Numbers& sum) {
   sum.terms += block.terms;
   sum.objective += block.objective;
   sum.bound += block.bound;
-  sum.optimise_seconds += block.optimise_seconds;
+  sum.optimise_cpu_seconds += block.optimise_cpu_seconds;
 }
 
 /// Blocks know neither their buildings' outcomes nor the faces of their models.
@@ -201,7 +201,7 @@ auto measure(const model::Scene& scene, const pipeline::Options& options, const 
   row.numbers.triangles = scene.mesh.triangles.size();
   row.numbers.footprints = scene.footprints.size();
   row.numbers.scores = result->scores;
-  for (const auto& time : result->times) row.numbers.work_seconds += time.seconds;
+  row.numbers.cpu_seconds = result->times.total.cpu_seconds;
   count_buildings(*result, row);
   row.warnings = result->warnings;
   if (request.experiment == Experiment::profiles) row.profiles = rises_of(*result, scene, options, run);

@@ -216,7 +216,7 @@ auto effect_cells(const Effect& effect, const std::vector<Trial>& usual) -> std:
     cells += tag("td", change(trial.rmse, base.rmse, 3)) + tag("td", change(trial.rmse_inside, base.rmse_inside, 3)) +
              tag("td", change(static_cast<double>(trial.faces), static_cast<double>(base.faces), 0)) +
              tag("td", change(static_cast<double>(trial.parts), static_cast<double>(base.parts), 0)) +
-             tag("td", base::to_text(trial.seconds, 2), {{"class", "seconds"}});
+             tag("td", base::to_text(trial.cpu_seconds, 2), {{"class", "seconds"}});
   }
   return tag("tr", cells);
 }
@@ -233,7 +233,7 @@ auto effect_table(const Sensitivity& result) -> std::string {
     for (const auto* name : trial_names) head += tag("th", escape(trial.dataset) + ": " + name, {{"scope", "col"}});
     first += tag("td", base::to_text(trial.rmse, 3)) + tag("td", base::to_text(trial.rmse_inside, 3)) +
              tag("td", std::to_string(trial.faces)) + tag("td", std::to_string(trial.parts)) +
-             tag("td", base::to_text(trial.seconds, 2), {{"class", "seconds"}});
+             tag("td", base::to_text(trial.cpu_seconds, 2), {{"class", "seconds"}});
   }
   body = tag("tr", first);
   for (const auto& effect : result.effects) body += effect_cells(effect, result.usual);

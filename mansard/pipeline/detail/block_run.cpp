@@ -65,11 +65,11 @@ auto not_raised(const base::Diagnostic& why, const block::Block& block, std::siz
 /// Parts from the segmentation, each raised along its profiles.
 auto raise_parts(const segment::Segmentation& segmentation, const block::Block& block, const rays::Scene& mesh,
                  const Options& options, const base::Run& run, BlockResult& out) -> std::vector<PartResult> {
-  const Watch fitting;
+  base::Watch fitting;
   const auto fitted = profile::fit(segmentation, block, mesh, options.profile, run);
-  out.report.times.push_back({"profile", fitting.seconds()});
+  out.report.times.stages.push_back({"profile", fitting.stop()});
 
-  const Watch refining;
+  base::Watch refining;
   std::vector<PartResult> parts;
   std::vector<refine::Draft> drafts;
   std::vector<std::size_t> part_of_draft;
@@ -98,7 +98,7 @@ auto raise_parts(const segment::Segmentation& segmentation, const block::Block& 
     parts.push_back(std::move(part));
   }
   for (const auto& [draft, why] : refined.failed) out.warnings.push_back(not_raised(why, block, part_of_draft[draft]));
-  out.report.times.push_back({"refine", refining.seconds()});
+  out.report.times.stages.push_back({"refine", refining.stop()});
   return parts;
 }
 
@@ -186,6 +186,7 @@ auto unsegmented(const block::Block& block, const base::Diagnostic& why) -> repo
 
 auto run_block(const block::Block& block, const Options& options, const base::Run& run, const Tell& tell, Keep keep)
     -> BlockResult {
+  base::Watch watch;
   BlockResult out;
   report::BlockReport& report = out.report;
   const rays::Scene mesh(block.mesh);
@@ -201,10 +202,10 @@ auto run_block(const block::Block& block, const Options& options, const base::Ru
   if (keep == Keep::segmentations) out.segmented = std::move(segmented);
   tell("label");
   {
-    const Watch watch;
+    base::Watch labelling;
     classify(parts, options, run);
     base::parallel_for(parts.size(), [&](std::size_t i) { measure(parts[i], mesh, options); });
-    report.times.push_back({"label", watch.seconds()});
+    report.times.stages.push_back({"label", labelling.stop()});
   }
   report.parts = parts.size();
 
@@ -219,6 +220,7 @@ auto run_block(const block::Block& block, const Options& options, const base::Ru
   report.scores = comparison.scores;
   out.map = std::move(comparison.map);
   out.parts = std::move(parts);
+  report.times.total = watch.stop();
   return out;
 }
 

@@ -1,7 +1,6 @@
-// One block through every room, from its mesh to its checked solids.
+// One block through every stage, from its mesh to its checked solids.
 #pragma once
 
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -13,26 +12,16 @@
 
 namespace mansard::pipeline::detail {
 
-class Watch {
- public:
-  [[nodiscard]] auto seconds() const -> double {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-/// Told the name of every stage as it begins.
+/// Receives the name of every stage as it begins.
 using Tell = std::function<void(std::string_view)>;
 
 /// Does the work and adds its time to the report.
 template <class Work>
 [[nodiscard]] auto stage(const char* name, const Tell& tell, report::BlockReport& report, Work&& work) {
   tell(name);
-  const Watch watch;
+  base::Watch watch;
   auto product = work();
-  report.times.push_back({name, watch.seconds()});
+  report.times.stages.push_back({name, watch.stop()});
   return product;
 }
 

@@ -93,7 +93,15 @@ export interface Scores {
 
 export interface StageTime {
   stage: string;
-  seconds: number;
+  cpu_seconds: number;
+  wall_seconds: number; // during which at least one block was in the stage
+}
+
+// without reading and writing files
+export interface Times {
+  cpu_seconds: number; // on all threads
+  wall_seconds: number; // from beginning to end
+  stages: StageTime[];
 }
 
 export interface RunSummary {
@@ -106,7 +114,7 @@ export interface RunSummary {
   options: Record<string, string>; // "module.name" → value, for values that differ from the defaults
   blocks: string[]; // empty: all
   scores: Scores | null;
-  times: StageTime[];
+  times: Times;
   buildings: number;
   full: number;
   parts: number;

@@ -5,13 +5,14 @@ import { buildingDifferences, difference, numbers } from "./compare";
 describe("two runs", () => {
   it("have the times of all their stages", () => {
     const rows = numbers(
-      summary({ times: [{ stage: "slice", seconds: 1 }] }),
-      summary({ times: [{ stage: "sweep", seconds: 2 }] }),
+      summary({ times: { cpu_seconds: 3, wall_seconds: 2, stages: [{ stage: "slice", cpu_seconds: 1, wall_seconds: 1 }] } }),
+      summary({ times: { cpu_seconds: 4, wall_seconds: 5, stages: [{ stage: "sweep", cpu_seconds: 2, wall_seconds: 1 }] } }),
     );
     const of = (name: string) => rows.find((r) => r.name === name)!;
-    expect(of("Time of slice")).toMatchObject({ first: 1, second: null });
-    expect(of("Time of sweep")).toMatchObject({ first: null, second: 2 });
-    expect(difference(of("Time"))).toBe(1);
+    expect(of("CPU time of slice")).toMatchObject({ first: 1, second: null });
+    expect(of("CPU time of sweep")).toMatchObject({ first: null, second: 2 });
+    expect(difference(of("CPU time"))).toBe(1);
+    expect(difference(of("Elapsed time"))).toBe(3);
   });
 
   it("have no difference if a value is missing", () => {

@@ -31,11 +31,12 @@ export function numbers(first: RunSummary, second: RunSummary): NumberRow[] {
     row("Parts", "", 0, (r) => r.parts, null),
     row("Faces", "", 0, (r) => r.faces, null),
     row("Edits", "", 0, (r) => r.edits, null),
-    row("Time", "s", 1, (r) => r.times.reduce((sum, t) => sum + t.seconds, 0)),
+    row("Elapsed time", "s", 1, (r) => r.times.wall_seconds),
+    row("CPU time", "s", 1, (r) => r.times.cpu_seconds),
   ];
-  const stages = [...new Set([...first.times, ...second.times].map((t) => t.stage))];
-  const time = (r: RunSummary, stage: string) => r.times.find((t) => t.stage === stage)?.seconds;
-  return [...rows, ...stages.map((stage) => row(`Time of ${stage}`, "s", 1, (r) => time(r, stage)))];
+  const stages = [...new Set([...first.times.stages, ...second.times.stages].map((t) => t.stage))];
+  const time = (r: RunSummary, stage: string) => r.times.stages.find((t) => t.stage === stage)?.cpu_seconds;
+  return [...rows, ...stages.map((stage) => row(`CPU time of ${stage}`, "s", 1, (r) => time(r, stage)))];
 }
 
 /** Second minus first; null if one is missing. */

@@ -223,10 +223,10 @@ function Totals() {
       <dt>Volume</dt>
       <dd>{grouped(parts.reduce((sum, p) => sum + p.volume, 0))} m³</dd>
       {!within.value &&
-        summary?.times.map((t) => (
+        summary?.times.stages.map((t) => (
           <>
-            <dt class="sub">time in {t.stage}</dt>
-            <dd>{seconds(t.seconds)}</dd>
+            <dt class="sub">CPU time in {t.stage}</dt>
+            <dd>{seconds(t.cpu_seconds)}</dd>
           </>
         ))}
     </dl>

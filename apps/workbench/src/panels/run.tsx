@@ -222,7 +222,6 @@ const deleting = signal<string | null>(null);
 
 function RunRow({ run }: { run: RunSummary }) {
   const open = state.run.value?.id === run.id;
-  const total = run.times.reduce((sum, t) => sum + t.seconds, 0);
   const settings = [
     run.preset && `preset ${run.preset}`,
     ...Object.entries(run.options).map(([k, v]) => `${k} = ${v}`),
@@ -298,7 +297,7 @@ function RunRow({ run }: { run: RunSummary }) {
           </span>
           <span>{count(run.parts, "part")}</span>
           <span>{count(run.faces, "face")}</span>
-          <span>{seconds(total)}</span>
+          <span title={`Elapsed time; ${seconds(run.times.cpu_seconds)} of CPU time`}>{seconds(run.times.wall_seconds)}</span>
           {run.edits > 0 && <span>{count(run.edits, "edit")}</span>}
           {run.blocks.length > 0 && <span title={run.blocks.join(", ")}>only {count(run.blocks.length, "block")}</span>}
         </p>

@@ -82,7 +82,7 @@ export const summary = (change: Partial<RunSummary> = {}): RunSummary => ({
   options: {},
   blocks: [],
   scores: null,
-  times: [],
+  times: { cpu_seconds: 0, wall_seconds: 0, stages: [] },
   buildings: 1,
   full: 1,
   parts: 1,
