@@ -133,11 +133,24 @@ auto from_undeclared(const std::string& name) -> std::string {
   return name.starts_with('_') && undeclared(name) != name ? name.substr(1) : name;
 }
 
-void CityObjects::add(const model::Building& building, const Gate::Keyed& keys,
-                      std::vector<base::Diagnostic>& warnings) {
+auto CityObjects::footprint_of(const model::Building& building, const std::vector<Shape>& shapes)
+    -> std::vector<Loops> {
   std::vector<Loops> footprint;
   for (const auto& polygon : building.footprint)
     if (auto loops = quantised(polygon, building.ground); !loops.empty()) footprint.push_back(std::move(loops));
+  if (std::ranges::all_of(footprint, is_sound)) return footprint;
+  footprint.clear();  // a surveyed polygon that no validator accepts: the ground of the models instead
+  for (const Shape& shape : shapes)
+    for (const Surface& surface : shape.fine)
+      if (surface.kind == FaceClass::ground) {
+        auto& loops = footprint.emplace_back(surface.loops);
+        for (auto& loop : loops) std::ranges::reverse(loop);
+      }
+  return footprint;
+}
+
+void CityObjects::add(const model::Building& building, const Gate::Keyed& keys,
+                      std::vector<base::Diagnostic>& warnings) {
   const Drawn solids = drawn(building, keys, solids_);
   warnings.insert(warnings.end(), solids.warnings.begin(), solids.warnings.end());
   std::vector<Shape> shapes;
@@ -149,6 +162,7 @@ void CityObjects::add(const model::Building& building, const Gate::Keyed& keys,
     if (!own)
       for (const std::size_t p : parts) shape.of.push_back(keys.parts[p]);
   }
+  const auto footprint = footprint_of(building, shapes);
   Extent extent;  // of the building with its parts, whose objects come after its own
   for (const auto& loops : footprint) widen(extent, loops);
   for (const auto& shape : shapes)

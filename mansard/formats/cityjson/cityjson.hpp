@@ -45,6 +45,9 @@ class CityObjects {
     std::vector<std::string> of;  ///< the keys of the parts in it, where they are not those of that object
     std::vector<Surface> flat, fine;
   };
+  /// Of LoD 0.
+  [[nodiscard]] static auto footprint_of(const model::Building& building, const std::vector<Shape>& shapes)
+      -> std::vector<Loops>;
   void append_part(const std::string& key, const model::Part* part, const Shape* shape, const std::string& parent);
   void append_solids(const Shape& shape);
   void append_footprint(const std::vector<Loops>& surfaces);

@@ -43,7 +43,45 @@ auto tidied(const Loops& loops) -> Loops {
   return kept;
 }
 
+/// Quanta: validators take vertices that are 1 mm apart or less for one.
+constexpr std::int64_t least_apart = 11;
+/// Of a face narrower than this, as a share of its length, validators that work in doubles do not find the plane.
+constexpr double too_narrow = 1e-3;
+
+auto are_near(const Vertex& a, const Vertex& b) -> bool {
+  const std::int64_t dx = a[0] - b[0], dy = a[1] - b[1], dz = a[2] - b[2];
+  return dx * dx + dy * dy + dz * dz < least_apart * least_apart;
+}
+
+/// Without vertices that are nearer than that to the one before them.
+auto thinned(const std::vector<Vertex>& loop) -> std::vector<Vertex> {
+  std::vector<Vertex> kept;
+  for (const Vertex& v : loop)
+    if (kept.empty() || !are_near(kept.back(), v)) kept.push_back(v);
+  while (kept.size() > 1 && are_near(kept.back(), kept.front())) kept.pop_back();
+  return kept;
+}
+
 }  // namespace
+
+auto is_sound(const Loops& loops) -> bool {
+  std::vector<Vertex> all;
+  geometry::Polygon polygon;
+  for (const auto& loop : loops) {
+    geometry::Ring ring;
+    for (const Vertex& v : loop) {
+      all.push_back(v);
+      ring.push_back({static_cast<double>(v[0]), static_cast<double>(v[1])});
+    }
+    if (&loop == &loops.front()) polygon.outer = std::move(ring);
+    else polygon.holes.push_back(std::move(ring));
+  }
+  std::ranges::sort(all);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t k = i; k-- > 0 && all[i][0] - all[k][0] < least_apart;)
+      if (are_near(all[i], all[k])) return false;
+  return geometry::is_simple(polygon);
+}
 
 auto quantised(const model::LabelledSolid& model) -> std::vector<Surface> {
   std::vector<Surface> surfaces;
@@ -64,6 +102,7 @@ auto quantised(const geometry::Polygon& polygon, double z) -> Loops {
   const auto add = [&](const geometry::Ring& ring) {
     auto& loop = loops.emplace_back();
     for (const auto& p : ring) loop.push_back(to_vertex({p.x, p.y, z}));
+    loop = thinned(loop);
   };
   add(polygon.outer);
   for (const auto& hole : polygon.holes) add(hole);
@@ -105,7 +144,13 @@ auto flat_prism(const std::vector<Surface>& solid, double z) -> std::vector<Surf
         const auto dx = static_cast<double>(b[0] - a[0]), dy = static_cast<double>(b[1] - a[1]);
         // Seen from below the ground runs counter-clockwise, so outside is to the left of its edges seen from above.
         const auto n = geometry::normalised(geometry::Point2{-dy, dx});
-        prism.push_back({{{b, a, a_top, b_top}}, kind, {n.x, n.y, 0}});
+        const geometry::Point3 normal{n.x, n.y, 0};
+        if (std::hypot(dx, dy) < too_narrow * static_cast<double>(top - a[2])) {
+          prism.push_back({{{b, a, a_top}}, kind, normal});
+          prism.push_back({{{b, a_top, b_top}}, kind, normal});
+        } else {
+          prism.push_back({{{b, a, a_top, b_top}}, kind, normal});
+        }
       });
   }
   return prism;

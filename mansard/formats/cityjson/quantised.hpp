@@ -30,8 +30,10 @@ struct Surface {
 /// Rounds, and takes out what rounding made degenerate: repeated vertices, spikes, loops without area. Where two
 /// vertices fall together every face around the edge between them loses it, so a closed surface stays closed.
 [[nodiscard]] auto quantised(const model::LabelledSolid& model) -> std::vector<Surface>;
-/// A polygon at a height; empty when nothing is left of it.
+/// A polygon at a height, without vertices that are 1 mm from the one before them; empty when nothing is left of it.
 [[nodiscard]] auto quantised(const geometry::Polygon& polygon, double z) -> Loops;
+/// Whether the loops of a level surface neither meet nor come within 1 mm of each other or of themselves.
+[[nodiscard]] auto is_sound(const Loops& loops) -> bool;
 
 /// LoD 1.2: the ground surfaces of a solid raised to a flat roof at `z` (metres). It stands on the very vertices of the
 /// finer model, and its walls are party walls where that one's are. Empty without ground surfaces below z.
