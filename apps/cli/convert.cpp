@@ -69,6 +69,12 @@ auto tells_of_faces(const Target& target) -> bool {
   return target.format == glb || target.format == tiles || target.format == geopackage;
 }
 
+/// Whether it takes more than the corners and classes of a building's solids: the models of parts, or exact normals.
+auto needs_parts(const Target& target, const formats::WriteOptions& options) -> bool {
+  if (target.format == formats::Format::stl) return options.stl_shell != formats::Shell::building;
+  return tells_of_faces(target) || options.solids == formats::Solids::part;
+}
+
 /// A few buildings after the other, so that threads have work: memory does not grow with their number.
 auto pass_on(formats::CityReader& reader, const std::vector<Target>& targets, const Writers& writers,
              const pipeline::Options& options, const base::Run& run) -> base::Result<void> {
@@ -112,7 +118,11 @@ auto convert(const Request& request, const base::Cancel& cancel) -> int {
   for (const auto& warning : beside->warnings) progress.say(base::to_string(warning));
   base::Outputs outputs;
   bool all_full = true;
-  if ((*reader)->has_models() && pipeline::same_options(header.made_by, options)) {
+  const bool has_all =
+      (*reader)->has_models() || ((*reader)->has_solids() && std::ranges::none_of(*targets, [&](const Target& target) {
+                                    return needs_parts(target, options.write);
+                                  }));
+  if (has_all && pipeline::same_options(header.made_by, options)) {
     const auto writers = open_writers(*targets, header, options.write, outputs, beside->layers);
     if (!writers) return give_up(writers.errors());
     if (auto passed = pass_on(**reader, *targets, *writers, options, run); !passed) return give_up(passed.errors());

@@ -30,11 +30,18 @@ class Tally {
     derived_ += derived != nullptr && std::get_if<bool>(derived) != nullptr && std::get<bool>(*derived) ? 1 : 0;
     for (const auto& polygon : building.footprint)
       for (const auto p : polygon.outer) extent_.add({p.x, p.y, building.ground}, frame_);
-    std::vector<std::vector<base::Diagnostic>> wrong(building.parts.size());
-    base::parallel_for(wrong.size(), [&](std::size_t p) {
-      if (const auto& solid = building.parts[p].model.solid; !solid.faces.empty()) wrong[p] = solid::check(solid);
-    });
-    for (std::size_t p = 0; p < wrong.size(); ++p) add(building, building.parts[p], wrong[p]);
+    for (const auto& part : building.parts) add(part);
+    std::vector<Named> solids;
+    for (const auto& [parts, model] : building.solids)
+      solids.push_back(
+          {parts.size() == building.parts.size() ? building.id : building.parts[parts.front()].id, &model.solid});
+    if (building.solids.empty())
+      for (const auto& part : building.parts)
+        if (!part.model.solid.faces.empty()) solids.push_back({part.id, &part.model.solid});
+    std::vector<std::vector<base::Diagnostic>> wrong(solids.size());
+    base::parallel_for(wrong.size(),
+                       [&](std::size_t i) { wrong[i] = solid::check(*solids[i].solid, solid::written_rules()); });
+    for (std::size_t i = 0; i < wrong.size(); ++i) add(building, solids[i], wrong[i]);
   }
 
   [[nodiscard]] auto counts() const -> Json {
@@ -56,12 +63,19 @@ class Tally {
   [[nodiscard]] auto footprints() const -> Json { return {{"surveyed", buildings_ - derived_}, {"derived", derived_}}; }
 
  private:
-  void add(const model::Building& building, const model::Part& part, const std::vector<base::Diagnostic>& wrong) {
+  struct Named {
+    std::string id;  ///< of the building, or of its first part
+    const model::Solid* solid = nullptr;
+  };
+
+  void add(const model::Part& part) {
     ++parts_;
     const auto* fallback = attribute(part.attributes, "ms_fallback");
     if (const auto* code = fallback == nullptr ? nullptr : std::get_if<std::string>(fallback)) ++fallbacks_[*code];
-    const auto& solid = part.model.solid;
-    if (solid.faces.empty()) return;
+  }
+
+  void add(const model::Building& building, const Named& named, const std::vector<base::Diagnostic>& wrong) {
+    const auto& solid = *named.solid;
     ++solids_;
     faces_ += solid.faces.size();
     vertices_ += solid.vertices.size();
@@ -75,7 +89,7 @@ class Tally {
     if (wrong.empty()) return;
     Json reasons = Json::array();
     for (const auto& reason : wrong) reasons.push_back({{"code", reason.code}, {"message", reason.message}});
-    invalid_.push_back({{"building", building.id}, {"part", part.id}, {"reasons", std::move(reasons)}});
+    invalid_.push_back({{"building", building.id}, {"part", named.id}, {"reasons", std::move(reasons)}});
   }
 
   model::Frame frame_;
@@ -135,7 +149,7 @@ auto size_of(const fs::path& path) -> std::uintmax_t {
 /// Adds every building, its model rebuilt where the file has none. Whether there were models.
 auto add_all(formats::CityReader& reader, const base::Run& run, Tally& tally, std::vector<base::Diagnostic>& warnings)
     -> base::Result<bool> {
-  if (!reader.has_models()) {
+  if (!reader.has_models() && !reader.has_solids()) {
     pipeline::Options options;
     warnings = pipeline::take_options(reader.header().made_by, options);
     const auto raised = pipeline::read_raised(reader, options, run);

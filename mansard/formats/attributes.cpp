@@ -17,6 +17,12 @@ auto attributes() -> std::vector<Attribute> {
        "",
        "The polygons of the footprint as they were read and the z of the ground, with the origin that they are "
        "relative to."},
+      {"+ms_solid_of",
+       "write",
+       {"BuildingPart"},
+       "array",
+       "",
+       "The parts that the solid of this object contains, where it is not this part alone."},
       {"ms_party_wall", "write", {"WallSurface"}, "boolean", "", "Whether another solid is adjacent to the wall."},
       {"ms_slope", "write", {"RoofSurface"}, "number", "°", "Angle from the horizontal."},
       {"ms_azimuth",

@@ -90,6 +90,8 @@ class CityReader {
   /// Whether parts come with their models, as those of CityJSON and CityJSONSeq do that was written with a solid for
   /// each part; of the others they come with plans and attributes, and the models are raised from them again.
   [[nodiscard]] virtual auto has_models() const -> bool = 0;
+  /// Whether buildings come with their solids instead, as those of CityJSON and CityJSONSeq do otherwise.
+  [[nodiscard]] virtual auto has_solids() const -> bool { return false; }
   /// None after the last one.
   [[nodiscard]] virtual auto next() -> base::Result<std::optional<model::Building>> = 0;
   /// Parts of a file of plans that are at fault, and that its buildings therefore lack: "write-plan-…", whose message

@@ -107,7 +107,7 @@ struct RaisedPlans {
     extrude::Outcome outcome = extrude::Outcome::full;
     std::vector<base::Diagnostic> reasons;  ///< the subject is the part's id
   };
-  std::vector<Short> fell_short;          ///< the parts that are simpler than their plans, in order
+  std::vector<Short> fell_short;  ///< the parts that are simpler than their plans, in order
   /// On parts that are as their plans say ("extrude-small-edge"), and those of solid::unite, by building.
   std::vector<base::Diagnostic> remarks;
   /// Why parts have no solid, and are missing from the city: as raise_part gives up. The subject is the part's id.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 #include "mansard/formats/input_file.hpp"
 
@@ -38,14 +39,14 @@ auto class_of(model::FaceClass kind) -> model::SurfaceClass {
   return model::SurfaceClass::other;
 }
 
-auto part_of(const model::Part& part) -> model::ModelPart {
+auto part_of(const model::Part& part, const model::LabelledSolid& labelled) -> model::ModelPart {
   model::ModelPart out{part.id, {}};
   for (const auto& [key, value] : part.attributes)
     if (const auto* text = std::get_if<std::string>(&value); text && key == "ms_role") out.role = *text;
-  const auto& solid = part.model.solid;
+  const auto& solid = labelled.solid;
   for (std::size_t f = 0; f < solid.faces.size(); ++f) {
     auto& face = out.faces.emplace_back();
-    face.kind = class_of(part.model.classes[f]);
+    face.kind = class_of(labelled.classes[f]);
     for (const auto& loop : solid.faces[f].loops) {
       auto& points = face.loops.emplace_back();
       for (const auto v : loop) points.push_back(solid.vertices[v]);
@@ -61,6 +62,10 @@ auto same_corners(const model::Solid& a, const model::Solid& b) -> bool {
     return std::ranges::equal(f.loops, g.loops,
                               [&](const auto& x, const auto& y) { return std::ranges::equal(x, y, same); });
   });
+}
+
+auto same_solid(const model::PartsSolid& a, const model::PartsSolid& b) -> bool {
+  return a.parts == b.parts && a.model.classes == b.model.classes && same_corners(a.model.solid, b.model.solid);
 }
 
 /// The file, or every file of a folder of tiles, by name.
@@ -159,7 +164,16 @@ auto read_raised(formats::CityReader& reader, const Options& options, const base
   const bool as_made = same_options(city->made_by, options);
   note_options(options, city->made_by);
   if (reader.has_models() && as_made) return RaisedPlans{std::move(*city), {}, {}, std::move(refused)};
+  // Another program may have changed them; where it did not, raising them gives normals with all digits.
+  std::map<std::string, std::vector<model::PartsSolid>> solids;
+  if (reader.has_solids() && as_made)
+    for (auto& building : city->buildings) solids[building.id] = std::move(building.solids);
   auto raised = raise_plans(std::move(*city), options, run);
+  if (raised)
+    for (auto& building : raised->city.buildings)
+      if (const auto found = solids.find(building.id); found != solids.end() && !found->second.empty() &&
+                                                       !std::ranges::equal(building.solids, found->second, same_solid))
+        building.solids = std::move(found->second);
   if (raised) raised->refused.insert(raised->refused.begin(), refused.begin(), refused.end());
   return raised;
 }
@@ -170,8 +184,11 @@ auto model_of(const model::City& city) -> model::Model {
   model.lod = "2.2";
   for (const auto& building : city.buildings) {
     model::ModelBuilding out{building.id, {}};
-    for (const auto& part : building.parts)
-      if (!part.model.solid.faces.empty()) out.parts.push_back(part_of(part));
+    for (const auto& [parts, solid] : building.solids)
+      out.parts.push_back(part_of(building.parts[parts.front()], solid));
+    if (building.solids.empty())
+      for (const auto& part : building.parts)
+        if (!part.model.solid.faces.empty()) out.parts.push_back(part_of(part, part.model));
     if (!out.parts.empty()) model.buildings.push_back(std::move(out));
   }
   return model;

@@ -79,9 +79,12 @@ auto made_of(const detail::Sheets& sheets, std::span<const LabelledSolid* const>
   if (!made.why.empty()) return {{}, made.why};
   if (!detail::finish(made, planar)) return {{}, "a face crosses itself"};
   auto solids = apart(made.model, made.solid_of_face);
-  for (const One& one : solids)
-    if (const auto faults = check(one.model.solid, written_rules()); !faults.empty())
-      return {{}, faults.front().message};
+  for (One& one : solids)
+    if (!check(one.model.solid, written_rules()).empty()) {
+      place(one.model.solid, sheets);  // so that the message names a place that can be found
+      const auto faults = check(one.model.solid, written_rules());
+      return {{}, faults.empty() ? std::string("rounding") : faults.front().message};
+    }
   std::set<std::uint32_t> of;
   for (const auto& sheet : sheets.sheets) of.insert(sheet.solid);
   double whole = 0, surface = 0;
@@ -188,6 +191,7 @@ class Uniting {
     for (std::size_t p = 0; p < parts_.size(); ++p) {
       if (members[p].empty()) continue;
       if (Attempt shared = united(members[p], true); shared.why.empty()) heaps[p] = std::move(shared);
+      else ++out_.loose;
       if (heaps[p].why.empty()) take(std::move(heaps[p].solids));
       else alone(p, heaps[p].why);
     }
@@ -250,19 +254,20 @@ class Uniting {
 constexpr std::array reaches{detail::least_near, std::int64_t{50}, std::int64_t{200}};
 
 /// The first result without a warning, over plans in which ever more becomes one; else that with the fewest parts
-/// simplified or left out, and of those the one with the fewest solids.
+/// simplified or left out, of those the one with the fewest loose solids, and then with the fewest at all.
 template <class Make>
 auto best(Make make) {
   std::optional<std::vector<United>> chosen;
-  std::array<std::size_t, 2> least{};
+  std::array<std::size_t, 3> least{};
   for (const std::int64_t near : reaches) {
     std::vector<United> made = make(near);
-    std::array<std::size_t, 2> lacking{};
+    std::array<std::size_t, 3> lacking{};
     bool as_asked = true;
     for (const United& one : made) {
       for (const auto& warning : one.warnings) lacking[0] += warning.code == "solid-not-united" ? 0 : 1;
       as_asked = as_asked && one.warnings.empty();
-      lacking[1] += one.solids.size();
+      lacking[1] += one.loose;
+      lacking[2] += one.solids.size();
     }
     if (!chosen || lacking < least) chosen = std::move(made), least = lacking;
     if (as_asked) break;
@@ -412,8 +417,8 @@ auto share_walls(std::span<const LabelledSolid* const> parts) -> bool {
     if (!check(part->solid, written_rules()).empty()) return false;
   auto sheets = detail::sheets_of(parts);
   if (!sheets) return true;
-  const auto before = sheets->sheets;
-  return detail::conform(*sheets) && sheets->sheets == before;
+  const detail::Sheets before = *sheets;
+  return detail::conform(*sheets) && detail::only_broken(before, *sheets);
 }
 
 auto unite(std::span<const LabelledSolid* const> parts) -> United { return united_alone(parts); }

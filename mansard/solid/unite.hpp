@@ -18,6 +18,7 @@ struct United {
   };
   std::vector<One> solids;                 ///< by their first part
   std::vector<base::Diagnostic> warnings;  ///< what could not be made as asked, without subject
+  std::size_t loose = 0;                   ///< solids whose walls may lie off those of their neighbours by rounding
 };
 
 /// The union of parts that are vertical walls under a roof, as are those that extrude::raise() makes without

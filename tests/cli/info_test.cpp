@@ -63,23 +63,25 @@ TEST_F(Info, says_why_a_solid_is_not_valid) {
   const std::string hall = MANSARD_DATA "/hall/";
   ASSERT_LE(reconstruct(hall + "mesh.off", hall + "footprints.geojson", "--formats cityjson").exit, 1);
   auto model = Json::parse(read(at("out") + "/model.city.json"));
-  // Two of the four parts lose a face.
+  // One of the two solids loses a face.
   std::size_t torn = 0;
-  for (auto& object : model["CityObjects"])
+  for (auto& object : model["CityObjects"]) {
+    if (!object.contains("geometry")) continue;
     for (auto& geometry : object["geometry"])
-      if (geometry["lod"] == "2.2" && torn < 2) {
+      if (geometry["lod"] == "2.2" && torn < 1) {
         auto& shell = geometry["boundaries"][0];
         auto& values = geometry["semantics"]["values"][0];
         shell.erase(shell.size() - 1);
         values.erase(values.size() - 1);
         ++torn;
       }
+  }
   const auto told = info(put("torn.city.json", model.dump()));
-  EXPECT_EQ(told[0]["validity"]["solids"], 4);
-  EXPECT_EQ(told[0]["validity"]["valid"], 2);
-  ASSERT_EQ(told[0]["validity"]["invalid"].size(), 2U);
+  EXPECT_EQ(told[0]["validity"]["solids"], 2);
+  EXPECT_EQ(told[0]["validity"]["valid"], 1);
+  ASSERT_EQ(told[0]["validity"]["invalid"].size(), 1U);
   EXPECT_EQ(told[0]["validity"]["invalid"][0]["reasons"][0]["code"], "solid-open");
-  EXPECT_THAT(run("info " + at("torn.city.json")).out, HasSubstr("2 of 4 solids"));
+  EXPECT_THAT(run("info " + at("torn.city.json")).out, HasSubstr("1 of 2 solids"));
 }
 
 TEST_F(Info, says_what_a_mesh_and_footprints_hold) {

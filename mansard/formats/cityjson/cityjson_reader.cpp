@@ -91,8 +91,6 @@ auto solids_are_parts(const Item& file) -> bool {
 /// Reads the buildings among city objects.
 class Objects {
  public:
-  enum class Models : std::uint8_t { none, of_parts, of_buildings };
-
   /// Without vertices there are no models.
   Objects(const Item& objects, const Vertices* vertices, const model::Frame& frame, Models models)
       : objects_(objects), vertices_(vertices), origin_(frame.origin), models_(models) {
@@ -200,7 +198,7 @@ auto read_whole_file(const Item& file, bool models, const std::string& code) -> 
   model::City city{header->frame, header->made_by, {}};
   const Item transform = file.member("transform"), list = file.member("vertices"), all = file.member("CityObjects");
   const Vertices vertices(transform, list, city.frame.origin);
-  using enum Objects::Models;
+  using enum Models;
   Objects objects(all, &vertices, city.frame, !models ? none : solids_are_parts(file) ? of_parts : of_buildings);
   for (const auto& [id, object] : all.json.items())
     if (Objects::is_building(object)) city.buildings.push_back(objects.building(id, object));
@@ -218,6 +216,7 @@ class ReadFeatures : public CityReader {
         of_parts_(of_parts) {}
   [[nodiscard]] auto header() const -> const Header& override { return header_; }
   [[nodiscard]] auto has_models() const -> bool override { return of_parts_; }
+  [[nodiscard]] auto has_solids() const -> bool override { return !of_parts_; }
   [[nodiscard]] auto next() -> base::Result<std::optional<model::Building>> override {
     for (std::string line; std::getline(file_, line);) {
       ++line_;
@@ -238,7 +237,7 @@ class ReadFeatures : public CityReader {
     const Json at = parse_json(transform_);
     const Item transform{at, {}}, list = feature.member("vertices"), all = feature.member("CityObjects");
     const Vertices vertices(transform, list, header_.frame.origin);
-    using enum Objects::Models;
+    using enum Models;
     Objects objects(all, &vertices, header_.frame, of_parts_ ? of_parts : of_buildings);
     const std::string id = feature.member("id").text();
     const auto found = all.json.find(id);
@@ -303,7 +302,7 @@ auto cityjson_reader(const Path& path) -> ReaderResult {
     return read;
   });
   if (!city) return city.error();
-  return ReaderResult(whole_reader(*std::move(city), of_parts));
+  return ReaderResult(whole_reader(*std::move(city), of_parts ? Models::of_parts : Models::of_buildings));
 }
 
 }  // namespace mansard::formats::detail

@@ -73,7 +73,9 @@ auto is_sound(const Loops& loops) -> bool {
       all.push_back(v);
       ring.push_back({static_cast<double>(v[0]), static_cast<double>(v[1])});
     }
-    if (&loop == &loops.front()) polygon.outer = std::move(ring);
+    const bool is_outer = &loop == &loops.front();
+    if ((geometry::signed_area(ring) > 0) != is_outer) return false;  // rounding turned a hole without width over
+    if (is_outer) polygon.outer = std::move(ring);
     else polygon.holes.push_back(std::move(ring));
   }
   std::ranges::sort(all);

@@ -27,11 +27,14 @@ using Path = std::filesystem::path;
                               base::Outputs& outputs) -> WriterResult;
 [[nodiscard]] auto geojson_writer(const Path& path, const Header& header, base::Outputs& outputs) -> WriterResult;
 
+/// What of a file has models.
+enum class Models : std::uint8_t { none, of_parts, of_buildings };
+
 /// CityJSON and CityJSONSeq, with models.
 [[nodiscard]] auto cityjson_reader(const Path& path) -> ReaderResult;
 [[nodiscard]] auto plans_reader(const Path& path) -> ReaderResult;
 /// The buildings of a city that was read as a whole, one after the other; `refused` are the parts that it lacks.
-[[nodiscard]] auto whole_reader(model::City city, bool with_models, std::vector<base::Diagnostic> refused = {})
+[[nodiscard]] auto whole_reader(model::City city, Models models, std::vector<base::Diagnostic> refused = {})
     -> std::unique_ptr<CityReader>;
 [[nodiscard]] auto obj_reader(const Path& path) -> ReaderResult;
 [[nodiscard]] auto glb_reader(const Path& path) -> ReaderResult;

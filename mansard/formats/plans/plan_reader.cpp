@@ -319,7 +319,7 @@ auto plans_reader(const Path& path) -> ReaderResult {
   std::vector<base::Diagnostic> refused;
   auto city = parse_plans(*text, path.string(), refused);
   if (!city) return city.failure();
-  return ReaderResult(whole_reader(*std::move(city), false, std::move(refused)));
+  return ReaderResult(whole_reader(*std::move(city), Models::none, std::move(refused)));
 }
 
 }  // namespace mansard::formats::detail

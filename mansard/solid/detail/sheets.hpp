@@ -37,7 +37,6 @@ struct Sheet {
   Facing facing = Facing::up;
   std::uint32_t solid = 0, face = 0;
   std::vector<Path> paths;  ///< as the loops of a face
-  friend auto operator==(const Sheet&, const Sheet&) -> bool = default;
 };
 
 struct Sheets {
@@ -73,5 +72,9 @@ using Sides = std::map<Step, Side>;
 /// Merges points that are nearer than Sheets::near in space, breaks walls where points come as near in plan, where they
 /// cross, and where one roof passes through another along them. False where this does not come to an end.
 [[nodiscard]] auto conform(Sheets& sheets) -> bool;
+
+/// Whether conform() moved nothing: all that came to the faces are corners on their edges, and those of other solids lie
+/// on them exactly.
+[[nodiscard]] auto only_broken(const Sheets& before, const Sheets& after) -> bool;
 
 }  // namespace mansard::solid::detail

@@ -1,6 +1,8 @@
-// Which buildings stand so near each other that they are laid over one plan.
+// What stands how near to what: which buildings are laid over one plan, and which parts share walls exactly already.
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <set>
 #include <tuple>
 
 #include "mansard/base/disjoint_sets.hpp"
@@ -76,6 +78,45 @@ auto touching(const Sheets& sheets, const std::vector<std::uint32_t>& owner_of_s
   std::vector<std::uint32_t> out(owners);
   for (std::uint32_t o = 0; o < owners; ++o) out[o] = sets.of(o);
   return out;
+}
+
+namespace {
+
+/// Whether a path is another one with corners put in between, on which other solids lie exactly.
+auto only_broken(const Path& before, const Path& after, const Sheets& sheets,
+                 const std::function<bool(std::uint32_t)>& is_others) -> bool {
+  std::size_t found = 0;
+  for (const Node& node : after) {
+    if (found < before.size() && node == before[found]) {
+      ++found;
+      continue;
+    }
+    if (found == 0) return false;
+    const Edge edge{sheets.places[before[found - 1].at], sheets.places[before[found % before.size()].at]};
+    if (is_others(node.at) && side(edge, sheets.places[node.at]) != 0) return false;
+  }
+  return found == before.size();
+}
+
+}  // namespace
+
+auto only_broken(const Sheets& before, const Sheets& after) -> bool {
+  if (before.sheets.size() != after.sheets.size()) return false;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> uses;  // of places by solids
+  for (const Sheet& sheet : before.sheets)
+    for (const Path& path : sheet.paths)
+      for (const Node& node : path) uses.emplace(node.at, sheet.solid);
+  for (std::size_t s = 0; s < before.sheets.size(); ++s) {
+    const auto &old = before.sheets[s].paths, &now = after.sheets[s].paths;
+    if (old.size() != now.size()) return false;
+    const auto is_others = [&](std::uint32_t at) {
+      const auto first = uses.lower_bound({at, 0}), last = uses.lower_bound({at + 1, 0});
+      return std::any_of(first, last, [&](const auto& use) { return use.second != before.sheets[s].solid; });
+    };
+    for (std::size_t p = 0; p < old.size(); ++p)
+      if (!only_broken(old[p], now[p], after, is_others)) return false;
+  }
+  return true;
 }
 
 }  // namespace mansard::solid::detail
