@@ -3,6 +3,8 @@
 #   debug       compiled without optimisation, with the standard library's assertions: all tests
 #   asan        address and undefined behaviour sanitizers in the whole program: all tests
 #   clang       compiled with clang 16: all tests
+#   headers     every header compiles alone: tools/check_headers.sh --all
+#   tidy        clang-tidy with the checks of .clang-tidy over all modules: tools/tidy.sh
 #   fuzz        every fuzzer for FUZZ_SECONDS (600)
 #   properties  the guarantees of docs/extrude.md over RUNS (100000) random plans from SEED (the date), where a test run takes
 #               5,000. Every failing plan is reduced and written to tests/extrude/fixtures, which every test run replays
@@ -13,11 +15,13 @@
 set -euo pipefail
 {  # bash reads all of it before it begins: the checkout may change meanwhile
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-all=(debug asan clang fuzz properties clean)
+all=(debug asan clang headers tidy fuzz properties clean)
 declare -A meaning=(
   [debug]="not optimised, standard library's assertions: all tests"
   [asan]="address and undefined behaviour sanitizers: all tests"
   [clang]="compiled with clang 16: all tests"
+  [headers]="every header compiles alone"
+  [tidy]="clang-tidy over all modules: one result a source"
   [fuzz]="each fuzzer for ${FUZZ_SECONDS:=600} s"
   [properties]="extrusion kernel: ${RUNS:=100000} random plans"
   [clean]="\`make demo\` and \`make test\` in a new Debian 12")
@@ -39,6 +43,8 @@ all_tests() {  # preset, further packages
 run_debug() { all_tests debug; }
 run_asan() { all_tests asan; }
 run_clang() { all_tests clang clang; }
+run_headers() { tools/setup.sh build && JOBS=$jobs tools/check_headers.sh --all; }
+run_tidy() { JOBS=$jobs tools/tidy.sh; }
 run_fuzz() { tools/fuzz.sh "$FUZZ_SECONDS"; }
 run_properties() {
   tools/setup.sh build test && cmake --preset release --log-level=WARNING &&
@@ -66,6 +72,8 @@ results_of() {  # lane
     function add(name) { if (!(name in seen)) names = names (names == "" ? "" : ",") name; seen[name] = 1 }
     lane == "fuzz" && /^fuzz: [a-z_]+: passed$/ { ++passed }
     lane == "fuzz" && /^fuzz: [a-z_]+: failed$/ { ++failed; sub(":", "", $2); add($2) }
+    lane ~ /^(headers|tidy)$/ && /^(check_headers|tidy): [^ ]+: passed$/ { ++passed }
+    lane ~ /^(headers|tidy)$/ && /^(check_headers|tidy): [^ ]+: failed$/ { ++failed; sub(":", "", $2); add($2) }
     lane == "properties" && /^\[  PASSED  \] [0-9]+ test/ { passed += $4 }
     lane == "properties" && /^\[  FAILED  \] [0-9]+ test/ { failed += $4; next }
     lane == "properties" && /^\[  FAILED  \] / { sub(",", "", $4); add($4) }

@@ -31,7 +31,7 @@ case $2 in
   nightly_says_which_lanes_were_not_run)
     nightly debug || fail "failed"
     says '^\| `debug` \| .* \| passed \| 11 \| 0 \| 2 \| 0 \| 20[0-9-]+ \| 1\.2\.3, abc1234 \|$' || fail "no row of debug"
-    for lane in asan clang fuzz properties clean; do
+    for lane in asan clang headers tidy fuzz properties clean; do
       says "^\| \`$lane\` \| .* \| not run \| \| \| \| \| \| \|$" || fail "$lane was not run"
     done
     ;;
@@ -45,7 +45,7 @@ case $2 in
     nightly debug || [[ $? -eq 1 ]] || fail "failed"
     says '^- `asan`: a\.b, a\.c$' || fail "what failed in asan is gone"
     says '^- `debug`: a\.b, a\.c$' || fail "what failed in debug is not named"
-    [[ $(grep -c '^| `' "$page") -eq 6 ]] || fail "a lane has not one row"
+    [[ $(grep -c '^| `' "$page") -eq 8 ]] || fail "a lane has not one row"
     ;;
   nightly_reports_a_lane_that_does_not_build)
     stand_in bin/cmake '[[ "$*" != *--build* ]]'
@@ -63,6 +63,15 @@ case $2 in
     says '^\| `fuzz` \| each fuzzer for 5 s \| failed \| 2 \| 1 \| 0 \|' || fail "no row of fuzz"
     says '^\| `properties` \| .*10 random plans \| failed \| 14 \| 2 \| 0 \|' || fail "no row of properties"
     says '^- `fuzz`: extrude$' && says '^- `properties`: Guarantee.holds$' || fail "what failed is not named"
+    ;;
+  nightly_counts_headers_and_sources)
+    stand_in tools/check_headers.sh 'printf "check_headers: mansard/a/a.hpp: passed\nnoise: passed\n"'
+    stand_in tools/tidy.sh 'printf "tidy: mansard/a/a.cpp: passed\ntidy: mansard/a/b.cpp: failed\n"; exit 1'
+    nightly headers tidy || [[ $? -eq 1 ]] || fail "failed"
+    grep -q '^tools/check_headers.sh --all$' "$calls" || fail "not all headers"
+    says '^\| `headers` \| .* \| passed \| 1 \| 0 \| 0 \|' || fail "no row of headers"
+    says '^\| `tidy` \| .* \| failed \| 1 \| 1 \| 0 \|' || fail "no row of tidy"
+    says '^- `tidy`: mansard/a/b.cpp$' || fail "what failed is not named"
     ;;
   nightly_refuses_a_lane_that_does_not_exist)
     ! nightly debug asam || fail "passed"
