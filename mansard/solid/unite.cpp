@@ -92,7 +92,7 @@ auto made_of(const detail::Sheets& sheets, std::span<const LabelledSolid* const>
     whole += volume(parts[p]->solid);
     for (const auto& face : parts[p]->solid.faces) surface += area(parts[p]->solid, face);
   }
-  const double thickness = static_cast<double>(sheets.near + 1) / detail::quanta_per_metre;  // m; merging moves faces
+  constexpr double thickness = 1.2e-3;  // m; by which merging points may move a face, on average
   if (std::abs(volume_of(solids) - whole) > thickness * surface) return {{}, "parts overlap"};
   for (One& one : solids) place(one.model.solid, sheets);
   return {std::move(solids), ""};
@@ -148,7 +148,7 @@ class Uniting {
     for (const auto& sheet : own.sheets)
       if (pinned && !is_own(sheet))
         for (const auto& path : sheet.paths)
-          for (const auto& node : path) own.pinned[node.at] = 1;
+          for (const auto& node : path) own.pinned[node.at] = 2;
     std::erase_if(own.sheets, [&](const auto& sheet) { return !is_own(sheet); });
     return own;
   }

@@ -209,7 +209,7 @@ assert(sequences >= 3 && objects > 200 && triangles > 2000 && volumes > 5, 'too 
 const hall = json(join(scratch, 'hall.city.json'));
 const part = Object.keys(hall.CityObjects).find((id) => hall.CityObjects[id].type === 'BuildingPart');
 const building = Object.keys(hall.CityObjects).find((id) => hall.CityObjects[id].children?.length > 0);
-const solidOf = (f) => f.CityObjects[part].geometry.find((g) => g.lod === '2.2');
+const solidOf = (f) => f.CityObjects[building].geometry.find((g) => g.lod === '2.2');
 const spoilt = {
   'another version': (f) => (f.version = '1.1'),
   'no transform': (f) => delete f.transform,

@@ -14,10 +14,13 @@ enum class Rule : std::uint8_t { least, greatest, sum, mean, mean_square, first_
 auto rule_of(std::string_view name) -> Rule {
   if (name.ends_with("_min") || name == "ms_h_ground") return Rule::least;
   if (name.ends_with("_max") || name == "ms_h_ridge") return Rule::greatest;
-  if (name.starts_with("ms_volume") || name.starts_with("ms_area")) return Rule::sum;
-  if (name.starts_with("ms_rmse")) return Rule::mean_square;
-  if (name.starts_with("ms_h_")) return Rule::mean;
   if (name == "ms_fallback") return Rule::first_text;
+  constexpr std::string_view ours = "ms_";
+  if (!name.starts_with(ours)) return Rule::same;
+  const auto kind = name.substr(ours.size());
+  if (kind.starts_with("volume") || kind.starts_with("area")) return Rule::sum;
+  if (kind.starts_with("rmse")) return Rule::mean_square;
+  if (kind.starts_with("h_")) return Rule::mean;
   return Rule::same;
 }
 

@@ -46,7 +46,7 @@ struct Sheets {
   std::vector<Place> places;
   std::vector<Sheet> sheets;
   std::vector<std::int64_t> base;    ///< of each solid
-  std::vector<std::uint8_t> pinned;  ///< by place: a corner of another building too, which stays
+  std::vector<std::uint8_t> pinned;  ///< by place: a corner of another building (1) or solid (2), too, which stays
 };
 
 /// None where a solid has more than one level of ground, or soffits: it is no height field then.
@@ -73,8 +73,8 @@ using Sides = std::map<Step, Side>;
 /// cross, and where one roof passes through another along them. False where this does not come to an end.
 [[nodiscard]] auto conform(Sheets& sheets) -> bool;
 
-/// Whether conform() moved nothing: all that came to the faces are corners on their edges, and those of other solids lie
-/// on them exactly.
+/// Whether conform() moved nothing: all that came to the faces are corners on their edges, and those of other solids
+/// lie on them exactly.
 [[nodiscard]] auto only_broken(const Sheets& before, const Sheets& after) -> bool;
 
 }  // namespace mansard::solid::detail
