@@ -36,7 +36,7 @@ class Conforming {
     constexpr int most_rounds = 40;
     for (int round = 0; round < most_rounds; ++round) {
       merge();
-      if (at_points() || lift_roofs() || at_crossings() || at_inversions()) continue;
+      if (at_points() || at_corners_of_roofs() || lift_roofs() || at_crossings() || at_inversions()) continue;
       return true;
     }
     return false;
@@ -216,6 +216,43 @@ class Conforming {
         const double px = static_cast<double>(place(*p)[0] - a[0]), py = static_cast<double>(place(*p)[1] - a[1]);
         const double t = (px * dx + py * dy) / length2, off = px * dy - py * dx;
         if (t > 0 && t < 1 && off * off < length2 * static_cast<double>(near_ * near_)) cuts_[step].push_back({t, *p});
+      }
+    }
+    return apply();
+  }
+
+  /// Edges of roofs that come near a corner of a roof in space: else a roof whose edge runs back along another one, a
+  /// hair beside it, would cross itself by rounding.
+  auto at_corners_of_roofs() -> bool {
+    cuts_.clear();
+    std::set<std::pair<Node, Node>> edges;
+    std::set<Node> corners;
+    for (const Sheet& sheet : s_.sheets) {
+      if (sheet.facing != Facing::up) continue;
+      for (const Path& path : sheet.paths)
+        for (std::size_t i = 0; i < path.size(); ++i) {
+          const Node &a = path[i], &b = path[(i + 1) % path.size()];
+          corners.insert(a);
+          if (a.at != b.at) edges.insert(std::minmax(a, b));
+        }
+    }
+    std::vector<Node> by_place(corners.begin(), corners.end());
+    std::ranges::sort(by_place, {}, [&](const Node& n) { return std::pair(place(n.at), n); });
+    const auto difference = [&](const Node& from, const Node& to) {
+      return Point3{static_cast<double>(place(to.at)[0] - place(from.at)[0]),
+                    static_cast<double>(place(to.at)[1] - place(from.at)[1]), static_cast<double>(to.z - from.z)};
+    };
+    for (const auto& [a, b] : edges) {
+      const Point3 along = difference(a, b);
+      const std::int64_t least = std::min(place(a.at)[0], place(b.at)[0]) - near_,
+                         most = std::max(place(a.at)[0], place(b.at)[0]) + near_;
+      auto n = std::ranges::lower_bound(by_place, least, {}, [&](const Node& node) { return place(node.at)[0]; });
+      for (; n != by_place.end() && place(n->at)[0] <= most; ++n) {
+        if (n->at == a.at || n->at == b.at) continue;
+        const Point3 to = difference(a, *n);
+        const double t = dot(to, along) / dot(along, along);
+        if (t > 0 && t < 1 && length(to - t * along) < static_cast<double>(near_))
+          cuts_[ordered(a.at, b.at)].push_back({a.at < b.at ? t : 1 - t, n->at});
       }
     }
     return apply();
