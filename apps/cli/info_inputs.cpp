@@ -7,6 +7,7 @@
 #include "mansard/base/files.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/formats/source.hpp"
+#include "mansard/formats/tiles3d/tileset_json.hpp"
 #include "mansard/ingest/model.hpp"
 
 namespace mansard::cli {
@@ -98,18 +99,17 @@ struct Level {
   double minimum = std::numeric_limits<double>::infinity(), maximum = 0;
 };
 
-void walk(const Json& tile, std::size_t depth, std::vector<Level>& levels) {
-  if (!tile.is_object() || depth > 100) return;
+void walk(const formats::TileJson& tile, std::size_t depth, std::vector<Level>& levels) {
+  if (!tile.is_object()) return;
   if (levels.size() <= depth) levels.resize(depth + 1);
   auto& level = levels[depth];
   ++level.tiles;
-  level.contents += tile.contains("content") ? 1 : tile.contains("contents") ? tile["contents"].size() : 0;
-  if (tile.contains("geometricError") && tile["geometricError"].is_number()) {
-    level.minimum = std::min(level.minimum, tile["geometricError"].get<double>());
-    level.maximum = std::max(level.maximum, tile["geometricError"].get<double>());
+  level.contents += tile.contents().size();
+  if (const auto error = tile.stated_error()) {
+    level.minimum = std::min(level.minimum, *error);
+    level.maximum = std::max(level.maximum, *error);
   }
-  if (tile.contains("children"))
-    for (const auto& child : tile["children"]) walk(child, depth + 1, levels);
+  for (const auto& child : tile.children()) walk(child, depth + 1, levels);
 }
 
 auto tileset_file(const fs::path& path) -> fs::path {
@@ -214,15 +214,17 @@ auto may_be_cityjson(const fs::path& path) -> bool {
 auto info_of_tileset(const fs::path& path) -> Json {
   const auto bytes = base::read_file(tileset_file(path));
   if (!bytes) return nullptr;
-  const auto json = Json::parse(*bytes, nullptr, false);
-  if (!json.is_object() || !json.contains("root") || !json.contains("asset")) return nullptr;
+  const formats::TilesetJson tileset(*bytes);
+  if (tileset.fault() != formats::TilesetJson::Fault::none || tileset.asset().empty()) return nullptr;
+  const Json& json = tileset.json();
   std::vector<Level> levels;
-  walk(json["root"], 0, levels);
+  walk(tileset.root(), 0, levels);
   Json out;
-  out["version"] = json["asset"].value("version", "");
+  out["version"] = formats::text_in(tileset.asset(), "version");
   out["geometric_error_m"] = json.contains("geometricError") ? json["geometricError"] : Json(nullptr);
-  out["placed_on_the_earth"] = json["root"].contains("transform");
-  if (json["root"].contains("boundingVolume")) out["bounding_volume"] = json["root"]["boundingVolume"];
+  const Json& root = json["root"];
+  out["placed_on_the_earth"] = root.contains("transform");
+  if (root.contains("boundingVolume")) out["bounding_volume"] = root["boundingVolume"];
   out["levels"] = Json::array();
   for (const auto& level : levels)
     out["levels"].push_back(
