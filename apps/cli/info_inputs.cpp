@@ -7,7 +7,6 @@
 #include "mansard/base/files.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/formats/source.hpp"
-#include "mansard/formats/tiles3d/tileset_json.hpp"
 #include "mansard/ingest/model.hpp"
 
 namespace mansard::cli {
@@ -90,31 +89,6 @@ auto info_of_stl(const fs::path& path) -> base::Result<Json> {
   out["header"] = base::on_one_line(text);
   out["counts"] = {{"triangles", count}};
   return out;
-}
-
-// ---- tilesets
-
-struct Level {
-  std::size_t tiles = 0, contents = 0;
-  double minimum = std::numeric_limits<double>::infinity(), maximum = 0;
-};
-
-void walk(const formats::TileJson& tile, std::size_t depth, std::vector<Level>& levels) {
-  if (!tile.is_object()) return;
-  if (levels.size() <= depth) levels.resize(depth + 1);
-  auto& level = levels[depth];
-  ++level.tiles;
-  level.contents += tile.contents().size();
-  if (const auto error = tile.stated_error()) {
-    level.minimum = std::min(level.minimum, *error);
-    level.maximum = std::max(level.maximum, *error);
-  }
-  for (const auto& child : tile.children()) walk(child, depth + 1, levels);
-}
-
-auto tileset_file(const fs::path& path) -> fs::path {
-  std::error_code status;
-  return fs::is_directory(path, status) ? path / "tileset.json" : path;
 }
 
 // ---- meshes
@@ -212,26 +186,22 @@ auto may_be_cityjson(const fs::path& path) -> bool {
 }  // namespace
 
 auto info_of_tileset(const fs::path& path) -> Json {
-  const auto bytes = base::read_file(tileset_file(path));
-  if (!bytes) return nullptr;
-  const formats::TilesetJson tileset(*bytes);
-  if (tileset.fault() != formats::TilesetJson::Fault::none || tileset.asset().empty()) return nullptr;
-  const Json& json = tileset.json();
-  std::vector<Level> levels;
-  walk(tileset.root(), 0, levels);
+  const auto source = formats::tileset_source(path);
+  if (!source) return nullptr;
+  const auto as_stated = [](const std::string& json) { return json.empty() ? Json(nullptr) : Json::parse(json); };
   Json out;
-  out["version"] = formats::text_in(tileset.asset(), "version");
-  out["geometric_error_m"] = json.contains("geometricError") ? json["geometricError"] : Json(nullptr);
-  const Json& root = json["root"];
-  out["placed_on_the_earth"] = root.contains("transform");
-  if (root.contains("boundingVolume")) out["bounding_volume"] = root["boundingVolume"];
+  out["version"] = source->version;
+  out["geometric_error_m"] = as_stated(source->geometric_error);
+  out["placed_on_the_earth"] = source->placed_on_the_earth;
+  if (!source->bounding_volume.empty()) out["bounding_volume"] = as_stated(source->bounding_volume);
   out["levels"] = Json::array();
-  for (const auto& level : levels)
+  for (const auto& level : source->levels) {
+    const bool stated = level.minimum_error && level.maximum_error;
     out["levels"].push_back(
         {{"tiles", level.tiles},
          {"contents", level.contents},
-         {"geometric_error_m",
-          level.maximum < level.minimum ? Json(nullptr) : Json::array({level.minimum, level.maximum})}});
+         {"geometric_error_m", stated ? Json::array({*level.minimum_error, *level.maximum_error}) : Json(nullptr)}});
+  }
   return out;
 }
 
