@@ -91,32 +91,6 @@ auto info_of_stl(const fs::path& path) -> base::Result<Json> {
   return out;
 }
 
-// ---- tilesets
-
-struct Level {
-  std::size_t tiles = 0, contents = 0;
-  double minimum = std::numeric_limits<double>::infinity(), maximum = 0;
-};
-
-void walk(const Json& tile, std::size_t depth, std::vector<Level>& levels) {
-  if (!tile.is_object() || depth > 100) return;
-  if (levels.size() <= depth) levels.resize(depth + 1);
-  auto& level = levels[depth];
-  ++level.tiles;
-  level.contents += tile.contains("content") ? 1 : tile.contains("contents") ? tile["contents"].size() : 0;
-  if (tile.contains("geometricError") && tile["geometricError"].is_number()) {
-    level.minimum = std::min(level.minimum, tile["geometricError"].get<double>());
-    level.maximum = std::max(level.maximum, tile["geometricError"].get<double>());
-  }
-  if (tile.contains("children"))
-    for (const auto& child : tile["children"]) walk(child, depth + 1, levels);
-}
-
-auto tileset_file(const fs::path& path) -> fs::path {
-  std::error_code status;
-  return fs::is_directory(path, status) ? path / "tileset.json" : path;
-}
-
 // ---- meshes
 
 auto info_of_mesh(const fs::path& path, const base::Run& run) -> base::Result<Json> {
@@ -212,24 +186,22 @@ auto may_be_cityjson(const fs::path& path) -> bool {
 }  // namespace
 
 auto info_of_tileset(const fs::path& path) -> Json {
-  const auto bytes = base::read_file(tileset_file(path));
-  if (!bytes) return nullptr;
-  const auto json = Json::parse(*bytes, nullptr, false);
-  if (!json.is_object() || !json.contains("root") || !json.contains("asset")) return nullptr;
-  std::vector<Level> levels;
-  walk(json["root"], 0, levels);
+  const auto source = formats::tileset_source(path);
+  if (!source) return nullptr;
+  const auto as_stated = [](const std::string& json) { return json.empty() ? Json(nullptr) : Json::parse(json); };
   Json out;
-  out["version"] = json["asset"].value("version", "");
-  out["geometric_error_m"] = json.contains("geometricError") ? json["geometricError"] : Json(nullptr);
-  out["placed_on_the_earth"] = json["root"].contains("transform");
-  if (json["root"].contains("boundingVolume")) out["bounding_volume"] = json["root"]["boundingVolume"];
+  out["version"] = source->version;
+  out["geometric_error_m"] = as_stated(source->geometric_error);
+  out["placed_on_the_earth"] = source->placed_on_the_earth;
+  if (!source->bounding_volume.empty()) out["bounding_volume"] = as_stated(source->bounding_volume);
   out["levels"] = Json::array();
-  for (const auto& level : levels)
+  for (const auto& level : source->levels) {
+    const bool stated = level.minimum_error && level.maximum_error;
     out["levels"].push_back(
         {{"tiles", level.tiles},
          {"contents", level.contents},
-         {"geometric_error_m",
-          level.maximum < level.minimum ? Json(nullptr) : Json::array({level.minimum, level.maximum})}});
+         {"geometric_error_m", stated ? Json::array({*level.minimum_error, *level.maximum_error}) : Json(nullptr)}});
+  }
   return out;
 }
 

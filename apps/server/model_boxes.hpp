@@ -1,7 +1,6 @@
-// Bounding boxes of buildings in plan, and arrays of JSON texts: shared by models.cpp and its siblings.
+// Bounding boxes of buildings in plan: shared by models.cpp and its siblings.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "mansard/edit/edit.hpp"
@@ -20,13 +19,6 @@ namespace mansard::server {
   constexpr double margin = 1.0;  // m
   return a.least.x <= b.most.x + margin && b.least.x <= a.most.x + margin && a.least.y <= b.most.y + margin &&
          b.least.y <= a.most.y + margin;
-}
-
-/// A JSON array of values that are JSON already.
-[[nodiscard]] inline auto joined(const std::vector<std::string>& texts) -> std::string {
-  std::string all = "[";
-  for (const auto& text : texts) all += (all.size() > 1 ? "," : "") + text;
-  return all + "]";
 }
 
 }  // namespace mansard::server

@@ -20,9 +20,9 @@ auto Models::view() const -> std::shared_ptr<const View> {
 
 auto Models::all() const -> std::string {
   const auto now = view();
-  std::vector<std::string> texts;
-  for (const auto& building : now->buildings) texts.push_back(building->json);
-  return R"({"buildings":)" + joined(texts) + R"(,"history":)" + now->history + "}";
+  Json buildings = Json::array();
+  for (const auto& building : now->buildings) buildings.push_back(building->json);
+  return text_of({{"buildings", std::move(buildings)}, {"history", now->history}});
 }
 
 auto Models::known(const edit::Change& change, const View& view) const -> base::Result<std::size_t> {
@@ -51,14 +51,14 @@ auto Models::raised(const edit::Change& change, std::size_t at, const std::vecto
 auto Models::preview(const std::vector<edit::Change>& changes, const OpenScene* scene) const
     -> base::Result<std::string> {
   const auto now = view();
-  std::vector<std::string> texts;
+  Json buildings = Json::array();
   for (const auto& change : changes) {
     const auto at = known(change, *now);
     if (!at) return at.error();
     const auto building = raised(change, *at, changes, *now, scene);
-    texts.push_back(text_of(json_of(change.building, now->buildings[*at]->revision, change.parts, building)));
+    buildings.push_back(json_of(change.building, now->buildings[*at]->revision, change.parts, building));
   }
-  return R"({"buildings":)" + joined(texts) + "}";
+  return text_of({{"buildings", std::move(buildings)}});
 }
 
 auto Models::plan_of(const PartName& name) const -> base::Result<model::Plan> {

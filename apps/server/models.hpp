@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "apps/server/disk.hpp"
+#include "apps/server/json.hpp"
 #include "apps/server/project.hpp"
 #include "apps/server/requests.hpp"
 #include "apps/server/scene.hpp"
@@ -27,10 +28,10 @@ namespace mansard::server {
 
 using SceneOrNone = std::shared_ptr<const OpenScene>;
 
-/// What an edit, an undo or a redo changed, as JSON texts.
+/// What an edit, an undo or a redo changed.
 struct Changed {
-  std::string buildings;    ///< an array of Building
-  std::string history;      ///< History
+  Json buildings;           ///< an array of Building
+  Json history;             ///< History
   std::size_t applied = 0;  ///< edits, after undos
 };
 
@@ -74,16 +75,12 @@ class Models {
     std::vector<edit::NamedPlan> parts;
     geometry::Box2 box;
     bool measured = false;
-    std::string json;  ///< Building
-  };
-  struct Report {
-    std::string block;
-    std::string fixed;  ///< members of Building that edits do not change, as JSON without braces
+    Json json;  ///< Building
   };
   struct View {
     std::vector<std::shared_ptr<const Seen>> buildings;  ///< in the source's order
-    std::string history;                                 ///< JSON
-    std::uint64_t number = 0;                            ///< of the state
+    Json history;
+    std::uint64_t number = 0;  ///< of the state
   };
 
   Models(model::City city, edit::History history, Journal journal, pipeline::Options options);
@@ -102,7 +99,7 @@ class Models {
   model::City city_;  // the plans of the run, without models
   pipeline::Options options_;
   std::map<std::string, std::size_t, std::less<>> index_;
-  std::vector<Report> reports_;
+  std::vector<Json> reports_;  // members of Building that edits do not change
 
   std::mutex edits_;  // guards the next two
   edit::History history_;

@@ -30,21 +30,21 @@ auto Models::publish(const std::vector<std::string>& changed, const OpenScene* s
   });
 
   auto after = std::make_shared<View>(*before);
-  std::vector<std::string> texts;
+  Json buildings = Json::array();
   for (std::size_t i = 0; i < now.size(); ++i) {
     auto& slot = after->buildings[index_.find(now[i].building)->second];
     if (i >= changed.size() && slot->json == renewed[i]->json) continue;
     if (i >= changed.size() && scene == nullptr) continue;  // it would lose its measured error
     slot = renewed[i];
-    texts.push_back(slot->json);
+    buildings.push_back(slot->json);
   }
-  after->history = text_of(json_of(history_));
+  after->history = json_of(history_);
   ++after->number;
   {
     const std::scoped_lock lock(view_mutex_);
     view_ = after;
   }
-  return {joined(texts), after->history, history_.done()};
+  return {std::move(buildings), after->history, history_.done()};
 }
 
 auto Models::apply(edit::Edit edit, const OpenScene* scene) -> base::Result<Changed> {

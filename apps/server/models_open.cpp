@@ -24,11 +24,6 @@ auto squared(const std::optional<double>& value) -> std::optional<double> {
   return value ? std::optional(*value * *value) : std::nullopt;
 }
 
-auto without_braces(const Json& json) -> std::string {
-  const auto text = text_of(json);
-  return text.substr(1, text.size() - 2);
-}
-
 /// The run's city after the edits: plans and ids, without attributes.
 auto edited_plans(const model::City& city, const edit::History& history) -> model::City {
   model::City out{city.frame, city.made_by, {}};
@@ -98,14 +93,13 @@ auto Models::read_reports(const std::filesystem::path& path) -> base::Result<voi
       // The report has no ground height for a building without parts; the plans have it.
       const double ground = building.contains("ground_m") ? building.at("ground_m").get<double>() - z0
                                                           : city_.buildings[at->second].ground;
-      const Json fixed{{"block", building.at("block")},
-                       {"outcome", building.at("outcome")},
-                       {"reasons", reasons},
-                       {"ground", ground}};
-      reports_[at->second] = {building.at("block").get<std::string>(), without_braces(fixed)};
+      reports_[at->second] = {{"block", building.at("block").get<std::string>()},
+                              {"outcome", building.at("outcome")},
+                              {"reasons", reasons},
+                              {"ground", ground}};
     }
     for (std::size_t b = 0; b < reports_.size(); ++b)
-      if (reports_[b].fixed.empty())
+      if (reports_[b].empty())
         return base::error("server-project",
                            "the report lacks a building of plans.json; delete the run and start it again",
                            city_.buildings[b].id);
@@ -124,7 +118,7 @@ auto Models::raise_all(const OpenScene* scene) -> base::Result<void> {
   if (!raised) return raised.failure();
   if (!raised->refused.empty()) return base::Failure{std::move(raised->refused)};
   auto view = std::make_shared<View>();
-  view->history = text_of(json_of(history_));
+  view->history = json_of(history_);
   auto fell_short = raised->fell_short.begin();
   for (std::size_t b = 0; b < city_.buildings.size(); ++b) {
     auto& source = raised->city.buildings[b];
@@ -162,9 +156,9 @@ auto Models::seen(const std::string& id, const edit::RaisedBuilding& raised, boo
   out->parts = *history_.parts(id);
   out->box = box_of(out->parts);
   out->measured = measured;
-  out->json = "{" + without_braces(json_of(id, out->revision, out->parts, raised)) + "," +
-              reports_[index_.find(id)->second].fixed + R"(,"edited":)" + (history_.edited(id) ? "true" : "false") +
-              "}";
+  out->json = json_of(id, out->revision, out->parts, raised);
+  out->json.update(reports_[index_.find(id)->second]);
+  out->json["edited"] = history_.edited(id);
   return out;
 }
 

@@ -74,10 +74,11 @@ auto Workspace::send_change(const std::string& run, const Changed& changed, cons
     const std::scoped_lock lock(mutex_);
     if (auto* found = find(run)) found->edits = changed.applied;
   }
-  const auto both = R"("buildings":)" + changed.buildings + R"(,"history":)" + changed.history + "}";
-  events_.send(R"({"type":"buildings","run":)" + text_of(Json(run)) + R"(,"client":)" + text_of(Json(client)) + "," +
-               both);
-  return "{" + both;
+  const Json both{{"buildings", changed.buildings}, {"history", changed.history}};
+  Json event{{"type", "buildings"}, {"run", run}, {"client", client}};
+  event.update(both);
+  events_.send(text_of(event));
+  return text_of(both);
 }
 
 }  // namespace mansard::server

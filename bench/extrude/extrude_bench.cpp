@@ -111,7 +111,7 @@ void cgal(benchmark::State& state, const Plans& plans) {
   state.counters["refused"] = refused;
 }
 
-/// Many small plans on all cores, as a city is raised.
+/// Many small plans on all cores, as a city is extruded.
 void in_parallel(benchmark::State& state, const Plans& plans) {
   std::vector<double> volumes(plans.size());
   for (auto _ : state)

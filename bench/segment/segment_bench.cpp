@@ -76,7 +76,7 @@ struct Line {
   Attempt lean, half;
 };
 
-/// What the program's answer costs in it, in thousandths: what every model's objective is held against.
+/// What the program's answer costs in it, in thousandths: what every model's objective is compared with.
 auto program_objective(const segment::Segmentation& s) -> double {
   const solver::Program program = segment::program_of(s);
   double cost = program.constant;

@@ -1,4 +1,4 @@
-// The story of an experiment: every scan, every setting, a row each.
+// The steps of an experiment: every scan, every setting, a row each.
 #include "lab/explore/explore.hpp"
 
 #include <algorithm>

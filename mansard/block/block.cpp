@@ -1,4 +1,4 @@
-// The story of a partition: footprints that touch, their outline, their ground, their piece of the mesh.
+// The steps of a partition: footprints that touch, their outline, their ground, their piece of the mesh.
 #include "mansard/block/block.hpp"
 
 #include <algorithm>
@@ -14,6 +14,7 @@
 #include "mansard/block/detail/ground.hpp"
 #include "mansard/block/detail/near.hpp"
 #include "mansard/block/detail/neighbours.hpp"
+#include "mansard/geometry/change.hpp"
 
 namespace mansard::block {
 namespace {
@@ -27,11 +28,7 @@ auto as_point(const std::array<std::int64_t, 3>& origin) -> Point3 {
 }
 
 void shift(Polygons& polygons, Point2 by) {
-  for (auto& polygon : polygons) {
-    for (Point2& p : polygon.outer) p = p + by;
-    for (auto& hole : polygon.holes)
-      for (Point2& p : hole) p = p + by;
-  }
+  for (auto& polygon : polygons) geometry::move(polygon, by);
 }
 
 auto shifted(Polygons polygons, Point2 by) -> Polygons {
@@ -51,11 +48,7 @@ auto rounded(Point2 p) -> Point2 { return {model::rounded(p.x), model::rounded(p
 auto rounded(Point3 p) -> Point3 { return {model::rounded(p.x), model::rounded(p.y), model::rounded(p.z)}; }
 
 void round_all(Polygons& polygons) {
-  for (auto& polygon : polygons) {
-    for (Point2& p : polygon.outer) p = rounded(p);
-    for (auto& hole : polygon.holes)
-      for (Point2& p : hole) p = rounded(p);
-  }
+  for (auto& polygon : polygons) geometry::change_corners(polygon, [](Point2 p) { return rounded(p); });
 }
 
 /// The triangles asked for, moved by −origin and rounded, in an order that their coordinates alone decide: vertices by

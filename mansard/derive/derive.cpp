@@ -1,4 +1,5 @@
-// The story of drawing footprints: heights, ground, what stands, what of it is a building, its outline, straight walls.
+// The steps of deriving footprints: heights, ground, what stands, what of it is a building, its outline, straight
+// walls.
 #include "mansard/derive/derive.hpp"
 
 #include <algorithm>

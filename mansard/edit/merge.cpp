@@ -1,4 +1,4 @@
-// Two plans as one: corners brought together, the wall between them taken out, the outline walked anew.
+// Two plans as one: corners brought together, the wall between them taken out, the outline traced again.
 #include <algorithm>
 #include <cmath>
 #include <map>

@@ -1,4 +1,4 @@
-// A building's parts raised among their neighbours and held against the scan.
+// A building's parts raised among their neighbours and compared with the scan.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -15,7 +15,7 @@ namespace {
 using geometry::Box2;
 using geometry::Polygon;
 
-/// Solids of plans, by their order; none where a plan cannot be raised, with its reasons.
+/// Solids of plans, by their order; none where a plan cannot be extruded, with its reasons.
 struct Attempt {
   std::optional<model::Solid> solid;
   extrude::Outcome outcome = extrude::Outcome::full;

@@ -1,4 +1,4 @@
-// A plan cut along a line: what of the line lies inside becomes walls, and the outlines are walked anew.
+// A plan cut along a line: what of the line lies inside becomes walls, and the outlines are traced again.
 #include <algorithm>
 #include <cmath>
 #include <optional>

@@ -24,7 +24,7 @@ using model::Plan;
 
 constexpr std::size_t nobody = static_cast<std::size_t>(-1);
 
-/// An upright wall of a plan, from corner to corner: the edges of its canonical footprint from one that begins at a
+/// A vertical wall of a plan, from corner to corner: the edges of its canonical footprint from one that begins at a
 /// corner up to the next; those between begin at joints.
 struct Wall {
   std::size_t plan = 0, ring = 0, first = 0, count = 1;
@@ -177,14 +177,14 @@ class Moved {
     }
   }
 
-  /// The point of an edge's line beside p, a whole number of quanta along it.
+  /// The point of an edge's line beside p, an integer number of quanta along it.
   static auto beside(const detail::CanonicalEdge& edge, const ExactPoint& p) -> ExactPoint {
     const auto& [a, b, l] = edge.direction;
     const Rational w = detail::on_grid(Rational((p.x * a + p.y * b) / l).get_d());
     return {(w * a - edge.offset * b) / l, (w * b + edge.offset * a) / l};
   }
 
-  /// False where a wall was taken back, so that the corners have to be placed anew.
+  /// False where a wall was taken back, so that the corners have to be placed again.
   auto place_corners(const std::vector<std::vector<ExactPoint>>& before) -> bool {
     for (std::size_t r = 0; r < out_.rings.size(); ++r) {
       auto& edges = out_.rings[r];

@@ -73,7 +73,7 @@ auto attempt(const detail::Source& source, const model::Plan& plan, const Option
   auto footprint = detail::canonical(source, options, why);
   if (!footprint) return std::nullopt;
   auto solid = tried(*footprint, plan, options, run, nullptr, why);
-  // Upright walls that meet in a line exactly: the right answer is not a manifold. A little less or more parts them.
+  // Vertical walls that meet in a line exactly: the right answer is not a manifold. A little less or more parts them.
   for (int nudge = 0; !solid && nudge < detail::most_nudges && !run.cancelled(); ++nudge) {
     std::string how, reason;
     auto other = detail::nudged(*footprint, nudge, options, how);

@@ -1,4 +1,4 @@
-// What is in a vector source or a raster, without reading it: for a look at it before it is used.
+// What is in a vector source, a raster or a tileset, without reading its features, cells or tiles.
 #pragma once
 
 #include <array>
@@ -43,6 +43,21 @@ struct RasterSource {
 
 /// Any GDAL raster. Gives up with "file-missing", "ingest-raster".
 [[nodiscard]] auto raster_source(const std::filesystem::path& path) -> base::Result<RasterSource>;
+
+struct TilesetSource {
+  struct Level {
+    std::size_t tiles = 0, contents = 0;
+    std::optional<double> minimum_error, maximum_error;  ///< m, geometric error; none where no tile has one
+  };
+  std::string version;  ///< of 3D Tiles; empty for none
+  bool placed_on_the_earth = false;
+  /// As JSON, as the file has them: of the tileset, and of its root. Empty where they are missing.
+  std::string geometric_error, bounding_volume;
+  std::vector<Level> levels;  ///< from the root
+};
+
+/// A tileset.json, or a folder with one; none where it is not a tileset. Tilesets within it are not opened.
+[[nodiscard]] auto tileset_source(const std::filesystem::path& path) -> std::optional<TilesetSource>;
 
 /// Whether read_scene takes the file for a raster, by its name.
 [[nodiscard]] auto named_as_raster(const std::filesystem::path& path) -> bool;

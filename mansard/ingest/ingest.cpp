@@ -1,4 +1,4 @@
-// The story of reading: the mesh, the features, the way to one frame, and what is left when all faults are out.
+// The steps of reading: the mesh, the features, the transformation to one frame, and the removal of faults.
 #include "mansard/ingest/ingest.hpp"
 
 #include <algorithm>
@@ -417,7 +417,7 @@ auto read_scene(const std::vector<std::filesystem::path>& meshes, const std::fil
     return base::error("ingest-memory", "mesh and footprints do not fit into memory; cut the mesh into tiles",
                        meshes.empty() ? std::string() : meshes.front().string());
   } catch (const std::exception& e) {
-    // What a library throws on bad files must not get past this room.
+    // What a library throws on bad files must not get past this module.
     return base::error("ingest-footprints-format", std::string("cannot be read (") + e.what() + "); check what it is",
                        formats::shown_name(footprints));
   }

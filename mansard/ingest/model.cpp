@@ -1,4 +1,4 @@
-// The story of a model: its bytes, what its format says, one frame, and what is left when all faults are out.
+// The steps of reading a model: its bytes, its format, one frame, and the removal of faults.
 #include "mansard/ingest/model.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The story of an evaluation: the files in one frame, block after block, building after building, then the truth.
+// The steps of an evaluation: the files in one frame, block after block, building after building, then the truth.
 #include "mansard/pipeline/evaluation.hpp"
 
 #include <algorithm>

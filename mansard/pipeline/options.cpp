@@ -1,4 +1,4 @@
-// Every room's options in one place, and the presets.
+// Every module's options in one place, and the presets.
 #include "mansard/base/files.hpp"
 #include "mansard/formats/codes.hpp"
 #include "mansard/picture/picture.hpp"

@@ -1,4 +1,4 @@
-// The story of a reconstruction, a call a sentence.
+// The steps of a reconstruction, a call each.
 #include "mansard/pipeline/pipeline.hpp"
 
 #include <algorithm>

@@ -88,7 +88,7 @@ auto inputs_of(const fs::path& path) -> base::Result<std::vector<model::InputFil
   return out;
 }
 
-/// A plans.json ends like any JSON, CityJSON among it; read_model reads that, of whatever maker.
+/// A plans.json ends like any JSON, CityJSON among it; read_model reads that, of any producer.
 auto read_model_knows(const fs::path& path) -> bool {
   const auto format = formats::format_of(path);
   if (format == formats::Format::plans) {

@@ -37,7 +37,8 @@ auto as_text(const model::Value& value) -> model::Value {
   return value;
 }
 
-/// Sources have one type per attribute, but scenes need not: whole and real numbers make real ones, others text.
+/// Sources have one type per attribute, but scenes need not: integers and real numbers become real numbers, others
+/// text.
 auto type_for(const model::Value& value, std::optional<formats::FieldType> before) -> formats::FieldType {
   const auto own = std::holds_alternative<bool>(value)           ? boolean
                    : std::holds_alternative<std::int64_t>(value) ? integer

@@ -1,4 +1,4 @@
-// The story of a roof: what its sides do, how high that comes at unit slope, and the profiles that bring it to its
+// The steps of a roof: what its sides do, how high that comes at unit slope, and the profiles that bring it to its
 // height.
 #include "mansard/roof/roof.hpp"
 

@@ -139,7 +139,7 @@ TEST_F(Command, gives_the_same_roofs_with_one_thread_and_two) {
     EXPECT_EQ(read(at("one") + "/" + name), read(at("out") + "/" + name)) << name;
 }
 
-TEST_F(Command, lets_a_bad_footprint_cost_only_itself_without_a_mesh_too) {
+TEST_F(Command, lets_a_bad_footprint_affect_no_other_without_a_mesh_too) {
   const auto bad = put("bad.geojson", beside_a_good_one("[0,0],[12,8],[12,0],[0,8],[0,0]"));
   const auto outcome = run("extrude -q " + bad + " -o " + at("out"));
   EXPECT_EQ(outcome.exit, 1) << outcome.err;
@@ -318,7 +318,7 @@ TEST_F(Command, refuses_footprint_files_that_hold_none) {
   }
 }
 
-TEST_F(Command, lets_a_bad_footprint_cost_only_itself) {
+TEST_F(Command, lets_a_bad_footprint_affect_no_other) {
   for (const auto* ring :
        {"[0,0],[12,8],[12,0],[0,8],[0,0]", "[20,20],[30,20],[20,20],[20,20]", "[1,1],[1,1],[1,1],[1,1]"}) {
     const auto outcome = reconstruct(at("house.obj"), put("two.geojson", beside_a_good_one(ring)), "--overwrite");

@@ -316,7 +316,7 @@ TEST_F(Convert, extrude_raises_whatever_has_plans) {
   }
 }
 
-TEST_F(Convert, extrude_writes_any_format_by_its_ending) {
+TEST_F(Convert, extrude_writes_any_format_by_its_extension) {
   make_all();
   for (const auto& kind : kinds) {
     const auto place = at("again-" + kind.file);

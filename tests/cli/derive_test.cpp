@@ -39,7 +39,7 @@ TEST_F(Derive, is_named_where_footprints_are_missing) {
   EXPECT_THAT(run("explore --help").out, Not(HasSubstr("--derive-footprints")));
 }
 
-TEST_F(Derive, gives_up_with_a_reason_where_nothing_stands) {
+TEST_F(Derive, fails_with_a_reason_where_there_is_no_building) {
   const auto outcome =
       run("reconstruct " + at("house.obj") + " --derive-footprints --derive-above-ground 50 -o " + at("out"));
   EXPECT_EQ(outcome.exit, 5);

@@ -53,7 +53,7 @@ TEST_F(Evaluate, finds_a_box_that_is_off_by_a_metre) {
   EXPECT_NEAR(report()["distances"]["model_to_mesh"]["max_m"].get<double>(), 1, 1e-3);
 }
 
-TEST_F(Evaluate, holds_models_against_flat_prisms) {
+TEST_F(Evaluate, compares_models_with_flat_prisms) {
   // A box of 12 × 8 whose east half is 2 m lower in the scan, and a model of it that is 3 m too high.
   put("scan.obj",
       "v -20 -20 0\nv 40 -20 0\nv 40 40 0\nv -20 40 0\nf 1 2 3 4\n" +

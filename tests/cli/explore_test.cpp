@@ -40,7 +40,7 @@ TEST_F(Explore, repeats_a_run_by_the_command_that_its_report_gives) {
   EXPECT_EQ(report["scores"]["vertical_mse_m2"], results["runs"][1]["numbers"]["vertical_mse_m2"]);
 }
 
-TEST_F(Explore, reads_a_list_of_datasets_from_beside_it_or_from_the_folder_it_is_told) {
+TEST_F(Explore, reads_a_list_of_datasets_from_its_folder_or_the_given_one) {
   const auto list = put("list.toml",
                         "[[dataset]]\nname = \"one\"\nmeshes = [\"house.obj\"]\n"
                         "footprints = \"house.geojson\"\noptions = { \"sweep.gamma\" = \"20\" }\n");

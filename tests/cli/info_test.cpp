@@ -100,7 +100,7 @@ TEST_F(Info, says_what_a_mesh_and_footprints_hold) {
   expect_narrow(text.out, 1);
 }
 
-TEST_F(Info, says_what_it_can_of_other_makers_models_tilesets_and_shells) {
+TEST_F(Info, describes_models_tilesets_and_shells_of_other_producers) {
   const auto cube = put("other.city.json", R"({"type":"CityJSON","version":"1.1","transform":{"scale":[1,1,1],
       "translate":[0,0,0]},"CityObjects":{"h":{"type":"Building","geometry":[{"type":"MultiSurface","lod":"2",
       "boundaries":[[[0,1,2]],[[0,2,3]]]}]}},"vertices":[[0,0,0],[5,0,0],[5,5,1],[0,5,1]]})");

@@ -222,7 +222,7 @@ TEST(Footprints, are_the_same_at_any_number_of_threads) {
   }
 }
 
-TEST(Footprints, give_up_with_a_reason) {
+TEST(Footprints, fail_with_a_reason) {
   EXPECT_EQ(footprints(scan(30, slope, {}), {}).error().code, "derive-nothing");
   EXPECT_EQ(footprints({}, {}).error().code, "derive-nothing");
   model::Scene wide;

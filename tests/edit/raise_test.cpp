@@ -103,7 +103,7 @@ TEST(Raise, lets_the_seams_of_two_surveys_pass) {
   EXPECT_FALSE(raise(parts, {.neighbours = neighbours, .before = {}, .mesh = nullptr}, {}).valid());
 }
 
-TEST(Raise, does_not_hold_against_an_edit_what_overlapped_before) {
+TEST(Raise, does_not_blame_an_edit_for_earlier_overlaps) {
   const std::vector<NamedPlan> before{{"a-1", test::house()}};
   const std::vector<Plan> neighbours{test::house(9.5)};
   auto lower = before;

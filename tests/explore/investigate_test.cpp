@@ -190,7 +190,7 @@ TEST_F(Investigate, makes_a_row_of_a_dataset_that_cannot_be_read) {
   }
 }
 
-TEST_F(Investigate, gives_up_where_nothing_can_be_read_or_too_much_is_asked) {
+TEST_F(Investigate, fails_where_nothing_can_be_read_or_too_many_runs_are_requested) {
   auto lost = request(Experiment::table);
   lost.datasets.front().meshes = {"nowhere.obj"};
   EXPECT_EQ(investigate(lost).error().code, "file-missing");

@@ -76,7 +76,7 @@ TEST(ParametersOf, gives_only_values_that_their_options_take) {
     }
 }
 
-TEST(ParametersOf, refuses_a_name_that_there_is_not) {
+TEST(ParametersOf, refuses_an_unknown_name) {
   const auto axes = parameters_of({"sweep.gama"}, {});
   ASSERT_FALSE(axes.has_value());
   EXPECT_EQ(axes.error().code, "explore-axis");

@@ -28,7 +28,7 @@ auto aligned(const std::vector<Plan>& plans) -> std::vector<Plan> {
   return out;
 }
 
-/// What the plan is raised over.
+/// What the plan is extruded over.
 auto ground(const Plan& p) -> geometry::Polygon {
   const auto raised = extrude::raise(p);
   EXPECT_TRUE(raised && raised->outcome == extrude::Outcome::full) << text(p);

@@ -158,7 +158,7 @@ TEST(Canonical, makes_nearly_parallel_and_perpendicular_edges_exactly_so) {
   EXPECT_LT(c.moved, 1e-3);
 }
 
-TEST(Canonical, keeps_a_jog_of_one_quantum_that_lies_on_the_grid) {
+TEST(Canonical, keeps_a_jog_of_one_grid_unit_that_lies_on_the_grid) {
   const double q = 0x1p-16;
   const Plan p = plan({{0, 0}, {5, 0}, {5, q}, {10, q}, {10, 6}, {0, 6}}, {hip});
   EXPECT_EQ(made(p).plan, p);
@@ -342,7 +342,7 @@ TEST(Canonical, bearings_turn_and_mirror_bit_for_bit) {
   }
 }
 
-TEST(Canonical, agrees_with_the_room_of_geometry_on_what_is_simple) {
+TEST(Canonical, agrees_with_the_geometry_module_on_what_is_simple) {
   base::Random random(11);
   std::size_t simple = 0;
   for (int i = 0; i < 3000; ++i) {

@@ -149,7 +149,7 @@ TEST(CgalSkeleton, agrees_on_stars) {
   EXPECT_EQ(sum.refused_by_cgal, 0U);
 }
 
-TEST(CgalSkeleton, agrees_on_orthogonal_polygons_full_of_ties) {
+TEST(CgalSkeleton, agrees_on_orthogonal_polygons_with_many_simultaneous_events) {
   Agreement sum;
   std::size_t polygons = 0;
   for (std::uint64_t seed = first_seed(); seed < first_seed() + 80; ++seed) {

@@ -11,7 +11,7 @@ using namespace mansard;
 using namespace mansard::extrude;
 using namespace mansard::extrude::detail;
 
-/// An upright wall and points on it, by their quanta along it and up.
+/// A vertical wall and points on it, by their quanta along it and up.
 struct Wall {
   Planes planes;
   std::vector<TracePoint> points;

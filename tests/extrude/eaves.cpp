@@ -99,7 +99,7 @@ TEST(Eaves, of_a_sharp_corner_do_not_meet_far_outside) {
   EXPECT_EQ(house.warnings[0].code, "extrude-overhang");
 }
 
-TEST(Eaves, are_none_under_a_flat_roof_and_nobody_is_told) {
+TEST(Eaves, are_none_under_a_flat_roof_without_a_warning) {
   const auto flat = raised(plan(box(8, 10), {wall}, {}, 6), 0.5), cut = raised(plan(box(8, 10), {hip}, {}, 3), 0.5);
   for (const auto* house : {&flat, &cut}) {
     EXPECT_EQ(count(house->solid, FaceKind::soffit), 0U);

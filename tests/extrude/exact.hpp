@@ -19,7 +19,7 @@ using extrude::detail::ExactSurface;
 using extrude::detail::Footprint;
 using oracle::Rational;
 
-/// Throws with the reason when the door does not take the plan.
+/// Throws with the reason when the public function refuses the plan.
 inline auto footprint_of(const Plan& plan) -> Footprint {
   const auto source = extrude::detail::prepared(plan);
   if (!source) throw std::runtime_error(base::to_string(source.error()));

@@ -1,5 +1,5 @@
 // The guarantees of docs/extrude.md on exact surfaces, before rounding: rationals are compared for being equal, with
-// the oracle as the judge. RC_PARAMS and MANSARD_RUNS steer the random plans (forall.hpp).
+// compared with the oracle. RC_PARAMS and MANSARD_RUNS steer the random plans (forall.hpp).
 #include <gmock/gmock.h>
 
 #include <map>

@@ -1,4 +1,4 @@
-// Plans that failed once, and plans that hold a tie of a kind each: every file of fixtures/ is raised and judged. And
+// Plans that failed once, and plans that hold a tie of a kind each: every file of fixtures/ is extruded and judged. And
 // the minimiser that makes such files.
 #include <gmock/gmock.h>
 

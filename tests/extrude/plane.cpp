@@ -107,7 +107,7 @@ TEST(Predicate, gives_the_same_sign_in_every_tier_as_rational_arithmetic) {
   }
 }
 
-TEST(Predicate, has_finite_doubles_of_planes_whose_whole_numbers_are_too_large_for_them) {
+TEST(Predicate, has_finite_doubles_of_planes_whose_integers_are_too_large_for_them) {
   const mpz_class large = mpz_class(1) << 1100;
   const Plane plane = plane_of(direction_of({3, 1}), Rational(large + 1, large / 1024), Rational(large, large * 3 + 1));
   EXPECT_FALSE(plane.narrow);

@@ -1,5 +1,5 @@
 // Plans for the extrusion tests: built by hand, turned, mirrored, made at random; and measures of solids taken
-// separately from the room's own code.
+// separately from the module's own code.
 #pragma once
 
 #include <algorithm>

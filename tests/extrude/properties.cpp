@@ -24,7 +24,7 @@ auto has_warning(const extrude::Raised& raised, const std::string& code) -> bool
   return std::ranges::any_of(raised.warnings, [&](const auto& w) { return w.code == code; });
 }
 
-/// The solid; or, in `fault`, what kept it from being raised in full.
+/// The solid; or, in `fault`, what kept it from being extruded in full.
 auto in_full(const Plan& p, std::string& fault) -> extrude::Raised {
   auto raised = extrude::raise(p);
   if (!raised) {
@@ -142,7 +142,7 @@ TEST(Guarantee, three_rounding_keeps_the_volume_to_a_millionth) {
 }
 
 TEST(Guarantee, four_a_uniform_roofs_section_is_the_footprint_shrunk) {
-  // An outside judge: the offset polygon of the geometry library.
+  // An outside reference: the offset polygon of the geometry library.
   for_all_plans(20, 16, [](Plan p) -> std::string {
     p.profiles = {tent};
     p.outer.profile_of_edge.assign(p.outer.points.size(), 0);
@@ -204,8 +204,8 @@ TEST(Guarantee, eight_a_shifted_plan_gives_the_same_solid) {
 }
 
 TEST(Guarantee, eight_a_turned_plan_of_one_slope_gives_the_same_volume) {
-  // Turning rounds the outline anew. With several profiles a tie that then falls the other way can cost a neighbour its
-  // run (fixtures/eight_a_tie_that_…); with one slope it cannot. Exact turns, of every plan, are in
+  // Turning rounds the outline again. With several profiles a tie that then falls the other way can cost a neighbour
+  // its run (fixtures/eight_a_tie_that_…); with one slope it cannot. Exact turns, of every plan, are in
   // exact_properties.cpp.
   for_all_plans(30, 16, [](Plan p) -> std::string {
     for (Profile& profile : p.profiles) profile = {profile.front(), profile.back()};

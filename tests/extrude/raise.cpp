@@ -17,7 +17,7 @@ using namespace plans;
 using extrude::Outcome;
 using model::FaceKind;
 
-/// Raised in full and without fault.
+/// Extruded in full and without fault.
 auto full(const Plan& p) -> model::Solid {
   auto raised = extrude::raise(p);
   if (!raised) {
@@ -51,7 +51,7 @@ TEST(Raise, puts_a_ridge_on_a_rectangle) {
   EXPECT_NEAR(solid::volume(solid), 180 + 4 * 9 + 36 * 3.0 / 3, 1e-6);
 }
 
-TEST(Raise, makes_gables_of_upright_edges) {
+TEST(Raise, makes_gables_of_vertical_edges) {
   const auto solid = full(plan(box(10, 6), {hip, wall}, {0, 1, 0, 1}));
   EXPECT_NEAR(solid::volume(solid), 180 + 10 * 9, 1e-6);
   EXPECT_EQ(solid.vertices.size(), 10U);
@@ -280,7 +280,7 @@ TEST(Raise, pulls_a_dog_bone_apart) {
   for (const Profile& profile : {tent, two_pitch, setback}) full(plan(bone, {profile}, {}, 12));
 }
 
-TEST(Raise, leaves_a_corridor_between_upright_walls) {
+TEST(Raise, leaves_a_corridor_between_vertical_walls) {
   // The neck is upright, its ends slope: the roofs run into it and meet in the middle.
   full(plan({{0, 0}, {8, 0}, {8, 3}, {14, 3}, {14, 0}, {22, 0}, {22, 8}, {14, 8}, {14, 5}, {8, 5}, {8, 8}, {0, 8}},
             {hip, wall}, {0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0}));
@@ -425,7 +425,7 @@ TEST(Raise, comes_down_to_the_prism_for_a_needle) {
   EXPECT_EQ(faults(raised->solid), "");
 }
 
-TEST(Raise, parts_upright_walls_that_would_meet_in_a_line) {
+TEST(Raise, separates_vertical_walls_that_would_meet_in_a_line) {
   // Setbacks of half the depth, on one half from the front, on the other from behind:
   //   +-----+-----+      upper    +-----+
   //   |           |      storey:  |     |
@@ -486,7 +486,7 @@ TEST(Sketch, is_what_raise_gives_before_rounding) {
   }
 }
 
-TEST(Sketch, gives_up_on_a_footprint_that_crosses_itself) {
+TEST(Sketch, fails_on_a_footprint_that_crosses_itself) {
   const auto sketch = extrude::sketch(plan({{0, 0}, {10, 10}, {10, 0}, {0, 14}}, {hip}));
   ASSERT_FALSE(sketch);
   EXPECT_EQ(sketch.error().code, "extrude-not-simple");

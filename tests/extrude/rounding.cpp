@@ -21,7 +21,7 @@ using model::Face;
 using model::FaceKind;
 using model::Solid;
 
-/// Upright walls over a ring of whole directions, ground to lid.
+/// Vertical walls over a ring of whole directions, ground to lid.
 auto block(const Ring& ring, double height = 3) -> ExactSurface {
   ExactSurface surface;
   const auto n = static_cast<std::uint32_t>(ring.size());

@@ -1,5 +1,5 @@
 // Real building outlines, and cases that broke other skeletons: read from the shared data, whose licences keep them out
-// of the project. Every polygon is raised in five dresses; a test for every dress and range of sizes.
+// of the project. Every polygon is extruded in five dresses; a test for every dress and range of sizes.
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -22,7 +22,7 @@ struct Entry {
   Outline rings;
 };
 
-/// Polygons that the door may refuse, and why a person would do so, too.
+/// Polygons that the public function may refuse, and the reasons.
 const std::map<std::string, std::string> refused{};
 
 /// Every polygon of at least so many corners and fewer than so many.

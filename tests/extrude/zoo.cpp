@@ -1,5 +1,6 @@
-// The zoo: plans that each hold one kind of difficulty, drawn. '#' is a metre of building; a digit outside of it is the
-// profile of the edge beside it, anything else profile 0. Each is raised in full, checked, and held against the oracle.
+// Plans that each hold one kind of difficulty, drawn. '#' is a metre of building; a digit outside of it is the
+// profile of the edge beside it, anything else profile 0. Each is extruded in full, checked, and compared with the
+// oracle.
 #include <gmock/gmock.h>
 
 #include "exact.hpp"
@@ -54,7 +55,7 @@ auto drawn(const std::vector<std::string>& rows, std::vector<Profile> profiles, 
   return p;
 }
 
-/// Raised in full, without fault, and exactly as the oracle says.
+/// Extruded in full, without fault, and exactly as the oracle says.
 auto judged(const Plan& p) -> model::Solid {
   const auto raised = extrude::raise(p);
   if (!raised) {
@@ -178,7 +179,7 @@ TEST(Zoo, a_terrace_that_exactly_annihilates) {
 }
 
 TEST(Zoo, zero_speed_walls_and_corridors) {
-  //   1111111      the roofs of both ends run along a corridor between upright walls, and meet
+  //   1111111      the roofs of both ends run along a corridor between vertical walls, and meet
   const std::vector<Profile> profiles{tent, wall};
   judged(drawn({"    1111111    ",  //
                 "####       ####",  //

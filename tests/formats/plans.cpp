@@ -410,7 +410,7 @@ TEST_F(Plans, in_cityjson_may_have_origins_of_their_own) {
   EXPECT_EQ(city->buildings[1].parts[1].plan.base, 10.5);
 }
 
-TEST_F(Plans, in_spoilt_cityjson_are_refused_with_the_place) {
+TEST_F(Plans, in_damaged_cityjson_are_refused_with_the_place) {
   const std::vector<BadPlan> cases{
       {"no plans",
        [](Json& j) {

@@ -1,4 +1,4 @@
-// What an arrangement must be, looked at the slow way, apart from the room's own check.
+// What an arrangement must be, looked at the slow way, apart from the module's own check.
 #pragma once
 
 #include <optional>

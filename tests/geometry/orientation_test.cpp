@@ -1,4 +1,4 @@
-// orientation() against whole numbers of any length: every finite double is a multiple of 2^-1074.
+// orientation() against integers of any length: every finite double is a multiple of 2^-1074.
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,7 @@
 #include "mansard/geometry/polygon.hpp"
 
+#include "mansard/geometry/change.hpp"
+
 #include <gmock/gmock.h>
 #include <limits>
 
@@ -74,7 +76,7 @@ TEST(Triangulate, covers_the_polygon_with_its_own_points) {
   EXPECT_DOUBLE_EQ(sum, area(courtyard));
 }
 
-TEST(Triangulate, gives_up_on_what_has_no_area) {
+TEST(Triangulate, fails_on_what_has_no_area) {
   EXPECT_EQ(triangulate({{{0, 0}, {1, 0}, {2, 0}}, {}}).error().code, "geometry-triangulate");
 }
 
@@ -140,6 +142,15 @@ TEST(MakeValid, opens_a_bow_tie_into_its_two_wings) {
   ASSERT_TRUE(wings);
   EXPECT_EQ(wings->size(), 2U);
   EXPECT_DOUBLE_EQ(total(*wings), 8);
+}
+
+TEST(Move, shifts_outer_ring_and_holes) {
+  Polygon moved = courtyard;
+  move(moved, {100, -2});
+  EXPECT_EQ(moved.outer[2], (Point2{110, 6}));
+  EXPECT_EQ(moved.holes[0][0], (Point2{103, 1}));
+  change_corners(moved, [](Point2 p) { return p - Point2{100, -2}; });
+  EXPECT_EQ(moved, courtyard);
 }
 
 }  // namespace

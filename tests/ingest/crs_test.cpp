@@ -129,7 +129,7 @@ TEST_F(Frames, a_crs_that_is_unknown_or_not_metric_is_refused_with_a_way_out) {
   }
 }
 
-TEST_F(Frames, metres_that_are_none_on_the_ground_are_told) {
+TEST_F(Frames, metres_that_are_none_on_the_ground_are_reported) {
   const auto warning_of = [&](const std::string& crs, double x, double y, const Options& options = {}) -> std::string {
     const auto scene = read_footprints(polygons({square(x, y)}, crs), options);
     EXPECT_TRUE(scene) << base::to_string(scene.error());
@@ -162,7 +162,7 @@ TEST_F(Frames, swapped_axes_are_recognised) {
   EXPECT_THAT(scene.error().message, HasSubstr("axis order"));
 }
 
-TEST_F(Frames, mesh_and_footprints_apart_are_told_where_each_lies) {
+TEST_F(Frames, mesh_and_footprints_far_apart_are_reported_with_both_extents) {
   const auto scene = read({ground()}, polygons({square(84910, 447510)}, "EPSG:28992"));
   ASSERT_EQ(code(scene), "ingest-no-overlap");
   EXPECT_THAT(scene.error().message, HasSubstr("x 0.0 to 100.0, y 0.0 to 100.0"));

@@ -317,7 +317,7 @@ TEST_F(Sources, a_feature_that_is_damaged_in_its_file_leaves_the_others_alone) {
   EXPECT_EQ(cut->footprints[1].defect->code, "ingest-footprint-unreadable");
 }
 
-TEST_F(Sources, a_feature_that_cannot_be_used_costs_only_itself) {
+TEST_F(Sources, a_feature_that_cannot_be_used_affects_no_other) {
   write("GPKG", at("f.gpkg"), 28992,
         {{"POLYGON ((10 10,20 10,20 20,10 10))", "good", 1},
          {"", "none", 1},

@@ -1,4 +1,4 @@
-// Compressed glTF: packed here by the libraries' own encoders, read back through the door.
+// Compressed glTF: compressed here by the libraries' own encoders, read back through the public function.
 #include <draco/compression/encode.h>
 #include <draco/mesh/triangle_soup_mesh_builder.h>
 #include <gmock/gmock.h>

@@ -97,7 +97,7 @@ TEST_F(Hostile, room_to_unpack_into_is_no_more_than_the_codecs_can_fill) {
   expect_format(file("b.glb", glb(json, std::string(48, '\0'))), "buffer view 0");
 }
 
-/// A primitive packed with Draco.
+/// A primitive compressed with Draco.
 auto with_draco(const std::string& packed) -> std::string {
   auto json = plain_gltf(3, 3);
   json["extensionsUsed"] = {"KHR_draco_mesh_compression"};

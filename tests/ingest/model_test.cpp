@@ -262,7 +262,7 @@ TEST_F(Models, are_read_from_obj_by_objects_groups_and_materials) {
   EXPECT_EQ(model("nothing\n", "m.obj").error().code, "ingest-model-format");
 }
 
-TEST_F(Models, of_other_makers_are_read) {
+TEST_F(Models, of_other_producers_are_read) {
   const auto zurich = read_model(test::fs::path(MANSARD_SHARED_DATA) / "zurich/zurich_subset_lod2.json");
   ASSERT_TRUE(zurich) << zurich.error().message;
   EXPECT_EQ(zurich->buildings.size(), 49U);
@@ -274,7 +274,7 @@ TEST_F(Models, of_other_makers_are_read) {
   EXPECT_EQ(warned(*rotterdam, "ingest-model-semantics"), "");
 }
 
-TEST_F(Models, and_meshes_that_lie_apart_are_named_with_both_extents) {
+TEST_F(Models, and_meshes_far_apart_are_named_with_both_extents) {
   const geometry::Mesh here{{{0, 0, 0}, {10, 0, 0}, {0, 10, 5}}, {{0, 1, 2}}};
   const auto shifted = [&](Point3 by) {
     auto mesh = here;

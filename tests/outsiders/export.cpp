@@ -62,7 +62,7 @@ struct Sample {
   double tile_triangles = 20000;
 };
 
-/// What a judge holds the files of a city against.
+/// What a validator compares the files of a city with.
 auto expected(const model::City& city) -> Json {
   Json buildings = Json::array();
   for (const auto& building : city.buildings) buildings.push_back({{"parts", building.parts.size()}});

@@ -92,7 +92,7 @@ TEST(RaiseFootprints, finds_party_walls_between_neighbours) {
   for (const auto& building : r.buildings) EXPECT_NEAR(building.areas.party_wall, 8 * 6, 0.01);
 }
 
-TEST(RaiseFootprints, lets_a_bad_building_cost_only_itself_and_names_building_and_value) {
+TEST(RaiseFootprints, lets_a_bad_building_affect_no_other_and_names_building_and_value) {
   model::Scene scene;
   scene.footprints.push_back(tagged("church", rectangle(0, 0, 12, 8), {{"height", text("tall")}}));
   scene.footprints.push_back(tagged("hole", {}, {{"height", 5.0}}));

@@ -1,4 +1,4 @@
-// Solids that stand in each other are reported, and neighbours do not.
+// Solids that overlap are reported, and neighbours do not.
 #include <gmock/gmock.h>
 
 #include "mansard/pipeline/detail/overlaps.hpp"

@@ -100,7 +100,7 @@ TEST(Reconstruct, gives_the_same_bytes_at_any_thread_count) {
   EXPECT_EQ(files[1], files[2]);
 }
 
-TEST(Reconstruct, lets_a_bad_footprint_cost_only_itself) {
+TEST(Reconstruct, lets_a_bad_footprint_affect_no_other) {
   auto scene = test::lone_house();
   model::Footprint bad;
   bad.id = "bad";
@@ -149,7 +149,7 @@ TEST(Reconstruct, stops_on_request) {
   EXPECT_EQ(result.error().code, "cancelled");
 }
 
-TEST(Reconstruct, gives_up_when_no_footprint_can_be_used) {
+TEST(Reconstruct, fails_when_no_footprint_can_be_used) {
   auto scene = test::lone_house();
   scene.footprints[0].defect = base::error("ingest-footprint-geometry", "no area", "house");
   scene.footprints[0].polygons.clear();

@@ -81,7 +81,7 @@ TEST(Segment, reports_every_term_and_a_relative_gap) {
     EXPECT_TRUE(report["times"]["stages"].contains(stage)) << stage;
 }
 
-TEST(Segment, gives_up_as_reconstruct_does) {
+TEST(Segment, fails_as_reconstruct_does) {
   base::Cancel cancel;
   cancel.request();
   base::Run run;

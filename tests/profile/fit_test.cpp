@@ -295,7 +295,7 @@ TEST(Vertical_plan, has_one_profile_for_every_edge) {
   EXPECT_EQ(plan.cap, 8);
 }
 
-// The guarantees of the door, over random houses.
+// The guarantees of the public function, over random houses.
 TEST(Fit, keeps_its_guarantees_on_random_houses) {
   for (std::uint64_t seed = 1; seed <= 25; ++seed) {
     SCOPED_TRACE(seed);

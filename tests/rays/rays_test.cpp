@@ -74,7 +74,7 @@ TEST(Nearest, is_on_a_corner_an_edge_or_inside_as_a_search_over_many_places_says
   }
 }
 
-TEST(Nearest, looks_no_further_than_it_is_told) {
+TEST(Nearest, searches_within_the_given_distance_only) {
   const Scene scene(two_storeys({}));
   EXPECT_FALSE(scene.nearest({2, 2, 9.5}, 2.4));
   const auto near = scene.nearest({2, 2, 9.5}, 2.6);

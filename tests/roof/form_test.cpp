@@ -57,7 +57,7 @@ TEST(Values, that_are_none_are_named_in_a_warning_and_left_out) {
   }
 }
 
-TEST(Values, of_several_take_the_greatest_and_say_so) {
+TEST(Values, of_several_take_the_maximum_and_say_so) {
   const auto read = form_of({{"building:levels", text("3;4")}}, {});
   EXPECT_EQ(read.form.height, 12);
   EXPECT_THAT(codes_of(read.warnings), ElementsAre("roof-value"));
@@ -207,7 +207,7 @@ TEST(Heights, of_no_levels_are_a_roof_on_the_ground) {
   EXPECT_EQ(flat.warnings.size(), 1U);
 }
 
-TEST(Codes, of_this_room_are_all_listed) {
+TEST(Codes, of_this_module_are_all_listed) {
   std::vector<std::string> listed;
   for (const auto& code : codes()) listed.push_back(code.code);
   for (const auto* used : {"roof-value", "roof-conflict", "roof-shape-unknown", "roof-shape-here", "roof-height",

@@ -1,4 +1,4 @@
-// Outlines and what is raised over them.
+// Outlines and what is extruded over them.
 #pragma once
 
 #include <gmock/gmock.h>

@@ -238,7 +238,7 @@ TEST(Choose, borrows_heights_over_holes_in_the_mesh) {
   EXPECT_NE(c.part(s, 'C'), c.part(s, 'B'));
 }
 
-TEST(Choose, builds_by_the_footprints_where_the_mesh_shows_nothing_at_all) {
+TEST(Choose, builds_by_the_footprints_without_mesh_coverage) {
   Case c = plain({"AABB", "AABB"}, {}, {"AB"});
   const Segmentation s = c.run();
   ASSERT_EQ(s.parts.size(), 1U);
@@ -376,7 +376,7 @@ TEST(Options, list_every_member_once_with_its_default) {
   EXPECT_FALSE(list.find("samples")->set("3"));
 }
 
-TEST(Codes, begin_with_the_room) {
+TEST(Codes, begin_with_the_module) {
   for (const auto& code : codes()) EXPECT_THAT(code.code, ::testing::StartsWith("segment-"));
 }
 

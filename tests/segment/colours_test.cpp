@@ -1,4 +1,4 @@
-// Planted blocks of the size of the paper's smaller ones, held against a four-colour program of their faces.
+// Planted blocks of the size of the paper's smaller ones, compared with a four-colour program of their faces.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -115,7 +115,7 @@ TEST(HeightMeasure, sees_none_across_a_ridge_that_is_off_the_middle) {
   EXPECT_NEAR(s.candidates[0].amounts[Term::height], 0, 0.01);
 }
 
-TEST(HeightMeasure, falls_back_to_medians_where_the_mesh_shows_nothing) {
+TEST(HeightMeasure, falls_back_to_medians_without_mesh_coverage) {
   Case c = plain({"AABB", "AABB"}, {{'A', 10}}, {"AB"});
   c.options.height_measure = HeightMeasure::along;
   EXPECT_EQ(c.run().candidates[0].amounts[Term::height], 0) << "B borrows its height from A";
@@ -250,7 +250,7 @@ auto turned(geometry::Point2 p, double angle) -> geometry::Point2 {
   return {std::cos(angle) * p.x - std::sin(angle) * p.y + 300, std::sin(angle) * p.x + std::cos(angle) * p.y - 100};
 }
 
-TEST(Invariance, of_the_objective_when_the_plane_is_turned_and_faces_are_numbered_anew) {
+TEST(Invariance, of_the_objective_when_the_plane_is_turned_and_faces_are_numbered_again) {
   base::Random random(41);
   for (int round = 0; round < 10; ++round) {
     Case c = random_rooms(random);

@@ -239,7 +239,7 @@ TEST(Mps, keeps_the_constant_and_its_sign) {
   }
 }
 
-TEST(Mps, keeps_whole_numbers_of_eleven_digits_and_others_where_twelve_columns_suffice) {
+TEST(Mps, keeps_integers_of_eleven_digits_and_others_where_twelve_columns_suffice) {
   for (const double number : {99999999999.0, -99999999999.0, 123456789012.0, 1e30, -2.5e-9, 0.1234567891})
     EXPECT_DOUBLE_EQ(read_back(mps(one_variable(number), "").value()).variables[0].cost, number);
 }

@@ -84,7 +84,7 @@ TEST(Solver, says_so_when_no_point_satisfies_the_rows) {
 }
 
 TEST(Solver, says_so_when_only_whole_points_are_missing) {
-  Program program;  // 2x + 2y = 3 has a solution between the whole numbers only
+  Program program;  // 2x + 2y = 3 has a solution between the integers only
   program.variables = {{1, 0, 5, true}, {1, 0, 5, true}};
   program.rows = {{{{0, 2}, {1, 2}}, 3, 3}};
   const auto solution = minimise(program, {});

@@ -1,4 +1,4 @@
-// Sweep-edges of a simulated scan of 29 real buildings, held against the true walls.
+// Sweep-edges of a simulated scan of 29 real buildings, compared with the true walls.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -65,7 +65,7 @@ TEST(Alignment, squares_a_line_to_the_gis_but_prefers_parallel_edges) {
   const auto step = turned({{10, 21}, {10, 18}}, 0.1);  // a party wall meeting the facade
   EXPECT_LT(angle_between(gis.aligned(step), {{0, 1}, {0, 0}}), 1e-12);
 
-  Town town;  // a corner of 80°: by the slanted edge its own direction wins over the square to the other edge
+  Town town;  // a corner of 80°: by the slanted edge its own direction wins over the perpendicular to the other edge
   auto block = town.block();
   block.members.push_back({0, {{{{0, 0}, {20, 0}, {20, 10}, {1.763, 10}}, {}}}, 0});
   const GisEdges slanted(block, {});

@@ -122,7 +122,7 @@ auto mean_of(const Blobs& pieces, const Heights& smooth) -> std::vector<double> 
   return sum;
 }
 
-/// The rims of pieces: what is not in a plane there is cornice, parapet or melted wall. Of a piece that is mostly
+/// The rims of pieces: what is not in a plane there is cornice, parapet or smoothed wall. Of a piece that is mostly
 /// smooth, wider ones.
 void reclaim(const Place& place, const Blobs& pieces, const std::vector<double>& mean, const Options& o,
              Mask& building) {

@@ -8,8 +8,8 @@
 //
 // Inputs, with their errors (Plane): nx, ny within 1 u, relative; offset c within 8 u of `size`, speed s within 8 u of
 // |s|. For a line that stands still at the height h of a terrace, c + s h is off by 5 u |c| + 6 u |s h| + 1 u of the
-// sum, less than 8 u of size = |c| + |s h|. cross(p, m) is a whole number below 2⁸³, rounded once, over a product of
-// two whole numbers below 2⁴¹, rounded once: the sine of the angle between two lines is within 3 u, relative.
+// sum, less than 8 u of size = |c| + |s h|. cross(p, m) is an integer below 2⁸³, rounded once, over a product of
+// two integers below 2⁴¹, rounded once: the sine of the angle between two lines is within 3 u, relative.
 #include <cmath>
 
 #include "mansard/extrude/detail/wavefront.hpp"

@@ -9,9 +9,9 @@ namespace {
 using geometry::Point2;
 
 // Error bounds of doubles in a chart. A point is the double nearest to the exact one: 1 u of each coordinate. Along an
-// upright face a x + b y has 1 u of the direction, 1 u of x and 1 u of the product, and 1 u of the sum: 4 u (|a x| + |b
-// y|). So every coordinate is off by at most 4 u `size`, where size is |a x| + |b y| and not |a x + b y|: far from the
-// origin a face can be near 0 along itself.
+// vertical face a x + b y has 1 u of the direction, 1 u of x and 1 u of the product, and 1 u of the sum: 4 u (|a x| +
+// |b y|). So every coordinate is off by at most 4 u `size`, where size is |a x| + |b y| and not |a x + b y|: far from
+// the origin a face can be near 0 along itself.
 //
 // cross_sign multiplies differences of two: off by δ = 8 u size and 1 u of their own each. With E the sum of the four
 // absolute differences, their products are off by δ E + 2 δ² + 3 u (|left| + |right|), and the difference of these by 1

@@ -33,7 +33,7 @@ class Places {
   mutable std::vector<std::optional<ExactPlace>> exact_;
 };
 
-/// The face's own plane, seen from outside: x and y, or for an upright face along it and up. All signs are exact.
+/// The face's own plane, seen from outside: x and y, or for a vertical face along it and up. All signs are exact.
 class Chart {
  public:
   Chart(const Places& places, const FaceNode& node);

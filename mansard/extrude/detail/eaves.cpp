@@ -8,7 +8,7 @@
 namespace mansard::extrude::detail {
 namespace {
 
-/// Whether a roof rises straight from the top of an upright wall.
+/// Whether a roof rises straight from the top of a vertical wall.
 auto has_eave(const Track& track) -> bool {
   return track.size() > 1 && !track[0].horizontal && track[0].slope == 0 && !track[1].horizontal && track[1].slope > 0;
 }

@@ -82,7 +82,7 @@ struct Source {
 [[nodiscard]] auto canonical(const Source& source, const Options& options, std::string& why)
     -> std::optional<Footprint>;
 
-/// The footprint a little different, for when upright walls met in one line exactly: attempts 0, 1, … are other
+/// The footprint a little different, for when vertical walls met in one line exactly: attempts 0, 1, … are other
 /// combinations of shorter runs and of edges moved inward by a few quanta, each line by another number of them. `how`
 /// says so in words. Nothing when the outline would not be simple or would move beyond tolerance.
 inline constexpr int most_nudges = 6;

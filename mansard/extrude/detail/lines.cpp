@@ -25,7 +25,7 @@ constexpr double on_chord = 1e-9;
 // Shares of the tolerance. One half is for straightening (`Care::straighten`) and for chains of parallel neighbours,
 // the other for what lines do that are put on the grid and share directions; measure() has the last word on the sum.
 
-/// Where two lines meet, times `divisor` in quanta: whole numbers below 2^122.
+/// Where two lines meet, times `divisor` in quanta: integers below 2^122.
 struct Corner {
   Int128 x = 0, y = 0, divisor = 1;
   Point2 at;  ///< metres; off by less than 2^-51 of the coordinate: two conversions and a quotient, 3 · 2^-53

@@ -24,7 +24,7 @@ using Wide = boost::multiprecision::number<
                                            boost::multiprecision::unchecked, void>,
     boost::multiprecision::et_off>;
 
-/// An invariant of the sweep does not hold. Caught at the door, which then goes down the ladder.
+/// An invariant of the sweep does not hold. Caught in the public function, which then tries simpler solids.
 struct Broken : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

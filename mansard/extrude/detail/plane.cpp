@@ -16,7 +16,7 @@ namespace {
 /// · 2²⁶.
 constexpr std::size_t most_bits = 72, most_offset_bits = 112;
 
-/// Of whole numbers of any size: events upon events make planes whose coefficients are no finite doubles. Both are
+/// Of integers of any size: events upon events make planes whose coefficients are no finite doubles. Both are
 /// truncated to within 2 u, the quotient rounded: 5 u.
 auto ratio(const mpz_class& n, const mpz_class& d) -> double {
   long n_power = 0, d_power = 0;

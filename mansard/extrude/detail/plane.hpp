@@ -29,7 +29,7 @@ struct Coefficients {
   Number A, B, D, S;
 };
 
-/// A x + B y = D + S t in whole numbers, x, y and z in quanta; (A, B) is the line's direction turned left, times a
+/// A x + B y = D + S t in integers, x, y and z in quanta; (A, B) is the line's direction turned left, times a
 /// positive factor. The interior is where the left side is the greater one. t is the height, or a terrace's time τ.
 /// A plane with A = B = 0 is a moment: S t = −D.
 struct Plane {
@@ -37,7 +37,7 @@ struct Plane {
   bool narrow = true;                      ///< |A|, |B|, |S| < 2^72, |D| < 2^112: then all predicates stay below 2^479
   Coefficients<Int128> whole{0, 0, 0, 0};  ///< when narrow
   std::shared_ptr<const Coefficients<mpz_class>> unbounded;  ///< when not
-  /// Unit normal, offset and speed in quanta. nx and ny are within 2^-53, relative: a quotient of whole numbers below
+  /// Unit normal, offset and speed in quanta. nx and ny are within 2^-53, relative: a quotient of integers below
   /// 2^41. c and s are within 2^-50: two numbers truncated (2^-52 each), a quotient.
   double nx = 0, ny = 0, c = 0, s = 0;
 

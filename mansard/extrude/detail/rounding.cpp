@@ -266,7 +266,7 @@ void renumber(model::Solid& solid) {
 
 auto on_grid(Point3 p, double grid) -> Point3 {
   if (grid <= 0) return p;
-  // A whole number of steps per metre gives the double that a file's decimals give.
+  // An integer number of steps per metre gives the double that a file's decimals give.
   const double steps = std::round(1 / grid);
   const auto round = [&](double v) { return steps >= 1 ? std::round(v * steps) / steps : std::round(v / grid) * grid; };
   return {round(p.x), round(p.y), round(p.z)};

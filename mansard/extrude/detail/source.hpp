@@ -22,7 +22,7 @@ inline constexpr double highest_cap = 1e5;
 /// Every profile reduced to its wall and one mean pitch.
 [[nodiscard]] auto two_part(Source source) -> Source;
 
-/// Upright walls over the rings, flat below and above.
+/// Vertical walls over the rings, flat below and above.
 [[nodiscard]] auto prism_of(const Source& source, double base, double cap) -> model::Solid;
 
 }  // namespace mansard::extrude::detail

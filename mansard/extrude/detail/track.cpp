@@ -87,7 +87,7 @@ auto canonical_profile(const model::Profile& profile) -> CanonicalProfile {
     }
     out.track.push_back(std::move(part));
   }
-  if (out.track.empty()) out.profile = {{0, 0}, {0, 1}};  // nothing left of it: an upright wall
+  if (out.track.empty()) out.profile = {{0, 0}, {0, 1}};  // nothing left of it: a vertical wall
   if (out.track.empty() || out.track.back().horizontal)
     out.track.push_back({in_metres(knots.back().inward), in_metres(knots.back().height), 0, false, 0,
                          static_cast<std::uint32_t>(profile.size() - 2)});

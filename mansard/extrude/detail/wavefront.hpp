@@ -39,7 +39,7 @@ struct WaveEdge {
   bool vertex_dirty = false, edge_dirty = false;
   bool pointed = false;        ///< the start can run into edges: it is reflex, or a joint
   std::uint32_t place = none;  ///< in the list of edges
-  std::uint64_t scanned = 0;   ///< the refresh in which the start was held against all edges
+  std::uint64_t scanned = 0;   ///< the refresh in which the start was compared with all edges
   std::uint32_t pointed_place = none;
 
   // In doubles: the start vertex as x0 + x1 t, y0 + y1 t; each is off by less than `error0`, `error1`.

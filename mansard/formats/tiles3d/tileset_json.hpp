@@ -33,7 +33,8 @@ class TileJson {
   /// Unit if there is none; nothing for one that is not 16 numbers.
   [[nodiscard]] auto transform() const -> std::optional<Transform>;
   [[nodiscard]] auto volume() const -> Volume { return volume_of(object_in(json_, "boundingVolume")); }
-  [[nodiscard]] auto geometric_error() const -> double { return number_in(json_, "geometricError").value_or(0); }
+  [[nodiscard]] auto stated_error() const -> std::optional<double> { return number_in(json_, "geometricError"); }
+  [[nodiscard]] auto geometric_error() const -> double { return stated_error().value_or(0); }
   /// Whether the content of its children is added to its own; nothing if it does not say.
   [[nodiscard]] auto adds() const -> std::optional<bool>;
   /// One content, several (1.1), or several by the extension to 1.0.

@@ -1,4 +1,4 @@
-// From what a file has to what the guarantees of the door say.
+// From what a file has to what the guarantees of the public function say.
 #pragma once
 
 #include <optional>

@@ -49,7 +49,7 @@ void measure(PartResult& part, const rays::Scene& mesh, const Options& options) 
   if (std::isfinite(mse)) part.mse = mse;
 }
 
-/// Whoever asks for simpler profiles is not given finer ones by the back door.
+/// A request for simpler profiles is not answered with finer ones by the refinement.
 auto refining_of(const Options& options) -> refine::Options {
   refine::Options out = options.refine;
   if (options.profile.quality == profile::Quality::simple) out.effort = refine::Effort::caps;
@@ -103,7 +103,7 @@ auto raise_parts(const segment::Segmentation& segmentation, const block::Block& 
 }
 
 /// Every feature without a part becomes a prism, or is reported as covered by its neighbours, or as refused where
-/// nothing can be raised on the ground that is left.
+/// nothing can be extruded on the ground that is left.
 void fill_in(const block::Block& block, const rays::Scene& mesh, const Options& options,
              const std::optional<base::Diagnostic>& block_failure, std::vector<PartResult>& parts, BlockResult& out,
              const base::Run& run) {
@@ -137,7 +137,8 @@ void fill_in(const block::Block& block, const rays::Scene& mesh, const Options& 
   std::ranges::stable_sort(parts, {}, &PartResult::feature);
 }
 
-/// Parts with the walls that they share on one line. Where that would cost a part its roof, it stays as it was raised.
+/// Parts with the walls that they share on one line. Where that would cost a part its roof, it stays as it was
+/// extruded.
 void align(std::vector<PartResult>& parts, const Options& options, const base::Run& run) {
   std::vector<model::Plan> plans;
   for (const auto& part : parts) plans.push_back(part.plan);

@@ -30,7 +30,7 @@ struct PartResult {
   std::size_t feature = 0;  ///< index into Scene::footprints
   model::Plan plan;
   model::LabelledSolid model;
-  std::vector<base::Diagnostic> reasons;  ///< why it is not raised in full; empty when it is
+  std::vector<base::Diagnostic> reasons;  ///< why it is not extruded in full; empty when it is
   bool full = true;
   std::vector<std::string> changes;  ///< what measured error changed of its plan, in words
   std::vector<double> roof;          ///< z of the model's top surface on a grid, sorted, local frame
@@ -42,7 +42,7 @@ struct BlockResult {
   std::vector<PartResult> parts;  ///< by feature
   evaluate::ErrorMap map;
   std::vector<std::size_t> covered;  ///< features whose ground went to their neighbours
-  /// Features of which some ground has no model, because not even a prism can be raised there, and why.
+  /// Features of which some ground has no model, because not even a prism can be extruded there, and why.
   std::vector<std::pair<std::size_t, base::Diagnostic>> failed;
   /// Features whose ground could not be told from that of their neighbours' parts, and why.
   std::vector<std::pair<std::size_t, base::Diagnostic>> unchecked;

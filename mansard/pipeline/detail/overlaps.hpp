@@ -1,4 +1,4 @@
-// Solids that stand in each other: no fault of any of them, and yet nothing that a city can be.
+// Solids that overlap: no fault of any of them, and yet nothing that a city can be.
 #pragma once
 
 #include <vector>

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mansard/geometry/change.hpp"
+
 namespace mansard::pipeline::detail {
 namespace {
 
@@ -24,13 +26,6 @@ struct Way {
         features(frame.features) {}
 
   void move(Point2& p) const { p = p + xy(by); }
-  void move(geometry::Ring& ring) const {
-    for (Point2& p : ring) move(p);
-  }
-  void move(geometry::Polygon& polygon) const {
-    move(polygon.outer);
-    for (auto& hole : polygon.holes) move(hole);
-  }
   void number(std::size_t& feature) const { feature = features[feature]; }
   void number(std::optional<std::size_t>& feature) const {
     if (feature) number(*feature);
@@ -43,7 +38,7 @@ void place(segment::Segmentation& chosen, const Way& way) {
     way.number(face.feature);
   }
   for (auto& part : chosen.parts) {
-    way.move(part.polygon);
+    geometry::move(part.polygon, xy(way.by));
     part.height += way.by.z;
     way.number(part.feature);
   }
@@ -59,11 +54,9 @@ void place(PartResult& part, const Way& way) {
 }  // namespace
 
 void move(model::Plan& plan, Point3 by) {
-  const auto settle = [&](geometry::Ring& ring) {
-    for (Point2& p : ring) p = Point2{rounded(p.x), rounded(p.y)} + xy(by);
-  };
-  settle(plan.outer.points);
-  for (auto& hole : plan.holes) settle(hole.points);
+  const auto settled = [&](Point2 p) { return Point2{rounded(p.x), rounded(p.y)} + xy(by); };
+  geometry::change_corners(plan.outer.points, settled);
+  for (auto& hole : plan.holes) geometry::change_corners(hole.points, settled);
   plan.base = rounded(plan.base) + by.z;
 }
 

@@ -42,7 +42,7 @@ struct Pooled {
 
 /// A lower, level part along the run before the building's wall: a porch, an annex, a step back.
 struct Setback {
-  double depth = 0;   ///< m inward to the wall, a whole number of columns
+  double depth = 0;   ///< m inward to the wall, an integer number of columns
   double height = 0;  ///< m above the base, of the lower part
 };
 /// Where most slices show one: at least setback_depth columns deep, setback_height high and setback_step under what

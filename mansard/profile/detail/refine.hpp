@@ -1,4 +1,4 @@
-// Which of a run's candidate profiles the scan agrees with once all runs of the part are raised together.
+// Which of a run's candidate profiles the scan agrees with once all runs of the part are extruded together.
 // The greedy choice, edge by edge, does not see its neighbours; this does, at the price of an approximate extrusion.
 #pragma once
 

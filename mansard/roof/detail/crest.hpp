@@ -16,7 +16,7 @@ struct Sweep {
 };
 
 /// The height above the eaves of the highest point, with slopes of 1, in metres: heights scale with the slope. Over a
-/// convex outline the roof is the lower envelope of its planes, and this a linear program; others are raised. Nothing
+/// convex outline the roof is the lower envelope of its planes, and this a linear program; others are extruded. Nothing
 /// where that fails, or where no side moves.
 [[nodiscard]] auto crest_of(const geometry::Polygon& polygon, const std::vector<Side>& sides,
                             const std::vector<Sweep>& sweeps, const base::Run& run) -> std::optional<double>;

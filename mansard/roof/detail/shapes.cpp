@@ -87,7 +87,7 @@ auto slope_of(const geometry::Polygon& polygon, const Form& form, const Options&
     out.uphill = side->inward;
   }
 
-  // Where two upright sides meet lowest, no edge would sweep the plane: cut the corner off, level.
+  // Where two vertical sides meet lowest, no edge would sweep the plane: cut the corner off, level.
   const auto level = level_sides(sides, out.uphill, o);
   std::vector<geometry::Ring> rings(polygon.holes.size() + 1);
   std::size_t first = 0;

@@ -1,4 +1,4 @@
-// The pure optimisation: a minimum cost multicut with pair penalties, in whole numbers. Knows no geometry.
+// The pure optimisation: a minimum cost multicut with pair penalties, in integers. Knows no geometry.
 #pragma once
 
 #include <cstddef>

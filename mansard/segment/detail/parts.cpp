@@ -271,7 +271,7 @@ void make_parts(const fracture::Arrangement& arrangement, const Evidence& eviden
       if (!order[p].without) part.feature = order[p].feature;
       part.height = height_of(arrangement, evidence, part.faces);
       if (!draw(arrangement, segmentation.part_of_face, p, options, part, warnings)) {
-        // Its faces belong to nothing then, and the others are numbered anew.
+        // Its faces belong to nothing then, and the others are numbered again.
         for (const std::uint32_t f : part.faces) label_of_face[f] = std::nullopt;
         segmentation.warnings.push_back(warnings.back());
         dropped = true;

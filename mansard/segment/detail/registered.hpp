@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mansard/block/block.hpp"
+#include "mansard/geometry/change.hpp"
 #include "mansard/sweep/sweep.hpp"
 
 namespace mansard::segment::detail {
@@ -10,14 +11,9 @@ namespace mansard::segment::detail {
 [[nodiscard]] inline auto registered(const block::Block& block, const sweep::Registration& registration)
     -> block::Block {
   block::Block moved{block.name, block.members, block.outline, {}, block.ground};
-  const auto move_polygon = [&](geometry::Polygon& polygon) {
-    for (auto& p : polygon.outer) p = p + registration.shift;
-    for (auto& hole : polygon.holes)
-      for (auto& p : hole) p = p + registration.shift;
-  };
   for (auto& member : moved.members)
-    for (auto& polygon : member.polygons) move_polygon(polygon);
-  for (auto& polygon : moved.outline) move_polygon(polygon);
+    for (auto& polygon : member.polygons) geometry::move(polygon, registration.shift);
+  for (auto& polygon : moved.outline) geometry::move(polygon, registration.shift);
   return moved;
 }
 

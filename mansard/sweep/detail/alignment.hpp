@@ -14,8 +14,8 @@ class GisEdges {
  public:
   GisEdges(const block::Block& block, const Options& options);
 
-  /// The line turned about its midpoint to the direction of the GIS edge it most likely follows, or square to one;
-  /// unchanged when there is none.
+  /// The line turned about its midpoint to the direction of the GIS edge it most likely follows, or perpendicular to
+  /// one; unchanged when there is none.
   [[nodiscard]] auto aligned(const geometry::Segment2& line) const -> geometry::Segment2;
 
  private:

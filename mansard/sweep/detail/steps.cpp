@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "mansard/base/statistics.hpp"
+#include "mansard/geometry/change.hpp"
 #include "mansard/geometry/fit.hpp"
 #include "mansard/sweep/detail/line_index.hpp"
 #include "mansard/sweep/detail/steps_field.hpp"
@@ -289,11 +290,7 @@ auto outlines_of(const block::Block& block) -> std::vector<Segment2> {
 auto displaced(const block::Block& block, Point2 shift) -> block::Block {
   block::Block moved{block.name, block.members, {}, {}, block.ground};
   for (auto& member : moved.members)
-    for (auto& polygon : member.polygons) {
-      for (Point2& p : polygon.outer) p = p + shift;
-      for (auto& hole : polygon.holes)
-        for (Point2& p : hole) p = p + shift;
-    }
+    for (auto& polygon : member.polygons) geometry::move(polygon, shift);
   return moved;
 }
 

@@ -103,7 +103,7 @@ struct Look {
   [[nodiscard]] auto slope() const -> double {
     return std::clamp(rise / span, std::min(before, after), std::max(before, after));
   }
-  /// m square to the surface: on steep roofs noise is tall too.
+  /// m perpendicular to the surface: on steep roofs noise is tall too.
   [[nodiscard]] auto jump() const -> double { return (rise - span * slope()) / std::hypot(1, slope() / cell); }
 };
 

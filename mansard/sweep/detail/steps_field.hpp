@@ -11,7 +11,7 @@
 
 namespace mansard::sweep::detail {
 
-/// A direction many footprint edges run in, or square to, and the members that have such edges.
+/// A direction many footprint edges run in, or perpendicular to, and the members that have such edges.
 struct Grain {
   geometry::Point2 direction;        ///< unit
   std::vector<std::size_t> members;  ///< indices into Block::members, ascending
@@ -22,9 +22,9 @@ struct Grain {
 
 /// A place where the surface jumps across a line that runs along the grid's rows or columns.
 struct Jump {
-  double across = 0;         ///< m along the axis square to the line
+  double across = 0;         ///< m along the axis perpendicular to the line
   std::size_t row = 0;       ///< number of the cell along the line
-  double height = 0;         ///< m, up in the direction of `across`, off the slopes beside it and square to them
+  double height = 0;         ///< m, up in the direction of `across`, off the slopes beside it and perpendicular to them
   double low = 0, high = 0;  ///< z of the two sides beside it, m
 };
 

@@ -83,7 +83,7 @@ void join_terraces(std::vector<Face>& faces) {
   faces = std::move(out);
 }
 
-/// Where upright walls meet in one line exactly, the kernel has an edge for each pair of them: cut at each other's
+/// Where vertical walls meet in one line exactly, the kernel has an edge for each pair of them: cut at each other's
 /// ends.
 void cut_upright_edges(std::vector<Face>& faces) {
   std::map<Point, std::vector<Rational>> heights;
