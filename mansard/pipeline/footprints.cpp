@@ -320,7 +320,7 @@ auto raise_footprints(const model::Scene& scene, const Options& options, const b
     if (by_attributes && report.roof.empty()) report.roof = roof::to_string(job.planned.shape);
     if (models[i]) take(std::move(job), std::move(*models[i]), out.city.buildings[job.feature], report);
   }
-  detail::add_solids(out.city.buildings, out.buildings);
+  detail::add_solids(out.city.buildings, out.buildings, 0);
   out.city.buildings.resize(scene.footprints.size());
   out.buildings.resize(scene.footprints.size());
   for (auto& report : out.buildings)

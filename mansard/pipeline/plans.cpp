@@ -56,7 +56,7 @@ auto raise_plans(model::City city, const Options& options, const base::Run& run)
   }
   out.city = std::move(city);
   out.city.made_by.version = detail::version();
-  for (auto& [building, warnings] : unite_parts(out.city.buildings))
+  for (auto& [building, warnings, simplified] : unite_parts(out.city.buildings))
     out.remarks.insert(out.remarks.end(), warnings.begin(), warnings.end());
   return out;
 }

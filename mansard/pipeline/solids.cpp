@@ -23,9 +23,14 @@ auto unite_parts(std::span<model::Building> buildings) -> std::vector<SolidsOf> 
       for (auto& p : one.of) p = numbers[b][p];
       solids.push_back({std::move(one.of), std::move(one.model)});
     }
+    for (auto& p : united[b].simplified) {
+      p = numbers[b][p];
+      for (const auto& solid : solids)
+        if (solid.parts == std::vector{p}) buildings[b].parts[p].model = solid.model;
+    }
     if (united[b].warnings.empty()) continue;
     for (auto& warning : united[b].warnings) warning.subject = buildings[b].id;
-    out.push_back({b, std::move(united[b].warnings)});
+    out.push_back({b, std::move(united[b].warnings), std::move(united[b].simplified)});
   }
   return out;
 }

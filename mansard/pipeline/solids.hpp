@@ -13,6 +13,7 @@ namespace mansard::pipeline {
 struct SolidsOf {
   std::size_t building = 0;
   std::vector<base::Diagnostic> warnings;
+  std::vector<std::size_t> simplified;  ///< parts whose model is a prism now
 };
 
 /// Gives every building the union of its parts (solid::unite_all), over one plan of each group of buildings that touch.

@@ -227,6 +227,7 @@ class Uniting {
       std::ranges::fill(solid.part_of_face, static_cast<std::uint32_t>(p));
     }
     take(std::move(attempt.solids));
+    out_.simplified.push_back(p);
     out_.warnings.push_back(base::warning("solid-simplified", "a part became a flat-roofed prism: " + why));
   }
 

@@ -18,6 +18,7 @@ struct United {
   };
   std::vector<One> solids;                 ///< by their first part
   std::vector<base::Diagnostic> warnings;  ///< what could not be made as asked, without subject
+  std::vector<std::size_t> simplified;     ///< parts that became prisms, each a solid of its own
   std::size_t loose = 0;                   ///< solids whose walls may lie off those of their neighbours by rounding
 };
 

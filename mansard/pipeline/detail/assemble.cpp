@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "mansard/pipeline/solids.hpp"
 #include "mansard/report/attributes.hpp"
@@ -35,12 +36,41 @@ auto made_by(const model::Scene& scene, const Options& options) -> model::MadeBy
   return out;
 }
 
-void add_solids(std::span<model::Building> buildings, std::span<report::BuildingReport> reports) {
-  for (auto& [building, warnings] : unite_parts(buildings))
+namespace {
+
+/// The attributes of a part whose model has become another one.
+void measure_again(model::Part& part, const std::string& code, double z0) {
+  const auto& solid = part.model.solid;
+  const auto areas = label::areas(part.model);
+  const std::map<std::string_view, model::Value> now{{"ms_h_roof_max", z0 + report::top_of(solid)},
+                                                     {"ms_h_roof_min", z0 + report::top_of(solid)},
+                                                     {"ms_h_ridge", std::monostate()},
+                                                     {"ms_roof_type", report::roof_type(part.model)},
+                                                     {"ms_volume_lod22", solid::volume(solid)},
+                                                     {"ms_area_roof_flat", areas.roof_flat},
+                                                     {"ms_area_roof_sloped", areas.roof_sloped},
+                                                     {"ms_area_wall", areas.wall},
+                                                     {"ms_area_party_wall", areas.party_wall},
+                                                     {"ms_fallback", code}};
+  for (auto& [name, value] : part.attributes)
+    if (const auto found = now.find(name); found != now.end()) value = found->second;
+  report::round_measures(part.attributes);
+}
+
+}  // namespace
+
+void add_solids(std::span<model::Building> buildings, std::span<report::BuildingReport> reports, double z0) {
+  for (auto& [building, warnings, simplified] : unite_parts(buildings)) {
+    for (const std::size_t p : simplified) measure_again(buildings[building].parts[p], "solid-simplified", z0);
+    if (!simplified.empty()) {
+      reports[building].volume = 0;
+      for (const auto& part : buildings[building].parts) reports[building].volume += solid::volume(part.model.solid);
+    }
     for (auto& warning : warnings) {
       if (warning.code != "solid-not-united") reports[building].outcome = report::Outcome::fallback;
       reports[building].reasons.push_back(std::move(warning));
     }
+  }
 }
 
 namespace {
@@ -139,7 +169,7 @@ auto assemble(const model::Scene& scene, const std::vector<block::Block>& blocks
     out.error_maps.push_back(std::move(results[b].map));
     out.warnings.insert(out.warnings.end(), results[b].warnings.begin(), results[b].warnings.end());
   }
-  add_solids(buildings, reports);
+  add_solids(buildings, reports, z0);
   for (std::size_t i = 0; i < count; ++i) {
     if (accounts[i].area > 0) reports[i].rmse = std::sqrt(accounts[i].squared / accounts[i].area);
     auto& attributes = buildings[i].attributes;

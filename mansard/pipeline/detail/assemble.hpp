@@ -19,8 +19,8 @@ namespace mansard::pipeline::detail {
 }
 
 /// Gives the buildings their solids; `reports[i]` is on `buildings[i]`. Of a building that is more than one solid, or a
-/// simpler one, the reasons say so.
-void add_solids(std::span<model::Building> buildings, std::span<report::BuildingReport> reports);
+/// simpler one, the reasons say so. `z0` is the height of the frame's origin, for attributes.
+void add_solids(std::span<model::Building> buildings, std::span<report::BuildingReport> reports, double z0);
 
 void add(label::Areas& sum, const label::Areas& more);
 /// Of mansard.
