@@ -134,7 +134,7 @@ struct Options {
   struct Wings {
     double min_length = 1.5;  ///< m
     double reflex_sine = 0.35;
-    std::int64_t max_cuts = 12;
+    std::int64_t max_cuts = 6;
   } wings;
 
   /// What may become a part of its own (propose).

@@ -73,13 +73,13 @@ auto choose(const fracture::Arrangement& arrangement, const sweep::SweepEdges& e
                        block.name);
   run.report("segment", block.name, 0);
   detail::Evidence evidence =
-      detail::measure(arrangement, detail::registered(block, edges.registration), mesh, options, run);
+      detail::measure(arrangement, detail::registered(block, edges.registration), mesh, options);
   detail::peel(arrangement, options, evidence.faces);
 
   Segmentation segmentation;
   segmentation.candidates = detail::candidates_of(arrangement, edges, evidence.faces, options);
   if (options.height_measure == HeightMeasure::along)
-    detail::measure_steps(arrangement, mesh, options, run, segmentation.candidates);
+    detail::measure_steps(arrangement, mesh, options, segmentation.candidates);
   const auto candidate_of = detail::candidate_of_half_edge(arrangement, segmentation.candidates);
   segmentation.conflicts = detail::conflicts_of(arrangement, evidence.faces, candidate_of, options);
   segmentation.phi = detail::phi_of(arrangement, evidence.faces, options);

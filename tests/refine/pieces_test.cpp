@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "scans.hpp"
 
 namespace {
@@ -34,6 +36,41 @@ TEST(Pieces, that_would_be_too_small_or_narrow_are_none) {
   EXPECT_TRUE(cut(part, {rectangle(4, 3, 1, 2), {}}, {}).empty());
   EXPECT_TRUE(cut(part, {rectangle(0, 0, 12, 0.5), {}}, {}).empty());
   EXPECT_TRUE(cut(part, {rectangle(20, 0, 12, 8), {}}, {}).empty());
+}
+
+/// Along the extension of one of the part's edges, moved aside; the rounding of 30° makes the two nearly collinear.
+auto cut_along_an_edge(double aside) -> std::vector<geometry::Polygon> {
+  const auto turned = [](double x, double y) {
+    return geometry::Point2{std::sqrt(0.75) * x - 0.5 * y, 0.5 * x + std::sqrt(0.75) * y};
+  };
+  const geometry::Polygon part{{turned(0, 0), turned(12, 0), turned(12, 5), turned(5, 5), turned(5, 12), turned(0, 12)},
+                               {}};
+  const geometry::Polygon side{{turned(-50, 5 + aside), turned(50, 5 + aside), turned(50, 60), turned(-50, 60)}, {}};
+  return cut(part, side, {});
+}
+
+TEST(Pieces, are_the_same_when_a_line_moves_by_less_than_a_millimetre) {
+  const auto still = cut_along_an_edge(0);
+  ASSERT_EQ(still.size(), 2U);
+  EXPECT_EQ(still[0].outer.size(), 4U);
+  EXPECT_EQ(still[1].outer.size(), 4U);
+  for (const double aside : {1e-12, -1e-12, 1e-9, -1e-9, 1e-6, -1e-6, 1e-4, -1e-4}) {
+    const auto moved = cut_along_an_edge(aside);
+    ASSERT_EQ(moved.size(), still.size()) << aside;
+    for (std::size_t k = 0; k < still.size(); ++k) {
+      ASSERT_EQ(moved[k].outer.size(), still[k].outer.size()) << aside;
+      for (std::size_t i = 0; i < still[k].outer.size(); ++i)
+        EXPECT_LT(geometry::length(moved[k].outer[i] - still[k].outer[i]), 1e-3) << aside;
+    }
+  }
+}
+
+TEST(Pieces, have_neither_spikes_nor_slivers) {
+  const geometry::Polygon spiked{{{0, 0}, {8, 0}, {8, 5}, {8.0001, 9}, {8.0002, 5}, {8, 6}, {0, 6}}, {}};
+  const auto tidy = refine::detail::tidied({spiked, {rectangle(0, 0, 30, 0.005), {}}}, {});
+  ASSERT_EQ(tidy.size(), 1U);
+  EXPECT_EQ(tidy[0].outer.size(), 4U);
+  EXPECT_NEAR(geometry::area(tidy[0]), 48, 0.01);
 }
 
 TEST(Pieces, that_touch_in_one_point_are_none) {

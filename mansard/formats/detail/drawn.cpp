@@ -128,8 +128,7 @@ auto drawn(const model::Building& building, const Gate::Keyed& keys, Solids soli
   for (const auto* model : models) each.push_back({model});
   auto made = solid::share_walls(models) ? std::vector<solid::United>(models.size()) : solid::unite_all(each);
   for (std::size_t i = 0; i < made.size(); ++i) {
-    if (made[i].solids.empty())
-      made[i] = {{{{0}, *models[i], {}}}, {}};  // as it is; its writer says what is wrong with it
+    if (made[i].solids.empty()) made[i].solids.push_back({{0}, *models[i], {}});  // its writer says what is wrong
     take(std::move(made[i]), {numbers[i]});
   }
   return out;

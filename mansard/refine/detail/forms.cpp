@@ -10,7 +10,9 @@
 
 #include "mansard/base/statistics.hpp"
 #include "mansard/geometry/fit.hpp"
+#include "mansard/refine/detail/judge.hpp"
 #include "mansard/refine/detail/lines.hpp"
+#include "mansard/refine/detail/order.hpp"
 
 namespace mansard::refine::detail {
 namespace {
@@ -43,6 +45,28 @@ auto looks_over(const Plan& plan, const std::vector<bool>& carries, const Site& 
       looks.push_back({near->inward, site.measured.z[cell], site.weight[i]});
   }
   return looks;
+}
+
+/// m: of a profile at a distance from its edge.
+auto height_at(const Profile& profile, double inward) -> double {
+  double height = profile.back().height;
+  for (std::size_t i = 1; i < profile.size(); ++i) {
+    const auto &a = profile[i - 1], &b = profile[i];
+    const bool last = i + 1 == profile.size();
+    if (b.inward > a.inward && (inward <= b.inward || last))
+      return a.height + (b.height - a.height) / (b.inward - a.inward) * (inward - a.inward);
+    height = b.height;
+  }
+  return height;
+}
+
+/// m²·m²: that of the samples, as if they were all there are.
+template <class Height>
+auto misfit_of(std::span<const Look> looks, const Site& site, const Options& options, Height height) -> double {
+  double sum = 0;
+  for (const Look& look : looks) sum += look.weight * loss(height(look) - look.height, options.robust);
+  return sum / static_cast<double>(std::max<std::size_t>(1, looks.size())) * static_cast<double>(site.cells.size()) *
+         site.cell_area;
 }
 
 /// The one line that suits all sides that carry roof.
@@ -225,36 +249,41 @@ auto setbacks_of(const Plan& plan, const Site& site, const Options& options) -> 
   return out;
 }
 
-auto forms_of(const Plan& plan, const Site& site, const Options& options) -> std::vector<Plan> {
-  std::vector<Plan> out;
+auto forms_of(const Plan& plan, const Site& site, const Options& options) -> std::vector<Form> {
+  std::vector<Form> out;
   if (site.sorted.empty()) return out;
   const auto& forms = options.forms;
   const auto share = [&](double s) { return base::percentile_of_sorted(site.sorted, s, base::Rank::below); };
   const double top = std::max(forms.min_height, share(forms.cap_percentile) + forms.cap_clearance);
+  const auto sides = sides_of(plan);
+  const auto looks_at = [&](const std::vector<bool>& carries) { return looks_over(plan, carries, site, forms); };
 
+  const auto all = looks_at(std::vector<bool>(sides.size(), true));
   for (const double level : {commonest(site.sorted, options), share(0.5)}) {
     Plan flat = plan;
     flat.cap = std::max(forms.min_height, level);
     for (auto& profile : flat.profiles) profile = wall(flat.cap, forms);
-    out.push_back(std::move(flat));
+    const double misfit = misfit_of(all, site, options, [&](const Look&) { return flat.cap; });
+    out.push_back({std::move(flat), misfit});
   }
 
-  const auto sides = sides_of(plan);
   const auto propose = [&](const std::function<bool(std::size_t)>& carries_roof) {
     std::vector<bool> carries(sides.size());
     for (std::size_t p = 0; p < sides.size(); ++p) carries[p] = sides[p].length > 0 && carries_roof(p);
     if (std::ranges::none_of(carries, [](bool c) { return c; })) return;
-    auto looks = looks_over(plan, carries, site, forms);
+    auto looks = looks_at(carries);
     const auto line = common_line(looks, options.lines);
-    Plan form = plan;
-    form.cap = top;
     const auto give = [&](const Profile& roof, double gutter) {
-      for (std::size_t p = 0; p < sides.size(); ++p) form.profiles[p] = carries[p] ? roof : wall(gutter, forms);
-      out.push_back(form);
+      Form form{plan, 0};
+      form.plan.cap = top;
+      for (std::size_t p = 0; p < sides.size(); ++p) form.plan.profiles[p] = carries[p] ? roof : wall(gutter, forms);
+      form.misfit = misfit_of(looks, site, options,
+                              [&](const Look& look) { return std::min(top, height_at(roof, look.inward)); });
+      out.push_back(std::move(form));
     };
     if (line && line->slope >= forms.min_slope && line->slope <= forms.max_slope)
       give(pitched(line->at_edge, line->slope), line->at_edge);
-    if (const auto roof = mansard_line(std::move(looks), options)) give(*roof, (*roof)[1].height);
+    if (const auto roof = mansard_line(looks, options)) give(*roof, (*roof)[1].height);
   };
   for (const Point2 axis : axes_of(sides, forms)) {
     propose([&](std::size_t p) { return std::abs(dot(sides[p].inward, axis)) > forms.across_cosine; });
@@ -264,6 +293,7 @@ auto forms_of(const Plan& plan, const Site& site, const Options& options) -> std
   const auto ends = ends_of(plan, sides, forms);
   propose([&](std::size_t p) { return !ends[p]; });
   propose([](std::size_t) { return true; });
+  rank(out, &Form::misfit);
   return out;
 }
 

@@ -10,10 +10,16 @@
 
 namespace mansard::refine::detail {
 
-/// The plan with the common forms of roof, each with gutter height and pitch as the site's looks suggest, and as many
-/// flat ones as there are levels to end at. Profiles of the plan keep their numbers.
-[[nodiscard]] auto forms_of(const model::Plan& plan, const Site& site, const Options& options)
-    -> std::vector<model::Plan>;
+/// A common form of roof over a plan, and how far it is from the samples as far as that shows without extruding it:
+/// every sample is under the plane of the side that carries roof and is nearest to it.
+struct Form {
+  model::Plan plan;
+  double misfit = 0;  ///< m²·m²
+};
+
+/// The plan with the common forms of roof, each with gutter height and pitch as the site's samples suggest, and as many
+/// flat ones as there are levels to end at: the most promising first. Profiles of the plan keep their numbers.
+[[nodiscard]] auto forms_of(const model::Plan& plan, const Site& site, const Options& options) -> std::vector<Form>;
 
 /// Per profile of the plan what its sides may carry where the scan shows a level strip along them (`Options::setback`)
 /// and something higher behind it: wall, terrace, wall, and what goes on above. Cost: O(cells · edges).

@@ -7,45 +7,51 @@
 namespace mansard::refine::detail {
 namespace {
 
-/// Squared up to `robust`, linear beyond (P. Huber, Robust estimation of a location parameter, 1964).
-auto loss(double difference, double robust) -> double {
-  const double d = std::abs(difference);
-  return d <= robust ? d * d : robust * (2 * d - robust);
-}
-
-/// A look past the solid (its outline is rounded by some millimetres) falls to its base.
-auto height_of(const std::vector<double>& z, std::uint32_t cell) -> double { return std::isnan(z[cell]) ? 0 : z[cell]; }
-
-/// Every `step`th of the heights, `count` of them from `first`, smoothed by a binomial of five; NaN counts nowhere.
-void smooth(const std::vector<double>& from, std::vector<double>& to, std::size_t first, std::size_t step,
-            std::size_t count) {
-  constexpr double weights[]{6, 4, 1};  // of the five binomials of 4, whose variance is one cell squared
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t cell = first + i * step;
-    to[cell] = from[cell];
-    if (std::isnan(from[cell])) continue;
-    double sum = weights[0] * from[cell], all = weights[0];
-    const auto take = [&](std::size_t other, double weight) {
-      if (std::isnan(from[other])) return;
-      sum += weight * from[other];
-      all += weight;
-    };
-    for (std::size_t k = 1; k <= 2; ++k) {
-      if (i >= k) take(cell - k * step, weights[k]);
-      if (i + k < count) take(cell + k * step, weights[k]);
-    }
-    to[cell] = sum / all;
+/// A grid in rows with two cells of nothing on every side: what is smoothed, and where there is anything.
+class Smoothed {
+ public:
+  Smoothed(const std::vector<double>& z, const Heights& grid)
+      : columns_(grid.columns), rows_(grid.rows), stride_(grid.columns + 2 * reach) {
+    const std::size_t cells = stride_ * (rows_ + 2 * reach);
+    value_.assign(cells, 0);
+    there_.assign(cells, 0);
+    for (std::size_t row = 0; row < rows_; ++row)
+      for (std::size_t column = 0; column < columns_; ++column) {
+        const double height = z[row * columns_ + column];
+        if (std::isnan(height)) continue;
+        value_[at(column, row)] = height;
+        there_[at(column, row)] = 1;
+      }
+    pass(1);
+    pass(stride_);
   }
-}
 
-/// The heights as a scan would have them, whose corners are round: smoothed with a standard deviation of one cell, the
-/// 0.25 m by which photogrammetry melts a block. Else a slope would suit the scan of a step better than the step.
-auto melted(const View& view, const Heights& grid) -> std::vector<double> {
-  std::vector<double> across(view.z.size()), out(view.z.size());
-  for (std::size_t row = 0; row < grid.rows; ++row) smooth(view.z, across, row * grid.columns, 1, grid.columns);
-  for (std::size_t column = 0; column < grid.columns; ++column) smooth(across, out, column, grid.columns, grid.rows);
-  return out;
-}
+  [[nodiscard]] auto operator()(std::uint32_t cell) const -> double {
+    return value_[at(cell % columns_, cell / columns_)];
+  }
+
+ private:
+  static constexpr std::size_t reach = 2;
+
+  [[nodiscard]] auto at(std::size_t column, std::size_t row) const -> std::size_t {
+    return (row + reach) * stride_ + column + reach;
+  }
+
+  /// A binomial of five over every `step`th cell; its variance is one cell squared. What is not there counts nowhere.
+  void pass(std::size_t step) {
+    const auto sum = [step](const std::vector<double>& of, std::size_t i) {
+      return 6 * of[i] + 4 * (of[i - step] + of[i + step]) + (of[i - 2 * step] + of[i + 2 * step]);
+    };
+    std::vector<double> out(value_.size(), 0);
+    for (std::size_t row = 0; row < rows_; ++row)
+      for (std::size_t i = at(0, row), end = i + columns_; i < end; ++i)
+        out[i] = there_[i] * sum(value_, i) / std::max(1.0, sum(there_, i));
+    value_ = std::move(out);
+  }
+
+  std::size_t columns_, rows_, stride_;
+  std::vector<double> value_, there_;  // m above the base; 1 or 0
+};
 
 }  // namespace
 
@@ -54,11 +60,14 @@ auto Judge::operator()(const model::Plan& plan) const -> base::Result<Judged> {
   if (!sketch) return sketch.error();
   Judged out{plan, std::move(*sketch), {}, 0, 0};
   out.view = view_of(out.sketch, site_.measured, site_.base);
-  const auto shown = melted(out.view, site_.measured);
+  // The heights as a scan would have them, whose corners are round: smoothed with a standard deviation of one cell, the
+  // 0.25 m by which photogrammetry melts a block. Else a slope would suit the scan of a step better than the step. A
+  // sample past the solid (its outline is rounded by some millimetres) falls to its base.
+  const Smoothed shown(out.view.z, site_.measured);
   double sum = 0;
   for (std::size_t i = 0; i < site_.cells.size(); ++i) {
     const auto cell = site_.cells[i];
-    sum += site_.weight[i] * loss(height_of(shown, cell) - site_.measured.z[cell], options_.robust);
+    sum += site_.weight[i] * loss(shown(cell) - site_.measured.z[cell], options_.robust);
   }
   out.misfit = sum * site_.cell_area;
   out.cost = out.misfit + options_.face_price * static_cast<double>(out.sketch.faces.size());

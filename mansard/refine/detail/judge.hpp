@@ -1,11 +1,19 @@
 // A plan raised, seen from above and held against the mesh.
 #pragma once
 
+#include <cmath>
+
 #include "mansard/extrude/extrude.hpp"
 #include "mansard/refine/detail/site.hpp"
 #include "mansard/refine/detail/view.hpp"
 
 namespace mansard::refine::detail {
+
+/// Squared up to `robust`, linear beyond (P. Huber, Robust estimation of a location parameter, 1964).
+[[nodiscard]] inline auto loss(double difference, double robust) -> double {
+  const double d = std::abs(difference);
+  return d <= robust ? d * d : robust * (2 * d - robust);
+}
 
 struct Judged {
   model::Plan plan;

@@ -8,6 +8,9 @@
 namespace mansard::refine::detail {
 namespace {
 
+/// m, and rise per run: a line that moves less than a micrometre between rounds stays.
+constexpr double settled = 1e-6;
+
 auto weight_of(const Look& look, const RoofLine& line, double robust) -> double {
   const double d = std::abs(look.height - line.at_edge - line.slope * look.inward);
   return look.weight * (d <= robust ? 1 : robust / d);
@@ -18,18 +21,25 @@ auto weight_of(const Look& look, const RoofLine& line, double robust) -> double 
 auto line_through(std::span<const Look> looks, RoofLine start, const Options::Lines& options)
     -> std::optional<RoofLine> {
   if (std::ssize(looks) < options.min_samples) return std::nullopt;
+  // Sums about the middle of the looks: within some tens of metres of all, so that no digits are lost.
+  double middle = 0, height = 0;
+  for (const Look& look : looks) {
+    middle += look.inward / static_cast<double>(looks.size());
+    height += look.height / static_cast<double>(looks.size());
+  }
   RoofLine line = start;
   for (std::int64_t round = 0; round < options.rounds; ++round) {
-    geometry::LineSums all, centred;
-    for (const Look& look : looks) all.add(look.inward, look.height, weight_of(look, line, options.robust));
-    if (!(all.weight > 0)) return std::nullopt;
-    const double x = all.x / all.weight, z = all.z / all.weight;
-    for (const Look& look : looks) centred.add(look.inward - x, look.height - z, weight_of(look, line, options.robust));
-    const double slope = centred.xx > 0 ? centred.xz / centred.xx : 0;
-    if (!((1 + slope * slope) * centred.xx >= options.min_spread * options.min_spread * all.weight))
-      return std::nullopt;
-    line.slope = slope;
-    line.at_edge = z - line.slope * x;
+    geometry::LineSums sums;
+    for (const Look& look : looks)
+      sums.add(look.inward - middle, look.height - height, weight_of(look, line, options.robust));
+    if (!(sums.weight > 0)) return std::nullopt;
+    const double x = sums.x / sums.weight, z = sums.z / sums.weight;
+    const double xx = std::max(0.0, sums.xx - sums.x * x);
+    const double slope = xx > 0 ? (sums.xz - sums.x * z) / xx : 0;
+    if (!((1 + slope * slope) * xx >= options.min_spread * options.min_spread * sums.weight)) return std::nullopt;
+    const RoofLine before = line;
+    line = {height + z - slope * (middle + x), slope};
+    if (std::abs(line.slope - before.slope) + std::abs(line.at_edge - before.at_edge) < settled) break;
   }
   return line;
 }
@@ -44,7 +54,9 @@ auto raised_line(std::span<const Look> looks, RoofLine start, const Options::Lin
       z += weight * (look.height - line.slope * look.inward);
     }
     if (!(w > 0)) return start;
+    const double before = line.at_edge;
     line.at_edge = z / w;
+    if (std::abs(line.at_edge - before) < settled) break;
   }
   return line;
 }

@@ -3,100 +3,161 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <ranges>
+#include <set>
 #include <utility>
 
+#include "mansard/refine/detail/order.hpp"
 #include "mansard/refine/detail/work.hpp"
 
 namespace mansard::refine::detail {
 namespace {
 
-/// Two pieces as one, by the numbers of both.
-struct Saving {
-  double saved = 0;
-  std::optional<Piece> piece;
+/// What is known of two pieces. Pieces never change, so that it stays true.
+struct Pair {
+  bool was_united = false, was_joined = false, was_cut = false;
+  std::optional<Union> both;
 };
-using Savings = std::map<std::pair<std::size_t, std::size_t>, Saving>;
 
-/// Looks at all pairs that were not looked at yet.
-void look_at_pairs(const std::vector<Piece>& pieces, const std::vector<std::size_t>& number, const Work& work,
-                   Savings& savings) {
-  struct Pair {
-    const Piece *a, *b;
-    Saving* saving;
-  };
-  std::vector<Pair> fresh;
-  for (std::size_t i = 0; i < pieces.size(); ++i)
-    for (std::size_t j = i + 1; j < pieces.size(); ++j)
-      if (auto [at, is_new] = savings.try_emplace(std::minmax(number[i], number[j])); is_new)
-        fresh.push_back({&pieces[i], &pieces[j], &at->second});
-  base::parallel_for(fresh.size(), [&](std::size_t k) {
-    const auto& [a, b, saving] = fresh[k];
-    saving->piece = work.as_one(*a, *b);
-    if (saving->piece)
-      saving->saved = a->roof.cost + b->roof.cost + work.options().part_price - saving->piece->roof.cost;
-  });
-}
+/// The pieces of one owner: joined, cut, and cut again where two meet at the wrong place, as long as that is cheaper.
+class Pieces {
+ public:
+  Pieces(std::vector<Piece> pieces, const Work& work) : work_(work) {
+    for (auto& piece : pieces) pieces_.push_back(numbered(std::move(piece)));
+  }
 
-/// Joins two pieces at a time, those that save most first, until no pair saves anything.
-void join(std::vector<Piece>& pieces, const Work& work) {
-  Savings savings;
-  std::vector<std::size_t> number(pieces.size());  // pieces keep theirs; joined ones get a new one
-  for (std::size_t i = 0; i < number.size(); ++i) number[i] = i;
-  std::size_t next = pieces.size();
-  while (!work.cancelled()) {
-    look_at_pairs(pieces, number, work, savings);
-    std::pair<std::size_t, std::size_t> best{};
-    double most = 0;
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-      for (std::size_t j = i + 1; j < pieces.size(); ++j) {
-        const double saved = savings.at(std::minmax(number[i], number[j])).saved;
-        if (saved <= most) continue;
-        most = saved;
-        best = {i, j};
+  /// Joins two pieces at a time, those that promise most first, until no pair is cheaper as one.
+  void join() {
+    replace_pairs(
+        &Pair::was_joined, [this](const Piece& a, const Piece& b) { return work_.may_join(a, b); },
+        [this](const Piece& a, const Piece& b, const Union& both) { return work_.cost_of(a, b) - both.roof.cost; },
+        [this](const Piece& a, const Piece& b, const Union& both) {
+          std::vector<Piece> out;
+          if (auto one = work_.as_one(a, b, both)) out.push_back(std::move(*one));
+          return out;
+        });
+  }
+
+  /// Moves walls between pieces by cutting pairs anew, those with most misfit where they meet first.
+  void cut_anew() {
+    replace_pairs(
+        &Pair::was_cut, [this](const Piece& a, const Piece& b) { return work_.may_cut_anew(a, b); },
+        [this](const Piece& a, const Piece& b, const Union&) { return work_.misfit_between(a, b); },
+        [this](const Piece& a, const Piece& b, const Union& both) { return work_.cut_anew(a, b, both); });
+  }
+
+  /// Cuts pieces, and the pieces of pieces, as long as that pays.
+  void split() {
+    const auto most_pieces = static_cast<std::size_t>(work_.options().joins.max_pieces);
+    while (pieces_.size() < most_pieces && !work_.cancelled()) {
+      std::vector<std::vector<Piece>> found(pieces_.size());
+      base::parallel_for(pieces_.size(), [&](std::size_t i) {
+        if (!whole_.contains(pieces_[i].number)) found[i] = work_.split(pieces_[i]);
+      });
+      std::vector<Piece> next;
+      for (std::size_t i = 0; i < pieces_.size(); ++i) {
+        if (found[i].empty()) {
+          whole_.insert(pieces_[i].number);
+          next.push_back(std::move(pieces_[i]));
+        }
+        for (auto& piece : found[i]) next.push_back(numbered(std::move(piece)));
       }
-    }
-    if (!(most > 0)) return;
-    const auto [i, j] = best;
-    pieces[i] = std::move(*savings.at(std::minmax(number[i], number[j])).piece);
-    number[i] = next++;
-    pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(j));
-    number.erase(number.begin() + static_cast<std::ptrdiff_t>(j));
-  }
-}
-
-/// Cuts pieces, and the pieces of pieces, as long as that pays.
-auto all_split(std::vector<Piece> open, const Work& work) -> std::vector<Piece> {
-  const auto most_pieces = static_cast<std::size_t>(work.options().joins.max_pieces);
-  std::vector<Piece> done;
-  while (!open.empty()) {
-    Piece piece = std::move(open.front());
-    open.erase(open.begin());
-    std::vector<Piece> pieces;
-    if (done.size() + open.size() < most_pieces) pieces = work.split(piece);
-    if (pieces.empty()) done.push_back(std::move(piece));
-    else open.insert(open.begin(), std::make_move_iterator(pieces.begin()), std::make_move_iterator(pieces.end()));
-  }
-  return done;
-}
-
-/// Moves walls between pieces by cutting pairs anew.
-void cut_all_anew(std::vector<Piece>& pieces, const Work& work) {
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    for (std::size_t j = i + 1; j < pieces.size(); ++j) {
-      auto anew = work.cut_anew(pieces[i], pieces[j]);
-      if (anew.empty()) continue;
-      pieces[i] = std::move(anew.front());
-      pieces[j] = std::move(anew[1]);
-      pieces.insert(pieces.end(), std::make_move_iterator(anew.begin() + 2), std::make_move_iterator(anew.end()));
+      const bool done = next.size() == pieces_.size();
+      pieces_ = std::move(next);
+      if (done) return;
     }
   }
-}
 
-auto cost_of(const std::vector<Piece>& pieces, const Options& options) -> double {
-  double cost = 0;
-  for (const auto& piece : pieces) cost += piece.roof.cost + options.part_price;
-  return cost;
-}
+  [[nodiscard]] auto cost() const -> double {
+    double cost = 0;
+    for (const auto& piece : pieces_) cost += piece.roof.cost + work_.options().part_price;
+    return cost;
+  }
+  [[nodiscard]] auto pieces() && -> std::vector<Piece> { return std::move(pieces_); }
+
+ private:
+  auto numbered(Piece piece) -> Piece {
+    piece.number = next_++;
+    return piece;
+  }
+
+  /// A pair that was not tried yet, by the places of its pieces.
+  struct Fresh {
+    std::size_t i = 0, j = 0;
+    Pair* pair = nullptr;
+    double promise = 0;
+  };
+
+  /// In turns, of which each tries pairs that have no piece in common, the most promising first.
+  template <class May, class Promise, class Replace>
+  void replace_pairs(bool Pair::*was, May may, Promise promise, Replace replace) {
+    while (!work_.cancelled()) {
+      auto fresh = fresh_pairs(was, may);
+      base::parallel_for(fresh.size(), [&](std::size_t k) {
+        auto& [i, j, pair, value] = fresh[k];
+        if (!std::exchange(pair->was_united, true)) pair->both = work_.united(pieces_[i], pieces_[j]);
+        if (pair->both) value = promise(pieces_[i], pieces_[j], *pair->both);
+        else pair->*was = true;
+      });
+      std::erase_if(fresh, [](const Fresh& one) { return !one.pair->both; });
+      rank(fresh, [](const Fresh& one) { return -one.promise; });
+      std::vector<bool> taken(pieces_.size(), false);
+      std::erase_if(fresh, [&](const Fresh& one) {
+        if (taken[one.i] || taken[one.j]) return true;
+        taken[one.i] = taken[one.j] = true;
+        return false;
+      });
+      if (fresh.empty()) return;
+      std::vector<std::vector<Piece>> found(fresh.size());
+      base::parallel_for(fresh.size(), [&](std::size_t k) {
+        const auto& [i, j, pair, value] = fresh[k];
+        found[k] = replace(pieces_[i], pieces_[j], *pair->both);
+        pair->*was = true;
+      });
+      put(fresh, std::move(found));
+    }
+  }
+
+  template <class May>
+  auto fresh_pairs(bool Pair::*was, May may) -> std::vector<Fresh> {
+    std::vector<Fresh> fresh;
+    for (std::size_t i = 0; i < pieces_.size(); ++i)
+      for (std::size_t j = i + 1; j < pieces_.size(); ++j) {
+        if (!work_.touch(pieces_[i], pieces_[j])) continue;
+        Pair& pair = pairs_[std::minmax(pieces_[i].number, pieces_[j].number)];
+        if (pair.*was) continue;
+        if (may(pieces_[i], pieces_[j])) fresh.push_back({i, j, &pair, 0});
+        else pair.*was = true;
+      }
+    return fresh;
+  }
+
+  /// What was found instead of pairs, where it was: the first piece in the place of the pair's first.
+  void put(const std::vector<Fresh>& pairs, std::vector<std::vector<Piece>> found) {
+    std::set<std::size_t> gone, places;
+    std::vector<Piece> more;
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      if (found[k].empty()) continue;
+      const auto& [i, j, pair, value] = pairs[k];
+      gone.insert({pieces_[i].number, pieces_[j].number});
+      places.insert(j);
+      pieces_[i] = numbered(std::move(found[k].front()));
+      for (std::size_t n = 1; n < found[k].size(); ++n) more.push_back(numbered(std::move(found[k][n])));
+    }
+    std::erase_if(pairs_, [&](const auto& entry) {
+      return gone.contains(entry.first.first) || gone.contains(entry.first.second);
+    });
+    for (const std::size_t j : std::views::reverse(places))
+      pieces_.erase(pieces_.begin() + static_cast<std::ptrdiff_t>(j));
+    std::ranges::move(more, std::back_inserter(pieces_));
+  }
+
+  const Work& work_;
+  std::vector<Piece> pieces_;
+  std::map<std::pair<std::size_t, std::size_t>, Pair> pairs_;
+  std::set<std::size_t> whole_;  // pieces that no cut makes cheaper
+  std::size_t next_ = 0;
+};
 
 }  // namespace
 
@@ -123,13 +184,15 @@ auto refine_owner(std::span<const Draft> drafts, std::span<const std::size_t> mi
     }
   }
   if (options.effort == Effort::parts) {
+    Pieces search(std::move(pieces), work);
     for (std::int64_t round = 0; round < options.joins.rounds; ++round) {
-      const double before = cost_of(pieces, options);
-      join(pieces, work);
-      pieces = all_split(std::move(pieces), work);
-      cut_all_anew(pieces, work);
-      if (cost_of(pieces, options) > options.joins.round_gain * before) break;
+      const double before = search.cost();
+      search.join();
+      search.split();
+      search.cut_anew();
+      if (search.cost() > options.joins.round_gain * before) break;
     }
+    pieces = std::move(search).pieces();
   }
   base::parallel_for(pieces.size(), [&](std::size_t i) { pieces[i] = work.finished(std::move(pieces[i])); });
   for (auto& piece : pieces)

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <numbers>
 #include <utility>
 
 #include "mansard/base/statistics.hpp"
@@ -16,12 +18,6 @@ using geometry::Polygon;
 using geometry::Ring;
 using model::Plan;
 using model::PlanRing;
-
-// Error bounds of polygon operations. A coordinate below 1e4 m is exact to 1e4 · 2⁻⁵³ ≈ 1e-12 m. Where two edges cross
-// at an angle α, the crossing is off by at most 4e-12 / sin α m: 2e-10 m at 1°. That changes an area by at most the
-// same times the edges' length: 2e-8 m² over 100 m. Both bounds have room for fifty such corners.
-constexpr double on_line = 1e-6;  ///< m off the line of its neighbours: a corner that a clip left behind
-constexpr double lost = 1e-6;     ///< m²; a greater difference of areas is an operation that failed, not rounding
 
 /// Metres of a → b that lie along an edge in the same direction.
 auto overlap(Point2 a, Point2 b, Point2 from, Point2 to, double aside) -> double {
@@ -56,19 +52,76 @@ auto profile_under(std::span<const Origin> origins, Point2 a, Point2 b, const Op
   return longest->first;
 }
 
-/// Corners on straight lines, which cutting and joining leave behind, and repeated ones.
-auto cleaned(const Ring& ring, double straight) -> Ring {
-  Ring out = ring;
-  for (bool changed = true; changed && out.size() > 3;) {
-    changed = false;
-    for (std::size_t i = 0; i < out.size() && out.size() > 3; ++i) {
-      const Point2 before = out[(i + out.size() - 1) % out.size()], after = out[(i + 1) % out.size()];
-      if (geometry::distance({before, after}, out[i]) >= straight) continue;
-      out.erase(out.begin() + static_cast<std::ptrdiff_t>(i));
-      changed = true;
+/// How flat a corner is, in units of what may be left out: metres off the line between its neighbours over `straight`,
+/// or of a spike's tip the spike's width over `slit`. Below 1 it goes.
+auto flatness(Point2 before, Point2 at, Point2 after, const Options::Pieces& options) -> double {
+  const double off = geometry::distance({before, after}, at) / options.straight;
+  const double in = geometry::length(at - before), on = geometry::length(after - at);
+  const double narrow = std::min(in, on) < options.slit ? options.straight : options.slit;
+  const double width = in < on ? geometry::distance({at, after}, before) : geometry::distance({before, at}, after);
+  return std::min(off, width / narrow);
+}
+
+/// Without corners on straight lines and tips of spikes, the flattest first: the order must not depend on where the
+/// ring begins. Operations on polygons with common edges leave both, or not, as rounding has it; a spike defeats
+/// extrusion.
+auto cleaned(Ring ring, const Options::Pieces& options) -> Ring {
+  while (ring.size() > 3) {
+    std::size_t flattest = 0;
+    double least = 1;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Point2 before = ring[(i + ring.size() - 1) % ring.size()], after = ring[(i + 1) % ring.size()];
+      const double flat = flatness(before, ring[i], after, options);
+      if (flat < least) {
+        least = flat;
+        flattest = i;
+      }
     }
+    if (least >= 1) break;
+    ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(flattest));
   }
-  return out;
+  // Where an operation lets a ring begin is a matter of rounding too. No two corners of a plan are equally far along a
+  // direction of which the tangent is the golden ratio.
+  std::ranges::rotate(ring, std::ranges::min_element(ring, {}, [](Point2 p) { return p.x + std::numbers::phi * p.y; }));
+  return ring;
+}
+
+/// Whether a corner is so near to another edge that rounding decides on which side of it.
+auto touches_itself(const Polygon& polygon, double near) -> bool {
+  std::vector<const Ring*> rings{&polygon.outer};
+  for (const auto& hole : polygon.holes) rings.push_back(&hole);
+  const auto touched = [&](const Ring& ring, std::size_t corner) {
+    return std::ranges::any_of(rings, [&](const Ring* other) {
+      const std::size_t n = other->size();
+      for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t j = (i + 1) % n;
+        const bool own = other == &ring && (i == corner || j == corner);
+        if (!own && geometry::distance({(*other)[i], (*other)[j]}, ring[corner]) < near) return true;
+      }
+      return false;
+    });
+  };
+  return std::ranges::any_of(rings, [&](const Ring* ring) {
+    for (std::size_t i = 0; i < ring->size(); ++i)
+      if (touched(*ring, i)) return true;
+    return false;
+  });
+}
+
+/// The part less those pieces; empty where the operation fails.
+auto without(const Polygon& part, const std::vector<Polygon>& pieces, const Options::Pieces& options)
+    -> std::vector<Polygon> {
+  std::vector<Polygon> left{part};
+  for (const auto& piece : pieces) {
+    std::vector<Polygon> next;
+    for (const auto& polygon : left) {
+      auto rest = geometry::subtract(polygon, piece);
+      if (!rest) return {};
+      std::ranges::move(*rest, std::back_inserter(next));
+    }
+    left = std::move(next);
+  }
+  return tidied(std::move(left), options);
 }
 
 auto caps_of(const Site& site, double otherwise, const Options& options) -> std::vector<double> {
@@ -87,34 +140,49 @@ auto caps_of(const Site& site, double otherwise, const Options& options) -> std:
 
 }  // namespace
 
-auto mean_width(const Polygon& polygon) -> double {
-  double around = geometry::perimeter(polygon.outer);
-  for (const auto& hole : polygon.holes) around += geometry::perimeter(hole);
-  return 2 * geometry::area(polygon) / around;
+auto around(const Polygon& polygon) -> double {
+  double out = geometry::perimeter(polygon.outer);
+  for (const auto& hole : polygon.holes) out += geometry::perimeter(hole);
+  return out;
+}
+
+auto mean_width(const Polygon& polygon) -> double { return 2 * geometry::area(polygon) / around(polygon); }
+
+auto tidied(std::vector<Polygon> overlay, const Options::Pieces& options) -> std::vector<Polygon> {
+  std::erase_if(overlay, [&](const Polygon& piece) { return mean_width(piece) < options.slit; });
+  for (auto& piece : overlay) {
+    std::erase_if(piece.holes, [&](const Ring& hole) {
+      return 2 * std::abs(geometry::signed_area(hole)) < options.straight * geometry::perimeter(hole);
+    });
+    piece.outer = cleaned(std::move(piece.outer), options);
+    for (auto& hole : piece.holes) hole = cleaned(std::move(hole), options);
+  }
+  return overlay;
 }
 
 auto cut(const Polygon& part, const Polygon& structure, const Options& options) -> std::vector<Polygon> {
-  const auto inside = geometry::intersect(part, structure), rest = geometry::subtract(part, structure);
-  if (!inside || !rest || inside->empty() || rest->empty()) return {};
-  std::vector<Polygon> out = *rest;
+  auto inside = geometry::intersect(part, structure), rest = geometry::subtract(part, structure);
+  if (!inside || !rest) return {};
+  // A sliver of one side belongs to the other.
+  auto in = tidied(*inside, options.pieces), out = tidied(*rest, options.pieces);
+  if (in.size() < inside->size()) out = without(part, in, options.pieces);
+  if (out.size() < rest->size()) in = without(part, out, options.pieces);
+  if (in.empty() || out.empty()) return {};
   std::ranges::stable_sort(out, [](const auto& a, const auto& b) { return geometry::area(a) > geometry::area(b); });
-  out.insert(out.end(), inside->begin(), inside->end());
+  out.insert(out.end(), in.begin(), in.end());
   // Along shared walls rounding can make an operation keep what it should take off.
   double covered = 0;
   for (const auto& piece : out) covered += geometry::area(piece);
-  if (std::abs(covered - geometry::area(part)) > lost) return {};
-  for (auto& piece : out) {
-    piece.outer = cleaned(piece.outer, on_line);
-    for (auto& hole : piece.holes) hole = cleaned(hole, on_line);
+  if (std::abs(covered - geometry::area(part)) > options.pieces.straight * around(part)) return {};
+  for (const auto& piece : out)
     if (geometry::area(piece) < options.least_area || mean_width(piece) < options.pieces.min_width ||
-        !geometry::is_simple(piece))
+        !geometry::is_simple(piece) || touches_itself(piece, options.pieces.straight))
       return {};
-  }
   return out;
 }
 
 auto joined(const Polygon& a, const Polygon& b, const Options& options) -> std::optional<Polygon> {
-  const double slit = options.pieces.slit, straight = options.pieces.straight;
+  const double slit = options.pieces.slit;
   const Polygon both[]{a, b};
   auto united = geometry::unite(both);
   if (!united || united->empty()) return std::nullopt;
@@ -123,8 +191,8 @@ auto joined(const Polygon& a, const Polygon& b, const Options& options) -> std::
   std::erase_if(out.holes, [slit](const Ring& hole) {
     return std::abs(geometry::signed_area(hole)) < slit * geometry::perimeter(hole);
   });
-  out.outer = cleaned(out.outer, straight);
-  for (auto& hole : out.holes) hole = cleaned(hole, straight);
+  out.outer = cleaned(std::move(out.outer), options.pieces);
+  for (auto& hole : out.holes) hole = cleaned(std::move(hole), options.pieces);
   if (!geometry::is_simple(out)) return std::nullopt;
   const double closed = slit * (geometry::perimeter(a.outer) + geometry::perimeter(b.outer));  // m², at most
   if (std::abs(geometry::area(out) - geometry::area(a) - geometry::area(b)) > closed) return std::nullopt;

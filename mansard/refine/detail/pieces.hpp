@@ -9,6 +9,11 @@
 
 namespace mansard::refine::detail {
 
+/// What a polygon operation leaves, without slivers narrower than `slit`, and without corners and spikes nearer than
+/// `straight` to the line between their neighbours: whether those are there is a matter of rounding.
+[[nodiscard]] auto tidied(std::vector<geometry::Polygon> overlay, const Options::Pieces& options)
+    -> std::vector<geometry::Polygon>;
+
 /// The part without the structure, then the structure, largest first; empty where a piece would be too small, too
 /// narrow or not simple.
 [[nodiscard]] auto cut(const geometry::Polygon& part, const geometry::Polygon& structure, const Options& options)
@@ -27,6 +32,8 @@ struct Origin {
 /// site's heights.
 [[nodiscard]] auto draft_of(std::span<const Origin> origins, const Site& piece, const Options& options) -> Draft;
 
+/// m; of all rings.
+[[nodiscard]] auto around(const geometry::Polygon& polygon) -> double;
 /// m; of the polygon's area over half of its perimeter.
 [[nodiscard]] auto mean_width(const geometry::Polygon& polygon) -> double;
 

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <optional>
 
+#include "mansard/refine/detail/order.hpp"
+#include "mansard/refine/detail/pieces.hpp"
 #include "mansard/refine/detail/propose_outline.hpp"
 #include "mansard/refine/detail/propose_raster.hpp"
 #include "mansard/refine/detail/propose_regions.hpp"
@@ -17,12 +19,6 @@ namespace {
 
 using geometry::Polygon;
 using Mask = std::vector<std::uint8_t>;
-
-// Error bounds of polygon operations: coordinates below 1e4 m are exact to 1e-12 m, a clip's corner where walls cross
-// at 1° or more to 2e-10 m, an area beside 100 m of wall to 2e-8 m². Both are fifty times that, and below what anyone
-// builds.
-constexpr double same_place = 1e-6;  ///< m
-constexpr double nothing = 1e-6;     ///< m²
 
 struct Cut {
   Polygon polygon;
@@ -88,7 +84,8 @@ class Cuts {
 
   /// Best first, none nearly the same as a better one.
   [[nodiscard]] auto best() && -> std::vector<Cut> {
-    std::ranges::stable_sort(found_, before);
+    std::ranges::stable_sort(found_, {}, [](const Cut& cut) { return cut.polygon.outer; });
+    rank(found_, [](const Cut& cut) { return -cut.ranked; });
     std::vector<Cut> out;
     for (Cut& cut : found_) {
       if (std::ssize(out) >= options_.cuts.max_count) break;
@@ -98,11 +95,6 @@ class Cuts {
   }
 
  private:
-  static auto before(const Cut& a, const Cut& b) -> bool {
-    if (a.ranked != b.ranked) return a.ranked > b.ranked;
-    return a.polygon.outer < b.polygon.outer;
-  }
-
   /// A piece and the rest around it are one cut; it is as large as the smaller of the two.
   [[nodiscard]] auto same(const Cut& a, const Cut& b) const -> bool {
     std::size_t in_a = 0, in_b = 0, crossed = 0, cells = 0;
@@ -150,7 +142,7 @@ void consider_lines(const Polygon& part, const carve::Raster& raster, bool acros
     for (const int way : {0, 1}) {
       Polygon side = half_plane(raster, at, way == 0 ? -1 : 1);
       if (across) side = exchanged(std::move(side));
-      sides[static_cast<std::size_t>(way)] = carve::pieces_in_part(part, side, raster.frame);
+      sides[static_cast<std::size_t>(way)] = carve::pieces_in_part(part, side, raster.frame, options.pieces);
       std::erase_if(sides[static_cast<std::size_t>(way)], [&](const Polygon& piece) { return !wide(piece); });
     }
     // What a line shaves off as a thin strip is the rim of an outline that is a little too large.
@@ -165,7 +157,7 @@ void consider_regions(const Polygon& part, const carve::Raster& raster, const ca
   for (const carve::Region& region : carve::regions_of(raster, options)) {
     int shape = 0;
     for (const Polygon& outline : carve::outlines_of(raster, turned, region, options)) {
-      const auto pieces = carve::pieces_in_part(part, outline, raster.frame);
+      const auto pieces = carve::pieces_in_part(part, outline, raster.frame, options.pieces);
       ++shape;
       if (!pieces.empty()) cuts.consider(pieces.front(), raster.frame, shape, true);
     }
@@ -194,7 +186,7 @@ auto without_slivers(const Polygon& part, Polygon piece, const Options::Cuts& op
 }
 
 /// With the part's own corners where it has some, and no corner twice or on a straight line but those.
-auto tidied(const Polygon& part, const Polygon& piece) -> Polygon {
+auto with_corners_of(const Polygon& part, const Polygon& piece, double same_place) -> Polygon {
   std::vector<geometry::Point2> corners = part.outer;
   for (const auto& hole : part.holes) corners.insert(corners.end(), hole.begin(), hole.end());
   const auto at_corner = [&](geometry::Point2 p) { return std::ranges::find(corners, p) != corners.end(); };
@@ -221,7 +213,8 @@ auto tidied(const Polygon& part, const Polygon& piece) -> Polygon {
 }
 
 /// Whether part and piece can be told apart by polygon operations: rounding at shared walls defeats them now and then.
-auto sound(const Polygon& part, const Polygon& piece, double least_area) -> bool {
+auto sound(const Polygon& part, const Polygon& piece, const Options& options) -> bool {
+  const double nothing = options.pieces.straight * around(part), least_area = options.least_area;
   if (piece.outer.size() < 3 || !geometry::is_simple(piece)) return false;
   const auto rest = geometry::subtract(part, piece), beyond = geometry::subtract(piece, part);
   if (!rest || !beyond) return false;
@@ -307,12 +300,13 @@ auto propose(const Polygon& part, const Heights& measured, const Heights& model,
   }
   std::vector<Proposal> out;
   for (Cut& cut : std::move(cuts).best()) {
-    Polygon piece = tidied(part, without_slivers(part, std::move(cut.polygon), options.cuts));
-    if (!sound(part, piece, options.least_area)) continue;
+    Polygon piece =
+        with_corners_of(part, without_slivers(part, std::move(cut.polygon), options.cuts), options.pieces.slit);
+    if (!sound(part, piece, options)) continue;
     std::string what = words_for(as_measured, cut, options);
     out.push_back({std::move(piece), cut.gain, cut.errors.inside_mean, std::move(what), cut.shape == 0});
   }
-  std::ranges::stable_sort(out, std::greater{}, &Proposal::gain);
+  rank(out, [](const Proposal& proposal) { return -proposal.gain; });
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "mansard/geometry/fit.hpp"
+#include "mansard/refine/detail/pieces.hpp"
 
 namespace mansard::refine::detail::carve {
 namespace {
@@ -311,11 +312,13 @@ auto outlines_of(const Raster& raster, const Raster& across, const Region& regio
   return out;
 }
 
-auto pieces_in_part(const Polygon& part, const Polygon& in_frame, const Frame& frame) -> std::vector<Polygon> {
+auto pieces_in_part(const Polygon& part, const Polygon& in_frame, const Frame& frame, const Options::Pieces& options)
+    -> std::vector<Polygon> {
   auto pieces = geometry::intersect(part, from_frame(in_frame, frame));
   if (!pieces) return {};
-  std::ranges::stable_sort(*pieces, std::greater{}, [](const Polygon& p) { return geometry::area(p); });
-  return std::move(*pieces);
+  auto out = tidied(std::move(*pieces), options);
+  std::ranges::stable_sort(out, std::greater{}, [](const Polygon& p) { return geometry::area(p); });
+  return out;
 }
 
 }  // namespace mansard::refine::detail::carve

@@ -29,7 +29,7 @@ struct Rectangle {
     -> double;
 
 /// Polygon in the frame, back in the plane and clipped to the part: its pieces, the largest first.
-[[nodiscard]] auto pieces_in_part(const geometry::Polygon& part, const geometry::Polygon& in_frame, const Frame& frame)
-    -> std::vector<geometry::Polygon>;
+[[nodiscard]] auto pieces_in_part(const geometry::Polygon& part, const geometry::Polygon& in_frame, const Frame& frame,
+                                  const Options::Pieces& options) -> std::vector<geometry::Polygon>;
 
 }  // namespace mansard::refine::detail::carve

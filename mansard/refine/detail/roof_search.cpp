@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "mansard/refine/detail/forms.hpp"
+#include "mansard/refine/detail/order.hpp"
 #include "mansard/refine/detail/refit.hpp"
 
 namespace mansard::refine::detail {
@@ -32,7 +33,7 @@ auto best_cap(const Draft& draft, const Judge& judge) -> base::Result<Judged> {
 auto settle(Judged judged, const Judge& judge) -> Judged {
   for (std::int64_t round = 0; round < judge.options().search.settle_rounds; ++round) {
     auto next = judge(refitted(judged, judge.site(), judge.options()));
-    if (!next || !(next->cost < judged.cost)) break;
+    if (!next || !cheaper(next->cost, judged.cost)) break;
     judged = std::move(*next);
   }
   return judged;
@@ -99,7 +100,7 @@ auto descend(Judged judged, const Draft& draft, const Judge& judge) -> Judged {
       Plan plan = judged.plan;
       plan.profiles[p] = std::move(profile);
       auto next = judge(plan);
-      if (next && next->cost < judged.cost) judged = std::move(*next);
+      if (next && cheaper(next->cost, judged.cost)) judged = std::move(*next);
     }
   }
   return judged;
@@ -168,14 +169,16 @@ auto best_roof(const Draft& draft, const Judge& judge, Search search, double wor
   if (search == Search::settled) return settle(std::move(best), judge);
   std::vector<Judged> starts;
   starts.push_back(best);
-  for (const auto& form : forms_of(draft.plan, judge.site(), judge.options()))
-    if (auto judged = judge(form)) starts.push_back(std::move(*judged));
-  std::ranges::stable_sort(starts, {}, &Judged::cost);
   const auto followed = static_cast<std::size_t>(search == Search::thorough ? options.starts : options.quick_starts);
+  for (const auto& form : forms_of(draft.plan, judge.site(), judge.options())) {
+    if (starts.size() > followed + 1) break;  // the most promising, one more than are followed
+    if (auto judged = judge(form.plan)) starts.push_back(std::move(*judged));
+  }
+  rank(starts, &Judged::cost);
   if (starts.size() > followed) starts.resize(followed);
   for (auto& judged : starts) {
     judged = settle(std::move(judged), judge);
-    if (judged.cost < best.cost) best = judged;
+    if (cheaper(judged.cost, best.cost)) best = judged;
   }
   if (search == Search::quick || best.cost > options.hopeless * worth) return best;
   for (std::int64_t round = 0; round < options.rounds; ++round) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "mansard/base/statistics.hpp"
 
@@ -94,11 +95,35 @@ void finish(Site& site, const Options& options) {
   std::ranges::sort(site.sorted);
 }
 
+/// m: coarser over very large parts.
+auto spacing_over(const Polygon& polygon, const Options& options) -> double {
+  const double coarser = std::ceil(std::sqrt(geometry::area(polygon) / options.samples.max_cells) / options.grid);
+  return options.grid * std::max(1.0, coarser);
+}
+
+/// The cells of one grid by those of another of the same spacing.
+class Cells {
+ public:
+  Cells(const Heights& of, const Heights& by) : of_(of) {
+    const Point2 shift = (1 / by.spacing) * (by.origin - of.origin);
+    dx_ = std::lround(shift.x), dy_ = std::lround(shift.y);
+  }
+  [[nodiscard]] auto of(std::size_t column, std::size_t row) const -> std::optional<std::size_t> {
+    const auto i = static_cast<std::int64_t>(column) + dx_, j = static_cast<std::int64_t>(row) + dy_;
+    if (i < 0 || j < 0 || i >= static_cast<std::int64_t>(of_.columns) || j >= static_cast<std::int64_t>(of_.rows))
+      return std::nullopt;
+    return static_cast<std::size_t>(j) * of_.columns + static_cast<std::size_t>(i);
+  }
+
+ private:
+  const Heights& of_;
+  std::int64_t dx_ = 0, dy_ = 0;
+};
+
 }  // namespace
 
 auto look(const Polygon& polygon, double base, const rays::Scene& mesh, const Options& options) -> Site {
-  const double coarser = std::ceil(std::sqrt(geometry::area(polygon) / options.samples.max_cells) / options.grid);
-  Site site{polygon, base, grid_over(polygon, options.grid * std::max(1.0, coarser)), {}, {}, {}, 0};
+  Site site{polygon, base, grid_over(polygon, spacing_over(polygon, options)), {}, {}, {}, 0};
   auto& grid = site.measured;
   each_inside(polygon, grid, [&](std::size_t column, std::size_t row) {
     if (const auto z = mesh.top(grid.centre(column, row))) grid.z[row * grid.columns + column] = *z - base;
@@ -110,14 +135,27 @@ auto look(const Polygon& polygon, double base, const rays::Scene& mesh, const Op
 auto crop(const Site& site, const Polygon& piece, const Options& options) -> Site {
   Site out{piece, site.base, grid_over(piece, site.measured.spacing), {}, {}, {}, 0};
   auto& grid = out.measured;
-  const Point2 shift = (1 / grid.spacing) * (grid.origin - site.measured.origin);
-  const auto dx = std::lround(shift.x), dy = std::lround(shift.y);
+  const Cells cells(site.measured, grid);
   each_inside(piece, grid, [&](std::size_t column, std::size_t row) {
-    const auto i = static_cast<std::int64_t>(column) + dx, j = static_cast<std::int64_t>(row) + dy;
-    if (i < 0 || j < 0 || i >= static_cast<std::int64_t>(site.measured.columns) ||
-        j >= static_cast<std::int64_t>(site.measured.rows))
-      return;
-    grid.z[row * grid.columns + column] = site.measured.at(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
+    if (const auto other = cells.of(column, row)) grid.z[row * grid.columns + column] = site.measured.z[*other];
+  });
+  finish(out, options);
+  return out;
+}
+
+auto merged(const Site& a, const Site& b, const Polygon& both, const rays::Scene& mesh, const Options& options)
+    -> Site {
+  Site out{both, a.base, grid_over(both, spacing_over(both, options)), {}, {}, {}, 0};
+  auto& grid = out.measured;
+  if (a.measured.spacing != grid.spacing || b.measured.spacing != grid.spacing)
+    return look(both, a.base, mesh, options);
+  const Cells in_a(a.measured, grid), in_b(b.measured, grid);
+  each_inside(both, grid, [&](std::size_t column, std::size_t row) {
+    double& z = grid.z[row * grid.columns + column];
+    if (const auto cell = in_a.of(column, row)) z = a.measured.z[*cell];
+    if (const auto cell = in_b.of(column, row); cell && std::isnan(z)) z = b.measured.z[*cell] + (b.base - a.base);
+    if (!std::isnan(z)) return;
+    if (const auto top = mesh.top(grid.centre(column, row))) z = *top - a.base;
   });
   finish(out, options);
   return out;

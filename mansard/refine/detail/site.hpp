@@ -28,6 +28,10 @@ struct Site {
 /// A piece of a site that was looked at already.
 [[nodiscard]] auto crop(const Site& site, const geometry::Polygon& piece, const Options& options) -> Site;
 
+/// Both pieces of ground as one, the polygon of both given: what was sampled over them, and what is between them.
+[[nodiscard]] auto merged(const Site& a, const Site& b, const geometry::Polygon& both, const rays::Scene& mesh,
+                          const Options& options) -> Site;
+
 /// The middle of the band of height (`Options::Samples::level_band`) that contains the most samples: the level of a
 /// flat roof, whatever is built on it.
 [[nodiscard]] auto commonest(const std::vector<double>& sorted, const Options& options) -> double;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "mansard/refine/detail/pieces.hpp"
+
 namespace mansard::refine::detail {
 namespace {
 
@@ -40,39 +42,42 @@ auto line_on(const Polygon& part, Point2 from, Point2 direction, double shortest
 }
 
 /// The pieces of the part on the left of a line that lie along one of the new lines.
-auto side_of(const Polygon& part, Point2 on, Point2 along, const std::vector<Segment2>& lines) -> std::vector<Polygon> {
+auto side_of(const Polygon& part, Point2 on, Point2 along, const std::vector<Segment2>& lines,
+             const Options::Pieces& options) -> std::vector<Polygon> {
   const auto box = geometry::bounds(part.outer);
   const double far = 2 * geometry::length(box.most - box.least) + geometry::length(on - box.least);
   const Point2 a = on - far * along, b = on + far * along, up = far * geometry::left_of(along);
   const auto pieces = geometry::intersect(part, Polygon{{a, b, b + up, a + up}, {}});
   std::vector<Polygon> out;
   if (!pieces) return out;
-  for (const auto& piece : *pieces)
+  for (auto& piece : tidied(std::move(*pieces), options))
     if (std::ranges::any_of(lines, [&](const Segment2& line) {
-          return geometry::boundary_distance(piece, 0.5 * (line.start + line.end)) < same_place;
+          return geometry::boundary_distance(piece, 0.5 * (line.start + line.end)) < 2 * options.straight;
         }))
-      out.push_back(piece);
+      out.push_back(std::move(piece));
   return out;
 }
 
 auto length_of(const Segment2& line) -> double { return geometry::length(line.end - line.start); }
 
 /// One side of the lines with a wedge beyond each: where slopes of one pitch meet at right angles, the valley runs at
-/// 45°.
-auto with_wedges(const std::vector<Polygon>& side, Point2 along, const std::vector<Segment2>& lines)
-    -> std::vector<Polygon> {
+/// 45°. The wedge reaches a little into the side, so that no rounding leaves a slit between the two.
+auto with_wedges(const std::vector<Polygon>& side, Point2 along, const std::vector<Segment2>& lines,
+                 const Options::Pieces& options) -> std::vector<Polygon> {
+  constexpr double overlap = 0.01;  // of the line's length: 1°, far less than any inner corner
   std::vector<Polygon> all = side;
   for (const Segment2& line : lines) {
-    const Point2 tip = 0.5 * (line.start + line.end) - (0.5 * length_of(line)) * geometry::left_of(along);
-    all.push_back(geometry::oriented({{line.start, line.end, tip}, {}}));
+    const Point2 middle = 0.5 * (line.start + line.end), up = length_of(line) * geometry::left_of(along);
+    all.push_back(geometry::oriented({{line.start, middle + overlap * up, line.end, middle - 0.5 * up}, {}}));
   }
-  const auto united = geometry::unite(all);
-  return united ? *united : std::vector<Polygon>{};
+  auto united = geometry::unite(all);
+  return united ? tidied(std::move(*united), options) : std::vector<Polygon>{};
 }
 
 }  // namespace
 
-auto wings_of(const Polygon& part, const Options::Wings& options) -> std::vector<Wing> {
+auto wings_of(const Polygon& part, const Options& all) -> std::vector<Wing> {
+  const auto& options = all.wings;
   std::vector<Wing> out;
   const auto reflex = [&](Point2 before, Point2 after) { return cross(before, after) < -options.reflex_sine; };
   each_ring(part, [&](const Ring& ring) {
@@ -87,11 +92,16 @@ auto wings_of(const Polygon& part, const Options::Wings& options) -> std::vector
         if (const auto line = line_on(part, ring[i], -1 * along, options.min_length)) lines.push_back(*line);
       if (lines.empty()) continue;
       const auto longest = std::ranges::max_element(lines, {}, length_of);
+      const auto add = [&](const std::vector<Polygon>& pieces) {
+        if (pieces.size() != 1) return false;
+        out.push_back({pieces.front(), 0.5 * (longest->start + longest->end), length_of(*longest)});
+        return true;
+      };
+      bool straight = false;  // the other side of a line is the same cut
       for (const Point2 way : {along, -1 * along}) {
-        const auto side = side_of(part, ring[i], way, lines);
-        for (const auto& pieces : {side, with_wedges(side, way, lines)})
-          if (pieces.size() == 1)
-            out.push_back({pieces.front(), 0.5 * (longest->start + longest->end), length_of(*longest)});
+        const auto side = side_of(part, ring[i], way, lines, all.pieces);
+        straight = straight || add(side);
+        add(with_wedges(side, way, lines, all.pieces));
       }
     }
   });

@@ -15,9 +15,9 @@ struct Wing {
   double length = 0;        ///< m; of that line
 };
 
-/// Both sides of every such line; and each once more with a wedge of half the line's length beyond it, which is where
+/// One side of every such line; and both once more with a wedge of half the line's length beyond it, which is where
 /// the roof of a wing runs into the slope of another as high. A bent plan has a roof that profiles around it cannot
 /// raise where one wing runs through and ends in a gable; its wings have. In the order of the edges.
-[[nodiscard]] auto wings_of(const geometry::Polygon& part, const Options::Wings& options) -> std::vector<Wing>;
+[[nodiscard]] auto wings_of(const geometry::Polygon& part, const Options& options) -> std::vector<Wing>;
 
 }  // namespace mansard::refine::detail

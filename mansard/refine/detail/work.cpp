@@ -5,21 +5,12 @@
 #include <functional>
 #include <utility>
 
+#include "mansard/refine/detail/order.hpp"
 #include "mansard/refine/detail/pieces.hpp"
 #include "mansard/refine/detail/sharpen.hpp"
 #include "mansard/refine/detail/wings.hpp"
 
 namespace mansard::refine::detail {
-namespace {
-
-/// Whether their grounds may meet, and there is anything to see over them.
-auto touch(const Piece& a, const Piece& b, const Options& options) -> bool {
-  const auto box = geometry::bounds(a.site.polygon.outer).grown(options.joins.touching);
-  return box.overlaps(geometry::bounds(b.site.polygon.outer)) && !a.site.sorted.empty() && !b.site.sorted.empty();
-}
-
-}  // namespace
-
 auto Work::look(const geometry::Polygon& polygon, double base) const -> Site {
   return detail::look(polygon, base, mesh_, options_);
 }
@@ -48,15 +39,29 @@ auto Work::split(const Piece& piece) const -> std::vector<Piece> {
   return pieces.empty() ? into_wings(piece, least_gain) : pieces;
 }
 
+auto Work::touch(const Piece& a, const Piece& b) const -> bool {
+  const auto box = geometry::bounds(a.site.polygon.outer).grown(options_.joins.touching);
+  return box.overlaps(geometry::bounds(b.site.polygon.outer)) && !a.site.sorted.empty() && !b.site.sorted.empty();
+}
+
+auto Work::misfit_between(const Piece& a, const Piece& b) const -> double {
+  return misfit_near(a, b.site.polygon) + misfit_near(b, a.site.polygon);
+}
+
+auto Work::may_cut_anew(const Piece& a, const Piece& b) const -> bool {
+  return misfit_between(a, b) >= options_.part_price;
+}
+
 /// Where two pieces meet in the wrong place: both as one, cut anew, if that is cheaper.
-auto Work::cut_anew(const Piece& a, const Piece& b) const -> std::vector<Piece> {
+auto Work::cut_anew(const Piece& a, const Piece& b, const Union& both) const -> std::vector<Piece> {
   const double least_gain = options_.part_price;
-  if (run_.cancelled() || !touch(a, b, options_)) return {};
-  if (misfit_near(a, b.site.polygon) + misfit_near(b, a.site.polygon) < least_gain) return {};
-  const double worth = a.roof.cost + b.roof.cost + options_.part_price;
-  auto both = united(a, b, Search::quick, worth);
-  if (!both) return {};
-  return cut_within(*both, least_gain, worth - least_gain);
+  const Piece one{std::min(a.draft_index, b.draft_index),
+                  merged(a.site, b.site, both.polygon, mesh_, options_),
+                  both.draft,
+                  both.roof,
+                  std::nullopt,
+                  {}};
+  return cut_within(one, least_gain, cost_of(a, b) - least_gain);
 }
 
 /// Of the proposed cuts the one whose pieces cost least, if that is less than they are worth.
@@ -82,7 +87,7 @@ auto Work::cheapest(const Piece& piece, const std::vector<Proposal>& proposals, 
     for (const auto& one : pieces) cost += one.roof.cost;
   });
   std::erase_if(trials, [](const Trial& trial) { return trial.pieces.empty(); });
-  std::ranges::stable_sort(trials, {}, &Trial::cost);
+  rank(trials, &Trial::cost);
   for (auto& trial : trials) {
     auto pieces = searched(piece, *trial.proposal, std::move(trial.pieces));
     if (!pieces.empty()) return pieces;
@@ -93,11 +98,11 @@ auto Work::cheapest(const Piece& piece, const std::vector<Proposal>& proposals, 
 /// The same of the cuts between wings, those with most misfit about them.
 auto Work::into_wings(const Piece& piece, double least_gain) const -> std::vector<Piece> {
   std::vector<Proposal> wings;
-  for (auto& wing : wings_of(piece.site.polygon, options_.wings)) {
+  for (auto& wing : wings_of(piece.site.polygon, options_)) {
     const double about = misfit_about(piece, wing.middle, wing.length);
     if (about >= least_gain) wings.push_back({std::move(wing.polygon), about, 0, "a wing", true});
   }
-  std::ranges::stable_sort(wings, std::greater<>{}, &Proposal::gain);
+  rank(wings, [](const Proposal& wing) { return -wing.gain; });
   const auto most = static_cast<std::size_t>(options_.wings.max_cuts);
   if (wings.size() > most) wings.resize(most);
   return cheapest(piece, wings, piece.roof.cost);
@@ -117,28 +122,26 @@ auto Work::misfit_about(const Piece& piece, geometry::Point2 place, double withi
 }
 
 /// Both under one roof, where their grounds make one polygon.
-auto Work::united(const Piece& a, const Piece& b, Search search, double worth) const -> std::optional<Piece> {
-  const auto polygon = joined(a.site.polygon, b.site.polygon, options_);
+auto Work::united(const Piece& a, const Piece& b) const -> std::optional<Union> {
+  auto polygon = joined(a.site.polygon, b.site.polygon, options_);
   if (!polygon) return std::nullopt;
-  Site site = look(*polygon, a.site.base);
+  Site site = merged(a.site, b.site, *polygon, mesh_, options_);
   const Origin origins[]{{a.draft, a.roof.plan}, {b.draft, b.roof.plan}};
   Draft draft = draft_of(origins, site, options_);
-  auto made = roofed(std::min(a.draft_index, b.draft_index), std::move(site), std::move(draft), search, worth);
+  auto made = roofed(std::min(a.draft_index, b.draft_index), std::move(site), std::move(draft), Search::quick);
   if (!made) return std::nullopt;
-  return std::move(*made);
+  return Union{std::move(*polygon), std::move(made->draft), std::move(made->roof)};
 }
 
 /// The same where that is cheaper.
-auto Work::as_one(const Piece& a, const Piece& b) const -> std::optional<Piece> {
-  if (!may_join(a, b)) return std::nullopt;
-  const double worth = a.roof.cost + b.roof.cost + options_.part_price;
-  auto made = united(a, b, Search::quick, worth);
-  if (!made || made->roof.cost >= options_.joins.quick_excess * worth) return std::nullopt;
-  auto searched = roofed(made->draft_index, std::move(made->site), std::move(made->draft));
-  if (!searched || searched->roof.cost >= worth) return std::nullopt;
-  made = std::move(*searched);
+auto Work::as_one(const Piece& a, const Piece& b, const Union& both) const -> std::optional<Piece> {
+  const double worth = cost_of(a, b);
+  if (both.roof.cost >= options_.joins.quick_excess * worth) return std::nullopt;
+  auto made =
+      roofed(std::min(a.draft_index, b.draft_index), merged(a.site, b.site, both.polygon, mesh_, options_), both.draft);
+  if (!made || !cheaper(made->roof.cost, worth)) return std::nullopt;
   made->changes.insert(made->changes.begin(), "two parts joined under one roof");
-  return made;
+  return std::move(*made);
 }
 
 /// m²·m²: of the squared differences above a step, those along the other's ground.
@@ -156,7 +159,6 @@ auto Work::misfit_near(const Piece& piece, const geometry::Polygon& other) const
 
 /// Whether two that touch may be cheaper as one: two flat roofs too far apart are not.
 auto Work::may_join(const Piece& a, const Piece& b) const -> bool {
-  if (!touch(a, b, options_)) return false;
   const auto level = [](const Piece& piece) -> std::optional<double> {
     for (const auto& profile : piece.roof.plan.profiles)
       if (profile.back().inward > 0) return std::nullopt;
@@ -170,12 +172,23 @@ auto Work::may_join(const Piece& a, const Piece& b) const -> bool {
   return area * std::min(step * step, options_.robust * step) < saved;
 }
 
+/// m²·m²: what the faces cost that no roof over the polygon can do without: its walls, its floor and one roof plane.
+auto Work::cost_of_faces(const geometry::Polygon& polygon) const -> double {
+  std::size_t faces = polygon.outer.size() + 2;
+  for (const auto& hole : polygon.holes) faces += hole.size();
+  return options_.face_price * static_cast<double>(faces);
+}
+
 /// The pieces of a cut, each with a roof found quickly; none where they cost more than they are worth.
 auto Work::tried(const Piece& piece, const Proposal& proposal, double worth) const -> std::vector<Piece> {
   std::vector<Piece> out;
   double left = worth;
   const Origin origin[]{{piece.draft, piece.roof.plan}};
-  for (const auto& polygon : cut(piece.site.polygon, proposal.polygon, options_)) {
+  const auto polygons = cut(piece.site.polygon, proposal.polygon, options_);
+  double fewest = options_.part_price * (static_cast<double>(polygons.size()) - 1);
+  for (const auto& polygon : polygons) fewest += cost_of_faces(polygon);
+  if (fewest >= worth) return {};
+  for (const auto& polygon : polygons) {
     Site site = crop(piece.site, polygon, options_);
     if (site.cells.empty()) return {};
     Draft draft = draft_of(origin, site, options_);
@@ -184,7 +197,8 @@ auto Work::tried(const Piece& piece, const Proposal& proposal, double worth) con
     auto made = roofed(piece.draft_index, std::move(site), std::move(draft), search, left);
     if (!made) return {};
     left -= made->roof.cost + (out.empty() ? 0 : options_.part_price);
-    if (left <= 0) return {};
+    fewest -= cost_of_faces(polygon) + (out.empty() ? 0 : options_.part_price);
+    if (left - fewest <= same_cost) return {};
     out.push_back(std::move(*made));
   }
   return out;

@@ -21,6 +21,14 @@ struct Piece {
   Judged roof;
   std::optional<extrude::Raised> raised;  ///< in full; none until the search was thorough
   std::vector<std::string> changes;
+  std::size_t number = 0;  ///< no other piece of its owner ever has it: what was tried with it is known by it
+};
+
+/// Two pieces under one roof that was found quickly.
+struct Union {
+  geometry::Polygon polygon;
+  Draft draft;
+  Judged roof;
 };
 
 /// Costs are in m²·m² throughout. Calls may run on any thread.
@@ -36,12 +44,26 @@ class Work {
   [[nodiscard]] auto roofed(std::size_t draft_index, Site site, Draft draft, Search search = Search::thorough,
                             double worth = std::numeric_limits<double>::infinity()) const -> base::Result<Piece>;
 
-  /// Two that touch under one roof, where that is cheaper.
-  [[nodiscard]] auto as_one(const Piece& a, const Piece& b) const -> std::optional<Piece>;
+  /// Whether their grounds may meet, and there is anything to see over them.
+  [[nodiscard]] auto touch(const Piece& a, const Piece& b) const -> bool;
+  /// m²·m²: of the squared differences above a step, those of each along the other's ground.
+  [[nodiscard]] auto misfit_between(const Piece& a, const Piece& b) const -> double;
+  /// Both under one roof, found quickly, where their grounds make one polygon.
+  [[nodiscard]] auto united(const Piece& a, const Piece& b) const -> std::optional<Union>;
+  /// Whether two that touch may be cheaper as one.
+  [[nodiscard]] auto may_join(const Piece& a, const Piece& b) const -> bool;
+  /// Two under one roof, searched thoroughly, where that is cheaper.
+  [[nodiscard]] auto as_one(const Piece& a, const Piece& b, const Union& both) const -> std::optional<Piece>;
   /// The pieces that are cheaper together than the one, if there are.
   [[nodiscard]] auto split(const Piece& piece) const -> std::vector<Piece>;
   /// Where two pieces meet in the wrong place: both as one, cut anew, if that is cheaper.
-  [[nodiscard]] auto cut_anew(const Piece& a, const Piece& b) const -> std::vector<Piece>;
+  [[nodiscard]] auto cut_anew(const Piece& a, const Piece& b, const Union& both) const -> std::vector<Piece>;
+  /// Whether enough is wrong where they meet.
+  [[nodiscard]] auto may_cut_anew(const Piece& a, const Piece& b) const -> bool;
+  /// The same with a price for each: what one roof, or another cut, has to beat.
+  [[nodiscard]] auto cost_of(const Piece& a, const Piece& b) const -> double {
+    return a.roof.cost + b.roof.cost + options_.part_price;
+  }
 
   /// The piece with its planes where they were before the scan melted them, where a solid can be made of that.
   [[nodiscard]] auto finished(Piece piece) const -> Piece;
@@ -56,8 +78,7 @@ class Work {
   [[nodiscard]] auto into_wings(const Piece& piece, double least_gain) const -> std::vector<Piece>;
   [[nodiscard]] auto misfit_about(const Piece& piece, geometry::Point2 place, double within) const -> double;
   [[nodiscard]] auto misfit_near(const Piece& piece, const geometry::Polygon& other) const -> double;
-  [[nodiscard]] auto united(const Piece& a, const Piece& b, Search search, double worth) const -> std::optional<Piece>;
-  [[nodiscard]] auto may_join(const Piece& a, const Piece& b) const -> bool;
+  [[nodiscard]] auto cost_of_faces(const geometry::Polygon& polygon) const -> double;
   [[nodiscard]] auto tried(const Piece& piece, const Proposal& proposal, double worth) const -> std::vector<Piece>;
   [[nodiscard]] auto searched(const Piece& piece, const Proposal& proposal, std::vector<Piece> pieces) const
       -> std::vector<Piece>;

@@ -12,41 +12,31 @@ namespace {
 
 using geometry::Box2, geometry::Point2, geometry::Ring;
 
-/// Points spread evenly over a face: its triangles in turn, each as often as its area asks for, a low-discrepancy
-/// pair of numbers (Roberts' R2 sequence) inside the triangle. A face that cannot be cut into triangles gives those of
-/// its first corner with all others, and only the points that are inside; one of them where none is.
-auto spread(const Ring& ring, double area, const Options& options, base::Random random) -> std::vector<Point2> {
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  if (auto made = geometry::triangulate({ring, {}})) triangles = std::move(*made);
-  const bool is_fan = triangles.empty();
-  if (is_fan)
-    for (std::uint32_t i = 1; i + 1 < ring.size(); ++i) triangles.push_back({0, i, i + 1});
-  std::vector<double> up_to;
-  double sum = 0;
-  for (const auto& [a, b, c] : triangles)
-    up_to.push_back(sum += std::abs(geometry::cross(ring[b] - ring[a], ring[c] - ring[a])) / 2);
-
+/// Points spread evenly over a face: a low-discrepancy sequence (Roberts' R2) over its bounding box, of which those
+/// inside the face count. They depend on the face's shape and place alone, neither on its number nor on where its ring
+/// begins or how it is triangulated, and move with its corners: else a face more anywhere in the block, or a corner
+/// moved by a nanometre, would measure all of them anew (docs/decisions/0035). A face that is too thin to be hit gives
+/// the middles of the triangles between its first corner and all others.
+auto spread(const Ring& ring, double area, const Options& options) -> std::vector<Point2> {
+  constexpr std::int64_t draws_per_sample = 256;  // of a strip of 0.3 m width in a box of 40 m by 40 m, half that hit
+  constexpr double start_u = 0.3, start_v = 0.9;  // any would do: docs/decisions/0035, "Samples of faces"
   const auto fewest_samples = static_cast<std::int64_t>(options.minimum_samples);
   const auto most = std::max(options.samples, fewest_samples);
   const auto wanted = static_cast<std::int64_t>(std::ceil(std::min(area, 1e6) * options.samples_per_area));
   const auto count = std::clamp(wanted, fewest_samples, most);
-  const double shift = random.uniform(), shift_u = random.uniform(), shift_v = random.uniform();
+  const Box2 box = geometry::bounds(ring);
+  const Point2 size = box.most - box.least;
+  const geometry::Polygon face{ring, {}};
   std::vector<Point2> points;
-  for (std::int64_t k = 0; k < count; ++k) {
-    const double at = sum * (static_cast<double>(k) + shift) / static_cast<double>(count);
-    const auto which = std::min<std::ptrdiff_t>(std::ranges::upper_bound(up_to, at) - up_to.begin(),
-                                                static_cast<std::ptrdiff_t>(triangles.size()) - 1);
-    const auto& [a, b, c] = triangles[static_cast<std::size_t>(which)];
-    double u = std::fmod(shift_u + 0.7548776662466927 * static_cast<double>(k), 1.0);
-    double v = std::fmod(shift_v + 0.5698402909980532 * static_cast<double>(k), 1.0);
-    if (u + v > 1) u = 1 - u, v = 1 - v;
-    points.push_back(ring[a] + u * (ring[b] - ring[a]) + v * (ring[c] - ring[a]));
+  for (std::int64_t k = 0; k < draws_per_sample * count && std::ssize(points) < count; ++k) {
+    const double u = std::fmod(start_u + 0.7548776662466927 * static_cast<double>(k), 1.0);
+    const double v = std::fmod(start_v + 0.5698402909980532 * static_cast<double>(k), 1.0);
+    const Point2 p = box.least + Point2{u * size.x, v * size.y};
+    if (geometry::contains(face, p)) points.push_back(p);
   }
-  if (is_fan) {
-    const Point2 first = points.front();
-    std::erase_if(points, [&](Point2 p) { return !geometry::contains(geometry::Polygon{ring, {}}, p); });
-    if (points.empty()) points.push_back(first);
-  }
+  if (points.empty())
+    for (std::size_t i = 1; i + 1 < ring.size(); ++i)
+      points.push_back((1.0 / 3) * (ring.front() + ring[i] + ring[i + 1]));
   return points;
 }
 
@@ -85,7 +75,7 @@ void borrow_heights(const fracture::Arrangement& arrangement, const Options& opt
 }  // namespace
 
 auto measure(const fracture::Arrangement& arrangement, const block::Block& block, const rays::Scene& mesh,
-             const Options& options, const base::Run& run) -> Evidence {
+             const Options& options) -> Evidence {
   std::vector<MemberBoxes> members;
   for (const block::Member& member : block.members) {
     members.push_back({&member, {}});
@@ -105,7 +95,7 @@ auto measure(const fracture::Arrangement& arrangement, const block::Block& block
     for (std::size_t m = 0; m < members.size(); ++m)
       if (std::ranges::any_of(members[m].boxes, [&](const Box2& b) { return b.overlaps(box); })) near.push_back(m);
 
-    const std::vector<Point2> points = spread(ring, arrangement.faces[f].area, options, base::Random(run.seed, f));
+    const std::vector<Point2> points = spread(ring, arrangement.faces[f].area, options);
     std::vector<std::size_t> hits(near.size(), 0);
     std::size_t inside = 0;
     std::vector<double> inside_heights;

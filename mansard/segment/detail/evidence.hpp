@@ -21,9 +21,9 @@ struct Evidence {
   std::vector<double> ground;  ///< z of the ground of the face's feature, metres
 };
 
-/// Samples every face and decides which are inside, exposed faces still among them. The seed is run.seed.
+/// Samples every face and decides which are inside, exposed faces still among them.
 [[nodiscard]] auto measure(const fracture::Arrangement& arrangement, const block::Block& block, const rays::Scene& mesh,
-                           const Options& options, const base::Run& run) -> Evidence;
+                           const Options& options) -> Evidence;
 
 /// Takes faces off from outside that nothing but the fracture's continuations bounds (reference facts 4.2).
 void peel(const fracture::Arrangement& arrangement, const Options& options, std::vector<FaceEvidence>& faces);

@@ -22,16 +22,15 @@ auto height_beside(const fracture::Arrangement& arrangement, const rays::Scene& 
 }  // namespace
 
 void measure_steps(const fracture::Arrangement& arrangement, const rays::Scene& mesh, const Options& options,
-                   const base::Run& run, std::vector<Candidate>& candidates) {
+                   std::vector<Candidate>& candidates) {
   base::parallel_for(candidates.size(), [&](std::size_t i) {
     double sum = 0, weight = 0;
     for (const std::uint32_t h : candidates[i].half_edges) {
-      base::Random random(run.seed, h);
       const geometry::Segment2 s = arrangement.segment(h);
       const double length = length_of(arrangement, h);
       const auto count = static_cast<int>(std::ceil(std::min(length, 1e4) / options.height_spacing));
       for (int k = 0; k < count; ++k) {
-        const Point2 place = s.start + ((k + random.uniform()) / count) * (s.end - s.start);
+        const Point2 place = s.start + ((k + 0.5) / count) * (s.end - s.start);
         const auto left = height_beside(arrangement, mesh, h, place, options.height_offset);
         const auto right =
             height_beside(arrangement, mesh, arrangement.half_edges[h].twin, place, options.height_offset);

@@ -9,9 +9,9 @@
 namespace mansard::segment::detail {
 
 /// Sets every candidate's height difference to the mean difference of the mesh's heights `height_offset` metres to its
-/// left and right (less in narrow faces), at places spread by length and seeded by run and half-edge. Candidates beside
-/// which the mesh shows nothing keep theirs.
+/// left and right (less in narrow faces), at places spread evenly. Candidates beside which the
+/// mesh shows nothing keep theirs.
 void measure_steps(const fracture::Arrangement& arrangement, const rays::Scene& mesh, const Options& options,
-                   const base::Run& run, std::vector<Candidate>& candidates);
+                   std::vector<Candidate>& candidates);
 
 }  // namespace mansard::segment::detail
