@@ -50,8 +50,15 @@ TEST(Details, are_valid_solids_of_their_role_in_every_kind_of_block) {
       for (const auto& building : truth.city.buildings)
         for (const auto& part : building.parts)
           EXPECT_THAT(solid::check(part.model.solid), testing::IsEmpty()) << part.id;
-      for (const auto* part : with_role(truth, "dormer")) EXPECT_GE(width_of(*part), 1.2 - 1e-6), ++dormers;
-      for (const auto* part : with_role(truth, "extension")) EXPECT_GE(width_of(*part), 0.8 - 1e-6), ++extensions;
+      for (const auto* part : with_role(truth, "dormer")) {
+        const auto& ring = part->plan.outer.points;
+        EXPECT_GE(length(ring[1] - ring[0]), 1.2 - 1e-6);
+        ++dormers;
+      }
+      for (const auto* part : with_role(truth, "extension")) {
+        EXPECT_GE(width_of(*part), 0.8 - 1e-6);
+        ++extensions;
+      }
       rooms += with_role(truth, "plant room").size();
       bays += with_role(truth, "bay window").size();
     }
@@ -78,7 +85,9 @@ TEST(Details, end_dormers_below_the_ridge_of_their_house) {
   const auto truth = made(Kind::terrace, options, 2);
   for (const auto& building : truth.city.buildings)
     for (const auto& part : building.parts)
-      if (role_of(part) == "dormer") EXPECT_LT(top_of(part), top_of(building.parts[0]) - 0.3) << part.id;
+      if (role_of(part) == "dormer") {
+        EXPECT_LT(top_of(part), top_of(building.parts[0]) - 0.3) << part.id;
+      }
 }
 
 TEST(Details, are_buildings_that_do_not_overlap) {
@@ -147,12 +156,12 @@ TEST(Trees, over_roofs_are_in_the_scan_and_not_in_the_truth) {
   options.noise = options.bulge = options.holes = options.missing_walls = options.trees = options.chimneys =
       options.melt = 0;
   options.resolution = 0.5;
-  EXPECT_LT(above_truth(truth, options), 20U);
+  const auto plain = above_truth(truth, options);  // along walls, by the width of a cell
   auto crowns = options, inside = options;
   crowns.crowns = 1;
   inside.roof_trees = 1;
-  EXPECT_GT(above_truth(truth, crowns), 200U);
-  EXPECT_GT(above_truth(truth, inside), 200U);
+  EXPECT_GT(above_truth(truth, crowns), plain + 200);
+  EXPECT_GT(above_truth(truth, inside), plain + 200);
 }
 
 }  // namespace
