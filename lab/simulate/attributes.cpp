@@ -8,7 +8,9 @@ auto attributes() -> std::vector<formats::Attribute> {
            {"BuildingPart"},
            "string",
            "",
-           "What the part is to its building: house, annex, wing, podium, tower, garage or parapet."},
+           "What the part is to its building: house, annex, extension, wing, bay window, dormer, plant room, podium, "
+           "tower, "
+           "garage or parapet."},
           {"ms_eaves", "simulate", {"BuildingPart"}, "number", "m", "z at which the roof begins."}};
 }
 

@@ -37,7 +37,14 @@ auto option_list(Options& o) -> base::OptionList {
       .number("turn", block.turn, "rad", {-7, 7}, "Turns the street off the x axis; drawn where it is not given.")
       .number("slope", block.slope, "", {-0.3, 0.3}, "Metres that the street falls per metre.")
       .number("equal_heights", block.equal_heights, "", {0, 1}, "Share of neighbours with eaves at one height.")
-      .number("annexes", block.annexes, "", {0, 1}, "Share of houses with something lower at the back.");
+      .number("annexes", block.annexes, "", {0, 1}, "Share of houses with something lower at the back.")
+      .number("alike", block.alike, "", {0, 1}, "Share of rows in which all houses are alike.")
+      .number("dormers", block.dormers, "", {0, 1}, "Share of the slopes of gabled houses with a row of dormers.")
+      .number("plant_rooms", block.plant_rooms, "", {0, 1}, "Share of flat roofs with a plant room.")
+      .number("bays", block.bays, "", {0, 1}, "Share of houses with a bay window.")
+      .number("extensions", block.extensions, "", {0, 1},
+              "Share of houses without annex that have a rear extension, 0.8 to 2.4 m deep.")
+      .number("overhang", block.overhang, "m", {0, 2}, "How far the eaves of pitched roofs overhang.");
   list.number("displacement", survey.displacement, "m", {0, 20}, "All outlines are moved by this in one direction.")
       .number("jitter", survey.jitter, "m", {0, 5}, "Every corner of an outline is moved by up to this.")
       .number("generalise", survey.generalise, "m", {0, 5}, "Corners of outlines flatter than this are left out.")
@@ -57,6 +64,11 @@ auto option_list(Options& o) -> base::OptionList {
       .number("trees", scan.trees, "", {0, 100}, "Per 1000 m² of open ground.")
       .number("cars", scan.cars, "", {0, 100}, "Per 1000 m² of open ground.")
       .number("chimneys", scan.chimneys, "", {0, 1}, "Probability per building.")
+      .number("crowns", scan.crowns, "", {0, 1},
+              "Probability per building of a tree beside it with its crown over the roof.")
+      .number(
+          "roof_trees", scan.roof_trees, "", {0, 1},
+          "Probability per building of a tree within its outline, as in a yard that the survey takes for a building.")
       .number("ground_waves", scan.ground_waves, "m", {0, 5}, "Root mean square of the ground's bumps.")
       .number("ground_length", scan.ground_length, "m", {1, 1000}, "Wavelength of the ground's bumps.")
       .number("seam", scan.seam, "m", {0, 5}, "Largest step, in each direction, between tiles of the mesh.")

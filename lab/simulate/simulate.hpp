@@ -37,6 +37,12 @@ struct BlockOptions {
   double slope = 0.02;          ///< metres that the street falls per metre
   double equal_heights = 0.35;  ///< share of neighbours with eaves at one height
   double annexes = 0.6;         ///< share of houses with something lower at the back
+  double alike = 0;             ///< share of rows in which all houses are alike
+  double dormers = 0;           ///< share of the slopes of gabled houses with dormers
+  double plant_rooms = 0;       ///< share of flat roofs with a plant room
+  double bays = 0;              ///< share of houses with a bay window
+  double extensions = 0;        ///< share of houses without annex that have a rear extension of 0.8 m and more
+  double overhang = 0;          ///< how far eaves overhang
 };
 
 /// How a surveyor draws the outlines. Metres.
@@ -63,6 +69,8 @@ struct ScanOptions {
   double trees = 8;             ///< per 1000 m² of open ground
   double cars = 6;              ///< per 1000 m² of open ground
   double chimneys = 0.5;        ///< probability per building
+  double crowns = 0;            ///< probability per building of a tree whose crown is over its roof
+  double roof_trees = 0;        ///< probability per building of a tree within its outline
   double ground_waves = 0.06;   ///< root mean square of the ground's bumps
   double ground_length = 12;    ///< their wavelength
   double seam = 0.03;           ///< largest step, in each direction, between the tiles of the mesh

@@ -5,6 +5,7 @@
 
 #include "mansard/geometry/angles.hpp"
 
+#include "lab/simulate/detail/details.hpp"
 #include "lab/simulate/detail/raising.hpp"
 #include "lab/simulate/simulate.hpp"
 
@@ -45,6 +46,7 @@ auto make_block(Kind kind, const BlockOptions& options, std::uint64_t seed, cons
   base::Random random(seed, static_cast<std::uint64_t>(kind));
   const double drawn = random.uniform(0, std::numbers::pi / 2);
   auto houses = detail::houses_of(kind, options, random);
+  detail::add_details(houses, options, random.next());
   for (auto& house : houses)
     for (auto& lot : house.lots) turn(lot.polygon, options.turn.value_or(drawn));
   auto raised = raise_all(

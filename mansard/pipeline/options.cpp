@@ -131,6 +131,11 @@ auto codes() -> std::vector<base::Code> {
        "The footprint may be displaced against the mesh; it is written as a prism of its median height.", 1},
       {"pipeline-covered", "The ground of this footprint went to the models of its neighbours.",
        "Check whether the input repeats a building; segment.gis_edges = hard keeps features apart.", 1},
+      {"pipeline-left-out", "Some of a footprint is high enough for a building and has no model.",
+       "The message lists area and height of every piece. Blurred walls beside a roof are left out on purpose; if a "
+       "piece is "
+       "a building, lower segment.strip_share or segment.narrow.",
+       0},
       {"pipeline-block", "The segmentation of a block failed, so its footprints became prisms.",
        "The message says why; please report it.", 1},
       {"pipeline-overlap", "Two solids overlap by more than strips a millimetre wide.",

@@ -31,6 +31,8 @@ auto attributes() -> std::vector<formats::Attribute> {
       "Volume of the LoD 2.2 solid; of a building over its parts, where it has some.");
   add("ms_rmse_lod22", both, "number", "m",
       "Root mean square of the vertical distance to the mesh; absent without mesh coverage.");
+  add("ms_area_left_out", building, "number", "m²",
+      "Area of the footprint that is high enough for a building and has no model; absent up to 1 m².");
   add("ms_area_roof_flat", part, "number", "m²", "Area of roof that is level within 5°.");
   add("ms_area_roof_sloped", part, "number", "m²", "Area of the other roof.");
   add("ms_area_wall", part, "number", "m²", "Area of walls in the open.");

@@ -106,6 +106,7 @@ auto json_of(const BuildingReport& b) -> Json {
                        {"roof_flat", b.areas.roof_flat}, {"roof_sloped", b.areas.roof_sloped},
                        {"soffit", b.areas.soffit},       {"ground", b.areas.ground}};
   }
+  if (b.left_out > 0) out["left_out_m2"] = b.left_out;
   if (!b.roof.empty()) out["roof"] = b.roof;
   if (!b.height_from.empty()) out["height_from"] = b.height_from;
   out["rmse_m"] = b.rmse ? Json(*b.rmse) : Json(nullptr);

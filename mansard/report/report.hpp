@@ -82,6 +82,7 @@ struct BuildingReport {
   double volume = 0;                              ///< m³
   label::Areas areas;
   std::optional<double> rmse;     ///< m, vertical, over its parts; none without mesh coverage
+  double left_out = 0;            ///< m² of the footprint that are high enough for a building and have no model
   std::string roof, height_from;  ///< the shape made and where its height comes from; only of models without a mesh
 };
 

@@ -74,11 +74,13 @@ struct Options {
   double gis_parallel_sine = 0.1;  ///< sine of the angle between a GIS edge and what runs along it
 
   // From faces to parts.
-  double smallest_part = 1.0;     ///< m²; smaller parts go to their neighbour, or out
-  double same_height = 2.0;       ///< m; strips within this of their neighbour's height are part of its roof …
-  double low_share = 0.5;         ///< … as are those of at least this share of its height above ground
-  double collinear = 0.01;        ///< m; corners this near to the edge without them are dropped
-  double opening = 0.01;          ///< m; how far a part that touches itself draws back
+  double smallest_part = 1.0;  ///< m²; smaller parts go to their neighbour, or out
+  double same_height = 2.0;    ///< m; strips within this of their neighbour's height are part of its roof …
+  double low_share = 0.5;      ///< … as are those of at least this share of its height above ground
+  double strip_level = 1.0;    ///< m; lower strips are buildings where heights within this of each other …
+  double strip_share = 0.3;    ///< … are at least this share of all: a roof; a blurred wall has no level of its own
+  double collinear = 0.01;     ///< m; corners this near to the edge without them are dropped
+  double opening = 0.01;       ///< m; how far a part that touches itself draws back
   double edge_cover = 1.0 / 3.0;  ///< of an edge, from which a sweep-edge counts as its origin
 
   SearchLimits search;

@@ -80,6 +80,14 @@ struct Part {
   double height = 0;                   ///< z, median of the mesh's top surface, metres
 };
 
+/// Ground of a feature that the mesh shows as high enough for a building, and that no part has.
+struct LeftOut {
+  std::optional<std::size_t> feature;  ///< index into Scene::footprints
+  double area = 0;                     ///< m² within the footprint
+  double height = 0;                   ///< m above the ground, median of the mesh's top surface
+  std::string why;                     ///< the end of a sentence: "a blurred wall: …"
+};
+
 struct Segmentation {
   std::vector<FaceEvidence> faces;
   std::vector<Candidate> candidates;
@@ -87,7 +95,8 @@ struct Segmentation {
   double phi = 0;                   ///< what a conflict costs when both are cut
   std::vector<CycleRow> rows;       ///< those of the start (stars), then those that the rounds added
   std::vector<std::optional<std::uint32_t>> part_of_face;
-  std::vector<Part> parts;  ///< ordered by feature, then by lowest face
+  std::vector<Part> parts;        ///< ordered by feature, then by lowest face
+  std::vector<LeftOut> left_out;  ///< in the order in which they were taken out
 
   Terms terms;           ///< re-evaluated from the labels
   double objective = 0;  ///< terms.sum()

@@ -173,18 +173,19 @@ class Layout {
   void row(const Frame& frame, double length, double depth, double width, int storeys, double annex_depth) {
     const auto count = static_cast<std::size_t>(std::max(1.0, std::round(length / width)));
     std::vector<double> widths;
-    for (std::size_t i = 0; i < count; ++i) widths.push_back(random_.uniform(0.8, 1.2));
+    const bool alike = options_.alike > 0 && chance(random_, options_.alike);
+    for (std::size_t i = 0; i < count; ++i) widths.push_back(alike ? 1 : random_.uniform(0.8, 1.2));
     const double scale = length / std::accumulate(widths.begin(), widths.end(), 0.0);
     Style style = drawn_style(random_, std::max(1, storeys - 1), storeys + 1);
     double at = 0;
     for (std::size_t i = 0; i < count; ++i) {
       const double to = i + 1 == count ? length : at + scale * widths[i];
       const Point2 entrance = frame.at((at + to) / 2, 0);
-      if (i > 0 && !chance(random_, options_.equal_heights))
+      if (i > 0 && !alike && !chance(random_, options_.equal_heights))
         style = drawn_style(random_, std::max(1, storeys - 1), storeys + 1);
       else if (i > 0) style.lift += houses_.back().ground - ground(entrance);
-      const double near = chance(random_, 0.15) ? random_.uniform(0.3, 0.8) : 0;
-      const double far = depth - (chance(random_, 0.4) ? random_.uniform(0.3, 1.5) : 0);
+      const double near = !alike && chance(random_, 0.15) ? random_.uniform(0.3, 0.8) : 0;
+      const double far = depth - (!alike && chance(random_, 0.4) ? random_.uniform(0.3, 1.5) : 0);
       auto& fresh = house(word(style), style.storeys, entrance);
       fresh.lots.push_back(lot_of(frame.rectangle(at, near, to, far), style, row_gables(style)));
       if (style.storeys > 1 && chance(random_, options_.annexes))

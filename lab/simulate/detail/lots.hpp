@@ -13,7 +13,7 @@ enum class Roof : std::uint8_t { flat, pitched, mansard, mono };
 
 /// A piece of a building with one roof.
 struct Lot {
-  std::string role = "house";  ///< house, annex, podium, tower, garage, wing, parapet
+  std::string role = "house";  ///< house, annex, extension, bay window, dormer, …: docs/simulate.md
   geometry::Polygon polygon;
   Roof roof = Roof::flat;
   double base = 0;     ///< m above the building's ground
@@ -24,6 +24,7 @@ struct Lot {
   std::vector<bool> upright;
   bool parapet = false;  ///< around a flat roof, as a part of its own on top
   bool gutter = false;   ///< the roof begins behind a gutter
+  double overhang = 0;   ///< m; of the eaves
 };
 
 /// A building: one GIS feature.

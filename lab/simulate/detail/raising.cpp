@@ -20,6 +20,7 @@ auto raise_lot(const Lot& lot, double ground, const std::string& id, const base:
   if (!plan) return base::error("simulate-solid", "no roof can be raised here: " + plan.error().message, id);
   extrude::Options options;
   options.grid = file_grid;
+  options.overhang = lot.overhang;
   auto raised = extrude::raise(*plan, options, run);
   if (!raised) return base::error("simulate-solid", "nothing can be raised here: " + raised.error().message, id);
   if (raised->outcome != extrude::Outcome::full)

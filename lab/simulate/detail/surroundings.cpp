@@ -95,6 +95,71 @@ class OpenGround {
   const Terrain* terrain_;
 };
 
+/// A crown at a place of the plan, over a trunk that begins at `foot`.
+void add_crown(std::vector<Object>& objects, Point3 foot, double middle, double radius, base::Random& random) {
+  const Point3 crown{foot.x, foot.y, middle};
+  objects.push_back({Object::Form::ellipsoid, crown, {1, 0}, {radius, radius, radius * random.uniform(0.9, 1.3)}});
+  for (int lump = 0; lump < 5; ++lump) {
+    const double angle = random.uniform(0, 2 * std::numbers::pi), r = random.uniform(0.35, 0.6) * radius;
+    const Point3 off{0.7 * radius * geometry::cosine(angle), 0.7 * radius * geometry::sine(angle),
+                     random.uniform(-0.4, 0.7) * radius};
+    objects.push_back({Object::Form::ellipsoid, crown + off, {1, 0}, {r, r, r}});
+  }
+  const double half = (middle - foot.z) / 2;
+  objects.push_back({Object::Form::box, foot + Point3{0, 0, half}, {1, 0}, {0.25, 0.25, half + 0.5}});
+}
+
+/// Trees beside buildings whose crowns are over the roof, and trees within the outlines.
+void add_crowns(std::vector<Object>& objects, const Surface& surface, const Terrain& terrain,
+                const ScanOptions& options, std::uint64_t seed) {
+  std::map<std::uint32_t, Box2> boxes;
+  for (std::uint32_t t = 0; t < surface.mesh.triangles.size(); ++t) {
+    if (surface.classes[t] != Class::roof) continue;
+    for (const auto v : surface.mesh.triangles[t]) boxes[surface.buildings[t]].add(xy(surface.mesh.vertices[v]));
+  }
+  const rays::Scene above(surface.mesh);
+  for (const auto& [building, box] : boxes) {
+    base::Random random(seed, 100000 + building);
+    // Drawn whether or not asked for: one option leaves the other's trees where they are.
+    const bool beside = random.uniform() < options.crowns, within = random.uniform() < options.roof_trees;
+    const auto on_building = [&](Point2 p) {
+      const auto seen = above.seen_from_above(p);
+      return seen && surface.buildings[seen->triangle] == building;
+    };
+    const auto place = [&](double grown, auto fits) -> std::optional<Point2> {
+      const auto area = box.grown(grown);
+      for (int tries = 0; tries < 200; ++tries) {
+        const Point2 p{random.uniform(area.least.x, area.most.x), random.uniform(area.least.y, area.most.y)};
+        if (fits(p)) return p;
+      }
+      return std::nullopt;
+    };
+    const double radius = random.uniform(1.4, 2.8), second = random.uniform(1.2, 2.2), lift = random.uniform(-0.3, 0.8);
+    // Just outside, so that a third of the crown or more is over the roof.
+    const auto outside = place(2, [&](Point2 p) {
+      if (above.top(p)) return false;
+      for (int k = 0; k < 8; ++k) {
+        const double angle = k * std::numbers::pi / 4;
+        if (on_building(p + 0.6 * radius * Point2{geometry::cosine(angle), geometry::sine(angle)})) return true;
+      }
+      return false;
+    });
+    const auto inside = place(0, on_building);
+    if (beside && outside) {
+      double roof = -std::numeric_limits<double>::infinity();
+      for (int k = 0; k < 8; ++k) {
+        const double angle = k * std::numbers::pi / 4;
+        const Point2 p = *outside + 0.6 * radius * Point2{geometry::cosine(angle), geometry::sine(angle)};
+        if (on_building(p)) roof = std::max(roof, *above.top(p));
+      }
+      add_crown(objects, {outside->x, outside->y, terrain.at(*outside)}, roof + lift, radius, random);
+    }
+    if (within && inside)
+      add_crown(objects, {inside->x, inside->y, terrain.at(*inside)}, *above.top(*inside) + 0.5 * second, second,
+                random);
+  }
+}
+
 void add_chimneys(std::vector<Object>& objects, const Surface& surface, const ScanOptions& options,
                   std::uint64_t seed) {
   struct Summit {
@@ -213,6 +278,7 @@ auto objects_of(const Surface& surface, const Nearest& nearest, const Terrain& t
     if (ground.free(p, 2.5)) add_car(objects, ground.foot(p), axis, random);
   }
   add_chimneys(objects, surface, options, seed);
+  if (options.crowns > 0 || options.roof_trees > 0) add_crowns(objects, surface, terrain, options, seed);
   return objects;
 }
 

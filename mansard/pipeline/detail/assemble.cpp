@@ -160,6 +160,10 @@ auto assemble(const model::Scene& scene, const std::vector<block::Block>& blocks
       reports[f].outcome = reports[f].parts == 0 ? report::Outcome::refused : report::Outcome::fallback;
       reports[f].reasons.push_back(base::warning(why.code, why.message, reports[f].id));
     }
+    for (const auto& one : results[b].left_out) {
+      reports[one.feature].left_out = one.area;
+      reports[one.feature].reasons.push_back(base::warning("pipeline-left-out", one.what, reports[one.feature].id));
+    }
     for (auto& [f, warning] : results[b].unchecked) {
       warning.subject = reports[f].id;
       reports[f].reasons.push_back(warning);
@@ -179,6 +183,7 @@ auto assemble(const model::Scene& scene, const std::vector<block::Block>& blocks
       attributes.emplace_back("ms_h_roof_max", reports[i].roof_max);
       attributes.emplace_back("ms_volume_lod22", reports[i].volume);
       if (reports[i].rmse) attributes.emplace_back("ms_rmse_lod22", *reports[i].rmse);
+      if (reports[i].left_out > 0) attributes.emplace_back("ms_area_left_out", reports[i].left_out);
       report::round_measures(attributes);
     }
   }

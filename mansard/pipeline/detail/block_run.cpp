@@ -2,6 +2,7 @@
 
 #include "mansard/base/statistics.hpp"
 #include "mansard/pipeline/detail/assemble.hpp"
+#include "mansard/pipeline/detail/left_out.hpp"
 #include "mansard/pipeline/detail/uncovered.hpp"
 #include "mansard/report/attributes.hpp"
 
@@ -200,6 +201,7 @@ auto run_block(const block::Block& block, const Options& options, const base::Ru
   }
   fill_in(block, mesh, options, segmented.failure, parts, out, run);
   align(parts, options, run);
+  if (segmented.segmentation) add_left_out(block, *segmented.segmentation, mesh, options, parts, out);
   if (keep == Keep::segmentations) out.segmented = std::move(segmented);
   tell("label");
   {

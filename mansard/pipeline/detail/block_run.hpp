@@ -46,6 +46,13 @@ struct BlockResult {
   std::vector<std::pair<std::size_t, base::Diagnostic>> failed;
   /// Features whose ground could not be told from that of their neighbours' parts, and why.
   std::vector<std::pair<std::size_t, base::Diagnostic>> unchecked;
+  /// Features with ground that is high enough for a building and has no model.
+  struct LeftOut {
+    std::size_t feature = 0;
+    double area = 0;  ///< m²
+    std::string what;
+  };
+  std::vector<LeftOut> left_out;
   std::vector<base::Diagnostic> warnings;
   std::optional<report::SegmentedBlock> segmented;  ///< with Keep::segmentations
 };

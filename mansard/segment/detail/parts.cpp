@@ -60,10 +60,13 @@ auto best_neighbour(const fracture::Arrangement& arrangement, const std::vector<
   return best;
 }
 
-/// Median over the faces' samples, each weighted by the area it stands for; where the mesh showed nothing, over faces.
-auto height_of(const fracture::Arrangement& arrangement, const Evidence& evidence,
-               const std::vector<std::uint32_t>& faces) -> double {
-  std::vector<std::pair<double, double>> weighted;  // height, area
+/// A height of the mesh's top surface, and the area that it stands for.
+using WeightedHeight = std::pair<double, double>;
+
+/// The samples of the faces, ascending; where the mesh showed nothing, one for each face.
+auto heights_of(const fracture::Arrangement& arrangement, const Evidence& evidence,
+                const std::vector<std::uint32_t>& faces) -> std::vector<WeightedHeight> {
+  std::vector<WeightedHeight> weighted;
   for (const std::uint32_t f : faces) {
     const auto& heights = evidence.samples[f].heights;
     const double area = arrangement.faces[f].area / static_cast<double>(std::max<std::size_t>(heights.size(), 1));
@@ -72,11 +75,47 @@ auto height_of(const fracture::Arrangement& arrangement, const Evidence& evidenc
   if (weighted.empty())
     for (const std::uint32_t f : faces) weighted.emplace_back(evidence.faces[f].height, arrangement.faces[f].area);
   std::ranges::sort(weighted);
-  double total = 0, sum = 0;
-  for (const auto& [z, area] : weighted) total += area;
+  return weighted;
+}
+
+auto sum_of_areas(const std::vector<WeightedHeight>& heights) -> double {
+  double total = 0;
+  for (const auto& [z, area] : heights) total += area;
+  return total;
+}
+
+/// Median, by area.
+auto height_of(const fracture::Arrangement& arrangement, const Evidence& evidence,
+               const std::vector<std::uint32_t>& faces) -> double {
+  const auto weighted = heights_of(arrangement, evidence, faces);
+  const double total = sum_of_areas(weighted);
+  double sum = 0;
   for (const auto& [z, area] : weighted)
     if ((sum += area) >= total / 2) return z;
   return weighted.back().first;
+}
+
+/// The largest share of the heights that are within `level` of each other and at least `lowest`: near 1 over a roof,
+/// and level / height over a wall that a scan has blurred to a slope.
+auto level_share(const std::vector<WeightedHeight>& heights, double level, double lowest) -> double {
+  double most = 0, sum = 0;
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    sum += heights[i].second;
+    for (; heights[first].first < heights[i].first - level; ++first) sum -= heights[first].second;
+    if (heights[i].first - level / 2 >= lowest) most = std::max(most, sum);
+  }
+  return most / sum_of_areas(heights);
+}
+
+/// m² of the faces within their feature's footprint.
+auto area_within(const fracture::Arrangement& arrangement, const Evidence& evidence,
+                 const std::vector<std::uint32_t>& faces, std::optional<std::size_t> feature) -> double {
+  double sum = 0;
+  for (const std::uint32_t f : faces)
+    for (const auto& [of, share] : evidence.samples[f].shares)
+      if (of == feature) sum += share * arrangement.faces[f].area;
+  return sum;
 }
 
 /// 2 × area over perimeter: the width of a long strip.
@@ -101,11 +140,19 @@ auto reaches_outside(const fracture::Arrangement& arrangement, const std::vector
   });
 }
 
-/// Parts too small or too narrow to be a building of their own go to their neighbour in the same feature. A strip along
-/// the outside, less than half as high, is no roof but the space between a wall and a footprint drawn too wide: it is
-/// left out.
+/// What is known of a strip along the outside, less than half as high as its neighbour: either a roof, or the blurred
+/// wall between the neighbour and a footprint that is drawn too wide.
+auto is_blurred_wall(const fracture::Arrangement& arrangement, const Evidence& evidence,
+                     const std::vector<std::uint32_t>& faces, double ground, const Options& o) -> bool {
+  const auto heights = heights_of(arrangement, evidence, faces);
+  return level_share(heights, o.strip_level, ground + o.min_height) < o.strip_share;
+}
+
+/// Parts too small or too narrow to be a building of their own go to their neighbour in the same feature. A low strip
+/// along the outside stays, unless it is a blurred wall: that is left out.
 void take_up_small_parts(const fracture::Arrangement& arrangement, const Evidence& evidence, LabelOfFace& label_of_face,
-                         const Options& o, std::vector<base::Diagnostic>& warnings) {
+                         const Options& o, Segmentation& segmentation) {
+  auto& warnings = segmentation.warnings;
   std::set<std::uint32_t> kept;  // narrow, but all there is of their feature
   for (;;) {
     const auto faces = faces_by_label(label_of_face);
@@ -130,12 +177,21 @@ void take_up_small_parts(const fracture::Arrangement& arrangement, const Evidenc
     const double next = into ? height_of(arrangement, evidence, faces.at(*into)) : own;
     const bool apart = into && area >= o.smallest_part && reaches_outside(arrangement, members, label_of_face) &&
                        next - own > o.same_height && own - ground < o.low_share * (next - ground);
+    if (apart && !is_blurred_wall(arrangement, evidence, members, ground, o)) {
+      kept.insert(label);
+      continue;
+    }
     if (apart) into.reset();
+    if (!into)
+      segmentation.left_out.push_back(
+          {features.at(label), area_within(arrangement, evidence, members, features.at(label)), own - ground,
+           apart ? "the blurred wall of a part " + base::to_text(next - ground, 1) + " m high"
+                 : "too small for a part, without a neighbour"});
     for (const std::uint32_t f : members) label_of_face[f] = into;
     warnings.push_back(base::warning("segment-part-small",
                                      "a part of " + base::to_text(area, 2) + " m² " +
                                          (into    ? "was joined to its neighbour"
-                                          : apart ? "was left out: a low strip outside the wall"
+                                          : apart ? "was left out: the blurred wall of its neighbour"
                                                   : "was left out: it has no neighbour to join"),
                                      "face " + std::to_string(members.front())));
   }
@@ -241,7 +297,7 @@ auto draw(const fracture::Arrangement& arrangement, const LabelOfFace& part_of_f
 
 void make_parts(const fracture::Arrangement& arrangement, const Evidence& evidence, LabelOfFace label_of_face,
                 const Options& options, Segmentation& segmentation) {
-  take_up_small_parts(arrangement, evidence, label_of_face, options, segmentation.warnings);
+  take_up_small_parts(arrangement, evidence, label_of_face, options, segmentation);
 
   for (;;) {
     struct Order {
@@ -273,6 +329,9 @@ void make_parts(const fracture::Arrangement& arrangement, const Evidence& eviden
       if (!draw(arrangement, segmentation.part_of_face, p, options, part, warnings)) {
         // Its faces belong to nothing then, and the others are numbered again.
         for (const std::uint32_t f : part.faces) label_of_face[f] = std::nullopt;
+        segmentation.left_out.push_back({part.feature, area_within(arrangement, evidence, part.faces, part.feature),
+                                         part.height - evidence.ground[part.faces.front()],
+                                         "no simple outline could be made of it"});
         segmentation.warnings.push_back(warnings.back());
         dropped = true;
         break;
