@@ -106,13 +106,14 @@ class StlWriter : public CityWriter {
     return {};
   }
 
-  auto append(const Solid& solid, const std::string& name) -> base::Result<void> {
+  /// Cut as its corners are in the file: what is a hair outside of a face in full precision may be inside in single.
+  auto append(Solid solid, const std::string& name) -> base::Result<void> {
+    for (auto& v : solid.vertices) v = rounded(v);
     const auto cut = triangles_of(solid, name);
     if (!cut) return cut.error();
     std::string bytes;
     for (const auto& corners : cut->triangles) {
-      const Point3 a = rounded(solid.vertices[corners[0]]), b = rounded(solid.vertices[corners[1]]),
-                   c = rounded(solid.vertices[corners[2]]);
+      const Point3 a = solid.vertices[corners[0]], b = solid.vertices[corners[1]], c = solid.vertices[corners[2]];
       if (a == b || b == c || c == a) continue;  // its other two edges are one now, so nothing opens
       append_point(bytes, geometry::normalised(cross(b - a, c - a)));
       for (const Point3& p : {a, b, c}) append_point(bytes, p);

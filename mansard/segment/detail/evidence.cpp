@@ -19,7 +19,7 @@ using geometry::Box2, geometry::Point2, geometry::Ring;
 /// the middles of the triangles between its first corner and all others.
 auto spread(const Ring& ring, double area, const Options& options) -> std::vector<Point2> {
   constexpr std::int64_t draws_per_sample = 256;  // of a strip of 0.3 m width in a box of 40 m by 40 m, half that hit
-  constexpr double start_u = 0.3, start_v = 0.9;  // any would do: docs/decisions/0035, "Samples of faces"
+  constexpr double start_u = 0.3, start_v = 0.9;  // chosen among two: docs/decisions/0035
   const auto fewest_samples = static_cast<std::int64_t>(options.minimum_samples);
   const auto most = std::max(options.samples, fewest_samples);
   const auto wanted = static_cast<std::int64_t>(std::ceil(std::min(area, 1e6) * options.samples_per_area));
