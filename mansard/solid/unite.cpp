@@ -98,12 +98,21 @@ auto made_of(const detail::Sheets& sheets, std::span<const LabelledSolid* const>
   return {std::move(solids), ""};
 }
 
+/// How a union is made: points nearer than `near` quanta become one, and what stays a solid of its own is its part as
+/// it is or, with `prisms`, a prism over the plan of all.
+struct Reach {
+  std::int64_t near = detail::least_near;
+  bool prisms = false;
+};
+/// Where parts overlap by more than the least, or a face is caught between points that near, 5 mm and 2 cm help.
+constexpr std::array reaches{Reach{}, Reach{50}, Reach{200}, Reach{detail::least_near, true}};
+
 class Uniting {
  public:
-  Uniting(std::span<const LabelledSolid* const> parts, std::int64_t near) : parts_(parts), near_(near) {}
+  Uniting(std::span<const LabelledSolid* const> parts, const Reach& reach) : parts_(parts), reach_(reach) {}
   /// `plan` is that of the parts and their neighbours.
-  Uniting(std::span<const LabelledSolid* const> parts, detail::Sheets plan)
-      : parts_(parts), near_(plan.near), plan_(std::move(plan)) {}
+  Uniting(std::span<const LabelledSolid* const> parts, const Reach& reach, detail::Sheets plan)
+      : parts_(parts), reach_(reach), plan_(std::move(plan)) {}
 
   auto run() -> United {
     const Parts all = all_of(parts_.size());
@@ -124,7 +133,7 @@ class Uniting {
   /// The union of some parts, or what is wrong with it: over the plan of all where that can be made.
   auto united(const Parts& which, bool pinned = false) -> Attempt {
     if (!plan_) {
-      plan_ = detail::sheets_of(parts_, near_);
+      plan_ = detail::sheets_of(parts_, reach_.near);
       if (!plan_) why_ = "it has overhanging eaves";
       else if (!detail::conform(*plan_)) why_ = "edges cross again and again";
     }
@@ -132,7 +141,7 @@ class Uniting {
     if (which.size() == parts_.size()) return {{}, why_};
     std::vector<const LabelledSolid*> parts;
     for (const std::size_t p : which) parts.push_back(parts_[p]);
-    Attempt made = Uniting(parts, near_).united(all_of(parts.size()));
+    Attempt made = Uniting(parts, reach_).united(all_of(parts.size()));
     for (One& one : made.solids) {
       for (auto& p : one.of) p = which[p];
       for (auto& p : one.part_of_face) p = static_cast<std::uint32_t>(which[p]);
@@ -210,6 +219,10 @@ class Uniting {
   /// A part that cannot be finished: as it is where it is valid, else its ground as a prism.
   void alone(std::size_t p, const std::string& why) {
     const LabelledSolid& part = *parts_[p];
+    if (parts_.size() > 1) {
+      if (reach_.prisms && over_plan(p, why)) return;
+      ++out_.loose;
+    }
     if (check(part.solid, written_rules()).empty()) {
       out_.solids.push_back(
           {{p}, part, std::vector<std::uint32_t>(part.solid.faces.size(), static_cast<std::uint32_t>(p))});
@@ -217,7 +230,7 @@ class Uniting {
     }
     const LabelledSolid flat = prism_of(part);
     const std::array<const LabelledSolid*, 1> one{&flat};
-    Attempt attempt = Uniting(one, near_).united({0});
+    Attempt attempt = Uniting(one, reach_).united({0});
     if (!attempt.why.empty()) {
       out_.warnings.push_back(base::warning("solid-left-out", "no valid solid can be made of a part: " + why));
       return;
@@ -231,8 +244,41 @@ class Uniting {
     out_.warnings.push_back(base::warning("solid-simplified", "a part became a flat-roofed prism: " + why));
   }
 
-  /// The ground of a part raised to half-way between its lowest and its highest roof corner.
-  static auto prism_of(const LabelledSolid& part) -> LabelledSolid {
+  /// A prism on the corners that the plan of all has of its ground. False where that is no valid solid.
+  auto over_plan(std::size_t p, const std::string& why) -> bool {
+    if (!plan_ || !why_.empty()) return false;
+    LabelledSolid ground;
+    for (const auto& sheet : plan_->sheets) {
+      if (sheet.solid != p || sheet.facing != detail::Facing::down) continue;
+      model::Face face{{}, model::FaceKind::base, {}, {0, 0, -1}};
+      for (const auto& path : sheet.paths) {
+        auto& loop = face.loops.emplace_back();
+        for (const auto& node : path) {
+          const auto& at = plan_->places[node.at];
+          const auto metres = [](std::int64_t quanta) {
+            return static_cast<double>(quanta) / detail::quanta_per_metre;
+          };
+          loop.push_back(static_cast<std::uint32_t>(ground.solid.vertices.size()));
+          ground.solid.vertices.push_back({metres(at[0]), metres(at[1]), metres(node.z - plan_->level)});
+        }
+      }
+      ground.solid.faces.push_back(std::move(face));
+      ground.classes.push_back(model::FaceClass::ground);
+    }
+    const double level = static_cast<double>(plan_->level) / detail::quanta_per_metre;
+    const auto height = [](double z) { return std::round(z * detail::quanta_per_metre) / detail::quanta_per_metre; };
+    LabelledSolid flat = prism_over_ground(ground, height(roof_middle(*parts_[p]) - level));
+    if (flat.solid.faces.empty() || !check(flat.solid, written_rules()).empty()) return false;
+    place(flat.solid, *plan_);
+    const std::vector<std::uint32_t> from(flat.solid.faces.size(), static_cast<std::uint32_t>(p));
+    out_.solids.push_back({{p}, std::move(flat), from});
+    out_.simplified.push_back(p);
+    out_.warnings.push_back(base::warning("solid-simplified", "a part became a flat-roofed prism: " + why));
+    return true;
+  }
+
+  /// Half-way between its lowest and its highest roof corner.
+  static auto roof_middle(const LabelledSolid& part) -> double {
     double least = 1e300, most = -1e300;
     for (std::size_t f = 0; f < part.solid.faces.size(); ++f)
       if (part.classes[f] == model::FaceClass::roof)
@@ -240,34 +286,36 @@ class Uniting {
           least = std::min(least, part.solid.vertices[v].z);
           most = std::max(most, part.solid.vertices[v].z);
         }
-    return prism_over_ground(part, (least + most) / 2);
+    return (least + most) / 2;
+  }
+
+  /// The ground of a part raised to half-way between its lowest and its highest roof corner.
+  static auto prism_of(const LabelledSolid& part) -> LabelledSolid {
+    return prism_over_ground(part, roof_middle(part));
   }
 
   std::span<const LabelledSolid* const> parts_;
-  std::int64_t near_;
+  Reach reach_;
   std::optional<detail::Sheets> plan_;  ///< of all parts
   std::string why_;                     ///< there is no plan of all
   United out_;
 };
 
-/// Quanta. Where parts overlap by more than the least, or a face is caught between points that near, 5 mm and 2 cm
-/// help.
-constexpr std::array reaches{detail::least_near, std::int64_t{50}, std::int64_t{200}};
-
-/// The first result without a warning, over plans in which ever more becomes one; else that with the fewest parts
-/// simplified or left out, of those the one with the fewest loose solids, and then with the fewest at all.
+/// The first result without a warning, over plans in which ever more becomes one; else that with the fewest loose
+/// solids, of those the one with the fewest parts simplified or left out, and then with the fewest solids at all.
 template <class Make>
 auto best(Make make) {
   std::optional<std::vector<United>> chosen;
   std::array<std::size_t, 3> least{};
-  for (const std::int64_t near : reaches) {
-    std::vector<United> made = make(near);
+  for (const Reach& reach : reaches) {
+    if (reach.prisms && least[0] == 0) break;
+    std::vector<United> made = make(reach);
     std::array<std::size_t, 3> lacking{};
     bool as_asked = true;
     for (const United& one : made) {
-      for (const auto& warning : one.warnings) lacking[0] += warning.code == "solid-not-united" ? 0 : 1;
+      for (const auto& warning : one.warnings) lacking[1] += warning.code == "solid-not-united" ? 0 : 1;
       as_asked = as_asked && one.warnings.empty();
-      lacking[1] += one.loose;
+      lacking[0] += one.loose;
       lacking[2] += one.solids.size();
     }
     if (!chosen || lacking < least) chosen = std::move(made), least = lacking;
@@ -277,7 +325,7 @@ auto best(Make make) {
 }
 
 auto united_alone(std::span<const LabelledSolid* const> parts) -> United {
-  return best([&](std::int64_t near) { return std::vector<United>{Uniting(parts, near).run()}; }).front();
+  return best([&](const Reach& reach) { return std::vector<United>{Uniting(parts, reach).run()}; }).front();
 }
 
 /// What buildings are ordered by, so that their union does not depend on the order in which they are given.
@@ -313,11 +361,11 @@ struct Group {
 
 /// Buildings that touch, over one plan. By their order in the group.
 auto united_over_one_plan(std::span<const std::vector<const LabelledSolid*>> buildings, const Group& group,
-                          std::int64_t near) -> std::vector<United> {
+                          const Reach& reach) -> std::vector<United> {
   std::vector<United> out;
-  auto all = detail::sheets_of(group.parts, near);
+  auto all = detail::sheets_of(group.parts, reach.near);
   if (!all || !detail::conform(*all)) {
-    for (const std::uint32_t b : group.buildings) out.push_back(Uniting(buildings[b], near).run());
+    for (const std::uint32_t b : group.buildings) out.push_back(Uniting(buildings[b], reach).run());
     return out;
   }
   std::vector<std::uint32_t> user(all->places.size(), UINT32_MAX);
@@ -335,7 +383,7 @@ auto united_over_one_plan(std::span<const std::vector<const LabelledSolid*>> bui
     own.base.clear();
     for (std::size_t p = 0; p < group.parts.size(); ++p)
       if (group.owner[p] == k) own.base.push_back(all->base[p]);
-    out.push_back(Uniting(buildings[group.buildings[k]], std::move(own)).run());
+    out.push_back(Uniting(buildings[group.buildings[k]], reach, std::move(own)).run());
   }
   return out;
 }
@@ -360,7 +408,7 @@ void unite_group(std::span<const std::vector<const LabelledSolid*>> buildings, c
       continue;
     }
     const Group one(buildings, std::move(group));
-    auto made = best([&](std::int64_t near) { return united_over_one_plan(buildings, one, near); });
+    auto made = best([&](const Reach& reach) { return united_over_one_plan(buildings, one, reach); });
     for (std::size_t k = 0; k < made.size(); ++k) out[one.buildings[k]] = std::move(made[k]);
   }
 }
