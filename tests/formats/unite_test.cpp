@@ -196,4 +196,84 @@ TEST(Union, joins_walls_turned_any_way_and_of_uneven_coordinates) {
   }
 }
 
+/// A lean-to over (0, 0) to (10, 8): 5 m high in the west, and down to the ground in the east.
+auto lean_to() -> LabelledSolid {
+  LabelledSolid model;
+  model.solid.vertices = {{0, 0, 0}, {10, 0, 0}, {10, 8, 0}, {0, 8, 0}, {0, 0, 5}, {0, 8, 5}};
+  add_face(model, {{3, 2, 1, 0}}, FaceClass::ground);
+  add_face(model, {{0, 1, 4}}, FaceClass::wall);
+  add_face(model, {{2, 3, 5}}, FaceClass::wall);
+  add_face(model, {{3, 0, 4, 5}}, FaceClass::wall);
+  add_face(model, {{1, 2, 5, 4}}, FaceClass::roof);
+  return model;
+}
+
+TEST(Union, of_a_roof_that_comes_down_to_the_ground_and_a_house_there_is_one_solid) {
+  const Solid solid = one_solid({lean_to(), box(10, 0, 5, 8, 0, 6)}, 0.1);
+  EXPECT_NEAR(area_towards(solid, down), 15 * 8, 1e-6);
+}
+
+TEST(Union, of_parts_that_overlap_by_three_millimetres_is_one_solid) {
+  one_solid({box(0, 0, 10, 8, 0, 6), box(9.997, 0, 5, 8, 0, 4)}, 0.3);
+}
+
+TEST(Union, depends_neither_on_the_order_of_the_buildings_nor_on_their_place) {
+  const auto made = [](const std::vector<LabelledSolid>& parts, const std::vector<std::size_t>& order, double shift) {
+    std::vector<LabelledSolid> moved = parts;
+    for (auto& part : moved)
+      for (auto& v : part.solid.vertices) v = v + Point3{shift, -shift, 0};
+    std::vector<std::vector<const LabelledSolid*>> buildings;
+    for (const std::size_t p : order) buildings.push_back({&moved[p]});
+    const auto all = mansard::solid::unite_all(buildings);
+    std::vector<std::vector<Point3>> corners(parts.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+      for (const auto v : all[i].solids.at(0).model.solid.vertices)
+        corners[order[i]].push_back({std::round((v.x - shift) * 1e4), std::round((v.y + shift) * 1e4), v.z});
+    return corners;
+  };
+  // Walls that miss each other by 0.3 to 0.9 mm, and a house that stands apart.
+  const std::vector<LabelledSolid> parts{box(0, 0, 10, 8, 0, 6), box(10.0003, 2, 5, 8, 0, 4),
+                                         box(3, 8.0009, 7, 5, 0, 5), box(30, 0, 10, 8, 0, 6)};
+  const auto first = made(parts, {0, 1, 2, 3}, 0);
+  EXPECT_EQ(made(parts, {3, 2, 1, 0}, 0), first);
+  EXPECT_EQ(made(parts, {1, 3, 0, 2}, 512), first);
+  EXPECT_EQ(made({parts[0], parts[1], parts[2]}, {0, 1, 2}, 0).at(1), first.at(1)) << "without the one apart";
+}
+
+TEST(Union, knows_parts_that_share_their_walls_already) {
+  const auto shared = [](const std::vector<LabelledSolid>& parts) {
+    std::vector<const LabelledSolid*> all;
+    for (const auto& part : parts) all.push_back(&part);
+    return mansard::solid::share_walls(all);
+  };
+  EXPECT_TRUE(shared({box(0, 0, 10, 8, 0, 6), box(10, 0, 5, 8, 0, 4)}));
+  EXPECT_TRUE(shared({gable(0, 0, 10, 8, 0, 6, 9)})) << "the ridge breaks the wall below it";
+  EXPECT_FALSE(shared({box(0, 0, 10, 8, 0, 6), box(10.0003, 0, 5, 8, 0, 4)}));
+  std::vector<LabelledSolid> made;
+  const auto parts = std::vector{box(0, 0, 10, 8, 0, 6), box(10.0003, 0, 5, 8, 0, 4)};
+  for (auto& one : mansard::solid::unite_all(std::vector<std::vector<const LabelledSolid*>>{{&parts[0]}, {&parts[1]}}))
+    made.push_back(std::move(one.solids.at(0).model));
+  EXPECT_TRUE(shared(made));
+}
+
+TEST(Union, has_no_edge_inside_of_its_ground) {
+  // The lean-to and the house as one shell over one ground: an edge runs through the middle of it.
+  LabelledSolid model;
+  model.solid.vertices = {{0, 0, 0}, {10, 0, 0}, {15, 0, 0}, {15, 8, 0}, {10, 8, 0}, {0, 8, 0},
+                          {0, 0, 5}, {0, 8, 5},  {10, 0, 6}, {15, 0, 6}, {15, 8, 6}, {10, 8, 6}};
+  add_face(model, {{5, 4, 3, 2, 1, 0}}, FaceClass::ground);
+  add_face(model, {{0, 1, 6}}, FaceClass::wall);
+  add_face(model, {{4, 5, 7}}, FaceClass::wall);
+  add_face(model, {{5, 0, 6, 7}}, FaceClass::wall);
+  add_face(model, {{1, 4, 7, 6}}, FaceClass::roof);
+  add_face(model, {{1, 2, 9, 8}}, FaceClass::wall);
+  add_face(model, {{2, 3, 10, 9}}, FaceClass::wall);
+  add_face(model, {{3, 4, 11, 10}}, FaceClass::wall);
+  add_face(model, {{4, 1, 8, 11}}, FaceClass::wall);
+  add_face(model, {{8, 9, 10, 11}}, FaceClass::roof);
+  const auto faults = mansard::solid::check(model.solid, mansard::solid::written_rules());
+  ASSERT_FALSE(faults.empty());
+  EXPECT_EQ(faults.front().code, "solid-self-intersection");
+}
+
 }  // namespace
