@@ -157,7 +157,7 @@ class Uniting {
     for (const auto& sheet : own.sheets)
       if (pinned && !is_own(sheet))
         for (const auto& path : sheet.paths)
-          for (const auto& node : path) own.pinned[node.at] = 2;
+          for (const auto& node : path) own.pinned[node.at] = detail::of_a_solid;
     std::erase_if(own.sheets, [&](const auto& sheet) { return !is_own(sheet); });
     return own;
   }
@@ -361,7 +361,7 @@ struct Group {
 
 /// Buildings that touch, over one plan. By their order in the group.
 auto united_over_one_plan(std::span<const std::vector<const LabelledSolid*>> buildings, const Group& group,
-                          const Reach& reach) -> std::vector<United> {
+                          const Reach& reach, std::uint8_t pin) -> std::vector<United> {
   std::vector<United> out;
   auto all = detail::sheets_of(group.parts, reach.near);
   if (!all || !detail::conform(*all)) {
@@ -374,7 +374,7 @@ auto united_over_one_plan(std::span<const std::vector<const LabelledSolid*>> bui
     for (const auto& path : sheet.paths)
       for (const auto& node : path) {
         if (user[node.at] == UINT32_MAX) user[node.at] = group.owner[sheet.solid];
-        else if (user[node.at] != group.owner[sheet.solid]) all->pinned[node.at] = 1;
+        else if (user[node.at] != group.owner[sheet.solid]) all->pinned[node.at] = pin;
       }
   for (std::uint32_t k = 0; k < group.buildings.size(); ++k) {
     detail::Sheets own = *all;
@@ -390,7 +390,7 @@ auto united_over_one_plan(std::span<const std::vector<const LabelledSolid*>> bui
 
 /// Buildings whose boxes meet. Those with overhanging eaves stay by themselves.
 void unite_group(std::span<const std::vector<const LabelledSolid*>> buildings, const std::vector<std::uint32_t>& which,
-                 std::vector<United>& out) {
+                 std::uint8_t pin, std::vector<United>& out) {
   std::vector<std::uint32_t> fields;
   for (const std::uint32_t b : which) {
     if (which.size() > 1 && detail::sheets_of(buildings[b])) fields.push_back(b);
@@ -408,71 +408,13 @@ void unite_group(std::span<const std::vector<const LabelledSolid*>> buildings, c
       continue;
     }
     const Group one(buildings, std::move(group));
-    auto made = best([&](const Reach& reach) { return united_over_one_plan(buildings, one, reach); });
+    auto made = best([&](const Reach& reach) { return united_over_one_plan(buildings, one, reach, pin); });
     for (std::size_t k = 0; k < made.size(); ++k) out[one.buildings[k]] = std::move(made[k]);
   }
 }
 
-}  // namespace
-
-auto prism_over_ground(const LabelledSolid& model, double z) -> LabelledSolid {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, bool> party;
-  for (std::size_t f = 0; f < model.solid.faces.size(); ++f)
-    for (const auto& loop : model.solid.faces[f].loops)
-      for (std::size_t i = 0; i < loop.size(); ++i)
-        if (model.classes[f] == model::FaceClass::party_wall) party[{loop[i], loop[(i + 1) % loop.size()]}] = true;
-  LabelledSolid out;
-  std::map<std::uint32_t, std::uint32_t> low;
-  const auto vertex = [&](std::uint32_t v) {  // of the ground; that of the roof is the next
-    const auto [entry, added] = low.try_emplace(v, static_cast<std::uint32_t>(out.solid.vertices.size()));
-    if (added) {
-      const auto p = model.solid.vertices[v];
-      out.solid.vertices.push_back(p);
-      out.solid.vertices.push_back({p.x, p.y, z});
-    }
-    return entry->second;
-  };
-  const auto add = [&](model::Face face, model::FaceClass kind) {
-    out.solid.faces.push_back(std::move(face));
-    out.classes.push_back(kind);
-  };
-  for (std::size_t f = 0; f < model.solid.faces.size(); ++f) {
-    if (model.classes[f] != model::FaceClass::ground) continue;
-    model::Face ground{{}, model::FaceKind::base, {}, {0, 0, -1}}, roof{{}, model::FaceKind::cap, {}, {0, 0, 1}};
-    for (const auto& loop : model.solid.faces[f].loops) {
-      auto& below = ground.loops.emplace_back();
-      auto& above = roof.loops.emplace_back();
-      for (std::size_t i = 0; i < loop.size(); ++i) {
-        if (model.solid.vertices[loop[i]].z >= z) return {};
-        const std::uint32_t from = loop[i], to = loop[(i + 1) % loop.size()], a = vertex(from), b = vertex(to);
-        below.push_back(a);
-        above.insert(above.begin(), a + 1);
-        const auto along = out.solid.vertices[a] - out.solid.vertices[b];  // as the wall runs, seen from outside
-        add({{{b, a, a + 1, b + 1}},
-             model::FaceKind::side,
-             {},
-             geometry::normalised(geometry::Point3{along.y, -along.x, 0})},
-            party.contains({to, from}) ? model::FaceClass::party_wall : model::FaceClass::wall);
-      }
-    }
-    add(std::move(ground), model::FaceClass::ground);
-    add(std::move(roof), model::FaceClass::roof);
-  }
-  return out;
-}
-
-auto share_walls(std::span<const LabelledSolid* const> parts) -> bool {
-  for (const auto* part : parts)
-    if (!check(part->solid, written_rules()).empty()) return false;
-  auto sheets = detail::sheets_of(parts);
-  if (!sheets) return true;
-  const detail::Sheets before = *sheets;
-  return detail::conform(*sheets) && detail::only_broken(before, *sheets);
-}
-
-auto unite(std::span<const LabelledSolid* const> parts) -> United { return united_alone(parts); }
-
-auto unite_all(std::span<const std::vector<const LabelledSolid*>> buildings) -> std::vector<United> {
+auto unite_groups(std::span<const std::vector<const LabelledSolid*>> buildings, std::uint8_t pin)
+    -> std::vector<United> {
   std::vector<geometry::Box2> boxes(buildings.size());
   std::vector<std::uint32_t> order;
   for (std::uint32_t b = 0; b < buildings.size(); ++b) {
@@ -492,8 +434,31 @@ auto unite_all(std::span<const std::vector<const LabelledSolid*>> buildings) -> 
   std::vector<std::vector<std::uint32_t>> list;
   for (auto& [name, group] : groups) list.push_back(std::move(group));
   std::vector<United> out(buildings.size());
-  base::parallel_for(list.size(), [&](std::size_t g) { unite_group(buildings, list[g], out); });
+  base::parallel_for(list.size(), [&](std::size_t g) { unite_group(buildings, list[g], pin, out); });
   return out;
+}
+
+}  // namespace
+
+auto share_walls(std::span<const LabelledSolid* const> parts) -> bool {
+  for (const auto* part : parts)
+    if (!check(part->solid, written_rules()).empty()) return false;
+  auto sheets = detail::sheets_of(parts);
+  if (!sheets) return true;
+  const detail::Sheets before = *sheets;
+  return detail::conform(*sheets) && detail::only_broken(before, *sheets);
+}
+
+auto unite(std::span<const LabelledSolid* const> parts) -> United { return united_alone(parts); }
+
+auto unite_all(std::span<const std::vector<const LabelledSolid*>> buildings) -> std::vector<United> {
+  return unite_groups(buildings, detail::of_a_building);
+}
+
+auto unite_each(std::span<const LabelledSolid* const> parts) -> std::vector<United> {
+  std::vector<std::vector<const LabelledSolid*>> each;
+  for (const auto* part : parts) each.push_back({part});
+  return unite_groups(each, detail::of_a_solid);
 }
 
 }  // namespace mansard::solid

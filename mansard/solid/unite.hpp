@@ -40,8 +40,12 @@ struct United {
 [[nodiscard]] auto unite_all(std::span<const std::vector<const model::LabelledSolid*>> buildings)
     -> std::vector<United>;
 
+/// A solid for each part of one building. Validators compare solids of one building exactly, so that walls that parts
+/// share are the same faces in both, piece by piece.
+[[nodiscard]] auto unite_each(std::span<const model::LabelledSolid* const> parts) -> std::vector<United>;
+
 /// Whether parts are valid by the rules for files and share their walls exactly already, corner for corner: then
-/// unite_all() of each by itself has nothing to do. Of parts with overhanging eaves only validity is asked.
+/// unite_each() has nothing to do. Of parts with overhanging eaves only validity is asked.
 [[nodiscard]] auto share_walls(std::span<const model::LabelledSolid* const> parts) -> bool;
 
 /// The ground of a model raised to a flat roof at z. It stands on the corners of the model's ground, and its walls are

@@ -124,9 +124,7 @@ auto drawn(const model::Building& building, const Gate::Keyed& keys, Solids soli
     return out;
   }
   // Over one plan, so that parts share walls exactly.
-  std::vector<std::vector<const model::LabelledSolid*>> each;
-  for (const auto* model : models) each.push_back({model});
-  auto made = solid::share_walls(models) ? std::vector<solid::United>(models.size()) : solid::unite_all(each);
+  auto made = solid::share_walls(models) ? std::vector<solid::United>(models.size()) : solid::unite_each(models);
   for (std::size_t i = 0; i < made.size(); ++i) {
     if (made[i].solids.empty()) made[i].solids.push_back({{0}, *models[i], {}});  // its writer says what is wrong
     take(std::move(made[i]), {numbers[i]});

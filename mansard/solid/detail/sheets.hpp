@@ -39,6 +39,9 @@ struct Sheet {
   std::vector<Path> paths;  ///< as the loops of a face
 };
 
+/// Whose corner is at a place, too, where it is not 0: another building's, or another solid's of the building.
+inline constexpr std::uint8_t of_a_building = 1, of_a_solid = 2;
+
 struct Sheets {
   Place origin{};
   std::int64_t level = 0;  ///< whole quanta, as `origin`: heights of a union count from here until it is finished
@@ -46,7 +49,7 @@ struct Sheets {
   std::vector<Place> places;
   std::vector<Sheet> sheets;
   std::vector<std::int64_t> base;    ///< of each solid
-  std::vector<std::uint8_t> pinned;  ///< by place: a corner of another building (1) or solid (2), too, which stays
+  std::vector<std::uint8_t> pinned;  ///< by place: whose corner it is, too, and stays; see below
 };
 
 /// None where a solid has more than one level of ground, or soffits: it is no height field then.

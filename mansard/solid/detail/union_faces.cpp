@@ -198,7 +198,9 @@ class Building {
     const Point2 along = geometry::normalised(run(*longest)), start = flat_of({longest->step.first, 0});
     // A wall that another solid of the building has too must be the same there, so it must be planar exactly:
     // validators compare them.
-    const auto is_pinned = [&](const Node& node) { return node.at < s_.pinned.size() && s_.pinned[node.at] == 2; };
+    const auto is_pinned = [&](const Node& node) {
+      return node.at < s_.pinned.size() && s_.pinned[node.at] == of_a_solid;
+    };
     const bool shared =
         std::ranges::any_of(group, [&](const Piece* piece) { return std::ranges::any_of(piece->path, is_pinned); });
     const double most = shared ? 1e-3 : 1.5;  // quanta
