@@ -8,6 +8,7 @@ namespace {
 
 using namespace mansard::evaluate;
 using mansard::geometry::Mesh;
+using models::in_triangles;
 using models::Model;
 using models::model_of;
 using models::SurfaceClass;
@@ -57,20 +58,6 @@ auto compared(const Model& truth, const Model& model) -> FormTruth {
 
 auto count(const std::vector<RoofLine>& lines, RoofLineKind kind) {
   return std::ranges::count(lines, kind, &RoofLine::kind);
-}
-
-auto in_triangles(const Model& model) -> Model {
-  Model out;
-  const auto surface = mansard::model::surface_of(model);
-  for (const auto& building : model.buildings) out.buildings.push_back({building.id, {{building.id, {}}}});
-  for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
-    models::ModelFace face;
-    auto& loop = face.loops.emplace_back();
-    for (const auto v : surface.mesh.triangles[t]) loop.push_back(surface.mesh.vertices[v]);
-    face.kind = surface.classes[t];
-    out.buildings[surface.buildings[t]].parts[0].faces.push_back(face);
-  }
-  return out;
 }
 
 TEST(Form, of_a_plain_gable_has_nothing_to_object_to) {

@@ -56,4 +56,19 @@ inline auto rectangle(double x0, double x1) -> mansard::geometry::Polygon {
   return {{{x0, 0}, {x1, 0}, {x1, 8}, {x0, 8}}, {}};
 }
 
+/// The same model with every face cut into triangles.
+inline auto in_triangles(const Model& model) -> Model {
+  Model out;
+  const auto surface = mansard::model::surface_of(model);
+  for (const auto& building : model.buildings) out.buildings.push_back({building.id, {{building.id, {}}}});
+  for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
+    ModelFace face;
+    auto& loop = face.loops.emplace_back();
+    for (const auto v : surface.mesh.triangles[t]) loop.push_back(surface.mesh.vertices[v]);
+    face.kind = surface.classes[t];
+    out.buildings[surface.buildings[t]].parts[0].faces.push_back(face);
+  }
+  return out;
+}
+
 }  // namespace models

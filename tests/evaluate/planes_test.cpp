@@ -7,25 +7,11 @@
 namespace {
 
 using mansard::evaluate::planes_of;
+using models::in_triangles;
 using models::model_of;
 using models::SurfaceClass;
 using solids::box;
 using solids::gable;
-
-/// The same model with every face cut into triangles.
-auto in_triangles(const models::Model& model) -> models::Model {
-  models::Model out;
-  const auto surface = mansard::model::surface_of(model);
-  for (const auto& building : model.buildings) out.buildings.push_back({building.id, {{building.id, {}}}});
-  for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
-    models::ModelFace face;
-    auto& loop = face.loops.emplace_back();
-    for (const auto v : surface.mesh.triangles[t]) loop.push_back(surface.mesh.vertices[v]);
-    face.kind = surface.classes[t];
-    out.buildings[surface.buildings[t]].parts[0].faces.push_back(face);
-  }
-  return out;
-}
 
 TEST(Planes, of_a_box_are_six_also_when_its_faces_are_cut_into_triangles) {
   const auto model = model_of({{box({0, 0}, {10, 8}, 0, 6)}});

@@ -5,6 +5,7 @@
 #include "mansard/formats/documents.hpp"
 #include "mansard/formats/plans.hpp"
 #include "mansard/solid/solid.hpp"
+#include "simulate/apart.hpp"
 #include "simulate/houses.hpp"
 
 namespace mansard::simulate {
@@ -40,18 +41,7 @@ TEST_P(Block, has_valid_solids_with_walls_and_roofs_only_where_they_are_meant) {
 }
 
 TEST_P(Block, has_buildings_that_do_not_overlap) {  // guarantee 2
-  const auto truth = block();
-  const auto& buildings = truth.city.buildings;
-  for (std::size_t a = 0; a < buildings.size(); ++a)
-    for (std::size_t b = a + 1; b < buildings.size(); ++b)
-      for (const auto& p : buildings[a].footprint)
-        for (const auto& q : buildings[b].footprint) {
-          const auto common = geometry::intersect(p, q);
-          ASSERT_TRUE(common);
-          double shared = 0;
-          for (const auto& piece : *common) shared += geometry::area(piece);
-          EXPECT_LT(shared, 0.01) << buildings[a].id << " " << buildings[b].id;
-        }
+  simulated::expect_apart(block().city.buildings);
 }
 
 TEST_P(Block, has_plausible_heights) {

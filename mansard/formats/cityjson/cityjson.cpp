@@ -154,10 +154,10 @@ void CityObjects::add(const model::Building& building, const Gate::Keyed& keys,
   const Drawn solids = drawn(building, keys, solids_);
   warnings.insert(warnings.end(), solids.warnings.begin(), solids.warnings.end());
   std::vector<Shape> shapes;
-  for (const auto& [part, first, parts] : solids.solids) {
+  for (const auto& [part, parts] : solids.solids) {
     auto fine = quantised(part.model);
     const double top = roof_height(fine, part.attributes, frame_.origin[2]);
-    const bool own = part.id == keys.building || (parts.size() == 1 && part.id == keys.parts[first]);
+    const bool own = part.id == keys.building || (parts.size() == 1 && part.id == keys.parts[parts.front()]);
     Shape& shape = shapes.emplace_back(Shape{part.id, {}, flat_prism(fine, top), std::move(fine)});
     if (!own)
       for (const std::size_t p : parts) shape.of.push_back(keys.parts[p]);

@@ -93,11 +93,10 @@ auto drawn(const model::Building& building, const Gate::Keyed& keys, Solids soli
         p = numbers[p];
         parts.push_back(&building.parts[p]);
       }
-      const std::size_t first = solid.of.front();
-      std::string key = one ? keys.building : keys.parts[first];
+      std::string key = one ? keys.building : keys.parts[solid.of.front()];
       while (!taken.insert(key).second) key += "-piece";
       out.solids.push_back(
-          {{std::move(key), {}, std::move(solid.model), merged_attributes(parts)}, first, std::move(solid.of)});
+          {{std::move(key), {}, std::move(solid.model), merged_attributes(parts)}, std::move(solid.of)});
     }
     for (auto& warning : united.warnings) {
       warning.subject = building.id;

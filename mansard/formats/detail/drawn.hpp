@@ -8,8 +8,7 @@ namespace mansard::formats::detail {
 /// A solid as a writer takes it: `part` has its key as id, the model, and the attributes of its parts.
 struct DrawnSolid {
   model::Part part;
-  std::size_t first = 0;  ///< the first of its parts
-  std::vector<std::size_t> parts;
+  std::vector<std::size_t> parts;  ///< those in it, rising
 };
 
 struct Drawn {

@@ -71,7 +71,7 @@ auto ObjText::of(const model::Building& building, const Gate::Keyed& keys) -> ba
   const Drawn solids = drawn(building, keys, solids_);
   warnings_.insert(warnings_.end(), solids.warnings.begin(), solids.warnings.end());
   if (!solids.solids.empty()) out += "o " + one_word(keys.building) + "\n";
-  for (const auto& [part, first, parts] : solids.solids) {
+  for (const auto& [part, parts] : solids.solids) {
     const auto facets = facets_of(part);
     if (!facets) return facets.error();
     out += "g " + one_word(part.id) + "\n";

@@ -54,7 +54,7 @@ class StlWriter : public CityWriter {
     }
     const Drawn all = drawn(building, *keyed, shell_ == Shell::part ? Solids::part : Solids::building);
     warnings_.insert(warnings_.end(), all.warnings.begin(), all.warnings.end());
-    for (const auto& [part, first, parts] : all.solids)
+    for (const auto& [part, parts] : all.solids)
       if (auto put = append(part.model.solid, part.id); !put) return put;
     return {};
   }

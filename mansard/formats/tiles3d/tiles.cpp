@@ -162,7 +162,7 @@ class TilesWriter : public CityWriter {
     std::vector<PartMesh> fine, flat;
     const Drawn solids = drawn(building, *keyed, options_.solids);
     warnings_.insert(warnings_.end(), solids.warnings.begin(), solids.warnings.end());
-    for (const auto& [part, first, parts] : solids.solids) {
+    for (const auto& [part, parts] : solids.solids) {
       auto mesh = part_mesh(part.model, part.id);
       if (!mesh) return mesh.error();
       auto coarse = flat_mesh(part, *mesh, header_.frame, item);
@@ -211,7 +211,7 @@ class TilesWriter : public CityWriter {
                  std::vector<PartMesh> fine, std::vector<PartMesh> flat) {
     const auto order = static_cast<std::int64_t>(items_.size());
     std::vector<Row> rows;
-    for (const auto& [part, first, parts] : solids.solids)
+    for (const auto& [part, parts] : solids.solids)
       rows.push_back(columns_.row(building, keyed.building, order, &part, part.id));
     if (rows.empty()) {
       rows.push_back(columns_.row(building, keyed.building, order, nullptr, {}));
