@@ -30,7 +30,7 @@ struct Point3 {
 [[nodiscard]] constexpr auto cross(Point3 a, Point3 b) -> Point3 {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-[[nodiscard]] inline auto length(Point2 a) -> double { return std::hypot(a.x, a.y); }
+[[nodiscard]] inline auto length(Point2 a) -> double { return std::sqrt(dot(a, a)); }
 [[nodiscard]] inline auto length(Point3 a) -> double { return std::sqrt(dot(a, a)); }
 /// The vector scaled to length 1; the zero vector stays zero.
 template <class P>

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include "mansard/extrude/extrude.hpp"
 #include "mansard/refine/detail/site.hpp"
@@ -30,6 +32,10 @@ class Judge {
 
   /// Gives up where the plan cannot be raised in full.
   [[nodiscard]] auto operator()(const model::Plan& plan) const -> base::Result<Judged>;
+
+  /// m²·m²: of heights on the site's grid, cut off at `cap`, m above the base; NaN where there are none.
+  [[nodiscard]] auto misfit_of(const std::vector<double>& z, double cap = std::numeric_limits<double>::infinity()) const
+      -> double;
 
   [[nodiscard]] auto site() const -> const Site& { return site_; }
   [[nodiscard]] auto options() const -> const Options& { return options_; }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <optional>
 
 #include "mansard/refine/detail/forms.hpp"
 #include "mansard/refine/detail/order.hpp"
@@ -14,8 +16,22 @@ namespace {
 using model::Plan;
 using model::Profile;
 
-/// Later caps must be clearly better, so that noise does not choose; the likeliest come first.
-auto best_cap(const Draft& draft, const Judge& judge) -> base::Result<Judged> {
+/// Of the caps the best, one after the other: later ones must be clearly better, so that noise does not choose; the
+/// likeliest come first. A cap cuts a roof off and changes nothing below, so that one sketch shows them all.
+auto best_of(const std::vector<double>& caps, const Judge& judge, const Judged& uncut) -> double {
+  double best = caps.front(), least = std::numeric_limits<double>::infinity();
+  for (const double cap : caps) {
+    const double misfit = judge.misfit_of(uncut.view.z, cap);
+    if (misfit < judge.options().search.cap_gain * least) {
+      least = misfit;
+      best = cap;
+    }
+  }
+  return best;
+}
+
+/// The same, each cap with a sketch of its own: some roofs can be sketched only below where they go wrong.
+auto best_of_each(const Draft& draft, const Judge& judge) -> base::Result<Judged> {
   std::optional<Judged> best;
   std::optional<base::Diagnostic> failure;
   for (const double cap : draft.caps) {
@@ -29,10 +45,24 @@ auto best_cap(const Draft& draft, const Judge& judge) -> base::Result<Judged> {
   return *failure;
 }
 
+auto best_cap(const Draft& draft, const Judge& judge) -> base::Result<Judged> {
+  Plan plan = draft.plan;
+  plan.cap = std::ranges::max(draft.caps);
+  auto uncut = judge(plan);
+  if (!uncut) return best_of_each(draft, judge);
+  const double best = best_of(draft.caps, judge, *uncut);
+  if (best == plan.cap) return uncut;
+  plan.cap = best;
+  auto judged = judge(plan);
+  return judged ? std::move(judged) : best_of_each(draft, judge);
+}
+
 /// Moves the planes until that no longer helps.
 auto settle(Judged judged, const Judge& judge) -> Judged {
   for (std::int64_t round = 0; round < judge.options().search.settle_rounds; ++round) {
-    auto next = judge(refitted(judged, judge.site(), judge.options()));
+    const Plan plan = refitted(judged, judge.site(), judge.options());
+    if (plan == judged.plan) break;
+    auto next = judge(plan);
     if (!next || !cheaper(next->cost, judged.cost)) break;
     judged = std::move(*next);
   }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "mansard/base/statistics.hpp"
+#include "mansard/refine/detail/blur.hpp"
 
 namespace mansard::refine::detail {
 namespace {
@@ -74,6 +75,21 @@ void each_near(Point2 a, Point2 b, double within, const Heights& grid, See see) 
   }
 }
 
+auto unblurred_of(const Polygon& polygon, const Heights& grid) -> std::vector<double> {
+  const std::size_t stride = grid.columns + 2 * blur_reach;
+  std::vector<double> inside(stride * (grid.rows + 2 * blur_reach), 0), sums(inside.size(), 0);
+  const auto padded = [&](std::size_t column, std::size_t row) {
+    return (row + blur_reach) * stride + column + blur_reach;
+  };
+  each_inside(polygon, grid, [&](std::size_t column, std::size_t row) { inside[padded(column, row)] = 1; });
+  blur_rows(inside, sums);
+  std::vector<double> out(grid.z.size(), 0);
+  each_inside(polygon, grid, [&](std::size_t column, std::size_t row) {
+    out[row * grid.columns + column] = 1 / blurred(sums, padded(column, row), stride);
+  });
+  return out;
+}
+
 /// Lists the cells and weighs them.
 void finish(Site& site, const Options& options) {
   const auto& grid = site.measured;
@@ -93,6 +109,7 @@ void finish(Site& site, const Options& options) {
     site.weight.push_back(margin[cell] ? options.samples.margin_weight : 1);
   }
   std::ranges::sort(site.sorted);
+  site.unblurred = unblurred_of(site.polygon, grid);
 }
 
 /// m: coarser over very large parts.
@@ -123,7 +140,7 @@ class Cells {
 }  // namespace
 
 auto look(const Polygon& polygon, double base, const rays::Scene& mesh, const Options& options) -> Site {
-  Site site{polygon, base, grid_over(polygon, spacing_over(polygon, options)), {}, {}, {}, 0};
+  Site site{polygon, base, grid_over(polygon, spacing_over(polygon, options)), {}, {}, {}, 0, {}};
   auto& grid = site.measured;
   each_inside(polygon, grid, [&](std::size_t column, std::size_t row) {
     if (const auto z = mesh.top(grid.centre(column, row))) grid.z[row * grid.columns + column] = *z - base;
@@ -133,7 +150,7 @@ auto look(const Polygon& polygon, double base, const rays::Scene& mesh, const Op
 }
 
 auto crop(const Site& site, const Polygon& piece, const Options& options) -> Site {
-  Site out{piece, site.base, grid_over(piece, site.measured.spacing), {}, {}, {}, 0};
+  Site out{piece, site.base, grid_over(piece, site.measured.spacing), {}, {}, {}, 0, {}};
   auto& grid = out.measured;
   const Cells cells(site.measured, grid);
   each_inside(piece, grid, [&](std::size_t column, std::size_t row) {
@@ -145,7 +162,7 @@ auto crop(const Site& site, const Polygon& piece, const Options& options) -> Sit
 
 auto merged(const Site& a, const Site& b, const Polygon& both, const rays::Scene& mesh, const Options& options)
     -> Site {
-  Site out{both, a.base, grid_over(both, spacing_over(both, options)), {}, {}, {}, 0};
+  Site out{both, a.base, grid_over(both, spacing_over(both, options)), {}, {}, {}, 0, {}};
   auto& grid = out.measured;
   if (a.measured.spacing != grid.spacing || b.measured.spacing != grid.spacing)
     return look(both, a.base, mesh, options);
