@@ -51,30 +51,54 @@ void round_all(Polygons& polygons) {
   for (auto& polygon : polygons) geometry::change_corners(polygon, [](Point2 p) { return rounded(p); });
 }
 
+/// The vertices that some triangles use, and where each is among them.
+class Places {
+ public:
+  Places(const geometry::Mesh& mesh, const std::vector<std::uint32_t>& triangles) {
+    used_.reserve(3 * triangles.size());
+    for (const auto t : triangles) used_.insert(used_.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+    std::ranges::sort(used_);
+    used_.erase(std::unique(used_.begin(), used_.end()), used_.end());
+    constexpr std::size_t sparse = 8;  // a table costs memory, a search time; never more than 32 bytes a vertex
+    if (used_.empty() || used_.back() - used_.front() >= sparse * used_.size()) return;
+    table_.resize(used_.back() - used_.front() + 1);
+    for (std::size_t i = 0; i < used_.size(); ++i) table_[used_[i] - used_.front()] = static_cast<std::uint32_t>(i);
+  }
+
+  [[nodiscard]] auto used() const -> const std::vector<std::uint32_t>& { return used_; }
+  [[nodiscard]] auto operator()(std::uint32_t vertex) const -> std::size_t {
+    if (!table_.empty()) return table_[vertex - used_.front()];
+    return static_cast<std::size_t>(std::ranges::lower_bound(used_, vertex) - used_.begin());
+  }
+
+ private:
+  std::vector<std::uint32_t> used_, table_;
+};
+
 /// The triangles asked for, moved by −origin and rounded, in an order that their coordinates alone decide: vertices by
 /// x, y, z, every triangle from its first vertex on, triangles by their vertices. What has become one in rounding is
 /// one, and triangles without three corners are gone.
 auto part_of(const geometry::Mesh& mesh, const std::vector<std::uint32_t>& triangles, Point3 origin) -> geometry::Mesh {
-  std::vector<std::uint32_t> used;
-  used.reserve(3 * triangles.size());
-  for (const auto t : triangles) used.insert(used.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
-  std::ranges::sort(used);
-  used.erase(std::unique(used.begin(), used.end()), used.end());
-  std::vector<Point3> places;
-  places.reserve(used.size());
-  for (const auto v : used) places.push_back(rounded(mesh.vertices[v] - origin));
+  const Places place_of(mesh, triangles);
+  struct Placed {
+    Point3 at;
+    std::uint32_t place = 0;
+  };
+  std::vector<Placed> placed;
+  placed.reserve(place_of.used().size());
+  for (const auto v : place_of.used())
+    placed.push_back({rounded(mesh.vertices[v] - origin), static_cast<std::uint32_t>(placed.size())});
+  std::ranges::sort(placed, {}, &Placed::at);
   geometry::Mesh out;
-  out.vertices = places;
-  std::ranges::sort(out.vertices);
-  out.vertices.erase(std::unique(out.vertices.begin(), out.vertices.end()), out.vertices.end());
-  std::vector<std::uint32_t> rank;
-  rank.reserve(places.size());
-  for (const Point3 p : places)
-    rank.push_back(static_cast<std::uint32_t>(std::ranges::lower_bound(out.vertices, p) - out.vertices.begin()));
+  std::vector<std::uint32_t> rank(placed.size());
+  for (const auto& [at, place] : placed) {
+    if (out.vertices.empty() || out.vertices.back() != at) out.vertices.push_back(at);
+    rank[place] = static_cast<std::uint32_t>(out.vertices.size() - 1);
+  }
   out.triangles.reserve(triangles.size());
   for (const auto t : triangles) {
     geometry::Triangle triangle = mesh.triangles[t];
-    for (auto& v : triangle) v = rank[static_cast<std::size_t>(std::ranges::lower_bound(used, v) - used.begin())];
+    for (auto& v : triangle) v = rank[place_of(v)];
     if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0]) continue;
     std::ranges::rotate(triangle, std::ranges::min_element(triangle));
     out.triangles.push_back(triangle);

@@ -25,18 +25,25 @@ constexpr double parallel = 1e-6;
 /// Looks by profile and by the part of the profile that made the face they see.
 using Looks = std::vector<std::vector<std::vector<Look>>>;
 
-auto ring_of(const Plan& plan, std::uint32_t ring) -> const PlanRing& {
-  return ring == 0 ? plan.outer : plan.holes[ring - 1];
-}
-
-/// Unit, in plan.
-auto inward_from(const PlanRing& ring, std::uint32_t edge) -> Point2 {
-  return geometry::left_of(geometry::normalised(ring.points[(edge + 1) % ring.points.size()] - ring.points[edge]));
-}
-
-/// Metres inward of the edge.
-auto inward_of(const PlanRing& ring, std::uint32_t edge, Point2 at) -> double {
-  return dot(at - ring.points[edge], inward_from(ring, edge));
+/// Of an edge of the plan.
+struct Edge {
+  Point2 start;
+  Point2 inward;  ///< unit
+  std::uint32_t profile = 0;
+};
+/// By ring and edge: the outer ring, then the holes.
+auto edges_of(const Plan& plan) -> std::vector<std::vector<Edge>> {
+  std::vector<std::vector<Edge>> out;
+  const auto add = [&out](const PlanRing& ring) {
+    auto& edges = out.emplace_back();
+    for (std::size_t i = 0; i < ring.points.size(); ++i) {
+      const Point2 along = ring.points[(i + 1) % ring.points.size()] - ring.points[i];
+      edges.push_back({ring.points[i], geometry::left_of(geometry::normalised(along)), ring.profile_of_edge[i]});
+    }
+  };
+  add(plan.outer);
+  for (const auto& hole : plan.holes) add(hole);
+  return out;
 }
 
 struct Sorted {
@@ -81,6 +88,7 @@ auto sort_looks(const Judged& judged, const Site& site, const Options& options, 
   Sorted out;
   out.looks.resize(judged.plan.profiles.size());
   for (std::size_t p = 0; p < out.looks.size(); ++p) out.looks[p].resize(judged.plan.profiles[p].size());
+  const auto edges = edges_of(judged.plan);
   for (std::size_t i = 0; i < site.cells.size(); ++i) {
     const auto cell = site.cells[i];
     if (std::isnan(judged.view.z[cell])) continue;
@@ -88,16 +96,16 @@ auto sort_looks(const Judged& judged, const Site& site, const Options& options, 
     if (face.kind == model::FaceKind::cap && site.weight[i] == 1) out.cap.push_back(site.measured.z[cell]);
     if (!face.provenance || face.kind == model::FaceKind::connector) continue;
     const auto& from = *face.provenance;
-    const auto& ring = ring_of(judged.plan, from.ring);
-    auto& parts = out.looks[ring.profile_of_edge[from.edge]];
+    const Edge& edge = edges[from.ring][from.edge];
+    auto& parts = out.looks[edge.profile];
     if (from.part >= parts.size()) continue;
     const Point2 at = site.measured.centre(cell);
-    const double inward = inward_of(ring, from.edge, at);
+    const double inward = dot(at - edge.start, edge.inward);
     if (used == Used::all) {
       parts[from.part].push_back({inward, site.measured.z[cell], site.weight[i]});
     } else if (from.part + 1 < parts.size()) {
-      const auto& profile = judged.plan.profiles[ring.profile_of_edge[from.edge]];
-      if (middle.holds(cell, profile, from.part, at, inward, inward_from(ring, from.edge)))
+      const auto& profile = judged.plan.profiles[edge.profile];
+      if (middle.holds(cell, profile, from.part, at, inward, edge.inward))
         parts[from.part].push_back({inward, site.measured.z[cell], 1});
     }
   }
