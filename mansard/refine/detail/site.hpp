@@ -19,7 +19,8 @@ struct Site {
   std::vector<double> weight;        ///< per entry of `cells`: less along the outline
   std::vector<double> sorted;        ///< the heights
   double cell_area = 0;              ///< m²
-  /// Per cell of the grid: 0 outside the polygon, else the factor that makes a sum of `blurred` a mean of what is inside.
+  /// Per cell of the grid: 0 outside the polygon, else the factor that makes a sum of `blurred` a mean of what is
+  /// inside.
   std::vector<double> unblurred;
 };
 
