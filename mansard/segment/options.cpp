@@ -27,8 +27,11 @@ auto option_list(Options& o) -> base::OptionList {
   list.choice("continuations", o.continuations, {{"sweep", Continuations::sweep}, {"plain", Continuations::plain}},
               "Whether the continuations of sweep-edges count as sweep-edges.")
       .source("docs/decisions/0012");
-  list.choice("thin_rule", o.thin_rule, {{"all", ThinRule::all}, {"unsupported", ThinRule::unsupported}},
-              "Whether walls that were seen from both sides can make a sliver too.")
+  list.choice(
+          "thin_rule", o.thin_rule,
+          {{"any", ThinRule::any}, {"all", ThinRule::all}, {"unsupported", ThinRule::unsupported}},
+          "Which near edges make a sliver: any two that do not meet; all that face each other; of these, those that "
+          "were not seen from both sides.")
       .source("docs/decisions/0012");
   list.choice("thin_reach", o.thin_reach, {{"face", ThinReach::face}, {"block", ThinReach::block}},
               "Whether slivers and needles are looked for within single faces, or across several too.")

@@ -15,8 +15,12 @@ enum class GisEdges : std::uint8_t {
   hard,       ///< the same, and no part spans two features
 };
 enum class Continuations : std::uint8_t { sweep, plain };  ///< do continuations count as sweep-edges in O1?
-enum class ThinRule : std::uint8_t { all, unsupported };  ///< O7 over all near pairs, or not where both sides are walls
-enum class ThinReach : std::uint8_t { face, block };      ///< O7 between edges of one face, or across several faces too
+enum class ThinRule : std::uint8_t {
+  any,          ///< O7 over any two edges that do not meet and are nearer than the limit, whichever way they face
+  all,          ///< over those that face each other
+  unsupported,  ///< the same, but not where both sides are walls
+};
+enum class ThinReach : std::uint8_t { face, block };  ///< O7 between edges of one face, or across several faces too
 enum class HeightMeasure : std::uint8_t {
   along,   ///< mean difference of the mesh's heights on the two sides of the edge, sampled along it
   median,  ///< difference of the two faces' median heights, as in the reference implementation

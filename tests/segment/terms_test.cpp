@@ -144,6 +144,36 @@ TEST(ThinReach, does_not_look_across_what_is_outside) {
   for (const Conflict& conflict : c.run().conflicts) EXPECT_FALSE(conflict.second) << "each only with its own outline";
 }
 
+TEST(ThinRule, any_holds_edges_at_right_angles_against_each_other) {
+  // A corner of C reaches into the walls' corner: AB runs down, AD and BC across; AB's upper and lower wall are one
+  // line.
+  Case c{AsciiMap({"AAAABBBB", "AAAABBBB", "AAAABBBB", "AAAACCBB", "AAAACCBB", "AAAABBBB"}, 0.5), {}, {"ABC"}, {}};
+  for (const char l : std::string("ABC")) c.heights[l] = 10;
+  const auto pairs = [&](ThinRule rule, double distance) {
+    c.options.thin_rule = rule;
+    c.options.thin_distance = distance;
+    c.options.thin_reach = ThinReach::block;
+    const Segmentation s = c.run();
+    expect_guarantees(c.map.arrangement, s);
+    return s.conflicts.size();
+  };
+  EXPECT_LT(pairs(ThinRule::all, 1.8), pairs(ThinRule::any, 1.8))
+      << "those that face each other are some of all near ones";
+  EXPECT_LT(pairs(ThinRule::any, 0.4), pairs(ThinRule::any, 1.8)) << "nothing that does not meet is so near";
+}
+
+TEST(ThinRule, any_does_not_hold_a_straight_wall_against_itself) {
+  // One line of walls, in three pieces with different neighbours; nothing else is near.
+  Case c{AsciiMap({"AAAAAAAA", "AAAAAAAA", "AAAAAAAA", "BBBCCDDD", "BBBCCDDD", "BBBCCDDD"}, 1), {}, {"ABCD"}, {}};
+  for (const char l : std::string("ABCD")) c.heights[l] = 10;
+  c.options.thin_rule = ThinRule::any;
+  c.options.thin_reach = ThinReach::block;
+  c.options.thin_distance = 2.5;
+  std::size_t pairs = 0;
+  for (const Conflict& conflict : c.run().conflicts) pairs += conflict.second ? 1 : 0;
+  EXPECT_EQ(pairs, 3U) << "BC with CD, AB with CD, AD with BC; not AB with AD, which is 2 m further along";
+}
+
 /// A random plan of rooms with random walls.
 auto random_rooms(base::Random& random) -> Case {
   AsciiMap map({"AABBCCDD", "AABBCCDD", "EEFFGGHH", "EEFFGGHH", "IIJJKKLL", "IIJJKKLL"}, 1);

@@ -89,6 +89,19 @@ auto sliver_at(const Run& one, const Run& other, const Options& o) -> std::optio
   return one.segment.start + (at / la) * a;
 }
 
+/// Whether two runs that do not meet, and do not lie on one line, are nearer than the limit somewhere. The runs of one
+/// straight wall are one edge of a footprint.
+auto near_by(const Run& one, const Run& other, const Options& o) -> bool {
+  if (one.length < o.thin_shortest || other.length < o.thin_shortest) return false;
+  const auto &a = one.segment, &b = other.segment;
+  if (a.start == b.start || a.start == b.end || a.end == b.start || a.end == b.end) return false;
+  const Point2 along = geometry::normalised(a.end - a.start);
+  const auto aside = [&](Point2 p) { return std::abs(cross(along, p - a.start)); };
+  if (aside(b.start) < o.thin_shortest && aside(b.end) < o.thin_shortest) return false;
+  return std::min({geometry::distance(a, b.start), geometry::distance(a, b.end), geometry::distance(b, a.start),
+                   geometry::distance(b, a.end)}) < o.thin_distance;
+}
+
 /// A thin wall, or a shaft, seen from both sides: sweep-edges on both, which face away from each other or towards.
 auto seen_from_both_sides(const Run& one, const Run& other) -> bool {
   const auto most = [](double part, const Run& run) { return part > run.length / 2; };
@@ -153,10 +166,15 @@ class Search {
     return options_.thin_rule == ThinRule::unsupported && seen_from_both_sides(one, other);
   }
 
+  [[nodiscard]] auto make_a_sliver(const Run& one, const Run& other) const -> bool {
+    if (options_.thin_rule == ThinRule::any) return one.candidate != other.candidate && near_by(one, other, options_);
+    return sliver_at(one, other, options_) && !is_exempt(one, other);
+  }
+
   void find_slivers_within_faces() {
     for (std::size_t i = 0; i < runs_.size(); ++i)
       for (std::size_t j = i + 1; j < runs_.size() && runs_[j].face == runs_[i].face; ++j)
-        if (sliver_at(runs_[i], runs_[j], options_) && !is_exempt(runs_[i], runs_[j])) note(runs_[i], runs_[j]);
+        if (make_a_sliver(runs_[i], runs_[j])) note(runs_[i], runs_[j]);
   }
 
   void find_slivers_anywhere() {
@@ -174,8 +192,9 @@ class Search {
       for (std::size_t l = k + 1; l < order.size() && boxes[order[l]].least.x <= reach.most.x; ++l) {
         if (!reach.overlaps(boxes[order[l]])) continue;
         const Run &one = runs_[order[k]], &other = runs_[order[l]];
-        const auto at = sliver_at(one, other, options_);
-        if (at && !is_exempt(one, other) && leads_to(one, *at, order[l])) note(one, other);
+        if (!make_a_sliver(one, other)) continue;
+        if (options_.thin_rule == ThinRule::any || leads_to(one, *sliver_at(one, other, options_), order[l]))
+          note(one, other);
       }
     }
   }
