@@ -11,6 +11,7 @@ constexpr const char* decision_8 = "docs/decisions/0008-cap-by-measured-error.md
 constexpr const char* decision_14 = "docs/decisions/0014-refined-by-measured-error.md";
 constexpr const char* decision_16 = "docs/decisions/0016-roof-steps.md";
 constexpr const char* decision_17 = "docs/decisions/0017-setbacks-by-measured-error.md";
+constexpr const char* decision_39 = "docs/decisions/0039-alike-what-is-alike.md";
 
 constexpr Range share{0, 1};                 // of a whole, or a cosine
 constexpr Range count{0, 1000};              // things; none switches the step off
@@ -20,6 +21,7 @@ constexpr Range positive_length{0.01, 100};  // m
 constexpr Range height{0, 1000};             // m
 constexpr Range slope{0, 100};               // rise per run
 constexpr Range area{0, 10'000};             // m²
+constexpr Range positive_area{0.01, 1e9};    // m²
 constexpr Range angle{0, 1.6};               // rad; directions repeat after a quarter turn
 
 void add_objective(OptionList& list, Options& o) {
@@ -35,6 +37,10 @@ void add_objective(OptionList& list, Options& o) {
               "An additional building part must reduce the sum of squared differences by this much, beside the price "
               "of its faces.")
       .source(decision_16)
+      .number("value_price", o.value_price, "m²·m²", {0, 1000},
+              "An eaves height, ridge height or pitch that differs from the others of the building and its row must "
+              "reduce the sum of squared differences by this much; 0: nothing is made equal.")
+      .source(decision_39)
       .number("robust", o.robust, "m", {0.05, 100},
               "Differences from the mesh greater than this count linearly, not squared: trees, debris.")
       .source(decision_14)
@@ -199,13 +205,7 @@ void add_search(OptionList& list, Options::Search& o) {
       .advanced(by_hand)
       .number("search_opposite_cosine", o.opposite_cosine, "", share,
               "Two sides are opposite where the negative cosine of their directions is greater than this.")
-      .advanced("0.95 is an angle of about 18°; chosen by hand, not measured")
-      .number("search_regular_gutter", o.regular_gutter, "m", height,
-              "Sides whose gutter heights differ by at most this may take their mean.")
-      .advanced(by_hand)
-      .number("search_regular_slope", o.regular_slope, "", slope,
-              "Sides whose slopes (rise per run) differ by at most this may take their mean.")
-      .advanced("0.1 is about 4° at a pitch of 40°; chosen by hand, not measured");
+      .advanced("0.95 is an angle of about 18°; chosen by hand, not measured");
 }
 
 void add_sharpen(OptionList& list, Options::Sharpen& o) {
@@ -215,6 +215,14 @@ void add_sharpen(OptionList& list, Options::Sharpen& o) {
       .number("sharpen_flat_slope", o.flat_slope, "", slope,
               "A roof with no greater slope (rise per run) is tried as a flat one.")
       .advanced("0.07 is 4°, about the fall of a flat roof; docs/refine.md, not measured");
+}
+
+void add_alike(OptionList& list, Options::Alike& o) {
+  list.number(
+          "alike_most_ground", o.most_ground, "m²", positive_area,
+          "A roof plane over more ground than this counts as over this much where heights and pitches are made equal: "
+          "what is wrong with a scan over several metres does not become less with more samples.")
+      .advanced(decision_39);
 }
 
 void add_pieces(OptionList& list, Options::Pieces& o) {
@@ -531,6 +539,7 @@ auto option_list(Options& o) -> OptionList {
   add_refit(list, o.refit);
   add_search(list, o.search);
   add_sharpen(list, o.sharpen);
+  add_alike(list, o.alike);
   add_pieces(list, o.pieces);
   add_joins(list, o.joins);
   add_wings(list, o.wings);

@@ -14,16 +14,17 @@ enum class Effort : std::uint8_t {
   parts,   ///< and the plan: parts under one roof are joined, structures of another height become parts of their own
 };
 
-/// The first seven are the objective. The groups are the search's own numbers, by the file of `detail/` that uses them:
+/// The first eight are the objective. The groups are the search's own numbers, by the file of `detail/` that uses them:
 /// advanced options, of which few are measured; `option_list` gives meaning, range and source of each.
 struct Options {
   Effort effort = Effort::parts;
-  double grid = 0.25;       ///< m between samples seen from above
-  double face_price = 0.3;  ///< m² · m²; what an additional face must take off the sum of squared differences
-  double part_price = 2.0;  ///< the same, of an additional part, beside its faces
-  double robust = 3.0;      ///< m; greater differences count linearly, not squared: trees, debris
-  double margin = 0.4;      ///< m along the outline where a melted scan counts less
-  double least_area = 4.0;  ///< m²; smaller structures stay with the roof they are on
+  double grid = 0.25;        ///< m between samples seen from above
+  double face_price = 0.3;   ///< m² · m²; what an additional face must take off the sum of squared differences
+  double part_price = 2.0;   ///< the same, of an additional part, beside its faces
+  double value_price = 0.1;  ///< the same, of a height or pitch that differs from all others
+  double robust = 3.0;       ///< m; greater differences count linearly, not squared: trees, debris
+  double margin = 0.4;       ///< m along the outline where a melted scan counts less
+  double least_area = 4.0;   ///< m²; smaller structures stay with the roof they are on
 
   /// What the mesh shows, and how much a sample counts (site, refit, and wherever a wall is near).
   struct Samples {
@@ -99,8 +100,6 @@ struct Options {
     std::int64_t max_sides = 24;
     double min_difference = 0.2;  ///< m
     double opposite_cosine = 0.95;
-    double regular_gutter = 0.3;  ///< m
-    double regular_slope = 0.1;
   } search;
 
   /// Planes as they were before the scan melted them (sharpen).
@@ -108,6 +107,11 @@ struct Options {
     std::int64_t rounds = 2;
     double flat_slope = 0.07;
   } sharpen;
+
+  /// Eaves, ridges and pitches made equal (alike).
+  struct Alike {
+    double most_ground = 10;  ///< m²
+  } alike;
 
   /// Plans cut in two and joined (pieces).
   struct Pieces {
@@ -235,7 +239,7 @@ struct Options {
   } surfaces;
 };
 
-/// The seven of the objective, then the groups as advanced options: `Options::wings.min_length` is `wings_min_length`.
+/// The eight of the objective, then the groups as advanced options: `Options::wings.min_length` is `wings_min_length`.
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 
 }  // namespace mansard::refine

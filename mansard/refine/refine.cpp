@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "mansard/refine/detail/alike.hpp"
 #include "mansard/refine/detail/owner.hpp"
 
 namespace mansard::refine {
@@ -14,15 +15,22 @@ auto refine(std::span<const Draft> drafts, const rays::Scene& mesh, const Option
   std::vector<std::vector<std::size_t>> groups;
   for (auto& [owner, mine] : owners) groups.push_back(std::move(mine));
 
-  std::vector<Refined> each(groups.size());
+  const detail::Work work(mesh, options, raising, run);
+  std::vector<detail::Roofed> each(groups.size());
   base::parallel_for(groups.size(), [&](std::size_t g) {
-    if (!run.cancelled()) each[g] = detail::refine_owner(drafts, groups[g], mesh, options, raising, run);
+    if (!run.cancelled()) each[g] = detail::refine_owner(drafts, groups[g], work);
   });
   Refined out;
+  std::vector<detail::Piece> pieces;
   for (auto& one : each) {
-    std::ranges::move(one.parts, std::back_inserter(out.parts));
-    std::ranges::move(one.failed, std::back_inserter(out.failed));
+    std::ranges::move(one.pieces, std::back_inserter(pieces));
+    std::ranges::move(one.rest.parts, std::back_inserter(out.parts));
+    std::ranges::move(one.rest.failed, std::back_inserter(out.failed));
   }
+  if (options.effort != Effort::caps) detail::make_alike(pieces, work);
+  for (auto& piece : pieces)
+    out.parts.push_back({drafts[piece.draft_index].owner, piece.draft_index, std::move(piece.roof.plan),
+                         std::move(*piece.raised), std::move(piece.changes)});
   std::ranges::stable_sort(out.parts, {}, &Part::draft);
   std::ranges::stable_sort(out.failed, {}, [](const auto& failure) { return failure.first; });
   return out;

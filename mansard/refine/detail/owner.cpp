@@ -161,26 +161,25 @@ class Pieces {
 
 }  // namespace
 
-auto refine_owner(std::span<const Draft> drafts, std::span<const std::size_t> mine, const rays::Scene& mesh,
-                  const Options& options, const extrude::Options& raising, const base::Run& run) -> Refined {
-  Refined out;
-  const Work work(mesh, options, raising, run);
+auto refine_owner(std::span<const Draft> drafts, std::span<const std::size_t> mine, const Work& work) -> Roofed {
+  Roofed out;
+  const Options& options = work.options();
   std::vector<std::optional<base::Result<Piece>>> roofed(mine.size());
   base::parallel_for(mine.size(), [&](std::size_t k) {
     const auto& plan = drafts[mine[k]].plan;
     roofed[k] = work.roofed(mine[k], work.look(model::polygon_of(plan), plan.base), drafts[mine[k]]);
   });
-  std::vector<Piece> pieces;
+  auto& pieces = out.pieces;
   for (std::size_t k = 0; k < mine.size(); ++k) {
     const std::size_t i = mine[k];
     const auto& plan = drafts[i].plan;
     auto& piece = *roofed[k];
     if (piece) {
       pieces.push_back(std::move(*piece));
-    } else if (auto raised = extrude::raise(plan, raising, run)) {  // down the ladder, and no further
-      out.parts.push_back({drafts[i].owner, i, plan, std::move(*raised), {}});
+    } else if (auto raised = work.raised(plan)) {  // down the ladder, and no further
+      out.rest.parts.push_back({drafts[i].owner, i, plan, std::move(*raised), {}});
     } else {
-      out.failed.emplace_back(i, raised.error());
+      out.rest.failed.emplace_back(i, raised.error());
     }
   }
   if (options.effort == Effort::parts) {
@@ -195,9 +194,6 @@ auto refine_owner(std::span<const Draft> drafts, std::span<const std::size_t> mi
     pieces = std::move(search).pieces();
   }
   base::parallel_for(pieces.size(), [&](std::size_t i) { pieces[i] = work.finished(std::move(pieces[i])); });
-  for (auto& piece : pieces)
-    out.parts.push_back({piece.draft.owner, piece.draft_index, std::move(piece.roof.plan), std::move(*piece.raised),
-                         std::move(piece.changes)});
   return out;
 }
 

@@ -25,13 +25,8 @@ constexpr double parallel = 1e-6;
 /// Looks by profile and by the part of the profile that made the face they see.
 using Looks = std::vector<std::vector<std::vector<Look>>>;
 
-/// Of an edge of the plan.
-struct Edge {
-  Point2 start;
-  Point2 inward;  ///< unit
-  std::uint32_t profile = 0;
-};
-/// By ring and edge: the outer ring, then the holes.
+}  // namespace
+
 auto edges_of(const Plan& plan) -> std::vector<std::vector<Edge>> {
   std::vector<std::vector<Edge>> out;
   const auto add = [&out](const PlanRing& ring) {
@@ -45,6 +40,15 @@ auto edges_of(const Plan& plan) -> std::vector<std::vector<Edge>> {
   for (const auto& hole : plan.holes) add(hole);
   return out;
 }
+
+auto line_of(const Profile& profile, std::size_t i) -> std::optional<RoofLine> {
+  const auto &a = profile[i], &b = profile[i + 1];
+  if (b.inward <= a.inward) return std::nullopt;
+  const double slope = (b.height - a.height) / (b.inward - a.inward);
+  return RoofLine{a.height - slope * a.inward, slope};
+}
+
+namespace {
 
 struct Sorted {
   Looks looks;
@@ -100,7 +104,7 @@ auto sort_looks(const Judged& judged, const Site& site, const Options& options, 
     auto& parts = out.looks[edge.profile];
     if (from.part >= parts.size()) continue;
     const Point2 at = site.measured.centre(cell);
-    const double inward = dot(at - edge.start, edge.inward);
+    const double inward = edge.to(at);
     if (used == Used::all) {
       parts[from.part].push_back({inward, site.measured.z[cell], site.weight[i]});
     } else if (from.part + 1 < parts.size()) {
@@ -110,14 +114,6 @@ auto sort_looks(const Judged& judged, const Site& site, const Options& options, 
     }
   }
   return out;
-}
-
-/// The sloped part of a profile from points i to i + 1 as a line; none for walls and terraces.
-auto line_of(const Profile& profile, std::size_t i) -> std::optional<RoofLine> {
-  const auto &a = profile[i], &b = profile[i + 1];
-  if (b.inward <= a.inward) return std::nullopt;
-  const double slope = (b.height - a.height) / (b.inward - a.inward);
-  return RoofLine{a.height - slope * a.inward, slope};
 }
 
 auto refitted_line(const RoofLine& line, const std::vector<Look>& looks, const Options& options) -> RoofLine {
@@ -130,7 +126,6 @@ auto refitted_line(const RoofLine& line, const std::vector<Look>& looks, const O
   return free && out.slope == free->slope ? out : raised_line(looks, out, options.lines);
 }
 
-/// A profile is a chain: where its lines were joined they are joined again, walls between them stay where they stand.
 auto rebuilt(const Profile& profile, const std::vector<std::vector<Look>>& looks, const Options& options)
     -> std::optional<Profile> {
   std::vector<std::optional<RoofLine>> lines;
@@ -138,6 +133,13 @@ auto rebuilt(const Profile& profile, const std::vector<std::vector<Look>>& looks
     lines.push_back(line_of(profile, i));
     if (lines.back()) lines.back() = refitted_line(*lines.back(), looks[i], options);
   }
+  return chained(profile, lines, options);
+}
+
+}  // namespace
+
+auto chained(const Profile& profile, std::span<const std::optional<RoofLine>> lines, const Options& options)
+    -> std::optional<Profile> {
   Profile out{{0, 0}};
   const auto add = [&out](double inward, double height) {
     const model::ProfilePoint next{inward, height};
@@ -169,8 +171,6 @@ auto rebuilt(const Profile& profile, const std::vector<std::vector<Look>>& looks
     if (out[i].inward < out[i - 1].inward || out[i].height < out[i - 1].height) return std::nullopt;
   return out;
 }
-
-}  // namespace
 
 auto refitted(const Judged& judged, const Site& site, const Options& options, Used used) -> Plan {
   auto sorted = sort_looks(judged, site, options, used);

@@ -1,9 +1,15 @@
 // Every plane of a raised roof moved to where the looks on its own faces put it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
 
+#include "mansard/model/solid.hpp"
 #include "mansard/refine/detail/judge.hpp"
+#include "mansard/refine/detail/lines.hpp"
 
 namespace mansard::refine::detail {
 
@@ -16,5 +22,24 @@ enum class Used : std::uint8_t {
 /// Profiles whose refit would fall or lean out stay as they are.
 [[nodiscard]] auto refitted(const Judged& judged, const Site& site, const Options& options, Used used = Used::all)
     -> model::Plan;
+
+/// The profile's part from point i to i + 1 as a line; none for walls.
+[[nodiscard]] auto line_of(const model::Profile& profile, std::size_t i) -> std::optional<RoofLine>;
+
+/// The profile with other lines for its parts, as many as it has, none for walls. A profile is a chain: where its lines
+/// were joined they are joined again, walls between them stay where they stand. None where it would fall or lean out.
+[[nodiscard]] auto chained(const model::Profile& profile, std::span<const std::optional<RoofLine>> lines,
+                           const Options& options) -> std::optional<model::Profile>;
+
+/// An edge of a plan.
+struct Edge {
+  geometry::Point2 start;
+  geometry::Point2 inward;  ///< unit
+  std::uint32_t profile = 0;
+  /// m inward.
+  [[nodiscard]] auto to(geometry::Point2 at) const -> double { return dot(at - start, inward); }
+};
+/// By ring and edge, as a face's provenance has them: the outer ring, then the holes.
+[[nodiscard]] auto edges_of(const model::Plan& plan) -> std::vector<std::vector<Edge>>;
 
 }  // namespace mansard::refine::detail

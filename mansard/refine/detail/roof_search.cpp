@@ -136,49 +136,6 @@ auto descend(Judged judged, const Draft& draft, const Judge& judge) -> Judged {
   return judged;
 }
 
-/// A wall and one pitch: its gutter and slope.
-struct Pitch {
-  double gutter = 0, slope = 0;
-};
-auto pitch_of(const Profile& profile) -> std::optional<Pitch> {
-  if (profile.size() != 3 || profile[1].inward != 0 || is_wall(profile)) return std::nullopt;
-  return Pitch{profile[1].height, (profile[2].height - profile[1].height) / profile[2].inward};
-}
-
-/// Builders make gutters level and pitches equal; noise does not. Sides that nearly agree take their mean, longer ones
-/// counting more, where that costs no more than a face is worth.
-auto regular(Judged judged, const Judge& judge) -> Judged {
-  const auto& options = judge.options().search;
-  const auto sides = sides_of(judged.plan);
-  Plan plan = judged.plan;
-  std::vector<bool> done(sides.size(), false);
-  for (std::size_t p = 0; p < sides.size(); ++p) {
-    const auto first = pitch_of(judged.plan.profiles[p]);
-    if (done[p] || !first || !(sides[p].length > 0)) continue;
-    std::vector<std::size_t> alike;
-    Pitch mean;
-    double length = 0;
-    for (std::size_t q = p; q < sides.size(); ++q) {
-      const auto other = pitch_of(judged.plan.profiles[q]);
-      if (done[q] || !other || std::abs(other->gutter - first->gutter) > options.regular_gutter ||
-          std::abs(other->slope - first->slope) > options.regular_slope)
-        continue;
-      alike.push_back(q);
-      mean.gutter += sides[q].length * other->gutter;
-      mean.slope += sides[q].length * other->slope;
-      length += sides[q].length;
-    }
-    for (const std::size_t q : alike) {
-      done[q] = true;
-      if (alike.size() > 1) plan.profiles[q] = pitched(mean.gutter / length, mean.slope / length);
-    }
-  }
-  if (plan == judged.plan) return judged;
-  auto next = judge(plan);
-  if (next && next->cost <= judged.cost + judge.options().face_price) return std::move(*next);
-  return judged;
-}
-
 auto pitched_sides(const Plan& plan) -> std::size_t {
   return static_cast<std::size_t>(std::ranges::count_if(plan.profiles, [](const auto& p) { return !is_wall(p); }));
 }
@@ -216,7 +173,6 @@ auto best_roof(const Draft& draft, const Judge& judge, Search search, double wor
     best = settle(descend(std::move(best), draft, judge), judge);
     if (best.cost > options.round_gain * cost) break;
   }
-  best = regular(std::move(best), judge);
   const auto was = pitched_sides(before), is = pitched_sides(best.plan);
   if (was != is)
     changed.push_back("roof rises from " + std::to_string(is) + " of its sides instead of " + std::to_string(was));

@@ -217,6 +217,17 @@ auto Work::finished(Piece piece) const -> Piece {
   return piece;
 }
 
+auto Work::with_roof(const Piece& piece, const model::Plan& plan, double most) const -> std::optional<Piece> {
+  auto judged = Judge(piece.site, options_, raising_, run_)(plan);
+  if (!judged || judged->cost > most) return std::nullopt;
+  auto raised = this->raised(plan);
+  if (!raised || raised->outcome != extrude::Outcome::full) return std::nullopt;
+  Piece out = piece;
+  out.roof = std::move(*judged);
+  out.raised = std::move(*raised);
+  return out;
+}
+
 /// The same pieces searched thoroughly; none where a sketch is one that no solid can be made of.
 auto Work::searched(const Piece& piece, const Proposal& proposal, std::vector<Piece> pieces) const
     -> std::vector<Piece> {

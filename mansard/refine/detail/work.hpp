@@ -67,6 +67,9 @@ class Work {
 
   /// The piece with its planes where they were before the scan melted them, where a solid can be made of that.
   [[nodiscard]] auto finished(Piece piece) const -> Piece;
+  /// The piece under another roof; none where that costs more, or no solid can be made of it.
+  [[nodiscard]] auto with_roof(const Piece& piece, const model::Plan& plan, double most) const -> std::optional<Piece>;
+  [[nodiscard]] auto raised(const model::Plan& plan) const { return extrude::raise(plan, raising_, run_); }
 
   [[nodiscard]] auto options() const -> const Options& { return options_; }
   [[nodiscard]] auto cancelled() const -> bool { return run_.cancelled(); }
