@@ -34,6 +34,18 @@ auto levelled(const Plan& plan, const Site& site, const Options::Forms& options)
   return flat;
 }
 
+/// Up to its ridge. A scan rounds ridges off, so that a roof that ends flat just below suits it better.
+auto uncut(Judged judged, const Judge& judge, double most) -> Judged {
+  const auto is_cap = [](const model::Face& face) { return face.kind == model::FaceKind::cap; };
+  if (std::ranges::all_of(judged.plan.profiles, is_wall) || std::ranges::none_of(judged.sketch.faces, is_cap))
+    return judged;
+  const auto box = geometry::bounds(judge.site().polygon.outer);
+  Plan plan = judged.plan;
+  plan.cap += judge.options().forms.max_slope * geometry::length(box.most - box.least);  // higher than any ridge
+  auto whole = judge(plan);
+  return whole && whole->cost <= most ? std::move(*whole) : judged;
+}
+
 }  // namespace
 
 auto sharpened(Judged judged, const Judge& judge) -> Judged {
@@ -45,6 +57,7 @@ auto sharpened(Judged judged, const Judge& judge) -> Judged {
     if (!next || next->plan == judged.plan || next->cost > most) break;
     judged = std::move(*next);
   }
+  judged = uncut(std::move(judged), judge, most);
   if (!nearly_level(judged.plan, options.sharpen.flat_slope)) return judged;
   auto flat = judge(levelled(judged.plan, judge.site(), options.forms));
   return flat && flat->cost <= most ? std::move(*flat) : judged;

@@ -6,8 +6,9 @@
 namespace mansard::refine::detail {
 
 /// A scan's corners are round, so that whatever fits all of it best is too flat where it is steep, and leans against
-/// walls where it is level. Every plane is moved to where the looks in the middle of its faces put it, and what is
-/// nearly level made level, if that makes the sum worse by no more than a face costs.
+/// walls where it is level. Every plane is moved to where the looks in the middle of its faces put it, roofs
+/// that end flat below their ridge go up to it, and what is nearly level is made level, if that makes the sum worse by
+/// no more than a face costs.
 [[nodiscard]] auto sharpened(Judged judged, const Judge& judge) -> Judged;
 
 }  // namespace mansard::refine::detail

@@ -18,7 +18,7 @@ struct Tie {
 };
 
 /// Values with a cost that is quadratic about where they started, and ties that hold among them. The values are at all
-/// times those of least cost; what another tie would add to it is exact (Lagrange: the square of what is missing over
+/// times those of the minimum cost; what another tie would add to it is exact (Lagrange: the square of what is missing over
 /// its variance, where the inverse of the curvature is the covariance).
 class Values {
  public:
@@ -31,7 +31,7 @@ class Values {
   /// m²·m²: what the tie would add. 0 where it holds for any values that the other ties allow; infinite where those
   /// do not allow it.
   [[nodiscard]] auto price(const Tie& tie) const -> double;
-  /// Moves the values to the least cost with the tie.
+  /// Moves the values to the minimum cost with the tie.
   void hold(const Tie& tie);
 
   [[nodiscard]] auto operator[](std::size_t value) const -> double { return at_[value]; }
