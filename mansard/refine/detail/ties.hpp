@@ -18,8 +18,8 @@ struct Tie {
 };
 
 /// Values with a cost that is quadratic about where they started, and ties that hold among them. The values are at all
-/// times those of the minimum cost; what another tie would add to it is exact (Lagrange: the square of what is missing over
-/// its variance, where the inverse of the curvature is the covariance).
+/// times those of the minimum cost; what another tie would add to it is exact (Lagrange: the square of what is missing
+/// over its variance, where the inverse of the curvature is the covariance).
 class Values {
  public:
   /// Two values that start there, with Σ w, Σ w d and Σ w d² of the samples of z = first + second · d, m², m³ and m⁴;
