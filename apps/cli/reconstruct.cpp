@@ -77,7 +77,7 @@ auto write_all(const Request& request, const std::vector<Target>& targets, const
   base::Outputs outputs;
   std::vector<formats::Layer> layers;
   if (request.layers) {
-    layers = report::segment_layers(scene, result.segmented, result.city.made_by);
+    layers = report::segment_layers(scene, result.segmented, result.city.made_by, result.city.buildings);
     layers.push_back(report::diagnostics_layer(result, scene));
   }
   progress.show("write", "", 1);

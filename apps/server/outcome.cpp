@@ -38,8 +38,9 @@ auto reconstruct(const OpenScene& scene, RunRecord record, const base::Run& how)
   const auto result = pipeline::reconstruct(scene.scene(), options, run, pipeline::Keep::segmentations, record.blocks);
   if (!result) return result.error();
   run.report("write", "", 1);
-  auto layers = formats::geopackage(report::segment_layers(scene.scene(), result->segmented, result->city.made_by),
-                                    scene.scene().frame);
+  auto layers = formats::geopackage(
+      report::segment_layers(scene.scene(), result->segmented, result->city.made_by, result->city.buildings),
+      scene.scene().frame);
   if (!layers) return layers.error();
   RunOutcome out{std::move(record), {}};
   const auto& s = result->scores;

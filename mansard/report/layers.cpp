@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <optional>
 
 #include "mansard/base/text.hpp"
+#include "mansard/report/detail/later.hpp"
 #include "mansard/report/detail/why.hpp"
 #include "mansard/report/layers.hpp"
 
@@ -227,19 +229,35 @@ auto empty_edges() -> formats::Layer {
                        {{"block"}, {"number", integer}},
                        {}};
   for (auto& field : edge_fields()) layer.fields.push_back(std::move(field.field));
-  layer.fields.insert(layer.fields.end(), {{"variable"}, {"why"}});
+  layer.fields.insert(layer.fields.end(), {{"kept_length", real},
+                                           {"moved_length", real},
+                                           {"dropped_length", real},
+                                           {"moved_by", real},
+                                           {"variable"},
+                                           {"why"}});
   return layer;
 }
 
-void add_edges(const SegmentedBlock& block, formats::Layer& layer) {
+/// `walls`: of the models; none where there are none.
+void add_edges(const SegmentedBlock& block, const detail::FinalWalls* walls, formats::Layer& layer) {
   const auto fields = edge_fields();
-  const auto walls = detail::walls_in_conflict(*block.segmentation);
+  const auto conflicts = detail::walls_in_conflict(*block.segmentation);
   for (std::size_t i = 0; i < block.segmentation->candidates.size(); ++i) {
     const auto& c = block.segmentation->candidates[i];
     Values values{block.name, as_whole(i)};
     for (const auto& field : fields) values.push_back(field.value(c));
+    std::vector<geometry::Segment2> segments;
+    for (const std::uint32_t h : c.half_edges) segments.push_back(block.arrangement.segment(h));
+    detail::Beside beside{conflicts[i], block.segmentation->phi, {}, {}};
+    if (!c.sweep) beside.sweep_edge = detail::parallel_sweep_edge(segments, block.sweep_edges);
+    if (walls && c.chosen) {
+      const auto& [kept, moved, dropped, by] = beside.later.emplace(walls->later(segments));
+      values.insert(values.end(), {kept, moved, dropped, moved > 0 ? Value(by) : Value()});
+    } else {
+      values.resize(values.size() + 4);
+    }
     values.emplace_back(variable_name(i));
-    values.emplace_back(detail::why(c, walls[i], block.segmentation->phi));
+    values.emplace_back(detail::why(c, beside));
     layer.features.push_back({lines_of(block, c), {}, std::move(values)});
   }
 }
@@ -286,8 +304,10 @@ void add_footprints(const SegmentedBlock& block, const model::Scene& scene, doub
 
 }  // namespace
 
-auto segment_layers(const model::Scene& scene, const std::vector<SegmentedBlock>& blocks, const model::MadeBy& made_by)
-    -> std::vector<formats::Layer> {
+auto segment_layers(const model::Scene& scene, const std::vector<SegmentedBlock>& blocks, const model::MadeBy& made_by,
+                    std::span<const model::Building> buildings) -> std::vector<formats::Layer> {
+  std::optional<detail::FinalWalls> walls;
+  if (!buildings.empty()) walls.emplace(buildings);
   const auto z0 = static_cast<double>(scene.frame.origin[2]);
   auto sweep_edges = empty_sweep_edges(), faces = empty_faces(), edges = empty_edges();
   auto conflicts = empty_conflicts(), footprints = empty_footprints();
@@ -295,7 +315,7 @@ auto segment_layers(const model::Scene& scene, const std::vector<SegmentedBlock>
     add_sweep_edges(block, z0, sweep_edges);
     add_faces(block, scene, z0, faces);
     if (!block.segmentation) continue;
-    add_edges(block, edges);
+    add_edges(block, walls ? &*walls : nullptr, edges);
     add_conflicts(block, conflicts);
     add_footprints(block, scene, z0, footprints);
   }

@@ -1,6 +1,7 @@
 // Layers for a GIS: why walls were drawn, and what went otherwise than it should.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "mansard/formats/layers.hpp"
@@ -10,8 +11,10 @@ namespace mansard::report {
 
 /// Why a wall was drawn or not, as layers for formats::geopackage: gis_footprints, sweep_edges, faces, edges,
 /// conflicts, footprints, made_by. Their fields are listed in docs/report.md. Heights are z of the file frame.
+/// `buildings`: what was made of the blocks; where there are any, the layers tell what became of each wall.
 [[nodiscard]] auto segment_layers(const model::Scene& scene, const std::vector<SegmentedBlock>& blocks,
-                                  const model::MadeBy& made_by) -> std::vector<formats::Layer>;
+                                  const model::MadeBy& made_by, std::span<const model::Building> buildings = {})
+    -> std::vector<formats::Layer>;
 
 /// What went otherwise than it should, as one more layer: `diagnostics`, a row per reason of a building and per
 /// warning. `reconstruction` must be of the whole scene.

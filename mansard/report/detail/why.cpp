@@ -1,5 +1,7 @@
 #include "mansard/report/detail/why.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "mansard/base/text.hpp"
@@ -15,12 +17,40 @@ auto rounded(double cost) -> std::string {
   return cost < least ? "under 0.1" : base::to_text(cost, cost < 10 ? 1 : 0);
 }
 
-/// "480 for this and 96 for that"; "0" where nothing costs anything.
+/// "nothing", "480 for this", or "576 = 480 for this + 96 for that".
 auto listed(const Amounts& amounts) -> std::string {
   std::string text;
-  for (const auto& [cost, reason] : amounts)
-    if (cost > 0) text += (text.empty() ? "" : " and ") + rounded(cost) + " for " + reason;
-  return text.empty() ? "0" : text;
+  double total = 0;
+  std::size_t count = 0;
+  for (const auto& [cost, reason] : amounts) {
+    if (!(cost > 0)) continue;
+    text += (text.empty() ? "" : " + ") + rounded(cost) + " for " + reason;
+    total += cost;
+    ++count;
+  }
+  if (count == 0) return "nothing";
+  return count == 1 ? text : rounded(total) + " = " + text;
+}
+
+auto metres(double length) -> std::string { return base::to_text(length, 1) + " m"; }
+
+/// What refinement made of a wall; "" where that is not known.
+auto told(const std::optional<Later>& later) -> std::string {
+  if (!later) return "";
+  const double length = later->kept + later->moved + later->dropped;
+  constexpr double all = 0.95;  // of the length: corners move along with other walls
+  const std::string by = " by " + base::to_text(later->by, 2) + " m";
+  if (later->kept >= all * length) return "; refinement kept it";
+  if (later->moved >= all * length) return "; refinement moved it" + by;
+  if (later->dropped >= all * length) return "; refinement dropped it";
+  std::string text;
+  const auto add = [&text](double metres_of_it, const std::string& what) {
+    if (metres_of_it > 0) text += (text.empty() ? "" : ", ") + what;
+  };
+  add(later->kept, "kept " + metres(later->kept));
+  add(later->moved, "moved " + metres(later->moved) + by);
+  add(later->dropped, "dropped " + metres(later->dropped));
+  return "; refinement " + text;
 }
 
 auto paid(const segment::Candidate& c, segment::Paid when) -> Amounts {
@@ -50,19 +80,50 @@ auto walls_in_conflict(const segment::Segmentation& segmentation) -> std::vector
   return walls;
 }
 
-auto why(const segment::Candidate& c, std::size_t walls, double phi) -> std::string {
+auto parallel_sweep_edge(std::span<const geometry::Segment2> edge, std::span<const sweep::SweepEdge> sweep_edges)
+    -> std::optional<double> {
+  using geometry::dot;
+  constexpr double near = 0.5;      // m; farther away another wall is meant
+  constexpr double parallel = 0.1;  // sine: 6°
+  double length = 0;
+  for (const auto& [a, b] : edge) length += geometry::length(b - a);
+  std::optional<double> nearest;
+  for (const auto& sweep_edge : sweep_edges) {
+    const auto& [from, to] = sweep_edge.segment;
+    const double reach = geometry::length(to - from);
+    if (!(reach > 0)) continue;
+    const auto along = (1 / reach) * (to - from), across = geometry::left_of(along);
+    double beside = 0, off = 0;  // m of the edge, and its distance times that
+    for (const auto& [a, b] : edge) {
+      const double own = geometry::length(b - a), aside = std::abs(dot(0.5 * (a + b) - from, across));
+      if (aside > near || std::abs(cross(b - a, along)) > parallel * own) continue;
+      const double s = dot(a - from, along), t = dot(b - from, along);
+      const double common = std::max(0.0, std::min(reach, std::max(s, t)) - std::max(0.0, std::min(s, t)));
+      beside += common;
+      off += common * aside;
+    }
+    if (beside > length / 2 && (!nearest || off / beside < *nearest)) nearest = off / beside;
+  }
+  return nearest;
+}
+
+auto why(const segment::Candidate& c, const Beside& beside) -> std::string {
   if (c.solved && !c.chosen)
     return "cut by the program, but one side is too small or narrow for a part: joined or left out";
-  if (c.forced) return "cut: between two features";
-  const double cut = c.costs.sum(segment::Paid::cut) + static_cast<double>(walls) * phi,
+  if (c.forced) return "cut: between two features" + told(beside.later);
+  const double cut = c.costs.sum(segment::Paid::cut) + static_cast<double>(beside.walls) * beside.phi,
                uncut = c.costs.sum(segment::Paid::uncut);
-  const std::string of_cut = listed(if_cut(c, walls, phi)), of_uncut = listed(paid(c, segment::Paid::uncut));
-  if (c.solved)
-    return cut <= uncut ? "cut: " + of_uncut + " against " + of_cut
-                        : "cut though dearer by itself (" + of_cut + " against " + of_uncut + "): its ends need a wall";
-  return cut >= uncut ? "not cut: " + of_cut + " against " + of_uncut
-                      : "not cut though cheaper by itself (" + of_cut + " against " + of_uncut +
-                            "): the walls that its ends need cost more";
+  const std::string cutting = "cutting costs " + listed(if_cut(c, beside.walls, beside.phi)),
+                    joining = "joining costs " + listed(paid(c, segment::Paid::uncut));
+  std::string text;
+  if (c.solved && cut <= uncut) text = "cut: " + joining + "; " + cutting;
+  else if (c.solved) text = "cut though dearer by itself: " + cutting + "; " + joining + "; its ends need a wall";
+  else if (cut >= uncut) text = "not cut: " + cutting + "; " + joining;
+  else
+    text = "not cut though cheaper by itself: " + cutting + "; " + joining + "; the walls that its ends need cost more";
+  if (beside.sweep_edge)
+    text += "; a sweep-edge runs parallel to it, " + base::to_text(*beside.sweep_edge, 2) + " m away";
+  return text + told(beside.later);
 }
 
 }  // namespace mansard::report::detail
