@@ -33,7 +33,7 @@ mansard_module(edit     DEPENDS base geometry rays model solid formats ingest ex
 
 # Experiments: used by the programs and the tests, not part of what is installed.
 mansard_module(simulate IN lab DEPENDS base geometry rays model solid formats ingest extrude label USES nlohmann_json)
-mansard_module(explore  IN lab DEPENDS base geometry rays model solid formats ingest block fracture segment profile extrude evaluate picture report pipeline USES nlohmann_json)
+mansard_module(explore  IN lab DEPENDS base geometry rays model solid crs formats ingest block fracture segment profile extrude evaluate picture report pipeline USES nlohmann_json)
 
 # Results say which version made them.
 if(TARGET mansard_pipeline)

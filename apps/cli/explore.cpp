@@ -45,6 +45,8 @@ auto dataset_of(const Request& request, const toml::table& table) -> base::Resul
     const auto* text = node.as_string();
     if (name == "name" && text != nullptr) {
       dataset.name = text->get();
+    } else if (name == "place" && text != nullptr) {
+      dataset.place = text->get();
     } else if (name == "footprints" && text != nullptr) {
       dataset.footprints = path_from(request, text->get());
     } else if (const auto* meshes = node.as_array(); name == "meshes" && meshes != nullptr) {
@@ -61,7 +63,7 @@ auto dataset_of(const Request& request, const toml::table& table) -> base::Resul
       }
     } else {
       return bad_list(request, "'" + name +
-                                   "' is unknown, or of the wrong type; a [[dataset]] has name, meshes, "
+                                   "' is unknown, or of the wrong type; a [[dataset]] has name, place, meshes, "
                                    "footprints and options");
     }
   }
@@ -106,7 +108,7 @@ auto datasets_of(const Request& request) -> base::Result<std::vector<explore::Da
   const fs::path footprints = inputs.back();
   auto name = fs::absolute(footprints).parent_path().filename().string();
   if (name.empty()) name = footprints.stem().string();
-  return std::vector<explore::Dataset>{{name, {inputs.begin(), inputs.end() - 1}, footprints, {}}};
+  return std::vector<explore::Dataset>{{name, {inputs.begin(), inputs.end() - 1}, footprints, {}, {}}};
 }
 
 /// Not among the experiments that vary every axis with every other one.

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "lab/explore/detail/measure.hpp"
+#include "mansard/crs/globe.hpp"
 
 namespace mansard::explore {
 namespace {
@@ -35,9 +36,17 @@ auto checked(const Request& request) -> base::Result<std::vector<Setting>> {
 }
 
 auto info_of(const Dataset& dataset, const model::Scene& scene) -> DatasetInfo {
-  DatasetInfo info{dataset, scene.inputs, scene.frame.crs, {}};
+  DatasetInfo info{dataset, scene.inputs, scene.frame.crs, {}, {}, {}};
   for (const auto& footprint : scene.footprints)
     info.footprints.insert(info.footprints.end(), footprint.polygons.begin(), footprint.polygons.end());
+  if (info.footprints.empty()) return info;
+  const auto box = geometry::bounds(info.footprints);
+  const geometry::Point2 middle = 0.5 * (box.least + box.most);
+  info.centre = {middle.x + static_cast<double>(scene.frame.origin[0]),
+                 middle.y + static_cast<double>(scene.frame.origin[1])};
+  const auto globe = crs::Globe::of(scene.frame);
+  std::vector<geometry::Point3> at{{middle.x, middle.y, 0}};
+  if (globe && *globe && (*globe)->to_angles(at)) info.angles = {at.front().x, at.front().y};
   return info;
 }
 
@@ -83,7 +92,7 @@ auto investigate(const Request& request, const base::Run& run) -> base::Result<S
     if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
     if (!scene) {
       unread = scene.error();
-      study.datasets.push_back({dataset, {}, {}, {}});
+      study.datasets.push_back({dataset, {}, {}, {}, {}, {}});
       study.rows.push_back(failed(d, *unread));
       continue;
     }

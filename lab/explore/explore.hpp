@@ -1,6 +1,7 @@
 // The paper's experiments, each as one call: settings over scans, a row of numbers per run, and a report of them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -58,7 +59,8 @@ struct Dataset {
   std::string name;
   std::vector<std::filesystem::path> meshes;
   std::filesystem::path footprints;
-  Setting options;  ///< set over those of the request: an offset, an id attribute
+  Setting options;    ///< set over those of the request: an offset, an id attribute
+  std::string place;  ///< where it is, in words; may be empty
 };
 
 struct Request {
@@ -125,6 +127,9 @@ struct DatasetInfo {
   std::vector<model::InputFile> inputs;
   std::string crs;
   std::vector<geometry::Polygon> footprints;  ///< local frame, m
+  std::array<double, 2> centre{};             ///< of the footprints' box: x and y of the file frame, m
+  /// The same as longitude and latitude on WGS 84, degrees; none without a CRS, or where PROJ cannot tell.
+  std::optional<std::array<double, 2>> angles;
 };
 
 struct Study {

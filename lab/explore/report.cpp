@@ -69,8 +69,12 @@ auto json_of(const DatasetInfo& info) -> Json {
   Json inputs = Json::array();
   for (const auto& input : info.inputs)
     inputs.push_back({{"path", input.path}, {"bytes", input.bytes}, {"sha256", input.sha256}});
-  return {
-      {"name", info.dataset.name}, {"crs", info.crs}, {"options", json_of(info.dataset.options)}, {"inputs", inputs}};
+  Json out{{"name", info.dataset.name}};
+  if (!info.dataset.place.empty()) out["place"] = info.dataset.place;
+  out.update({{"crs", info.crs}, {"centre", info.centre}});
+  if (info.angles) out["longitude_latitude"] = *info.angles;
+  out.update({{"options", json_of(info.dataset.options)}, {"inputs", inputs}});
+  return out;
 }
 
 auto results_json(const Study& study) -> std::string {

@@ -31,6 +31,9 @@ class Globe {
   /// None for a frame without CRS. Gives up with "write-tiles-crs" where PROJ cannot go from there to WGS 84.
   [[nodiscard]] static auto of(const model::Frame& frame) -> base::Result<std::optional<Globe>>;
 
+  /// Every point, in place: longitude and latitude in degrees on WGS 84, height in metres. Gives up with
+  /// "write-tiles-crs".
+  [[nodiscard]] auto to_angles(std::vector<geometry::Point3>& points) const -> base::Result<void>;
   /// Every point, in place. Gives up with "write-tiles-crs".
   [[nodiscard]] auto to_earth(std::vector<geometry::Point3>& points) const -> base::Result<void>;
   /// East, north and up there.
@@ -42,7 +45,6 @@ class Globe {
  private:
   struct Projection;
   Globe() = default;
-  [[nodiscard]] auto to_angles(std::vector<geometry::Point3>& points) const -> base::Result<void>;
 
   model::Frame frame_;
   Heights heights_ = Heights::not_of_the_crs;

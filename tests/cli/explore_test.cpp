@@ -42,12 +42,14 @@ TEST_F(Explore, repeats_a_run_by_the_command_that_its_report_gives) {
 
 TEST_F(Explore, reads_a_list_of_datasets_from_its_folder_or_the_given_one) {
   const auto list = put("list.toml",
-                        "[[dataset]]\nname = \"one\"\nmeshes = [\"house.obj\"]\n"
+                        "[[dataset]]\nname = \"one\"\nplace = \"A & B\"\nmeshes = [\"house.obj\"]\n"
                         "footprints = \"house.geojson\"\noptions = { \"sweep.gamma\" = \"20\" }\n");
   const std::string words = "explore -q table --no-pictures -o " + at("out") + " --datasets " + list;
   EXPECT_EQ(run(words).exit, 0);
   const auto results = nlohmann::json::parse(read(at("out") + "/results.json"));
   EXPECT_EQ(results["runs"][0]["dataset"], "one");
+  EXPECT_EQ(results["datasets"][0]["place"], "A & B");
+  EXPECT_THAT(read(at("out") + "/index.html"), HasSubstr("A &amp; B"));
   EXPECT_THAT(results["runs"][0]["command"].get<std::string>(), HasSubstr("--sweep-gamma 20"));
   fs::remove_all(at("out"));
   expect_refusal(run(words + " --data " + at("nowhere")), 3, "file-missing", "");

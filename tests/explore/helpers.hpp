@@ -169,7 +169,7 @@ class Houses {
   auto operator=(const Houses&) -> Houses& = delete;
 
   [[nodiscard]] auto dataset(std::string name) const -> explore::Dataset {
-    return {std::move(name), {folder_ / "mesh.obj"}, folder_ / "footprints.geojson", {}};
+    return {std::move(name), {folder_ / "mesh.obj"}, folder_ / "footprints.geojson", {}, {}};
   }
 
  private:

@@ -127,6 +127,19 @@ TEST_F(Investigate, writes_pictures_beside_the_page_with_words_for_those_who_can
   EXPECT_EQ(images, 2U);
 }
 
+TEST_F(Investigate, shows_models_plan_and_error_of_every_setting) {
+  auto asked = request(Experiment::alpha_beta, {{"segment.alpha", {"40", "80"}}, {"segment.beta", {"60"}}});
+  asked.pictures = true;
+  const auto files = files_of(asked);
+  const Xml html(files.at("index.html"));
+  std::vector<std::string> images;
+  for (const auto& element : html.elements)
+    if (element.name == "img") images.push_back(element.get("src"));
+  EXPECT_THAT(images,
+              testing::ElementsAre("run-1-models.png", "run-1-error.png", "run-2-models.png", "run-2-error.png"));
+  for (const auto& image : images) EXPECT_TRUE(files.contains(image)) << image;
+}
+
 TEST_F(Investigate, tells_every_number_as_json_and_as_csv) {
   const auto files = files_of(request(Experiment::gamma, {{"sweep.gamma", {"10", "40"}}}));
   const auto results = json::parse(files.at("results.json"));

@@ -109,7 +109,12 @@ auto terms_text(const Numbers& n) -> std::string {
   return text;
 }
 
-/// A plan with what was chosen and what it cost.
+auto image_of(const Picture& picture, const std::string& setting) -> std::string {
+  return "<img loading=\"lazy\" src=\"" + escape(picture.name) + "\" alt=\"" + escape(picture.alt + ", " + setting) +
+         "\"/>\n";
+}
+
+/// As in the paper's Figure 6: the models, the plan, the vertical error; with what was chosen and what it cost.
 auto plan_of(const Study& study, const Row& row, double size) -> std::string {
   const auto title = tag("b", escape(setting_text(row.setting)));
   if (row.failure) return tag("figure", tag("figcaption", title + "<br/>" + escape(base::to_string(*row.failure))));
@@ -117,9 +122,13 @@ auto plan_of(const Study& study, const Row& row, double size) -> std::string {
   const auto& info = study.datasets[row.dataset];
   const auto drawing = plan_drawing(row.plan, info.footprints, size,
                                     "plan of the parts of " + info.dataset.name + " with " + setting_text(row.setting));
+  std::string models, errors;
+  for (const auto& picture : row.pictures)
+    (models.empty() ? models : errors) += image_of(picture, setting_text(row.setting));
   const auto counts = std::to_string(n.parts) + " parts of " + std::to_string(n.sweep_edges) +
                       " sweep-edges, vertical MSE " + base::to_text(n.scores.mse, 3) + " m²";
-  return tag("figure", drawing + tag("figcaption", title + "<br/>" + counts + "<br/>" + escape(terms_text(n))));
+  return tag("figure",
+             models + drawing + errors + tag("figcaption", title + "<br/>" + counts + "<br/>" + escape(terms_text(n))));
 }
 
 /// Two axes: the first downwards, the second to the right. One: in a row that breaks.
@@ -127,7 +136,8 @@ auto plan_matrix(const Study& study, const std::vector<const Row*>& rows) -> std
   const std::size_t columns = study.axes.size() == 2 ? study.axes[1].values.size() : 0;
   std::string cells;
   for (const auto* row : rows) cells += plan_of(study, *row, columns > 0 ? 240 : 300);
-  const auto style = columns > 0 ? "grid-template-columns: repeat(" + std::to_string(columns) + ", 15rem)" : "";
+  const auto style =
+      columns > 0 ? "grid-template-columns: repeat(" + std::to_string(columns) + ", minmax(0, 1fr))" : "";
   return tag("div", tag("div", cells, {{"class", columns > 0 ? "matrix" : "strip"}, {"style", style}}),
              {{"class", "wide"}, {"tabindex", "0"}});
 }
@@ -194,11 +204,12 @@ auto plots(const Study& study) -> std::string {
 auto dataset_figure(const Study& study, std::size_t dataset) -> std::string {
   const auto rows = rows_of(study, dataset);
   if (!was_run(study, rows)) return {};
-  std::string out = picture_figures(rows);
+  const bool plans = study.experiment != Experiment::quality &&  // which are alike
+                     (study.axes.size() == 1 || study.axes.size() == 2);
+  std::string out = plans ? std::string() : picture_figures(rows);
   if (study.experiment == Experiment::profiles && !rows.front()->failure)
     out += profile_figure(*rows.front(), study.datasets[dataset].dataset.name);
-  const bool plans = study.experiment != Experiment::quality;  // which are alike
-  if (plans && (study.axes.size() == 1 || study.axes.size() == 2)) out += plan_matrix(study, rows);
+  if (plans) out += plan_matrix(study, rows);
   return out;
 }
 

@@ -141,9 +141,10 @@ void draw(const report::Reconstruction& result, const model::Scene& scene, const
     add_picture(pictures.above, prefix + "above.png", "scan with footprints, and models, from above", row);
     add_picture(pictures.error, prefix + "error.png", error_alt, row);
   }
-  if (request.experiment == Experiment::quality) {
+  if (!request.axes.empty()) {
     picture::View view;
-    view.width = 1000, view.height = 750;
+    const bool large = request.experiment == Experiment::quality;
+    view.width = large ? 1000 : 600, view.height = large ? 750 : 450;
     add_picture(report::picture_of(result.city, view, run), prefix + "models.png", "models at an angle", row);
     const auto map = evaluate::merged(result.error_maps);
     add_picture(picture::error_map(map.difference, map.columns, map.rows, request.error_limit, "model - mesh, m"),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "lab/explore/detail/columns.hpp"
 #include "lab/explore/detail/figures.hpp"
@@ -35,8 +36,11 @@ th { font-weight: 600; } thead th { color: var(--quiet); font-weight: 500; }
 th.name, td.name { text-align: left; } th.name { white-space: nowrap; } td.failure { text-align: left; color: #d55e00; }
 td.hash { text-align: left; font: 12px ui-monospace, monospace; overflow-wrap: anywhere; }
 .plots, .strip { display: flex; flex-wrap: wrap; gap: 1.2rem; align-items: flex-start; }
+.matrix figure > * + * { margin-top: .3rem; }
+.strip figure { display: grid; grid-template-columns: repeat(3, minmax(0, 1fr)); gap: .6rem; width: 100%; }
+.strip figcaption { grid-column: 1 / -1; }
 .matrix, .pictures { display: grid; gap: 1.2rem; align-items: start; }
-.strip figure { width: 300px; } .alone figure:first-child { grid-column: 1 / -1; }
+.alone figure:first-child { grid-column: 1 / -1; }
 figure { margin: 0; }
 figure.beside { display: flex; flex-wrap: wrap; gap: 1.5rem; }
 figcaption { color: var(--quiet); font-size: 13px; } figcaption b { color: var(--ink); }
@@ -58,14 +62,18 @@ struct About {
 auto about(Experiment experiment) -> About {
   switch (experiment) {
     case Experiment::alpha_beta:
-      return {"Plans over α and β",
-              "Figure 6 of the paper. α is paid per metre of sweep-edge left unused, β per metre of wall without one. "
-              "Colours tell the parts apart; dotted lines are the GIS footprints."};
+      return {
+          "Plans over α and β",
+          "Figure 6 of the paper. α is paid per metre of sweep-edge left unused, β per metre of wall without one. "
+          "Colours tell the parts apart; dotted lines are the GIS footprints. Each setting has its models, its plan "
+          "and its vertical error (blue: the model is too low, red: too high)."};
     case Experiment::quality:
       return {"Profile quality", "Figure 7 of the paper: models and vertical errors at each quality of the profiles."};
     case Experiment::gamma:
-      return {"Sweep-edges over γ",
-              "Figure 8 of the paper. γ is the mesh area in m² that a sweep-edge must have behind it."};
+      return {
+          "Sweep-edges over γ",
+          "Figure 8 of the paper. γ is the mesh area in m² that a sweep-edge must have behind it. Each setting has its "
+          "models, its plan and its vertical error (blue: the model is too low, red: too high)."};
     case Experiment::datasets:
       return {"All datasets", "Figure 9 of the paper: scan with footprints, models, and vertical errors."};
     case Experiment::profiles:
@@ -100,8 +108,33 @@ auto failure_cell(const base::Diagnostic& why, std::size_t columns) -> std::stri
   return tag("td", escape(base::to_string(why)), {{"class", "failure"}, {"colspan", std::to_string(columns)}});
 }
 
+/// "52.0116 N, 4.3571 E", or x and y where that is not known.
+auto coordinates_of(const DatasetInfo& info) -> std::string {
+  if (!info.angles) return base::to_text(info.centre[0], 0) + ", " + base::to_text(info.centre[1], 0);
+  const auto [longitude, latitude] = *info.angles;
+  constexpr int decimals = 4;  // ten metres
+  return base::to_text(std::abs(latitude), decimals) + (latitude < 0 ? " S, " : " N, ") +
+         base::to_text(std::abs(longitude), decimals) + (longitude < 0 ? " W" : " E");
+}
+
+/// As in the paper's Table 1.
+auto place_cells(const DatasetInfo& info) -> std::string {
+  return tag("td", escape(info.dataset.place), {{"class", "name"}}) +
+         tag("td", info.inputs.empty() ? "" : coordinates_of(info), {{"class", "name"}});
+}
+
+auto place_headings() -> std::string {
+  return tag("th", "place", {{"scope", "col"}, {"class", "name"}}) +
+         tag("th", "coordinates", {{"scope", "col"}, {"class", "name"}});
+}
+
+auto has_places(const Study& study) -> bool {
+  return study.experiment == Experiment::table || study.experiment == Experiment::datasets;
+}
+
 auto row_cells(const Study& study, const Row& row) -> std::string {
   auto cells = tag("th", escape(study.datasets[row.dataset].dataset.name), {{"scope", "row"}, {"class", "name"}});
+  if (has_places(study)) cells += place_cells(study.datasets[row.dataset]);
   for (const auto& [key, value] : row.setting) cells += tag("td", escape(value));
   const auto missing = study.axes.size() - row.setting.size();
   return cells + (row.failure ? failure_cell(*row.failure, shown_columns() + missing) : number_cells(row.numbers));
@@ -114,6 +147,7 @@ auto table_of(const std::string& caption, const std::string& head, const std::st
 
 auto run_table(const Study& study) -> std::string {
   auto head = tag("th", "dataset", {{"scope", "col"}, {"class", "name"}});
+  if (has_places(study)) head += place_headings();
   for (const auto& axis : study.axes) head += tag("th", escape(axis.key), {{"scope", "col"}});
   std::string body;
   for (const auto& row : study.rows) body += tag("tr", row_cells(study, row));
