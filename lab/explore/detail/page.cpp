@@ -44,7 +44,7 @@ td.hash { text-align: left; font: 12px ui-monospace, monospace; overflow-wrap: a
 figure { margin: 0; }
 figure.beside { display: flex; flex-wrap: wrap; gap: 1.5rem; }
 figcaption { color: var(--quiet); font-size: 13px; } figcaption b { color: var(--ink); }
-img { width: 100%; height: auto; border: 1px solid var(--line); background: #ffffff; }
+img { box-sizing: border-box; width: 100%; height: auto; border: 1px solid var(--line); background: #ffffff; }
 svg { max-width: 100%; height: auto; display: block; font: 12px system-ui, sans-serif; }
 svg text { fill: var(--ink); } svg .heading { font-weight: 600; font-size: 13px; }
 svg .axis { stroke: var(--quiet); } svg .grid { stroke: var(--line); } svg .cell { stroke: var(--line); }
