@@ -193,7 +193,7 @@ void print_attributes(bool as_json) {
     std::string objects;
     for (const auto& object : attribute.of) objects += (objects.empty() ? "" : ", ") + object;
     out["attributes"].push_back({{"name", attribute.name},
-                                 {"module", attribute.room},
+                                 {"module", attribute.module},
                                  {"of", attribute.of},
                                  {"type", attribute.type},
                                  {"unit", attribute.unit},

@@ -1,4 +1,4 @@
-// The files of a simulation that no other room writes.
+// The files of a simulation that no other module writes.
 #include <algorithm>
 #include <array>
 #include <bit>

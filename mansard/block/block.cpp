@@ -219,7 +219,7 @@ auto outlined(const std::vector<std::size_t>& group, const Shapes& shapes, const
   std::ranges::sort(own, before);
   Polygons all;
   for (const auto& shape : own) all.insert(all.end(), shape.begin(), shape.end());
-  block.outline = detail::outline_of(all, options.touch, options.gap_area);
+  block.outline = detail::outline_of(all, options.touch, options.gap_area, block.warnings);
   round_all(block.outline);
   return block;
 }
@@ -267,6 +267,13 @@ auto in_own_frame(Block block) -> OwnFrame {
   }
   out.block = std::move(block);
   return out;
+}
+
+auto codes() -> std::vector<base::Code> {
+  return {
+      {"block-outline", "The union of a block's footprints, or of the gaps between them, could not be computed.",
+       "The outline of the block keeps its gaps, or consists of the single footprints; repair the footprints there.",
+       0}};
 }
 
 auto option_list(Options& o) -> base::OptionList {

@@ -24,12 +24,13 @@ struct Member {
 
 struct Block {
   std::string name;  ///< "block-" and the first id of its members: the shortest, of these the first in the alphabet
-  std::vector<Member> members;             ///< by feature number
-  std::vector<geometry::Polygon> outline;  ///< the union of the members, gaps under the touch tolerance closed
-  geometry::Mesh mesh;                     ///< the triangles within the padding of the outline
-  double ground = 0;                       ///< z, metres: the median of the members'
-  bool ground_known = true;                ///< false where neither terrain nor mesh is near; then all grounds are 0
-  std::array<std::int64_t, 3> origin{};    ///< of its own frame, in that of the scene; whole metres
+  std::vector<Member> members;               ///< by feature number
+  std::vector<geometry::Polygon> outline;    ///< the union of the members, gaps under the touch tolerance closed
+  geometry::Mesh mesh;                       ///< the triangles within the padding of the outline
+  double ground = 0;                         ///< z, metres: the median of the members'
+  bool ground_known = true;                  ///< false where neither terrain nor mesh is near; then all grounds are 0
+  std::array<std::int64_t, 3> origin{};      ///< of its own frame, in that of the scene; whole metres
+  std::vector<base::Diagnostic> warnings{};  ///< "block-outline", without subject
 };
 
 /// A block in its own frame, which begins at whole metres below it, and with its members in an order of their own: all
@@ -67,5 +68,7 @@ struct Options {
 /// Cost: O((n + m) log m) for n triangles, m footprints.
 [[nodiscard]] auto partition(const model::Scene& scene, const Options& options, const base::Run& run = {})
     -> std::vector<Block>;
+
+[[nodiscard]] auto codes() -> std::vector<base::Code>;
 
 }  // namespace mansard::block

@@ -15,11 +15,12 @@ using detail::Sums;
 using detail::Where;
 using geometry::Box2;
 
-/// The solids' surfaces as one mesh; a solid that cannot be cut into triangles is left out, and so counts as missed.
-auto surface_of(std::span<const model::LabelledSolid> model) -> geometry::Mesh {
+/// The solids' surfaces as one mesh, without those that cannot be cut into triangles; `lost` is how many they are.
+auto surface_of(std::span<const model::LabelledSolid> model, std::size_t& lost) -> geometry::Mesh {
   geometry::Mesh mesh;
   for (const auto& labelled : model) {
     const auto pieces = solid::triangulate(labelled.solid);
+    lost += pieces ? 0 : 1;
     if (!pieces) continue;
     const auto offset = static_cast<std::uint32_t>(mesh.vertices.size());
     mesh.vertices.insert(mesh.vertices.end(), labelled.solid.vertices.begin(), labelled.solid.vertices.end());
@@ -56,7 +57,10 @@ auto option_list(Options& o) -> base::OptionList {
 auto compare(std::span<const model::LabelledSolid> model, const rays::Scene& mesh,
              std::span<const geometry::Polygon> footprints, double ground, const Options& options, const base::Run& run)
     -> Comparison {
-  return compare(surface_of(model), mesh, footprints, ground, options, run);
+  std::size_t lost = 0;
+  auto out = compare(surface_of(model, lost), mesh, footprints, ground, options, run);
+  out.lost = lost;
+  return out;
 }
 
 auto compare(const geometry::Mesh& surface, const rays::Scene& mesh, std::span<const geometry::Polygon> footprints,
@@ -98,6 +102,7 @@ auto compare(const geometry::Mesh& surface, const rays::Scene& mesh, std::span<c
   Sums total;
   for (const auto& row : rows) total.add(row);
   out.scores = total.scores(options.grid);
+  out.scores.union_unknown = plan.union_unknown;
   set_quantiles(map.difference, out.scores);
   set_quantiles(total.differences, out.scores);
   out.differences = std::move(total.differences);

@@ -57,6 +57,7 @@ struct Scores {
   double p95_absolute = 0;     ///< m
   double missed = 0;           ///< m² of GIS footprint without model
   double invented = 0;         ///< m² of model outside the GIS footprints
+  bool union_unknown = false;  ///< the footprints' union could not be computed: `inside` is measured as `inside_each`
 };
 
 /// Model − mesh in metres of every cell that a median of Scores is of, row by row from the south.
@@ -69,6 +70,7 @@ struct Comparison {
   Scores scores;
   ErrorMap map;
   Differences differences;
+  std::size_t lost = 0;  ///< solids that cannot be cut into triangles: they count as missed
 };
 
 /// The top surfaces of the model and of the mesh over a grid.

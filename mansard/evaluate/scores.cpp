@@ -16,9 +16,8 @@ auto median_absolute(std::vector<float> values) -> double {
 
 /// Calls see(cell, depth) for every cell over the footprints, from the south-west.
 template <class See>
-void each_footprint_cell(std::span<const geometry::Polygon> footprints, const rays::Scene* model,
-                         const rays::Scene& mesh, const Options& options, See see) {
-  const detail::Plan plan(footprints, options.inset);
+void each_footprint_cell(const detail::Plan& plan, std::span<const geometry::Polygon> footprints,
+                         const rays::Scene* model, const rays::Scene& mesh, const Options& options, See see) {
   const auto cells = detail::grid_over(geometry::bounds(footprints), options.grid);
   for (std::int64_t j = 0; j < cells.rows; ++j) {
     const auto depth = plan.depths(cells, j);
@@ -32,8 +31,10 @@ void each_footprint_cell(std::span<const geometry::Polygon> footprints, const ra
   }
 }
 
-auto scores_of(const detail::Sums& sums, std::span<const float> built, double grid) -> Scores {
+auto scores_of(const detail::Sums& sums, std::span<const float> built, const detail::Plan& plan, double grid)
+    -> Scores {
   Scores scores = sums.scores(grid);
+  scores.union_unknown = plan.union_unknown;
   set_quantiles(built, scores);
   set_quantiles(sums.differences, scores);
   return scores;
@@ -64,9 +65,10 @@ void Differences::add(const Differences& more) {
 
 auto scores_over(const rays::Scene& model, const rays::Scene& mesh, std::span<const geometry::Polygon> footprints,
                  double ground, const Options& options) -> Scores {
+  const detail::Plan plan(footprints, options.inset);
   detail::Sums sums;
   std::vector<float> built;
-  each_footprint_cell(footprints, &model, mesh, options, [&](const detail::Cell& cell, detail::Depth depth) {
+  each_footprint_cell(plan, footprints, &model, mesh, options, [&](const detail::Cell& cell, detail::Depth depth) {
     if (!cell.built) ++sums.missed;
     if (!cell.scanned) return;
     const double difference = cell.built.value_or(ground) - *cell.scanned;
@@ -75,29 +77,29 @@ auto scores_over(const rays::Scene& model, const rays::Scene& mesh, std::span<co
     sums.add_built(difference);
     built.push_back(static_cast<float>(difference));
   });
-  return scores_of(sums, built, options.grid);
+  return scores_of(sums, built, plan, options.grid);
 }
 
 auto prism_over(const rays::Scene& mesh, std::span<const geometry::Polygon> footprints, double height,
                 const Options& options) -> Prism {
+  const detail::Plan plan(footprints, options.inset);
   detail::Sums sums;
-  each_footprint_cell(footprints, nullptr, mesh, options, [&](const detail::Cell& cell, detail::Depth depth) {
+  each_footprint_cell(plan, footprints, nullptr, mesh, options, [&](const detail::Cell& cell, detail::Depth depth) {
     if (!cell.scanned) return;
     sums.add_inside(height - *cell.scanned, depth);
     sums.add_built(height - *cell.scanned);
   });
-  const auto scores = scores_of(sums, sums.differences.footprints, options.grid);
+  const auto scores = scores_of(sums, sums.differences.footprints, plan, options.grid);
   return {height, scores, std::move(sums.differences)};
 }
 
 auto prism_over(const rays::Scene& mesh, std::span<const geometry::Polygon> footprints, const Options& options)
     -> Prism {
   std::vector<float> heights;
-  Options all = options;
-  all.inset = 0;
-  each_footprint_cell(footprints, nullptr, mesh, all, [&](const detail::Cell& cell, detail::Depth) {
-    if (cell.scanned) heights.push_back(static_cast<float>(*cell.scanned));
-  });
+  each_footprint_cell({footprints, 0}, footprints, nullptr, mesh, options,
+                      [&](const detail::Cell& cell, detail::Depth) {
+                        if (cell.scanned) heights.push_back(static_cast<float>(*cell.scanned));
+                      });
   if (heights.empty()) return {};
   return prism_over(mesh, footprints, base::percentile(std::move(heights), 0.5), options);
 }
@@ -132,6 +134,7 @@ auto combined(std::span<const Scores> scores) -> Scores {
     sum.p95_absolute += cells * s.p95_absolute;
     sum.footprint_mse += inside * s.footprint_mse;
     sum.footprint_median_absolute += inside * s.footprint_median_absolute;
+    sum.union_unknown = sum.union_unknown || s.union_unknown;
     add_weighted(sum.inside, s.inside);
     add_weighted(sum.inside_each, s.inside_each);
     sum.missed += s.missed;

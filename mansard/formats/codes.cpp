@@ -51,6 +51,8 @@ auto codes() -> std::vector<base::Code> {
        "of "
        "mansard's.",
        0},
+      {"write-geopackage-footprint", "The polygons of a footprint touch each other and could not be united.",
+       "The GeoPackage has them as an invalid MultiPolygon; repair the footprint in the source.", 0},
       {"write-geopackage", "GDAL could not make a GeoPackage.",
        "The message has GDAL's words; its GPKG driver and PROJ's data must be installed, and there must be memory.", 3},
       {"write-stl-size", "There are more triangles than the 4,294,967,295 that an STL can count.",

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <new>
-#include <set>
 
 #include "mansard/base/text.hpp"
 #include "mansard/formats/input_file.hpp"
@@ -15,6 +14,7 @@
 #include "mansard/ingest/detail/clean.hpp"
 #include "mansard/ingest/detail/crs.hpp"
 #include "mansard/ingest/detail/mesh_files.hpp"
+#include "mansard/ingest/detail/origin.hpp"
 #include "mansard/ingest/detail/rings.hpp"
 #include "mansard/ingest/detail/surroundings.hpp"
 
@@ -32,11 +32,6 @@ auto in_words(const Box2& box) -> std::string {
          base::to_text(box.least.y, 1) + " to " + base::to_text(box.most.y, 1);
 }
 
-/// Without the filter: what does not pass it is still around what does.
-auto query_of(const Options& options) -> formats::FeatureQuery {
-  return {options.layer, "", options.crs, options.bbox};
-}
-
 /// The features of a source, and which of them are asked for.
 struct Chosen {
   formats::FeatureFile file;
@@ -45,20 +40,11 @@ struct Chosen {
 
 auto read_chosen(const std::filesystem::path& path, const Options& options, const base::Run& run)
     -> base::Result<Chosen> {
-  auto query = query_of(options);
-  std::optional<std::set<std::int64_t>> passing;
-  if (!options.where.empty()) {
-    query.where = options.where;
-    const auto some = formats::read_features(path, query, run);
-    if (!some) return some.failure();
-    passing.emplace();
-    for (const auto& feature : some->features) passing->insert(feature.number);
-    query.where.clear();
-  }
-  auto file = formats::read_features(path, query, run);
+  // What does not pass the filter is still around what does.
+  auto file = formats::read_features(path, {options.layer, options.where, true, options.crs, options.bbox}, run);
   if (!file) return file.failure();
   Chosen out{std::move(*file), {}};
-  for (const auto& feature : out.file.features) out.wanted.push_back(!passing || passing->contains(feature.number));
+  for (const auto& feature : out.file.features) out.wanted.push_back(feature.passes);
   return out;
 }
 
@@ -111,22 +97,6 @@ auto keep_surroundings(Chosen& chosen) -> Box2 {
   features.resize(kept);
   chosen.wanted.resize(kept);
   return blocks;
-}
-
-/// Whole metres. Coordinates that are small anyway stay as they are, so that a local frame is read and written without
-/// a single rounding; others are counted from the middle of the footprints and the foot of the mesh, which loses
-/// nothing either where that makes the numbers smaller.
-auto choose_origin(const Box2& footprints, const geometry::Box3& mesh) -> std::array<std::int64_t, 3> {
-  constexpr double small = 1024;
-  const auto along = [](double least, double most, double from) -> std::int64_t {
-    if (std::max(std::abs(least), std::abs(most)) <= small) return 0;
-    return static_cast<std::int64_t>(std::floor(from));
-  };
-  const Point2 middle = 0.5 * (footprints.least + footprints.most);
-  Box2 all = footprints;
-  all.include(mesh.plan());
-  return {along(all.least.x, all.most.x, middle.x), along(all.least.y, all.most.y, middle.y),
-          along(mesh.least.z, mesh.most.z, mesh.least.z)};
 }
 
 auto defect_without_polygons(const formats::RawFeature& feature) -> base::Diagnostic {
@@ -304,7 +274,7 @@ auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::files
   model::Scene scene;
   scene.frame.crs = ground->way.name;
   scene.frame.origin =
-      choose_origin(!ground->box.empty() ? ground->box : ground->kept.value_or(mesh_box.plan()), mesh_box);
+      detail::origin_of(!ground->box.empty() ? ground->box : ground->kept.value_or(mesh_box.plan()), mesh_box);
 
   run.report("ingest", mesh_name, 0.7);
   std::array<double, 3> shift{};
@@ -356,7 +326,7 @@ auto read_alone(const std::filesystem::path& path, const Options& options, const
   const Box2 box = keep_surroundings(*chosen);
   scene.frame.crs = way->name;
   if (!box.empty())
-    scene.frame.origin = choose_origin(box, {{box.least.x, box.least.y, 0}, {box.most.x, box.most.y, 0}});
+    scene.frame.origin = detail::origin_of(box, {{box.least.x, box.least.y, 0}, {box.most.x, box.most.y, 0}});
   constexpr double far = std::numeric_limits<double>::infinity();
   auto finished = finish_all(*file, options, scene.frame, {{-far, -far}, {far, far}}, subject);
   if (!finished) return finished.error();

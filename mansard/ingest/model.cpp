@@ -13,6 +13,7 @@
 #include "mansard/ingest/detail/by_normal.hpp"
 #include "mansard/ingest/detail/clean.hpp"
 #include "mansard/ingest/detail/mesh_files.hpp"
+#include "mansard/ingest/detail/origin.hpp"
 
 namespace mansard::ingest {
 namespace {
@@ -68,17 +69,6 @@ auto drop_unusable(std::vector<model::ModelBuilding>& buildings) -> std::size_t 
   }
   std::erase_if(buildings, [](const model::ModelBuilding& building) { return building.parts.empty(); });
   return dropped;
-}
-
-/// Whole metres, as for footprints: nothing for coordinates that are small anyway, else the middle and the foot.
-auto origin_of(const Box3& e) -> std::array<std::int64_t, 3> {
-  constexpr double small = 1024;
-  const auto along = [](double least, double most, double from) -> std::int64_t {
-    return std::max(std::abs(least), std::abs(most)) <= small ? 0 : static_cast<std::int64_t>(std::floor(from));
-  };
-  const Point2 middle = 0.5 * (xy(e.least) + xy(e.most));
-  return {along(e.least.x, e.most.x, middle.x), along(e.least.y, e.most.y, middle.y),
-          along(e.least.z, e.most.z, e.least.z)};
 }
 
 void shift(model::Model& model, Point3 by) {
@@ -140,7 +130,7 @@ auto read(const std::filesystem::path& path, const ModelOptions& options) -> bas
   each_loop(model, [&](const auto& loop) {
     for (const auto p : loop) extent.add(p);
   });
-  model.frame = {origin_of(extent), std::move(*crs)};
+  model.frame = {detail::origin_of(extent.plan(), extent), std::move(*crs)};
   const auto& o = model.frame.origin;
   shift(model, {-static_cast<double>(o[0]), -static_cast<double>(o[1]), -static_cast<double>(o[2])});
   return model;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "mansard/geometry/change.hpp"
 #include "mansard/geometry/polygon.hpp"
 
 namespace mansard::model {
@@ -20,14 +21,7 @@ auto drawn(const ModelFace& face) -> geometry::Polygon {
     if (std::abs(n.x) >= std::abs(n.y)) return {n.x > 0 ? p.y : -p.y, p.z};
     return {n.y > 0 ? p.z : -p.z, p.x};
   };
-  geometry::Polygon polygon;
-  for (const auto& loop : face.loops) {
-    geometry::Ring ring;
-    for (const Point3 p : loop) ring.push_back(on(p));
-    if (&loop == &face.loops.front()) polygon.outer = std::move(ring);
-    else polygon.holes.push_back(std::move(ring));
-  }
-  return polygon;
+  return geometry::polygon_of(face.loops, on);
 }
 
 /// Triangles over the corners of all loops in order; none for a face that crosses itself.

@@ -8,6 +8,7 @@
 #include "mansard/base/text.hpp"
 #include "mansard/block/block.hpp"
 #include "mansard/pipeline/detail/assemble.hpp"
+#include "mansard/pipeline/detail/block_run.hpp"
 #include "mansard/pipeline/stored.hpp"
 
 namespace mansard::pipeline {
@@ -243,6 +244,8 @@ void sum_up(std::vector<BlockWork>& work, report::Evaluation& out) {
     from_model.insert(from_model.end(), one.from_model.begin(), one.from_model.end());
     from_scan.insert(from_scan.end(), one.from_scan.begin(), one.from_scan.end());
     maps.push_back(std::move(one.map));
+    const bool unknown = std::ranges::any_of(one.buildings, [](const auto& b) { return b.scores.union_unknown; });
+    if (unknown || one.block.scores.union_unknown) out.warnings.push_back(detail::union_unknown(one.block.name));
     out.blocks.push_back(std::move(one.block));
   }
   out.from_model = evaluate::spread_of(std::move(from_model));
@@ -377,6 +380,11 @@ auto evaluate_model(const report::EvaluationInput& input, const Options& options
     return base::error("pipeline-nothing", "there is no footprint to measure over",
                        std::string(to_string(input.reference)));
 
+  for (const auto& block : blocks)
+    for (auto warning : block.warnings) {
+      warning.subject = block.name;
+      out.warnings.push_back(std::move(warning));
+    }
   const auto surface = model::surface_of(input.model);
   const auto outlines = building_outlines(input.model, out.warnings);
   const auto stands_on = block_of_buildings(input.model, outlines, blocks, out.warnings);

@@ -108,6 +108,7 @@ auto codes() -> std::vector<base::Code> {
   add(geometry::codes());
   add(solver::codes());
   add(ingest::codes());
+  add(block::codes());
   add(derive::codes());
   add(fracture::codes());
   add(segment::codes());
@@ -149,8 +150,9 @@ auto codes() -> std::vector<base::Code> {
       {"pipeline-overlap-unchecked", "Whether two models share ground could not be computed.",
        "Look at the two models named; repair the outlines of their footprints.", 0},
       {"pipeline-evaluation-unchecked",
-       "An outline of a model, or the ground that two outlines share, could not be computed.",
-       "The scores count it as missing or not matched; repair the faces of that building.", 0},
+       "An outline of a model, the ground that two outlines share, or the union of footprints could not be computed.",
+       "The scores count it as missing or not matched, or leave out more ground; repair that building or footprint.",
+       0},
       {"pipeline-block-unknown", "A run of some blocks names an unknown block.",
        "Take a name from the report of a whole run, or of 'mansard segment'.", 4},
   });

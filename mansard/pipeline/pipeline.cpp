@@ -43,12 +43,14 @@ struct Division {
 
 auto divide(const model::Scene& scene, const Options& options, const base::Run& run) -> base::Result<Division> {
   const bool usable = std::ranges::any_of(scene.footprints, [](const auto& f) { return !f.defect.has_value(); });
-  if (!usable)
-    return base::error("pipeline-nothing",
-                       scene.footprints.empty()
-                           ? "there are no footprints"
-                           : "none of the " + std::to_string(scene.footprints.size()) +
-                                 " footprints can be used; the first: " + scene.footprints.front().defect->message);
+  if (!usable) {
+    std::string why = "there are no footprints";
+    if (!scene.footprints.empty())
+      if (const auto& defect = scene.footprints.front().defect)
+        why = "none of the " + std::to_string(scene.footprints.size()) +
+              " footprints can be used; the first: " + defect->message;
+    return base::error("pipeline-nothing", why);
+  }
   base::Watch watch;
   auto blocks = block::partition(scene, options.block, run);
   return Division{std::move(blocks), {"block", watch.stop()}};

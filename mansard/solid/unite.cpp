@@ -101,11 +101,11 @@ auto made_of(const detail::Sheets& sheets, std::span<const LabelledSolid* const>
 /// How a union is made: points nearer than `near` quanta become one, and what stays a solid of its own is its part as
 /// it is or, with `prisms`, a prism over the plan of all.
 struct Reach {
-  std::int64_t near = detail::least_near;
+  std::int64_t near = model::least_apart;
   bool prisms = false;
 };
 /// Where parts overlap by more than the least, or a face is caught between points that near, 5 mm and 2 cm help.
-constexpr std::array reaches{Reach{}, Reach{50}, Reach{200}, Reach{detail::least_near, true}};
+constexpr std::array reaches{Reach{}, Reach{50}, Reach{200}, Reach{model::least_apart, true}};
 
 class Uniting {
  public:

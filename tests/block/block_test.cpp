@@ -402,5 +402,17 @@ TEST(Options, name_their_ranges) {
   EXPECT_FALSE(list.find("ground_percentile")->set("101"));
 }
 
+TEST(Outline, is_the_footprints_and_a_warning_where_their_union_cannot_be_computed) {
+  std::vector<base::Diagnostic> warnings;
+  const std::vector<Polygon> shapes{box(0, 0, 1, 1), box(1e200, 0, 2e200, 1)};
+  EXPECT_EQ(detail::outline_of(shapes, 0.1, 0.01, warnings), shapes);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].code, "block-outline");
+  EXPECT_EQ(warnings[0].severity, base::Severity::warning);
+  warnings.clear();
+  EXPECT_EQ(detail::outline_of({box(0, 0, 1, 1), box(1, 0, 2, 1)}, 0.1, 0.01, warnings).size(), 1U);
+  EXPECT_TRUE(warnings.empty());
+}
+
 }  // namespace
 }  // namespace mansard::block

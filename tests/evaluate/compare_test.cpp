@@ -196,4 +196,16 @@ TEST(Options, are_all_listed) {
   EXPECT_FALSE(list.find("grid")->set("0").has_value());
 }
 
+TEST(Compare, counts_solids_that_cannot_be_cut_into_triangles) {
+  auto town = labelled({box({0, 0}, {10, 8}, 0, 6), box({20, 0}, {30, 8}, 0, 6)});
+  const Scene scan(mesh_of({town[0].solid, town[1].solid}));
+  const std::vector<Polygon> footprints{rectangle({0, 0}, {10, 8}), rectangle({20, 0}, {30, 8})};
+  EXPECT_EQ(compare(town, scan, footprints, 0, {}).lost, 0U);
+  auto& loop = town[1].solid.faces[0].loops[0];
+  std::swap(loop[0], loop[1]);  // crosses itself
+  const auto result = compare(town, scan, footprints, 0, {});
+  EXPECT_EQ(result.lost, 1U);
+  EXPECT_NEAR(result.scores.missed, 80, 1e-9);
+}
+
 }  // namespace

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "evaluate/models.hpp"
+#include "mansard/evaluate/detail/sums.hpp"
 #include "mansard/evaluate/evaluate.hpp"
 
 namespace {
@@ -12,6 +13,9 @@ using mansard::evaluate::Options;
 using mansard::evaluate::prism_over;
 using mansard::evaluate::Scores;
 using mansard::evaluate::scores_over;
+using mansard::evaluate::detail::Grid;
+using mansard::evaluate::detail::grid_over;
+using mansard::evaluate::detail::Plan;
 using mansard::geometry::Polygon;
 using mansard::rays::Scene;
 using models::mesh_of;
@@ -115,6 +119,20 @@ TEST(Combined, weighs_by_cells) {
   EXPECT_EQ(sum.inside.cells, 4U);
   EXPECT_EQ(sum.missed, 2);
   EXPECT_EQ(combined({}).footprint_mse, 0);
+}
+
+TEST(Inside, says_where_the_union_of_the_footprints_cannot_be_computed) {
+  // Beyond what can be multiplied: the union fails.
+  const std::vector<Polygon> footprints{rectangle(0, 10), {{{1e200, 0}, {2e200, 0}, {2e200, 1}}, {}}};
+  const Plan plan(footprints, 0.75);
+  EXPECT_TRUE(plan.union_unknown);
+  const Grid grid = grid_over(mansard::geometry::bounds(footprints[0].outer), 0.25);
+  for (const auto& depth : plan.depths(grid, 10)) EXPECT_EQ(depth.inside, depth.inside_each);
+  EXPECT_FALSE(Plan(std::span(footprints).first(1), 0.75).union_unknown);
+
+  Scores one, two;
+  two.union_unknown = true;
+  EXPECT_TRUE(combined(std::vector{one, two}).union_unknown);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "ingest/workshop.hpp"
 #include "mansard/crs/gdal.hpp"
+#include "mansard/formats/vector/features.hpp"
 #include "mansard/geometry/polygon.hpp"
 
 namespace mansard::ingest::test {
@@ -238,6 +239,10 @@ TEST_F(Sources, layers_and_filters_choose) {
   options.layer = "roofs";
   options.where = "floors > 1";
   EXPECT_EQ(read({ground()}, at("f.gpkg"), options).value().footprints.size(), 1U);
+  const auto both = formats::read_features(at("f.gpkg"), {"roofs", "floors > 1", true, "", {}}, {});
+  ASSERT_TRUE(both) << base::to_string(both.error());
+  ASSERT_EQ(both->features.size(), 2U);
+  EXPECT_NE(both->features[0].passes, both->features[1].passes);
   options.where = "floors > 9";
   EXPECT_EQ(code(read({ground()}, at("f.gpkg"), options)), "ingest-footprints-none");
   options.where = "floors >>> 9";

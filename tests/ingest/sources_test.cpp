@@ -133,7 +133,8 @@ TEST_F(MoreSources, with_a_box_are_the_same_whether_the_driver_knows_boxes_or_no
   EXPECT_EQ(scene->footprints.size(), 4U);
   EXPECT_EQ(attribute(scene->footprints[0], "name"), model::Value(std::string("house 10")));
   EXPECT_EQ(scene->footprints[0].id, "11");
-  const auto raw = formats::read_features(path, {.layer = {}, .where = {}, .crs = {}, .bbox = options.bbox}, {});
+  const auto raw =
+      formats::read_features(path, {.layer = {}, .where = {}, .others = false, .crs = {}, .bbox = options.bbox}, {});
   ASSERT_TRUE(raw);
   EXPECT_GT(raw->features.size(), 100U);
   EXPECT_LT(raw->features.size(), 130U);

@@ -131,17 +131,26 @@ auto groups_of(const std::vector<Polygons>& shapes, double touch) -> std::vector
   return groups;
 }
 
-auto outline_of(const Polygons& shapes, double touch, double gap_area) -> Polygons {
+auto outline_of(const Polygons& shapes, double touch, double gap_area, std::vector<base::Diagnostic>& warnings)
+    -> Polygons {
+  const auto warn = [&](const char* what, const base::Diagnostic& why) {
+    warnings.push_back(base::warning("block-outline", what + (" (" + why.message) + ")"));
+  };
   auto united = geometry::unite(shapes);
-  if (!united) return shapes;
+  if (!united) {
+    warn("the union of the footprints could not be computed; each has an outline of its own", united.error());
+    return shapes;
+  }
   if (touch <= 0) return std::move(*united);
   auto filled = closed(*united, touch / 2);
+  if (!filled) warn("the gaps between the footprints could not be closed", filled.error());
   if (!filled || filled->empty()) return std::move(*united);
   // Mitres are cut off where corners are sharp; what that took from the shapes is put back.
   restore(*filled, *united);
   Polygons both = *united;
   both.insert(both.end(), filled->begin(), filled->end());
   auto whole = geometry::unite(both);
+  if (!whole) warn("the gaps between the footprints could not be closed", whole.error());
   const bool simple = std::ranges::all_of(*united, [](const Polygon& p) { return geometry::is_simple(p); });
   if (!whole || (simple && whole->size() == united->size() && total(*whole) - total(*united) < gap_area))
     return std::move(*united);

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "mansard/base/result.hpp"
 #include "mansard/geometry/polygon.hpp"
 
 namespace mansard::block::detail {
@@ -22,7 +23,9 @@ using Polygons = std::vector<geometry::Polygon>;
     -> std::vector<std::vector<std::size_t>>;
 
 /// The union, with gaps narrower than `touch` closed. Where those have less than `gap_area` m², or there are none, its
-/// points are those of the shapes.
-[[nodiscard]] auto outline_of(const Polygons& shapes, double touch, double gap_area) -> Polygons;
+/// points are those of the shapes. Where an operation fails, the gaps stay open, or the shapes are as they are, and a
+/// warning "block-outline" says so.
+[[nodiscard]] auto outline_of(const Polygons& shapes, double touch, double gap_area,
+                              std::vector<base::Diagnostic>& warnings) -> Polygons;
 
 }  // namespace mansard::block::detail

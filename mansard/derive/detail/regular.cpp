@@ -334,10 +334,10 @@ auto total_area(const std::vector<Polygon>& polygons) -> double {
   return sum;
 }
 
-/// Intersection over union; 0, so that the straight outline is not taken, where it cannot be computed.
-auto overlap(const Polygon& a, const Polygon& b) -> double {
+/// Intersection over union.
+auto overlap(const Polygon& a, const Polygon& b) -> base::Result<double> {
   const auto common = geometry::intersect(a, b);
-  if (!common) return 0;
+  if (!common) return common.failure();
   const double both = total_area(*common);
   return both / (geometry::area(a) + geometry::area(b) - both);
 }
@@ -374,9 +374,11 @@ auto regularised(const Polygon& outline, const Options& how) -> base::Result<std
   for (const auto& hole : outline.holes)
     if (auto ring = straight_ring(hole, directions, how); ring.size() >= 3 && geometry::signed_area(ring) < 0)
       straight.holes.push_back(std::move(ring));
-  if (straight.outer.size() >= 3 && geometry::signed_area(straight.outer) > 0 && geometry::is_simple(straight) &&
-      overlap(straight, outline) >= how.minimum_overlap)
-    return std::vector{straight};
+  if (straight.outer.size() >= 3 && geometry::signed_area(straight.outer) > 0 && geometry::is_simple(straight)) {
+    const auto shared = overlap(straight, outline);
+    if (!shared) return shared.failure();
+    if (*shared >= how.minimum_overlap) return std::vector{straight};
+  }
   Polygon simple{simplified_ring(outline.outer, how), {}};
   for (const auto& hole : outline.holes) simple.holes.push_back(simplified_ring(hole, how));
   return geometry::make_valid(simple);

@@ -16,7 +16,8 @@ namespace mansard::derive::detail {
 [[nodiscard]] auto directions_of(const geometry::Polygon& outline, const Options& how) -> std::vector<double>;
 
 /// Simple polygons near the outline; the outline itself, simplified, where no straight walls are. Fails with
-/// "geometry-boolean" where the simplified outline crosses itself and cannot be repaired.
+/// "geometry-boolean" where the straight outline cannot be compared with the other, or the simplified one crosses
+/// itself and cannot be repaired.
 [[nodiscard]] auto regularised(const geometry::Polygon& outline, const Options& how)
     -> base::Result<std::vector<geometry::Polygon>>;
 

@@ -1,6 +1,7 @@
 // A model's face seen from above.
 #pragma once
 
+#include "mansard/geometry/change.hpp"
 #include "mansard/geometry/polygon.hpp"
 #include "mansard/model/surfaces.hpp"
 
@@ -15,14 +16,8 @@ namespace mansard::evaluate::detail {
 
 /// The valid polygons that it covers in plan; none for a vertical face.
 [[nodiscard]] inline auto plan_of_face(const model::ModelFace& face) -> base::Result<std::vector<geometry::Polygon>> {
-  geometry::Polygon polygon;
-  for (const auto& loop : face.loops) {
-    geometry::Ring ring;
-    for (const auto p : loop) ring.push_back(xy(p));
-    if (&loop == &face.loops.front()) polygon.outer = std::move(ring);
-    else polygon.holes.push_back(std::move(ring));
-  }
-  return geometry::make_valid(geometry::oriented(std::move(polygon)));
+  return geometry::make_valid(
+      geometry::oriented(geometry::polygon_of(face.loops, [](geometry::Point3 p) { return xy(p); })));
 }
 
 }  // namespace mansard::evaluate::detail

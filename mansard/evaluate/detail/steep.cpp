@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "mansard/geometry/angles.hpp"
+#include "mansard/geometry/change.hpp"
 
 namespace mansard::evaluate::detail {
 namespace {
@@ -27,14 +28,8 @@ struct Axes {
 };
 
 auto drawn(const model::ModelFace& face, const Axes& axes) -> base::Result<std::vector<geometry::Polygon>> {
-  geometry::Polygon polygon;
-  for (const auto& loop : face.loops) {
-    geometry::Ring ring;
-    for (const auto p : loop) ring.push_back(axes.on(p));
-    if (&loop == &face.loops.front()) polygon.outer = std::move(ring);
-    else polygon.holes.push_back(std::move(ring));
-  }
-  return geometry::make_valid(geometry::oriented(std::move(polygon)));
+  return geometry::make_valid(
+      geometry::oriented(geometry::polygon_of(face.loops, [&](Point3 p) { return axes.on(p); })));
 }
 
 }  // namespace

@@ -26,15 +26,15 @@ auto Strip::along_each(std::span<const geometry::Polygon> polygons, double width
   return strip;
 }
 
-auto Strip::along_union(std::span<const geometry::Polygon> polygons, double width) -> Strip {
+auto Strip::along_union(std::span<const geometry::Polygon> polygons, double width) -> base::Result<Strip> {
   std::vector<geometry::Polygon> grown;
   for (const auto& polygon : polygons) {
     const auto wider = geometry::buffer(polygon, half_touch);
-    if (!wider) return along_each(polygons, width);
+    if (!wider) return wider.failure();
     grown.insert(grown.end(), wider->begin(), wider->end());
   }
   const auto united = geometry::unite(grown);
-  if (!united) return along_each(polygons, width);
+  if (!united) return united.failure();
   return along_each(*united, width > 0 ? width + half_touch : 0);
 }
 

@@ -12,10 +12,12 @@ auto mean_square(std::span<const float> values) -> double {
 }  // namespace
 
 Plan::Plan(std::span<const geometry::Polygon> footprints, double inset)
-    : cover(footprints),
-      of_union(inset > 0 ? Strip::along_union(footprints, inset) : Strip{}),
-      of_each(Strip::along_each(footprints, inset)),
-      measured(inset > 0) {}
+    : cover(footprints), of_each(Strip::along_each(footprints, inset)), measured(inset > 0) {
+  if (!measured) return;
+  auto found = Strip::along_union(footprints, inset);
+  union_unknown = !found;
+  of_union = found ? std::move(*found) : of_each;
+}
 
 auto Plan::depths(const Grid& grid, std::int64_t j) const -> std::vector<Depth> {
   std::vector<Depth> out(static_cast<std::size_t>(grid.columns));

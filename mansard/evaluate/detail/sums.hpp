@@ -17,8 +17,9 @@ struct Depth {
 /// Footprints, ready to be asked row by row.
 struct Plan {
   Cover cover;
-  Strip of_union, of_each;
-  bool measured = false;  ///< whether there is an inset
+  Strip of_each, of_union;
+  bool measured = false;       ///< whether there is an inset
+  bool union_unknown = false;  ///< the union could not be computed: `of_union` is `of_each`, which is inside less often
 
   Plan(std::span<const geometry::Polygon> footprints, double inset);
   /// Per column of row `j`; means something where the cover has the cell.

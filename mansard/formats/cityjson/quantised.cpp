@@ -6,10 +6,13 @@
 #include <set>
 #include <utility>
 
+#include "mansard/geometry/change.hpp"
+
 namespace mansard::formats::detail {
 namespace {
 
 using model::FaceClass;
+using model::least_apart;
 
 auto to_quanta(double metres) -> std::int64_t { return std::llround(metres * quanta_per_metre); }
 
@@ -43,11 +46,6 @@ auto tidied(const Loops& loops) -> Loops {
   return kept;
 }
 
-/// Quanta: validators take vertices that are 1 mm apart or less for one.
-constexpr std::int64_t least_apart = 11;
-/// Of a face narrower than this, as a share of its length, validators that work in doubles do not find the plane.
-constexpr double too_narrow = 1e-3;
-
 auto are_near(const Vertex& a, const Vertex& b) -> bool {
   const std::int64_t dx = a[0] - b[0], dy = a[1] - b[1], dz = a[2] - b[2];
   return dx * dx + dy * dy + dz * dz < least_apart * least_apart;
@@ -66,18 +64,14 @@ auto thinned(const std::vector<Vertex>& loop) -> std::vector<Vertex> {
 
 auto is_sound(const Loops& loops) -> bool {
   std::vector<Vertex> all;
-  geometry::Polygon polygon;
-  for (const auto& loop : loops) {
-    geometry::Ring ring;
-    for (const Vertex& v : loop) {
-      all.push_back(v);
-      ring.push_back({static_cast<double>(v[0]), static_cast<double>(v[1])});
-    }
-    const bool is_outer = &loop == &loops.front();
-    if ((geometry::signed_area(ring) > 0) != is_outer) return false;  // rounding turned a hole without width over
-    if (is_outer) polygon.outer = std::move(ring);
-    else polygon.holes.push_back(std::move(ring));
-  }
+  const auto polygon = geometry::polygon_of(loops, [&](const Vertex& v) {
+    all.push_back(v);
+    return geometry::Point2{static_cast<double>(v[0]), static_cast<double>(v[1])};
+  });
+  // Rounding may turn a ring without width over.
+  if (!loops.empty() && !(geometry::signed_area(polygon.outer) > 0)) return false;
+  const auto turned_over = [](const geometry::Ring& hole) { return geometry::signed_area(hole) > 0; };
+  if (std::ranges::any_of(polygon.holes, turned_over)) return false;
   std::ranges::sort(all);
   for (std::size_t i = 0; i < all.size(); ++i)
     for (std::size_t k = i; k-- > 0 && all[i][0] - all[k][0] < least_apart;)
@@ -147,7 +141,7 @@ auto flat_prism(const std::vector<Surface>& solid, double z) -> std::vector<Surf
         // Seen from below the ground runs counter-clockwise, so outside is to the left of its edges seen from above.
         const auto n = geometry::normalised(geometry::Point2{-dy, dx});
         const geometry::Point3 normal{n.x, n.y, 0};
-        if (std::hypot(dx, dy) < too_narrow * static_cast<double>(top - a[2])) {
+        if (std::hypot(dx, dy) < model::narrowest_face * static_cast<double>(top - a[2])) {
           prism.push_back({{{b, a, a_top}}, kind, normal});
           prism.push_back({{{b, a_top, b_top}}, kind, normal});
         } else {

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "mansard/geometry/polygon.hpp"
+#include "mansard/model/file_grid.hpp"
 #include "mansard/model/solid.hpp"
 
 namespace mansard::formats::detail {
 
-/// 0.1 mm: at 1 mm, rounding alone makes faces fail the planarity tests of validators.
-inline constexpr double quanta_per_metre = 10000;
+using model::quanta_per_metre;
 
 using Vertex = std::array<std::int64_t, 3>;  ///< quanta from the local origin
 using Loops = std::vector<std::vector<Vertex>>;

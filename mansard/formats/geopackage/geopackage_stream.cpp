@@ -77,6 +77,8 @@ class GeoPackageWriter : public CityWriter {
     return add_row(records_table, {record_building, building.id, record});
   }
 
+  [[nodiscard]] auto warnings() const -> std::vector<base::Diagnostic> override { return warnings_; }
+
   auto finish() -> base::Result<void> override {
     const GeopackageManners manners;
     if (auto done = add_footprints(); !done) return done;
@@ -177,18 +179,22 @@ class GeoPackageWriter : public CityWriter {
     return {};
   }
 
-  /// Polygons of one feature that touch along a line are no valid MultiPolygon; their union is.
-  [[nodiscard]] auto gis_geometry(const std::vector<geometry::Polygon>& footprint) const
-      -> std::unique_ptr<OGRGeometry> {
-    if (footprint.empty()) return nullptr;
-    auto polygons = pen_.polygons(footprint);
+  /// Polygons of one feature that touch along a line are not a valid MultiPolygon; their union is.
+  [[nodiscard]] auto gis_geometry(const model::Building& building) -> std::unique_ptr<OGRGeometry> {
+    if (building.footprint.empty()) return nullptr;
+    auto polygons = pen_.polygons(building.footprint);
     if (polygons->IsValid() != 0) return polygons;
-    const auto united = geometry::unite(footprint);
-    return united ? pen_.polygons(*united) : std::move(polygons);
+    const auto united = geometry::unite(building.footprint);
+    if (united) return pen_.polygons(*united);
+    warnings_.push_back(base::warning("write-geopackage-footprint",
+                                      "its polygons touch and could not be united (" + united.error().message +
+                                          "); its MultiPolygon in the layer gis_footprints is not valid",
+                                      building.id));
+    return polygons;
   }
 
   auto add_footprints(const model::Building& building) -> base::Result<void> {
-    if (auto done = add_row(gis_footprints_table, {building, pen_}, gis_geometry(building.footprint),
+    if (auto done = add_row(gis_footprints_table, {building, pen_}, gis_geometry(building),
                             gis_columns_.values(building.attributes));
         !done)
       return done;
@@ -212,6 +218,7 @@ class GeoPackageWriter : public CityWriter {
   AttributeColumns gis_columns_, part_columns_;
   std::unique_ptr<base::Spool> records_;
   std::vector<std::size_t> record_sizes_;
+  std::vector<base::Diagnostic> warnings_;
 };
 
 /// Those of the same name say the same of the footprints and the making; what else has a taken name is of a

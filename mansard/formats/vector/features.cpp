@@ -3,6 +3,7 @@
 #include <ogrsf_frmts.h>
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include "mansard/base/options.hpp"
 #include "mansard/base/text.hpp"
@@ -210,15 +211,16 @@ class Source {
     if (auto done = look_at_geojson(); !done) return done.error();
     if (!options_.where.empty() && layer.SetAttributeFilter(options_.where.c_str()) != OGRERR_NONE)
       return bad_filter(layer);
-    const auto box = box_in(layer, options_);
-    if (box) layer.SetSpatialFilterRect(box->least.x, box->least.y, box->most.x, box->most.y);
-    if (auto done = take_all(layer); !done) return done.error();
-    if (box && out_.features.empty() && messages_.failure().empty()) {
-      // Where nothing is near, the message says where all the others are.
-      layer.SetSpatialFilter(nullptr);
-      if (auto done = take_all(layer); !done) return done.error();
+    if (auto done = take_near(layer, options_.where); !done) return done.error();
+    if (!options_.where.empty() && options_.others) {
+      std::set<std::int64_t> passing;
+      for (const auto& feature : out_.features) passing.insert(feature.number);
+      out_.features.clear();
+      no_buildings_ = 0;
+      layer.SetAttributeFilter(nullptr);
+      if (auto done = take_near(layer, {}); !done) return done.error();
+      for (auto& feature : out_.features) feature.passes = passing.contains(feature.number);
     }
-    if (auto sound = check(layer, box.has_value()); !sound) return sound.error();
     warn_of_limits();
     if (is_database(path_)) std::ranges::sort(out_.features, {}, &RawFeature::number);
     if (is_elsewhere(path_)) out_.inputs = {input_of(out_.features, subject_)};
@@ -266,6 +268,19 @@ class Source {
     // GDAL complains, and takes degrees instead.
     if (!out_.assumed_crs && at_opening_.find("crs") != std::string::npos) out_.crs_failure = at_opening_;
     return {};
+  }
+
+  /// The features in the box, or all, that pass the filter `where`, which is set.
+  auto take_near(OGRLayer& layer, const std::string& where) -> base::Result<void> {
+    const auto box = box_in(layer, options_);
+    if (box) layer.SetSpatialFilterRect(box->least.x, box->least.y, box->most.x, box->most.y);
+    if (auto done = take_all(layer); !done) return done.error();
+    if (box && out_.features.empty() && messages_.failure().empty()) {
+      // Where nothing is near, the message says where all the others are.
+      layer.SetSpatialFilter(nullptr);
+      if (auto done = take_all(layer); !done) return done.error();
+    }
+    return check(layer, where, box.has_value());
   }
 
   auto take_all(OGRLayer& layer) -> base::Result<void> {
@@ -316,15 +331,14 @@ class Source {
                                             subject_));
   }
 
-  auto check(OGRLayer& layer, bool boxed) const -> base::Result<void> {
+  auto check(OGRLayer& layer, const std::string& where, bool boxed) const -> base::Result<void> {
     const auto& features = out_.features;
     // A source that breaks off says so; databases only look at the filter now.
     if (!messages_.failure().empty())
-      return !options_.where.empty() && features.empty() ? bad_filter(layer) : unreadable(messages_.failure());
+      return !where.empty() && features.empty() ? bad_filter(layer) : unreadable(messages_.failure());
     if (features.empty() && !at_opening_.empty()) return unreadable(at_opening_);
     // FlatGeobuf's reader stops without a word where the file does, but the header has the number of features.
-    const bool counted =
-        std::string_view(dataset_->GetDriverName()) == "FlatGeobuf" && options_.where.empty() && !boxed;
+    const bool counted = std::string_view(dataset_->GetDriverName()) == "FlatGeobuf" && where.empty() && !boxed;
     if (const auto count = counted ? layer.GetFeatureCount(FALSE) : 0; count > static_cast<GIntBig>(features.size()))
       return unreadable("it holds " + std::to_string(features.size()) + " of the " + std::to_string(count) +
                         " features it promises");
@@ -333,17 +347,17 @@ class Source {
                          "none of the " + std::to_string(no_buildings_) +
                              " areas is tagged as a building; give a file with buildings, or check --ingest-where",
                          subject_);
-    return check_features(features, options_, subject_);
+    return check_features(features, where, subject_);
   }
 
  public:
   /// What holds for every kind of source.
-  static auto check_features(const std::vector<RawFeature>& features, const FeatureQuery& options,
+  static auto check_features(const std::vector<RawFeature>& features, const std::string& where,
                              const std::string& subject) -> base::Result<void> {
     if (features.empty())
       return base::error("ingest-footprints-none",
-                         options.where.empty() ? "there are no features; give a file with building footprints"
-                                               : "no feature passes the filter '" + options.where + "'",
+                         where.empty() ? "there are no features; give a file with building footprints"
+                                       : "no feature passes the filter '" + where + "'",
                          subject);
     if (std::ranges::any_of(features, [](const auto& feature) { return !feature.parts.empty(); })) return {};
     for (const auto& feature : features)
@@ -370,8 +384,8 @@ class Source {
   std::size_t no_buildings_ = 0;
 };
 
-/// Only those that pass `where`: their attributes as a table in memory, which SQL is asked of.
-auto keep_where(std::vector<RawFeature>& features, const std::string& where, const std::string& subject)
+/// Sets which pass `where`, by a table of their attributes in memory.
+auto filter(std::vector<RawFeature>& features, const std::string& where, const std::string& subject)
     -> base::Result<void> {
   const crs::GdalMessages messages;
   crs::register_gdal();
@@ -410,11 +424,10 @@ auto keep_where(std::vector<RawFeature>& features, const std::string& where, con
                        "'" + where + "' is no filter these attributes take (" + messages.failure() +
                            "); write it as in SQL after WHERE",
                        subject);
-  std::vector<RawFeature> kept;
+  for (auto& feature : features) feature.passes = false;
   table->ResetReading();
   while (const OGRFeatureUniquePtr row{table->GetNextFeature()})
-    kept.push_back(std::move(features[static_cast<std::size_t>(row->GetFID())]));
-  features = std::move(kept);
+    features[static_cast<std::size_t>(row->GetFID())].passes = true;
   return {};
 }
 
@@ -430,9 +443,14 @@ auto read_city_model(const fs::path& path, const FeatureQuery& options) -> base:
     return base::error("ingest-layer", "there is no layer '" + options.layer + "'; the file has: buildings", subject);
   auto file = read_cityjson_footprints(bytes->view(), subject);
   if (!file) return file.error();
-  if (!options.where.empty())
-    if (auto kept = keep_where(file->features, options.where, subject); !kept) return kept.error();
-  if (auto sound = Source::check_features(file->features, options, subject); !sound) return sound.error();
+  if (!options.where.empty()) {
+    if (auto done = filter(file->features, options.where, subject); !done) return done.error();
+    auto passing = file->features;
+    std::erase_if(passing, [](const auto& feature) { return !feature.passes; });
+    if (auto sound = Source::check_features(passing, options.where, subject); !sound) return sound.error();
+    if (!options.others) file->features = std::move(passing);
+  }
+  if (auto sound = Source::check_features(file->features, {}, subject); !sound) return sound.error();
   file->inputs = {{subject, bytes->view().size(), sha256(bytes->view())}};
   return std::optional(std::move(*file));
 }

@@ -28,6 +28,7 @@ struct RawFeature {
   std::string geometry;         ///< what kind it has in the source, "NONE" for none
   bool other_geometry = false;  ///< there are points, lines or solids in it
   std::string failure;          ///< what went wrong when it was read; empty for nothing
+  bool passes = true;           ///< the filter of the query
 };
 
 struct FeatureFile {
@@ -42,9 +43,10 @@ struct FeatureFile {
 
 /// What is wanted of a vector source.
 struct FeatureQuery {
-  std::string layer;  ///< empty: its only or first one
-  std::string where;  ///< OGR SQL attribute filter
-  std::string crs;    ///< the working CRS that was asked for, in which `bbox` is given; empty: the source's own
+  std::string layer;    ///< empty: its only or first one
+  std::string where;    ///< OGR SQL attribute filter
+  bool others = false;  ///< also what does not pass the filter, with RawFeature::passes false; fails where nothing does
+  std::string crs;      ///< the working CRS that was asked for, in which `bbox` is given; empty: the source's own
   std::array<double, 4> bbox{0, 0, 0, 0};  ///< xmin ymin xmax ymax; all zero: everything
 };
 

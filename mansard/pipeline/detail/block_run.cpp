@@ -164,6 +164,13 @@ void classify(std::vector<PartResult>& parts, const Options& options, const base
 
 }  // namespace
 
+auto union_unknown(const std::string& subject) -> base::Diagnostic {
+  return base::warning("pipeline-evaluation-unchecked",
+                       "the union of the footprints could not be computed; the scores `inside` leave out a strip along "
+                       "party walls too",
+                       subject);
+}
+
 auto refused(const block::Block& block, const block::Options& options) -> BlockResult {
   BlockResult out;
   out.report.name = block.name;
@@ -221,6 +228,14 @@ auto run_block(const block::Block& block, const Options& options, const base::Ru
     return evaluate::compare(models, mesh, footprints, block.ground, options.evaluate, run);
   });
   report.scores = comparison.scores;
+  if (report.scores.union_unknown) out.warnings.push_back(union_unknown(block.name));
+  if (comparison.lost > 0)
+    out.warnings.push_back(base::warning(
+        "pipeline-evaluation-unchecked",
+        std::to_string(comparison.lost) +
+            " solids could not be cut into triangles; the scores count them as missing, and the heights of their roofs "
+            "are those of their corners",
+        block.name));
   out.map = std::move(comparison.map);
   out.parts = std::move(parts);
   report.times.total = watch.stop();

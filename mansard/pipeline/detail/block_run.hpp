@@ -57,6 +57,9 @@ struct BlockResult {
   std::optional<report::SegmentedBlock> segmented;  ///< with Keep::segmentations
 };
 
+/// The warning that the union of a place's footprints could not be computed for its scores.
+[[nodiscard]] auto union_unknown(const std::string& subject) -> base::Diagnostic;
+
 /// From slices to the segmentation. Never fails: what goes wrong is in `failure`, among the warnings and in the report.
 [[nodiscard]] auto segment_block(const block::Block& block, const rays::Scene& mesh, const Options& options,
                                  const base::Run& run, const Tell& tell, report::BlockReport& report,

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "mansard/base/text.hpp"
+#include "mansard/geometry/change.hpp"
 
 namespace mansard::pipeline::detail {
 namespace {
@@ -29,14 +30,8 @@ auto standing(std::size_t order, std::size_t building, const model::Part& part) 
   }
   for (const auto& face : solid.faces) {
     if (face.kind != model::FaceKind::base) continue;
-    Polygon polygon;
-    for (const auto& loop : face.loops) {
-      geometry::Ring ring;
-      for (const auto v : loop) ring.push_back(geometry::xy(solid.vertices[v]));
-      out.box.include(geometry::bounds(ring));
-      if (polygon.outer.empty()) polygon.outer = std::move(ring);
-      else polygon.holes.push_back(std::move(ring));
-    }
+    auto polygon = geometry::polygon_of(face.loops, [&](auto v) { return geometry::xy(solid.vertices[v]); });
+    out.box.include(geometry::bounds(polygon.outer));
     out.ground.push_back(geometry::oriented(std::move(polygon)));
   }
   return out;

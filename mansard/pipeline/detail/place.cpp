@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "mansard/geometry/change.hpp"
+#include "mansard/model/file_grid.hpp"
+#include "mansard/model/frame.hpp"
 
 namespace mansard::pipeline::detail {
 namespace {
@@ -42,6 +44,7 @@ void place(segment::Segmentation& chosen, const Way& way) {
     part.height += way.by.z;
     way.number(part.feature);
   }
+  for (auto& one : chosen.left_out) way.number(one.feature);
 }
 
 void place(PartResult& part, const Way& way) {
@@ -61,9 +64,11 @@ void move(model::Plan& plan, Point3 by) {
 }
 
 void move(model::Solid& solid, Point3 by) {
-  // Corners lie on the grid of the files (with_grid): the double nearest to it is what a file gives back.
-  constexpr double steps = 1e4;
-  const auto moved = [](double x, double shift) { return std::round((x + shift) * steps) / steps; };
+  // Corners are on the grid of the files (with_grid): the double nearest to it is what a file gives back.
+  using model::quanta_per_metre;
+  const auto moved = [](double x, double shift) {
+    return std::round((x + shift) * quanta_per_metre) / quanta_per_metre;
+  };
   for (Point3& v : solid.vertices) v = {moved(v.x, by.x), moved(v.y, by.y), moved(v.z, by.z)};
 }
 
@@ -89,6 +94,7 @@ void place(BlockResult& result, const block::OwnFrame& frame) {
   for (auto& feature : result.covered) way.number(feature);
   for (auto& [feature, why] : result.failed) way.number(feature);
   for (auto& [feature, why] : result.unchecked) way.number(feature);
+  for (auto& one : result.left_out) way.number(one.feature);
   if (result.segmented) place(*result.segmented, frame);
 }
 

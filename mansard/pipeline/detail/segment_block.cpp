@@ -47,6 +47,7 @@ auto segment_block(const block::Block& block, const rays::Scene& mesh, const Opt
   report::SegmentedBlock out;
   out.name = block.name;
   for (const auto& member : block.members) out.features.push_back(member.feature);
+  keep(block.warnings, block.name, warnings);
 
   const auto stack = stage("slice", tell, report, [&] { return slice::cut(block, options.slice, run); });
   auto sweeps = stage("sweep", tell, report, [&] {

@@ -115,7 +115,7 @@ class Conforming {
       for (const Path& path : sheet.paths)
         for (std::size_t i = 0; i < path.size(); ++i) {
           const Node &a = path[i], &b = path[(i + 1) % path.size()];
-          if (a.at == b.at && a.z != b.z && std::abs(a.z - b.z) < steepest * least_near)
+          if (a.at == b.at && a.z != b.z && std::abs(a.z - b.z) < steepest * model::least_apart)
             to[std::max(a, b)] = std::min(a, b).z;
         }
     }

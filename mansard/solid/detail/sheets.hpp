@@ -10,14 +10,12 @@
 #include <utility>
 #include <vector>
 
+#include "mansard/model/file_grid.hpp"
 #include "mansard/solid/solid.hpp"
 
 namespace mansard::solid::detail {
 
-/// Points are whole multiples of 0.1 mm, the grid of the files.
-inline constexpr double quanta_per_metre = 10000;
-/// Quanta. Points nearer than this become one: a little more than the 1 mm within which validators take two for one.
-inline constexpr std::int64_t least_near = 11;
+using model::quanta_per_metre;  // points are on the grid of the files
 
 using Place = std::array<std::int64_t, 2>;  ///< x and y from the origin of the sheets
 
@@ -45,7 +43,7 @@ inline constexpr std::uint8_t of_a_building = 1, of_a_solid = 2;
 struct Sheets {
   Place origin{};
   std::int64_t level = 0;  ///< whole quanta, as `origin`: heights of a union count from here until it is finished
-  std::int64_t near = least_near;  ///< quanta; points nearer than this become one
+  std::int64_t near = model::least_apart;  ///< quanta; points nearer than this become one
   std::vector<Place> places;
   std::vector<Sheet> sheets;
   std::vector<std::int64_t> base;    ///< of each solid
@@ -53,7 +51,7 @@ struct Sheets {
 };
 
 /// None where a solid has more than one level of ground, or soffits: it is no height field then.
-[[nodiscard]] auto sheets_of(std::span<const model::LabelledSolid* const> parts, std::int64_t near = least_near)
+[[nodiscard]] auto sheets_of(std::span<const model::LabelledSolid* const> parts, std::int64_t near = model::least_apart)
     -> std::optional<Sheets>;
 
 /// What a solid has on one side of a step: the roof over it, from its start to its end.

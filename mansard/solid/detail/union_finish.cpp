@@ -17,9 +17,6 @@ using geometry::Point3;
 constexpr double straight = 1.2e-4;
 /// Cosine of 12°: validators refuse faces with triangles whose normals are 20° apart, and cut faces in other ways.
 constexpr double least_cosine = 0.978;
-/// Of a face narrower than this, as a share of its length, validators that work in doubles cannot find the plane
-/// (val3dity 2.6 finds a vertical strip of 1.2 mm by 14 m, a share of 8e-5, to bend by 0.2 mm). Triangles need none.
-constexpr double too_narrow = 1e-3;
 
 class Straightening {
  public:
@@ -171,7 +168,7 @@ auto finish(Union& made, double planar) -> bool {
     const FittedPlane plane = fitted_plane(solid, face);
     if (!triangulator.append(face, plane.normal, triangles)) return false;
     const auto is_flat = [&](const FittedPlane& found) {
-      return found.furthest <= planar && found.narrow >= too_narrow;
+      return found.furthest <= planar && found.narrow >= model::narrowest_face;
     };
     if (is_flat(plane) && !has_needle(solid, triangles)) {
       add(std::move(face), f);
