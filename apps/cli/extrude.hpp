@@ -19,7 +19,7 @@ struct ExtrudeRequest {
   Settings settings;
 };
 
-/// Whatever may be wrong with the outputs, before any work. Gives up with "output-…", "file-write".
+/// Whatever may be wrong with the outputs, before any work. Fails with "output-…", "file-write".
 [[nodiscard]] auto check_outputs(const ExtrudeRequest& request) -> base::Result<void>;
 
 /// The models as OUT and --formats ask for them, with a picture if asked for, and the report (in a folder and where

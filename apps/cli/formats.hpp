@@ -28,10 +28,10 @@ using formats::write_models;
 
 /// The file extensions of all formats: ".city.json, .city.jsonl, …".
 [[nodiscard]] auto extensions() -> std::string;
-/// Gives up with "option-value".
+/// Fails with "option-value".
 [[nodiscard]] auto format_named(const std::string& name) -> base::Result<formats::Format>;
 /// "cityjson,glb", "all", or "default" for what a folder of results has when nothing is said; in the order of
-/// formats::formats(), each once. Gives up with "option-value".
+/// formats::formats(), each once. Fails with "option-value".
 [[nodiscard]] auto formats_in(const std::string& list) -> base::Result<std::vector<formats::Format>>;
 inline constexpr auto default_formats = "cityjson,obj,glb,geopackage,plans";
 /// The meaning of the option --formats.
@@ -39,24 +39,24 @@ inline constexpr auto formats_help = "Formats of the models: a list with commas,
 
 /// Every name that a folder of results may have: of any format, the report, pictures.
 [[nodiscard]] auto all_results() -> const std::vector<std::string>&;
-/// By the file extension. Gives up with "usage" where no format has it.
+/// By the file extension. Fails with "usage" where no format has it.
 [[nodiscard]] auto target_at(const std::filesystem::path& path) -> base::Result<Target>;
 
-/// What mansard wrote, by formats::read_city; a missing file is told as one whatever it is called. Gives up with
+/// What mansard wrote, by formats::read_city; a missing file is told as one whatever it is called. Fails with
 /// "file-missing" and as that does.
 [[nodiscard]] auto open_city(const std::filesystem::path& path) -> base::Result<std::unique_ptr<formats::CityReader>>;
 
 /// What the input has beside its city, for those of the results that have a place for it: GeoPackages. Where none has,
-/// one warning names what stays behind. Gives up as CityReader::beside does.
+/// one warning names what stays behind. Fails as CityReader::beside does.
 [[nodiscard]] auto layers_beside(formats::CityReader& reader, const std::string& input,
                                  const std::vector<Target>& targets) -> base::Result<formats::Beside>;
 
 /// As file_free, and of tiles: a folder that is not there, empty, or with `overwrite` an older tileset and nothing else
-/// that would be lost. Gives up with "output-exists", "file-write".
+/// that would be lost. Fails with "output-exists", "file-write".
 [[nodiscard]] auto target_free(const Target& target, bool overwrite) -> base::Result<void>;
 
 using Writers = std::vector<std::unique_ptr<formats::CityWriter>>;
-/// One writer per target, in order. Gives up as formats::open_writer does.
+/// One writer per target, in order. Fails as formats::open_writer does.
 [[nodiscard]] auto open_writers(const std::vector<Target>& targets, const formats::Header& header,
                                 const formats::WriteOptions& options, base::Outputs& outputs,
                                 const std::vector<formats::Layer>& more = {}) -> base::Result<Writers>;

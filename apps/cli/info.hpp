@@ -36,7 +36,7 @@ class Extent3 {
 /// none in the folder.
 [[nodiscard]] auto info_of_tileset(const std::filesystem::path& path) -> Json;
 
-/// The layers of a vector source, with geometry, CRS, number of features, extent and fields. Gives up with
+/// The layers of a vector source, with geometry, CRS, number of features, extent and fields. Fails with
 /// "file-missing", "ingest-footprints-format".
 [[nodiscard]] auto info_of_layers(const std::filesystem::path& path) -> base::Result<Json>;
 

@@ -15,17 +15,17 @@
 namespace mansard::cli {
 
 /// Checks that the folder is empty or may be overwritten, makes it, and checks that it can be written, before any work.
-/// Gives up with "output-exists", "file-write", and "usage" where a new folder would have a file's name ("city.gpkg").
+/// Fails with "output-exists", "file-write", and "usage" where a new folder would have a file's name ("city.gpkg").
 [[nodiscard]] auto prepare(const std::filesystem::path& folder, bool overwrite) -> base::Result<void>;
 
 /// Takes away the folders that `prepare` made and nothing was written into: a run that failed leaves nothing.
 void remove_folders_left_empty();
 
-/// Gives up with "output-input" where an output would replace an input, or lie in a folder that is one.
+/// Fails with "output-input" where an output would replace an input, or lie in a folder that is one.
 [[nodiscard]] auto spare_inputs(const std::vector<std::filesystem::path>& outputs,
                                 const std::vector<std::filesystem::path>& inputs) -> base::Result<void>;
 
-/// Gives up with "usage" where a result has the place of another one.
+/// Fails with "usage" where a result has the place of another one.
 [[nodiscard]] auto spare_results(const std::filesystem::path& result, const std::vector<std::filesystem::path>& others)
     -> base::Result<void>;
 
@@ -37,11 +37,11 @@ void remove_folders_left_empty();
 void remove_stale(const std::vector<std::filesystem::path>& left, const std::vector<std::filesystem::path>& written);
 void remove_stale(const std::vector<std::filesystem::path>& left, const std::vector<base::FileToWrite>& written);
 
-/// Checks that `path`, a file or a folder, can be made in `folder`. Gives up with "file-write".
+/// Checks that `path`, a file or a folder, can be made in `folder`. Fails with "file-write".
 [[nodiscard]] auto can_be_made_in(const std::filesystem::path& folder, const std::filesystem::path& path)
     -> base::Result<void>;
 
-/// Checks that a file can be written there and replaces nothing unasked. Gives up with "output-exists", "file-write".
+/// Checks that a file can be written there and replaces nothing unasked. Fails with "output-exists", "file-write".
 [[nodiscard]] auto file_free(const std::filesystem::path& path, bool overwrite) -> base::Result<void>;
 
 /// The named files as they shall stand in the folder; `named` must outlive what is returned.

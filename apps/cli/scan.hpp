@@ -39,10 +39,10 @@ struct ScanRequest : Common {
 /// Inputs and the options that these verbs share; --derive-footprints where the verb `may_derive`.
 void add_to(CLI::App& verb, ScanRequest& request, bool may_derive = true);
 
-/// Gives up with "usage" where footprints or meshes are missing, and as Settings::apply.
+/// Fails with "usage" where footprints or meshes are missing, and as Settings::apply.
 [[nodiscard]] auto options_of(const ScanRequest& request) -> base::Result<pipeline::Options>;
 
-/// Whether these files, and the report, can be written there. Gives up with "output-input", "output-exists",
+/// Whether these files, and the report, can be written there. Fails with "output-input", "output-exists",
 /// "file-write".
 [[nodiscard]] auto files_free(const ScanRequest& request, std::vector<std::filesystem::path> files)
     -> base::Result<void>;

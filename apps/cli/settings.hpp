@@ -32,7 +32,7 @@ class Settings {
   /// The same for a verb whose options are not those of the pipeline.
   void add_to(CLI::App& verb, const Menu& menu);
 
-  /// Preset, then configuration file, then command line; reports everything that is wrong. Gives up with
+  /// Preset, then configuration file, then command line; reports everything that is wrong. Fails with
   /// "option-unknown", "option-value", "config", "file-…".
   [[nodiscard]] auto apply(pipeline::Options& options) const -> base::Result<void>;
   [[nodiscard]] auto apply(Menu menu) const -> base::Result<void>;

@@ -27,21 +27,21 @@ class Descriptor {
   int number_;
 };
 
-/// Writes a temporary file in the same folder, flushes it, renames it and flushes the folder. Gives up with
+/// Writes a temporary file in the same folder, flushes it, renames it and flushes the folder. Fails with
 /// "file-write".
 [[nodiscard]] auto write_durably(const std::filesystem::path& path, std::string_view bytes) -> base::Result<void>;
-/// Makes the folder; its parent must exist. An existing folder is no error. Gives up with "file-write".
+/// Makes the folder; its parent must exist. An existing folder is no error. Fails with "file-write".
 [[nodiscard]] auto make_folder(const std::filesystem::path& path) -> base::Result<void>;
-/// Renames within one file system and flushes both parent folders. Gives up with "file-write".
+/// Renames within one file system and flushes both parent folders. Fails with "file-write".
 [[nodiscard]] auto move_durably(const std::filesystem::path& from, const std::filesystem::path& to)
     -> base::Result<void>;
 
 /// A file to which lines are appended; each line is on disk before append() returns.
 class Journal {
  public:
-  /// Truncates the file to `kept` bytes. Gives up with "file-write".
+  /// Truncates the file to `kept` bytes. Fails with "file-write".
   [[nodiscard]] static auto open(const std::filesystem::path& path, std::uint64_t kept) -> base::Result<Journal>;
-  /// Appends the line and a line break, or nothing. Gives up with "file-write".
+  /// Appends the line and a line break, or nothing. Fails with "file-write".
   [[nodiscard]] auto append(std::string_view line) -> base::Result<void>;
 
  private:
@@ -54,7 +54,7 @@ class Journal {
 /// A file that is received piece by piece. It gets its name when it is complete; an incomplete one is deleted.
 class Arriving {
  public:
-  /// Gives up with "file-write".
+  /// Fails with "file-write".
   [[nodiscard]] static auto open(std::filesystem::path path) -> base::Result<Arriving>;
   Arriving(Arriving&&) = default;
   auto operator=(Arriving&&) -> Arriving& = default;

@@ -22,7 +22,7 @@ inline constexpr const char* run_layers = "segment.gpkg";
 /// Deletes the work folders that a server left which was killed during an export.
 void remove_work_folders(const std::filesystem::path& exports);
 
-/// The bytes of one of the files_of() a format. The folder `work` is made and deleted again. Gives up as the writers
+/// The bytes of one of the files_of() a format. The folder `work` is made and deleted again. Fails as the writers
 /// do, and with "server-unknown".
 [[nodiscard]] auto exported(const model::City& city, const formats::WriteOptions& options, std::string_view file,
                             const std::filesystem::path& work) -> base::Result<std::string>;
@@ -32,7 +32,7 @@ struct Exported {
   std::vector<base::Diagnostic> warnings;
 };
 /// Writes all of these formats, and the run's layers if it has any, into a folder: all of them or none. Files of an
-/// earlier export that this one does not write are deleted. Gives up as the writers do.
+/// earlier export that this one does not write are deleted. Fails as the writers do.
 [[nodiscard]] auto export_to(const std::filesystem::path& folder, const model::City& city,
                              const formats::WriteOptions& options, const std::vector<formats::Format>& formats,
                              const std::optional<std::string>& layers) -> base::Result<Exported>;

@@ -21,7 +21,7 @@ namespace mansard::server {
 [[nodiscard]] auto files_of(formats::Format format) -> std::vector<std::string>;
 /// Every format that is written.
 [[nodiscard]] auto written_formats() -> std::vector<formats::Format>;
-/// Formats to write, by their names; all of them where none is named. Gives up with "option-value".
+/// Formats to write, by their names; all of them where none is named. Fails with "option-value".
 [[nodiscard]] auto formats_named(const std::vector<std::string>& names) -> base::Result<std::vector<formats::Format>>;
 
 }  // namespace mansard::server

@@ -10,7 +10,7 @@
 
 namespace mansard::server {
 
-/// 128 random bits from the kernel, in hexadecimal. Gives up with "server-random".
+/// 128 random bits from the kernel, in hexadecimal. Fails with "server-random".
 [[nodiscard]] auto new_token() -> base::Result<std::string>;
 
 /// Compares in constant time, wherever the strings differ.
@@ -24,7 +24,7 @@ class Guard {
   /// Checks the headers Host and Origin. A foreign name that resolves to this machine (DNS rebinding) is refused. Gives
   /// up with "server-host", "server-origin".
   [[nodiscard]] auto check(std::string_view host, const std::optional<std::string>& origin) const -> base::Result<void>;
-  /// Checks the header Authorization of a request under /api. Gives up with "server-token".
+  /// Checks the header Authorization of a request under /api. Fails with "server-token".
   [[nodiscard]] auto check_token(std::string_view authorization) const -> base::Result<void>;
 
  private:

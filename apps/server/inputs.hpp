@@ -18,11 +18,11 @@ namespace mansard::server {
 [[nodiscard]] auto absolute_name(const std::string& name) -> std::string;
 
 /// The inputs of a sample folder: all meshes by their file extensions, the file footprints.*, and reading.json with the
-/// options to read them with. Gives up with "server-sample".
+/// options to read them with. Fails with "server-sample".
 [[nodiscard]] auto sample_inputs(const std::filesystem::path& folder) -> base::Result<InputsRequest>;
 
 /// The request with absolute names. If the page names a database without its password, as it was shown, the password is
-/// taken from `known`, the inputs of the project. Gives up with "option-…", "server-input" (a database in place of a
+/// taken from `known`, the inputs of the project. Fails with "option-…", "server-input" (a database in place of a
 /// mesh or of the terrain), and as formats::check_input does.
 [[nodiscard]] auto requested_inputs(const InputsRequest& request, const std::optional<Inputs>& known)
     -> base::Result<Inputs>;

@@ -29,7 +29,7 @@ struct Job {
 
 class Jobs {
  public:
-  /// The task; it gives up with "cancelled" when it is stopped on request.
+  /// The task; it fails with "cancelled" when it is stopped on request.
   using Work = std::function<base::Result<void>(const base::Run&)>;
   /// Called with the final state before `Notify` is.
   using Ended = std::function<void(State, const std::optional<base::Diagnostic>&)>;

@@ -39,30 +39,30 @@ struct Changed {
 /// and each is on disk before it becomes visible.
 class Models {
  public:
-  /// From the files in the folder of the run. An incomplete last line of the journal is cut off. Gives up with
+  /// From the files in the folder of the run. An incomplete last line of the journal is cut off. Fails with
   /// "edit-journal", "server-project", "write-plan-…", "file-…". Cost: every plan is extruded, on all threads.
   [[nodiscard]] static auto open(const std::filesystem::path& folder, const RunRecord& run, const SceneOrNone& scene)
       -> base::Result<std::shared_ptr<Models>>;
 
   /// {"buildings": …, "history": …}
   [[nodiscard]] auto all() const -> std::string;
-  /// {"buildings": [RaisedBuilding]}. Gives up with "edit-building".
+  /// {"buildings": [RaisedBuilding]}. Fails with "edit-building".
   [[nodiscard]] auto preview(const std::vector<edit::Change>& changes, const OpenScene* scene) const
       -> base::Result<std::string>;
-  /// Proposals. They give up with "edit-building", "edit-part", "edit-split", "edit-merge".
+  /// Proposals. They fail with "edit-building", "edit-part", "edit-split", "edit-merge".
   [[nodiscard]] auto split(const SplitRequest& request) const -> base::Result<std::string>;
   [[nodiscard]] auto merge(const MergeRequest& request) const -> base::Result<std::string>;
-  /// Gives up with "edit-building", "edit-part".
+  /// Fails with "edit-building", "edit-part".
   [[nodiscard]] auto plan_of(const PartName& name) const -> base::Result<model::Plan>;
 
-  /// Gives up with "edit-invalid", and as edit::History::apply and Journal::append do.
+  /// Fails with "edit-invalid", and as edit::History::apply and Journal::append do.
   [[nodiscard]] auto apply(edit::Edit edit, const OpenScene* scene) -> base::Result<Changed>;
   [[nodiscard]] auto undo(const OpenScene* scene) -> base::Result<Changed>;
   [[nodiscard]] auto redo(const OpenScene* scene) -> base::Result<Changed>;
   /// Measures the buildings that were edited while there was no scene; none if there were none.
   [[nodiscard]] auto measure(const OpenScene& scene) -> std::optional<Changed>;
 
-  /// The edited city, for export. Gives up as edit::edited_city does.
+  /// The edited city, for export. Fails as edit::edited_city does.
   [[nodiscard]] auto edited(const SceneOrNone& scene) -> base::Result<std::shared_ptr<const model::City>>;
 
   [[nodiscard]] auto options() const -> const pipeline::Options& { return options_; }

@@ -11,7 +11,7 @@
 
 namespace mansard::server {
 
-/// Sets options by name. Gives up with "option-unknown", "option-value".
+/// Sets options by name. Fails with "option-unknown", "option-value".
 [[nodiscard]] auto set_all(pipeline::Options& options, const Texts& values) -> base::Result<void>;
 /// The values that differ from the defaults.
 [[nodiscard]] auto differing(pipeline::Options options) -> Texts;
@@ -19,7 +19,7 @@ namespace mansard::server {
 /// Whether the option says how inputs are read. All runs of a project share these.
 [[nodiscard]] auto is_input_option(const std::string& key) -> bool;
 
-/// The options of a run: those that the inputs were read with, then the preset, then the run's own. Gives up with
+/// The options of a run: those that the inputs were read with, then the preset, then the run's own. Fails with
 /// "option-unknown", "option-value".
 [[nodiscard]] auto run_options(const RunRequest& request, const Texts& reading) -> base::Result<pipeline::Options>;
 

@@ -24,7 +24,7 @@ struct RunOutcome {
 /// Sets the numbers of buildings, parts and faces of a run.
 void count_models(const std::vector<report::BuildingReport>& reports, const model::City& city, RunRecord& record);
 
-/// Gives up as pipeline::reconstruct does, and with "write-…".
+/// Fails as pipeline::reconstruct does, and with "write-…".
 [[nodiscard]] auto reconstruct(const OpenScene& scene, RunRecord record, const base::Run& run)
     -> base::Result<RunOutcome>;
 

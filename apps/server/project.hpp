@@ -83,7 +83,7 @@ struct RunRecord {
 class Project {
  public:
   /// Creates the project if the folder is missing or empty. The project is locked until this object is destroyed; the
-  /// kernel releases the lock when the process ends. Gives up with "server-folder" (the folder has other contents),
+  /// kernel releases the lock when the process ends. Fails with "server-folder" (the folder has other contents),
   /// "server-locked", "server-project" (project.json cannot be read), "file-write".
   [[nodiscard]] static auto open(const std::filesystem::path& folder) -> base::Result<Project>;
 
@@ -121,7 +121,7 @@ class Project {
 
 /// The journal in the folder of a run.
 [[nodiscard]] auto journal_of(const std::filesystem::path& run_folder) -> std::filesystem::path;
-/// The text of a journal; empty if the file is missing. Gives up with "file-read".
+/// The text of a journal; empty if the file is missing. Fails with "file-read".
 [[nodiscard]] auto read_journal(const std::filesystem::path& journal) -> base::Result<std::string>;
 
 }  // namespace mansard::server

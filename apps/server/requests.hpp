@@ -44,7 +44,7 @@ struct SplitRequest {
 };
 using MergeRequest = std::pair<PartName, PartName>;
 
-/// All of these give up with "server-body", and with "write-plan-…" for plans.
+/// All of these fail with "server-body", and with "write-plan-…" for plans.
 [[nodiscard]] auto read_inputs(std::string_view body) -> base::Result<InputsRequest>;
 [[nodiscard]] auto read_run(std::string_view body) -> base::Result<RunRequest>;
 [[nodiscard]] auto read_import(std::string_view body) -> base::Result<ImportRequest>;
@@ -58,7 +58,7 @@ using MergeRequest = std::pair<PartName, PartName>;
 /// For calls without parameters: the body is empty or {}.
 [[nodiscard]] auto read_nothing(std::string_view body) -> base::Result<void>;
 
-/// Checks that the plan has the edge and that the share is from 0 to 1. Gives up with "server-body".
+/// Checks that the plan has the edge and that the share is from 0 to 1. Fails with "server-body".
 [[nodiscard]] auto check_edge(const model::Plan& plan, std::size_t ring, std::size_t edge, double share)
     -> base::Result<void>;
 

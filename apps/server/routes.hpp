@@ -46,7 +46,7 @@ struct Route {
 /// All routes, in the order of openapi.json.
 [[nodiscard]] auto routes() -> std::span<const Route>;
 
-/// The route of a call; sets `captured` of the call. Gives up with "server-path", "server-method".
+/// The route of a call; sets `captured` of the call. Fails with "server-path", "server-method".
 [[nodiscard]] auto find_route(Call& call) -> base::Result<const Route*>;
 
 /// Answers a call whose body has been received. Failures become refusals.

@@ -27,7 +27,7 @@ namespace mansard::server {
 /// Immutable once it is read; queries may run on any thread.
 class OpenScene {
  public:
-  /// Gives up as ingest::read_scene does, and with "cancelled", "option-…".
+  /// Fails as ingest::read_scene does, and with "cancelled", "option-…".
   [[nodiscard]] static auto read(const Inputs& inputs, const base::Run& run)
       -> base::Result<std::shared_ptr<const OpenScene>>;
 

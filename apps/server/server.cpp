@@ -156,7 +156,7 @@ class Web {
   auto operator=(const Web&) -> Web& = delete;
   ~Web() { stop(); }
 
-  /// Starts to listen; returns the link. Gives up with "server-port", "server-random".
+  /// Starts to listen; returns the link. Fails with "server-port", "server-random".
   auto start() -> base::Result<std::string> {
     const int port = options_.port == 0                                    ? http_.bind_to_any_port(options_.address)
                      : http_.bind_to_port(options_.address, options_.port) ? options_.port

@@ -21,7 +21,7 @@ struct Options {
 };
 
 /// Serves until it is cancelled. `ready` receives the link as soon as the server listens; the link grants full access.
-/// Every answered change is on disk, however the server ends. Gives up with "server-folder", "server-locked",
+/// Every answered change is on disk, however the server ends. Fails with "server-folder", "server-locked",
 /// "server-project", "server-port", "server-random", "file-…".
 [[nodiscard]] auto serve(const Options& options, const base::Cancel& cancel,
                          const std::function<void(const std::string& link)>& ready) -> base::Result<void>;

@@ -37,7 +37,7 @@ using Text = base::Result<std::string>;
 class Workspace {
  public:
   /// `sample`: a folder with meshes and footprints; empty for none. If the project has inputs, they are read again in
-  /// the background. Gives up with "server-project", "file-…".
+  /// the background. Fails with "server-project", "file-…".
   [[nodiscard]] static auto open(Project project, std::filesystem::path sample)
       -> base::Result<std::unique_ptr<Workspace>>;
   ~Workspace();
@@ -52,7 +52,7 @@ class Workspace {
 
   [[nodiscard]] auto open_inputs(const InputsRequest& request) -> Text;
   [[nodiscard]] auto open_sample() -> Text;
-  /// The path of an uploaded file. Gives up with "server-upload".
+  /// The path of an uploaded file. Fails with "server-upload".
   [[nodiscard]] auto upload_path(const std::string& name) const -> base::Result<std::filesystem::path>;
 
   [[nodiscard]] auto scene() const -> Text;

@@ -36,23 +36,23 @@ enum class Experiment : std::uint8_t {
 
 /// An option and the values it takes one after the other.
 struct Axis {
-  std::string key;  ///< "room.name"
+  std::string key;  ///< "module.name"
   std::vector<std::string> values;
 };
 
-/// Reads "key=a,b,c". A key is "room.name", or as on the command line ("sweep-gamma", "gamma").
-/// Gives up with "explore-axis", "option-unknown", "option-value".
+/// Reads "key=a,b,c". A key is "module.name", or as on the command line ("sweep-gamma", "gamma").
+/// Fails with "explore-axis", "option-unknown", "option-value".
 [[nodiscard]] auto axis_of(std::string_view text) -> base::Result<Axis>;
 
 /// The experiment's own axes; one that is asked for takes the place of the one of its key. `grid` has those asked for
-/// alone. Gives up with "explore-axis".
+/// alone. Fails with "explore-axis".
 [[nodiscard]] auto axes_of(Experiment experiment, const std::vector<Axis>& asked) -> base::Result<std::vector<Axis>>;
 
 /// Options and their values, as text.
 using Setting = std::vector<std::pair<std::string, std::string>>;
 
 /// Every combination of values, the last axis fastest; without axes one empty setting.
-/// Gives up with "explore-runs" where there are more than `most`.
+/// Fails with "explore-runs" where there are more than `most`.
 [[nodiscard]] auto settings_of(const std::vector<Axis>& axes, std::size_t most) -> base::Result<std::vector<Setting>>;
 
 struct Dataset {
@@ -145,7 +145,7 @@ struct Study {
 /// Reads every scan once and reconstructs it with every setting. A setting that fails is a row with its reason, as is a
 /// dataset that cannot be read where there are several. Guarantees: 1 the same request gives the same study but for
 /// what is called seconds · 2 a row's numbers are those of pipeline::reconstruct.
-/// Gives up with "cancelled", "explore-runs", "explore-list", "option-…", and as ingest::read_scene where no dataset
+/// Fails with "cancelled", "explore-runs", "explore-list", "option-…", and as ingest::read_scene where no dataset
 /// can be read.
 [[nodiscard]] auto investigate(const Request& request, const base::Run& run = {}) -> base::Result<Study>;
 

@@ -14,7 +14,7 @@ namespace mansard::explore {
 /// The parameters that patterns name ("sweep.*", "sweep.gamma", "gamma"), each with the values to try: numbers halved
 /// and doubled, within their range; flags and choices: every other value. Without patterns: all of the modules that a
 /// reconstruction decides by. Left out are texts, numbers without a value, and values that are the one they have.
-/// Gives up with "explore-axis" where a pattern names nothing.
+/// Fails with "explore-axis" where a pattern names nothing.
 [[nodiscard]] auto parameters_of(const std::vector<std::string>& patterns, const pipeline::Options& options)
     -> base::Result<std::vector<Axis>>;
 
@@ -61,7 +61,7 @@ struct Sensitivity {
 
 /// Runs are independent of each other and share the threads. Guarantees: 1 every parameter has an effect for each of
 /// its values · 2 an effect is `none` only where no run failed and all models are equal · 3 the same request gives the
-/// same answer but for seconds. Gives up with "cancelled", and as ingest::read_scene where a dataset cannot be read.
+/// same answer but for seconds. Fails with "cancelled", and as ingest::read_scene where a dataset cannot be read.
 [[nodiscard]] auto sensitivity(const SensitivityRequest& request, const base::Run& run = {})
     -> base::Result<Sensitivity>;
 

@@ -1,4 +1,4 @@
-// What the attributes that this room gives to models mean.
+// What the attributes that this module gives to models mean.
 #pragma once
 
 #include <vector>

@@ -83,7 +83,7 @@ auto building_json(const model::Building& building, double z0) -> Json {
           {"parts", std::move(parts)}};
 }
 
-/// Of a model of another maker: what its faces say.
+/// Of a model of another producer: what its faces say.
 auto model_building_json(const model::Building& building, const ModelSource::Building& facts, double z0) -> Json {
   Json areas = Json::object();
   for (std::size_t c = 0; c < class_count; ++c)

@@ -1,4 +1,4 @@
-// The story of real footprints with invented buildings on them.
+// The steps of real footprints with synthetic buildings on them.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -46,7 +46,7 @@ auto furnished(const model::Footprint& footprint, const Polygon& polygon, const 
   return house;
 }
 
-/// The same with a flat roof: where no other can be raised.
+/// The same with a flat roof: where no other can be extruded.
 auto flattened(House house) -> House {
   for (Lot& lot : house.lots) lot.roof = detail::Roof::flat, lot.parapet = false;
   house.roof = "flat";

@@ -1,4 +1,4 @@
-// The story of a model that is truth: its faces as triangles, what of the ground each building takes, and who stands
+// The steps of a model that is truth: its faces as triangles, what of the ground each building takes, and who stands
 // wall to wall.
 #include <algorithm>
 #include <cmath>

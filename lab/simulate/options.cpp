@@ -1,4 +1,4 @@
-// Names, options, presets and codes of the room.
+// Names, options, presets and codes of the module.
 #include <algorithm>
 #include <array>
 

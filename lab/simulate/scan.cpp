@@ -1,4 +1,4 @@
-// The story of a scan: what stands there, its surface, what each piece of it shows, and what becomes of it.
+// The steps of a scan: what stands there, its surface, what each piece of it shows, and what becomes of it.
 #include <algorithm>
 #include <cmath>
 
@@ -21,7 +21,7 @@ auto seed_for(std::uint64_t seed, Purpose purpose) -> std::uint64_t { return bas
 /// What a grid may have: columns that can be numbered and kept, and cells along an axis.
 constexpr double most_columns = 1 << 27, most_along = 1 << 20, most_levels = 1 << 19;
 
-/// Columns of the grid and its levels, held against what can be numbered and kept. Gives up with "simulate-size".
+/// Columns of the grid and its levels, held against what can be numbered and kept. Fails with "simulate-size".
 auto check_size(const Surface& surface, const geometry::Box2& area, double resolution) -> base::Result<void> {
   double high = 0;
   for (const auto v : surface.mesh.vertices) high = std::max(high, std::abs(v.z));

@@ -120,33 +120,33 @@ struct ModelSource {
 };
 
 /// What is really there. Every part of the city is a plan, raised and labelled; every solid passed solid::check. Of a
-/// model of another maker the city has ids, outlines and ground, and no parts.
+/// model of another producer the city has ids, outlines and ground, and no parts.
 struct Truth {
   model::City city;
   std::vector<PartyWall> party_walls;  ///< ordered by first, second, line
   std::optional<ModelSource> model;
 };
 
-/// A block with invented, plausible buildings about the origin. Guarantees: 1 every solid is raised in full and valid ·
-/// 2 buildings do not overlap in plan · 3 the same kind, options and seed give the same truth at any thread count.
-/// Gives up with "simulate-solid" (with the id of the part), "cancelled".
+/// A block with synthetic, plausible buildings about the origin. Guarantees: 1 every solid is extruded in full and
+/// valid · 2 buildings do not overlap in plan · 3 the same kind, options and seed give the same truth at any thread
+/// count. Fails with "simulate-solid" (with the id of the part), "cancelled".
 [[nodiscard]] auto make_block(Kind kind, const BlockOptions& options, std::uint64_t seed, const base::Run& run = {})
     -> base::Result<Truth>;
 
 /// Real footprints with invented, plausible profiles; features with a defect are left out, each with a warning appended
-/// to `warnings`, as are those over which no solid can be raised. Edges along neighbours stand upright.
-/// Gives up with "simulate-nothing" (no usable footprint), "cancelled".
+/// to `warnings`, as are those over which no solid can be extruded. Edges along neighbours are vertical.
+/// Fails with "simulate-nothing" (no usable footprint), "cancelled".
 [[nodiscard]] auto furnish(const model::Scene& footprints, const BlockOptions& options, std::uint64_t seed,
                            std::vector<base::Diagnostic>& warnings, const base::Run& run = {}) -> base::Result<Truth>;
 
-/// Plan + profiles that are there already, as truth: every part is raised again, buildings without a footprint get that
-/// of their parts, and party walls are found. Gives up as extrude::raise does (with the id of the part), and with
+/// Plan + profiles that are there already, as truth: every part is extruded again, buildings without a footprint get
+/// that of their parts, and party walls are found. Fails as extrude::raise does (with the id of the part), and with
 /// "geometry-boolean", "cancelled".
 [[nodiscard]] auto truth_of(model::City plans, const base::Run& run = {}) -> base::Result<Truth>;
 
 /// The features that a surveyor would draw: one per building, or per group of merged ones, in the order of the
-/// buildings. Attributes: id, buildings (the ids it stands for, blanks between them).
-/// Gives up with "geometry-boolean".
+/// buildings. Attributes: id, buildings (the ids it represents, blanks between them).
+/// Fails with "geometry-boolean".
 [[nodiscard]] auto survey(const Truth& truth, const SurveyOptions& options, std::uint64_t seed)
     -> base::Result<std::vector<model::Footprint>>;
 
@@ -158,7 +158,7 @@ struct Surface {
   std::vector<std::uint32_t> buildings;  ///< per triangle
   std::vector<std::uint32_t> faces;      ///< per triangle: which plane face of the model it belongs to
 };
-/// Gives up with "geometry-triangulate".
+/// Fails with "geometry-triangulate".
 [[nodiscard]] auto surface_of(const model::City& city) -> base::Result<Surface>;
 
 /// The buildings of a model that meet the box, in metres of the file's frame.
@@ -168,11 +168,11 @@ struct ModelTruth {
   Truth truth;
   Surface surface;  ///< the model's own faces, and a floor under the buildings that have no ground
 };
-/// A model of any maker, as truth. Outlines are the ground faces seen from above; of a building without them, all faces
-/// but walls, with a floor at its lowest corner ("simulate-model-ground" is appended to `warnings`). Party walls are
-/// the stretches that two outlines share within 10 cm. A building turned inside out is turned back. Open buildings and
-/// those without an outline, which are left out, are warned of: "simulate-model-open", "simulate-model-outline".
-/// Guarantee: 1 buildings keep their ids and order. Gives up with "simulate-nothing".
+/// A model of any producer, as truth. Outlines are the ground faces seen from above; of a building without them, all
+/// faces but walls, with a floor at its lowest corner ("simulate-model-ground" is appended to `warnings`). Party walls
+/// are the stretches that two outlines share within 10 cm. A building turned inside out is turned back. Open buildings
+/// and those without an outline, which are left out, are warned of: "simulate-model-open", "simulate-model-outline".
+/// Guarantee: 1 buildings keep their ids and order. Fails with "simulate-nothing".
 [[nodiscard]] auto truth_of(const model::Model& model, std::vector<base::Diagnostic>& warnings)
     -> base::Result<ModelTruth>;
 
@@ -187,7 +187,7 @@ struct Scan {
 /// cars and chimneys that nobody asked for. Walls between buildings are not in it. Guarantees: 1 without melt, noise,
 /// bulge and losses, every vertex lies within `resolution` of the union of the solids and the ground · 2 the area of
 /// walls lost to holes is the asked share to within one triangle · 3 the same input, options and seed give the same
-/// bytes at any thread count. Gives up with "simulate-size" (more than 2²⁷ columns), "simulate-nothing" (no triangles),
+/// bytes at any thread count. Fails with "simulate-size" (more than 2²⁷ columns), "simulate-nothing" (no triangles),
 /// "cancelled". Cost: O(volume / resolution³), in pieces of 64 × 64 columns.
 [[nodiscard]] auto scan(const Surface& surface, const ScanOptions& options, std::uint64_t seed,
                         const base::Run& run = {}) -> base::Result<Scan>;

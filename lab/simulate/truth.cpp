@@ -1,4 +1,4 @@
-// The story of a truth: what stands where, solids of it, and who shares a wall with whom.
+// The steps of a truth: what stands where, solids of it, and who shares a wall with whom.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -21,7 +21,7 @@ class Sink {
   Sink(const Sink&) = delete;
   auto operator=(const Sink&) -> Sink& = delete;
   virtual ~Sink() = default;
-  /// What cannot be written is told by whoever owns the sink, at the end: Outputs::commit, Spool::copy_to.
+  /// What cannot be written is reported by the owner of the sink, at the end: Outputs::commit, Spool::copy_to.
   virtual void append(std::string_view bytes) = 0;
 };
 
@@ -41,13 +41,13 @@ using OpenFile = std::unique_ptr<std::FILE, CloseFile>;
 /// it may be written. Memory does not grow with what is put aside.
 class Spool : public Sink {
  public:
-  /// Gives up with "file-write".
+  /// Fails with "file-write".
   [[nodiscard]] static auto open() -> Result<std::unique_ptr<Spool>>;
   void append(std::string_view bytes) override;
   [[nodiscard]] auto size() const -> std::uint64_t { return size_; }
-  /// Everything, in pieces. Gives up with "file-write" where something could not be put aside.
+  /// Everything, in pieces. Fails with "file-write" where something could not be put aside.
   [[nodiscard]] auto copy_to(Sink& sink) -> Result<void>;
-  /// `count` bytes from `offset` on. Gives up with "file-write".
+  /// `count` bytes from `offset` on. Fails with "file-write".
   [[nodiscard]] auto read(std::uint64_t offset, std::size_t count) -> Result<std::string>;
 
  private:
@@ -64,14 +64,14 @@ class Outputs {
   auto operator=(const Outputs&) -> Outputs& = delete;
   ~Outputs();
 
-  /// A file that shall stand at `path`; lives as long as this. Gives up with "file-write".
+  /// A file that shall stand at `path`; lives as long as this. Fails with "file-write".
   [[nodiscard]] auto file(const std::filesystem::path& path) -> Result<Sink*>;
   /// Where to make such a file or folder until then, for libraries that open files themselves. Nothing is there yet.
   [[nodiscard]] auto place(const std::filesystem::path& path) -> Result<std::filesystem::path>;
   /// The same, as an empty folder. The one at `path`, if any, is replaced as a whole.
   [[nodiscard]] auto folder(const std::filesystem::path& path) -> Result<std::filesystem::path>;
 
-  /// Everything takes its place. Gives up with "file-write", and with "cancelled" where that is asked for before.
+  /// Everything takes its place. Fails with "file-write", and with "cancelled" where the run is cancelled before.
   [[nodiscard]] auto commit(const Cancel* cancel = nullptr) -> Result<void>;
 
  private:

@@ -28,13 +28,12 @@ class Globe {
  public:
   enum class Heights { not_of_the_crs, of_the_crs, without_geoid };
 
-  /// None for a frame without CRS. Gives up with "write-tiles-crs" where PROJ cannot go from there to WGS 84.
+  /// None for a frame without CRS. Fails with "write-tiles-crs" where PROJ cannot go from there to WGS 84.
   [[nodiscard]] static auto of(const model::Frame& frame) -> base::Result<std::optional<Globe>>;
 
-  /// Every point, in place: longitude and latitude in degrees on WGS 84, height in metres. Gives up with
-  /// "write-tiles-crs".
+  /// Every point, in place: longitude and latitude in degrees on WGS 84, height in metres. Fails with "write-tiles-crs".
   [[nodiscard]] auto to_angles(std::vector<geometry::Point3>& points) const -> base::Result<void>;
-  /// Every point, in place. Gives up with "write-tiles-crs".
+  /// Every point, in place. Fails with "write-tiles-crs".
   [[nodiscard]] auto to_earth(std::vector<geometry::Point3>& points) const -> base::Result<void>;
   /// East, north and up there.
   [[nodiscard]] auto place(geometry::Point3 local) const -> base::Result<Place>;

@@ -43,7 +43,7 @@ class WayPool;
 /// Brings coordinates from a mesh's CRS to the working one. Any thread may call one, at the same time as others.
 class WayOfMesh {
  public:
-  /// `working` names a projected CRS. Gives up with "ingest-crs-unknown".
+  /// `working` names a projected CRS. Fails with "ingest-crs-unknown".
   [[nodiscard]] static auto between(const MeshCrs& mesh, const std::string& working, const std::string& subject)
       -> base::Result<WayOfMesh>;
   /// x and y by PROJ. z becomes the height above the ellipsoid for `tangent` and `geocentric`, else stays, in metres.

@@ -8,7 +8,7 @@
 namespace mansard::crs {
 
 /// "EPSG:n" of the plane part of the CRS that a model names ("https://www.opengis.net/def/crs/EPSG/0/7415", a URN,
-/// "EPSG:7415"), or its WKT; empty for none. Gives up with "ingest-model-crs" where it is not known, or not projected
+/// "EPSG:7415"), or its WKT; empty for none. Fails with "ingest-model-crs" where it is not known, or not projected
 /// in metres.
 [[nodiscard]] auto plane_crs(const std::string& spelt, const std::string& subject) -> base::Result<std::string>;
 

@@ -28,7 +28,7 @@ struct Crs {
 [[nodiscard]] auto in_metres(const OGRSpatialReference& system) -> bool;
 /// Without a vertical part: footprints are flat, and heights are never converted.
 [[nodiscard]] auto flat(const OGRSpatialReference& system) -> Crs;
-/// The CRS the user asked for: projected and metric, since the engine measures in metres. Gives up with
+/// The CRS the user asked for: projected and metric, since the engine measures in metres. Fails with
 /// "ingest-crs-option".
 [[nodiscard]] auto wanted_crs(const std::string& option) -> base::Result<Crs>;
 

@@ -1,4 +1,4 @@
-// A city being edited by hand: plans changed, split and merged, raised again and measured at once, undone without
+// A city being edited by hand: plans changed, split and merged, extruded again and measured at once, undone without
 // limit.
 #pragma once
 
@@ -62,10 +62,10 @@ class History {
   [[nodiscard]] auto done() const -> std::size_t;
 
   /// What could be redone is forgotten. That the plans can be raised is the caller's to check: see raise(). All of the
-  /// edit or nothing. Gives up with "edit-building" (no such building, or named twice), "edit-stale" (its revision is
+  /// edit or nothing. Fails with "edit-building" (no such building, or named twice), "edit-stale" (its revision is
   /// another: someone else changed it), "edit-empty" (no change, or none that changes anything), "edit-duplicate-id".
   [[nodiscard]] auto apply(Edit edit) -> base::Result<void>;
-  /// The buildings that changed. Gives up with "edit-nothing" where there is nothing to undo or redo.
+  /// The buildings that changed. Fails with "edit-nothing" where there is nothing to undo or redo.
   [[nodiscard]] auto undo() -> base::Result<std::vector<std::string>>;
   [[nodiscard]] auto redo() -> base::Result<std::vector<std::string>>;
 
@@ -90,7 +90,7 @@ class History {
 [[nodiscard]] auto journal_line(const Edit& edit) -> std::string;
 inline constexpr std::string_view undo_line = R"({"undo":true})", redo_line = R"({"redo":true})";
 /// Replays a journal. A last line that is cut short (no line break) is dropped, as a crash leaves it. Anything else
-/// that cannot be read gives up with "edit-journal" and the number of the line. `kept` is how many bytes of the journal
+/// that cannot be read fails with "edit-journal" and the number of the line. `kept` is how many bytes of the journal
 /// count: the file is to be cut there before more is appended.
 struct Replayed {
   History history;
@@ -101,7 +101,7 @@ struct Replayed {
 /// How many edits of a journal are applied after its undos and redos. Cost: the plans are not parsed.
 [[nodiscard]] auto applied_edits(std::string_view journal) -> std::size_t;
 
-/// A building's parts raised, labelled and measured. What cannot be raised has no solid and says why.
+/// A building's parts raised, labelled and measured. What cannot be extruded has no solid and says why.
 struct RaisedPart {
   std::string id;
   std::optional<model::LabelledSolid> model;
@@ -135,19 +135,19 @@ struct Site {
 
 /// The plan cut along a polyline that crosses its polygon: two plans or more, largest first. Edges keep their profiles;
 /// those along the cut rise as a wall, all the way. Ends that stop within a centimetre of the outline are moved onto
-/// it, crossings that near to a corner into the corner. What of the line divides nothing is left out. Gives up with
+/// it, crossings that near to a corner into the corner. What of the line divides nothing is left out. Fails with
 /// "edit-split" (the line does not divide the polygon, crosses itself, or cuts off less than 0.01 m²).
 [[nodiscard]] auto split(const model::Plan& plan, std::span<const geometry::Point2> line)
     -> base::Result<std::vector<model::Plan>>;
 
 /// A building's parts with one of them split: its first piece keeps its id and place, the others follow it as the next
-/// free "<building>-N". Gives up as split() does, and with "edit-part" (no such part).
+/// free "<building>-N". Fails as split() does, and with "edit-part" (no such part).
 [[nodiscard]] auto split(std::string_view building, std::vector<NamedPlan> parts, std::string_view part,
                          std::span<const geometry::Point2> line) -> base::Result<std::vector<NamedPlan>>;
 
 /// Two plans that share a wall as one. Edges keep their profiles, lifted where the bases differ: the lower base counts,
 /// as does the higher cap. Corners that lie within a centimetre of the other's outline are taken to be on it; a corner
-/// that only the wall needed goes. Gives up with "edit-merge" (they do not touch along 0.1 m, overlap, or touch
+/// that only the wall needed goes. Fails with "edit-merge" (they do not touch along 0.1 m, overlap, or touch
 /// elsewhere in a single point).
 [[nodiscard]] auto merge(const model::Plan& first, const model::Plan& second) -> base::Result<model::Plan>;
 
@@ -163,10 +163,10 @@ struct Section {
 /// The scan around a building, by its id; may be null. Called from several threads.
 using MeshOf = std::function<const rays::Scene*(std::string_view)>;
 
-/// The city of a run as it was edited, for export: every plan raised anew and all labelled together, as `mansard
+/// The city of a run as it was edited, for export: every plan extruded again and all labelled together, as `mansard
 /// extrude` does with its plans.json, and attributes that are true of it. Parts whose plans are not those of the run,
 /// and their buildings, have `ms_edited`; the others keep their attributes but for what a neighbour's edit changes, the
-/// areas of walls and party walls. Without edits it is the run's city. Gives up as pipeline::raise_plans does.
+/// areas of walls and party walls. Without edits it is the run's city. Fails as pipeline::raise_plans does.
 [[nodiscard]] auto edited_city(const model::City& city, const History& history, const MeshOf& mesh_of,
                                const pipeline::Options& options, const base::Run& run = {})
     -> base::Result<model::City>;

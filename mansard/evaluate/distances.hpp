@@ -27,7 +27,7 @@ struct Sample {
 [[nodiscard]] auto samples_of(const geometry::Mesh& mesh, const SampleOptions& options, std::uint64_t seed)
     -> std::vector<Sample>;
 
-/// m² that each of them stands for.
+/// m² that each of them represents.
 [[nodiscard]] auto area_per_sample(const geometry::Mesh& mesh, const SampleOptions& options) -> double;
 
 /// m, of some samples.

@@ -34,8 +34,8 @@ struct ErrorMap {
   }
 };
 
-/// The error over the footprints, but for a strip along their boundary, where a scan's melted corners and the survey's
-/// own error say more than the roofs do. Misses count as in footprint_mse.
+/// The error over the footprints, but for a strip along their boundary, where a scan's smoothed corners and the
+/// survey's own error matter more than the roofs. Misses count as in footprint_mse.
 struct InsideScores {
   std::size_t cells = 0;
   double mse = 0;              ///< m²
@@ -81,7 +81,7 @@ struct Comparison {
                            std::span<const geometry::Polygon> footprints, double ground, const Options& options,
                            const base::Run& run = {}) -> Comparison;
 
-/// The same of any surface; what is not a solid of ours, and the models of several makers.
+/// The same for any surface: solids of other producers, and models of several of them.
 [[nodiscard]] auto compare(const geometry::Mesh& model, const rays::Scene& mesh,
                            std::span<const geometry::Polygon> footprints, double ground, const Options& options,
                            const base::Run& run = {}) -> Comparison;

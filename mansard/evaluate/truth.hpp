@@ -13,7 +13,7 @@
 
 namespace mansard::evaluate {
 
-/// The ground that a part or a building stands on.
+/// The ground area of a part or a building.
 using Outline = std::vector<geometry::Polygon>;
 
 /// Seen from above: the union of the ground faces, or of all faces but walls where there are none. Empty where the

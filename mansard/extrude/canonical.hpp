@@ -1,4 +1,4 @@
-// The outline that is raised in place of a plan's: few exact lines instead of many rounded points.
+// The outline that is extruded in place of a plan's: few exact lines instead of many rounded points.
 #pragma once
 
 #include <cstddef>
@@ -34,7 +34,7 @@ struct Canonical {
 ///   m); 4  mirrored in an axis, turned by quarters, shifted by whole metres, started at another corner: the same but
 ///   for
 ///      that, bit for bit; mirrored only where no edge lies at exactly 45° to the axes (see detail/direction.hpp).
-/// Gives up with "extrude-not-simple", "extrude-no-area", "extrude-profile", "extrude-cap" as raise() does, and with
+/// Fails with "extrude-not-simple", "extrude-no-area", "extrude-profile", "extrude-cap" as raise() does, and with
 /// "extrude-canonical" where raise() would simplify; the message says what, where and what to do.
 /// Cost: O(n log n) but for edges that share a strip of the outline's longer axis.
 [[nodiscard]] auto canonical(const model::Plan& plan, const Options& options = {}) -> base::Result<Canonical>;

@@ -69,7 +69,7 @@ struct Raised {
 
 /// Raises the plan. Speeds are never negative, so the roof is a height field above vertical walls.
 /// Guarantees: the numbers of docs/extrude.md; the solid passes check(). Never fails for a simple polygon with area:
-/// the ladder ends at the prism, or at that of the outline without its details. Gives up with: "extrude-not-simple",
+/// the ladder ends at the prism, or at that of the outline without its details. Fails with: "extrude-not-simple",
 /// "extrude-no-area", "extrude-narrow", "extrude-profile", "extrude-cap".
 [[nodiscard]] auto raise(const model::Plan& plan, const Options& options = {}, const base::Run& run = {})
     -> base::Result<Raised>;
@@ -79,12 +79,12 @@ struct Raised {
 [[nodiscard]] auto prism(const model::Plan& plan, const Options& options = {}) -> base::Result<model::Solid>;
 
 /// The height above the base at which the sweep of the plan ends, in metres: its ridge, or the cap. Costs no solid and
-/// no check. Gives up as raise() does, and with "extrude-canonical" where that would go down the ladder.
+/// no check. Fails as raise() does, and with "extrude-canonical" where that would go down the ladder.
 [[nodiscard]] auto crest(const model::Plan& plan, const Options& options = {}, const base::Run& run = {})
     -> base::Result<double>;
 
 /// The solid as the sweep leaves it, neither rounded nor checked, and without overhang: for looking at many roofs
-/// before one is raised. Cost: about a third of raise(). Gives up as crest() does.
+/// before one is raised. Cost: about a third of raise(). Fails as crest() does.
 [[nodiscard]] auto sketch(const model::Plan& plan, const Options& options = {}, const base::Run& run = {})
     -> base::Result<model::Solid>;
 

@@ -1,4 +1,4 @@
-// The diagnostics that writers of buildings, and readers of what they wrote, give up with.
+// The diagnostics that writers of buildings, and readers of what they wrote, fail with.
 #pragma once
 
 #include <vector>

@@ -8,7 +8,7 @@
 
 namespace mansard::formats {
 
-/// Path, size and SHA-256 of a file as it is now, for comparing with Scene::inputs. Gives up with "file-missing",
+/// Path, size and SHA-256 of a file as it is now, for comparing with Scene::inputs. Fails with "file-missing",
 /// "file-read". Cost: the file is read as a whole.
 [[nodiscard]] auto input_file(const std::filesystem::path& path) -> base::Result<model::InputFile>;
 

@@ -21,7 +21,7 @@ namespace mansard::formats {
 [[nodiscard]] auto disk_place_of(const std::filesystem::path& path) -> std::optional<std::filesystem::path>;
 
 /// Whether there is such an input, by the rules of read_scene. Databases and servers are not asked: reading does that.
-/// Gives up with "file-missing", "file-read".
+/// Fails with "file-missing", "file-read".
 [[nodiscard]] auto check_input(const std::filesystem::path& path) -> base::Result<void>;
 
 /// The name with "***" in place of a database's password: what may be shown.

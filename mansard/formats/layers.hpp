@@ -38,7 +38,7 @@ struct Layer {
 /// The bytes of a GeoPackage (OGC 12-128) with these layers in this order, in the frame's file coordinates and CRS,
 /// each with a spatial index. A field whose name is taken already ("fid", "geom", or an earlier one in any case) gets
 /// "_2" or the next number free. The same layers give the same bytes at any time: the date of change is 1970-01-01.
-/// Gives up with "write-layer" (the layers are inconsistent), "write-geopackage" (the library's words).
+/// Fails with "write-layer" (the layers are inconsistent), "write-geopackage" (the library's words).
 [[nodiscard]] auto geopackage(const std::vector<Layer>& layers, const model::Frame& frame) -> base::Result<std::string>;
 
 }  // namespace mansard::formats

@@ -18,11 +18,11 @@ struct RawModel {
   std::vector<base::Diagnostic> warnings;
 };
 
-/// CityJSON 1.0 to 2.0, as one document or as CityJSONSeq. Gives up with "ingest-model-format", "ingest-model-lod".
+/// CityJSON 1.0 to 2.0, as one document or as CityJSONSeq. Fails with "ingest-model-format", "ingest-model-lod".
 [[nodiscard]] auto read_cityjson(std::string_view bytes, const std::string& lod, const std::string& name)
     -> base::Result<RawModel>;
 
-/// OBJ whose objects, groups or materials say what is what. Gives up with "ingest-model-format".
+/// OBJ whose objects, groups or materials say what is what. Fails with "ingest-model-format".
 [[nodiscard]] auto read_labelled_obj(std::string_view bytes, const std::string& name) -> base::Result<RawModel>;
 
 }  // namespace mansard::formats

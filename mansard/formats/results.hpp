@@ -24,7 +24,7 @@ struct Target {
 [[nodiscard]] auto places_of(const Target& target) -> std::vector<std::filesystem::path>;
 
 /// The whole city to every target; the files are there after Outputs::commit. What could not be written as it was
-/// meant, as warnings. Gives up as the writers do.
+/// meant, as warnings. Fails as the writers do.
 [[nodiscard]] auto write_models(const model::City& city, const std::vector<Target>& targets,
                                 const WriteOptions& options, base::Outputs& outputs,
                                 const std::vector<Layer>& more = {}) -> base::Result<std::vector<base::Diagnostic>>;

@@ -21,7 +21,7 @@ struct Raster {
 };
 
 /// The bytes of a GeoTIFF: one band of 32-bit floats, deflated, north up, NaN as its value for nothing, in the frame's
-/// file coordinates and CRS. The same raster gives the same bytes. Gives up with "write-geotiff" (no cells, or the
+/// file coordinates and CRS. The same raster gives the same bytes. Fails with "write-geotiff" (no cells, or the
 /// library's words).
 [[nodiscard]] auto geotiff(const Raster& raster, const model::Frame& frame) -> base::Result<std::string>;
 
@@ -30,7 +30,7 @@ struct Raster {
                                 const model::Frame& frame) -> std::string;
 
 /// Binary glTF 2.0, y up, single precision around the origin (kept in asset.extras): one mesh with a primitive and a
-/// named, coloured material per class that occurs. Gives up with "write-glb-size".
+/// named, coloured material per class that occurs. Fails with "write-glb-size".
 [[nodiscard]] auto labelled_glb(const geometry::Mesh& mesh, std::span<const model::SurfaceClass> classes,
                                 const model::Frame& frame) -> base::Result<std::string>;
 

@@ -30,7 +30,7 @@ struct VectorSource {
   std::vector<SourceLayer> layers;
 };
 
-/// Any OGR vector source. Gives up with "file-missing", "ingest-footprints-format".
+/// Any OGR vector source. Fails with "file-missing", "ingest-footprints-format".
 [[nodiscard]] auto vector_source(const std::filesystem::path& path) -> base::Result<VectorSource>;
 
 struct RasterSource {
@@ -41,7 +41,7 @@ struct RasterSource {
   std::optional<double> nodata;
 };
 
-/// Any GDAL raster. Gives up with "file-missing", "ingest-raster".
+/// Any GDAL raster. Fails with "file-missing", "ingest-raster".
 [[nodiscard]] auto raster_source(const std::filesystem::path& path) -> base::Result<RasterSource>;
 
 struct TilesetSource {

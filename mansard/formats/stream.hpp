@@ -55,7 +55,7 @@ class CityWriter {
   CityWriter(const CityWriter&) = delete;
   auto operator=(const CityWriter&) -> CityWriter& = delete;
   virtual ~CityWriter() = default;
-  /// Gives up with "write-duplicate-id", "write-model", "write-triangulate" and those of the format; the writer is of
+  /// Fails with "write-duplicate-id", "write-model", "write-triangulate" and those of the format; the writer is of
   /// no use then.
   [[nodiscard]] virtual auto add(const model::Building& building) -> base::Result<void> = 0;
   /// After the last one: the files are whole, and take their places with Outputs::commit.
@@ -103,8 +103,8 @@ class CityReader {
 };
 
 /// Opens a file, or a folder of tiles, that mansard wrote in any format but STL. Guarantees: writing what was read, its
-/// models raised again where there were none, gives the same bytes in the format it was read from, with the same
-/// options. Gives up with "write-read-format" (what it is instead), "write-read-plans" (there are no plans in it),
+/// models extruded again where there were none, gives the same bytes in the format it was read from, with the same
+/// options. Fails with "write-read-format" (what it is instead), "write-read-plans" (there are no plans in it),
 /// "write-plan-…", "file-…".
 [[nodiscard]] auto read_city(const std::filesystem::path& path) -> base::Result<std::unique_ptr<CityReader>>;
 

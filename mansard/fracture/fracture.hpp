@@ -78,7 +78,7 @@ struct Options {
 /// · 3 every half-edge but the border's knows its origins · 4 the same cuts in the same order give the same
 /// arrangement, and shifted by whole metres, the shifted one. A cut shorter than `snap` is ignored
 /// ("fracture-cut-short"); one that cannot go in without breaking guarantee 1 or 2 is left out
-/// ("fracture-cut-left-out"). A run that is cancelled leaves out the cuts not yet reached. Gives up with:
+/// ("fracture-cut-left-out"). A run that is cancelled leaves out the cuts not yet reached. Fails with:
 /// "fracture-not-finite". Cost: O(cuts × crossed faces).
 [[nodiscard]] auto arrange(const std::vector<Cut>& cuts, const geometry::Box2& region, const Options& options,
                            const base::Run& run = {}) -> base::Result<Arrangement>;

@@ -46,7 +46,7 @@ struct Polygon {
 [[nodiscard]] auto oriented(Polygon polygon) -> Polygon;
 
 /// Triangles over the points of all rings in order (outer, then each hole), counter-clockwise; no points are added.
-/// Gives up with "geometry-triangulate" for a polygon that is not valid.
+/// Fails with "geometry-triangulate" for a polygon that is not valid.
 [[nodiscard]] auto triangulate(const Polygon& polygon) -> base::Result<std::vector<std::array<std::uint32_t, 3>>>;
 
 /// Boolean operations; results are valid polygons in the convention above, slivers of zero area dropped, in an order

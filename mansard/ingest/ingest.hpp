@@ -42,7 +42,7 @@ struct Options {
 /// CRS; of others, with the offset, it is taken that they are in it. With an empty path for `footprints` there are
 /// none, and the working CRS is the option's, else the mesh's own or its UTM zone, else none. Guarantees: 1 all
 /// coordinates are finite and local · 2 every triangle has area and names existing vertices · 3 polygons are simple and
-/// oriented, or the feature has a defect · 4 ids are unique · 5 the order of features is the source's. Gives up with:
+/// oriented, or the feature has a defect · 4 ids are unique · 5 the order of features is the source's. Fails with:
 /// see codes().
 [[nodiscard]] auto read_scene(const std::vector<std::filesystem::path>& meshes, const std::filesystem::path& footprints,
                               const Options& options, const base::Run& run = {}) -> base::Result<model::Scene>;

@@ -19,13 +19,13 @@ struct EvaluationFiles {
 };
 
 /// Reads the files. The CRS is the model's, else `options.crs`; footprints are projected to it, a truth must be in it.
-/// Gives up as ingest::read_model, read_mesh and read_footprints do, and with "ingest-model-overlap".
+/// Fails as ingest::read_model, read_mesh and read_footprints do, and with "ingest-model-overlap".
 [[nodiscard]] auto read_evaluation(const EvaluationFiles& files, const ingest::Options& options,
                                    const base::Run& run = {}) -> base::Result<report::EvaluationInput>;
 
 /// Guarantees: 1 with the footprints that a model was reconstructed from, the blocks' scores are those of its run.json
 /// to within the rounding of the file · 2 the same input, options and seed give the same numbers at any thread count.
-/// Gives up with "cancelled", "pipeline-nothing" (no usable footprint).
+/// Fails with "cancelled", "pipeline-nothing" (no usable footprint).
 [[nodiscard]] auto evaluate_model(const report::EvaluationInput& input, const Options& options,
                                   const base::Run& run = {}) -> base::Result<report::Evaluation>;
 

@@ -15,7 +15,7 @@ struct InputPaths {
 };
 
 /// The scene of these files; its footprints are those of the file, or derive::footprints of the mesh.
-/// Gives up as ingest::read_scene and derive::footprints do, and with "pipeline-footprints" where footprints are
+/// Fails as ingest::read_scene and derive::footprints do, and with "pipeline-footprints" where footprints are
 /// neither given nor to
 /// be derived, or both.
 [[nodiscard]] auto read_inputs(const InputPaths& paths, const Options& options, const base::Run& run = {})

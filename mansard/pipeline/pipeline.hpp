@@ -65,7 +65,7 @@ struct Preset {
 /// `paper` (the published numbers) and `chordatlas` (what the reference implementation runs).
 [[nodiscard]] auto presets() -> const std::vector<Preset>&;
 
-/// Sets "module.name". Gives up with "option-unknown" (names the nearest known one) or "option-value".
+/// Sets "module.name". Fails with "option-unknown" (names the nearest known one) or "option-value".
 [[nodiscard]] auto set_option(std::vector<base::OptionList>& lists, std::string_view key, std::string_view value)
     -> base::Result<void>;
 
@@ -76,7 +76,7 @@ enum class Keep : std::uint8_t { models, segmentations };
 /// passed solid::check · 3 one failing building or block leaves the others as they would be without it · 4 the same
 /// scene, options and seed give the same city at any thread count.
 /// With `only`, the names of some blocks, nothing else is reconstructed and no other feature is in the city or the
-/// report; these blocks come out as in a run of all. Gives up with "cancelled", "pipeline-nothing" (no usable
+/// report; these blocks come out as in a run of all. Fails with "cancelled", "pipeline-nothing" (no usable
 /// footprint), "pipeline-block-unknown".
 [[nodiscard]] auto reconstruct(const model::Scene& scene, const Options& options, const base::Run& run = {},
                                Keep keep = Keep::models, std::span<const std::string> only = {})
@@ -84,14 +84,14 @@ enum class Keep : std::uint8_t { models, segmentations };
 
 /// The first stages of reconstruct, with the same segmentations as there. Guarantees: 1 one failing block leaves the
 /// others as they would be without it · 2 the same scene, options and seed give the same at any thread count.
-/// Gives up with "cancelled", "pipeline-nothing" (no usable footprint).
+/// Fails with "cancelled", "pipeline-nothing" (no usable footprint).
 [[nodiscard]] auto segment(const model::Scene& scene, const Options& options, const base::Run& run = {})
     -> base::Result<report::Segmented>;
 
 /// Footprints without a mesh: each raised by its attributes, or along options.roof.profile. No blocks, no scores.
 /// Guarantees: 1 to 4 of reconstruct · 5 a building is `full` only with the roof its attributes ask for; values that
 /// could not be used are among its reasons either way.
-/// Gives up with "cancelled", "pipeline-nothing", "roof-profile", "roof-attribute".
+/// Fails with "cancelled", "pipeline-nothing", "roof-profile", "roof-attribute".
 [[nodiscard]] auto raise_footprints(const model::Scene& scene, const Options& options, const base::Run& run = {})
     -> base::Result<report::Reconstruction>;
 
@@ -113,7 +113,7 @@ struct RaisedPlans {
   /// Why parts have no solid, and are missing from the city: as raise_part gives up. The subject is the part's id.
   std::vector<base::Diagnostic> refused;
 };
-/// The same plans and options give the same models at any thread count. Gives up with "cancelled", and where no part
+/// The same plans and options give the same models at any thread count. Fails with "cancelled", and where no part
 /// has a solid with the reasons of all.
 [[nodiscard]] auto raise_plans(model::City city, const Options& options, const base::Run& run = {})
     -> base::Result<RaisedPlans>;

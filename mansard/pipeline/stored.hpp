@@ -30,16 +30,16 @@ void note_options(const Options& options, model::MadeBy& made_by);
 void complete(std::span<model::Building> buildings, const Options& options, const base::Run& run = {});
 
 /// All that is left in a file, with models: the file's own, or raised with `options` where there are none or where it
-/// was made with others. Parts that could not be read are `refused` too. Gives up as the reader and raise_plans do.
+/// was made with others. Parts that could not be read are `refused` too. Fails as the reader and raise_plans do.
 [[nodiscard]] auto read_raised(formats::CityReader& reader, const Options& options, const base::Run& run = {})
     -> base::Result<RaisedPlans>;
 
-/// The models as ingest::read_model gives those of any maker, without `inputs`.
+/// The models as ingest::read_model gives those of any producer, without `inputs`.
 [[nodiscard]] auto model_of(const model::City& city) -> model::Model;
 
-/// A model of any maker: as ingest::read_model where that knows the format (CityJSON, CityJSONSeq, OBJ), and whatever
-/// else mansard wrote, raised from its plans. Gives up as these do, and with "ingest-model-lod" for a LoD that is not
-/// in it, "ingest-model-crs" for another CRS than its own.
+/// A model of any producer: as ingest::read_model where that knows the format (CityJSON, CityJSONSeq, OBJ), and
+/// whatever else mansard wrote, raised from its plans. Fails as these do, and with "ingest-model-lod" for a LoD that is
+/// not in it, "ingest-model-crs" for another CRS than its own.
 [[nodiscard]] auto read_any_model(const std::filesystem::path& path, const ingest::ModelOptions& options = {},
                                   const base::Run& run = {}) -> base::Result<model::Model>;
 

@@ -1,4 +1,4 @@
-// Roofs without a mesh: from a footprint's attributes to plan + profiles, ready to be raised.
+// Roofs without a mesh: from a footprint's attributes to plan + profiles that can be extruded.
 // References: OpenStreetMap wiki, "Simple 3D Buildings" (the tags and what they mean); T. Kelly, P. Wonka, Interactive
 // Architectural Modeling with Procedural Extrusions, ACM TOG 30(2), 2011 (roofs as profiles of edges).
 #pragma once
@@ -96,7 +96,7 @@ struct Read {
 struct Planned {
   model::Plan plan;
   double top = 0;             ///< m above plan.base: where the highest ridge will be
-  double flat_top = 0;        ///< m above plan.base: of the prism, where nothing else can be raised
+  double flat_top = 0;        ///< m above plan.base: of the prism, where nothing else can be extruded
   bool as_asked = true;       ///< false where the outline or the height does not take the form; a warning says why
   Shape shape = Shape::flat;  ///< what it became
   std::vector<base::Diagnostic> warnings;
@@ -106,12 +106,12 @@ struct Planned {
 /// raised in full, its highest point is at `top`: within a millimetre over square outlines, 5 mm over others, 5 cm for
 /// pyramids over outlines with short edges · 3 speeds are never negative · 4 the same input
 /// gives the same plan. Warns "roof-shape-here", "roof-height", "roof-orientation", "roof-corner-cut".
-/// Gives up with "roof-form" (not finite, or nothing between base and top).
+/// Fails with "roof-form" (not finite, or nothing between base and top).
 /// Cost: outlines that are not convex are raised once with unit slopes to learn how high their ridge comes.
 [[nodiscard]] auto plan_of(const geometry::Polygon& polygon, const Form& form, const Options& options = {},
                            const base::Run& run = {}) -> base::Result<Planned>;
 
-/// "0,0 0,6 4,9" as a profile. Gives up with "roof-profile".
+/// "0,0 0,6 4,9" as a profile. Fails with "roof-profile".
 [[nodiscard]] auto profile_of(std::string_view text) -> base::Result<model::Profile>;
 
 /// The same profile for every edge, until the roofs meet, or up to `cap` metres above the base. A last part that is
@@ -119,7 +119,7 @@ struct Planned {
 [[nodiscard]] auto plan_along(const geometry::Polygon& polygon, const model::Profile& profile, const Form& form,
                               const Options& options) -> Planned;
 
-/// Whether a layer with these attributes has all that options name. Gives up with "roof-attribute".
+/// Whether a layer with these attributes has all that options name. Fails with "roof-attribute".
 [[nodiscard]] auto check_attributes(const model::Attributes& attributes, const Options& options) -> base::Result<void>;
 
 [[nodiscard]] auto codes() -> std::vector<base::Code>;

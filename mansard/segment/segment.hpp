@@ -111,7 +111,7 @@ struct Segmentation {
 
 /// Guarantees: 1 no chosen edge has the same part on both sides, no unchosen one different parts · 2 bound ≤ objective,
 /// equal when "optimal" · 3 parts are simple polygons with holes, disjoint · 4 the same input gives the same answer.
-/// Gives up with: "segment-failed".
+/// Fails with: "segment-failed".
 [[nodiscard]] auto choose(const fracture::Arrangement& arrangement, const sweep::SweepEdges& edges,
                           const block::Block& block, const rays::Scene& mesh, const Options& options,
                           const base::Run& run = {}) -> base::Result<Segmentation>;

@@ -36,7 +36,7 @@ class Check {
 
   auto all() -> std::vector<base::Diagnostic> {
     if (solid_.faces.empty()) fault("solid-degenerate", "the solid has no faces");
-    if (!find_degenerate()) return std::move(faults_);  // nothing else can be asked of broken loops
+    if (!find_degenerate()) return std::move(faults_);  // broken loops cannot be checked further
     find_open_edges();
     find_split_vertices();
     find_bent_faces();
@@ -194,7 +194,7 @@ class Check {
   }
 
   /// A face may be flat within tolerance and yet have triangles, as wide as that tolerance, that look anywhere. Viewers
-  /// shade them, and val3dity refuses them (204). Of faces that are allowed to bend more, nothing is asked.
+  /// shade them, and val3dity refuses them (204). Faces that are allowed to bend more are not checked.
   void find_needles() {
     constexpr double flat = 1e-4;                // m; the default of `planar`
     constexpr double least_cosine = 0.93969262;  // of 20°, val3dity's tolerance of normals

@@ -12,8 +12,8 @@ using geometry::Point3;
 enum class Part : std::uint8_t { base, wall, roof, flat, soffit };
 
 /// Error bound of a component of a unit vector, and of the sine between two: normals are made from rational directions
-/// and slopes in a few operations and good to 1e-15. The steepest roof that is no wall runs a quantum over a rise of 1
-/// km: 1.5e-8.
+/// and slopes in a few operations and good to 1e-15. The steepest roof that is not a wall runs a quantum over a rise of
+/// 1 km: 1.5e-8.
 constexpr double none_at_all = 1e-9;
 
 auto part_of(const model::Face& face) -> Part {

@@ -29,7 +29,7 @@ struct HalfEdges {
   [[nodiscard]] auto target(std::uint32_t h) const -> std::uint32_t { return origin[next[h]]; }
 };
 
-/// The half-edges of a closed 2-manifold. Gives up with "solid-degenerate" (a loop of fewer than three vertices, or one
+/// The half-edges of a closed 2-manifold. Fails with "solid-degenerate" (a loop of fewer than three vertices, or one
 /// that names a vertex that is not there), "solid-open" and "solid-non-manifold", as check() does. O(n log n).
 [[nodiscard]] auto half_edges(const model::Solid& solid) -> base::Result<HalfEdges>;
 
@@ -38,7 +38,7 @@ struct HalfEdges {
 /// when their planes meet in a horizontal line; *convex* when the solid fills less than half a turn about it, *reflex*
 /// when more.
 enum class LineKind : std::uint8_t {
-  foot,          ///< base with anything: where the building stands on the ground
+  foot,          ///< base with anything: where the building meets the ground
   corner,        ///< wall with wall, convex
   inner_corner,  ///< wall with wall, reflex
   eave,          ///< wall or soffit with roof, level and convex, the roof rising from it
@@ -70,7 +70,7 @@ struct Line {
 
 /// Every edge of the solid once, in the order of its half-edges: each in the direction in which the face of the lower
 /// number walks it, or, inside one face, that of the half-edge of the lower number. Reads the faces' kinds and normals.
-/// Gives up as half_edges() does.
+/// Fails as half_edges() does.
 [[nodiscard]] auto lines(const model::Solid& solid) -> base::Result<std::vector<Line>>;
 
 }  // namespace mansard::solid

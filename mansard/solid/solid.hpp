@@ -1,4 +1,4 @@
-// What can be asked of a solid: whether it is valid, its volume and areas, its triangles.
+// Queries on a solid: whether it is valid, its volume and areas, its triangles.
 #pragma once
 
 #include <array>

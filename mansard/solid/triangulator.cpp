@@ -147,7 +147,7 @@ auto Triangulator::is_simple() -> bool {
   return true;
 }
 
-/// Every hole clockwise, in the outer loop and in no other hole, judged at a corner that it does not share.
+/// Every hole clockwise, in the outer loop and in no other hole, decided at a corner that it does not share.
 auto Triangulator::holes_lie_inside() const -> bool {
   std::vector<geometry::Ring> rings;
   std::vector<std::vector<std::uint32_t>> vertices;

@@ -45,11 +45,11 @@ struct United {
 [[nodiscard]] auto unite_each(std::span<const model::LabelledSolid* const> parts) -> std::vector<United>;
 
 /// Whether parts are valid by the rules for files and share their walls exactly already, corner for corner: then
-/// unite_each() has nothing to do. Of parts with overhanging eaves only validity is asked.
+/// unite_each() has nothing to do. Parts with overhanging eaves are only checked for validity.
 [[nodiscard]] auto share_walls(std::span<const model::LabelledSolid* const> parts) -> bool;
 
-/// The ground of a model raised to a flat roof at z. It stands on the corners of the model's ground, and its walls are
-/// party walls where the model's are. Empty where z is not above the ground.
+/// The ground of a model raised to a flat roof at z. It is based on the corners of the model's ground, and its walls
+/// are party walls where the model's are. Empty where z is not above the ground.
 [[nodiscard]] auto prism_over_ground(const model::LabelledSolid& model, double z) -> model::LabelledSolid;
 
 }  // namespace mansard::solid

@@ -49,14 +49,14 @@ struct Solution {
 };
 
 /// One thread, fixed order: the same program gives the same solution. `incumbent`, when given, must be feasible.
-/// Gives up with "solver-failed".
+/// Fails with "solver-failed".
 [[nodiscard]] auto minimise(const Program& program, const Limits& limits,
                             const std::optional<std::vector<double>>& incumbent = std::nullopt)
     -> base::Result<Solution>;
 
 /// The program as strict fixed-column MPS, which every solver reads: variables X0000000 …, rows R0000000 …, objective
 /// COST with the constant as its negative right-hand side; rows without bounds are left out. Numbers keep their value
-/// exactly, by their shortest text; whole ones below 10¹¹ always fit. `name` is cut to 8 letters and digits. Gives up
+/// exactly, by their shortest text; whole ones below 10¹¹ always fit. `name` is cut to 8 letters and digits. Fails
 /// with "solver-mps" where a number is not finite or needs more than 12 columns, bounds cross, a row's two bounds have
 /// no exact difference, a term's variable does not exist, or there are more than 10⁷ variables or rows.
 [[nodiscard]] auto mps(const Program& program, std::string_view name) -> base::Result<std::string>;

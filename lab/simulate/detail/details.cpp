@@ -45,7 +45,7 @@ class Details {
       : options_(options), random_(seed, house) {}
 
   void add(House& house) {
-    // Every kind is drawn whether or not it is asked for, so that one option does not change another's result.
+    // Every kind is drawn whether or not it is requested, so that one option does not change another's result.
     const double bay = random_.uniform(), extension = random_.uniform(), plant = random_.uniform();
     const double front = random_.uniform(), back = random_.uniform();
     const auto site = site_of(house.lots.front());

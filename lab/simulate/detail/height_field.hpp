@@ -7,7 +7,7 @@
 namespace mansard::simulate::detail {
 
 /// A point about every `resolution` metres, off its place by up to a quarter of that; each cell of four points becomes
-/// two triangles. Walls are steep triangles between roof and ground. Gives up with "cancelled".
+/// two triangles. Walls are steep triangles between roof and ground. Fails with "cancelled".
 [[nodiscard]] auto height_field(const World& world, double resolution, std::uint64_t seed, const base::Run& run)
     -> base::Result<geometry::Mesh>;
 

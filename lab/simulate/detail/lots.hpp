@@ -1,4 +1,4 @@
-// What stands where: buildings as lots with an idea of their roof, before anything is raised.
+// Buildings as lots with the kind of their roof, before anything is extruded.
 #pragma once
 
 #include <string>
@@ -39,10 +39,10 @@ struct House {
 /// How high above the eaves a roof may end, metres.
 inline constexpr double most_rise = 6.5;
 
-/// A lot as plan + profiles on that ground. Gives up as extrude::crest does.
+/// A lot as plan + profiles on that ground. Fails as extrude::crest does.
 [[nodiscard]] auto plan_of(const Lot& lot, double ground) -> base::Result<model::Plan>;
 
-/// The lot and what stands on it: its parapet, where there is room for one.
+/// The lot and, where it is wide enough, its parapet.
 [[nodiscard]] auto with_parapet(const Lot& lot) -> std::vector<Lot>;
 
 /// The buildings of a block in its own frame: the street along x, the ground at 0.

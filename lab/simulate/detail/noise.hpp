@@ -1,4 +1,4 @@
-// Spatially correlated noise that any place can be asked for, in any order.
+// Spatially correlated noise, evaluated at any place in any order.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace mansard::simulate::detail {
 
-/// Uniform in [0, 1), by the seed and three whole numbers alone.
+/// Uniform in [0, 1), by the seed and three integers alone.
 [[nodiscard]] auto drawn(std::uint64_t seed, std::int64_t a, std::int64_t b = 0, std::int64_t c = 0) -> double;
 
 /// Smooth noise of mean 0 and root mean square 1 over space: random values on two turned lattices, of half and a

@@ -17,10 +17,10 @@ struct Raised {
   std::vector<model::Solid> solids;
 };
 
-/// Gives up with "simulate-solid" where a lot cannot be raised in full.
+/// Fails with "simulate-solid" where a lot cannot be extruded in full.
 [[nodiscard]] auto raise_house(const House& house, const base::Run& run) -> base::Result<Raised>;
 
-/// A building of plans as they are, with the outline of those that stand on the ground where it has none. Gives up as
+/// A building of plans as they are, with the outline of those that stand on the ground where it has none. Fails as
 /// extrude::raise.
 [[nodiscard]] auto raise_again(model::Building building, const base::Run& run) -> base::Result<Raised>;
 

@@ -11,7 +11,7 @@
 namespace mansard::derive::detail {
 
 /// The polygons of the cells numbered 1 … `count` − 1, along the cells' sides; cells that have only a corner in common
-/// are apart. Gives up with "derive-outline" (the library's words).
+/// are apart. Fails with "derive-outline" (the library's words).
 [[nodiscard]] auto polygons_of(const Place& place, const std::vector<std::int32_t>& of, std::size_t count)
     -> base::Result<std::vector<std::vector<geometry::Polygon>>>;
 

@@ -25,7 +25,7 @@ struct Grid {
 /// The cells that overlap the box in more than its border.
 [[nodiscard]] auto grid_over(const geometry::Box2& box, double spacing) -> Grid;
 
-/// Polygons ready to be asked row by row.
+/// Polygons prepared for queries row by row.
 class Cover {
  public:
   explicit Cover(std::span<const geometry::Polygon> polygons);

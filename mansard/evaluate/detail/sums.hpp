@@ -14,7 +14,7 @@ struct Depth {
   bool inside = false, inside_each = false;
 };
 
-/// Footprints, ready to be asked row by row.
+/// Footprints, prepared for queries row by row.
 struct Plan {
   Cover cover;
   Strip of_each, of_union;

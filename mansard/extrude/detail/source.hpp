@@ -10,7 +10,7 @@ namespace mansard::extrude::detail {
 /// m; no cap is higher. Heights in quanta stay below 2^33, where plane.cpp has room for 2^38 (`widest`).
 inline constexpr double highest_cap = 1e5;
 
-/// Oriented, repeated points dropped. Gives up with "extrude-profile", "extrude-cap", "extrude-not-simple",
+/// Oriented, repeated points dropped. Fails with "extrude-profile", "extrude-cap", "extrude-not-simple",
 /// "extrude-no-area", and says where (the plan's edge numbers and coordinates) and what to do. Simple is decided
 /// exactly; points within 2^-36 m of each other are one.
 [[nodiscard]] auto prepared(const model::Plan& plan) -> base::Result<Source>;

@@ -51,8 +51,8 @@ struct CityComplaints {
 };
 
 /// Parses a file and calls `work` with each document in it: one, or those of CityJSONSeq line by line. Returns the
-/// reference system of the file as it is spelled, empty if there is none. Gives up with the code of `complaints` and
-/// with what `work` gives up with.
+/// reference system of the file as it is spelled, empty if there is none. Fails with the code of `complaints` and
+/// with what `work` fails with.
 [[nodiscard]] auto each_document(std::string_view bytes, const CityComplaints& complaints,
                                  const std::function<base::Result<void>(const CityDocument&)>& work)
     -> base::Result<std::string>;

@@ -14,7 +14,7 @@ namespace mansard::formats {
 /// A feature per Building, with its id and attributes; without those that mansard itself gives to models (`ms_…`),
 /// which are of the model, not of the building. Its polygons, of itself or else of its parts: the surfaces of LoD 0;
 /// else those that are GroundSurface, of the highest LoD that has any; else the lowest level ones. Objects of other
-/// kinds are left out. Gives up with "ingest-footprints-format".
+/// kinds are left out. Fails with "ingest-footprints-format".
 [[nodiscard]] auto read_cityjson_footprints(std::string_view bytes, const std::string& subject)
     -> base::Result<FeatureFile>;
 

@@ -22,11 +22,11 @@ struct Keys {
 };
 
 /// Ids as they are; a part whose id is taken (building "7-1" beside part 1 of building "7") gets "-part" appended.
-/// Gives up with "write-duplicate-id" when two buildings share one.
+/// Fails with "write-duplicate-id" when two buildings share one.
 [[nodiscard]] auto keys_of(const model::City& city) -> base::Result<Keys>;
 
 /// Holds every model against what a writer relies on: finite coordinates within 10,000 km, loops that name vertices, a
-/// class per face, unit normals. Gives up with "write-model".
+/// class per face, unit normals. Fails with "write-model".
 [[nodiscard]] auto check_models(const model::City& city) -> base::Result<void>;
 [[nodiscard]] auto check_model(const model::Building& building) -> base::Result<void>;
 

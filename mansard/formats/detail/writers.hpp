@@ -50,7 +50,7 @@ class Gate {
     std::string building;
     std::vector<std::string> parts;
   };
-  /// Gives up with "write-duplicate-id", "write-model".
+  /// Fails with "write-duplicate-id", "write-model".
   [[nodiscard]] auto admit(const model::Building& building) -> base::Result<Keyed>;
 
  private:

@@ -9,7 +9,7 @@
 namespace mansard::formats {
 
 /// The bytes of a buffer or a tile. As Bytes::of, but never of a device or a pipe, which need not end: those a user may
-/// name, not a file. Gives up with "file-missing", "file-read".
+/// name, not a file. Fails with "file-missing", "file-read".
 [[nodiscard]] auto bytes_of_named(const std::filesystem::path& path) -> base::Result<Bytes>;
 
 }  // namespace mansard::formats

@@ -41,7 +41,7 @@ namespace mansard::formats {
 class Bytes {
  public:
   [[nodiscard]] auto view() const -> std::string_view { return view_; }
-  /// Gives up with "file-missing", "file-read".
+  /// Fails with "file-missing", "file-read".
   [[nodiscard]] static auto of(const std::filesystem::path& path) -> base::Result<Bytes>;
 
  private:

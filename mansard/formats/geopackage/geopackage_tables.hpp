@@ -52,7 +52,7 @@ class Pen {
 /// A layer that is being written.
 class GeopackageTable {
  public:
-  /// Gives up with "write-geopackage".
+  /// Fails with "write-geopackage".
   [[nodiscard]] static auto make(GDALDataset& file, const std::string& name, const std::string& meaning,
                                  OGRwkbGeometryType type, const OGRSpatialReference& crs)
       -> base::Result<GeopackageTable>;
@@ -70,14 +70,14 @@ class GeopackageTable {
   OGRLayer* layer_;
 };
 
-/// Gives up with "write-layer": names that are taken, geometry or values that do not fit.
+/// Fails with "write-layer": names that are taken, geometry or values that do not fit.
 [[nodiscard]] auto check_layers(const std::vector<Layer>& layers) -> base::Result<void>;
 
 /// A layer as it is. Its geometry and values must be sound.
 [[nodiscard]] auto add_layer(const Layer& layer, const Pen& pen, const OGRSpatialReference& crs, GDALDataset& file)
     -> base::Result<void>;
 
-/// Such a layer of a file, in the local frame. Gives up with "write-layer-left", a warning: it is more than a Layer
+/// Such a layer of a file, in the local frame. Fails with "write-layer-left", a warning: it is more than a Layer
 /// holds.
 [[nodiscard]] auto read_layer(OGRLayer& table, const model::Frame& frame) -> base::Result<Layer>;
 

@@ -21,7 +21,7 @@ struct QgisStyle {
 [[nodiscard]] auto style_of(OGRLayer& layer) -> std::optional<QgisStyle>;
 
 /// A row for every layer that has a style, as QGIS itself writes them as a layer's default. Layers must have their
-/// fields. Nothing where there would be no row, or where there is such a table. Gives up with "write-geopackage".
+/// fields. Nothing where there would be no row, or where there is such a table. Fails with "write-geopackage".
 [[nodiscard]] auto add_styles(GDALDataset& file) -> base::Result<void>;
 
 }  // namespace mansard::formats::detail

@@ -1,4 +1,4 @@
-// Meshes packed with Draco, as KHR_draco_mesh_compression has them.
+// Meshes compressed with Draco, as KHR_draco_mesh_compression has them.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 namespace mansard::formats {
 
 /// `position` is the attribute's unique id in the bitstream; with `normalised`, integers stand for fractions of their
-/// type's greatest value. Gives up with "ingest-mesh-format".
+/// type's greatest value. Fails with "ingest-mesh-format".
 [[nodiscard]] auto unpack_draco(std::span<const unsigned char> bytes, std::uint32_t position, bool normalised,
                                 const std::string& name) -> base::Result<geometry::Mesh>;
 

@@ -10,13 +10,13 @@ namespace mansard::formats::detail {
 /// A node for each solid, in the order they are told. Memory grows by about 12 bytes a solid.
 class GlbBytes {
  public:
-  /// Gives up with "file-write".
+  /// Fails with "file-write".
   [[nodiscard]] static auto open(const Header& header, bool compress, Solids solids) -> base::Result<GlbBytes>;
-  /// Gives up with "write-triangulate".
+  /// Fails with "write-triangulate".
   [[nodiscard]] auto add(const model::Building& building, const Gate::Keyed& keys) -> base::Result<void>;
   /// Of solid::unite.
   [[nodiscard]] auto warnings() const -> const std::vector<base::Diagnostic>& { return warnings_; }
-  /// Gives up with "write-glb-size", "file-write".
+  /// Fails with "write-glb-size", "file-write".
   [[nodiscard]] auto write(base::Sink& sink) -> base::Result<void>;
 
  private:

@@ -27,7 +27,7 @@ struct Glb {
   ByteRange binary;        ///< cut where the file ends; empty if there is none
 };
 
-/// `size` is that of the file; `read` returns the bytes of a range within it. Gives up with what `read` gives up with.
+/// `size` is that of the file; `read` returns the bytes of a range within it. Fails with what `read` fails with.
 [[nodiscard]] auto read_glb(std::uint64_t size, const std::function<base::Result<std::string>(ByteRange)>& read)
     -> base::Result<Glb>;
 /// Of a file in memory.

@@ -22,11 +22,11 @@ struct GlbRecords {
   std::vector<RecordPlace> records;  ///< in the order of the table
 };
 
-/// What a GLB that mansard wrote carries. Gives up with "write-read-format" (no GLB, or none whose tables can be
+/// What a GLB that mansard wrote carries. Fails with "write-read-format" (no GLB, or none whose tables can be
 /// followed), "file-missing", "file-read".
 [[nodiscard]] auto glb_records(const Path& path) -> base::Result<GlbRecords>;
 
-/// The bytes of a record. Gives up with "file-read".
+/// The bytes of a record. Fails with "file-read".
 [[nodiscard]] auto read_piece(const Path& path, std::uint64_t offset, std::uint64_t bytes) -> base::Result<std::string>;
 
 }  // namespace mansard::formats::detail

@@ -20,7 +20,7 @@ using Float3 = std::array<float, 3>;
 /// What is put aside does not stay in memory, but for about 12 bytes a part.
 class GltfFile {
  public:
-  /// Gives up with "file-write".
+  /// Fails with "file-write".
   [[nodiscard]] static auto open(bool compress) -> base::Result<std::unique_ptr<GltfFile>>;
 
   /// A row of the table of parts, with the record of a building or none. The surfaces of the mesh become rows of the
@@ -35,7 +35,7 @@ class GltfFile {
   /// The box of everything added so far, as it is written: y up. None without vertices.
   [[nodiscard]] auto bounds() const -> const std::optional<std::array<Float3, 2>>& { return bounds_; }
 
-  /// The whole file. Gives up with "write-glb-size", "file-write".
+  /// The whole file. Fails with "write-glb-size", "file-write".
   [[nodiscard]] auto write(base::Sink& sink, const std::string& generator, std::string_view extras,
                            const PartColumns& columns) -> base::Result<void>;
 

@@ -12,11 +12,11 @@
 namespace mansard::formats {
 
 struct GltfInput {
-  tinygltf::Model model;  ///< without images; buffer views packed with meshoptimizer are unpacked in place
+  tinygltf::Model model;  ///< without images; buffer views compressed with meshoptimizer are unpacked in place
   std::vector<model::InputFile> buffers;  ///< the files beside it that were read
 };
 
-/// `path` leads to the buffers beside it. Gives up with "ingest-mesh-format", "ingest-mesh-truncated", "file-missing",
+/// `path` leads to the buffers beside it. Fails with "ingest-mesh-format", "ingest-mesh-truncated", "file-missing",
 /// "file-read".
 [[nodiscard]] auto load_gltf(std::string_view bytes, const std::filesystem::path& path) -> base::Result<GltfInput>;
 

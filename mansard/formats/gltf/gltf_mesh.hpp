@@ -24,7 +24,7 @@ struct PartMesh {
   std::vector<FaceMesh> faces;             ///< as in the model
 };
 
-/// Gives up with "write-triangulate", which names the part.
+/// Fails with "write-triangulate", which names the part.
 [[nodiscard]] auto part_mesh(const model::LabelledSolid& model, const std::string& part) -> base::Result<PartMesh>;
 
 /// z of the flat roof of LoD 1.2: `ms_h_roof_70p` where the part has it and it lies within the model, else half-way

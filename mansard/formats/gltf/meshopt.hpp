@@ -1,4 +1,4 @@
-// Buffers packed with meshoptimizer, as EXT_meshopt_compression has them.
+// Buffers compressed with meshoptimizer, as EXT_meshopt_compression has them.
 #pragma once
 
 #include <cstddef>

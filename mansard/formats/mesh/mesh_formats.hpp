@@ -1,4 +1,4 @@
-// One reader per mesh format, from the bytes of a file. All give up with "ingest-mesh-format" (what is wrong, and the
+// One reader per mesh format, from the bytes of a file. All fail with "ingest-mesh-format" (what is wrong, and the
 // line where there are lines), "ingest-mesh-truncated" (the file ends too early) and "ingest-mesh-empty".
 #pragma once
 
@@ -26,7 +26,7 @@ struct GltfMesh {
   std::optional<geometry::Point3> centre;  ///< CESIUM_RTC: to be added once z is up
   std::vector<model::InputFile> buffers;   ///< files beside it that were read
 };
-/// glTF 2.0, binary or JSON, plain or packed with Draco or meshopt; `path` leads to the buffers beside it. Gives up
+/// glTF 2.0, binary or JSON, plain or compressed with Draco or meshopt; `path` leads to the buffers beside it. Fails
 /// with "file-missing" and "file-read" for those too.
 [[nodiscard]] auto read_gltf(std::string_view bytes, const std::filesystem::path& path) -> base::Result<GltfMesh>;
 

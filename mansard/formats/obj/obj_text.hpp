@@ -17,7 +17,7 @@ class ObjText {
   ObjText(const Header& header, Solids solids) : frame_(header.frame), solids_(solids) {}
   /// What stands before the first building.
   [[nodiscard]] static auto head(const Header& header, const std::string& mtl_name) -> std::string;
-  /// Gives up with "write-triangulate".
+  /// Fails with "write-triangulate".
   [[nodiscard]] auto of(const model::Building& building, const Gate::Keyed& keys) -> base::Result<std::string>;
   /// Of solid::unite.
   [[nodiscard]] auto warnings() const -> const std::vector<base::Diagnostic>& { return warnings_; }

@@ -32,7 +32,7 @@ class PlansText {
   base::Sink& sink_;
 };
 
-/// `name` is the file's, for messages. Gives up with the "write-plan-…" codes; parts that are at fault are left out,
+/// `name` is the file's, for messages. Fails with the "write-plan-…" codes; parts that are at fault are left out,
 /// and `refused` has the same codes.
 [[nodiscard]] auto parse_plans(std::string_view text, const std::string& name, std::vector<base::Diagnostic>& refused)
     -> base::Result<model::City>;

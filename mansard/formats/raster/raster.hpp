@@ -22,13 +22,13 @@ struct RasterMesh {
 };
 /// Two triangles between four neighbouring cells that all have a height, cut along the diagonal that rises less, seen
 /// counter-clockwise from above. With `within`, in the raster's coordinates, only that part is read: none of it is an
-/// empty mesh. Gives up with "ingest-raster" (what is wrong), "file-missing", "file-read"; warns "ingest-raster-bands".
+/// empty mesh. Fails with "ingest-raster" (what is wrong), "file-missing", "file-read"; warns "ingest-raster-bands".
 [[nodiscard]] auto read_raster(const std::filesystem::path& path, const std::optional<geometry::Box2>& within)
     -> base::Result<RasterMesh>;
 
 /// Heights of the ground in the local frame around `within` (local frame). Cells are the raster's own where it lies in
 /// the frame's CRS, north up, with square cells; else they are as large, and heights are between its four nearest
-/// centres. Gives up with "ingest-raster" (also where it does not cover any of it), "file-missing", "file-read".
+/// centres. Fails with "ingest-raster" (also where it does not cover any of it), "file-missing", "file-read".
 [[nodiscard]] auto read_terrain(const std::filesystem::path& path, const model::Frame& frame,
                                 const geometry::Box2& within) -> base::Result<model::HeightGrid>;
 

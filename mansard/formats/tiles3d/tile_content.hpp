@@ -20,7 +20,7 @@ struct TileContent {
   std::set<std::string> skipped;          ///< kinds of content without a surface that is read: "pnts", "i3dm", …
 };
 
-/// `turn` brings glTF's axes to z up, `place` the tile's coordinates to the tileset's. Gives up with
+/// `turn` brings glTF's axes to z up, `place` the tile's coordinates to the tileset's. Fails with
 /// "ingest-mesh-format", "ingest-mesh-truncated", "ingest-mesh-empty", "file-missing", "file-read".
 [[nodiscard]] auto read_tile_content(std::string_view bytes, const std::filesystem::path& path, const Transform& turn,
                                      const Transform& place) -> base::Result<TileContent>;

@@ -27,7 +27,7 @@ struct TileIndex {
 
 class Subtree {
  public:
-  /// Gives up with "ingest-mesh-format", "ingest-mesh-truncated", "file-missing", "file-read". The files that were read
+  /// Fails with "ingest-mesh-format", "ingest-mesh-truncated", "file-missing", "file-read". The files that were read
   /// go to `inputs`.
   [[nodiscard]] static auto read(const std::filesystem::path& path, std::uint32_t levels, bool octree,
                                  std::vector<model::InputFile>& inputs) -> base::Result<Subtree>;

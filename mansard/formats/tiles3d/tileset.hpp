@@ -29,7 +29,7 @@ struct TileList {
 
 class Tileset {
  public:
-  /// Reads the tree's own file, not those it names. Gives up with "ingest-mesh-format", "file-missing", "file-read".
+  /// Reads the tree's own file, not those it names. Fails with "ingest-mesh-format", "file-missing", "file-read".
   [[nodiscard]] static auto open(const std::filesystem::path& path) -> base::Result<Tileset>;
 
   /// Whether coordinates are geocentric (EPSG:4978), as the standard has it, rather than those of a local or projected
@@ -41,7 +41,7 @@ class Tileset {
   [[nodiscard]] auto plan() const -> const geometry::Box2& { return plan_; }
 
   /// Descends while a tile's geometric error exceeds `error` (m), or it is empty. `up` as in Options. Reads tilesets
-  /// inside the tileset, but no tile. Gives up with "ingest-mesh-format", "file-missing", "file-read", "cancelled".
+  /// inside the tileset, but no tile. Fails with "ingest-mesh-format", "file-missing", "file-read", "cancelled".
   [[nodiscard]] auto tiles(double error, UpAxis up, const TileFilter& filter, const base::Run& run) const
       -> base::Result<TileList>;
 

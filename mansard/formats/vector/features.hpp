@@ -53,7 +53,7 @@ struct FeatureQuery {
 /// Reads the chosen layer of any OGR vector source: polygons with curves as segments and without heights. With
 /// `options.bbox`, features that cannot meet it may be left out already, but never all. A database and what lies on a
 /// server is known by the hash of its features, in the order of their numbers.
-/// Gives up with "file-missing", "file-read", "ingest-footprints-format", "ingest-footprints-none",
+/// Fails with "file-missing", "file-read", "ingest-footprints-format", "ingest-footprints-none",
 /// "ingest-footprints-geometry", "ingest-layer", "ingest-where", "cancelled".
 [[nodiscard]] auto read_features(const std::filesystem::path& path, const FeatureQuery& options, const base::Run& run)
     -> base::Result<FeatureFile>;

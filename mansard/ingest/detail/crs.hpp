@@ -19,15 +19,15 @@ struct Way {
 
 /// Decides by what the source says, the option, and, for GeoJSON that says nothing, where the mesh lies.
 /// `mesh` is the box of the mesh with its offset, as its files have it; `mesh_crs` names the projected CRS that the
-/// mesh says it is in, or is empty: footprints in degrees or feet go there. Gives up with "ingest-crs-unknown",
+/// mesh says it is in, or is empty: footprints in degrees or feet go there. Fails with "ingest-crs-unknown",
 /// "ingest-crs-unit", "ingest-crs-option".
 [[nodiscard]] auto choose_way(const formats::FeatureFile& file, const std::string& option, const geometry::Box2& mesh,
                               const std::string& mesh_crs, const std::string& subject) -> base::Result<Way>;
 
-/// The same for a mesh alone: by the option, else what the mesh says, else none. Gives up with "ingest-crs-option".
+/// The same for a mesh alone: by the option, else what the mesh says, else none. Fails with "ingest-crs-option".
 [[nodiscard]] auto way_without_features(const std::string& option, const std::string& mesh_crs) -> base::Result<Way>;
 
-/// Takes all points along; where that is not possible they become NaN. Gives up with "ingest-crs-unknown".
+/// Takes all points along; where that is not possible they become NaN. Fails with "ingest-crs-unknown".
 [[nodiscard]] auto go(const Way& way, std::vector<formats::RawFeature>& features, const std::string& subject)
     -> base::Result<void>;
 

@@ -27,7 +27,7 @@ struct MeshFiles {
 /// numbers are read first, tilesets and rasters once it is known where to.
 class MeshReading {
  public:
-  /// Lists folders, reads mesh files, opens tilesets and rasters. Gives up with "ingest-mesh-empty",
+  /// Lists folders, reads mesh files, opens tilesets and rasters. Fails with "ingest-mesh-empty",
   /// "ingest-mesh-format", "ingest-mesh-truncated", "ingest-mesh-metadata", "ingest-memory", "file-missing",
   /// "file-read", "cancelled".
   [[nodiscard]] static auto open(const std::vector<std::filesystem::path>& paths, const Options& options,
@@ -41,7 +41,7 @@ class MeshReading {
   [[nodiscard]] auto own_crs_or_zone() const -> std::string;
 
   /// `working` names the CRS, empty for a local frame; `within` is a box in it: what lies beside it need not be read.
-  /// Gives up as `open` does, and with "ingest-mesh-unusable", "ingest-no-overlap", "ingest-crs-unknown",
+  /// Fails as `open` does, and with "ingest-mesh-unusable", "ingest-no-overlap", "ingest-crs-unknown",
   /// "ingest-raster". Can be called once.
   [[nodiscard]] auto finish(const std::string& working, const std::optional<geometry::Box2>& within,
                             const base::Run& run) -> base::Result<MeshFiles>;

@@ -40,7 +40,7 @@ namespace keys {
 [[nodiscard]] auto all() -> const std::vector<const Key*>&;
 }  // namespace keys
 
-/// A feature's attributes, ready to be asked.
+/// A feature's attributes, prepared for queries.
 class Tags {
  public:
   Tags(const model::Attributes& attributes, const Options& options);

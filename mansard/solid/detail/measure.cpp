@@ -107,7 +107,7 @@ auto above(Point3 a, Point3 b, Point3 c, Point3 d) -> int {
                            std::abs(q.z) * (std::abs(rx_py) + std::abs(ry_px));
   // Positive means d below, as the paper defines it.
   if (std::abs(det) > above_error * magnitude && std::abs(det) > no_underflow) return det > 0 ? -1 : 1;
-  // Corners on a raster of 2^-20 m within 2^20 m, the kernel's own among them: differences are whole numbers below
+  // Corners on a raster of 2^-20 m within 2^20 m, the kernel's own among them: differences are integers below
   // 2^40, minors below 2^81, their products with a third below 2^121, and the sum of three below 2^123.
   std::array<std::int64_t, 9> k{};
   constexpr double scale = 0x1.0p20;

@@ -97,7 +97,7 @@ auto without_thin_corners(const model::Solid& solid, model::Face& face) -> std::
   return cut;
 }
 
-/// Numbers the vertices anew, in the order in which faces name them.
+/// Renumbers the vertices in the order in which the faces use them.
 void renumber(model::Solid& solid) {
   std::vector<std::uint32_t> number(solid.vertices.size(), UINT32_MAX);
   std::vector<Point3> used;

@@ -9,7 +9,7 @@
 
 namespace mansard::sweep::detail {
 
-/// The footprints' edges, ready to be asked.
+/// The footprints' edges, prepared for queries.
 class GisEdges {
  public:
   GisEdges(const block::Block& block, const Options& options);
