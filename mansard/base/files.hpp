@@ -1,4 +1,4 @@
-// Files appear whole or not at all.
+// Files are written completely or not at all.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace mansard::base {
 
-/// Writes beside the target and renames. Gives up with "file-write" (what the system said, and the path).
+/// Writes beside the target and renames. Fails with "file-write" (the system's message and the path).
 [[nodiscard]] auto write_file(const std::filesystem::path& path, std::string_view bytes) -> Result<void>;
 
 struct FileToWrite {
@@ -19,14 +19,14 @@ struct FileToWrite {
   std::string_view bytes;
 };
 
-/// All of the files or none: every one is written beside its target before the first is renamed. Gives up with
-/// "file-write", and with "cancelled" when that is asked for before the first is renamed.
+/// All of the files or none: every one is written beside its target before the first is renamed. Fails with
+/// "file-write", and with "cancelled" when the run is cancelled before the first is renamed.
 [[nodiscard]] auto write_files(const std::vector<FileToWrite>& files, const Cancel* cancel = nullptr) -> Result<void>;
 
-/// The whole file. Gives up with "file-missing" (no such file), "file-read" (a folder, no permission, a failed read).
+/// The whole file. Fails with "file-missing" (no such file), "file-read" (a folder, no permission, a failed read).
 [[nodiscard]] auto read_file(const std::filesystem::path& path) -> Result<std::string>;
 
-/// Diagnostic codes of this room: files and options.
+/// Diagnostic codes of this module: files and options.
 [[nodiscard]] auto codes() -> std::vector<Code>;
 
 }  // namespace mansard::base

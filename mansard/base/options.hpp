@@ -61,8 +61,8 @@ class OptionList {
 
   /// An enumeration by its names.
   template <class E>
-  auto choice(std::string name, E& member, std::vector<std::pair<std::string, E>> names, std::string meaning)
-      -> OptionList& {
+  auto choice(const std::string& name, E& member, std::vector<std::pair<std::string, E>> names,
+              const std::string& meaning) -> OptionList& {
     std::vector<std::string> words;
     for (const auto& entry : names) words.push_back(entry.first);
     auto get = [&member, names]() -> std::string {
@@ -70,12 +70,12 @@ class OptionList {
         if (entry.second == member) return entry.first;
       return {};
     };
-    auto put = [&member, names](std::string_view word) -> bool {
+    auto put = [&member, names = std::move(names)](std::string_view word) -> bool {
       for (const auto& entry : names)
         if (entry.first == word) return member = entry.second, true;
       return false;
     };
-    return add_choice(std::move(name), std::move(words), std::move(meaning), std::move(get), std::move(put));
+    return add_choice(name, std::move(words), meaning, std::move(get), std::move(put));
   }
 
   /// Gives the option added last a second, short name on the command line.

@@ -1,4 +1,4 @@
-// What every stage of a run shares: the wish to stop, the eyes that watch, the threads, the seed.
+// What all stages of a run share: the request to stop, the report of progress, the threads, the seed.
 #pragma once
 
 #include <atomic>
@@ -10,7 +10,7 @@
 
 namespace mansard::base {
 
-/// Set from a signal handler or another thread; looked at between pieces of work.
+/// Set from a signal handler or another thread; read between pieces of work.
 class Cancel {
  public:
   void request() noexcept { asked_.store(true, std::memory_order_relaxed); }
@@ -20,7 +20,7 @@ class Cancel {
   std::atomic<bool> asked_{false};
 };
 
-/// Passed by const reference into every door that works for long. All members are optional.
+/// Passed by const reference to every public function that takes long. All members are optional.
 struct Run {
   const Cancel* cancel = nullptr;
   /// Called with (stage, subject, fraction done 0..1), from the thread that runs the stage only.
@@ -34,7 +34,7 @@ struct Run {
 };
 
 /// Calls work(0) … work(count − 1), in any order and on any thread; each call must only write to what belongs to its
-/// index, which is what keeps results the same at any thread count. Exceptions leave by the caller's thread.
+/// index, so that results are the same at any thread count. Exceptions are thrown again in the caller's thread.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& work);
 
 /// Limits `parallel_for` to that many threads from now on (process-wide); 0 restores all cores.

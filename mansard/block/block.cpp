@@ -143,7 +143,7 @@ void set_ground(Block& block, const model::Scene& scene, const Surroundings& aro
     if (!own) own = detail::percentile(samples[i], share, options.ground_area);
     if (!own) own = fall_back();
     if (!own) block.ground_known = false;
-    block.members[i].ground = own ? std::floor(*own / ground_unit + 0.5) * ground_unit : 0;
+    block.members[i].ground = own ? model::rounded(*own, ground_unit) : 0;
     heights.push_back(block.members[i].ground);
   }
   block.ground = heights.empty() ? 0 : base::mean_median(std::move(heights));

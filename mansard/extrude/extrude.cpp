@@ -80,7 +80,7 @@ auto attempt(const detail::Source& source, const model::Plan& plan, const Option
     if (!other) continue;
     solid = tried(*other, plan, options, run, nullptr, reason);
     if (!solid) continue;
-    warnings.push_back(base::warning("extrude-nudged", how + ": " + why));
+    warnings.push_back(base::warning("extrude-nudged", how.append(": ").append(why)));
     footprint = std::move(other);
   }
   if (solid && options.overhang > 0) {

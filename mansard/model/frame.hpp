@@ -20,8 +20,10 @@ struct Frame {
 /// such coordinates can be shifted by whole metres without a rounding, up to 2³² m, so that the same data at another
 /// place have the same digits. One micrometre is a thousandth of what any scan or survey resolves.
 inline constexpr double coordinate_unit = 0x1p-20;
-[[nodiscard]] inline auto rounded(double coordinate) -> double {
-  return std::floor(coordinate / coordinate_unit + 0.5) * coordinate_unit;
+
+/// To the nearest whole multiple of `unit`, a power of two; halves up, so that a shift by whole units does not matter.
+[[nodiscard]] inline auto rounded(double value, double unit = coordinate_unit) -> double {
+  return std::floor(value / unit + 0.5) * unit;
 }
 
 struct InputFile {

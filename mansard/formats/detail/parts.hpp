@@ -34,7 +34,7 @@ struct Keys {
 [[nodiscard]] auto class_name(model::FaceClass c) -> std::string_view;
 inline constexpr std::size_t class_count = 5;
 
-/// The classes' colours, sRGB: those of picture/picture.hpp, which this room may not enter.
+/// The classes' colours, sRGB: those of picture/picture.hpp, which this module does not depend on.
 inline constexpr std::array<std::array<int, 3>, class_count> class_colours{
     {{216, 212, 204}, {150, 150, 158}, {176, 98, 80}, {120, 124, 120}, {150, 132, 112}}};
 

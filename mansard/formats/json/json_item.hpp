@@ -14,7 +14,7 @@
 
 namespace mansard::formats::detail {
 
-/// What is wrong with a file; thrown and caught by readers, never beyond this room.
+/// What is wrong with a file; thrown and caught by readers, never beyond this module.
 struct Defect {
   std::string code, message;
 };

@@ -15,7 +15,7 @@ using geometry::Point3;
 
 /// A nanometre: numbers of 4 000 km keep it.
 constexpr double plan_unit = 0x1p-30;
-auto rounded(double x) -> double { return std::floor(x / plan_unit + 0.5) * plan_unit; }
+auto rounded(double x) -> double { return model::rounded(x, plan_unit); }
 
 /// From a block's own frame to the scene's.
 struct Way {
