@@ -320,7 +320,9 @@ auto raise_footprints(const model::Scene& scene, const Options& options, const b
     if (by_attributes && report.roof.empty()) report.roof = roof::to_string(job.planned.shape);
     if (models[i]) take(std::move(job), std::move(*models[i]), out.city.buildings[job.feature], report);
   }
-  detail::add_solids(out.city.buildings, out.buildings, 0);
+  auto united = unite_parts(out.city.buildings);
+  for (std::size_t b = 0; b < united.size(); ++b)
+    detail::add_solids(out.city.buildings[b], out.buildings[b], std::move(united[b]), 0);
   out.city.buildings.resize(scene.footprints.size());
   out.buildings.resize(scene.footprints.size());
   for (auto& report : out.buildings)

@@ -140,8 +140,8 @@ auto codes() -> std::vector<base::Code> {
        0},
       {"pipeline-block", "The segmentation of a block failed, so its footprints became prisms.",
        "The message says why; please report it.", 1},
-      {"pipeline-overlap", "Two solids overlap by more than strips a millimetre wide.",
-       "Look whether the input's footprints overlap, or repeat a building.", 0},
+      {"pipeline-overlap", "Two solids overlap.", "Look whether the input's footprints overlap, or repeat a building.",
+       0},
       {"pipeline-cover-unchecked",
        "The outlines of its neighbours' parts could not be subtracted from a footprint without a part of its own.",
        "The footprint is modelled nevertheless; see whether its model overlaps another one (pipeline-overlap), and "

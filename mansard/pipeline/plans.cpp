@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "mansard/pipeline/detail/assemble.hpp"
+#include "mansard/pipeline/detail/overlaps.hpp"
 #include "mansard/pipeline/pipeline.hpp"
 #include "mansard/pipeline/solids.hpp"
 
@@ -56,8 +57,17 @@ auto raise_plans(model::City city, const Options& options, const base::Run& run)
   }
   out.city = std::move(city);
   out.city.made_by.version = detail::version();
-  for (auto& [building, warnings, simplified] : unite_parts(out.city.buildings))
-    out.remarks.insert(out.remarks.end(), warnings.begin(), warnings.end());
+  auto united = unite_parts(out.city.buildings);
+  for (std::size_t b = 0; b < united.size(); ++b) {
+    auto& building = out.city.buildings[b];
+    building.solids = std::move(united[b].solids);
+    for (auto& warning : united[b].warnings) {
+      warning.subject = building.id;
+      out.remarks.push_back(std::move(warning));
+    }
+  }
+  for (auto& warning : detail::overlaps_in_all(detail::overlaps(out.city.buildings)))
+    out.remarks.push_back(std::move(warning));
   return out;
 }
 

@@ -1,4 +1,4 @@
-// The solids that are written of a city's buildings.
+// The solids that are written of buildings.
 #pragma once
 
 #include <span>
@@ -9,14 +9,16 @@
 
 namespace mansard::pipeline {
 
-/// What came of a building's solids otherwise than as one valid solid of all its parts: codes of solid::unite.
+/// A building's solids, and what came otherwise than as one valid solid of all its parts: codes of solid::unite.
 struct SolidsOf {
-  std::size_t building = 0;
-  std::vector<base::Diagnostic> warnings;
-  std::vector<std::size_t> simplified;  ///< parts whose model is a prism now
+  std::vector<model::PartsSolid> solids;
+  std::vector<base::Diagnostic> warnings;  ///< without subject
+  std::vector<std::size_t> simplified;     ///< parts whose model is a prism now
 };
 
-/// Gives every building the union of its parts (solid::unite_all), over one plan of each group of buildings that touch.
+/// Of every building, the union of its parts (solid::unite_all), over one plan of each group of buildings that touch.
+/// `buildings[b]` are the models of the parts of b. Those of simplified parts become prisms.
+[[nodiscard]] auto unite_parts(std::span<const std::vector<model::LabelledSolid*>> buildings) -> std::vector<SolidsOf>;
 [[nodiscard]] auto unite_parts(std::span<model::Building> buildings) -> std::vector<SolidsOf>;
 
 }  // namespace mansard::pipeline

@@ -121,6 +121,8 @@ class Uniting {
     if (attempt.why.empty()) take(std::move(attempt.solids));
     else if (all.size() == 1) alone(0, attempt.why);
     else neighbour_by_neighbour(attempt.why);
+    if (out_.solids.empty() && out_.warnings.empty())
+      out_.warnings.push_back(base::warning("solid-left-out", "its ground is narrower than what becomes one point"));
     std::ranges::stable_sort(out_.solids, {}, [](const One& one) { return one.of.front(); });
     return std::move(out_);
   }
@@ -314,7 +316,7 @@ auto best(Make make) {
     bool as_asked = true;
     for (const United& one : made) {
       for (const auto& warning : one.warnings) lacking[1] += warning.code == "solid-not-united" ? 0 : 1;
-      as_asked = as_asked && one.warnings.empty();
+      as_asked = as_asked && one.warnings.empty() && one.loose == 0;
       lacking[0] += one.loose;
       lacking[2] += one.solids.size();
     }
@@ -365,7 +367,10 @@ auto united_over_one_plan(std::span<const std::vector<const LabelledSolid*>> bui
   std::vector<United> out;
   auto all = detail::sheets_of(group.parts, reach.near);
   if (!all || !detail::conform(*all)) {
-    for (const std::uint32_t b : group.buildings) out.push_back(Uniting(buildings[b], reach).run());
+    for (const std::uint32_t b : group.buildings) {
+      out.push_back(Uniting(buildings[b], reach).run());
+      ++out.back().loose;
+    }
     return out;
   }
   std::vector<std::uint32_t> user(all->places.size(), UINT32_MAX);

@@ -142,6 +142,27 @@ TEST(Union, puts_the_corners_of_a_neighbour_on_both_walls) {
   EXPECT_THAT(mansard::solid::check(made[0].solids[0].model.solid, mansard::solid::written_rules()), IsEmpty());
 }
 
+TEST(Union, puts_the_corners_of_a_neighbour_on_a_roof_that_begins_at_the_ground) {
+  // The western edge of a roof without walls runs from (0, 0) to (7, 10); a house has a corner 0.05 mm beside it.
+  LabelledSolid roof;
+  roof.solid.vertices = {{0, 0, 0}, {12, 0, 0}, {12, 10, 0}, {7, 10, 0}, {9, 4, 5}};
+  add_face(roof, {{3, 2, 1, 0}}, FaceClass::ground);
+  for (const std::uint32_t v : {0U, 1U, 2U, 3U}) add_face(roof, {{v, (v + 1) % 4, 4}}, FaceClass::roof);
+  const LabelledSolid house = prism({{{-5, 0}, {0, 0}, {3.5, 5}, {-5, 5}}, {}}, 0, 6);
+  const auto made = mansard::solid::unite_all(std::vector<std::vector<const LabelledSolid*>>{{&roof}, {&house}});
+  bool found = false;
+  for (const auto& face : made[0].solids.at(0).model.solid.faces)
+    for (const auto v : face.loops[0]) found = found || xy(made[0].solids[0].model.solid.vertices[v]) == Point2{3.5, 5};
+  EXPECT_TRUE(found);
+}
+
+TEST(Union, says_so_where_nothing_is_left_of_a_needle) {
+  const auto made = united({prism({{{0, 0}, {10, 0}, {10, 0.0005}}, {}}, 0, 6)});
+  EXPECT_THAT(made.solids, IsEmpty());
+  ASSERT_EQ(made.warnings.size(), 1U);
+  EXPECT_EQ(made.warnings[0].code, "solid-left-out");
+}
+
 TEST(Union, makes_valid_solids_of_random_grids_turned_any_way) {
   const unsigned seed = 20261122;
   std::mt19937 random(seed);
@@ -209,7 +230,7 @@ auto lean_to() -> LabelledSolid {
 }
 
 TEST(Union, of_a_roof_that_comes_down_to_the_ground_and_a_house_there_is_one_solid) {
-  const Solid solid = one_solid({lean_to(), box(10, 0, 5, 8, 0, 6)}, 0.1);
+  const Solid solid = one_solid({lean_to(), box(10, 0, 5, 8, 0, 6)}, 0.15);
   EXPECT_NEAR(area_towards(solid, down), 15 * 8, 1e-6);
 }
 

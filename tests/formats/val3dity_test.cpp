@@ -284,6 +284,20 @@ TEST(Val3dityRules, hold_for_roofs_over_real_footprints) {
 }
 
 /// For files made elsewhere: MANSARD_JUDGE=a.city.json:b.city.json.
+TEST(Val3dityRules, hold_for_flat_models_over_ground_at_several_heights) {
+  City city = street();
+  city.buildings.resize(1);
+  auto& parts = city.buildings[0].parts;
+  parts.clear();
+  const std::array<std::pair<Polygon, double>, 3> plots{
+      std::pair{rectangle(0, 0, 10, 20), 0.0}, {rectangle(10, 5, 5, 8), -1.0}, {rectangle(3, 20, 4, 6), 0.5}};
+  for (const auto& [plot, base] : plots)
+    parts.push_back({"house-" + std::to_string(parts.size() + 1), plan_of(plot, base, 9), prism(plot, base, 9), {}});
+  const Json file = Json::parse(*mansard::formats::cityjson(city));
+  EXPECT_EQ(file["CityObjects"]["house"]["geometry"].size(), 3U) << "LoD 0, 1.2 and 2.2 of one solid";
+  for (const auto& finding : val3dity::findings(file)) ADD_FAILURE() << finding.code << " " << finding.what;
+}
+
 TEST(Val3dityRules, hold_for_files_that_are_given) {
   const char* given = std::getenv("MANSARD_JUDGE");  // NOLINT
   if (given == nullptr) GTEST_SKIP() << "MANSARD_JUDGE names no files";

@@ -44,11 +44,13 @@ TEST(Overlaps, are_none_between_neighbours_that_straighten_their_wall_by_themsel
   EXPECT_NEAR(r->city.buildings[1].parts[0].plan.outer.points[1].y, 0, 1e-4);
 }
 
-/// A part with nothing but a ground face, 3 m high.
-auto part_on(const std::string& id, const geometry::Ring& ring) -> model::Part {
-  model::Part part;
-  part.id = id;
-  auto& solid = part.model.solid;
+/// A building of one solid with nothing but a ground face, 3 m high.
+auto building_on(const std::string& id, const geometry::Ring& ring) -> model::Building {
+  model::Building building;
+  building.id = id;
+  building.parts.emplace_back().id = id + "-1";
+  model::Solid& solid = building.solids.emplace_back().model.solid;
+  building.solids[0].parts = {0};
   model::Face face;
   face.kind = model::FaceKind::base;
   face.loops.emplace_back();
@@ -58,16 +60,30 @@ auto part_on(const std::string& id, const geometry::Ring& ring) -> model::Part {
   }
   solid.vertices.push_back({ring[0].x, ring[0].y, 3});
   solid.faces.push_back(face);
-  return part;
+  return building;
+}
+
+TEST(Overlaps, are_told_of_a_tenth_of_a_millimetre_and_not_of_walls_that_coincide) {
+  const auto pairs = [](double wall) {
+    const geometry::Ring slanted{{0.1, 0.3}, {10.7, 0.4}, {10.2001, 8.3003}, {0.1, 8.1}};
+    geometry::Ring next{{10.7, 0.4}, {20, 0.4}, {20, 8}, {10.2001, 8.3003}};
+    next[0].x += wall, next[3].x += wall;
+    return detail::overlaps({building_on("a", slanted), building_on("b", next)});
+  };
+  EXPECT_THAT(pairs(0), testing::IsEmpty());
+  EXPECT_THAT(pairs(1e-4), testing::IsEmpty());
+  const auto some = pairs(-1e-4);
+  ASSERT_EQ(some.size(), 1U);
+  EXPECT_EQ(some[0].first.subject, "a-1");
+  EXPECT_NEAR(some[0].volume.value(), 7.9 * 1e-4 * 3, 1e-4);
 }
 
 TEST(Overlaps, that_cannot_be_computed_are_reported_in_both_buildings_and_once) {
   report::Reconstruction r;
   r.buildings.resize(3);
-  for (const char* id : {"a", "b", "c"}) r.city.buildings.emplace_back().id = id;
-  r.city.buildings[0].parts.push_back(part_on("a-1", {{0, 0}, {10, 10}, {10, 0}, {0, 10}}));  // crosses itself
-  r.city.buildings[1].parts.push_back(part_on("b-1", {{5, 5}, {15, 5}, {15, 15}, {5, 15}}));
-  r.city.buildings[2].parts.push_back(part_on("c-1", {{14, 5}, {24, 5}, {24, 15}, {14, 15}}));  // 10 m² in b
+  r.city.buildings.push_back(building_on("a", {{0, 0}, {10, 10}, {10, 0}, {0, 10}}));  // crosses itself
+  r.city.buildings.push_back(building_on("b", {{5, 5}, {15, 5}, {15, 15}, {5, 15}}));
+  r.city.buildings.push_back(building_on("c", {{14, 5}, {24, 5}, {24, 15}, {14, 15}}));  // 10 m² in b
   detail::report_overlaps(r);
   EXPECT_THAT(codes_of(r.warnings), testing::ElementsAre("pipeline-overlap-unchecked", "pipeline-overlap"));
   EXPECT_THAT(r.warnings[1].message, HasSubstr("1 pair "));

@@ -5,10 +5,12 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include "mansard/base/text.hpp"
 #include "mansard/formats/detail/drawn.hpp"
 #include "mansard/formats/plans/plan_text.hpp"
+#include "mansard/solid/unite.hpp"
 
 namespace mansard::formats::detail {
 namespace {
@@ -46,6 +48,45 @@ auto semantics_of(const Surface& surface) -> std::string {
     case FaceClass::roof: return roof_semantics(surface.normal);
   }
   return std::move(json.end_object()).str();
+}
+
+/// The prisms over the ground surfaces at each of some heights, as one solid. Empty where they are none. `lowered`: all
+/// stand as low as the lowest.
+auto prisms_over(const model::LabelledSolid& model, const std::set<double>& levels, double top, bool lowered)
+    -> std::vector<Surface> {
+  std::vector<model::LabelledSolid> prisms;
+  for (const double level : levels) {
+    auto& part = prisms.emplace_back(model);
+    for (std::size_t f = part.classes.size(); f-- > 0;) {
+      if (part.classes[f] != FaceClass::ground) continue;
+      auto& faces = part.solid.faces;
+      if (part.solid.vertices[faces[f].loops[0][0]].z == level) continue;
+      faces.erase(faces.begin() + static_cast<std::ptrdiff_t>(f));
+      part.classes.erase(part.classes.begin() + static_cast<std::ptrdiff_t>(f));
+    }
+    if (lowered)
+      for (auto& v : part.solid.vertices) v.z = *levels.begin();
+    part = solid::prism_over_ground(part, top);
+    if (part.solid.faces.empty()) return {};
+  }
+  std::vector<const model::LabelledSolid*> all;
+  for (const auto& prism : prisms) all.push_back(&prism);
+  const auto united = solid::unite(all);
+  if (united.solids.size() != 1 || !united.warnings.empty()) return {};
+  return quantised(united.solids.front().model);
+}
+
+/// LoD 1.2 of a solid, with a flat roof at `top`. Over ground at several heights it is the union of a prism on each;
+/// where that is not one solid, all stand at the lowest.
+auto flat_model(const model::LabelledSolid& model, const std::vector<Surface>& fine, double top)
+    -> std::vector<Surface> {
+  std::set<double> levels;
+  for (std::size_t f = 0; f < model.classes.size(); ++f)
+    if (model.classes[f] == FaceClass::ground) levels.insert(model.solid.vertices[model.solid.faces[f].loops[0][0]].z);
+  if (levels.size() > 1 && std::isfinite(top))
+    for (const bool lowered : {false, true})
+      if (auto made = prisms_over(model, levels, top, lowered); !made.empty()) return made;
+  return flat_prism(fine, top);
 }
 
 /// "28992" of "EPSG:28992"; empty for anything else, which a referenceSystem cannot name.
@@ -158,7 +199,7 @@ void CityObjects::add(const model::Building& building, const Gate::Keyed& keys,
     auto fine = quantised(part.model);
     const double top = roof_height(fine, part.attributes, frame_.origin[2]);
     const bool own = part.id == keys.building || (parts.size() == 1 && part.id == keys.parts[parts.front()]);
-    Shape& shape = shapes.emplace_back(Shape{part.id, {}, flat_prism(fine, top), std::move(fine)});
+    Shape& shape = shapes.emplace_back(Shape{part.id, {}, flat_model(part.model, fine, top), std::move(fine)});
     if (!own)
       for (const std::size_t p : parts) shape.of.push_back(keys.parts[p]);
   }

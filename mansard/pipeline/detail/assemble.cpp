@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 
-#include "mansard/pipeline/solids.hpp"
 #include "mansard/report/attributes.hpp"
 
 namespace mansard::pipeline::detail {
@@ -59,17 +58,17 @@ void measure_again(model::Part& part, const std::string& code, double z0) {
 
 }  // namespace
 
-void add_solids(std::span<model::Building> buildings, std::span<report::BuildingReport> reports, double z0) {
-  for (auto& [building, warnings, simplified] : unite_parts(buildings)) {
-    for (const std::size_t p : simplified) measure_again(buildings[building].parts[p], "solid-simplified", z0);
-    if (!simplified.empty()) {
-      reports[building].volume = 0;
-      for (const auto& part : buildings[building].parts) reports[building].volume += solid::volume(part.model.solid);
-    }
-    for (auto& warning : warnings) {
-      if (warning.code != "solid-not-united") reports[building].outcome = report::Outcome::fallback;
-      reports[building].reasons.push_back(std::move(warning));
-    }
+void add_solids(model::Building& building, report::BuildingReport& report, SolidsOf made, double z0) {
+  building.solids = std::move(made.solids);
+  for (const std::size_t p : made.simplified) measure_again(building.parts[p], "solid-simplified", z0);
+  if (!made.simplified.empty()) {
+    report.volume = 0;
+    for (const auto& part : building.parts) report.volume += solid::volume(part.model.solid);
+  }
+  for (auto& warning : made.warnings) {
+    warning.subject = building.id;
+    if (warning.code != "solid-not-united") report.outcome = report::Outcome::fallback;
+    report.reasons.push_back(std::move(warning));
   }
 }
 
@@ -151,6 +150,7 @@ auto assemble(const model::Scene& scene, const std::vector<block::Block>& blocks
       const std::size_t f = part.feature;
       take(std::move(part), results[b].report, z0, buildings[f], reports[f], accounts[f]);
     }
+    for (auto& [f, made] : results[b].solids) add_solids(buildings[f], reports[f], std::move(made), z0);
     for (const std::size_t f : results[b].covered) {
       reports[f].outcome = report::Outcome::covered;
       reports[f].reasons.push_back(base::warning(
@@ -173,7 +173,6 @@ auto assemble(const model::Scene& scene, const std::vector<block::Block>& blocks
     out.error_maps.push_back(std::move(results[b].map));
     out.warnings.insert(out.warnings.end(), results[b].warnings.begin(), results[b].warnings.end());
   }
-  add_solids(buildings, reports, z0);
   for (std::size_t i = 0; i < count; ++i) {
     if (accounts[i].area > 0) reports[i].rmse = std::sqrt(accounts[i].squared / accounts[i].area);
     auto& attributes = buildings[i].attributes;

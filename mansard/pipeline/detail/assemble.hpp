@@ -1,7 +1,6 @@
 // Puts the parts of all blocks together as buildings, with their attributes and their reports.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "mansard/pipeline/detail/block_run.hpp"
@@ -18,9 +17,9 @@ namespace mansard::pipeline::detail {
   return options;
 }
 
-/// Gives the buildings their solids; `reports[i]` is on `buildings[i]`. Of a building that is more than one solid, or a
-/// simpler one, the reasons say so. `z0` is the height of the frame's origin, for attributes.
-void add_solids(std::span<model::Building> buildings, std::span<report::BuildingReport> reports, double z0);
+/// Gives a building its solids. Where they are several, or simpler, the reasons of its report say so. `z0` is the
+/// height of the frame's origin, for attributes.
+void add_solids(model::Building& building, report::BuildingReport& report, SolidsOf made, double z0);
 
 void add(label::Areas& sum, const label::Areas& more);
 /// Of mansard.

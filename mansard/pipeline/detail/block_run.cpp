@@ -185,6 +185,28 @@ auto refused(const block::Block& block, const block::Options& options) -> BlockR
   return out;
 }
 
+namespace {
+
+/// The solids of every feature. What stands beyond the block does not matter: its parts come no nearer than footprints
+/// that do not touch.
+auto unite(std::vector<PartResult>& parts) -> std::vector<std::pair<std::size_t, SolidsOf>> {
+  std::vector<std::size_t> features;
+  std::vector<std::vector<model::LabelledSolid*>> models;
+  for (auto& part : parts) {
+    if (features.empty() || features.back() != part.feature) {
+      features.push_back(part.feature);
+      models.emplace_back();
+    }
+    models.back().push_back(&part.model);
+  }
+  auto united = unite_parts(models);
+  std::vector<std::pair<std::size_t, SolidsOf>> out;
+  for (std::size_t i = 0; i < features.size(); ++i) out.emplace_back(features[i], std::move(united[i]));
+  return out;
+}
+
+}  // namespace
+
 auto unsegmented(const block::Block& block, const base::Diagnostic& why) -> report::SegmentedBlock {
   report::SegmentedBlock out;
   out.name = block.name;
@@ -218,6 +240,7 @@ auto run_block(const block::Block& block, const Options& options, const base::Ru
     report.times.stages.push_back({"label", labelling.stop()});
   }
   report.parts = parts.size();
+  out.solids = stage("unite", tell, report, [&] { return unite(parts); });
 
   std::vector<model::LabelledSolid> models;
   std::vector<Polygon> footprints;

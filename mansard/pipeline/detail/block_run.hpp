@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mansard/pipeline/pipeline.hpp"
+#include "mansard/pipeline/solids.hpp"
 
 namespace mansard::pipeline::detail {
 
@@ -39,7 +40,8 @@ struct PartResult {
 
 struct BlockResult {
   report::BlockReport report;
-  std::vector<PartResult> parts;  ///< by feature
+  std::vector<PartResult> parts;                         ///< by feature
+  std::vector<std::pair<std::size_t, SolidsOf>> solids;  ///< by feature; numbers of parts count the feature's own
   evaluate::ErrorMap map;
   std::vector<std::size_t> covered;  ///< features whose ground went to their neighbours
   /// Features of which some ground has no model, because not even a prism can be extruded there, and why.

@@ -90,6 +90,10 @@ void place(BlockResult& result, const block::OwnFrame& frame) {
   const Way way(frame);
   for (auto& part : result.parts) place(part, way);
   std::ranges::stable_sort(result.parts, {}, &PartResult::feature);
+  for (auto& [feature, made] : result.solids) {
+    way.number(feature);
+    for (auto& solid : made.solids) move(solid.model.solid, way.by);
+  }
   way.move(result.map.origin);
   for (auto& feature : result.covered) way.number(feature);
   for (auto& [feature, why] : result.failed) way.number(feature);

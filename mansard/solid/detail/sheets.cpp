@@ -164,8 +164,8 @@ class Conforming {
     std::erase_if(s_.sheets, [](const Sheet& sheet) { return sheet.paths.empty(); });
   }
 
-  /// A roof that comes down to the ground beside another solid gets a wall of its own there, twice as high as what
-  /// becomes one: in one solid with the other, its edge would lie inside the ground.
+  /// A roof that comes down to the ground beside another solid gets a wall of its own there, three times as high as
+  /// what becomes one: in one solid with the other, its edge would lie inside the ground.
   auto lift_roofs() -> bool {
     constexpr std::uint32_t nobody = UINT32_MAX, several = UINT32_MAX - 1;
     std::vector<std::uint32_t> user(s_.places.size(), nobody);
@@ -178,17 +178,17 @@ class Conforming {
       if (sheet.facing != Facing::up) continue;
       for (Path& path : sheet.paths)
         for (Node& node : path)
-          if (node.z == s_.base[sheet.solid] && user[node.at] == several) node.z += 2 * near_, lifted = true;
+          if (node.z == s_.base[sheet.solid] && user[node.at] == several) node.z += 3 * near_, lifted = true;
     }
     return lifted;
   }
 
-  /// Steps of walls, and the points at their ends.
+  /// Steps of walls, and of the ground where a roof begins without one, and the points at their ends.
   void gather() {
     std::set<Step> steps;
     std::set<std::uint32_t> points;
     for (const Sheet& sheet : s_.sheets) {
-      if (sheet.facing != Facing::aside) continue;
+      if (sheet.facing == Facing::up) continue;
       for (const Path& path : sheet.paths)
         for (std::size_t i = 0; i < path.size(); ++i) {
           const Node &a = path[i], &b = path[(i + 1) % path.size()];
