@@ -8,6 +8,7 @@
 #include "mansard/evaluate/detail/plan_of_face.hpp"
 #include "mansard/evaluate/form.hpp"
 #include "mansard/geometry/angles.hpp"
+#include "mansard/geometry/extent.hpp"
 
 namespace mansard::evaluate {
 namespace {
@@ -45,42 +46,10 @@ auto roof_faces(const model::ModelBuilding& building, std::size_t& number) -> st
   return faces;
 }
 
-auto convex_hull(std::vector<Point2> points) -> std::vector<Point2> {
-  std::ranges::sort(points);
-  points.erase(std::ranges::unique(points).begin(), points.end());
-  if (points.size() < 3) return points;
-  std::vector<Point2> hull;
-  const auto add_chain = [&](auto first, auto last) {
-    const auto base = hull.size();
-    for (auto p = first; p != last; ++p) {
-      while (hull.size() >= base + 2 && cross(hull.back() - hull[hull.size() - 2], *p - hull.back()) <= 0)
-        hull.pop_back();
-      hull.push_back(*p);
-    }
-    hull.pop_back();
-  };
-  add_chain(points.begin(), points.end());
-  add_chain(points.rbegin(), points.rend());
-  return hull;
-}
-
-/// The shorter side of the rectangle of the smallest area around the points. A side of it lies on the hull.
 auto width_of(const Outline& plan) -> double {
   std::vector<Point2> points;
   for (const auto& polygon : plan) points.insert(points.end(), polygon.outer.begin(), polygon.outer.end());
-  const auto hull = convex_hull(std::move(points));
-  if (hull.size() < 3) return 0;
-  double least = std::numeric_limits<double>::infinity(), width = 0;
-  for (std::size_t i = 0; i < hull.size(); ++i) {
-    const Point2 along = normalised(hull[(i + 1) % hull.size()] - hull[i]), across = geometry::left_of(along);
-    double from = 0, to = 0, deep = 0;
-    for (const auto p : hull) {
-      const double a = dot(along, p - hull[i]);
-      from = std::min(from, a), to = std::max(to, a), deep = std::max(deep, dot(across, p - hull[i]));
-    }
-    if ((to - from) * deep < least) least = (to - from) * deep, width = std::min(to - from, deep);
-  }
-  return width;
+  return geometry::extent_of(std::move(points)).width;
 }
 
 /// Sets the plan and the width of a plane of these faces; false where the plan could not be computed.

@@ -12,6 +12,7 @@ constexpr const char* decision_14 = "docs/decisions/0014-refined-by-measured-err
 constexpr const char* decision_16 = "docs/decisions/0016-roof-steps.md";
 constexpr const char* decision_17 = "docs/decisions/0017-setbacks-by-measured-error.md";
 constexpr const char* decision_39 = "docs/decisions/0039-alike-what-is-alike.md";
+constexpr const char* decision_41 = "docs/decisions/0041-faces-want-evidence.md";
 
 constexpr Range share{0, 1};                 // of a whole, or a cosine
 constexpr Range count{0, 1000};              // things; none switches the step off
@@ -240,6 +241,19 @@ void add_pieces(OptionList& list, Options::Pieces& o) {
       .number("pieces_straight", o.straight, "m", length,
               "A corner of a joined part that is nearer to its neighbours' line than this is removed.")
       .advanced(by_hand);
+}
+
+void add_bare(OptionList& list, Options::Bare& o) {
+  list.integer("bare_cells", o.cells, "", count,
+               "A roof face narrower than this many samples pays part_price: no sample shows it alone.")
+      .advanced(decision_41)
+      .number("bare_steep", o.steep, "rad", angle,
+              "A steeper roof face stands for a wall, and pays part_price unless the scan shows it.")
+      .advanced("65°, as mansard evaluate counts them")
+      .number("bare_noise", o.noise, "m", length, "Samples within this distance of a steep face lie on it.")
+      .advanced("a scan's noise, as mansard evaluate takes it")
+      .number("bare_area", o.area, "m²", area, "A steep face with samples over this area is shown by the scan.")
+      .advanced("as mansard evaluate counts them");
 }
 
 void add_joins(OptionList& list, Options::Joins& o) {
@@ -541,6 +555,7 @@ auto option_list(Options& o) -> OptionList {
   add_sharpen(list, o.sharpen);
   add_alike(list, o.alike);
   add_pieces(list, o.pieces);
+  add_bare(list, o.bare);
   add_joins(list, o.joins);
   add_wings(list, o.wings);
   add_cuts(list, o.cuts);

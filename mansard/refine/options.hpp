@@ -122,6 +122,14 @@ struct Options {
     double straight = 1e-3;  ///< m
   } pieces;
 
+  /// Faces that the scan cannot have shown (bare).
+  struct Bare {
+    std::int64_t cells = 3;
+    double steep = 65 * std::numbers::pi / 180;  ///< rad
+    double noise = 0.15;                         ///< m
+    double area = 1;                             ///< m²
+  } bare;
+
   /// Which parts are joined, cut and cut again (work, owner).
   struct Joins {
     double touching = 0.05;  ///< m

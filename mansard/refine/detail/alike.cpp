@@ -124,7 +124,7 @@ class Alike {
   /// The lines, caps and ridges of a piece, with the ground of what is seen of them.
   void collect(std::size_t p) {
     const Piece& piece = pieces_[p];
-    const auto& [plan, sketch, view, misfit, cost] = piece.roof;
+    const auto& [plan, sketch, view, misfit, bare, unsupported, cost] = piece.roof;
     const auto& site = piece.site;
     const auto sides = sides_of(plan);
     const auto edges = edges_of(plan);
@@ -171,7 +171,7 @@ class Alike {
   }
 
   void collect_ridges(std::size_t p, const std::vector<std::vector<Edge>>& edges) {
-    const auto& [plan, sketch, view, misfit, cost] = pieces_[p].roof;
+    const auto& [plan, sketch, view, misfit, bare, unsupported, cost] = pieces_[p].roof;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> faces;  // by the edge they walk
     std::map<std::pair<std::size_t, std::size_t>, Ridge> longest;
     const auto edge_of = [&](const model::Face& face) -> const Edge& {

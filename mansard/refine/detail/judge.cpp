@@ -50,10 +50,13 @@ auto Judge::misfit_of(const std::vector<double>& z, double cap) const -> double 
 auto Judge::operator()(const model::Plan& plan) const -> base::Result<Judged> {
   auto sketch = extrude::sketch(plan, raising_, run_);
   if (!sketch) return sketch.error();
-  Judged out{plan, std::move(*sketch), {}, 0, 0};
+  Judged out{plan, std::move(*sketch), {}, 0, {}, 0, 0};
   out.view = view_of(out.sketch, site_.measured, site_.base);
   out.misfit = misfit_of(out.view.z);
-  out.cost = out.misfit + options_.face_price * static_cast<double>(out.sketch.faces.size());
+  out.bare = bare_faces(out.sketch, out.view, site_, options_);
+  // Evidence would have to come from elsewhere: as dear as a part.
+  out.unsupported = options_.part_price * static_cast<double>(out.bare.size());
+  out.cost = out.unsupported + out.misfit + options_.face_price * static_cast<double>(out.sketch.faces.size());
   return out;
 }
 

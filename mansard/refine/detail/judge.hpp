@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mansard/extrude/extrude.hpp"
+#include "mansard/refine/detail/bare.hpp"
 #include "mansard/refine/detail/site.hpp"
 #include "mansard/refine/detail/view.hpp"
 
@@ -21,8 +22,12 @@ struct Judged {
   model::Plan plan;
   model::Solid sketch;
   View view;
-  double misfit = 0;  ///< m² · m²: weighed robust squared differences times their area
-  double cost = 0;    ///< misfit and the price of the faces
+  double misfit = 0;                ///< m² · m²: weighed robust squared differences times their area
+  std::vector<std::uint32_t> bare;  ///< faces that nothing of the scan speaks for
+  double unsupported = 0;           ///< m² · m²: what those pay
+  double cost = 0;                  ///< misfit, the price of the faces, and what is unsupported
+  /// m² · m²: what another roof may save at most, beside faces.
+  [[nodiscard]] auto wrong() const -> double { return misfit + unsupported; }
 };
 
 class Judge {

@@ -9,6 +9,7 @@
 #include "mansard/refine/detail/forms.hpp"
 #include "mansard/refine/detail/order.hpp"
 #include "mansard/refine/detail/refit.hpp"
+#include "mansard/refine/detail/supported.hpp"
 
 namespace mansard::refine::detail {
 namespace {
@@ -151,7 +152,7 @@ auto best_roof(const Draft& draft, const Judge& judge, Search search, double wor
   const double faces_apart = judge.options().face_price;  // less misfit than one face costs: nothing can pay
   Judged best = std::move(*start);
   const auto before = best.plan;
-  if (best.misfit < faces_apart) return best;
+  if (best.wrong() < faces_apart) return best;
 
   if (search == Search::settled) return settle(std::move(best), judge);
   std::vector<Judged> starts;
@@ -170,7 +171,7 @@ auto best_roof(const Draft& draft, const Judge& judge, Search search, double wor
   if (search == Search::quick || best.cost > options.hopeless * worth) return best;
   for (std::int64_t round = 0; round < options.rounds; ++round) {
     const double cost = best.cost;
-    best = settle(descend(std::move(best), draft, judge), judge);
+    best = supported(settle(descend(std::move(best), draft, judge), judge), judge);
     if (best.cost > options.round_gain * cost) break;
   }
   const auto was = pitched_sides(before), is = pitched_sides(best.plan);

@@ -168,7 +168,8 @@ auto Work::may_join(const Piece& a, const Piece& b) const -> bool {
   if (!low || !high) return true;
   const double area = std::min(geometry::area(a.site.polygon), geometry::area(b.site.polygon));
   const double step = std::abs(*high - *low);
-  const double saved = options_.part_price + static_cast<double>(options_.joins.shared_faces) * options_.face_price;
+  const double saved = options_.part_price + static_cast<double>(options_.joins.shared_faces) * options_.face_price +
+                       a.roof.unsupported + b.roof.unsupported;
   return area * std::min(step * step, options_.robust * step) < saved;
 }
 
@@ -206,7 +207,7 @@ auto Work::tried(const Piece& piece, const Proposal& proposal, double worth) con
 
 auto Work::finished(Piece piece) const -> Piece {
   const bool keep = options_.effort == Effort::caps || piece.site.cells.empty() ||
-                    piece.roof.misfit < options_.face_price || run_.cancelled();
+                    piece.roof.wrong() < options_.face_price || run_.cancelled();
   if (keep) return piece;
   auto sharp = sharpened(piece.roof, Judge(piece.site, options_, raising_, run_));
   if (sharp.plan == piece.roof.plan) return piece;

@@ -1,0 +1,49 @@
+#include "mansard/geometry/extent.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace mansard::geometry {
+namespace {
+
+auto convex_hull(std::vector<Point2> points) -> std::vector<Point2> {
+  std::ranges::sort(points);
+  points.erase(std::ranges::unique(points).begin(), points.end());
+  if (points.size() < 3) return points;
+  std::vector<Point2> hull;
+  const auto add_chain = [&](auto first, auto last) {
+    const auto base = hull.size();
+    for (auto p = first; p != last; ++p) {
+      while (hull.size() >= base + 2 && cross(hull.back() - hull[hull.size() - 2], *p - hull.back()) <= 0)
+        hull.pop_back();
+      hull.push_back(*p);
+    }
+    hull.pop_back();
+  };
+  add_chain(points.begin(), points.end());
+  add_chain(points.rbegin(), points.rend());
+  return hull;
+}
+
+}  // namespace
+
+auto extent_of(std::vector<Point2> points) -> Extent {
+  const auto hull = convex_hull(std::move(points));
+  if (hull.size() < 3) return {};
+  double least = std::numeric_limits<double>::infinity();
+  Extent out;
+  for (std::size_t i = 0; i < hull.size(); ++i) {  // a side of the smallest rectangle lies on the hull
+    const Point2 along = normalised(hull[(i + 1) % hull.size()] - hull[i]), across = left_of(along);
+    double from = 0, to = 0, deep = 0;
+    for (const auto p : hull) {
+      const double a = dot(along, p - hull[i]);
+      from = std::min(from, a), to = std::max(to, a), deep = std::max(deep, dot(across, p - hull[i]));
+    }
+    if ((to - from) * deep >= least) continue;
+    least = (to - from) * deep;
+    out = {std::min(to - from, deep), std::max(to - from, deep)};
+  }
+  return out;
+}
+
+}  // namespace mansard::geometry

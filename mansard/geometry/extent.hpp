@@ -1,0 +1,18 @@
+// How long and how wide a set of points is.
+#pragma once
+
+#include <vector>
+
+#include "mansard/geometry/points.hpp"
+
+namespace mansard::geometry {
+
+struct Extent {
+  double width = 0, length = 0;  ///< m; width ≤ length
+};
+
+/// The sides of the rectangle of the smallest area around the points; 0 for points on one line. Cost: O(n log n) and
+/// O(n) for each corner of their hull.
+[[nodiscard]] auto extent_of(std::vector<Point2> points) -> Extent;
+
+}  // namespace mansard::geometry

@@ -1,0 +1,78 @@
+#include "mansard/refine/detail/bare.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "mansard/geometry/angles.hpp"
+#include "mansard/geometry/extent.hpp"
+
+namespace mansard::refine::detail {
+namespace {
+
+using geometry::Point2;
+using geometry::Point3;
+
+auto width_of(const model::Solid& solid, const model::Face& face) -> double {
+  std::vector<Point2> points;
+  for (const auto v : face.loops.front()) points.push_back(xy(solid.vertices[v]));
+  return geometry::extent_of(std::move(points)).width;
+}
+
+/// Whether every corner of the face lies in the plane of the other, and both face the same way.
+auto continues(const model::Solid& solid, const model::Face& face, const model::Face& other, double noise) -> bool {
+  constexpr double same_turn = 0.9994;  // the cosine of 2°: over the 3 m of a small face, half of the noise
+  if (dot(face.normal, other.normal) < same_turn) return false;
+  const Point3 at = solid.vertices[other.loops.front().front()];
+  return std::ranges::all_of(face.loops.front(), [&](std::uint32_t v) {
+    return std::abs(dot(solid.vertices[v] - at, other.normal)) <= noise;
+  });
+}
+
+/// m², per face, of what is measured on it and away from its edges; of steep faces only.
+auto carried(const model::Solid& solid, const View& view, const Site& site, const std::vector<bool>& steep,
+             double noise) -> std::vector<double> {
+  std::vector<double> out(solid.faces.size(), 0);
+  const auto& grid = site.measured;
+  for (const auto cell : site.cells) {
+    if (std::isnan(view.z[cell])) continue;
+    const auto f = view.face[cell];
+    if (!steep[f]) continue;
+    const std::size_t column = cell % grid.columns, row = cell / grid.columns;
+    if (column == 0 || row == 0 || column + 1 == grid.columns || row + 1 == grid.rows) continue;
+    const auto same = [&](std::size_t other) { return !std::isnan(view.z[other]) && view.face[other] == f; };
+    if (!same(cell - 1) || !same(cell + 1) || !same(cell - grid.columns) || !same(cell + grid.columns)) continue;
+    const double upright = solid.faces[f].normal.z;
+    if (std::abs(view.z[cell] - grid.z[cell]) * upright <= noise) out[f] += site.cell_area / upright;
+  }
+  return out;
+}
+
+}  // namespace
+
+auto bare_faces(const model::Solid& solid, const View& view, const Site& site, const Options& options)
+    -> std::vector<std::uint32_t> {
+  constexpr double upright = 1e-6;  // a wall's normal: see view_of
+  const auto& o = options.bare;
+  const double steepest = geometry::cosine(o.steep), least = static_cast<double>(o.cells) * options.grid;
+  std::vector<std::uint32_t> wide, narrow;
+  std::vector<bool> steep(solid.faces.size(), false);
+  for (std::uint32_t f = 0; f < solid.faces.size(); ++f) {
+    const auto& face = solid.faces[f];
+    if (!(face.normal.z > upright)) continue;
+    const bool is_wide = width_of(solid, face) >= least;
+    (is_wide ? wide : narrow).push_back(f);
+    steep[f] = is_wide && face.normal.z < steepest;
+  }
+  std::vector<std::uint32_t> out;
+  for (const auto f : narrow)
+    if (std::ranges::none_of(wide, [&](auto w) { return continues(solid, solid.faces[f], solid.faces[w], o.noise); }))
+      out.push_back(f);
+  if (std::ranges::find(steep, true) == steep.end()) return out;
+  const auto on = carried(solid, view, site, steep, o.noise);
+  for (const auto f : wide)
+    if (steep[f] && on[f] < o.area) out.push_back(f);
+  return out;
+}
+
+}  // namespace mansard::refine::detail
