@@ -142,5 +142,19 @@ TEST(Chains, hold_every_segment_once) {
   EXPECT_EQ(join(noisy(rectangle, 0.1, 1)).size(), 1u) << "a ring is one chain";
 }
 
+TEST(Chains, that_are_closed_begin_at_one_point_of_several_that_are_as_far_west) {
+  const std::vector<Point2> ring{{0, 0.3}, {1, 0}, {2, 1}, {1, 3}, {0, 2.2}, {0.4, 1.1}};
+  const auto first_of = [&](double west, std::size_t moved) {
+    auto points = ring;
+    points[moved].x -= west;
+    std::vector<Segment2> segments;
+    for (std::size_t i = 0; i < points.size(); ++i) segments.push_back({points[i], points[(i + 1) % points.size()]});
+    return join(segments).at(0).front().y;
+  };
+  EXPECT_EQ(first_of(1e-6, 0), 0.3);
+  EXPECT_EQ(first_of(1e-6, 4), 0.3) << "the northern one is a micrometre farther west";
+  EXPECT_EQ(first_of(0.5, 4), 2.2);
+}
+
 }  // namespace
 }  // namespace mansard::sweep::detail

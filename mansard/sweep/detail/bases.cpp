@@ -17,6 +17,9 @@ using geometry::Segment2;
 
 namespace {
 
+/// A little less than half: of lines of one length, half of them are half of the sum only by rounding.
+constexpr double half_way = 0.5 - 1e-6;
+
 /// m; an extent is a difference of two heights up to 10 km, each off by half a unit in the last place (2⁻⁴⁰ m), plus
 /// the interval: 4 · 2⁻⁴⁰ m < 1e-9 m, and no slice interval is so fine.
 constexpr double height_rounding = 1e-9;
@@ -46,7 +49,7 @@ auto main_frame(const std::vector<WeighedLine>& lines) -> Frame {
   double passed = 0;
   for (const auto& [turn, i] : turns) {
     passed += lines[i].length;
-    if (passed >= 0.5 * total) {
+    if (passed >= half_way * total) {
       const auto& s = lines[i].line.segment;
       return {lines.front().line.segment.start, normalised(s.end - s.start)};
     }
@@ -139,8 +142,9 @@ void find_foot(Column& column, double interval, double tidy, const Options& o) {
       walls.push_back(run);
       tallest = std::max(tallest, extent(run));
     }
-    const auto wall = std::find_if(walls.begin(), walls.end(),
-                                   [&](const Range& r) { return extent(r) >= o.wall_lower_share * tallest; });
+    const auto wall = std::find_if(walls.begin(), walls.end(), [&](const Range& r) {
+      return extent(r) >= o.wall_lower_share * tallest - height_rounding;
+    });
     if (wall == walls.end()) continue;
     std::vector<double> depths;
     for (auto i = wall->first; i <= wall->last; ++i) depths.push_back(samples[i].depth);
@@ -174,7 +178,7 @@ void drop_hips(const std::vector<Column>& columns, Group& used, const Options& o
   std::vector<double> lows;
   for (const auto k : used) lows.push_back(columns[k].low);
   const double eaves = base::mean_median(std::move(lows));
-  std::erase_if(used, [&](std::size_t k) { return columns[k].low > eaves + o.gutter_rise; });
+  std::erase_if(used, [&](std::size_t k) { return columns[k].low > eaves + o.gutter_rise + height_rounding; });
 }
 
 /// Columns of cars and hedges in line with a wall that is taller than they.

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
+#include <utility>
+
+#include "mansard/sweep/detail/units.hpp"
 
 namespace mansard::sweep::detail {
 
@@ -52,7 +56,14 @@ auto join(std::vector<Segment2> segments) -> std::vector<Chain> {
   };
   for (std::size_t i = 0; i < segments.size(); ++i)  // open chains from their loose ends, so that none is broken
     if (used[i] == 0 && !std::binary_search(ends.begin(), ends.end(), segments[i].start)) follow(i);
-  for (std::size_t i = 0; i < segments.size(); ++i)
+  // Closed ones from their westernmost point. Vertices of a raster have one x, so that rounding would choose among
+  // them.
+  std::vector<std::size_t> order(segments.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) {
+    return std::pair(in_units(segments[i].start.x), in_units(segments[i].start.y));
+  });
+  for (const std::size_t i : order)
     if (used[i] == 0) follow(i);
   return chains;
 }

@@ -8,6 +8,7 @@
 
 #include "mansard/geometry/angles.hpp"
 #include "mansard/sweep/detail/line_index.hpp"
+#include "mansard/sweep/detail/units.hpp"
 
 namespace mansard::sweep::detail {
 
@@ -97,7 +98,7 @@ auto grow_clusters(const LineStack& stack, const Options& options, const base::R
   std::sort(order.begin(), order.end(), [&](Place p, Place q) {
     const auto &a = at(p), &b = at(q);
     const double wa = a.good * (a.low ? options.low_weight : 1), wb = b.good * (b.low ? options.low_weight : 1);
-    if (wa != wb) return wa > wb;
+    if (in_units(wa) != in_units(wb)) return wa > wb;
     if (p.slice != q.slice) return p.slice < q.slice;
     return a.line.segment < b.line.segment;
   });

@@ -12,6 +12,7 @@
 
 #include "mansard/geometry/fit.hpp"
 #include "mansard/sweep/detail/chains.hpp"
+#include "mansard/sweep/detail/units.hpp"
 
 namespace mansard::sweep::detail {
 namespace {
@@ -132,7 +133,7 @@ void add_pieces(const Chain& chain, Point2 origin, double tolerance, const Optio
 }
 
 auto longer(const Piece& a, const Piece& b) -> bool {
-  if (a.length() != b.length()) return a.length() > b.length();
+  if (in_units(a.length()) != in_units(b.length())) return a.length() > b.length();
   return Segment2{a.start(), a.end()} < Segment2{b.start(), b.end()};
 }
 

@@ -10,6 +10,7 @@
 
 #include "mansard/sweep/detail/bases.hpp"
 #include "mansard/sweep/detail/line_index.hpp"
+#include "mansard/sweep/detail/units.hpp"
 
 namespace mansard::sweep::detail {
 
@@ -45,6 +46,9 @@ auto weigh(const Side& side, double interval, const Options& o) -> Evidence {
 
 auto span(const Segment2& s) -> double { return length(s.end - s.start); }
 
+/// A coordinate moved by a micrometre moves a length by two, far less than this share of a spacing of decimetres.
+constexpr double column_rounding = 1e-4;
+
 /// m outside the footprints; 0 inside.
 class Outline {
  public:
@@ -65,8 +69,9 @@ class Outline {
   std::vector<geometry::Box2> boxes_;
 };
 
+/// Edges are whole columns long, so that many are whole multiples of the spacing: rounding must not add a point.
 auto samples_of(const Segment2& s, double spacing) -> std::vector<Point2> {
-  const auto n = static_cast<std::size_t>(std::ceil(span(s) / spacing)) + 1;
+  const auto n = static_cast<std::size_t>(std::ceil(span(s) / spacing - column_rounding)) + 1;
   std::vector<Point2> points;
   for (std::size_t k = 0; k <= n; ++k)
     points.push_back(s.start + (static_cast<double>(k) / static_cast<double>(n)) * (s.end - s.start));
@@ -111,7 +116,7 @@ auto put_together(std::vector<Side> sides, const slice::SliceStack& stack, doubl
   for (auto& c : found)
     if (c) candidates.push_back(std::move(*c));
   std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-    return a.area != b.area ? a.area > b.area : a.base < b.base;
+    return in_units(a.area) != in_units(b.area) ? a.area > b.area : a.base < b.base;
   });
 
   std::vector<Segment2> bases;
@@ -206,8 +211,8 @@ void drop_twins(SweepEdges& found, const Options& o) {
   std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t k) {
     const auto &a = found.edges[i], &b = found.edges[k];
     const double area_a = found.clusters[a.cluster].area, area_b = found.clusters[b.cluster].area;
-    if (area_a != area_b) return area_a > area_b;
-    if (a.area != b.area) return a.area > b.area;
+    if (in_units(area_a) != in_units(area_b)) return area_a > area_b;
+    if (in_units(a.area) != in_units(b.area)) return a.area > b.area;
     return a.segment != b.segment ? a.segment < b.segment : i < k;
   });
   std::vector<char> gone(found.edges.size(), 0);
