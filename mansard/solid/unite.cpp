@@ -72,13 +72,29 @@ struct Attempt {
   std::string why;
 };
 
+/// Several solids keep the corners of each other that they have on their walls.
+auto pinned_between(const detail::Sheets& sheets) -> detail::Sheets {
+  detail::Sheets out = sheets;
+  out.pinned.resize(out.places.size(), 0);
+  std::vector<std::uint32_t> user(out.places.size(), UINT32_MAX);
+  for (const auto& sheet : out.sheets)
+    for (const auto& path : sheet.paths)
+      for (const auto& node : path) {
+        auto& pinned = out.pinned[node.at];
+        if (user[node.at] == UINT32_MAX) user[node.at] = sheet.solid;
+        else if (user[node.at] != sheet.solid && pinned == 0) pinned = detail::of_a_building;
+      }
+  return out;
+}
+
 /// The union of those solids of which there are sheets. It is made and checked near the origin, where no coordinate has
 /// more digits than another.
-auto made_of(const detail::Sheets& sheets, std::span<const LabelledSolid* const> parts) -> Attempt {
+auto made_of(const detail::Sheets& sheets, std::span<const LabelledSolid* const> parts, bool alone = true) -> Attempt {
   auto made = detail::union_of(sheets, parts);
   if (!made.why.empty()) return {{}, made.why};
   if (!detail::finish(made, planar)) return {{}, "a face crosses itself"};
   auto solids = apart(made.model, made.solid_of_face);
+  if (solids.size() > 1 && alone) return made_of(pinned_between(sheets), parts, false);
   for (One& one : solids)
     if (!check(one.model.solid, written_rules()).empty()) {
       place(one.model.solid, sheets);  // so that the message names a place that can be found
@@ -103,9 +119,11 @@ auto made_of(const detail::Sheets& sheets, std::span<const LabelledSolid* const>
 struct Reach {
   std::int64_t near = model::least_apart;
   bool prisms = false;
+  bool corners = true;  ///< whether corners are cut where solids would meet in an upright line only
 };
-/// Where parts overlap by more than the least, or a face is caught between points that near, 5 mm and 2 cm help.
-constexpr std::array reaches{Reach{}, Reach{50}, Reach{200}, Reach{model::least_apart, true}};
+/// Corners are cut where there is no union without. Where parts overlap by more than the least, or a face is caught
+/// between points that near, 5 mm and 2 cm help.
+constexpr std::array reaches{Reach{.corners = false}, Reach{}, Reach{50}, Reach{200}, Reach{.prisms = true}};
 
 class Uniting {
  public:
@@ -138,6 +156,7 @@ class Uniting {
       plan_ = detail::sheets_of(parts_, reach_.near);
       if (!plan_) why_ = "it has overhanging eaves";
       else if (!detail::conform(*plan_)) why_ = "edges cross again and again";
+      else if (reach_.corners) detail::cut_corners(*plan_, std::vector<std::uint32_t>(parts_.size(), 0));
     }
     if (why_.empty()) return made_of(sheets_of(which, pinned), parts_);
     if (which.size() == parts_.size()) return {{}, why_};
@@ -304,21 +323,23 @@ class Uniting {
 };
 
 /// The first result without a warning, over plans in which ever more becomes one; else that with the fewest loose
-/// solids, of those the one with the fewest parts simplified or left out, and then with the fewest solids at all.
+/// solids, of those the one with the fewest parts simplified or left out, then with the fewest solids, then with the
+/// fewest warnings.
 template <class Make>
 auto best(Make make) {
   std::optional<std::vector<United>> chosen;
-  std::array<std::size_t, 3> least{};
+  std::array<std::size_t, 4> least{};
   for (const Reach& reach : reaches) {
     if (reach.prisms && least[0] == 0) break;
     std::vector<United> made = make(reach);
-    std::array<std::size_t, 3> lacking{};
+    std::array<std::size_t, 4> lacking{};
     bool as_asked = true;
     for (const United& one : made) {
       for (const auto& warning : one.warnings) lacking[1] += warning.code == "solid-not-united" ? 0 : 1;
       as_asked = as_asked && one.warnings.empty() && one.loose == 0;
       lacking[0] += one.loose;
       lacking[2] += one.solids.size();
+      lacking[3] += one.warnings.size();
     }
     if (!chosen || lacking < least) chosen = std::move(made), least = lacking;
     if (as_asked) break;
@@ -373,6 +394,7 @@ auto united_over_one_plan(std::span<const std::vector<const LabelledSolid*>> bui
     }
     return out;
   }
+  if (reach.corners) detail::cut_corners(*all, group.owner);
   std::vector<std::uint32_t> user(all->places.size(), UINT32_MAX);
   all->pinned.assign(all->places.size(), 0);
   for (const auto& sheet : all->sheets)

@@ -141,7 +141,8 @@ auto flat_prism(const std::vector<Surface>& solid, double z) -> std::vector<Surf
         // Seen from below the ground runs counter-clockwise, so outside is to the left of its edges seen from above.
         const auto n = geometry::normalised(geometry::Point2{-dy, dx});
         const geometry::Point3 normal{n.x, n.y, 0};
-        if (std::hypot(dx, dy) < model::narrowest_face * static_cast<double>(top - a[2])) {
+        const double width = std::hypot(dx, dy), height = static_cast<double>(top - a[2]);
+        if (width < model::narrowest_face * height || height < model::narrowest_face * width) {
           prism.push_back({{{b, a, a_top}}, kind, normal});
           prism.push_back({{{b, a_top, b_top}}, kind, normal});
         } else {
