@@ -31,7 +31,8 @@ class Globe {
   /// None for a frame without CRS. Fails with "write-tiles-crs" where PROJ cannot go from there to WGS 84.
   [[nodiscard]] static auto of(const model::Frame& frame) -> base::Result<std::optional<Globe>>;
 
-  /// Every point, in place: longitude and latitude in degrees on WGS 84, height in metres. Fails with "write-tiles-crs".
+  /// Every point, in place: longitude and latitude in degrees on WGS 84, height in metres. Fails with
+  /// "write-tiles-crs".
   [[nodiscard]] auto to_angles(std::vector<geometry::Point3>& points) const -> base::Result<void>;
   /// Every point, in place. Fails with "write-tiles-crs".
   [[nodiscard]] auto to_earth(std::vector<geometry::Point3>& points) const -> base::Result<void>;
