@@ -34,16 +34,16 @@ auto levelled(const Plan& plan, const Site& site, const Options::Forms& options)
   return flat;
 }
 
-/// Up to its ridge. A scan rounds ridges off, so that a roof that ends flat just below suits it better.
+/// Up to its ridge, where that is no higher than a scan rounds off: a roof that ends flat just below suits it better.
 auto uncut(Judged judged, const Judge& judge, double most) -> Judged {
   const auto is_cap = [](const model::Face& face) { return face.kind == model::FaceKind::cap; };
   if (std::ranges::all_of(judged.plan.profiles, is_wall) || std::ranges::none_of(judged.sketch.faces, is_cap))
     return judged;
-  const auto box = geometry::bounds(judge.site().polygon.outer);
   Plan plan = judged.plan;
-  plan.cap += judge.options().forms.max_slope * geometry::length(box.most - box.least);  // higher than any ridge
+  plan.cap += judge.options().samples.melt;
   auto whole = judge(plan);
-  return whole && whole->cost <= most ? std::move(*whole) : judged;
+  const bool closes = whole && whole->cost <= most && std::ranges::none_of(whole->sketch.faces, is_cap);
+  return closes ? std::move(*whole) : judged;
 }
 
 }  // namespace
