@@ -119,7 +119,7 @@ auto made_of(const detail::Sheets& sheets, std::span<const LabelledSolid* const>
 struct Reach {
   std::int64_t near = model::least_apart;
   bool prisms = false;
-  bool corners = true;  ///< whether corners are cut where solids would meet in an upright line only
+  bool corners = true;  ///< whether corners are cut where solids would meet in an vertical line only
 };
 /// Corners are cut where there is no union without. Where parts overlap by more than the least, or a face is caught
 /// between points that near, 5 mm and 2 cm help.

@@ -1,4 +1,4 @@
-// Solids that meet in an upright line only, as two towers across a corner of a courtyard: no 2-manifold can have that,
+// Solids that meet in an vertical line only, as two towers across a corner of a courtyard: no 2-manifold can have that,
 // so a corner of a few millimetres is cut off one of them.
 #include <algorithm>
 #include <cmath>
@@ -64,7 +64,7 @@ class Cutting {
             static_cast<double>(s_.places[to][1] - s_.places[from][1])};
   }
 
-  /// Counter-clockwise. None where a roof has an upright edge there.
+  /// Counter-clockwise. None where a roof has an vertical edge there.
   [[nodiscard]] auto sectors_at(std::uint32_t p, std::uint32_t owner) const -> std::optional<std::vector<Sector>> {
     std::vector<std::pair<double, Sector>> found;
     for (const auto& [s, k] : uses_[p]) {

@@ -74,7 +74,7 @@ using Sides = std::map<Step, Side>;
 /// cross, and where one roof passes through another along them. False where this does not come to an end.
 [[nodiscard]] auto conform(Sheets& sheets) -> bool;
 
-/// Where solids of one owner would meet in an upright line only, cuts a corner off the solids on one side, 1.3 mm to 2
+/// Where solids of one owner would meet in an vertical line only, cuts a corner off the solids on one side, 1.3 mm to 2
 /// cm long: what is beside them takes it, so that it is joined across the corner, else there is a gap. Where the corner
 /// is too sharp, or too near the next one, nothing is cut. After conform(). Whether anything was.
 auto cut_corners(Sheets& sheets, const std::vector<std::uint32_t>& owner_of_solid) -> bool;
