@@ -248,7 +248,7 @@ void add_bare(OptionList& list, Options::Bare& o) {
                "A roof face narrower than this many samples pays part_price: no sample shows it alone.")
       .advanced(decision_41)
       .number("bare_steep", o.steep, "rad", angle,
-              "A steeper roof face stands for a wall, and pays part_price unless the scan shows it.")
+              "A steeper roof face is a wall in truth, and pays part_price unless the scan shows it.")
       .advanced("65°, as mansard evaluate counts them")
       .number("bare_noise", o.noise, "m", length, "Samples within this distance of a steep face lie on it.")
       .advanced("a scan's noise, as mansard evaluate takes it")
