@@ -13,6 +13,7 @@ constexpr const char* decision_16 = "docs/decisions/0016-roof-steps.md";
 constexpr const char* decision_17 = "docs/decisions/0017-setbacks-by-measured-error.md";
 constexpr const char* decision_39 = "docs/decisions/0039-alike-what-is-alike.md";
 constexpr const char* decision_41 = "docs/decisions/0041-faces-want-evidence.md";
+constexpr const char* decision_42 = "docs/decisions/0042-dormers.md";
 
 constexpr Range share{0, 1};                 // of a whole, or a cosine
 constexpr Range count{0, 1000};              // things; none switches the step off
@@ -384,6 +385,34 @@ void add_cuts(OptionList& list, Options::Cuts& o) {
       .advanced("half of refine.cuts_min_step; not measured");
 }
 
+void add_dormers(OptionList& list, Options::Dormers& o) {
+  list.number(
+          "dormers_price", o.price, "m²·m²", {0, 1e9},
+          "A dormer must reduce the sum of squared differences by this much; 0 looks for none. It is a few numbers on "
+          "a slope, so it is cheaper than a part.")
+      .advanced(decision_42)
+      .number("dormers_min_width", o.min_width, "m", positive_length, "The minimum width of a dormer.")
+      .advanced("dormers of 1.2 m and more, less half a sample")
+      .number("dormers_max_width", o.max_width, "m", positive_length,
+              "The maximum width and depth of a dormer; what is larger may become a part by a cut.")
+      .advanced(by_hand)
+      .number("dormers_min_rise", o.min_rise, "m", positive_length, "The minimum height of a dormer's front.")
+      .advanced(by_hand)
+      .number("dormers_max_rise", o.max_rise, "m", positive_length, "The maximum height of a dormer's front.")
+      .advanced(by_hand)
+      .number("dormers_min_slope", o.min_slope, "", slope, "Dormers stand on slopes at least as steep as this.")
+      .advanced(by_hand)
+      .number("dormers_max_slope", o.max_slope, "", slope, "Dormers stand on slopes no steeper than this.")
+      .advanced(by_hand)
+      .number(
+          "dormers_max_rest", o.max_rest, "", share,
+          "Share of the squared difference from the slope that a dormer may leave; a tree or a chimney leaves more.")
+      .advanced(decision_42)
+      .number("dormers_gable_gain", o.gable_gain, "", share,
+              "A dormer is gabled where that leaves less than this share of the error of a level one.")
+      .advanced(by_hand);
+}
+
 void add_directions(OptionList& list, Options::Directions& o) {
   list.number("directions_same", o.same, "rad", angle,
               "Edges of a part that differ by at most this have one direction.")
@@ -559,6 +588,7 @@ auto option_list(Options& o) -> OptionList {
   add_joins(list, o.joins);
   add_wings(list, o.wings);
   add_cuts(list, o.cuts);
+  add_dormers(list, o.dormers);
   add_directions(list, o.directions);
   add_regions(list, o.regions);
   add_outlines(list, o.outlines);

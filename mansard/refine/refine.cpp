@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <ranges>
 
 #include "mansard/refine/detail/alike.hpp"
 #include "mansard/refine/detail/owner.hpp"
@@ -28,7 +29,9 @@ auto refine(std::span<const Draft> drafts, const rays::Scene& mesh, const Option
     std::ranges::move(one.rest.failed, std::back_inserter(out.failed));
   }
   if (options.effort != Effort::caps) detail::make_alike(pieces, work);
-  for (auto& piece : pieces)
+  std::vector<std::vector<detail::Piece>> made(pieces.size());
+  base::parallel_for(pieces.size(), [&](std::size_t i) { made[i] = work.with_dormers(std::move(pieces[i])); });
+  for (auto& piece : std::views::join(made))
     out.parts.push_back({drafts[piece.draft_index].owner, piece.draft_index, std::move(piece.roof.plan),
                          std::move(*piece.raised), std::move(piece.changes)});
   std::ranges::stable_sort(out.parts, {}, &Part::draft);

@@ -5,8 +5,10 @@
 #include <functional>
 #include <utility>
 
+#include "mansard/refine/detail/dormers.hpp"
 #include "mansard/refine/detail/order.hpp"
 #include "mansard/refine/detail/pieces.hpp"
+#include "mansard/refine/detail/refit.hpp"
 #include "mansard/refine/detail/sharpen.hpp"
 #include "mansard/refine/detail/wings.hpp"
 
@@ -209,13 +211,40 @@ auto Work::finished(Piece piece) const -> Piece {
   const bool keep = options_.effort == Effort::caps || piece.site.cells.empty() ||
                     piece.roof.wrong() < options_.face_price || run_.cancelled();
   if (keep) return piece;
-  auto sharp = sharpened(piece.roof, Judge(piece.site, options_, raising_, run_));
+  auto roof = piece.roof;
+  if (options_.effort == Effort::parts && options_.dormers.price > 0 && roof.misfit >= options_.dormers.price)
+    if (const auto dormers = dormers_on(roof, piece.site, options_); !dormers.empty()) {
+      // The planes were moved towards what stands on them.
+      Site without = without_dormers(piece.site, dormers, options_.samples.melt, options_);
+      piece.whole = std::exchange(piece.site, std::move(without));
+      const Judge judge(piece.site, options_, raising_, run_);
+      if (auto moved = judge(refitted(roof, piece.site, options_))) roof = std::move(*moved);
+    }
+  auto sharp = sharpened(std::move(roof), Judge(piece.site, options_, raising_, run_));
   if (sharp.plan == piece.roof.plan) return piece;
   auto raised = extrude::raise(sharp.plan, raising_, run_);
   if (!raised || raised->outcome != extrude::Outcome::full) return piece;
   piece.roof = std::move(sharp);
   piece.raised = std::move(*raised);
   return piece;
+}
+
+auto Work::with_dormers(Piece piece) const -> std::vector<Piece> {
+  std::vector<Piece> out;
+  if (piece.whole && !run_.cancelled()) {
+    for (const auto& dormer : dormers_on(piece.roof, *piece.whole, options_)) {
+      auto holed = with_hole(piece.roof.plan, dormer);
+      auto host = raised(holed), own = raised(dormer.plan);
+      if (!host || host->outcome != extrude::Outcome::full || !own || own->outcome != extrude::Outcome::full) continue;
+      piece.roof.plan = std::move(holed);
+      piece.raised = std::move(*host);
+      Piece part{piece.draft_index, {}, {}, {}, std::move(*own), {"a part of its own: a dormer"}};
+      part.roof.plan = dormer.plan;
+      out.push_back(std::move(part));
+    }
+  }
+  out.insert(out.begin(), std::move(piece));
+  return out;
 }
 
 auto Work::with_roof(const Piece& piece, const model::Plan& plan, double most) const -> std::optional<Piece> {

@@ -21,7 +21,8 @@ struct Piece {
   Judged roof;
   std::optional<extrude::Raised> raised;  ///< in full; none until the search was thorough
   std::vector<std::string> changes;
-  std::size_t number = 0;  ///< no other piece of its owner ever has it: what was tried with it is known by it
+  std::optional<Site> whole = {};  ///< with the dormers, where the site is without
+  std::size_t number = 0;          ///< no other piece of its owner ever has it: what was tried with it is known by it
 };
 
 /// Two pieces under one roof that was found quickly.
@@ -67,6 +68,8 @@ class Work {
 
   /// The piece with its planes where they were before the scan melted them, where a solid can be made of that.
   [[nodiscard]] auto finished(Piece piece) const -> Piece;
+  /// The piece with a hole for every dormer on it, and the dormers; the piece alone where there are none.
+  [[nodiscard]] auto with_dormers(Piece piece) const -> std::vector<Piece>;
   /// The piece under another roof; none where that costs more, or no solid can be made of it.
   [[nodiscard]] auto with_roof(const Piece& piece, const model::Plan& plan, double most) const -> std::optional<Piece>;
   [[nodiscard]] auto raised(const model::Plan& plan) const { return extrude::raise(plan, raising_, run_); }

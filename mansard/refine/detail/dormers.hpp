@@ -1,0 +1,30 @@
+// Dormers: small boxes and gables that stand on a slope, each a part with a plan of its own.
+#pragma once
+
+#include <vector>
+
+#include "mansard/refine/detail/judge.hpp"
+
+namespace mansard::refine::detail {
+
+/// A rectangle on a slope, its front parallel to the eaves; its roof is level, or a gable with the ridge up the slope,
+/// and ends at the back where the slope reaches its eaves.
+struct Dormer {
+  model::Plan plan;
+  std::uint32_t ring = 0, edge = 0;  ///< of the host's plan: the slope rises from it
+  model::Profile back;               ///< what the slope does behind it, from the back edge of its hole
+  double gain = 0;                   ///< m²·m²; what it takes off the sum of squared differences
+};
+
+/// Dormers on the slopes of a roof, those that explain most first; none near to another. Cost: O(cells) and some
+/// hundred passes over the samples around each.
+[[nodiscard]] auto dormers_on(const Judged& judged, const Site& site, const Options& options) -> std::vector<Dormer>;
+
+/// The host's plan with a hole for the dormer.
+[[nodiscard]] auto with_hole(const model::Plan& host, const Dormer& dormer) -> model::Plan;
+
+/// The site without the samples within `aside` metres of a dormer.
+[[nodiscard]] auto without_dormers(const Site& site, const std::vector<Dormer>& dormers, double aside,
+                                   const Options& options) -> Site;
+
+}  // namespace mansard::refine::detail
