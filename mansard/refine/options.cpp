@@ -400,9 +400,9 @@ void add_dormers(OptionList& list, Options::Dormers& o) {
       .advanced(by_hand)
       .number("dormers_max_rise", o.max_rise, "m", positive_length, "The maximum height of a dormer's front.")
       .advanced(by_hand)
-      .number("dormers_min_slope", o.min_slope, "", slope, "Dormers stand on slopes at least as steep as this.")
+      .number("dormers_min_slope", o.min_slope, "", slope, "Dormers are on slopes at least as steep as this.")
       .advanced(by_hand)
-      .number("dormers_max_slope", o.max_slope, "", slope, "Dormers stand on slopes no steeper than this.")
+      .number("dormers_max_slope", o.max_slope, "", slope, "Dormers are on slopes no steeper than this.")
       .advanced(by_hand)
       .number(
           "dormers_max_rest", o.max_rest, "", share,
