@@ -110,8 +110,8 @@ auto terms_text(const Numbers& n) -> std::string {
 }
 
 auto image_of(const Picture& picture, const std::string& setting) -> std::string {
-  return "<img loading=\"lazy\" src=\"" + escape(picture.name) + "\" alt=\"" + escape(picture.alt + ", " + setting) +
-         "\"/>\n";
+  return "<img loading=\"lazy\" src=\"" + escape(picture.name) + "\" alt=\"" +
+         escape(picture.alt + (setting.empty() ? "" : ", " + setting)) + "\"/>\n";
 }
 
 /// As in the paper's Figure 6: the models, the plan, the vertical error; with what was chosen and what it cost.
@@ -152,8 +152,8 @@ auto picture_figures(const std::vector<const Row*>& rows) -> std::string {
       if (kind >= row->pictures.size()) continue;
       const auto& picture = row->pictures[kind];
       const auto words = setting_text(row->setting);
-      const auto image = "<img src=\"" + escape(picture.name) + "\" alt=\"" + escape(picture.alt) + "\"/>";
-      out += tag("figure", image + tag("figcaption", escape((words.empty() ? "" : words + ": ") + picture.alt)));
+      out += tag("figure", image_of(picture, words) +
+                               tag("figcaption", escape((words.empty() ? "" : words + ": ") + picture.alt)));
     }
   if (out.empty()) return out;
   const std::size_t columns = std::clamp<std::size_t>(rows.size(), 2, 4);

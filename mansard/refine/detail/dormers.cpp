@@ -270,13 +270,14 @@ auto with_hole(const Plan& host, const Dormer& dormer) -> Plan {
 auto without_dormers(const Site& site, const std::vector<Dormer>& dormers, double aside, const Options& options)
     -> Site {
   Site out = site;
-  for (const auto& dormer : dormers)
+  for (const auto& dormer : dormers) {
+    const geometry::Polygon polygon = model::polygon_of(dormer.plan);
     for (const auto cell : site.cells) {
       const Point2 at = site.measured.centre(cell);
-      const geometry::Polygon polygon = model::polygon_of(dormer.plan);
       if (geometry::contains(polygon, at) || geometry::boundary_distance(polygon, at) < aside)
         out.measured.z[cell] = unseen;
     }
+  }
   return crop(out, site.polygon, options);
 }
 

@@ -35,8 +35,9 @@ FinalWalls::FinalWalls(std::span<const model::Building> buildings) {
   };
   for (const auto& building : buildings)
     for (const auto& one : building.parts) {
-      add(model::polygon_of(one.plan).outer);
-      for (const auto& hole : model::polygon_of(one.plan).holes) add(hole);
+      const auto polygon = model::polygon_of(one.plan);
+      add(polygon.outer);
+      for (const auto& hole : polygon.holes) add(hole);
       ++part;
     }
   for (std::size_t i = 0; i < edges_.size(); ++i)
