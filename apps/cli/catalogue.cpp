@@ -7,6 +7,7 @@ namespace mansard::cli {
 namespace {
 
 const char* const make = "Make building models";
+const char* const city = "Run a whole city";
 const char* const inspect = "Inspect and measure";
 const char* const edit = "View and edit";
 const char* const experiment = "Test data and experiments";
@@ -45,6 +46,21 @@ auto catalogue() -> const std::vector<VerbEntry>& {
         "--config", "--overwrite", "--jobs", "--quiet"},
        {"mansard convert out/model.city.json -o city.gpkg",
         "mansard convert city.gpkg -o city.glb -o city.3dtiles -o city.stl --write-compress"}},
+      {"status",
+       city,
+       "Show how far a run of 'mansard reconstruct' is, from any terminal",
+       {"mansard status OUTDIR [options]"},
+       {},
+       {},
+       {"mansard status out", "watch mansard status out"}},
+      {"cluster",
+       city,
+       "Write the job scripts that share a run among machines, and submit them",
+       {"mansard cluster SCHEDULER --shares N -o FOLDER [options] -- reconstruct ..."},
+       {},
+       {},
+       {"mansard cluster slurm --shares 64 -o jobs --submit -- reconstruct tiles/ city.gpkg -o out",
+        "mansard cluster parallel --shares 8 -o jobs -- reconstruct tiles/ city.gpkg -o out"}},
       {"info",
        inspect,
        "Describe files: models, meshes, footprints, tilesets and rasters",

@@ -78,9 +78,16 @@ auto unknown_option(const Form& verb, const std::string& name, const std::vector
                      "unknown option; see 'mansard " + verb.verb + " --help-all'" + base::did_you_mean(nearest), name);
 }
 
+/// What no option or argument of the verb has taken. That "--" ends the options is no word of its own.
+auto left_over(const CLI::App& verb) -> std::vector<std::string> {
+  auto words = verb.remaining();
+  if (const auto mark = std::ranges::find(words, "--"); mark != words.end()) words.erase(mark);
+  return words;
+}
+
 auto unknown_options(const CLI::App& app, const CLI::App& verb) -> std::vector<base::Diagnostic> {
   std::vector<base::Diagnostic> unknown;
-  for (const auto& word : verb.remaining()) {
+  for (const auto& word : left_over(verb)) {
     if (!word.starts_with("-") || word.size() < 2 || base::to_number(word)) continue;
     const auto name = word.substr(0, word.find('='));
     unknown.push_back(unknown_option(form_of(verb), name, forms_of(app)));
@@ -149,6 +156,8 @@ auto run(int argc, char** argv) -> int {
                                 serve_verb(app, cancel),
                                 simulate_verb(app, cancel),
                                 explore_verb(app, {argv, argv + argc}, cancel),
+                                cluster_verb(app),
+                                status_verb(app),
                                 options_verb(app),
                                 explain_verb(app),
                                 completion_verb(app),
@@ -172,9 +181,9 @@ auto run(int argc, char** argv) -> int {
   for (const auto& verb : verbs) {
     if (!verb.app->parsed()) continue;
     if (const auto unknown = unknown_options(app, *verb.app); !unknown.empty()) return give_up(unknown);
-    if (!verb.app->remaining().empty())
-      return give_up(base::error("usage", "unexpected argument; see 'mansard " + verb.app->get_name() + " --help'",
-                                 verb.app->remaining().front()));
+    if (const auto more = left_over(*verb.app); !more.empty())
+      return give_up(
+          base::error("usage", "unexpected argument; see 'mansard " + verb.app->get_name() + " --help'", more.front()));
     return verb.run();
   }
   return usage;

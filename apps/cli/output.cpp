@@ -1,8 +1,10 @@
 #include "apps/cli/output.hpp"
+#include "apps/cli/run_folder.hpp"
 
 #include <unistd.h>
 #include <algorithm>
 #include <array>
+#include <cctype>
 
 #include "mansard/base/text.hpp"
 
@@ -38,13 +40,24 @@ auto place_of(const fs::path& path) -> fs::path {
 
 }  // namespace
 
+auto holds_results(const fs::path& folder) -> bool {
+  std::error_code status;
+  return std::ranges::any_of(fs::directory_iterator(folder, status), [](const fs::directory_entry& entry) {
+    const auto name = entry.path().filename().string();
+    const auto part = name.rfind(".part");
+    const bool half_written = part != std::string::npos && part + 5 < name.size() &&
+                              std::isdigit(static_cast<unsigned char>(name[part + 5])) != 0;
+    return name != run_folder_name && !half_written;
+  });
+}
+
 auto prepare(const fs::path& folder, bool overwrite) -> base::Result<void> {
   std::error_code status;
   if (fs::exists(folder, status)) {
     if (!fs::is_directory(folder, status))
       return base::error("output-exists", "is a file, and the output is a folder; choose another path",
                          folder.string());
-    if (!overwrite && !fs::is_empty(folder, status))
+    if (!overwrite && holds_results(folder) && !began_empty(folder))
       return base::error("output-exists", "the folder is not empty; choose another, or add --overwrite",
                          folder.string());
   } else if (named_as_file(folder)) {

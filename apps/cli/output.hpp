@@ -14,9 +14,13 @@
 
 namespace mansard::cli {
 
-/// Checks that the folder is empty or may be overwritten, makes it, and checks that it can be written, before any work.
-/// Fails with "output-exists", "file-write", and "usage" where a new folder would have a file's name ("city.gpkg").
+/// Checks that the folder is empty, holds nothing but what a stopped run left, or may be overwritten, makes it, and
+/// checks that it can be written, before any work. Fails with "output-exists", "file-write", and "usage" where a new
+/// folder would have a file's name ("city.gpkg").
 [[nodiscard]] auto prepare(const std::filesystem::path& folder, bool overwrite) -> base::Result<void>;
+
+/// Whether anything is in the folder but what a stopped run keeps to go on from, and its half-written files.
+[[nodiscard]] auto holds_results(const std::filesystem::path& folder) -> bool;
 
 /// Takes away the folders that `prepare` made and nothing was written into: a run that failed leaves nothing.
 void remove_folders_left_empty();

@@ -43,10 +43,14 @@ void Progress::show(std::string_view stage, std::string_view subject, double fra
   if (quiet_) return;
   const auto now = std::chrono::steady_clock::now();
   if (!terminal_) {
-    // A line per finished block or new sequential stage: enough for a log, never a flood.
+    // A line per finished block or new sequential stage: enough for a log, never a flood: of a city one
+    // in ten seconds.
     if (stage != "done" && (fraction > 0 || stage == last_stage_ || last_fraction_ >= 0)) return;
     last_stage_ = stage;
     if (stage == "done") last_fraction_ = fraction;
+    using namespace std::chrono_literals;
+    if (stage == "done" && ++lines_ > 100 && now - drawn_at_ < 10s && fraction < 1) return;
+    drawn_at_ = now;
     std::fprintf(stderr, "mansard: %.*s %.*s (%.0f %%)\n", static_cast<int>(stage.size()), stage.data(),
                  static_cast<int>(subject.size()), subject.data(), 100 * fraction);
     return;

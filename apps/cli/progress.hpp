@@ -24,6 +24,7 @@ class Progress {
 
   bool quiet_, terminal_, drawn_ = false;
   double last_fraction_ = -1;
+  std::size_t lines_ = 0;
   std::string last_stage_;
   std::chrono::steady_clock::time_point start_, drawn_at_;
 };

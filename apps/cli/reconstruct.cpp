@@ -1,16 +1,20 @@
 // `mansard reconstruct MESH… FOOTPRINTS -o OUTDIR`.
 #include <algorithm>
 #include <cstdio>
+#include <functional>
+#include <map>
 #include <memory>
 
 #include "apps/cli/catalogue.hpp"
 #include "apps/cli/exit.hpp"
 #include "apps/cli/formats.hpp"
 #include "apps/cli/output.hpp"
+#include "apps/cli/run_folder.hpp"
 #include "apps/cli/scan.hpp"
 #include "apps/cli/verbs.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/base/text.hpp"
+#include "mansard/pipeline/city.hpp"
 #include "mansard/report/layers.hpp"
 #include "mansard/report/pictures.hpp"
 
@@ -23,27 +27,65 @@ struct Request {
   ScanRequest scan;
   std::string out;
   std::string formats = "default";
-  bool picture = false, layers = false;
+  bool picture = false, layers = false, no_resume = false;
   double error_limit = 2.0;
+  std::size_t share = 0, shares = 0;  ///< of the work, from 1; 0: all of it
 };
 
-auto count(const report::Reconstruction& r, report::Outcome outcome) -> std::size_t {
-  std::size_t n = 0;
-  for (const auto& building : r.buildings) n += building.outcome == outcome ? 1 : 0;
-  return n;
+/// What a run made: in memory where pictures or layers are made of all of it, else put aside.
+struct Made {
+  const report::Summary& summary;
+  report::Outcomes outcomes;
+  const model::Frame& frame;
+  const model::MadeBy& made_by;
+  using Visit = std::function<base::Result<void>(const model::Building&, const report::BuildingReport&)>;
+  std::function<base::Result<void>(const Visit&)> each;  ///< in the source's order
+  const report::Reconstruction* whole = nullptr;         ///< where it is in memory
+};
+
+auto made_of(const report::Reconstruction& r) -> Made {
+  return {r,
+          report::outcomes(r),
+          r.city.frame,
+          r.city.made_by,
+          [&r](const Made::Visit& visit) -> base::Result<void> {
+            for (std::size_t i = 0; i < r.buildings.size(); ++i)
+              if (auto visited = visit(r.city.buildings[i], r.buildings[i]); !visited) return visited;
+            return {};
+          },
+          &r};
+}
+auto made_of(const pipeline::PutAside& city) -> Made {
+  return {city.summary, city.outcomes, city.frame, city.made_by,
+          [&city](const Made::Visit& visit) { return city.each(visit); }};
 }
 
-void summarise(const report::Reconstruction& r, const Request& request, Progress& progress) {
-  const auto full = count(r, report::Outcome::full);
-  progress.say(std::to_string(full) + " of " + std::to_string(r.buildings.size()) + " buildings in full, " +
-               std::to_string(count(r, report::Outcome::fallback)) + " fell back, " +
-               std::to_string(count(r, report::Outcome::covered)) + " covered by neighbours, " +
-               std::to_string(count(r, report::Outcome::refused)) + " refused");
-  progress.say("mean squared vertical error " + base::to_text(r.scores.mse, 3) + " m² over the blocks, " +
-               base::to_text(r.scores.footprint_mse, 3) + " m² over the footprints");
-  for (const auto& building : r.buildings)
-    if (building.outcome != report::Outcome::full && (request.scan.verbose || r.buildings.size() <= 20))
+/// What of an earlier run was taken over, and why not more.
+void tell_reuse(const report::Summary& summary, Progress& progress) {
+  std::map<std::string, std::size_t> made;
+  for (const auto& [block, why] : summary.reuse.made) ++made[why];
+  std::string again;
+  for (const auto& [why, count] : made) again += (again.empty() ? "" : ", ") + std::to_string(count) + " (" + why + ")";
+  if (summary.reuse.blocks > 0 || !again.empty())
+    progress.say(std::to_string(summary.reuse.blocks) + " of " + std::to_string(summary.blocks.size()) +
+                 " blocks were taken over from an earlier run" +
+                 (again.empty() ? "" : "; made again because of what changed: " + again));
+}
+
+auto summarise(const Made& made, const Request& request, Progress& progress) -> base::Result<void> {
+  tell_reuse(made.summary, progress);
+  const auto& n = made.outcomes;
+  progress.say(std::to_string(n.full) + " of " + std::to_string(n.all()) + " buildings in full, " +
+               std::to_string(n.fallback) + " fell back, " + std::to_string(n.covered) + " covered by neighbours, " +
+               std::to_string(n.refused) + " refused");
+  progress.say("mean squared vertical error " + base::to_text(made.summary.scores.mse, 3) + " m² over the blocks, " +
+               base::to_text(made.summary.scores.footprint_mse, 3) + " m² over the footprints");
+  if (n.full == n.all() || (!request.scan.verbose && n.all() > 20)) return {};
+  return made.each([&](const auto&, const report::BuildingReport& building) -> base::Result<void> {
+    if (building.outcome != report::Outcome::full)
       for (const auto& reason : building.reasons) progress.say(base::to_string(reason));
+    return {};
+  });
 }
 
 /// What `--formats` and `--layers` ask for.
@@ -71,36 +113,65 @@ auto is_result(const std::string& name) -> bool {
   return std::ranges::find(own, name) != own.end();
 }
 
+/// The models, one format after the other: each writer may put bytes aside.
+auto write_targets(const Made& made, const std::vector<Target>& targets, const pipeline::Options& options,
+                   const std::vector<formats::Layer>& layers, base::Outputs& outputs, const base::Run& run,
+                   Progress& progress) -> base::Result<void> {
+  for (const auto& target : targets) {
+    auto writer =
+        formats::open_writer(target.format, target.path, {made.frame, made.made_by}, options.write, outputs, layers);
+    if (!writer) return writer.failure();
+    auto written = made.each([&](const model::Building& building, const auto&) -> base::Result<void> {
+      if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+      return (*writer)->add(building);
+    });
+    if (written) written = (*writer)->finish();
+    if (!written) return written;
+    for (const auto& warning : (*writer)->warnings()) progress.say(base::to_string(warning));
+  }
+  return {};
+}
+
+auto write_report(const Made& made, const model::Scene& scene, const fs::path& path, base::Outputs& outputs)
+    -> base::Result<void> {
+  auto sink = outputs.file(path);
+  if (!sink) return sink.failure();
+  report::RunJson report(made.summary, made.outcomes, made.made_by, scene, **sink);
+  auto told = made.each([&](const auto&, const report::BuildingReport& building) -> base::Result<void> {
+    report.add(building);
+    return {};
+  });
+  if (told) report.finish();
+  return told;
+}
+
 auto write_all(const Request& request, const std::vector<Target>& targets, const pipeline::Options& options,
-               const report::Reconstruction& result, const model::Scene& scene, const base::Run& run,
-               Progress& progress) -> base::Result<void> {
+               const Made& made, const model::Scene& scene, const base::Run& run, Progress& progress)
+    -> base::Result<void> {
   base::Outputs outputs;
   std::vector<formats::Layer> layers;
   if (request.layers) {
-    layers = report::segment_layers(scene, result.segmented, result.city.made_by, result.city.buildings);
-    layers.push_back(report::diagnostics_layer(result, scene));
+    layers = report::segment_layers(scene, made.whole->segmented, made.made_by, made.whole->city.buildings);
+    layers.push_back(report::diagnostics_layer(*made.whole, scene));
   }
   progress.show("write", "", 1);
-  const auto warnings = write_models(result.city, targets, options.write, outputs, layers);
-  if (!warnings) return warnings.failure();
-  for (const auto& warning : *warnings) progress.say(base::to_string(warning));
-  const std::string report = report::run_json(result, scene);
+  if (auto written = write_targets(made, targets, options, layers, outputs, run, progress); !written) return written;
   const auto report_path = fs::path(request.out) / "run.json";
-  if (auto written = write_bytes(report_path, report, outputs); !written) return written;
+  if (auto written = write_report(made, scene, report_path, outputs); !written) return written;
   if (!request.scan.report.empty())
-    if (auto written = write_bytes(request.scan.report, report, outputs); !written) return written;
+    if (auto written = write_report(made, scene, request.scan.report, outputs); !written) return written;
   if (request.picture) {
     progress.show("picture", "", 1);
-    if (auto written = write_pictures(request, result, scene, run, outputs); !written) return written;
+    if (auto written = write_pictures(request, *made.whole, scene, run, outputs); !written) return written;
   }
   const auto left = leftovers(request.out, "run.json", is_result);
   if (auto written = outputs.commit(run.cancel); !written) return written;
-  std::vector<fs::path> made{report_path};
+  std::vector<fs::path> results{report_path};
   for (const auto& target : targets)
-    for (const auto& place : places_of(target)) made.push_back(place);
+    for (const auto& place : places_of(target)) results.push_back(place);
   if (request.picture)
-    for (const auto* name : picture_names) made.push_back(fs::path(request.out) / name);
-  remove_stale(left, made);
+    for (const auto* name : picture_names) results.push_back(fs::path(request.out) / name);
+  remove_stale(left, results);
   return {};
 }
 
@@ -119,28 +190,67 @@ auto check_outputs(const Request& request, const std::vector<Target>& targets) -
   return {};
 }
 
+auto check_share(const Request& request) -> base::Result<void> {
+  if ((request.share > 0) != (request.shares > 0))
+    return base::error("usage", "--share and --shares belong together: --share 1 --shares 8");
+  if (request.share > request.shares)
+    return base::error("usage", "there are only " + std::to_string(request.shares) + " shares", "--share");
+  if (request.shares > 0 && request.no_resume)
+    return base::error("usage", "a share is made to be kept; leave --no-resume out", "--share");
+  return {};
+}
+
 auto reconstruct(const Request& request, const base::Cancel& cancel) -> int {
   const auto options = options_of(request.scan);
   if (!options) return give_up(options.errors());
+  if (auto right = check_share(request); !right) return give_up(right.errors());
   const auto targets = targets_of(request);
   if (!targets) return give_up(targets.errors());
   if (auto ready = check_outputs(request, *targets); !ready) return give_up(ready.errors());
+  const auto folder =
+      RunFolder::open(request.out, "reconstruct", request.shares > 0 ? RunFolder::Use::share : RunFolder::Use::whole);
+  if (!folder) return give_up(folder.errors());
   Progress progress(request.scan.quiet);
-  const auto run = start(request.scan, options->seed, cancel, progress);
+  auto run = start(request.scan, options->seed, cancel, progress);
+  run.progress = [show = std::move(run.progress), &folder](auto stage, auto subject, double fraction) {
+    (*folder)->note(stage, fraction);
+    show(stage, subject, fraction);
+  };
+  const auto stopped = [&](const auto& failed) {
+    const auto code = give_up(failed.errors());
+    if (const auto kept = (*folder)->kept_in_words(); !kept.empty() && !request.no_resume) progress.say(kept);
+    return code;
+  };
   const auto scene = read_scan(request.scan, *options, run, progress);
   if (!scene) return give_up(scene.errors());
 
   const auto keep = request.layers ? pipeline::Keep::segmentations : pipeline::Keep::models;
-  const auto result = pipeline::reconstruct(*scene, *options, run, keep);
-  if (!result) return give_up(result.errors());
-  if (auto written = write_all(request, *targets, *options, *result, *scene, run, progress); !written)
-    return give_up(written.errors());
-  summarise(*result, request, progress);
-
-  std::printf("%s\n", targets->front().path.c_str());
-  if (request.picture) std::printf("%s\n", (fs::path(request.out) / "picture.png").c_str());
-  if (request.layers) std::printf("%s\n", (fs::path(request.out) / "model.gpkg").c_str());
-  return count(*result, report::Outcome::full) == result->buildings.size() ? all_done : some_fell_back;
+  const pipeline::Schedule schedule{request.no_resume ? nullptr : (*folder)->kept(), &(*folder)->tally()};
+  if (request.shares > 0) {
+    const auto made = pipeline::make_share(*scene, *options, run, keep, schedule, request.share - 1, request.shares);
+    if (!made) return stopped(made);
+    const auto& tally = (*folder)->tally();
+    progress.say("share " + std::to_string(request.share) + " of " + std::to_string(request.shares) + ": " +
+                 std::to_string(tally.blocks_done) + " blocks with " + std::to_string(tally.buildings_done) +
+                 " buildings are kept");
+    return all_done;
+  }
+  const auto finish = [&](const Made& made) -> int {
+    auto done = write_all(request, *targets, *options, made, *scene, run, progress);
+    if (done) (*folder)->finished();
+    if (done) done = summarise(made, request, progress);
+    if (!done) return stopped(done);
+    std::printf("%s\n", targets->front().path.c_str());
+    if (request.picture) std::printf("%s\n", (fs::path(request.out) / "picture.png").c_str());
+    if (request.layers) std::printf("%s\n", (fs::path(request.out) / "model.gpkg").c_str());
+    return made.outcomes.full == made.outcomes.all() ? all_done : some_fell_back;
+  };
+  if (request.picture || request.layers) {
+    const auto result = pipeline::reconstruct(*scene, *options, run, keep, {}, schedule);
+    return result ? finish(made_of(*result)) : stopped(result);
+  }
+  const auto city = pipeline::reconstruct_aside(*scene, *options, run, schedule);
+  return city ? finish(made_of(*city)) : stopped(city);
 }
 
 }  // namespace
@@ -155,6 +265,14 @@ auto reconstruct_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
   verb->add_flag("--layers", request->layers,
                  "Also write the layers of 'mansard segment' and all diagnostics to model.gpkg");
   verb->add_option("--formats", request->formats, formats_help)->type_name("FORMATS")->default_str(default_formats);
+  verb->add_flag("--no-resume", request->no_resume,
+                 "Keep no blocks in OUTDIR/.mansard for a later run, and take none over from an earlier one");
+  verb->add_option("--shares", request->shares, "Number of shares that the work is divided into; see --share")
+      ->check(CLI::Range(1, 100000));
+  verb->add_option("--share", request->share,
+                   "Only make and keep the blocks of this share, from 1; the same command without --share and --shares "
+                   "then writes the models")
+      ->check(CLI::Range(1, 100000));
   verb->add_option("--error-limit", request->error_limit, "Both limits of the colour scale of the error map, in metres")
       ->check(CLI::Range(0.01, 1000.0));
   return {verb, [request, &cancel] { return reconstruct(*request, cancel); }};

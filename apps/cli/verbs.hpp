@@ -26,6 +26,8 @@ struct Verb {
 [[nodiscard]] auto convert_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
 [[nodiscard]] auto info_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
 [[nodiscard]] auto serve_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
+[[nodiscard]] auto cluster_verb(CLI::App& app) -> Verb;
+[[nodiscard]] auto status_verb(CLI::App& app) -> Verb;
 [[nodiscard]] auto options_verb(CLI::App& app) -> Verb;
 [[nodiscard]] auto explain_verb(CLI::App& app) -> Verb;
 /// These two tell of the whole app, once every verb is in it.

@@ -199,8 +199,8 @@ struct Shapes {
 };
 
 /// Members, outline and the plan of the frame, from what was grouped.
-auto outlined(const std::vector<std::size_t>& group, const Shapes& shapes, const model::Scene& scene,
-              const Options& options) -> Block {
+auto outlined_block(const std::vector<std::size_t>& group, const Shapes& shapes, const model::Scene& scene,
+                    const Options& options) -> Block {
   Block block;
   geometry::Box2 box;
   for (const auto m : group) {
@@ -316,49 +316,79 @@ auto option_list(Options& o) -> base::OptionList {
   return list;
 }
 
-auto partition(const model::Scene& scene, const Options& options, const base::Run& run) -> std::vector<Block> {
-  run.report("block", "", 0);
-  const Shapes shapes(scene);
-  auto groups = detail::groups_of(shapes.polygons, options.touch);
-  std::erase_if(groups, [&](const auto& group) { return shapes.features[group.front()] >= scene.footprints.size(); });
-  if (run.cancelled()) return {};
+struct Partition::Prepared {
+  const model::Scene& scene;
+  Options options;
+  Shapes shapes;
+  std::vector<std::vector<std::size_t>> groups;
+  std::vector<Block> blocks;  ///< outlined
+  std::vector<std::vector<std::uint32_t>> near_by, shapes_near, within_reach;
+};
 
-  std::vector<Block> blocks(groups.size());
-  base::parallel_for(groups.size(), [&](std::size_t b) { blocks[b] = outlined(groups[b], shapes, scene, options); });
+Partition::Partition(Partition&&) noexcept = default;
+auto Partition::operator=(Partition&&) noexcept -> Partition& = default;
+Partition::~Partition() = default;
+
+Partition::Partition(const model::Scene& scene, const Options& options, const base::Run& run)
+    : prepared_(new Prepared{scene, options, Shapes(scene), {}, {}, {}, {}, {}}) {
+  run.report("block", "", 0);
+  auto& shapes = prepared_->shapes;
+  auto& groups = prepared_->groups;
+  auto& near_by = prepared_->near_by;
+  groups = detail::groups_of(shapes.polygons, options.touch);
+  std::erase_if(groups, [&](const auto& group) { return shapes.features[group.front()] >= scene.footprints.size(); });
+  if (run.cancelled()) return;
+
+  std::vector<Block> outlines(groups.size());
+  base::parallel_for(groups.size(),
+                     [&](std::size_t b) { outlines[b] = outlined_block(groups[b], shapes, scene, options); });
   run.report("block", "", 0.2);
-  if (run.cancelled()) return {};
+  if (run.cancelled()) return;
 
   std::vector<geometry::Box2> regions, reaches;
-  for (const auto& block : blocks) {
+  for (const auto& block : outlines) {
     const auto box = geometry::bounds(shifted(block.outline, xy(as_point(block.origin))));
     regions.push_back(box.grown(std::max(options.padding, options.ground_ring)));
     reaches.push_back(box.grown(options.ground_reach));
   }
-  const auto near_by = detail::candidates(scene.mesh, regions);
-  const auto shapes_near = detail::candidates(as_mesh(shapes.boxes), regions);
+  near_by = detail::candidates(scene.mesh, regions);
+  prepared_->shapes_near = detail::candidates(as_mesh(shapes.boxes), regions);
   // Only where nothing is nearer does the mesh farther away matter.
-  for (std::size_t b = 0; b < blocks.size(); ++b)
+  for (std::size_t b = 0; b < outlines.size(); ++b)
     if (!near_by[b].empty()) reaches[b] = {};
-  const auto within_reach = detail::candidates(scene.mesh, reaches);
+  prepared_->within_reach = detail::candidates(scene.mesh, reaches);
   run.report("block", "", 0.4);
-  if (run.cancelled()) return {};
+  if (!run.cancelled()) prepared_->blocks = std::move(outlines);
+}
 
+auto Partition::size() const -> std::size_t { return prepared_->blocks.size(); }
+auto Partition::outlined(std::size_t i) const -> const Block& { return prepared_->blocks[i]; }
+auto Partition::triangles_near(std::size_t i) const -> std::size_t { return prepared_->near_by[i].size(); }
+
+auto Partition::make(std::size_t i) const -> Block {
+  const auto& [scene, options, shapes, groups, blocks, near_by, shapes_near, within_reach] = *prepared_;
+  Block block = blocks[i];
+  block.origin[2] = foot_of(scene.mesh, near_by[i].empty() ? within_reach[i] : near_by[i]);
+  const Point3 origin = as_point(block.origin);
+  Surroundings around{part_of(scene.mesh, near_by[i], origin), {}};
+  const detail::Nearness near(block.outline, options.padding);
+  std::vector<std::uint32_t> kept;
+  for (std::uint32_t t = 0; t < around.mesh.triangles.size(); ++t)
+    if (near(detail::plan_of(around.mesh, around.mesh.triangles[t]))) kept.push_back(t);
+  block.mesh = part_of(around.mesh, kept, {});
+  for (const auto& member : block.members) around.shapes.push_back(member.polygons);
+  const auto beside = others_of(shapes_near[i], groups[i], shapes, -1.0 * xy(origin));
+  around.shapes.insert(around.shapes.end(), beside.begin(), beside.end());
+  set_ground(block, scene, around, within_reach[i], options);
+  move(block, origin);
+  return block;
+}
+
+auto partition(const model::Scene& scene, const Options& options, const base::Run& run) -> std::vector<Block> {
+  const Partition prepared(scene, options, run);
+  std::vector<Block> blocks(prepared.size());
   base::parallel_for(blocks.size(), [&](std::size_t b) {
-    if (run.cancelled()) return;
-    Block& block = blocks[b];
-    block.origin[2] = foot_of(scene.mesh, near_by[b].empty() ? within_reach[b] : near_by[b]);
-    const Point3 origin = as_point(block.origin);
-    Surroundings around{part_of(scene.mesh, near_by[b], origin), {}};
-    const detail::Nearness near(block.outline, options.padding);
-    std::vector<std::uint32_t> kept;
-    for (std::uint32_t t = 0; t < around.mesh.triangles.size(); ++t)
-      if (near(detail::plan_of(around.mesh, around.mesh.triangles[t]))) kept.push_back(t);
-    block.mesh = part_of(around.mesh, kept, {});
-    for (const auto& member : block.members) around.shapes.push_back(member.polygons);
-    const auto beside = others_of(shapes_near[b], groups[b], shapes, -1.0 * xy(origin));
-    around.shapes.insert(around.shapes.end(), beside.begin(), beside.end());
-    set_ground(block, scene, around, within_reach[b], options);
-    move(block, origin);
+    if (!run.cancelled()) blocks[b] = prepared.make(b);
   });
   run.report("block", "", 1);
   return blocks;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -68,6 +69,29 @@ struct Options {
 /// Cost: O((n + m) log m) for n triangles, m footprints.
 [[nodiscard]] auto partition(const model::Scene& scene, const Options& options, const base::Run& run = {})
     -> std::vector<Block>;
+
+/// The same blocks, each made when it is asked for, so that not all their pieces of the mesh are in memory together.
+/// The scene must outlive it.
+class Partition {
+ public:
+  /// Without blocks where the run is cancelled.
+  Partition(const model::Scene& scene, const Options& options, const base::Run& run = {});
+  ~Partition();
+  Partition(Partition&&) noexcept;
+  auto operator=(Partition&&) noexcept -> Partition&;
+
+  [[nodiscard]] auto size() const -> std::size_t;
+  /// What is known before it is made: name, members, outline and the place of its frame in plan.
+  [[nodiscard]] auto outlined(std::size_t i) const -> const Block&;
+  /// How many triangles are near it, about as many as it will have.
+  [[nodiscard]] auto triangles_near(std::size_t i) const -> std::size_t;
+  /// From any thread.
+  [[nodiscard]] auto make(std::size_t i) const -> Block;
+
+ private:
+  struct Prepared;
+  std::unique_ptr<Prepared> prepared_;
+};
 
 [[nodiscard]] auto codes() -> std::vector<base::Code>;
 

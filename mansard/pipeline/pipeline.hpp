@@ -20,6 +20,7 @@
 #include "mansard/fracture/fracture.hpp"
 #include "mansard/ingest/ingest.hpp"
 #include "mansard/label/label.hpp"
+#include "mansard/pipeline/kept.hpp"
 #include "mansard/profile/profile.hpp"
 #include "mansard/refine/refine.hpp"
 #include "mansard/report/report.hpp"
@@ -76,11 +77,17 @@ enum class Keep : std::uint8_t { models, segmentations };
 /// passed solid::check · 3 one failing building or block leaves the others as they would be without it · 4 the same
 /// scene, options and seed give the same city at any thread count.
 /// With `only`, the names of some blocks, nothing else is reconstructed and no other feature is in the city or the
-/// report; these blocks come out as in a run of all. Fails with "cancelled", "pipeline-nothing" (no usable
-/// footprint), "pipeline-block-unknown".
+/// report; these blocks come out as in a run of all. Blocks that `schedule` has are not made again. Fails with
+/// "cancelled", "pipeline-nothing" (no usable footprint), "pipeline-block-unknown", and as KeptBlocks does.
 [[nodiscard]] auto reconstruct(const model::Scene& scene, const Options& options, const base::Run& run = {},
-                               Keep keep = Keep::models, std::span<const std::string> only = {})
-    -> base::Result<report::Reconstruction>;
+                               Keep keep = Keep::models, std::span<const std::string> only = {},
+                               const Schedule& schedule = {}) -> base::Result<report::Reconstruction>;
+
+/// One of `tasks` shares of the work: makes the blocks of share number `task`, from 0, and keeps them, so that a
+/// reconstruction with the same blocks kept finds them made. The shares have about the same number of triangles, and
+/// blocks that are near each other. Fails as reconstruct does; `schedule.kept` must be there.
+[[nodiscard]] auto make_share(const model::Scene& scene, const Options& options, const base::Run& run, Keep keep,
+                              const Schedule& schedule, std::size_t task, std::size_t tasks) -> base::Result<void>;
 
 /// The first stages of reconstruct, with the same segmentations as there. Guarantees: 1 one failing block leaves the
 /// others as they would be without it · 2 the same scene, options and seed give the same at any thread count.

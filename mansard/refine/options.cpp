@@ -14,6 +14,7 @@ constexpr const char* decision_17 = "docs/decisions/0017-setbacks-by-measured-er
 constexpr const char* decision_39 = "docs/decisions/0039-alike-what-is-alike.md";
 constexpr const char* decision_41 = "docs/decisions/0041-faces-want-evidence.md";
 constexpr const char* decision_42 = "docs/decisions/0042-dormers.md";
+constexpr const char* decision_47 = "docs/decisions/0047-moderate-detail.md";
 
 constexpr Range share{0, 1};                 // of a whole, or a cosine
 constexpr Range count{0, 1000};              // things; none switches the step off
@@ -43,6 +44,9 @@ void add_objective(OptionList& list, Options& o) {
               "An eaves height, ridge height or pitch that differs from the others of the building and its row must "
               "reduce the sum of squared differences by this much; 0: nothing is made equal.")
       .source(decision_39)
+      .number("moderate_factor", o.moderate_factor, "", {1, 1000},
+              "The prices of faces, parts and values are multiplied by this with profile.quality = moderate.")
+      .source(decision_47)
       .number("robust", o.robust, "m", {0.05, 100},
               "Differences from the mesh greater than this count linearly, not squared: trees, debris.")
       .source(decision_14)

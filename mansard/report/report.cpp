@@ -36,6 +36,12 @@ auto json_of(const Times& times) -> Json {
   return out;
 }
 
+auto json_of(const Reuse& reuse) -> Json {
+  Json made = Json::object();
+  for (const auto& [block, why] : reuse.made) made[why].push_back(block);
+  return {{"blocks_taken_over", reuse.blocks}, {"blocks_made_again", std::move(made)}};
+}
+
 auto json_of(const evaluate::InsideScores& s) -> Json {
   return {{"mse_m2", s.mse}, {"median_absolute_m", s.median_absolute}, {"cells", s.cells}};
 }
@@ -113,12 +119,6 @@ auto json_of(const BuildingReport& b) -> Json {
   return out;
 }
 
-auto count(const Reconstruction& r, Outcome outcome) -> std::size_t {
-  std::size_t n = 0;
-  for (const auto& b : r.buildings) n += b.outcome == outcome ? 1 : 0;
-  return n;
-}
-
 /// What every report begins with: how it was made, and of what.
 auto head(const model::MadeBy& made_by, const model::Scene& scene) -> Json {
   Json out;
@@ -159,6 +159,17 @@ auto text_of(const Json& report) -> std::string {
   return report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+/// One more item of an array that is a member of the whole, as text_of would have it.
+void append_item(const Json& item, bool& first, base::Sink& sink) {
+  std::string text = first ? "\n  " : ",\n  ";
+  first = false;
+  for (const char c : item.dump(1, ' ', false, Json::error_handler_t::replace)) {
+    text += c;
+    if (c == '\n') text += "  ";  // a line break within a string is escaped
+  }
+  sink.append(text);
+}
+
 }  // namespace
 
 auto to_string(Outcome outcome) -> std::string_view {
@@ -187,20 +198,54 @@ auto parts_by_feature(const model::Scene& scene, const std::vector<SegmentedBloc
   return parts;
 }
 
-auto run_json(const Reconstruction& r, const model::Scene& scene) -> std::string {
-  Json out = head(r.city.made_by, scene);
+void Outcomes::add(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::full: ++full; break;
+    case Outcome::fallback: ++fallback; break;
+    case Outcome::covered: ++covered; break;
+    case Outcome::refused: ++refused; break;
+  }
+}
+
+auto outcomes(const Reconstruction& reconstruction) -> Outcomes {
+  Outcomes out;
+  for (const auto& building : reconstruction.buildings) out.add(building.outcome);
+  return out;
+}
+
+RunJson::RunJson(const Summary& s, const Outcomes& outcomes, const model::MadeBy& made_by, const model::Scene& scene,
+                 base::Sink& sink)
+    : sink_(sink) {
+  Json out = head(made_by, scene);
   const bool scanned = !scene.mesh.triangles.empty();
-  out["counts"] = {{"footprints", r.buildings.size()},        {"full", count(r, Outcome::full)},
-                   {"fallback", count(r, Outcome::fallback)}, {"covered", count(r, Outcome::covered)},
-                   {"refused", count(r, Outcome::refused)},   {"blocks", r.blocks.size()}};
-  if (scanned) out["scores"] = json_of(r.scores);
-  out["times"] = json_of(r.times);
-  out["warnings"] = all_warnings(scene, r.warnings);
-  if (scanned) out["blocks"] = json_of(r.blocks, true);
-  Json buildings = Json::array();
-  for (const auto& building : r.buildings) buildings.push_back(json_of(building));
-  out["buildings"] = buildings;
-  return text_of(out);
+  out["counts"] = {{"footprints", outcomes.all()}, {"full", outcomes.full},       {"fallback", outcomes.fallback},
+                   {"covered", outcomes.covered},  {"refused", outcomes.refused}, {"blocks", s.blocks.size()}};
+  if (scanned) out["scores"] = json_of(s.scores);
+  out["times"] = json_of(s.times);
+  if (s.reuse.blocks > 0 || !s.reuse.made.empty()) out["times"]["reuse"] = json_of(s.reuse);
+  out["warnings"] = all_warnings(scene, s.warnings);
+  std::string text = text_of(out);
+  text.resize(text.rfind("\n}"));  // there is more to come
+  sink_.append(text);
+  if (scanned) {
+    bool first = true;
+    sink_.append(",\n \"blocks\": [");
+    for (const auto& block : s.blocks) append_item(json_of(block, true), first, sink_);
+    sink_.append(first ? "]" : "\n ]");
+  }
+  sink_.append(",\n \"buildings\": [");
+}
+
+void RunJson::add(const BuildingReport& building) { append_item(json_of(building), first_, sink_); }
+
+void RunJson::finish() { sink_.append(first_ ? "]\n}\n" : "\n ]\n}\n"); }
+
+auto run_json(const Reconstruction& r, const model::Scene& scene) -> std::string {
+  base::TextSink text;
+  RunJson out(r, outcomes(r), r.city.made_by, scene, text);
+  for (const auto& building : r.buildings) out.add(building);
+  out.finish();
+  return std::move(text.text);
 }
 
 auto run_json(const Segmented& s, const model::Scene& scene) -> std::string {

@@ -9,8 +9,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "mansard/base/outputs.hpp"
 #include "mansard/base/result.hpp"
 #include "mansard/base/watch.hpp"
 #include "mansard/evaluate/evaluate.hpp"
@@ -34,6 +36,12 @@ struct StageTime {
 struct Times {
   base::Spent total;  ///< also of what belongs to no stage
   std::vector<StageTime> stages;
+};
+
+/// What a run took over from an earlier one, and what it made anew although an earlier one had made it.
+struct Reuse {
+  std::size_t blocks = 0;                                 ///< taken over
+  std::vector<std::pair<std::string, std::string>> made;  ///< block and why, as pipeline::KeptBlocks::why_made says
 };
 
 /// Table 1 of the paper, for one block.
@@ -86,16 +94,29 @@ struct BuildingReport {
   std::string roof, height_from;  ///< the shape made and where its height comes from; only of models without a mesh
 };
 
-struct Reconstruction {
-  model::City city;
+/// How many buildings ended in each outcome.
+struct Outcomes {
+  std::size_t full = 0, fallback = 0, covered = 0, refused = 0;
+  void add(Outcome outcome);
+  [[nodiscard]] auto all() const -> std::size_t { return full + fallback + covered + refused; }
+};
+
+/// A run without its buildings.
+struct Summary {
   std::vector<BlockReport> blocks;
-  std::vector<BuildingReport> buildings;       ///< every input feature, in the source's order
-  std::vector<evaluate::ErrorMap> error_maps;  ///< per block
   Times times;
+  Reuse reuse;
   evaluate::Scores scores;  ///< over all blocks, weighted by cells
   std::vector<base::Diagnostic> warnings;
-  std::vector<SegmentedBlock> segmented;  ///< per block with Keep::segmentations, else empty
 };
+
+struct Reconstruction : Summary {
+  model::City city;
+  std::vector<BuildingReport> buildings;       ///< every input feature, in the source's order
+  std::vector<evaluate::ErrorMap> error_maps;  ///< per block
+  std::vector<SegmentedBlock> segmented;       ///< per block with Keep::segmentations, else empty
+};
+[[nodiscard]] auto outcomes(const Reconstruction& reconstruction) -> Outcomes;
 
 /// Every block up to its segmentation, without models.
 struct Segmented {
@@ -109,6 +130,20 @@ struct Segmented {
 /// How many parts each feature got: by Scene::footprints.
 [[nodiscard]] auto parts_by_feature(const model::Scene& scene, const std::vector<SegmentedBlock>& blocks)
     -> std::vector<std::size_t>;
+
+/// The report as JSON, building by building: memory does not grow with their number. `sink` must outlive it.
+class RunJson {
+ public:
+  RunJson(const Summary& summary, const Outcomes& outcomes, const model::MadeBy& made_by, const model::Scene& scene,
+          base::Sink& sink);
+  void add(const BuildingReport& building);
+  /// After the last one.
+  void finish();
+
+ private:
+  base::Sink& sink_;
+  bool first_ = true;
+};
 
 /// The report as JSON. Everything but the members called "times" is the same in every run. Without a mesh it has no
 /// "mesh", "scores" and "blocks".

@@ -1,5 +1,7 @@
 #include "mansard/solid/solid.hpp"
 
+#include <cmath>
+
 #include "mansard/solid/detail/measure.hpp"
 
 namespace mansard::solid {
@@ -19,6 +21,10 @@ auto area(const model::Solid& solid, const model::Face& face) -> double {
 }
 
 auto triangulate(const model::Solid& solid) -> base::Result<Triangulated> {
+  // The exact predicates take no coordinate that is not a number.
+  for (const auto& v : solid.vertices)
+    if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
+      return base::error("solid-degenerate", "a vertex is not finite");
   Triangulated out;
   for (std::uint32_t f = 0; f < solid.faces.size(); ++f) {
     const auto part = detail::triangles_of(solid, solid.faces[f]);

@@ -31,6 +31,7 @@ struct Rules {
 /// m² of one face.
 [[nodiscard]] auto area(const model::Solid& solid, const model::Face& face) -> double;
 /// The solid's faces cut into triangles (indices into solid.vertices), outward, face by face; `face_of` their faces.
+/// Fails where that of a face does, and with "solid-degenerate" for a vertex that is not finite.
 struct Triangulated {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::uint32_t> face_of;

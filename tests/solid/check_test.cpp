@@ -203,6 +203,16 @@ TEST(Check, finds_degenerate_faces_and_vertices) {
   EXPECT_THAT(codes_of({}), testing::ElementsAre("solid-degenerate"));
 }
 
+TEST(Triangulate, refuses_a_vertex_that_is_nowhere) {
+  for (const double bad : {std::nan(""), HUGE_VAL}) {
+    Solid nowhere = cube();
+    nowhere.vertices[3].y = bad;
+    const auto triangulated = solid::triangulate(nowhere);
+    ASSERT_FALSE(triangulated);
+    EXPECT_EQ(triangulated.error().code, "solid-degenerate");
+  }
+}
+
 TEST(Triangulate, covers_every_face_with_its_own_vertices) {
   const auto solid =
       extrude::raise(plan(box(20, 20), {setback}, {}, 6, {turned_in({{8, 8}, {12, 8}, {12, 12}, {8, 12}})}))->solid;

@@ -39,16 +39,17 @@ const module_pages = rooms.map((room) => `docs/${room}.md`).filter(there);
 const titles = {
   "README.md": "Overview", "docs/packaging.md": "Install", "data/README.md": "Sample data",
   "docs/ingest.md": "Input formats", "docs/formats.md": "Output formats",
-  "docs/cli.md": "Command line", "docs/workbench.md": "The workbench", "docs/serve.md": "Server and projects",
+  "docs/cli.md": "Command line", "docs/city.md": "Resume, share, watch", "docs/workbench.md": "The workbench", "docs/serve.md": "Server and projects",
   "docs/results.md": "Results", "docs/robustness.md": "Robustness", "docs/bench.md": "Benchmarks",
 };
 const docs = (...names) => names.map((name) => `docs/${name}.md`).filter(there);
 const top = [
   ["Start", ["README.md", ...docs("packaging"), "data/README.md"]],
-  ["Tutorials", in_folder("docs/tutorials", "one_house.md", "one_block.md", "one_city.md")],
+  ["Tutorials", in_folder("docs/tutorials", "one_house.md", "one_block.md", "one_city.md", "whole_city.md")],
   ["Formats", docs("ingest", "formats")],
   ["Options", ["options.html", "attributes.html", "codes.html"]],
   ["Command line", [...docs("cli"), "verbs.html"]],
+  ["A whole city", docs("city")],
   ["Workbench", docs("workbench", "serve")],
   ["Results", docs("results", "robustness", "bench")],
 ];

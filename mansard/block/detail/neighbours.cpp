@@ -48,7 +48,7 @@ auto closed(const Polygons& shapes, double by) -> base::Result<Polygons> {
     if (!more) return more;
     grown.insert(grown.end(), more->begin(), more->end());
   }
-  const auto united = geometry::unite(grown);
+  auto united = geometry::unite(grown);
   if (!united) return united;
   Polygons shrunk;
   for (const auto& polygon : *united) {

@@ -121,77 +121,78 @@ void take(PartResult part, const report::BlockReport& block, double z0, model::B
 
 }  // namespace
 
-auto assemble(const model::Scene& scene, const std::vector<block::Block>& blocks, std::vector<BlockResult> results,
-              const Options& options) -> report::Reconstruction {
-  report::Reconstruction out;
+auto unbuilt(const model::Scene& scene, std::size_t feature) -> Finished {
+  const auto& footprint = scene.feature(feature);
+  Finished out;
+  out.building.id = out.report.id = footprint.id;
+  out.report.derived = footprint.derived;
+  out.building.attributes = footprint.attributes;
+  out.building.footprint = footprint.polygons;
+  if (footprint.defect) {
+    out.report.outcome = report::Outcome::refused;
+    out.report.reasons.push_back(*footprint.defect);
+    out.building.attributes.emplace_back("ms_outcome", std::string(to_string(out.report.outcome)));
+  }
+  return out;
+}
+
+auto finish_block(const model::Scene& scene, BlockResult& result, std::vector<base::Diagnostic>& warnings)
+    -> std::vector<std::pair<std::size_t, Finished>> {
   const auto z0 = static_cast<double>(scene.frame.origin[2]);
-  const std::size_t count = scene.footprints.size() + scene.surroundings.size();
-  std::vector<model::Building> buildings(count);
-  std::vector<report::BuildingReport> reports(count);
-  std::vector<Account> accounts(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto& footprint = scene.feature(i);
-    buildings[i].id = reports[i].id = footprint.id;
-    reports[i].derived = footprint.derived;
-    buildings[i].attributes = footprint.attributes;
-    buildings[i].footprint = footprint.polygons;
-    if (footprint.defect) {
-      reports[i].outcome = report::Outcome::refused;
-      reports[i].reasons.push_back(*footprint.defect);
-    }
+  std::vector<std::pair<std::size_t, Finished>> out;
+  for (const auto& [feature, ground] : result.grounds) {
+    auto& [building, report] = out.emplace_back(feature, unbuilt(scene, feature)).second;
+    report.block = result.report.name;
+    report.ground = z0 + ground;
+    building.ground = ground;
   }
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
-    for (const auto& member : blocks[b].members) {
-      reports[member.feature].block = blocks[b].name;
-      reports[member.feature].ground = z0 + member.ground;
-      buildings[member.feature].ground = member.ground;
-    }
-    for (auto& part : results[b].parts) {
-      const std::size_t f = part.feature;
-      take(std::move(part), results[b].report, z0, buildings[f], reports[f], accounts[f]);
-    }
-    for (auto& [f, made] : results[b].solids) add_solids(buildings[f], reports[f], std::move(made), z0);
-    for (const std::size_t f : results[b].covered) {
-      reports[f].outcome = report::Outcome::covered;
-      reports[f].reasons.push_back(base::warning(
-          "pipeline-covered", "the ground of this footprint went to its neighbours' models", reports[f].id));
-    }
-    for (const auto& [f, why] : results[b].failed) {
-      reports[f].outcome = reports[f].parts == 0 ? report::Outcome::refused : report::Outcome::fallback;
-      reports[f].reasons.push_back(base::warning(why.code, why.message, reports[f].id));
-    }
-    for (const auto& one : results[b].left_out) {
-      reports[one.feature].left_out = one.area;
-      reports[one.feature].reasons.push_back(base::warning("pipeline-left-out", one.what, reports[one.feature].id));
-    }
-    for (auto& [f, warning] : results[b].unchecked) {
-      warning.subject = reports[f].id;
-      reports[f].reasons.push_back(warning);
-      if (f < scene.footprints.size()) out.warnings.push_back(std::move(warning));
-    }
-    out.blocks.push_back(std::move(results[b].report));
-    out.error_maps.push_back(std::move(results[b].map));
-    out.warnings.insert(out.warnings.end(), results[b].warnings.begin(), results[b].warnings.end());
+  std::vector<Account> accounts(out.size());
+  const auto place_of = [&](std::size_t feature) {
+    return static_cast<std::size_t>(
+        std::ranges::lower_bound(out, feature, {}, [](const auto& one) { return one.first; }) - out.begin());
+  };
+  const auto finished = [&](std::size_t feature) -> Finished& { return out[place_of(feature)].second; };
+  for (auto& part : result.parts) {
+    const auto at = place_of(part.feature);
+    take(std::move(part), result.report, z0, out[at].second.building, out[at].second.report, accounts[at]);
   }
-  for (std::size_t i = 0; i < count; ++i) {
-    if (accounts[i].area > 0) reports[i].rmse = std::sqrt(accounts[i].squared / accounts[i].area);
-    auto& attributes = buildings[i].attributes;
-    attributes.emplace_back("ms_outcome", std::string(to_string(reports[i].outcome)));
-    if (reports[i].parts > 0) {
-      attributes.emplace_back("ms_h_ground", reports[i].ground);
-      attributes.emplace_back("ms_h_roof_max", reports[i].roof_max);
-      attributes.emplace_back("ms_volume_lod22", reports[i].volume);
-      if (reports[i].rmse) attributes.emplace_back("ms_rmse_lod22", *reports[i].rmse);
-      if (reports[i].left_out > 0) attributes.emplace_back("ms_area_left_out", reports[i].left_out);
-      report::round_measures(attributes);
-    }
+  for (auto& [f, made] : result.solids) add_solids(finished(f).building, finished(f).report, std::move(made), z0);
+  for (const std::size_t f : result.covered) {
+    auto& report = finished(f).report;
+    report.outcome = report::Outcome::covered;
+    report.reasons.push_back(
+        base::warning("pipeline-covered", "the ground of this footprint went to its neighbours' models", report.id));
   }
-  buildings.resize(scene.footprints.size());
-  reports.resize(scene.footprints.size());
-  out.city.frame = scene.frame;
-  out.city.made_by = made_by(scene, options);
-  out.city.buildings = std::move(buildings);
-  out.buildings = std::move(reports);
+  for (const auto& [f, why] : result.failed) {
+    auto& report = finished(f).report;
+    report.outcome = report.parts == 0 ? report::Outcome::refused : report::Outcome::fallback;
+    report.reasons.push_back(base::warning(why.code, why.message, report.id));
+  }
+  for (const auto& one : result.left_out) {
+    auto& report = finished(one.feature).report;
+    report.left_out = one.area;
+    report.reasons.push_back(base::warning("pipeline-left-out", one.what, report.id));
+  }
+  for (auto& [f, warning] : result.unchecked) {
+    auto& report = finished(f).report;
+    warning.subject = report.id;
+    report.reasons.push_back(warning);
+    if (f < scene.footprints.size()) warnings.push_back(std::move(warning));
+  }
+  warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    auto& [building, report] = out[i].second;
+    if (accounts[i].area > 0) report.rmse = std::sqrt(accounts[i].squared / accounts[i].area);
+    auto& attributes = building.attributes;
+    attributes.emplace_back("ms_outcome", std::string(to_string(report.outcome)));
+    if (report.parts == 0) continue;
+    attributes.emplace_back("ms_h_ground", report.ground);
+    attributes.emplace_back("ms_h_roof_max", report.roof_max);
+    attributes.emplace_back("ms_volume_lod22", report.volume);
+    if (report.rmse) attributes.emplace_back("ms_rmse_lod22", *report.rmse);
+    if (report.left_out > 0) attributes.emplace_back("ms_area_left_out", report.left_out);
+    report::round_measures(attributes);
+  }
   return out;
 }
 

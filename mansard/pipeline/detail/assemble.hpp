@@ -1,15 +1,26 @@
-// Puts the parts of all blocks together as buildings, with their attributes and their reports.
+// Puts the parts of a block together as buildings, with their attributes and their reports.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "mansard/pipeline/detail/block_run.hpp"
 
 namespace mansard::pipeline::detail {
 
-/// `results[i]` belongs to `blocks[i]`. Fills the city, the reports and the warnings.
-[[nodiscard]] auto assemble(const model::Scene& scene, const std::vector<block::Block>& blocks,
-                            std::vector<BlockResult> results, const Options& options) -> report::Reconstruction;
+/// A feature as it is written and as it is reported.
+struct Finished {
+  model::Building building;
+  report::BuildingReport report;
+};
+
+/// A feature of which no block is known: what is wrong with it, if anything.
+[[nodiscard]] auto unbuilt(const model::Scene& scene, std::size_t feature) -> Finished;
+
+/// The features of a block with what was made of them, by their numbers. Moves the parts out of `result`. Appends to
+/// `warnings` what the run says of the block.
+[[nodiscard]] auto finish_block(const model::Scene& scene, BlockResult& result, std::vector<base::Diagnostic>& warnings)
+    -> std::vector<std::pair<std::size_t, Finished>>;
 
 /// Files have 0.1 mm: what is checked is what is written.
 [[nodiscard]] inline auto with_grid(extrude::Options options) -> extrude::Options {

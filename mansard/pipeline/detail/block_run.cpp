@@ -54,7 +54,8 @@ void measure(PartResult& part, const rays::Scene& mesh, const Options& options) 
 auto refining_of(const Options& options) -> refine::Options {
   refine::Options out = options.refine;
   if (options.profile.quality == profile::Quality::simple) out.effort = refine::Effort::caps;
-  if (options.profile.quality == profile::Quality::moderate) out.effort = std::min(out.effort, refine::Effort::planes);
+  if (options.profile.quality == profile::Quality::moderate)
+    for (double* price : {&out.face_price, &out.part_price, &out.value_price}) *price *= out.moderate_factor;
   return out;
 }
 

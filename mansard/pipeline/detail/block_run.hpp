@@ -40,7 +40,9 @@ struct PartResult {
 
 struct BlockResult {
   report::BlockReport report;
-  std::vector<PartResult> parts;                         ///< by feature
+  std::vector<std::pair<std::size_t, double>>
+      grounds;                    ///< every feature, ascending, with z of its ground; set when placed
+  std::vector<PartResult> parts;  ///< by feature
   std::vector<std::pair<std::size_t, SolidsOf>> solids;  ///< by feature; numbers of parts count the feature's own
   evaluate::ErrorMap map;
   std::vector<std::size_t> covered;  ///< features whose ground went to their neighbours

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <tuple>
+#include <iterator>
 #include <utility>
 
 #include "mansard/base/text.hpp"
@@ -14,21 +13,12 @@ namespace {
 
 using geometry::Polygon;
 
-/// A solid as it stands on the ground.
-struct Standing {
-  std::size_t order = 0, building = 0;
-  std::string name;  ///< of its first part
-  std::vector<Polygon> ground;
-  geometry::Box2 box;
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-};
-
 /// Its ground in the units of the files, 0.1 mm, in which coordinates are whole numbers and walls that coincide do so
 /// exactly.
 constexpr double units_per_metre = 1e4;
 
-auto standing(std::size_t order, std::size_t building, std::string name, const model::Solid& solid) -> Standing {
-  Standing out{order, building, std::move(name), {}, {}};
+auto standing(std::size_t building, std::string name, const model::Solid& solid) -> Standing {
+  Standing out{building, std::move(name), {}, {}};
   for (const auto& v : solid.vertices) {
     out.low = std::min(out.low, v.z);
     out.high = std::max(out.high, v.z);
@@ -58,27 +48,36 @@ auto shared_ground(const Standing& a, const Standing& b) -> base::Result<double>
   return sum / (units_per_metre * units_per_metre);
 }
 
-auto standing(const std::vector<model::Building>& buildings) -> std::vector<Standing> {
-  std::vector<Standing> all;
-  for (std::size_t i = 0; i < buildings.size(); ++i) {
-    const auto& [parts, solids] = std::tie(buildings[i].parts, buildings[i].solids);
-    for (const auto& solid : solids)
-      all.push_back(standing(all.size(), i, parts[solid.parts.front()].id, solid.model.solid));
-  }
-  return all;
-}
+struct Ordered : Standing {
+  std::size_t order = 0;  ///< by building
+};
 
 /// Small areas with the digits that they have.
 auto text(double value) -> std::string { return base::to_text(value, value < 0.01 ? 7 : 3); }
 
 }  // namespace
 
+auto standing(std::size_t number, const model::Building& building) -> std::vector<Standing> {
+  std::vector<Standing> all;
+  for (const auto& solid : building.solids)
+    all.push_back(standing(number, building.parts[solid.parts.front()].id, solid.model.solid));
+  return all;
+}
+
 auto overlaps(const std::vector<model::Building>& buildings) -> std::vector<Overlap> {
-  std::vector<Standing> all = standing(buildings);
+  std::vector<Standing> all;
+  for (std::size_t i = 0; i < buildings.size(); ++i)
+    std::ranges::move(standing(i, buildings[i]), std::back_inserter(all));
+  return overlaps(std::move(all));
+}
+
+auto overlaps(std::vector<Standing> in_order) -> std::vector<Overlap> {
+  std::vector<Ordered> all;
+  for (auto& one : in_order) all.push_back({std::move(one), all.size()});
   std::ranges::stable_sort(all, {}, [](const Standing& s) { return s.box.least.x; });
 
   struct Pair {
-    const Standing *a, *b;
+    const Ordered *a, *b;
   };
   std::vector<Pair> pairs;
   std::vector<std::size_t> open;  // those that reach as far as the next begins

@@ -1,0 +1,49 @@
+// A city of any size: what is made of it is put aside building by building, and read back in the source's order.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "mansard/base/outputs.hpp"
+#include "mansard/pipeline/pipeline.hpp"
+
+namespace mansard::pipeline {
+
+/// Everything of a report::Reconstruction but the error maps and segmentations. Its buildings are in a file without a
+/// name in the folder for temporary files (TMPDIR), so that memory holds only what is listed here: about 2 kB a block
+/// and 0.5 kB a building.
+class PutAside {
+ public:
+  model::Frame frame;
+  model::MadeBy made_by;
+  report::Summary summary;
+  report::Outcomes outcomes;
+
+  [[nodiscard]] auto size() const -> std::size_t { return places_.size(); }
+  using Visit = std::function<base::Result<void>(model::Building, report::BuildingReport)>;
+  /// Every input feature, in the source's order; ends with the first failure of `visit`. Fails with "file-write" where
+  /// something could not be put aside.
+  [[nodiscard]] auto each(const Visit& visit) const -> base::Result<void>;
+
+ private:
+  friend class CityBuilder;
+  struct Place {
+    std::uint64_t offset = 0;
+    std::uint32_t bytes = 0;
+  };
+  std::unique_ptr<base::Spool> spool_;
+  std::vector<Place> places_;                                        ///< by feature
+  std::map<std::size_t, std::vector<base::Diagnostic>> afterwards_;  ///< reasons that were found when all was made
+};
+
+/// As reconstruct, in memory that does not grow with the models. Fails as that does.
+[[nodiscard]] auto reconstruct_aside(const model::Scene& scene, const Options& options, const base::Run& run = {},
+                                     const Schedule& schedule = {}) -> base::Result<PutAside>;
+
+}  // namespace mansard::pipeline

@@ -1,0 +1,103 @@
+// The blocks of a scene, made and worked through side by side; each is gone from memory when it is done.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mansard/pipeline/detail/block_kept.hpp"
+#include "mansard/pipeline/detail/block_run.hpp"
+#include "mansard/pipeline/pipeline.hpp"
+
+namespace mansard::pipeline::detail {
+
+[[nodiscard]] auto cancelled() -> base::Diagnostic;
+
+/// The blocks that are to be worked through, by their places in the partition.
+struct Division {
+  block::Partition blocks;
+  std::vector<std::size_t> wanted;
+  report::StageTime time;
+
+  /// Without its mesh.
+  [[nodiscard]] auto outlined(std::size_t i) const -> const block::Block& { return blocks.outlined(wanted[i]); }
+};
+
+/// All blocks. Fails with "pipeline-nothing".
+[[nodiscard]] auto divide(const model::Scene& scene, const Options& options, const base::Run& run)
+    -> base::Result<Division>;
+/// Leaves the blocks that are named; all where none is. Fails with "pipeline-block-unknown".
+[[nodiscard]] auto keep_only(Division& division, std::span<const std::string> only) -> base::Result<void>;
+/// Leaves the blocks of one of so many shares.
+void keep_share(Division& division, std::size_t task, std::size_t tasks);
+
+/// The stages' times over all blocks, those of `division` among them.
+[[nodiscard]] auto stage_times(const report::StageTime& division, const std::vector<report::BlockReport>& blocks)
+    -> std::vector<report::StageTime>;
+[[nodiscard]] auto combined_scores(const std::vector<report::BlockReport>& blocks) -> evaluate::Scores;
+
+/// work(block, run, tell, time of making the block) for every block; a result for each.
+template <class Work>
+auto for_every(const Division& division, const base::Run& run, const Work& work) {
+  using Made = decltype(work(std::declval<const block::Block&>(), run, Tell{}, report::StageTime{}));
+  const std::size_t count = division.wanted.size();
+  std::vector<Made> results(count);
+  std::mutex progress;
+  std::size_t done = 0;
+  base::Run inner = run;
+  inner.progress = nullptr;
+  base::parallel_for(count, [&](std::size_t i) {
+    if (run.cancelled()) return;
+    const auto report = [&](std::string_view stage) {
+      run.report(stage, division.outlined(i).name, static_cast<double>(done) / static_cast<double>(count));
+    };
+    base::Watch making;
+    const auto block = division.blocks.make(division.wanted[i]);
+    const report::StageTime made{"block", making.stop()};
+    const auto tell = [&](std::string_view stage) {
+      const std::scoped_lock lock(progress);
+      report(stage);
+    };
+    results[i] = work(block, inner, tell, made);
+    const std::scoped_lock lock(progress);
+    ++done;
+    report("done");
+  });
+  return results;
+}
+
+/// One block: as it was kept, or else made and kept. Thread-safe; one for all blocks of a run.
+class Maker {
+ public:
+  Maker(const Division& division, const Options& options, Keep keep, const Schedule& schedule);
+
+  /// A result without anything once the run is cancelled or something could not be kept.
+  [[nodiscard]] auto operator()(const block::Block& block, const base::Run& run, const Tell& tell,
+                                const report::StageTime& made) -> BlockResult;
+
+  /// After the last one. Fails with what could not be kept.
+  [[nodiscard]] auto finish(bool whole) -> base::Result<report::Reuse>;
+
+ private:
+  [[nodiscard]] auto made(const block::Block& block, const base::Run& run, const Tell& tell) -> BlockResult;
+  [[nodiscard]] auto kept_or_made(const block::Block& own, const base::Run& run, const Tell& tell) -> BlockResult;
+  [[nodiscard]] auto kept(const block::Block& own, const BlockKey& key) -> std::optional<BlockResult>;
+
+  const Options& options_;
+  Keep keep_;
+  const Schedule& schedule_;
+  BlockKey shared_;
+  std::mutex mutex_;
+  report::Reuse reuse_;
+  std::map<std::string, BlockKey> keys_;
+  std::optional<base::Failure> failure_;
+  std::atomic<bool> failed_{false};
+};
+
+}  // namespace mansard::pipeline::detail
