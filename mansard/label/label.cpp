@@ -60,12 +60,13 @@ auto classify(std::vector<model::Solid> solids, const Options& options, const ba
   }
 
   const auto walls = detail::walls_of(solids, is_wall);
-  std::vector<double> shares(walls.size(), 0);
-  base::parallel_for(walls.size(), [&](std::size_t i) {
-    if (!run.cancelled()) shares[i] = detail::covered_share(walls[i], walls, solids, options);
+  std::vector<double> shares(walls.all.size(), 0);
+  base::parallel_for(shares.size(), [&](std::size_t i) {
+    if (!run.cancelled()) shares[i] = detail::covered_share(walls.all[i], walls, solids, options);
   });
-  for (std::size_t i = 0; i < walls.size(); ++i)
-    if (shares[i] > options.party_share) labelled[walls[i].solid].classes[walls[i].face] = model::FaceClass::party_wall;
+  for (std::size_t i = 0; i < shares.size(); ++i)
+    if (const auto& wall = walls.all[i]; shares[i] > options.party_share)
+      labelled[wall.solid].classes[wall.face] = model::FaceClass::party_wall;
 
   for (std::size_t s = 0; s < solids.size(); ++s) labelled[s].solid = std::move(solids[s]);
   run.report("label", {}, 1);

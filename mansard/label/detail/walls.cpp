@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
+#include <numbers>
+#include <optional>
 #include <utility>
 
 namespace mansard::label::detail {
@@ -75,11 +76,34 @@ auto common_length(const std::vector<Interval>& a, std::vector<Interval>& b) -> 
   return sum;
 }
 
+constexpr double circle = 2 * std::numbers::pi;
+
+/// The part of the circle that a direction is in; none of no direction.
+auto sector_of(Point2 direction, std::size_t sectors) -> std::optional<std::size_t> {
+  if (!(dot(direction, direction) > 0)) return std::nullopt;
+  const double turn = (std::atan2(direction.y, direction.x) + std::numbers::pi) / circle;
+  return std::min(static_cast<std::size_t>(turn * static_cast<double>(sectors)), sectors - 1);
+}
+
+/// All walls that may face this one, by parts of the circle: many walls of one direction can be at one place.
+auto opposite(const Wall& wall, const Walls& walls, const Options& options) -> std::vector<const Facing*> {
+  const std::size_t sectors = walls.facing.size();
+  const auto middle = sector_of(-1.0 * wall.outward, sectors);
+  if (!middle) return {};
+  // As many on each side as the angle covers, and one more for where in the middle one the direction is.
+  const double width = circle / static_cast<double>(sectors);
+  const auto beside =
+      static_cast<std::size_t>(std::acos(std::clamp(options.party_cosine, -1.0, 1.0)) / width + 1e-9) + 1;
+  std::vector<const Facing*> out;
+  for (std::size_t i = 0; i < std::min(2 * beside + 1, sectors); ++i)
+    out.push_back(&walls.facing[(*middle + sectors - beside + i) % sectors]);
+  return out;
+}
+
 }  // namespace
 
-auto walls_of(std::span<const model::Solid> solids, const std::vector<std::vector<bool>>& is_wall)
-    -> std::vector<Wall> {
-  std::vector<Wall> walls;
+auto walls_of(std::span<const model::Solid> solids, const std::vector<std::vector<bool>>& is_wall) -> Walls {
+  Walls walls;
   for (std::uint32_t s = 0; s < solids.size(); ++s) {
     for (std::uint32_t f = 0; f < solids[s].faces.size(); ++f) {
       const auto& face = solids[s].faces[f];
@@ -87,15 +111,23 @@ auto walls_of(std::span<const model::Solid> solids, const std::vector<std::vecto
       Wall wall{s, f, {}, geometry::normalised(geometry::xy(face.normal))};
       for (const auto& loop : face.loops)
         for (const auto v : loop) wall.box.add(geometry::xy(solids[s].vertices[v]));
-      if (!wall.box.empty()) walls.push_back(wall);
+      if (wall.box.empty()) continue;
+      walls.all.push_back(wall);
     }
   }
-  std::ranges::sort(walls, {}, [](const Wall& w) { return std::tuple(w.box.least.x, w.solid, w.face); });
+  for (std::uint32_t i = 0; i < walls.all.size(); ++i)
+    if (const auto sector = sector_of(walls.all[i].outward, walls.facing.size()))
+      walls.facing[*sector].walls.push_back(i);
+  for (auto& [numbers, places] : walls.facing) {
+    std::vector<geometry::Box2> boxes;
+    for (const auto i : numbers) boxes.push_back(walls.all[i].box);
+    places = geometry::BoxIndex(boxes);
+  }
   return walls;
 }
 
-auto covered_share(const Wall& wall, std::span<const Wall> walls, std::span<const model::Solid> solids,
-                   const Options& options) -> double {
+auto covered_share(const Wall& wall, const Walls& walls, std::span<const model::Solid> solids, const Options& options)
+    -> double {
   const double distance = options.party_distance;
   const auto& solid = solids[wall.solid];
   const auto& face = solid.faces[wall.face];
@@ -103,13 +135,12 @@ auto covered_share(const Wall& wall, std::span<const Wall> walls, std::span<cons
   const Frame frame{geometry::xy(solid.vertices[face.loops.front().front()]), along, wall.outward};
 
   std::vector<Outline> neighbours;
-  const auto box = wall.box.grown(distance);
-  const auto end = std::ranges::upper_bound(walls, box.most.x, {}, [](const Wall& w) { return w.box.least.x; });
-  for (auto other = walls.begin(); other != end; ++other) {
-    if (other->solid == wall.solid || !box.overlaps(other->box)) continue;
-    if (dot(wall.outward, other->outward) > -options.party_cosine) continue;
-    neighbours.push_back(outline_in(frame, solids[other->solid], solids[other->solid].faces[other->face]));
-  }
+  for (const auto* facing : opposite(wall, walls, options))
+    for (const auto near : facing->places.overlapping(wall.box.grown(distance))) {
+      const Wall& other = walls.all[facing->walls[near]];
+      if (other.solid == wall.solid || dot(wall.outward, other.outward) > -options.party_cosine) continue;
+      neighbours.push_back(outline_in(frame, solids[other.solid], solids[other.solid].faces[other.face]));
+    }
   if (neighbours.empty()) return 0;
 
   const auto own = outline_in(frame, solid, face);

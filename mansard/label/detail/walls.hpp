@@ -1,10 +1,12 @@
 // Walls that stand against each other.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "mansard/geometry/box_index.hpp"
 #include "mansard/geometry/points.hpp"
 #include "mansard/label/label.hpp"
 #include "mansard/model/solid.hpp"
@@ -18,13 +20,24 @@ struct Wall {
   geometry::Point2 outward;  ///< unit, horizontal
 };
 
-/// All faces that `is_wall` of a solid's face says are walls, sorted by the box's west side.
+/// Those of some walls that face one part of the circle, and where they are.
+struct Facing {
+  std::vector<std::uint32_t> walls;  ///< by the number in the index
+  geometry::BoxIndex places;
+};
+
+struct Walls {
+  std::vector<Wall> all;
+  std::array<Facing, 16> facing;  ///< from south over west and north back to south
+};
+
+/// All faces that `is_wall` of a solid's face says are walls, by solid and face.
 [[nodiscard]] auto walls_of(std::span<const model::Solid> solids, const std::vector<std::vector<bool>>& is_wall)
-    -> std::vector<Wall>;
+    -> Walls;
 
 /// The share of the wall's area that faces opposite walls of other solids within party_distance. Measured in
 /// vertical strips of at most party_strip, on the wall's own vertical plane; overlapping neighbours count once.
-[[nodiscard]] auto covered_share(const Wall& wall, std::span<const Wall> walls, std::span<const model::Solid> solids,
+[[nodiscard]] auto covered_share(const Wall& wall, const Walls& walls, std::span<const model::Solid> solids,
                                  const Options& options) -> double;
 
 }  // namespace mansard::label::detail
