@@ -39,15 +39,12 @@ class CityBuilder {
   [[nodiscard]] auto has(std::size_t feature) const -> bool { return city_.places_[feature].bytes > 0; }
 
   /// After the last one: what only all of them together show.
-  void finish() {
+  void finish(const base::Run& run) {
     std::vector<detail::Standing> all;
     for (auto& some : standing_) std::ranges::move(some, std::back_inserter(all));
-    const auto found = detail::overlaps(std::move(all));
-    for (const auto& one : found) {
-      city_.afterwards_[one.building].push_back(one.first);
-      if (one.building != one.other) city_.afterwards_[one.other].push_back(one.second);
-    }
-    for (auto& warning : detail::overlaps_in_all(found)) city_.summary.warnings.push_back(std::move(warning));
+    auto [of_each, in_all] = detail::overlaps(all, run);
+    for (auto& [building, what] : of_each) city_.afterwards_[building].push_back(std::move(what));
+    std::ranges::move(in_all, std::back_inserter(city_.summary.warnings));
   }
 
  private:
@@ -106,7 +103,8 @@ auto reconstruct_aside(const model::Scene& scene, const Options& options, const 
     summary.blocks.push_back(std::move(report));
     std::ranges::move(warnings, std::back_inserter(summary.warnings));
   }
-  builder.finish();
+  builder.finish(run);
+  if (run.cancelled()) return detail::cancelled();
   out.frame = scene.frame;
   out.made_by = detail::made_by(scene, options);
   summary.reuse = std::move(*reuse);

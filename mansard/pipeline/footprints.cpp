@@ -327,7 +327,8 @@ auto raise_footprints(const model::Scene& scene, const Options& options, const b
   out.buildings.resize(scene.footprints.size());
   for (auto& report : out.buildings)
     if (report.parts == 0) report.outcome = report::Outcome::refused;
-  detail::report_overlaps(out);
+  detail::report_overlaps(out, run);
+  if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
   finish(scene, out);
   out.times = {total.stop(), {{"roof", planned_in}, {"extrude", raised_in}, {"label", labelled_in}}};
   return out;

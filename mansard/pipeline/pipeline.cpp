@@ -43,7 +43,8 @@ auto reconstruct(const model::Scene& scene, const Options& options, const base::
     out.buildings.push_back(std::move(finished[f]->report));
   }
   out.scores = detail::combined_scores(out.blocks);
-  detail::report_overlaps(out);
+  detail::report_overlaps(out, run);
+  if (run.cancelled()) return detail::cancelled();
   out.times = {watch.stop(), detail::stage_times(division->time, out.blocks)};
   return out;
 }

@@ -66,8 +66,9 @@ auto raise_plans(model::City city, const Options& options, const base::Run& run)
       out.remarks.push_back(std::move(warning));
     }
   }
-  for (auto& warning : detail::overlaps_in_all(detail::overlaps(out.city.buildings)))
-    out.remarks.push_back(std::move(warning));
+  auto overlaps = detail::overlaps(out.city.buildings, run);
+  std::ranges::move(overlaps.in_all, std::back_inserter(out.remarks));
+  if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
   return out;
 }
 

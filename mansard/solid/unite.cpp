@@ -403,13 +403,20 @@ auto united_over_one_plan(std::span<const std::vector<const LabelledSolid*>> bui
         if (user[node.at] == UINT32_MAX) user[node.at] = group.owner[sheet.solid];
         else if (user[node.at] != group.owner[sheet.solid]) all->pinned[node.at] = pin;
       }
+  // The sheets of each building first: a copy of all for each would cost the square of the buildings.
+  std::vector<std::vector<detail::Sheet>> sheets(group.buildings.size());
+  for (auto& sheet : all->sheets) {
+    auto& own = sheets[group.owner[sheet.solid]].emplace_back(std::move(sheet));
+    own.solid = group.number[own.solid];
+  }
+  std::vector<std::vector<std::int64_t>> bases(group.buildings.size());
+  for (std::size_t p = 0; p < group.parts.size(); ++p) bases[group.owner[p]].push_back(all->base[p]);
+  all->sheets.clear();
+  all->base.clear();
   for (std::uint32_t k = 0; k < group.buildings.size(); ++k) {
     detail::Sheets own = *all;
-    std::erase_if(own.sheets, [&](const detail::Sheet& sheet) { return group.owner[sheet.solid] != k; });
-    for (auto& sheet : own.sheets) sheet.solid = group.number[sheet.solid];
-    own.base.clear();
-    for (std::size_t p = 0; p < group.parts.size(); ++p)
-      if (group.owner[p] == k) own.base.push_back(all->base[p]);
+    own.sheets = std::move(sheets[k]);
+    own.base = std::move(bases[k]);
     out.push_back(Uniting(buildings[group.buildings[k]], reach, std::move(own)).run());
   }
   return out;

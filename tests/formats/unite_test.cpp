@@ -325,4 +325,18 @@ TEST(Union, has_no_edge_inside_of_its_ground) {
   EXPECT_EQ(faults.front().code, "solid-self-intersection");
 }
 
+TEST(Union, of_footprints_that_are_piled_up_are_made_by_themselves) {
+  // Each crosses all others: corners of one plan of them are as many as their pairs. Two neighbours beside them that
+  // share a wall still do.
+  std::vector<LabelledSolid> parts{box(30, 0, 10, 8, 0, 6), box(40, 2, 10, 8, 0, 5)};
+  for (int i = 0; i < 100; ++i) parts.push_back(box(0.03 * (i * 37 % 100), 0.03 * (i * 61 % 100), 10, 8, 0, 6));
+  std::vector<std::vector<const LabelledSolid*>> buildings;
+  for (const auto& part : parts) buildings.push_back({&part});
+  const auto made = mansard::solid::unite_all(buildings);
+  const auto corners = [&](std::size_t b) { return made[b].solids.at(0).model.solid.vertices.size(); };
+  EXPECT_EQ(corners(0), 10U) << "two are on its neighbour's wall";
+  EXPECT_EQ(corners(1), 10U);
+  for (std::size_t b = 2; b < parts.size(); ++b) EXPECT_EQ(corners(b), 8U) << b;
+}
+
 }  // namespace

@@ -70,12 +70,15 @@ TEST(Overlaps, are_told_of_a_tenth_of_a_millimetre_and_not_of_walls_that_coincid
     next[0].x += wall, next[3].x += wall;
     return detail::overlaps({building_on("a", slanted), building_on("b", next)});
   };
-  EXPECT_THAT(pairs(0), testing::IsEmpty());
-  EXPECT_THAT(pairs(1e-4), testing::IsEmpty());
+  for (const double apart : {0.0, 1e-4}) {
+    EXPECT_THAT(pairs(apart).of_each, testing::IsEmpty()) << apart;
+    EXPECT_THAT(pairs(apart).in_all, testing::IsEmpty()) << apart;
+  }
   const auto some = pairs(-1e-4);
-  ASSERT_EQ(some.size(), 1U);
-  EXPECT_EQ(some[0].first.subject, "a-1");
-  EXPECT_NEAR(some[0].volume.value(), 7.9 * 1e-4 * 3, 1e-4);
+  ASSERT_EQ(some.of_each.size(), 2U);
+  EXPECT_EQ(some.of_each[0].what.subject, "a-1");
+  EXPECT_THAT(some.of_each[0].what.message, HasSubstr("it shares 0.00079"));  // m², 7.9 m by 0.1 mm
+  EXPECT_THAT(some.of_each[0].what.message, HasSubstr("at most 0.00237"));    // m³, 3 m high
 }
 
 TEST(Overlaps, that_cannot_be_computed_are_reported_in_both_buildings_and_once) {
@@ -91,6 +94,73 @@ TEST(Overlaps, that_cannot_be_computed_are_reported_in_both_buildings_and_once) 
   EXPECT_THAT(codes_of(r.buildings[1].reasons), testing::ElementsAre("pipeline-overlap-unchecked", "pipeline-overlap"));
   EXPECT_THAT(codes_of(r.buildings[2].reasons), testing::ElementsAre("pipeline-overlap"));
   EXPECT_THAT(r.buildings[1].reasons[0].message, HasSubstr("with a-1 could not be computed"));
+}
+
+/// Solids of one corner, each larger than the one before by a metre.
+auto stacked(int count) -> std::vector<model::Building> {
+  std::vector<model::Building> buildings;
+  for (int i = 0; i < count; ++i) {
+    const double side = 10 + i;
+    buildings.push_back(building_on("s" + std::to_string(i), {{0, 0}, {side, 0}, {side, side}, {0, side}}));
+  }
+  return buildings;
+}
+
+TEST(Overlaps, of_many_solids_with_one_are_told_by_the_largest_and_a_number) {
+  report::Reconstruction r;
+  r.city.buildings = stacked(1);
+  for (int i = 0; i < 24; ++i) {  // in a row on the first: the one numbered i shares (i + 1) · 0.04 m²
+    const double from = 0.4 * i;
+    const double to = from + 0.2, top = 0.2 * (i + 1);
+    r.city.buildings.push_back(building_on("b" + std::to_string(i), {{from, -1}, {to, -1}, {to, top}, {from, top}}));
+  }
+  r.buildings.resize(25);
+  detail::report_overlaps(r);
+  const auto& reasons = r.buildings[0].reasons;
+  ASSERT_EQ(reasons.size(), 21U);
+  EXPECT_THAT(reasons[0].message, HasSubstr("0.200 m² of ground"));  // the largest twenty, in the source's order
+  EXPECT_THAT(reasons[0].message, HasSubstr("with b4-1"));
+  EXPECT_THAT(reasons[19].message, HasSubstr("with b23-1"));
+  EXPECT_THAT(reasons[20].message, HasSubstr("it overlaps 4 more solids"));
+  for (std::size_t i = 1; i < 25; ++i) EXPECT_EQ(r.buildings[i].reasons.size(), 1U) << i;
+  ASSERT_EQ(r.warnings.size(), 1U);
+  EXPECT_THAT(r.warnings[0].message, testing::StartsWith("24 pairs"));
+}
+
+TEST(Overlaps, of_a_stack_are_counted_as_far_as_they_were_compared_and_need_bounded_space) {
+  constexpr std::size_t count = 200;
+  report::Reconstruction r;
+  r.city.buildings = stacked(count);
+  r.buildings.resize(count);
+  detail::report_overlaps(r);
+  for (std::size_t i = 0; i < count; ++i) {
+    ASSERT_EQ(r.buildings[i].reasons.size(), 21U) << i;
+    EXPECT_THAT(r.buildings[i].reasons[20].message, HasSubstr("at least ")) << i;
+  }
+  ASSERT_EQ(r.warnings.size(), 1U);
+  // Every solid with the first 32 others: 33 among themselves, and each of the others with 32.
+  EXPECT_THAT(r.warnings[0].message, testing::StartsWith("at least 5872 pairs of solids overlap"));
+}
+
+TEST(Overlaps, of_solids_at_different_heights_are_none_and_do_not_count_as_compared) {
+  auto buildings = stacked(2);
+  for (int i = 0; i < 100; ++i) {
+    auto& above = *buildings.insert(buildings.begin(), building_on("c" + std::to_string(i), {{0, 0}, {9, 0}, {9, 9}}));
+    for (auto& v : above.solids[0].model.solid.vertices) v.z += 10 + 4 * i;
+  }
+  const auto found = detail::overlaps(buildings);
+  ASSERT_EQ(found.in_all.size(), 1U);
+  EXPECT_THAT(found.in_all[0].message, testing::StartsWith("1 pair of solids"));
+}
+
+TEST(Overlaps, are_not_looked_for_once_the_run_is_cancelled) {
+  base::Cancel cancel;
+  cancel.request();
+  base::Run run;
+  run.cancel = &cancel;
+  const auto found = detail::overlaps(stacked(5), run);
+  EXPECT_THAT(found.of_each, testing::IsEmpty());
+  EXPECT_THAT(found.in_all, testing::IsEmpty());
 }
 
 }  // namespace

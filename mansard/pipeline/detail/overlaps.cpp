@@ -2,16 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <functional>
 #include <iterator>
+#include <limits>
+#include <string>
 #include <utility>
 
 #include "mansard/base/text.hpp"
+#include "mansard/geometry/box_index.hpp"
 #include "mansard/geometry/change.hpp"
 
 namespace mansard::pipeline::detail {
 namespace {
 
 using geometry::Polygon;
+
+/// A solid is compared with so many others in the source's order, and with every one that has as few: where many are
+/// stacked on one place, the work grows with their number and not with that of their pairs.
+constexpr std::size_t most_compared = 32;
+/// So many overlaps are reported of a solid, the largest ones, and so many of the whole that could not be computed.
+constexpr std::size_t most_reported = 20;
 
 /// Its ground in the units of the files, 0.1 mm, in which coordinates are whole numbers and walls that coincide do so
 /// exactly.
@@ -48,12 +59,142 @@ auto shared_ground(const Standing& a, const Standing& b) -> base::Result<double>
   return sum / (units_per_metre * units_per_metre);
 }
 
-struct Ordered : Standing {
-  std::size_t order = 0;  ///< by building
+/// Whether the insides of both boxes have something in common: neighbours with a common wall do not overlap.
+auto may_overlap(const Standing& a, const Standing& b) -> bool {
+  const auto common = [](double least_a, double most_a, double least_b, double most_b) {
+    return std::min(most_a, most_b) > std::max(least_a, least_b);
+  };
+  return common(a.box.least.x, a.box.most.x, b.box.least.x, b.box.most.x) &&
+         common(a.box.least.y, a.box.most.y, b.box.least.y, b.box.most.y) && common(a.low, a.high, b.low, b.high);
+}
+
+/// Two solids by their numbers, and what they share.
+struct Pair {
+  std::uint32_t first = 0, second = 0;
+  double area = 0;           ///< m² of ground
+  std::string failure = {};  ///< why it could not be computed; empty where it could
 };
+
+/// The pairs to compare, in the source's order, and whether there may be others.
+struct Candidates {
+  std::vector<Pair> pairs;
+  bool all = true;
+};
+
+auto candidates(const std::vector<Standing>& solids, const base::Run& run) -> Candidates {
+  std::vector<geometry::Box2> boxes;
+  for (const Standing& solid : solids) boxes.push_back(solid.box);
+  const geometry::BoxIndex index(boxes);
+  std::vector<std::vector<std::uint32_t>> near(solids.size());
+  base::parallel_for(solids.size(), [&](std::size_t i) {
+    if (run.cancelled()) return;
+    const auto other = [&](std::uint32_t k) { return k != i && may_overlap(solids[i], solids[k]); };
+    near[i] = index.first_overlapping(boxes[i], most_compared + 1, other);
+  });
+  Candidates out;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  for (std::uint32_t i = 0; i < near.size(); ++i) {
+    if (near[i].size() > most_compared) {
+      near[i].pop_back();
+      out.all = false;
+    }
+    for (const auto k : near[i]) pairs.emplace_back(std::min(i, k), std::max(i, k));
+  }
+  std::ranges::sort(pairs);
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  for (const auto& [first, second] : pairs) out.pairs.push_back({first, second});
+  return out;
+}
 
 /// Small areas with the digits that they have.
 auto text(double value) -> std::string { return base::to_text(value, value < 0.01 ? 7 : 3); }
+
+auto height(const Standing& a, const Standing& b) -> double {
+  return std::min(a.high, b.high) - std::max(a.low, b.low);
+}
+
+/// What is said of a solid because of another one.
+auto said(const Pair& pair, const Standing& of, const Standing& with) -> base::Diagnostic {
+  if (!pair.failure.empty())
+    return base::warning(
+        "pipeline-overlap-unchecked",
+        "whether it shares ground with " + with.name + " could not be computed (" + pair.failure + "); look at both",
+        of.name);
+  return base::warning("pipeline-overlap",
+                       "it shares " + text(pair.area) + " m² of ground, and at most " +
+                           text(pair.area * height(of, with)) + " m³, with " + with.name,
+                       of.name);
+}
+
+/// "at least " where not every pair was compared.
+auto at_least(bool all) -> std::string { return all ? "" : "at least "; }
+
+/// What is said of each solid: its largest overlaps, and the number of the others. In the order of the pairs; of two
+/// solids of one building, only by the first.
+auto said_of_each(const std::vector<Standing>& solids, const std::vector<Pair>& pairs, bool all)
+    -> std::vector<Overlaps::Of> {
+  std::vector<std::vector<std::uint32_t>> of(solids.size());
+  for (std::uint32_t i = 0; i < pairs.size(); ++i) {
+    of[pairs[i].first].push_back(i);
+    if (solids[pairs[i].first].building != solids[pairs[i].second].building) of[pairs[i].second].push_back(i);
+  }
+  const auto volume = [&](std::uint32_t i) {
+    const Pair& pair = pairs[i];
+    if (!pair.failure.empty()) return std::numeric_limits<double>::infinity();
+    return pair.area * height(solids[pair.first], solids[pair.second]);
+  };
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> told;  // a pair, and the solid of which it is told
+  std::vector<Overlaps::Of> more;
+  for (std::uint32_t s = 0; s < of.size(); ++s) {
+    auto& own = of[s];
+    if (const std::size_t count = own.size(); count > most_reported) {
+      std::ranges::stable_sort(own, std::greater<>(), volume);
+      own.resize(most_reported);
+      more.push_back(
+          {solids[s].building, base::warning("pipeline-overlap",
+                                             "it overlaps " + at_least(all) + std::to_string(count - most_reported) +
+                                                 " more solids, none of them by more; look for footprints that overlap",
+                                             solids[s].name)});
+    }
+    for (const auto i : own) told.emplace_back(i, s);
+  }
+  std::ranges::sort(told);
+  std::vector<Overlaps::Of> out;
+  for (const auto& [i, s] : told) {
+    const auto other = pairs[i].first == s ? pairs[i].second : pairs[i].first;
+    out.push_back({solids[s].building, said(pairs[i], solids[s], solids[other])});
+  }
+  std::ranges::move(more, std::back_inserter(out));
+  return out;
+}
+
+/// What is said of the whole.
+auto said_of_all(const std::vector<Standing>& solids, const std::vector<Pair>& pairs, bool all)
+    -> std::vector<base::Diagnostic> {
+  std::vector<base::Diagnostic> out;
+  const Pair* most = nullptr;
+  double volume = 0;
+  std::size_t known = 0, unknown = 0;
+  for (const Pair& pair : pairs) {
+    const Standing &a = solids[pair.first], &b = solids[pair.second];
+    if (!pair.failure.empty()) {
+      if (++unknown <= most_reported) out.push_back(said(pair, a, b));
+      continue;
+    }
+    ++known;
+    const double own = pair.area * height(a, b);
+    if (most == nullptr || own > volume) most = &pair, volume = own;
+  }
+  if (unknown > most_reported)
+    out.push_back(base::warning("pipeline-overlap-unchecked",
+                                "the same of " + std::to_string(unknown - most_reported) + " more pairs of solids"));
+  if (known > 0)
+    out.push_back(base::warning(
+        "pipeline-overlap", at_least(all) + std::to_string(known) + (known == 1 ? " pair" : " pairs") +
+                                " of solids overlap, by at most " + text(volume) + " m³: " + solids[most->first].name +
+                                " and " + solids[most->second].name));
+  return out;
+}
 
 }  // namespace
 
@@ -64,89 +205,30 @@ auto standing(std::size_t number, const model::Building& building) -> std::vecto
   return all;
 }
 
-auto overlaps(const std::vector<model::Building>& buildings) -> std::vector<Overlap> {
+auto overlaps(const std::vector<model::Building>& buildings, const base::Run& run) -> Overlaps {
   std::vector<Standing> all;
   for (std::size_t i = 0; i < buildings.size(); ++i)
     std::ranges::move(standing(i, buildings[i]), std::back_inserter(all));
-  return overlaps(std::move(all));
+  return overlaps(all, run);
 }
 
-auto overlaps(std::vector<Standing> in_order) -> std::vector<Overlap> {
-  std::vector<Ordered> all;
-  for (auto& one : in_order) all.push_back({std::move(one), all.size()});
-  std::ranges::stable_sort(all, {}, [](const Standing& s) { return s.box.least.x; });
-
-  struct Pair {
-    const Ordered *a, *b;
-  };
-  std::vector<Pair> pairs;
-  std::vector<std::size_t> open;  // those that reach as far as the next begins
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    std::erase_if(open, [&](std::size_t k) { return all[k].box.most.x < all[i].box.least.x; });
-    for (const std::size_t k : open)
-      if (all[k].box.overlaps(all[i].box) && std::min(all[k].high, all[i].high) > std::max(all[k].low, all[i].low))
-        pairs.push_back({&all[k], &all[i]});
-    open.push_back(i);
-  }
-  // By the source's order, not by place.
-  for (auto& pair : pairs)
-    if (pair.b->order < pair.a->order) std::swap(pair.a, pair.b);
-  std::ranges::sort(pairs, {}, [](const Pair& pair) { return std::pair(pair.a->order, pair.b->order); });
-  std::vector<base::Result<double>> areas(pairs.size(), 0.0);
-  base::parallel_for(pairs.size(), [&](std::size_t i) { areas[i] = shared_ground(*pairs[i].a, *pairs[i].b); });
-
-  std::vector<Overlap> out;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const auto& [a, b] = pairs[i];
-    if (areas[i] && *areas[i] == 0) continue;
-    const double height = std::min(a->high, b->high) - std::max(a->low, b->low);
-    Overlap& one = out.emplace_back();
-    one.building = a->building, one.other = b->building;
-    const auto said = [&](const Standing& of, const Standing& with) {
-      if (!areas[i])
-        return base::warning("pipeline-overlap-unchecked",
-                             "whether it shares ground with " + with.name + " could not be computed (" +
-                                 areas[i].error().message + "); look at both",
-                             of.name);
-      return base::warning("pipeline-overlap",
-                           "it shares " + text(*areas[i]) + " m² of ground, and at most " + text(*areas[i] * height) +
-                               " m³, with " + with.name,
-                           of.name);
-    };
-    one.first = said(*a, *b);
-    one.second = said(*b, *a);
-    if (areas[i]) one.volume = *areas[i] * height;
-  }
-  return out;
+auto overlaps(const std::vector<Standing>& solids, const base::Run& run) -> Overlaps {
+  auto [pairs, all] = candidates(solids, run);
+  base::parallel_for(pairs.size(), [&](std::size_t i) {
+    if (run.cancelled()) return;
+    const auto area = shared_ground(solids[pairs[i].first], solids[pairs[i].second]);
+    if (area) pairs[i].area = *area;
+    else pairs[i].failure = area.error().message;
+  });
+  std::erase_if(pairs, [](const Pair& pair) { return pair.failure.empty() && pair.area == 0; });
+  if (run.cancelled()) return {};
+  return {said_of_each(solids, pairs, all), said_of_all(solids, pairs, all)};
 }
 
-auto overlaps_in_all(const std::vector<Overlap>& overlaps) -> std::vector<base::Diagnostic> {
-  std::vector<base::Diagnostic> out;
-  const Overlap* most = nullptr;
-  std::size_t known = 0;
-  for (const Overlap& one : overlaps) {
-    if (!one.volume) {
-      out.push_back(one.first);
-      continue;
-    }
-    ++known;
-    if (most == nullptr || *one.volume > *most->volume) most = &one;
-  }
-  if (known > 0)
-    out.push_back(base::warning("pipeline-overlap", std::to_string(known) + (known == 1 ? " pair" : " pairs") +
-                                                        " of solids overlap, by at most " + text(*most->volume) +
-                                                        " m³: " + most->first.subject + " and " +
-                                                        most->second.subject));
-  return out;
-}
-
-void report_overlaps(report::Reconstruction& reconstruction) {
-  const auto found = overlaps(reconstruction.city.buildings);
-  for (const Overlap& one : found) {
-    reconstruction.buildings[one.building].reasons.push_back(one.first);
-    if (one.building != one.other) reconstruction.buildings[one.other].reasons.push_back(one.second);
-  }
-  for (auto& warning : overlaps_in_all(found)) reconstruction.warnings.push_back(std::move(warning));
+void report_overlaps(report::Reconstruction& reconstruction, const base::Run& run) {
+  auto [of_each, in_all] = overlaps(reconstruction.city.buildings, run);
+  for (auto& [building, what] : of_each) reconstruction.buildings[building].reasons.push_back(std::move(what));
+  for (auto& warning : in_all) reconstruction.warnings.push_back(std::move(warning));
 }
 
 }  // namespace mansard::pipeline::detail

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <limits>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,18 +9,23 @@
 
 namespace mansard::pipeline::detail {
 
-/// Two solids, of one building or of two.
-struct Overlap {
-  std::size_t building = 0, other = 0;
-  base::Diagnostic first, second;  ///< what each says of the other
-  std::optional<double> volume;    ///< m³, at most; none where it could not be computed
+/// What there is to say of solids that overlap, in space that grows with the number of solids and not with that of
+/// their pairs.
+struct Overlaps {
+  struct Of {
+    std::size_t building = 0;
+    base::Diagnostic what;
+  };
+  std::vector<Of> of_each;               ///< the largest overlaps of each solid, and how many more it has
+  std::vector<base::Diagnostic> in_all;  ///< the number of pairs and the largest, and what could not be computed
 };
 
 /// Every two of the written solids whose ground floors share any area at all, and whose heights do: walls of neighbours
 /// coincide exactly in whole units of the files, or have a gap between them. "pipeline-overlap", or
 /// "pipeline-overlap-unchecked" where the ground cannot be intersected. In the order of the buildings. Overhanging
-/// eaves are not looked at. Cost: O(n log n) for n solids whose boxes overlap few others.
-[[nodiscard]] auto overlaps(const std::vector<model::Building>& buildings) -> std::vector<Overlap>;
+/// eaves are not looked at. Two solids that both overlap many others may not be compared; the numbers are lower bounds
+/// then. Cost: O(n log n) for n solids. Nothing once the run is cancelled.
+[[nodiscard]] auto overlaps(const std::vector<model::Building>& buildings, const base::Run& run = {}) -> Overlaps;
 
 /// A solid as it stands on the ground: what there is to know of it here.
 struct Standing {
@@ -33,13 +37,10 @@ struct Standing {
 };
 [[nodiscard]] auto standing(std::size_t number, const model::Building& building) -> std::vector<Standing>;
 /// The same of solids in the order of their buildings.
-[[nodiscard]] auto overlaps(std::vector<Standing> all) -> std::vector<Overlap>;
+[[nodiscard]] auto overlaps(const std::vector<Standing>& solids, const base::Run& run = {}) -> Overlaps;
 
-/// What is said of the whole: one warning with the number and the largest, and all that could not be computed.
-[[nodiscard]] auto overlaps_in_all(const std::vector<Overlap>& overlaps) -> std::vector<base::Diagnostic>;
-
-/// Says it among the reasons of both buildings, and among the warnings. `buildings[i]` is the report on
+/// Says it among the reasons of the buildings, and among the warnings. `buildings[i]` is the report on
 /// `city.buildings[i]`.
-void report_overlaps(report::Reconstruction& reconstruction);
+void report_overlaps(report::Reconstruction& reconstruction, const base::Run& run = {});
 
 }  // namespace mansard::pipeline::detail

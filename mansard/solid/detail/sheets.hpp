@@ -66,7 +66,8 @@ using Sides = std::map<Step, Side>;
 [[nodiscard]] auto sides_of(const Sheets& sheets) -> std::optional<Sides>;
 
 /// By solids of several owners: the first of the owners that each belongs to, when those are put together whose ground
-/// comes nearer than Sheets::near in plan.
+/// comes nearer than Sheets::near in plan. An owner stays by itself where its ground overlaps that of others at more
+/// than some dozen edges.
 [[nodiscard]] auto touching(const Sheets& sheets, const std::vector<std::uint32_t>& owner_of_solid,
                             std::uint32_t owners) -> std::vector<std::uint32_t>;
 

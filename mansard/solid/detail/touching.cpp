@@ -64,17 +64,66 @@ auto edges_of(const Sheets& sheets, const std::vector<std::uint32_t>& owner_of_s
 
 }  // namespace
 
-auto touching(const Sheets& sheets, const std::vector<std::uint32_t>& owner_of_solid, std::uint32_t owners)
-    -> std::vector<std::uint32_t> {
-  const auto edges = edges_of(sheets, owner_of_solid);
-  const std::int64_t near = sheets.near;
-  base::DisjointSets sets(owners);
+namespace {
+
+/// Whether the grounds on the inner sides of two edges overlap there by more than surveys differ: the edges cross far
+/// from their ends, or run along each other in one direction.
+auto overlap(const Edge& a, const Edge& b, std::int64_t near) -> bool {
+  constexpr double deep = 0.1 * quanta_per_metre;
+  const auto along_a = minus(a.to, a.from), along_b = minus(b.to, b.from);
+  if (side(a, b.from) * side(a, b.to) < 0 && side(b, a.from) * side(b, a.to) < 0)
+    return std::min({distance(a.from, b), distance(a.to, b), distance(b.from, a), distance(b.to, a)}) > deep;
+  if (along_a[0] * along_b[0] + along_a[1] * along_b[1] <= 0) return false;
+  const double length = std::hypot(along_a[0], along_a[1]);
+  double first = length, last = 0;  // of b, along a
+  for (const Place& p : {b.from, b.to}) {
+    const auto to = minus(p, a.from);
+    if (std::abs(along_a[0] * to[1] - along_a[1] * to[0]) > static_cast<double>(near) * length) return false;
+    const double at = (along_a[0] * to[0] + along_a[1] * to[1]) / length;
+    first = std::min(first, at);
+    last = std::max(last, at);
+  }
+  return std::min(last, length) - std::max(first, 0.0) > deep;
+}
+
+/// Calls work(i, k) for edges of different owners whose boxes are near, as long as it is true of i.
+template <class Work>
+void for_near(const std::vector<Edge>& edges, std::int64_t near, Work work) {
   for (std::size_t i = 0; i < edges.size(); ++i)
     for (std::size_t k = i + 1; k < edges.size() && edges[k].least(0) <= edges[i].most(0) + near; ++k) {
       if (edges[k].least(1) > edges[i].most(1) + near || edges[i].least(1) > edges[k].most(1) + near) continue;
-      if (sets.of(edges[i].owner) != sets.of(edges[k].owner) && meet(edges[i], edges[k], near))
-        sets.join(edges[i].owner, edges[k].owner);
+      if (edges[i].owner != edges[k].owner && !work(edges[i], edges[k])) break;
     }
+}
+
+/// The owners whose ground overlaps that of others at so many edges that it is no survey of a city, but footprints
+/// piled up: all their crossings in one plan would cost the square of their number and more. Which edges are counted
+/// depends on their order, and so on nothing but the owners that are near.
+auto piled_up(const std::vector<Edge>& edges, std::int64_t near, std::uint32_t owners) -> std::vector<bool> {
+  constexpr int most = 64;
+  std::vector<int> count(owners, 0);
+  for_near(edges, near, [&](const Edge& a, const Edge& b) {
+    if (count[a.owner] > most) return false;
+    if (overlap(a, b, near)) ++count[a.owner], ++count[b.owner];
+    return true;
+  });
+  std::vector<bool> out;
+  for (const int number : count) out.push_back(number > most);
+  return out;
+}
+
+}  // namespace
+
+auto touching(const Sheets& sheets, const std::vector<std::uint32_t>& owner_of_solid, std::uint32_t owners)
+    -> std::vector<std::uint32_t> {
+  const auto edges = edges_of(sheets, owner_of_solid);
+  const auto alone = piled_up(edges, sheets.near, owners);
+  base::DisjointSets sets(owners);
+  for_near(edges, sheets.near, [&](const Edge& a, const Edge& b) {
+    if (alone[a.owner]) return false;
+    if (!alone[b.owner] && sets.of(a.owner) != sets.of(b.owner) && meet(a, b, sheets.near)) sets.join(a.owner, b.owner);
+    return true;
+  });
   std::vector<std::uint32_t> out(owners);
   for (std::uint32_t o = 0; o < owners; ++o) out[o] = sets.of(o);
   return out;
