@@ -9,11 +9,13 @@
 #include <cstring>
 #include <new>
 #include <set>
+#include <system_error>
 #include <vector>
 
 #include "apps/cli/catalogue.hpp"
 #include "apps/cli/exit.hpp"
 #include "apps/cli/help.hpp"
+#include "apps/cli/last_resort.hpp"
 #include "apps/cli/layout.hpp"
 #include "apps/cli/output.hpp"
 #include "apps/cli/verbs.hpp"
@@ -24,11 +26,6 @@ namespace mansard::cli {
 namespace {
 
 base::Cancel cancel;  // NOLINT: a signal handler can only reach a global
-
-void on_interrupt(int) {
-  if (cancel.requested()) ::_exit(cancelled);  // the second Ctrl-C ends it at once
-  cancel.request();
-}
 
 /// A standard stream that whoever called has closed would give its number to the first file that is opened, and what
 /// is printed would go into it.
@@ -184,6 +181,8 @@ auto run(int argc, char** argv) -> int {
     if (const auto more = left_over(*verb.app); !more.empty())
       return give_up(
           base::error("usage", "unexpected argument; see 'mansard " + verb.app->get_name() + " --help'", more.front()));
+    if (verb.app->get_name() == "serve") go_on_without_memory();  // and it ends in its own time
+    else stop_in_time();
     return verb.run();
   }
   return usage;
@@ -198,9 +197,9 @@ auto main(int argc, char** argv) -> int {
   cli::hold_standard_streams();
   // `mansard … 2>&1 | head` must not end a run between two files.
   std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGINT, cli::on_interrupt);
-  std::signal(SIGTERM, cli::on_interrupt);
-  std::signal(SIGHUP, cli::on_interrupt);
+  cli::stop_on_signals(cli::cancel);
+  cli::end_without_memory();
+  cli::fail_writes_beyond_limit();
   const struct Tidy {
     ~Tidy() { cli::remove_folders_left_empty(); }
   } tidy;
@@ -208,6 +207,11 @@ auto main(int argc, char** argv) -> int {
     return cli::printed(cli::run(argc, argv));
   } catch (const std::bad_alloc&) {
     return cli::give_up(base::error("memory", "out of memory; process a smaller area (--bbox)"));
+  } catch (const std::system_error& e) {
+    if (e.code() != std::errc::resource_unavailable_try_again && e.code() != std::errc::not_enough_memory)
+      return cli::give_up(base::error("bug", std::string(e.what()) + "; please report it with the command line"));
+    return cli::give_up(
+        base::error("memory", "there is no memory for another thread, or too many threads run; use fewer with --jobs"));
   } catch (const std::exception& e) {
     return cli::give_up(base::error("bug", std::string(e.what()) + "; please report it with the command line"));
   }

@@ -6,7 +6,9 @@
 #include <array>
 #include <cctype>
 
+#include "mansard/base/outputs.hpp"
 #include "mansard/base/text.hpp"
+#include "mansard/base/unfinished.hpp"
 
 namespace mansard::cli {
 
@@ -38,6 +40,15 @@ auto place_of(const fs::path& path) -> fs::path {
   return status ? whole.lexically_normal() : followed;
 }
 
+/// Writers put aside what they know too early: without a place for it a run would fail at its end.
+auto temporary_files_possible() -> base::Result<void> {
+  auto spool = base::Spool::open();
+  if (!spool) return spool.failure();
+  (*spool)->append("probe");
+  if (auto read = (*spool)->read(0, 1); !read) return read.failure();
+  return {};
+}
+
 }  // namespace
 
 auto holds_results(const fs::path& folder) -> bool {
@@ -53,10 +64,12 @@ auto holds_results(const fs::path& folder) -> bool {
 
 auto prepare(const fs::path& folder, bool overwrite) -> base::Result<void> {
   std::error_code status;
+  if (auto room = temporary_files_possible(); !room) return room;
   if (fs::exists(folder, status)) {
     if (!fs::is_directory(folder, status))
       return base::error("output-exists", "is a file, and the output is a folder; choose another path",
                          folder.string());
+    base::sweep(folder);
     if (!overwrite && holds_results(folder) && !began_empty(folder))
       return base::error("output-exists", "the folder is not empty; choose another, or add --overwrite",
                          folder.string());
@@ -149,7 +162,7 @@ auto can_be_made_in(const fs::path& folder, const fs::path& path) -> base::Resul
                        path.string());
   if (::access(folder.c_str(), W_OK) != 0)
     return base::error("file-write", "cannot write to its folder; choose a path with write permission", path.string());
-  return {};
+  return temporary_files_possible();
 }
 
 auto file_free(const fs::path& path, bool overwrite) -> base::Result<void> {

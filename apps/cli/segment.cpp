@@ -37,13 +37,31 @@ auto check_apart(const Request& request, std::vector<fs::path> files) -> base::R
   return {};
 }
 
+/// Names of programs are known when the blocks are: those of an earlier run are found before the work all the same.
+auto programs_free(const Request& request) -> base::Result<void> {
+  if (request.mps.empty() || request.scan.overwrite) return {};
+  const fs::path path = request.mps;
+  const auto start = path.stem().string() + "-block-", end = path.extension().string();
+  std::error_code failure;
+  for (fs::directory_iterator at(path.has_parent_path() ? path.parent_path() : ".", failure), none;
+       !failure && at != none; at.increment(failure)) {
+    const auto name = at->path().filename().string();
+    if (name.size() > start.size() + end.size() && name.starts_with(start) && name.ends_with(end))
+      return base::error("output-exists",
+                         "an integer program of an earlier run is there; choose another name, or add --overwrite",
+                         (path.parent_path() / name).string());
+  }
+  return {};
+}
+
 auto check_outputs(const Request& request) -> base::Result<void> {
   if (fs::path(request.out).extension() != ".gpkg")
     return base::error("usage", "the output is a GeoPackage; its file extension must be .gpkg", request.out);
   std::vector<fs::path> files{request.out};
   if (!request.mps.empty()) files.emplace_back(request.mps);
   if (auto apart = check_apart(request, files); !apart) return apart;
-  return files_free(request.scan, std::move(files));
+  if (auto usable = files_free(request.scan, std::move(files)); !usable) return usable;
+  return programs_free(request);
 }
 
 /// The programs of the blocks with faces inside. One takes the name that was given; several have the block's in it.

@@ -1,11 +1,12 @@
 #include "mansard/base/files.hpp"
 
-#include <unistd.h>
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <memory>
+
+#include "mansard/base/unfinished.hpp"
 
 namespace mansard::base {
 namespace {
@@ -18,13 +19,12 @@ using File = std::unique_ptr<std::FILE, Close>;
 }  // namespace
 
 auto write_files(const std::vector<FileToWrite>& files, const Cancel* cancel) -> Result<void> {
-  const auto beside = [](const FileToWrite& file) {
-    auto path = file.path;
-    return path += ".part" + std::to_string(::getpid());
-  };
   const auto clean_up = [&] {
     std::error_code ignored;
-    for (const auto& file : files) std::filesystem::remove(beside(file), ignored);
+    for (const auto& file : files) {
+      std::filesystem::remove(beside(file.path, Beside::part), ignored);
+      forget_unfinished(beside(file.path, Beside::part));
+    }
   };
   const auto give_up = [&](const std::string& what, const FileToWrite& file) -> Diagnostic {
     clean_up();
@@ -34,7 +34,10 @@ auto write_files(const std::vector<FileToWrite>& files, const Cancel* cancel) ->
     // Renaming onto a folder fails only when others are in place already.
     std::error_code status;
     if (std::filesystem::is_directory(file.path, status)) return give_up("cannot write: this is a folder", file);
-    File out(std::fopen(beside(file).c_str(), "wb"));
+    sweep_beside(file.path);
+    const auto made = beside(file.path, Beside::part);
+    note_unfinished(made);
+    File out(std::fopen(made.c_str(), "wb"));
     const bool written = out && std::fwrite(file.bytes.data(), 1, file.bytes.size(), out.get()) == file.bytes.size() &&
                          std::fclose(out.release()) == 0;
     if (!written) return give_up(std::string("cannot write: ") + std::strerror(errno), file);
@@ -43,9 +46,11 @@ auto write_files(const std::vector<FileToWrite>& files, const Cancel* cancel) ->
       return error("cancelled", "stopped on request; nothing was written");
     }
   }
+  const Finishing together;
   for (const auto& file : files)
-    if (std::rename(beside(file).c_str(), file.path.c_str()) != 0)
+    if (std::rename(beside(file.path, Beside::part).c_str(), file.path.c_str()) != 0)
       return give_up(std::string("cannot rename into place: ") + std::strerror(errno), file);
+  for (const auto& file : files) forget_unfinished(beside(file.path, Beside::part));
   return {};
 }
 

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "mansard/base/unfinished.hpp"
+
 namespace mansard::base {
 namespace {
 
@@ -32,9 +34,8 @@ struct Placed {
 
 /// Renames `beside` to `path`. A file that stood there stands there until that moment: it is kept by a second name. A
 /// folder cannot be renamed onto one with something in it, nor have a second name.
-auto put(const fs::path& beside, const fs::path& path, std::error_code& failure) -> Placed {
-  Placed placed{path, path};
-  placed.old += ".old" + std::to_string(::getpid());
+auto put(const fs::path& made, const fs::path& path, std::error_code& failure) -> Placed {
+  Placed placed{path, beside(path, Beside::old)};
   std::error_code status;
   fs::remove_all(placed.old, status);  // of a process of that number that was killed
   const auto type = fs::symlink_status(path, status).type();
@@ -44,7 +45,7 @@ auto put(const fs::path& beside, const fs::path& path, std::error_code& failure)
     if (failure) return placed;
     placed.replaced = true;
   }
-  fs::rename(beside, path, failure);
+  fs::rename(made, path, failure);
   placed.there = !failure;
   return placed;
 }
@@ -120,34 +121,36 @@ Outputs::~Outputs() {
     entry.sink.reset();
     std::error_code ignored;
     fs::remove_all(entry.beside, ignored);
+    forget_unfinished(entry.beside);
   }
 }
 
 auto Outputs::place(const fs::path& path) -> Result<fs::path> {
-  auto beside = path;
-  beside += ".part" + std::to_string(::getpid());
+  const auto made = beside(path, Beside::part);
   std::error_code ignored;
-  fs::remove_all(beside, ignored);  // of a process of that number that was killed
-  entries_.push_back({path, beside, nullptr});
-  return beside;
+  fs::remove_all(made, ignored);  // of a process of that number that was killed
+  sweep_beside(path);
+  note_unfinished(made);
+  entries_.push_back({path, made, nullptr});
+  return made;
 }
 
 auto Outputs::file(const fs::path& path) -> Result<Sink*> {
   std::error_code status;
   if (fs::is_directory(path, status)) return failed("cannot write this file", EISDIR, path);
-  const auto beside = place(path);
-  OpenFile opened(std::fopen(beside->c_str(), "wb"));
+  const auto made = place(path);
+  OpenFile opened(std::fopen(made->c_str(), "wb"));
   if (!opened) return failed("cannot write this file", errno, path);
   entries_.back().sink = std::make_unique<File>(std::move(opened));
   return entries_.back().sink.get();
 }
 
 auto Outputs::folder(const fs::path& path) -> Result<fs::path> {
-  const auto beside = place(path);
+  auto made = place(path);
   std::error_code failure;
-  fs::create_directories(*beside, failure);
+  fs::create_directories(*made, failure);
   if (failure) return failed("cannot make this folder", failure.value(), path);
-  return *beside;
+  return made;
 }
 
 auto Outputs::commit(const Cancel* cancel) -> Result<void> {
@@ -158,6 +161,7 @@ auto Outputs::commit(const Cancel* cancel) -> Result<void> {
       if (why != 0) return failed("cannot write this file", why, entry.path);
     }
   if (cancel != nullptr && cancel->requested()) return error("cancelled", "stopped on request; nothing was written");
+  const Finishing together;
   std::vector<Placed> placed;
   for (const auto& entry : entries_) {
     std::error_code failure;
@@ -171,6 +175,7 @@ auto Outputs::commit(const Cancel* cancel) -> Result<void> {
   }
   std::error_code ignored;
   for (const auto& one : placed) fs::remove_all(one.old, ignored);
+  for (const auto& entry : entries_) forget_unfinished(entry.beside);
   entries_.clear();
   return {};
 }

@@ -6,15 +6,24 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <memory>
+#include <new>
+#include <stdexcept>
+#include <string_view>
 
 namespace mansard::base {
 
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& work) {
   const auto account = detail::current_account();
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const tbb::blocked_range<std::size_t>& range) {
-    const detail::Charge charge(account);
-    for (std::size_t i = range.begin(); i != range.end(); ++i) work(i);
-  });
+  try {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const tbb::blocked_range<std::size_t>& range) {
+      const detail::Charge charge(account);
+      for (std::size_t i = range.begin(); i != range.end(); ++i) work(i);
+    });
+  } catch (const std::runtime_error& e) {
+    // So the library reports that there is no memory for the stack of a thread. Callers would blame their data.
+    if (std::string_view(e.what()).starts_with("pthread_create")) throw std::bad_alloc();
+    throw;
+  }
 }
 
 void limit_threads(std::size_t threads) {

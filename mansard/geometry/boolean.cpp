@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <map>
 #include <memory>
+#include <new>
 #include <string>
 
 #include "mansard/geometry/polygon.hpp"
@@ -98,6 +99,8 @@ auto polygons_of(std::initializer_list<std::span<const Polygon>> inputs, const O
     if (!std::ranges::all_of(polygons, computable)) return base::error("geometry-boolean", not_computable);
   Context context;
   const Shape result = keep(context, operation(context));
+  // The library takes it for a failure of the operation, and callers for a fault of the polygons.
+  if (!result && context.message.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
   // A normal form, so that the order does not depend on the library's inner workings.
   if (!result || GEOSNormalize_r(context.handle, result.get()) != 0)
     return base::error("geometry-boolean", context.message);

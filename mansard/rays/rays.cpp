@@ -4,8 +4,12 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <memory>
 #include <mutex>
+#include <new>
+#include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "mansard/rays/detail/from_above.hpp"
@@ -85,22 +89,31 @@ auto look_at(RTCPointQueryFunctionArguments* at) -> bool {
   return true;
 }
 
+struct Release {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+};
+template <class Handle>
+using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Release>;
+
 /// The mesh as Embree has it.
 struct Tree {
-  RTCDevice device = nullptr;
-  RTCScene scene = nullptr;
+  Owned<RTCDevice> device;
+  Owned<RTCScene> scene;
   const float* vertices = nullptr;  ///< as Embree keeps them
   const unsigned* indices = nullptr;
   Point3 centre;
 
   explicit Tree(const geometry::Mesh& mesh);
-  Tree(const Tree&) = delete;
-  auto operator=(const Tree&) -> Tree& = delete;
-  ~Tree() {
-    if (scene != nullptr) rtcReleaseScene(scene);
-    if (device != nullptr) rtcReleaseDevice(device);
-  }
 };
+
+/// Embree returns nothing, or sets an error code, where memory runs out. With other errors there is no tree either.
+void check(RTCDevice device, const void* made) {
+  const RTCError error = rtcGetDeviceError(device);
+  if (error == RTC_ERROR_OUT_OF_MEMORY || (made == nullptr && error == RTC_ERROR_NONE)) throw std::bad_alloc();
+  if (error != RTC_ERROR_NONE) throw std::runtime_error("Embree error " + std::to_string(error));
+}
 
 Tree::Tree(const geometry::Mesh& mesh) {
   const auto box = geometry::Box3::of(mesh.vertices);
@@ -110,14 +123,19 @@ Tree::Tree(const geometry::Mesh& mesh) {
   // configuration files of the machine. Tests add "isa=…" to compute as another processor would.
   const char* more = std::getenv("MANSARD_EMBREE");
   const std::string config = "threads=1,set_affinity=0,ignore_config_files=1";
-  device = rtcNewDevice((more != nullptr ? config + "," + more : config).c_str());
-  scene = rtcNewScene(device);
-  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-  RTCGeometry triangles = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  device.reset(rtcNewDevice((more != nullptr ? config + "," + more : config).c_str()));
+  check(device.get(), device.get());
+  scene.reset(rtcNewScene(device.get()));
+  check(device.get(), scene.get());
+  rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+  const Owned<RTCGeometry> triangles(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
+  check(device.get(), triangles.get());
   auto* to_vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
-      triangles, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.vertices.size()));
+      triangles.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.vertices.size()));
+  check(device.get(), to_vertices);
   auto* to_indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
-      triangles, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), mesh.triangles.size()));
+      triangles.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), mesh.triangles.size()));
+  check(device.get(), to_indices);
   vertices = to_vertices;
   indices = to_indices;
   for (const Point3& v : mesh.vertices) {
@@ -127,10 +145,10 @@ Tree::Tree(const geometry::Mesh& mesh) {
   }
   for (const auto& t : mesh.triangles)
     for (const auto corner : t) *to_indices++ = corner;
-  rtcCommitGeometry(triangles);
-  rtcAttachGeometry(scene, triangles);
-  rtcReleaseGeometry(triangles);
-  rtcCommitScene(scene);
+  rtcCommitGeometry(triangles.get());
+  rtcAttachGeometry(scene.get(), triangles.get());
+  rtcCommitScene(scene.get());
+  check(device.get(), scene.get());
 }
 
 }  // namespace
@@ -176,7 +194,7 @@ auto Scene::cast(Point3 origin, Point3 direction) const -> std::optional<Hit> {
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  rtcIntersect1(tree.scene, &context, &query);
+  rtcIntersect1(tree.scene.get(), &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   return Hit{query.ray.tfar, query.hit.primID};
 }
@@ -207,7 +225,7 @@ auto Scene::nearest(Point3 to, double within, const Extra& extra) const -> std::
   query.radius = static_cast<float>(search.radius_for(within));
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
-  rtcPointQuery(tree.scene, &query, &context, &look_at, &search);
+  rtcPointQuery(tree.scene.get(), &query, &context, &look_at, &search);
   if (!search.found) return std::nullopt;
   search.best.point = search.best.point + tree.centre;
   return search.best;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <new>
 
 #include "mansard/solver/detail/branch_and_cut.hpp"
 
@@ -50,6 +51,8 @@ auto minimise(const Program& program, const Limits& limits, const std::optional<
     return solution;
   } catch (const CoinError& error) {
     return base::error("solver-failed", error.className() + "::" + error.methodName() + ": " + error.message());
+  } catch (const std::bad_alloc&) {
+    throw;  // the program is not at fault, and another machine would solve it
   } catch (const std::exception& error) {
     return base::error("solver-failed", error.what());
   }
