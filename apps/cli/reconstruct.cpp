@@ -221,13 +221,19 @@ auto reconstruct(const Request& request, const base::Cancel& cancel) -> int {
     if (const auto kept = (*folder)->kept_in_words(); !kept.empty() && !request.no_resume) progress.say(kept);
     return code;
   };
-  const auto scene = read_scan(request.scan, *options, run, progress);
-  if (!scene) return give_up(scene.errors());
+  // Pictures and layers are made of everything at once.
+  const bool whole = request.picture || request.layers;
+  const auto city = whole && request.shares == 0
+                        ? read_scan(request.scan, *options, run, progress).transform([](model::Scene&& scene) {
+                            return ingest::CityScene{std::move(scene), nullptr};
+                          })
+                        : read_city_scan(request.scan, *options, run, progress);
+  if (!city) return give_up(city.errors());
 
   const auto keep = request.layers ? pipeline::Keep::segmentations : pipeline::Keep::models;
   const pipeline::Schedule schedule{request.no_resume ? nullptr : (*folder)->kept(), &(*folder)->tally()};
   if (request.shares > 0) {
-    const auto made = pipeline::make_share(*scene, *options, run, keep, schedule, request.share - 1, request.shares);
+    const auto made = pipeline::make_share(*city, *options, run, keep, schedule, request.share - 1, request.shares);
     if (!made) return stopped(made);
     const auto& tally = (*folder)->tally();
     progress.say("share " + std::to_string(request.share) + " of " + std::to_string(request.shares) + ": " +
@@ -236,7 +242,7 @@ auto reconstruct(const Request& request, const base::Cancel& cancel) -> int {
     return all_done;
   }
   const auto finish = [&](const Made& made) -> int {
-    auto done = write_all(request, *targets, *options, made, *scene, run, progress);
+    auto done = write_all(request, *targets, *options, made, city->scene, run, progress);
     if (done) (*folder)->finished();
     if (done) done = summarise(made, request, progress);
     if (!done) return stopped(done);
@@ -245,12 +251,12 @@ auto reconstruct(const Request& request, const base::Cancel& cancel) -> int {
     if (request.layers) std::printf("%s\n", (fs::path(request.out) / "model.gpkg").c_str());
     return made.outcomes.full == made.outcomes.all() ? all_done : some_fell_back;
   };
-  if (request.picture || request.layers) {
-    const auto result = pipeline::reconstruct(*scene, *options, run, keep, {}, schedule);
+  if (whole) {
+    const auto result = pipeline::reconstruct(city->scene, *options, run, keep, {}, schedule);
     return result ? finish(made_of(*result)) : stopped(result);
   }
-  const auto city = pipeline::reconstruct_aside(*scene, *options, run, schedule);
-  return city ? finish(made_of(*city)) : stopped(city);
+  const auto aside = pipeline::reconstruct_aside(*city, *options, run, schedule);
+  return aside ? finish(made_of(*aside)) : stopped(aside);
 }
 
 }  // namespace

@@ -73,20 +73,38 @@ auto start(const Common& common, std::int64_t seed, const base::Cancel& cancel, 
   return run;
 }
 
-auto read_scan(const ScanRequest& request, const pipeline::Options& options, const base::Run& run, Progress& progress)
-    -> base::Result<model::Scene> {
+namespace {
+
+auto paths_of(const ScanRequest& request, Progress& progress) -> pipeline::InputPaths {
   progress.show("ingest", request.inputs.front(), 0);
   pipeline::InputPaths paths{{request.inputs.begin(), request.inputs.end()}, {}, request.derive_footprints};
   if (!request.derive_footprints) {
     paths.footprints = std::move(paths.meshes.back());
     paths.meshes.pop_back();
   }
-  auto scene = pipeline::read_inputs(paths, options, run);
-  if (!scene) return scene;
-  for (const auto& warning : scene->warnings) progress.say(base::to_string(warning));
+  return paths;
+}
+
+void tell(const ScanRequest& request, const model::Scene& scene, Progress& progress) {
+  for (const auto& warning : scene.warnings) progress.say(base::to_string(warning));
   if (request.derive_footprints)
-    progress.say(std::to_string(scene->footprints.size()) + " footprints were derived from the mesh");
+    progress.say(std::to_string(scene.footprints.size()) + " footprints were derived from the mesh");
+}
+
+}  // namespace
+
+auto read_scan(const ScanRequest& request, const pipeline::Options& options, const base::Run& run, Progress& progress)
+    -> base::Result<model::Scene> {
+  auto scene = pipeline::read_inputs(paths_of(request, progress), options, run);
+  if (scene) tell(request, *scene, progress);
   return scene;
+}
+
+auto read_city_scan(const ScanRequest& request, const pipeline::Options& options, const base::Run& run,
+                    Progress& progress) -> base::Result<ingest::CityScene> {
+  auto city = pipeline::read_city_inputs(paths_of(request, progress), options, run);
+  if (city) tell(request, city->scene, progress);
+  return city;
 }
 
 }  // namespace mansard::cli

@@ -50,5 +50,8 @@ void add_to(CLI::App& verb, ScanRequest& request, bool may_derive = true);
 /// Reads meshes and footprints, or derives these from the mesh, and prints the warnings.
 [[nodiscard]] auto read_scan(const ScanRequest& request, const pipeline::Options& options, const base::Run& run,
                              Progress& progress) -> base::Result<model::Scene>;
+/// The same; a large mesh is in cells on disk.
+[[nodiscard]] auto read_city_scan(const ScanRequest& request, const pipeline::Options& options, const base::Run& run,
+                                  Progress& progress) -> base::Result<ingest::CityScene>;
 
 }  // namespace mansard::cli

@@ -316,6 +316,23 @@ auto option_list(Options& o) -> base::OptionList {
   return list;
 }
 
+auto groups(const model::Scene& scene, const Options& options) -> std::vector<Group> {
+  const Shapes shapes(scene);
+  const double reach = std::max({options.padding, options.ground_ring, options.ground_reach});
+  std::vector<Group> out;
+  for (const auto& group : detail::groups_of(shapes.polygons, options.touch)) {
+    if (shapes.features[group.front()] >= scene.footprints.size()) continue;
+    Group one;
+    for (const auto m : group) {
+      one.features.push_back(shapes.features[m]);
+      one.box.include(shapes.boxes[m]);
+    }
+    one.reach = one.box.grown(reach + options.touch);
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
 struct Partition::Prepared {
   const model::Scene& scene;
   Options options;

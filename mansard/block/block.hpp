@@ -70,6 +70,15 @@ struct Options {
 [[nodiscard]] auto partition(const model::Scene& scene, const Options& options, const base::Run& run = {})
     -> std::vector<Block>;
 
+/// What will be one block, before its mesh is looked at.
+struct Group {
+  std::vector<std::size_t> features;  ///< of Scene::feature, ascending
+  geometry::Box2 box;
+  geometry::Box2 reach;  ///< what of the scene its block may depend on
+};
+/// Of a scene, without its mesh: those that `partition` makes blocks of, in the same order.
+[[nodiscard]] auto groups(const model::Scene& scene, const Options& options) -> std::vector<Group>;
+
 /// The same blocks, each made when it is asked for, so that not all their pieces of the mesh are in memory together.
 /// The scene must outlive it.
 class Partition {

@@ -241,7 +241,7 @@ auto take_terrain(const Options& options, const Box2& around, model::Scene& scen
   if (options.terrain.empty()) return {};
   auto terrain = formats::read_terrain(options.terrain, scene.frame, around);
   if (!terrain) return terrain.error();
-  scene.terrain = std::move(*terrain);
+  scene.terrain = std::make_shared<const model::HeightGrid>(std::move(*terrain));
   auto input = formats::input_file(options.terrain);
   if (!input) return input.error();
   scene.inputs.push_back(std::move(*input));
@@ -250,13 +250,43 @@ auto take_terrain(const Options& options, const Box2& around, model::Scene& scen
 
 auto plan_of(const geometry::Mesh& mesh) -> Box2 { return Box2::of(mesh.vertices); }
 
+auto moved(const geometry::Box3& box, const std::array<double, 3>& by) -> geometry::Box3 {
+  if (box.empty()) return box;
+  const geometry::Point3 shift{by[0], by[1], by[2]};
+  return {box.least + shift, box.most + shift};
+}
+
+/// Of the meshes on this machine's disk; tilesets are the folder that they are in.
+auto bytes_of(const std::vector<std::filesystem::path>& paths) -> std::uintmax_t {
+  namespace fs = std::filesystem;
+  std::uintmax_t sum = 0;
+  std::error_code failure;
+  const auto add = [&](const fs::path& file) {
+    const auto size = fs::file_size(file, failure);
+    if (!failure) sum += size;
+  };
+  for (const auto& path : paths) {
+    const bool tileset = path.filename() == "tileset.json";
+    const auto folder = tileset ? (path.has_parent_path() ? path.parent_path() : fs::path(".")) : path;
+    if (!fs::is_directory(folder, failure)) {
+      add(path);
+      continue;
+    }
+    for (auto at = fs::recursive_directory_iterator(folder, failure);
+         !failure && at != fs::recursive_directory_iterator(); at.increment(failure))
+      if (at->is_regular_file(failure)) add(at->path());
+  }
+  return sum;
+}
+
+/// With `cells`, the mesh goes there, and the scene has none.
 auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::filesystem::path& footprint_path,
-          const Options& options, const base::Run& run) -> base::Result<model::Scene> {
+          const Options& options, const base::Run& run, MeshCells* cells = nullptr) -> base::Result<model::Scene> {
   const std::string subject = formats::shown_name(footprint_path);
   const std::string mesh_name = mesh_paths.empty() ? std::string() : mesh_paths.front().string();
   if (const auto wanted = wanted_box(options); !wanted) return wanted.error();
   run.report("ingest", mesh_name, 0);
-  auto reading = detail::MeshReading::open(mesh_paths, options, run);
+  auto reading = detail::MeshReading::open(mesh_paths, options, run, cells);
   if (!reading) return reading.error();
   run.report("ingest", subject, 0.4);
   auto ground = read_ground(footprint_path, options, *reading, run);
@@ -264,7 +294,8 @@ auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::files
   run.report("ingest", mesh_name, 0.5);
   auto meshes = reading->finish(ground->way.name, ground->kept, run);
   if (!meshes) return meshes.error();
-  const geometry::Box3 mesh_box = detail::bounds(meshes->mesh, options.mesh_offset);
+  const geometry::Box3 mesh_box =
+      cells == nullptr ? detail::bounds(meshes->mesh, options.mesh_offset) : moved(cells->box(), options.mesh_offset);
   if (mesh_box.empty())
     return base::error("ingest-mesh-unusable",
                        "none of the " + std::to_string(meshes->mesh.triangles.size()) +
@@ -282,8 +313,16 @@ auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::files
   const Point2 origin{static_cast<double>(scene.frame.origin[0]), static_cast<double>(scene.frame.origin[1])};
   std::optional<Box2> within;
   if (ground->kept) within = Box2{ground->kept->least - origin, ground->kept->most - origin};
-  auto clean = detail::clean(std::move(meshes->mesh), shift, within);
-  if (clean.mesh.triangles.empty())
+  if (cells == nullptr) {
+    auto clean = detail::clean(std::move(meshes->mesh), shift, within);
+    scene.mesh = std::move(clean.mesh);
+    scene.mesh_counts = clean.counts;
+  } else {
+    const auto counts = cells->settle(shift, within, run);
+    if (!counts) return counts.failure();
+    scene.mesh_counts = *counts;
+  }
+  if (scene.mesh_counts.triangles == 0)
     return base::error("ingest-mesh-unusable", "no triangle has an area; export the mesh again", mesh_name);
   if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
 
@@ -292,10 +331,9 @@ auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::files
   auto finished = finish_all(ground->chosen.file, options, scene.frame, local, subject);
   if (!finished) return finished.error();
 
-  scene.mesh = std::move(clean.mesh);
-  scene.mesh_counts = clean.counts;
   scene.inputs = std::move(meshes->inputs);
-  if (auto taken = take_terrain(options, plan_of(scene.mesh), scene); !taken) return taken.error();
+  const Box2 ground_box = cells == nullptr ? plan_of(scene.mesh) : within ? within->grown(mesh_margin) : local;
+  if (auto taken = take_terrain(options, ground_box, scene); !taken) return taken.error();
   scene.inputs.insert(scene.inputs.end(), ground->chosen.file.inputs.begin(), ground->chosen.file.inputs.end());
   append(scene.warnings, std::move(meshes->warnings));
   append(scene.warnings, detail::warnings_of(scene.mesh_counts, mesh_name));
@@ -337,7 +375,37 @@ auto read_alone(const std::filesystem::path& path, const Options& options, const
   return scene;
 }
 
+/// What a library throws on bad files must not get past this module.
+template <class Work>
+auto guarded(const std::vector<std::filesystem::path>& meshes, const std::filesystem::path& footprints,
+             const Work& work) -> base::Result<model::Scene> {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    return base::error("ingest-memory", "mesh and footprints do not fit into memory; cut the mesh into tiles",
+                       meshes.empty() ? std::string() : meshes.front().string());
+  } catch (const std::exception& e) {
+    return base::error("ingest-footprints-format", std::string("cannot be read (") + e.what() + "); check what it is",
+                       formats::shown_name(footprints));
+  }
+}
+
 }  // namespace
+
+auto read_city(const std::vector<std::filesystem::path>& meshes, const std::filesystem::path& footprints,
+               const Options& options, const base::Run& run) -> base::Result<CityScene> {
+  CityScene out;
+  constexpr double megabyte = 1e6;
+  if (static_cast<double>(bytes_of(meshes)) >= options.cells_from * megabyte) {
+    auto cells = MeshCells::open(options.cell_side);
+    if (!cells) return cells.failure();
+    out.cells = std::move(*cells);
+  }
+  auto scene = guarded(meshes, footprints, [&] { return read(meshes, footprints, options, run, out.cells.get()); });
+  if (!scene) return scene.failure();
+  out.scene = std::move(*scene);
+  return out;
+}
 
 auto option_list(Options& o) -> base::OptionList {
   constexpr double far = 1e8;
@@ -375,22 +443,19 @@ auto option_list(Options& o) -> base::OptionList {
       .source("the finest tiles by default");
   list.string("terrain", o.terrain, "Raster with the ground's heights; empty to find the ground in the mesh.")
       .alias("dtm")
-      .source("none by default");
+      .source("none by default")
+      .number("cells_from", o.cells_from, "MB", {0, 1e9},
+              "Size of the mesh files from which on the mesh is cut into cells on disk, so that memory does not grow "
+              "with it.")
+      .advanced("half a gigabyte of mesh files takes about 1 GB of memory; docs/city.md")
+      .number("cell_side", o.cell_side, "m", {1, 10000}, "Side length of those cells.")
+      .advanced("about the size of a block; not measured");
   return list;
 }
 
 auto read_scene(const std::vector<std::filesystem::path>& meshes, const std::filesystem::path& footprints,
                 const Options& options, const base::Run& run) -> base::Result<model::Scene> {
-  try {
-    return read(meshes, footprints, options, run);
-  } catch (const std::bad_alloc&) {
-    return base::error("ingest-memory", "mesh and footprints do not fit into memory; cut the mesh into tiles",
-                       meshes.empty() ? std::string() : meshes.front().string());
-  } catch (const std::exception& e) {
-    // What a library throws on bad files must not get past this module.
-    return base::error("ingest-footprints-format", std::string("cannot be read (") + e.what() + "); check what it is",
-                       formats::shown_name(footprints));
-  }
+  return guarded(meshes, footprints, [&] { return read(meshes, footprints, options, run); });
 }
 
 auto read_footprints(const std::filesystem::path& footprints, const Options& options, const base::Run& run)

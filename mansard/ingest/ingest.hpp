@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "mansard/base/result.hpp"
 #include "mansard/base/run.hpp"
 #include "mansard/formats/up_axis.hpp"
+#include "mansard/ingest/cells.hpp"
 #include "mansard/model/scene.hpp"
 
 namespace mansard::ingest {
@@ -33,6 +35,8 @@ struct Options {
   double tile_error =
       0;                ///< metres; of a tileset, tiles are taken once their geometric error is no more; 0: the finest
   std::string terrain;  ///< path of a raster with the ground's heights; empty: none
+  double cells_from = 400;  ///< MB of mesh files from which on read_city cuts the mesh into cells on disk
+  double cell_side = 64;    ///< m
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 
@@ -46,6 +50,15 @@ struct Options {
 /// see codes().
 [[nodiscard]] auto read_scene(const std::vector<std::filesystem::path>& meshes, const std::filesystem::path& footprints,
                               const Options& options, const base::Run& run = {}) -> base::Result<model::Scene>;
+
+/// A scene whose mesh is in cells on disk where it is large; the scene has no mesh then.
+struct CityScene {
+  model::Scene scene;
+  std::unique_ptr<MeshCells> cells;
+};
+/// As read_scene, for meshes that memory need not hold. The same blocks come of both.
+[[nodiscard]] auto read_city(const std::vector<std::filesystem::path>& meshes, const std::filesystem::path& footprints,
+                             const Options& options, const base::Run& run = {}) -> base::Result<CityScene>;
 
 /// Footprints alone, where there is no mesh: as read_scene, with an empty mesh and z from 0. GeoJSON that says no CRS
 /// is taken to be in metres where it cannot be in degrees, or where a building would be longer than a degree.

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -43,7 +44,8 @@ struct Scene {
   std::vector<Footprint> footprints;
   /// What is known around them, of the same source, but not asked for: it belongs to blocks, and is never written.
   std::vector<Footprint> surroundings;
-  std::optional<HeightGrid> terrain;  ///< the ground, where it was given; else blocks look for it in the mesh
+  /// The ground, where it was given; else blocks look for it in the mesh.
+  std::shared_ptr<const HeightGrid> terrain;
   Frame frame;
   std::vector<InputFile> inputs;
   MeshCounts mesh_counts;

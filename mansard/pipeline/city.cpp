@@ -1,6 +1,10 @@
 #include "mansard/pipeline/city.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <set>
 
 #include "mansard/base/pack.hpp"
 #include "mansard/pipeline/detail/assemble.hpp"
@@ -69,39 +73,205 @@ auto PutAside::each(const Visit& visit) const -> base::Result<void> {
   return {};
 }
 
-auto reconstruct_aside(const model::Scene& scene, const Options& options, const base::Run& run,
+namespace {
+
+/// Blocks that are worked through together, with the part of the mesh that they need in memory.
+struct Task {
+  std::vector<const block::Group*> groups;
+  std::set<ingest::MeshCells::Cell> cells;
+};
+
+/// About 200 MB with all that is made of them.
+constexpr std::size_t most_triangles = 2'000'000;
+
+auto by_place(const std::vector<block::Group>& groups) -> std::vector<const block::Group*> {
+  std::vector<const block::Group*> out;
+  for (const auto& group : groups) out.push_back(&group);
+  std::ranges::stable_sort(out, {}, [](const block::Group* group) {
+    return detail::along_curve(std::llround(group->box.least.x), std::llround(group->box.least.y));
+  });
+  return out;
+}
+
+/// Of groups by place, those whose middle lies in the share, by the triangles near them.
+auto share_of(const std::vector<const block::Group*>& groups, const ingest::CityScene& city, std::size_t share,
+              std::size_t shares) -> std::vector<const block::Group*> {
+  constexpr std::size_t own_work = 200;  // triangles; about what a block costs beside its mesh
+  std::vector<std::size_t> works;
+  std::size_t all = 0, before = 0;
+  for (const auto* group : groups) {
+    std::size_t work = own_work;
+    if (city.cells) {
+      for (const auto& cell : city.cells->cells_in(group->box)) work += city.cells->triangles_in(cell);
+    } else {
+      work +=
+          static_cast<std::size_t>((group->box.most.x - group->box.least.x) * (group->box.most.y - group->box.least.y));
+    }
+    works.push_back(work);
+    all += work;
+  }
+  std::vector<const block::Group*> own;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    if ((2 * before + works[i]) * shares / (2 * all) == share) own.push_back(groups[i]);
+    before += works[i];
+  }
+  return own;
+}
+
+auto tasks_of(const std::vector<const block::Group*>& groups, const ingest::CityScene& city) -> std::vector<Task> {
+  std::vector<Task> out;
+  std::size_t triangles = 0;
+  for (const auto* group : groups) {
+    std::set<ingest::MeshCells::Cell> cells;
+    std::size_t more = 0;
+    if (city.cells)
+      for (const auto& cell : city.cells->cells_in(group->reach)) {
+        cells.insert(cell);
+        if (out.empty() || !out.back().cells.contains(cell)) more += city.cells->triangles_in(cell);
+      }
+    if (out.empty() || triangles + more > most_triangles) {
+      out.emplace_back();
+      triangles = more = 0;
+      for (const auto& cell : cells) more += city.cells->triangles_in(cell);
+    }
+    triangles += more;
+    out.back().groups.push_back(group);
+    out.back().cells.merge(cells);
+  }
+  return out;
+}
+
+/// The part of a scene that a task needs: its features, and around them shapes without attributes.
+struct Part {
+  model::Scene scene;
+  std::vector<std::size_t> features;  ///< of the whole, by the numbers of the part
+};
+
+auto part_of(const ingest::CityScene& city, const Task& task, const std::vector<geometry::Box2>& boxes)
+    -> base::Result<Part> {
+  Part out;
+  auto mesh = city.cells->load(task.cells);
+  if (!mesh) return mesh.failure();
+  out.scene.mesh = std::move(*mesh);
+  out.scene.frame = city.scene.frame;
+  out.scene.terrain = city.scene.terrain;
+  std::vector<bool> own(boxes.size(), false);
+  std::vector<std::size_t> around;
+  geometry::Box2 reach;
+  for (const auto* group : task.groups) {
+    reach.include(group->reach);
+    for (const std::size_t f : group->features) own[f] = true;
+  }
+  const std::size_t asked = city.scene.footprints.size();
+  for (std::size_t f = 0; f < boxes.size(); ++f) {
+    if (own[f] && f < asked) {
+      out.features.push_back(f);
+      out.scene.footprints.push_back(city.scene.footprints[f]);
+    } else if (!boxes[f].empty() && boxes[f].overlaps(reach)) {
+      around.push_back(f);
+    }
+  }
+  for (const std::size_t f : around) {
+    const auto& feature = city.scene.feature(f);
+    model::Footprint shape;
+    shape.id = feature.id;
+    shape.polygons = feature.polygons;
+    out.features.push_back(f);
+    out.scene.surroundings.push_back(std::move(shape));
+  }
+  return out;
+}
+
+/// work(scene, division, progress, feature numbers of the whole; empty where they are the scene's own) for every task.
+template <class Work>
+auto for_every_task(const ingest::CityScene& city, const Options& options, const base::Run& run, detail::Maker& maker,
+                    std::optional<std::pair<std::size_t, std::size_t>> share, const Work& work) -> base::Result<void> {
+  const auto groups = block::groups(city.scene, options.block);
+  auto wanted = by_place(groups);
+  if (share) wanted = share_of(wanted, city, share->first, share->second);
+  std::size_t buildings = 0;
+  for (const auto* group : wanted) buildings += group->features.size();
+  maker.announce(wanted.size(), buildings);
+  if (!city.cells) {
+    auto division = detail::divide(city.scene, options, run);
+    if (!division) return division.failure();
+    if (share) {
+      std::set<std::size_t> firsts;
+      for (const auto* group : wanted) firsts.insert(group->features.front());
+      std::erase_if(division->wanted, [&](std::size_t i) {
+        return !firsts.contains(division->blocks.outlined(i).members.front().feature);
+      });
+    }
+    work(city.scene, *division, detail::Progress{}, std::vector<std::size_t>());
+    return {};
+  }
+  std::vector<geometry::Box2> boxes;
+  for (std::size_t f = 0; f < city.scene.footprints.size() + city.scene.surroundings.size(); ++f)
+    boxes.push_back(geometry::bounds(city.scene.feature(f).polygons));
+  detail::Progress progress{0, wanted.size()};
+  for (const auto& task : tasks_of(wanted, city)) {
+    if (run.cancelled()) return detail::cancelled();
+    auto part = part_of(city, task, boxes);
+    if (!part) return part.failure();
+    auto inner = run;
+    inner.progress = nullptr;  // the division of a part is no stage of the whole
+    auto division = detail::divide(part->scene, options, inner);
+    if (!division) return division.failure();
+    work(part->scene, *division, progress, part->features);
+    progress.before += division->wanted.size();
+  }
+  return {};
+}
+
+}  // namespace
+
+auto reconstruct_aside(const ingest::CityScene& city, const Options& options, const base::Run& run,
                        const Schedule& schedule) -> base::Result<PutAside> {
   base::Watch watch;
   PutAside out;
-  const auto division = detail::divide(scene, options, run);
-  if (!division) return division.error();
-
+  const model::Scene& scene = city.scene;
   CityBuilder builder(out, scene.footprints.size());
   if (auto opened = builder.open(); !opened) return opened.failure();
-  detail::Maker maker(*division, options, Keep::models, schedule);
+  if (auto usable = detail::check_usable(scene); !usable) return usable.failure();
+  detail::Maker maker(options, Keep::models, schedule);
   struct Made {
+    std::size_t first = 0;  ///< of its features
     report::BlockReport report;
     std::vector<base::Diagnostic> warnings;
   };
-  auto made = detail::for_every(*division, run,
-                                [&](const auto& block, const auto& inner, const auto& tell, const auto& making) {
-                                  auto result = maker(block, inner, tell, making);
-                                  Made own;
-                                  for (const auto& [feature, one] : detail::finish_block(scene, result, own.warnings))
-                                    builder.take(feature, one);
-                                  own.report = std::move(result.report);
-                                  return own;
-                                });
+  std::vector<Made> made;
+  std::vector<base::Spent> dividing;
+  auto done = for_every_task(city, options, run, maker, std::nullopt,
+                             [&](const model::Scene& part, const detail::Division& division, detail::Progress progress,
+                                 const std::vector<std::size_t>& features) {
+                               dividing.push_back(division.time.spent);
+                               const auto number = [&](std::size_t f) { return features.empty() ? f : features[f]; };
+                               auto some = detail::for_every(
+                                   division, run,
+                                   [&](const auto& block, const auto& inner, const auto& tell, const auto& making) {
+                                     auto result = maker(block, inner, tell, making);
+                                     Made own;
+                                     own.first = number(block.members.front().feature);
+                                     for (const auto& [feature, one] : detail::finish_block(part, result, own.warnings))
+                                       builder.take(number(feature), one);
+                                     own.report = std::move(result.report);
+                                     return own;
+                                   },
+                                   progress);
+                               std::ranges::move(some, std::back_inserter(made));
+                             });
   if (run.cancelled()) return detail::cancelled();
+  if (!done) return done.failure();
   auto reuse = maker.finish(true);
   if (!reuse) return reuse.failure();
 
   for (std::size_t f = 0; f < scene.footprints.size(); ++f)
     if (!builder.has(f)) builder.take(f, detail::unbuilt(scene, f));
   auto& summary = out.summary;
-  for (auto& [report, warnings] : made) {
-    summary.blocks.push_back(std::move(report));
-    std::ranges::move(warnings, std::back_inserter(summary.warnings));
+  std::ranges::sort(made, {}, &Made::first);
+  for (auto& one : made) {
+    summary.blocks.push_back(std::move(one.report));
+    std::ranges::move(one.warnings, std::back_inserter(summary.warnings));
   }
   builder.finish(run);
   if (run.cancelled()) return detail::cancelled();
@@ -109,8 +279,28 @@ auto reconstruct_aside(const model::Scene& scene, const Options& options, const 
   out.made_by = detail::made_by(scene, options);
   summary.reuse = std::move(*reuse);
   summary.scores = detail::combined_scores(summary.blocks);
-  summary.times = {watch.stop(), detail::stage_times(division->time, summary.blocks)};
+  summary.times = {watch.stop(), detail::stage_times({"block", base::combined(dividing)}, summary.blocks)};
   return out;
+}
+
+auto make_share(const ingest::CityScene& city, const Options& options, const base::Run& run, Keep keep,
+                const Schedule& schedule, std::size_t share, std::size_t shares) -> base::Result<void> {
+  if (auto usable = detail::check_usable(city.scene); !usable) return usable;
+  detail::Maker maker(options, keep, schedule);
+  auto done = for_every_task(city, options, run, maker, std::pair(share, shares),
+                             [&](const model::Scene&, const detail::Division& division, detail::Progress progress,
+                                 const std::vector<std::size_t>&) {
+                               (void)detail::for_every(
+                                   division, run,
+                                   [&](const auto& block, const auto& inner, const auto& tell, const auto& making) {
+                                     return maker(block, inner, tell, making).parts.size();  // the rest is kept
+                                   },
+                                   progress);
+                             });
+  if (run.cancelled()) return detail::cancelled();
+  if (!done) return done;
+  if (auto reuse = maker.finish(false); !reuse) return reuse.failure();
+  return {};
 }
 
 }  // namespace mansard::pipeline

@@ -42,8 +42,15 @@ class PutAside {
   std::map<std::size_t, std::vector<base::Diagnostic>> afterwards_;  ///< reasons that were found when all was made
 };
 
-/// As reconstruct, in memory that does not grow with the models. Fails as that does.
-[[nodiscard]] auto reconstruct_aside(const model::Scene& scene, const Options& options, const base::Run& run = {},
+/// As reconstruct, in memory that does not grow with the models, nor, where it is in cells, with the mesh. Fails as
+/// that does.
+[[nodiscard]] auto reconstruct_aside(const ingest::CityScene& city, const Options& options, const base::Run& run = {},
                                      const Schedule& schedule = {}) -> base::Result<PutAside>;
+
+/// One of `shares` of the work: makes the blocks of share number `share`, from 0, and keeps them, so that a
+/// reconstruction with the same blocks kept finds them made. The shares are of about the same number of triangles, and
+/// of blocks that are near each other. Fails as reconstruct does; `schedule.kept` must be there.
+[[nodiscard]] auto make_share(const ingest::CityScene& city, const Options& options, const base::Run& run, Keep keep,
+                              const Schedule& schedule, std::size_t share, std::size_t shares) -> base::Result<void>;
 
 }  // namespace mansard::pipeline

@@ -19,4 +19,13 @@ auto read_inputs(const InputPaths& paths, const Options& options, const base::Ru
   return scene;
 }
 
+auto read_city_inputs(const InputPaths& paths, const Options& options, const base::Run& run)
+    -> base::Result<ingest::CityScene> {
+  if (!paths.footprints.empty() && !paths.derive_footprints)
+    return ingest::read_city(paths.meshes, paths.footprints, options.ingest, run);
+  auto scene = read_inputs(paths, options, run);
+  if (!scene) return scene.failure();
+  return ingest::CityScene{std::move(*scene), nullptr};
+}
+
 }  // namespace mansard::pipeline

@@ -21,4 +21,9 @@ struct InputPaths {
 [[nodiscard]] auto read_inputs(const InputPaths& paths, const Options& options, const base::Run& run = {})
     -> base::Result<model::Scene>;
 
+/// The same with the mesh in cells on disk where it is large (ingest::read_city) and the footprints are not derived
+/// from it.
+[[nodiscard]] auto read_city_inputs(const InputPaths& paths, const Options& options, const base::Run& run = {})
+    -> base::Result<ingest::CityScene>;
+
 }  // namespace mansard::pipeline

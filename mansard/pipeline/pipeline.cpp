@@ -17,7 +17,8 @@ auto reconstruct(const model::Scene& scene, const Options& options, const base::
   auto division = detail::divide(scene, options, run);
   if (!division) return division.error();
   if (auto known = detail::keep_only(*division, only); !known) return known.error();
-  detail::Maker maker(*division, options, keep, schedule);
+  detail::Maker maker(options, keep, schedule);
+  maker.announce(*division);
   auto results = detail::for_every(*division, run, std::ref(maker));
   if (run.cancelled()) return detail::cancelled();
   auto reuse = maker.finish(only.empty());
@@ -47,21 +48,6 @@ auto reconstruct(const model::Scene& scene, const Options& options, const base::
   if (run.cancelled()) return detail::cancelled();
   out.times = {watch.stop(), detail::stage_times(division->time, out.blocks)};
   return out;
-}
-
-auto make_share(const model::Scene& scene, const Options& options, const base::Run& run, Keep keep,
-                const Schedule& schedule, std::size_t task, std::size_t tasks) -> base::Result<void> {
-  auto division = detail::divide(scene, options, run);
-  if (!division) return division.error();
-  detail::keep_share(*division, task, tasks);
-  detail::Maker maker(*division, options, keep, schedule);
-  (void)detail::for_every(*division, run,
-                          [&](const auto& block, const auto& inner, const auto& tell, const auto& time) {
-                            return maker(block, inner, tell, time).parts.size();  // the rest is kept in the folder
-                          });
-  if (run.cancelled()) return detail::cancelled();
-  if (auto reuse = maker.finish(false); !reuse) return reuse.failure();
-  return {};
 }
 
 auto segment(const model::Scene& scene, const Options& options, const base::Run& run)

@@ -83,12 +83,6 @@ enum class Keep : std::uint8_t { models, segmentations };
                                Keep keep = Keep::models, std::span<const std::string> only = {},
                                const Schedule& schedule = {}) -> base::Result<report::Reconstruction>;
 
-/// One of `tasks` shares of the work: makes the blocks of share number `task`, from 0, and keeps them, so that a
-/// reconstruction with the same blocks kept finds them made. The shares have about the same number of triangles, and
-/// blocks that are near each other. Fails as reconstruct does; `schedule.kept` must be there.
-[[nodiscard]] auto make_share(const model::Scene& scene, const Options& options, const base::Run& run, Keep keep,
-                              const Schedule& schedule, std::size_t task, std::size_t tasks) -> base::Result<void>;
-
 /// The first stages of reconstruct, with the same segmentations as there. Guarantees: 1 one failing block leaves the
 /// others as they would be without it · 2 the same scene, options and seed give the same at any thread count.
 /// Fails with "cancelled", "pipeline-nothing" (no usable footprint).

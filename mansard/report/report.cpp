@@ -119,6 +119,11 @@ auto json_of(const BuildingReport& b) -> Json {
   return out;
 }
 
+/// In memory, or in cells on disk.
+auto has_mesh(const model::Scene& scene) -> bool {
+  return !scene.mesh.triangles.empty() || scene.mesh_counts.triangles > 0;
+}
+
 /// What every report begins with: how it was made, and of what.
 auto head(const model::MadeBy& made_by, const model::Scene& scene) -> Json {
   Json out;
@@ -135,7 +140,7 @@ auto head(const model::MadeBy& made_by, const model::Scene& scene) -> Json {
   out["options"] = options;
   out["footprints_derived"] = std::ranges::any_of(scene.footprints, &model::Footprint::derived);
   const auto& m = scene.mesh_counts;
-  if (!scene.mesh.triangles.empty())
+  if (has_mesh(scene))
     out["mesh"] = {{"vertices", m.vertices},
                    {"triangles", m.triangles},
                    {"dropped_not_finite", m.not_finite},
@@ -217,7 +222,7 @@ RunJson::RunJson(const Summary& s, const Outcomes& outcomes, const model::MadeBy
                  base::Sink& sink)
     : sink_(sink) {
   Json out = head(made_by, scene);
-  const bool scanned = !scene.mesh.triangles.empty();
+  const bool scanned = has_mesh(scene);
   out["counts"] = {{"footprints", outcomes.all()}, {"full", outcomes.full},       {"fallback", outcomes.fallback},
                    {"covered", outcomes.covered},  {"refused", outcomes.refused}, {"blocks", s.blocks.size()}};
   if (scanned) out["scores"] = json_of(s.scores);

@@ -356,14 +356,15 @@ TEST(Ground, is_the_terrain_where_that_is_known_along_the_outline) {
     for (std::size_t c = 0; c < grid.columns; ++c) grid.values.push_back(0.05F * static_cast<float>(c));
   // A mistake of the terrain beside the first house that its outline only touches.
   for (std::size_t c = 20; c < 26; ++c) grid.values[20 * grid.columns + c] = -50;
-  scene.terrain = grid;
+  scene.terrain = std::make_shared<const model::HeightGrid>(grid);
   const auto blocks = partition(scene, {});
   ASSERT_EQ(blocks.size(), 4U);
   EXPECT_NEAR(blocks[0].members[0].ground, 1.5, 0.11);
   EXPECT_NEAR(blocks[1].ground, 4.5, 0.11);
   EXPECT_EQ(blocks[2].ground, 3);  // half of its outline has no terrain
   EXPECT_NEAR(blocks[3].ground, 3, 0.11);
-  scene.terrain->values.assign(grid.values.size(), std::numeric_limits<float>::quiet_NaN());
+  grid.values.assign(grid.values.size(), std::numeric_limits<float>::quiet_NaN());
+  scene.terrain = std::make_shared<const model::HeightGrid>(grid);
   EXPECT_EQ(partition(scene, {})[0].ground, 3);
 }
 

@@ -201,7 +201,7 @@ TEST(Footprints, stand_on_the_terrain_that_is_given) {
   ground.cell = 40;
   ground.columns = ground.rows = 2;
   ground.values = {3, 3, 3, 3};
-  scene.terrain = ground;
+  scene.terrain = std::make_shared<const model::HeightGrid>(ground);
   const auto found = drawn(scene);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_NEAR(geometry::area(found[0].polygons[0]), 1600, 30);

@@ -7,7 +7,7 @@
 #include "mansard/base/files.hpp"
 #include "mansard/formats/documents.hpp"
 #include "mansard/formats/plans.hpp"
-#include "mansard/pipeline/pipeline.hpp"
+#include "mansard/pipeline/city.hpp"
 #include "mansard/report/layers.hpp"
 #include "pipeline/houses.hpp"
 
@@ -175,7 +175,7 @@ TEST(Kept, adds_shares_up_to_the_whole) {
     const test::Scratch folder;
     for (std::size_t share = shares; share-- > 0;) {
       const auto kept = opened(folder);
-      ASSERT_TRUE(make_share(scene, {}, {}, Keep::models, {kept.get(), nullptr}, share, shares));
+      ASSERT_TRUE(make_share({scene, nullptr}, {}, {}, Keep::models, {kept.get(), nullptr}, share, shares));
     }
     EXPECT_EQ(kept_files(folder).size(), 3U);
     const auto whole = made(scene, opened(folder).get());

@@ -18,10 +18,6 @@ using geometry::Triangle;
 /// More than twice round the earth: a coordinate beyond is as good as infinite.
 constexpr double farthest = 1e8;
 
-auto usable(Point3 p) -> bool {
-  return std::abs(p.x) < farthest && std::abs(p.y) < farthest && std::abs(p.z) < farthest;  // false for NaN
-}
-
 auto in_range(const Triangle& t, std::size_t count) -> bool { return t[0] < count && t[1] < count && t[2] < count; }
 
 auto moved(Point3 p, const std::array<double, 3>& shift) -> Point3 {
@@ -182,7 +178,8 @@ auto find_repeated(const std::vector<Triangle>& triangles, const Around<Index>& 
 /// Of the triangles that are not repeated.
 template <class Index>
 void count_edges(const std::vector<Triangle>& triangles, const std::vector<char>& repeated, const Around<Index>& around,
-                 std::size_t vertices, model::MeshCounts& counts) {
+                 const std::vector<Point3>& points, const std::optional<Home>& home, model::MeshCounts& counts) {
+  const std::size_t vertices = points.size();
   struct Found {
     std::uint64_t boundary = 0, flipped = 0, non_manifold = 0;
   };
@@ -204,6 +201,7 @@ void count_edges(const std::vector<Triangle>& triangles, const std::vector<char>
       std::ranges::sort(own);
       for (std::size_t i = 0, j = 0; i < own.size(); i = j) {
         while (j < own.size() && own[j] / 2 == own[i] / 2) ++j;
+        if (home && !home->has(std::min(points[v], points[own[i] / 2]))) continue;
         if (j - i == 1) ++sum.boundary;
         if (j - i == 2 && own[i] == own[i + 1]) ++sum.flipped;
         if (j - i > 2) ++sum.non_manifold;
@@ -248,19 +246,23 @@ void keep(std::vector<Triangle>& triangles, std::vector<std::uint8_t>& classes, 
   if (!classes.empty()) classes.resize(to);
 }
 
+auto at_home(const Triangle& t, const std::vector<Point3>& points, const std::optional<Home>& home) -> bool {
+  return !home || home->has(std::min({points[t[0]], points[t[1]], points[t[2]]}));
+}
+
 /// Takes out triangles that are there twice, and counts what is odd about the edges of the others.
 template <class Index>
-void look_at_neighbours(CleanMesh& mesh, const std::vector<Point3>& points) {
+void look_at_neighbours(CleanMesh& mesh, const std::vector<Point3>& points, const std::optional<Home>& home) {
   auto& triangles = mesh.mesh.triangles;
   std::vector<char> repeated;
   {
     const Around<Index> around(triangles, points.size());
     repeated = find_repeated(triangles, around, points);
-    count_edges(triangles, repeated, around, points.size(), mesh.counts);
+    count_edges(triangles, repeated, around, points, home, mesh.counts);
   }
-  const std::size_t before = triangles.size();
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    if (repeated[i] != 0 && at_home(triangles[i], points, home)) ++mesh.counts.duplicate;
   keep(triangles, mesh.classes, [&](std::size_t, std::size_t i) { return repeated[i] == 0; });
-  mesh.counts.duplicate = before - triangles.size();
 }
 
 /// Keeps the vertices that triangles name, in their order.
@@ -287,6 +289,10 @@ void compact(geometry::Mesh& mesh) {
 
 }  // namespace
 
+auto usable(Point3 p) -> bool {
+  return std::abs(p.x) < farthest && std::abs(p.y) < farthest && std::abs(p.z) < farthest;  // false for NaN
+}
+
 auto bounds(const formats::RawMesh& raw, const std::array<double, 3>& offset) -> geometry::Box3 {
   std::vector<geometry::Box3> boxes(blocks_of(raw.triangles.size()));
   each_block(raw.triangles.size(), [&](std::size_t block, std::size_t first, std::size_t end) {
@@ -306,8 +312,8 @@ auto bounds(const formats::RawMesh& raw, const std::array<double, 3>& offset) ->
   return all;
 }
 
-auto clean(formats::RawMesh raw, const std::array<double, 3>& shift, const std::optional<geometry::Box2>& within)
-    -> CleanMesh {
+auto clean(formats::RawMesh raw, const std::array<double, 3>& shift, const std::optional<geometry::Box2>& within,
+           const std::optional<Home>& home) -> CleanMesh {
   CleanMesh out;
   auto& counts = out.counts;
   counts.vertices_read = raw.vertices.size();
@@ -333,7 +339,7 @@ auto clean(formats::RawMesh raw, const std::array<double, 3>& shift, const std::
       if (std::ranges::find(t, formats::no_vertex) != t.end()) return ++found[block].not_finite, false;
       const Point3 a = raw.vertices[t[0]], b = raw.vertices[t[1]], c = raw.vertices[t[2]];
       if (within && !geometry::Box2::of(std::array{a, b, c}).overlaps(*within)) return false;
-      return has_area(a, b, c) || (++found[block].degenerate, false);
+      return has_area(a, b, c) || (found[block].degenerate += at_home(t, raw.vertices, home) ? 1 : 0, false);
     });
   }
   for (const Found& one : found) {
@@ -341,13 +347,19 @@ auto clean(formats::RawMesh raw, const std::array<double, 3>& shift, const std::
     counts.not_finite += one.not_finite;
     counts.degenerate += one.degenerate;
   }
-  if (2 * triangles.size() < formats::no_vertex) look_at_neighbours<std::uint32_t>(out, raw.vertices);
-  else look_at_neighbours<std::uint64_t>(out, raw.vertices);
+  if (2 * triangles.size() < formats::no_vertex) look_at_neighbours<std::uint32_t>(out, raw.vertices, home);
+  else look_at_neighbours<std::uint64_t>(out, raw.vertices, home);
   out.mesh.vertices = std::move(raw.vertices);
   compact(out.mesh);
   triangles.shrink_to_fit();
   counts.vertices = out.mesh.vertices.size();
   counts.triangles = triangles.size();
+  if (home) {
+    counts.vertices =
+        static_cast<std::uint64_t>(std::ranges::count_if(out.mesh.vertices, [&](Point3 p) { return home->has(p); }));
+    counts.triangles = static_cast<std::uint64_t>(
+        std::ranges::count_if(triangles, [&](const Triangle& t) { return at_home(t, out.mesh.vertices, home); }));
+  }
   return out;
 }
 

@@ -17,11 +17,25 @@ struct CleanMesh {
   model::MeshCounts counts;
 };
 
+/// Whether a coordinate can be one of a mesh.
+[[nodiscard]] auto usable(geometry::Point3 p) -> bool;
+
+/// The cell that a mesh is one of, [least, most): what reaches into several cells is counted in one of them only, that
+/// of its first corner by coordinates.
+struct Home {
+  geometry::Point2 least, most;
+  [[nodiscard]] auto has(geometry::Point3 p) const -> bool {
+    return p.x >= least.x && p.x < most.x && p.y >= least.y && p.y < most.y;
+  }
+};
+
 /// Drops what cannot be used, makes corners at the same place one, takes out what then has no area or is there twice.
-/// `shift` is added to all coordinates; with `within`, triangles whose box misses it are left out uncounted.
-/// Cost: linear in vertices and triangles but for sorting around each vertex.
+/// `shift` is added to all coordinates; with `within`, triangles whose box misses it are left out uncounted; with
+/// `home`, what is at home elsewhere is uncounted. Cost: linear in vertices and triangles but for sorting around each
+/// vertex.
 [[nodiscard]] auto clean(formats::RawMesh raw, const std::array<double, 3>& shift,
-                         const std::optional<geometry::Box2>& within) -> CleanMesh;
+                         const std::optional<geometry::Box2>& within, const std::optional<Home>& home = {})
+    -> CleanMesh;
 
 /// One warning for each kind of fault that was found.
 [[nodiscard]] auto warnings_of(const model::MeshCounts& counts, const std::string& subject)

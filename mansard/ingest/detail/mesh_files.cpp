@@ -189,15 +189,21 @@ auto MeshReading::find_places() -> base::Result<void> {
   return {};
 }
 
-auto MeshReading::open(const std::vector<fs::path>& paths, const Options& options, const base::Run& run)
-    -> base::Result<MeshReading> {
-  MeshReading reading(options);
+auto MeshReading::open(const std::vector<fs::path>& paths, const Options& options, const base::Run& run,
+                       MeshCells* cells) -> base::Result<MeshReading> {
+  MeshReading reading(options, cells);
   if (auto done = reading.list(paths); !done) return done.error();
   if (auto done = reading.find_places(); !done) return done.error();
   auto& sources = reading.sources_;
   base::parallel_for(sources.size(), [&](std::size_t i) {
     if (sources[i].kind != Kind::file || run.cancelled()) return;
-    sources[i].piece = formats::read_mesh_file(sources[i].path, options.up);
+    Source& source = sources[i];
+    source.piece = formats::read_mesh_file(source.path, options.up);
+    source.plan = bounds(source.piece.mesh, {0, 0, 0}).plan();
+    if (cells == nullptr) return;
+    source.in_cells = !source.crs;  // else it is read again, when it is known where it goes
+    if (source.in_cells) reading.into_cells(source.piece);
+    else source.piece.mesh = {};
   });
   if (run.cancelled()) return cancelled();
   for (const auto& source : sources)
@@ -210,13 +216,21 @@ auto MeshReading::plan() const -> Box2 {
   const Point2 offset{options_.mesh_offset[0], options_.mesh_offset[1]};
   for (const auto& source : sources_) {
     Box2 box;
-    if (source.kind == Kind::file) box = bounds(source.piece.mesh, {0, 0, 0}).plan();
+    if (source.kind == Kind::file) box = source.plan;
     if (source.tileset) box = source.tileset->plan();
     if (box.empty()) continue;
     out.add(box.least + offset);
     out.add(box.most + offset);
   }
   return out;
+}
+
+/// Leaves of the mesh how much it was.
+void MeshReading::into_cells(formats::MeshPiece& piece) {
+  cells_->add(piece.mesh);
+  piece.vertices = piece.mesh.vertices.size();
+  piece.triangles = piece.mesh.triangles.size();
+  piece.mesh = {};
 }
 
 /// A point of the mesh, as its file has it.
@@ -284,6 +298,8 @@ auto MeshReading::read_placed(Source& source, const std::optional<Box2>& within,
     warnings_.insert(warnings_.end(), raster->warnings.begin(), raster->warnings.end());
     auto input = formats::input_file(source.path);
     if (input) piece.inputs.push_back(std::move(*input));
+  } else if (cells_ != nullptr && source.kind == Kind::file && !source.in_cells) {
+    pieces.push_back(formats::read_mesh_file(source.path, options_.up));
   } else {
     pieces.push_back(std::move(source.piece));
   }
@@ -293,6 +309,7 @@ auto MeshReading::read_placed(Source& source, const std::optional<Box2>& within,
     if (run.cancelled()) return;
     if (source.tileset && i >= first) pieces[i] = formats::read_tile_file(source.tiles[i - first]);
     if (source.way) source.way->take(pieces[i].mesh.vertices);
+    if (cells_ != nullptr && !source.in_cells) into_cells(pieces[i]);
   });
   return pieces;
 }
@@ -317,16 +334,16 @@ auto MeshReading::finish(const std::string& working, const std::optional<Box2>& 
     if (run.cancelled()) return cancelled();
     for (auto& piece : some) {
       if (piece.failure) return *piece.failure;
-      vertices += piece.mesh.vertices.size();
-      triangles += piece.mesh.triangles.size();
+      vertices += piece.mesh.vertices.size() + piece.vertices;
+      triangles += piece.mesh.triangles.size() + piece.triangles;
       for (const auto& kind : piece.skipped) ++skipped[kind];
-      if (source.kind == Kind::file && piece.mesh.triangles.empty() && sources_.size() > 1)
+      if (source.kind == Kind::file && piece.mesh.triangles.empty() && piece.triangles == 0 && sources_.size() > 1)
         warnings_.push_back(base::warning("ingest-mesh-no-faces", "the file adds no faces", piece.inputs.front().path));
       pieces.push_back(std::move(piece));
     }
   }
   warn_of_skipped(skipped, subject, warnings_);
-  if (vertices >= formats::no_vertex)
+  if (cells_ == nullptr && vertices >= formats::no_vertex)
     return base::error("ingest-memory", "more than 4 thousand million vertices; reconstruct part after part", subject);
   if (triangles == 0 && tiles_beside_ > 0)
     return base::error("ingest-no-overlap",

@@ -13,6 +13,7 @@
 #include "mansard/crs/mesh_crs.hpp"
 #include "mansard/formats/mesh/mesh_file.hpp"
 #include "mansard/formats/tiles3d/tileset.hpp"
+#include "mansard/ingest/cells.hpp"
 #include "mansard/ingest/ingest.hpp"
 
 namespace mansard::ingest::detail {
@@ -30,8 +31,10 @@ class MeshReading {
   /// Lists folders, reads mesh files, opens tilesets and rasters. Fails with "ingest-mesh-empty",
   /// "ingest-mesh-format", "ingest-mesh-truncated", "ingest-mesh-metadata", "ingest-memory", "file-missing",
   /// "file-read", "cancelled".
+  /// With `cells`, the meshes go there instead of into memory: those of files that no other CRS can be meant by at
+  /// once.
   [[nodiscard]] static auto open(const std::vector<std::filesystem::path>& paths, const Options& options,
-                                 const base::Run& run) -> base::Result<MeshReading>;
+                                 const base::Run& run, MeshCells* cells = nullptr) -> base::Result<MeshReading>;
 
   /// Box in plan, with the offset, of what is not placed on the earth, as its files have it; empty for none.
   [[nodiscard]] auto plan() const -> geometry::Box2;
@@ -41,8 +44,8 @@ class MeshReading {
   [[nodiscard]] auto own_crs_or_zone() const -> std::string;
 
   /// `working` names the CRS, empty for a local frame; `within` is a box in it: what lies beside it need not be read.
-  /// Fails as `open` does, and with "ingest-mesh-unusable", "ingest-no-overlap", "ingest-crs-unknown",
-  /// "ingest-raster". Can be called once.
+  /// With cells, the mesh that is returned is empty. Fails as `open` does, and with "ingest-mesh-unusable",
+  /// "ingest-no-overlap", "ingest-crs-unknown", "ingest-raster". Can be called once.
   [[nodiscard]] auto finish(const std::string& working, const std::optional<geometry::Box2>& within,
                             const base::Run& run) -> base::Result<MeshFiles>;
 
@@ -54,12 +57,14 @@ class MeshReading {
     std::optional<crs::MeshCrs> crs;          ///< what it says of itself, or metadata.xml says for it
     bool by_metadata = false;                 ///< … the latter
     std::optional<formats::Tileset> tileset;  ///< of a tileset
-    formats::MeshPiece piece;                 ///< of a file
-    std::vector<formats::TileFile> tiles;     ///< of a tileset
-    std::optional<crs::WayOfMesh> way;        ///< to the working CRS; none where coordinates stay
+    formats::MeshPiece piece;                 ///< of a file; without its mesh where that is in the cells
+    geometry::Box2 plan;                      ///< of a file
+    bool in_cells = false;
+    std::vector<formats::TileFile> tiles;  ///< of a tileset
+    std::optional<crs::WayOfMesh> way;     ///< to the working CRS; none where coordinates stay
   };
 
-  explicit MeshReading(const Options& options) : options_(options) {}
+  MeshReading(const Options& options, MeshCells* cells) : options_(options), cells_(cells) {}
   [[nodiscard]] auto list(const std::vector<std::filesystem::path>& paths) -> base::Result<void>;
   [[nodiscard]] auto list_folder(const std::filesystem::path& folder) -> base::Result<void>;
   [[nodiscard]] auto find_places() -> base::Result<void>;
@@ -70,8 +75,10 @@ class MeshReading {
       -> base::Result<void>;
   [[nodiscard]] auto read_placed(Source& source, const std::optional<geometry::Box2>& within, const base::Run& run)
       -> std::vector<formats::MeshPiece>;
+  void into_cells(formats::MeshPiece& piece);
 
   Options options_;
+  MeshCells* cells_ = nullptr;
   std::vector<Source> sources_;
   std::map<std::filesystem::path, model::InputFile> metadata_;  ///< by folder
   std::vector<model::InputFile> inputs_;

@@ -6,10 +6,6 @@
 #include "mansard/pipeline/detail/place.hpp"
 
 namespace mansard::pipeline::detail {
-namespace {
-
-/// A place's number along a curve that fills the plane, so that neighbours mostly have near numbers (Z-order; G. M.
-/// Morton, A computer oriented geodetic data base, 1966). Whole metres; negative ones too.
 auto along_curve(std::int64_t x, std::int64_t y) -> std::uint64_t {
   const auto spread = [](std::int64_t value) {
     const auto bits = static_cast<std::uint64_t>(value + (std::int64_t{1} << 31));
@@ -20,11 +16,9 @@ auto along_curve(std::int64_t x, std::int64_t y) -> std::uint64_t {
   return spread(x) | spread(y) << 1U;
 }
 
-}  // namespace
-
 auto cancelled() -> base::Diagnostic { return base::error("cancelled", "stopped on request; nothing was written"); }
 
-auto divide(const model::Scene& scene, const Options& options, const base::Run& run) -> base::Result<Division> {
+auto check_usable(const model::Scene& scene) -> base::Result<void> {
   const bool usable = std::ranges::any_of(scene.footprints, [](const auto& f) { return !f.defect.has_value(); });
   if (!usable) {
     std::string why = "there are no footprints";
@@ -34,6 +28,11 @@ auto divide(const model::Scene& scene, const Options& options, const base::Run& 
               " footprints can be used; the first: " + defect->message;
     return base::error("pipeline-nothing", why);
   }
+  return {};
+}
+
+auto divide(const model::Scene& scene, const Options& options, const base::Run& run) -> base::Result<Division> {
+  if (auto usable = check_usable(scene); !usable) return usable.failure();
   base::Watch watch;
   Division out{block::Partition(scene, options.block, run), {}, {}};
   for (std::size_t i = 0; i < out.blocks.size(); ++i) out.wanted.push_back(i);
@@ -57,24 +56,6 @@ auto keep_only(Division& division, std::span<const std::string> only) -> base::R
   return {};
 }
 
-void keep_share(Division& division, std::size_t task, std::size_t tasks) {
-  const auto& blocks = division.blocks;
-  std::ranges::stable_sort(division.wanted, {}, [&](std::size_t i) {
-    return along_curve(blocks.outlined(i).origin[0], blocks.outlined(i).origin[1]);
-  });
-  constexpr std::size_t own_work = 200;  // triangles; about what a block costs beside its mesh
-  const auto work_of = [&](std::size_t i) { return blocks.triangles_near(i) + own_work; };
-  std::size_t all = 0, before = 0;
-  for (const std::size_t i : division.wanted) all += work_of(i);
-  std::vector<std::size_t> own;
-  for (const std::size_t i : division.wanted) {
-    const std::size_t work = work_of(i);
-    if ((2 * before + work) * tasks / (2 * all) == task) own.push_back(i);  // where its middle lies
-    before += work;
-  }
-  division.wanted = std::move(own);
-}
-
 auto stage_times(const report::StageTime& division, const std::vector<report::BlockReport>& blocks)
     -> std::vector<report::StageTime> {
   std::vector<std::string> names{division.stage};
@@ -96,14 +77,21 @@ auto combined_scores(const std::vector<report::BlockReport>& blocks) -> evaluate
   return evaluate::combined(scores);
 }
 
-Maker::Maker(const Division& division, const Options& options, Keep keep, const Schedule& schedule)
+Maker::Maker(const Options& options, Keep keep, const Schedule& schedule)
     : options_(options), keep_(keep), schedule_(schedule) {
   if (schedule.kept != nullptr) shared_ = key_of(options, keep);
-  if (schedule.tally == nullptr) return;
+}
+
+void Maker::announce(std::size_t blocks, std::size_t buildings) {
+  if (schedule_.tally == nullptr) return;
+  schedule_.tally->buildings = buildings;
+  schedule_.tally->blocks = blocks;
+}
+
+void Maker::announce(const Division& division) {
   std::size_t buildings = 0;
   for (const std::size_t i : division.wanted) buildings += division.blocks.outlined(i).members.size();
-  schedule.tally->buildings = buildings;
-  schedule.tally->blocks = division.wanted.size();
+  announce(division.wanted.size(), buildings);
 }
 
 auto Maker::operator()(const block::Block& block, const base::Run& run, const Tell& tell,

@@ -1,6 +1,7 @@
 // The blocks of a scene, made and worked through side by side; each is gone from memory when it is done.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <map>
@@ -29,33 +30,43 @@ struct Division {
   [[nodiscard]] auto outlined(std::size_t i) const -> const block::Block& { return blocks.outlined(wanted[i]); }
 };
 
+/// Fails with "pipeline-nothing" where no footprint can be used.
+[[nodiscard]] auto check_usable(const model::Scene& scene) -> base::Result<void>;
 /// All blocks. Fails with "pipeline-nothing".
 [[nodiscard]] auto divide(const model::Scene& scene, const Options& options, const base::Run& run)
     -> base::Result<Division>;
 /// Leaves the blocks that are named; all where none is. Fails with "pipeline-block-unknown".
 [[nodiscard]] auto keep_only(Division& division, std::span<const std::string> only) -> base::Result<void>;
-/// Leaves the blocks of one of so many shares.
-void keep_share(Division& division, std::size_t task, std::size_t tasks);
 
 /// The stages' times over all blocks, those of `division` among them.
 [[nodiscard]] auto stage_times(const report::StageTime& division, const std::vector<report::BlockReport>& blocks)
     -> std::vector<report::StageTime>;
 [[nodiscard]] auto combined_scores(const std::vector<report::BlockReport>& blocks) -> evaluate::Scores;
 
+/// A place's number along a curve that fills the plane, so that neighbours mostly have near numbers (Z-order; G. M.
+/// Morton, A computer oriented geodetic data base, 1966). Whole metres; negative ones too.
+[[nodiscard]] auto along_curve(std::int64_t x, std::int64_t y) -> std::uint64_t;
+
+/// How many blocks of a run were worked through before, and how many there are in all; 0: those of the division.
+struct Progress {
+  std::size_t before = 0, all = 0;
+};
+
 /// work(block, run, tell, time of making the block) for every block; a result for each.
 template <class Work>
-auto for_every(const Division& division, const base::Run& run, const Work& work) {
+auto for_every(const Division& division, const base::Run& run, const Work& work, Progress of_all = {}) {
   using Made = decltype(work(std::declval<const block::Block&>(), run, Tell{}, report::StageTime{}));
   const std::size_t count = division.wanted.size();
   std::vector<Made> results(count);
   std::mutex progress;
-  std::size_t done = 0;
+  std::size_t done = of_all.before;
+  const std::size_t all = std::max(of_all.all, count);
   base::Run inner = run;
   inner.progress = nullptr;
   base::parallel_for(count, [&](std::size_t i) {
     if (run.cancelled()) return;
     const auto report = [&](std::string_view stage) {
-      run.report(stage, division.outlined(i).name, static_cast<double>(done) / static_cast<double>(count));
+      run.report(stage, division.outlined(i).name, static_cast<double>(done) / static_cast<double>(all));
     };
     base::Watch making;
     const auto block = division.blocks.make(division.wanted[i]);
@@ -75,7 +86,10 @@ auto for_every(const Division& division, const base::Run& run, const Work& work)
 /// One block: as it was kept, or else made and kept. Thread-safe; one for all blocks of a run.
 class Maker {
  public:
-  Maker(const Division& division, const Options& options, Keep keep, const Schedule& schedule);
+  Maker(const Options& options, Keep keep, const Schedule& schedule);
+  /// How much there is to do.
+  void announce(std::size_t blocks, std::size_t buildings);
+  void announce(const Division& division);
 
   /// A result without anything once the run is cancelled or something could not be kept.
   [[nodiscard]] auto operator()(const block::Block& block, const base::Run& run, const Tell& tell,

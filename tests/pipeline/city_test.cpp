@@ -1,0 +1,189 @@
+// A city whose mesh is in cells on disk comes out as one whose mesh is in memory, to the byte.
+#include <gtest/gtest.h>
+
+#include "base/scratch.hpp"
+#include "mansard/base/files.hpp"
+#include "mansard/formats/documents.hpp"
+#include "mansard/formats/plans.hpp"
+#include "mansard/pipeline/city.hpp"
+#include "pipeline/houses.hpp"
+
+namespace mansard::pipeline {
+namespace {
+
+/// Houses in rows, some wall to wall, on a field of large triangles, with faults: triangles that are there twice, that
+/// have no area, and corners that are nowhere.
+auto town_obj() -> std::string {
+  geometry::Mesh mesh;
+  test::add_quad(mesh, {-300, -300, 0}, {700, -300, 0}, {700, 700, 0}, {-300, 700, 0});
+  for (int i = 0; i < 5; ++i)
+    for (int k = 0; k < 4; ++k) {
+      const double x = 60.0 * i + 0.25 * k, y = 45.0 * k;
+      test::add_house(mesh, x, y, x + 12, y + 8, 5 + 0.5 * i, 8 + 0.5 * i);
+      if ((i + k) % 2 == 0) test::add_house(mesh, x + 12, y, x + 23, y + 8, 6, 6);
+    }
+  std::string obj;
+  for (const auto& v : mesh.vertices)
+    obj += "v " + std::to_string(v.x) + " " + std::to_string(v.y) + " " + std::to_string(v.z) + "\n";
+  obj += "v 3 3 nan\nv 1e300 0 0\n";
+  const auto face = [&obj](std::size_t a, std::size_t b, std::size_t c) {
+    obj += "f " + std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(c) + "\n";
+  };
+  for (const auto& t : mesh.triangles) face(t[0] + 1, t[1] + 1, t[2] + 1);
+  for (std::size_t t = 10; t < 20; ++t)  // again, some the other way round
+    face(mesh.triangles[t][0] + 1, mesh.triangles[t][t % 2 == 0 ? 1 : 2] + 1,
+         mesh.triangles[t][t % 2 == 0 ? 2 : 1] + 1);
+  face(5, 6, 5);
+  face(7, mesh.vertices.size() + 1, 8);
+  face(7, mesh.vertices.size() + 2, 8);
+  face(7, mesh.vertices.size() + 900, 8);
+  return obj;
+}
+
+auto town_geojson() -> std::string {
+  std::string features;
+  const auto add = [&](const std::string& id, double x0, double y0, double x1, double y1) {
+    const auto corner = [](double x, double y) { return "[" + std::to_string(x) + "," + std::to_string(y) + "]"; };
+    features += std::string(features.empty() ? "" : ",") + R"({"type":"Feature","properties":{"id":")" + id +
+                R"(","use":"home"},"geometry":{"type":"Polygon","coordinates":[[)" + corner(x0, y0) + "," +
+                corner(x1, y0) + "," + corner(x1, y1) + "," + corner(x0, y1) + "," + corner(x0, y0) + "]]}}";
+  };
+  for (int k = 3; k >= 0; --k)  // not in the order of their places
+    for (int i = 0; i < 5; ++i) {
+      const double x = 60.0 * i + 0.25 * k, y = 45.0 * k;
+      const std::string name = std::to_string(i) + std::to_string(k);
+      add("house" + name, x, y, x + 12, y + 8);
+      if ((i + k) % 2 == 0) add("annex" + name, x + 12, y, x + 23, y + 8);
+    }
+  features += R"(,{"type":"Feature","properties":{"id":"point"},"geometry":{"type":"Point","coordinates":[1,2]}})";
+  return R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:28992"}},"features":[)" +
+         features + "]}";
+}
+
+struct Files {
+  test::Scratch folder;
+  std::filesystem::path mesh = folder / "town.obj", footprints = folder / "town.geojson";
+  Files() {
+    EXPECT_TRUE(base::write_file(mesh, town_obj()));
+    EXPECT_TRUE(base::write_file(footprints, town_geojson()));
+  }
+  [[nodiscard]] auto read(Options options, double from) const -> ingest::CityScene {
+    options.ingest.cells_from = from;
+    auto city = ingest::read_city({mesh}, footprints, options.ingest);
+    EXPECT_TRUE(city) << (city ? "" : base::to_string(city.error()));
+    return city ? std::move(*city) : ingest::CityScene{};
+  }
+};
+
+constexpr double never = 1e9;  // MB
+
+/// Everything of a run that is put aside but its times.
+auto told(const PutAside& city) -> std::string {
+  std::string out;
+  model::City whole;
+  whole.frame = city.frame;
+  for (const auto& block : city.summary.blocks)
+    out += block.name + " " + std::to_string(block.triangles) + " " + std::to_string(block.objective) + " " +
+           std::to_string(block.scores.mse) + "\n";
+  for (const auto& warning : city.summary.warnings) out += base::to_string(warning) + "\n";
+  const auto done = city.each([&](model::Building building, const report::BuildingReport& report) {
+    out += report.id + " " + report.block + " " + std::string(report::to_string(report.outcome)) + " " +
+           std::to_string(report.volume) + "\n";
+    for (const auto& reason : report.reasons) out += base::to_string(reason) + "\n";
+    whole.buildings.push_back(std::move(building));
+    return base::Result<void>();
+  });
+  EXPECT_TRUE(done);
+  return out + *formats::cityjson(whole) + formats::plans(whole);
+}
+
+TEST(City, in_cells_is_that_in_memory) {
+  const Files files;
+  for (const double side : {17.0, 64.0, 1000.0}) {
+    Options options;
+    options.ingest.cell_side = side;
+    const auto in_memory = files.read(options, never), in_cells = files.read(options, 0);
+    ASSERT_FALSE(in_memory.cells);
+    ASSERT_TRUE(in_cells.cells);
+    EXPECT_TRUE(in_cells.scene.mesh.triangles.empty());
+    const auto& a = in_memory.scene.mesh_counts;
+    const auto& b = in_cells.scene.mesh_counts;
+    EXPECT_EQ(a.vertices, b.vertices) << side;
+    EXPECT_EQ(a.triangles, b.triangles);
+    EXPECT_EQ(a.not_finite, b.not_finite);
+    EXPECT_EQ(a.out_of_range, b.out_of_range);
+    EXPECT_EQ(a.degenerate, b.degenerate);
+    EXPECT_EQ(a.duplicate, b.duplicate);
+    EXPECT_EQ(a.non_manifold_edges, b.non_manifold_edges);
+    EXPECT_EQ(a.boundary_edges, b.boundary_edges);
+    EXPECT_EQ(a.flipped_edges, b.flipped_edges);
+    EXPECT_EQ(a.vertices_read, b.vertices_read);
+    EXPECT_EQ(a.triangles_read, b.triangles_read);
+    EXPECT_GT(a.duplicate, 0U);
+    EXPECT_GT(a.not_finite, 0U);
+    EXPECT_GT(a.out_of_range, 0U);
+    EXPECT_EQ(in_memory.scene.frame.origin, in_cells.scene.frame.origin);
+    EXPECT_EQ(in_memory.scene.warnings, in_cells.scene.warnings);
+    const auto one = reconstruct_aside(in_memory, options), other = reconstruct_aside(in_cells, options);
+    ASSERT_TRUE(one);
+    ASSERT_TRUE(other);
+    EXPECT_EQ(one->outcomes.full, 30U);
+    EXPECT_EQ(told(*one), told(*other)) << side;
+  }
+}
+
+TEST(City, put_aside_is_that_of_reconstruct) {
+  const Files files;
+  const auto city = files.read({}, never);
+  const auto aside = reconstruct_aside(city, {});
+  const auto whole = reconstruct(city.scene, {});
+  ASSERT_TRUE(aside);
+  ASSERT_TRUE(whole);
+  model::City again;
+  again.frame = aside->frame;
+  std::vector<report::BuildingReport> reports;
+  ASSERT_TRUE(aside->each([&](model::Building building, report::BuildingReport report) {
+    again.buildings.push_back(std::move(building));
+    reports.push_back(std::move(report));
+    return base::Result<void>();
+  }));
+  again.made_by = aside->made_by;
+  EXPECT_EQ(*formats::cityjson(again), *formats::cityjson(whole->city));
+  ASSERT_EQ(reports.size(), whole->buildings.size());
+  for (std::size_t i = 0; i < reports.size(); ++i) EXPECT_EQ(reports[i].reasons, whole->buildings[i].reasons);
+  EXPECT_EQ(aside->summary.warnings, whole->warnings);
+  EXPECT_EQ(aside->summary.scores.mse, whole->scores.mse);
+}
+
+TEST(City, in_a_box_is_that_in_memory) {
+  const Files files;
+  Options options;
+  options.ingest.bbox = {50, 30, 140, 110};
+  const auto in_memory = files.read(options, never), in_cells = files.read(options, 0);
+  EXPECT_EQ(in_memory.scene.mesh_counts.triangles, in_cells.scene.mesh_counts.triangles);
+  const auto one = reconstruct_aside(in_memory, options), other = reconstruct_aside(in_cells, options);
+  ASSERT_TRUE(one);
+  ASSERT_TRUE(other);
+  EXPECT_EQ(told(*one), told(*other));
+}
+
+TEST(City, shares_of_cells_add_up) {
+  const Files files;
+  const auto in_cells = files.read({}, 0);
+  const test::Scratch folder;
+  for (std::size_t share = 0; share < 3; ++share) {
+    auto kept = KeptBlocks::open(folder, false);
+    ASSERT_TRUE(kept);
+    ASSERT_TRUE(make_share(in_cells, {}, {}, Keep::models, {kept->get(), nullptr}, share, 3));
+  }
+  auto kept = KeptBlocks::open(folder);
+  ASSERT_TRUE(kept);
+  Tally tally;
+  const auto merged = reconstruct_aside(in_cells, {}, {}, {kept->get(), &tally});
+  ASSERT_TRUE(merged);
+  EXPECT_EQ(tally.blocks_kept, 20U);
+  EXPECT_EQ(told(*merged), told(*reconstruct_aside(in_cells, {})));
+}
+
+}  // namespace
+}  // namespace mansard::pipeline
