@@ -1,11 +1,90 @@
+#include <algorithm>
+#include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
+#include "mansard/geometry/change.hpp"
+#include "mansard/model/file_grid.hpp"
 #include "mansard/solid/unite.hpp"
 
 namespace mansard::solid {
 
 using model::LabelledSolid;
+
+namespace {
+
+using geometry::Polygon;
+
+auto grown(const std::vector<Polygon>& polygons, double by) -> std::optional<std::vector<Polygon>> {
+  std::vector<Polygon> all;
+  for (const auto& polygon : polygons) {
+    const auto one = geometry::buffer(polygon, by);
+    if (!one) return std::nullopt;
+    all.insert(all.end(), one->begin(), one->end());
+  }
+  auto united = geometry::unite(all);
+  if (!united) return std::nullopt;
+  return std::move(*united);
+}
+
+/// On the grid of files, without corners that become one there. No corners where nothing is left.
+auto rounded(const geometry::Ring& ring) -> geometry::Ring {
+  geometry::Ring out;
+  constexpr double near = model::least_apart / model::quanta_per_metre;
+  for (const auto p : ring) {
+    const geometry::Point2 q{std::round(p.x * model::quanta_per_metre) / model::quanta_per_metre,
+                             std::round(p.y * model::quanta_per_metre) / model::quanta_per_metre};
+    if (out.empty() || length(q - out.back()) > near) out.push_back(q);
+  }
+  while (out.size() > 1 && length(out.front() - out.back()) <= near) out.pop_back();
+  if (out.size() < 3) out.clear();
+  return out;
+}
+
+auto prism_over(const Polygon& outline, double base, double z) -> LabelledSolid {
+  LabelledSolid ground;
+  model::Face face{{}, model::FaceKind::base, {}, {0, 0, -1}};
+  const auto add = [&](const geometry::Ring& ring) {
+    const auto own = rounded(ring);
+    if (own.empty()) return;
+    auto& loop = face.loops.emplace_back();
+    for (const auto p : own) {
+      loop.push_back(static_cast<std::uint32_t>(ground.solid.vertices.size()));
+      ground.solid.vertices.push_back({p.x, p.y, base});
+    }
+    std::ranges::reverse(loop);
+  };
+  add(outline.outer);
+  if (face.loops.empty()) return {};
+  for (const auto& hole : outline.holes) add(hole);
+  ground.solid.faces.push_back(std::move(face));
+  ground.classes.push_back(model::FaceClass::ground);
+  return prism_over_ground(ground, z);
+}
+
+}  // namespace
+
+auto prism_over_outline(const LabelledSolid& model, double z) -> LabelledSolid {
+  std::vector<Polygon> ground;
+  double base = z;
+  for (std::size_t f = 0; f < model.solid.faces.size(); ++f) {
+    if (model.classes[f] != model::FaceClass::ground) continue;
+    ground.push_back(geometry::oriented(geometry::polygon_of(model.solid.faces[f].loops, [&](std::uint32_t v) {
+      base = std::min(base, model.solid.vertices[v].z);
+      return geometry::xy(model.solid.vertices[v]);
+    })));
+  }
+  for (const double by : {2e-3, 1e-2, 5e-2}) {  // m
+    const auto wide = grown(ground, by);
+    if (!wide) continue;
+    const auto closed = grown(*wide, -by);
+    if (!closed || closed->size() != 1) continue;
+    auto prism = prism_over(closed->front(), base, z);
+    if (!prism.solid.faces.empty() && check(prism.solid, written_rules()).empty()) return prism;
+  }
+  return {};
+}
 
 auto prism_over_ground(const LabelledSolid& model, double z) -> LabelledSolid {
   std::map<std::pair<std::uint32_t, std::uint32_t>, bool> party;

@@ -57,6 +57,8 @@ auto codes() -> std::vector<base::Code> {
        "Parts that touch in an edge or a point only, or that overlap, have no union that is a valid solid; edit their "
        "plans where the message says so.",
        0},
+      {"solid-parted", "Parts of a building share ground, which the higher one keeps.",
+       "Edit the plans of its parts so that they do not overlap.", 0},
       {"solid-simplified", "A part of a building is written as a prism, because its solid is not valid in a file.",
        "Look for edges shorter than 1 mm in its plan.", 1},
       {"solid-left-out", "A part of a building is not written: no valid solid can be made of it.",

@@ -1,339 +1,213 @@
 #include "mansard/solid/unite.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <deque>
 #include <map>
-#include <set>
+#include <numeric>
+#include <optional>
 #include <tuple>
+#include <type_traits>
 
 #include "mansard/base/disjoint_sets.hpp"
 #include "mansard/base/run.hpp"
-#include "mansard/solid/detail/union_faces.hpp"
+#include "mansard/solid/detail/disjoint.hpp"
+#include "mansard/solid/detail/uniting.hpp"
 
 namespace mansard::solid {
 namespace {
 
+using detail::Reach;
 using model::LabelledSolid;
-using Parts = std::vector<std::size_t>;
 using One = United::One;
 
-/// m; what validators grant at their strictest is 1e-4. They find their own plane, and cut faces their own way.
-constexpr double planar = 0.95e-4;
-
-/// Solids without a common edge, one after the other.
-auto apart(const LabelledSolid& model, const std::vector<std::uint32_t>& part_of_face) -> std::vector<One> {
-  base::DisjointSets sets(model.solid.vertices.size());
-  for (const auto& face : model.solid.faces)
-    for (const auto& loop : face.loops)
-      for (const auto v : loop) sets.join(v, face.loops[0][0]);
-  std::map<std::uint32_t, One> found;
-  std::vector<std::uint32_t> number(model.solid.vertices.size(), UINT32_MAX);
-  for (std::size_t f = 0; f < model.solid.faces.size(); ++f) {
-    model::Face face = model.solid.faces[f];
-    One& one = found[sets.of(face.loops[0][0])];
-    for (auto& loop : face.loops)
-      for (auto& v : loop) {
-        if (number[v] == UINT32_MAX) {
-          number[v] = static_cast<std::uint32_t>(one.model.solid.vertices.size());
-          one.model.solid.vertices.push_back(model.solid.vertices[v]);
-        }
-        v = number[v];
-      }
-    one.model.solid.faces.push_back(std::move(face));
-    one.model.classes.push_back(model.classes[f]);
-    one.part_of_face.push_back(part_of_face[f]);
-  }
-  std::vector<One> all;
-  for (auto& [name, one] : found) {
-    const std::set<std::uint32_t> of(one.part_of_face.begin(), one.part_of_face.end());
-    one.of.assign(of.begin(), of.end());
-    all.push_back(std::move(one));
-  }
-  return all;
-}
-
-auto volume_of(const std::vector<One>& ones) -> double {
-  double sum = 0;
-  for (const One& one : ones) sum += volume(one.model.solid);
-  return sum;
-}
-
-/// From the origin and level of sheets to where the parts are.
-void place(model::Solid& solid, const detail::Sheets& sheets) {
-  const auto moved = [](double metres, std::int64_t by) {
-    return static_cast<double>(std::llround(metres * detail::quanta_per_metre) + by) / detail::quanta_per_metre;
-  };
-  for (auto& v : solid.vertices)
-    v = {moved(v.x, sheets.origin[0]), moved(v.y, sheets.origin[1]), moved(v.z, sheets.level)};
-}
-
-struct Attempt {
-  std::vector<One> solids;
-  std::string why;
-};
-
-/// Several solids keep the corners of each other that they have on their walls.
-auto pinned_between(const detail::Sheets& sheets) -> detail::Sheets {
-  detail::Sheets out = sheets;
-  out.pinned.resize(out.places.size(), 0);
-  std::vector<std::uint32_t> user(out.places.size(), UINT32_MAX);
-  for (const auto& sheet : out.sheets)
-    for (const auto& path : sheet.paths)
-      for (const auto& node : path) {
-        auto& pinned = out.pinned[node.at];
-        if (user[node.at] == UINT32_MAX) user[node.at] = sheet.solid;
-        else if (user[node.at] != sheet.solid && pinned == 0) pinned = detail::of_a_building;
-      }
-  return out;
-}
-
-/// The union of those solids of which there are sheets. It is made and checked near the origin, where no coordinate has
-/// more digits than another.
-auto made_of(const detail::Sheets& sheets, std::span<const LabelledSolid* const> parts, bool alone = true) -> Attempt {
-  auto made = detail::union_of(sheets, parts);
-  if (!made.why.empty()) return {{}, made.why};
-  if (!detail::finish(made, planar)) return {{}, "a face crosses itself"};
-  auto solids = apart(made.model, made.solid_of_face);
-  if (solids.size() > 1 && alone) return made_of(pinned_between(sheets), parts, false);
-  for (One& one : solids)
-    if (!check(one.model.solid, written_rules()).empty()) {
-      place(one.model.solid, sheets);  // so that the message names a place that can be found
-      const auto faults = check(one.model.solid, written_rules());
-      return {{}, faults.empty() ? std::string("rounding") : faults.front().message};
-    }
-  std::set<std::uint32_t> of;
-  for (const auto& sheet : sheets.sheets) of.insert(sheet.solid);
-  double whole = 0, surface = 0;
-  for (const std::uint32_t p : of) {
-    whole += volume(parts[p]->solid);
-    for (const auto& face : parts[p]->solid.faces) surface += area(parts[p]->solid, face);
-  }
-  constexpr double thickness = 1.2e-3;  // m; by which merging points may move a face, on average
-  if (std::abs(volume_of(solids) - whole) > thickness * surface) return {{}, "parts overlap"};
-  for (One& one : solids) place(one.model.solid, sheets);
-  return {std::move(solids), ""};
-}
-
-/// How a union is made: points nearer than `near` quanta become one, and what stays a solid of its own is its part as
-/// it is or, with `prisms`, a prism over the plan of all.
-struct Reach {
-  std::int64_t near = model::least_apart;
-  bool prisms = false;
-  bool corners = true;  ///< whether corners are cut where solids would meet in an vertical line only
-};
 /// Corners are cut where there is no union without. Where parts overlap by more than the least, or a face is caught
 /// between points that near, 5 mm and 2 cm help.
 constexpr std::array reaches{Reach{.corners = false}, Reach{}, Reach{50}, Reach{200}, Reach{.prisms = true}};
 
-class Uniting {
- public:
-  Uniting(std::span<const LabelledSolid* const> parts, const Reach& reach) : parts_(parts), reach_(reach) {}
-  /// `plan` is that of the parts and their neighbours.
-  Uniting(std::span<const LabelledSolid* const> parts, const Reach& reach, detail::Sheets plan)
-      : parts_(parts), reach_(reach), plan_(std::move(plan)) {}
+/// What is left of a part, closed; none where no valid solid can be made of it.
+auto closed(const LabelledSolid& shape) -> std::optional<LabelledSolid> {
+  const std::array<const LabelledSolid*, 1> alone{&shape};
+  const auto made = detail::united_by(alone, Reach{});
+  if (made.solids.empty() || !made.warnings.empty()) return std::nullopt;
+  LabelledSolid out;
+  for (const One& one : made.solids) {
+    const auto first = static_cast<std::uint32_t>(out.solid.vertices.size());
+    out.solid.vertices.insert(out.solid.vertices.end(), one.model.solid.vertices.begin(),
+                              one.model.solid.vertices.end());
+    for (model::Face face : one.model.solid.faces) {
+      for (auto& loop : face.loops)
+        for (auto& v : loop) v += first;
+      out.solid.faces.push_back(std::move(face));
+    }
+    out.classes.insert(out.classes.end(), one.model.classes.begin(), one.model.classes.end());
+  }
+  return out;
+}
 
-  auto run() -> United {
-    const Parts all = all_of(parts_.size());
-    if (all.empty()) return {};
-    Attempt attempt = united(all);
-    if (attempt.why.empty()) take(std::move(attempt.solids));
-    else if (all.size() == 1) alone(0, attempt.why);
-    else neighbour_by_neighbour(attempt.why);
-    if (out_.solids.empty() && out_.warnings.empty())
-      out_.warnings.push_back(base::warning("solid-left-out", "its ground is narrower than what becomes one point"));
-    std::ranges::stable_sort(out_.solids, {}, [](const One& one) { return one.of.front(); });
-    return std::move(out_);
+/// The parts of buildings that are united together, as they are given or without what they share.
+class Parts {
+ public:
+  /// `families`: buildings, by number, no two solids of which may share ground.
+  Parts(std::vector<std::vector<const LabelledSolid*>> buildings, std::vector<std::vector<std::uint32_t>> families)
+      : of_(std::move(buildings)), families_(std::move(families)), numbers_(of_.size()), warnings_(of_.size()) {
+    for (std::size_t b = 0; b < of_.size(); ++b)
+      for (std::size_t p = 0; p < of_[b].size(); ++p) numbers_[b].push_back(p);
+  }
+
+  [[nodiscard]] auto of() const -> const std::vector<std::vector<const LabelledSolid*>>& { return of_; }
+  [[nodiscard]] auto families() const -> const std::vector<std::vector<std::uint32_t>>& { return families_; }
+
+  /// Whether solids of one family share ground.
+  [[nodiscard]] static auto overlap(const std::vector<std::uint32_t>& family, const std::vector<United>& made) -> bool {
+    std::vector<const LabelledSolid*> solids;
+    for (const auto b : family)
+      for (const One& one : made[b].solids) solids.push_back(&one.model);
+    for (std::size_t i = 0; i < solids.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k)
+        if (detail::share_ground(*solids[k], *solids[i])) return true;
+    return false;
+  }
+
+  /// Takes what parts share off one of them, in the families whose solids do. Whether anything changed.
+  auto part(const std::vector<United>& made) -> bool {
+    bool any = false;
+    for (const auto& family : families_)
+      if (overlap(family, made)) any = part(family) || any;
+    return any;
+  }
+
+  /// Numbers of parts as they were given, and what became of them.
+  void finish(std::vector<United>& made) {
+    for (std::size_t b = 0; b < made.size(); ++b) {
+      const auto number = [&](auto& p) { p = static_cast<std::remove_reference_t<decltype(p)>>(numbers_[b][p]); };
+      for (One& one : made[b].solids) {
+        std::ranges::for_each(one.of, number);
+        std::ranges::for_each(one.part_of_face, number);
+      }
+      std::ranges::for_each(made[b].simplified, number);
+      made[b].warnings.insert(made[b].warnings.begin(), warnings_[b].begin(), warnings_[b].end());
+    }
   }
 
  private:
-  void take(std::vector<One> solids) {
-    for (One& one : solids) out_.solids.push_back(std::move(one));
-  }
-
-  /// The union of some parts, or what is wrong with it: over the plan of all where that can be made.
-  auto united(const Parts& which, bool pinned = false) -> Attempt {
-    if (!plan_) {
-      plan_ = detail::sheets_of(parts_, reach_.near);
-      if (!plan_) why_ = "it has overhanging eaves";
-      else if (!detail::conform(*plan_)) why_ = "edges cross again and again";
-      else if (reach_.corners) detail::cut_corners(*plan_, std::vector<std::uint32_t>(parts_.size(), 0));
+  auto part(const std::vector<std::uint32_t>& family) -> bool {
+    std::vector<const LabelledSolid*> all;
+    for (const auto b : family) all.insert(all.end(), of_[b].begin(), of_[b].end());
+    auto parted = detail::parted(all);
+    if (!parted.any) return false;
+    for (std::size_t p = 0; p < all.size(); ++p) {
+      if (!parted.changed[p]) continue;
+      parted.changed[p] = closed(*parted.changed[p]);
+      parted.gone[p] = !parted.changed[p];
     }
-    if (why_.empty()) return made_of(sheets_of(which, pinned), parts_);
-    if (which.size() == parts_.size()) return {{}, why_};
-    std::vector<const LabelledSolid*> parts;
-    for (const std::size_t p : which) parts.push_back(parts_[p]);
-    Attempt made = Uniting(parts, reach_).united(all_of(parts.size()));
-    for (One& one : made.solids) {
-      for (auto& p : one.of) p = which[p];
-      for (auto& p : one.part_of_face) p = static_cast<std::uint32_t>(which[p]);
-    }
-    return made;
-  }
-
-  /// Those of some parts; what they share with others pinned.
-  [[nodiscard]] auto sheets_of(const Parts& which, bool pinned) const -> detail::Sheets {
-    detail::Sheets own = *plan_;
-    const auto is_own = [&](const detail::Sheet& sheet) { return std::ranges::binary_search(which, sheet.solid); };
-    own.pinned.resize(own.places.size(), 0);
-    for (const auto& sheet : own.sheets)
-      if (pinned && !is_own(sheet))
-        for (const auto& path : sheet.paths)
-          for (const auto& node : path) own.pinned[node.at] = detail::of_a_solid;
-    std::erase_if(own.sheets, [&](const auto& sheet) { return !is_own(sheet); });
-    return own;
-  }
-
-  static auto all_of(std::size_t count) -> Parts {
-    Parts all;
-    for (std::size_t p = 0; p < count; ++p) all.push_back(p);
-    return all;
-  }
-
-  /// Joins what can be: one corner that no solid can have leaves the others whole.
-  void neighbour_by_neighbour(const std::string& why) {
-    std::vector<Attempt> heaps;
-    std::vector<Parts> members;
-    for (std::size_t p = 0; p < parts_.size(); ++p) {
-      heaps.push_back(united({p}));
-      members.push_back({p});
-    }
-    std::size_t joined = 0;
-    for (std::size_t p = 1; p < parts_.size(); ++p) {
-      if (!heaps[p].why.empty()) continue;
-      for (std::size_t q = 0; q < p; ++q) {
-        if (members[q].empty() || members[p].empty() || !heaps[q].why.empty()) continue;
-        if (!boxes_meet(members[q], members[p])) continue;
-        Parts both = members[q];
-        both.insert(both.end(), members[p].begin(), members[p].end());
-        std::ranges::sort(both);
-        Attempt attempt = united(both);
-        if (!attempt.why.empty() || attempt.solids.size() >= heaps[q].solids.size() + heaps[p].solids.size()) continue;
-        heaps[p] = std::move(attempt);
-        members[p] = std::move(both);
-        heaps[q] = {};
-        members[q].clear();
-        ++joined;
+    std::size_t next = 0;
+    for (const auto b : family) {
+      std::vector<const LabelledSolid*> left;
+      std::vector<std::size_t> numbers;
+      bool changed = false;
+      for (std::size_t p = 0; p < of_[b].size(); ++p, ++next) {
+        changed = changed || parted.gone[next] || parted.changed[next];
+        if (parted.gone[next]) continue;
+        if (parted.changed[next]) owned_.push_back(std::move(*parted.changed[next]));
+        left.push_back(parted.changed[next] ? &owned_.back() : of_[b][p]);
+        numbers.push_back(numbers_[b][p]);
       }
+      if (changed)
+        warnings_[b].push_back(base::warning(
+            "solid-parted", "parts of it share ground; the higher one keeps it, and the other one is cut there"));
+      of_[b] = std::move(left);
+      numbers_[b] = std::move(numbers);
     }
-    out_.warnings.push_back(base::warning(
-        "solid-not-united",
-        std::to_string(parts_.size()) + " parts became " + std::to_string(parts_.size() - joined) + " solids: " + why));
-    for (std::size_t p = 0; p < parts_.size(); ++p) {
-      if (members[p].empty()) continue;
-      if (Attempt shared = united(members[p], true); shared.why.empty()) heaps[p] = std::move(shared);
-      else ++out_.loose;
-      if (heaps[p].why.empty()) take(std::move(heaps[p].solids));
-      else alone(p, heaps[p].why);
-    }
-  }
-
-  [[nodiscard]] auto box_of(const Parts& parts) const -> geometry::Box2 {
-    geometry::Box2 box;
-    for (const std::size_t p : parts)
-      for (const auto v : parts_[p]->solid.vertices) box.add(geometry::xy(v));
-    return box;
-  }
-  [[nodiscard]] auto boxes_meet(const Parts& a, const Parts& b) const -> bool {
-    return box_of(a).grown(2e-3).overlaps(box_of(b));
-  }
-
-  /// A part that cannot be finished: as it is where it is valid, else its ground as a prism.
-  void alone(std::size_t p, const std::string& why) {
-    const LabelledSolid& part = *parts_[p];
-    if (parts_.size() > 1) {
-      if (reach_.prisms && over_plan(p, why)) return;
-      ++out_.loose;
-    }
-    if (check(part.solid, written_rules()).empty()) {
-      out_.solids.push_back(
-          {{p}, part, std::vector<std::uint32_t>(part.solid.faces.size(), static_cast<std::uint32_t>(p))});
-      return;
-    }
-    const LabelledSolid flat = prism_of(part);
-    const std::array<const LabelledSolid*, 1> one{&flat};
-    Attempt attempt = Uniting(one, reach_).united({0});
-    if (!attempt.why.empty()) {
-      out_.warnings.push_back(base::warning("solid-left-out", "no valid solid can be made of a part: " + why));
-      return;
-    }
-    for (One& solid : attempt.solids) {
-      solid.of = {p};
-      std::ranges::fill(solid.part_of_face, static_cast<std::uint32_t>(p));
-    }
-    take(std::move(attempt.solids));
-    out_.simplified.push_back(p);
-    out_.warnings.push_back(base::warning("solid-simplified", "a part became a flat-roofed prism: " + why));
-  }
-
-  /// A prism on the corners that the plan of all has of its ground. False where that is no valid solid.
-  auto over_plan(std::size_t p, const std::string& why) -> bool {
-    if (!plan_ || !why_.empty()) return false;
-    LabelledSolid ground;
-    for (const auto& sheet : plan_->sheets) {
-      if (sheet.solid != p || sheet.facing != detail::Facing::down) continue;
-      model::Face face{{}, model::FaceKind::base, {}, {0, 0, -1}};
-      for (const auto& path : sheet.paths) {
-        auto& loop = face.loops.emplace_back();
-        for (const auto& node : path) {
-          const auto& at = plan_->places[node.at];
-          const auto metres = [](std::int64_t quanta) {
-            return static_cast<double>(quanta) / detail::quanta_per_metre;
-          };
-          loop.push_back(static_cast<std::uint32_t>(ground.solid.vertices.size()));
-          ground.solid.vertices.push_back({metres(at[0]), metres(at[1]), metres(node.z - plan_->level)});
-        }
-      }
-      ground.solid.faces.push_back(std::move(face));
-      ground.classes.push_back(model::FaceClass::ground);
-    }
-    const double level = static_cast<double>(plan_->level) / detail::quanta_per_metre;
-    const auto height = [](double z) { return std::round(z * detail::quanta_per_metre) / detail::quanta_per_metre; };
-    LabelledSolid flat = prism_over_ground(ground, height(roof_middle(*parts_[p]) - level));
-    if (flat.solid.faces.empty() || !check(flat.solid, written_rules()).empty()) return false;
-    place(flat.solid, *plan_);
-    const std::vector<std::uint32_t> from(flat.solid.faces.size(), static_cast<std::uint32_t>(p));
-    out_.solids.push_back({{p}, std::move(flat), from});
-    out_.simplified.push_back(p);
-    out_.warnings.push_back(base::warning("solid-simplified", "a part became a flat-roofed prism: " + why));
     return true;
   }
 
-  /// Half-way between its lowest and its highest roof corner.
-  static auto roof_middle(const LabelledSolid& part) -> double {
-    double least = 1e300, most = -1e300;
-    for (std::size_t f = 0; f < part.solid.faces.size(); ++f)
-      if (part.classes[f] == model::FaceClass::roof)
-        for (const auto v : part.solid.faces[f].loops[0]) {
-          least = std::min(least, part.solid.vertices[v].z);
-          most = std::max(most, part.solid.vertices[v].z);
-        }
-    return (least + most) / 2;
-  }
-
-  /// The ground of a part raised to half-way between its lowest and its highest roof corner.
-  static auto prism_of(const LabelledSolid& part) -> LabelledSolid {
-    return prism_over_ground(part, roof_middle(part));
-  }
-
-  std::span<const LabelledSolid* const> parts_;
-  Reach reach_;
-  std::optional<detail::Sheets> plan_;  ///< of all parts
-  std::string why_;                     ///< there is no plan of all
-  United out_;
+  std::vector<std::vector<const LabelledSolid*>> of_;
+  std::vector<std::vector<std::uint32_t>> families_;
+  std::vector<std::vector<std::size_t>> numbers_;
+  std::vector<std::vector<base::Diagnostic>> warnings_;
+  std::deque<LabelledSolid> owned_;
 };
+
+/// A solid that shares ground with others of its building, cut back from them, if there is a valid one. With its roofs,
+/// else flat.
+auto cut_back(const LabelledSolid& solid, std::span<const LabelledSolid* const> others) -> std::vector<One> {
+  constexpr double gap = 2 * model::least_apart;
+  const auto rest = detail::without(solid, others, gap);
+  if (!rest) return {};
+  const LabelledSolid flat = prism_over_ground(*rest, detail::roof_middle(*rest));
+  for (const LabelledSolid* shape : {&*rest, &flat})
+    for (const std::int64_t near : {std::int64_t{model::least_apart}, std::int64_t{50}}) {
+      if (shape->solid.faces.empty()) continue;
+      const std::array<const LabelledSolid*, 1> alone{shape};
+      auto made = detail::united_by(alone, Reach{near});
+      const auto is_apart = [&](const One& one) {
+        return std::ranges::none_of(others, [&](auto* other) { return detail::share_ground(*other, one.model); });
+      };
+      if (!made.solids.empty() && made.warnings.empty() && std::ranges::all_of(made.solids, is_apart))
+        return std::move(made.solids);
+    }
+  return {};
+}
+
+/// Of solids of a family that share ground the larger one stays.
+void let_give_way(const std::vector<std::uint32_t>& family, std::vector<United>& made) {
+  struct Standing {
+    std::uint32_t building = 0;
+    One one;
+    double volume = 0;
+  };
+  std::vector<Standing> all;
+  for (const auto b : family) {
+    for (One& one : made[b].solids) {
+      const double size = volume(one.model.solid);
+      all.push_back({b, std::move(one), size});
+    }
+    made[b].solids.clear();
+  }
+  std::ranges::stable_sort(all, std::greater(), &Standing::volume);
+  std::vector<const LabelledSolid*> kept;
+  std::deque<LabelledSolid> models;
+  const auto keep = [&](std::uint32_t b, One one) {
+    models.push_back(one.model);
+    kept.push_back(&models.back());
+    made[b].solids.push_back(std::move(one));
+  };
+  for (auto& [b, one, size] : all) {
+    std::vector<const LabelledSolid*> others;
+    for (const auto* other : kept)
+      if (detail::share_ground(*other, one.model)) others.push_back(other);
+    if (others.empty()) {
+      keep(b, std::move(one));
+      continue;
+    }
+    auto pieces = cut_back(one.model, others);
+    made[b].warnings.push_back(
+        pieces.empty() ? base::warning("solid-left-out", "a solid of it overlaps another one, and cannot be cut back")
+                       : base::warning("solid-simplified", "a solid of it overlapped another one, and was cut back"));
+    for (One& piece : pieces) {
+      piece.of = one.of;
+      std::ranges::fill(piece.part_of_face, static_cast<std::uint32_t>(one.of.front()));
+      keep(b, std::move(piece));
+    }
+  }
+  for (const auto b : family)
+    std::ranges::stable_sort(made[b].solids, {}, [](const One& one) { return one.of.front(); });
+}
 
 /// The first result without a warning, over plans in which ever more becomes one; else that with the fewest loose
 /// solids, of those the one with the fewest parts simplified or left out, then with the fewest solids, then with the
-/// fewest warnings.
+/// fewest warnings. Where solids of a building share ground, its parts are parted before more becomes one.
 template <class Make>
-auto best(Make make) {
+auto best(Parts& parts, const Make& make) -> std::vector<United> {
   std::optional<std::vector<United>> chosen;
   std::array<std::size_t, 4> least{};
-  for (const Reach& reach : reaches) {
+  bool parted = false;
+  for (std::size_t r = 0; r < reaches.size(); ++r) {
+    const Reach& reach = reaches[r];
     if (reach.prisms && least[0] == 0) break;
-    std::vector<United> made = make(reach);
+    std::vector<United> made = make(parts, reach);
     std::array<std::size_t, 4> lacking{};
-    bool as_asked = true;
+    bool as_asked = std::ranges::none_of(parts.families(), [&](auto& family) { return Parts::overlap(family, made); });
     for (const United& one : made) {
       for (const auto& warning : one.warnings) lacking[1] += warning.code == "solid-not-united" ? 0 : 1;
       as_asked = as_asked && one.warnings.empty() && one.loose == 0;
@@ -341,14 +215,28 @@ auto best(Make make) {
       lacking[2] += one.solids.size();
       lacking[3] += one.warnings.size();
     }
+    if (!as_asked && reach.corners && !parted) {
+      parted = true;
+      if (parts.part(made)) {
+        chosen.reset();
+        r = static_cast<std::size_t>(-1);
+        continue;
+      }
+    }
     if (!chosen || lacking < least) chosen = std::move(made), least = lacking;
     if (as_asked) break;
   }
+  for (const auto& family : parts.families())
+    if (Parts::overlap(family, *chosen)) let_give_way(family, *chosen);
+  parts.finish(*chosen);
   return std::move(*chosen);
 }
 
-auto united_alone(std::span<const LabelledSolid* const> parts) -> United {
-  return best([&](const Reach& reach) { return std::vector<United>{Uniting(parts, reach).run()}; }).front();
+auto united_alone(std::span<const LabelledSolid* const> building) -> United {
+  Parts parts({{building.begin(), building.end()}}, {{0}});
+  return std::move(best(parts, [](const Parts& all, const Reach& reach) {
+                     return std::vector<United>{detail::united_by(all.of().front(), reach)};
+                   }).front());
 }
 
 /// What buildings are ordered by, so that their union does not depend on the order in which they are given.
@@ -389,7 +277,7 @@ auto united_over_one_plan(std::span<const std::vector<const LabelledSolid*>> bui
   auto all = detail::sheets_of(group.parts, reach.near);
   if (!all || !detail::conform(*all)) {
     for (const std::uint32_t b : group.buildings) {
-      out.push_back(Uniting(buildings[b], reach).run());
+      out.push_back(detail::united_by(buildings[b], reach));
       ++out.back().loose;
     }
     return out;
@@ -417,7 +305,7 @@ auto united_over_one_plan(std::span<const std::vector<const LabelledSolid*>> bui
     detail::Sheets own = *all;
     own.sheets = std::move(sheets[k]);
     own.base = std::move(bases[k]);
-    out.push_back(Uniting(buildings[group.buildings[k]], reach, std::move(own)).run());
+    out.push_back(detail::united_by(buildings[group.buildings[k]], reach, std::move(own)));
   }
   return out;
 }
@@ -441,9 +329,23 @@ void unite_group(std::span<const std::vector<const LabelledSolid*>> buildings, c
       out[group.front()] = united_alone(buildings[group.front()]);
       continue;
     }
-    const Group one(buildings, std::move(group));
-    auto made = best([&](const Reach& reach) { return united_over_one_plan(buildings, one, reach, pin); });
-    for (std::size_t k = 0; k < made.size(); ++k) out[one.buildings[k]] = std::move(made[k]);
+    std::vector<std::vector<const LabelledSolid*>> own;
+    std::vector<std::vector<std::uint32_t>> families(pin == detail::of_a_solid ? 1 : group.size());
+    for (std::uint32_t k = 0; k < group.size(); ++k) {
+      own.push_back(buildings[group[k]]);
+      families[pin == detail::of_a_solid ? 0 : k].push_back(k);
+    }
+    Parts parts(std::move(own), std::move(families));
+    auto made = best(parts, [&](const Parts& all, const Reach& reach) {
+      std::vector<std::uint32_t> each(group.size());
+      std::iota(each.begin(), each.end(), 0U);
+      const Group one(all.of(), std::move(each));
+      auto by_order = united_over_one_plan(all.of(), one, reach, pin);
+      std::vector<United> out_of(group.size());
+      for (std::size_t k = 0; k < by_order.size(); ++k) out_of[one.buildings[k]] = std::move(by_order[k]);
+      return out_of;
+    });
+    for (std::size_t k = 0; k < made.size(); ++k) out[group[k]] = std::move(made[k]);
   }
 }
 

@@ -28,8 +28,9 @@ struct United {
 /// a part, its solid is left out with a warning · 2 there is one solid for parts that share walls, unless their union
 /// is no 2-manifold: then they are joined neighbour by neighbour as far as they can be · 3 the volume is that of the
 /// parts within 0.1 mm times their surface, overlaps of parts counted once · 4 the same parts give the same solids.
-/// Warnings: "solid-not-united" (parts that touch stay apart, or a part with overhanging eaves stays by itself),
-/// "solid-simplified" (a part became a prism), "solid-left-out".
+/// · 5 no two solids share ground. Warnings: "solid-not-united" (parts that touch stay apart, or a part with
+/// overhanging eaves stays by itself), "solid-parted" (a part is cut where a higher one stands on its ground, too),
+/// "solid-simplified" (a part became a prism, or a solid was cut back from another one), "solid-left-out".
 /// Cost: O(n log n) for n edges spread in plan; a group that has no union costs that for every two neighbours.
 [[nodiscard]] auto unite(std::span<const model::LabelledSolid* const> parts) -> United;
 
@@ -51,5 +52,9 @@ struct United {
 /// The ground of a model raised to a flat roof at z. It is based on the corners of the model's ground, and its walls
 /// are party walls where the model's are. Empty where z is not above the ground.
 [[nodiscard]] auto prism_over_ground(const model::LabelledSolid& model, double z) -> model::LabelledSolid;
+
+/// The same over the outline of all its ground, at the height of the lowest, where gaps and corners that are too narrow
+/// for a valid solid are filled, up to 5 cm. Empty where that is not one valid solid.
+[[nodiscard]] auto prism_over_outline(const model::LabelledSolid& model, double z) -> model::LabelledSolid;
 
 }  // namespace mansard::solid

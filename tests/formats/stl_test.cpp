@@ -104,7 +104,7 @@ TEST(Stl, has_no_wall_between_buildings_only_with_a_shell_per_block) {
   EXPECT_NEAR(closed_volume(block), 2 * (80 * 6 + 80 * 4 / 2), 1e-2);
 }
 
-TEST(Stl, says_what_could_not_be_one_shell) {
+TEST(Stl, says_where_parts_share_ground) {
   model::City city = street();
   auto& parts = city.buildings[0].parts;
   parts.clear();
@@ -114,7 +114,7 @@ TEST(Stl, says_what_could_not_be_one_shell) {
   }
   const Stl stl = written(city, Shell::building);
   ASSERT_EQ(stl.warnings.size(), 1U);
-  EXPECT_EQ(stl.warnings[0].code, "solid-not-united");
+  EXPECT_EQ(stl.warnings[0].code, "solid-parted");
   EXPECT_EQ(stl.warnings[0].subject, "house");
   closed_volume(stl);
 }

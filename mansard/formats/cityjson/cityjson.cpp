@@ -76,8 +76,30 @@ auto prisms_over(const model::LabelledSolid& model, const std::set<double>& leve
   return quantised(united.solids.front().model);
 }
 
+/// Whether solid::check finds nothing by the rules for files.
+auto is_valid(const std::vector<Surface>& surfaces) -> bool {
+  model::Solid solid;
+  std::map<Vertex, std::uint32_t> numbers;
+  for (const Surface& surface : surfaces) {
+    auto& face = solid.faces.emplace_back();
+    for (const auto& corners : surface.loops) {
+      auto& loop = face.loops.emplace_back();
+      for (const Vertex& v : corners) {
+        const auto [entry, added] = numbers.try_emplace(v, static_cast<std::uint32_t>(solid.vertices.size()));
+        if (added)
+          solid.vertices.push_back({static_cast<double>(v[0]) / quanta_per_metre,
+                                    static_cast<double>(v[1]) / quanta_per_metre,
+                                    static_cast<double>(v[2]) / quanta_per_metre});
+        loop.push_back(entry->second);
+      }
+    }
+  }
+  return solid::check(solid, solid::written_rules()).empty();
+}
+
 /// LoD 1.2 of a solid, with a flat roof at `top`. Over ground at several heights it is the union of a prism on each;
-/// where that is not one solid, all stand at the lowest.
+/// where that is not one valid solid, all stand at the lowest, and then over an outline without what is too narrow for
+/// one. Empty where none of these is valid.
 auto flat_model(const model::LabelledSolid& model, const std::vector<Surface>& fine, double top)
     -> std::vector<Surface> {
   std::set<double> levels;
@@ -85,8 +107,10 @@ auto flat_model(const model::LabelledSolid& model, const std::vector<Surface>& f
     if (model.classes[f] == FaceClass::ground) levels.insert(model.solid.vertices[model.solid.faces[f].loops[0][0]].z);
   if (levels.size() > 1 && std::isfinite(top))
     for (const bool lowered : {false, true})
-      if (auto made = prisms_over(model, levels, top, lowered); !made.empty()) return made;
-  return flat_prism(fine, top);
+      if (auto made = prisms_over(model, levels, top, lowered); !made.empty() && is_valid(made)) return made;
+  if (auto prism = flat_prism(fine, top); is_valid(prism)) return prism;
+  if (!std::isfinite(top)) return {};
+  return quantised(solid::prism_over_outline(model, std::round(top * quanta_per_metre) / quanta_per_metre));
 }
 
 /// "28992" of "EPSG:28992"; empty for anything else, which a referenceSystem cannot name.
@@ -199,7 +223,11 @@ void CityObjects::add(const model::Building& building, const Gate::Keyed& keys,
     auto fine = quantised(part.model);
     const double top = roof_height(fine, part.attributes, frame_.origin[2]);
     const bool own = part.id == keys.building || (parts.size() == 1 && part.id == keys.parts[parts.front()]);
-    Shape& shape = shapes.emplace_back(Shape{part.id, {}, flat_model(part.model, fine, top), std::move(fine)});
+    auto flat = flat_model(part.model, fine, top);
+    if (flat.empty() && std::isfinite(top))
+      warnings.push_back(
+          base::warning("solid-left-out", "no valid solid of LoD 1.2 can be made of its ground", building.id));
+    Shape& shape = shapes.emplace_back(Shape{part.id, {}, std::move(flat), std::move(fine)});
     if (!own)
       for (const std::size_t p : parts) shape.of.push_back(keys.parts[p]);
   }

@@ -67,7 +67,8 @@ void add_solids(model::Building& building, report::BuildingReport& report, Solid
   }
   for (auto& warning : made.warnings) {
     warning.subject = building.id;
-    if (warning.code != "solid-not-united") report.outcome = report::Outcome::fallback;
+    if (warning.code != "solid-not-united" && warning.code != "solid-parted")
+      report.outcome = report::Outcome::fallback;
     report.reasons.push_back(std::move(warning));
   }
 }

@@ -1,0 +1,273 @@
+#include "mansard/solid/detail/disjoint.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+#include <tuple>
+
+#include "mansard/geometry/change.hpp"
+#include "mansard/model/file_grid.hpp"
+
+namespace mansard::solid::detail {
+namespace {
+
+using geometry::Point2;
+using geometry::Point3;
+using geometry::Polygon;
+using model::FaceClass;
+using model::LabelledSolid;
+
+/// Units of files. Halves go up everywhere, as in sheets_of().
+auto units(double metres) -> double { return std::floor(metres * model::quanta_per_metre + 0.5); }
+auto units(Point3 p) -> Point3 { return {units(p.x), units(p.y), units(p.z)}; }
+
+auto polygon_of(const LabelledSolid& solid, const model::Face& face) -> Polygon {
+  return geometry::oriented(
+      geometry::polygon_of(face.loops, [&](std::uint32_t v) { return geometry::xy(units(solid.solid.vertices[v])); }));
+}
+
+auto ground_of(const LabelledSolid& solid) -> std::vector<Polygon> {
+  std::vector<Polygon> out;
+  for (std::size_t f = 0; f < solid.classes.size(); ++f)
+    if (solid.classes[f] == FaceClass::ground) out.push_back(polygon_of(solid, solid.solid.faces[f]));
+  return out;
+}
+
+struct Range {
+  double low = 1e300, high = -1e300;
+};
+auto heights_of(const LabelledSolid& solid) -> Range {
+  Range out;
+  for (const Point3 p : solid.solid.vertices) out = {std::min(out.low, p.z), std::max(out.high, p.z)};
+  return out;
+}
+
+auto has_eaves(const LabelledSolid& solid) -> bool {
+  return std::ranges::find(solid.classes, FaceClass::soffit) != solid.classes.end();
+}
+
+auto at_common_height(const LabelledSolid& a, const LabelledSolid& b) -> bool {
+  const Range own = heights_of(a), other = heights_of(b);
+  return std::min(own.high, other.high) > std::max(own.low, other.low);
+}
+
+/// None where the library fails.
+auto taken_off(std::vector<Polygon> from, const Polygon& other) -> std::optional<std::vector<Polygon>> {
+  std::vector<Polygon> out;
+  const auto box = geometry::bounds(other.outer);
+  for (auto& polygon : from) {
+    if (!geometry::bounds(polygon.outer).overlaps(box)) {
+      out.push_back(std::move(polygon));
+      continue;
+    }
+    auto rest = geometry::subtract(polygon, other);
+    if (!rest) return std::nullopt;
+    for (auto& one : *rest) {
+      // What is as narrow as what becomes one point is rounding.
+      const auto core = geometry::buffer(one, -0.5 * model::least_apart);
+      if (core && !core->empty()) out.push_back(std::move(one));
+    }
+  }
+  return out;
+}
+
+/// One face of a solid over a polygon: heights on its edges are those between their ends, so that faces beside each
+/// other have the same.
+class Heights {
+ public:
+  Heights(const LabelledSolid& solid, const model::Face& face) {
+    Point3 area;
+    for (const auto& loop : face.loops)
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        const Point3 a = units(solid.solid.vertices[loop[i]]),
+                     b = units(solid.solid.vertices[loop[(i + 1) % loop.size()]]);
+        edges_.push_back({a, b});
+        area = area + cross(a - edges_.front()[0], b - edges_.front()[0]);
+      }
+    normal_ = area;
+  }
+
+  [[nodiscard]] auto at(Point2 p) const -> double {
+    for (const auto& [a, b] : edges_)
+      if (geometry::xy(a) == p) return a.z;
+    for (const auto& [a, b] : edges_) {
+      const Point2 along = geometry::xy(b) - geometry::xy(a), to = p - geometry::xy(a);
+      const double length2 = dot(along, along), t = dot(to, along) / length2, off = cross(along, to);
+      if (t > 0 && t < 1 && off * off <= length2) return std::round(a.z + t * (b.z - a.z));
+    }
+    const Point3 a = edges_.front()[0];
+    const Point2 to = p - geometry::xy(a);
+    return std::round(a.z - (normal_.x * to.x + normal_.y * to.y) / normal_.z);
+  }
+
+ private:
+  std::vector<std::array<Point3, 2>> edges_;
+  Point3 normal_;
+};
+
+class Clipping {
+ public:
+  Clipping(const LabelledSolid& solid, std::span<const Polygon> over) : solid_(solid), over_(over) {}
+
+  auto run() -> std::optional<LabelledSolid> {
+    constexpr double level = 1e-5;  // what looks up or down less than that is a wall
+    for (const bool roofs : {true, false})
+      for (std::size_t f = 0; f < solid_.solid.faces.size(); ++f)
+        if (const double up = solid_.solid.faces[f].normal.z; roofs ? up > level : up < -level)
+          if (!add_over(f)) return std::nullopt;
+    if (out_.solid.faces.empty()) return std::nullopt;
+    for (std::size_t f = 0; f < solid_.solid.faces.size(); ++f)
+      if (std::abs(solid_.solid.faces[f].normal.z) <= level) add_wall(f);
+    return std::move(out_);
+  }
+
+ private:
+  auto add_over(std::size_t f) -> bool {
+    const model::Face& face = solid_.solid.faces[f];
+    const Heights heights(solid_, face);
+    const Polygon own = polygon_of(solid_, face);
+    for (const Polygon& polygon : over_) {
+      if (!geometry::bounds(own.outer).overlaps(geometry::bounds(polygon.outer))) continue;
+      const auto pieces = geometry::intersect(own, polygon);
+      if (!pieces) return false;
+      for (const Polygon& piece : *pieces) {
+        model::Face one{{}, face.kind, face.provenance, face.normal};
+        add_loop(one, piece.outer, heights, face.normal.z < 0);
+        if (one.loops.empty()) continue;
+        for (const auto& hole : piece.holes) add_loop(one, hole, heights, face.normal.z < 0);
+        out_.solid.faces.push_back(std::move(one));
+        out_.classes.push_back(solid_.classes[f]);
+      }
+    }
+    return true;
+  }
+
+  void add_loop(model::Face& face, const geometry::Ring& ring, const Heights& heights, bool downward) {
+    std::vector<std::uint32_t> loop;
+    const auto add = [&](Point2 p) {
+      const std::uint32_t v = vertex({p.x, p.y, heights.at(p)});
+      if (loop.empty() || loop.back() != v) loop.push_back(v);
+      (downward ? ground_ : roofs_).insert(p);
+    };
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Point2 from = rounded(ring[i]), to = rounded(ring[(i + 1) % ring.size()]);
+      add(from);
+      if (downward)
+        for (const Point2 p : corners_between(from, to)) add(p);
+    }
+    while (loop.size() > 1 && loop.front() == loop.back()) loop.pop_back();
+    if (loop.size() < 3) return;
+    if (downward) std::ranges::reverse(loop);
+    face.loops.push_back(std::move(loop));
+  }
+
+  static auto rounded(Point2 p) -> Point2 { return {std::round(p.x), std::round(p.y)}; }
+
+  /// Corners of the roofs on an edge of the ground, which walls would have: a union breaks the ground there, as it
+  /// breaks the walls.
+  [[nodiscard]] auto corners_between(Point2 from, Point2 to) const -> std::vector<Point2> {
+    constexpr double off = 2;  // units: rounding of both
+    std::vector<std::pair<double, Point2>> found;
+    const Point2 along = to - from;
+    const double length2 = dot(along, along), least = std::min(from.x, to.x) - off, most = std::max(from.x, to.x) + off;
+    for (auto p = roofs_.lower_bound({least, -1e300}); p != roofs_.end() && p->x <= most; ++p) {
+      const double t = dot(*p - from, along), across = cross(along, *p - from);
+      if (t > 0 && t < length2 && across * across <= off * off * length2) found.emplace_back(t, *p);
+    }
+    std::ranges::sort(found);
+    std::vector<Point2> out;
+    for (const auto& [t, p] : found) out.push_back(p);
+    return out;
+  }
+
+  /// Where both ends of its foot are corners of the ground still.
+  void add_wall(std::size_t f) {
+    model::Face face = solid_.solid.faces[f];
+    for (const auto& loop : face.loops)
+      for (const auto v : loop)
+        if (!ground_.contains(geometry::xy(units(solid_.solid.vertices[v])))) return;
+    for (auto& loop : face.loops)
+      for (auto& v : loop) v = vertex(units(solid_.solid.vertices[v]));
+    out_.solid.faces.push_back(std::move(face));
+    out_.classes.push_back(solid_.classes[f]);
+  }
+
+  auto vertex(Point3 p) -> std::uint32_t {
+    auto& vertices = out_.solid.vertices;
+    const auto [entry, added] = numbers_.try_emplace(p, static_cast<std::uint32_t>(vertices.size()));
+    if (added) vertices.push_back((1 / model::quanta_per_metre) * p);
+    return entry->second;
+  }
+
+  const LabelledSolid& solid_;
+  std::span<const Polygon> over_;
+  LabelledSolid out_;
+  std::map<Point3, std::uint32_t> numbers_;
+  std::set<Point2> roofs_, ground_;
+};
+
+}  // namespace
+
+auto share_ground(const LabelledSolid& a, const LabelledSolid& b) -> bool {
+  if (has_eaves(a) || has_eaves(b) || !at_common_height(a, b)) return false;
+  for (const Polygon& p : ground_of(a))
+    for (const Polygon& q : ground_of(b)) {
+      if (!geometry::bounds(p.outer).overlaps(geometry::bounds(q.outer))) continue;
+      const auto shared = geometry::intersect(p, q);
+      if (!shared) return true;
+      for (const Polygon& polygon : *shared)
+        if (geometry::area(polygon) > 0) return true;
+    }
+  return false;
+}
+
+auto clipped(const LabelledSolid& solid, std::span<const Polygon> over) -> std::optional<LabelledSolid> {
+  return Clipping(solid, over).run();
+}
+
+auto without(const LabelledSolid& solid, std::span<const LabelledSolid* const> others, double gap)
+    -> std::optional<LabelledSolid> {
+  std::vector<Polygon> rest = ground_of(solid);
+  for (const LabelledSolid* other : others) {
+    if (!at_common_height(solid, *other)) continue;
+    for (const Polygon& ground : ground_of(*other)) {
+      std::vector<Polygon> wide{ground};
+      if (gap > 0) {
+        auto grown = geometry::buffer(ground, gap);
+        if (!grown) return std::nullopt;
+        wide = std::move(*grown);
+      }
+      for (const Polygon& one : wide) {
+        auto left = taken_off(std::move(rest), one);
+        if (!left) return std::nullopt;
+        rest = std::move(*left);
+      }
+    }
+  }
+  return clipped(solid, rest);
+}
+
+auto parted(std::span<const LabelledSolid* const> solids) -> Parted {
+  Parted out{std::vector<std::optional<LabelledSolid>>(solids.size()), std::vector<bool>(solids.size(), false)};
+  // The higher one keeps what two share, as the height of a union is the greater of both.
+  std::vector<std::size_t> order(solids.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::greater(), [&](std::size_t i) { return heights_of(*solids[i]).high; });
+  std::vector<std::size_t> before;
+  for (const std::size_t i : order) {
+    if (has_eaves(*solids[i])) continue;
+    std::vector<const LabelledSolid*> in_its_way;
+    for (const std::size_t k : before)
+      if (share_ground(*solids[k], *solids[i])) in_its_way.push_back(solids[k]);
+    before.push_back(i);
+    if (in_its_way.empty()) continue;
+    out.changed[i] = without(*solids[i], in_its_way, 0);
+    out.gone[i] = !out.changed[i];
+    out.any = true;
+  }
+  return out;
+}
+
+}  // namespace mansard::solid::detail
