@@ -157,8 +157,8 @@ auto footprints(const model::Scene& scene, const Options& options, const base::R
   if (static_cast<double>(place.columns) * static_cast<double>(place.rows) > options.maximum_cells)
     return base::error("derive-size", "the grid of heights would have more than " +
                                           base::to_text(options.maximum_cells / 1e6, 0) +
-                                          " million cells; raise derive.cell, or take less of the "
-                                          "mesh with --bbox");
+                                          " million cells; raise derive.cell, or give the meshes "
+                                          "of a smaller area");
   const auto top = detail::top_heights(scene.mesh, place);
   if (run.cancelled()) return stopped();
 
@@ -220,9 +220,9 @@ auto footprints(const model::Scene& scene, const Options& options, const base::R
 auto codes() -> std::vector<base::Code> {
   return {
       {"derive-nothing", "No footprint could be drawn from the mesh: nothing stands high, wide and smooth enough.",
-       "Lower derive.above_ground, derive.least_area or derive.smooth, or give footprints.", 5},
+       "Lower derive.above_ground, derive.least_area or derive.smooth, widen --bbox, or give footprints.", 5},
       {"derive-size", "The mesh is too large for a grid of heights with this cell.",
-       "Raise derive.cell, or take less of the mesh with --bbox.", 4},
+       "Raise derive.cell, or give the meshes of a smaller area.", 4},
       {"derive-outline", "The outlines of the buildings could not be drawn from the grid.",
        "The message has the library's words; raise derive.cell, and please report it.", 5},
       {"derive-outline-kept",

@@ -48,14 +48,6 @@ auto read_chosen(const std::filesystem::path& path, const Options& options, cons
   return out;
 }
 
-auto wanted_box(const Options& options) -> base::Result<std::optional<Box2>> {
-  const auto& b = options.bbox;
-  if (std::ranges::all_of(b, [](double c) { return c == 0; })) return std::optional<Box2>();
-  if (!(b[0] < b[2] && b[1] < b[3]))
-    return base::error("ingest-bbox", "the box has no inside; write xmin ymin xmax ymax", "ingest.bbox");
-  return std::optional<Box2>(Box2{{b[0], b[1]}, {b[2], b[3]}});
-}
-
 auto want_within(Chosen& chosen, const Box2& box, const std::string& subject) -> base::Result<void> {
   bool any = false;
   Box2 all;
@@ -194,7 +186,7 @@ struct Ground {
 auto read_ground(const std::filesystem::path& path, const Options& options, const detail::MeshReading& meshes,
                  const base::Run& run) -> base::Result<Ground> {
   const std::string subject = formats::shown_name(path);
-  const auto wanted = wanted_box(options);
+  const auto wanted = box_of(options);
   if (!wanted) return wanted.error();
   Ground out;
   if (path.empty()) {
@@ -284,7 +276,7 @@ auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::files
           const Options& options, const base::Run& run, MeshCells* cells = nullptr) -> base::Result<model::Scene> {
   const std::string subject = formats::shown_name(footprint_path);
   const std::string mesh_name = mesh_paths.empty() ? std::string() : mesh_paths.front().string();
-  if (const auto wanted = wanted_box(options); !wanted) return wanted.error();
+  if (const auto wanted = box_of(options); !wanted) return wanted.error();
   run.report("ingest", mesh_name, 0);
   auto reading = detail::MeshReading::open(mesh_paths, options, run, cells);
   if (!reading) return reading.error();
@@ -347,7 +339,7 @@ auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::files
 auto read_alone(const std::filesystem::path& path, const Options& options, const base::Run& run)
     -> base::Result<model::Scene> {
   const std::string subject = formats::shown_name(path);
-  const auto wanted = wanted_box(options);
+  const auto wanted = box_of(options);
   if (!wanted) return wanted.error();
   run.report("ingest", subject, 0);
   auto chosen = read_chosen(path, options, run);
@@ -451,6 +443,14 @@ auto option_list(Options& o) -> base::OptionList {
       .number("cell_side", o.cell_side, "m", {1, 10000}, "Side length of those cells.")
       .advanced("about the size of a block; not measured");
   return list;
+}
+
+auto box_of(const Options& options) -> base::Result<std::optional<Box2>> {
+  const auto& b = options.bbox;
+  if (std::ranges::all_of(b, [](double c) { return c == 0; })) return std::optional<Box2>();
+  if (!(b[0] < b[2] && b[1] < b[3]))
+    return base::error("ingest-bbox", "the box has no inside; write xmin ymin xmax ymax", "ingest.bbox");
+  return std::optional<Box2>(Box2{{b[0], b[1]}, {b[2], b[3]}});
 }
 
 auto read_scene(const std::vector<std::filesystem::path>& meshes, const std::filesystem::path& footprints,

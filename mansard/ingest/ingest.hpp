@@ -40,6 +40,9 @@ struct Options {
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 
+/// Options::bbox; none where it is four zeros. Fails with "ingest-bbox".
+[[nodiscard]] auto box_of(const Options& options) -> base::Result<std::optional<geometry::Box2>>;
+
 /// Reads every mesh as one, corners at the same place made one, and one vector source of footprints. A mesh is a file
 /// (OBJ, PLY, OFF, GLB, glTF), a folder or archive of them, a tileset of 3D Tiles, or a raster of heights. One that
 /// says where it is – a tileset on the earth, a raster's CRS, metadata.xml beside files – is brought to the working

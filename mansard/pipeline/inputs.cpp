@@ -1,6 +1,38 @@
 #include "mansard/pipeline/inputs.hpp"
 
+#include <utility>
+
+#include "mansard/base/text.hpp"
+
 namespace mansard::pipeline {
+namespace {
+
+using geometry::Box2;
+
+auto in_words(const Box2& box) -> std::string {
+  return "x " + base::to_text(box.least.x, 1) + " to " + base::to_text(box.most.x, 1) + ", y " +
+         base::to_text(box.least.y, 1) + " to " + base::to_text(box.most.y, 1);
+}
+
+/// Makes surroundings of the footprints that do not meet a box of the working CRS.
+auto keep_within(const Box2& box, model::Scene& scene) -> base::Result<void> {
+  const geometry::Point2 origin{static_cast<double>(scene.frame.origin[0]), static_cast<double>(scene.frame.origin[1])};
+  Box2 all;
+  std::vector<model::Footprint> wanted;
+  for (auto& footprint : scene.footprints) {
+    Box2 own;
+    for (const auto& polygon : footprint.polygons) own.include(geometry::bounds(polygon.outer));
+    own = {own.least + origin, own.most + origin};
+    all.include(own);
+    (own.overlaps(box) ? wanted : scene.surroundings).push_back(std::move(footprint));
+  }
+  scene.footprints = std::move(wanted);
+  if (!scene.footprints.empty()) return {};
+  return base::error("derive-nothing", "no derived footprint is in the box asked for (" + in_words(box) +
+                                           "); they are in " + in_words(all));
+}
+
+}  // namespace
 
 auto read_inputs(const InputPaths& paths, const Options& options, const base::Run& run) -> base::Result<model::Scene> {
   if (paths.footprints.empty() != paths.derive_footprints)
@@ -10,12 +42,21 @@ auto read_inputs(const InputPaths& paths, const Options& options, const base::Ru
                            : "there are no footprints; give some, or have them drawn from the mesh with "
                              "--derive-footprints",
                        paths.footprints.string());
-  auto scene = ingest::read_scene(paths.meshes, paths.footprints, options.ingest, run);
-  if (!scene || !paths.derive_footprints) return scene;
+  if (!paths.derive_footprints) return ingest::read_scene(paths.meshes, paths.footprints, options.ingest, run);
+  // The ground, and so what stands on it, is found by what it is joined to, however far: footprints are those of the
+  // whole mesh, and the box only chooses among them.
+  const auto box = ingest::box_of(options.ingest);
+  if (!box) return box.failure();
+  ingest::Options whole = options.ingest;
+  whole.bbox = {};
+  auto scene = ingest::read_scene(paths.meshes, paths.footprints, whole, run);
+  if (!scene) return scene;
   auto derived = derive::footprints(*scene, options.derive, run);
   if (!derived) return derived.failure();
   scene->footprints = std::move(derived->footprints);
   scene->warnings.insert(scene->warnings.end(), derived->warnings.begin(), derived->warnings.end());
+  if (*box)
+    if (auto kept = keep_within(**box, *scene); !kept) return kept.failure();
   return scene;
 }
 

@@ -14,10 +14,10 @@ struct InputPaths {
   bool derive_footprints = false;    ///< draw them from the mesh: only where none are given
 };
 
-/// The scene of these files; its footprints are those of the file, or derive::footprints of the mesh.
-/// Fails as ingest::read_scene and derive::footprints do, and with "pipeline-footprints" where footprints are
-/// neither given nor to
-/// be derived, or both.
+/// The scene of these files; its footprints are those of the file, or derive::footprints of the mesh: then all of the
+/// mesh is read, whatever the box, and derived footprints that do not meet the box are surroundings. Fails as
+/// ingest::read_scene and derive::footprints do, and with "pipeline-footprints" where footprints are neither given nor
+/// to be derived, or both.
 [[nodiscard]] auto read_inputs(const InputPaths& paths, const Options& options, const base::Run& run = {})
     -> base::Result<model::Scene>;
 

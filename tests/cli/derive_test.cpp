@@ -1,5 +1,7 @@
 // --derive-footprints: meshes alone, and models that say where their footprints are from.
+#include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "cli/command.hpp"
 
@@ -44,6 +46,25 @@ TEST_F(Derive, fails_with_a_reason_where_there_is_no_building) {
       run("reconstruct " + at("house.obj") + " --derive-footprints --derive-above-ground 50 -o " + at("out"));
   EXPECT_EQ(outcome.exit, 5);
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("derive-nothing"), HasSubstr("give footprints")));
+}
+
+TEST_F(Derive, with_a_box_gives_the_buildings_of_the_full_run) {
+  const auto mesh = std::string(MANSARD_DATA) + "/delft/mesh.ply";
+  const auto buildings = [&](const std::string& more) {
+    fs::remove_all(at("out"));
+    const auto outcome =
+        run("reconstruct -q " + mesh + " --derive-footprints --formats cityjsonseq -o " + at("out") + more);
+    EXPECT_LE(outcome.exit, 1) << outcome.err;
+    std::map<std::string, std::string> out;
+    std::istringstream lines(read(at("out") + "/model.city.jsonl"));
+    for (std::string line; std::getline(lines, line);)
+      if (const auto json = nlohmann::json::parse(line); json["type"] == "CityJSONFeature") out[json["id"]] = line;
+    return out;
+  };
+  const auto all = buildings(""), some = buildings(" --bbox 60 90 110 140");
+  EXPECT_GT(some.size(), 1U);
+  EXPECT_LT(some.size(), all.size());
+  for (const auto& [id, line] : some) EXPECT_TRUE(all.contains(id) && all.at(id) == line) << id;
 }
 
 }  // namespace

@@ -36,6 +36,41 @@ TEST(ReadInputs, draws_footprints_of_a_mesh_alone) {
   EXPECT_EQ(scene->inputs.size(), 1U);
 }
 
+TEST(ReadInputs, draws_footprints_of_the_whole_mesh_whatever_the_box) {
+  const auto delft = std::filesystem::path(MANSARD_DATA) / "delft" / "mesh.ply";
+  const auto all = read_inputs({{delft}, {}, true}, {});
+  ASSERT_TRUE(all) << all.error().message;
+  ASSERT_GT(all->footprints.size(), 10U);
+  EXPECT_TRUE(all->surroundings.empty());
+
+  geometry::Box2 middle;
+  for (const auto& polygon : all->footprints[all->footprints.size() / 2].polygons)
+    middle.include(geometry::bounds(polygon.outer));
+  Options options;
+  const auto& from = all->frame.origin;
+  options.ingest.bbox = {middle.least.x + static_cast<double>(from[0]), middle.least.y + static_cast<double>(from[1]),
+                         middle.most.x + static_cast<double>(from[0]), middle.most.y + static_cast<double>(from[1])};
+  const auto some = read_inputs({{delft}, {}, true}, options);
+  ASSERT_TRUE(some) << some.error().message;
+  EXPECT_EQ(some->frame.origin, from);
+  EXPECT_LT(some->footprints.size(), all->footprints.size());
+  EXPECT_EQ(some->footprints.size() + some->surroundings.size(), all->footprints.size());
+  const auto same_in_all = [&](const model::Footprint& one) {
+    const auto found = std::ranges::find(all->footprints, one.id, &model::Footprint::id);
+    return found != all->footprints.end() && found->polygons == one.polygons && found->attributes == one.attributes;
+  };
+  for (const auto* list : {&some->footprints, &some->surroundings})
+    for (const auto& one : *list) EXPECT_TRUE(same_in_all(one)) << one.id;
+
+  options.ingest.bbox = {1e6, 1e6, 1e6 + 1, 1e6 + 1};
+  const auto none = read_inputs({{delft}, {}, true}, options);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().code, "derive-nothing");
+  EXPECT_THAT(none.error().message, ::testing::HasSubstr("in the box asked for"));
+  options.ingest.bbox = {1, 1, 0, 0};
+  EXPECT_EQ(read_inputs({{delft}, {}, true}, options).error().code, "ingest-bbox");
+}
+
 TEST(Reconstruct, tells_of_derived_footprints_in_city_and_report) {
   const Options options;
   auto scene = test::lone_house();
