@@ -134,7 +134,7 @@ auto model_attributes(const model::LabelledSolid& model, const model::Plan& plan
 
 auto rounded_measure(double value) -> double {
   constexpr double unit = 1e4;
-  return std::round(value * unit) / unit;
+  return std::floor(value * unit + 0.5) / unit;  // halves go up everywhere, so that heights can be shifted by metres
 }
 
 void round_measures(model::Attributes& attributes) {

@@ -14,7 +14,10 @@ namespace {
 using model::FaceClass;
 using model::least_apart;
 
-auto to_quanta(double metres) -> std::int64_t { return std::llround(metres * quanta_per_metre); }
+/// Halves go up everywhere, so that a shift by whole metres shifts the result.
+auto to_quanta(double metres) -> std::int64_t {
+  return static_cast<std::int64_t>(std::floor(metres * quanta_per_metre + 0.5));
+}
 
 auto to_vertex(geometry::Point3 p) -> Vertex { return {to_quanta(p.x), to_quanta(p.y), to_quanta(p.z)}; }
 
