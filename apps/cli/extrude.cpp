@@ -77,7 +77,7 @@ auto extrude_plans(formats::CityReader& reader, const ExtrudeRequest& request, c
   for (const auto& part : raised->fell_short) tell(part.reasons, request);
   tell(raised->remarks, request);
   tell(beside->warnings, request);
-  if (auto written = write_out(raised->city, {}, options, request, run, beside->layers); !written)
+  if (auto written = write_out(raised->city, options, request, run, beside->layers); !written)
     return give_up(written.errors());
   std::printf("%s\n", request.out.c_str());
   return raised->fell_short.empty() && refused.empty() ? all_done : some_fell_back;
@@ -134,25 +134,43 @@ auto check_outputs(const ExtrudeRequest& request) -> base::Result<void> {
   return {};
 }
 
-auto write_out(const model::City& city, const std::string& report, const pipeline::Options& options,
-               const ExtrudeRequest& request, const base::Run& run, const std::vector<formats::Layer>& more)
+namespace {
+
+auto write_picture(const model::City& city, const ExtrudeRequest& request, const base::Run& run, base::Outputs& outputs)
     -> base::Result<void> {
-  const fs::path out(request.out);
+  auto bytes = picture::png(report::picture_of(city, {}, run));
+  if (!bytes) return bytes.failure();
+  return write_bytes(picture_file(request.out), *bytes, outputs);
+}
+
+}  // namespace
+
+auto write_out(const model::City& city, const pipeline::Options& options, const ExtrudeRequest& request,
+               const base::Run& run, const std::vector<formats::Layer>& more) -> base::Result<void> {
   const auto targets = targets_of(request);
   if (!targets) return targets.failure();
   base::Outputs outputs;
   const auto warnings = write_models(city, *targets, options.write, outputs, more);
   if (!warnings) return warnings.failure();
   tell(*warnings, request);
-  if (!is_one(out) && !report.empty())
-    if (auto written = write_bytes(out / "run.json", report, outputs); !written) return written;
-  if (!request.report.empty())
-    if (auto written = write_bytes(request.report, report, outputs); !written) return written;
-  if (request.picture) {
-    auto bytes = picture::png(report::picture_of(city, {}, run));
-    if (!bytes) return bytes.failure();
-    if (auto written = write_bytes(picture_file(out), *bytes, outputs); !written) return written;
-  }
+  if (request.picture)
+    if (auto written = write_picture(city, request, run, outputs); !written) return written;
+  return outputs.commit(run.cancel);
+}
+
+auto write_out(const Made& made, const model::Scene& scene, const pipeline::Options& options,
+               const ExtrudeRequest& request, const base::Run& run, Progress& progress) -> base::Result<void> {
+  const auto targets = targets_of(request);
+  if (!targets) return targets.failure();
+  base::Outputs outputs;
+  if (auto written = write_targets(made, *targets, options.write, {}, outputs, run, progress); !written) return written;
+  std::vector<fs::path> reports;
+  if (!is_one(request.out)) reports.push_back(fs::path(request.out) / "run.json");
+  if (!request.report.empty()) reports.emplace_back(request.report);
+  for (const auto& path : reports)
+    if (auto written = write_report(made, scene, path, outputs); !written) return written;
+  if (request.picture)
+    if (auto written = write_picture(made.whole->city, request, run, outputs); !written) return written;
   return outputs.commit(run.cancel);
 }
 

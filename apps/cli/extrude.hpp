@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/cli/made.hpp"
 #include "apps/cli/settings.hpp"
 #include "mansard/base/run.hpp"
 #include "mansard/formats/layers.hpp"
@@ -22,11 +23,16 @@ struct ExtrudeRequest {
 /// Whatever may be wrong with the outputs, before any work. Fails with "output-…", "file-write".
 [[nodiscard]] auto check_outputs(const ExtrudeRequest& request) -> base::Result<void>;
 
-/// The models as OUT and --formats ask for them, with a picture if asked for, and the report (in a folder and where
-/// --report says; empty for none). `more` are layers for a GeoPackage beside those of the city.
-[[nodiscard]] auto write_out(const model::City& city, const std::string& report, const pipeline::Options& options,
-                             const ExtrudeRequest& request, const base::Run& run,
-                             const std::vector<formats::Layer>& more = {}) -> base::Result<void>;
+/// The models as OUT and --formats ask for them, with a picture if asked for. `more` are layers for a GeoPackage beside
+/// those of the city.
+[[nodiscard]] auto write_out(const model::City& city, const pipeline::Options& options, const ExtrudeRequest& request,
+                             const base::Run& run, const std::vector<formats::Layer>& more = {}) -> base::Result<void>;
+
+/// The same of a run over `scene`, with its report in a folder and where --report says. With a picture it must be in
+/// memory.
+[[nodiscard]] auto write_out(const Made& made, const model::Scene& scene, const pipeline::Options& options,
+                             const ExtrudeRequest& request, const base::Run& run, Progress& progress)
+    -> base::Result<void>;
 
 /// `mansard extrude FOOTPRINTS -o OUT`; the exit code.
 [[nodiscard]] auto extrude_footprints(const ExtrudeRequest& request, const base::Cancel& cancel) -> int;

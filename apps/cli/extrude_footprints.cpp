@@ -1,5 +1,4 @@
 // `mansard extrude FOOTPRINTS -o OUT`: buildings from outlines and attributes.
-#include <algorithm>
 #include <cstdio>
 
 #include "apps/cli/exit.hpp"
@@ -9,20 +8,23 @@
 namespace mansard::cli {
 namespace {
 
-auto count(const report::Reconstruction& r, report::Outcome outcome) -> std::size_t {
-  return static_cast<std::size_t>(std::ranges::count(r.buildings, outcome, &report::BuildingReport::outcome));
-}
-
-void summarise(const report::Reconstruction& r, const ExtrudeRequest& request, Progress& progress) {
-  const auto remarks = std::ranges::count_if(
-      r.buildings, [](const auto& b) { return b.outcome == report::Outcome::full && !b.reasons.empty(); });
-  progress.say(std::to_string(count(r, report::Outcome::full)) + " of " + std::to_string(r.buildings.size()) +
-               " buildings in full (" + std::to_string(remarks) + " of them with remarks), " +
-               std::to_string(count(r, report::Outcome::fallback)) + " fell back, " +
-               std::to_string(count(r, report::Outcome::refused)) + " refused");
-  for (const auto& building : r.buildings)
-    if (request.verbose || r.buildings.size() <= 20)
-      for (const auto& reason : building.reasons) progress.say(base::to_string(reason));
+auto summarise(const Made& made, const ExtrudeRequest& request, Progress& progress) -> base::Result<void> {
+  const auto& n = made.outcomes;
+  std::size_t remarks = 0;
+  std::vector<std::string> reasons;
+  const bool all = request.verbose || n.all() <= 20;
+  auto counted = made.each([&](const auto&, const report::BuildingReport& building) -> base::Result<void> {
+    if (building.outcome == report::Outcome::full && !building.reasons.empty()) ++remarks;
+    if (all)
+      for (const auto& reason : building.reasons) reasons.push_back(base::to_string(reason));
+    return {};
+  });
+  if (!counted) return counted;
+  progress.say(std::to_string(n.full) + " of " + std::to_string(n.all()) + " buildings in full (" +
+               std::to_string(remarks) + " of them with remarks), " + std::to_string(n.fallback) + " fell back, " +
+               std::to_string(n.refused) + " refused");
+  for (const auto& reason : reasons) progress.say(reason);
+  return {};
 }
 
 }  // namespace
@@ -43,15 +45,21 @@ auto extrude_footprints(const ExtrudeRequest& request, const base::Cancel& cance
   if (!scene) return give_up(scene.errors());
   for (const auto& warning : scene->warnings) progress.say(base::to_string(warning));
 
-  const auto result = pipeline::raise_footprints(*scene, options, run);
-  if (!result) return give_up(result.errors());
-  for (const auto& warning : result->warnings) progress.say(base::to_string(warning));
-  progress.show("write", request.out, 1);
-  const auto report = report::run_json(*result, *scene);
-  if (auto written = write_out(result->city, report, options, request, run); !written) return give_up(written.errors());
-  summarise(*result, request, progress);
-  std::printf("%s\n", request.out.c_str());
-  return count(*result, report::Outcome::full) == result->buildings.size() ? all_done : some_fell_back;
+  const auto finish = [&](const Made& made) -> int {
+    for (const auto& warning : made.summary.warnings) progress.say(base::to_string(warning));
+    progress.show("write", request.out, 1);
+    auto done = write_out(made, *scene, options, request, run, progress);
+    if (done) done = summarise(made, request, progress);
+    if (!done) return give_up(done.errors());
+    std::printf("%s\n", request.out.c_str());
+    return made.outcomes.full == made.outcomes.all() ? all_done : some_fell_back;
+  };
+  if (request.picture) {
+    const auto result = pipeline::raise_footprints(*scene, options, run);
+    return result ? finish(made_of(*result)) : give_up(result.errors());
+  }
+  const auto city = pipeline::raise_footprints_aside(*scene, options, run);
+  return city ? finish(made_of(*city)) : give_up(city.errors());
 }
 
 }  // namespace mansard::cli

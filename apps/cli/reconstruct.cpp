@@ -1,20 +1,19 @@
 // `mansard reconstruct MESH… FOOTPRINTS -o OUTDIR`.
 #include <algorithm>
 #include <cstdio>
-#include <functional>
 #include <map>
 #include <memory>
 
 #include "apps/cli/catalogue.hpp"
 #include "apps/cli/exit.hpp"
 #include "apps/cli/formats.hpp"
+#include "apps/cli/made.hpp"
 #include "apps/cli/output.hpp"
 #include "apps/cli/run_folder.hpp"
 #include "apps/cli/scan.hpp"
 #include "apps/cli/verbs.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/base/text.hpp"
-#include "mansard/pipeline/city.hpp"
 #include "mansard/report/layers.hpp"
 #include "mansard/report/pictures.hpp"
 
@@ -31,34 +30,6 @@ struct Request {
   double error_limit = 2.0;
   std::size_t share = 0, shares = 0;  ///< of the work, from 1; 0: all of it
 };
-
-/// What a run made: in memory where pictures or layers are made of all of it, else put aside.
-struct Made {
-  const report::Summary& summary;
-  report::Outcomes outcomes;
-  const model::Frame& frame;
-  const model::MadeBy& made_by;
-  using Visit = std::function<base::Result<void>(const model::Building&, const report::BuildingReport&)>;
-  std::function<base::Result<void>(const Visit&)> each;  ///< in the source's order
-  const report::Reconstruction* whole = nullptr;         ///< where it is in memory
-};
-
-auto made_of(const report::Reconstruction& r) -> Made {
-  return {r,
-          report::outcomes(r),
-          r.city.frame,
-          r.city.made_by,
-          [&r](const Made::Visit& visit) -> base::Result<void> {
-            for (std::size_t i = 0; i < r.buildings.size(); ++i)
-              if (auto visited = visit(r.city.buildings[i], r.buildings[i]); !visited) return visited;
-            return {};
-          },
-          &r};
-}
-auto made_of(const pipeline::PutAside& city) -> Made {
-  return {city.summary, city.outcomes, city.frame, city.made_by,
-          [&city](const Made::Visit& visit) { return city.each(visit); }};
-}
 
 /// What of an earlier run was taken over, and why not more.
 void tell_reuse(const report::Summary& summary, Progress& progress) {
@@ -113,38 +84,6 @@ auto is_result(const std::string& name) -> bool {
   return std::ranges::find(own, name) != own.end();
 }
 
-/// The models, one format after the other: each writer may put bytes aside.
-auto write_targets(const Made& made, const std::vector<Target>& targets, const pipeline::Options& options,
-                   const std::vector<formats::Layer>& layers, base::Outputs& outputs, const base::Run& run,
-                   Progress& progress) -> base::Result<void> {
-  for (const auto& target : targets) {
-    auto writer =
-        formats::open_writer(target.format, target.path, {made.frame, made.made_by}, options.write, outputs, layers);
-    if (!writer) return writer.failure();
-    auto written = made.each([&](const model::Building& building, const auto&) -> base::Result<void> {
-      if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
-      return (*writer)->add(building);
-    });
-    if (written) written = (*writer)->finish();
-    if (!written) return written;
-    for (const auto& warning : (*writer)->warnings()) progress.say(base::to_string(warning));
-  }
-  return {};
-}
-
-auto write_report(const Made& made, const model::Scene& scene, const fs::path& path, base::Outputs& outputs)
-    -> base::Result<void> {
-  auto sink = outputs.file(path);
-  if (!sink) return sink.failure();
-  report::RunJson report(made.summary, made.outcomes, made.made_by, scene, **sink);
-  auto told = made.each([&](const auto&, const report::BuildingReport& building) -> base::Result<void> {
-    report.add(building);
-    return {};
-  });
-  if (told) report.finish();
-  return told;
-}
-
 auto write_all(const Request& request, const std::vector<Target>& targets, const pipeline::Options& options,
                const Made& made, const model::Scene& scene, const base::Run& run, Progress& progress)
     -> base::Result<void> {
@@ -155,7 +94,8 @@ auto write_all(const Request& request, const std::vector<Target>& targets, const
     layers.push_back(report::diagnostics_layer(*made.whole, scene));
   }
   progress.show("write", "", 1);
-  if (auto written = write_targets(made, targets, options, layers, outputs, run, progress); !written) return written;
+  if (auto written = write_targets(made, targets, options.write, layers, outputs, run, progress); !written)
+    return written;
   const auto report_path = fs::path(request.out) / "run.json";
   if (auto written = write_report(made, scene, report_path, outputs); !written) return written;
   if (!request.scan.report.empty())

@@ -441,7 +441,15 @@ auto option_list(Options& o) -> base::OptionList {
               "with it.")
       .advanced("half a gigabyte of mesh files takes about 1 GB of memory; docs/city.md")
       .number("cell_side", o.cell_side, "m", {1, 10000}, "Side length of those cells.")
-      .advanced("about the size of a block; not measured");
+      .advanced("about the size of a block; not measured")
+      .number("task_triangles", o.task_triangles, "", {1, 1e9},
+              "Number of triangles of the mesh that are in memory at a time, where it is cut into cells; blocks larger "
+              "than "
+              "that are processed alone.")
+      .advanced("about 200 MB with all that is made of them; docs/city.md")
+      .number("task_footprints", o.task_footprints, "", {1, 1e9},
+              "Number of blocks that are extruded at a time, where there is no mesh.")
+      .advanced("about 200 MB with all that is made of them; docs/city.md");
   return list;
 }
 

@@ -35,8 +35,10 @@ struct Options {
   double tile_error =
       0;                ///< metres; of a tileset, tiles are taken once their geometric error is no more; 0: the finest
   std::string terrain;  ///< path of a raster with the ground's heights; empty: none
-  double cells_from = 400;  ///< MB of mesh files from which on read_city cuts the mesh into cells on disk
-  double cell_side = 64;    ///< m
+  double cells_from = 400;            ///< MB of mesh files from which on read_city cuts the mesh into cells on disk
+  double cell_side = 64;              ///< m
+  double task_triangles = 2'000'000;  ///< of the mesh in cells, so many are in memory at a time
+  double task_footprints = 10'000;    ///< without a mesh, so many blocks are
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 

@@ -8,54 +8,12 @@
 
 #include "mansard/base/pack.hpp"
 #include "mansard/pipeline/detail/assemble.hpp"
+#include "mansard/pipeline/detail/city_builder.hpp"
+#include "mansard/pipeline/detail/city_tasks.hpp"
 #include "mansard/pipeline/detail/every_block.hpp"
 #include "mansard/pipeline/detail/overlaps.hpp"
 
 namespace mansard::pipeline {
-
-/// Takes finished features from any thread.
-class CityBuilder {
- public:
-  CityBuilder(PutAside& city, std::size_t features) : city_(city), standing_(features) {
-    city.places_.resize(features);
-  }
-
-  [[nodiscard]] auto open() -> base::Result<void> {
-    auto spool = base::Spool::open();
-    if (!spool) return spool.failure();
-    city_.spool_ = std::move(*spool);
-    return {};
-  }
-
-  /// Features beyond those of the city are around it, and not put aside.
-  void take(std::size_t feature, const detail::Finished& one) {
-    if (feature >= city_.places_.size()) return;
-    std::string bytes;
-    base::pack(one, bytes);
-    auto standing = detail::standing(feature, one.building);
-    const std::scoped_lock lock(mutex_);
-    city_.places_[feature] = {city_.spool_->size(), static_cast<std::uint32_t>(bytes.size())};
-    city_.spool_->append(bytes);
-    city_.outcomes.add(one.report.outcome);
-    standing_[feature] = std::move(standing);
-  }
-
-  [[nodiscard]] auto has(std::size_t feature) const -> bool { return city_.places_[feature].bytes > 0; }
-
-  /// After the last one: what only all of them together show.
-  void finish(const base::Run& run) {
-    std::vector<detail::Standing> all;
-    for (auto& some : standing_) std::ranges::move(some, std::back_inserter(all));
-    auto [of_each, in_all] = detail::overlaps(all, run);
-    for (auto& [building, what] : of_each) city_.afterwards_[building].push_back(std::move(what));
-    std::ranges::move(in_all, std::back_inserter(city_.summary.warnings));
-  }
-
- private:
-  PutAside& city_;
-  std::mutex mutex_;
-  std::vector<std::vector<detail::Standing>> standing_;  ///< by feature
-};
 
 auto PutAside::each(const Visit& visit) const -> base::Result<void> {
   for (std::size_t f = 0; f < places_.size(); ++f) {
@@ -80,18 +38,6 @@ struct Task {
   std::vector<const block::Group*> groups;
   std::set<ingest::MeshCells::Cell> cells;
 };
-
-/// About 200 MB with all that is made of them.
-constexpr std::size_t most_triangles = 2'000'000;
-
-auto by_place(const std::vector<block::Group>& groups) -> std::vector<const block::Group*> {
-  std::vector<const block::Group*> out;
-  for (const auto& group : groups) out.push_back(&group);
-  std::ranges::stable_sort(out, {}, [](const block::Group* group) {
-    return detail::along_curve(std::llround(group->box.least.x), std::llround(group->box.least.y));
-  });
-  return out;
-}
 
 /// Of groups by place, those whose middle lies in the share, by the triangles near them.
 auto share_of(const std::vector<const block::Group*>& groups, const ingest::CityScene& city, std::size_t share,
@@ -118,7 +64,9 @@ auto share_of(const std::vector<const block::Group*>& groups, const ingest::City
   return own;
 }
 
-auto tasks_of(const std::vector<const block::Group*>& groups, const ingest::CityScene& city) -> std::vector<Task> {
+auto tasks_of(const std::vector<const block::Group*>& groups, const ingest::CityScene& city, double most)
+    -> std::vector<Task> {
+  const auto most_triangles = static_cast<std::size_t>(most);
   std::vector<Task> out;
   std::size_t triangles = 0;
   for (const auto* group : groups) {
@@ -141,53 +89,12 @@ auto tasks_of(const std::vector<const block::Group*>& groups, const ingest::City
   return out;
 }
 
-/// The part of a scene that a task needs: its features, and around them shapes without attributes.
-struct Part {
-  model::Scene scene;
-  std::vector<std::size_t> features;  ///< of the whole, by the numbers of the part
-};
-
-auto part_of(const ingest::CityScene& city, const Task& task, const std::vector<geometry::Box2>& boxes)
-    -> base::Result<Part> {
-  Part out;
-  auto mesh = city.cells->load(task.cells);
-  if (!mesh) return mesh.failure();
-  out.scene.mesh = std::move(*mesh);
-  out.scene.frame = city.scene.frame;
-  out.scene.terrain = city.scene.terrain;
-  std::vector<bool> own(boxes.size(), false);
-  std::vector<std::size_t> around;
-  geometry::Box2 reach;
-  for (const auto* group : task.groups) {
-    reach.include(group->reach);
-    for (const std::size_t f : group->features) own[f] = true;
-  }
-  const std::size_t asked = city.scene.footprints.size();
-  for (std::size_t f = 0; f < boxes.size(); ++f) {
-    if (own[f] && f < asked) {
-      out.features.push_back(f);
-      out.scene.footprints.push_back(city.scene.footprints[f]);
-    } else if (!boxes[f].empty() && boxes[f].overlaps(reach)) {
-      around.push_back(f);
-    }
-  }
-  for (const std::size_t f : around) {
-    const auto& feature = city.scene.feature(f);
-    model::Footprint shape;
-    shape.id = feature.id;
-    shape.polygons = feature.polygons;
-    out.features.push_back(f);
-    out.scene.surroundings.push_back(std::move(shape));
-  }
-  return out;
-}
-
 /// work(scene, division, progress, feature numbers of the whole; empty where they are the scene's own) for every task.
 template <class Work>
 auto for_every_task(const ingest::CityScene& city, const Options& options, const base::Run& run, detail::Maker& maker,
                     std::optional<std::pair<std::size_t, std::size_t>> share, const Work& work) -> base::Result<void> {
   const auto groups = block::groups(city.scene, options.block);
-  auto wanted = by_place(groups);
+  auto wanted = detail::by_place(groups);
   if (share) wanted = share_of(wanted, city, share->first, share->second);
   std::size_t buildings = 0;
   for (const auto* group : wanted) buildings += group->features.size();
@@ -205,19 +112,19 @@ auto for_every_task(const ingest::CityScene& city, const Options& options, const
     work(city.scene, *division, detail::Progress{}, std::vector<std::size_t>());
     return {};
   }
-  std::vector<geometry::Box2> boxes;
-  for (std::size_t f = 0; f < city.scene.footprints.size() + city.scene.surroundings.size(); ++f)
-    boxes.push_back(geometry::bounds(city.scene.feature(f).polygons));
+  const auto boxes = detail::boxes_of(city.scene);
   detail::Progress progress{0, wanted.size()};
-  for (const auto& task : tasks_of(wanted, city)) {
+  for (const auto& task : tasks_of(wanted, city, options.ingest.task_triangles)) {
     if (run.cancelled()) return detail::cancelled();
-    auto part = part_of(city, task, boxes);
-    if (!part) return part.failure();
+    auto part = detail::part_of(city.scene, task.groups, boxes, false);
+    auto mesh = city.cells->load(task.cells);
+    if (!mesh) return mesh.failure();
+    part.scene.mesh = std::move(*mesh);
     auto inner = run;
     inner.progress = nullptr;  // the division of a part is no stage of the whole
-    auto division = detail::divide(part->scene, options, inner);
+    auto division = detail::divide(part.scene, options, inner);
     if (!division) return division.failure();
-    work(part->scene, *division, progress, part->features);
+    work(part.scene, *division, progress, part.features);
     progress.before += division->wanted.size();
   }
   return {};
@@ -230,7 +137,7 @@ auto reconstruct_aside(const ingest::CityScene& city, const Options& options, co
   base::Watch watch;
   PutAside out;
   const model::Scene& scene = city.scene;
-  CityBuilder builder(out, scene.footprints.size());
+  detail::CityBuilder builder(out, scene.footprints.size());
   if (auto opened = builder.open(); !opened) return opened.failure();
   if (auto usable = detail::check_usable(scene); !usable) return usable.failure();
   detail::Maker maker(options, Keep::models, schedule);

@@ -15,6 +15,10 @@
 
 namespace mansard::pipeline {
 
+namespace detail {
+class CityBuilder;
+}
+
 /// Everything of a report::Reconstruction but the error maps and segmentations. Its buildings are in a file without a
 /// name in the folder for temporary files (TMPDIR), so that memory holds only what is listed here: about 2 kB a block
 /// and 0.5 kB a building.
@@ -32,7 +36,7 @@ class PutAside {
   [[nodiscard]] auto each(const Visit& visit) const -> base::Result<void>;
 
  private:
-  friend class CityBuilder;
+  friend class detail::CityBuilder;
   struct Place {
     std::uint64_t offset = 0;
     std::uint32_t bytes = 0;
@@ -46,6 +50,10 @@ class PutAside {
 /// that does.
 [[nodiscard]] auto reconstruct_aside(const ingest::CityScene& city, const Options& options, const base::Run& run = {},
                                      const Schedule& schedule = {}) -> base::Result<PutAside>;
+
+/// As raise_footprints, in memory that does not grow with the models. Fails as that does.
+[[nodiscard]] auto raise_footprints_aside(const model::Scene& scene, const Options& options, const base::Run& run = {})
+    -> base::Result<PutAside>;
 
 /// One of `shares` of the work: makes the blocks of share number `share`, from 0, and keeps them, so that a
 /// reconstruction with the same blocks kept finds them made. The shares are of about the same number of triangles, and

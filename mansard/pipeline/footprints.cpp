@@ -1,11 +1,14 @@
 // Footprints without a mesh: attributes to forms, forms to plans, plans to solids.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <mutex>
 
 #include "mansard/base/text.hpp"
 #include "mansard/extrude/align.hpp"
 #include "mansard/pipeline/detail/assemble.hpp"
+#include "mansard/pipeline/detail/city_builder.hpp"
+#include "mansard/pipeline/detail/city_tasks.hpp"
 #include "mansard/pipeline/detail/overlaps.hpp"
 #include "mansard/pipeline/detail/place.hpp"
 #include "mansard/pipeline/pipeline.hpp"
@@ -189,33 +192,41 @@ void begin(const model::Scene& scene, const std::vector<roof::Read>& read, bool 
   }
 }
 
-/// The attributes that only the whole building has; the ids of its reasons; a word on heights out of thin air.
-void finish(const model::Scene& scene, report::Reconstruction& out) {
-  std::size_t assumed = 0;
-  for (std::size_t i = 0; i < out.buildings.size(); ++i) {
-    auto& report = out.buildings[i];
-    for (auto& reason : report.reasons)
-      if (reason.subject.empty()) reason.subject = report.id;
-    if (report.height_from == roof::to_string(roof::Source::assumed)) ++assumed;
-    auto& attributes = out.city.buildings[i].attributes;
-    attributes.emplace_back("ms_outcome", std::string(to_string(report.outcome)));
-    if (report.parts == 0) continue;
-    attributes.emplace_back("ms_h_ground", report.ground);
-    attributes.emplace_back("ms_h_roof_max", report.roof_max);
-    attributes.emplace_back("ms_volume_lod22", report.volume);
-    report::round_measures(attributes);
-  }
-  if (assumed > 0)
-    out.warnings.push_back(base::warning("roof-assumed",
-                                         std::to_string(assumed) + " of " + std::to_string(out.buildings.size()) +
-                                             " buildings have neither height nor levels; their height is assumed",
-                                         scene.inputs.empty() ? std::string() : scene.inputs.front().path));
+/// The attributes that only the whole building has; the ids of its reasons.
+void finish(model::Building& building, report::BuildingReport& report) {
+  if (report.parts == 0) report.outcome = report::Outcome::refused;
+  for (auto& reason : report.reasons)
+    if (reason.subject.empty()) reason.subject = report.id;
+  auto& attributes = building.attributes;
+  attributes.emplace_back("ms_outcome", std::string(to_string(report.outcome)));
+  if (report.parts == 0) return;
+  attributes.emplace_back("ms_h_ground", report.ground);
+  attributes.emplace_back("ms_h_roof_max", report.roof_max);
+  attributes.emplace_back("ms_volume_lod22", report.volume);
+  report::round_measures(attributes);
 }
 
-}  // namespace
+auto is_assumed(const report::BuildingReport& report) -> bool {
+  return report.height_from == roof::to_string(roof::Source::assumed);
+}
 
-auto raise_footprints(const model::Scene& scene, const Options& options, const base::Run& run)
-    -> base::Result<report::Reconstruction> {
+/// A word on heights out of thin air.
+void warn_of_assumed(std::size_t assumed, const model::Scene& scene, std::vector<base::Diagnostic>& warnings) {
+  if (assumed > 0)
+    warnings.push_back(base::warning("roof-assumed",
+                                     std::to_string(assumed) + " of " + std::to_string(scene.footprints.size()) +
+                                         " buildings have neither height nor levels; their height is assumed",
+                                     scene.inputs.empty() ? std::string() : scene.inputs.front().path));
+}
+
+/// How all roofs are made.
+struct Making {
+  bool by_attributes = true;
+  model::Profile profile;  ///< where they are not
+};
+
+/// Fails with "pipeline-nothing", "roof-profile", "roof-attribute".
+auto making_of(const model::Scene& scene, const Options& options) -> base::Result<Making> {
   const auto usable = std::ranges::find_if(scene.footprints, [](const auto& f) { return !f.defect.has_value(); });
   if (usable == scene.footprints.end())
     return base::error("pipeline-nothing",
@@ -223,16 +234,24 @@ auto raise_footprints(const model::Scene& scene, const Options& options, const b
                            ? "there are no footprints"
                            : "none of the " + std::to_string(scene.footprints.size()) +
                                  " footprints can be used; the first: " + scene.footprints.front().defect->message);
-  base::Watch total;
   if (auto known = roof::check_attributes(usable->attributes, options.roof); !known) return known.error();
-  const bool by_attributes = options.roof.profile.empty();
-  model::Profile profile;
-  if (!by_attributes) {
-    auto given = roof::profile_of(options.roof.profile);
-    if (!given) return given.error();
-    profile = std::move(*given);
-  }
+  Making out;
+  out.by_attributes = options.roof.profile.empty();
+  if (out.by_attributes) return out;
+  auto given = roof::profile_of(options.roof.profile);
+  if (!given) return given.error();
+  out.profile = std::move(*given);
+  return out;
+}
 
+}  // namespace
+
+namespace {
+
+/// The footprints of a scene, but for what only all of a city show together. Nothing once the run is cancelled.
+auto raise_all(const model::Scene& scene, const Making& making, const Options& options, const base::Run& run)
+    -> report::Reconstruction {
+  const auto& [by_attributes, profile] = making;
   std::vector<roof::Read> read;
   for (std::size_t i = 0; i < scene.footprints.size() + scene.surroundings.size(); ++i) {
     read.push_back(roof::form_of(scene.feature(i).attributes, options.roof));
@@ -284,7 +303,7 @@ auto raise_footprints(const model::Scene& scene, const Options& options, const b
     if (++done % 64 == 0 || done == jobs.size())
       run.report("extrude", {}, static_cast<double>(done) / static_cast<double>(jobs.size()));
   });
-  if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+  if (run.cancelled()) return {};
 
   const base::Spent raised_in = raising.stop();
   base::Watch labelling;
@@ -325,12 +344,85 @@ auto raise_footprints(const model::Scene& scene, const Options& options, const b
     detail::add_solids(out.city.buildings[b], out.buildings[b], std::move(united[b]), 0);
   out.city.buildings.resize(scene.footprints.size());
   out.buildings.resize(scene.footprints.size());
-  for (auto& report : out.buildings)
-    if (report.parts == 0) report.outcome = report::Outcome::refused;
-  detail::report_overlaps(out, run);
+  for (std::size_t i = 0; i < out.buildings.size(); ++i) finish(out.city.buildings[i], out.buildings[i]);
+  out.times.stages = {{"roof", planned_in}, {"extrude", raised_in}, {"label", labelled_in}};
+  return out;
+}
+
+}  // namespace
+
+auto raise_footprints(const model::Scene& scene, const Options& options, const base::Run& run)
+    -> base::Result<report::Reconstruction> {
+  base::Watch total;
+  const auto making = making_of(scene, options);
+  if (!making) return making.failure();
+  auto out = raise_all(scene, *making, options, run);
+  if (!run.cancelled()) detail::report_overlaps(out, run);
   if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
-  finish(scene, out);
-  out.times = {total.stop(), {{"roof", planned_in}, {"extrude", raised_in}, {"label", labelled_in}}};
+  warn_of_assumed(static_cast<std::size_t>(std::ranges::count_if(out.buildings, is_assumed)), scene, out.warnings);
+  out.times.total = total.stop();
+  return out;
+}
+
+auto raise_footprints_aside(const model::Scene& scene, const Options& options, const base::Run& run)
+    -> base::Result<PutAside> {
+  base::Watch total;
+  const auto making = making_of(scene, options);
+  if (!making) return making.failure();
+  PutAside out;
+  detail::CityBuilder builder(out, scene.footprints.size());
+  if (auto opened = builder.open(); !opened) return opened.failure();
+  const auto groups = block::groups(scene, options.block);
+  const auto places = detail::by_place(groups);
+  const auto boxes = detail::boxes_of(scene);
+  const auto together = static_cast<std::size_t>(options.ingest.task_footprints);
+  std::size_t assumed = 0;
+  std::map<std::string, std::vector<base::Spent>> spent;
+  std::vector<std::string> stages;
+  const auto take = [&](std::size_t feature, model::Building& building, report::BuildingReport& report) {
+    if (feature < scene.footprints.size() && is_assumed(report)) ++assumed;
+    builder.take(feature, {std::move(building), std::move(report)});
+  };
+  for (std::size_t first = 0; first < places.size() && !run.cancelled(); first += together) {
+    const std::vector<const block::Group*> some(
+        places.begin() + static_cast<std::ptrdiff_t>(first),
+        places.begin() + static_cast<std::ptrdiff_t>(std::min(places.size(), first + together)));
+    const auto part = detail::part_of(scene, some, boxes, true);
+    base::Run inner = run;
+    inner.progress = [&](auto stage, auto subject, double fraction) {
+      const auto groups_before = static_cast<double>(first), groups_here = static_cast<double>(some.size());
+      run.report(stage, subject, (groups_before + fraction * groups_here) / static_cast<double>(places.size()));
+    };
+    auto made = raise_all(part.scene, *making, options, inner);
+    if (run.cancelled()) break;
+    for (std::size_t i = 0; i < made.buildings.size(); ++i)
+      take(part.features[i], made.city.buildings[i], made.buildings[i]);
+    for (const auto& [stage, time] : made.times.stages) {
+      if (!spent.contains(stage)) stages.push_back(stage);
+      spent[stage].push_back(time);
+    }
+  }
+  if (!run.cancelled()) {
+    // Those that cannot be used belong to no group.
+    model::Scene rest;
+    std::vector<std::size_t> features;
+    for (std::size_t f = 0; f < scene.footprints.size(); ++f) {
+      if (builder.has(f)) continue;
+      features.push_back(f);
+      rest.footprints.push_back(scene.footprints[f]);
+    }
+    rest.frame = scene.frame;
+    auto unmade = raise_all(rest, *making, options, run);
+    for (std::size_t i = 0; i < unmade.buildings.size(); ++i)
+      take(features[i], unmade.city.buildings[i], unmade.buildings[i]);
+    builder.finish(run);
+  }
+  if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+  warn_of_assumed(assumed, scene, out.summary.warnings);
+  out.frame = scene.frame;
+  out.made_by = detail::made_by(scene, options);
+  for (const auto& stage : stages) out.summary.times.stages.push_back({stage, base::combined(spent[stage])});
+  out.summary.times.total = total.stop();
   return out;
 }
 

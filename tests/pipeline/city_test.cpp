@@ -102,6 +102,7 @@ TEST(City, in_cells_is_that_in_memory) {
   for (const double side : {17.0, 64.0, 1000.0}) {
     Options options;
     options.ingest.cell_side = side;
+    options.ingest.task_triangles = side == 64.0 ? 2e6 : 120;
     const auto in_memory = files.read(options, never), in_cells = files.read(options, 0);
     ASSERT_FALSE(in_memory.cells);
     ASSERT_TRUE(in_cells.cells);
@@ -165,6 +166,36 @@ TEST(City, in_a_box_is_that_in_memory) {
   ASSERT_TRUE(one);
   ASSERT_TRUE(other);
   EXPECT_EQ(told(*one), told(*other));
+}
+
+TEST(City, without_a_mesh_is_that_in_memory) {
+  const Files files;
+  Options options;
+  options.ingest.bbox = {-10, -10, 200, 150};  // some are around it
+  const auto scene = ingest::read_footprints(files.footprints, options.ingest);
+  ASSERT_TRUE(scene);
+  const auto whole = raise_footprints(*scene, options);
+  ASSERT_TRUE(whole);
+  for (const double together : {1.0, 3.0, 10'000.0}) {
+    options.ingest.task_footprints = together;
+    const auto aside = raise_footprints_aside(*scene, options);
+    ASSERT_TRUE(aside);
+    model::City again;
+    again.frame = aside->frame;
+    again.made_by = whole->city.made_by;
+    std::size_t i = 0;
+    ASSERT_TRUE(aside->each([&](model::Building building, const report::BuildingReport& report) {
+      EXPECT_EQ(report.id, whole->buildings[i].id);
+      EXPECT_EQ(report.reasons, whole->buildings[i].reasons);
+      EXPECT_EQ(report.outcome, whole->buildings[i].outcome);
+      EXPECT_EQ(report.volume, whole->buildings[i++].volume);
+      again.buildings.push_back(std::move(building));
+      return base::Result<void>();
+    }));
+    EXPECT_EQ(i, whole->buildings.size());
+    EXPECT_EQ(*formats::cityjson(again), *formats::cityjson(whole->city)) << together;
+    EXPECT_EQ(aside->summary.warnings, whole->warnings);
+  }
 }
 
 TEST(City, shares_of_cells_add_up) {

@@ -1,0 +1,54 @@
+#include "apps/cli/made.hpp"
+
+namespace mansard::cli {
+
+auto made_of(const report::Reconstruction& r) -> Made {
+  return {r,
+          report::outcomes(r),
+          r.city.frame,
+          r.city.made_by,
+          [&r](const Made::Visit& visit) -> base::Result<void> {
+            for (std::size_t i = 0; i < r.buildings.size(); ++i)
+              if (auto visited = visit(r.city.buildings[i], r.buildings[i]); !visited) return visited;
+            return {};
+          },
+          &r};
+}
+
+auto made_of(const pipeline::PutAside& city) -> Made {
+  return {city.summary, city.outcomes, city.frame, city.made_by,
+          [&city](const Made::Visit& visit) { return city.each(visit); }};
+}
+
+auto write_targets(const Made& made, const std::vector<Target>& targets, const formats::WriteOptions& options,
+                   const std::vector<formats::Layer>& layers, base::Outputs& outputs, const base::Run& run,
+                   Progress& progress) -> base::Result<void> {
+  for (const auto& target : targets) {  // one after the other: each writer may put bytes aside
+    auto writer =
+        formats::open_writer(target.format, target.path, {made.frame, made.made_by}, options, outputs, layers);
+    if (!writer) return writer.failure();
+    auto written = made.each([&](const model::Building& building, const auto&) -> base::Result<void> {
+      if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+      return (*writer)->add(building);
+    });
+    if (written) written = (*writer)->finish();
+    if (!written) return written;
+    for (const auto& warning : (*writer)->warnings()) progress.say(base::to_string(warning));
+  }
+  return {};
+}
+
+auto write_report(const Made& made, const model::Scene& scene, const std::filesystem::path& path,
+                  base::Outputs& outputs) -> base::Result<void> {
+  auto sink = outputs.file(path);
+  if (!sink) return sink.failure();
+  report::RunJson report(made.summary, made.outcomes, made.made_by, scene, **sink);
+  auto told = made.each([&](const auto&, const report::BuildingReport& building) -> base::Result<void> {
+    report.add(building);
+    return {};
+  });
+  if (told) report.finish();
+  return told;
+}
+
+}  // namespace mansard::cli

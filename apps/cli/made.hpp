@@ -1,0 +1,38 @@
+// What a run made, wherever it is, and how it is written.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "apps/cli/formats.hpp"
+#include "apps/cli/progress.hpp"
+#include "mansard/pipeline/city.hpp"
+
+namespace mansard::cli {
+
+/// In memory where pictures or layers are made of all of it, else put aside. What it was made of must outlive it.
+struct Made {
+  const report::Summary& summary;
+  report::Outcomes outcomes;
+  const model::Frame& frame;
+  const model::MadeBy& made_by;
+  using Visit = std::function<base::Result<void>(const model::Building&, const report::BuildingReport&)>;
+  std::function<base::Result<void>(const Visit&)> each;  ///< in the source's order; ends with the first failure
+  const report::Reconstruction* whole = nullptr;         ///< where it is in memory
+};
+[[nodiscard]] auto made_of(const report::Reconstruction& reconstruction) -> Made;
+[[nodiscard]] auto made_of(const pipeline::PutAside& city) -> Made;
+
+/// The models; the files are there after Outputs::commit. What could not be written as it was meant is said. Fails as
+/// the writers do, and with "cancelled".
+[[nodiscard]] auto write_targets(const Made& made, const std::vector<Target>& targets,
+                                 const formats::WriteOptions& options, const std::vector<formats::Layer>& layers,
+                                 base::Outputs& outputs, const base::Run& run, Progress& progress)
+    -> base::Result<void>;
+
+/// run.json, there after Outputs::commit.
+[[nodiscard]] auto write_report(const Made& made, const model::Scene& scene, const std::filesystem::path& path,
+                                base::Outputs& outputs) -> base::Result<void>;
+
+}  // namespace mansard::cli
