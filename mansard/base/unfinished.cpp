@@ -32,6 +32,9 @@ auto host() -> const std::string& {
 
 auto mark(Beside what) -> std::string_view { return what == Beside::part ? ".part" : ".old"; }
 
+/// What SQLite adds to the names of the files that it keeps beside a database while it writes.
+constexpr std::array<std::string_view, 3> companions{"-journal", "-wal", "-shm"};
+
 /// What a name says of who made it, and for which place.
 struct Owner {
   std::string place;  ///< its file name
@@ -40,7 +43,9 @@ struct Owner {
   std::string host;
 };
 
-auto owner_of(const std::string& name) -> std::optional<Owner> {
+auto owner_of(std::string name) -> std::optional<Owner> {
+  for (const auto companion : companions)
+    if (name.ends_with(companion)) name.resize(name.size() - companion.size());
   for (const auto what : {Beside::part, Beside::old}) {
     const auto dot = name.rfind(mark(what));
     if (dot == name.npos || dot == 0) continue;
@@ -121,6 +126,7 @@ void remove_unfinished() {
   for (const auto& path : registry().paths) {
     std::error_code ignored;
     fs::remove_all(path, ignored);
+    for (const auto companion : companions) fs::remove(path.string() + std::string(companion), ignored);
   }
 }
 

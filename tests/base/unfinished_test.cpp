@@ -53,9 +53,10 @@ TEST_F(UnfinishedTest, files_and_folders_of_killed_processes_are_swept_by_the_ne
     Outputs outputs;
     (*outputs.file(folder_ / "a"))->append("half");
     std::ofstream(*outputs.folder(folder_ / "tiles") / "inside") << "half";
+    write(beside(folder_ / "a.gpkg", Beside::part).string() + "-journal", "of the database");
     ::_exit(1);  // without destructors
   });
-  ASSERT_EQ(names().size(), 2U);
+  ASSERT_EQ(names().size(), 3U);
   ASSERT_TRUE(write_file(folder_ / "b", "new"));  // another file, and other names than theirs
   EXPECT_THAT(names(), ElementsAre("b"));
 }
@@ -105,6 +106,7 @@ TEST_F(UnfinishedTest, paths_are_removed_where_a_process_ends_at_once_and_the_ot
     if (!outputs.commit()) ::_exit(2);
     (*outputs.file(folder_ / "a"))->append("half");
     std::ofstream(*outputs.folder(folder_ / "tiles") / "inside") << "half";
+    write(beside(folder_ / "a", Beside::part).string() + "-wal", "of the database");
     remove_unfinished();
     ::_exit(1);
   });
