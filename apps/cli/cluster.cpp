@@ -91,7 +91,7 @@ auto slurm(const Request& request, const fs::path& folder) -> std::vector<Script
 
 auto parallel(const Request& request) -> std::vector<Script> {
   return {{"run.sh",
-           "#!/bin/bash\n# GNU parallel makes the shares, as many at a time as it is told (-j, or --sshlogin "
+           "#!/bin/bash\n# GNU parallel makes the shares, as many at a time as -j says (-j 4, or --sshlogin "
            "for other machines);\n# a job that is stopped can be started again. Then the models are written.\n"
            "set -e\n" +
                here() + "seq " + std::to_string(request.shares) + " | parallel --halt soon,fail=1 --retries 3 \"$@\" " +

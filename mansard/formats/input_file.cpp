@@ -1,7 +1,7 @@
 #include "mansard/formats/input_file.hpp"
 
-#include "mansard/formats/files/hash.hpp"
 #include "mansard/formats/files/virtual_files.hpp"
+#include "mansard/formats/hash.hpp"
 
 namespace mansard::formats {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mansard/base/pack.hpp"
+#include "mansard/formats/mesh/raw_mesh.hpp"
 #include "mansard/ingest/detail/clean.hpp"
 
 namespace mansard::ingest {

@@ -1,6 +1,7 @@
 // A mesh of any size, cut into square cells in a file on disk: memory holds no more than what is asked for.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -12,8 +13,11 @@
 
 #include "mansard/base/outputs.hpp"
 #include "mansard/base/run.hpp"
-#include "mansard/formats/mesh/raw_mesh.hpp"
 #include "mansard/model/scene.hpp"
+
+namespace mansard::formats {
+struct RawMesh;
+}
 
 namespace mansard::ingest {
 

@@ -8,7 +8,7 @@
 #include "mansard/base/files.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/crs/model_crs.hpp"
-#include "mansard/formats/files/hash.hpp"
+#include "mansard/formats/hash.hpp"
 #include "mansard/formats/models.hpp"
 #include "mansard/ingest/detail/by_normal.hpp"
 #include "mansard/ingest/detail/clean.hpp"

@@ -4,7 +4,7 @@
 
 #include "mansard/base/files.hpp"
 #include "mansard/base/pack.hpp"
-#include "mansard/formats/files/hash.hpp"
+#include "mansard/formats/hash.hpp"
 #include "mansard/pipeline/detail/assemble.hpp"
 
 namespace mansard::pipeline {

@@ -18,14 +18,14 @@ enum class Effort : std::uint8_t {
 /// advanced options, of which few are measured; `option_list` gives meaning, range and source of each.
 struct Options {
   Effort effort = Effort::parts;
-  double grid = 0.25;        ///< m between samples seen from above
-  double face_price = 0.3;   ///< m² · m²; what an additional face must take off the sum of squared differences
-  double part_price = 2.0;   ///< the same, of an additional part, beside its faces
-  double value_price = 0.1;  ///< the same, of a height or pitch that differs from all others
+  double grid = 0.25;            ///< m between samples seen from above
+  double face_price = 0.3;       ///< m² · m²; what an additional face must take off the sum of squared differences
+  double part_price = 2.0;       ///< the same, of an additional part, beside its faces
+  double value_price = 0.1;      ///< the same, of a height or pitch that differs from all others
   double moderate_factor = 4.0;  ///< on the three prices, with profile.quality = moderate
-  double robust = 3.0;       ///< m; greater differences count linearly, not squared: trees, debris
-  double margin = 0.4;       ///< m along the outline where a melted scan counts less
-  double least_area = 4.0;   ///< m²; smaller structures stay with the roof they are on
+  double robust = 3.0;           ///< m; greater differences count linearly, not squared: trees, debris
+  double margin = 0.4;           ///< m along the outline where a melted scan counts less
+  double least_area = 4.0;       ///< m²; smaller structures stay with the roof they are on
 
   /// What the mesh shows, and how much a sample counts (site, refit, and wherever a wall is near).
   struct Samples {

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "mansard/crs/gdal_messages.hpp"
-#include "mansard/formats/files/hash.hpp"
 #include "mansard/formats/files/virtual_files.hpp"
+#include "mansard/formats/hash.hpp"
 
 namespace mansard::formats {
 namespace {

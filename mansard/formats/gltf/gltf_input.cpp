@@ -9,10 +9,10 @@
 
 #include "mansard/base/nesting.hpp"
 #include "mansard/base/text.hpp"
-#include "mansard/formats/files/hash.hpp"
 #include "mansard/formats/files/named_file.hpp"
 #include "mansard/formats/gltf/glb_container.hpp"
 #include "mansard/formats/gltf/meshopt.hpp"
+#include "mansard/formats/hash.hpp"
 
 namespace mansard::formats {
 namespace {

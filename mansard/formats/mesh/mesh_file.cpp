@@ -5,10 +5,10 @@
 #include <new>
 
 #include "mansard/formats/drivers.hpp"
-#include "mansard/formats/files/hash.hpp"
 #include "mansard/formats/files/named_file.hpp"
 #include "mansard/formats/files/virtual_files.hpp"
 #include "mansard/formats/files/words.hpp"
+#include "mansard/formats/hash.hpp"
 #include "mansard/formats/mesh/mesh_formats.hpp"
 #include "mansard/formats/tiles3d/tile_content.hpp"
 

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "mansard/base/nesting.hpp"
-#include "mansard/formats/files/hash.hpp"
 #include "mansard/formats/files/named_file.hpp"
+#include "mansard/formats/hash.hpp"
 #include "mansard/formats/tiles3d/tileset.hpp"
 
 namespace mansard::formats {

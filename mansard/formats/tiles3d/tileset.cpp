@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "mansard/base/nesting.hpp"
-#include "mansard/formats/files/hash.hpp"
 #include "mansard/formats/files/named_file.hpp"
+#include "mansard/formats/hash.hpp"
 #include "mansard/formats/tiles3d/tile_subtree.hpp"
 #include "mansard/formats/tiles3d/tileset_json.hpp"
 

@@ -11,9 +11,9 @@
 #include "mansard/crs/gdal_messages.hpp"
 #include "mansard/crs/spatial_reference.hpp"
 #include "mansard/formats/cityjson/footprint_reader.hpp"
-#include "mansard/formats/files/hash.hpp"
 #include "mansard/formats/files/virtual_files.hpp"
 #include "mansard/formats/geojson/assumed_crs.hpp"
+#include "mansard/formats/hash.hpp"
 #include "mansard/formats/osm/osm.hpp"
 #include "mansard/formats/vector/attributes.hpp"
 

@@ -1,7 +1,7 @@
 #include "mansard/pipeline/detail/block_kept.hpp"
 
 #include "mansard/base/pack.hpp"
-#include "mansard/formats/files/hash.hpp"
+#include "mansard/formats/hash.hpp"
 
 namespace mansard::pipeline::detail {
 

@@ -1,4 +1,4 @@
-#include "mansard/formats/files/hash.hpp"
+#include "mansard/formats/hash.hpp"
 
 #include <openssl/evp.h>
 #include <array>
