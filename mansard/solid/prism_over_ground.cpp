@@ -80,8 +80,11 @@ auto prism_over_outline(const LabelledSolid& model, double z) -> LabelledSolid {
     if (!wide) continue;
     const auto closed = grown(*wide, -by);
     if (!closed || closed->size() != 1) continue;
-    auto prism = prism_over(closed->front(), base, z);
-    if (!prism.solid.faces.empty() && check(prism.solid, written_rules()).empty()) return prism;
+    const auto prism = prism_over(closed->front(), base, z);
+    if (prism.solid.faces.empty()) continue;
+    const std::array<const LabelledSolid*, 1> alone{&prism};
+    if (auto made = unite(alone); made.solids.size() == 1 && made.warnings.empty())
+      return std::move(made.solids.front().model);
   }
   return {};
 }

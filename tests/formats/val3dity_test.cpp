@@ -13,6 +13,7 @@
 #include "mansard/ingest/ingest.hpp"
 #include "mansard/label/label.hpp"
 #include "mansard/solid/solid.hpp"
+#include "mansard/solid/unite.hpp"
 #include "val3dity_rules.hpp"
 
 namespace {
@@ -316,6 +317,45 @@ TEST(Val3dityRules, hold_for_flat_models_over_ground_that_meets_in_points) {
   }
   for (const auto& finding : val3dity::findings(Json::parse(*mansard::formats::cityjson(city))))
     ADD_FAILURE() << finding.object << ": " << finding.code << " " << finding.what;
+}
+
+/// Two parts of a random building that are no one solid. Corners of their common wall are inside the straight eaves of
+/// the lower roof, by less than a tenth of a millimetre: cut there, it would hang over the wall of the other one.
+TEST(Val3dityRules, hold_for_eaves_along_the_wall_of_another_part) {
+  const auto plan = [](Ring ring, double base, double cap, std::vector<mansard::model::Profile> profiles,
+                       std::vector<std::uint32_t> of = {}) {
+    of.resize(ring.size(), 0);
+    return Plan{{std::move(ring), std::move(of)}, {}, std::move(profiles), base, cap};
+  };
+  const mansard::model::Profile wall{{0, 0}, {0, 40}};
+  const std::vector<Plan> plans{
+      plan({{25.2562, 50.0002}, {25.2562, 61.1668}, {23.9429, 60.3432}, {23.9429, 50.0002}}, 0.0011, 60,
+           {{{0, 0}, {0, 5.5}, {1, 6}}}),
+      plan({{37.9211, 69.109}, {31.2295, 72.207}, {23.9429, 72.207}, {23.9429, 60.3432}}, 0.001, 60,
+           {{{0, 0}, {0, 3}, {1, 4}}, wall}, {1, 0, 1, 0}),
+      plan({{25.2562, 50.0002}, {38.0917, 50.0002}, {29.4427, 63.7922}, {25.2562, 61.1668}}, 0.0005, 3, {wall}),
+      plan({{59.8574, 58.9532}, {59.8574, 72.207}, {31.2295, 72.207}}, 0.3, 8.004, {wall}),
+      plan({{23.9429, 72.207}, {23.9429, 94.414}, {0, 94.414}, {0, 50}, {23.9429, 50}}, 0.0005, 1, {wall})};
+  std::vector<LabelledSolid> parts;
+  for (const Plan& one : plans) {
+    mansard::extrude::Options options;
+    options.grid = 1e-4;
+    const auto raised = mansard::extrude::raise(one, options);
+    ASSERT_TRUE(raised) << raised.error().message;
+    parts.push_back(mansard::label::classify({raised->solid}, {}).front());
+  }
+  const std::vector<std::vector<const LabelledSolid*>> buildings{
+      {&parts[0], &parts[1]}, {&parts[2]}, {&parts[3]}, {&parts[4]}};
+  for (const auto& made : mansard::solid::unite_all(buildings))
+    for (const auto& one : made.solids)
+      for (std::size_t f = 0; f < one.model.classes.size(); ++f) {
+        if (one.model.classes[f] != FaceClass::roof) continue;
+        double area = 0;
+        const auto& loop = one.model.solid.faces[f].loops[0];
+        const auto at = [&](std::size_t i) { return one.model.solid.vertices[loop[i % loop.size()]]; };
+        for (std::size_t i = 0; i < loop.size(); ++i) area += cross(xy(at(i) - at(0)), xy(at(i + 1) - at(0)));
+        EXPECT_GE(area, 0) << "face " << f;
+      }
 }
 
 /// For files made elsewhere: MANSARD_JUDGE=a.city.json:b.city.json.

@@ -23,6 +23,12 @@ auto codes_of(const Solid& solid, double planar = 1e-4) -> std::vector<std::stri
   return out;
 }
 
+auto written_codes_of(const Solid& solid) -> std::vector<std::string> {
+  std::vector<std::string> out;
+  for (const auto& fault : solid::check(solid, solid::written_rules())) out.push_back(fault.code);
+  return out;
+}
+
 /// A cube of 2 m at a place.
 auto cube(Point3 at = {}) -> Solid {
   auto solid = *extrude::prism(plan(box(2, 2), {wall}, {}, 2));
@@ -143,6 +149,31 @@ TEST(Check, finds_a_bent_face_by_its_limit) {
   corner->z += 0.001;
   EXPECT_THAT(codes_of(solid), testing::ElementsAre("solid-not-planar"));
   EXPECT_THAT(codes_of(solid, 0.01), testing::IsEmpty());
+}
+
+/// A shed of 20 by 10 m under a roof of 27°, with a corner of the eaves a tenth of a millimetre low between two others
+/// near it. Seen from above the eaves are straight; validators, which cut the roof as they see it, make a needle there.
+TEST(Check, finds_needles_that_validators_make_of_corners_nearly_on_a_line) {
+  Solid shed;
+  shed.vertices = {{0, 0, 0},       {20, 0, 0}, {20, 10, 0}, {0, 10, 0}, {0, 0, 3}, {10, 0, 3}, {10.0183, 0, 2.9999},
+                   {10.0367, 0, 3}, {20, 0, 3}, {20, 10, 8}, {0, 10, 8}};
+  for (const std::vector<std::uint32_t>& loop : std::vector<std::vector<std::uint32_t>>{
+           {0, 3, 2, 1}, {0, 1, 8, 7, 6, 5, 4}, {1, 2, 9, 8}, {2, 3, 10, 9}, {3, 0, 4, 10}, {4, 5, 6, 7, 8, 9, 10}})
+    shed.faces.push_back(Face{{loop}, model::FaceKind::side, {}, {}});
+  EXPECT_THAT(codes_of(shed), testing::IsEmpty());
+  EXPECT_THAT(written_codes_of(shed), testing::ElementsAre("solid-needle"));
+}
+
+TEST(Check, finds_faces_too_narrow_for_their_plane) {
+  for (const double width : {1.2e-3, 1.2}) {
+    Solid strip = cube();
+    for (auto& v : strip.vertices) v = {v.x * width, v.y * 14, v.z};
+    if (width < 1) {
+      EXPECT_THAT(written_codes_of(strip), testing::ElementsAre("solid-not-planar"));
+    } else {
+      EXPECT_THAT(written_codes_of(strip), testing::IsEmpty());
+    }
+  }
 }
 
 TEST(Check, finds_solids_that_overlap_touch_or_hold_each_other) {

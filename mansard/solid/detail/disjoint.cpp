@@ -53,6 +53,30 @@ auto at_common_height(const LabelledSolid& a, const LabelledSolid& b) -> bool {
   return std::min(own.high, other.high) > std::max(own.low, other.low);
 }
 
+/// What of a solid's plan is outside of its ground: roofs that look down by rounding.
+auto overhang_of(const LabelledSolid& solid) -> std::vector<Polygon> {
+  std::vector<Polygon> out;
+  for (std::size_t f = 0; f < solid.classes.size(); ++f) {
+    if (solid.classes[f] != FaceClass::roof) continue;
+    const auto seen = geometry::polygon_of(
+        solid.solid.faces[f].loops, [&](std::uint32_t v) { return geometry::xy(units(solid.solid.vertices[v])); });
+    if (geometry::signed_area(seen.outer) < 0) out.push_back(geometry::oriented(seen));
+  }
+  return out;
+}
+
+auto meet(const std::vector<Polygon>& some, const std::vector<Polygon>& others) -> bool {
+  for (const Polygon& p : some)
+    for (const Polygon& q : others) {
+      if (!geometry::bounds(p.outer).overlaps(geometry::bounds(q.outer))) continue;
+      const auto shared = geometry::intersect(p, q);
+      if (!shared) return true;
+      for (const Polygon& polygon : *shared)
+        if (geometry::area(polygon) > 0) return true;
+    }
+  return false;
+}
+
 /// None where the library fails.
 auto taken_off(std::vector<Polygon> from, const Polygon& other) -> std::optional<std::vector<Polygon>> {
   std::vector<Polygon> out;
@@ -212,15 +236,8 @@ class Clipping {
 
 auto share_ground(const LabelledSolid& a, const LabelledSolid& b) -> bool {
   if (has_eaves(a) || has_eaves(b) || !at_common_height(a, b)) return false;
-  for (const Polygon& p : ground_of(a))
-    for (const Polygon& q : ground_of(b)) {
-      if (!geometry::bounds(p.outer).overlaps(geometry::bounds(q.outer))) continue;
-      const auto shared = geometry::intersect(p, q);
-      if (!shared) return true;
-      for (const Polygon& polygon : *shared)
-        if (geometry::area(polygon) > 0) return true;
-    }
-  return false;
+  const auto ground_a = ground_of(a), ground_b = ground_of(b);
+  return meet(ground_a, ground_b) || meet(overhang_of(a), ground_b) || meet(ground_a, overhang_of(b));
 }
 
 auto clipped(const LabelledSolid& solid, std::span<const Polygon> over) -> std::optional<LabelledSolid> {

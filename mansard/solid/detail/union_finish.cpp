@@ -3,6 +3,7 @@
 #include <cmath>
 #include <set>
 
+#include "mansard/solid/detail/delaunay.hpp"
 #include "mansard/solid/detail/fitted_plane.hpp"
 #include "mansard/solid/detail/measure.hpp"
 #include "mansard/solid/detail/union_faces.hpp"
@@ -65,7 +66,9 @@ auto unit_normal(const model::Solid& solid, const Corners& t) -> Point3 {
   return geometry::normalised(cross(solid.vertices[t[1]] - o, solid.vertices[t[2]] - o));
 }
 
-auto has_needle(const model::Solid& solid, const std::vector<Corners>& triangles) -> bool {
+/// Cut as validators cut it.
+auto has_needle(const model::Solid& solid, Point3 normal, std::vector<Corners> triangles) -> bool {
+  make_delaunay(solid, normal, triangles);
   for (const Corners& t : triangles)
     if (!(dot(unit_normal(solid, t), unit_normal(solid, triangles.front())) >= least_cosine)) return true;
   return false;
@@ -76,9 +79,14 @@ constexpr double thin = 1.2e-3;
 
 /// Cuts off the triangles at corners of the outer loop that stand out by less than `thin`: what another wall that ends
 /// on a side leaves there by rounding. They become faces of their own.
-auto without_thin_corners(const model::Solid& solid, model::Face& face) -> std::vector<model::Face> {
+auto without_thin_corners(const model::Solid& solid, const std::vector<std::uint8_t>& pinned, model::Face& face)
+    -> std::vector<model::Face> {
   std::vector<model::Face> cut;
   const Point3 normal = fitted_plane(solid, face).normal;
+  // Cut off at a wall that another solid of the building has, too, what is left of a roof would hang over that wall.
+  const auto overhangs = [&](const std::array<std::uint32_t, 3>& t, Point3 area) {
+    return normal.z > 0 && area.z <= 0 && std::ranges::any_of(t, [&](auto v) { return pinned[v] == of_a_solid; });
+  };
   auto& loop = face.loops[0];
   for (std::size_t i = 0; i < loop.size() && loop.size() > 3;) {
     const std::size_t n = loop.size();
@@ -87,7 +95,7 @@ auto without_thin_corners(const model::Solid& solid, model::Face& face) -> std::
     const double length2 = dot(along, along), at = dot(v, along);
     const Point3 area = cross(v, along);
     if (!(dot(area, normal) > 0) || !(at > 0 && at < length2) || dot(area, area) >= thin * thin * length2 ||
-        dot(area, area) == 0) {
+        dot(area, area) == 0 || overhangs(t, area)) {
       ++i;
       continue;
     }
@@ -170,16 +178,16 @@ auto finish(Union& made, double planar) -> bool {
     const auto is_flat = [&](const FittedPlane& found) {
       return found.furthest <= planar && found.narrow >= model::narrowest_face;
     };
-    if (is_flat(plane) && !has_needle(solid, triangles)) {
+    if (is_flat(plane) && !has_needle(solid, plane.normal, triangles)) {
       add(std::move(face), f);
       continue;
     }
     if (model::Face rest = face; true) {
-      auto cut = without_thin_corners(solid, rest);
+      auto cut = without_thin_corners(solid, made.pinned, rest);
       triangles_of_rest.clear();
       const FittedPlane of_rest = fitted_plane(solid, rest);
       if (!cut.empty() && is_flat(of_rest) && triangulator.append(rest, of_rest.normal, triangles_of_rest) &&
-          !has_needle(solid, triangles_of_rest)) {
+          !has_needle(solid, of_rest.normal, triangles_of_rest)) {
         add(std::move(rest), f);
         for (auto& one : cut) add(std::move(one), f);
         continue;

@@ -249,9 +249,8 @@ class Uniting {
       if (reach_.prisms && over_plan(p, why)) return;
       ++out_.loose;
     }
-    if (check(part.solid, written_rules()).empty()) {
-      out_.solids.push_back(
-          {{p}, part, std::vector<std::uint32_t>(part.solid.faces.size(), static_cast<std::uint32_t>(p))});
+    if (auto one = as_it_is(p)) {
+      out_.solids.push_back(std::move(*one));
       return;
     }
     const LabelledSolid flat = prism_of(part);
@@ -268,6 +267,21 @@ class Uniting {
     take(std::move(attempt.solids));
     out_.simplified.push_back(p);
     out_.warnings.push_back(base::warning("solid-simplified", "a part became a flat-roofed prism: " + why));
+  }
+
+  /// A part's solid, with its narrow faces cut into triangles if it is valid then.
+  [[nodiscard]] auto as_it_is(std::size_t p) const -> std::optional<One> {
+    const LabelledSolid& part = *parts_[p];
+    const auto number = static_cast<std::uint32_t>(p);
+    if (check(part.solid, written_rules()).empty())
+      return One{{p}, part, std::vector<std::uint32_t>(part.solid.faces.size(), number)};
+    Union cut{part,
+              std::vector<std::uint32_t>(part.solid.faces.size(), number),
+              std::vector<std::uint8_t>(part.solid.vertices.size(), of_a_building),
+              {}};
+    if (!check(part.solid).empty() || !finish(cut, planar) || !check(cut.model.solid, written_rules()).empty())
+      return std::nullopt;
+    return One{{p}, std::move(cut.model), std::move(cut.solid_of_face)};
   }
 
   /// A prism on the corners that the plan of all has of its ground. False where that is no valid solid.
