@@ -125,8 +125,10 @@ auto check_outputs(const Request& request, const std::vector<Target>& targets) -
     if (auto apart = spare_results(request.scan.report, results); !apart) return apart;
   if (auto ready = prepare(request.out, request.scan.overwrite); !ready) return ready;
   if (auto usable = files_free(request.scan, {}); !usable) return usable;
+  // A run that was killed while its results took their places left some of them: they are its own.
+  const bool replace = request.scan.overwrite || began_empty(request.out);
   for (const auto& target : targets)
-    if (auto usable = target_free(target, request.scan.overwrite); !usable) return usable;
+    if (auto usable = target_free(target, replace); !usable) return usable;
   return {};
 }
 

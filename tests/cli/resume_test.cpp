@@ -124,9 +124,11 @@ TEST_F(Resume, gives_the_bytes_of_an_undisturbed_run_after_fifty_kills) {
     std::this_thread::sleep_for(wait);
     ::kill(child, SIGKILL);
     const int ended = end_of(child);
-    if (WIFSIGNALED(ended)) {
+    const auto now = status("out");
+    // Also where the kill came between the run's end and that of its process.
+    const bool done = WIFSIGNALED(ended) && now.is_object() && now["state"] == "finished";
+    if (WIFSIGNALED(ended) && !done) {
       ++kills;
-      const auto now = status("out");
       if (now.is_object()) {
         EXPECT_EQ(now["state"], "stopped");
       }
@@ -137,7 +139,7 @@ TEST_F(Resume, gives_the_bytes_of_an_undisturbed_run_after_fifty_kills) {
       EXPECT_GE(blocks, last) << "nothing that was kept is lost";
       last = blocks;
     } else {
-      ASSERT_EQ(WEXITSTATUS(ended), 0) << read(at("stderr"));
+      ASSERT_TRUE(done || WEXITSTATUS(ended) == 0) << read(at("stderr"));
       EXPECT_THAT(different(results("out"), expected), testing::IsEmpty());
       ++finished;
       last = 0;
