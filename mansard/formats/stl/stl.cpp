@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <bit>
 #include <map>
+#include <numeric>
 
 #include "mansard/base/disjoint_sets.hpp"
 #include "mansard/formats/detail/drawn.hpp"
@@ -84,10 +86,16 @@ class StlWriter : public CityWriter {
     for (std::size_t p = 0; p < parts_.size(); ++p)
       for (const auto v : parts_[p].model.solid.vertices) boxes[p].add(geometry::xy(v));
     base::DisjointSets sets(parts_.size());
-    constexpr double near = 2e-3;  // m
-    for (std::uint32_t p = 0; p < parts_.size(); ++p)
-      for (std::uint32_t q = 0; q < p; ++q)
-        if (boxes[q].grown(near).overlaps(boxes[p])) sets.join(p, q);
+    constexpr double near = 2e-3;                           // m
+    std::vector<std::uint32_t> order(parts_.size()), open;  // those that reach as far as the next begins
+    std::iota(order.begin(), order.end(), 0U);
+    std::ranges::sort(order, {}, [&](std::uint32_t p) { return std::pair(boxes[p].least.x, p); });
+    for (const std::uint32_t p : order) {
+      std::erase_if(open, [&](std::uint32_t q) { return boxes[q].most.x + near < boxes[p].least.x; });
+      for (const std::uint32_t q : open)
+        if (boxes[q].grown(near).overlaps(boxes[p])) sets.join(std::max(p, q), std::min(p, q));
+      open.push_back(p);
+    }
     std::map<std::uint32_t, std::vector<std::size_t>> blocks;
     for (std::uint32_t p = 0; p < parts_.size(); ++p) blocks[sets.of(p)].push_back(p);
     for (const auto& [name, block] : blocks) {
