@@ -20,8 +20,8 @@ class CityBuilder;
 }
 
 /// Everything of a report::Reconstruction but the error maps and segmentations. Its buildings are in a file without a
-/// name in the folder for temporary files (TMPDIR), so that memory holds only what is listed here: about 2 kB a block
-/// and 0.5 kB a building.
+/// name in the folder for temporary files (TMPDIR), so that memory holds only what is listed here, and what is needed
+/// to see solids that overlap: about 8 kB a building.
 class PutAside {
  public:
   model::Frame frame;
