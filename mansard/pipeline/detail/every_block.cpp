@@ -100,7 +100,7 @@ auto Maker::operator()(const block::Block& block, const base::Run& run, const Te
   auto result = made(block, run, tell);
   auto& stages = result.report.times.stages;
   stages.insert(stages.begin(), made_in);
-  if (schedule_.tally != nullptr && !run.cancelled()) {
+  if (schedule_.tally != nullptr && !run.cancelled() && !failed_) {
     ++schedule_.tally->blocks_done;
     schedule_.tally->buildings_done += block.members.size();
   }
