@@ -72,8 +72,8 @@ constexpr auto accept_fallbacks = " || [ $? -eq 1 ]\n";
 auto slurm(const Request& request, const fs::path& folder) -> std::vector<Script> {
   const std::string from = fs::absolute(folder).lexically_normal().string();
   const auto head = [&](const std::string& name, const std::string& log) {
-    return "#!/bin/bash\n#SBATCH --job-name=mansard-" + name + "\n#SBATCH --output=" + from + "/" + log +
-           "\n#SBATCH --cpus-per-task=" + std::to_string(request.cpus) + "\n#SBATCH --mem=" + request.memory +
+    return "#!/bin/bash\n#SBATCH --job-name=mansard-" + name + "\n#SBATCH --output=\"" + from + "/" + log +
+           "\"\n#SBATCH --cpus-per-task=" + std::to_string(request.cpus) + "\n#SBATCH --mem=" + request.memory +
            "\n#SBATCH --requeue\n";
   };
   const std::string jobs = " -j \"${SLURM_CPUS_PER_TASK:-1}\"";

@@ -6,11 +6,11 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <ctime>
 #include <nlohmann/json.hpp>
 
 #include "apps/cli/output.hpp"
 #include "mansard/base/files.hpp"
+#include "mansard/base/machine.hpp"
 #include "mansard/base/text.hpp"
 
 namespace mansard::cli {
@@ -21,20 +21,6 @@ using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
 constexpr auto status_name = "status.json", lock_name = "lock", blocks_name = "blocks";
-
-auto now_in_words() -> std::string {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  char text[32];
-  ::gmtime_r(&now, &parts);
-  return {text, std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts)};
-}
-
-auto host() -> std::string {
-  char name[256] = "";
-  ::gethostname(name, sizeof name - 1);
-  return name;
-}
 
 auto read_json(const fs::path& path) -> Json {
   const auto text = base::read_file(path);
@@ -86,7 +72,7 @@ RunFolder::RunFolder(fs::path folder, std::string verb, Use use, int lock, bool 
       verb_(std::move(verb)),
       use_(use),
       lock_(lock),
-      started_(now_in_words()),
+      started_(base::utc_now()),
       empty_(empty),
       begin_(Clock::now()),
       written_(begin_) {}
@@ -152,10 +138,10 @@ void RunFolder::write(const std::string& state) {
   if (use_ == Use::share) return;  // several of them; what they have made shows in the folder
   Json out{{"verb", verb_},
            {"state", state},
-           {"process", {{"id", ::getpid()}, {"host", host()}}},
+           {"process", {{"id", ::getpid()}, {"host", base::host()}}},
            {"started", started_},
            {"began_empty", empty_},
-           {"updated", now_in_words()},
+           {"updated", base::utc_now()},
            {"seconds", std::round(std::chrono::duration<double>(Clock::now() - begin_).count() * 10) / 10},
            {"stage", stage_},
            {"fraction", std::round(fraction_ * 1e4) / 1e4},

@@ -1,28 +1,16 @@
 // Workspace: runs are started, imported, renamed and deleted here, and their results read.
 #include <algorithm>
-#include <array>
-#include <ctime>
 
 #include "apps/server/import.hpp"
 #include "apps/server/inputs.hpp"
 #include "apps/server/options.hpp"
 #include "apps/server/workspace.hpp"
 #include "mansard/base/files.hpp"
+#include "mansard/base/machine.hpp"
 
 namespace mansard::server {
-namespace {
 
 namespace fs = std::filesystem;
-
-auto now_as_text() -> std::string {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  ::gmtime_r(&now, &parts);
-  std::array<char, 32> text{};
-  return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts)};
-}
-
-}  // namespace
 
 auto Workspace::start_run(const RunRequest& request) -> Text {
   const bool reading = jobs_.pending("read");
@@ -81,7 +69,7 @@ auto Workspace::submit(Run run, Make make) -> Text {
     if (!id) return id.error();
     run.record.id = *id;
     if (run.record.label.empty()) run.record.label = *id;
-    run.record.created = now_as_text();
+    run.record.created = base::utc_now();
     if (auto saved = project_.save(run.record); !saved) return saved.error();
     runs_.push_back(run);
   }

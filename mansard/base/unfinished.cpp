@@ -12,23 +12,13 @@
 #include <string_view>
 #include <vector>
 
+#include "mansard/base/machine.hpp"
 #include "mansard/base/text.hpp"
 
 namespace mansard::base {
 namespace {
 
 namespace fs = std::filesystem;
-
-auto host() -> const std::string& {
-  static const std::string name = [] {
-    std::array<char, 256> words{};
-    (void)::gethostname(words.data(), words.size() - 1);
-    std::string out(words.data());
-    for (char& c : out) c = c == '/' ? '-' : c;
-    return out;
-  }();
-  return name;
-}
 
 auto mark(Beside what) -> std::string_view { return what == Beside::part ? ".part" : ".old"; }
 

@@ -93,6 +93,13 @@ auto tasks_of(const std::vector<const block::Group*>& groups, const ingest::City
 template <class Work>
 auto for_every_task(const ingest::CityScene& city, const Options& options, const base::Run& run, detail::Maker& maker,
                     std::optional<std::pair<std::size_t, std::size_t>> share, const Work& work) -> base::Result<void> {
+  if (!city.cells && !share) {  // one task, whose division has the groups
+    auto division = detail::divide(city.scene, options, run);
+    if (!division) return division.failure();
+    maker.announce(*division);
+    work(city.scene, *division, detail::Progress{}, std::vector<std::size_t>());
+    return {};
+  }
   const auto groups = block::groups(city.scene, options.block);
   auto wanted = detail::by_place(groups);
   if (share) wanted = share_of(wanted, city, share->first, share->second);
@@ -102,13 +109,11 @@ auto for_every_task(const ingest::CityScene& city, const Options& options, const
   if (!city.cells) {
     auto division = detail::divide(city.scene, options, run);
     if (!division) return division.failure();
-    if (share) {
-      std::set<std::size_t> firsts;
-      for (const auto* group : wanted) firsts.insert(group->features.front());
-      std::erase_if(division->wanted, [&](std::size_t i) {
-        return !firsts.contains(division->blocks.outlined(i).members.front().feature);
-      });
-    }
+    std::set<std::size_t> firsts;
+    for (const auto* group : wanted) firsts.insert(group->features.front());
+    std::erase_if(division->wanted, [&](std::size_t i) {
+      return !firsts.contains(division->blocks.outlined(i).members.front().feature);
+    });
     work(city.scene, *division, detail::Progress{}, std::vector<std::size_t>());
     return {};
   }

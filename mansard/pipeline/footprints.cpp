@@ -197,13 +197,7 @@ void finish(model::Building& building, report::BuildingReport& report) {
   if (report.parts == 0) report.outcome = report::Outcome::refused;
   for (auto& reason : report.reasons)
     if (reason.subject.empty()) reason.subject = report.id;
-  auto& attributes = building.attributes;
-  attributes.emplace_back("ms_outcome", std::string(to_string(report.outcome)));
-  if (report.parts == 0) return;
-  attributes.emplace_back("ms_h_ground", report.ground);
-  attributes.emplace_back("ms_h_roof_max", report.roof_max);
-  attributes.emplace_back("ms_volume_lod22", report.volume);
-  report::round_measures(attributes);
+  detail::add_attributes(building, report);
 }
 
 auto is_assumed(const report::BuildingReport& report) -> bool {

@@ -81,10 +81,10 @@ up || skip "Slurm does not start here: $(sinfo 2>&1 | tail -1); $(tail -1 slurmc
 "$mansard" simulate --block detached --preset lidar-2.5d --resolution 0.6 -o scan -q > /dev/null
 "$mansard" reconstruct scan/mesh.ply scan/footprints.geojson -o single --no-resume -q > /dev/null || [[ $? -eq 1 ]]
 
-"$mansard" cluster slurm --shares 4 --cpus 1 --memory 100M -o jobs -- \
+"$mansard" cluster slurm --shares 4 --cpus 1 --memory 100M -o "jöbs of mine" -- \
   reconstruct scan/mesh.ply scan/footprints.geojson -o shared -q > /dev/null
-sed -i '/--mem=/d' jobs/share.sh jobs/merge.sh # nodes of this test say nothing of their memory
-(cd jobs && ./submit.sh) > submitted 2>&1 || skip "Slurm takes no jobs here: $(tail -1 submitted)"
+sed -i '/--mem=/d' "jöbs of mine/share.sh" "jöbs of mine/merge.sh" # nodes of this test say nothing of their memory
+("./jöbs of mine/submit.sh") > submitted 2>&1 || skip "Slurm takes no jobs here: $(tail -1 submitted)"
 cat submitted
 shares=$(sed 's/.*shares: job \([0-9]*\).*/\1/' submitted) merge=$(sed 's/.*merge: job \([0-9]*\).*/\1/' submitted)
 
@@ -107,12 +107,13 @@ if ! ended "$merge"; then
   merge=""
 fi
 if [[ ! -f shared/model.city.json ]]; then
-  (cd jobs && ./submit.sh) > again
+  ("./jöbs of mine/submit.sh") > again
   merge=$(sed 's/.*merge: job \([0-9]*\).*/\1/' again)
   for _ in $(seq 1800); do ended "$merge" && break; sleep 0.1; done
 fi
-[[ -f shared/model.city.json ]] || { echo "the merge wrote nothing:"; cat jobs/*.log; exit 1; }
+[[ -f shared/model.city.json ]] || { echo "the merge wrote nothing:"; cat "jöbs of mine"/*.log; exit 1; }
 for file in model.city.json model.obj model.glb plans.json; do
   cmp "single/$file" "shared/$file" || { echo "$file is not that of a single run"; exit 1; }
 done
+[[ -s "jöbs of mine/share-1.log" || -f "jöbs of mine/share-1.log" ]] || { echo "no log beside the scripts"; exit 1; }
 echo "four shares on two nodes gave the bytes of a single run"

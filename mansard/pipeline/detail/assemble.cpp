@@ -122,7 +122,22 @@ void take(PartResult part, const report::BlockReport& block, double z0, model::B
 
 }  // namespace
 
-auto unbuilt(const model::Scene& scene, std::size_t feature) -> Finished {
+void add_attributes(model::Building& building, const report::BuildingReport& report) {
+  auto& attributes = building.attributes;
+  attributes.emplace_back("ms_outcome", std::string(to_string(report.outcome)));
+  if (report.parts == 0) return;
+  attributes.emplace_back("ms_h_ground", report.ground);
+  attributes.emplace_back("ms_h_roof_max", report.roof_max);
+  attributes.emplace_back("ms_volume_lod22", report.volume);
+  if (report.rmse) attributes.emplace_back("ms_rmse_lod22", *report.rmse);
+  if (report.left_out > 0) attributes.emplace_back("ms_area_left_out", report.left_out);
+  report::round_measures(attributes);
+}
+
+namespace {
+
+/// A feature before anything is made of it.
+auto begun(const model::Scene& scene, std::size_t feature) -> Finished {
   const auto& footprint = scene.feature(feature);
   Finished out;
   out.building.id = out.report.id = footprint.id;
@@ -132,8 +147,15 @@ auto unbuilt(const model::Scene& scene, std::size_t feature) -> Finished {
   if (footprint.defect) {
     out.report.outcome = report::Outcome::refused;
     out.report.reasons.push_back(*footprint.defect);
-    out.building.attributes.emplace_back("ms_outcome", std::string(to_string(out.report.outcome)));
   }
+  return out;
+}
+
+}  // namespace
+
+auto unbuilt(const model::Scene& scene, std::size_t feature) -> Finished {
+  auto out = begun(scene, feature);
+  add_attributes(out.building, out.report);
   return out;
 }
 
@@ -142,7 +164,7 @@ auto finish_block(const model::Scene& scene, BlockResult& result, std::vector<ba
   const auto z0 = static_cast<double>(scene.frame.origin[2]);
   std::vector<std::pair<std::size_t, Finished>> out;
   for (const auto& [feature, ground] : result.grounds) {
-    auto& [building, report] = out.emplace_back(feature, unbuilt(scene, feature)).second;
+    auto& [building, report] = out.emplace_back(feature, begun(scene, feature)).second;
     report.block = result.report.name;
     report.ground = z0 + ground;
     building.ground = ground;
@@ -184,15 +206,7 @@ auto finish_block(const model::Scene& scene, BlockResult& result, std::vector<ba
   for (std::size_t i = 0; i < out.size(); ++i) {
     auto& [building, report] = out[i].second;
     if (accounts[i].area > 0) report.rmse = std::sqrt(accounts[i].squared / accounts[i].area);
-    auto& attributes = building.attributes;
-    attributes.emplace_back("ms_outcome", std::string(to_string(report.outcome)));
-    if (report.parts == 0) continue;
-    attributes.emplace_back("ms_h_ground", report.ground);
-    attributes.emplace_back("ms_h_roof_max", report.roof_max);
-    attributes.emplace_back("ms_volume_lod22", report.volume);
-    if (report.rmse) attributes.emplace_back("ms_rmse_lod22", *report.rmse);
-    if (report.left_out > 0) attributes.emplace_back("ms_area_left_out", report.left_out);
-    report::round_measures(attributes);
+    add_attributes(building, report);
   }
   return out;
 }

@@ -32,6 +32,9 @@ struct Finished {
 /// height of the frame's origin, for attributes.
 void add_solids(model::Building& building, report::BuildingReport& report, SolidsOf made, double z0);
 
+/// The attributes of the whole building, by its report. After everything else is known of it.
+void add_attributes(model::Building& building, const report::BuildingReport& report);
+
 void add(label::Areas& sum, const label::Areas& more);
 /// Of mansard.
 [[nodiscard]] auto version() -> std::string;
