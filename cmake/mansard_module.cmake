@@ -15,7 +15,7 @@ function(mansard_module name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${MODULE_IN}/${name}/*.cpp)
   add_library(mansard_${name} STATIC ${sources})
   add_library(mansard::${name} ALIAS mansard_${name})
-  set_target_properties(mansard_${name} PROPERTIES EXPORT_NAME ${name} MANSARD_DEPENDS "${MODULE_DEPENDS}"
+  set_target_properties(mansard_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON MANSARD_DEPENDS "${MODULE_DEPENDS}"
     MANSARD_USES "${MODULE_USES}" MANSARD_TESTED_WITH "${MODULE_TESTED_WITH}")
   if(MODULE_IN STREQUAL mansard)
     set_property(GLOBAL APPEND PROPERTY MANSARD_MODULE_LIST ${name})  # in the order of cmake/modules.cmake

@@ -38,6 +38,9 @@ function(mansard_precompiled target what)
     target_precompile_headers(${owner} PRIVATE <algorithm> <array> <chrono> <cmath> <filesystem> <fstream> <functional>
       <limits> <map> <memory> <mutex> <numeric> <optional> <random> <set> <span> <sstream> <string> <tuple> <utility>
       <variant> <vector>)
+    if(what STREQUAL "modules")
+      set_target_properties(${owner} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    endif()
     if(what STREQUAL "tests")
       target_precompile_headers(${owner} PRIVATE <gmock/gmock.h> <gtest/gtest.h>)
       target_link_libraries(${owner} PRIVATE GTest::gmock GTest::gtest)
