@@ -1,7 +1,8 @@
 # What is installed, and the packages made of it: docs/packaging.md.
 #   component extrude    the extrusion kernel and what it depends on: libraries, public headers, their part of the CMake package
 #   component engine     the same of every other module
-#   component program    mansard, its manual page, the shells' completions, the samples
+#   component program    mansard, its manual page, the shells' completions, the samples, the plugin of QGIS
+#   component python     the Python package
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/mansard)
 get_property(modules GLOBAL PROPERTY MANSARD_MODULE_LIST)
@@ -86,6 +87,19 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/data DESTINATION ${CMAKE_INSTALL_DATADIR
 install(FILES ${papers} ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/mansard
   COMPONENT program)
 
+# ---- the Python package, and the plugin of QGIS
+set(components program extrude engine)
+if(TARGET mansard_python)
+  list(APPEND components python)
+  install(DIRECTORY ${MANSARD_PYTHON_DIR}/mansard DESTINATION lib/python3/dist-packages COMPONENT python
+    PATTERN "__pycache__" EXCLUDE)
+  install(FILES ${papers} ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-mansard
+    COMPONENT python)
+endif()
+add_dependencies(mansard_manual mansard_qgis)
+install(DIRECTORY ${PROJECT_BINARY_DIR}/qgis/mansard DESTINATION ${CMAKE_INSTALL_DATADIR}/qgis/python/plugins
+  COMPONENT program)
+
 # ---- Debian packages: cpack -G DEB
 set(CPACK_PACKAGE_NAME mansard)
 set(CPACK_PACKAGE_VENDOR "the mansard contributors")
@@ -96,7 +110,7 @@ set(CPACK_PACKAGE_DIRECTORY ${made})
 set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
   OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
-set(CPACK_COMPONENTS_ALL program extrude engine)
+set(CPACK_COMPONENTS_ALL ${components})
 set(CPACK_COMPONENT_EXTRUDE_GROUP dev)
 set(CPACK_COMPONENT_ENGINE_GROUP dev)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
@@ -115,4 +129,10 @@ set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libtbb-dev, libgmp-dev, libgeos-dev, libem
 libgdal-dev, libtinygltf-dev, libdraco-dev, libmeshoptimizer-dev, libssl-dev, libpng-dev, pkg-config")
 set(CPACK_COMPONENT_GROUP_DEV_DESCRIPTION
   "The modules of mansard as static libraries with their public headers, for find_package(mansard COMPONENTS pipeline).")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-mansard)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION
+  "The engine of mansard for Python: building models of meshes and footprints, as numpy arrays and editable plans.")
 include(CPack)

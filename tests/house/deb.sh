@@ -11,7 +11,8 @@ fail() { echo "$*" >&2; exit 1; }
   { cat "$scratch/cpack.log" >&2; exit 1; }
 program=$(echo "$scratch"/packages/mansard_*.deb)
 engine=$(echo "$scratch"/packages/libmansard-dev_*.deb)
-[[ -s $program && -s $engine ]] || fail "cpack made $(ls "$scratch/packages")"
+python=$(echo "$scratch"/packages/python3-mansard_*.deb)
+[[ -s $program && -s $engine && -s $python ]] || fail "cpack made $(ls "$scratch/packages")"
 
 # It depends on the libraries it is linked with, and on none of a compiler's.
 depends=$(dpkg-deb -f "$program" Depends)
@@ -24,7 +25,7 @@ done
 dpkg-deb -c "$program" | awk '{print $6}' > "$scratch/contents"
 for file in bin/mansard share/man/man1/mansard.1.gz share/bash-completion/completions/mansard \
   share/zsh/vendor-completions/_mansard share/fish/vendor_completions.d/mansard.fish \
-  share/mansard/data/hall/mesh.off share/doc/mansard/copyright share/doc/mansard/NOTICE share/doc/mansard/LICENSE; do
+  share/mansard/data/hall/mesh.off share/qgis/python/plugins/mansard/metadata.txt share/doc/mansard/copyright share/doc/mansard/NOTICE share/doc/mansard/LICENSE; do
   grep -qx "./usr/$file" "$scratch/contents" || fail "no $file in the package"
 done
 ! grep -vE '^\./(usr/)?$|^\./usr/(bin|share)/' "$scratch/contents" ||
@@ -46,6 +47,15 @@ data=$scratch/root/usr/share/mansard/data
 "$mansard" reconstruct -q "$data/hall/mesh.off" "$data/hall/footprints.geojson" -o "$scratch/hall" > /dev/null ||
   fail "no hall"
 [[ -s $scratch/hall/model.city.json ]] || fail "no model"
+
+# The Python package, from where it was unpacked.
+[[ $(dpkg-deb -f "$python" Depends) == *python3-numpy*libgdal* || $(dpkg-deb -f "$python" Depends) == *libgdal*python3-numpy* ]] ||
+  fail "python3-mansard does not depend on numpy and GDAL: $(dpkg-deb -f "$python" Depends)"
+dpkg-deb -x "$python" "$scratch/root"
+PYTHONPATH=$scratch/root/usr/lib/python3/dist-packages PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 -c "
+import sys, mansard
+assert mansard.__file__.startswith('$scratch'), mansard.__file__
+assert len(mansard.reconstruct('$data/hall/mesh.off', '$data/hall/footprints.geojson')) == 2" || fail "no Python package"
 
 # What the page of the workbench ships is named with its licence.
 page=$repository/apps/workbench/package.json

@@ -50,6 +50,7 @@ const top = [
   ["Options", ["options.html", "attributes.html", "codes.html"]],
   ["Command line", [...docs("cli"), "verbs.html"]],
   ["A whole city", docs("city")],
+  ["Python and QGIS", docs("python", "qgis")],
   ["Workbench", docs("workbench", "serve")],
   ["Results", docs("results", "robustness", "bench")],
 ];
