@@ -80,6 +80,15 @@ auto of_module(const Form& form, const std::string& module) -> std::vector<const
 
 }  // namespace
 
+auto first_words() -> std::string {
+  return "mansard makes building models of a scan of a city and its building footprints.\n\n"
+         "  mansard reconstruct MESH FOOTPRINTS -o models     models of your data\n"
+         "  mansard doctor MESH FOOTPRINTS                    whether your data fit together, and with which options\n"
+         "  mansard info FILE                                 what a file contains\n"
+         "  mansard serve my-project --open                   everything in the browser, with a sample to try\n\n"
+         "'mansard --help' lists all verbs.\n";
+}
+
 auto overview() -> std::string {
   std::string text =
       "Usage: mansard VERB [arguments] [options]\n\n"

@@ -8,6 +8,8 @@
 namespace mansard::cli {
 
 /// `mansard --help`: the verbs by task.
+/// Without any argument: what to do first.
+[[nodiscard]] auto first_words() -> std::string;
 [[nodiscard]] auto overview() -> std::string;
 
 /// `mansard VERB --help`: usage, arguments, the most used options and examples, on one screen.

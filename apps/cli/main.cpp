@@ -147,6 +147,7 @@ auto run(int argc, char** argv) -> int {
                                 extrude_verb(app, cancel),
                                 convert_verb(app, cancel),
                                 info_verb(app, cancel),
+                                doctor_verb(app, cancel),
                                 evaluate_verb(app, cancel),
                                 segment_verb(app, cancel),
                                 label_verb(app, cancel),
@@ -159,6 +160,10 @@ auto run(int argc, char** argv) -> int {
                                 explain_verb(app),
                                 completion_verb(app),
                                 manual_verb(app)};
+  if (argc <= 1) {
+    std::fputs(first_words().c_str(), stdout);
+    return usage;
+  }
   for (const auto& verb : verbs) verb.app->allow_extras();  // so that we can suggest the right one
   try {
     auto words = with_flags_closed(verbs, argc, argv);

@@ -3,6 +3,7 @@
 #include "apps/cli/formats.hpp"
 #include "apps/cli/output.hpp"
 #include "mansard/pipeline/inputs.hpp"
+#include "mansard/pipeline/placing.hpp"
 
 namespace mansard::cli {
 
@@ -91,19 +92,36 @@ void tell(const ScanRequest& request, const model::Scene& scene, Progress& progr
     progress.say(std::to_string(scene.footprints.size()) + " footprints were derived from the mesh");
 }
 
+/// Of mesh and footprints that do not meet: with the options that make them, where they can be found.
+auto explained(base::Failure failure, const ScanRequest& request, const pipeline::Options& options,
+               const base::Run& run, Progress& progress) -> base::Failure {
+  auto& why = failure.diagnostics.front();
+  constexpr std::string_view asks = "; give --mesh-offset or --crs";
+  if (why.code != "ingest-no-overlap" || request.derive_footprints || !why.message.ends_with(asks)) return failure;
+  progress.say("mesh and footprints do not overlap; looking for the CRS or the offset with which they match");
+  const auto placing = pipeline::find_placing(paths_of(request, progress), options, run);
+  if (!placing || !*placing) return failure;
+  why.message.resize(why.message.size() - asks.size());
+  why.message +=
+      "; add " + pipeline::options_in_words(**placing, options) + ": then " + pipeline::reason_in_words(**placing);
+  return failure;
+}
+
 }  // namespace
 
 auto read_scan(const ScanRequest& request, const pipeline::Options& options, const base::Run& run, Progress& progress)
     -> base::Result<model::Scene> {
   auto scene = pipeline::read_inputs(paths_of(request, progress), options, run);
-  if (scene) tell(request, *scene, progress);
+  if (!scene) return explained(scene.failure(), request, options, run, progress);
+  tell(request, *scene, progress);
   return scene;
 }
 
 auto read_city_scan(const ScanRequest& request, const pipeline::Options& options, const base::Run& run,
                     Progress& progress) -> base::Result<ingest::CityScene> {
   auto city = pipeline::read_city_inputs(paths_of(request, progress), options, run);
-  if (city) tell(request, city->scene, progress);
+  if (!city) return explained(city.failure(), request, options, run, progress);
+  tell(request, city->scene, progress);
   return city;
 }
 

@@ -25,6 +25,7 @@ struct Verb {
 [[nodiscard]] auto explore_verb(CLI::App& app, std::vector<std::string> words, const base::Cancel& cancel) -> Verb;
 [[nodiscard]] auto convert_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
 [[nodiscard]] auto info_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
+[[nodiscard]] auto doctor_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
 [[nodiscard]] auto serve_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
 [[nodiscard]] auto cluster_verb(CLI::App& app) -> Verb;
 [[nodiscard]] auto status_verb(CLI::App& app) -> Verb;

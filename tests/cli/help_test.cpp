@@ -167,7 +167,7 @@ TEST_F(Help, an_option_of_a_module_that_the_verb_does_not_read_is_refused_with_t
     for (const auto& [module, options] : by_module()) {
       const std::string name = verb["verb"];
       if (readers[module].contains(name) || verb["modules"].empty()) continue;
-      const auto outcome = run(name + " a b -o c " + options.front() + " 1");
+      const auto outcome = run(name + (name == "doctor" ? " a b " : " a b -o c ") + options.front() + " 1");
       expect_refusal(outcome, 2, "option-verb", "of the module " + module + ";");
       EXPECT_THAT(outcome.err, HasSubstr("] " + options.front() + ": 'mansard " + name + "'"));
       for (const auto& reader : readers[module]) EXPECT_THAT(outcome.err, HasSubstr(reader)) << outcome.err;
