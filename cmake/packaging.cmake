@@ -57,7 +57,12 @@ foreach(component IN ITEMS extrude engine)  # either may be installed without th
     ${PROJECT_SOURCE_DIR}/cmake/mansard_libraries.cmake DESTINATION ${package_dir} COMPONENT ${component})
 endforeach()
 
-set(papers ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE ${PROJECT_SOURCE_DIR}/packaging/copyright)
+# Debian's changelog, which every package has.
+find_program(GZIP gzip REQUIRED)
+set(made ${PROJECT_BINARY_DIR}/packaging)
+configure_file(${PROJECT_SOURCE_DIR}/packaging/changelog.in ${made}/changelog @ONLY)
+execute_process(COMMAND ${GZIP} -9nkf ${made}/changelog COMMAND_ERROR_IS_FATAL ANY)
+set(papers ${made}/changelog.gz ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE ${PROJECT_SOURCE_DIR}/packaging/copyright)
 install(FILES ${papers} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libmansard-dev COMPONENT extrude)
 
 if(NOT TARGET mansard)
@@ -66,9 +71,6 @@ endif()
 
 # ---- the program, and what it says of itself
 install(TARGETS mansard COMPONENT program)
-set(made ${PROJECT_BINARY_DIR}/packaging)
-file(MAKE_DIRECTORY ${made})
-find_program(GZIP gzip REQUIRED)
 add_custom_command(OUTPUT ${made}/mansard.1.gz ${made}/mansard.bash ${made}/_mansard ${made}/mansard.fish
   COMMAND mansard manual > ${made}/mansard.1
   COMMAND ${GZIP} -9nf ${made}/mansard.1
@@ -84,15 +86,18 @@ install(FILES ${made}/mansard.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-com
 install(FILES ${made}/_mansard DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT program)
 install(FILES ${made}/mansard.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT program)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/data DESTINATION ${CMAKE_INSTALL_DATADIR}/mansard COMPONENT program)
-install(FILES ${papers} ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/mansard
-  COMPONENT program)
+install(FILES ${papers} ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/README.md
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/mansard COMPONENT program)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/mansard COMPONENT program
+  FILES_MATCHING PATTERN "*.md" PATTERN "*.json" PATTERN "*.ipynb")
 
 # ---- the Python package, and the plugin of QGIS
 set(components program extrude engine)
 if(TARGET mansard_python)
   list(APPEND components python)
   install(DIRECTORY ${MANSARD_PYTHON_DIR}/mansard DESTINATION lib/python3/dist-packages COMPONENT python
-    PATTERN "__pycache__" EXCLUDE)
+    PATTERN "__pycache__" EXCLUDE PATTERN "*.so" EXCLUDE)
+  install(TARGETS mansard_python LIBRARY DESTINATION lib/python3/dist-packages/mansard COMPONENT python)  # stripped
   install(FILES ${papers} ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-mansard
     COMPONENT python)
 endif()
@@ -103,7 +108,8 @@ install(DIRECTORY ${PROJECT_BINARY_DIR}/qgis/mansard DESTINATION ${CMAKE_INSTALL
 # ---- Debian packages: cpack -G DEB
 set(CPACK_PACKAGE_NAME mansard)
 set(CPACK_PACKAGE_VENDOR "the mansard contributors")
-set(CPACK_PACKAGE_CONTACT "the mansard contributors <mansard@localhost>")
+set(CPACK_PACKAGE_CONTACT "the mansard contributors <contact@mansard.example>")
+set(CPACK_PACKAGE_HOMEPAGE_URL "https://mansard.example")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "city mesh and footprints to labelled, watertight building models")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_PACKAGE_DIRECTORY ${made})
@@ -120,19 +126,25 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME mansard)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)  # the libraries of the machine that builds: Debian 12
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
-  "A noisy city mesh and its building footprints in; clean, watertight, wall-and-roof-labelled building models out,
-which stay editable as plan + profiles. With manual page, completions for bash, zsh and fish, and samples in
-/usr/share/mansard/data.")
+  "A noisy city mesh and its building footprints in; clean, watertight,
+wall-and-roof-labelled building models out, which stay editable as plan +
+profiles. With manual page, completions for bash, zsh and fish, the plugin of
+QGIS, and samples in /usr/share/mansard/data.")
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libmansard-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libtbb-dev, libgmp-dev, libgeos-dev, libembree-dev (>= 3.13), coinor-libcbc-dev, \
 libgdal-dev, libtinygltf-dev, libdraco-dev, libmeshoptimizer-dev, libssl-dev, libpng-dev, pkg-config")
 set(CPACK_COMPONENT_GROUP_DEV_DESCRIPTION
-  "The modules of mansard as static libraries with their public headers, for find_package(mansard COMPONENTS pipeline).")
+  "The modules of mansard as static libraries with their public headers, for
+find_package(mansard COMPONENTS pipeline).")
+set(CPACK_COMPONENT_EXTRUDE_DESCRIPTION "${CPACK_COMPONENT_GROUP_DEV_DESCRIPTION}")
+set(CPACK_COMPONENT_ENGINE_DESCRIPTION "${CPACK_COMPONENT_GROUP_DEV_DESCRIPTION}")
+set(CPACK_DEBIAN_DEV_DESCRIPTION "${CPACK_COMPONENT_GROUP_DEV_DESCRIPTION}")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-mansard)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION
-  "The engine of mansard for Python: building models of meshes and footprints, as numpy arrays and editable plans.")
+  "The engine of mansard for Python: building models of meshes and footprints,
+as numpy arrays and editable plans.")
 include(CPack)

@@ -25,7 +25,8 @@ done
 dpkg-deb -c "$program" | awk '{print $6}' > "$scratch/contents"
 for file in bin/mansard share/man/man1/mansard.1.gz share/bash-completion/completions/mansard \
   share/zsh/vendor-completions/_mansard share/fish/vendor_completions.d/mansard.fish \
-  share/mansard/data/hall/mesh.off share/qgis/python/plugins/mansard/metadata.txt share/doc/mansard/copyright share/doc/mansard/NOTICE share/doc/mansard/LICENSE; do
+  share/mansard/data/hall/mesh.off share/qgis/python/plugins/mansard/metadata.txt \
+  share/doc/mansard/docs/cli.md share/doc/mansard/changelog.gz share/doc/mansard/copyright share/doc/mansard/NOTICE share/doc/mansard/LICENSE; do
   grep -qx "./usr/$file" "$scratch/contents" || fail "no $file in the package"
 done
 ! grep -vE '^\./(usr/)?$|^\./usr/(bin|share)/' "$scratch/contents" ||
@@ -56,6 +57,11 @@ PYTHONPATH=$scratch/root/usr/lib/python3/dist-packages PYTHONDONTWRITEBYTECODE=1
 import sys, mansard
 assert mansard.__file__.startswith('$scratch'), mansard.__file__
 assert len(mansard.reconstruct('$data/hall/mesh.off', '$data/hall/footprints.geojson')) == 2" || fail "no Python package"
+
+# Where Debian's own check is installed, it has no error.
+if command -v lintian > /dev/null; then
+  ! lintian "$scratch"/packages/*.deb 2> /dev/null | grep '^E:' || fail "lintian finds errors"
+fi
 
 # What the page of the workbench ships is named with its licence.
 page=$repository/apps/workbench/package.json
