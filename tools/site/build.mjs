@@ -52,7 +52,7 @@ const top = [
   ["A whole city", docs("city")],
   ["Python and QGIS", docs("python", "qgis")],
   ["Workbench", docs("workbench", "serve")],
-  ["Results", docs("results", "robustness", "bench")],
+  ["Results", docs("results", "robustness", "bench", "comparison")],
 ];
 const placed = new Set([...top.flatMap(([, names]) => names), ...module_pages]);
 const other_pages = in_folder("docs").filter((name) => !placed.has(name));
