@@ -8,6 +8,7 @@
 #   fuzz        every fuzzer for FUZZ_SECONDS (600)
 #   properties  the guarantees of docs/extrude.md over RUNS (100000) random plans from SEED (the date), where a test run takes
 #               5,000. Every failing plan is reduced and written to tests/extrude/fixtures, which every test run replays
+#   kills       runs killed at KILLS (1000) random moments, where a test run has 50: results have the bytes of an undisturbed run
 #   clean       `make demo` and `make test` in a new Debian 12: tools/clean_debian.sh, as root. CLEAN has its options, for
 #               example CLEAN="--ccache /var/cache/ccache"
 # A lane replaces its row of docs/nightly.md; the others keep what they say. Logs: build/nightly/LANE.log. Exit code 1 when a
@@ -15,7 +16,7 @@
 set -euo pipefail
 {  # bash reads all of it before it begins: the checkout may change meanwhile
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-all=(debug asan clang headers tidy fuzz properties clean)
+all=(debug asan clang headers tidy fuzz properties kills clean)
 declare -A meaning=(
   [debug]="not optimised, standard library's assertions: all tests"
   [asan]="address and undefined behaviour sanitizers: all tests"
@@ -24,6 +25,7 @@ declare -A meaning=(
   [tidy]="clang-tidy over all modules: one result a source"
   [fuzz]="each fuzzer for ${FUZZ_SECONDS:=600} s"
   [properties]="extrusion kernel: ${RUNS:=100000} random plans"
+  [kills]="runs killed at ${KILLS:=1000} random moments"
   [clean]="\`make demo\` and \`make test\` in a new Debian 12")
 lanes=("$@")
 [[ $# -gt 0 ]] || lanes=("${all[@]}")
@@ -63,6 +65,11 @@ run_properties() {
   for ((shard = 0; shard < cores; ++shard)); do cat "$logs/properties-$shard.log"; done
   return $code
 }
+run_kills() {
+  tools/setup.sh build test && cmake --preset release --log-level=WARNING &&
+    cmake --build --preset release --target test_cli -j "$jobs" &&
+    MANSARD_KILLS=$KILLS build/release/bin/test_cli --gtest_filter='Resume.*kills*'
+}
 # shellcheck disable=SC2086  # CLEAN is several words
 run_clean() { tools/clean_debian.sh ${CLEAN:-}; }
 
@@ -74,9 +81,9 @@ results_of() {  # lane
     lane == "fuzz" && /^fuzz: [a-z_]+: failed$/ { ++failed; sub(":", "", $2); add($2) }
     lane ~ /^(headers|tidy)$/ && /^(check_headers|tidy): [^ ]+: passed$/ { ++passed }
     lane ~ /^(headers|tidy)$/ && /^(check_headers|tidy): [^ ]+: failed$/ { ++failed; sub(":", "", $2); add($2) }
-    lane == "properties" && /^\[  PASSED  \] [0-9]+ test/ { passed += $4 }
-    lane == "properties" && /^\[  FAILED  \] [0-9]+ test/ { failed += $4; next }
-    lane == "properties" && /^\[  FAILED  \] / { sub(",", "", $4); add($4) }
+    lane ~ /^(properties|kills)$/ && /^\[  PASSED  \] [0-9]+ test/ { passed += $4 }
+    lane ~ /^(properties|kills)$/ && /^\[  FAILED  \] [0-9]+ test/ { failed += $4; next }
+    lane ~ /^(properties|kills)$/ && /^\[  FAILED  \] / { sub(",", "", $4); add($4) }
     lane ~ /^(debug|asan|clang|clean)$/ && /^[0-9]+% tests passed, [0-9]+ tests? failed out of [0-9]+$/ {
       failed = $4; passed = $NF - failed; skipped = 0; summary = 1
     }

@@ -31,7 +31,7 @@ case $2 in
   nightly_says_which_lanes_were_not_run)
     nightly debug || fail "failed"
     says '^\| `debug` \| .* \| passed \| 11 \| 0 \| 2 \| 0 \| 20[0-9-]+ \| 1\.2\.3, abc1234 \|$' || fail "no row of debug"
-    for lane in asan clang headers tidy fuzz properties clean; do
+    for lane in asan clang headers tidy fuzz properties kills clean; do
       says "^\| \`$lane\` \| .* \| not run \| \| \| \| \| \| \|$" || fail "$lane was not run"
     done
     ;;
@@ -45,7 +45,7 @@ case $2 in
     nightly debug || [[ $? -eq 1 ]] || fail "failed"
     says '^- `asan`: a\.b, a\.c$' || fail "what failed in asan is gone"
     says '^- `debug`: a\.b, a\.c$' || fail "what failed in debug is not named"
-    [[ $(grep -c '^| `' "$page") -eq 8 ]] || fail "a lane has not one row"
+    [[ $(grep -c '^| `' "$page") -eq 9 ]] || fail "a lane has not one row"
     ;;
   nightly_reports_a_lane_that_does_not_build)
     stand_in bin/cmake '[[ "$*" != *--build* ]]'
