@@ -10,9 +10,10 @@ mansard_module(solver   DEPENDS base                                            
 mansard_module(model    DEPENDS base geometry)
 mansard_module(solid    DEPENDS base geometry model                             USES GMP::gmpxx TESTED_WITH extrude)
 mansard_module(crs      DEPENDS base geometry model                             USES GDAL::GDAL)
-mansard_module(formats  DEPENDS base geometry model solid crs                   USES GDAL::GDAL tinygltf draco meshoptimizer OpenSSL::Crypto nlohmann_json
+mansard_module(formats  DEPENDS base geometry model solid crs                   USES GDAL::GDAL tinygltf draco meshoptimizer OpenSSL::Crypto nlohmann_json wabt
                                                                                 TESTED_WITH rays ingest extrude label)
-mansard_module(ingest   DEPENDS base geometry model crs formats                 USES GDAL::GDAL)
+mansard_module(cloud    DEPENDS base geometry                                   TESTED_WITH ingest)
+mansard_module(ingest   DEPENDS base geometry model crs formats cloud           USES GDAL::GDAL)
 
 mansard_module(block    DEPENDS base geometry model                             TESTED_WITH ingest)
 mansard_module(slice    DEPENDS base geometry block)
@@ -29,12 +30,16 @@ mansard_module(align    DEPENDS base geometry)
 mansard_module(roof     DEPENDS base geometry model extrude)
 mansard_module(picture  DEPENDS base geometry rays                              USES PNG::PNG)
 mansard_module(report   DEPENDS base geometry rays model solid formats sweep fracture segment label evaluate picture USES nlohmann_json TESTED_WITH pipeline)
-mansard_module(pipeline DEPENDS base geometry rays solver model solid crs formats ingest block slice sweep fracture segment profile extrude refine label evaluate derive align roof picture report)
+mansard_module(pipeline DEPENDS base geometry rays solver model solid crs formats cloud ingest block slice sweep fracture segment profile extrude refine label evaluate derive align roof picture report)
 mansard_module(edit     DEPENDS base geometry rays model solid formats ingest extrude label evaluate report pipeline USES nlohmann_json)
 
 # Experiments: used by the programs and the tests, not part of what is installed.
 mansard_module(simulate IN lab DEPENDS base geometry rays model solid formats ingest extrude label USES nlohmann_json)
 mansard_module(explore  IN lab DEPENDS base geometry rays model solid crs formats ingest block fracture segment profile extrude evaluate picture report pipeline USES nlohmann_json)
+
+if(TARGET mansard_formats)
+  mansard_laz_decoder(mansard_formats)
+endif()
 
 # Results say which version made them.
 if(TARGET mansard_pipeline)

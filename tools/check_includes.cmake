@@ -46,6 +46,7 @@ library(gtest "^(gtest|gmock)/")
 library(rapidcheck "^rapidcheck")
 library(CGAL "^(CGAL/|boost/shared_ptr)")
 library(benchmark "^benchmark/")
+library(wabt "^wasm-rt[.]h$")
 library(assimp "^assimp/")
 library(tinyobjloader "^tiny_obj_loader[.]h$")
 

@@ -10,7 +10,7 @@
 namespace mansard::server {
 namespace {
 
-constexpr std::array<std::string_view, 3> input_modules{"ingest", "derive", "block"};
+constexpr std::array<std::string_view, 4> input_modules{"ingest", "cloud", "derive", "block"};
 /// Modules that have options but no part in a run.
 constexpr std::array<std::string_view, 1> other_modules{"roof"};
 

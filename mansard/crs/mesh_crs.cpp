@@ -186,6 +186,7 @@ auto WayOfMesh::between(const MeshCrs& mesh, const std::string& working, const s
   WayOfMesh way;
   way.mesh_ = mesh;
   if (mesh.kind == MeshCrs::Kind::plane && from->system.IsProjected() != 0) way.unit_ = from->system.GetLinearUnits();
+  if (mesh.kind == MeshCrs::Kind::plane && mesh.height_unit) way.unit_ = *mesh.height_unit;
   if (mesh.kind == MeshCrs::Kind::tangent) way.touch_ = geocentric(mesh.longitude, mesh.latitude);
   if (mesh.kind != MeshCrs::Kind::plane)
     way.earth_ = std::make_shared<WayPool>(registered(wgs84_geocentric), registered(wgs84_with_height));

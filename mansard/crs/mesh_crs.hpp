@@ -23,6 +23,7 @@ struct MeshCrs {
   std::string wkt;
   double longitude = 0, latitude = 0;  ///< degrees, of `tangent`
   geometry::Point3 origin;             ///< to be added first
+  std::optional<double> height_unit;   ///< m, of `plane`; none: the unit of x and y, or metres beside degrees
 };
 
 /// A number and blanks around it.

@@ -33,7 +33,8 @@ auto gltf(const MeshBytes& source, MeshPiece& piece) -> base::Result<RawMesh> {
   return std::move(read->mesh);
 }
 
-constexpr Reads mesh{.mesh = true}, raster{.raster = true}, footprints{.footprints = true};
+constexpr Reads mesh{.mesh = true}, points{.mesh = true, .points = true}, raster{.raster = true},
+    footprints{.footprints = true};
 constexpr Reads city{.footprints = true, .models = true, .results = true};
 
 auto table() -> std::vector<Driver> {
@@ -98,6 +99,9 @@ auto table() -> std::vector<Driver> {
       {"ply", "PLY", {".ply"}, mesh, {}, "Stanford PLY, text or binary.", {{"ply\n", "ply\r"}, false, z_up<read_ply>}},
       {"off", "OFF", {".off"}, mesh, {}, "Object File Format, text.", {{"OFF"}, true, z_up<read_off>}},
       {"gltf", "glTF", {".gltf"}, mesh, {}, "glTF 2.0 with its buffers beside it.", {{}, true, gltf}},
+      {"las", "LAS", {".las"}, points, {}, "LAS 1.0 to 1.4: a point cloud.", {}},
+      {"laz", "LAZ", {".laz"}, points, {}, "Compressed LAS, as a file or as COPC with an octree.", {}},
+      {"ept", "EPT", {}, points, {}, "Entwine Point Tiles: a folder with an ept.json.", {}},
       {"geotiff", "GeoTIFF", {".tif", ".tiff"}, raster, {}, "A raster of heights.", {}},
       {"vrt", "VRT", {".vrt"}, raster, {}, "GDAL's virtual raster: several rasters as one.", {}},
       {"asc", "ASCII grid", {".asc"}, raster, {}, "Esri's ASCII grid of heights.", {}},

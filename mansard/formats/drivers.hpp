@@ -32,11 +32,12 @@ enum class Format : std::uint8_t {
 
 /// What is read from a format.
 struct Reads {
-  bool mesh = false;        ///< triangles of a scan
+  bool mesh = false;        ///< triangles of a scan, or points that a surface is made of
   bool raster = false;      ///< heights of a scan or of the terrain
   bool footprints = false;  ///< polygons with attributes
   bool models = false;      ///< building models of any producer
   bool results = false;     ///< building models that mansard wrote, with their plans
+  bool points = false;      ///< points of a scan
 };
 
 /// The bytes of one mesh file, and where they are from.

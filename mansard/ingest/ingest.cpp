@@ -228,9 +228,24 @@ auto check_overlap(const Ground& ground, const Box2& mesh, const std::string& su
                      subject);
 }
 
-/// The ground's heights, where they are given, around what is kept of the mesh.
-auto take_terrain(const Options& options, const Box2& around, model::Scene& scene) -> base::Result<void> {
-  if (options.terrain.empty()) return {};
+/// The ground's heights, where they are given or point clouds have them, around what is kept of the mesh.
+auto take_terrain(const Options& options, const Box2& around, std::optional<cloud::Ground> ground, model::Scene& scene)
+    -> base::Result<void> {
+  if (options.terrain.empty()) {
+    if (!ground) return {};
+    // Cells of 1 m, whose centres are half a metre from their corners.
+    const auto at = [&](std::int64_t corner, std::size_t axis) {
+      return static_cast<double>(corner - scene.frame.origin[axis]) + 0.5 + options.mesh_offset[axis];
+    };
+    model::HeightGrid grid{{at(ground->x, 0), at(ground->y, 1)},
+                           1,
+                           ground->columns,
+                           ground->rows,
+                           std::move(ground->heights),
+                           static_cast<double>(scene.frame.origin[2]) - options.mesh_offset[2]};
+    scene.terrain = std::make_shared<const model::HeightGrid>(std::move(grid));
+    return {};
+  }
   auto terrain = formats::read_terrain(options.terrain, scene.frame, around);
   if (!terrain) return terrain.error();
   scene.terrain = std::make_shared<const model::HeightGrid>(std::move(*terrain));
@@ -325,7 +340,7 @@ auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::files
 
   scene.inputs = std::move(meshes->inputs);
   const Box2 ground_box = cells == nullptr ? plan_of(scene.mesh) : within ? within->grown(mesh_margin) : local;
-  if (auto taken = take_terrain(options, ground_box, scene); !taken) return taken.error();
+  if (auto taken = take_terrain(options, ground_box, std::move(meshes->ground), scene); !taken) return taken.error();
   scene.inputs.insert(scene.inputs.end(), ground->chosen.file.inputs.begin(), ground->chosen.file.inputs.end());
   append(scene.warnings, std::move(meshes->warnings));
   append(scene.warnings, detail::warnings_of(scene.mesh_counts, mesh_name));

@@ -15,6 +15,7 @@
 #include "mansard/base/options.hpp"
 #include "mansard/base/result.hpp"
 #include "mansard/base/run.hpp"
+#include "mansard/cloud/cloud.hpp"
 #include "mansard/formats/up_axis.hpp"
 #include "mansard/ingest/cells.hpp"
 #include "mansard/model/scene.hpp"
@@ -39,6 +40,7 @@ struct Options {
   double cell_side = 64;              ///< m
   double task_triangles = 2'000'000;  ///< of the mesh in cells, so many are in memory at a time
   double task_footprints = 10'000;    ///< without a mesh, so many blocks are
+  cloud::Options cloud;               ///< how point clouds become a surface; a group of options of its own
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 
@@ -46,7 +48,8 @@ struct Options {
 [[nodiscard]] auto box_of(const Options& options) -> base::Result<std::optional<geometry::Box2>>;
 
 /// Reads every mesh as one, corners at the same place made one, and one vector source of footprints. A mesh is a file
-/// (OBJ, PLY, OFF, GLB, glTF), a folder or archive of them, a tileset of 3D Tiles, or a raster of heights. One that
+/// (OBJ, PLY, OFF, GLB, glTF), a point cloud (LAS, LAZ, COPC, EPT, PLY), a folder or archive of them, a tileset of 3D
+/// Tiles, or a raster of heights. One that
 /// says where it is – a tileset on the earth, a raster's CRS, metadata.xml beside files – is brought to the working
 /// CRS; of others, with the offset, it is taken that they are in it. With an empty path for `footprints` there are
 /// none, and the working CRS is the option's, else the mesh's own or its UTM zone, else none. Guarantees: 1 all

@@ -11,6 +11,7 @@ namespace mansard::pipeline {
 auto option_lists(Options& options) -> std::vector<base::OptionList> {
   std::vector<base::OptionList> lists;
   lists.push_back(ingest::option_list(options.ingest));
+  lists.push_back(cloud::option_list(options.ingest.cloud));
   lists.push_back(derive::option_list(options.derive));
   lists.push_back(block::option_list(options.block));
   lists.push_back(slice::option_list(options.slice));

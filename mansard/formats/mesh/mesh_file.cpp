@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 /// Whether files with this extension are meshes by themselves; tiles are not.
 auto is_single_mesh(const std::string& extension) -> bool {
   return std::ranges::any_of(drivers(), [&](const Driver& driver) {
-    return driver.mesh.parse != nullptr && std::ranges::find(driver.extensions, extension) != driver.extensions.end();
+    return (driver.mesh.parse != nullptr || driver.reads.points) && std::ranges::find(driver.extensions, extension) != driver.extensions.end();
   });
 }
 

@@ -26,7 +26,7 @@ using geometry::Box2;
 using geometry::Point2;
 using geometry::Point3;
 
-constexpr const char* tileset_name = "tileset.json";
+constexpr const char *tileset_name = "tileset.json", *ept_name = "ept.json";
 
 auto cancelled() -> base::Diagnostic { return base::error("cancelled", "stopped on request; nothing was written"); }
 
@@ -111,12 +111,15 @@ auto MeshReading::list_folder(const fs::path& folder) -> base::Result<void> {
   // What is in the folder of a tileset belongs to it, and is placed by it only.
   std::vector<std::string> tilesets;
   std::vector<fs::path> found;
+  std::map<std::string, const char*> index;
   for (const auto& path : *below)
-    if (path.filename() == tileset_name) tilesets.push_back(path.parent_path().string() + "/");
+    for (const char* name : {tileset_name, ept_name})
+      if (path.filename() == name && index.emplace(path.parent_path().string() + "/", name).second)
+        tilesets.push_back(path.parent_path().string() + "/");
   std::ranges::sort(tilesets);
   for (std::size_t i = 0; i < tilesets.size(); ++i) {
     const std::vector<std::string> before(tilesets.begin(), tilesets.begin() + static_cast<std::ptrdiff_t>(i));
-    if (!is_below(tilesets[i], before)) found.emplace_back(tilesets[i] + tileset_name);
+    if (!is_below(tilesets[i], before)) found.emplace_back(tilesets[i] + index.at(tilesets[i]));
   }
   for (const auto& path : *below)
     if (formats::is_mesh_name(path) && !is_below(path, tilesets)) found.push_back(path);
@@ -128,7 +131,9 @@ auto MeshReading::list_folder(const fs::path& folder) -> base::Result<void> {
   std::ranges::sort(found, {}, [](const fs::path& path) { return path.generic_string(); });
   for (auto& path : found) {
     auto& source = sources_.emplace_back();
-    source.kind = path.filename() == tileset_name ? Kind::tileset : Kind::file;
+    source.kind = path.filename() == tileset_name ? Kind::tileset
+                  : formats::is_point_cloud(path) ? Kind::cloud
+                                                  : Kind::file;
     source.path = std::move(path);
   }
   return {};
@@ -145,7 +150,8 @@ auto MeshReading::list(const std::vector<fs::path>& paths) -> base::Result<void>
     auto& source = sources_.emplace_back();
     source.path = path;
     const auto extension = formats::extension_of(path);
-    if (extension.starts_with(".json")) source.kind = Kind::tileset;  // maybe with a server's "?key=…"
+    if (formats::is_point_cloud(path)) source.kind = Kind::cloud;
+    else if (extension.starts_with(".json")) source.kind = Kind::tileset;  // maybe with a server's "?key=…"
     else if (formats::is_raster(path)) source.kind = Kind::raster;
   }
   if (sources_.empty()) return base::error("ingest-mesh-empty", "no mesh was given; name one file or folder at least");
@@ -171,6 +177,16 @@ auto MeshReading::find_places() -> base::Result<void> {
         source.crs.emplace().kind = crs::MeshCrs::Kind::geocentric;
         continue;
       }
+    }
+    if (source.kind == Kind::cloud) {
+      auto cloud = formats::open_points(source.path);
+      if (!cloud) return cloud.failure();
+      source.cloud = std::move(*cloud);
+      const auto& info = source.cloud->info();
+      source.crs = info.crs;
+      if (!info.crs && info.stated_bounds) source.plan = info.stated_bounds->plan();
+      warnings_.insert(warnings_.end(), info.warnings.begin(), info.warnings.end());
+      if (source.crs) continue;
     }
     // Whoever moves the mesh in plan says where it is, and so does whoever says that it is nowhere.
     if (moved_by_option() || options_.crs == "local") continue;
@@ -216,7 +232,7 @@ auto MeshReading::plan() const -> Box2 {
   const Point2 offset{options_.mesh_offset[0], options_.mesh_offset[1]};
   for (const auto& source : sources_) {
     Box2 box;
-    if (source.kind == Kind::file) box = source.plan;
+    if (source.kind == Kind::file || source.kind == Kind::cloud) box = source.plan;
     if (source.tileset) box = source.tileset->plan();
     if (box.empty()) continue;
     out.add(box.least + offset);
@@ -236,6 +252,10 @@ void MeshReading::into_cells(formats::MeshPiece& piece) {
 /// A point of the mesh, as its file has it.
 auto MeshReading::place_of(const Source& source) const -> std::optional<Point3> {
   if (source.tileset) return source.tileset->middle();
+  if (source.cloud && source.cloud->info().stated_bounds) {
+    const auto& box = *source.cloud->info().stated_bounds;
+    return 0.5 * (box.least + box.most);
+  }
   if (source.kind == Kind::file) return Point3{};  // beside the origin that metadata.xml says
   return std::nullopt;
 }
@@ -329,7 +349,16 @@ auto MeshReading::finish(const std::string& working, const std::optional<Box2>& 
   std::vector<formats::MeshPiece> pieces;
   std::map<std::string, std::size_t> skipped;
   std::size_t vertices = 0, triangles = 0;
+  MeshFiles out;
+  auto surfaces = surface_of_clouds(raw, run, out);
+  if (!surfaces) return surfaces.failure();
+  for (auto& piece : *surfaces) {
+    vertices += piece.mesh.vertices.size() + piece.vertices;
+    triangles += piece.mesh.triangles.size() + piece.triangles;
+    pieces.push_back(std::move(piece));
+  }
   for (auto& source : sources_) {
+    if (source.kind == Kind::cloud) continue;
     auto some = read_placed(source, raw, run);
     if (run.cancelled()) return cancelled();
     for (auto& piece : some) {
@@ -350,10 +379,9 @@ auto MeshReading::finish(const std::string& working, const std::optional<Box2>& 
                        "no tile of the tileset reaches into the box asked for; check --bbox, --crs and --mesh-offset",
                        subject);
   if (triangles == 0)
-    return base::error("ingest-mesh-unusable",
-                       "there are " + std::to_string(vertices) + " vertices but no faces; give a surface, not points",
-                       subject);
-  MeshFiles out;
+    return base::error(
+        "ingest-mesh-unusable",
+        "there are " + std::to_string(vertices) + " vertices but no faces; export the mesh with its faces", subject);
   if (pieces.size() > 1) {
     out.mesh.vertices.reserve(vertices);
     out.mesh.triangles.reserve(triangles);

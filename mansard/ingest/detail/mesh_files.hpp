@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -10,8 +11,10 @@
 
 #include "mansard/base/result.hpp"
 #include "mansard/base/run.hpp"
+#include "mansard/cloud/cloud.hpp"
 #include "mansard/crs/mesh_crs.hpp"
 #include "mansard/formats/mesh/mesh_file.hpp"
+#include "mansard/formats/points.hpp"
 #include "mansard/formats/tiles3d/tileset.hpp"
 #include "mansard/ingest/cells.hpp"
 #include "mansard/ingest/ingest.hpp"
@@ -22,6 +25,8 @@ struct MeshFiles {
   formats::RawMesh mesh;  ///< of all files, z up, in the working CRS but for the offset
   std::vector<model::InputFile> inputs;
   std::vector<base::Diagnostic> warnings;
+  std::optional<cloud::Ground>
+      ground;  ///< of point clouds with classified ground, in the working CRS but for the offset
 };
 
 /// Reading in two steps, since the working CRS is chosen between them: files that say where they are only by their
@@ -50,7 +55,7 @@ class MeshReading {
                             const base::Run& run) -> base::Result<MeshFiles>;
 
  private:
-  enum class Kind { file, tileset, raster };
+  enum class Kind { file, tileset, raster, cloud };
   struct Source {
     Kind kind = Kind::file;
     std::filesystem::path path;
@@ -61,7 +66,8 @@ class MeshReading {
     geometry::Box2 plan;                      ///< of a file
     bool in_cells = false;
     std::vector<formats::TileFile> tiles;  ///< of a tileset
-    std::optional<crs::WayOfMesh> way;     ///< to the working CRS; none where coordinates stay
+    std::shared_ptr<const formats::PointCloud> cloud;
+    std::optional<crs::WayOfMesh> way;  ///< to the working CRS; none where coordinates stay
   };
 
   MeshReading(const Options& options, MeshCells* cells) : options_(options), cells_(cells) {}
@@ -76,6 +82,8 @@ class MeshReading {
   [[nodiscard]] auto read_placed(Source& source, const std::optional<geometry::Box2>& within, const base::Run& run)
       -> std::vector<formats::MeshPiece>;
   void into_cells(formats::MeshPiece& piece);
+  [[nodiscard]] auto surface_of_clouds(const std::optional<geometry::Box2>& within, const base::Run& run,
+                                       MeshFiles& out) -> base::Result<std::vector<formats::MeshPiece>>;
 
   Options options_;
   MeshCells* cells_ = nullptr;

@@ -1,0 +1,189 @@
+// Point clouds: from their files to the surface and the ground in the working CRS.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <mutex>
+
+#include "mansard/base/text.hpp"
+#include "mansard/cloud/cloud.hpp"
+#include "mansard/ingest/detail/mesh_files.hpp"
+
+namespace mansard::ingest::detail {
+namespace {
+
+using geometry::Box2;
+using geometry::Point3;
+
+auto corners_of(const Box2& box) -> std::array<Point3, 4> {
+  return {{{box.least.x, box.least.y, 0},
+           {box.most.x, box.least.y, 0},
+           {box.most.x, box.most.y, 0},
+           {box.least.x, box.most.y, 0}}};
+}
+
+/// Square metres in the working CRS.
+auto area_of(const Box2& box, const std::optional<crs::WayOfMesh>& way) -> double {
+  auto corners = corners_of(box);
+  if (way) way->take(corners);
+  double twice = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) twice += cross(xy(corners[i]), xy(corners[(i + 1) % 4]));
+  return std::abs(twice) / 2;
+}
+
+auto finite(Point3 p) -> bool { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+/// The box that a header should have said, from the points.
+auto measured(const formats::PointCloud& cloud, const base::Run& run) -> base::Result<Box2> {
+  std::vector<Box2> boxes(cloud.pieces());
+  std::vector<std::optional<base::Failure>> failures(boxes.size());
+  base::parallel_for(boxes.size(), [&](std::size_t i) {
+    if (run.cancelled()) return;
+    const auto points = cloud.read(i);
+    if (!points) {
+      failures[i] = points.failure();
+      return;
+    }
+    for (const auto& p : *points)
+      if (finite(p.position)) boxes[i].add(xy(p.position));
+  });
+  Box2 all;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    if (failures[i]) return *failures[i];
+    all.include(boxes[i]);
+  }
+  return all;
+}
+
+auto percent(std::uint64_t part, std::uint64_t whole) -> std::string {
+  return base::to_text(whole == 0 ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole), 1) + " %";
+}
+
+auto in_words(const cloud::Counts& counts, double density, double cell, bool ground) -> std::string {
+  const auto tiles = counts.tiles_by_class + counts.tiles_by_shape;
+  std::string buildings;
+  if (counts.tiles_by_shape == 0) buildings = "class 6";
+  else if (counts.tiles_by_class == 0) buildings = "shape, since there are too few points of class 6";
+  else
+    buildings = "class 6 in " + std::to_string(counts.tiles_by_class) + " of " + std::to_string(tiles) +
+                " tiles and by shape in the others";
+  return "a surface in cells of " + base::to_text(cell) + " m was made of " + std::to_string(counts.points) +
+         " points (" + base::to_text(density, 1) + " points/m²): buildings by " + buildings + ", the ground " +
+         (ground ? "by class 2" : "as the lowest of the surface") + "; of " + std::to_string(counts.cells) + " cells " +
+         percent(counts.filled, counts.cells) + " were filled, and " + std::to_string(counts.isolated + counts.rough) +
+         " heights were left out as isolated or as vegetation";
+}
+
+}  // namespace
+
+auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const base::Run& run, MeshFiles& out)
+    -> base::Result<std::vector<formats::MeshPiece>> {
+  std::vector<Source*> clouds;
+  for (auto& source : sources_)
+    if (source.cloud) clouds.push_back(&source);
+  if (clouds.empty()) return std::vector<formats::MeshPiece>();
+  const std::string subject = clouds.front()->path.string() + (clouds.size() > 1 ? " and others" : "");
+
+  // The same for every part of the clouds that is read: of all their headers, the middle one.
+  std::vector<double> densities;
+  for (const auto* source : clouds) {
+    const auto& info = source->cloud->info();
+    if (info.points == 0) continue;
+    Box2 plan;
+    if (info.stated_bounds) plan = info.stated_bounds->plan();
+    double area = plan.empty() ? 0 : area_of(plan, source->way);
+    if (!(area > 0)) {
+      const auto box = measured(*source->cloud, run);
+      if (!box) return box.failure();
+      area = box->empty() ? 0 : area_of(*box, source->way);
+    }
+    if (area > 0) densities.push_back(static_cast<double>(info.points) / area);
+  }
+  const auto none = [&](const std::string& what) { return base::error("ingest-points-empty", what, subject); };
+  if (densities.empty()) return none("there are no points in it; check what it is");
+  std::ranges::sort(densities);
+  const double density = densities[densities.size() / 2];
+  const double cell = cloud::cell_for(density, options_.cloud);
+  auto opened = cloud::Surface::open(cell, options_.cloud);
+  if (!opened) return opened.failure();
+  auto& surface = **opened;
+
+  for (const auto* source : clouds) {
+    std::optional<Box2> box = within;
+    if (box) {
+      const double side = surface.side();
+      const auto down = [&](double c) { return std::floor(c / side) * side; };
+      const auto up = [&](double c) { return std::ceil(c / side) * side; };
+      // Tiles are made of all their points, and of those around them.
+      box = Box2{{down(box->least.x), down(box->least.y)}, {up(box->most.x), up(box->most.y)}}.grown(side / 4);
+      if (source->way) box = source->way->back(*box);
+    }
+    const auto& cloud = *source->cloud;
+    // Of one file the header's box is a hint; of a folder of tiles it says which to read.
+    if (box && clouds.size() > 1 && cloud.info().stated_bounds && !cloud.info().stated_bounds->plan().overlaps(*box))
+      continue;
+    std::vector<std::size_t> wanted;
+    for (std::size_t i = 0; i < cloud.pieces(); ++i) {
+      const auto own = cloud.box_of(i);
+      if (!box || !own || own->plan().overlaps(*box)) wanted.push_back(i);
+    }
+    std::vector<std::optional<base::Failure>> failures(wanted.size());
+    base::parallel_for(wanted.size(), [&](std::size_t i) {
+      if (run.cancelled()) return;
+      const auto points = cloud.read(wanted[i]);
+      if (!points) {
+        failures[i] = points.failure();
+        return;
+      }
+      std::vector<Point3> positions;
+      positions.reserve(points->size());
+      for (const auto& p : *points) positions.push_back(p.position);
+      if (source->way) source->way->take(positions);
+      std::vector<cloud::Sample> samples;
+      samples.reserve(points->size());
+      for (std::size_t k = 0; k < points->size(); ++k) {
+        const auto& p = (*points)[k];
+        if (!p.withheld) samples.push_back({positions[k], p.classification, p.return_number, p.returns});
+      }
+      surface.add(samples, within);
+    });
+    if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+    for (const auto& failure : failures)
+      if (failure) return *failure;
+    auto inputs = cloud.inputs();
+    if (!inputs) return inputs.failure();
+    out.inputs.insert(out.inputs.end(), inputs->begin(), inputs->end());
+  }
+
+  const auto tiles = surface.tiles();
+  std::vector<formats::MeshPiece> pieces(tiles.size());
+  std::vector<cloud::GroundTile> grounds(tiles.size());
+  cloud::Counts counts;
+  std::mutex mutex;
+  base::parallel_for(tiles.size(), [&](std::size_t i) {
+    if (run.cancelled()) return;
+    auto made = surface.make(tiles[i]);
+    if (!made) {
+      pieces[i].failure = made.error();
+      return;
+    }
+    pieces[i].mesh.vertices = std::move(made->mesh.vertices);
+    pieces[i].mesh.triangles = std::move(made->mesh.triangles);
+    grounds[i] = std::move(made->ground);
+    if (cells_ != nullptr) into_cells(pieces[i]);
+    const std::scoped_lock lock(mutex);
+    counts.include(made->counts);
+  });
+  if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+  for (const auto& piece : pieces)
+    if (piece.failure) return *piece.failure;
+  if (counts.points == 0)
+    return none(within ? "no point is in the box asked for; check --bbox, --crs and --mesh-offset"
+                       : "no point can be used: all are noise, or their coordinates are not finite");
+  if (counts.cells == 0) return none("its points are vegetation, noise or wires only; nothing can be a surface");
+  out.ground = cloud::join(grounds, options_.cloud.ground_reach);
+  warnings_.push_back(
+      base::warning("ingest-points-surface", in_words(counts, density, cell, out.ground.has_value()), subject));
+  return pieces;
+}
+
+}  // namespace mansard::ingest::detail

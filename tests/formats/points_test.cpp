@@ -1,0 +1,351 @@
+// Point clouds: every file of the shared data against what two independent decoders made of it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "base/scratch.hpp"
+#include "mansard/base/files.hpp"
+#include "mansard/base/run.hpp"
+#include "mansard/crs/spatial_reference.hpp"
+#include "mansard/formats/hash.hpp"
+#include "mansard/formats/las/chunk_table.hpp"
+#include "mansard/formats/las/las_file.hpp"
+#include "mansard/formats/points.hpp"
+
+namespace {
+
+using namespace mansard;
+using formats::CloudPoint;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+namespace fs = std::filesystem;
+
+const fs::path shared = fs::path(MANSARD_SHARED_DATA) / "points";
+const fs::path own = fs::path(MANSARD_TEST_DATA) / "points";
+
+#define NEEDS_SHARED_DATA() \
+  if (!fs::exists(shared)) GTEST_SKIP() << "needs " << shared
+
+auto expected() -> nlohmann::json {
+  std::ifstream file(shared / "expected.json");
+  return nlohmann::json::parse(file);
+}
+
+auto all_of(const formats::PointCloud& cloud) -> base::Result<std::vector<CloudPoint>> {
+  std::vector<CloudPoint> all;
+  for (std::size_t i = 0; i < cloud.pieces(); ++i) {
+    auto some = cloud.read(i);
+    if (!some) return some.failure();
+    all.insert(all.end(), some->begin(), some->end());
+  }
+  return all;
+}
+
+auto points_in(const fs::path& path) -> base::Result<std::vector<CloudPoint>> {
+  auto cloud = formats::open_points(path);
+  if (!cloud) return cloud.failure();
+  return all_of(**cloud);
+}
+
+auto records_hash(const formats::LasFile& file) -> base::Result<std::string> {
+  std::string all;
+  for (std::size_t i = 0; i < file.pieces(); ++i) {
+    auto some = file.records(i);
+    if (!some) return some.failure();
+    all += *some;
+  }
+  return formats::sha256(all);
+}
+
+/// What is refused, and by which words.
+auto refused() -> std::map<std::string, std::string> {
+  return {{"variety/pdrf4-1.3.las", "point format 4 has waveforms"},
+          {"variety/pdrf4-1.3.laz", "point format 4 has waveforms"},
+          {"variety/simple1_3.las", "point format 4 has waveforms"},
+          {"variety/pdrf5-1.3.laz", "point format 5 has waveforms"},
+          {"variety/pdrf9-1.4.laz", "point format 9 has waveforms"},
+          {"variety/pdrf10-1.4.las", "point format 10 has waveforms"},
+          {"variety/pdrf10-1.4.laz", "point format 10 has waveforms"},
+          {"variety/pdrf10-1.5.laz", "LAS 1.5 is not read"},
+          {"variety/pdrf7-v4-1.4.laz", "version 4 of LASzip's items"},
+          {"variety/simple-laszip-compressor-version-1.2r0.laz", "version 1 of LASzip's items"}};
+}
+
+TEST(Points, of_every_file_are_those_of_two_other_decoders) {
+  NEEDS_SHARED_DATA();
+  const auto no = refused();
+  std::size_t read = 0;
+  const auto all = expected();
+  for (const auto& [name, want] : all.items()) {
+    SCOPED_TRACE(name);
+    auto file = formats::LasFile::open(shared / name);
+    if (const auto words = no.find(name); words != no.end()) {
+      ASSERT_FALSE(file);
+      EXPECT_EQ(file.error().code, "ingest-points-unsupported");
+      EXPECT_THAT(file.error().message, HasSubstr(words->second));
+      continue;
+    }
+    ASSERT_TRUE(file) << base::to_string(file.error());
+    EXPECT_EQ((*file)->info().points, want["points"].get<std::uint64_t>());
+    EXPECT_EQ((*file)->info().point_format, want["format"].get<int>());
+    const auto hash = records_hash(**file);
+    ASSERT_TRUE(hash) << base::to_string(hash.error());
+    EXPECT_EQ(*hash, want["records_sha256"].get<std::string>());
+    const auto points = all_of(**file);
+    ASSERT_TRUE(points);
+    std::map<std::string, std::uint64_t> classes;
+    geometry::Box3 box;
+    for (const auto& p : *points) {
+      ++classes[std::to_string(p.classification)];
+      box.add(p.position);
+    }
+    if (want.contains("classes") && want["classes"].is_object()) {
+      EXPECT_EQ(nlohmann::json(classes), want["classes"]);
+    }
+    ++read;
+    if (points->empty() || !want.contains("min")) continue;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto of = [&](geometry::Point3 p) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; };
+      EXPECT_NEAR(of(box.least), want["min"][axis].get<double>(), 1e-6);
+      EXPECT_NEAR(of(box.most), want["max"][axis].get<double>(), 1e-6);
+    }
+  }
+  EXPECT_GE(read, 50U);
+}
+
+TEST(Points, of_twins_are_the_same) {
+  NEEDS_SHARED_DATA();
+  const auto in = shared / "variety";
+  for (const auto& [a, b] :
+       std::vector<std::pair<std::string, std::string>>{{"point10.las", "point10.las.laz"},
+                                                        {"extrabytes.las", "extrabytes.laz"},
+                                                        {"pdrf6-1.4.las", "pdrf6-1.4.laz"},
+                                                        {"pdrf8-1.4.las", "pdrf8-1.4.laz"},
+                                                        {"delft_small.las", "delft_small_chunks500.laz"},
+                                                        {"delft_small.las", "delft_small_chunktable_at_end.laz"},
+                                                        {"delft_small.las", "delft_small_variable_chunks.laz"}}) {
+    auto one = formats::LasFile::open(in / a), other = formats::LasFile::open(in / b);
+    ASSERT_TRUE(one && other) << a << " " << b;
+    EXPECT_EQ(*records_hash(**one), *records_hash(**other)) << a << " " << b;
+  }
+}
+
+TEST(Points, of_the_files_that_ship_are_those_of_two_other_decoders) {
+  const std::map<std::string, std::pair<std::uint64_t, std::string>> want{
+#include "points/hashes.inc"
+  };
+  for (const auto& [name, known] : want) {
+    auto file = formats::LasFile::open(own / name);
+    ASSERT_TRUE(file) << name << ": " << base::to_string(file.error());
+    EXPECT_EQ((*file)->info().points, known.first) << name;
+    const auto hash = records_hash(**file);
+    ASSERT_TRUE(hash) << name << ": " << base::to_string(hash.error());
+    EXPECT_EQ(*hash, known.second) << name;
+  }
+}
+
+/// Broken files that are still read, with the number of their points; all others are errors.
+auto readable() -> std::map<std::string, std::size_t> {
+  return {{"bad-geotiff-keys.las", 10},
+          {"bad_vlr_count.las", 10},
+          {"bounds_swapped_nan.las", 3539},
+          {"gps-time-nan.las", 1},
+          {"vlr_count_4_billion.las", 3539},
+          {"vlr_length_65535.las", 3539},
+          {"copc_evlr_beyond_end.copc.laz", 1065},
+          {"copc_halfsize_nan.copc.laz", 1065},
+          {"copc_node_count_wrong.copc.laz", 1065},
+          {"copc_node_offset_beyond_end.copc.laz", 1065},
+          {"copc_page_beyond_end.copc.laz", 1065},
+          {"copc_page_refers_to_itself.copc.laz", 1065},
+          {"copc_root_page_4_exabytes.copc.laz", 1065}};
+}
+
+TEST(Points, of_broken_files_are_all_there_or_an_error_says_what_is_wrong) {
+  NEEDS_SHARED_DATA();
+  const auto yes = readable();
+  std::size_t files = 0;
+  for (const auto& entry : fs::directory_iterator(shared / "broken")) {
+    const auto name = entry.path().filename().string();
+    SCOPED_TRACE(name);
+    ++files;
+    const auto points = points_in(entry.path());
+    if (const auto at = yes.find(name); at != yes.end()) {
+      ASSERT_TRUE(points) << base::to_string(points.error());
+      EXPECT_EQ(points->size(), at->second);
+      continue;
+    }
+    ASSERT_FALSE(points);
+    const auto& error = points.error();
+    EXPECT_THAT(error.code, testing::AnyOf("ingest-points-format", "ingest-points-truncated",
+                                           "ingest-points-unsupported", "file-missing"));
+    EXPECT_THAT(error.subject, HasSubstr(name));
+    EXPECT_THAT(error.message, Not(HasSubstr("\n")));
+    EXPECT_THAT(error.message, HasSubstr(";"));  // what to do
+  }
+  EXPECT_GE(files, 43U);
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  EXPECT_LT(usage.ru_maxrss, 1'000'000) << "kB";
+}
+
+TEST(Points, of_a_damaged_octree_are_read_without_it_and_a_warning_says_so) {
+  NEEDS_SHARED_DATA();
+  const auto cloud = formats::open_points(shared / "broken/copc_page_refers_to_itself.copc.laz");
+  ASSERT_TRUE(cloud);
+  ASSERT_THAT((*cloud)->info().warnings, Not(IsEmpty()));
+  EXPECT_EQ((*cloud)->info().warnings[0].code, "ingest-points-index");
+  EXPECT_EQ((*cloud)->info().format, "LAZ 1.4");
+}
+
+TEST(Points, of_a_chunk_that_lacks_its_last_byte_are_an_error) {
+  auto bytes = *base::read_file(own / "pdrf6-1.4.laz");
+  auto file = formats::LasFile::open(own / "pdrf6-1.4.laz");
+  ASSERT_TRUE(file);
+  // The table of chunks is compressed too, so the chunk is made to end elsewhere by the offset of the points.
+  std::uint32_t points = 0;
+  std::memcpy(&points, bytes.data() + 96, 4);
+  bytes.erase(points + 8, 1);
+  std::uint64_t table = 0;
+  std::memcpy(&table, bytes.data() + points, 8);
+  --table;
+  std::memcpy(bytes.data() + points, &table, 8);
+  const test::Scratch folder;
+  ASSERT_TRUE(base::write_file(folder / "a.laz", bytes));
+  const auto read = points_in(folder / "a.laz");
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().code, "ingest-points-format");
+}
+
+TEST(Points, after_a_fault_and_at_the_same_time_are_decoded_as_alone) {
+  NEEDS_SHARED_DATA();
+  auto file = formats::LasFile::open(shared / "delft_west.copc.laz");
+  ASSERT_TRUE(file);
+  const auto broken = formats::LasFile::open(shared / "broken/chunk_bytes_flipped.laz");
+  ASSERT_TRUE(broken);
+  std::vector<std::string> hashes((*file)->pieces());
+  base::parallel_for(hashes.size(), [&](std::size_t i) {
+    static_cast<void>((*broken)->records(i % (*broken)->pieces()));
+    hashes[i] = formats::sha256(*(*file)->records(i));
+  });
+  for (std::size_t i = 0; i < hashes.size(); ++i) EXPECT_EQ(hashes[i], formats::sha256(*(*file)->records(i))) << i;
+}
+
+TEST(Points, of_copc_lie_in_the_boxes_of_their_nodes) {
+  NEEDS_SHARED_DATA();
+  for (const auto* name : {"delft_west.copc.laz", "variety/ellipsoid.copc.laz", "variety/simple_with_page.copc.laz"}) {
+    const auto cloud = formats::open_points(shared / name);
+    ASSERT_TRUE(cloud) << name;
+    EXPECT_THAT((*cloud)->info().format, HasSubstr("COPC"));
+    for (std::size_t i = 0; i < (*cloud)->pieces(); ++i) {
+      const auto box = (*cloud)->box_of(i);
+      ASSERT_TRUE(box);
+      const auto points = (*cloud)->read(i);
+      ASSERT_TRUE(points);
+      for (const auto& p : *points) {
+        EXPECT_TRUE(p.position.x >= box->least.x && p.position.x <= box->most.x);
+        EXPECT_TRUE(p.position.y >= box->least.y && p.position.y <= box->most.y);
+        EXPECT_TRUE(p.position.z >= box->least.z && p.position.z <= box->most.z);
+      }
+    }
+  }
+}
+
+TEST(Points, of_ept_are_all_levels_together) {
+  NEEDS_SHARED_DATA();
+  for (const auto& [name, count] : {std::pair("autzen_one_node", 1065U), std::pair("ellipsoid", 100000U)}) {
+    const auto cloud = formats::open_points(shared / "ept" / name);
+    ASSERT_TRUE(cloud) << base::to_string(cloud.error());
+    EXPECT_EQ((*cloud)->info().points, count);
+    EXPECT_TRUE((*cloud)->info().crs);
+    const auto points = all_of(**cloud);
+    ASSERT_TRUE(points) << base::to_string(points.error());
+    EXPECT_EQ(points->size(), count);
+    EXPECT_GT((*cloud)->inputs()->size(), 1U);
+  }
+}
+
+TEST(Points, of_ply_have_doubles_and_classes_in_either_byte_order) {
+  NEEDS_SHARED_DATA();
+  const auto las = points_in(shared / "variety/delft_small.las");
+  ASSERT_TRUE(las);
+  for (const auto* name : {"delft_small_double.ply", "delft_small_double_bigendian.ply"}) {
+    ASSERT_TRUE(formats::is_point_cloud(shared / "ply" / name));
+    const auto ply = points_in(shared / "ply" / name);
+    ASSERT_TRUE(ply) << base::to_string(ply.error());
+    ASSERT_EQ(ply->size(), las->size());
+    for (std::size_t i = 0; i < ply->size(); ++i) {
+      EXPECT_NEAR((*ply)[i].position.x, (*las)[i].position.x, 1e-9);
+      EXPECT_NEAR((*ply)[i].position.z, (*las)[i].position.z, 1e-9);
+      EXPECT_EQ((*ply)[i].classification, (*las)[i].classification);
+    }
+  }
+  EXPECT_EQ(points_in(shared / "ply/cgal_b9.ply")->size(), 22300U);
+  EXPECT_EQ(points_in(shared / "ply/cgal_b9_training.ply")->size(), 22300U);
+  EXPECT_EQ(points_in(shared / "ply/pdal_simple_binary.ply")->size(), 3U);
+  EXPECT_TRUE(formats::is_point_cloud(shared / "ply/cgal_b9.ply")) << "an empty face element is no mesh";
+  EXPECT_FALSE(formats::is_point_cloud(fs::path(MANSARD_DATA) / "delft/mesh.ply"));
+}
+
+struct Place {
+  std::string file;
+  double horizontal = 1, vertical = 1;  // metres a unit
+  std::string title;
+};
+
+TEST(Points, say_where_they_are_and_in_which_unit) {
+  NEEDS_SHARED_DATA();
+  constexpr double us = 1200.0 / 3937;
+  const std::vector<Place> places{
+      {"delft_west.laz", 1, 1, "EPSG:28992"},
+      {"delft_west.copc.laz", 1, 1, "EPSG:7415"},
+      {"variety/point10.las", 1, 1, "EPSG:26910"},
+      {"variety/mvk-thin.las", us, us,
+       "Mississippi West in US survey foot"},  // the code is of a system in metres, the unit key says feet
+      {"variety/file_with_both_wkt_and_geotiff_vlrs.las", us, us, "Nebraska"},
+      {"variety/autzen_trim.laz", 0.3048, 0.3048, ""},
+      {"variety/append-bug.laz", 1, 1, "EPSG:2154"},
+      {"variety/1_4_w_evlr.las", us, us, ""},
+      {"variety/simple.copc.laz", 1, us, ""},
+  };
+  for (const auto& place : places) {
+    SCOPED_TRACE(place.file);
+    const auto cloud = formats::open_points(shared / place.file);
+    ASSERT_TRUE(cloud);
+    const auto& info = (*cloud)->info();
+    ASSERT_TRUE(info.crs);
+    EXPECT_THAT(info.crs_title, HasSubstr(place.title));
+    EXPECT_NEAR(*info.crs->height_unit, place.vertical, 1e-9);
+    const auto system = crs::from_wkt(info.crs->wkt);
+    ASSERT_TRUE(system);
+    EXPECT_NEAR(system->system.GetLinearUnits(), place.horizontal, 1e-9);
+    if (place.file != "variety/mvk-thin.las") continue;
+    // In Mississippi, and not three times as far from the origin.
+    const auto degrees = crs::WayOfMesh::between(*info.crs, "EPSG:32615", "");
+    ASSERT_TRUE(degrees) << base::to_string(degrees.error());
+    std::array<geometry::Point3, 1> middle{0.5 * (info.stated_bounds->least + info.stated_bounds->most)};
+    degrees->take(middle);
+    EXPECT_NEAR(middle[0].x, 750'000, 150'000);
+    EXPECT_NEAR(middle[0].y, 3'550'000, 350'000);
+  }
+}
+
+TEST(ChunkTable, that_is_cut_off_or_promises_too_much_is_an_error) {
+  EXPECT_FALSE(formats::read_chunk_table("", true, 10, "a"));
+  EXPECT_FALSE(formats::read_chunk_table(std::string(8, '\1'), true, 10, "a"));
+  std::string many(8, '\0');
+  many[7] = '\x7f';
+  EXPECT_THAT(formats::read_chunk_table(many, true, 10, "a").error().message, HasSubstr("space for 10"));
+  std::string three(8, '\0');
+  three[4] = '\3';
+  EXPECT_THAT(formats::read_chunk_table(three, true, 10, "a").error().message, HasSubstr("cut off"));
+  EXPECT_TRUE(formats::read_chunk_table(std::string(8, '\0'), true, 10, "a")->empty());
+}
+
+}  // namespace
