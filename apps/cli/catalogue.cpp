@@ -114,7 +114,7 @@ auto catalogue() -> const std::vector<VerbEntry>& {
        {"mansard simulate --block KIND -o OUTDIR [options]", "mansard simulate --footprints FILE -o OUTDIR [options]",
         "mansard simulate MODEL -o OUTDIR [options]"},
        {"simulate"},
-       {"--output", "--block", "--footprints", "--bbox", "--picture", "--preset", "--seed", "--resolution",
+       {"--output", "--block", "--footprints", "--bbox", "--points", "--picture", "--preset", "--seed", "--resolution",
         "--simulate-noise", "--config", "--overwrite", "--jobs"},
        {"mansard simulate --block terrace --preset oblique-aerial --seed 7 -o terrace --picture",
         "mansard simulate --footprints footprints.gpkg -o city"}},

@@ -1,11 +1,13 @@
 // Files of other producers: models, shells, tilesets, meshes, rasters, footprint sources.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 
 #include "apps/cli/info.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/base/text.hpp"
+#include "mansard/formats/points.hpp"
 #include "mansard/formats/source.hpp"
 #include "mansard/ingest/model.hpp"
 
@@ -128,6 +130,70 @@ auto info_of_mesh(const fs::path& path, const base::Run& run) -> base::Result<Js
   return out;
 }
 
+// ---- point clouds
+
+auto info_of_points(const fs::path& path, const base::Run& run) -> base::Result<Json> {
+  const auto opened = formats::open_points(path);
+  if (!opened) return opened.failure();
+  const auto& cloud = **opened;
+  const auto& info = cloud.info();
+  struct Piece {
+    geometry::Box3 box;
+    std::array<std::uint64_t, 256> classes{};
+    std::uint64_t withheld = 0, not_finite = 0, last_returns = 0;
+    std::optional<base::Failure> failure;
+  };
+  std::vector<Piece> pieces(cloud.pieces());
+  base::parallel_for(pieces.size(), [&](std::size_t i) {
+    auto& piece = pieces[i];
+    const auto points = cloud.read(i);
+    if (run.cancelled()) return;
+    if (!points) {
+      piece.failure = points.failure();
+      return;
+    }
+    for (const auto& p : *points) {
+      ++piece.classes[p.classification];
+      piece.withheld += p.withheld ? 1 : 0;
+      piece.last_returns += p.return_number >= p.returns ? 1 : 0;
+      const bool finite = std::isfinite(p.position.x) && std::isfinite(p.position.y) && std::isfinite(p.position.z);
+      if (finite) piece.box.add(p.position);
+      else ++piece.not_finite;
+    }
+  });
+  if (run.cancelled()) return base::error("cancelled", "stopped on request");
+  Piece all;
+  for (const auto& piece : pieces) {
+    if (piece.failure) return *piece.failure;
+    all.box.include(piece.box);
+    all.withheld += piece.withheld;
+    all.not_finite += piece.not_finite;
+    all.last_returns += piece.last_returns;
+    for (std::size_t c = 0; c < all.classes.size(); ++c) all.classes[c] += piece.classes[c];
+  }
+  Json out = head(path, "points", info.format);
+  if (info.point_format >= 0) out["point_format"] = info.point_format;
+  out["crs"] = info.crs_title;
+  out["extent"] = nullptr;
+  if (!all.box.empty())
+    out["extent"] = {all.box.least.x, all.box.least.y, all.box.least.z, all.box.most.x, all.box.most.y, all.box.most.z};
+  Json counts{{"points", info.points},
+              {"last_returns", all.last_returns},
+              {"withheld", all.withheld},
+              {"not_finite", all.not_finite}};
+  out["density"] = nullptr;  // per square metre
+  if (info.unit > 0 && !all.box.empty()) {
+    const double area = (all.box.most.x - all.box.least.x) * (all.box.most.y - all.box.least.y) * info.unit * info.unit;
+    if (area > 0) out["density"] = static_cast<double>(info.points) / area;
+  }
+  out["points"] = std::move(counts);
+  if (info.has_classes)
+    for (std::size_t c = 0; c < all.classes.size(); ++c)
+      if (all.classes[c] > 0) out["classes"][std::to_string(c)] = all.classes[c];
+  out["warnings"] = warnings_json(info.warnings);
+  return out;
+}
+
 // ---- what GDAL reads
 
 auto info_of_raster(const fs::path& path) -> base::Result<Json> {
@@ -213,6 +279,9 @@ auto info_of_layers(const fs::path& path) -> base::Result<Json> {
 
 auto info_of_other(const fs::path& path, const base::Diagnostic& why, const base::Run& run) -> base::Result<Json> {
   if (extension_of(path) == "stl") return info_of_stl(path);
+  if (formats::is_point_cloud(path)) return info_of_points(path, run);
+  std::error_code status;
+  if (fs::is_regular_file(path / "ept.json", status)) return info_of_points(path / "ept.json", run);
   if (auto tileset = info_of_tileset(path); !tileset.is_null()) {
     Json out = head(path, "tileset", "tiles");
     out["tileset"] = std::move(tileset);

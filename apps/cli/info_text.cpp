@@ -1,5 +1,6 @@
 // The report on a file as text.
 #include <algorithm>
+#include <map>
 
 #include "apps/cli/info.hpp"
 #include "apps/cli/layout.hpp"
@@ -161,6 +162,34 @@ void add_layer_names(const Json& layers, Lines& lines) {
   lines.add("layers", names);
 }
 
+/// As the LAS specification calls them.
+auto class_name(const std::string& number) -> std::string {
+  static const std::map<std::string, std::string> names{
+      {"0", "never classified"}, {"1", "unclassified"},      {"2", "ground"},
+      {"3", "low vegetation"},   {"4", "medium vegetation"}, {"5", "high vegetation"},
+      {"6", "building"},         {"7", "low noise"},         {"9", "water"},
+      {"17", "bridge deck"},     {"18", "high noise"}};
+  const auto at = names.find(number);
+  return at == names.end() ? number : number + " " + at->second;
+}
+
+void add_points(const Json& info, Lines& lines) {
+  const auto& points = info["points"];
+  std::string words = whole(points["points"]);
+  if (!info["density"].is_null()) words += ", " + base::to_text(info["density"].get<double>(), 2) + " per m²";
+  if (info.contains("point_format")) words += ", point format " + whole(info["point_format"]);
+  lines.add("points", words);
+  std::string left_out;
+  for (const auto& [name, label] : {std::pair{"withheld", "withheld"}, std::pair{"not_finite", "not finite"}})
+    if (points[name] > 0) left_out += (left_out.empty() ? "" : ", ") + whole(points[name]) + " " + label;
+  lines.add("left out", left_out);
+  if (!info.contains("classes")) return;
+  std::string classes;
+  for (const auto& [name, count] : info["classes"].items())
+    classes += (classes.empty() ? "" : ", ") + class_name(name) + ": " + whole(count);
+  lines.add("classes", classes);
+}
+
 void add_raster(const Json& info, Lines& lines) {
   lines.add("cells", whole(info["columns"]) + " × " + whole(info["rows"]) + " of " +
                          base::to_text(info["cell"][0].get<double>()) + " × " +
@@ -179,7 +208,8 @@ auto info_text(const Json& info) -> std::string {
   if (info.contains("extent") && !info["extent"].is_null()) lines.add("extent", extent_in_words(info["extent"]));
   if (info.contains("columns")) add_raster(info, lines);
   if (info.contains("counts")) add_counts(info["counts"], lines);
-  if (info.contains("classes")) lines.add("classes", counted(info["classes"]));
+  if (info.contains("points")) add_points(info, lines);
+  else if (info.contains("classes")) lines.add("classes", counted(info["classes"]));
   if (info.contains("lods") && !info["lods"].empty()) lines.add("LoD", joined(info["lods"]));
   if (info.contains("validity")) add_validity(info["validity"], lines);
   if (info.value("raised", false)) lines.add("", "rebuilt from the plans in the file");

@@ -13,7 +13,9 @@
 #include "apps/cli/output.hpp"
 #include "apps/cli/scan.hpp"
 #include "apps/cli/verbs.hpp"
+#include "lab/simulate/points.hpp"
 #include "mansard/formats/documents.hpp"
+#include "mansard/formats/las_points.hpp"
 #include "mansard/formats/plans.hpp"
 #include "mansard/picture/picture.hpp"
 #include "mansard/pipeline/stored.hpp"
@@ -26,13 +28,14 @@ namespace fs = std::filesystem;
 struct Request : Common {
   std::string model, block, footprints, lod, out;
   std::vector<double> box;
+  double points = 0;  ///< a square metre; 0: none are written
   bool picture = false;
 };
 
 /// Every name that this verb may give a file, except truth.json, which is always written.
-constexpr std::array file_names{"mesh.ply",        "footprints.geojson", "truth.geojson",
-                                "truth.city.json", "truth.city.jsonl",   "truth.obj",
-                                "truth.mtl",       "plans.json",         "picture.png"};
+constexpr std::array file_names{"points.las",      "mesh.ply",         "footprints.geojson", "truth.geojson",
+                                "truth.city.json", "truth.city.jsonl", "truth.obj",          "truth.mtl",
+                                "plans.json",      "picture.png"};
 
 auto block_names() -> std::string {
   using enum simulate::Kind;
@@ -159,6 +162,11 @@ auto write_all(const Request& request, const simulate::Options& options, const K
       {"truth.geojson", simulate::geojson(simulate::true_footprints(truth), truth.city.frame)},
       {"truth.json", simulate::truth_json(truth, *footprints, options, source_of(request))}};
   if (auto added = truth.model ? add_copy(request, known, files) : add_models(truth.city, files); !added) return added;
+  if (request.points > 0) {
+    auto points = formats::las(simulate::airborne_points(*scan, request.points, run.seed), truth.city.frame);
+    if (!points) return points.failure();
+    files.emplace_back("points.las", std::move(*points));
+  }
   if (request.picture) {
     auto picture = picture_of(*scan, run);
     if (!picture) return picture.failure();
@@ -226,6 +234,11 @@ auto simulate_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
                    "or the working CRS")
       ->type_name("XMIN YMIN XMAX YMAX")
       ->expected(4);
+  verb->add_option(
+          "--points", request->points,
+          "Also write the scan as an airborne point cloud (points.las), with this number of points a square metre")
+      ->type_name("DENSITY")
+      ->check(CLI::Range(0.0, 10000.0));
   verb->add_flag("--picture", request->picture, "Also write a picture of the scan, coloured by class (picture.png)");
   simulate::Options defaults;
   add_common(*verb, *request, "summary", menu_of(defaults));

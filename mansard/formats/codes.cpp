@@ -59,6 +59,8 @@ auto codes() -> std::vector<base::Code> {
        "Run smaller areas (--bbox).", 2},
       {"write-geojson", "Footprints cannot be brought to longitude and latitude, which GeoJSON is in.",
        "Give the CRS that the coordinates are in with --ingest-crs; PROJ's data must be installed.", 3},
+      {"write-las", "A point that was to be written has a coordinate that is not finite or too large.",
+       "This is a bug: please report it with the input.", 70},
       {"write-geotiff", "GDAL could not make a GeoTIFF, or there is nothing to put into it.",
        "The message has GDAL's words; its GTiff driver and PROJ's data must be installed, and there must be memory.",
        3},

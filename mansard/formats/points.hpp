@@ -34,6 +34,7 @@ struct PointInfo {
   std::optional<geometry::Box3> stated_bounds;
   std::optional<crs::MeshCrs> crs;  ///< of the coordinates, with the unit of heights; none where nothing is said
   std::string crs_title;            ///< for people; empty for none
+  double unit = 1;                  ///< m, of x and y; 0 for degrees
   bool has_classes = false, has_returns = false, has_colours = false;
   std::vector<base::Diagnostic> warnings;
 };

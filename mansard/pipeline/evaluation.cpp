@@ -7,6 +7,7 @@
 
 #include "mansard/base/text.hpp"
 #include "mansard/block/block.hpp"
+#include "mansard/ingest/points.hpp"
 #include "mansard/pipeline/detail/assemble.hpp"
 #include "mansard/pipeline/detail/block_run.hpp"
 #include "mansard/pipeline/stored.hpp"
@@ -350,6 +351,10 @@ auto read_evaluation(const EvaluationFiles& files, const ingest::Options& option
   scene.mesh_counts = mesh->counts;
   scene.inputs.insert(scene.inputs.end(), mesh->inputs.begin(), mesh->inputs.end());
   append(scene.warnings, mesh->warnings);
+  constexpr std::uint8_t building = 6;
+  auto points = ingest::read_points_of_class(files.meshes, building, scene.frame, options, run);
+  if (!points) return points.failure();
+  input.building_points = std::move(*points);
 
   if (!files.truth.empty()) {
     auto truth = read_any_model(files.truth, {files.lod, {}}, run);
@@ -417,6 +422,7 @@ auto evaluate_model(const report::EvaluationInput& input, const Options& options
     out.truth->scores = totals.model_from_truth.all();
     out.truth->prism = totals.prism_from_truth.all();
   }
+  if (!input.building_points.empty()) out.points = evaluate::point_scores(surface.mesh, input.building_points);
   measure_form(input, options.evaluate.grid, out);
   if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
   return out;

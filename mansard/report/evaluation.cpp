@@ -278,6 +278,15 @@ auto evaluation_json(const Evaluation& e, const EvaluationInput& input) -> std::
   out["form"] = detail::json_of(e.form);
   out["scores"] = json_of(e.scores, independent);
   out["distances"] = {{"model_to_mesh", json_of(e.from_model)}, {"mesh_to_model", json_of(e.from_scan)}};
+  if (e.points)
+    out["building_points"] = {{"points", e.points->points},
+                              {"without_model", e.points->without_model},
+                              {"median_m", e.points->median},
+                              {"median_absolute_m", e.points->median_absolute},
+                              {"rmse_m", e.points->rmse},
+                              {"within_10cm", e.points->within_10cm},
+                              {"within_25cm", e.points->within_25cm},
+                              {"within_50cm", e.points->within_50cm}};
   out["prism"] = json_of_prism(e.prism);
   out["worse_than_prism"] = ids_of(e.buildings, worse_than_prism);
   if (e.truth) {
@@ -328,6 +337,15 @@ auto evaluation_table(const Evaluation& e, const EvaluationInput& input) -> std:
   if (!e.beside.empty()) out += line("on no footprint", std::to_string(e.beside.size()) + " buildings of the model");
   out += line("model to mesh", in_words(e.from_model));
   out += line("mesh to model", in_words(e.from_scan));
+  if (e.points) {
+    const auto& p = *e.points;
+    const auto percent = [](double share) { return to_text(100 * share, 1) + " %"; };
+    out += line("building points", "RMSE " + to_text(p.rmse, 3) + " m, median " + to_text(p.median, 3) +
+                                       " m (point - model); within 0.1, 0.25, 0.5 m " + percent(p.within_10cm) + ", " +
+                                       percent(p.within_25cm) + ", " + percent(p.within_50cm));
+    out += line("  of class 6", std::to_string(p.points - p.without_model) + " over the model, " +
+                                    std::to_string(p.without_model) + " beside it");
+  }
   out += "form\n";
   for (const auto& [what, value] : detail::lines_of(e.form)) out += line(what, value);
   if (e.truth) out += table_of(e, inset);

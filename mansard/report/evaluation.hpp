@@ -12,6 +12,7 @@
 #include "mansard/evaluate/distances.hpp"
 #include "mansard/evaluate/evaluate.hpp"
 #include "mansard/evaluate/form.hpp"
+#include "mansard/evaluate/points.hpp"
 #include "mansard/evaluate/truth.hpp"
 #include "mansard/model/scene.hpp"
 #include "mansard/model/surfaces.hpp"
@@ -28,6 +29,7 @@ struct EvaluationInput {
   std::optional<model::Model> truth;
   model::Scene scene;  ///< the mesh with the reference's footprints; `warnings` of all files
   Reference reference = Reference::model;
+  std::vector<geometry::Point3> building_points;  ///< of class 6, where point clouds are among the meshes
 };
 
 struct ModelCounts {
@@ -76,6 +78,7 @@ struct Evaluation {
   std::vector<BuildingScores> buildings;  ///< in the reference's order, without those that cannot be used
   std::vector<std::string> beside;        ///< model buildings on no footprint of the reference: invented
   std::optional<TruthScores> truth;
+  std::optional<evaluate::PointScores> points;  ///< of EvaluationInput::building_points
   evaluate::ErrorMap map;
   evaluate::Options options;  ///< it was measured with
   std::int64_t seed = 1;

@@ -230,6 +230,34 @@ TEST_P(SameBuilding, on_any_processor) {
     expect_same(all, buildings(mesh(), footprints(), "", {}, "MANSARD_EMBREE=isa=avx512 OPENBLAS_CORETYPE=SkylakeX"));
 }
 
+class SameBuildingOfPoints : public SameBuilding {};
+
+TEST_P(SameBuildingOfPoints, in_any_selection_cells_and_format) {
+  const Place& place = GetParam();
+  const auto all = buildings(mesh(), footprints());
+  EXPECT_EQ(all.size(), place.buildings);
+  const auto chosen = buildings(mesh(), footprints(), "--bbox " + place.box);
+  EXPECT_GT(chosen.size(), 1U);
+  EXPECT_LT(chosen.size(), all.size());
+  expect_same(chosen, all);
+  expect_same(all, buildings(mesh(), footprints(), "--ingest-cells-from 0 -j 1"));
+  // The same points as format 6 in an octree, of which a box reads some nodes.
+  const auto copc = fs::path(MANSARD_SHARED_DATA) / "points/delft_west.copc.laz";
+  if (!fs::exists(copc)) return;
+  expect_same(all, buildings(copc.string(), footprints()));
+  expect_same(chosen, buildings(copc.string(), footprints(), "--bbox " + place.box));
+}
+
+auto points() -> Place {
+  const auto delft = fs::path(MANSARD_DATA) / "delft";
+  return {
+      "delft", delft / "points.laz", delft / "footprints.geojson", {0, 0}, "gml_id", "84850 447520 84900 447580", "",
+      87};
+}
+
+INSTANTIATE_TEST_SUITE_P(Points, SameBuildingOfPoints, testing::Values(points()),
+                         [](const auto& place) { return place.param.name; });
+
 INSTANTIATE_TEST_SUITE_P(Places, SameBuilding, testing::ValuesIn(places()),
                          [](const auto& place) { return place.param.name; });
 

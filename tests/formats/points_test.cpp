@@ -15,6 +15,7 @@
 #include "mansard/formats/hash.hpp"
 #include "mansard/formats/las/chunk_table.hpp"
 #include "mansard/formats/las/las_file.hpp"
+#include "mansard/formats/las_points.hpp"
 #include "mansard/formats/points.hpp"
 
 namespace {
@@ -334,6 +335,44 @@ TEST(Points, say_where_they_are_and_in_which_unit) {
     EXPECT_NEAR(middle[0].x, 750'000, 150'000);
     EXPECT_NEAR(middle[0].y, 3'550'000, 350'000);
   }
+}
+
+TEST(Las, that_is_written_is_read_back_to_the_millimetre) {
+  std::vector<CloudPoint> points(3);
+  points[0].position = {1.2344, -2.5, 3};
+  points[0].classification = 6;
+  points[1].position = {100, 200, -0.5};
+  points[1].returns = 3;
+  points[1].return_number = 2;
+  points[1].intensity = 65535;
+  points[2].position = {0.0004, 0.0006, 0};
+  points[2].withheld = true;
+  const model::Frame frame{{84800, 447400, -3}, "EPSG:28992"};
+  const auto bytes = formats::las(points, frame);
+  ASSERT_TRUE(bytes) << base::to_string(bytes.error());
+  const test::Scratch folder;
+  ASSERT_TRUE(base::write_file(folder / "a.las", *bytes));
+  const auto cloud = formats::open_points(folder / "a.las");
+  ASSERT_TRUE(cloud) << base::to_string(cloud.error());
+  EXPECT_THAT((*cloud)->info().crs_title, HasSubstr("EPSG:28992"));
+  EXPECT_THAT((*cloud)->info().warnings, IsEmpty());
+  const auto read = all_of(**cloud);
+  ASSERT_TRUE(read);
+  ASSERT_EQ(read->size(), points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_NEAR((*read)[i].position.x, points[i].position.x + 84800, 0.00051);
+    EXPECT_NEAR((*read)[i].position.y, points[i].position.y + 447400, 0.00051);
+    EXPECT_NEAR((*read)[i].position.z, points[i].position.z - 3, 0.00051);
+    EXPECT_EQ((*read)[i].classification, points[i].classification);
+    EXPECT_EQ((*read)[i].returns, points[i].returns);
+    EXPECT_EQ((*read)[i].return_number, points[i].return_number);
+    EXPECT_EQ((*read)[i].intensity, points[i].intensity);
+    EXPECT_EQ((*read)[i].withheld, points[i].withheld);
+  }
+  ASSERT_TRUE((*cloud)->info().stated_bounds);
+  EXPECT_NEAR((*cloud)->info().stated_bounds->most.y, 447600, 1e-6);
+  points[0].position.x = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(formats::las(points, frame).error().code, "write-las");
 }
 
 TEST(ChunkTable, that_is_cut_off_or_promises_too_much_is_an_error) {

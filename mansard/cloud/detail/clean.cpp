@@ -1,5 +1,5 @@
-// What is no surface is removed, and small gaps in a surface are filled. Every decision about a cell looks no further
-// than `halo` cells.
+// Removes points that belong to no surface, and fills small gaps. Every decision about a cell depends on cells within
+// `halo` of it.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -61,7 +61,7 @@ auto plane_through(const std::vector<const Height*>& heights) -> Plane {
 }
 
 /// Longest sides, in cells, of patches that are removed and of holes that are filled. With two rounds of the removal of
-/// vegetation and of patches, and the cells around a hole, no decision looks further than 2 + 2 · 9 + 17 = 37 cells,
+/// vegetation and of patches, and the cells around a hole, no decision reaches beyond 2 + 2 · 9 + 17 = 37 cells,
 /// and meshing 2 more.
 constexpr std::int64_t longest_patch = 8, longest_hole = 16;
 

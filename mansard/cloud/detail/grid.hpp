@@ -78,7 +78,7 @@ class Grid {
   std::vector<Height> heights_;
 };
 
-/// Removes what is not a surface and fills what is a small gap in one; counts what is in the tile itself.
+/// Removes points that belong to no surface and fills small gaps; counts the cells of the tile itself.
 void clean(Grid& grid, const Options& options, Counts& counts);
 
 /// The surface of the tile's own cells, from the window's south-west corner.

@@ -172,10 +172,11 @@ class EptCloud : public PointCloud {
     auto crs = crs_of_wkt(text_of(member(srs, "wkt")));
     if (const auto code = text_of(member(srs, "horizontal")); !crs && !code.empty())
       if (auto named = crs::mesh_crs(text_of(member(srs, "authority")) + ":" + code))
-        crs = CloudCrs{std::move(*named), text_of(member(srs, "authority")) + ":" + code};
+        crs = CloudCrs{std::move(*named), 1, text_of(member(srs, "authority")) + ":" + code};
     if (crs) {
       info_.crs = std::move(crs->crs);
       info_.crs_title = std::move(crs->title);
+      info_.unit = crs->unit;
     }
     for (const Json& dimension : member(json, "schema")) {
       const auto name = text_of(member(dimension, "name"));

@@ -18,7 +18,7 @@ namespace {
 constexpr std::uint16_t wkt_record = 2112, directory_record = 34735, doubles_record = 34736, text_record = 34737;
 constexpr std::string_view projection = "LASF_Projection";
 
-/// Metres; none for what is not a unit of length that clouds are in.
+/// Metres; none for units that clouds are not in.
 auto length_unit(int code) -> std::optional<double> {
   switch (code) {
     case 9001: return 1.0;
@@ -138,6 +138,7 @@ auto cloud_crs(const crs::Crs& given, std::optional<double> height_unit) -> std:
   if (!height_unit && given.system.IsVertical() != 0) height_unit = given.system.GetTargetLinearUnits("VERT_CS");
   if (!height_unit) height_unit = projected ? flat.system.GetLinearUnits() : 1.0;
   out.crs.height_unit = *height_unit;
+  out.unit = projected ? flat.system.GetLinearUnits() : 0;
   out.title = crs::title_of(given.system);
   if (projected && !crs::in_metres(flat.system)) {
     const char* unit = nullptr;

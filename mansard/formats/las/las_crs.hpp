@@ -12,6 +12,7 @@ namespace mansard::formats {
 
 struct CloudCrs {
   crs::MeshCrs crs;
+  double unit = 1;    ///< m, of x and y; 0 for degrees
   std::string title;  ///< "EPSG:28992 Amersfoort / RD New"
 };
 

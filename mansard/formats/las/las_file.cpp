@@ -209,6 +209,7 @@ void LasFile::describe() {
   if (auto crs = crs_of_las(header_, name_)) {
     info_.crs = std::move(crs->crs);
     info_.crs_title = std::move(crs->title);
+    info_.unit = crs->unit;
   }
   info_.has_classes = info_.has_returns = true;
   info_.has_colours = has_colour(header_.format);

@@ -244,7 +244,7 @@ class Decoder {
 
   auto decode(std::string_view chunk, int format, std::size_t record, std::uint64_t count) -> std::string {
     // The decoder is given no length, so the chunk is put at the very end of the memory, where reading beyond it is
-    // reading beyond the memory. The room before it is freed again for what the decoder allocates as it goes.
+    // reading beyond the memory. The space before it is freed again for what the decoder allocates as it goes.
     const auto length = static_cast<std::uint32_t>(chunk.size());
     const auto arena = allocate(arena_bytes);
     const auto behind = allocate(length + 2 * page);

@@ -20,7 +20,8 @@ namespace fs = std::filesystem;
 /// Whether files with this extension are meshes by themselves; tiles are not.
 auto is_single_mesh(const std::string& extension) -> bool {
   return std::ranges::any_of(drivers(), [&](const Driver& driver) {
-    return (driver.mesh.parse != nullptr || driver.reads.points) && std::ranges::find(driver.extensions, extension) != driver.extensions.end();
+    return (driver.mesh.parse != nullptr || driver.reads.points) &&
+           std::ranges::find(driver.extensions, extension) != driver.extensions.end();
   });
 }
 
@@ -43,6 +44,9 @@ auto parse(const MeshBytes& source, MeshPiece& piece) -> base::Result<RawMesh> {
   if (bytes.starts_with("b3dm") || bytes.starts_with("cmpt"))
     return base::error("ingest-mesh-format", "a single tile does not say where it is; give the tileset.json it is of",
                        name);
+  if (has_extension(source.path, &Reads::footprints))
+    return base::error("ingest-mesh-format",
+                       "this is a vector file, where a mesh is expected; give the footprints last", name);
   return base::error("ingest-mesh-format", "not a mesh that is read here; give " + titles(&Reads::mesh) + " or GeoTIFF",
                      name);
 }

@@ -11,6 +11,7 @@
 #include "mansard/crs/gdal_messages.hpp"
 #include "mansard/crs/spatial_reference.hpp"
 #include "mansard/formats/cityjson/footprint_reader.hpp"
+#include "mansard/formats/drivers.hpp"
 #include "mansard/formats/files/virtual_files.hpp"
 #include "mansard/formats/geojson/assumed_crs.hpp"
 #include "mansard/formats/hash.hpp"
@@ -229,6 +230,11 @@ class Source {
 
  private:
   auto unreadable(const std::string& why) const -> base::Diagnostic {
+    if (has_extension(path_, &Reads::mesh) || extension_of(path_) == ".osgb")
+      return base::error("ingest-footprints-format",
+                         "this is a " + std::string(has_extension(path_, &Reads::points) ? "point cloud" : "mesh") +
+                             ", where footprints are expected; give the footprints last, or --derive-footprints",
+                         subject_);
     return base::error("ingest-footprints-format",
                        "not a readable vector file" + (why.empty() ? std::string() : " (" + why + ")") +
                            "; check what it is, or export the footprints again",

@@ -1,0 +1,79 @@
+#include "mansard/ingest/points.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "mansard/formats/points.hpp"
+
+namespace mansard::ingest {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The clouds among the paths; what is in an EPT set belongs to it.
+auto clouds_in(const std::vector<fs::path>& paths) -> std::vector<fs::path> {
+  std::vector<fs::path> out;
+  std::error_code failure;
+  for (const auto& path : paths) {
+    if (!fs::is_directory(path, failure)) {
+      if (formats::is_point_cloud(path)) out.push_back(path);
+      continue;
+    }
+    if (fs::exists(path / "ept.json", failure)) {
+      out.push_back(path / "ept.json");
+      continue;
+    }
+    std::vector<fs::path> found;
+    for (fs::recursive_directory_iterator at(path, failure), end; !failure && at != end; at.increment(failure))
+      if (at->is_regular_file(failure) && !at->path().filename().string().starts_with('.') &&
+          formats::is_point_cloud(at->path()))
+        found.push_back(at->path());
+    std::ranges::sort(found);
+    out.insert(out.end(), found.begin(), found.end());
+  }
+  return out;
+}
+
+}  // namespace
+
+auto read_points_of_class(const std::vector<fs::path>& paths, std::uint8_t classification, const model::Frame& frame,
+                          const Options& options, const base::Run& run) -> base::Result<std::vector<geometry::Point3>> {
+  std::vector<geometry::Point3> out;
+  for (const auto& path : clouds_in(paths)) {
+    const auto opened = formats::open_points(path);
+    if (!opened) return opened.failure();
+    const auto& cloud = **opened;
+    std::optional<crs::WayOfMesh> way;
+    if (cloud.info().crs && !frame.crs.empty()) {
+      auto found = crs::WayOfMesh::between(*cloud.info().crs, frame.crs, path.string());
+      if (!found) return found.failure();
+      way = std::move(*found);
+    }
+    std::vector<std::vector<geometry::Point3>> pieces(cloud.pieces());
+    std::vector<std::optional<base::Failure>> failures(pieces.size());
+    base::parallel_for(pieces.size(), [&](std::size_t i) {
+      if (run.cancelled()) return;
+      const auto points = cloud.read(i);
+      if (!points) {
+        failures[i] = points.failure();
+        return;
+      }
+      for (const auto& p : *points)
+        if (p.classification == classification && !p.withheld) pieces[i].push_back(p.position);
+      if (way) way->take(pieces[i]);
+    });
+    if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      if (failures[i]) return *failures[i];
+      for (const auto& p : pieces[i]) {
+        const auto along = [&](double value, std::size_t axis) {
+          return value + options.mesh_offset[axis] - static_cast<double>(frame.origin[axis]);
+        };
+        out.push_back({along(p.x, 0), along(p.y, 1), along(p.z, 2)});
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace mansard::ingest

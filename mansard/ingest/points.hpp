@@ -1,0 +1,22 @@
+// Points of one class, in the frame of a scene or a model.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "mansard/base/result.hpp"
+#include "mansard/base/run.hpp"
+#include "mansard/geometry/points.hpp"
+#include "mansard/ingest/ingest.hpp"
+#include "mansard/model/frame.hpp"
+
+namespace mansard::ingest {
+
+/// The points of `classification` in all clouds among the paths (files, and those in folders), in metres of the frame,
+/// with the offset of the options; other files are passed over. 24 bytes a point. Fails as read_scene does for clouds.
+[[nodiscard]] auto read_points_of_class(const std::vector<std::filesystem::path>& paths, std::uint8_t classification,
+                                        const model::Frame& frame, const Options& options, const base::Run& run = {})
+    -> base::Result<std::vector<geometry::Point3>>;
+
+}  // namespace mansard::ingest
