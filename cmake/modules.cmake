@@ -15,6 +15,7 @@ mansard_module(formats  DEPENDS base geometry model solid crs                   
 mansard_module(cloud    DEPENDS base geometry                                   TESTED_WITH ingest)
 mansard_module(ingest   DEPENDS base geometry model crs formats cloud           USES GDAL::GDAL)
 
+mansard_module(texture  DEPENDS base geometry model formats ingest)
 mansard_module(block    DEPENDS base geometry model                             TESTED_WITH ingest)
 mansard_module(slice    DEPENDS base geometry block)
 mansard_module(sweep    DEPENDS base geometry rays block slice)
@@ -29,8 +30,8 @@ mansard_module(derive   DEPENDS base geometry rays model crs                    
 mansard_module(align    DEPENDS base geometry)
 mansard_module(roof     DEPENDS base geometry model extrude)
 mansard_module(picture  DEPENDS base geometry rays                              USES PNG::PNG)
-mansard_module(report   DEPENDS base geometry rays model solid formats sweep fracture segment label evaluate picture USES nlohmann_json TESTED_WITH pipeline)
-mansard_module(pipeline DEPENDS base geometry rays solver model solid crs formats cloud ingest block slice sweep fracture segment profile extrude refine label evaluate derive align roof picture report)
+mansard_module(report   DEPENDS base geometry rays model solid formats texture sweep fracture segment label evaluate picture USES nlohmann_json TESTED_WITH pipeline)
+mansard_module(pipeline DEPENDS base geometry rays solver model solid crs formats cloud ingest block slice sweep fracture segment profile extrude refine label evaluate derive align roof picture report texture)
 mansard_module(edit     DEPENDS base geometry rays model solid formats ingest extrude label evaluate report pipeline USES nlohmann_json)
 
 # Experiments: used by the programs and the tests, not part of what is installed.

@@ -6,6 +6,7 @@
 
 #include "fuzz/files.hpp"
 #include "mansard/base/files.hpp"
+#include "mansard/formats/textured_mesh.hpp"
 #include "mansard/ingest/model.hpp"
 
 namespace {
@@ -21,6 +22,14 @@ void check(const ingest::ScannedMesh& scan) {
   promise(scan.classes.empty() || scan.classes.size() == scan.mesh.triangles.size(), "classes for other triangles");
   promise(!scan.mesh.triangles.empty(), "a mesh without triangles");
   promise(scan.inputs.size() >= 1 && scan.inputs[0].sha256.size() == 64, "an input that is not told");
+}
+
+void check(const formats::TexturedMesh& mesh) {
+  const bool coloured = mesh.has_colour();
+  promise(coloured || mesh.corners.empty() || mesh.mesh.triangles.empty(), "colours of other triangles");
+  for (const auto material : mesh.material_of)
+    promise(material == formats::no_material || material < mesh.materials.size(), "a triangle names no material");
+  promise(!coloured || mesh.material_of.size() == mesh.mesh.triangles.size(), "materials of other triangles");
 }
 
 auto codes() -> const std::vector<base::Code>& {
@@ -47,6 +56,10 @@ auto LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) -> int 
     const auto scan = ingest::read_mesh({kind == 6 ? placed : paths[kind]}, frame, options);
     if (scan) check(*scan);
     else fuzz::check_error(scan.error(), codes());
+    if (kind == 6) return 0;
+    const auto textured = formats::read_textured_file(paths[kind], options.up);
+    if (textured) check(*textured);
+    else fuzz::check_error(textured.error(), codes());
   } catch (const std::exception& thrown) {
     promise(false, "an exception left the room", [&] { return thrown.what(); });
   }

@@ -32,6 +32,23 @@ auto holds_a_tileset(const fs::path& folder) -> bool {
   return fs::is_regular_file(folder / "tileset.json", status);
 }
 
+/// A folder of textures of an earlier run has nothing but these.
+auto texture_folder_free(const fs::path& folder, bool overwrite) -> base::Result<void> {
+  std::error_code status;
+  if (!fs::exists(folder, status)) return {};
+  if (!fs::is_directory(folder, status))
+    return base::error("output-exists", "is a file, and the textures are in a folder; choose another path",
+                       folder.string());
+  if (!overwrite && !fs::is_empty(folder, status))
+    return base::error("output-exists", "the folder is not empty; choose another, or add --overwrite", folder.string());
+  if (!formats::holds_textures_only(folder))
+    return base::error("output-exists",
+                       "the folder holds other files than textures, which would be lost; choose "
+                       "another path",
+                       folder.string());
+  return {};
+}
+
 auto folder_free(const fs::path& folder, bool overwrite) -> base::Result<void> {
   std::error_code status;
   if (fs::exists(folder, status) && !fs::is_directory(folder, status))
@@ -108,9 +125,11 @@ auto all_results() -> const std::vector<std::string>& {
   static const std::vector<std::string> all = [] {
     std::vector<std::string> names{"run.json"};
     names.insert(names.end(), picture_names.begin(), picture_names.end());
-    for (const auto& format : formats::formats())
-      for (const auto& place : places_of({format.format, name_in_folder(format.format)}))
-        names.push_back(place.string());
+    for (const auto& format : formats::formats()) {
+      const Target target{format.format, name_in_folder(format.format)};
+      for (const auto& place : places_of(target)) names.push_back(place.string());
+      if (const auto folder = formats::textures_of(target)) names.push_back(folder->string());
+    }
     return names;
   }();
   return all;
@@ -148,6 +167,7 @@ auto target_free(const Target& target, bool overwrite) -> base::Result<void> {
   if (target.format == Format::tiles) return folder_free(target.path, overwrite);
   for (const auto& path : places_of(target))
     if (auto usable = file_free(path, overwrite); !usable) return usable;
+  if (const auto folder = formats::textures_of(target)) return texture_folder_free(*folder, overwrite);
   return {};
 }
 

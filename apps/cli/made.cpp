@@ -38,6 +38,33 @@ auto write_targets(const Made& made, const std::vector<Target>& targets, const f
   return {};
 }
 
+auto textures_of(const Made& made, const std::vector<std::filesystem::path>& meshes, const pipeline::Options& options,
+                 const base::Run& run, Progress& progress) -> base::Result<texture::Baked> {
+  auto baked = texture::bake_all(
+      [&](const auto& visit) {
+        return made.each([&](const model::Building& building, const auto&) { return visit(building); });
+      },
+      meshes, options.ingest, made.frame, options.texture, options.write, run);
+  if (baked)
+    for (const auto& warning : baked->warnings) progress.say(base::to_string(warning));
+  return baked;
+}
+
+auto with_textures(const Made& made, const texture::PutAside& textures) -> Made {
+  return {made.summary,
+          made.outcomes,
+          made.frame,
+          made.made_by,
+          [&made, &textures](const Made::Visit& visit) {
+            std::size_t number = 0;
+            return made.each([&](model::Building building, const report::BuildingReport& report) -> base::Result<void> {
+              if (auto applied = textures.apply(number++, building); !applied) return applied;
+              return visit(building, report);
+            });
+          },
+          made.whole};
+}
+
 auto write_report(const Made& made, const model::Scene& scene, const std::filesystem::path& path,
                   base::Outputs& outputs) -> base::Result<void> {
   auto sink = outputs.file(path);

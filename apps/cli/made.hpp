@@ -8,6 +8,7 @@
 #include "apps/cli/formats.hpp"
 #include "apps/cli/progress.hpp"
 #include "mansard/pipeline/city.hpp"
+#include "mansard/texture/texture.hpp"
 
 namespace mansard::cli {
 
@@ -30,6 +31,14 @@ struct Made {
                                  const formats::WriteOptions& options, const std::vector<formats::Layer>& layers,
                                  base::Outputs& outputs, const base::Run& run, Progress& progress)
     -> base::Result<void>;
+
+/// The buildings with their textures, and without them where these are not asked for; `meshes` are those that the scene
+/// was read from. What could not be read of them is said. Fails as texture::bake_all.
+[[nodiscard]] auto textures_of(const Made& made, const std::vector<std::filesystem::path>& meshes,
+                               const pipeline::Options& options, const base::Run& run, Progress& progress)
+    -> base::Result<texture::Baked>;
+/// The same with the textures; both must outlive it.
+[[nodiscard]] auto with_textures(const Made& made, const texture::PutAside& textures) -> Made;
 
 /// run.json, there after Outputs::commit.
 [[nodiscard]] auto write_report(const Made& made, const model::Scene& scene, const std::filesystem::path& path,

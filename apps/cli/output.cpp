@@ -9,6 +9,7 @@
 #include "mansard/base/outputs.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/base/unfinished.hpp"
+#include "mansard/formats/results.hpp"
 
 namespace mansard::cli {
 
@@ -135,8 +136,12 @@ auto leftovers(const fs::path& folder, const std::string& always, const std::fun
   const auto tiles = [&](const fs::path& path) {
     return path.extension() == ".3dtiles" && ordinary(path / "tileset.json");
   };
+  const auto textures = [&](const fs::path& path) {
+    return path.filename().string().ends_with("_textures") && formats::holds_textures_only(path);
+  };
   for (const auto& entry : fs::directory_iterator(folder, status))
-    if (own(entry.path().filename().string()) && (ordinary(entry.path()) || tiles(entry.path())))
+    if (own(entry.path().filename().string()) &&
+        (ordinary(entry.path()) || tiles(entry.path()) || textures(entry.path())))
       left.push_back(entry.path());
   return left;
 }

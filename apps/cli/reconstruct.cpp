@@ -66,9 +66,20 @@ auto targets_of(const Request& request) -> base::Result<std::vector<Target>> {
   return targets_in(request.out, *formats);
 }
 
-auto write_pictures(const Request& request, const report::Reconstruction& result, const model::Scene& scene,
-                    const base::Run& run, base::Outputs& outputs) -> base::Result<void> {
-  const auto pictures = report::pictures(result, scene, request.error_limit, run);
+auto write_pictures(const Request& request, const pipeline::Options& options, const report::Reconstruction& result,
+                    const texture::Baked& baked, const model::Scene& scene, const base::Run& run,
+                    base::Outputs& outputs) -> base::Result<void> {
+  model::City textured;
+  report::TexturedLayers layers;
+  if (baked.textures) {
+    textured.buildings = result.city.buildings;
+    for (std::size_t b = 0; b < textured.buildings.size(); ++b)
+      if (auto applied = baked.textures->apply(b, textured.buildings[b]); !applied) return applied;
+    auto scan = report::textured_scan(*baked.scan, scene);
+    if (!scan) return scan.failure();
+    layers = {std::move(*scan), report::textured_models(textured, options.write.solids)};
+  }
+  const auto pictures = report::pictures(result, scene, request.error_limit, run, baked.textures ? &layers : nullptr);
   for (const auto& [name, image] : {std::pair{"picture.png", &pictures.angle}, std::pair{"above.png", &pictures.above},
                                     std::pair{"error.png", &pictures.error}}) {
     const auto bytes = picture::png(*image);
@@ -93,8 +104,16 @@ auto write_all(const Request& request, const std::vector<Target>& targets, const
     layers = report::segment_layers(scene, made.whole->segmented, made.made_by, made.whole->city.buildings);
     layers.push_back(report::diagnostics_layer(*made.whole, scene));
   }
+  texture::Baked baked;
+  if (options.texture.bake) {
+    auto done = textures_of(made, paths_of(request.scan).meshes, options, run, progress);
+    if (!done) return done.failure();
+    baked = std::move(*done);
+  }
   progress.show("write", "", 1);
-  if (auto written = write_targets(made, targets, options.write, layers, outputs, run, progress); !written)
+  if (auto written = write_targets(baked.textures ? with_textures(made, *baked.textures) : made, targets, options.write,
+                                   layers, outputs, run, progress);
+      !written)
     return written;
   const auto report_path = fs::path(request.out) / "run.json";
   if (auto written = write_report(made, scene, report_path, outputs); !written) return written;
@@ -102,13 +121,17 @@ auto write_all(const Request& request, const std::vector<Target>& targets, const
     if (auto written = write_report(made, scene, request.scan.report, outputs); !written) return written;
   if (request.picture) {
     progress.show("picture", "", 1);
-    if (auto written = write_pictures(request, *made.whole, scene, run, outputs); !written) return written;
+    if (auto written = write_pictures(request, options, *made.whole, baked, scene, run, outputs); !written)
+      return written;
   }
   const auto left = leftovers(request.out, "run.json", is_result);
   if (auto written = outputs.commit(run.cancel); !written) return written;
   std::vector<fs::path> results{report_path};
   for (const auto& target : targets)
     for (const auto& place : places_of(target)) results.push_back(place);
+  if (options.texture.bake)
+    for (const auto& target : targets)
+      if (const auto folder = formats::textures_of(target)) results.push_back(*folder);
   if (request.picture)
     for (const auto* name : picture_names) results.push_back(fs::path(request.out) / name);
   remove_stale(left, results);

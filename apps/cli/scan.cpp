@@ -2,7 +2,6 @@
 
 #include "apps/cli/formats.hpp"
 #include "apps/cli/output.hpp"
-#include "mansard/pipeline/inputs.hpp"
 #include "mansard/pipeline/placing.hpp"
 
 namespace mansard::cli {
@@ -74,10 +73,7 @@ auto start(const Common& common, std::int64_t seed, const base::Cancel& cancel, 
   return run;
 }
 
-namespace {
-
-auto paths_of(const ScanRequest& request, Progress& progress) -> pipeline::InputPaths {
-  progress.show("ingest", request.inputs.front(), 0);
+auto paths_of(const ScanRequest& request) -> pipeline::InputPaths {
   pipeline::InputPaths paths{{request.inputs.begin(), request.inputs.end()}, {}, request.derive_footprints};
   if (!request.derive_footprints) {
     paths.footprints = std::move(paths.meshes.back());
@@ -85,6 +81,8 @@ auto paths_of(const ScanRequest& request, Progress& progress) -> pipeline::Input
   }
   return paths;
 }
+
+namespace {
 
 void tell(const ScanRequest& request, const model::Scene& scene, Progress& progress) {
   for (const auto& warning : scene.warnings) progress.say(base::to_string(warning));
@@ -99,7 +97,7 @@ auto explained(base::Failure failure, const ScanRequest& request, const pipeline
   constexpr std::string_view asks = "; give --mesh-offset or --crs";
   if (why.code != "ingest-no-overlap" || request.derive_footprints || !why.message.ends_with(asks)) return failure;
   progress.say("mesh and footprints do not overlap; looking for the CRS or the offset with which they match");
-  const auto placing = pipeline::find_placing(paths_of(request, progress), options, run);
+  const auto placing = pipeline::find_placing(paths_of(request), options, run);
   if (!placing || !*placing) return failure;
   why.message.resize(why.message.size() - asks.size());
   why.message +=
@@ -111,7 +109,8 @@ auto explained(base::Failure failure, const ScanRequest& request, const pipeline
 
 auto read_scan(const ScanRequest& request, const pipeline::Options& options, const base::Run& run, Progress& progress)
     -> base::Result<model::Scene> {
-  auto scene = pipeline::read_inputs(paths_of(request, progress), options, run);
+  progress.show("ingest", request.inputs.front(), 0);
+  auto scene = pipeline::read_inputs(paths_of(request), options, run);
   if (!scene) return explained(scene.failure(), request, options, run, progress);
   tell(request, *scene, progress);
   return scene;
@@ -119,7 +118,8 @@ auto read_scan(const ScanRequest& request, const pipeline::Options& options, con
 
 auto read_city_scan(const ScanRequest& request, const pipeline::Options& options, const base::Run& run,
                     Progress& progress) -> base::Result<ingest::CityScene> {
-  auto city = pipeline::read_city_inputs(paths_of(request, progress), options, run);
+  progress.show("ingest", request.inputs.front(), 0);
+  auto city = pipeline::read_city_inputs(paths_of(request), options, run);
   if (!city) return explained(city.failure(), request, options, run, progress);
   tell(request, city->scene, progress);
   return city;

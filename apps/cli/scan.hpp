@@ -8,6 +8,7 @@
 
 #include "apps/cli/progress.hpp"
 #include "apps/cli/settings.hpp"
+#include "mansard/pipeline/inputs.hpp"
 
 namespace mansard::cli {
 
@@ -47,6 +48,8 @@ void add_to(CLI::App& verb, ScanRequest& request, bool may_derive = true);
 [[nodiscard]] auto files_free(const ScanRequest& request, std::vector<std::filesystem::path> files)
     -> base::Result<void>;
 
+/// The inputs as meshes and footprints.
+[[nodiscard]] auto paths_of(const ScanRequest& request) -> pipeline::InputPaths;
 /// Reads meshes and footprints, or derives these from the mesh, and prints the warnings.
 [[nodiscard]] auto read_scan(const ScanRequest& request, const pipeline::Options& options, const base::Run& run,
                              Progress& progress) -> base::Result<model::Scene>;

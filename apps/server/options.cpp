@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::array<std::string_view, 4> input_modules{"ingest", "cloud", "derive", "block"};
 /// Modules that have options but no part in a run.
-constexpr std::array<std::string_view, 1> other_modules{"roof"};
+constexpr std::array<std::string_view, 2> other_modules{"roof", "texture"};
 
 constexpr std::array kind_names{"boolean", "integer", "number", "string", "choice"};
 

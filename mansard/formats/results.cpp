@@ -18,6 +18,33 @@ auto targets_in(const fs::path& folder, const std::vector<Format>& formats) -> s
   return out;
 }
 
+auto textures_beside(const fs::path& file) -> fs::path {
+  std::string name = file.filename().string();
+  for (char& c : name)  // blanks and '#' end names in OBJ, a dot would be taken for a file extension
+    if (static_cast<unsigned char>(c) <= ' ' || c == '#' || c == '.' || c == '\\' || c == '"') c = '_';
+  return file.parent_path() / (name + "_textures");
+}
+
+auto holds_textures_only(const fs::path& folder) -> bool {
+  std::error_code status;
+  if (fs::symlink_status(folder, status).type() != fs::file_type::directory) return false;
+  for (const auto& entry : fs::directory_iterator(folder, status)) {
+    const auto name = entry.path().filename().string();
+    const bool texture = name.ends_with(".jpg") && name.find_first_not_of("0123456789") == name.size() - 4;
+    if (!texture || entry.symlink_status(status).type() != fs::file_type::regular) return false;
+  }
+  return !status;
+}
+
+auto textures_of(const Target& target) -> std::optional<fs::path> {
+  switch (target.format) {
+    case Format::obj:
+    case Format::cityjson:
+    case Format::cityjsonseq: return textures_beside(target.path);
+    default: return std::nullopt;
+  }
+}
+
 auto places_of(const Target& target) -> std::vector<fs::path> {
   if (target.format == Format::obj) return {target.path, fs::path(target.path).replace_extension(".mtl")};
   return {target.path};

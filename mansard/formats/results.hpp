@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,13 @@ struct Target {
 [[nodiscard]] auto name_in_folder(Format format) -> std::string;
 [[nodiscard]] auto targets_in(const std::filesystem::path& folder, const std::vector<Format>& formats)
     -> std::vector<Target>;
-/// Every file or folder that there will be: the library of an OBJ too.
+/// The folder of the images with textures beside a file: "model_obj_textures" beside "model.obj".
+[[nodiscard]] auto textures_beside(const std::filesystem::path& file) -> std::filesystem::path;
+/// Of formats that have their textures in such a folder, that one.
+[[nodiscard]] auto textures_of(const Target& target) -> std::optional<std::filesystem::path>;
+/// Whether a folder, no link to one, has nothing in it but images that are named as textures are.
+[[nodiscard]] auto holds_textures_only(const std::filesystem::path& folder) -> bool;
+/// Every file or folder that there will be: the library of an OBJ too; but for a folder of textures.
 [[nodiscard]] auto places_of(const Target& target) -> std::vector<std::filesystem::path>;
 
 /// The whole city to every target; the files are there after Outputs::commit. What could not be written as it was

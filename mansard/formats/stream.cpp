@@ -37,7 +37,16 @@ auto option_list(WriteOptions& o) -> base::OptionList {
                   {{"part", Shell::part}, {"building", Shell::building}, {"block", Shell::block}},
                   "What one closed shell of an STL contains.")
           .flag("compress", o.compress, "Compress the meshes of GLB and 3D Tiles (meshopt, quantised).")
-          .number("tile_triangles", o.tile_triangles, "", {100, 1e7}, "Triangles of a leaf of a tileset, at most."));
+          .number("tile_triangles", o.tile_triangles, "", {100, 1e7}, "Triangles of a leaf of a tileset, at most.")
+          .choice("texture_format", o.texture_format, {{"jpeg", TextureFormat::jpeg}, {"webp", TextureFormat::webp}},
+                  "Codec of the textures of GLB and 3D Tiles; OBJ and CityJSON always have JPEG.")
+          .integer("texture_quality", o.texture_quality, "", {1, 100}, "Quality of JPEG and WebP textures.")
+          .alias("texture_quality")
+          .integer("atlas_size", o.atlas_size, "px", {256, 16384}, "Side length of an image with textures, at most.")
+          .flag(
+              "unlit", o.unlit,
+              "Mark the textured materials of GLB and 3D Tiles as unlit (KHR_materials_unlit): scans have their light "
+              "in the picture."));
 }
 
 auto open_writer(Format format, const std::filesystem::path& path, const Header& header, const WriteOptions& options,

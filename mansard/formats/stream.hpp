@@ -36,6 +36,9 @@ struct Header {
 /// What one closed shell of an STL stands for.
 enum class Shell : std::uint8_t { part, building, block };
 
+/// The codec of the textures of GLB and 3D Tiles; OBJ and CityJSON always have JPEG.
+enum class TextureFormat : std::uint8_t { jpeg, webp };
+
 /// What one solid of a file contains.
 enum class Solids : std::uint8_t { building, part };
 
@@ -44,6 +47,10 @@ struct WriteOptions {
   Shell stl_shell = Shell::building;
   bool compress = false;          ///< meshes of glb and tiles: EXT_meshopt_compression and KHR_mesh_quantization
   double tile_triangles = 20000;  ///< of a leaf of a tileset, at most, where one building has not more
+  TextureFormat texture_format = TextureFormat::jpeg;
+  std::int64_t texture_quality = 85;  ///< 1 to 100
+  std::int64_t atlas_size = 4096;     ///< pixels along each side of an image with textures, at most
+  bool unlit = false;                 ///< textured materials of glb and tiles: KHR_materials_unlit
 };
 [[nodiscard]] auto option_list(WriteOptions& options) -> base::OptionList;
 

@@ -1,6 +1,7 @@
 // A city of building models: features, their parts with plan and profiles, and the solids made of them.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "mansard/model/frame.hpp"
 #include "mansard/model/plan.hpp"
 #include "mansard/model/solid.hpp"
+#include "mansard/model/texture.hpp"
 
 namespace mansard::model {
 
@@ -35,6 +37,7 @@ struct Building {
   double ground = 0;                         ///< z, metres
   std::vector<Part> parts;
   std::vector<PartsSolid> solids{};  ///< what is written of it: the union of its parts; empty where it was not made
+  std::optional<BuildingTexture> texture{};  ///< of the solids as they are written; none: without textures
 };
 
 /// How the city was made, repeated in every file.

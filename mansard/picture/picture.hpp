@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -21,10 +22,13 @@ using Colour = std::array<std::uint8_t, 3>;
 inline constexpr Colour mesh_blue{122, 154, 204}, footprint_orange{240, 140, 30}, wall_grey{216, 212, 204},
     roof_red{176, 98, 80}, party_grey{150, 150, 158}, ground_grey{120, 124, 120};
 
-/// Triangles with a colour each (one colour means all alike).
+/// Triangles with a colour each (one colour means all alike), or with pictures on them.
 struct Layer {
   geometry::Mesh mesh;
   std::vector<Colour> colours;
+  /// The colour at a point of a triangle, from any thread; none where there is no picture. Pictures have light and
+  /// shadow in them, so they get half of those of the drawing.
+  std::function<std::optional<Colour>(std::size_t triangle, geometry::Point3 point)> picture{};
 };
 
 /// Lines drawn on top where not hidden (lifted 5 cm off the surfaces).

@@ -5,6 +5,7 @@
 #include "mansard/pipeline/pipeline.hpp"
 #include "mansard/solid/solid.hpp"
 #include "mansard/solver/solver.hpp"
+#include "mansard/texture/texture.hpp"
 
 namespace mansard::pipeline {
 
@@ -25,6 +26,7 @@ auto option_lists(Options& options) -> std::vector<base::OptionList> {
   lists.push_back(label::option_list(options.label));
   lists.push_back(evaluate::option_list(options.evaluate));
   lists.push_back(formats::option_list(options.write));
+  lists.push_back(texture::option_list(options.texture));
   base::OptionList own("pipeline");
   own.integer("seed", options.seed, "", {0, 9e15}, "Seed of all sampling; the same seed gives the same bytes.")
       .alias("seed")
@@ -117,6 +119,7 @@ auto codes() -> std::vector<base::Code> {
   add(solid::codes());
   add(roof::codes());
   add(formats::codes());
+  add(texture::codes());
   add(picture::codes());
   add({
       {"pipeline-nothing", "No footprint of the input could be used.",

@@ -29,6 +29,7 @@
 #include "mansard/slice/slice.hpp"
 #include "mansard/solid/solid.hpp"
 #include "mansard/sweep/sweep.hpp"
+#include "mansard/texture/options.hpp"
 
 namespace mansard::pipeline {
 
@@ -48,6 +49,7 @@ struct Options {
   label::Options label;
   evaluate::Options evaluate;
   formats::WriteOptions write;
+  texture::Options texture;
 
   std::int64_t seed = 1;
   double assumed_height = 3.0;  ///< m; of the prism of a footprint over which the mesh shows nothing

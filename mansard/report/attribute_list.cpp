@@ -33,6 +33,9 @@ auto attributes() -> std::vector<formats::Attribute> {
       "Root mean square of the vertical distance to the mesh; absent without mesh coverage.");
   add("ms_area_left_out", building, "number", "m²",
       "Area of the footprint that is high enough for a building and has no model; absent up to 1 m².");
+  all.push_back(
+      {"ms_texture_known", "texture", building, "number", "",
+       "Share of the area of roofs and outer walls whose colour the scan shows, 0 to 1; only with textures."});
   add("ms_area_roof_flat", part, "number", "m²", "Area of roof that is level within 5°.");
   add("ms_area_roof_sloped", part, "number", "m²", "Area of the other roof.");
   add("ms_area_wall", part, "number", "m²", "Area of walls in the open.");

@@ -1,7 +1,9 @@
 // The pictures of a run, in the manner of the paper's Figure 5 and its error maps.
 #include <algorithm>
 #include <cmath>
+#include <map>
 
+#include "mansard/formats/written.hpp"
 #include "mansard/rays/rays.hpp"
 #include "mansard/report/pictures.hpp"
 #include "mansard/solid/solid.hpp"
@@ -87,15 +89,116 @@ auto models_of(const model::City& city) -> picture::Layer {
   return layer;
 }
 
+auto distance(Point2 p, Point2 a, Point2 b) -> double {
+  const Point2 ab = b - a;
+  const double square = dot(ab, ab);
+  const double t = square > 0 ? std::clamp(dot(p - a, ab) / square, 0.0, 1.0) : 0;
+  return geometry::length(p - (a + t * ab));
+}
+
+/// Whether a place is within a metre of an outline.
+auto near_outline(const model::Scene& scene, Point2 p) -> bool {
+  constexpr double near = 1;
+  const auto along = [&](const geometry::Ring& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      if (distance(p, ring[i], ring[(i + 1) % ring.size()]) < near) return true;
+    return false;
+  };
+  return std::ranges::any_of(scene.footprints, [&](const auto& footprint) {
+    return std::ranges::any_of(footprint.polygons, [&](const auto& polygon) {
+      return geometry::bounds(polygon.outer).grown(near).contains(p) &&
+             (along(polygon.outer) || std::ranges::any_of(polygon.holes, along));
+    });
+  });
+}
+
+/// The scan without its buildings: neither what is over a footprint nor the walls along it, which would show through
+/// those of the models.
+template <class InFootprint>
+auto street_of(const picture::Layer& scan, const model::Scene& scene, InFootprint in_footprint) -> picture::Layer {
+  picture::Layer out{{scan.mesh.vertices, {}}, scan.colours, {}};
+  std::vector<std::size_t> kept;
+  for (std::size_t t = 0; t < scan.mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = scan.mesh.triangles[t];
+    const Point3 &p = scan.mesh.vertices[a], &q = scan.mesh.vertices[b], &r = scan.mesh.vertices[c];
+    const Point3 middle = (1.0 / 3) * (p + q + r);
+    constexpr double steep = 0.7;  // the cosine of about 45°
+    const bool wall = geometry::normalised(cross(q - p, r - p)).z < steep;
+    if (in_footprint(middle) || (wall && near_outline(scene, geometry::xy(middle)))) continue;
+    out.mesh.triangles.push_back(scan.mesh.triangles[t]);
+    kept.push_back(t);
+  }
+  out.picture = [from = scan.picture, kept = std::move(kept)](std::size_t t, Point3 p) { return from(kept[t], p); };
+  return out;
+}
+
 }  // namespace
+
+auto textured_models(const model::City& city, formats::Solids solids) -> picture::Layer {
+  picture::Layer layer;
+  std::vector<const model::FaceTexture*> textures;
+  for (const auto& building : city.buildings) {
+    const auto written = formats::written_solids(building, solids);
+    const bool textured = building.texture && building.texture->solids.size() == written.size();
+    for (std::size_t s = 0; s < written.size(); ++s) {
+      const auto triangulated = solid::triangulate(written[s].solid);
+      if (!triangulated) continue;
+      const auto first = static_cast<std::uint32_t>(layer.mesh.vertices.size());
+      layer.mesh.vertices.insert(layer.mesh.vertices.end(), written[s].solid.vertices.begin(),
+                                 written[s].solid.vertices.end());
+      for (std::size_t t = 0; t < triangulated->triangles.size(); ++t) {
+        const auto& corners = triangulated->triangles[t];
+        const auto face = triangulated->face_of[t];
+        layer.mesh.triangles.push_back({first + corners[0], first + corners[1], first + corners[2]});
+        layer.colours.push_back(colour_of(written[s].classes[face]));
+        textures.push_back(textured ? &building.texture->solids[s].faces[face] : nullptr);
+      }
+    }
+  }
+  layer.picture = [textures = std::move(textures)](std::size_t t, Point3 p) -> std::optional<picture::Colour> {
+    if (textures[t] == nullptr) return std::nullopt;
+    const auto [x, y] = textures[t]->frame.at(p);
+    const auto& pixels = textures[t]->pixels;
+    const auto column = static_cast<std::size_t>(std::clamp(x, 0.0, pixels.width - 1.0)),
+               row = static_cast<std::size_t>(std::clamp(y, 0.0, pixels.height - 1.0));
+    const auto* rgb = &pixels.rgb[3 * (row * pixels.width + column)];
+    return picture::Colour{rgb[0], rgb[1], rgb[2]};
+  };
+  return layer;
+}
+
+auto textured_scan(const texture::Scan& scan, const model::Scene& scene) -> base::Result<picture::Layer> {
+  constexpr double far = 1e6;  // m, of heights
+  const auto frame = frame_of(scene);
+  auto near = scan.near({{frame.least.x, frame.least.y, -far}, {frame.most.x, frame.most.y, far}});
+  if (!near) return near.failure();
+  picture::Layer layer;
+  layer.colours = {picture::mesh_blue};
+  std::map<std::uint32_t, std::shared_ptr<const model::Pixels>> images;
+  for (const auto& triangle : *near) {
+    const auto first = static_cast<std::uint32_t>(layer.mesh.vertices.size());
+    layer.mesh.vertices.insert(layer.mesh.vertices.end(), triangle.corners.begin(), triangle.corners.end());
+    layer.mesh.triangles.push_back({first, first + 1, first + 2});
+    if (triangle.material != texture::no_material && !images.contains(triangle.material))
+      images[triangle.material] = scan.image(triangle.material);
+  }
+  layer.picture = [&scan, triangles = std::move(*near), images = std::move(images)](std::size_t t, Point3 p) {
+    const auto& triangle = triangles[t];
+    const auto image = images.find(triangle.material);
+    return texture::colour_at(
+        triangle, p, image == images.end() ? nullptr : image->second.get(),
+        triangle.material == texture::no_material ? std::array<formats::Wrap, 2>{} : scan.wrap(triangle.material));
+  };
+  return layer;
+}
 
 auto picture_of(const model::City& city, const picture::View& view, const base::Run& run) -> picture::Image {
   const std::vector<picture::Layer> layers{models_of(city)};
   return picture::draw(layers, {}, view, run);
 }
 
-auto pictures(const Reconstruction& reconstruction, const model::Scene& scene, double limit, const base::Run& run)
-    -> Pictures {
+auto pictures(const Reconstruction& reconstruction, const model::Scene& scene, double limit, const base::Run& run,
+              const TexturedLayers* textured) -> Pictures {
   const auto frame = frame_of(scene);
   const rays::Scene surface(scene.mesh);
   const auto lines = footprint_lines(scene, surface);
@@ -107,15 +210,18 @@ auto pictures(const Reconstruction& reconstruction, const model::Scene& scene, d
       });
     });
   };
-  const picture::Layer scan{part_of(scene.mesh, frame, [](Point3) { return true; }), {picture::mesh_blue}};
+  const picture::Layer plain{part_of(scene.mesh, frame, [](Point3) { return true; }), {picture::mesh_blue}};
+  const picture::Layer& scan = textured != nullptr ? textured->scan : plain;
   // The street of the scan stays in the second picture, for scale, in a quieter blue; the scan's buildings go.
-  const picture::Layer street{part_of(scene.mesh, frame, [&](Point3 p) { return !in_footprint(p); }),
-                              {{206, 216, 232}}};
-  const auto models = models_of(reconstruction.city);
+  const picture::Layer street =
+      textured != nullptr
+          ? street_of(textured->scan, scene, in_footprint)
+          : picture::Layer{part_of(scene.mesh, frame, [&](Point3 p) { return !in_footprint(p); }), {{206, 216, 232}}};
+  const auto models = textured != nullptr ? textured->models : models_of(reconstruction.city);
 
   const auto pair = [&](picture::View view) {
     const std::vector<picture::Layer> before{scan}, after{street, models};
-    const std::vector<picture::Lines> drawn{lines};
+    const std::vector<picture::Lines> drawn = textured != nullptr ? std::vector<picture::Lines>() : std::vector{lines};
     const std::vector<picture::Image> images{picture::draw(before, drawn, view, run),
                                              picture::draw(after, {}, view, run)};
     return picture::beside(images);

@@ -100,6 +100,21 @@ function* structureFaults(objects, vertices) {
   if (new Set(vertices.map(String)).size !== vertices.length) yield 'a vertex is there twice';
 }
 
+/** Textures must have the shape of the boundaries, and name images and coordinates that are there; all must be named. */
+function* textureFaults(objects, appearance) {
+  const images = new Set(), places = new Set();
+  for (const [id, object] of Object.entries(objects))
+    for (const { boundaries, texture } of object.geometry ?? [])
+      for (const [theme, { values }] of Object.entries(texture ?? {})) {
+        if (theme !== appearance?.['default-theme-texture']) yield `${id}: a theme that is not there`;
+        const shape = (all, more) => JSON.stringify(all.map((shell) => shell.map((face) => face.map((r) => r.length + more))));
+        if (shape(values, 0) !== shape(boundaries, 1)) yield `${id}: its texture is not of the shape of the boundaries`;
+        for (const [image, ...ring] of values.flat(2)) images.add(image), ring.forEach((place) => places.add(place));
+      }
+  if (images.size !== (appearance?.textures.length ?? 0)) yield 'images that are not used, or are not there';
+  if (places.size !== (appearance?.['vertices-texture'].length ?? 0)) yield 'coordinates that are not used, or are not there';
+}
+
 /** Whether an extent is not the box of these vertices. */
 function isOff(extent, numbers, vertices, { scale, translate }) {
   const at = (v, axis) => (vertices[v]?.[axis] ?? NaN) * scale[axis] + translate[axis];
@@ -118,11 +133,12 @@ function* extentFaults(objects, vertices, transform) {
   }
 }
 
-function* objectFaults(objects, vertices, transform) {
+function* objectFaults(objects, vertices, transform, appearance) {
   for (const [id, object] of Object.entries(objects))
     yield* extensionFaults(object.attributes, declaredAttributes.get(object.type), id);
   yield* structureFaults(objects, vertices);
   yield* extentFaults(objects, vertices, transform);
+  yield* textureFaults(objects, appearance);
 }
 
 /** The first fault of a CityJSON object; undefined when there is none. */
@@ -133,7 +149,7 @@ function faultOfFile(file) {
   if (file.extensions[extension.name].version !== extension.version) return 'another version of the extension';
   if (file.extensions[extension.name].url !== extension.url) return 'the extension has another url';
   for (const fault of extensionFaults(file, declaredRoot, 'root')) return fault;
-  for (const fault of objectFaults(file.CityObjects, file.vertices, file.transform)) return fault;
+  for (const fault of objectFaults(file.CityObjects, file.vertices, file.transform, file.appearance)) return fault;
   const all = [...file.vertices.keys()];
   if (all.length > 0 && isOff(file.metadata?.geographicalExtent, all, file.vertices, file.transform))
     return 'the extent of all';
@@ -144,7 +160,7 @@ function faultOfFeature(line, transform) {
   if (!feature(line)) return ajv.errorsText(feature.errors);
   const buildings = Object.keys(line.CityObjects).filter((id) => line.CityObjects[id].type === 'Building');
   if (buildings.length !== 1 || buildings[0] !== line.id) return `the buildings of ${line.id} are ${buildings}`;
-  for (const fault of objectFaults(line.CityObjects, line.vertices, transform)) return fault;
+  for (const fault of objectFaults(line.CityObjects, line.vertices, transform, line.appearance)) return fault;
   return undefined;
 }
 
@@ -184,6 +200,17 @@ for (const [name, args] of Object.entries(runs)) {
   run('convert', join(scratch, `${name}.city.jsonl`), '-o', join(scratch, `${name}.city.json`));
   assert(readFileSync(whole).equals(readFileSync(join(scratch, `${name}.city.json`))), `${name}: not the bytes it had`);
   files.push(join(scratch, `${name}.city.json`), join(scratch, `${name}.city.jsonl`));
+}
+
+// With textures, whose images are in a folder beside.
+const textured = join(scratch, 'textured');
+run('reconstruct', join(data, 'textured/houses.obj'), join(data, 'textured/houses_footprints.geojson'), '--texture',
+  '--formats', 'cityjson,cityjsonseq', '-o', textured);
+for (const name of ['model.city.json', 'model.city.jsonl']) {
+  files.push(join(textured, name));
+  const images = (name.endsWith('l') ? linesOf(join(textured, name)) : [json(join(textured, name))]).flatMap((line) => line.appearance?.textures ?? []);
+  assert(images.length > 0, `${name}: no textures`);
+  for (const { image } of images) assert(readFileSync(join(textured, image)).length > 1000, image);
 }
 
 let objects = 0, sequences = 0, triangles = 0, volumes = 0, wrong = 0;
@@ -258,6 +285,21 @@ const spoilt = {
 assert.equal(faultOfFile(hall), undefined);
 for (const [what, change] of Object.entries(spoilt)) {
   const copy = structuredClone(hall);
+  change(copy);
+  assert.notEqual(faultOfFile(copy), undefined, `not complained of: ${what}`);
+}
+const painted = json(join(textured, 'model.city.json'));
+const valuesOf = (f) => Object.values(f.CityObjects).flatMap((o) => o.geometry ?? []).find((g) => g.texture).texture.visual.values;
+assert.equal(faultOfFile(painted), undefined);
+for (const [what, change] of Object.entries({
+  'an image that is not there': (f) => (valuesOf(f)[0][0][0][0] = 99),
+  'a coordinate that is not there': (f) => (valuesOf(f)[0][0][0][1] = 1e6),
+  'a ring with a coordinate too few': (f) => valuesOf(f)[0][0][0].pop(),
+  'a coordinate beside the image': (f) => (f.appearance['vertices-texture'][0][0] = 1.5),
+  'an image of another type': (f) => (f.appearance.textures[0].type = 'WEBP'),
+  'another theme': (f) => (f.appearance['default-theme-texture'] = 'winter'),
+})) {
+  const copy = structuredClone(painted);
   change(copy);
   assert.notEqual(faultOfFile(copy), undefined, `not complained of: ${what}`);
 }

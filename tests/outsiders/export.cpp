@@ -5,7 +5,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "formats/cities.hpp"
+#include "formats/painted.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/formats/plans.hpp"
 #include "mansard/formats/scan.hpp"
@@ -87,6 +87,7 @@ auto write_sample(const fs::path& out, const Sample& sample, Json& all) -> base:
     formats::WriteOptions options;
     options.compress = compress;
     options.tile_triangles = sample.tile_triangles;
+    options.unlit = compress;  // of what has textures
     for (const auto format : {formats::Format::glb, formats::Format::tiles}) {
       const std::string name =
           sample.name + (compress ? "-compressed" : "") + (format == formats::Format::glb ? ".glb" : "");
@@ -117,6 +118,7 @@ auto samples(int count, char** arguments) -> base::Result<std::vector<Sample>> {
   all.push_back({"empty", empty});
   all.push_back({"bare", bare});
   all.push_back({"local", local});
+  all.push_back({"painted", cities::painted_street(), 100});
   const auto scene = ingest::read_footprints(arguments[2], {});
   if (!scene) return scene.error();
   pipeline::Options pitched;

@@ -17,6 +17,9 @@ namespace {
 
 using model::FaceClass;
 
+/// The name of the textures: a file may have several sets of them.
+constexpr std::string_view texture_theme = "visual";
+
 auto degrees(double radians) -> double { return radians * 180 / std::numbers::pi; }
 
 /// A real number with two decimals, without the trailing noise of rounding.
@@ -214,9 +217,35 @@ auto CityObjects::footprint_of(const model::Building& building, const std::vecto
   return footprint;
 }
 
-void CityObjects::add(const model::Building& building, const Gate::Keyed& keys,
-                      std::vector<base::Diagnostic>& warnings) {
+auto TextureVertices::index_of(std::array<double, 2> uv) -> std::int64_t {
+  // From the lower left corner, as in CityGML.
+  sink_.append((count_ > 0 ? ",[" : "[") + base::to_text(uv[0], 6) + "," + base::to_text(1 - uv[1], 6) + "]");
+  return count_++;
+}
+
+auto TextureVertices::number_of(std::uint32_t page) -> std::int64_t {
+  if (!local_)
+    while (pages_.size() <= page) pages_.push_back(static_cast<std::uint32_t>(pages_.size()));
+  const auto [entry, added] = numbers_.try_emplace(page, local_ ? static_cast<std::int64_t>(numbers_.size()) : page);
+  if (added && local_) pages_.push_back(page);
+  return entry->second;
+}
+
+auto appearance_head(const TextureVertices& vertices, const TextureFolder& folder) -> JsonText {
+  JsonText json;
+  json.begin_object().key("default-theme-texture").text(texture_theme).key("textures").begin_array();
+  for (const auto page : vertices.pages()) {
+    json.begin_object().key("type").text("JPG").key("image").text(folder.name(page));
+    json.key("wrapMode").text("clamp").key("textureType").text("specific").end_object();
+  }
+  json.end_array().key("vertices-texture").begin_array();
+  return json;
+}
+
+void CityObjects::add(const model::Building& building, const Gate::Keyed& keys, std::vector<base::Diagnostic>& warnings,
+                      const TexturedSolids* textured) {
   const Drawn solids = drawn(building, keys, solids_);
+  textured_ = uv_ != nullptr && textures_for(building, solids.solids.size()) != nullptr ? textured : nullptr;
   warnings.insert(warnings.end(), solids.warnings.begin(), solids.warnings.end());
   std::vector<Shape> shapes;
   for (const auto& [part, parts] : solids.solids) {
@@ -227,7 +256,8 @@ void CityObjects::add(const model::Building& building, const Gate::Keyed& keys,
     if (flat.empty() && std::isfinite(top))
       warnings.push_back(
           base::warning("solid-left-out", "no valid solid of LoD 1.2 can be made of its ground", building.id));
-    Shape& shape = shapes.emplace_back(Shape{part.id, {}, std::move(flat), std::move(fine)});
+    const std::size_t solid = textured_ != nullptr ? textured_->first + shapes.size() : 0;
+    Shape& shape = shapes.emplace_back(Shape{part.id, {}, std::move(flat), std::move(fine), solid});
     if (!own)
       for (const std::size_t p : parts) shape.of.push_back(keys.parts[p]);
   }
@@ -308,10 +338,29 @@ void CityObjects::append_part(const std::string& key, const model::Part* part, c
 
 void CityObjects::append_solids(const Shape& shape) {
   append_solid("1.2", shape.flat);
-  append_solid("2.2", shape.fine);
+  append_solid("2.2", shape.fine, shape.solid, textured_);
 }
 
-void CityObjects::append_solid(std::string_view lod, const std::vector<Surface>& surfaces) {
+void CityObjects::append_texture(const std::vector<Surface>& surfaces, std::size_t solid,
+                                 const TexturedSolids& textured) {
+  const auto metres = [](std::int64_t quanta) { return static_cast<double>(quanta) / quanta_per_metre; };
+  json_.key("texture").begin_object().key(texture_theme).begin_object().key("values").begin_array().begin_array();
+  for (const Surface& surface : surfaces) {
+    const auto page = uv_->number_of(textured.first_page + textured.atlas->page_of(solid, surface.face));
+    json_.begin_array();
+    for (const auto& loop : surface.loops) {
+      json_.begin_array().whole(page);
+      for (const Vertex& v : loop)
+        json_.whole(uv_->index_of(textured.atlas->uv(solid, surface.face, {metres(v[0]), metres(v[1]), metres(v[2])})));
+      json_.end_array();
+    }
+    json_.end_array();
+  }
+  json_.end_array().end_array().end_object().end_object();
+}
+
+void CityObjects::append_solid(std::string_view lod, const std::vector<Surface>& surfaces, std::size_t solid,
+                               const TexturedSolids* textured) {
   if (surfaces.empty()) return;
   json_.begin_object().key("type").text("Solid").key("lod").text(lod);
   json_.key("boundaries").begin_array().begin_array();
@@ -330,7 +379,9 @@ void CityObjects::append_solid(std::string_view lod, const std::vector<Surface>&
   for (const auto& object : distinct) json_.raw(object);
   json_.end_array().key("values").begin_array().begin_array();
   for (const auto value : values) json_.whole(static_cast<std::int64_t>(value));
-  json_.end_array().end_array().end_object().end_object();
+  json_.end_array().end_array().end_object();
+  if (textured != nullptr) append_texture(surfaces, solid, *textured);
+  json_.end_object();
 }
 
 void CityObjects::append_loops(const Loops& loops) {
@@ -359,15 +410,20 @@ auto cityjson_head(const Header& header, Solids solids, const Extent& extent, in
 }
 
 auto cityjson_feature(const model::Building& building, const Gate::Keyed& keys, const Header& header, Solids solids,
-                      std::vector<base::Diagnostic>& warnings) -> std::string {
-  base::TextSink vertices;
-  CityObjects objects(header, solids, vertices, -1);
-  objects.add(building, keys, warnings);
+                      std::vector<base::Diagnostic>& warnings, const TexturedSolids* textured,
+                      const TextureFolder* folder) -> std::string {
+  base::TextSink vertices, coordinates;
+  TextureVertices uv(coordinates, true);
+  CityObjects objects(header, solids, vertices, -1, &uv);
+  objects.add(building, keys, warnings, textured);
   JsonText json;
   json.begin_object().key("type").text("CityJSONFeature").key("id").text(keys.building);
   json.key("CityObjects").raw(objects.end()).key("vertices").begin_array();
   if (!vertices.text.empty()) json.raw(vertices.text);
-  return json.end_array().end_object().take() + "\n";
+  json.end_array();
+  if (uv.count() > 0 && folder != nullptr)
+    json.key("appearance").raw(appearance_head(uv, *folder).take() + coordinates.text + "]}");
+  return json.end_object().take() + "\n";
 }
 
 }  // namespace mansard::formats::detail

@@ -1,6 +1,7 @@
 // Buildings as CityJSON 2.0 and CityJSONSeq (https://www.cityjson.org/specs/2.0.1/), and back.
 #pragma once
 
+#include "mansard/formats/atlas/texture_folder.hpp"
 #include "mansard/formats/cityjson/vertex_pool.hpp"
 #include "mansard/formats/detail/writers.hpp"
 #include "mansard/formats/json/json_item.hpp"
@@ -21,17 +22,40 @@ inline constexpr std::string_view footprint_name = "+ms_footprint";
 [[nodiscard]] auto undeclared(const std::string& name) -> std::string;
 [[nodiscard]] auto from_undeclared(const std::string& name) -> std::string;
 
+/// The texture coordinates of a CityJSON object or feature, and the images that it names.
+class TextureVertices {
+ public:
+  /// Images are numbered as in the folder, or, with `local`, as they are first named.
+  TextureVertices(base::Sink& sink, bool local) : sink_(sink), local_(local) {}
+  [[nodiscard]] auto index_of(std::array<double, 2> uv) -> std::int64_t;
+  [[nodiscard]] auto number_of(std::uint32_t page) -> std::int64_t;
+  /// In the order of their numbers.
+  [[nodiscard]] auto pages() const -> const std::vector<std::uint32_t>& { return pages_; }
+  [[nodiscard]] auto count() const -> std::int64_t { return count_; }
+
+ private:
+  base::Sink& sink_;
+  bool local_;
+  std::vector<std::uint32_t> pages_;
+  std::map<std::uint32_t, std::int64_t> numbers_;
+  std::int64_t count_ = 0;
+};
+
+/// The value of "appearance" up to the texture coordinates, whose list is open: [u,v],[… comes next.
+[[nodiscard]] auto appearance_head(const TextureVertices& vertices, const TextureFolder& folder) -> JsonText;
+
 /// The member "CityObjects" and the vertices of a CityJSON object or feature, building by building. Buildings must have
 /// passed a Gate.
 class CityObjects {
  public:
   /// Objects on lines of that level, or on one line when negative.
-  CityObjects(const Header& header, Solids solids, base::Sink& vertices, int level)
-      : frame_(header.frame), solids_(solids), level_(level), pool_(vertices) {
+  CityObjects(const Header& header, Solids solids, base::Sink& vertices, int level, TextureVertices* uv = nullptr)
+      : frame_(header.frame), solids_(solids), level_(level), pool_(vertices), uv_(uv) {
     json_.begin_object();
   }
   /// Warnings are those of solid::unite.
-  void add(const model::Building& building, const Gate::Keyed& keys, std::vector<base::Diagnostic>& warnings);
+  void add(const model::Building& building, const Gate::Keyed& keys, std::vector<base::Diagnostic>& warnings,
+           const TexturedSolids* textured = nullptr);
   /// What was not taken yet.
   [[nodiscard]] auto take() -> std::string { return json_.take(); }
   [[nodiscard]] auto end() -> std::string;
@@ -44,6 +68,7 @@ class CityObjects {
     std::string key;              ///< of the object that it belongs to
     std::vector<std::string> of;  ///< the keys of the parts in it, where they are not those of that object
     std::vector<Surface> flat, fine;
+    std::size_t solid = 0;  ///< its number in the atlas
   };
   /// Of LoD 0.
   [[nodiscard]] static auto footprint_of(const model::Building& building, const std::vector<Shape>& shapes)
@@ -51,13 +76,17 @@ class CityObjects {
   void append_part(const std::string& key, const model::Part* part, const Shape* shape, const std::string& parent);
   void append_solids(const Shape& shape);
   void append_footprint(const std::vector<Loops>& surfaces);
-  void append_solid(std::string_view lod, const std::vector<Surface>& surfaces);
+  void append_solid(std::string_view lod, const std::vector<Surface>& surfaces, std::size_t solid = 0,
+                    const TexturedSolids* textured = nullptr);
+  void append_texture(const std::vector<Surface>& surfaces, std::size_t solid, const TexturedSolids& textured);
   void append_loops(const Loops& loops);
 
   const model::Frame frame_;
   const Solids solids_;
   const int level_;
   VertexPool pool_;
+  TextureVertices* uv_;                       ///< none: without textures
+  const TexturedSolids* textured_ = nullptr;  ///< of the building at hand
   JsonText json_;
 };
 
@@ -67,7 +96,9 @@ class CityObjects {
 
 /// A building as a CityJSONFeature on one line.
 [[nodiscard]] auto cityjson_feature(const model::Building& building, const Gate::Keyed& keys, const Header& header,
-                                    Solids solids, std::vector<base::Diagnostic>& warnings) -> std::string;
+                                    Solids solids, std::vector<base::Diagnostic>& warnings,
+                                    const TexturedSolids* textured = nullptr, const TextureFolder* folder = nullptr)
+    -> std::string;
 
 /// The plans that travel in a CityJSON file as mansard wrote it, without models. Throws a Defect: "write-plan-type",
 /// and those of plans.

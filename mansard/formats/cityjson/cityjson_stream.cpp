@@ -3,70 +3,121 @@
 namespace mansard::formats::detail {
 namespace {
 
-/// One document. Its metadata come first and tell the extent of all, its vertices last: objects and vertices are put
-/// aside until the end.
-class WholeFile : public CityWriter {
+/// What both kinds of file do with textures: buildings wait until their pictures fill an image.
+class Textured : public CityWriter {
  public:
-  WholeFile(Header header, Solids solids, base::Sink& file, std::unique_ptr<base::Spool> objects,
-            std::unique_ptr<base::Spool> vertices)
+  Textured(Header header, const WriteOptions& options, TextureFolder folder)
       : header_(std::move(header)),
-        file_(file),
-        objects_(std::move(objects)),
-        vertices_(std::move(vertices)),
-        text_(header_, solids, *vertices_, 0) {}
+        solids_(options.solids),
+        folder_(std::move(folder)),
+        side_(static_cast<std::uint32_t>(options.atlas_size)),
+        queue_(side_) {}
 
-  [[nodiscard]] auto add(const model::Building& building) -> base::Result<void> override {
+  [[nodiscard]] auto add(const model::Building& building) -> base::Result<void> final {
     const auto keys = gate_.admit(building);
     if (!keys) return keys.error();
-    text_.add(building, *keys, warnings_);
-    objects_->append(text_.take());
+    if (!building.texture && queue_.waiting.empty()) {
+      write(building, *keys, nullptr);
+      return {};
+    }
+    if (queue_.full_with(building))
+      if (auto done = empty(); !done) return done;
+    queue_.add(building);
+    keys_.push_back(*keys);
     return {};
   }
-  [[nodiscard]] auto warnings() const -> std::vector<base::Diagnostic> override { return warnings_; }
+  [[nodiscard]] auto warnings() const -> std::vector<base::Diagnostic> final { return warnings_; }
+
+ protected:
+  virtual void write(const model::Building& building, const Gate::Keyed& keys, const TexturedSolids* textured) = 0;
+
+  [[nodiscard]] auto empty() -> base::Result<void> {
+    auto done = empty_queue(
+        queue_, side_, [&](const SolidAtlas& atlas) { return folder_.write(atlas); },
+        [&](std::size_t number, const model::Building& building, const TexturedSolids* textured) {
+          write(building, keys_[number], textured);
+          return base::Result<void>();
+        });
+    keys_.clear();
+    return done;
+  }
+  [[nodiscard]] auto header() const -> const Header& { return header_; }
+  [[nodiscard]] auto solids() const -> Solids { return solids_; }
+  [[nodiscard]] auto folder() const -> const TextureFolder& { return folder_; }
+  [[nodiscard]] auto told() -> std::vector<base::Diagnostic>& { return warnings_; }
+
+ private:
+  const Header header_;
+  const Solids solids_;
+  std::vector<base::Diagnostic> warnings_;
+  TextureFolder folder_;
+  Gate gate_;
+  std::uint32_t side_;
+  AtlasQueue queue_;
+  std::vector<Gate::Keyed> keys_;  ///< of the buildings in the queue
+};
+
+/// One document. Its metadata come first and tell the extent of all, its vertices last: objects and vertices are put
+/// aside until the end.
+class WholeFile : public Textured {
+ public:
+  struct Spools {
+    std::unique_ptr<base::Spool> objects, vertices, coordinates;
+  };
+  WholeFile(const Header& header, const WriteOptions& options, base::Sink& file, TextureFolder folder, Spools spools)
+      : Textured(header, options, std::move(folder)),
+        file_(file),
+        spools_(std::move(spools)),
+        uv_(*spools_.coordinates, false),
+        text_(header, options.solids, *spools_.vertices, 0, &uv_) {}
 
   [[nodiscard]] auto finish() -> base::Result<void> override {
-    objects_->append(text_.end());
-    JsonText json = cityjson_head(header_, text_.solids(), text_.extent(), 0);
+    if (auto done = empty(); !done) return done;
+    spools_.objects->append(text_.end());
+    JsonText json = cityjson_head(header(), text_.solids(), text_.extent(), 0);
     file_.append(json.take());
-    if (auto copied = objects_->copy_to(file_); !copied) return copied;
-    file_.append(json.aside().line().key("vertices").begin_array().take());
-    if (auto copied = vertices_->copy_to(file_); !copied) return copied;
+    if (auto copied = spools_.objects->copy_to(file_); !copied) return copied;
+    json.aside();
+    if (uv_.count() > 0) {
+      file_.append(json.line().key("appearance").take() + appearance_head(uv_, folder()).take());
+      if (auto copied = spools_.coordinates->copy_to(file_); !copied) return copied;
+      file_.append("]}");
+      json.aside();
+    }
+    file_.append(json.line().key("vertices").begin_array().take());
+    if (auto copied = spools_.vertices->copy_to(file_); !copied) return copied;
     file_.append(json.aside().end_array().line().end_object().take() + "\n");
     return {};
   }
 
  private:
-  const Header header_;
+  void write(const model::Building& building, const Gate::Keyed& keys, const TexturedSolids* textured) override {
+    text_.add(building, keys, told(), textured);
+    spools_.objects->append(text_.take());
+  }
+
   base::Sink& file_;
-  std::unique_ptr<base::Spool> objects_, vertices_;
-  Gate gate_;
+  Spools spools_;
+  TextureVertices uv_;
   CityObjects text_;
-  std::vector<base::Diagnostic> warnings_;
 };
 
-class Sequence : public CityWriter {
+class Sequence : public Textured {
  public:
-  Sequence(Header header, Solids solids, base::Sink& file) : header_(std::move(header)), solids_(solids), file_(file) {
-    JsonText json = cityjson_head(header_, solids_, std::nullopt, -1);
+  Sequence(const Header& header, const WriteOptions& options, base::Sink& file, TextureFolder folder)
+      : Textured(header, options, std::move(folder)), file_(file) {
+    JsonText json = cityjson_head(header, options.solids, std::nullopt, -1);
     json.begin_object().end_object().key("vertices").begin_array().end_array().end_object();
     file_.append(json.take() + "\n");
   }
-
-  [[nodiscard]] auto add(const model::Building& building) -> base::Result<void> override {
-    const auto keys = gate_.admit(building);
-    if (!keys) return keys.error();
-    file_.append(cityjson_feature(building, *keys, header_, solids_, warnings_));
-    return {};
-  }
-  [[nodiscard]] auto finish() -> base::Result<void> override { return {}; }
-  [[nodiscard]] auto warnings() const -> std::vector<base::Diagnostic> override { return warnings_; }
+  [[nodiscard]] auto finish() -> base::Result<void> override { return empty(); }
 
  private:
-  const Header header_;
-  const Solids solids_;
+  void write(const model::Building& building, const Gate::Keyed& keys, const TexturedSolids* textured) override {
+    file_.append(cityjson_feature(building, keys, header(), solids(), told(), textured, &folder()));
+  }
+
   base::Sink& file_;
-  Gate gate_;
-  std::vector<base::Diagnostic> warnings_;
 };
 
 }  // namespace
@@ -75,18 +126,21 @@ auto cityjson_writer(const Path& path, const Header& header, const WriteOptions&
     -> WriterResult {
   const auto file = outputs.file(path);
   if (!file) return file.error();
-  auto objects = base::Spool::open(), vertices = base::Spool::open();
-  if (!objects) return objects.error();
-  if (!vertices) return vertices.error();
+  WholeFile::Spools spools;
+  for (auto* spool : {&spools.objects, &spools.vertices, &spools.coordinates}) {
+    auto opened = base::Spool::open();
+    if (!opened) return opened.error();
+    *spool = *std::move(opened);
+  }
   return WriterResult(
-      std::make_unique<WholeFile>(header, options.solids, **file, *std::move(objects), *std::move(vertices)));
+      std::make_unique<WholeFile>(header, options, **file, TextureFolder(path, options, outputs), std::move(spools)));
 }
 
 auto cityjsonseq_writer(const Path& path, const Header& header, const WriteOptions& options, base::Outputs& outputs)
     -> WriterResult {
   const auto file = outputs.file(path);
   if (!file) return file.error();
-  return WriterResult(std::make_unique<Sequence>(header, options.solids, **file));
+  return WriterResult(std::make_unique<Sequence>(header, options, **file, TextureFolder(path, options, outputs)));
 }
 
 }  // namespace mansard::formats::detail

@@ -91,7 +91,7 @@ auto quantised(const model::LabelledSolid& model) -> std::vector<Surface> {
       auto& rounded = loops.emplace_back();
       for (const auto v : loop) rounded.push_back(to_vertex(model.solid.vertices[v]));
     }
-    if (loops = tidied(loops); !loops.empty()) surfaces.push_back({std::move(loops), model.classes[f], face.normal});
+    if (loops = tidied(loops); !loops.empty()) surfaces.push_back({std::move(loops), model.classes[f], face.normal, f});
   }
   return surfaces;
 }

@@ -25,6 +25,7 @@ struct Surface {
   Loops loops;  ///< outer first, counter-clockwise from outside, at least three distinct vertices each
   model::FaceClass kind = model::FaceClass::wall;
   geometry::Point3 normal;
+  std::size_t face = 0;  ///< of the model
 };
 
 /// Rounds, and takes out what rounding made degenerate: repeated vertices, spikes, loops without area. Where two

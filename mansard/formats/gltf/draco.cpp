@@ -78,10 +78,39 @@ auto faces_in(std::span<const unsigned char> all) -> std::uint64_t {
   return count();
 }
 
+/// What integers that stand for fractions are divided by: Draco's own conversion goes by its flag, which glTF does not
+/// use.
+auto scale_of(const draco::PointAttribute& attribute, bool normalised) -> double {
+  if (!normalised) return 1.0;
+  switch (attribute.data_type()) {
+    case draco::DT_INT8: return 127.0;
+    case draco::DT_UINT8: return 255.0;
+    case draco::DT_INT16: return 32767.0;
+    case draco::DT_UINT16: return 65535.0;
+    default: return 1.0;
+  }
+}
+
+void take_extra(const draco::Mesh& packed, DracoExtra& extra) {
+  const draco::PointAttribute* given = packed.GetAttributeByUniqueId(extra.attribute);
+  constexpr std::size_t most = 4;
+  if (given == nullptr || static_cast<std::size_t>(given->num_components()) > most) return;
+  if (!given->is_mapping_identity() && given->indices_map_size() < packed.num_points()) return;
+  const auto components = static_cast<std::size_t>(given->num_components());
+  const double scale = scale_of(*given, extra.normalised);
+  for (draco::PointIndex i(0); i < packed.num_points(); ++i) {
+    std::array<float, most> value{};
+    if (!given->ConvertValue<float, most>(given->mapped_index(i), value.data())) return;
+    for (std::size_t c = 0; c < components; ++c)
+      extra.values.push_back(static_cast<float>(static_cast<double>(value[c]) / scale));
+  }
+  extra.components = components;
+}
+
 }  // namespace
 
 auto unpack_draco(std::span<const unsigned char> bytes, std::uint32_t position, bool normalised,
-                  const std::string& name) -> base::Result<geometry::Mesh> {
+                  const std::string& name, std::span<DracoExtra> more) -> base::Result<geometry::Mesh> {
   const auto bad = [&name](const std::string& what) {
     return base::error("ingest-mesh-format",
                        "a primitive packed with Draco cannot be read (" + what + "); export the mesh again", name);
@@ -100,17 +129,7 @@ auto unpack_draco(std::span<const unsigned char> bytes, std::uint32_t position, 
   const draco::PointAttribute* points = packed.GetAttributeByUniqueId(position);
   if (points == nullptr || points->num_components() != 3) return bad("no positions by the number the file names");
 
-  // Draco's own conversion of normalised integers goes by its flag, which glTF does not use.
-  const auto scale = [&] {
-    if (!normalised) return 1.0;
-    switch (points->data_type()) {
-      case draco::DT_INT8: return 127.0;
-      case draco::DT_UINT8: return 255.0;
-      case draco::DT_INT16: return 32767.0;
-      case draco::DT_UINT16: return 65535.0;
-      default: return 1.0;
-    }
-  }();
+  const double scale = scale_of(*points, normalised);
   if (!points->is_mapping_identity() && points->indices_map_size() < packed.num_points())
     return bad("a position is missing");
   geometry::Mesh mesh;
@@ -125,6 +144,7 @@ auto unpack_draco(std::span<const unsigned char> bytes, std::uint32_t position, 
     const auto& face = packed.face(f);
     mesh.triangles.push_back({face[0].value(), face[1].value(), face[2].value()});
   }
+  for (auto& extra : more) take_extra(packed, extra);
   return mesh;
 }
 

@@ -11,8 +11,8 @@ namespace mansard::formats::detail {
 class GlbBytes {
  public:
   /// Fails with "file-write".
-  [[nodiscard]] static auto open(const Header& header, bool compress, Solids solids) -> base::Result<GlbBytes>;
-  /// Fails with "write-triangulate".
+  [[nodiscard]] static auto open(const Header& header, const WriteOptions& options) -> base::Result<GlbBytes>;
+  /// Buildings with textures wait until these fill an image. Fails with "write-triangulate", "texture-encode".
   [[nodiscard]] auto add(const model::Building& building, const Gate::Keyed& keys) -> base::Result<void>;
   /// Of solid::unite.
   [[nodiscard]] auto warnings() const -> const std::vector<base::Diagnostic>& { return warnings_; }
@@ -20,11 +20,21 @@ class GlbBytes {
   [[nodiscard]] auto write(base::Sink& sink) -> base::Result<void>;
 
  private:
-  GlbBytes(Header header, Solids solids, std::unique_ptr<GltfFile> file)
-      : header_(std::move(header)), solids_(solids), file_(std::move(file)) {}
+  GlbBytes(Header header, const WriteOptions& options, std::unique_ptr<GltfFile> file)
+      : header_(std::move(header)),
+        solids_(options.solids),
+        side_(static_cast<std::uint32_t>(options.atlas_size)),
+        queue_(side_),
+        file_(std::move(file)) {}
+  [[nodiscard]] auto append(const model::Building& building, const Gate::Keyed& keys, const TexturedSolids* textured)
+      -> base::Result<void>;
+  [[nodiscard]] auto empty() -> base::Result<void>;
 
   Header header_;
   Solids solids_;
+  std::uint32_t side_;
+  AtlasQueue queue_;
+  std::vector<Gate::Keyed> keys_;  ///< of the buildings in the queue
   std::vector<base::Diagnostic> warnings_;
   std::unique_ptr<GltfFile> file_;
   PartColumns columns_;

@@ -32,26 +32,49 @@ void append_file_extras(JsonText& json, const Header& header) {
   json.end_array().key("header").raw(header_record(header));
 }
 
-auto GlbBytes::open(const Header& header, bool compress, Solids solids) -> base::Result<GlbBytes> {
-  auto file = GltfFile::open(compress);
+auto GlbBytes::open(const Header& header, const WriteOptions& options) -> base::Result<GlbBytes> {
+  auto file = GltfFile::open(gltf_options(options));
   if (!file) return file.error();
-  return GlbBytes(header, solids, std::move(*file));
+  return GlbBytes(header, options, std::move(*file));
 }
 
 auto GlbBytes::add(const model::Building& building, const Gate::Keyed& keys) -> base::Result<void> {
+  if (!building.texture && queue_.waiting.empty()) return append(building, keys, nullptr);
+  if (queue_.full_with(building))
+    if (auto done = empty(); !done) return done;
+  queue_.add(building);
+  keys_.push_back(keys);
+  return {};
+}
+
+auto GlbBytes::empty() -> base::Result<void> {
+  auto done = empty_queue(
+      queue_, side_, [&](const SolidAtlas& atlas) { return file_->add_images(atlas); },
+      [&](std::size_t number, const model::Building& building, const TexturedSolids* textured) {
+        return append(building, keys_[number], textured);
+      });
+  keys_.clear();
+  return done;
+}
+
+auto GlbBytes::append(const model::Building& building, const Gate::Keyed& keys, const TexturedSolids* textured)
+    -> base::Result<void> {
   const std::string record = building_record(building);
   const Drawn solids = drawn(building, keys, solids_);
   warnings_.insert(warnings_.end(), solids.warnings.begin(), solids.warnings.end());
   JsonText extras;
   extras.begin_object().key("building").text(building.id).end_object();
+  if (textures_for(building, solids.solids.size()) == nullptr) textured = nullptr;
   for (std::size_t s = 0; s < solids.solids.size(); ++s) {
     const model::Part& part = solids.solids[s].part;
     const auto mesh = part_mesh(part.model, part.id);
     if (!mesh) return mesh.error();
     std::vector<geometry::Point3> normals;
     for (const FaceMesh& face : mesh->faces) normals.push_back(face.normal);
+    PartTexture texture;
+    if (textured != nullptr) texture = part_texture(*mesh, *textured, textured->first + s);
     file_->add_part(columns_.row(building, building.id, buildings_, &part, part.id), s == 0 ? record : "", *mesh,
-                    mesh->vertices, normals);
+                    mesh->vertices, normals, textured != nullptr ? &texture : nullptr);
     file_->end_mesh(part.id, extras.str());
   }
   if (solids.solids.empty())
@@ -61,6 +84,7 @@ auto GlbBytes::add(const model::Building& building, const Gate::Keyed& keys) -> 
 }
 
 auto GlbBytes::write(base::Sink& sink) -> base::Result<void> {
+  if (auto done = empty(); !done) return done;
   columns_.settle();
   JsonText extras;
   append_file_extras(extras.begin_object(), header_);
@@ -68,7 +92,9 @@ auto GlbBytes::write(base::Sink& sink) -> base::Result<void> {
 }
 
 auto glb_bytes(const model::City& city, const Keys& keys, Solids solids) -> base::Result<std::string> {
-  auto bytes = GlbBytes::open({city.frame, city.made_by}, false, solids);
+  WriteOptions options;
+  options.solids = solids;
+  auto bytes = GlbBytes::open({city.frame, city.made_by}, options);
   if (!bytes) return bytes.error();
   for (std::size_t b = 0; b < city.buildings.size(); ++b)
     if (auto added = bytes->add(city.buildings[b], {keys.buildings[b], keys.parts[b]}); !added) return added.error();
@@ -81,7 +107,7 @@ auto glb_writer(const Path& path, const Header& header, const WriteOptions& opti
     -> WriterResult {
   auto sink = outputs.file(path);
   if (!sink) return sink.error();
-  auto bytes = GlbBytes::open(header, options.compress, options.solids);
+  auto bytes = GlbBytes::open(header, options);
   if (!bytes) return bytes.error();
   return std::unique_ptr<CityWriter>(std::make_unique<GlbWriter>(std::move(*bytes), **sink));
 }

@@ -77,22 +77,62 @@ auto pad_to(base::Sink& sink, std::uint64_t size) {
 
 }  // namespace
 
-auto GltfFile::open(bool compress) -> base::Result<std::unique_ptr<GltfFile>> {
+auto gltf_options(const WriteOptions& options) -> GltfOptions {
+  const bool webp = options.texture_format == TextureFormat::webp;
+  return {options.compress, options.unlit, webp ? ImageCodec::webp : ImageCodec::jpeg,
+          static_cast<int>(options.texture_quality)};
+}
+
+auto part_texture(const PartMesh& mesh, const TexturedSolids& textured, std::size_t solid) -> PartTexture {
+  PartTexture out;
+  out.uv.resize(mesh.vertices.size());
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const FaceMesh& face = mesh.faces[f];
+    out.pages.push_back(textured.first_page + textured.atlas->page_of(solid, f));
+    for (std::uint32_t v = face.first_vertex; v < face.first_vertex + face.vertices; ++v) {
+      const auto [across, down] = textured.atlas->uv(solid, f, mesh.vertices[v]);
+      out.uv[v] = {static_cast<float>(across), static_cast<float>(down)};
+    }
+  }
+  return out;
+}
+
+auto GltfFile::open(const GltfOptions& options) -> base::Result<std::unique_ptr<GltfFile>> {
   Spools spools;
   std::vector<std::unique_ptr<base::Spool>*> all{&spools.packed,    &spools.views,    &spools.nodes,   &spools.meshes,
                                                  &spools.accessors, &spools.rows,     &spools.records, &spools.classes,
-                                                 &spools.slopes,    &spools.azimuths, &spools.tables};
+                                                 &spools.slopes,    &spools.azimuths, &spools.tables,  &spools.images};
   for (auto& view : spools.of_view) all.push_back(&view);
   for (auto* spool : all) {
     auto opened = base::Spool::open();
     if (!opened) return opened.error();
     *spool = std::move(*opened);
   }
-  return std::unique_ptr<GltfFile>(new GltfFile(compress, std::move(spools)));
+  return std::unique_ptr<GltfFile>(new GltfFile(options, std::move(spools)));
+}
+
+auto GltfFile::add_images(const SolidAtlas& atlas) -> base::Result<std::uint32_t> {
+  const auto first = static_cast<std::uint32_t>(image_bytes_.size());
+  for (std::size_t page = 0; page < atlas.pages(); ++page) {
+    const auto bytes = encode_image(atlas.page(page), options_.codec, options_.quality);
+    if (!bytes) return bytes.failure();
+    image_bytes_.push_back(bytes->size());
+    spools_.images->append(*bytes);
+    pad_to(*spools_.images, spools_.images->size());
+    image_ends_.push_back(spools_.images->size());
+  }
+  return first;
+}
+
+auto GltfFile::material_number(std::uint32_t image, std::uint32_t kind) -> std::int64_t {
+  if (!textured_) return kind;
+  const auto found = std::ranges::find(materials_, std::pair(image, kind));
+  if (found == materials_.end()) materials_.emplace_back(image, kind);
+  return (found == materials_.end() ? static_cast<std::int64_t>(materials_.size()) - 1 : found - materials_.begin());
 }
 
 void GltfFile::add_part(const Row& row, std::string_view record, const PartMesh& mesh, std::span<const Point3> places,
-                        std::span<const Point3> facing) {
+                        std::span<const Point3> facing, const PartTexture* texture) {
   std::string bytes;
   append_row(bytes, row);
   append_raw(*spools_.rows, static_cast<std::uint32_t>(bytes.size()));
@@ -101,16 +141,19 @@ void GltfFile::add_part(const Row& row, std::string_view record, const PartMesh&
   record_ends_.push_back(static_cast<std::uint32_t>(spools_.records->size()));
 
   const auto base = static_cast<std::uint32_t>(mesh_.positions.size());
+  if (texture != nullptr && !places.empty()) {
+    textured_ = true;
+    mesh_.uv.insert(mesh_.uv.end(), texture->uv.begin(), texture->uv.end());
+  }
   for (const Point3& place : places) mesh_.positions.push_back(y_up(place));
   if (!places.empty()) ++mesh_.parts;
   mesh_.part_ids.resize(mesh_.positions.size(), static_cast<float>(parts_));
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     const FaceMesh& face = mesh.faces[f];
-    const auto c = static_cast<std::size_t>(face.kind);
+    auto& indices = mesh_.indices[{texture != nullptr ? texture->pages[f] : 0, static_cast<std::uint32_t>(face.kind)}];
     mesh_.normals.insert(mesh_.normals.end(), face.vertices, y_up(geometry::normalised(facing[f])));
     mesh_.surface_ids.insert(mesh_.surface_ids.end(), face.vertices, static_cast<float>(surfaces_));
-    for (std::uint32_t i = 0; i < face.indices; ++i)
-      mesh_.indices[c].push_back(base + mesh.indices[face.first_index + i]);
+    for (std::uint32_t i = 0; i < face.indices; ++i) indices.push_back(base + mesh.indices[face.first_index + i]);
     if (face.vertices > 0) ++mesh_.surfaces;
     const auto& n = face.normal;
     const float slope = degrees(std::atan2(std::hypot(n.x, n.y), std::abs(n.z)));
@@ -151,7 +194,7 @@ void GltfFile::append_view(View view, std::string_view bytes) {
 
 void GltfFile::append_accessor(View view, std::size_t offset, std::size_t count, const std::array<Float3, 2>* bounds) {
   JsonText json;
-  const std::size_t index = (compress_ ? packed_chunks_ * view_count : 0) + view;
+  const std::size_t index = (compress_ ? packed_chunks_ * views() : 0) + view;
   json.begin_object().key("bufferView").whole(whole(index)).key("byteOffset").whole(whole(offset));
   const bool packed_normal = compress_ && view == normal_view;
   json.key("componentType").whole(packed_normal ? short_number : view == index_view ? unsigned_int : float_number);
@@ -159,7 +202,9 @@ void GltfFile::append_accessor(View view, std::size_t offset, std::size_t count,
   json.key("count")
       .whole(whole(count))
       .key("type")
-      .text(view == position_view || view == normal_view ? "VEC3" : "SCALAR");
+      .text(view == position_view || view == normal_view ? "VEC3"
+            : view == uv_view                            ? "VEC2"
+                                                         : "SCALAR");
   if (bounds != nullptr)
     for (std::size_t side = 0; side < 2; ++side) {
       json.key(side == 0 ? "min" : "max").begin_array();
@@ -179,27 +224,30 @@ void GltfFile::append_primitives(JsonText& json, std::size_t vertex, std::size_t
   append_accessor(normal_view, vertex * (compress_ ? 8 : sizeof(Float3)), count, nullptr);
   append_accessor(part_view, vertex * sizeof(float), count, nullptr);
   append_accessor(surface_view, vertex * sizeof(float), count, nullptr);
+  if (textured_) append_accessor(uv_view, vertex * sizeof(Float2), count, nullptr);
   json.begin_array();
-  for (std::size_t c = 0; c < class_count; ++c) {
-    if (mesh_.indices[c].empty()) continue;
+  for (const auto& [kind, indices] : mesh_.indices) {
+    if (indices.empty()) continue;
     json.begin_object().key("attributes").begin_object().key("POSITION").whole(first).key("NORMAL").whole(first + 1);
-    json.key("_FEATURE_ID_0").whole(first + 2).key("_FEATURE_ID_1").whole(first + 3).end_object();
-    json.key("indices").whole(accessors_).key("material").whole(whole(c)).key("extensions").begin_object();
+    json.key("_FEATURE_ID_0").whole(first + 2).key("_FEATURE_ID_1").whole(first + 3);
+    if (textured_) json.key("TEXCOORD_0").whole(first + 4);
+    json.end_object().key("indices").whole(accessors_);
+    json.key("material").whole(material_number(kind.first, kind.second)).key("extensions").begin_object();
     json.key("EXT_mesh_features").begin_object().key("featureIds").begin_array();
     json.begin_object().key("featureCount").whole(mesh_.parts).key("attribute").whole(0);
     json.key("label").text("part").key("propertyTable").whole(0).end_object();
     json.begin_object().key("featureCount").whole(mesh_.surfaces).key("attribute").whole(1);
     json.key("label").text("surface").key("propertyTable").whole(1).end_object();
     json.end_array().end_object().end_object().end_object();
-    append_accessor(index_view, index * sizeof(std::uint32_t), mesh_.indices[c].size(), nullptr);
-    index += mesh_.indices[c].size();
+    append_accessor(index_view, index * sizeof(std::uint32_t), indices.size(), nullptr);
+    index += indices.size();
   }
   json.end_array();
 }
 
 void GltfFile::end_mesh(const std::string& name, std::string_view extras) {
   std::size_t corners = 0;
-  for (const auto& of_class : mesh_.indices) corners += of_class.size();
+  for (const auto& [kind, indices] : mesh_.indices) corners += indices.size();
   if (corners > 0) {
     const std::size_t vertex = compress_ ? chunk_vertices_ : vertices_, index = compress_ ? chunk_indices_ : indices_;
     if (compress_) {
@@ -210,7 +258,11 @@ void GltfFile::end_mesh(const std::string& name, std::string_view extras) {
     }
     append_view(part_view, bytes_of(mesh_.part_ids));
     append_view(surface_view, bytes_of(mesh_.surface_ids));
-    for (const auto& of_class : mesh_.indices) append_view(index_view, bytes_of(of_class));
+    for (const auto& [kind, indices] : mesh_.indices) append_view(index_view, bytes_of(indices));
+    if (textured_) {
+      mesh_.uv.resize(mesh_.positions.size());
+      append_view(uv_view, bytes_of(mesh_.uv));
+    }
     std::optional<std::array<Float3, 2>> bounds;
     for (const Float3& p : mesh_.positions) grow(bounds, p);
     for (const Float3& corner : *bounds) grow(bounds_, corner);
@@ -236,9 +288,9 @@ void GltfFile::pack() {
   // The versions that EXT_meshopt_compression is written against.
   meshopt_encodeVertexVersion(0);
   meshopt_encodeIndexVersion(1);
-  constexpr std::array<std::size_t, view_count> strides{sizeof(Float3), 8, sizeof(float), sizeof(float),
-                                                        sizeof(std::uint32_t)};
-  for (std::size_t view = 0; view < view_count; ++view) {
+  constexpr std::array<std::size_t, view_count> strides{
+      sizeof(Float3), 8, sizeof(float), sizeof(float), sizeof(std::uint32_t), sizeof(Float2)};
+  for (std::size_t view = 0; view < views(); ++view) {
     const std::size_t stride = strides[view], count = chunk_[view].size() / stride;
     std::vector<unsigned char> packed;
     if (view == index_view) {
@@ -280,8 +332,49 @@ auto GltfFile::fill_tables(TableBytes& parts, TableBytes& surfaces, const PartCo
   return {};
 }
 
+void GltfFile::append_textured_material(JsonText& json, std::uint32_t image, std::uint32_t kind) const {
+  json.begin_object().key("name").text(class_name(static_cast<model::FaceClass>(kind)));
+  json.key("pbrMetallicRoughness").begin_object().key("baseColorTexture").begin_object();
+  json.key("index").whole(image).end_object();
+  json.key("metallicFactor").number(0).key("roughnessFactor").number(0.9).end_object();
+  if (options_.unlit)
+    json.key("extensions").begin_object().key("KHR_materials_unlit").begin_object().end_object().end_object();
+  json.end_object();
+}
+
+void GltfFile::append_images(JsonText& json, std::size_t first_view) const {
+  if (image_bytes_.empty()) return;
+  enum Sampler : std::int64_t { linear = 9729, linear_mipmap_linear = 9987, clamp_to_edge = 33071 };
+  json.key("samplers").begin_array().begin_object().key("magFilter").whole(linear);
+  json.key("minFilter").whole(linear_mipmap_linear).key("wrapS").whole(clamp_to_edge);
+  json.key("wrapT").whole(clamp_to_edge).end_object().end_array().key("textures").begin_array();
+  for (std::size_t i = 0; i < image_bytes_.size(); ++i) {
+    json.begin_object().key("sampler").whole(0);
+    if (options_.codec == ImageCodec::webp) {
+      json.key("extensions").begin_object().key("EXT_texture_webp").begin_object().key("source").whole(whole(i));
+      json.end_object().end_object().end_object();
+    } else {
+      json.key("source").whole(whole(i)).end_object();
+    }
+  }
+  json.end_array().key("images").begin_array();
+  for (std::size_t i = 0; i < image_bytes_.size(); ++i)
+    json.begin_object()
+        .key("bufferView")
+        .whole(whole(first_view + i))
+        .key("mimeType")
+        .text(mime_type_of(options_.codec))
+        .end_object();
+  json.end_array();
+}
+
 void GltfFile::append_materials(JsonText& json) const {
   json.key("materials").begin_array();
+  if (textured_) {
+    for (const auto& [image, kind] : materials_) append_textured_material(json, image, kind);
+    json.end_array();
+    return;
+  }
   for (std::size_t c = 0; c < class_count; ++c) {
     json.begin_object().key("name").text(class_name(static_cast<model::FaceClass>(c)));
     json.key("pbrMetallicRoughness").begin_object().key("baseColorFactor").begin_array();
@@ -298,7 +391,7 @@ void GltfFile::append_extensions(JsonText& json, const TableBytes& parts, const 
     columns.append_schema(json.key("schema").begin_object().key("id").text("mansard").key("version").text("1"));
     json.end_object().key("propertyTables").begin_array();
     const std::size_t chunks = compress_ ? packed_chunks_ : nodes_ > 0 ? 1 : 0;
-    std::size_t base = chunks * view_count;  // tables come after the meshes
+    std::size_t base = chunks * views();  // tables come after the meshes
     const auto table = [&](const char* name, std::uint64_t count, const TableBytes& bytes) {
       json.begin_object().key("name").text(name).key("class").text(name).key("count").whole(whole(count));
       json.key("properties").begin_object();
@@ -318,12 +411,19 @@ void GltfFile::append_extensions(JsonText& json, const TableBytes& parts, const 
   if (nodes_ > 0) used.emplace_back("EXT_mesh_features");
   if (parts_ > 0) used.emplace_back("EXT_structural_metadata");
   const bool packed = compress_ && nodes_ > 0;
-  if (packed) used.insert(used.end(), {"EXT_meshopt_compression", "KHR_mesh_quantization"});
+  std::vector<std::string_view> required;
+  if (packed) required = {"EXT_meshopt_compression", "KHR_mesh_quantization"};
+  if (textured_ && options_.codec == ImageCodec::webp) required.emplace_back("EXT_texture_webp");
+  used.insert(used.end(), required.begin(), required.end());
+  if (textured_ && options_.unlit) used.emplace_back("KHR_materials_unlit");
   if (used.empty()) return;
   json.key("extensionsUsed").begin_array();
   for (const auto name : used) json.text(name);
   json.end_array();
-  if (packed) json.key("extensionsRequired").begin_array().text(used[used.size() - 2]).text(used.back()).end_array();
+  if (required.empty()) return;
+  json.key("extensionsRequired").begin_array();
+  for (const auto name : required) json.text(name);
+  json.end_array();
 }
 
 auto GltfFile::mesh_bytes() const -> std::uint64_t {
@@ -337,11 +437,12 @@ auto GltfFile::mesh_bytes() const -> std::uint64_t {
 void GltfFile::append_views(JsonText& json) const {
   if (compress_ || nodes_ == 0) return;
   std::uint64_t offset = spools_.packed->size();
-  for (std::size_t view = 0; view < view_count; ++view) {
+  for (std::size_t view = 0; view < views(); ++view) {
     const auto size = spools_.of_view[view]->size();
     json.begin_object().key("buffer").whole(0).key("byteOffset").whole(whole(offset));
     json.key("byteLength").whole(whole(size));
-    if (view != index_view) json.key("byteStride").whole(whole(view < part_view ? sizeof(Float3) : sizeof(float)));
+    const std::size_t stride = view < part_view ? sizeof(Float3) : view == uv_view ? sizeof(Float2) : sizeof(float);
+    if (view != index_view) json.key("byteStride").whole(whole(stride));
     json.key("target").whole(view == index_view ? element_array_buffer : array_buffer).end_object();
     offset += padded(size);
   }
@@ -369,7 +470,8 @@ auto GltfFile::write(base::Sink& sink, const std::string& generator, std::string
   TableBytes parts(*spools_.tables), surfaces(*spools_.tables);
   if (auto filled = fill_tables(parts, surfaces, columns); !filled) return filled;
 
-  const std::uint64_t meshes = mesh_bytes(), binary = padded(meshes + spools_.tables->size());
+  const std::uint64_t meshes = mesh_bytes(), tables = padded(meshes + spools_.tables->size());
+  const std::uint64_t binary = tables + spools_.images->size();
   // The JSON in pieces: the long lists that were put aside come between what is made here.
   JsonText json;
   std::vector<std::pair<std::string, base::Spool*>> pieces;
@@ -396,6 +498,10 @@ auto GltfFile::write(base::Sink& sink, const std::string& generator, std::string
       json.end_array();
     }
   }
+  if (textured_) {
+    const std::size_t chunks = compress_ ? packed_chunks_ : 1;
+    append_images(json, chunks * views() + parts.views().size() + surfaces.views().size());
+  }
   if (binary > 0) {
     json.key("bufferViews").begin_array();
     append_views(json);
@@ -405,6 +511,10 @@ auto GltfFile::write(base::Sink& sink, const std::string& generator, std::string
         json.begin_object().key("buffer").whole(0).key("byteOffset").whole(whole(meshes + view.offset));
         json.key("byteLength").whole(whole(view.bytes)).end_object();
       }
+    for (std::size_t i = 0; i < image_bytes_.size(); ++i) {
+      json.begin_object().key("buffer").whole(0).key("byteOffset").whole(whole(tables + image_ends_[i]));
+      json.key("byteLength").whole(whole(image_bytes_[i])).end_object();
+    }
     append_buffers(json.end_array(), binary);
   }
   pieces.emplace_back(json.end_object().take(), nullptr);
@@ -439,7 +549,7 @@ auto GltfFile::write(base::Sink& sink, const std::string& generator, std::string
     }
   if (auto copied = spools_.tables->copy_to(sink); !copied) return copied;
   pad_to(sink, spools_.tables->size());
-  return {};
+  return spools_.images->copy_to(sink);
 }
 
 }  // namespace mansard::formats::detail

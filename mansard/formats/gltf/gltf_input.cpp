@@ -73,6 +73,13 @@ auto skip_image(tinygltf::Image*, const int, std::string*, std::string*, int, in
   return true;
 }
 
+/// Keeps the bytes of an image that is written into the JSON; others are in a buffer or a file.
+auto keep_image(tinygltf::Image* image, const int, std::string*, std::string*, int, int, const unsigned char* bytes,
+                int size, void*) -> bool {
+  if (image->bufferView < 0 && image->uri.empty() && size > 0) image->image.assign(bytes, bytes + size);
+  return true;
+}
+
 /// The two chunks of a GLB.
 struct Parts {
   std::string_view json, binary;
@@ -216,15 +223,16 @@ auto unpack_views(tinygltf::Model& model, const std::string& name) -> base::Resu
 
 /// A required extension this reader cannot do without knowing it; those about looks change no geometry.
 auto unknown_extension(const tinygltf::Model& model) -> std::optional<std::string> {
-  static constexpr std::array<std::string_view, 9> known{"KHR_mesh_quantization",
-                                                         draco,
-                                                         meshopt,
-                                                         "CESIUM_RTC",
-                                                         "KHR_lights_punctual",
-                                                         "EXT_mesh_features",
-                                                         "EXT_structural_metadata",
-                                                         "EXT_instance_features",
-                                                         "CESIUM_primitive_outline"};
+  static constexpr std::array<std::string_view, 10> known{"KHR_mesh_quantization",
+                                                          "KHR_techniques_webgl",  // materials by shaders
+                                                          draco,
+                                                          meshopt,
+                                                          "CESIUM_RTC",
+                                                          "KHR_lights_punctual",
+                                                          "EXT_mesh_features",
+                                                          "EXT_structural_metadata",
+                                                          "EXT_instance_features",
+                                                          "CESIUM_primitive_outline"};
   for (const std::string& name : model.extensionsRequired)
     if (!name.starts_with("KHR_materials_") && !name.starts_with("KHR_texture_") && !name.starts_with("EXT_texture_") &&
         !name.starts_with("MSFT_texture_") && std::ranges::find(known, name) == known.end())
@@ -234,7 +242,7 @@ auto unknown_extension(const tinygltf::Model& model) -> std::optional<std::strin
 
 }  // namespace
 
-auto load_gltf(std::string_view bytes, const std::filesystem::path& path) -> base::Result<GltfInput> {
+auto load_gltf(std::string_view bytes, const std::filesystem::path& path, bool images) -> base::Result<GltfInput> {
   const std::string name = path.string();
   bool binary = bytes.starts_with("glTF");
   Parts parts{bytes, {}};
@@ -260,7 +268,7 @@ auto load_gltf(std::string_view bytes, const std::filesystem::path& path) -> bas
 
   Surroundings around{parts.binary, {}, {}};
   tinygltf::TinyGLTF loader;
-  loader.SetImageLoader(&skip_image, nullptr);
+  loader.SetImageLoader(images ? &keep_image : &skip_image, nullptr);
   loader.SetFsCallbacks({&exists, &same_name, &read_buffer, &write_nothing, &around});
   GltfInput file;
   std::string errors, warnings;

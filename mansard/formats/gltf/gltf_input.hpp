@@ -16,8 +16,10 @@ struct GltfInput {
   std::vector<model::InputFile> buffers;  ///< the files beside it that were read
 };
 
-/// `path` leads to the buffers beside it. Fails with "ingest-mesh-format", "ingest-mesh-truncated", "file-missing",
-/// "file-read".
-[[nodiscard]] auto load_gltf(std::string_view bytes, const std::filesystem::path& path) -> base::Result<GltfInput>;
+/// `path` leads to the buffers beside it. With `images`, those written into the JSON itself (data URIs) are kept in
+/// their encoded form; others stay where they are. Fails with "ingest-mesh-format", "ingest-mesh-truncated",
+/// "file-missing", "file-read".
+[[nodiscard]] auto load_gltf(std::string_view bytes, const std::filesystem::path& path, bool images = false)
+    -> base::Result<GltfInput>;
 
 }  // namespace mansard::formats

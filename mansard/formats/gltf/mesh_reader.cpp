@@ -1,12 +1,16 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 
 #include "mansard/formats/gltf/draco.hpp"
 #include "mansard/formats/gltf/gltf_input.hpp"
+#include "mansard/formats/gltf/gltf_material.hpp"
 #include "mansard/formats/mesh/mesh_formats.hpp"
+#include "mansard/formats/mesh/textured_formats.hpp"
 #include "mansard/formats/mesh/transform.hpp"
 
 namespace mansard::formats {
@@ -64,7 +68,9 @@ struct View {
 
 class GltfReader {
  public:
-  GltfReader(const tinygltf::Model& model, std::string name) : model_(model), name_(std::move(name)) {}
+  /// With `textured`, its corners and materials are those of the triangles that are read.
+  GltfReader(const tinygltf::Model& model, std::string name, TexturedMesh* textured = nullptr)
+      : model_(model), name_(std::move(name)), textured_(textured) {}
 
   auto read() -> base::Result<RawMesh> {
     std::vector<int> roots;
@@ -193,8 +199,70 @@ class GltfReader {
     return corners;
   }
 
-  auto packed_primitive(const tinygltf::Value& packed, const tinygltf::Accessor& given) const
-      -> base::Result<geometry::Mesh> {
+  /// Numbers of an attribute, point by point; empty where it is not there, or is not sound.
+  auto numbers_of(const tinygltf::Primitive& primitive, const std::string& attribute, std::size_t points,
+                  std::size_t& components) const -> std::vector<float> {
+    const auto at = primitive.attributes.find(attribute);
+    const auto* given = at == primitive.attributes.end() ? nullptr : accessor(at->second);
+    if (given == nullptr || given->count < points || given->bufferView < 0) return {};
+    auto view = view_of(given->bufferView, given->byteOffset, given->count, given->componentType, given->type);
+    if (!view) return {};
+    view->normalised = given->normalized;
+    components = view->components;
+    std::vector<float> out;
+    out.reserve(points * components);
+    for (std::size_t i = 0; i < points; ++i)
+      for (std::size_t c = 0; c < components; ++c) out.push_back(static_cast<float>(view->value(i, c)));
+    return out;
+  }
+
+  /// The texture coordinates and colours of the points of a primitive.
+  struct Paint {
+    GltfMaterial material;
+    std::size_t uv_components = 2, colour_components = 0;
+    std::vector<float> uv, colours;
+  };
+
+  auto paint_of(const tinygltf::Primitive& primitive, std::size_t points) const -> Paint {
+    Paint out{material_of(model_, primitive.material), 2, 0, {}, {}};
+    const auto set = "TEXCOORD_" + std::to_string(out.material.uv_set);
+    out.uv = numbers_of(primitive, set, points, out.uv_components);
+    out.colours = numbers_of(primitive, "COLOR_0", points, out.colour_components);
+    return out;
+  }
+
+  /// What colours the triangles from `before` on, whose corners count from `first`.
+  void paint(const Paint& paint, std::size_t before, std::size_t first) {
+    auto& out = *textured_;
+    const bool pictured = paint.material.image >= 0 && !paint.uv.empty() && paint.uv_components == 2;
+    std::uint32_t number = no_material;
+    if (pictured) {
+      const auto& [image, wrap] = std::tie(paint.material.image, paint.material.wrap);
+      const auto [entry, added] = material_numbers_.try_emplace(std::tuple(image, wrap[0], wrap[1]),
+                                                                static_cast<std::uint32_t>(out.materials.size()));
+      if (added) out.materials.push_back({image_source(model_, image, name_), wrap});
+      number = entry->second;
+    }
+    for (std::size_t t = before; t < mesh_.triangles.size(); ++t) {
+      TexturedCorners corners;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::size_t point = mesh_.triangles[t][c] - first;
+        const bool exists = mesh_.triangles[t][c] != no_vertex;
+        if (pictured && exists) corners.uv[c] = paint.material.turned(paint.uv[2 * point], paint.uv[2 * point + 1]);
+        for (std::size_t k = 0; k < 3; ++k) {
+          double light = paint.material.factor[k];
+          if (exists && paint.colour_components >= 3)
+            light *= static_cast<double>(paint.colours[point * paint.colour_components + k]);
+          corners.colour[c][k] = static_cast<std::uint16_t>((light > 0 ? std::min(light, 1.0) : 0) * 65535 + 0.5);
+        }
+      }
+      out.corners.push_back(corners);
+      out.material_of.push_back(number);
+    }
+  }
+
+  auto packed_primitive(const tinygltf::Value& packed, const tinygltf::Accessor& given,
+                        std::span<DracoExtra> more) const -> base::Result<geometry::Mesh> {
     const auto whole = [](const tinygltf::Value& object, const char* key) {
       return object.Has(key) && object.Get(key).IsInt() ? object.Get(key).GetNumberAsInt() : -1;
     };
@@ -205,7 +273,7 @@ class GltfReader {
     const auto bytes = model_.bufferViews[static_cast<std::size_t>(piece)].byteLength;
     const auto view = view_of(piece, 0, bytes, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_SCALAR);
     if (!view) return bad("a primitive packed with Draco reaches beyond its buffer");
-    return unpack_draco({view->data, bytes}, static_cast<std::uint32_t>(position), given.normalized, name_);
+    return unpack_draco({view->data, bytes}, static_cast<std::uint32_t>(position), given.normalized, name_, more);
   }
 
   auto take_primitive(const tinygltf::Primitive& primitive, const Transform& here) -> base::Result<void> {
@@ -217,22 +285,43 @@ class GltfReader {
     if (given == nullptr) return bad("a primitive has no positions");
     if (const auto packed = primitive.extensions.find("KHR_draco_mesh_compression");
         packed != primitive.extensions.end()) {
-      auto mesh = packed_primitive(packed->second, *given);
+      Paint paint = textured_ != nullptr ? paint_of(primitive, 0) : Paint();
+      const auto extra_of = [&](const std::string& attribute) {
+        DracoExtra extra;
+        extra.attribute = no_vertex;
+        const auto& ids = packed->second.Get("attributes");
+        if (ids.Has(attribute) && ids.Get(attribute).IsInt())
+          extra.attribute = static_cast<std::uint32_t>(ids.Get(attribute).GetNumberAsInt());
+        const auto named = primitive.attributes.find(attribute);
+        if (named != primitive.attributes.end())
+          if (const auto* values = accessor(named->second)) extra.normalised = values->normalized;
+        return extra;
+      };
+      std::vector<DracoExtra> extras;
+      if (textured_ != nullptr && packed->second.Has("attributes"))
+        extras = {extra_of("TEXCOORD_" + std::to_string(paint.material.uv_set)), extra_of("COLOR_0")};
+      auto mesh = packed_primitive(packed->second, *given, extras);
       if (!mesh) return mesh.error();
+      if (extras.size() == 2) {
+        paint.uv = std::move(extras[0].values);
+        paint.uv_components = extras[0].components;
+        paint.colours = std::move(extras[1].values);
+        paint.colour_components = extras[1].components;
+      }
       std::vector<std::uint32_t> corners;
       for (const auto& triangle : mesh->triangles)
         for (const auto corner : triangle) corners.push_back(corner < mesh->vertices.size() ? corner : no_vertex);
-      return add(mesh->vertices, corners, TINYGLTF_MODE_TRIANGLES, here);
+      return add(mesh->vertices, corners, TINYGLTF_MODE_TRIANGLES, here, paint);
     }
     const auto points = positions_of(*given);
     if (!points) return bad("the positions of a primitive reach beyond their buffer");
     auto corners = corners_of(primitive, points->size());
     if (!corners) return bad("the indices of a primitive reach beyond their buffer");
-    return add(*points, *corners, mode, here);
+    return add(*points, *corners, mode, here, textured_ != nullptr ? paint_of(primitive, points->size()) : Paint());
   }
 
-  auto add(const std::vector<Point3>& points, std::vector<std::uint32_t>& corners, int mode, const Transform& here)
-      -> base::Result<void> {
+  auto add(const std::vector<Point3>& points, std::vector<std::uint32_t>& corners, int mode, const Transform& here,
+           const Paint& colours) -> base::Result<void> {
     const std::size_t first = mesh_.vertices.size();
     if (first + points.size() >= no_vertex) return bad("more than 4 thousand million vertices");
     for (const Point3 p : points) mesh_.vertices.push_back(here(p));
@@ -246,11 +335,14 @@ class GltfReader {
     if (here.mirrors())
       for (std::size_t t = before; t < mesh_.triangles.size(); ++t)
         std::swap(mesh_.triangles[t][1], mesh_.triangles[t][2]);
+    if (textured_ != nullptr) paint(colours, before, first);
     return {};
   }
 
   const tinygltf::Model& model_;
   const std::string name_;
+  TexturedMesh* textured_;
+  std::map<std::tuple<int, Wrap, Wrap>, std::uint32_t> material_numbers_;
   RawMesh mesh_;
   std::size_t visits_ = 0;
 };
@@ -275,6 +367,17 @@ auto read_gltf(std::string_view bytes, const std::filesystem::path& path) -> bas
   auto mesh = GltfReader(file->model, path.string()).read();
   if (!mesh) return mesh.error();
   return GltfMesh{std::move(*mesh), centre_of(file->model), std::move(file->buffers)};
+}
+
+auto read_textured_gltf(std::string_view bytes, const std::filesystem::path& path) -> base::Result<TexturedGltf> {
+  auto file = load_gltf(bytes, path, true);
+  if (!file) return file.error();
+  TexturedGltf out;
+  auto mesh = GltfReader(file->model, path.string(), &out.mesh).read();
+  if (!mesh) return mesh.error();
+  out.mesh.mesh = {std::move(mesh->vertices), std::move(mesh->triangles)};
+  out.centre = centre_of(file->model);
+  return out;
 }
 
 }  // namespace mansard::formats

@@ -8,22 +8,59 @@ namespace {
 
 class Obj : public CityWriter {
  public:
-  Obj(const Header& header, Solids solids, base::Sink& file) : text_(header, solids), file_(file) {}
+  Obj(const Header& header, const WriteOptions& options, base::Sink& file, base::Sink& library, TextureFolder folder)
+      : text_(header, options.solids),
+        file_(file),
+        library_(library),
+        side_(static_cast<std::uint32_t>(options.atlas_size)),
+        queue_(side_),
+        folder_(std::move(folder)) {}
   [[nodiscard]] auto add(const model::Building& building) -> base::Result<void> override {
     const auto keys = gate_.admit(building);
     if (!keys) return keys.error();
-    const auto text = text_.of(building, *keys);
+    if (!building.texture && queue_.waiting.empty()) return write(building, *keys, nullptr);
+    if (queue_.full_with(building))
+      if (auto done = empty(); !done) return done;
+    queue_.add(building);
+    keys_.push_back(*keys);
+    return {};
+  }
+  [[nodiscard]] auto finish() -> base::Result<void> override { return empty(); }
+  [[nodiscard]] auto warnings() const -> std::vector<base::Diagnostic> override { return text_.warnings(); }
+
+ private:
+  [[nodiscard]] auto write(const model::Building& building, const Gate::Keyed& keys, const TexturedSolids* textured)
+      -> base::Result<void> {
+    const auto text = text_.of(building, keys, textured);
     if (!text) return text.error();
     file_.append(*text);
     return {};
   }
-  [[nodiscard]] auto finish() -> base::Result<void> override { return {}; }
-  [[nodiscard]] auto warnings() const -> std::vector<base::Diagnostic> override { return text_.warnings(); }
 
- private:
+  [[nodiscard]] auto empty() -> base::Result<void> {
+    auto done = empty_queue(
+        queue_, side_,
+        [&](const SolidAtlas& atlas) {
+          auto first = folder_.write(atlas);
+          if (first)
+            for (std::uint32_t page = *first; page < folder_.pages(); ++page)
+              library_.append(textured_mtl_text(page, folder_.name(page)));
+          return first;
+        },
+        [&](std::size_t number, const model::Building& building, const TexturedSolids* textured) {
+          return write(building, keys_[number], textured);
+        });
+    keys_.clear();
+    return done;
+  }
+
   Gate gate_;
   ObjText text_;
-  base::Sink& file_;
+  base::Sink &file_, &library_;
+  std::uint32_t side_;
+  AtlasQueue queue_;
+  std::vector<Gate::Keyed> keys_;  ///< of the buildings in the queue
+  TextureFolder folder_;
 };
 
 /// The records among the comments; the rest is passed over.
@@ -85,7 +122,8 @@ auto obj_writer(const Path& path, const Header& header, const WriteOptions& opti
   if (!materials) return materials.error();
   (*materials)->append(mtl_text());
   (*file)->append(ObjText::head(header, library.filename().string()));
-  return WriterResult(std::make_unique<Obj>(header, options.solids, **file));
+  return WriterResult(
+      std::make_unique<Obj>(header, options, **file, **materials, TextureFolder(path, options, outputs)));
 }
 
 auto obj_reader(const Path& path) -> ReaderResult { return ReadObj::open(path); }

@@ -25,17 +25,21 @@ auto one_line(std::string_view words) -> std::string {
   return line;
 }
 
-/// The faces of a part as corners: whole where they have no holes, as triangles where they have.
-using Facets = std::array<std::vector<std::vector<std::uint32_t>>, class_count>;
+auto material_name(std::size_t kind, std::uint32_t page) -> std::string {
+  return std::string(class_name(static_cast<model::FaceClass>(kind))) + "_" + std::to_string(page);
+}
 
-auto facets_of(const model::Part& part) -> base::Result<Facets> {
+}  // namespace
+
+/// The faces of a part as corners: whole where they have no holes, as triangles where they have.
+auto ObjText::facets_of(const model::Part& part) -> base::Result<Facets> {
   const auto& solid = part.model.solid;
   Facets facets;
   std::optional<solid::Triangulated> triangulated;
   for (std::size_t f = 0; f < solid.faces.size(); ++f) {
     auto& list = facets[static_cast<std::size_t>(part.model.classes[f])];
     if (solid.faces[f].loops.size() == 1) {
-      list.push_back(solid.faces[f].loops[0]);
+      list.push_back({f, solid.faces[f].loops[0]});
       continue;
     }
     if (!triangulated) {
@@ -46,13 +50,11 @@ auto facets_of(const model::Part& part) -> base::Result<Facets> {
     for (std::size_t t = 0; t < triangulated->triangles.size(); ++t)
       if (triangulated->face_of[t] == f) {
         const auto& corners = triangulated->triangles[t];
-        list.emplace_back(corners.begin(), corners.end());
+        list.push_back({f, {corners.begin(), corners.end()}});
       }
   }
   return facets;
 }
-
-}  // namespace
 
 auto ObjText::head(const Header& header, const std::string& mtl_name) -> std::string {
   std::string out = "# mansard " + one_line(header.made_by.version) + "\n";
@@ -66,43 +68,61 @@ auto ObjText::head(const Header& header, const std::string& mtl_name) -> std::st
   return out + "mtllib " + one_line(mtl_name) + "\n";
 }
 
-auto ObjText::of(const model::Building& building, const Gate::Keyed& keys) -> base::Result<std::string> {
+auto ObjText::of(const model::Building& building, const Gate::Keyed& keys, const TexturedSolids* textured)
+    -> base::Result<std::string> {
   std::string out = std::string(obj_building) + building_record(building) + "\n";
   const Drawn solids = drawn(building, keys, solids_);
   warnings_.insert(warnings_.end(), solids.warnings.begin(), solids.warnings.end());
   if (!solids.solids.empty()) out += "o " + one_word(keys.building) + "\n";
-  for (const auto& [part, parts] : solids.solids) {
+  if (textures_for(building, solids.solids.size()) == nullptr) textured = nullptr;
+  for (std::size_t s = 0; s < solids.solids.size(); ++s) {
+    const auto& part = solids.solids[s].part;
     const auto facets = facets_of(part);
     if (!facets) return facets.error();
     out += "g " + one_word(part.id) + "\n";
-    append_part(out, part, *facets);
+    append_part(out, part, *facets, textured, textured != nullptr ? textured->first + s : 0);
   }
   return out;
 }
 
-void ObjText::append_part(std::string& out, const model::Part& part, const Facets& facets) {
+void ObjText::append_part(std::string& out, const model::Part& part, const Facets& facets,
+                          const TexturedSolids* textured, std::size_t solid) {
   std::map<geometry::Point3, std::size_t> number_of;
   std::string faces;
   for (std::size_t c = 0; c < class_count; ++c) {
-    if (facets[c].empty()) continue;
-    faces += "usemtl ";
-    faces += class_name(static_cast<model::FaceClass>(c));
-    faces += '\n';
-    for (const auto& corners : facets[c]) {
+    std::string material;
+    for (const auto& [face, corners] : facets[c]) {
+      const auto wanted = textured == nullptr
+                              ? std::string(class_name(static_cast<model::FaceClass>(c)))
+                              : material_name(c, textured->first_page + textured->atlas->page_of(solid, face));
+      if (wanted != material) faces += "usemtl " + wanted + "\n";
+      material = wanted;
       faces += 'f';
       for (const auto corner : corners) {
-        const auto v = in_file_frame(frame_, part.model.solid.vertices[corner]);
+        const auto local = part.model.solid.vertices[corner];
+        const auto v = in_file_frame(frame_, local);
         const auto [entry, added] = number_of.try_emplace(v, written_ + 1);
         if (added) {
           ++written_;
           out += "v " + base::to_text(v.x) + " " + base::to_text(v.y) + " " + base::to_text(v.z) + "\n";
         }
         faces += ' ' + std::to_string(entry->second);
+        if (textured == nullptr) continue;
+        const auto [u, w] = textured->atlas->uv(solid, face, local);
+        out += "vt " + base::to_text(u, 6) + " " + base::to_text(1 - w, 6) + "\n";  // v counts upwards
+        faces += '/' + std::to_string(++placed_);
       }
       faces += '\n';
     }
   }
   out += faces;
+}
+
+auto textured_mtl_text(std::uint32_t page, const std::string& image) -> std::string {
+  std::string out;
+  for (std::size_t c = 0; c < class_count; ++c)
+    out += "newmtl " + material_name(c, page) + "\nKd 1 1 1\nKs 0 0 0\nd 1\nillum 1\nmap_Kd " + image + "\n";
+  return out;
 }
 
 auto mtl_text() -> std::string {

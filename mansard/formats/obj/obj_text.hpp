@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "mansard/formats/atlas/texture_folder.hpp"
 #include "mansard/formats/detail/writers.hpp"
 
 namespace mansard::formats::detail {
@@ -17,20 +18,34 @@ class ObjText {
   ObjText(const Header& header, Solids solids) : frame_(header.frame), solids_(solids) {}
   /// What stands before the first building.
   [[nodiscard]] static auto head(const Header& header, const std::string& mtl_name) -> std::string;
-  /// Fails with "write-triangulate".
-  [[nodiscard]] auto of(const model::Building& building, const Gate::Keyed& keys) -> base::Result<std::string>;
+  /// With `textured`, faces have texture coordinates, and materials of their class and image. Fails with
+  /// "write-triangulate".
+  [[nodiscard]] auto of(const model::Building& building, const Gate::Keyed& keys,
+                        const TexturedSolids* textured = nullptr) -> base::Result<std::string>;
   /// Of solid::unite.
   [[nodiscard]] auto warnings() const -> const std::vector<base::Diagnostic>& { return warnings_; }
 
  private:
-  void append_part(std::string& out, const model::Part& part,
-                   const std::array<std::vector<std::vector<std::uint32_t>>, class_count>& facets);
+  struct Facet {
+    std::size_t face = 0;
+    std::vector<std::uint32_t> corners;
+  };
+  using Facets = std::array<std::vector<Facet>, class_count>;
+
+  [[nodiscard]] static auto facets_of(const model::Part& part) -> base::Result<Facets>;
+  /// `solid`: its number in the atlas.
+  void append_part(std::string& out, const model::Part& part, const Facets& facets, const TexturedSolids* textured,
+                   std::size_t solid);
 
   const model::Frame frame_;
   const Solids solids_;
   std::vector<base::Diagnostic> warnings_;
   std::size_t written_ = 0;  ///< vertices; OBJ counts them through the whole file, from 1
+  std::size_t placed_ = 0;   ///< texture coordinates
 };
+
+/// A material of each class with that image.
+[[nodiscard]] auto textured_mtl_text(std::uint32_t page, const std::string& image) -> std::string;
 
 [[nodiscard]] auto mtl_text() -> std::string;
 

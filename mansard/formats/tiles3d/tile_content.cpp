@@ -9,6 +9,7 @@
 
 #include "mansard/formats/mesh/append.hpp"
 #include "mansard/formats/mesh/mesh_formats.hpp"
+#include "mansard/formats/mesh/textured_formats.hpp"
 
 namespace mansard::formats {
 namespace {
@@ -26,8 +27,10 @@ auto number_at(std::string_view bytes, std::size_t at) -> Number {
 
 class ContentReader {
  public:
-  ContentReader(const std::filesystem::path& path, const Transform& turn, const Transform& place)
-      : path_(path), name_(path.string()), turn_(turn), place_(place) {}
+  /// With `textured`, the mesh goes there, with its textures.
+  ContentReader(const std::filesystem::path& path, const Transform& turn, const Transform& place,
+                TexturedMesh* textured = nullptr)
+      : path_(path), name_(path.string()), turn_(turn), place_(place), textured_(textured) {}
 
   auto take(std::string_view bytes, int depth = 0) -> base::Result<void> {
     if (bytes.empty()) return base::error("ingest-mesh-empty", "the tile is empty; copy or export it again", name_);
@@ -55,10 +58,32 @@ class ContentReader {
                        "the tile ends before what its header promises; copy or export it again", name_);
   }
 
+  [[nodiscard]] auto whole_way(Point3 centre) const -> Transform {
+    return place_.after(Transform::shift(centre)).after(turn_);
+  }
+
+  auto take_textured(std::string_view bytes, Point3 centre) -> base::Result<void> {
+    auto read = read_textured_gltf(bytes, path_);
+    if (!read) return read.error();
+    const Transform whole = whole_way(centre + read->centre.value_or(Point3{}));
+    auto& mesh = read->mesh;
+    for (auto& v : mesh.mesh.vertices) v = whole(v);
+    if (whole.mirrors())
+      for (std::size_t t = 0; t < mesh.mesh.triangles.size(); ++t) {
+        std::swap(mesh.mesh.triangles[t][1], mesh.mesh.triangles[t][2]);
+        if (!mesh.has_colour()) continue;
+        std::swap(mesh.corners[t].uv[1], mesh.corners[t].uv[2]);
+        std::swap(mesh.corners[t].colour[1], mesh.corners[t].colour[2]);
+      }
+    append(*textured_, std::move(mesh));
+    return {};
+  }
+
   auto take_gltf(std::string_view bytes, Point3 centre) -> base::Result<void> {
+    if (textured_ != nullptr) return take_textured(bytes, centre);
     auto read = read_gltf(bytes, path_);
     if (!read) return read.error();
-    const Transform whole = place_.after(Transform::shift(centre + read->centre.value_or(Point3{}))).after(turn_);
+    const Transform whole = whole_way(centre + read->centre.value_or(Point3{}));
     auto& mesh = read->mesh;
     for (auto& v : mesh.vertices) v = whole(v);
     if (whole.mirrors())
@@ -129,6 +154,7 @@ class ContentReader {
   const std::filesystem::path& path_;
   const std::string name_;
   const Transform turn_, place_;
+  TexturedMesh* textured_;
   TileContent out_;
 };
 
@@ -139,6 +165,14 @@ auto read_tile_content(std::string_view bytes, const std::filesystem::path& path
   ContentReader reader(path, turn, place);
   if (auto done = reader.take(bytes); !done) return done.error();
   return reader.result();
+}
+
+auto read_textured_content(std::string_view bytes, const std::filesystem::path& path, const Transform& turn,
+                           const Transform& place) -> base::Result<TexturedMesh> {
+  TexturedMesh out;
+  ContentReader reader(path, turn, place, &out);
+  if (auto done = reader.take(bytes); !done) return done.error();
+  return out;
 }
 
 }  // namespace mansard::formats

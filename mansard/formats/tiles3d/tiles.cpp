@@ -2,9 +2,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <limits>
+#include <optional>
 
 #include "mansard/base/files.hpp"
+#include "mansard/base/pack.hpp"
 #include "mansard/crs/globe.hpp"
 #include "mansard/formats/detail/drawn.hpp"
 #include "mansard/formats/detail/records.hpp"
@@ -27,6 +30,7 @@ struct TilePart {
   Row row;
   std::string record;
   PartMesh mesh;
+  std::optional<model::SolidTexture> texture{};  ///< of the faces of the mesh
 };
 
 template <class T>
@@ -52,6 +56,8 @@ void append_part(std::string& bytes, const TilePart& part) {
   append_all(bytes, part.mesh.vertices);
   append_all(bytes, part.mesh.indices);
   append_all(bytes, part.mesh.faces);
+  const auto texture = base::packed(part.texture);
+  append_all(bytes, std::vector<char>(texture.begin(), texture.end()));
 }
 
 auto take_part(std::string_view& bytes) -> TilePart {
@@ -62,7 +68,22 @@ auto take_part(std::string_view& bytes) -> TilePart {
   part.mesh.vertices = take_all<Point3>(bytes);
   part.mesh.indices = take_all<std::uint32_t>(bytes);
   part.mesh.faces = take_all<FaceMesh>(bytes);
+  const auto texture = take_all<char>(bytes);
+  base::Unpacker from({texture.data(), texture.size()});
+  (void)from.take(part.texture);  // as put aside: Spool::read has failed otherwise
   return part;
+}
+
+/// Of LoD 1.2: the mean colours of the finer model.
+auto plain_texture(const PartMesh& mesh, const model::SolidTexture& fine) -> model::SolidTexture {
+  model::SolidTexture out;
+  for (const FaceMesh& face : mesh.faces) {
+    auto& texture = out.faces.emplace_back();
+    const auto& colour = face.kind == model::FaceClass::roof ? fine.roof : fine.wall;
+    texture.frame.start = {0.5, 0.5};
+    texture.pixels = {1, 1, {colour.begin(), colour.end()}};
+  }
+  return out;
 }
 
 // ---- one building
@@ -220,10 +241,18 @@ class TilesWriter : public CityWriter {
     }
     item.fine = aside_->size();
     std::string bytes;
+    const auto* texture = textures_for(building, solids.solids.size());
+    const auto of_part = [&](std::size_t p) -> std::optional<model::SolidTexture> {
+      return texture != nullptr && p < texture->solids.size() ? std::optional(texture->solids[p]) : std::nullopt;
+    };
     for (std::size_t p = 0; p < rows.size(); ++p)
-      append_part(bytes, {rows[p], p == 0 ? building_record(building) : "", std::move(fine[p])});
+      append_part(bytes, {rows[p], p == 0 ? building_record(building) : "", std::move(fine[p]), of_part(p)});
     item.coarse = item.fine + bytes.size();
-    for (std::size_t p = 0; p < rows.size(); ++p) append_part(bytes, {rows[p], {}, std::move(flat[p])});
+    for (std::size_t p = 0; p < rows.size(); ++p) {
+      auto plain = of_part(p);
+      if (plain) plain = plain_texture(flat[p], *plain);
+      append_part(bytes, {rows[p], {}, std::move(flat[p]), std::move(plain)});
+    }
     aside_->append(bytes);
     item.end = aside_->size();
   }
@@ -276,14 +305,24 @@ class TilesWriter : public CityWriter {
     return all;
   }
 
-  auto add_building(GltfFile& file, std::size_t t, std::uint32_t number) -> base::Result<void> {
+  /// The parts of a building in a tile.
+  auto parts_of(std::size_t t, std::uint32_t number) -> base::Result<std::vector<TilePart>> {
     const bool leaf = tree_.tiles[t].children.empty();
     const TileItem& item = items_[number];
     const std::uint64_t from = leaf ? item.fine : item.coarse, to = leaf ? item.coarse : item.end;
     const auto bytes = aside_->read(from, static_cast<std::size_t>(to - from));
     if (!bytes) return bytes.error();
-    for (std::string_view rest = *bytes; !rest.empty();) {
-      const TilePart part = take_part(rest);
+    std::vector<TilePart> parts;
+    for (std::string_view rest = *bytes; !rest.empty();) parts.push_back(take_part(rest));
+    return parts;
+  }
+
+  auto add_parts(GltfFile& file, std::size_t t, const std::vector<TilePart>& parts, const TexturedSolids& textured)
+      -> base::Result<void> {
+    std::size_t solid = 0;
+    for (const TilePart& part : parts) {
+      PartTexture texture;
+      if (part.texture) texture = part_texture(part.mesh, textured, solid++);
       std::vector<Point3> places = part.mesh.vertices, facing;
       if (globe_)
         if (auto done = globe_->to_earth(places); !done) return done;
@@ -292,7 +331,7 @@ class TilesWriter : public CityWriter {
         const Point3 n = face.normal;
         facing.push_back(globe_ ? n.x * axes_[t][0] + n.y * axes_[t][1] + n.z * axes_[t][2] : n);
       }
-      file.add_part(part.row, part.record, part.mesh, places, facing);
+      file.add_part(part.row, part.record, part.mesh, places, facing, part.texture ? &texture : nullptr);
     }
     return {};
   }
@@ -302,10 +341,21 @@ class TilesWriter : public CityWriter {
     Made& made = made_[t];
     for (const std::size_t child : tile.children) made.error = std::max(made.error, made_[child].error);
     const auto buildings = chosen(tile, made.error);
-    auto file = GltfFile::open(options_.compress);
+    auto file = GltfFile::open(gltf_options(options_));
     if (!file) return file.error();
-    for (const auto number : buildings)
-      if (auto added = add_building(**file, t, number); !added) return added;
+    std::vector<TilePart> parts;
+    for (const auto number : buildings) {
+      auto own = parts_of(t, number);
+      if (!own) return own.failure();
+      std::ranges::move(*own, std::back_inserter(parts));
+    }
+    SolidAtlas atlas(static_cast<std::uint32_t>(options_.atlas_size));
+    for (const TilePart& part : parts)
+      if (part.texture) (void)atlas.add(*part.texture);
+    atlas.settle();
+    const auto images = (*file)->add_images(atlas);
+    if (!images) return images.failure();
+    if (auto added = add_parts(**file, t, parts, {&atlas, 0, *images}); !added) return added;
     (*file)->end_mesh("buildings");
     if (const auto& bounds = (*file)->bounds())  // z up again
       for (const Float3& p : *bounds) made.box.add({p[0], -static_cast<double>(p[2]), p[1]});

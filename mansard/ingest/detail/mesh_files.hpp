@@ -18,6 +18,7 @@
 #include "mansard/formats/tiles3d/tileset.hpp"
 #include "mansard/ingest/cells.hpp"
 #include "mansard/ingest/ingest.hpp"
+#include "mansard/ingest/textured.hpp"
 
 namespace mansard::ingest::detail {
 
@@ -53,6 +54,12 @@ class MeshReading {
   /// "ingest-no-overlap", "ingest-crs-unknown", "ingest-raster". Can be called once.
   [[nodiscard]] auto finish(const std::string& working, const std::optional<geometry::Box2>& within,
                             const base::Run& run) -> base::Result<MeshFiles>;
+
+  /// The meshes with their textures, in the working CRS but for the offset, piece by piece. Returns warnings.
+  [[nodiscard]] static auto each_textured(const std::vector<std::filesystem::path>& paths, const Options& options,
+                                          const std::string& working, const geometry::Box2& within,
+                                          const TakeTextured& take, const base::Run& run)
+      -> base::Result<std::vector<base::Diagnostic>>;
 
  private:
   enum class Kind { file, tileset, raster, cloud };

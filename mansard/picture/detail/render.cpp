@@ -228,7 +228,12 @@ class Renderer {
     // Walls see half the sky, and the ground, which gives back some of it.
     const auto up = static_cast<float>(0.8 + 0.2 * found.normal.z);
     const Light sky = (0.15F + 0.85F * found.sky) * up * lamp_.sky, sun = facing * found.sun * lamp_.sun;
-    if (found.triangle != nothing) return model_.albedo[found.triangle] * (sky + sun);
+    if (found.triangle != nothing) {
+      const Light light = sky + sun;
+      if (const auto colour = model_.picture_at(found.triangle, found.point))
+        return to_light(*colour) * (0.5F * light + Light{0.5F, 0.5F, 0.5F});
+      return model_.albedo[found.triangle] * light;
+    }
     // The paper is white where nothing shades it, and keeps some white where something does.
     const Light full = lamp_.sky + facing * lamp_.sun, here = sky + sun;
     Light shade;
@@ -297,6 +302,7 @@ auto joined(std::span<const Layer> layers) -> Model {
   Model model;
   for (const Layer& layer : layers) {
     const auto first = static_cast<std::uint32_t>(model.mesh.vertices.size());
+    if (layer.picture) model.pictured.emplace_back(model.mesh.triangles.size(), &layer);
     model.mesh.vertices.insert(model.mesh.vertices.end(), layer.mesh.vertices.begin(), layer.mesh.vertices.end());
     for (std::size_t t = 0; t < layer.mesh.triangles.size(); ++t) {
       const auto& [a, b, c] = layer.mesh.triangles[t];
@@ -310,6 +316,13 @@ auto joined(std::span<const Layer> layers) -> Model {
     }
   }
   return model;
+}
+
+auto Model::picture_at(std::size_t triangle, Point3 point) const -> std::optional<Colour> {
+  for (const auto& [first, layer] : pictured)
+    if (triangle >= first && triangle - first < layer->mesh.triangles.size())
+      return layer->picture(triangle - first, point);
+  return std::nullopt;
 }
 
 void render(Canvas& canvas, const Model& model, const rays::Scene& scene, const Camera& camera, const base::Run& run) {

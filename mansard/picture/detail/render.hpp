@@ -10,7 +10,11 @@ namespace mansard::picture::detail {
 /// All layers as one mesh.
 struct Model {
   geometry::Mesh mesh;
-  std::vector<Light> albedo;              ///< a triangle
+  std::vector<Light> albedo;  ///< a triangle
+  /// The layers with pictures: their first triangle, and what gives the colours.
+  std::vector<std::pair<std::size_t, const Layer*>> pictured;
+  /// As Layer::picture, of all layers.
+  [[nodiscard]] auto picture_at(std::size_t triangle, geometry::Point3 point) const -> std::optional<Colour>;
   std::vector<geometry::Point3> normals;  ///< a triangle, unit, either side; zero for one without area
 };
 [[nodiscard]] auto joined(std::span<const Layer> layers) -> Model;
