@@ -48,6 +48,8 @@ TEST(Bake, takes_every_texel_from_the_place_where_it_is) {
     if (off < 0.3) ++right;
   });
   EXPECT_GT(all, 80000U);
+  RecordProperty("texels", static_cast<int>(all));
+  RecordProperty("elsewhere", static_cast<int>(all - right));
   EXPECT_GE(static_cast<double>(right), 0.99 * static_cast<double>(all)) << right << " of " << all;
 }
 

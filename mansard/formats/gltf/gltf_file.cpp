@@ -126,9 +126,9 @@ auto GltfFile::add_images(const SolidAtlas& atlas) -> base::Result<std::uint32_t
 
 auto GltfFile::material_number(std::uint32_t image, std::uint32_t kind) -> std::int64_t {
   if (!textured_) return kind;
-  const auto found = std::ranges::find(materials_, std::pair(image, kind));
-  if (found == materials_.end()) materials_.emplace_back(image, kind);
-  return (found == materials_.end() ? static_cast<std::int64_t>(materials_.size()) - 1 : found - materials_.begin());
+  const auto number = std::ranges::find(materials_, std::pair(image, kind)) - materials_.begin();
+  if (number == static_cast<std::ptrdiff_t>(materials_.size())) materials_.emplace_back(image, kind);
+  return number;
 }
 
 void GltfFile::add_part(const Row& row, std::string_view record, const PartMesh& mesh, std::span<const Point3> places,
