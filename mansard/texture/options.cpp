@@ -6,7 +6,6 @@ auto option_list(Options& o) -> base::OptionList {
   base::OptionList list("texture");
   list.flag("bake", o.bake, "Give the models the textures of the scan.").alias("texture").source("off by default");
   list.number("size", o.size, "m", {0.005, 10}, "Side length of a texel of the models' textures.")
-      .alias("texture_size")
       .source("docs/texture.md");
   list.integer("samples", o.samples, "", {1, 16}, "Samples of the scan along each side of a texel.")
       .source("docs/texture.md");
