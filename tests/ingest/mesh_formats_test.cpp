@@ -172,7 +172,7 @@ TEST_F(Ply, does_not_believe_a_header_that_promises_more_than_the_file_holds) {
   for (const std::string format : {"ascii", "binary_little_endian"}) {
     const auto scene = mesh(file("m.ply", "ply\nformat " + format + " 1.0\nelement vertex 9000000000000000000\n" +
                                               vertex + "end_header\n0 0 0\n"));
-    ASSERT_EQ(code(scene), "ingest-mesh-truncated");
+    ASSERT_EQ(code(scene), "ingest-points-truncated");  // without faces, it is a point cloud
     EXPECT_THAT(scene.error().message, HasSubstr("9000000000000000000"));
   }
   // A list that says it is longer than the file.
@@ -196,7 +196,7 @@ TEST_F(Ply, refuses_headers_it_cannot_follow) {
   EXPECT_EQ(code(mesh(file("f.ply",
                            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
                            "property float z\nend_header\n0 0 0\n0 zero 0\n0 0 0\n"))),
-            "ingest-mesh-format");
+            "ingest-points-format");
 }
 
 TEST_F(Off, reads_comments_colours_and_counts_beside_the_keyword) {

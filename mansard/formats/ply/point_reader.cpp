@@ -160,7 +160,11 @@ auto is_point_ply(std::string_view bytes) -> bool {
     const auto* found = header->find(element);
     return found == nullptr || found->count == 0;
   };
-  return vertices != nullptr && vertices->count > 0 && none("face") && none("tristrips");
+  const auto has = [&](std::string_view axis) {
+    return std::ranges::any_of(vertices->properties, [&](const Property& p) { return p.name == axis && !p.count; });
+  };
+  return vertices != nullptr && vertices->count > 0 && none("face") && none("tristrips") && has("x") && has("y") &&
+         has("z");
 }
 
 auto open_point_ply(const std::filesystem::path& path) -> base::Result<std::unique_ptr<PointCloud>> {

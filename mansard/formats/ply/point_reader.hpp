@@ -9,8 +9,8 @@
 
 namespace mansard::formats {
 
-/// Whether the header that the bytes begin with has vertices, and no face and no triangle strip; false where it is no
-/// header.
+/// Whether the header that the bytes begin with has vertices with x, y and z, and no face and no triangle strip; false
+/// where it is no header.
 [[nodiscard]] auto is_point_ply(std::string_view bytes) -> bool;
 
 /// Beside x, y and z of any type it takes the properties classification (or class, label), return_number,
