@@ -111,6 +111,8 @@ function* textureFaults(objects, appearance) {
         if (shape(values, 0) !== shape(boundaries, 1)) yield `${id}: its texture is not of the shape of the boundaries`;
         for (const [image, ...ring] of values.flat(2)) images.add(image), ring.forEach((place) => places.add(place));
       }
+  if ([...images].some((image) => image >= (appearance?.textures.length ?? 0))) yield 'an image that is not there';
+  if ([...places].some((place) => place >= (appearance?.['vertices-texture'].length ?? 0))) yield 'a coordinate that is not there';
   if (images.size !== (appearance?.textures.length ?? 0)) yield 'images that are not used, or are not there';
   if (places.size !== (appearance?.['vertices-texture'].length ?? 0)) yield 'coordinates that are not used, or are not there';
 }
