@@ -45,7 +45,7 @@ const titles = {
 const docs = (...names) => names.map((name) => `docs/${name}.md`).filter(there);
 const top = [
   ["Start", ["README.md", ...docs("packaging"), "data/README.md"]],
-  ["Tutorials", in_folder("docs/tutorials", "one_house.md", "one_block.md", "one_city.md", "lidar_tile.md", "whole_city.md")],
+  ["Tutorials", in_folder("docs/tutorials", "one_house.md", "one_block.md", "one_city.md", "lidar_tile.md", "textured_city.md", "whole_city.md")],
   ["Formats", docs("ingest", "formats")],
   ["Options", ["options.html", "attributes.html", "codes.html"]],
   ["Command line", [...docs("cli"), "verbs.html"]],
