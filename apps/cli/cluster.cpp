@@ -10,6 +10,7 @@
 #include "apps/cli/catalogue.hpp"
 #include "apps/cli/exit.hpp"
 #include "apps/cli/output.hpp"
+#include "apps/cli/shell_word.hpp"
 #include "apps/cli/verbs.hpp"
 #include "mansard/base/files.hpp"
 
@@ -25,18 +26,6 @@ struct Request {
   std::string memory = "4G";
   bool submit = false, overwrite = false;
 };
-
-/// A word as a shell takes it for itself.
-auto quoted(const std::string& word) -> std::string {
-  const bool plain = !word.empty() && std::ranges::all_of(word, [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
-           std::string_view("/._-+=:,@%").find(c) != std::string::npos;
-  });
-  if (plain) return word;
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
 
 auto program() -> std::string {
   std::error_code failure;

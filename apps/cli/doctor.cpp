@@ -13,6 +13,7 @@
 #include "apps/cli/exit.hpp"
 #include "apps/cli/formats.hpp"
 #include "apps/cli/scan.hpp"
+#include "apps/cli/shell_word.hpp"
 #include "apps/cli/verbs.hpp"
 #include "mansard/base/outputs.hpp"
 #include "mansard/base/text.hpp"
@@ -103,7 +104,7 @@ auto libraries() -> std::vector<Finding> {
   all.push_back({missing.empty() ? Found::fine : Found::problem, "GDAL",
                  can.gdal + (missing.empty() ? ", with all drivers that are used" : ", without " + missing),
                  missing.empty() ? "" : "install Debian's libgdal32, or a GDAL that was built with these drivers"});
-  const bool registered = !can.register_version.empty();
+  const bool registered = can.has_register;
   all.push_back({registered ? Found::fine : Found::problem, "PROJ",
                  can.proj + (registered ? ", with the EPSG register" : ", without its database: no CRS is known"),
                  registered ? "" : "install Debian's proj-data, or set PROJ_DATA to the folder with proj.db"});
@@ -144,17 +145,6 @@ auto sorted(const std::vector<std::string>& inputs) -> Sorted {
   out.paths.footprints = words.back();
   out.paths.meshes.assign(words.begin(), std::prev(words.end()));
   return out;
-}
-
-auto quoted(const std::string& word) -> std::string {
-  const bool plain = !word.empty() && std::ranges::all_of(word, [](unsigned char c) {
-    return std::isalnum(c) != 0 || c >= 0x80 ||
-           std::string_view("/._-+:=,@%").find(static_cast<char>(c)) != std::string_view::npos;
-  });
-  if (plain) return word;
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
 }
 
 auto command_of(const pipeline::InputPaths& paths, const std::string& options) -> std::string {

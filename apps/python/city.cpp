@@ -455,14 +455,7 @@ auto read_city(const std::filesystem::path& path, const std::string& preset, con
 
 auto error_map(const CityState& state) -> py::object {
   if (state.error_maps.empty()) return py::none();
-  const auto map = evaluate::merged(state.error_maps);
-  const auto rows = static_cast<py::ssize_t>(map.rows), columns = static_cast<py::ssize_t>(map.columns);
-  auto values = taken<float>(std::vector<float>(map.difference), 0);
-  const auto origin = origin_of(state.city.frame);
-  const double x = map.origin.x + origin.x - map.grid / 2, y = map.origin.y + origin.y - map.grid / 2;
-  return py::make_tuple(values.attr("reshape")(rows, columns),
-                        py::make_tuple(x, x + map.grid * static_cast<double>(map.columns), y,
-                                       y + map.grid * static_cast<double>(map.rows)));
+  return map_array(evaluate::merged(state.error_maps), state.city.frame);
 }
 
 }  // namespace
@@ -485,6 +478,15 @@ auto city_pointer(CityState state) -> CityPointer {
     for (const auto& part : building.parts) plans.push_back({part.id, part.plan});
   }
   return std::make_shared<CityState>(std::move(state));
+}
+
+auto map_array(evaluate::ErrorMap map, const model::Frame& frame) -> py::tuple {
+  const auto origin = origin_of(frame);
+  const double x = map.origin.x + origin.x - map.grid / 2, y = map.origin.y + origin.y - map.grid / 2;
+  const auto extent = py::make_tuple(x, x + map.grid * static_cast<double>(map.columns), y,
+                                     y + map.grid * static_cast<double>(map.rows));
+  const auto rows = static_cast<py::ssize_t>(map.rows), columns = static_cast<py::ssize_t>(map.columns);
+  return py::make_tuple(taken<float>(std::move(map.difference), 0).attr("reshape")(rows, columns), extent);
 }
 
 auto to_python(const model::Value& value) -> py::object {

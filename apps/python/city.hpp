@@ -70,6 +70,8 @@ auto taken(std::vector<Element> values, pybind11::ssize_t columns) -> pybind11::
 [[nodiscard]] auto ring_array(const geometry::Ring& ring) -> pybind11::array_t<double>;
 /// Polygons in the file's coordinates, as a GeoJSON geometry.
 [[nodiscard]] auto geo_of(const std::vector<geometry::Polygon>& polygons, const model::Frame& frame) -> pybind11::dict;
+/// The values (rows, columns) from the south, and (xmin, xmax, ymin, ymax) in the file's coordinates.
+[[nodiscard]] auto map_array(evaluate::ErrorMap map, const model::Frame& frame) -> pybind11::tuple;
 [[nodiscard]] auto to_python(const model::Value& value) -> pybind11::object;
 
 }  // namespace mansard::python

@@ -150,12 +150,8 @@ auto evaluate(const fs::path& model, const std::vector<fs::path>& meshes, const 
     frame = input->scene.frame;
     return true;
   });
-  const double x = map.origin.x + static_cast<double>(frame.origin[0]) - map.grid / 2,
-               y = map.origin.y + static_cast<double>(frame.origin[1]) - map.grid / 2;
-  const auto extent = py::make_tuple(x, x + map.grid * static_cast<double>(map.columns), y,
-                                     y + map.grid * static_cast<double>(map.rows));
-  const auto rows = static_cast<py::ssize_t>(map.rows), columns = static_cast<py::ssize_t>(map.columns);
-  return py::make_tuple(json, table, taken<float>(std::move(map.difference), 0).attr("reshape")(rows, columns), extent);
+  const auto drawn = map_array(std::move(map), frame);
+  return py::make_tuple(json, table, drawn[0], drawn[1]);
 }
 
 auto label(const std::vector<fs::path>& meshes, const fs::path& model_path, const std::string& lod,

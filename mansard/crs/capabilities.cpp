@@ -22,8 +22,7 @@ auto capabilities() -> Capabilities {
   OSRGetPROJVersion(&major, &minor, &patch);
   out.proj = std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(patch);
   out.network = OSRGetPROJEnableNetwork() != 0;
-  // What the register says of itself is not to be had through GDAL; that it is there, shows a system that is in it.
-  if (from_words("EPSG:3857")) out.register_version = "EPSG";
+  out.has_register = from_words("EPSG:3857").has_value();
   std::vector<fs::path> folders;
   char** paths = OSRGetPROJSearchPaths();
   for (char** path = paths; path != nullptr && *path != nullptr; ++path) folders.emplace_back(*path);

@@ -8,7 +8,7 @@ namespace mansard::crs {
 
 struct Capabilities {
   std::string gdal, proj;               ///< versions
-  std::string register_version;         ///< of the EPSG register; empty: PROJ has no database
+  bool has_register = false;            ///< whether PROJ has its database, with the EPSG register
   std::vector<std::string> proj_paths;  ///< folders with PROJ's data that exist
   std::vector<std::string> geoids;      ///< files of geoid grids in them, sorted
   bool network = false;                 ///< whether PROJ downloads grids

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "mansard/formats/points.hpp"
+#include "mansard/ingest/detail/cloud_pieces.hpp"
 
 namespace mansard::ingest {
 namespace {
@@ -50,28 +51,20 @@ auto read_points_of_class(const std::vector<fs::path>& paths, std::uint8_t class
       way = std::move(*found);
     }
     std::vector<std::vector<geometry::Point3>> pieces(cloud.pieces());
-    std::vector<std::optional<base::Failure>> failures(pieces.size());
-    base::parallel_for(pieces.size(), [&](std::size_t i) {
-      if (run.cancelled()) return;
-      const auto points = cloud.read(i);
-      if (!points) {
-        failures[i] = points.failure();
-        return;
-      }
-      for (const auto& p : *points)
+    const auto read = detail::each_piece(cloud, run, [&](std::size_t i, const auto& points) {
+      for (const auto& p : points)
         if (p.classification == classification && !p.withheld) pieces[i].push_back(p.position);
       if (way) way->take(pieces[i]);
     });
     if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-      if (failures[i]) return *failures[i];
-      for (const auto& p : pieces[i]) {
+    if (!read) return read.failure();
+    for (const auto& piece : pieces)
+      for (const auto& p : piece) {
         const auto along = [&](double value, std::size_t axis) {
           return value + options.mesh_offset[axis] - static_cast<double>(frame.origin[axis]);
         };
         out.push_back({along(p.x, 0), along(p.y, 1), along(p.z, 2)});
       }
-    }
   }
   return out;
 }

@@ -6,6 +6,7 @@
 
 #include "mansard/base/text.hpp"
 #include "mansard/cloud/cloud.hpp"
+#include "mansard/ingest/detail/cloud_pieces.hpp"
 #include "mansard/ingest/detail/mesh_files.hpp"
 
 namespace mansard::ingest::detail {
@@ -35,22 +36,13 @@ auto finite(Point3 p) -> bool { return std::isfinite(p.x) && std::isfinite(p.y) 
 /// The box that a header should have said, from the points.
 auto measured(const formats::PointCloud& cloud, const base::Run& run) -> base::Result<Box2> {
   std::vector<Box2> boxes(cloud.pieces());
-  std::vector<std::optional<base::Failure>> failures(boxes.size());
-  base::parallel_for(boxes.size(), [&](std::size_t i) {
-    if (run.cancelled()) return;
-    const auto points = cloud.read(i);
-    if (!points) {
-      failures[i] = points.failure();
-      return;
-    }
-    for (const auto& p : *points)
+  const auto read = each_piece(cloud, run, [&](std::size_t i, const auto& points) {
+    for (const auto& p : points)
       if (finite(p.position)) boxes[i].add(xy(p.position));
   });
+  if (!read) return read.failure();
   Box2 all;
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    if (failures[i]) return *failures[i];
-    all.include(boxes[i]);
-  }
+  for (const auto& box : boxes) all.include(box);
   return all;
 }
 
