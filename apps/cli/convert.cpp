@@ -1,4 +1,5 @@
-// `mansard convert MODEL -o OUT`: models that mansard wrote, in any other format that it writes.
+// `mansard convert MODEL -o OUT`: models that mansard wrote in any other format that it writes, and CityJSON of other
+// producers in those that need no plans.
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -9,6 +10,8 @@
 #include "apps/cli/output.hpp"
 #include "apps/cli/scan.hpp"
 #include "apps/cli/verbs.hpp"
+#include "mansard/base/text.hpp"
+#include "mansard/formats/foreign.hpp"
 #include "mansard/pipeline/stored.hpp"
 
 namespace mansard::cli {
@@ -57,7 +60,7 @@ auto check_outputs(const Request& request, const std::vector<Target>& targets) -
 auto explained(base::Diagnostic why, const std::string& input) -> base::Diagnostic {
   if (pipeline::is_foreign(why))
     why.message +=
-        "; only models that mansard wrote can be converted. 'mansard evaluate' measures other producers' CityJSON and "
+        "; only models that mansard wrote and CityJSON can be converted. 'mansard evaluate' measures other producers' "
         "OBJ, 'mansard extrude " +
         base::on_one_line(input) + "' extrudes the footprints of a vector file";
   return why;
@@ -99,10 +102,46 @@ auto pass_on(formats::CityReader& reader, const std::vector<Target>& targets, co
   return {};
 }
 
+/// CityJSON and CityJSONSeq by their names, which other producers' files have too.
+auto may_be_cityjson(const std::string& input) -> bool {
+  const std::string name = base::lower(fs::path(input).filename().string());
+  return name.ends_with(".json") || name.ends_with(".jsonl") || name.ends_with(".cityjson") ||
+         name.ends_with(".cityjsonl");
+}
+
+/// Models of another producer, as they are.
+auto convert_foreign(const Request& request, const std::vector<Target>& targets, const base::Cancel& cancel) -> int {
+  for (const auto& target : targets)
+    if (!formats::takes_foreign(target.format))
+      return give_up(
+          base::error("usage",
+                      "this format needs plans, which models of other producers do not have; choose OBJ, GLB, "
+                      "3D Tiles, GeoPackage, STL, CityGML, DXF or FlatGeobuf",
+                      target.path.string()));
+  pipeline::Options options;
+  if (auto applied = request.settings.apply(options); !applied) return give_up(applied.errors());
+  if (auto ready = check_outputs(request, targets); !ready) return give_up(ready.errors());
+  Progress progress(request.quiet);
+  const auto run = start(request, options.seed, cancel, progress);
+  auto foreign = formats::read_foreign(request.input);
+  if (!foreign) return give_up(foreign.errors());
+  for (const auto& warning : foreign->warnings) progress.say(base::to_string(warning));
+  progress.say(std::to_string(foreign->city.buildings.size()) + " buildings of another producer, LoD " + foreign->lods);
+  base::Outputs outputs;
+  const auto written = formats::write_models(foreign->city, targets, options.write, outputs);
+  if (!written) return give_up(written.errors());
+  for (const auto& warning : *written) progress.say(base::to_string(warning));
+  if (auto committed = outputs.commit(run.cancel); !committed) return give_up(committed.errors());
+  for (const auto& target : targets) std::printf("%s\n", target.path.c_str());
+  return all_done;
+}
+
 auto convert(const Request& request, const base::Cancel& cancel) -> int {
   const auto targets = targets_of(request);
   if (!targets) return give_up(targets.errors());
   auto reader = open_city(request.input);
+  if (!reader && pipeline::is_foreign(reader.error()) && may_be_cityjson(request.input))
+    return convert_foreign(request, *targets, cancel);
   if (!reader) return give_up(explained(reader.error(), request.input));
   formats::Header header = (*reader)->header();
   pipeline::Options options;
@@ -151,7 +190,8 @@ auto convert(const Request& request, const base::Cancel& cancel) -> int {
 auto convert_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
   auto* verb = add_verb(app, "convert");
   auto request = std::make_shared<Request>();
-  verb->add_option("INPUT", request->input, "Model that mansard wrote: " + readable_formats().own_models)
+  verb->add_option("INPUT", request->input,
+                   "Model that mansard wrote: " + readable_formats().own_models + "; or CityJSON of any producer")
       ->required()
       ->type_name("MODEL");
   verb->add_option("-o,--output", request->outs,

@@ -191,6 +191,7 @@ auto extrude_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
   verb->add_flag("--picture", request->picture, "Also write a picture of the models");
   verb->add_option("--report", request->report, "Write a copy of the report (run.json) to this file")
       ->type_name("FILE");
+  request->join.add_to(*verb);
   add_jobs(*verb, request->jobs);
   verb->add_flag("-q,--quiet", request->quiet, "Print no progress and no summary");
   verb->add_flag("-v,--verbose", request->verbose,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/cli/made.hpp"
+#include "apps/cli/scan.hpp"
 #include "apps/cli/settings.hpp"
 #include "mansard/base/run.hpp"
 #include "mansard/formats/layers.hpp"
@@ -17,6 +18,7 @@ struct ExtrudeRequest {
   std::string input, out, report, formats;
   bool overwrite = false, picture = false, quiet = false, verbose = false;
   std::size_t jobs = 0;
+  Join join;
   Settings settings;
 };
 

@@ -41,9 +41,10 @@ auto extrude_footprints(const ExtrudeRequest& request, const base::Cancel& cance
   run.progress = [&](auto stage, auto subject, double fraction) { progress.show(stage, subject, fraction); };
 
   progress.show("ingest", request.input, 0);
-  const auto scene = ingest::read_footprints(request.input, options.ingest, run);
+  auto scene = ingest::read_footprints(request.input, options.ingest, run);
   if (!scene) return give_up(scene.errors());
   for (const auto& warning : scene->warnings) progress.say(base::to_string(warning));
+  if (auto joined = request.join.apply(*scene, progress); !joined) return give_up(joined.errors());
 
   const auto finish = [&](const Made& made) -> int {
     for (const auto& warning : made.summary.warnings) progress.say(base::to_string(warning));

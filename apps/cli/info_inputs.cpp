@@ -260,6 +260,7 @@ auto info_of_tileset(const fs::path& path) -> Json {
   out["geometric_error_m"] = as_stated(source->geometric_error);
   out["placed_on_the_earth"] = source->placed_on_the_earth;
   if (!source->bounding_volume.empty()) out["bounding_volume"] = as_stated(source->bounding_volume);
+  if (source->tilesets > 0) out["tilesets_within"] = source->tilesets;
   out["levels"] = Json::array();
   for (const auto& level : source->levels) {
     const bool stated = level.minimum_error && level.maximum_error;

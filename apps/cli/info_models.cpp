@@ -121,20 +121,17 @@ auto made_by_json(const model::MadeBy& made_by, bool all_options) -> Json {
           {"inputs", std::move(inputs)}};
 }
 
-/// What levels of detail a format keeps of a model.
-auto lods_of(formats::Format format) -> std::vector<std::string> {
-  switch (format) {
-    case formats::Format::cityjson:
-    case formats::Format::cityjsonseq: return {"0", "1.2", "2.2"};
-    case formats::Format::tiles: return {"1.2", "2.2"};
-    case formats::Format::geopackage: return {"0", "2.2"};
-    case formats::Format::geojson: return {"0"};
-    case formats::Format::plans: return {};
-    case formats::Format::obj:
-    case formats::Format::glb:
-    case formats::Format::stl: break;
-  }
-  return {"2.2"};
+/// The levels of detail in a file, by its format and the option that it was written with.
+auto lods_in(formats::Format format, const model::MadeBy& made_by) -> std::vector<std::string> {
+  std::string asked;
+  for (const auto& [name, value] : made_by.options)
+    if (name == "write.lod") asked = value;
+  auto lods = formats::lods_of(asked, format);
+  if (!lods) lods = formats::default_lods(format);
+  std::vector<std::string> out;
+  for (const auto lod : *lods) out.emplace_back(formats::name_of(lod));
+  if (format == formats::Format::tiles) out.insert(out.begin(), "1.2");  // of tiles that are seen from far away
+  return out;
 }
 
 auto size_of(const fs::path& path) -> std::uintmax_t {
@@ -200,7 +197,7 @@ auto info_of_city(const fs::path& path, formats::CityReader& reader, bool all_op
   out["crs"] = header.frame.crs;
   out["extent"] = tally.extent();
   out["counts"] = tally.counts();
-  out["lods"] = lods_of(format);
+  out["lods"] = lods_in(format, header.made_by);
   out["raised"] = !*has_models;
   out["validity"] = tally.validity();
   out["fallbacks"] = tally.fallbacks();

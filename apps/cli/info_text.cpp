@@ -10,6 +10,7 @@ namespace mansard::cli {
 namespace {
 
 constexpr std::size_t width = 80, margin = 14;
+constexpr std::size_t few = 5;  // of a list that --json has in full: a tileset has thousands of files
 
 /// Terms at the left, their values in a second column, broken between words.
 class Lines {
@@ -117,7 +118,13 @@ void add_made_by(const Json& made_by, Lines& lines) {
   }
   if (options.empty()) lines.add(term, all ? "not recorded" : "defaults");
   term = "inputs";
-  for (const auto& input : made_by["inputs"]) {
+  std::size_t told = 0;
+  const auto& inputs = made_by["inputs"];
+  for (const auto& input : inputs) {
+    if (told++ == few) {
+      lines.add("", "and " + std::to_string(inputs.size() - few) + " more, which --json lists");
+      break;
+    }
     lines.add(term, input["path"].get<std::string>() + ", " + size_in_words(input["bytes"]));
     lines.add("", input["sha256"].get<std::string>());
     term = "";
@@ -127,8 +134,14 @@ void add_made_by(const Json& made_by, Lines& lines) {
 void add_tileset(const Json& tileset, Lines& lines) {
   lines.add("tileset", "3D Tiles " + tileset["version"].get<std::string>() +
                            (tileset["placed_on_the_earth"] == true ? ", georeferenced" : ", without a transform"));
+  if (tileset.contains("tilesets_within")) lines.add("", whole(tileset["tilesets_within"]) + " tilesets within it");
   std::size_t depth = 0;
+  constexpr std::size_t most = 12;
   for (const auto& level : tileset["levels"]) {
+    if (depth == most) {
+      lines.add("", "and " + std::to_string(tileset["levels"].size() - most) + " deeper levels, which --json lists");
+      break;
+    }
     const auto& errors = level["geometric_error_m"];
     std::string words = whole(level["tiles"]) + (level["tiles"] == 1 ? " tile, " : " tiles, ") +
                         whole(level["contents"]) + " with content";
@@ -223,8 +236,13 @@ auto info_text(const Json& info) -> std::string {
     for (const auto& layer : info["layers"]) add_layer(layer, lines);
   if (info.contains("made_by")) add_made_by(info["made_by"], lines);
   if (info.contains("files") && info["files"].size() > 1) lines.add("files", std::to_string(info["files"].size()));
-  if (info.contains("warnings"))
-    for (const auto& warning : info["warnings"]) lines.add("warning", warning["message"].get<std::string>());
+  if (info.contains("warnings")) {
+    const auto& warnings = info["warnings"];
+    for (std::size_t i = 0; i < std::min(few, warnings.size()); ++i)
+      lines.add("warning", warnings[i]["message"].get<std::string>());
+    if (warnings.size() > few)
+      lines.add("", "and " + std::to_string(warnings.size() - few) + " more warnings, which --json lists");
+  }
   return lines.text();
 }
 

@@ -2,6 +2,7 @@
 
 #include "apps/cli/formats.hpp"
 #include "apps/cli/output.hpp"
+#include "mansard/ingest/join.hpp"
 #include "mansard/pipeline/placing.hpp"
 
 namespace mansard::cli {
@@ -33,6 +34,23 @@ void add_common(CLI::App& verb, Common& common, const std::string& silenced, con
   common.settings.add_to(verb, menu);
 }
 
+void Join::add_to(CLI::App& verb) {
+  verb.add_option("--join", table,
+                  "Table whose columns become attributes of the buildings (CSV, GeoPackage, any of GDAL's)")
+      ->type_name("FILE");
+  verb.add_option("--on", key, "Column of the table of --join that has the ids of the buildings")->type_name("KEY");
+}
+
+auto Join::apply(model::Scene& scene, Progress& progress) const -> base::Result<void> {
+  if (table.empty() && key.empty()) return {};
+  if (table.empty()) return base::error("usage", "there is no table to join; name it with --join", "--on");
+  if (key.empty()) return base::error("usage", "name the column that has the ids of the buildings with --on", "--join");
+  const auto warnings = ingest::join(scene, table, key);
+  if (!warnings) return warnings.failure();
+  for (const auto& warning : *warnings) progress.say(base::to_string(warning));
+  return {};
+}
+
 void add_to(CLI::App& verb, ScanRequest& request, bool may_derive) {
   verb.add_option("INPUTS", request.inputs,
                   "Meshes: " + readable_formats().meshes + ". Then the footprints: " + readable_formats().footprints)
@@ -41,6 +59,7 @@ void add_to(CLI::App& verb, ScanRequest& request, bool may_derive) {
     verb.add_flag("--derive-footprints", request.derive_footprints,
                   "Derive the footprints from the meshes; all inputs are meshes then");
   verb.add_option("--report", request.report, "Write a copy of the report (run.json) to this file")->type_name("FILE");
+  request.join.add_to(verb);
   verb.add_flag("-v,--verbose", request.verbose,
                 "Print every warning and every reason, even if there are more than 20");
   add_common(verb, request, "summary");
@@ -113,6 +132,7 @@ auto read_scan(const ScanRequest& request, const pipeline::Options& options, con
   auto scene = pipeline::read_inputs(paths_of(request), options, run);
   if (!scene) return explained(scene.failure(), request, options, run, progress);
   tell(request, *scene, progress);
+  if (auto joined = request.join.apply(*scene, progress); !joined) return joined.failure();
   return scene;
 }
 
@@ -122,6 +142,7 @@ auto read_city_scan(const ScanRequest& request, const pipeline::Options& options
   auto city = pipeline::read_city_inputs(paths_of(request), options, run);
   if (!city) return explained(city.failure(), request, options, run, progress);
   tell(request, city->scene, progress);
+  if (auto joined = request.join.apply(city->scene, progress); !joined) return joined.failure();
   return city;
 }
 

@@ -30,10 +30,19 @@ void add_common(CLI::App& verb, Common& common, const std::string& silenced, con
 [[nodiscard]] auto start(const Common& common, std::int64_t seed, const base::Cancel& cancel, Progress& progress)
     -> base::Run;
 
+/// A table that is joined to the footprints by their ids.
+struct Join {
+  std::string table, key;
+  void add_to(CLI::App& verb);
+  /// Fails with "usage" where one of the two is missing, and as ingest::join. Prints its warnings.
+  [[nodiscard]] auto apply(model::Scene& scene, Progress& progress) const -> base::Result<void>;
+};
+
 struct ScanRequest : Common {
   std::vector<std::string> inputs;  // meshes, then the footprints
   bool derive_footprints = false;   // then all inputs are meshes
   std::string report;
+  Join join;
   bool verbose = false;
 };
 

@@ -160,7 +160,7 @@ auto write_all(const Request& request, const simulate::Options& options, const K
       {"mesh.ply", simulate::ply(*scan, truth.city.frame)},
       {"footprints.geojson", simulate::geojson(*footprints, truth.city.frame)},
       {"truth.geojson", simulate::geojson(simulate::true_footprints(truth), truth.city.frame)},
-      {"truth.json", simulate::truth_json(truth, *footprints, options, source_of(request))}};
+      {"truth.json", simulate::truth_json(truth, *footprints, options, source_of(request), scan->crowns)}};
   if (auto added = truth.model ? add_copy(request, known, files) : add_models(truth.city, files); !added) return added;
   if (request.points > 0) {
     auto points = formats::las(simulate::airborne_points(*scan, request.points, run.seed), truth.city.frame);

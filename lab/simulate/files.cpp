@@ -186,7 +186,7 @@ auto true_footprints(const Truth& truth) -> std::vector<model::Footprint> {
 }
 
 auto truth_json(const Truth& truth, const std::vector<model::Footprint>& footprints, const Options& options,
-                const std::string& source) -> std::string {
+                const std::string& source, const std::vector<Crown>& crowns) -> std::string {
   const auto& frame = truth.city.frame;
   const auto z0 = static_cast<double>(frame.origin[2]);
   Json used = Json::object();
@@ -215,6 +215,16 @@ auto truth_json(const Truth& truth, const std::vector<model::Footprint>& footpri
   out["buildings"] = std::move(buildings);
   out["party_walls"] = std::move(walls);
   out["footprints"] = std::move(features);
+  Json trees = Json::array();
+  for (const auto& crown : crowns) {
+    auto centre = place(xy(crown.centre), frame);
+    centre.push_back(z0 + crown.centre.z);
+    trees.push_back({{"building", truth.city.buildings[crown.building].id},
+                     {"centre", std::move(centre)},
+                     {"radius", crown.radius},
+                     {"within", crown.within}});
+  }
+  out["crowns"] = std::move(trees);
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -93,8 +93,8 @@ auto scan(const Surface& surface, const ScanOptions& options, std::uint64_t seed
   run.report("simulate", "surroundings", 0);
   const detail::Nearest nearest(surface);
   const detail::Terrain terrain(surface, area, options, seed_for(seed, ground));
-  const auto objects = detail::objects_of(surface, nearest, terrain, area, options, seed_for(seed, things));
-  const detail::World world{surface, terrain, objects, area};
+  auto around = detail::surroundings_of(surface, nearest, terrain, area, options, seed_for(seed, things));
+  const detail::World world{surface, terrain, around.objects, area};
 
   run.report("simulate", "surface", 0.1);
   auto mesh = options.height_field ? detail::height_field(world, options.resolution, seed_for(seed, places), run)
@@ -115,6 +115,7 @@ auto scan(const Surface& surface, const ScanOptions& options, std::uint64_t seed
   auto lost = detail::losses(*mesh, labels, seen, world, options, seed_for(seed, damage));
   detail::roughen(*mesh, normals, seen, options, seed_for(seed, roughness));
   auto out = detail::torn(*mesh, labels, std::move(lost), surface, options, seed_for(seed, tiles));
+  out.crowns = std::move(around.crowns);
   run.report("simulate", {}, 1);
   return out;
 }

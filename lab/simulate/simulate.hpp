@@ -176,11 +176,20 @@ struct ModelTruth {
 [[nodiscard]] auto truth_of(const model::Model& model, std::vector<base::Diagnostic>& warnings)
     -> base::Result<ModelTruth>;
 
+/// A tree that was planted over a roof or within an outline.
+struct Crown {
+  geometry::Point3 centre;     ///< metres
+  double radius = 0;           ///< m; single lumps reach 0.3 times as far again
+  std::uint32_t building = 0;  ///< index into City::buildings
+  bool within = false;         ///< whether its trunk is within the outline
+};
+
 struct Scan {
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   geometry::Mesh mesh;
   std::vector<Class> classes;            ///< per triangle
   std::vector<std::uint32_t> buildings;  ///< per triangle; none for ground and other
+  std::vector<Crown> crowns{};           ///< by building, those beside it first
 };
 
 /// A mesh as photogrammetry or laser scanning would give it of the buildings, the ground they stand on, and the trees,
@@ -201,10 +210,11 @@ struct Scan {
 [[nodiscard]] auto surface_obj(const Surface& surface, const model::City& city) -> std::string;
 /// What truly stands there, as features: the outline of every building, with id and ground.
 [[nodiscard]] auto true_footprints(const Truth& truth) -> std::vector<model::Footprint>;
-/// What the files beside it do not say: party walls, roofs of the buildings, options and seed. `source` names the kind
-/// of block or the file.
+/// What the files beside it do not say: party walls, roofs of the buildings, crowns over them, options and seed.
+/// `source` names the kind of block or the file.
 [[nodiscard]] auto truth_json(const Truth& truth, const std::vector<model::Footprint>& footprints,
-                              const Options& options, const std::string& source) -> std::string;
+                              const Options& options, const std::string& source, const std::vector<Crown>& crowns = {})
+    -> std::string;
 
 [[nodiscard]] auto codes() -> std::vector<base::Code>;
 

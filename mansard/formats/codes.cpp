@@ -55,6 +55,17 @@ auto codes() -> std::vector<base::Code> {
        "The GeoPackage has them as an invalid MultiPolygon; repair the footprint in the source.", 0},
       {"write-geopackage", "GDAL could not make a GeoPackage.",
        "The message has GDAL's words; its GPKG driver and PROJ's data must be installed, and there must be memory.", 3},
+      {"write-foreign", "Something in a city model of another producer has no place in what is written.",
+       "The message says what and how many; the original file still has it.", 0},
+      {"write-flatgeobuf", "GDAL could not make a FlatGeobuf.",
+       "The message has GDAL's words; its FlatGeobuf driver and PROJ's data must be installed, and there must be "
+       "memory.",
+       3},
+      {"write-tiles-height",
+       "The heights of a 3D Tiles tileset are not above the ellipsoid, so that it is too high or too low on a globe.",
+       "Give the height of the geoid there with --tiles-height-offset (about 43 m in the Netherlands), or a CRS with "
+       "heights, with PROJ's grids installed.",
+       0},
       {"write-stl-size", "There are more triangles than the 4,294,967,295 that an STL can count.",
        "Run smaller areas (--bbox).", 2},
       {"write-geojson", "Footprints cannot be brought to longitude and latitude, which GeoJSON is in.",

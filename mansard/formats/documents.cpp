@@ -23,10 +23,13 @@ auto cityjson(const model::City& city, Solids solids) -> base::Result<std::strin
   const Header header{city.frame, city.made_by};
   base::TextSink vertices;
   std::vector<base::Diagnostic> warnings;
-  detail::CityObjects text(header, solids, vertices, 0);
+  detail::CityJsonOptions options;
+  options.solids = solids;
+  options.lods = default_lods(Format::cityjson);
+  detail::CityObjects text(header, options, vertices, 0);
   for (std::size_t b = 0; b < city.buildings.size(); ++b)
     text.add(city.buildings[b], {keys->buildings[b], keys->parts[b]}, warnings);
-  detail::JsonText json = detail::cityjson_head(header, text.solids(), text.extent(), 0);
+  detail::JsonText json = detail::cityjson_head(header, options, text.extent(), 0);
   json.raw(text.end()).line().key("vertices").begin_array();
   if (!vertices.text.empty()) json.raw(vertices.text);
   return json.end_array().line().end_object().take() + "\n";
@@ -37,7 +40,7 @@ auto obj(const model::City& city, const std::string& mtl_name, Solids solids) ->
   if (!keys) return keys.error();
   const Header header{city.frame, city.made_by};
   detail::ObjText text(header, solids);
-  ObjFiles files{detail::ObjText::head(header, mtl_name), detail::mtl_text()};
+  ObjFiles files{text.head(header, mtl_name), detail::mtl_text()};
   for (std::size_t b = 0; b < city.buildings.size(); ++b) {
     const auto more = text.of(city.buildings[b], {keys->buildings[b], keys->parts[b]});
     if (!more) return more.error();

@@ -26,8 +26,11 @@ enum class Format : std::uint8_t {
   tiles,  ///< a folder with a tileset.json and its GLB: 3D Tiles 1.1
   geopackage,
   stl,
-  geojson,  ///< the footprints alone
-  plans,    ///< plan + profiles, ".json"
+  geojson,     ///< the footprints alone
+  plans,       ///< plan + profiles, ".json"
+  citygml,     ///< CityGML 3.0 or 2.0, ".gml"
+  dxf,         ///< a 3DFACE a triangle, a layer a class
+  flatgeobuf,  ///< the footprints with the attributes of the buildings
 };
 
 /// What is read from a format.

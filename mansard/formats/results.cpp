@@ -46,7 +46,9 @@ auto textures_of(const Target& target) -> std::optional<fs::path> {
 }
 
 auto places_of(const Target& target) -> std::vector<fs::path> {
-  if (target.format == Format::obj) return {target.path, fs::path(target.path).replace_extension(".mtl")};
+  if (target.format == Format::obj)
+    return {target.path, fs::path(target.path).replace_extension(".mtl"),
+            fs::path(target.path).replace_extension(".plans.jsonl")};
   return {target.path};
 }
 

@@ -54,9 +54,10 @@ struct TilesetSource {
   /// As JSON, as the file has them: of the tileset, and of its root. Empty where they are missing.
   std::string geometric_error, bounding_volume;
   std::vector<Level> levels;  ///< from the root
+  std::size_t tilesets = 0;   ///< those within it, at any depth, that could be opened
 };
 
-/// A tileset.json, or a folder with one; none where it is not a tileset. Tilesets within it are not opened.
+/// A tileset.json, or a folder with one; none where it is not a tileset. Tilesets within it are followed.
 [[nodiscard]] auto tileset_source(const std::filesystem::path& path) -> std::optional<TilesetSource>;
 
 /// Whether read_scene takes the file for a raster, by its name.

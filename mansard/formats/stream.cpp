@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "mansard/base/text.hpp"
+#include "mansard/formats/attribute_choice.hpp"
 #include "mansard/formats/detail/writers.hpp"
 
 namespace mansard::formats {
@@ -31,6 +32,18 @@ auto format_of(const std::filesystem::path& path) -> std::optional<Format> {
 auto option_list(WriteOptions& o) -> base::OptionList {
   return std::move(
       base::OptionList("write")
+          .string("lod", o.lod,
+                  "Levels of detail that are written (0, 1.2, 1.3, 2.0, 2.2): of all formats as '1.2,2.2', of some as "
+                  "'cityjson=0,1.2;obj=1.3'. By default 0, 1.2, 1.3 and 2.2 where a format has several, else 2.2.")
+          .alias("lod")
+          .string("attributes", o.attributes,
+                  "Attributes of buildings that are written beside those of the source: 'all', 'none', the names of "
+                  "'3dbag' or 'roofer', or a list such as 'ms_h_ground,ms_h_roof_max=top', which also renames.")
+          .alias("attributes")
+          .string("title", o.title, "Title of the data set, for the metadata of the files.")
+          .string("date", o.date, "Date of the data set, as YYYY-MM-DD, for the metadata of the files.")
+          .string("lineage", o.lineage, "What the data set was made from, for the metadata of the files.")
+          .string("contact", o.contact, "Who to contact about the data set: a name, and an e-mail address in < >.")
           .choice("solids", o.solids, {{"building", Solids::building}, {"part", Solids::part}},
                   "What one solid of CityJSON, OBJ, GLB and 3D Tiles contains.")
           .choice("stl_shell", o.stl_shell,
@@ -46,23 +59,68 @@ auto option_list(WriteOptions& o) -> base::OptionList {
           .flag(
               "unlit", o.unlit,
               "Mark the textured materials of GLB and 3D Tiles as unlit (KHR_materials_unlit): scans have their light "
-              "in the picture."));
+              "in the picture.")
+          .number("tiles_height_offset", o.tiles_height_offset, "m", {-12000, 12000},
+                  "Height that is added to 3D Tiles, whose heights are above the ellipsoid: the height of the geoid "
+                  "where PROJ has no grid for it (about 43 m in the Netherlands).")
+          .alias("tiles-height-offset")
+          .choice("obj_up", o.obj_up, {{"z", UpAxis::z}, {"y", UpAxis::y}}, "The axis of an OBJ that points up.")
+          .flag("obj_local", o.obj_local,
+                "Write the coordinates of an OBJ relative to the origin that its first lines name, for programs with "
+                "single precision.")
+          .choice("citygml", o.citygml, {{"2.0", CityGml::v2}, {"3.0", CityGml::v3}},
+                  "Version of CityGML that is written."));
 }
 
-auto open_writer(Format format, const std::filesystem::path& path, const Header& header, const WriteOptions& options,
-                 base::Outputs& outputs, const std::vector<Layer>& more) -> base::Result<std::unique_ptr<CityWriter>> {
+namespace {
+
+auto open_plain(Format format, const std::filesystem::path& path, const Header& header, const WriteOptions& options,
+                base::Outputs& outputs, const std::vector<Layer>& more) -> base::Result<std::unique_ptr<CityWriter>> {
   switch (format) {
     case Format::cityjson: return detail::cityjson_writer(path, header, options, outputs);
     case Format::cityjsonseq: return detail::cityjsonseq_writer(path, header, options, outputs);
     case Format::obj: return detail::obj_writer(path, header, options, outputs);
     case Format::glb: return detail::glb_writer(path, header, options, outputs);
     case Format::tiles: return detail::tiles_writer(path, header, options, outputs);
-    case Format::geopackage: return detail::geopackage_writer(path, header, more, outputs);
+    case Format::geopackage: return detail::geopackage_writer(path, header, options, more, outputs);
     case Format::stl: return detail::stl_writer(path, header, options, outputs);
     case Format::geojson: return detail::geojson_writer(path, header, outputs);
+    case Format::citygml: return detail::citygml_writer(path, header, options, outputs);
+    case Format::dxf: return detail::dxf_writer(path, header, options, outputs);
+    case Format::flatgeobuf: return detail::flatgeobuf_writer(path, header, outputs);
     case Format::plans: break;
   }
   return detail::plans_writer(path, header, outputs);
+}
+
+/// Passes buildings on with the attributes that were chosen.
+class Choosing : public CityWriter {
+ public:
+  Choosing(std::unique_ptr<CityWriter> inner, AttributeChoice choice)
+      : inner_(std::move(inner)), choice_(std::move(choice)) {}
+  [[nodiscard]] auto add(const model::Building& building) -> base::Result<void> override {
+    model::Building copy = building;
+    copy.attributes = choice_.chosen(building.attributes);
+    return inner_->add(copy);
+  }
+  [[nodiscard]] auto finish() -> base::Result<void> override { return inner_->finish(); }
+  [[nodiscard]] auto warnings() const -> std::vector<base::Diagnostic> override { return inner_->warnings(); }
+
+ private:
+  std::unique_ptr<CityWriter> inner_;
+  AttributeChoice choice_;
+};
+
+}  // namespace
+
+auto open_writer(Format format, const std::filesystem::path& path, const Header& header, const WriteOptions& options,
+                 base::Outputs& outputs, const std::vector<Layer>& more) -> base::Result<std::unique_ptr<CityWriter>> {
+  auto choice = AttributeChoice::of(options.attributes);
+  if (!choice) return choice.failure();
+  if (auto known = check_lods(options.lod); !known) return known.failure();
+  auto writer = open_plain(format, path, header, options, outputs, more);
+  if (!writer || choice->is_all()) return writer;
+  return std::unique_ptr<CityWriter>(std::make_unique<Choosing>(*std::move(writer), *std::move(choice)));
 }
 
 auto write_city(const model::City& city, CityWriter& writer) -> base::Result<void> {
@@ -128,9 +186,10 @@ auto read_city(const std::filesystem::path& path) -> base::Result<std::unique_pt
     case Format::geopackage: return detail::geopackage_reader(path);
     case Format::geojson: return detail::geojson_reader(path);
     case Format::plans: return detail::plans_reader(path);
-    case Format::stl: break;
+    default: break;
   }
-  return base::error("write-read-format", "STL holds nothing but triangles; give another format of the same models",
+  return base::error("write-read-format",
+                     "STL, CityGML, DXF and FlatGeobuf have no plans; give another format of the same models",
                      path.string());
 }
 

@@ -12,6 +12,7 @@
 #include "mansard/base/outputs.hpp"
 #include "mansard/formats/drivers.hpp"
 #include "mansard/formats/layers.hpp"
+#include "mansard/formats/levels.hpp"
 #include "mansard/model/city.hpp"
 
 namespace mansard::formats {
@@ -42,8 +43,15 @@ enum class TextureFormat : std::uint8_t { jpeg, webp };
 /// What one solid of a file contains.
 enum class Solids : std::uint8_t { building, part };
 
+/// The version of CityGML that is written.
+enum class CityGml : std::uint8_t { v2, v3 };
+
 struct WriteOptions {
-  Solids solids = Solids::building;  ///< of CityJSON, OBJ, GLB and tiles
+  std::string lod;                            ///< as lods_of() reads it; empty: default_lods()
+  solid::LevelOptions levels;                 ///< what the levels of detail below 2.2 leave out
+  std::string attributes = "all";             ///< of buildings: as AttributeChoice::of() reads it
+  std::string title, date, lineage, contact;  ///< metadata; empty: none
+  Solids solids = Solids::building;           ///< of CityJSON, OBJ, GLB and tiles
   Shell stl_shell = Shell::building;
   bool compress = false;          ///< meshes of glb and tiles: EXT_meshopt_compression and KHR_mesh_quantization
   double tile_triangles = 20000;  ///< of a leaf of a tileset, at most, where one building has not more
@@ -51,6 +59,10 @@ struct WriteOptions {
   std::int64_t texture_quality = 85;  ///< 1 to 100
   std::int64_t atlas_size = 4096;     ///< pixels along each side of an image with textures, at most
   bool unlit = false;                 ///< textured materials of glb and tiles: KHR_materials_unlit
+  double tiles_height_offset = 0;     ///< m; added to the heights of a tileset
+  UpAxis obj_up = UpAxis::z;
+  bool obj_local = false;  ///< whether an OBJ has coordinates relative to the frame's origin
+  CityGml citygml = CityGml::v3;
 };
 [[nodiscard]] auto option_list(WriteOptions& options) -> base::OptionList;
 

@@ -1,9 +1,12 @@
 #include "mansard/formats/drivers.hpp"
 #include "mansard/ingest/ingest.hpp"
+#include "mansard/ingest/join.hpp"
 
 namespace mansard::ingest {
 
-auto codes() -> std::vector<base::Code> {
+namespace {
+
+auto own_codes() -> std::vector<base::Code> {
   return {
       {"ingest-mesh-empty", "A mesh file is empty, or a folder holds no meshes.",
        "Check the path. A mesh is a tileset.json, or a file with the extension " +
@@ -113,6 +116,14 @@ auto codes() -> std::vector<base::Code> {
       {"ingest-id-duplicate", "Features lack an id, or share one.",
        "Choose another attribute with --ingest-id-attribute.", 0},
   };
+}
+
+}  // namespace
+
+auto codes() -> std::vector<base::Code> {
+  auto all = own_codes();
+  for (auto& code : join_codes()) all.push_back(std::move(code));
+  return all;
 }
 
 }  // namespace mansard::ingest

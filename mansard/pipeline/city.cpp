@@ -153,32 +153,33 @@ auto reconstruct_aside(const ingest::CityScene& city, const Options& options, co
   };
   std::vector<Made> made;
   std::vector<base::Spent> dividing;
-  auto done = for_every_task(city, options, run, maker, std::nullopt,
-                             [&](const model::Scene& part, const detail::Division& division, detail::Progress progress,
-                                 const std::vector<std::size_t>& features) {
-                               dividing.push_back(division.time.spent);
-                               const auto number = [&](std::size_t f) { return features.empty() ? f : features[f]; };
-                               auto some = detail::for_every(
-                                   division, run,
-                                   [&](const auto& block, const auto& inner, const auto& tell, const auto& making) {
-                                     auto result = maker(block, inner, tell, making);
-                                     Made own;
-                                     own.first = number(block.members.front().feature);
-                                     for (const auto& [feature, one] : detail::finish_block(part, result, own.warnings))
-                                       builder.take(number(feature), one);
-                                     own.report = std::move(result.report);
-                                     return own;
-                                   },
-                                   progress);
-                               std::ranges::move(some, std::back_inserter(made));
-                             });
+  auto done = for_every_task(
+      city, options, run, maker, std::nullopt,
+      [&](const model::Scene& part, const detail::Division& division, detail::Progress progress,
+          const std::vector<std::size_t>& features) {
+        dividing.push_back(division.time.spent);
+        const auto number = [&](std::size_t f) { return features.empty() ? f : features[f]; };
+        auto some = detail::for_every(
+            division, run,
+            [&](const auto& block, const auto& inner, const auto& tell, const auto& making) {
+              auto result = maker(block, inner, tell, making);
+              Made own;
+              own.first = number(block.members.front().feature);
+              for (const auto& [feature, one] : detail::finish_block(part, result, options, own.warnings))
+                builder.take(number(feature), one);
+              own.report = std::move(result.report);
+              return own;
+            },
+            progress);
+        std::ranges::move(some, std::back_inserter(made));
+      });
   if (run.cancelled()) return detail::cancelled();
   if (!done) return done.failure();
   auto reuse = maker.finish(true);
   if (!reuse) return reuse.failure();
 
   for (std::size_t f = 0; f < scene.footprints.size(); ++f)
-    if (!builder.has(f)) builder.take(f, detail::unbuilt(scene, f));
+    if (!builder.has(f)) builder.take(f, detail::unbuilt(scene, f, options));
   auto& summary = out.summary;
   std::ranges::sort(made, {}, &Made::first);
   for (auto& one : made) {

@@ -13,6 +13,7 @@
 #include "mansard/pipeline/detail/place.hpp"
 #include "mansard/pipeline/pipeline.hpp"
 #include "mansard/report/attributes.hpp"
+#include "mansard/report/measures.hpp"
 #include "mansard/solid/solid.hpp"
 
 namespace mansard::pipeline {
@@ -193,11 +194,14 @@ void begin(const model::Scene& scene, const std::vector<roof::Read>& read, bool 
 }
 
 /// The attributes that only the whole building has; the ids of its reasons.
-void finish(model::Building& building, report::BuildingReport& report) {
+void finish(model::Building& building, report::BuildingReport& report, const model::Frame& frame,
+            const Options& options) {
   if (report.parts == 0) report.outcome = report::Outcome::refused;
   for (auto& reason : report.reasons)
     if (reason.subject.empty()) reason.subject = report.id;
-  detail::add_attributes(building, report);
+  detail::add_attributes(building, report,
+                         report::level_measures(building, frame, options.write.levels, nullptr, options.evaluate.grid),
+                         options, static_cast<double>(frame.origin[2]));
 }
 
 auto is_assumed(const report::BuildingReport& report) -> bool {
@@ -338,7 +342,8 @@ auto raise_all(const model::Scene& scene, const Making& making, const Options& o
     detail::add_solids(out.city.buildings[b], out.buildings[b], std::move(united[b]), 0);
   out.city.buildings.resize(scene.footprints.size());
   out.buildings.resize(scene.footprints.size());
-  for (std::size_t i = 0; i < out.buildings.size(); ++i) finish(out.city.buildings[i], out.buildings[i]);
+  base::parallel_for(out.buildings.size(),
+                     [&](std::size_t i) { finish(out.city.buildings[i], out.buildings[i], scene.frame, options); });
   out.times.stages = {{"roof", planned_in}, {"extrude", raised_in}, {"label", labelled_in}};
   return out;
 }

@@ -15,6 +15,7 @@ auto option_lists(Options& options) -> std::vector<base::OptionList> {
   lists.push_back(cloud::option_list(options.ingest.cloud));
   lists.push_back(derive::option_list(options.derive));
   lists.push_back(block::option_list(options.block));
+  lists.push_back(vegetation::option_list(options.vegetation));
   lists.push_back(slice::option_list(options.slice));
   lists.push_back(sweep::option_list(options.sweep));
   lists.push_back(fracture::option_list(options.fracture));
@@ -25,6 +26,7 @@ auto option_lists(Options& options) -> std::vector<base::OptionList> {
   lists.push_back(roof::option_list(options.roof));
   lists.push_back(label::option_list(options.label));
   lists.push_back(evaluate::option_list(options.evaluate));
+  lists.push_back(solid::option_list(options.write.levels));
   lists.push_back(formats::option_list(options.write));
   lists.push_back(texture::option_list(options.texture));
   base::OptionList own("pipeline");
@@ -33,7 +35,12 @@ auto option_lists(Options& options) -> std::vector<base::OptionList> {
       .number("assumed_height", options.assumed_height, "m", {0.5, 100},
               "Height of the prism of a footprint without mesh coverage.")
       .number("roof_grid", options.roof_grid, "m", {0.05, 5},
-              "Sample spacing of the roof heights among the attributes.");
+              "Sample spacing of the roof heights among the attributes.")
+      .string("survey_source", options.survey_source, "Name of the scan, for the attribute ms_source of buildings.")
+      .alias("survey-source")
+      .string("survey_date", options.survey_date,
+              "Date of the scan as YYYY, YYYY-MM or YYYY-MM-DD, for the attribute ms_source_date of buildings.")
+      .alias("survey-date");
   lists.push_back(std::move(own));
   return lists;
 }
@@ -44,7 +51,8 @@ auto presets() -> const std::vector<Preset>& {
   static const std::vector<Preset> all{
       {"paper",
        "The numbers Kelly and Mitra publish.",
-       {{"slice.interval", "0.2"},
+       {{"vegetation.mask", "false"},
+        {"slice.interval", "0.2"},
         {"sweep.gamma", "10"},
         {"sweep.cluster_step", "1.5"},
         {"sweep.gis_offset", "0"},
@@ -65,7 +73,8 @@ auto presets() -> const std::vector<Preset>& {
         {"refine.effort", "caps"}}},
       {"chordatlas",
        "What the reference implementation runs.",
-       {{"slice.interval", "0.5"},
+       {{"vegetation.mask", "false"},
+        {"slice.interval", "0.5"},
         {"sweep.gamma", "15"},
         {"sweep.cluster_step", "1.5"},
         {"sweep.gis_offset", "0"},
@@ -112,6 +121,7 @@ auto codes() -> std::vector<base::Code> {
   add(solver::codes());
   add(ingest::codes());
   add(block::codes());
+  add(vegetation::codes());
   add(derive::codes());
   add(fracture::codes());
   add(segment::codes());

@@ -8,6 +8,7 @@
 #include "mansard/pipeline/detail/every_block.hpp"
 #include "mansard/pipeline/detail/overlaps.hpp"
 #include "mansard/pipeline/detail/place.hpp"
+#include "mansard/pipeline/detail/shown.hpp"
 
 namespace mansard::pipeline {
 
@@ -31,7 +32,7 @@ auto reconstruct(const model::Scene& scene, const Options& options, const base::
   std::vector<std::optional<detail::Finished>> finished(scene.footprints.size());
   for (std::size_t i = 0; i < results.size(); ++i) {
     auto& result = results[i];
-    for (auto& [feature, one] : detail::finish_block(scene, result, out.warnings))
+    for (auto& [feature, one] : detail::finish_block(scene, result, options, out.warnings))
       if (feature < finished.size()) finished[feature] = std::move(one);
     out.blocks.push_back(std::move(result.report));
     out.error_maps.push_back(std::move(result.map));
@@ -39,7 +40,7 @@ auto reconstruct(const model::Scene& scene, const Options& options, const base::
   }
   for (std::size_t f = 0; f < finished.size(); ++f) {
     if (!finished[f] && !only.empty()) continue;
-    if (!finished[f]) finished[f] = detail::unbuilt(scene, f);
+    if (!finished[f]) finished[f] = detail::unbuilt(scene, f, options);
     out.city.buildings.push_back(std::move(finished[f]->building));
     out.buildings.push_back(std::move(finished[f]->report));
   }
@@ -72,8 +73,10 @@ auto segment(const model::Scene& scene, const Options& options, const base::Run&
           return result;
         }
         const auto own = block::in_own_frame(block);
-        const rays::Scene mesh(own.block.mesh);
-        result.segmented = detail::segment_block(own.block, mesh, options, inner, tell, result.report, result.warnings);
+        const detail::Shown shown(own.block,
+                                  detail::crowns_over(own.block, options, inner, tell, result.report, result.warnings));
+        result.segmented =
+            detail::segment_block(shown.block(), shown.mesh(), options, inner, tell, result.report, result.warnings);
         detail::place(result.segmented, own);
         result.report.times.total = own_watch.stop();
         result.report.times.stages.insert(result.report.times.stages.begin(), making);

@@ -30,6 +30,7 @@
 #include "mansard/solid/solid.hpp"
 #include "mansard/sweep/sweep.hpp"
 #include "mansard/texture/options.hpp"
+#include "mansard/vegetation/vegetation.hpp"
 
 namespace mansard::pipeline {
 
@@ -38,6 +39,7 @@ struct Options {
   ingest::Options ingest;
   derive::Options derive;
   block::Options block;
+  vegetation::Options vegetation;
   slice::Options slice;
   sweep::Options sweep;
   fracture::Options fracture;
@@ -52,8 +54,9 @@ struct Options {
   texture::Options texture;
 
   std::int64_t seed = 1;
-  double assumed_height = 3.0;  ///< m; of the prism of a footprint over which the mesh shows nothing
-  double roof_grid = 0.5;       ///< m; sampling of roof heights for attributes
+  double assumed_height = 3.0;             ///< m; of the prism of a footprint over which the mesh shows nothing
+  double roof_grid = 0.5;                  ///< m; sampling of roof heights for attributes
+  std::string survey_source, survey_date;  ///< of the scan, for the attributes of buildings; empty: not known
 };
 
 /// One list per module, bound to `options`, in the order of the modules.

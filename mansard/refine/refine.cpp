@@ -10,13 +10,13 @@
 namespace mansard::refine {
 
 auto refine(std::span<const Draft> drafts, const rays::Scene& mesh, const Options& options,
-            const extrude::Options& raising, const base::Run& run) -> Refined {
+            const extrude::Options& raising, const base::Run& run, const rays::Scene* above) -> Refined {
   std::map<std::size_t, std::vector<std::size_t>> owners;
   for (std::size_t i = 0; i < drafts.size(); ++i) owners[drafts[i].owner].push_back(i);
   std::vector<std::vector<std::size_t>> groups;
   for (auto& [owner, mine] : owners) groups.push_back(std::move(mine));
 
-  const detail::Work work(mesh, options, raising, run);
+  const detail::Work work(mesh, above, options, raising, run);
   std::vector<detail::Roofed> each(groups.size());
   base::parallel_for(groups.size(), [&](std::size_t g) {
     if (!run.cancelled()) each[g] = detail::refine_owner(drafts, groups[g], work);

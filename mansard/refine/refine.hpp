@@ -44,8 +44,10 @@ struct Refined {
 /// Guarantees: 1 every solid is of extrude::raise · 2 the polygons of an owner's parts are simple, disjoint, and cover
 /// what its drafts covered, but for gaps under a millimetre that joining closes · 3 the same drafts and mesh give the
 /// same parts at any thread count · 4 a draft over which the mesh shows nothing stays as it is.
+/// `above`: the mesh with the crowns of trees, where `mesh` is without; a roof that they hide is below them.
 /// Cost: some dozens to hundreds of raises a draft.
 [[nodiscard]] auto refine(std::span<const Draft> drafts, const rays::Scene& mesh, const Options& options,
-                          const extrude::Options& raising, const base::Run& run = {}) -> Refined;
+                          const extrude::Options& raising, const base::Run& run = {},
+                          const rays::Scene* above = nullptr) -> Refined;
 
 }  // namespace mansard::refine

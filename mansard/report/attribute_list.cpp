@@ -13,20 +13,65 @@ auto attributes() -> std::vector<formats::Attribute> {
   add("ms_outcome", building, "string", "",
       "full: every part was extruded along its full profiles; fallback: some part is simpler; covered: its ground is "
       "part of its neighbours' models; refused: the footprint cannot be used.");
+  add("ms_success", building, "boolean", "", "Whether the building has a model.");
+  add("ms_quality", building, "string", "",
+      "good: the outcome is full, every level of detail is valid, and the scan covers half of the footprint or more; "
+      "check: one of these is not so; none: it has no model.");
+  add("ms_source", building, "string", "", "The scan, as pipeline.survey_source names it; absent where that is empty.");
+  add("ms_source_date", building, "string", "",
+      "The date of the scan, as pipeline.survey_date gives it; absent where that is empty.");
+  add("ms_nodata_share", building, "number", "",
+      "Share of the footprint without a surface of the mesh, 0 to 1; only with a mesh.");
+  add("ms_nodata_radius", building, "number", "m",
+      "Radius of the largest circle in the footprint without a surface of the mesh; only with a mesh.");
   add("ms_h_ground", both, "number", "m", "z of the ground; of a building where it has parts.");
-  add("ms_h_roof_min", part, "number", "m",
-      "z of the roof's lowest sample on a grid of pipeline.roof_grid; without a mesh, of its lowest corner.");
-  add("ms_h_roof_50p", part, "number", "m", "z below which half of the roof's samples lie; only with a mesh.");
-  add("ms_h_roof_70p", part, "number", "m", "z below which 70 % of the roof's samples lie; only with a mesh.");
-  add("ms_h_roof_max", both, "number", "m", "z of the roof's highest corner; of a building where it has parts.");
-  add("ms_h_ridge", part, "number", "m", "z of the highest corner of a pitched face; absent where there is none.");
-  add("ms_roof_type", part, "string", "",
+  const Objects with_roof{"Building", "BuildingPart", "RoofSurface"};
+  add("ms_h_roof_min", with_roof, "number", "m",
+      "z of the lowest corner of the roof; of a part made with a mesh, of its lowest sample on a grid of "
+      "pipeline.roof_grid.");
+  add("ms_h_roof_50p", with_roof, "number", "m",
+      "z below which half of the roof's area lies; of a part, of its samples, only with a mesh.");
+  add("ms_h_roof_70p", with_roof, "number", "m",
+      "z below which 70 % of the roof's area lies; of a part, of its samples, only with a mesh.");
+  add("ms_h_roof_max", with_roof, "number", "m", "z of the roof's highest corner; of a building where it has parts.");
+  add("ms_h_eave", building, "number", "m",
+      "z below which half of the length of the eaves and of the edges of flat roofs lies; absent where there are "
+      "none.");
+  add("ms_h_ridge", both, "number", "m", "z of the highest corner of a pitched face; absent where there is none.");
+  add("ms_roof_type", both, "string", "",
       "slanted: more than 5 % of the roof's area is steeper than 5°; multiple horizontal: levels more than 0.5 m "
       "apart; "
       "horizontal.");
   add("ms_roof_shape", part, "string", "", "The shape that was made; only of models without a mesh.");
   add("ms_height_from", part, "string", "",
       "What gave the height: height, levels, assumed or profile; only of models without a mesh.");
+  add("ms_roof_planes", building, "number", "", "Number of roof surfaces of LoD 2.2.");
+  add("ms_ridges", building, "number", "", "Number of ridges of LoD 2.2; those that go straight on are one.");
+  add("ms_parts", building, "number", "", "Number of parts.");
+  add("ms_storeys", building, "number", "",
+      "Estimate of the storeys above ground: the height of the roof that 70 % of it is below, in storeys of "
+      "roof.level_height.");
+  add("measuredHeight", building, "number", "m",
+      "As in CityGML: from the ground to the highest corner; the source's own where it has one.");
+  add("roofType", building, "string", "",
+      "As in CityGML, by the code list of the SIG 3D: 1000 flat, 1010 monopitch, 1030 gabled, 1040 hipped, 1130 a "
+      "combination; the source's own where it has one.");
+  add("storeysAboveGround", building, "number", "",
+      "As in CityGML: ms_storeys, an estimate; the source's own where it has one.");
+  for (const auto& [suffix, lod] : {std::pair{"lod12", "1.2"}, {"lod13", "1.3"}, {"lod20", "2.0"}}) {
+    add(("ms_volume_" + std::string(suffix)).c_str(), building, "number", "m³",
+        ("Volume of LoD " + std::string(lod) + "; absent where it has no valid solid.").c_str());
+    add(("ms_rmse_" + std::string(suffix)).c_str(), building, "number", "m",
+        ("Root mean square of the vertical distance of LoD " + std::string(lod) +
+         " to the mesh; absent without mesh coverage.")
+            .c_str());
+  }
+  for (const auto& [suffix, lod] : {std::pair{"lod12", "1.2"}, {"lod13", "1.3"}, {"lod20", "2.0"}, {"lod22", "2.2"}}) {
+    add(("ms_surface_" + std::string(suffix)).c_str(), building, "number", "m²",
+        ("Area of all surfaces of LoD " + std::string(lod) + ".").c_str());
+    add(("ms_val3dity_" + std::string(suffix)).c_str(), building, "string", "",
+        ("The codes of val3dity that the check of LoD " + std::string(lod) + " found; [] is valid.").c_str());
+  }
   add("ms_volume_lod22", both, "number", "m³",
       "Volume of the LoD 2.2 solid; of a building over its parts, where it has some.");
   add("ms_rmse_lod22", both, "number", "m",
@@ -36,14 +81,19 @@ auto attributes() -> std::vector<formats::Attribute> {
   all.push_back(
       {"ms_texture_known", "texture", building, "number", "",
        "Share of the area of roofs and outer walls whose colour the scan shows, 0 to 1; only with textures."});
-  add("ms_area_roof_flat", part, "number", "m²", "Area of roof that is level within 5°.");
-  add("ms_area_roof_sloped", part, "number", "m²", "Area of the other roof.");
-  add("ms_area_wall", part, "number", "m²", "Area of walls in the open.");
-  add("ms_area_party_wall", part, "number", "m²", "Area of walls against another solid.");
+  add("ms_area_footprint", building, "number", "m²", "Area of the footprint as it was read.");
+  add("ms_area_ground", building, "number", "m²", "Area of the ground of the model.");
+  add("ms_area_roof_flat", both, "number", "m²", "Area of roof that is level within 5°.");
+  add("ms_area_roof_sloped", both, "number", "m²", "Area of the other roof.");
+  add("ms_area_wall", both, "number", "m²",
+      "Area of walls in the open; of a building, without the walls between its parts.");
+  add("ms_area_party_wall", both, "number", "m²",
+      "Area of walls against another solid; of a building, against other buildings.");
   add("ms_fallback", part, "string?", "",
       "The code of the first reason why the part is simpler than its profiles; null where it is not.");
   add("ms_refined", part, "string", "",
-      "What measured error changed of the part's plan, in words; absent where nothing was.");
+      "What measured error changed of the part's plan, in words, with sizes, errors and costs; absent where nothing "
+      "was.");
   add("ms_block", part, "string", "", "The block; only with a mesh.");
   add("ms_opt_status", part, "string", "",
       "How the block's integer program ended: optimal, stopped, empty or failed; only with a mesh.");

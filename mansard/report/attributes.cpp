@@ -9,6 +9,7 @@
 #include "mansard/base/statistics.hpp"
 #include "mansard/evaluate/evaluate.hpp"
 #include "mansard/label/label.hpp"
+#include "mansard/report/measures.hpp"
 #include "mansard/report/report.hpp"
 #include "mansard/solid/solid.hpp"
 
@@ -20,13 +21,9 @@ constexpr std::array<std::string_view, 14> of_model{
     "ms_h_ground",         "ms_h_roof_min", "ms_h_roof_50p",      "ms_h_roof_70p", "ms_h_roof_max",
     "ms_h_ridge",          "ms_roof_type",  "ms_volume_lod22",    "ms_rmse_lod22", "ms_area_roof_flat",
     "ms_area_roof_sloped", "ms_area_wall",  "ms_area_party_wall", "ms_fallback"};
-/// Those of a building that are its parts' together.
-constexpr std::array<std::string_view, 5> of_building{"ms_outcome", "ms_h_ground", "ms_h_roof_max", "ms_volume_lod22",
-                                                      "ms_rmse_lod22"};
-
 /// The attributes without those named, and the new ones where the first of them stood.
-auto with(const model::Attributes& before, std::span<const std::string_view> names, model::Attributes now)
-    -> model::Attributes {
+template <class Names>
+auto with(const model::Attributes& before, const Names& names, model::Attributes now) -> model::Attributes {
   model::Attributes out;
   bool placed = false;
   for (const auto& attribute : before) {
@@ -173,8 +170,22 @@ auto building_attributes(const model::Building& building, double z0) -> model::A
     full = full && value_of<std::string>(part.attributes, "ms_fallback") == nullptr;
   }
   const auto outcome = building.parts.empty() ? Outcome::covered : full ? Outcome::full : Outcome::fallback;
-  model::Attributes now;
+  // CityGML's three are made anew, unless the source has them: then their place is before ours.
+  model::Building plain{building.id, {}, building.footprint, building.ground, building.parts, building.solids};
+  bool ours = false;
+  for (const auto& [name, value] : building.attributes) {
+    ours = ours || name.starts_with("ms_");
+    if (!ours) plain.attributes.emplace_back(name, value);
+  }
+  model::Attributes levels, now;
+  if (!building.parts.empty())
+    levels = level_measures(plain, {{0, 0, static_cast<std::int64_t>(z0)}, {}}, {}, nullptr, 1);
   now.emplace_back("ms_outcome", std::string(to_string(outcome)));
+  now.emplace_back("ms_success", !building.parts.empty());
+  now.emplace_back("ms_quality", quality_of(to_string(outcome), levels));
+  constexpr double storey = 3;  // m; the default of roof.level_height
+  for (auto& measure : building_measures(plain, z0, storey)) now.push_back(std::move(measure));
+  for (auto& measure : levels) now.push_back(std::move(measure));
   if (!building.parts.empty()) {
     now.emplace_back("ms_h_ground", z0 + building.ground);
     if (highest) now.emplace_back("ms_h_roof_max", *highest);
@@ -182,7 +193,10 @@ auto building_attributes(const model::Building& building, double z0) -> model::A
     if (area > 0) now.emplace_back("ms_rmse_lod22", std::sqrt(squared / area));
   }
   round_measures(now);
-  return with(building.attributes, of_building, std::move(now));
+  // Errors of levels of detail were measured before the edit.
+  std::vector<std::string> names{"ms_rmse_lod12", "ms_rmse_lod13", "ms_rmse_lod20", "ms_h_eave", "ms_h_ridge"};
+  for (const auto& [name, value] : now) names.push_back(name);
+  return with(building.attributes, names, std::move(now));
 }
 
 }  // namespace mansard::report

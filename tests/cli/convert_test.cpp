@@ -339,7 +339,8 @@ TEST_F(Convert, formats_say_what_a_folder_of_results_has) {
   ASSERT_EQ(reconstruct(at("house.obj"), at("house.geojson"), "--formats obj --overwrite").exit, 0);
   names.clear();
   for (const auto& entry : fs::directory_iterator(at("out"))) names.insert(entry.path().filename());
-  EXPECT_THAT(names, testing::ElementsAre(".mansard", "model.mtl", "model.obj", "notes.txt", "run.json"));
+  EXPECT_THAT(names,
+              testing::ElementsAre(".mansard", "model.mtl", "model.obj", "model.plans.jsonl", "notes.txt", "run.json"));
   fs::remove_all(at("out"));
   expect_refusal(reconstruct(at("house.obj"), at("house.geojson"), "--formats obj,geopakage"), 4, "option-value",
                  "'geopackage'");

@@ -125,6 +125,20 @@ TEST_F(Info, describes_models_tilesets_and_shells_of_other_producers) {
   EXPECT_EQ(shells[0]["header"], "shells");
 }
 
+TEST_F(Info, follows_tilesets_in_tilesets_once) {
+  fs::create_directories(folder_ / "nested/inner");
+  put("nested/tileset.json", R"({"asset":{"version":"1.1"},"geometricError":40,"root":{"geometricError":20,
+      "children":[{"geometricError":9,"content":{"uri":"inner/tileset.json?v=1"}},{"content":{"uri":"lost.json"}}]}})");
+  put("nested/inner/tileset.json", R"({"asset":{"version":"1.1"},"geometricError":9,"root":{"geometricError":9,
+      "children":[{"content":{"uri":"a.glb"}},{"content":{"uri":"../tileset.json"}},{"content":{"uri":"tileset.json"}}]}})");
+  const auto tileset = info(at("nested"))[0]["tileset"];
+  EXPECT_GE(tileset["tilesets_within"].get<int>(), 1);
+  std::size_t contents = 0;
+  for (const auto& level : tileset["levels"]) contents += level["contents"].get<std::size_t>();
+  EXPECT_GE(contents, 1U);
+  EXPECT_LE(tileset["levels"].size(), 12U) << "a tileset that names itself comes to an end";
+}
+
 TEST_F(Info, looks_into_folders_of_meshes_and_of_sources) {
   fs::create_directories(folder_ / "meshes");
   put("meshes/house.obj", house);

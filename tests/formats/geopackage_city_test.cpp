@@ -66,6 +66,12 @@ TEST(GeoPackageCity, has_its_layers_with_a_row_for_every_thing) {
                                                     {"profiles", 6},
                                                     {"made_by", 4},
                                                     {"mansard_records", 3},
+                                                    {"solids_lod12", 2},
+                                                    {"ground_lod12", 2},
+                                                    {"solids_lod13", 2},
+                                                    {"ground_lod13", 2},
+                                                    {"solids_lod22", 2},
+                                                    {"ground_lod22", 2},
                                                     {"layer_styles", 5}}));
 }
 
@@ -75,13 +81,15 @@ TEST(GeoPackageCity, begins_with_the_footprints_which_programs_open_first) {
   std::vector<std::string> names;
   for (auto* layer : file->GetLayers()) names.emplace_back(layer->GetName());
   EXPECT_THAT(names, ElementsAre("gis_footprints", "footprints", "edges", "roof_planes", "walls", "profiles", "made_by",
-                                 "mansard_records", "layer_styles"));
+                                 "mansard_records", "solids_lod12", "ground_lod12", "solids_lod13", "ground_lod13",
+                                 "solids_lod22", "ground_lod22", "layer_styles"));
 }
 
 TEST(GeoPackageCity, has_valid_geometry_in_the_frame_of_the_file_with_an_index) {
   write(street(), place("city.gpkg"));
   const auto file = open(place("city.gpkg"));
-  for (const char* name : {"gis_footprints", "footprints", "edges", "roof_planes", "walls"}) {
+  for (const char* name : {"gis_footprints", "footprints", "edges", "roof_planes", "walls", "ground_lod12",
+                           "ground_lod22", "solids_lod22"}) {
     OGRLayer& layer = *file->GetLayerByName(name);
     EXPECT_STREQ(layer.GetSpatialRef()->GetAuthorityCode(nullptr), "28992") << name;
     OGREnvelope extent;
@@ -96,7 +104,7 @@ TEST(GeoPackageCity, has_valid_geometry_in_the_frame_of_the_file_with_an_index) 
     file->ReleaseResultSet(answer);
     for (const auto& row : rows(*file, name)) {
       EXPECT_FALSE(row->GetGeometryRef()->IsEmpty()) << name;
-      if (name != std::string_view("walls")) {  // in plan they are lines
+      if (name != std::string_view("solids_lod22")) {  // GEOS has no polyhedral surfaces
         EXPECT_TRUE(row->GetGeometryRef()->IsValid()) << name;
       }
     }
@@ -120,6 +128,35 @@ TEST(GeoPackageCity, says_of_roofs_and_walls_where_they_look) {
   for (const auto& wall : rows(*file, "walls"))
     party += wall->GetFieldAsString("class") == std::string_view("party_wall");
   EXPECT_EQ(party, 1U);
+}
+
+TEST(GeoPackageCity, has_solids_with_all_their_faces_at_every_level) {
+  write(street(), place("city.gpkg"));
+  const auto file = open(place("city.gpkg"));
+  const auto fine = rows(*file, "solids_lod22"), flat = rows(*file, "solids_lod12");
+  ASSERT_EQ(fine.size(), 2U);
+  EXPECT_STREQ(fine[0]->GetFieldAsString("building_id"), "house");
+  EXPECT_NEAR(fine[0]->GetFieldAsDouble("volume"), 10 * 8 * 6 + 10 * 8 * 4 / 2., 1e-6);
+  EXPECT_NEAR(flat[0]->GetFieldAsDouble("volume"), 10 * 8 * 8, 1e-6);
+  EXPECT_NEAR(fine[0]->GetFieldAsDouble("top"), 11.25, 1e-9);
+  const OGRGeometry* shape = fine[0]->GetGeometryRef();
+  ASSERT_EQ(wkbFlatten(shape->getGeometryType()), wkbPolyhedralSurface);
+  EXPECT_EQ(shape->toPolyhedralSurface()->getNumGeometries(), 7);
+  EXPECT_NEAR(rows(*file, "ground_lod22")[1]->GetFieldAsDouble("area"), 400, 1e-6);
+}
+
+TEST(GeoPackageCity, has_walls_where_they_stand_in_plan) {
+  write(street(), place("city.gpkg"));
+  const auto file = open(place("city.gpkg"));
+  const auto walls = rows(*file, "walls");
+  // The south wall of the house, seen from the south: from west to east.
+  const auto& line = *walls[0]->GetGeometryRef()->toLineString();
+  EXPECT_EQ(line.getNumPoints(), 2);
+  EXPECT_NEAR(line.getX(0), 84801.0625, 1e-9);
+  EXPECT_NEAR(line.getX(1), 84811.0625, 1e-9);
+  EXPECT_NEAR(walls[0]->GetFieldAsDouble("bottom"), 1.25, 1e-9);
+  EXPECT_NEAR(walls[0]->GetFieldAsDouble("top"), 7.25, 1e-9);
+  EXPECT_NEAR(walls[1]->GetFieldAsDouble("top"), 11.25, 1e-9);
 }
 
 TEST(GeoPackageCity, gives_each_attribute_the_type_that_holds_all_its_values) {

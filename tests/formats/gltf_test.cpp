@@ -209,7 +209,7 @@ TEST_F(Gltf, of_others_or_broken_is_refused) {
     EXPECT_EQ(refused(whole.substr(0, size)), "write-read-format");
   // A length within a table that is beyond its texts.
   const Glb glb(whole);
-  const auto& view = glb.json["bufferViews"][glb.property(0, "record")["stringOffsets"].get<std::size_t>()];
+  const auto& view = glb.json["bufferViews"][glb.property(2, "record")["stringOffsets"].get<std::size_t>()];
   std::string broken = whole;
   broken[whole.size() - glb.binary.size() + view["byteOffset"].get<std::size_t>() + 7] = 'x';
   EXPECT_EQ(refused(broken), "write-read-format");

@@ -227,8 +227,8 @@ TEST_F(QgisStyles, have_the_colours_of_the_materials) {
     EXPECT_THAT(style(layer)->GetFieldAsString("styleSLD"), HasSubstr(std::string(sld) + "\">" + as_sld));
   };
   expect_as("roof_planes", "roof", "\"color", "fill");
-  expect_as("walls", "wall", "outline_color", "stroke");
-  expect_as("walls", "party_wall", "outline_color", "stroke");
+  expect_as("walls", "wall", "line_color", "stroke");  // lines in plan
+  expect_as("walls", "party_wall", "line_color", "stroke");
 }
 
 TEST_F(QgisStyles, are_those_of_a_segmentation_alone_too) {

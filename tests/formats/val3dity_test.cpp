@@ -297,7 +297,7 @@ TEST(Val3dityRules, hold_for_flat_models_over_ground_at_several_heights) {
   for (const auto& [plot, base] : plots)
     parts.push_back({"house-" + std::to_string(parts.size() + 1), plan_of(plot, base, 9), prism(plot, base, 9), {}});
   const Json file = Json::parse(*mansard::formats::cityjson(city));
-  EXPECT_EQ(file["CityObjects"]["house"]["geometry"].size(), 3U) << "LoD 0, 1.2 and 2.2 of one solid";
+  EXPECT_EQ(file["CityObjects"]["house"]["geometry"].size(), 4U) << "LoD 0, 1.2, 1.3 and 2.2 of one solid";
   for (const auto& finding : val3dity::findings(file)) ADD_FAILURE() << finding.code << " " << finding.what;
 }
 
@@ -379,12 +379,14 @@ TEST(Val3dityRules, hold_for_files_that_are_given) {
       double volume = 0, width = 0;
     };
     std::map<int, Worst> pairs;
-    for (const auto& overlap : val3dity::overlaps(city, "2.2", 1e-3)) {
-      auto& [count, volume, width] = pairs[overlap.code];
-      ++count, volume = std::max(volume, overlap.volume), width = std::max(width, overlap.width);
-      if (overlap.volume > 0.5)
-        std::cout << "  " << overlap.first << " and " << overlap.second << ": " << overlap.area << " m²\n";
-    }
+    for (const char* lod : {"1.2", "1.3", "2.0", "2.2"})
+      for (const auto& overlap : val3dity::overlaps(city, lod, 1e-3)) {
+        auto& [count, volume, width] = pairs[overlap.code];
+        ++count, volume = std::max(volume, overlap.volume), width = std::max(width, overlap.width);
+        if (overlap.volume > 0.5)
+          std::cout << "  LoD " << lod << ": " << overlap.first << " and " << overlap.second << ": " << overlap.area
+                    << " m²\n";
+      }
     std::cout << name << ": " << solids << " solids, " << found.size() << " findings";
     for (const auto& [code, worst] : pairs)
       std::cout << "; " << code << ": " << worst.count << " pairs over a litre, at most " << worst.volume << " m³, "

@@ -110,8 +110,8 @@ void add_crown(std::vector<Object>& objects, Point3 foot, double middle, double 
 }
 
 /// Trees beside buildings whose crowns are over the roof, and trees within the outlines.
-void add_crowns(std::vector<Object>& objects, const Surface& surface, const Terrain& terrain,
-                const ScanOptions& options, std::uint64_t seed) {
+void add_crowns(Surroundings& out, const Surface& surface, const Terrain& terrain, const ScanOptions& options,
+                std::uint64_t seed) {
   std::map<std::uint32_t, Box2> boxes;
   for (std::uint32_t t = 0; t < surface.mesh.triangles.size(); ++t) {
     if (surface.classes[t] != Class::roof) continue;
@@ -152,11 +152,14 @@ void add_crowns(std::vector<Object>& objects, const Surface& surface, const Terr
         const Point2 p = *outside + 0.6 * radius * Point2{geometry::cosine(angle), geometry::sine(angle)};
         if (on_building(p)) roof = std::max(roof, *above.top(p));
       }
-      add_crown(objects, {outside->x, outside->y, terrain.at(*outside)}, roof + lift, radius, random);
+      add_crown(out.objects, {outside->x, outside->y, terrain.at(*outside)}, roof + lift, radius, random);
+      out.crowns.push_back({{outside->x, outside->y, roof + lift}, radius, building, false});
     }
-    if (within && inside)
-      add_crown(objects, {inside->x, inside->y, terrain.at(*inside)}, *above.top(*inside) + 0.5 * second, second,
-                random);
+    if (within && inside) {
+      const double middle = *above.top(*inside) + 0.5 * second;
+      add_crown(out.objects, {inside->x, inside->y, terrain.at(*inside)}, middle, second, random);
+      out.crowns.push_back({{inside->x, inside->y, middle}, second, building, true});
+    }
   }
 }
 
@@ -255,9 +258,10 @@ auto Object::bounds() const -> Box2 {
   return Box2{xy(centre), xy(centre)}.grown(reach);
 }
 
-auto objects_of(const Surface& surface, const Nearest& nearest, const Terrain& terrain, const Box2& area,
-                const ScanOptions& options, std::uint64_t seed) -> std::vector<Object> {
-  std::vector<Object> objects;
+auto surroundings_of(const Surface& surface, const Nearest& nearest, const Terrain& terrain, const Box2& area,
+                     const ScanOptions& options, std::uint64_t seed) -> Surroundings {
+  Surroundings out;
+  auto& objects = out.objects;
   const OpenGround ground(surface, nearest, terrain);
   base::Random random(seed);
   const Point2 extent = area.most - area.least;
@@ -278,8 +282,8 @@ auto objects_of(const Surface& surface, const Nearest& nearest, const Terrain& t
     if (ground.free(p, 2.5)) add_car(objects, ground.foot(p), axis, random);
   }
   add_chimneys(objects, surface, options, seed);
-  if (options.crowns > 0 || options.roof_trees > 0) add_crowns(objects, surface, terrain, options, seed);
-  return objects;
+  if (options.crowns > 0 || options.roof_trees > 0) add_crowns(out, surface, terrain, options, seed);
+  return out;
 }
 
 }  // namespace mansard::simulate::detail

@@ -42,9 +42,13 @@ struct Object {
   [[nodiscard]] auto bounds() const -> geometry::Box2;
 };
 
-/// Trees and cars on open ground, chimneys on roofs.
-[[nodiscard]] auto objects_of(const Surface& surface, const Nearest& nearest, const Terrain& terrain,
-                              const geometry::Box2& area, const ScanOptions& options, std::uint64_t seed)
-    -> std::vector<Object>;
+/// Trees and cars on open ground, chimneys on roofs, and the trees that are over roofs.
+struct Surroundings {
+  std::vector<Object> objects;
+  std::vector<Crown> crowns;
+};
+[[nodiscard]] auto surroundings_of(const Surface& surface, const Nearest& nearest, const Terrain& terrain,
+                                   const geometry::Box2& area, const ScanOptions& options, std::uint64_t seed)
+    -> Surroundings;
 
 }  // namespace mansard::simulate::detail

@@ -10,7 +10,6 @@
 #include "mansard/base/text.hpp"
 #include "mansard/formats/detail/drawn.hpp"
 #include "mansard/formats/plans/plan_text.hpp"
-#include "mansard/solid/unite.hpp"
 
 namespace mansard::formats::detail {
 namespace {
@@ -27,7 +26,8 @@ auto hundredths(double value) -> std::string { return base::to_text(value, 2); }
 
 /// The semantic object of a roof with that normal: slope, the angle from the horizontal, and azimuth, the compass
 /// direction it looks to, both in degrees; a flat roof has no azimuth.
-auto roof_semantics(geometry::Point3 n) -> std::string {
+auto roof_semantics(const Surface& surface, std::int64_t origin) -> std::string {
+  const geometry::Point3 n = surface.normal;
   JsonText json;
   const double slope = degrees(std::atan2(std::hypot(n.x, n.y), n.z));
   json.begin_object().key("type").text("RoofSurface").key("ms_slope").raw(hundredths(slope));
@@ -36,11 +36,20 @@ auto roof_semantics(geometry::Point3 n) -> std::string {
     const std::string text = hundredths(azimuth < 0 ? azimuth + 360 : azimuth);
     json.key("ms_azimuth").raw(text == "360.00" ? "0.00" : text);
   }
+  const auto roof = solid_of({surface});
+  const auto [low, high] = std::ranges::minmax(roof.solid.vertices, {}, &geometry::Point3::z);
+  const auto height = [&](const char* name, double z) {
+    json.key(name).raw(base::to_text(z + static_cast<double>(origin), 4));
+  };
+  height("ms_h_roof_min", low.z);
+  height("ms_h_roof_50p", solid::roof_percentile(roof, 0.5));
+  height("ms_h_roof_70p", solid::roof_percentile(roof, 0.7));
+  height("ms_h_roof_max", high.z);
   return std::move(json.end_object()).str();
 }
 
-/// The semantic object of a surface.
-auto semantics_of(const Surface& surface) -> std::string {
+/// The semantic object of a surface; `origin` is the height of the frame's origin.
+auto semantics_of(const Surface& surface, std::int64_t origin) -> std::string {
   JsonText json;
   json.begin_object().key("type");
   switch (surface.kind) {
@@ -48,72 +57,9 @@ auto semantics_of(const Surface& surface) -> std::string {
     case FaceClass::party_wall: json.text("WallSurface").key("ms_party_wall").flag(true); break;
     case FaceClass::ground: json.text("GroundSurface"); break;
     case FaceClass::soffit: json.text("OuterCeilingSurface"); break;
-    case FaceClass::roof: return roof_semantics(surface.normal);
+    case FaceClass::roof: return roof_semantics(surface, origin);
   }
   return std::move(json.end_object()).str();
-}
-
-/// The prisms over the ground surfaces at each of some heights, as one solid. Empty where they are none. `lowered`: all
-/// stand as low as the lowest.
-auto prisms_over(const model::LabelledSolid& model, const std::set<double>& levels, double top, bool lowered)
-    -> std::vector<Surface> {
-  std::vector<model::LabelledSolid> prisms;
-  for (const double level : levels) {
-    auto& part = prisms.emplace_back(model);
-    for (std::size_t f = part.classes.size(); f-- > 0;) {
-      if (part.classes[f] != FaceClass::ground) continue;
-      auto& faces = part.solid.faces;
-      if (part.solid.vertices[faces[f].loops[0][0]].z == level) continue;
-      faces.erase(faces.begin() + static_cast<std::ptrdiff_t>(f));
-      part.classes.erase(part.classes.begin() + static_cast<std::ptrdiff_t>(f));
-    }
-    if (lowered)
-      for (auto& v : part.solid.vertices) v.z = *levels.begin();
-    part = solid::prism_over_ground(part, top);
-    if (part.solid.faces.empty()) return {};
-  }
-  std::vector<const model::LabelledSolid*> all;
-  for (const auto& prism : prisms) all.push_back(&prism);
-  const auto united = solid::unite(all);
-  if (united.solids.size() != 1 || !united.warnings.empty()) return {};
-  return quantised(united.solids.front().model);
-}
-
-/// Whether solid::check finds nothing by the rules for files.
-auto is_valid(const std::vector<Surface>& surfaces) -> bool {
-  model::Solid solid;
-  std::map<Vertex, std::uint32_t> numbers;
-  for (const Surface& surface : surfaces) {
-    auto& face = solid.faces.emplace_back();
-    for (const auto& corners : surface.loops) {
-      auto& loop = face.loops.emplace_back();
-      for (const Vertex& v : corners) {
-        const auto [entry, added] = numbers.try_emplace(v, static_cast<std::uint32_t>(solid.vertices.size()));
-        if (added)
-          solid.vertices.push_back({static_cast<double>(v[0]) / quanta_per_metre,
-                                    static_cast<double>(v[1]) / quanta_per_metre,
-                                    static_cast<double>(v[2]) / quanta_per_metre});
-        loop.push_back(entry->second);
-      }
-    }
-  }
-  return solid::check(solid, solid::written_rules()).empty();
-}
-
-/// LoD 1.2 of a solid, with a flat roof at `top`. Over ground at several heights it is the union of a prism on each;
-/// where that is not one valid solid, all stand at the lowest, and then over an outline without what is too narrow for
-/// one. Empty where none of these is valid.
-auto flat_model(const model::LabelledSolid& model, const std::vector<Surface>& fine, double top)
-    -> std::vector<Surface> {
-  std::set<double> levels;
-  for (std::size_t f = 0; f < model.classes.size(); ++f)
-    if (model.classes[f] == FaceClass::ground) levels.insert(model.solid.vertices[model.solid.faces[f].loops[0][0]].z);
-  if (levels.size() > 1 && std::isfinite(top))
-    for (const bool lowered : {false, true})
-      if (auto made = prisms_over(model, levels, top, lowered); !made.empty() && is_valid(made)) return made;
-  if (auto prism = flat_prism(fine, top); is_valid(prism)) return prism;
-  if (!std::isfinite(top)) return {};
-  return quantised(solid::prism_over_outline(model, std::round(top * quanta_per_metre) / quanta_per_metre));
 }
 
 /// "28992" of "EPSG:28992"; empty for anything else, which a referenceSystem cannot name.
@@ -145,9 +91,15 @@ void widen(Extent& extent, const Loops& loops) {
     for (const Vertex& v : loop) detail::widen(extent, v);
 }
 
-void append_metadata(JsonText& json, const model::Frame& frame, const Extent& extent) {
+void append_metadata(JsonText& json, const model::Frame& frame, const CityJsonOptions& options, const Extent& extent) {
   json.key("metadata").begin_object();
   append_extent(json, frame, extent);
+  if (!options.title.empty()) json.key("title").text(options.title);
+  if (!options.date.empty()) json.key("referenceDate").text(options.date);
+  if (!options.contact.empty()) {
+    json.key("pointOfContact").begin_object().key("contactName").text(options.contact);
+    json.key("emailAddress").text(options.email).end_object();
+  }
   if (const std::string code = epsg_code(frame.crs); !code.empty())
     json.key("referenceSystem").text("https://www.opengis.net/def/crs/EPSG/0/" + code);
   json.end_object();
@@ -166,28 +118,6 @@ auto without(const model::Attributes& attributes, std::initializer_list<std::str
   for (const auto& [name, value] : attributes)
     if (std::ranges::find(names, name) == names.end()) kept.emplace_back(undeclared(name), value);
   return kept;
-}
-
-/// z of the flat roof of LoD 1.2: the 70th percentile of the roof's heights where it was measured and lies within the
-/// model, else half-way between the lowest and the highest point of the roof. From what is written rather than from
-/// the model, so that what was read back gives the same.
-auto roof_height(const std::vector<Surface>& surfaces, const model::Attributes& attributes, std::int64_t origin)
-    -> double {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  double least = infinity, most = -infinity, bottom = infinity;
-  for (const Surface& surface : surfaces)
-    for (const auto& loop : surface.loops)
-      for (const Vertex& v : loop) {
-        const double z = static_cast<double>(v[2]) / quanta_per_metre;
-        bottom = std::min(bottom, z);
-        if (surface.kind != FaceClass::roof) continue;
-        least = std::min(least, z);
-        most = std::max(most, z);
-      }
-  for (const auto& [name, value] : attributes)
-    if (const double* height = std::get_if<double>(&value); height != nullptr && name == "ms_h_roof_70p")
-      if (const double z = *height - static_cast<double>(origin); z > bottom && z <= most) return z;
-  return 0.5 * (least + most);
 }
 
 }  // namespace
@@ -249,24 +179,26 @@ void CityObjects::add(const model::Building& building, const Gate::Keyed& keys, 
   warnings.insert(warnings.end(), solids.warnings.begin(), solids.warnings.end());
   std::vector<Shape> shapes;
   for (const auto& [part, parts] : solids.solids) {
-    auto fine = quantised(part.model);
-    const double top = roof_height(fine, part.attributes, frame_.origin[2]);
+    auto levels = level_surfaces(part.model, part.attributes, frame_, lods_, levels_);
     const bool own = part.id == keys.building || (parts.size() == 1 && part.id == keys.parts[parts.front()]);
-    auto flat = flat_model(part.model, fine, top);
-    if (flat.empty() && std::isfinite(top))
+    const bool asks = std::ranges::find(lods_, Lod::lod12) != lods_.end();
+    if (asks && levels.lod12.empty() &&
+        std::ranges::find(part.model.classes, FaceClass::roof) != part.model.classes.end())
       warnings.push_back(
           base::warning("solid-left-out", "no valid solid of LoD 1.2 can be made of its ground", building.id));
     const std::size_t solid = textured_ != nullptr ? textured_->first + shapes.size() : 0;
-    Shape& shape = shapes.emplace_back(Shape{part.id, {}, std::move(flat), std::move(fine), solid});
+    Shape& shape = shapes.emplace_back(Shape{part.id, {}, quantised(part.model), std::move(levels), solid});
     if (!own)
       for (const std::size_t p : parts) shape.of.push_back(keys.parts[p]);
   }
-  const auto footprint = footprint_of(building, shapes);
+  const bool has_footprint = std::ranges::find(lods_, Lod::lod0) != lods_.end();
+  const auto footprint = has_footprint ? footprint_of(building, shapes) : std::vector<Loops>();
   Extent extent;  // of the building with its parts, whose objects come after its own
   for (const auto& loops : footprint) widen(extent, loops);
   for (const auto& shape : shapes)
-    for (const auto* surfaces : {&shape.flat, &shape.fine})
-      for (const Surface& surface : *surfaces) widen(extent, surface.loops);
+    for (const auto lod : lods_)
+      if (lod != Lod::lod0)
+        for (const Surface& surface : shape.levels.at(lod)) widen(extent, surface.loops);
 
   json_.line(level_).key(keys.building).begin_object().key("type").text("Building");
   append_extent(json_, frame_, extent);
@@ -337,8 +269,9 @@ void CityObjects::append_part(const std::string& key, const model::Part* part, c
 }
 
 void CityObjects::append_solids(const Shape& shape) {
-  append_solid("1.2", shape.flat);
-  append_solid("2.2", shape.fine, shape.solid, textured_);
+  for (const auto lod : lods_)  // pictures are of the faces of LoD 2.2
+    if (lod != Lod::lod0)
+      append_solid(name_of(lod), shape.levels.at(lod), shape.solid, lod == Lod::lod22 ? textured_ : nullptr);
 }
 
 void CityObjects::append_texture(const std::vector<Surface>& surfaces, std::size_t solid,
@@ -371,7 +304,7 @@ void CityObjects::append_solid(std::string_view lod, const std::vector<Surface>&
   std::vector<std::string> distinct;
   std::vector<std::size_t> values;
   for (const Surface& surface : surfaces) {
-    const auto [entry, added] = index_of.try_emplace(semantics_of(surface), distinct.size());
+    const auto [entry, added] = index_of.try_emplace(semantics_of(surface, frame_.origin[2]), distinct.size());
     if (added) distinct.push_back(entry->first);
     values.push_back(entry->second);
   }
@@ -394,27 +327,29 @@ void CityObjects::append_loops(const Loops& loops) {
   json_.end_array();
 }
 
-auto cityjson_head(const Header& header, Solids solids, const Extent& extent, int level) -> JsonText {
+auto cityjson_head(const Header& header, const CityJsonOptions& options, const Extent& extent, int level) -> JsonText {
   JsonText json;
   json.begin_object().key("type").text("CityJSON").key("version").text("2.0");
   json.line(level).key("extensions").begin_object().key(extension_name).begin_object();
   json.key("url").text(MANSARD_EXTENSION_URL).key("version").text(extension_version).end_object().end_object();
   append_transform(json.line(level), header.frame);
-  append_metadata(json.line(level), header.frame, extent);
+  append_metadata(json.line(level), header.frame, options, extent);
   // The core's metadata are six; how the file was made is a member of the extension.
   append_made_by(json.line(level).key("+mansard").begin_object().key("made_by"), header.made_by);
   append_frame(json.key("frame"), header.frame);
-  json.key("solids").text(solids == Solids::part ? "part" : "building");
+  if (!options.lineage.empty()) json.key("lineage").text(options.lineage);
+  const bool fine = std::ranges::find(options.lods, Lod::lod22) != options.lods.end();
+  json.key("solids").text(!fine ? "none" : options.solids == Solids::part ? "part" : "building");
   json.end_object().line(level).key("CityObjects");
   return json;
 }
 
-auto cityjson_feature(const model::Building& building, const Gate::Keyed& keys, const Header& header, Solids solids,
-                      std::vector<base::Diagnostic>& warnings, const TexturedSolids* textured,
-                      const TextureFolder* folder) -> std::string {
+auto cityjson_feature(const model::Building& building, const Gate::Keyed& keys, const Header& header,
+                      const CityJsonOptions& options, std::vector<base::Diagnostic>& warnings,
+                      const TexturedSolids* textured, const TextureFolder* folder) -> std::string {
   base::TextSink vertices, coordinates;
   TextureVertices uv(coordinates, true);
-  CityObjects objects(header, solids, vertices, -1, &uv);
+  CityObjects objects(header, options, vertices, -1, &uv);
   objects.add(building, keys, warnings, textured);
   JsonText json;
   json.begin_object().key("type").text("CityJSONFeature").key("id").text(keys.building);

@@ -3,6 +3,7 @@
 
 #include "mansard/formats/atlas/texture_folder.hpp"
 #include "mansard/formats/cityjson/vertex_pool.hpp"
+#include "mansard/formats/detail/flat_level.hpp"
 #include "mansard/formats/detail/writers.hpp"
 #include "mansard/formats/json/json_item.hpp"
 
@@ -44,13 +45,30 @@ class TextureVertices {
 /// The value of "appearance" up to the texture coordinates, whose list is open: [u,v],[… comes next.
 [[nodiscard]] auto appearance_head(const TextureVertices& vertices, const TextureFolder& folder) -> JsonText;
 
+/// What of the options a CityJSON is made by.
+struct CityJsonOptions {
+  Solids solids = Solids::building;
+  Lods lods;
+  solid::LevelOptions levels;
+  std::string title, date, lineage, contact, email;  ///< metadata; empty: none
+};
+/// Fails with "option-value".
+[[nodiscard]] auto cityjson_options(const WriteOptions& options, Format format) -> base::Result<CityJsonOptions>;
+
 /// The member "CityObjects" and the vertices of a CityJSON object or feature, building by building. Buildings must have
 /// passed a Gate.
 class CityObjects {
  public:
   /// Objects on lines of that level, or on one line when negative.
-  CityObjects(const Header& header, Solids solids, base::Sink& vertices, int level, TextureVertices* uv = nullptr)
-      : frame_(header.frame), solids_(solids), level_(level), pool_(vertices), uv_(uv) {
+  CityObjects(const Header& header, const CityJsonOptions& options, base::Sink& vertices, int level,
+              TextureVertices* uv = nullptr)
+      : frame_(header.frame),
+        solids_(options.solids),
+        lods_(options.lods),
+        levels_(options.levels),
+        level_(level),
+        pool_(vertices),
+        uv_(uv) {
     json_.begin_object();
   }
   /// Warnings are those of solid::unite.
@@ -60,14 +78,14 @@ class CityObjects {
   [[nodiscard]] auto take() -> std::string { return json_.take(); }
   [[nodiscard]] auto end() -> std::string;
   [[nodiscard]] auto extent() const -> const Extent& { return pool_.extent(); }
-  [[nodiscard]] auto solids() const -> Solids { return solids_; }
 
  private:
-  /// The surfaces of a solid, at the two levels of detail.
+  /// The surfaces of a solid, at the levels of detail that are written.
   struct Shape {
     std::string key;              ///< of the object that it belongs to
     std::vector<std::string> of;  ///< the keys of the parts in it, where they are not those of that object
-    std::vector<Surface> flat, fine;
+    std::vector<Surface> fine;    ///< of LoD 2.2, in any case
+    LevelSurfaces levels;
     std::size_t solid = 0;  ///< its number in the atlas
   };
   /// Of LoD 0.
@@ -83,6 +101,8 @@ class CityObjects {
 
   const model::Frame frame_;
   const Solids solids_;
+  const Lods lods_;
+  const solid::LevelOptions levels_;
   const int level_;
   VertexPool pool_;
   TextureVertices* uv_;                       ///< none: without textures
@@ -92,11 +112,12 @@ class CityObjects {
 
 /// A CityJSON object up to the value of "CityObjects", which comes next; its members on lines of that level, or on one
 /// line when negative.
-[[nodiscard]] auto cityjson_head(const Header& header, Solids solids, const Extent& extent, int level) -> JsonText;
+[[nodiscard]] auto cityjson_head(const Header& header, const CityJsonOptions& options, const Extent& extent, int level)
+    -> JsonText;
 
 /// A building as a CityJSONFeature on one line.
 [[nodiscard]] auto cityjson_feature(const model::Building& building, const Gate::Keyed& keys, const Header& header,
-                                    Solids solids, std::vector<base::Diagnostic>& warnings,
+                                    const CityJsonOptions& options, std::vector<base::Diagnostic>& warnings,
                                     const TexturedSolids* textured = nullptr, const TextureFolder* folder = nullptr)
     -> std::string;
 

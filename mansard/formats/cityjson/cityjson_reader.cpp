@@ -76,11 +76,14 @@ auto read_file_header(const Item& file) -> std::optional<Header> {
   return std::nullopt;
 }
 
-/// Whether the solids of a file are those of parts. Before version 0.3 they always were.
-auto solids_are_parts(const Item& file) -> bool {
-  if (!file.has("+mansard")) return true;
+/// Whether the solids of LoD 2.2 of a file are those of parts, which they always were before version 0.3, or of
+/// buildings, or left out.
+auto models_in(const Item& file) -> Models {
+  if (!file.has("+mansard")) return Models::of_parts;
   const Item own = file.member("+mansard");
-  return !own.has("solids") || own.member("solids").text() == "part";
+  if (!own.has("solids")) return Models::of_parts;
+  const std::string solids = own.member("solids").text();
+  return solids == "part" ? Models::of_parts : solids == "none" ? Models::none : Models::of_buildings;
 }
 
 [[noreturn]] void refuse_foreign(const std::string& code) {
@@ -198,8 +201,7 @@ auto read_whole_file(const Item& file, bool models, const std::string& code) -> 
   model::City city{header->frame, header->made_by, {}};
   const Item transform = file.member("transform"), list = file.member("vertices"), all = file.member("CityObjects");
   const Vertices vertices(transform, list, city.frame.origin);
-  using enum Models;
-  Objects objects(all, &vertices, city.frame, !models ? none : solids_are_parts(file) ? of_parts : of_buildings);
+  Objects objects(all, &vertices, city.frame, models ? models_in(file) : Models::none);
   for (const auto& [id, object] : all.json.items())
     if (Objects::is_building(object)) city.buildings.push_back(objects.building(id, object));
   return city;
@@ -208,15 +210,15 @@ auto read_whole_file(const Item& file, bool models, const std::string& code) -> 
 /// A feature a line; no more than one line is in memory.
 class ReadFeatures : public CityReader {
  public:
-  ReadFeatures(std::string name, std::ifstream file, Header header, std::string transform, bool of_parts)
+  ReadFeatures(std::string name, std::ifstream file, Header header, std::string transform, Models models)
       : name_(std::move(name)),
         file_(std::move(file)),
         header_(std::move(header)),
         transform_(std::move(transform)),
-        of_parts_(of_parts) {}
+        models_(models) {}
   [[nodiscard]] auto header() const -> const Header& override { return header_; }
-  [[nodiscard]] auto has_models() const -> bool override { return of_parts_; }
-  [[nodiscard]] auto has_solids() const -> bool override { return !of_parts_; }
+  [[nodiscard]] auto has_models() const -> bool override { return models_ == Models::of_parts; }
+  [[nodiscard]] auto has_solids() const -> bool override { return models_ == Models::of_buildings; }
   [[nodiscard]] auto next() -> base::Result<std::optional<model::Building>> override {
     for (std::string line; std::getline(file_, line);) {
       ++line_;
@@ -237,8 +239,7 @@ class ReadFeatures : public CityReader {
     const Json at = parse_json(transform_);
     const Item transform{at, {}}, list = feature.member("vertices"), all = feature.member("CityObjects");
     const Vertices vertices(transform, list, header_.frame.origin);
-    using enum Models;
-    Objects objects(all, &vertices, header_.frame, of_parts_ ? of_parts : of_buildings);
+    Objects objects(all, &vertices, header_.frame, models_);
     const std::string id = feature.member("id").text();
     const auto found = all.json.find(id);
     if (found == all.json.end() || !Objects::is_building(*found))
@@ -250,22 +251,22 @@ class ReadFeatures : public CityReader {
   std::ifstream file_;
   const Header header_;
   const std::string transform_;
-  const bool of_parts_;
+  const Models models_;
   std::size_t line_ = 1;
 };
 
 auto open_features(std::ifstream file, const std::string& first, const std::string& name) -> ReaderResult {
   std::string transform;
-  bool of_parts = true;
+  auto models = Models::of_parts;
   const auto header = parsed<Header>(first, name + ":1", [&](const Item& item) {
     transform = item.member("transform").json.dump();
     auto found = read_file_header(item);
     if (!found) refuse_foreign("write-read-plans");
-    of_parts = solids_are_parts(item);
+    models = models_in(item);
     return *std::move(found);
   });
   if (!header) return header.error();
-  return ReaderResult(std::make_unique<ReadFeatures>(name, std::move(file), *header, std::move(transform), of_parts));
+  return ReaderResult(std::make_unique<ReadFeatures>(name, std::move(file), *header, std::move(transform), models));
 }
 
 /// Whether the first line is a whole object and another follows.
@@ -293,16 +294,16 @@ auto cityjson_reader(const Path& path) -> ReaderResult {
   }
   const auto text = base::read_file(path);
   if (!text) return text.error();
-  bool of_parts = true;
+  auto models = Models::of_parts;
   auto city = parsed<model::City>(*text, name, [&](const Item& file) {
     if (!file.json.is_object() || !file.has("type") || file.json["type"] != "CityJSON")
       throw Defect{"write-read-format", "this is JSON but not CityJSON; give a file that mansard wrote"};
     auto read = read_whole_file(file, true, "write-read-plans");
-    of_parts = solids_are_parts(file);
+    models = models_in(file);
     return read;
   });
   if (!city) return city.error();
-  return ReaderResult(whole_reader(*std::move(city), of_parts ? Models::of_parts : Models::of_buildings));
+  return ReaderResult(whole_reader(*std::move(city), models));
 }
 
 }  // namespace mansard::formats::detail

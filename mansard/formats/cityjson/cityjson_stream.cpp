@@ -6,9 +6,9 @@ namespace {
 /// What both kinds of file do with textures: buildings wait until their pictures fill an image.
 class Textured : public CityWriter {
  public:
-  Textured(Header header, const WriteOptions& options, TextureFolder folder)
+  Textured(Header header, CityJsonOptions own, const WriteOptions& options, TextureFolder folder)
       : header_(std::move(header)),
-        solids_(options.solids),
+        own_(std::move(own)),
         folder_(std::move(folder)),
         side_(static_cast<std::uint32_t>(options.atlas_size)),
         queue_(side_) {}
@@ -42,13 +42,13 @@ class Textured : public CityWriter {
     return done;
   }
   [[nodiscard]] auto header() const -> const Header& { return header_; }
-  [[nodiscard]] auto solids() const -> Solids { return solids_; }
+  [[nodiscard]] auto own() const -> const CityJsonOptions& { return own_; }
   [[nodiscard]] auto folder() const -> const TextureFolder& { return folder_; }
   [[nodiscard]] auto told() -> std::vector<base::Diagnostic>& { return warnings_; }
 
  private:
   const Header header_;
-  const Solids solids_;
+  const CityJsonOptions own_;
   std::vector<base::Diagnostic> warnings_;
   TextureFolder folder_;
   Gate gate_;
@@ -64,17 +64,18 @@ class WholeFile : public Textured {
   struct Spools {
     std::unique_ptr<base::Spool> objects, vertices, coordinates;
   };
-  WholeFile(const Header& header, const WriteOptions& options, base::Sink& file, TextureFolder folder, Spools spools)
-      : Textured(header, options, std::move(folder)),
+  WholeFile(const Header& header, CityJsonOptions own, const WriteOptions& options, base::Sink& file,
+            TextureFolder folder, Spools spools)
+      : Textured(header, std::move(own), options, std::move(folder)),
         file_(file),
         spools_(std::move(spools)),
         uv_(*spools_.coordinates, false),
-        text_(header, options.solids, *spools_.vertices, 0, &uv_) {}
+        text_(header, this->own(), *spools_.vertices, 0, &uv_) {}
 
   [[nodiscard]] auto finish() -> base::Result<void> override {
     if (auto done = empty(); !done) return done;
     spools_.objects->append(text_.end());
-    JsonText json = cityjson_head(header(), text_.solids(), text_.extent(), 0);
+    JsonText json = cityjson_head(header(), own(), text_.extent(), 0);
     file_.append(json.take());
     if (auto copied = spools_.objects->copy_to(file_); !copied) return copied;
     json.aside();
@@ -104,9 +105,10 @@ class WholeFile : public Textured {
 
 class Sequence : public Textured {
  public:
-  Sequence(const Header& header, const WriteOptions& options, base::Sink& file, TextureFolder folder)
-      : Textured(header, options, std::move(folder)), file_(file) {
-    JsonText json = cityjson_head(header, options.solids, std::nullopt, -1);
+  Sequence(const Header& header, CityJsonOptions own, const WriteOptions& options, base::Sink& file,
+           TextureFolder folder)
+      : Textured(header, std::move(own), options, std::move(folder)), file_(file) {
+    JsonText json = cityjson_head(header, this->own(), std::nullopt, -1);
     json.begin_object().end_object().key("vertices").begin_array().end_array().end_object();
     file_.append(json.take() + "\n");
   }
@@ -114,7 +116,7 @@ class Sequence : public Textured {
 
  private:
   void write(const model::Building& building, const Gate::Keyed& keys, const TexturedSolids* textured) override {
-    file_.append(cityjson_feature(building, keys, header(), solids(), told(), textured, &folder()));
+    file_.append(cityjson_feature(building, keys, header(), own(), told(), textured, &folder()));
   }
 
   base::Sink& file_;
@@ -122,8 +124,38 @@ class Sequence : public Textured {
 
 }  // namespace
 
+auto cityjson_options(const WriteOptions& options, Format format) -> base::Result<CityJsonOptions> {
+  auto lods = lods_of(options.lod, format);
+  if (!lods) return lods.failure();
+  CityJsonOptions out{options.solids, std::move(*lods), options.levels,  options.title,
+                      options.date,   options.lineage,  options.contact, {}};
+  const auto wrong = [](const std::string& what, const char* name) {
+    return base::error("option-value", what, std::string("write.") + name);
+  };
+  const auto is_date = [](std::string_view text) {
+    bool ok = text.size() == 10 && text[4] == '-' && text[7] == '-';
+    for (std::size_t i = 0; ok && i < text.size(); ++i) ok = i == 4 || i == 7 || (text[i] >= '0' && text[i] <= '9');
+    return ok;
+  };
+  if (!out.date.empty() && !is_date(out.date))
+    return wrong("'" + out.date + "' is not a date; expected YYYY-MM-DD", "date");
+  if (!out.contact.empty()) {
+    const auto start = out.contact.find('<'), end = out.contact.find('>');
+    const bool found = start != std::string::npos && end != std::string::npos && end > start + 1;
+    if (!found || out.contact.find('@', start) == std::string::npos || out.contact.find('@', start) > end)
+      return wrong("'" + out.contact + "' has no e-mail address; expected a name and an address in < >", "contact");
+    out.email = out.contact.substr(start + 1, end - start - 1);
+    out.contact.resize(start);
+    while (!out.contact.empty() && out.contact.back() == ' ') out.contact.pop_back();
+    if (out.contact.empty()) return wrong("there is no name before the e-mail address", "contact");
+  }
+  return out;
+}
+
 auto cityjson_writer(const Path& path, const Header& header, const WriteOptions& options, base::Outputs& outputs)
     -> WriterResult {
+  auto own = cityjson_options(options, Format::cityjson);
+  if (!own) return own.error();
   const auto file = outputs.file(path);
   if (!file) return file.error();
   WholeFile::Spools spools;
@@ -132,15 +164,18 @@ auto cityjson_writer(const Path& path, const Header& header, const WriteOptions&
     if (!opened) return opened.error();
     *spool = *std::move(opened);
   }
-  return WriterResult(
-      std::make_unique<WholeFile>(header, options, **file, TextureFolder(path, options, outputs), std::move(spools)));
+  return WriterResult(std::make_unique<WholeFile>(header, *std::move(own), options, **file,
+                                                  TextureFolder(path, options, outputs), std::move(spools)));
 }
 
 auto cityjsonseq_writer(const Path& path, const Header& header, const WriteOptions& options, base::Outputs& outputs)
     -> WriterResult {
+  auto own = cityjson_options(options, Format::cityjsonseq);
+  if (!own) return own.error();
   const auto file = outputs.file(path);
   if (!file) return file.error();
-  return WriterResult(std::make_unique<Sequence>(header, options, **file, TextureFolder(path, options, outputs)));
+  return WriterResult(
+      std::make_unique<Sequence>(header, *std::move(own), options, **file, TextureFolder(path, options, outputs)));
 }
 
 }  // namespace mansard::formats::detail

@@ -21,8 +21,13 @@ using Path = std::filesystem::path;
                               base::Outputs& outputs) -> WriterResult;
 [[nodiscard]] auto tiles_writer(const Path& folder, const Header& header, const WriteOptions& options,
                                 base::Outputs& outputs) -> WriterResult;
-[[nodiscard]] auto geopackage_writer(const Path& path, const Header& header, const std::vector<Layer>& more,
-                                     base::Outputs& outputs) -> WriterResult;
+[[nodiscard]] auto geopackage_writer(const Path& path, const Header& header, const WriteOptions& options,
+                                     const std::vector<Layer>& more, base::Outputs& outputs) -> WriterResult;
+[[nodiscard]] auto citygml_writer(const Path& path, const Header& header, const WriteOptions& options,
+                                  base::Outputs& outputs) -> WriterResult;
+[[nodiscard]] auto dxf_writer(const Path& path, const Header& header, const WriteOptions& options,
+                              base::Outputs& outputs) -> WriterResult;
+[[nodiscard]] auto flatgeobuf_writer(const Path& path, const Header& header, base::Outputs& outputs) -> WriterResult;
 [[nodiscard]] auto stl_writer(const Path& path, const Header& header, const WriteOptions& options,
                               base::Outputs& outputs) -> WriterResult;
 [[nodiscard]] auto geojson_writer(const Path& path, const Header& header, base::Outputs& outputs) -> WriterResult;

@@ -35,6 +35,33 @@ auto roof_class(const FaceRow& row) -> Value {
   return std::string(slope_of(row) <= flat ? "flat" : "sloped");
 }
 
+/// z, metres, of the lowest and the highest corner.
+auto height_range(const FaceRow& row) -> std::pair<double, double> {
+  const auto& corners = row.face().loops.front();
+  const auto z = [&](std::uint32_t v) { return row.model.solid.vertices[v].z; };
+  const auto [low, high] = std::ranges::minmax(corners, {}, z);
+  return {z(low), z(high)};
+}
+
+auto surface_of(const LevelRow& row) -> double {
+  double sum = 0;
+  for (const auto& face : row.model.solid.faces) sum += solid::area(row.model.solid, face);
+  return sum;
+}
+
+auto ground_of(const LevelRow& row) -> double {
+  double sum = 0;
+  for (std::size_t f = 0; f < row.model.classes.size(); ++f)
+    if (row.model.classes[f] == model::FaceClass::ground) sum += solid::area(row.model.solid, row.model.solid.faces[f]);
+  return sum;
+}
+
+auto extreme_height(const LevelRow& row, bool highest) -> Value {
+  const auto& all = row.model.solid.vertices;
+  const auto [low, high] = std::ranges::minmax(all, {}, &geometry::Point3::z);
+  return row.pen.height(highest ? high.z : low.z);
+}
+
 auto profile_json(const model::Profile& profile) -> std::string {
   JsonText json;
   json.begin_array();
@@ -87,13 +114,15 @@ const CityTable<FaceRow> roof_planes_table{
      {"face", integer, [](const FaceRow& row) -> Value { return as_integer(row.number); }},
      {"class", string, roof_class},
      {"slope", real, [](const FaceRow& row) -> Value { return slope_of(row); }},
+     {"bottom", real, [](const FaceRow& row) -> Value { return row.pen.height(height_range(row).first); }},
+     {"top", real, [](const FaceRow& row) -> Value { return row.pen.height(height_range(row).second); }},
      {"azimuth", real, azimuth_of},
      {"area", real, area_of}}};
 
 const CityTable<FaceRow> walls_table{
     "walls",
-    "The walls, which stand upright: in plan they are lines",
-    wkbMultiPolygon25D,
+    "The walls: where they stand in plan, from left to right as seen from outside",
+    wkbLineString,
     {{"building_id", string, [](const FaceRow& row) -> Value { return row.building; }},
      {"part_id", string, [](const FaceRow& row) -> Value { return row.part; }},
      {"face", integer, [](const FaceRow& row) -> Value { return as_integer(row.number); }},
@@ -101,10 +130,34 @@ const CityTable<FaceRow> walls_table{
       [](const FaceRow& row) -> Value { return std::string(class_name(row.model.classes[row.number])); }},
      {"azimuth", real, azimuth_of},
      {"area", real, area_of},
+     {"bottom", real, [](const FaceRow& row) -> Value { return row.pen.height(height_range(row).first); }},
+     {"top", real, [](const FaceRow& row) -> Value { return row.pen.height(height_range(row).second); }},
      {"ring", integer,
       [](const FaceRow& row) { return row.face().provenance ? as_integer(row.face().provenance->ring) : Value(); }},
      {"edge", integer,
       [](const FaceRow& row) { return row.face().provenance ? as_integer(row.face().provenance->edge) : Value(); }}}};
+
+const CityTable<LevelRow> solids_table{
+    solids_name,
+    "The solids of this level of detail",
+    wkbPolyhedralSurfaceZ,
+    {{"building_id", string, [](const LevelRow& row) -> Value { return row.building; }},
+     {"solid", integer, [](const LevelRow& row) -> Value { return as_integer(row.number); }},
+     {"volume", real, [](const LevelRow& row) -> Value { return solid::volume(row.model.solid); }},
+     {"surface", real, [](const LevelRow& row) -> Value { return surface_of(row); }},
+     {"faces", integer, [](const LevelRow& row) -> Value { return as_integer(row.model.solid.faces.size()); }},
+     {"bottom", real, [](const LevelRow& row) { return extreme_height(row, false); }},
+     {"top", real, [](const LevelRow& row) { return extreme_height(row, true); }}}};
+
+const CityTable<LevelRow> grounds_table{
+    grounds_name,
+    "The ground of the solids of this level of detail",
+    wkbMultiPolygon25D,
+    {{"building_id", string, [](const LevelRow& row) -> Value { return row.building; }},
+     {"solid", integer, [](const LevelRow& row) -> Value { return as_integer(row.number); }},
+     {"area", real, [](const LevelRow& row) -> Value { return ground_of(row); }},
+     {"bottom", real, [](const LevelRow& row) { return extreme_height(row, false); }},
+     {"top", real, [](const LevelRow& row) { return extreme_height(row, true); }}}};
 
 const CityTable<ProfileRow> profiles_table{
     "profiles",

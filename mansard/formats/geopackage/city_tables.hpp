@@ -58,7 +58,16 @@ struct FaceRow {
   const model::LabelledSolid& model;
   std::size_t number;
 
+  const Pen& pen;
+
   [[nodiscard]] auto face() const -> const model::Face& { return model.solid.faces[number]; }
+};
+/// A solid of a building at one level of detail.
+struct LevelRow {
+  const std::string& building;
+  std::size_t number;  ///< among those of the building
+  const model::LabelledSolid& model;
+  const Pen& pen;
 };
 struct ProfileRow {
   const std::string &building, &part;
@@ -82,6 +91,9 @@ extern const CityTable<BuildingRow> gis_footprints_table;  ///< with a column fo
 extern const CityTable<PartRow> footprints_table;          ///< with a column for each attribute of the parts
 extern const CityTable<EdgeRow> edges_table;
 extern const CityTable<FaceRow> roof_planes_table, walls_table;
+/// Of every level of detail that is written: its solids, their ground and their roofs in plan.
+extern const CityTable<LevelRow> solids_table, grounds_table;
+inline constexpr const char *solids_name = "solids_", *grounds_name = "ground_";
 extern const CityTable<ProfileRow> profiles_table;
 extern const CityTable<MadeByRow> made_by_table;
 extern const CityTable<RecordRow> records_table;

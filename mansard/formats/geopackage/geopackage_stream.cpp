@@ -2,8 +2,10 @@
 #include <map>
 
 #include "mansard/crs/gdal.hpp"
+#include "mansard/formats/detail/flat_level.hpp"
 #include "mansard/formats/detail/records.hpp"
 #include "mansard/formats/detail/writers.hpp"
+#include "mansard/formats/foreign.hpp"
 #include "mansard/formats/geopackage/city_tables.hpp"
 #include "mansard/formats/geopackage/geopackage_tables.hpp"
 #include "mansard/formats/geopackage/qgis_styles.hpp"
@@ -17,7 +19,8 @@ using Values = std::vector<Value>;
 using model::FaceClass;
 
 auto is_own(std::string_view layer) -> bool {
-  bool own = false;
+  bool own =
+      layer.starts_with(std::string(solids_name) + "lod") || layer.starts_with(std::string(grounds_name) + "lod");
   each_city_table([&](const auto& table) { own = own || layer == table.name; });
   return own;
 }
@@ -39,8 +42,14 @@ auto party_edges(const model::LabelledSolid& model) -> std::map<std::pair<std::u
 
 class GeoPackageWriter : public CityWriter {
  public:
-  GeoPackageWriter(const Header& header, std::vector<Layer> more, std::unique_ptr<base::Spool> records)
-      : header_(header), more_(std::move(more)), pen_(header.frame), records_(std::move(records)) {}
+  GeoPackageWriter(const Header& header, Lods lods, const solid::LevelOptions& levels, std::vector<Layer> more,
+                   std::unique_ptr<base::Spool> records)
+      : header_(header),
+        lods_(std::move(lods)),
+        levels_(levels),
+        more_(std::move(more)),
+        pen_(header.frame),
+        records_(std::move(records)) {}
 
   ~GeoPackageWriter() override {
     const GeopackageManners manners;
@@ -71,9 +80,12 @@ class GeoPackageWriter : public CityWriter {
       if (auto done = add_faces(building.id, part.id, building.parts[p].model); !done) return done;
       named.parts.push_back(std::move(part));
     }
+    if (auto done = add_levels(building, *keyed); !done) return done;
+    if (is_foreign(header_)) named.parts.clear();  // they have no plans that could be read back
     const std::string record = building_record(named);
     record_sizes_.push_back(record.size());
     records_->append(record);
+    if (is_foreign(header_)) return {};
     return add_row(records_table, {record_building, building.id, record});
   }
 
@@ -94,21 +106,21 @@ class GeoPackageWriter : public CityWriter {
 
  private:
   template <class Row>
-  auto make(const CityTable<Row>& given) -> base::Result<void> {
-    auto table = GeopackageTable::make(*file_, given.name, given.meaning, given.geometry, *crs_);
+  auto make(const CityTable<Row>& given, const std::string& suffix = {}) -> base::Result<void> {
+    auto table = GeopackageTable::make(*file_, given.name + suffix, given.meaning, given.geometry, *crs_);
     if (!table) return table.error();
     if (auto done = table->add_fields(given.fields()); !done) return done;
     table->take_place();
-    tables_.emplace(given.name, *std::move(table));
+    tables_.emplace(given.name + suffix, *std::move(table));
     return {};
   }
   /// `more` are the values of the columns for attributes.
   template <class Row>
   auto add_row(const CityTable<Row>& table, const Row& row, std::unique_ptr<OGRGeometry> geometry = nullptr,
-               const Values& more = {}) -> base::Result<void> {
+               const Values& more = {}, const std::string& suffix = {}) -> base::Result<void> {
     Values values = table.values(row);
     values.insert(values.end(), more.begin(), more.end());
-    return tables_.at(table.name).add_row(values, std::move(geometry));
+    return tables_.at(table.name + suffix).add_row(values, std::move(geometry));
   }
 
   auto make_tables() -> base::Result<void> {
@@ -117,7 +129,13 @@ class GeoPackageWriter : public CityWriter {
       if (made) made = make(table);
     });
     if (!made) return made;
+    for (const auto lod : lods_) {
+      if (lod == Lod::lod0) continue;
+      if (auto done = make(solids_table, suffix_of(lod)); !done) return done;
+      if (auto done = make(grounds_table, suffix_of(lod)); !done) return done;
+    }
     if (auto done = add_made_by(); !done) return done;
+    if (is_foreign(header_)) return {};
     return add_row(records_table, {record_header, Value(), header_record(header_)});
   }
 
@@ -156,9 +174,35 @@ class GeoPackageWriter : public CityWriter {
                                         : is_wall(model.classes[f])         ? &walls_table
                                                                             : nullptr;
       if (table == nullptr) continue;
-      auto polygons = std::make_unique<OGRMultiPolygon>();
-      polygons->addGeometryDirectly(pen_.face(model.solid, model.solid.faces[f]).release());
-      if (auto done = add_row(*table, {building, part, model, f}, std::move(polygons)); !done) return done;
+      std::unique_ptr<OGRGeometry> shape;
+      if (table == &walls_table) {
+        shape = pen_.foot(model.solid, model.solid.faces[f]);
+      } else {
+        auto polygons = std::make_unique<OGRMultiPolygon>();
+        polygons->addGeometryDirectly(pen_.face(model.solid, model.solid.faces[f]).release());
+        shape = std::move(polygons);
+      }
+      if (auto done = add_row(*table, {building, part, model, f, pen_}, std::move(shape)); !done) return done;
+    }
+    return {};
+  }
+
+  /// The solids at every level of detail that is written.
+  auto add_levels(const model::Building& building, const Gate::Keyed& keyed) -> base::Result<void> {
+    if (std::ranges::none_of(lods_, [](Lod lod) { return lod != Lod::lod0; })) return {};
+    const Drawn all = drawn(building, keyed, Solids::building);
+    std::size_t number = 0;
+    for (const auto& [part, parts] : all.solids) {
+      const auto made = level_surfaces(part.model, part.attributes, header_.frame, lods_, levels_);
+      for (const auto lod : lods_) {
+        if (lod == Lod::lod0) continue;
+        const auto model = lod == Lod::lod22 ? part.model : solid_of(made.at(lod));
+        if (model.solid.faces.empty()) continue;
+        const LevelRow row{building.id, number, model, pen_};
+        if (auto done = add_row(solids_table, row, pen_.surface(model.solid), {}, suffix_of(lod)); !done) return done;
+        if (auto done = add_row(grounds_table, row, pen_.ground(model), {}, suffix_of(lod)); !done) return done;
+      }
+      ++number;
     }
     return {};
   }
@@ -199,6 +243,7 @@ class GeoPackageWriter : public CityWriter {
         !done)
       return done;
     for (const model::Part& part : building.parts) {
+      if (part.plan.outer.points.empty()) continue;
       const auto outline = model::polygon_of(part.plan);
       if (auto done = add_row(footprints_table, {building.id, part, outline, pen_}, pen_.polygon(outline),
                               part_columns_.values(part.attributes));
@@ -209,6 +254,8 @@ class GeoPackageWriter : public CityWriter {
   }
 
   const Header header_;
+  const Lods lods_;
+  const solid::LevelOptions levels_;
   const std::vector<Layer> more_;
   const Pen pen_;
   std::optional<OGRSpatialReference> crs_;
@@ -298,8 +345,10 @@ class GeoPackageReader : public CityReader {
 
 }  // namespace
 
-auto geopackage_writer(const Path& path, const Header& header, const std::vector<Layer>& more, base::Outputs& outputs)
-    -> WriterResult {
+auto geopackage_writer(const Path& path, const Header& header, const WriteOptions& options,
+                       const std::vector<Layer>& more, base::Outputs& outputs) -> WriterResult {
+  auto lods = lods_of(options.lod, Format::geopackage);
+  if (!lods) return lods.error();
   auto layers = beside_ours(more);
   if (const auto sound = check_layers(layers); !sound) return sound.error();
   auto records = base::Spool::open();
@@ -307,7 +356,8 @@ auto geopackage_writer(const Path& path, const Header& header, const std::vector
   const auto place = outputs.place(path);
   if (!place) return place.error();
   crs::register_gdal();
-  auto writer = std::make_unique<GeoPackageWriter>(header, std::move(layers), std::move(*records));
+  auto writer = std::make_unique<GeoPackageWriter>(header, *std::move(lods), options.levels, std::move(layers),
+                                                   std::move(*records));
   if (auto begun = writer->begin(*place); !begun) return begun.error();
   return WriterResult(std::move(writer));
 }

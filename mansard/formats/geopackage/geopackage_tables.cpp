@@ -105,6 +105,31 @@ auto Pen::face(const model::Solid& solid, const model::Face& face) const -> std:
   return out;
 }
 
+auto Pen::surface(const model::Solid& solid) const -> std::unique_ptr<OGRPolyhedralSurface> {
+  auto out = std::make_unique<OGRPolyhedralSurface>();
+  for (const auto& one : solid.faces) out->addGeometryDirectly(face(solid, one).release());
+  return out;
+}
+
+auto Pen::ground(const model::LabelledSolid& solid) const -> std::unique_ptr<OGRMultiPolygon> {
+  auto out = std::make_unique<OGRMultiPolygon>();
+  for (std::size_t f = 0; f < solid.classes.size(); ++f) {
+    if (solid.classes[f] != model::FaceClass::ground) continue;
+    model::Face upward = solid.solid.faces[f];
+    for (auto& loop : upward.loops) std::ranges::reverse(loop);
+    out->addGeometryDirectly(face(solid.solid, upward).release());
+  }
+  return out;
+}
+
+auto Pen::foot(const model::Solid& solid, const model::Face& face) const -> std::unique_ptr<OGRLineString> {
+  const geometry::Point2 along{-face.normal.y, face.normal.x};
+  const auto& corners = face.loops.front();
+  const auto [first, last] =
+      std::ranges::minmax(corners, {}, [&](std::uint32_t v) { return dot(along, geometry::xy(solid.vertices[v])); });
+  return line({geometry::xy(solid.vertices[first]), geometry::xy(solid.vertices[last])});
+}
+
 auto Pen::geometry_of(const Feature& feature, Shape shape) const -> std::unique_ptr<OGRGeometry> {
   if (shape == Shape::line && !feature.lines.empty()) return line(feature.lines.front());
   if (shape == Shape::polygon && !feature.polygons.empty()) return polygon(feature.polygons.front());

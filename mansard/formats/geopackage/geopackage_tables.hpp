@@ -43,6 +43,12 @@ class Pen {
   [[nodiscard]] auto line(const std::vector<geometry::Point2>& points) const -> std::unique_ptr<OGRLineString>;
   /// With z.
   [[nodiscard]] auto face(const model::Solid& solid, const model::Face& face) const -> std::unique_ptr<OGRPolygon>;
+  /// All faces, from outside.
+  [[nodiscard]] auto surface(const model::Solid& solid) const -> std::unique_ptr<OGRPolyhedralSurface>;
+  /// The ground of a solid, counter-clockwise from above.
+  [[nodiscard]] auto ground(const model::LabelledSolid& solid) const -> std::unique_ptr<OGRMultiPolygon>;
+  /// Where a vertical face stands in plan, from left to right as seen from outside.
+  [[nodiscard]] auto foot(const model::Solid& solid, const model::Face& face) const -> std::unique_ptr<OGRLineString>;
   [[nodiscard]] auto height(double z) const -> double { return origin_.z + z; }
 
  private:
@@ -56,6 +62,8 @@ class GeopackageTable {
   [[nodiscard]] static auto make(GDALDataset& file, const std::string& name, const std::string& meaning,
                                  OGRwkbGeometryType type, const OGRSpatialReference& crs)
       -> base::Result<GeopackageTable>;
+  /// A layer of any format that somebody else made.
+  [[nodiscard]] static auto over(OGRLayer& layer) -> GeopackageTable { return GeopackageTable(layer); }
   /// Before the first row, which may be later. SQL tells names apart regardless of case, and GDAL's own columns come
   /// first: a name that is taken gets "_2" or the next number free.
   [[nodiscard]] auto add_fields(const std::vector<Field>& fields) -> base::Result<void>;

@@ -1,6 +1,7 @@
 // A city as binary glTF 2.0, building by building or at once.
 #pragma once
 
+#include "mansard/formats/detail/flat_level.hpp"
 #include "mansard/formats/detail/writers.hpp"
 #include "mansard/formats/gltf/gltf_file.hpp"
 #include "mansard/formats/stream.hpp"
@@ -12,6 +13,8 @@ class GlbBytes {
  public:
   /// Fails with "file-write".
   [[nodiscard]] static auto open(const Header& header, const WriteOptions& options) -> base::Result<GlbBytes>;
+  /// The level of detail of the solids that come; LoD 2.2 unless it is set.
+  void set_level(const LevelOf& level) { level_ = level; }
   /// Buildings with textures wait until these fill an image. Fails with "write-triangulate", "texture-encode".
   [[nodiscard]] auto add(const model::Building& building, const Gate::Keyed& keys) -> base::Result<void>;
   /// Of solid::unite.
@@ -35,6 +38,7 @@ class GlbBytes {
   std::uint32_t side_;
   AtlasQueue queue_;
   std::vector<Gate::Keyed> keys_;  ///< of the buildings in the queue
+  LevelOf level_;
   std::vector<base::Diagnostic> warnings_;
   std::unique_ptr<GltfFile> file_;
   PartColumns columns_;

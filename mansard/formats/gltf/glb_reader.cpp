@@ -100,12 +100,12 @@ auto view_of(const Chunks& chunks, const Json& number) -> std::optional<RecordPl
   return RecordPlace{0, chunks.binary.offset + *offset, *size};
 }
 
-auto table_of(const Chunks& chunks) -> const Json& {
+auto table_of(const Chunks& chunks, std::string_view name) -> const Json& {
   static const Json none;
   const Json& tables = at(chunks.json, {"extensions", "EXT_structural_metadata", "propertyTables"});
   if (!tables.is_array()) return none;
   for (const Json& table : tables)
-    if (at(table, {"class"}) == Json("part")) return table;
+    if (at(table, {"class"}) == Json(name)) return table;
   return none;
 }
 
@@ -149,11 +149,14 @@ auto glb_records(const Path& path) -> base::Result<GlbRecords> {
   GlbRecords out;
   if (const Json& header = at(chunks->json, {"asset", "extras", "header"}); header.is_object())
     out.header = header.dump();
-  const Json& properties = at(table_of(*chunks), {"properties"});
-  const auto texts = view_of(*chunks, at(properties, {"record", "values"}));
-  const auto ends = view_of(*chunks, at(properties, {"record", "stringOffsets"}));
+  const Json& properties = at(table_of(*chunks, "part"), {"properties"});
+  // In older files the record is a property of parts.
+  const Json& own = at(table_of(*chunks, "plans"), {"properties"});
+  const Json& record = at(own.is_null() ? properties : own, {"record"});
+  if (record.is_null()) return out;
+  const auto texts = view_of(*chunks, at(record, {"values"}));
+  const auto ends = view_of(*chunks, at(record, {"stringOffsets"}));
   const auto orders = view_of(*chunks, at(properties, {"order", "values"}));
-  if (at(properties, {"record"}).is_null()) return out;
   if (!texts || !ends || !orders) return no_glb(path, "the table of buildings of this GLB cannot be followed");
   const auto end_bytes = file->read(ends->offset, ends->bytes), order_bytes = file->read(orders->offset, orders->bytes);
   if (!end_bytes) return end_bytes.error();

@@ -1,6 +1,7 @@
 #include "mansard/formats/detail/drawn.hpp"
 #include "mansard/formats/detail/records.hpp"
 #include "mansard/formats/detail/writers.hpp"
+#include "mansard/formats/foreign.hpp"
 #include "mansard/formats/gltf/glb_bytes.hpp"
 
 namespace mansard::formats::detail {
@@ -29,7 +30,8 @@ class GlbWriter : public CityWriter {
 void append_file_extras(JsonText& json, const Header& header) {
   json.key("crs").text(header.frame.crs).key("origin").begin_array();
   for (const auto metres : header.frame.origin) json.whole(metres);
-  json.end_array().key("header").raw(header_record(header));
+  json.end_array();
+  if (!is_foreign(header)) json.key("header").raw(header_record(header));
 }
 
 auto GlbBytes::open(const Header& header, const WriteOptions& options) -> base::Result<GlbBytes> {
@@ -59,12 +61,17 @@ auto GlbBytes::empty() -> base::Result<void> {
 
 auto GlbBytes::append(const model::Building& building, const Gate::Keyed& keys, const TexturedSolids* textured)
     -> base::Result<void> {
-  const std::string record = building_record(building);
-  const Drawn solids = drawn(building, keys, solids_);
+  const std::string record = is_foreign(header_) ? std::string() : building_record(building);
+  Drawn solids = drawn(building, keys, solids_);
+  level_.apply(solids, header_.frame);
   warnings_.insert(warnings_.end(), solids.warnings.begin(), solids.warnings.end());
+  // Programs without EXT_structural_metadata, Blender among them, show these as properties of the object. The last of
+  // two attributes with one name is kept there.
   JsonText extras;
-  extras.begin_object().key("building").text(building.id).end_object();
-  if (textures_for(building, solids.solids.size()) == nullptr) textured = nullptr;
+  append_attributes(extras.begin_object().key("building").text(building.id), building.attributes);
+  extras.end_object();
+  // Pictures are of the faces of LoD 2.2.
+  if (level_.lod != Lod::lod22 || textures_for(building, solids.solids.size()) == nullptr) textured = nullptr;
   for (std::size_t s = 0; s < solids.solids.size(); ++s) {
     const model::Part& part = solids.solids[s].part;
     const auto mesh = part_mesh(part.model, part.id);
@@ -107,8 +114,11 @@ auto glb_writer(const Path& path, const Header& header, const WriteOptions& opti
     -> WriterResult {
   auto sink = outputs.file(path);
   if (!sink) return sink.error();
+  auto level = LevelOf::of(options, Format::glb);
+  if (!level) return level.error();
   auto bytes = GlbBytes::open(header, options);
   if (!bytes) return bytes.error();
+  bytes->set_level(*level);
   return std::unique_ptr<CityWriter>(std::make_unique<GlbWriter>(std::move(*bytes), **sink));
 }
 

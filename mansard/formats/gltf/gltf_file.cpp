@@ -321,10 +321,11 @@ void GltfFile::pack() {
   ++packed_chunks_;
 }
 
-auto GltfFile::fill_tables(TableBytes& parts, TableBytes& surfaces, const PartColumns& columns) -> base::Result<void> {
+auto GltfFile::fill_tables(TableBytes& parts, TableBytes& plans, TableBytes& surfaces, const PartColumns& columns)
+    -> base::Result<void> {
   for (std::uint32_t number = 0; number < columns.columns().size(); ++number)
     if (auto added = parts.add(columns.columns()[number], number, *spools_.rows, parts_); !added) return added;
-  if (auto added = parts.add_texts(PartColumns::record, *spools_.records, record_ends_); !added) return added;
+  if (auto added = plans.add_texts(PartColumns::record, *spools_.records, record_ends_); !added) return added;
   if (surfaces_ == 0) return {};
   for (auto& [name, spool] :
        {std::pair{"class", &spools_.classes}, {"slope", &spools_.slopes}, {"azimuth", &spools_.azimuths}})
@@ -384,15 +385,15 @@ void GltfFile::append_materials(JsonText& json) const {
   json.end_array();
 }
 
-void GltfFile::append_extensions(JsonText& json, const TableBytes& parts, const TableBytes& surfaces,
-                                 const PartColumns& columns) const {
+void GltfFile::append_extensions(JsonText& json, const TableBytes& parts, const TableBytes& plans,
+                                 const TableBytes& surfaces, const PartColumns& columns) const {
   if (parts_ > 0) {
     json.key("extensions").begin_object().key("EXT_structural_metadata").begin_object();
     columns.append_schema(json.key("schema").begin_object().key("id").text("mansard").key("version").text("1"));
     json.end_object().key("propertyTables").begin_array();
     const std::size_t chunks = compress_ ? packed_chunks_ : nodes_ > 0 ? 1 : 0;
     std::size_t base = chunks * views();  // tables come after the meshes
-    const auto table = [&](const char* name, std::uint64_t count, const TableBytes& bytes) {
+    const auto table = [&](std::string_view name, std::uint64_t count, const TableBytes& bytes) {
       json.begin_object().key("name").text(name).key("class").text(name).key("count").whole(whole(count));
       json.key("properties").begin_object();
       for (const TableColumn& column : bytes.columns()) {
@@ -405,6 +406,7 @@ void GltfFile::append_extensions(JsonText& json, const TableBytes& parts, const 
     };
     table("part", parts_, parts);
     if (surfaces_ > 0) table("surface", surfaces_, surfaces);
+    if (!plans.columns().empty()) table(PartColumns::record_class, parts_, plans);  // after those of feature ids
     json.end_array().end_object().end_object();
   }
   std::vector<std::string_view> used;
@@ -467,8 +469,8 @@ auto GltfFile::write(base::Sink& sink, const std::string& generator, std::string
   };
   if (surfaces_ > most_ids || parts_ > most_ids || spools_.records->size() > std::numeric_limits<std::uint32_t>::max())
     return too_large();
-  TableBytes parts(*spools_.tables), surfaces(*spools_.tables);
-  if (auto filled = fill_tables(parts, surfaces, columns); !filled) return filled;
+  TableBytes parts(*spools_.tables), plans(*spools_.tables), surfaces(*spools_.tables);
+  if (auto filled = fill_tables(parts, plans, surfaces, columns); !filled) return filled;
 
   const std::uint64_t meshes = mesh_bytes(), tables = padded(meshes + spools_.tables->size());
   const std::uint64_t binary = tables + spools_.images->size();
@@ -488,7 +490,7 @@ auto GltfFile::write(base::Sink& sink, const std::string& generator, std::string
     json.end_array();
   }
   json.end_object().end_array();
-  append_extensions(json, parts, surfaces, columns);
+  append_extensions(json, parts, plans, surfaces, columns);
   if (nodes_ > 0) {
     append_materials(json);
     for (const auto& [name, items] :
@@ -506,7 +508,7 @@ auto GltfFile::write(base::Sink& sink, const std::string& generator, std::string
     json.key("bufferViews").begin_array();
     append_views(json);
     insert(*spools_.views);
-    for (const TableBytes* table : {&parts, &surfaces})
+    for (const TableBytes* table : {&parts, &surfaces, &plans})
       for (const TableView& view : table->views()) {
         json.begin_object().key("buffer").whole(0).key("byteOffset").whole(whole(meshes + view.offset));
         json.key("byteLength").whole(whole(view.bytes)).end_object();

@@ -90,9 +90,9 @@ class GltfFile {
   void append_primitives(JsonText& json, std::size_t vertex, std::size_t index, const std::array<Float3, 2>& bounds);
   void pack();
   void quantise();
-  [[nodiscard]] auto fill_tables(TableBytes& parts, TableBytes& surfaces, const PartColumns& columns)
+  [[nodiscard]] auto fill_tables(TableBytes& parts, TableBytes& plans, TableBytes& surfaces, const PartColumns& columns)
       -> base::Result<void>;
-  void append_extensions(JsonText& json, const TableBytes& parts, const TableBytes& surfaces,
+  void append_extensions(JsonText& json, const TableBytes& parts, const TableBytes& plans, const TableBytes& surfaces,
                          const PartColumns& columns) const;
   void append_materials(JsonText& json) const;
   void append_textured_material(JsonText& json, std::uint32_t image, std::uint32_t kind) const;

@@ -251,13 +251,14 @@ auto PartColumns::row(const model::Building& building, const std::string& buildi
 }
 
 void PartColumns::settle() {
-  std::set<std::string> taken{std::string(record)};
+  std::set<std::string> taken;
   for (Column& column : columns_) {
     std::uint64_t present = 0;
     for (const auto count : column.counts) present += count;
     column.absent = present < rows_;
     column.kind = kind_of(column);
-    const std::string wanted = identifier_of(column.name);
+    std::string wanted = identifier_of(column.name);
+    if (column.of_part && taken.contains(wanted)) wanted.insert(0, "part_");  // its building has it too
     column.identifier = wanted;
     for (int n = 2; !taken.insert(column.identifier).second; ++n) column.identifier = wanted + "_" + std::to_string(n);
   }
@@ -267,7 +268,9 @@ void PartColumns::append_schema(JsonText& json) const {
   json.key("classes").begin_object().key("part").begin_object().key("name").text("Part of a building");
   json.key("properties").begin_object();
   for (const Column& column : columns_) append_property(json, column);
-  json.key(record).begin_object().key("name").text(record).key("description");
+  json.end_object().end_object();
+  json.key(record_class).begin_object().key("name").text("What mansard reads models back from");
+  json.key("properties").begin_object().key(record).begin_object().key("name").text(record).key("description");
   json.text("The building as a plans.json has it, at the first of its parts.").key("type").text("STRING");
   json.key("noData").text("").end_object().end_object().end_object();
   append_surface_class(json);

@@ -49,10 +49,12 @@ class PartColumns {
   };
   [[nodiscard]] auto columns() const -> const std::vector<Column>& { return columns_; }
 
-  /// The class of the record of a building, which is put aside apart.
-  static constexpr std::string_view record = "record";
+  /// The record of a building is the property of a class of its own, to which no feature id leads: viewers show the
+  /// properties of `part`.
+  static constexpr std::string_view record = "record", record_class = "plans";
 
-  /// {"part": {…}, "surface": {…}} and the enums that they name: the members "classes" and "enums" of a schema.
+  /// {"part": {…}, "plans": {…}, "surface": {…}} and the enums that they name: the members "classes" and "enums" of a
+  /// schema.
   void append_schema(JsonText& json) const;
 
  private:

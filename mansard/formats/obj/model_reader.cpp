@@ -45,7 +45,7 @@ class Reader {
       else if (keyword == "o") start_object(trimmed(line));
       else if (keyword == "g") start_group(trimmed(line));
       else if (keyword == "usemtl") by_material_ = class_in(line);
-      else if (keyword == "#" && take_word(line) == "crs") model_.crs = trimmed(line);
+      else if (keyword == "#") take_comment(line);
       if (!done) return done.error();
     }
     if (vertices_.empty())
@@ -59,11 +59,22 @@ class Reader {
                        name_);
   }
 
+  /// What mansard's own files say of their coordinates.
+  void take_comment(std::string_view line) {
+    const auto word = take_word(line);
+    if (word == "crs") model_.crs = trimmed(line);
+    if (word == "up") y_up_ = trimmed(line) == "y";
+    if (word != "origin") return;
+    const auto x = to_coordinate(take_word(line)), y = to_coordinate(take_word(line)),
+               z = to_coordinate(take_word(line));
+    if (x && y && z) origin_ = {*x, *y, *z};
+  }
+
   auto take_vertex(std::string_view line) -> base::Result<void> {
     const auto x = to_coordinate(take_word(line)), y = to_coordinate(take_word(line)),
                z = to_coordinate(take_word(line));
     if (!x || !y || !z) return bad("a vertex needs three numbers");
-    vertices_.push_back({*x, *y, *z});
+    vertices_.push_back(origin_ + (y_up_ ? Point3{*x, -*z, *y} : Point3{*x, *y, *z}));
     return {};
   }
 
@@ -118,7 +129,8 @@ class Reader {
   std::string_view rest_;
   const std::string& name_;
   std::size_t line_ = 0;
-  bool objects_ = false;
+  bool objects_ = false, y_up_ = false;
+  Point3 origin_;
   std::vector<Point3> vertices_;
   RawModel model_;
   std::size_t building_ = 0, part_ = 0;

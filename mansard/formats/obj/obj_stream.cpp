@@ -1,6 +1,7 @@
 #include <fstream>
 
 #include "mansard/formats/detail/records.hpp"
+#include "mansard/formats/foreign.hpp"
 #include "mansard/formats/obj/obj_text.hpp"
 
 namespace mansard::formats::detail {
@@ -8,10 +9,13 @@ namespace {
 
 class Obj : public CityWriter {
  public:
-  Obj(const Header& header, const WriteOptions& options, base::Sink& file, base::Sink& library, TextureFolder folder)
-      : text_(header, options.solids),
+  /// No file of plans for models that have none.
+  Obj(ObjText text, const WriteOptions& options, base::Sink& file, base::Sink& library, base::Sink* plans,
+      TextureFolder folder)
+      : text_(std::move(text)),
         file_(file),
         library_(library),
+        plans_(plans),
         side_(static_cast<std::uint32_t>(options.atlas_size)),
         queue_(side_),
         folder_(std::move(folder)) {}
@@ -34,6 +38,7 @@ class Obj : public CityWriter {
     const auto text = text_.of(building, keys, textured);
     if (!text) return text.error();
     file_.append(*text);
+    if (plans_ != nullptr) plans_->append(building_record(building) + "\n");
     return {};
   }
 
@@ -57,24 +62,29 @@ class Obj : public CityWriter {
   Gate gate_;
   ObjText text_;
   base::Sink &file_, &library_;
+  base::Sink* plans_;
   std::uint32_t side_;
   AtlasQueue queue_;
   std::vector<Gate::Keyed> keys_;  ///< of the buildings in the queue
   TextureFolder folder_;
 };
 
-/// The records among the comments; the rest is passed over.
+/// The records of the file beside an OBJ, or those among the comments of an older OBJ.
 class ReadObj : public CityReader {
  public:
   static auto open(const Path& path) -> ReaderResult {
-    auto reader = std::unique_ptr<ReadObj>(new ReadObj(path));
     std::error_code status;
     if (!std::filesystem::exists(path, status))
       return base::error("file-missing", "there is no such file; look at its name", path.string());
+    const auto beside = obj_plans(path);
+    const bool apart = std::filesystem::exists(beside, status);
+    auto reader = std::unique_ptr<ReadObj>(new ReadObj(apart ? beside : path, apart));
     const auto record = reader->next_record(obj_header);
     if (!record)
       return base::error("write-read-plans",
-                         "this OBJ carries no plans; give one that mansard wrote, or another format", path.string());
+                         "this OBJ has no plans, and there is no " + beside.filename().string() +
+                             " beside it; give both files that mansard wrote, or another format",
+                         path.string());
     auto header = read_header_record(*record, reader->place());
     if (!header) return header.error();
     reader->header_ = *std::move(header);
@@ -94,17 +104,19 @@ class ReadObj : public CityReader {
   }
 
  private:
-  explicit ReadObj(const Path& path) : name_(path.string()), file_(path, std::ios::binary) {}
+  ReadObj(const Path& path, bool apart) : name_(path.string()), apart_(apart), file_(path, std::ios::binary) {}
   [[nodiscard]] auto place() const -> std::string { return name_ + ":" + std::to_string(line_); }
   auto next_record(std::string_view kind) -> std::optional<std::string> {
     for (std::string line; std::getline(file_, line);) {
       ++line_;
-      if (line.starts_with(kind)) return line.substr(kind.size());
+      if (apart_ && line.find_first_not_of(" \t\r") != std::string::npos) return line;
+      if (!apart_ && line.starts_with(kind)) return line.substr(kind.size());
     }
     return std::nullopt;
   }
 
   const std::string name_;
+  const bool apart_;  ///< whether every line is a record
   std::ifstream file_;
   std::size_t line_ = 0;
   Header header_;
@@ -114,16 +126,26 @@ class ReadObj : public CityReader {
 
 auto obj_writer(const Path& path, const Header& header, const WriteOptions& options, base::Outputs& outputs)
     -> WriterResult {
+  const auto level = LevelOf::of(options, Format::obj);
+  if (!level) return level.error();
   auto library = path;
   library.replace_extension(".mtl");
   const auto file = outputs.file(path);
   if (!file) return file.error();
   const auto materials = outputs.file(library);
   if (!materials) return materials.error();
+  base::Sink* plans = nullptr;
+  if (!is_foreign(header)) {
+    const auto made = outputs.file(obj_plans(path));
+    if (!made) return made.error();
+    plans = *made;
+    plans->append(header_record(header) + "\n");
+  }
   (*materials)->append(mtl_text());
-  (*file)->append(ObjText::head(header, library.filename().string()));
-  return WriterResult(
-      std::make_unique<Obj>(header, options, **file, **materials, TextureFolder(path, options, outputs)));
+  ObjText text(header, options, *level);
+  (*file)->append(text.head(header, library.filename().string()));
+  return WriterResult(std::make_unique<Obj>(std::move(text), options, **file, **materials, plans,
+                                            TextureFolder(path, options, outputs)));
 }
 
 auto obj_reader(const Path& path) -> ReaderResult { return ReadObj::open(path); }

@@ -1,6 +1,7 @@
 #include "mansard/formats/obj/obj_text.hpp"
 #include "mansard/solid/solid.hpp"
 
+#include <algorithm>
 #include <map>
 
 #include "mansard/base/text.hpp"
@@ -18,11 +19,19 @@ auto one_word(std::string_view name) -> std::string {
   return word.empty() ? "_" : word;
 }
 
+/// On one line, which importers can read: longer texts, a CRS as WKT among them, are in the file beside in full.
 auto one_line(std::string_view words) -> std::string {
+  constexpr std::size_t most = 900;  // characters, so that a comment has less than 1,000
+  const bool cut = words.size() > most;
+  if (cut) {
+    std::size_t end = most;
+    while (end > 0 && (static_cast<unsigned char>(words[end]) & 0xC0U) == 0x80) --end;  // not inside a character
+    words = words.substr(0, end);
+  }
   std::string line(words);
   for (char& c : line)
     if (static_cast<unsigned char>(c) < ' ') c = ' ';
-  return line;
+  return cut ? line + " ..." : line;
 }
 
 auto material_name(std::size_t kind, std::uint32_t page) -> std::string {
@@ -56,25 +65,36 @@ auto ObjText::facets_of(const model::Part& part) -> base::Result<Facets> {
   return facets;
 }
 
-auto ObjText::head(const Header& header, const std::string& mtl_name) -> std::string {
+auto ObjText::head(const Header& header, const std::string& mtl_name) const -> std::string {
   std::string out = "# mansard " + one_line(header.made_by.version) + "\n";
   if (!header.frame.crs.empty()) out += "# crs " + one_line(header.frame.crs) + "\n";
-  out += "# metres, z up, coordinates in full: nothing was taken off\n";
-  for (const auto& input : header.made_by.inputs)
-    out += "# input " + one_line(input.path) + " sha256 " + one_line(input.sha256) + "\n";
+  if (y_up_) out += "# up y\n";
+  if (local_) {
+    out += "# origin";
+    for (const auto metres : frame_.origin) out += " " + std::to_string(metres);
+    out += "\n# metres, relative to the origin\n";
+  } else {
+    out += "# metres, coordinates in full: nothing was taken off\n";
+  }
+  constexpr std::size_t few = 20;  // a tileset has thousands of files; the file beside names all
+  for (std::size_t i = 0; i < std::min(few, header.made_by.inputs.size()); ++i)
+    out += "# input " + one_line(header.made_by.inputs[i].path) + "\n";
+  if (header.made_by.inputs.size() > few)
+    out += "# and " + std::to_string(header.made_by.inputs.size() - few) + " more inputs\n";
   for (const auto& [name, value] : header.made_by.options)
     out += "# option " + one_line(name) + " = " + one_line(value) + "\n";
-  out += std::string(obj_header) + header_record(header) + "\n";
   return out + "mtllib " + one_line(mtl_name) + "\n";
 }
 
 auto ObjText::of(const model::Building& building, const Gate::Keyed& keys, const TexturedSolids* textured)
     -> base::Result<std::string> {
-  std::string out = std::string(obj_building) + building_record(building) + "\n";
-  const Drawn solids = drawn(building, keys, solids_);
+  std::string out;
+  Drawn solids = drawn(building, keys, solids_);
+  level_.apply(solids, frame_);
   warnings_.insert(warnings_.end(), solids.warnings.begin(), solids.warnings.end());
   if (!solids.solids.empty()) out += "o " + one_word(keys.building) + "\n";
-  if (textures_for(building, solids.solids.size()) == nullptr) textured = nullptr;
+  // Pictures are of the faces of LoD 2.2.
+  if (level_.lod != Lod::lod22 || textures_for(building, solids.solids.size()) == nullptr) textured = nullptr;
   for (std::size_t s = 0; s < solids.solids.size(); ++s) {
     const auto& part = solids.solids[s].part;
     const auto facets = facets_of(part);
@@ -100,7 +120,8 @@ void ObjText::append_part(std::string& out, const model::Part& part, const Facet
       faces += 'f';
       for (const auto corner : corners) {
         const auto local = part.model.solid.vertices[corner];
-        const auto v = in_file_frame(frame_, local);
+        const auto full = local_ ? local : in_file_frame(frame_, local);
+        const auto v = y_up_ ? geometry::Point3{full.x, full.z, full.y == 0 ? 0.0 : -full.y} : full;
         const auto [entry, added] = number_of.try_emplace(v, written_ + 1);
         if (added) {
           ++written_;
@@ -117,6 +138,8 @@ void ObjText::append_part(std::string& out, const model::Part& part, const Facet
   }
   out += faces;
 }
+
+auto obj_plans(const Path& path) -> Path { return Path(path).replace_extension(".plans.jsonl"); }
 
 auto textured_mtl_text(std::uint32_t page, const std::string& image) -> std::string {
   std::string out;

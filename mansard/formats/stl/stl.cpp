@@ -5,6 +5,7 @@
 
 #include "mansard/base/disjoint_sets.hpp"
 #include "mansard/formats/detail/drawn.hpp"
+#include "mansard/formats/detail/flat_level.hpp"
 #include "mansard/formats/detail/triangles.hpp"
 #include "mansard/formats/detail/writers.hpp"
 #include "mansard/solid/unite.hpp"
@@ -43,8 +44,14 @@ auto stl_header(const model::Frame& frame) -> std::string {
 
 class StlWriter : public CityWriter {
  public:
-  StlWriter(Shell shell, const model::Frame& frame, std::unique_ptr<base::Spool> triangles, base::Sink& file)
-      : shell_(shell), header_(stl_header(frame)), triangles_(std::move(triangles)), file_(file) {}
+  StlWriter(Shell shell, LevelOf level, const model::Frame& frame, std::unique_ptr<base::Spool> triangles,
+            base::Sink& file)
+      : shell_(shell),
+        level_(level),
+        frame_(frame),
+        header_(stl_header(frame)),
+        triangles_(std::move(triangles)),
+        file_(file) {}
 
   auto add(const model::Building& building) -> base::Result<void> override {
     const auto keyed = gate_.admit(building);
@@ -54,7 +61,8 @@ class StlWriter : public CityWriter {
         if (!part.model.solid.faces.empty()) parts_.push_back({part.model, building.id});
       return {};
     }
-    const Drawn all = drawn(building, *keyed, shell_ == Shell::part ? Solids::part : Solids::building);
+    Drawn all = drawn(building, *keyed, shell_ == Shell::part ? Solids::part : Solids::building);
+    level_.apply(all, frame_);
     warnings_.insert(warnings_.end(), all.warnings.begin(), all.warnings.end());
     for (const auto& [part, parts] : all.solids)
       if (auto put = append(part.model.solid, part.id); !put) return put;
@@ -133,6 +141,8 @@ class StlWriter : public CityWriter {
   }
 
   const Shell shell_;
+  const LevelOf level_;
+  const model::Frame frame_;
   std::string header_;
   std::unique_ptr<base::Spool> triangles_;  ///< their number comes first in the file
   base::Sink& file_;
@@ -146,11 +156,16 @@ class StlWriter : public CityWriter {
 
 auto stl_writer(const Path& path, const Header& header, const WriteOptions& options, base::Outputs& outputs)
     -> WriterResult {
+  const auto level = LevelOf::of(options, Format::stl);
+  if (!level) return level.error();
+  if (options.stl_shell == Shell::block && level->lod != Lod::lod22)
+    return base::error("option-value",
+                       "shells of blocks are made of LoD 2.2 only; leave out the level of detail of STL", "write.lod");
   auto spool = base::Spool::open();
   if (!spool) return spool.error();
   const auto file = outputs.file(path);
   if (!file) return file.error();
-  return WriterResult(std::make_unique<StlWriter>(options.stl_shell, header.frame, std::move(*spool), **file));
+  return WriterResult(std::make_unique<StlWriter>(options.stl_shell, *level, header.frame, std::move(*spool), **file));
 }
 
 }  // namespace mansard::formats::detail

@@ -12,6 +12,7 @@
 #include "mansard/formats/detail/drawn.hpp"
 #include "mansard/formats/detail/records.hpp"
 #include "mansard/formats/detail/writers.hpp"
+#include "mansard/formats/foreign.hpp"
 #include "mansard/formats/gltf/glb_bytes.hpp"
 #include "mansard/formats/tiles3d/tiles_tree.hpp"
 
@@ -189,6 +190,8 @@ class TilesWriter : public CityWriter {
       auto coarse = flat_mesh(part, *mesh, header_.frame, item);
       if (!coarse) return coarse.error();
       item.flat_triangles += static_cast<std::uint32_t>(coarse->indices.size() / 3);
+      for (PartMesh* one : {&*mesh, &*coarse})
+        for (Point3& v : one->vertices) v.z += options_.tiles_height_offset;
       fine.push_back(std::move(*mesh));
       flat.push_back(std::move(*coarse));
     }
@@ -216,6 +219,12 @@ class TilesWriter : public CityWriter {
   [[nodiscard]] auto warnings() const -> std::vector<base::Diagnostic> override {
     auto all = globe_ ? globe_->warnings() : std::vector<base::Diagnostic>();
     all.insert(all.end(), warnings_.begin(), warnings_.end());
+    if (globe_ && globe_->heights() == crs::Globe::Heights::not_of_the_crs && options_.tiles_height_offset == 0)
+      all.push_back(base::warning(
+          "write-tiles-height",
+          "the coordinate system says nothing of heights, which 3D Tiles have above the ellipsoid: on a globe the "
+          "models "
+          "may be as far above or below the terrain as the geoid is high there; give that with --tiles-height-offset"));
     return all;
   }
 
@@ -246,7 +255,8 @@ class TilesWriter : public CityWriter {
       return texture != nullptr && p < texture->solids.size() ? std::optional(texture->solids[p]) : std::nullopt;
     };
     for (std::size_t p = 0; p < rows.size(); ++p)
-      append_part(bytes, {rows[p], p == 0 ? building_record(building) : "", std::move(fine[p]), of_part(p)});
+      append_part(bytes, {rows[p], p == 0 && !is_foreign(header_) ? building_record(building) : "", std::move(fine[p]),
+                          of_part(p)});
     item.coarse = item.fine + bytes.size();
     for (std::size_t p = 0; p < rows.size(); ++p) {
       auto plain = of_part(p);
@@ -403,10 +413,13 @@ class TilesWriter : public CityWriter {
             ? "There was no geoid for the heights of the coordinate system: they are taken as heights above the "
               "ellipsoid of WGS 84."
             : "The coordinate system has no heights: they are taken as heights above the ellipsoid of WGS 84.";
+    std::string all = heights;
+    if (options_.tiles_height_offset != 0)
+      all += " " + base::to_text(options_.tiles_height_offset) + " m were added to them.";
     JsonText json;
     json.begin_object().key("asset").begin_object().key("version").text("1.1").key("extras");
     append_file_extras(json.begin_object(), header_);
-    json.key("generator").text("mansard " + header_.made_by.version).key("heights").text(heights);
+    json.key("generator").text("mansard " + header_.made_by.version).key("heights").text(all);
     json.end_object().end_object();
     // Without the tileset, all of it is missing.
     json.line().key("geometricError").number(std::ceil(length(box.most - box.least)));

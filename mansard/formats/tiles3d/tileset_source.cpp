@@ -1,25 +1,56 @@
 // What a tileset says of itself, for `mansard info`.
 #include <algorithm>
+#include <set>
 
 #include "mansard/base/files.hpp"
 #include "mansard/formats/source.hpp"
+#include "mansard/formats/tiles3d/tileset.hpp"
 #include "mansard/formats/tiles3d/tileset_json.hpp"
 
 namespace mansard::formats {
 namespace {
 
-void walk(const TileJson& tile, std::size_t depth, std::vector<TilesetSource::Level>& levels) {
-  if (!tile.is_object()) return;
-  if (levels.size() <= depth) levels.resize(depth + 1);
-  auto& level = levels[depth];
-  ++level.tiles;
-  level.contents += tile.contents().size();
-  if (const auto error = tile.stated_error()) {
-    level.minimum_error = std::min(level.minimum_error.value_or(*error), *error);
-    level.maximum_error = std::max(level.maximum_error.value_or(*error), *error);
+namespace fs = std::filesystem;
+
+/// Counts tiles by their distance from the root. A tile whose content is a tileset is followed by that tileset's root;
+/// one that was opened already, or is missing, is not.
+class Walk {
+ public:
+  explicit Walk(TilesetSource& out) : out_(out) {}
+
+  void take(const TileJson& tile, const fs::path& file, std::size_t depth) {
+    if (!tile.is_object()) return;
+    if (out_.levels.size() <= depth) out_.levels.resize(depth + 1);
+    ++out_.levels[depth].tiles;
+    if (const auto error = tile.stated_error()) {
+      auto& level = out_.levels[depth];
+      level.minimum_error = std::min(level.minimum_error.value_or(*error), *error);
+      level.maximum_error = std::max(level.maximum_error.value_or(*error), *error);
+    }
+    for (const auto& content : tile.contents()) {
+      const fs::path path = address_beside(file, content.uri);
+      if (path.extension().string().starts_with(".json")) open(path, depth + 1);  // maybe with a server's "?key=…"
+      else ++out_.levels[depth].contents;
+    }
+    for (const auto& child : tile.children()) take(child, file, depth + 1);
   }
-  for (const auto& child : tile.children()) walk(child, depth + 1, levels);
-}
+
+ private:
+  void open(const fs::path& path, std::size_t depth) {
+    constexpr std::size_t most = 100'000, deepest = 256;  // of tilesets that name others
+    std::error_code status;
+    if (depth > deepest || opened_.size() >= most || !opened_.insert(fs::weakly_canonical(path, status)).second) return;
+    const auto bytes = base::read_file(path);
+    if (!bytes) return;
+    const TilesetJson tileset(*bytes);
+    if (tileset.fault() != TilesetJson::Fault::none) return;
+    ++out_.tilesets;
+    take(tileset.root(), path, depth);
+  }
+
+  TilesetSource& out_;
+  std::set<fs::path> opened_;
+};
 
 auto text_of(const nlohmann::ordered_json& from, const char* key) -> std::string {
   const auto found = from.find(key);
@@ -30,7 +61,8 @@ auto text_of(const nlohmann::ordered_json& from, const char* key) -> std::string
 
 auto tileset_source(const std::filesystem::path& path) -> std::optional<TilesetSource> {
   std::error_code status;
-  const auto bytes = base::read_file(std::filesystem::is_directory(path, status) ? path / "tileset.json" : path);
+  const auto file = std::filesystem::is_directory(path, status) ? path / "tileset.json" : path;
+  const auto bytes = base::read_file(file);
   if (!bytes) return std::nullopt;
   const TilesetJson tileset(*bytes);
   if (tileset.fault() != TilesetJson::Fault::none || tileset.asset().empty()) return std::nullopt;
@@ -40,7 +72,7 @@ auto tileset_source(const std::filesystem::path& path) -> std::optional<TilesetS
   out.geometric_error = text_of(tileset.json(), "geometricError");
   out.placed_on_the_earth = root.contains("transform");
   out.bounding_volume = text_of(root, "boundingVolume");
-  walk(tileset.root(), 0, out.levels);
+  Walk(out).take(tileset.root(), file, 0);
   return out;
 }
 

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include "mansard/report/attributes.hpp"
+#include "mansard/report/measures.hpp"
 
 namespace mansard::pipeline::detail {
 
@@ -122,10 +124,19 @@ void take(PartResult part, const report::BlockReport& block, double z0, model::B
 
 }  // namespace
 
-void add_attributes(model::Building& building, const report::BuildingReport& report) {
+void add_attributes(model::Building& building, const report::BuildingReport& report, const model::Attributes& measures,
+                    const Options& options, double z0) {
   auto& attributes = building.attributes;
-  attributes.emplace_back("ms_outcome", std::string(to_string(report.outcome)));
-  if (report.parts == 0) return;
+  const std::string outcome(to_string(report.outcome));
+  auto own = report::building_measures(building, z0, options.roof.level_height);
+  attributes.emplace_back("ms_outcome", outcome);
+  attributes.emplace_back("ms_success", report.parts > 0);
+  attributes.emplace_back("ms_quality", report::quality_of(outcome, measures));
+  if (!options.survey_source.empty()) attributes.emplace_back("ms_source", options.survey_source);
+  if (!options.survey_date.empty()) attributes.emplace_back("ms_source_date", options.survey_date);
+  std::ranges::move(own, std::back_inserter(attributes));
+  attributes.insert(attributes.end(), measures.begin(), measures.end());
+  if (report.parts == 0) return report::round_measures(attributes);
   attributes.emplace_back("ms_h_ground", report.ground);
   attributes.emplace_back("ms_h_roof_max", report.roof_max);
   attributes.emplace_back("ms_volume_lod22", report.volume);
@@ -153,14 +164,14 @@ auto begun(const model::Scene& scene, std::size_t feature) -> Finished {
 
 }  // namespace
 
-auto unbuilt(const model::Scene& scene, std::size_t feature) -> Finished {
+auto unbuilt(const model::Scene& scene, std::size_t feature, const Options& options) -> Finished {
   auto out = begun(scene, feature);
-  add_attributes(out.building, out.report);
+  add_attributes(out.building, out.report, {}, options, static_cast<double>(scene.frame.origin[2]));
   return out;
 }
 
-auto finish_block(const model::Scene& scene, BlockResult& result, std::vector<base::Diagnostic>& warnings)
-    -> std::vector<std::pair<std::size_t, Finished>> {
+auto finish_block(const model::Scene& scene, BlockResult& result, const Options& options,
+                  std::vector<base::Diagnostic>& warnings) -> std::vector<std::pair<std::size_t, Finished>> {
   const auto z0 = static_cast<double>(scene.frame.origin[2]);
   std::vector<std::pair<std::size_t, Finished>> out;
   for (const auto& [feature, ground] : result.grounds) {
@@ -206,7 +217,8 @@ auto finish_block(const model::Scene& scene, BlockResult& result, std::vector<ba
   for (std::size_t i = 0; i < out.size(); ++i) {
     auto& [building, report] = out[i].second;
     if (accounts[i].area > 0) report.rmse = std::sqrt(accounts[i].squared / accounts[i].area);
-    add_attributes(building, report);
+    const auto known = std::ranges::find(result.measures, out[i].first, [](const auto& one) { return one.first; });
+    add_attributes(building, report, known != result.measures.end() ? known->second : model::Attributes(), options, z0);
   }
   return out;
 }

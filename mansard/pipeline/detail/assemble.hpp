@@ -15,11 +15,12 @@ struct Finished {
 };
 
 /// A feature of which no block is known: what is wrong with it, if anything.
-[[nodiscard]] auto unbuilt(const model::Scene& scene, std::size_t feature) -> Finished;
+[[nodiscard]] auto unbuilt(const model::Scene& scene, std::size_t feature, const Options& options) -> Finished;
 
 /// The features of a block with what was made of them, by their numbers. Moves the parts out of `result`. Appends to
 /// `warnings` what the run says of the block.
-[[nodiscard]] auto finish_block(const model::Scene& scene, BlockResult& result, std::vector<base::Diagnostic>& warnings)
+[[nodiscard]] auto finish_block(const model::Scene& scene, BlockResult& result, const Options& options,
+                                std::vector<base::Diagnostic>& warnings)
     -> std::vector<std::pair<std::size_t, Finished>>;
 
 /// Files have 0.1 mm: what is checked is what is written.
@@ -32,8 +33,10 @@ struct Finished {
 /// height of the frame's origin, for attributes.
 void add_solids(model::Building& building, report::BuildingReport& report, SolidsOf made, double z0);
 
-/// The attributes of the whole building, by its report. After everything else is known of it.
-void add_attributes(model::Building& building, const report::BuildingReport& report);
+/// The attributes of the whole building, by its report and its solids, in the heights of a frame with its origin at
+/// `z0`. `measures` are those that took the mesh, or the levels of detail. After everything else is known of it.
+void add_attributes(model::Building& building, const report::BuildingReport& report, const model::Attributes& measures,
+                    const Options& options, double z0);
 
 void add(label::Areas& sum, const label::Areas& more);
 /// Of mansard.

@@ -3,8 +3,10 @@
 #include "mansard/base/statistics.hpp"
 #include "mansard/pipeline/detail/assemble.hpp"
 #include "mansard/pipeline/detail/left_out.hpp"
+#include "mansard/pipeline/detail/shown.hpp"
 #include "mansard/pipeline/detail/uncovered.hpp"
 #include "mansard/report/attributes.hpp"
+#include "mansard/report/measures.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -65,8 +67,10 @@ auto not_raised(const base::Diagnostic& why, const block::Block& block, std::siz
 }
 
 /// Parts from the segmentation, each raised along its profiles.
-auto raise_parts(const segment::Segmentation& segmentation, const block::Block& block, const rays::Scene& mesh,
-                 const Options& options, const base::Run& run, BlockResult& out) -> std::vector<PartResult> {
+auto raise_parts(const segment::Segmentation& segmentation, const Shown& shown, const Options& options,
+                 const base::Run& run, BlockResult& out) -> std::vector<PartResult> {
+  const auto& block = shown.block();
+  const auto& mesh = shown.mesh();
   base::Watch fitting;
   const auto fitted = profile::fit(segmentation, block, mesh, options.profile, run);
   out.report.times.stages.push_back({"profile", fitting.stop()});
@@ -78,7 +82,7 @@ auto raise_parts(const segment::Segmentation& segmentation, const block::Block& 
   for (std::size_t i = 0; i < fitted.size(); ++i) {
     const auto& source = segmentation.parts[i];
     const std::size_t feature = source.feature.value_or(block.members.front().feature);
-    if (report::heights_over(mesh, source.polygon, options.roof_grid)
+    if (report::heights_over(shown.whole(), source.polygon, options.roof_grid)
             .empty()) {  // the footprints alone say there is a building
       auto prism = plain_prism(feature, source.polygon, fitted[i].plan.base, {}, options, no_mesh(), run);
       if (prism) parts.push_back(std::move(*prism));
@@ -88,7 +92,7 @@ auto raise_parts(const segment::Segmentation& segmentation, const block::Block& 
     part_of_draft.push_back(i);
     drafts.push_back({feature, fitted[i].plan, fitted[i].caps, fitted[i].alternatives});
   }
-  auto refined = refine::refine(drafts, mesh, refining_of(options), with_grid(options.extrude), run);
+  auto refined = refine::refine(drafts, mesh, refining_of(options), with_grid(options.extrude), run, shown.above());
   for (auto& from : refined.parts) {
     PartResult part;
     part.feature = from.owner;
@@ -206,6 +210,33 @@ auto unite(std::vector<PartResult>& parts) -> std::vector<std::pair<std::size_t,
   return out;
 }
 
+/// Every feature's attributes that take the mesh.
+auto measured(const block::Block& block, const rays::Scene& mesh, const std::vector<PartResult>& parts,
+              const std::vector<std::pair<std::size_t, SolidsOf>>& solids, const Options& options)
+    -> std::vector<std::pair<std::size_t, model::Attributes>> {
+  std::vector<std::pair<std::size_t, model::Attributes>> out(block.members.size());
+  base::parallel_for(out.size(), [&](std::size_t m) {
+    const auto& member = block.members[m];
+    model::Building building;
+    for (const auto& part : parts) {
+      if (part.feature != member.feature) continue;
+      auto& own = building.parts.emplace_back(
+          model::Part{std::to_string(building.parts.size()), part.plan, {}, model::Attributes()});
+      own.attributes.emplace_back("ms_h_roof_70p", report::rounded_measure(base::percentile_of_sorted(part.roof, 0.7)));
+    }
+    const auto made = std::ranges::find(solids, member.feature, &std::pair<std::size_t, SolidsOf>::first);
+    if (made != solids.end()) building.solids = made->second.solids;
+    auto& [feature, attributes] = out[m];
+    feature = member.feature;
+    if (!building.solids.empty())
+      attributes = report::level_measures(building, {}, options.write.levels, &mesh, options.evaluate.grid);
+    const auto seen = report::coverage(mesh, member.polygons, options.roof_grid);
+    attributes.emplace_back("ms_nodata_share", seen.missing);
+    attributes.emplace_back("ms_nodata_radius", seen.radius);
+  });
+  return out;
+}
+
 }  // namespace
 
 auto unsegmented(const block::Block& block, const base::Diagnostic& why) -> report::SegmentedBlock {
@@ -221,13 +252,15 @@ auto run_block(const block::Block& block, const Options& options, const base::Ru
   base::Watch watch;
   BlockResult out;
   report::BlockReport& report = out.report;
-  const rays::Scene mesh(block.mesh);
-  report::SegmentedBlock segmented = segment_block(block, mesh, options, run, tell, report, out.warnings);
+  const Shown shown(block, crowns_over(block, options, run, tell, report, out.warnings));
+  const auto& mesh = shown.whole();
+  report::SegmentedBlock segmented =
+      segment_block(shown.block(), shown.mesh(), options, run, tell, report, out.warnings);
 
   std::vector<PartResult> parts;
   if (segmented.segmentation) {
     tell("profile");
-    parts = raise_parts(*segmented.segmentation, block, mesh, options, run, out);
+    parts = raise_parts(*segmented.segmentation, shown, options, run, out);
   }
   fill_in(block, mesh, options, segmented.failure, parts, out, run);
   align(parts, options, run);
@@ -242,6 +275,7 @@ auto run_block(const block::Block& block, const Options& options, const base::Ru
   }
   report.parts = parts.size();
   out.solids = stage("unite", tell, report, [&] { return unite(parts); });
+  out.measures = stage("measure", tell, report, [&] { return measured(block, mesh, parts, out.solids, options); });
 
   std::vector<model::LabelledSolid> models;
   std::vector<Polygon> footprints;

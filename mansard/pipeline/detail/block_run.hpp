@@ -57,6 +57,8 @@ struct BlockResult {
     std::string what;
   };
   std::vector<LeftOut> left_out;
+  /// Attributes by feature that take the mesh to measure: the levels of detail, and what of the footprint it covers.
+  std::vector<std::pair<std::size_t, model::Attributes>> measures;
   std::vector<base::Diagnostic> warnings;
   std::optional<report::SegmentedBlock> segmented;  ///< with Keep::segmentations
 };

@@ -44,6 +44,9 @@ auto Judge::misfit_of(const std::vector<double>& z, double cap) const -> double 
     const double shown = site_.unblurred[cell] * blurred(sums, at, stride);
     sum += site_.weight[i] * loss(shown - grid.z[cell], options_.robust);
   }
+  // A roof is under the crown that hides it.
+  for (const auto& [cell, ceiling] : site_.ceilings)
+    if (const double above = std::min(z[cell], cap) - ceiling; above > 0) sum += loss(above, options_.robust);
   return sum * site_.cell_area;
 }
 

@@ -4,8 +4,12 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <optional>
 
+#include "mansard/base/statistics.hpp"
+#include "mansard/base/text.hpp"
+#include "mansard/geometry/angles.hpp"
 #include "mansard/refine/detail/forms.hpp"
 #include "mansard/refine/detail/order.hpp"
 #include "mansard/refine/detail/refit.hpp"
@@ -137,8 +141,59 @@ auto descend(Judged judged, const Draft& draft, const Judge& judge) -> Judged {
   return judged;
 }
 
+/// A roof that nothing was seen of, not above the crown that hides it.
+auto below_ceilings(Judged judged, const Judge& judge) -> Judged {
+  std::vector<double> heights;
+  for (const auto& [cell, ceiling] : judge.site().ceilings) heights.push_back(ceiling);
+  if (heights.empty()) return judged;
+  Plan plan = judged.plan;
+  plan.cap = std::max(judge.options().forms.min_height, base::median(std::move(heights)));
+  if (plan.cap >= judged.plan.cap) return judged;
+  for (auto& profile : plan.profiles) profile = wall(plan.cap, judge.options().forms);
+  auto lower = judge(plan);
+  return lower && cheaper(lower->cost, judged.cost) ? std::move(*lower) : std::move(judged);
+}
+
 auto pitched_sides(const Plan& plan) -> std::size_t {
   return static_cast<std::size_t>(std::ranges::count_if(plan.profiles, [](const auto& p) { return !is_wall(p); }));
+}
+
+/// m and rad: of a profile with a roof, at its gutter.
+struct Foot {
+  double gutter = 0, pitch = 0;
+};
+auto foot_of(const Profile& profile) -> Foot {
+  std::size_t i = 0;
+  while (i + 2 < profile.size() && profile[i + 1].inward <= profile[i].inward) ++i;
+  return {profile[i].height,
+          geometry::arc_tangent(profile[i + 1].height - profile[i].height, profile[i + 1].inward - profile[i].inward)};
+}
+
+/// What became of a roof, in numbers: sides, the largest changes of gutters and pitches, the cap.
+auto change_of(const Plan& before, const Plan& after) -> std::string {
+  constexpr double degree = std::numbers::pi / 180, least_height = 0.005, least_pitch = 0.05 * degree;
+  const auto metres = [](double value) { return base::to_text(value, 2) + " m"; };
+  std::string text;
+  const auto add = [&text](const std::string& more) { text += (text.empty() ? "" : ", ") + more; };
+  const auto was = pitched_sides(before), is = pitched_sides(after);
+  if (was != is) add("roof rises from " + std::to_string(is) + " of its sides instead of " + std::to_string(was));
+  Foot most;
+  for (std::size_t p = 0; p < std::min(before.profiles.size(), after.profiles.size()); ++p) {
+    if (is_wall(before.profiles[p]) || is_wall(after.profiles[p])) continue;
+    const Foot old = foot_of(before.profiles[p]), now = foot_of(after.profiles[p]);
+    most.gutter = std::max(most.gutter, std::abs(now.gutter - old.gutter));
+    most.pitch = std::max(most.pitch, std::abs(now.pitch - old.pitch));
+  }
+  if (most.gutter >= least_height) add("gutters moved by up to " + metres(most.gutter));
+  if (most.pitch >= least_pitch) add("pitches by up to " + base::to_text(most.pitch / degree, 1) + "°");
+  if (std::abs(after.cap - before.cap) >= least_height) add("cap " + metres(before.cap) + " → " + metres(after.cap));
+  return text.empty() ? "profiles changed" : text;
+}
+
+/// The squared error before and after, m².
+auto error_of(double before, double after, const Judge& judge) -> std::string {
+  const double area = judge.site().cell_area * static_cast<double>(judge.site().cells.size());
+  return ": squared error " + base::to_text(before / area, 2) + " → " + base::to_text(after / area, 2) + " m²";
 }
 
 }  // namespace
@@ -146,12 +201,14 @@ auto pitched_sides(const Plan& plan) -> std::size_t {
 auto best_roof(const Draft& draft, const Judge& judge, Search search, double worth, std::vector<std::string>& changed)
     -> base::Result<Judged> {
   auto start = best_cap(draft, judge);
+  if (start && judge.site().cells.empty()) return below_ceilings(std::move(*start), judge);
   if (!start || judge.options().effort == Effort::caps || judge.site().cells.empty()) return start;
 
   const auto& options = judge.options().search;
   const double faces_apart = judge.options().face_price;  // less misfit than one face costs: nothing can pay
   Judged best = std::move(*start);
   const auto before = best.plan;
+  const double misfit = best.misfit;
   if (best.wrong() < faces_apart) return best;
 
   if (search == Search::settled) return settle(std::move(best), judge);
@@ -174,10 +231,7 @@ auto best_roof(const Draft& draft, const Judge& judge, Search search, double wor
     best = supported(settle(descend(std::move(best), draft, judge), judge), judge);
     if (best.cost > options.round_gain * cost) break;
   }
-  const auto was = pitched_sides(before), is = pitched_sides(best.plan);
-  if (was != is)
-    changed.push_back("roof rises from " + std::to_string(is) + " of its sides instead of " + std::to_string(was));
-  else if (best.plan != before) changed.push_back("pitches, gutters or cap moved to the scan's");
+  if (best.plan != before) changed.push_back(change_of(before, best.plan) + error_of(misfit, best.misfit, judge));
   return best;
 }
 

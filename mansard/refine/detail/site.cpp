@@ -178,6 +178,16 @@ auto merged(const Site& a, const Site& b, const Polygon& both, const rays::Scene
   return out;
 }
 
+void add_ceilings(Site& site, const rays::Scene& above) {
+  const auto& grid = site.measured;
+  each_inside(site.polygon, grid, [&](std::size_t column, std::size_t row) {
+    const std::size_t cell = row * grid.columns + column;
+    if (!std::isnan(grid.z[cell])) return;
+    if (const auto z = above.top(grid.centre(cell)))
+      site.ceilings.emplace_back(static_cast<std::uint32_t>(cell), *z - site.base);
+  });
+}
+
 auto commonest(const std::vector<double>& sorted, const Options& options) -> double {
   return base::commonest(sorted, options.samples.level_band);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "mansard/geometry/polygon.hpp"
@@ -22,6 +23,8 @@ struct Site {
   /// Per cell of the grid: 0 outside the polygon, else the factor that makes a sum of `blurred` a mean of what is
   /// inside.
   std::vector<double> unblurred;
+  /// Cells without a height, and how high a roof there may be at most: the crown of a tree hides it.
+  std::vector<std::pair<std::uint32_t, double>> ceilings{};
 };
 
 /// Looks down on the polygon every `grid` metres, at the centres of cells aligned to whole multiples of it; coarser
@@ -34,6 +37,9 @@ struct Site {
 /// Both pieces of ground as one, the polygon of both given: what was sampled over them, and what is between them.
 [[nodiscard]] auto merged(const Site& a, const Site& b, const geometry::Polygon& both, const rays::Scene& mesh,
                           const Options& options) -> Site;
+
+/// Adds the ceilings: `above` is what is seen with the crowns of trees.
+void add_ceilings(Site& site, const rays::Scene& above);
 
 /// The middle of the band of height (`Options::Samples::level_band`) that contains the most samples: the level of a
 /// flat roof, whatever is built on it.

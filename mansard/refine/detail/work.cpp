@@ -5,6 +5,7 @@
 #include <functional>
 #include <utility>
 
+#include "mansard/base/text.hpp"
 #include "mansard/refine/detail/dormers.hpp"
 #include "mansard/refine/detail/order.hpp"
 #include "mansard/refine/detail/pieces.hpp"
@@ -13,8 +14,28 @@
 #include "mansard/refine/detail/wings.hpp"
 
 namespace mansard::refine::detail {
+namespace {
+
+/// What a crown hides may be joined with what is seen beside it.
+auto may_be_known(const Piece& piece) -> bool { return !piece.site.cells.empty() || !piece.site.ceilings.empty(); }
+
+auto square_metres(const Piece& piece) -> std::string {
+  return base::to_text(geometry::area(piece.site.polygon), 1) + " m²";
+}
+
+}  // namespace
+
 auto Work::look(const geometry::Polygon& polygon, double base) const -> Site {
-  return detail::look(polygon, base, mesh_, options_);
+  return with_ceilings(detail::look(polygon, base, mesh_, options_));
+}
+
+auto Work::with_ceilings(Site site) const -> Site {
+  if (above_) add_ceilings(site, *above_);
+  return site;
+}
+
+auto Work::both_of(const Piece& a, const Piece& b, const geometry::Polygon& both) const -> Site {
+  return with_ceilings(merged(a.site, b.site, both, mesh_, options_));
 }
 
 /// `worth`: dearer roofs are of no interest.
@@ -43,7 +64,8 @@ auto Work::split(const Piece& piece) const -> std::vector<Piece> {
 
 auto Work::touch(const Piece& a, const Piece& b) const -> bool {
   const auto box = geometry::bounds(a.site.polygon.outer).grown(options_.joins.touching);
-  return box.overlaps(geometry::bounds(b.site.polygon.outer)) && !a.site.sorted.empty() && !b.site.sorted.empty();
+  return box.overlaps(geometry::bounds(b.site.polygon.outer)) && may_be_known(a) && may_be_known(b) &&
+         !(a.site.cells.empty() && b.site.cells.empty());
 }
 
 auto Work::misfit_between(const Piece& a, const Piece& b) const -> double {
@@ -57,12 +79,8 @@ auto Work::may_cut_anew(const Piece& a, const Piece& b) const -> bool {
 /// Where two pieces meet in the wrong place: both as one, cut anew, if that is cheaper.
 auto Work::cut_anew(const Piece& a, const Piece& b, const Union& both) const -> std::vector<Piece> {
   const double least_gain = options_.part_price;
-  const Piece one{std::min(a.draft_index, b.draft_index),
-                  merged(a.site, b.site, both.polygon, mesh_, options_),
-                  both.draft,
-                  both.roof,
-                  std::nullopt,
-                  {}};
+  const Piece one{
+      std::min(a.draft_index, b.draft_index), both_of(a, b, both.polygon), both.draft, both.roof, std::nullopt, {}};
   return cut_within(one, least_gain, cost_of(a, b) - least_gain);
 }
 
@@ -127,7 +145,7 @@ auto Work::misfit_about(const Piece& piece, geometry::Point2 place, double withi
 auto Work::united(const Piece& a, const Piece& b) const -> std::optional<Union> {
   auto polygon = joined(a.site.polygon, b.site.polygon, options_);
   if (!polygon) return std::nullopt;
-  Site site = merged(a.site, b.site, *polygon, mesh_, options_);
+  Site site = both_of(a, b, *polygon);
   const Origin origins[]{{a.draft, a.roof.plan}, {b.draft, b.roof.plan}};
   Draft draft = draft_of(origins, site, options_);
   auto made = roofed(std::min(a.draft_index, b.draft_index), std::move(site), std::move(draft), Search::quick);
@@ -139,10 +157,12 @@ auto Work::united(const Piece& a, const Piece& b) const -> std::optional<Union> 
 auto Work::as_one(const Piece& a, const Piece& b, const Union& both) const -> std::optional<Piece> {
   const double worth = cost_of(a, b);
   if (both.roof.cost >= options_.joins.quick_excess * worth) return std::nullopt;
-  auto made =
-      roofed(std::min(a.draft_index, b.draft_index), merged(a.site, b.site, both.polygon, mesh_, options_), both.draft);
+  auto made = roofed(std::min(a.draft_index, b.draft_index), both_of(a, b, both.polygon), both.draft);
   if (!made || !cheaper(made->roof.cost, worth)) return std::nullopt;
-  made->changes.insert(made->changes.begin(), "two parts joined under one roof");
+  made->changes.insert(made->changes.begin(), "parts of " + square_metres(a) + " and " + square_metres(b) +
+                                                  " joined under one roof, at a cost of " +
+                                                  base::to_text(made->roof.cost, 1) + " instead of " +
+                                                  base::to_text(worth, 1));
   return std::move(*made);
 }
 
@@ -166,6 +186,7 @@ auto Work::may_join(const Piece& a, const Piece& b) const -> bool {
       if (profile.back().inward > 0) return std::nullopt;
     return piece.roof.plan.cap;
   };
+  if (a.site.cells.empty() || b.site.cells.empty()) return true;
   const auto low = level(a), high = level(b);
   if (!low || !high) return true;
   const double area = std::min(geometry::area(a.site.polygon), geometry::area(b.site.polygon));
@@ -192,7 +213,7 @@ auto Work::tried(const Piece& piece, const Proposal& proposal, double worth) con
   for (const auto& polygon : polygons) fewest += cost_of_faces(polygon);
   if (fewest >= worth) return {};
   for (const auto& polygon : polygons) {
-    Site site = crop(piece.site, polygon, options_);
+    Site site = with_ceilings(crop(piece.site, polygon, options_));
     if (site.cells.empty()) return {};
     Draft draft = draft_of(origin, site, options_);
     const bool rest = out.empty() && !proposal.whole_side;  // its roof was found before; a little of it is gone
@@ -261,13 +282,19 @@ auto Work::with_roof(const Piece& piece, const model::Plan& plan, double most) c
 /// The same pieces searched thoroughly; none where a sketch is one that no solid can be made of.
 auto Work::searched(const Piece& piece, const Proposal& proposal, std::vector<Piece> pieces) const
     -> std::vector<Piece> {
+  double cost = options_.part_price * (static_cast<double>(pieces.size()) - 1);
+  for (const auto& one : pieces) cost += one.roof.cost;
+  const auto before_and_after =
+      ", at a cost of at most " + base::to_text(cost, 1) + " instead of " + base::to_text(piece.roof.cost, 1);
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     auto better = roofed(piece.draft_index, std::move(pieces[i].site), std::move(pieces[i].draft));
     if (!better) return {};
     pieces[i] = std::move(*better);
     auto& changes = pieces[i].changes;
     if (i == 0) changes.insert(changes.begin(), piece.changes.begin(), piece.changes.end());
-    else changes.insert(changes.begin(), "a part of its own: " + proposal.what);
+    else
+      changes.insert(changes.begin(),
+                     "a part of its own of " + square_metres(pieces[i]) + ": " + proposal.what + before_and_after);
   }
   return pieces;
 }

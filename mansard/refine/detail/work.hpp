@@ -35,8 +35,9 @@ struct Union {
 /// Costs are in m²·m² throughout. Calls may run on any thread.
 class Work {
  public:
-  Work(const rays::Scene& mesh, const Options& options, const extrude::Options& raising, const base::Run& run)
-      : mesh_(mesh), options_(options), raising_(raising), run_(run) {}
+  Work(const rays::Scene& mesh, const rays::Scene* above, const Options& options, const extrude::Options& raising,
+       const base::Run& run)
+      : mesh_(mesh), above_(above), options_(options), raising_(raising), run_(run) {}
 
   [[nodiscard]] auto look(const geometry::Polygon& polygon, double base) const -> Site;
 
@@ -78,6 +79,8 @@ class Work {
   [[nodiscard]] auto cancelled() const -> bool { return run_.cancelled(); }
 
  private:
+  [[nodiscard]] auto with_ceilings(Site site) const -> Site;
+  [[nodiscard]] auto both_of(const Piece& a, const Piece& b, const geometry::Polygon& both) const -> Site;
   [[nodiscard]] auto cut_within(const Piece& piece, double least_gain, double worth) const -> std::vector<Piece>;
   [[nodiscard]] auto cheapest(const Piece& piece, const std::vector<Proposal>& proposals, double worth) const
       -> std::vector<Piece>;
@@ -90,6 +93,7 @@ class Work {
       -> std::vector<Piece>;
 
   const rays::Scene& mesh_;
+  const rays::Scene* above_;  ///< with the crowns of trees; null where there are none
   const Options& options_;
   const extrude::Options& raising_;
   const base::Run& run_;

@@ -1,0 +1,304 @@
+// Buildings as CityGML 2.0 (OGC 12-019) and 3.0 (OGC 20-010 and 21-006): solids with semantic surfaces and attributes.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "mansard/base/text.hpp"
+#include "mansard/formats/citygml/xml_text.hpp"
+#include "mansard/formats/detail/drawn.hpp"
+#include "mansard/formats/detail/flat_level.hpp"
+#include "mansard/formats/detail/writers.hpp"
+
+namespace mansard::formats::detail {
+namespace {
+
+using model::FaceClass;
+
+constexpr std::string_view head_2 =
+    "<CityModel xmlns=\"http://www.opengis.net/citygml/2.0\" "
+    "xmlns:bldg=\"http://www.opengis.net/citygml/building/2.0\" "
+    "xmlns:gen=\"http://www.opengis.net/citygml/generics/2.0\" xmlns:gml=\"http://www.opengis.net/gml\" "
+    "xmlns:xlink=\"http://www.w3.org/1999/xlink\" xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" "
+    "xsi:schemaLocation=\"http://www.opengis.net/citygml/building/2.0 "
+    "http://schemas.opengis.net/citygml/building/2.0/building.xsd http://www.opengis.net/citygml/generics/2.0 "
+    "http://schemas.opengis.net/citygml/generics/2.0/generics.xsd\">\n";
+constexpr std::string_view head_3 =
+    "<CityModel xmlns=\"http://www.opengis.net/citygml/3.0\" "
+    "xmlns:bldg=\"http://www.opengis.net/citygml/building/3.0\" "
+    "xmlns:con=\"http://www.opengis.net/citygml/construction/3.0\" "
+    "xmlns:gen=\"http://www.opengis.net/citygml/generics/3.0\" xmlns:gml=\"http://www.opengis.net/gml/3.2\" "
+    "xmlns:xlink=\"http://www.w3.org/1999/xlink\" xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" "
+    "xsi:schemaLocation=\"http://www.opengis.net/citygml/building/3.0 "
+    "http://schemas.opengis.net/citygml/building/3.0/building.xsd http://www.opengis.net/citygml/generics/3.0 "
+    "http://schemas.opengis.net/citygml/generics/3.0/generics.xsd\">\n";
+
+auto surface_name(FaceClass kind) -> std::string_view {
+  switch (kind) {
+    case FaceClass::roof: return "RoofSurface";
+    case FaceClass::ground: return "GroundSurface";
+    case FaceClass::soffit: return "OuterCeilingSurface";
+    default: return "WallSurface";
+  }
+}
+
+auto attribute(std::string_view name, std::string_view value) -> std::string {
+  return std::string(name) + "=\"" + xml_escaped(value) + "\"";
+}
+
+class CityGmlWriter : public CityWriter {
+ public:
+  CityGmlWriter(Header header, const WriteOptions& options, Lods lods, std::unique_ptr<base::Spool> objects,
+                base::Sink& file)
+      : header_(std::move(header)),
+        options_(options),
+        v3_(options.citygml == CityGml::v3),
+        objects_(std::move(objects)),
+        file_(file) {
+    for (const auto lod : lods) {  // CityGML has whole levels: of two that share one the finer is written
+      if (lod == Lod::lod0) footprint_ = true;
+      if (lod == Lod::lod12 || lod == Lod::lod13) lod1_ = lod;
+      if (lod == Lod::lod20 || lod == Lod::lod22) lod2_ = lod;
+    }
+  }
+
+  auto add(const model::Building& building) -> base::Result<void> override {
+    const auto keys = gate_.admit(building);
+    if (!keys) return keys.error();
+    const Drawn all = drawn(building, *keys, Solids::building);
+    warnings_.insert(warnings_.end(), all.warnings.begin(), all.warnings.end());
+    Lods wanted;
+    if (lod1_) wanted.push_back(*lod1_);
+    if (lod2_) wanted.push_back(*lod2_);
+    std::vector<LevelSurfaces> levels;
+    for (const auto& [part, parts] : all.solids)
+      levels.push_back(level_surfaces(part.model, part.attributes, header_.frame, wanted, options_.levels));
+    XmlText xml(1);
+    const std::string id = unique_id(building.id);
+    xml.open("cityObjectMember").open("bldg:Building", attribute("gml:id", id));
+    const LevelSurfaces none;
+    append(xml, building.id, id, building.attributes, building.footprint, building.ground,
+           levels.size() == 1 ? levels.front() : none);
+    if (levels.size() > 1)
+      for (std::size_t i = 0; i < levels.size(); ++i) {
+        const std::string part = id + "_solid" + std::to_string(i + 1);
+        xml.open(v3_ ? "bldg:buildingPart" : "bldg:consistsOfBuildingPart");
+        xml.open("bldg:BuildingPart", attribute("gml:id", part));
+        append(xml, all.solids[i].part.id, part, {}, {}, building.ground, levels[i]);
+        xml.close().close();
+      }
+    xml.close().close();
+    objects_->append(xml.take());
+    return {};
+  }
+
+  auto finish() -> base::Result<void> override {
+    file_.append("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
+    file_.append(v3_ ? head_3 : head_2);
+    XmlText xml(1);
+    if (!options_.lineage.empty()) xml.leaf("gml:description", options_.lineage);
+    if (!options_.title.empty()) xml.leaf("gml:name", options_.title);
+    if (extent_) {
+      std::string frame = attribute("srsDimension", "3");
+      if (!header_.frame.crs.empty() && header_.frame.crs.starts_with("EPSG:"))
+        frame = attribute("srsName", header_.frame.crs) + " " + frame;
+      xml.open("gml:boundedBy").open("gml:Envelope", frame);
+      xml.leaf("gml:lowerCorner", point((*extent_)[0])).leaf("gml:upperCorner", point((*extent_)[1]));
+      xml.close().close();
+    }
+    file_.append(xml.take());
+    if (auto copied = objects_->copy_to(file_); !copied) return copied;
+    file_.append("</CityModel>\n");
+    return {};
+  }
+
+  [[nodiscard]] auto warnings() const -> std::vector<base::Diagnostic> override { return warnings_; }
+
+ private:
+  auto unique_id(const std::string& name) -> std::string {
+    std::string id = xml_id(name);
+    if (id != name) id += "_n" + std::to_string(renamed_++);  // two names may become one
+    return id;
+  }
+
+  auto point(const Vertex& v) -> std::string {
+    std::string out;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      out += (axis == 0 ? "" : " ") + quanta_in_file_frame(v[axis], header_.frame.origin[axis]);
+    return out;
+  }
+
+  void append_ring(XmlText& xml, std::string_view role, const std::vector<Vertex>& loop) {
+    std::string places;
+    for (std::size_t i = 0; i <= loop.size(); ++i) {
+      widen(extent_, loop[i % loop.size()]);
+      places += (i == 0 ? "" : " ") + point(loop[i % loop.size()]);
+    }
+    xml.open(role).open("gml:LinearRing").leaf("gml:posList", places, "srsDimension=\"3\"").close().close();
+  }
+
+  void append_polygon(XmlText& xml, const Loops& loops, const std::string& id) {
+    xml.open("gml:surfaceMember").open("gml:Polygon", attribute("gml:id", id));
+    for (std::size_t i = 0; i < loops.size(); ++i) append_ring(xml, i == 0 ? "gml:exterior" : "gml:interior", loops[i]);
+    xml.close().close();
+  }
+
+  /// A solid whose surfaces are `member(i)` for every i.
+  template <class Member>
+  void append_solid(XmlText& xml, std::string_view role, const std::string& id, std::size_t count, Member member) {
+    xml.open(role).open("gml:Solid", attribute("gml:id", id)).open("gml:exterior");
+    xml.open(v3_ ? "gml:Shell" : "gml:CompositeSurface", v3_ ? "" : attribute("gml:id", id + "_shell"));
+    for (std::size_t i = 0; i < count; ++i) member(i);
+    xml.close().close().close().close();
+  }
+
+  void append_generic(XmlText& xml, std::string_view name, const model::Value& value) {
+    std::string type = "string", text;
+    if (const auto* integer = std::get_if<std::int64_t>(&value)) {
+      // Version 3.0 has integers of 32 bits.
+      const bool narrow = std::abs(static_cast<double>(*integer)) < 2147483648.0;
+      if (narrow || !v3_) type = "int";
+      text = std::to_string(*integer);
+    } else if (const auto* real = std::get_if<double>(&value)) {
+      if (!std::isfinite(*real)) return;
+      type = "double";
+      text = base::to_text(*real);
+    } else if (const auto* flag = std::get_if<bool>(&value)) {
+      text = *flag ? "true" : "false";
+    } else if (const auto* string = std::get_if<std::string>(&value)) {
+      text = *string;
+    } else {
+      return;
+    }
+    if (!v3_) {
+      xml.open("gen:" + type + "Attribute", attribute("name", name)).leaf("gen:value", text).close();
+      return;
+    }
+    type[0] = static_cast<char>(type[0] - 'a' + 'A');
+    xml.open("genericAttribute").open("gen:" + type + "Attribute");
+    xml.leaf("gen:name", name).leaf("gen:value", text).close().close();
+  }
+
+  void append_generics(XmlText& xml, const model::Attributes& attributes) {
+    std::set<std::string_view> seen;
+    std::vector<bool> last(attributes.size());
+    for (std::size_t i = attributes.size(); i-- > 0;) last[i] = seen.insert(attributes[i].first).second;
+    for (std::size_t i = 0; i < attributes.size(); ++i) {
+      const auto& [name, value] = attributes[i];
+      const bool native = (name == "measuredHeight" && std::holds_alternative<double>(value)) ||
+                          (name == "roofType" && std::holds_alternative<std::string>(value)) ||
+                          (name == "storeysAboveGround" && std::holds_alternative<std::int64_t>(value));
+      if (last[i] && !native) append_generic(xml, name, value);
+    }
+  }
+
+  template <class T>
+  static auto native(const model::Attributes& attributes, std::string_view name) -> const T* {
+    const T* found = nullptr;
+    for (const auto& [key, value] : attributes)
+      if (key == name) found = std::get_if<T>(&value);
+    return found;
+  }
+
+  /// What CityGML itself has of a building, in the order of its schema.
+  void append_native(XmlText& xml, const model::Attributes& attributes) {
+    const auto* height = native<double>(attributes, "measuredHeight");
+    const auto* roof = native<std::string>(attributes, "roofType");
+    const auto* storeys = native<std::int64_t>(attributes, "storeysAboveGround");
+    if (v3_ && height != nullptr) {
+      xml.open("con:height").open("con:Height").leaf("con:highReference", "highestRoofEdge");
+      xml.leaf("con:lowReference", "lowestGroundPoint").leaf("con:status", "estimated");
+      xml.leaf("con:value", base::to_text(*height), "uom=\"m\"").close().close();
+    }
+    if (roof != nullptr) xml.leaf("bldg:roofType", *roof);
+    if (!v3_ && height != nullptr) xml.leaf("bldg:measuredHeight", base::to_text(*height), "uom=\"m\"");
+    if (storeys != nullptr && *storeys >= 0) xml.leaf("bldg:storeysAboveGround", std::to_string(*storeys));
+  }
+
+  void append_boundaries(XmlText& xml, const std::vector<Surface>& surfaces, const std::string& id) {
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+      const auto& surface = surfaces[i];
+      const std::string own = id + "_s" + std::to_string(i);
+      xml.open(v3_ ? "boundary" : "bldg:boundedBy");
+      xml.open((v3_ ? "con:" : "bldg:") + std::string(surface_name(surface.kind)), attribute("gml:id", own));
+      if (surface.kind == FaceClass::roof) {
+        constexpr double degrees = 180 / std::numbers::pi;
+        const auto n = surface.normal;
+        const double slope = std::atan2(std::hypot(n.x, n.y), n.z) * degrees;
+        append_generic(xml, "ms_slope", std::round(slope * 100) / 100);
+        if (slope >= 0.5) {
+          const double azimuth = std::atan2(n.x, n.y) * degrees;
+          append_generic(xml, "ms_azimuth", std::round((azimuth < 0 ? azimuth + 360 : azimuth) * 100) / 100);
+        }
+      }
+      if (surface.kind == FaceClass::wall || surface.kind == FaceClass::party_wall)
+        append_generic(xml, "ms_party_wall", std::string(surface.kind == FaceClass::party_wall ? "true" : "false"));
+      xml.open(v3_ ? "lod2MultiSurface" : "bldg:lod2MultiSurface")
+          .open("gml:MultiSurface", attribute("gml:id", own + "_m"));
+      append_polygon(xml, surface.loops, own + "_p");
+      xml.close().close().close().close();
+    }
+  }
+
+  void append_footprint(XmlText& xml, const std::vector<geometry::Polygon>& footprint, double ground,
+                        const std::string& id) {
+    std::vector<Loops> sound;
+    for (const auto& polygon : footprint)
+      if (auto loops = quantised(polygon, ground); !loops.empty()) sound.push_back(std::move(loops));
+    if (!footprint_ || sound.empty() || !std::ranges::all_of(sound, is_sound)) return;
+    xml.open(v3_ ? "lod0MultiSurface" : "bldg:lod0FootPrint")
+        .open("gml:MultiSurface", attribute("gml:id", id + "_lod0"));
+    for (std::size_t i = 0; i < sound.size(); ++i) append_polygon(xml, sound[i], id + "_f" + std::to_string(i));
+    xml.close().close();
+  }
+
+  /// Of a building or a part, in the order of the schema of its version.
+  void append(XmlText& xml, const std::string& name, const std::string& id, const model::Attributes& attributes,
+              const std::vector<geometry::Polygon>& footprint, double ground, const LevelSurfaces& levels) {
+    const std::vector<Surface> none;
+    const auto& coarse = lod1_ ? levels.at(*lod1_) : none;
+    const auto& fine = lod2_ ? levels.at(*lod2_) : none;
+    xml.leaf("gml:name", name);
+    append_generics(xml, attributes);
+    if (v3_) append_boundaries(xml, fine, id);
+    if (!v3_) append_native(xml, attributes);
+    append_footprint(xml, footprint, ground, id);
+    if (!coarse.empty())
+      append_solid(xml, v3_ ? "lod1Solid" : "bldg:lod1Solid", id + "_lod1", coarse.size(),
+                   [&](std::size_t i) { append_polygon(xml, coarse[i].loops, id + "_c" + std::to_string(i)); });
+    if (!fine.empty())
+      append_solid(xml, v3_ ? "lod2Solid" : "bldg:lod2Solid", id + "_lod2", fine.size(), [&](std::size_t i) {
+        xml.empty("gml:surfaceMember", attribute("xlink:href", "#" + id + "_s" + std::to_string(i) + "_p"));
+      });
+    if (!v3_) append_boundaries(xml, fine, id);
+    if (v3_) append_native(xml, attributes);
+  }
+
+  const Header header_;
+  const WriteOptions options_;
+  const bool v3_;
+  bool footprint_ = false;
+  std::optional<Lod> lod1_, lod2_;
+  Gate gate_;
+  Extent extent_;
+  std::size_t renamed_ = 0;
+  std::unique_ptr<base::Spool> objects_;  ///< the extent of all comes first in the file
+  base::Sink& file_;
+  std::vector<base::Diagnostic> warnings_;
+};
+
+}  // namespace
+
+auto citygml_writer(const Path& path, const Header& header, const WriteOptions& options, base::Outputs& outputs)
+    -> WriterResult {
+  auto lods = lods_of(options.lod, Format::citygml);
+  if (!lods) return lods.error();
+  auto objects = base::Spool::open();
+  if (!objects) return objects.error();
+  const auto file = outputs.file(path);
+  if (!file) return file.error();
+  return WriterResult(std::make_unique<CityGmlWriter>(header, options, *std::move(lods), *std::move(objects), **file));
+}
+
+}  // namespace mansard::formats::detail

@@ -1,0 +1,38 @@
+// What is measured of a whole building: heights, areas and counts of its solids, each level of detail, and how much of
+// its footprint the scan covers.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "mansard/formats/levels.hpp"
+#include "mansard/geometry/polygon.hpp"
+#include "mansard/model/city.hpp"
+#include "mansard/rays/rays.hpp"
+
+namespace mansard::report {
+
+/// Of its solids, or of its parts where it has none: heights in those of the file, whose origin is at `z0` (m); areas,
+/// counts, storeys of `storey` metres, CityGML's measuredHeight, roofType and storeysAboveGround. Attributes of these
+/// three names that the source has stay as they are. Nothing of a building without a model.
+[[nodiscard]] auto building_measures(const model::Building& building, double z0, double storey) -> model::Attributes;
+
+/// Volume and surface of every level of detail, whether it is valid, and with a mesh its root mean square vertical
+/// error on a grid of `grid` metres. LoD 2.2 has volume and error elsewhere.
+[[nodiscard]] auto level_measures(const model::Building& building, const model::Frame& frame,
+                                  const solid::LevelOptions& options, const rays::Scene* mesh, double grid)
+    -> model::Attributes;
+
+/// How much of polygons a mesh covers, on a grid that is coarser for polygons of more than 250,000 cells.
+struct Coverage {
+  double missing = 0;  ///< share of the area without a surface above or below, 0 to 1
+  double radius = 0;   ///< m; of the largest circle in the polygons without a surface, to half a cell
+};
+[[nodiscard]] auto coverage(const rays::Scene& mesh, std::span<const geometry::Polygon> polygons, double grid)
+    -> Coverage;
+
+/// "good", "check" or "none": see the attribute ms_quality. `levels` has the attributes of level_measures.
+[[nodiscard]] auto quality_of(std::string_view outcome, const model::Attributes& levels) -> std::string;
+
+}  // namespace mansard::report

@@ -1,0 +1,330 @@
+#include "mansard/solid/levels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "mansard/geometry/change.hpp"
+#include "mansard/model/file_grid.hpp"
+#include "mansard/solid/detail/roof_field.hpp"
+#include "mansard/solid/flat_roof.hpp"
+#include "mansard/solid/solid.hpp"
+
+namespace mansard::solid {
+namespace {
+
+using detail::Contact;
+using detail::RoofFace;
+using detail::RoofField;
+using detail::RoofPlane;
+using geometry::Point2;
+using geometry::Point3;
+using geometry::Polygon;
+using model::LabelledSolid;
+
+/// Halves go up everywhere, so that a shift by whole metres shifts the result.
+auto on_grid(double v) -> double { return std::floor(v * model::quanta_per_metre + 0.5) / model::quanta_per_metre; }
+
+/// A face that goes on over a structure, where the planes around it show it.
+struct Neighbour {
+  std::uint32_t face = 0;
+  std::vector<Point2> middles;  ///< of the edges to it
+  double length = 0;
+};
+
+/// Which plane is the roof: the lowest of all, as over a ridge, or the highest, as over a valley.
+enum class Envelope : std::uint8_t { lowest, highest };
+
+auto agrees(const std::vector<Neighbour>& around, const RoofField& field, Envelope envelope) -> bool {
+  constexpr double close = 5e-3;  // m; planes of faces are rounded to 0.1 mm at corners that may be a metre apart
+  for (const auto& own : around)
+    for (const auto middle : own.middles)
+      for (const auto& other : around) {
+        const double rise = field.faces[other.face].plane.height(middle) - field.faces[own.face].plane.height(middle);
+        if (envelope == Envelope::lowest ? rise < -close : rise > close) return false;
+      }
+  return true;
+}
+
+/// What of a polygon lies where one plane is below another one (or above it).
+auto where(const Polygon& polygon, const RoofPlane& own, const RoofPlane& other, Envelope envelope)
+    -> std::vector<Polygon> {
+  // own(p) - other(p) = c + g·p, with p relative to a corner of the polygon.
+  const Point2 o = polygon.outer.front();
+  const double sign = envelope == Envelope::lowest ? 1 : -1;
+  const double c = sign * (own.height(o) - other.height(o));
+  const Point2 g{sign * (own.height(o + Point2{1, 0}) - other.height(o + Point2{1, 0})) - c,
+                 sign * (own.height(o + Point2{0, 1}) - other.height(o + Point2{0, 1})) - c};
+  const double steep = length(g);
+  constexpr double parallel = 1e-9;
+  if (steep < parallel) return c <= 0 ? std::vector{polygon} : std::vector<Polygon>();
+  const auto box = geometry::bounds(polygon.outer);
+  const double reach = 2 * length(box.most - box.least) + 1;
+  const Point2 down = (-1 / steep) * g, along = geometry::left_of(down);
+  const Point2 middle = o + (c / steep) * down;  // on the line where both are equal
+  const Point2 near = middle + dot(0.5 * (box.least + box.most) - middle, along) * along;
+  const Polygon half{{near - reach * along, near + reach * along, near + reach * along + 2 * reach * down,
+                      near - reach * along + 2 * reach * down},
+                     {}};
+  auto pieces = geometry::intersect(polygon, geometry::oriented(half));
+  return pieces ? std::move(*pieces) : std::vector<Polygon>();
+}
+
+/// The loops of a polygon in a plane, on the grid of files.
+auto loops_in(const Polygon& polygon, const RoofPlane& plane) -> std::vector<std::vector<Point3>> {
+  std::vector<std::vector<Point3>> out;
+  const auto add = [&](const geometry::Ring& ring) {
+    auto& loop = out.emplace_back();
+    for (const auto p : ring) {
+      const Point3 q{on_grid(p.x), on_grid(p.y), on_grid(plane.height(p))};
+      if (loop.empty() || loop.back() != q) loop.push_back(q);
+    }
+    while (loop.size() > 1 && loop.back() == loop.front()) loop.pop_back();
+    if (loop.size() < 3) out.pop_back();
+  };
+  const auto upright = geometry::oriented(polygon);
+  add(upright.outer);
+  if (out.empty()) return {};
+  for (const auto& hole : upright.holes) add(hole);
+  return out;
+}
+
+/// What a structure gives way to: loops, each by the face in whose plane they lie.
+using Filling = std::vector<std::pair<std::uint32_t, std::vector<std::vector<Point3>>>>;
+
+auto filling_of(const std::vector<const RoofFace*>& structure, const std::vector<Neighbour>& around,
+                const RoofField& field, double base) -> Filling {
+  std::vector<Polygon> faces;
+  for (const RoofFace* face : structure)
+    faces.push_back(geometry::oriented(geometry::polygon_of(face->loops, [](Point3 p) { return xy(p); })));
+  auto ground = faces.size() == 1 ? base::Result<std::vector<Polygon>>(faces) : geometry::unite(faces);
+  if (!ground) return {};
+  std::vector<Neighbour> planes = around;
+  auto envelope = Envelope::lowest;
+  if (!agrees(around, field, envelope)) envelope = Envelope::highest;
+  if (!agrees(around, field, envelope))
+    planes = {*std::ranges::max_element(around, {}, [](const Neighbour& one) { return one.length; })};
+  Filling out;
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    std::vector<Polygon> own = *ground;
+    const auto& plane = field.faces[planes[i].face].plane;
+    for (std::size_t k = 0; k < planes.size(); ++k) {
+      if (k == i) continue;
+      std::vector<Polygon> left;
+      for (const auto& polygon : own) {
+        auto pieces = where(polygon, plane, field.faces[planes[k].face].plane, envelope);
+        left.insert(left.end(), pieces.begin(), pieces.end());
+      }
+      own = std::move(left);
+    }
+    for (const auto& polygon : own) {
+      auto loops = loops_in(polygon, plane);
+      for (const auto& loop : loops)
+        for (const auto p : loop)
+          if (p.z <= base) return {};  // the plane would go into the ground
+      if (!loops.empty()) out.emplace_back(planes[i].face, std::move(loops));
+    }
+  }
+  return out;
+}
+
+/// Takes out every structure that is on a larger piece. Whether there was one.
+auto take_out(RoofField& field, double base, const LevelOptions& options) -> bool {
+  std::map<std::uint32_t, std::map<std::uint32_t, std::vector<Contact>>> of;  // by piece and by the other piece
+  for (const auto& contact : field.contacts())
+    of[field.faces[contact.face].piece][field.faces[contact.other].piece].push_back(contact);
+  std::vector<double> areas(field.pieces);
+  for (const auto& face : field.faces) areas[face.piece] += face.area;
+  std::set<std::uint32_t> gone, changed;
+  std::vector<std::vector<std::vector<std::vector<Point3>>>> more(field.faces.size());
+  for (const auto& [piece, others] : of) {
+    if (areas[piece] >= options.lod20_structure || changed.contains(piece)) continue;
+    const auto host = std::ranges::max_element(others, {}, [](const auto& other) {
+      double sum = 0;
+      for (const auto& contact : other.second) sum += contact.length;
+      return sum;
+    });
+    if (areas[host->first] <= areas[piece] || gone.contains(host->first)) continue;
+    double touched = 0;
+    std::map<std::uint32_t, Neighbour> around;
+    for (const auto& contact : host->second) {
+      touched += contact.length;
+      auto& one = around[contact.other];
+      one.face = contact.other;
+      one.length += contact.length;
+      one.middles.push_back(contact.middle);
+    }
+    if (touched <= options.lod20_surrounded * field.outline[piece]) continue;
+    std::vector<const RoofFace*> structure;
+    for (const auto& face : field.faces)
+      if (face.piece == piece) structure.push_back(&face);
+    std::vector<Neighbour> list;
+    for (const auto& [face, one] : around) list.push_back(one);
+    auto filling = filling_of(structure, list, field, base);
+    if (filling.empty()) continue;
+    for (auto& [face, loops] : filling) more[face].push_back(std::move(loops));
+    gone.insert(piece);
+    changed.insert(host->first);
+  }
+  if (gone.empty()) return false;
+  for (std::size_t f = 0; f < field.faces.size(); ++f)
+    for (auto& loops : more[f])
+      for (auto& loop : loops) field.faces[f].loops.push_back(std::move(loop));
+  std::erase_if(field.faces, [&](const RoofFace& face) { return gone.contains(face.piece); });
+  return true;
+}
+
+auto ground_level(const LabelledSolid& solid) -> double {
+  for (std::size_t f = 0; f < solid.classes.size(); ++f)
+    if (solid.classes[f] == model::FaceClass::ground) return solid.solid.vertices[solid.solid.faces[f].loops[0][0]].z;
+  return 0;
+}
+
+/// Pieces that are joined as one flat one: the number of each, and its height.
+struct Terraces {
+  std::vector<std::uint32_t> of;
+  std::map<std::uint32_t, double> height;
+};
+
+auto height_of(const RoofField& field, const std::vector<std::uint32_t>& of, std::uint32_t terrace) -> double {
+  std::vector<const RoofFace*> own;
+  for (const auto& face : field.faces)
+    if (of[face.piece] == terrace) own.push_back(&face);
+  return on_grid(detail::height_at(own, 0.7));
+}
+
+/// Of all adjacent terraces those of the most similar height are joined, until a step is between any two.
+auto terraces_of(const RoofField& field, double step) -> Terraces {
+  Terraces out;
+  out.of.resize(field.pieces);
+  std::iota(out.of.begin(), out.of.end(), 0U);
+  for (std::uint32_t p = 0; p < field.pieces; ++p) out.height[p] = height_of(field, out.of, p);
+  std::set<std::pair<std::uint32_t, std::uint32_t>> adjacent;
+  for (const auto& contact : field.contacts())
+    adjacent.insert(std::minmax(field.faces[contact.face].piece, field.faces[contact.other].piece));
+  for (;;) {
+    std::optional<std::pair<std::uint32_t, std::uint32_t>> best;
+    double least = step;
+    for (const auto& [a, b] : adjacent) {
+      if (out.of[a] == out.of[b]) continue;
+      const double off = std::abs(out.height[out.of[a]] - out.height[out.of[b]]);
+      if (off < least) least = off, best = {out.of[a], out.of[b]};
+    }
+    if (!best) return out;
+    const auto kept = std::min(best->first, best->second), other = std::max(best->first, best->second);
+    std::ranges::replace(out.of, other, kept);
+    out.height.erase(other);
+    out.height[kept] = height_of(field, out.of, kept);
+  }
+}
+
+}  // namespace
+
+auto option_list(LevelOptions& o) -> base::OptionList {
+  return std::move(
+      base::OptionList("solid")
+          .number("lod13_step", o.lod13_step, "m", {0, 1000},
+                  "Smallest step of height between two roofs that LoD 1.3 keeps.")
+          .source("that of roofer, its option lod13-step-height, so that models can be compared")
+          .number("lod20_structure", o.lod20_structure, "m²", {0, 1e6},
+                  "Area below which LoD 2.0 leaves out a structure on a roof.")
+          .source("Biljecki, Ledoux and Stoter 2016, table 1: large building parts, 10 m²")
+          .number("lod20_surrounded", o.lod20_surrounded, "", {0, 1},
+                  "Share of the outline of a structure that one roof must touch, so that LoD 2.0 leaves it "
+                  "out.")
+          .advanced("more than half: an annex beside a house touches it on one side of four"));
+}
+
+auto main_roofs(const LabelledSolid& solid, const LevelOptions& options) -> LabelledSolid {
+  auto field = detail::roof_field(solid);
+  if (!field || field->pieces < 2) return solid;
+  const double base = ground_level(solid);
+  std::optional<LabelledSolid> best;
+  LabelledSolid before = solid;
+  // Again for what was on a structure.
+  constexpr int rounds = 4;
+  for (int round = 0; round < rounds && take_out(*field, base, options); ++round) {
+    auto made = detail::solid_below(*field, before);
+    if (!made) break;
+    before = *made;
+    best = std::move(made);
+    field = detail::roof_field(before);
+    if (!field || field->pieces < 2) break;
+  }
+  return best ? *std::move(best) : solid;
+}
+
+namespace {
+
+/// The solid with a flat roof over every terrace.
+auto with_terraces(const RoofField& field, const Terraces& terraces, const LabelledSolid& solid) -> LabelledSolid {
+  RoofField flat;
+  for (const auto& [number, height] : terraces.height) {
+    auto& face = flat.faces.emplace_back();
+    face.plane = {{0, 0, height}, {0, 0, 1}};
+    bool first = true;
+    for (const auto& from : field.faces) {
+      if (terraces.of[from.piece] != number) continue;
+      if (first) face.face = from.face;
+      first = false;
+      for (auto loop : from.loops) {
+        for (auto& p : loop) p.z = height;
+        face.loops.push_back(std::move(loop));
+      }
+    }
+  }
+  auto made = detail::solid_below(flat, solid);
+  return made ? *std::move(made) : LabelledSolid();
+}
+
+}  // namespace
+
+auto flat_pieces(const LabelledSolid& solid, const LevelOptions& options) -> LabelledSolid {
+  const auto field = detail::roof_field(solid);
+  if (!field || field->pieces < 2) return {};
+  const auto terraces = terraces_of(*field, options.lod13_step);
+  return terraces.height.size() < 2 ? LabelledSolid() : with_terraces(*field, terraces, solid);
+}
+
+auto flat_roof(const LabelledSolid& solid, double z) -> LabelledSolid {
+  const auto field = detail::roof_field(solid);
+  if (!field || !(z > ground_level(solid))) return {};
+  return with_terraces(*field, {std::vector<std::uint32_t>(field->pieces, 0), {{0, on_grid(z)}}}, solid);
+}
+
+auto roof_percentile(const LabelledSolid& solid, double share) -> double {
+  const auto& model = solid.solid;
+  std::vector<RoofFace> faces;
+  for (std::size_t f = 0; f < model.faces.size(); ++f) {
+    if (solid.classes[f] != model::FaceClass::roof) continue;
+    auto& face = faces.emplace_back();
+    for (const auto& loop : model.faces[f].loops) {
+      auto& points = face.loops.emplace_back();
+      for (const auto v : loop) points.push_back(model.vertices[v]);
+    }
+  }
+  std::vector<const RoofFace*> all;
+  for (const auto& face : faces) all.push_back(&face);
+  return all.empty() ? 0 : detail::height_at(all, share);
+}
+
+auto val3dity_codes(std::span<const base::Diagnostic> findings) -> std::vector<int> {
+  constexpr std::array<std::pair<std::string_view, int>, 9> codes{{{"solid-degenerate", 104},
+                                                                   {"solid-near-vertices", 102},
+                                                                   {"solid-not-planar", 203},
+                                                                   {"solid-needle", 204},
+                                                                   {"solid-open", 302},
+                                                                   {"solid-non-manifold", 303},
+                                                                   {"solid-several-shells", 305},
+                                                                   {"solid-self-intersection", 306},
+                                                                   {"solid-orientation", 307}}};
+  std::set<int> out;
+  for (const auto& finding : findings)
+    for (const auto& [code, number] : codes)
+      if (finding.code == code) out.insert(number);
+  return {out.begin(), out.end()};
+}
+
+}  // namespace mansard::solid

@@ -1,0 +1,153 @@
+#include "mansard/vegetation/vegetation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mansard/vegetation/detail/surface.hpp"
+
+namespace mansard::vegetation {
+namespace {
+
+using detail::Blob;
+using detail::Grid;
+using detail::Surface;
+using geometry::Box2;
+
+// The surface is looked at in tiles, so that memory does not grow with the block. A crown belongs to the tile in which
+// its first cell is, and is no longer than the margin around a tile: where tiles begin does not matter.
+constexpr double tile_side = 128;  // m
+constexpr double halo_width = 16;  // m
+
+struct Tile {
+  Grid grid;
+  std::vector<std::uint32_t> triangles;
+};
+
+struct Tiles {
+  std::vector<Tile> tiles;
+  std::size_t halo = 0;  ///< cells
+};
+
+auto tiles_of(const geometry::Mesh& mesh, const Box2& region, const Options& options) -> Tiles {
+  const auto side = static_cast<std::int64_t>(std::ceil(tile_side / options.grid));
+  const auto halo = static_cast<std::int64_t>(std::ceil(halo_width / options.grid));
+  const auto tile_at = [&](double v) {
+    return static_cast<std::int64_t>(std::floor(v / (options.grid * static_cast<double>(side))));
+  };
+  const std::int64_t west = tile_at(region.least.x), east = tile_at(region.most.x);
+  const std::int64_t south = tile_at(region.least.y), north = tile_at(region.most.y);
+  Tiles out{{}, static_cast<std::size_t>(halo)};
+  const auto columns = static_cast<std::size_t>(east - west + 1);
+  const auto cell_at = [&](double v) { return static_cast<std::int64_t>(std::floor(v / options.grid)); };
+  for (std::int64_t row = south; row <= north; ++row)
+    for (std::int64_t column = west; column <= east; ++column) {
+      // No farther than the region: a block of a few houses is a small tile.
+      const auto from_x = std::max(column * side, cell_at(region.least.x)) - halo;
+      const auto from_y = std::max(row * side, cell_at(region.least.y)) - halo;
+      const auto to_x = std::min((column + 1) * side, cell_at(region.most.x) + 1) + halo;
+      const auto to_y = std::min((row + 1) * side, cell_at(region.most.y) + 1) + halo;
+      out.tiles.push_back({{options.grid, from_x, from_y, static_cast<std::size_t>(to_x - from_x),
+                            static_cast<std::size_t>(to_y - from_y)},
+                           {}});
+    }
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    Box2 box;
+    for (const auto v : mesh.triangles[t]) box.add(xy(mesh.vertices[v]));
+    const Box2 reach = box.grown(static_cast<double>(halo + 1) * options.grid);
+    if (!reach.overlaps(region)) continue;
+    for (auto row = std::max(south, tile_at(reach.least.y)); row <= std::min(north, tile_at(reach.most.y)); ++row)
+      for (auto column = std::max(west, tile_at(reach.least.x)); column <= std::min(east, tile_at(reach.most.x));
+           ++column)
+        out.tiles[static_cast<std::size_t>(row - south) * columns + static_cast<std::size_t>(column - west)]
+            .triangles.push_back(t);
+  }
+  return out;
+}
+
+/// Above which z a crown's triangles are, per cell of the surface; infinite elsewhere.
+void lower(std::vector<double>& floor, const Blob& blob, const Surface& surface, const Options& options) {
+  constexpr double deeper = 0.3;  // m: noise, and the sides of the outermost cells
+  constexpr double below = 1.0;   // m: what is so far under a crown's lowest does not carry it
+  const auto& grid = surface.grid;
+  const auto reach = static_cast<std::int64_t>(std::round(options.margin / grid.spacing));
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const auto c : blob.cells) lowest = std::min(lowest, surface.top[c]);
+  for (const auto c : blob.cells) {
+    const auto column = static_cast<std::int64_t>(c % grid.columns), row = static_cast<std::int64_t>(c / grid.columns);
+    for (std::int64_t y = row - reach; y <= row + reach; ++y)
+      for (std::int64_t x = column - reach; x <= column + reach; ++x) {
+        if (x < 0 || y < 0 || x >= static_cast<std::int64_t>(grid.columns) || y >= static_cast<std::int64_t>(grid.rows))
+          continue;
+        const auto cell = static_cast<std::size_t>(y) * grid.columns + static_cast<std::size_t>(x);
+        const double top = surface.top[cell];
+        if (!(top > lowest - below)) continue;
+        const double under = surface.under[cell];
+        floor[cell] = std::min(floor[cell], (std::isnan(under) ? top : under) - deeper);
+      }
+  }
+}
+
+}  // namespace
+
+auto find(const geometry::Mesh& mesh, std::span<const geometry::Polygon> outline, const Options& options,
+          const base::Run& run) -> Found {
+  Found out;
+  Box2 region = geometry::bounds(outline);
+  if (!options.mask || region.empty() || mesh.triangles.empty()) return out;
+  region = region.grown(options.reach);
+  const auto [tiles, halo] = tiles_of(mesh, region, options);
+  std::vector<Found> each(tiles.size());
+  base::parallel_for(tiles.size(), [&](std::size_t i) {
+    if (run.cancelled()) return;
+    const auto surface = detail::surface_of(mesh, tiles[i].triangles, tiles[i].grid);
+    auto blobs = detail::blobs_of(surface, halo, outline, options);
+    std::erase_if(blobs, [&](const Blob& blob) { return !detail::is_crown(blob, options); });
+    if (blobs.empty()) return;
+    const auto& grid = surface.grid;
+    std::vector<double> floor(grid.size(), std::numeric_limits<double>::infinity());
+    for (const auto& blob : blobs) {
+      each[i].crowns.push_back(blob.seen);
+      lower(floor, blob, surface, options);
+    }
+    // The sides of a crown are steep: what is next to a cell counts with it.
+    floor = detail::least_around(grid, floor, 1);
+    for (const auto t : tiles[i].triangles) {
+      const auto& [a, b, c] = mesh.triangles[t];
+      const auto middle = (1.0 / 3) * (mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]);
+      const auto column = static_cast<std::int64_t>(std::floor(middle.x / grid.spacing)) - grid.column;
+      const auto row = static_cast<std::int64_t>(std::floor(middle.y / grid.spacing)) - grid.row;
+      if (column < 0 || row < 0 || column >= static_cast<std::int64_t>(grid.columns) ||
+          row >= static_cast<std::int64_t>(grid.rows))
+        continue;
+      const double lowest = floor[static_cast<std::size_t>(row) * grid.columns + static_cast<std::size_t>(column)];
+      if (middle.z >= lowest) each[i].triangles.push_back(t);
+      if (lowest < std::numeric_limits<double>::infinity()) each[i].below.push_back(t);
+    }
+  });
+  for (auto& one : each) {
+    out.crowns.insert(out.crowns.end(), one.crowns.begin(), one.crowns.end());
+    out.triangles.insert(out.triangles.end(), one.triangles.begin(), one.triangles.end());
+    out.below.insert(out.below.end(), one.below.begin(), one.below.end());
+  }
+  std::ranges::stable_sort(out.crowns, {},
+                           [](const Crown& crown) { return std::pair(crown.centre.y, crown.centre.x); });
+  for (auto* list : {&out.triangles, &out.below}) {
+    std::ranges::sort(*list);
+    list->erase(std::ranges::unique(*list).begin(), list->end());
+  }
+  return out;
+}
+
+auto without(const geometry::Mesh& mesh, std::span<const std::uint32_t> triangles) -> geometry::Mesh {
+  geometry::Mesh out{mesh.vertices, {}};
+  out.triangles.reserve(mesh.triangles.size() - triangles.size());
+  std::size_t next = 0;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (next < triangles.size() && triangles[next] == t) ++next;
+    else out.triangles.push_back(mesh.triangles[t]);
+  }
+  return out;
+}
+
+}  // namespace mansard::vegetation

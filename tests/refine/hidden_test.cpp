@@ -1,0 +1,48 @@
+// Roofs of which the crown of a tree hides some, or all.
+#include <gtest/gtest.h>
+
+#include "tests/refine/scans.hpp"
+
+namespace mansard {
+namespace {
+
+using namespace scans;
+
+/// A level sheet.
+auto sheet(geometry::Box2 box, double z) -> rays::Scene {
+  const auto [a, b] = box;
+  return rays::Scene({{{a.x, a.y, z}, {b.x, a.y, z}, {b.x, b.y, z}, {a.x, b.y, z}}, {{0, 1, 2}, {0, 2, 3}}});
+}
+
+TEST(Hidden, roofs_are_not_above_the_crown_that_hides_them) {
+  const std::vector drafts{flat_draft(rectangle(0, 0, 6, 4), 13)};
+  const auto elsewhere = sheet({{50, 50}, {60, 60}}, ground + 6), above = sheet({{-2, -2}, {8, 6}}, ground + 5);
+  const auto free = refine::refine(drafts, elsewhere, {}, {});
+  ASSERT_EQ(free.parts.size(), 1U);
+  EXPECT_NEAR(top_of(free.parts[0].raised.solid), ground + 13, 0.01);  // nothing is known: as it was
+  const auto below = refine::refine(drafts, elsewhere, {}, {}, {}, &above);
+  ASSERT_EQ(below.parts.size(), 1U);
+  EXPECT_NEAR(top_of(below.parts[0].raised.solid), ground + 5, 0.01);
+}
+
+TEST(Hidden, parts_are_joined_with_what_is_seen_beside_them) {
+  const std::vector drafts{flat_draft(rectangle(0, 0, 8, 6), 6), flat_draft(rectangle(8, 0, 1.5, 6), 6.4)};
+  const auto seen = sheet({{-1, -1}, {8, 7}}, ground + 6), above = sheet({{-1, -1}, {10, 7}}, ground + 8);
+  EXPECT_EQ(refine::refine(drafts, seen, {}, {}).parts.size(), 2U);
+  const auto joined = refine::refine(drafts, seen, {}, {}, {}, &above);
+  ASSERT_EQ(joined.parts.size(), 1U);
+  EXPECT_NEAR(top_of(joined.parts[0].raised.solid), ground + 6, 0.05);
+  EXPECT_NEAR(geometry::area(model::polygon_of(joined.parts[0].plan)), 57, 0.1);
+}
+
+TEST(Hidden, roofs_that_are_seen_are_the_same_below_a_mesh_without_crowns) {
+  const auto truth = plan(rectangle(10, 20, 12, 8), {roof(5, 0.9), wall(5), roof(5, 0.9), wall(5)}, 12);
+  const auto mesh = scan({truth});
+  const std::vector drafts{flat_draft(rectangle(10, 20, 12, 8), 6)};
+  const auto without = refine::refine(drafts, mesh, {}, {}), with = refine::refine(drafts, mesh, {}, {}, {}, &mesh);
+  ASSERT_EQ(without.parts.size(), with.parts.size());
+  EXPECT_EQ(without.parts[0].plan, with.parts[0].plan);
+}
+
+}  // namespace
+}  // namespace mansard

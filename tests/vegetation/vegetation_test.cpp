@@ -1,0 +1,176 @@
+// Crowns are found where they are, and nothing that is built passes for one.
+#include "mansard/vegetation/vegetation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "mansard/base/run.hpp"
+
+namespace mansard::vegetation {
+namespace {
+
+using geometry::Mesh;
+using geometry::Point2;
+using geometry::Point3;
+using geometry::Polygon;
+
+/// A sheet of two triangles per cell over the box, and the same everywhere on every machine.
+auto sheet(geometry::Box2 box, double spacing, const std::function<double(Point2)>& z) -> Mesh {
+  Mesh mesh;
+  const auto columns = static_cast<std::uint32_t>(std::lround((box.most.x - box.least.x) / spacing)) + 1;
+  const auto rows = static_cast<std::uint32_t>(std::lround((box.most.y - box.least.y) / spacing)) + 1;
+  for (std::uint32_t j = 0; j < rows; ++j)
+    for (std::uint32_t i = 0; i < columns; ++i) {
+      const Point2 p = box.least + Point2{spacing * i, spacing * j};
+      mesh.vertices.push_back({p.x, p.y, z(p)});
+    }
+  for (std::uint32_t j = 0; j + 1 < rows; ++j)
+    for (std::uint32_t i = 0; i + 1 < columns; ++i) {
+      const std::uint32_t a = j * columns + i, b = a + 1, c = a + columns, d = c + 1;
+      mesh.triangles.push_back({a, b, d});
+      mesh.triangles.push_back({a, d, c});
+    }
+  return mesh;
+}
+
+/// A ball with lumps of `rough` m, with its underside, outwards.
+auto ball(Point3 middle, double radius, double rough) -> Mesh {
+  constexpr std::uint32_t around = 32, up = 16;
+  Mesh mesh;
+  for (std::uint32_t j = 0; j <= up; ++j)
+    for (std::uint32_t i = 0; i < around; ++i) {
+      const double a = 2 * std::numbers::pi * i / around, e = std::numbers::pi * (j / double{up} - 0.5);
+      const double r = radius + rough * std::sin(5 * a + 3 * e) * std::cos(4 * e + a);
+      mesh.vertices.push_back(middle + r * Point3{std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)});
+    }
+  for (std::uint32_t j = 0; j < up; ++j)
+    for (std::uint32_t i = 0; i < around; ++i) {
+      const std::uint32_t a = j * around + i, b = j * around + (i + 1) % around, c = a + around, d = b + around;
+      mesh.triangles.push_back({a, b, d});
+      mesh.triangles.push_back({a, d, c});
+    }
+  return mesh;
+}
+
+auto both(Mesh a, const Mesh& b) -> Mesh {
+  const auto first = static_cast<std::uint32_t>(a.vertices.size());
+  a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
+  for (const auto& [i, j, k] : b.triangles) a.triangles.push_back({first + i, first + j, first + k});
+  return a;
+}
+
+const Polygon outline{{{0, 0}, {12, 0}, {12, 10}, {0, 10}}, {}};
+const geometry::Box2 ground{{-10, -10}, {22, 20}};
+
+auto in_outline(Point2 p) -> bool { return p.x >= 0 && p.x <= 12 && p.y >= 0 && p.y <= 10; }
+/// A gabled house on level ground; its walls are the steep triangles of the sheet.
+auto gable(Point2 p) -> double { return in_outline(p) ? 6 + 0.7 * (5 - std::abs(p.y - 5)) : 0; }
+
+auto found(const Mesh& mesh) -> Found { return find(mesh, std::vector{outline}, {}); }
+
+/// Whether a triangle has its middle within a distance of a place, in plan.
+auto any_near(const Mesh& mesh, std::span<const std::uint32_t> triangles, Point2 place, double within) -> bool {
+  return std::ranges::any_of(triangles, [&](std::uint32_t t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    const auto middle = (1.0 / 3) * (mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]);
+    return length(xy(middle) - place) < within;
+  });
+}
+
+TEST(Vegetation, finds_the_crown_of_a_tree_beside_the_house_and_leaves_the_roof) {
+  const auto house = sheet(ground, 0.25, gable), tree = ball({6, -1, 7}, 2.6, 0.25), all = both(house, tree);
+  const auto crowns = found(all);
+  ASSERT_EQ(crowns.crowns.size(), 1U);
+  EXPECT_LT(length(crowns.crowns[0].centre - Point2{6, -1}), 0.6);
+  EXPECT_GT(crowns.crowns[0].overhang, 0.5);
+  // Nearly all of the crown's upper half goes, and nothing of the roof at some distance.
+  const auto of_tree =
+      std::ranges::count_if(crowns.triangles, [&](std::uint32_t t) { return t >= house.triangles.size(); });
+  EXPECT_GT(of_tree, 0.45 * static_cast<double>(tree.triangles.size()));
+  for (const Point2 place : {Point2{2, 2}, {10, 2}, {6, 7}}) EXPECT_FALSE(any_near(all, crowns.below, place, 1));
+  EXPECT_EQ(without(all, crowns.triangles).triangles.size(), all.triangles.size() - crowns.triangles.size());
+}
+
+TEST(Vegetation, finds_a_crown_over_the_roof) {
+  const auto crowns = found(both(sheet(ground, 0.25, gable), ball({6, 5, 11}, 3.4, 0.3)));
+  ASSERT_EQ(crowns.crowns.size(), 1U);
+  EXPECT_LT(length(crowns.crowns[0].centre - Point2{6, 5}), 0.6);
+}
+
+TEST(Vegetation, leaves_trees_that_are_not_over_the_footprints) {
+  EXPECT_TRUE(found(both(sheet(ground, 0.25, gable), ball({6, -5, 4}, 2.6, 0.25))).crowns.empty());
+}
+
+/// What is built over the house, of a height above its level roof at 6 m.
+auto built(const std::function<double(Point2)>& height) -> Found {
+  return found(sheet(ground, 0.25, [&](Point2 p) { return in_outline(p) ? 6 + height(p) : 0.0; }));
+}
+
+TEST(Vegetation, takes_nothing_built_for_a_crown) {
+  const auto square = [](Point2 p, Point2 middle, double half) {
+    return std::max(std::abs(p.x - middle.x), std::abs(p.y - middle.y)) < half;
+  };
+  const auto nothing = [](const Found& f) { return f.crowns.empty() && f.triangles.empty() && f.below.empty(); };
+  EXPECT_TRUE(nothing(found(sheet(ground, 0.25, gable)))) << "gable";
+  EXPECT_TRUE(nothing(built([](Point2) { return 0.0; }))) << "level";
+  EXPECT_TRUE(nothing(built([&](Point2 p) { return square(p, {4, 4}, 1.25) ? 2.5 : 0.0; }))) << "plant room";
+  EXPECT_TRUE(nothing(built([&](Point2 p) { return square(p, {4, 4}, 0.5) ? 1.5 : 0.0; }))) << "chimney";
+  EXPECT_TRUE(nothing(built([](Point2 p) { return std::min({p.x, 12 - p.x, p.y, 10 - p.y}); }))) << "hipped";
+  EXPECT_TRUE(nothing(built([](Point2 p) {  // a drum with a dome of 4 m
+    const double r = length(p - Point2{6, 5});
+    return r < 4 ? 2 + std::sqrt(16 - r * r) : 0.0;
+  }))) << "dome";
+  EXPECT_TRUE(nothing(built([](Point2 p) {  // a spire of 2 m radius
+    const double r = length(p - Point2{6, 5});
+    return r < 2 ? 3 * (2 - r) : 0.0;
+  }))) << "spire";
+  EXPECT_TRUE(nothing(found(sheet(ground, 0.25,
+                                  [&](Point2 p) {  // dormers on the gable
+                                    const bool dormer = p.y > 1 && p.y < 3.5 &&
+                                                        std::abs(std::remainder(p.x, 4.0)) < 0.8 && in_outline(p);
+                                    return dormer ? std::max(gable(p), 8.6) : gable(p);
+                                  }))))
+      << "dormers";
+}
+
+TEST(Vegetation, leaves_a_canopy_whose_underside_is_seen) {
+  auto canopy = sheet({{3, -3}, {9, 0.5}}, 0.25, [](Point2) { return 4.0; });
+  auto underside = sheet({{3, -3}, {9, 0.5}}, 0.25, [](Point2) { return 3.7; });
+  for (auto& [a, b, c] : underside.triangles) std::swap(b, c);
+  EXPECT_TRUE(found(both(both(sheet(ground, 0.25, gable), canopy), underside)).crowns.empty());
+}
+
+TEST(Vegetation, is_found_the_same_at_any_number_of_threads_and_far_from_the_origin) {
+  auto mesh = both(sheet(ground, 0.25, gable), ball({6, -1, 7}, 2.6, 0.25));
+  const auto many = found(mesh);
+  base::limit_threads(1);
+  const auto one = found(mesh);
+  base::limit_threads(0);
+  EXPECT_EQ(many.triangles, one.triangles);
+  EXPECT_EQ(many.below, one.below);
+  // Tiles begin elsewhere there.
+  for (auto& v : mesh.vertices) v = v + Point3{1024, -4096, 0};
+  auto moved = outline;
+  for (auto& p : moved.outer) p = p + Point2{1024, -4096};
+  const auto elsewhere = find(mesh, std::vector{moved}, {});
+  ASSERT_EQ(elsewhere.crowns.size(), many.crowns.size());
+  for (std::size_t i = 0; i < many.crowns.size(); ++i) EXPECT_NEAR(elsewhere.crowns[i].area, many.crowns[i].area, 0.25);
+}
+
+TEST(Vegetation, is_not_looked_for_without_a_mesh_without_an_outline_and_when_switched_off) {
+  const auto mesh = both(sheet(ground, 0.25, gable), ball({6, -1, 7}, 2.6, 0.25));
+  Options off;
+  off.mask = false;
+  EXPECT_TRUE(find(mesh, std::vector{outline}, off).triangles.empty());
+  EXPECT_TRUE(find({}, std::vector{outline}, {}).triangles.empty());
+  EXPECT_TRUE(find(mesh, {}, {}).triangles.empty());
+}
+
+}  // namespace
+}  // namespace mansard::vegetation
