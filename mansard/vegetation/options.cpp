@@ -54,6 +54,9 @@ auto option_list(Options& options) -> base::OptionList {
   list.number("overhang_within", o.overhang_within, "", {0, 1},
               "Minimum share of a crown within the footprints below which its underside is visible.")
       .advanced("roof structures have up to 0.05: docs/decisions/0062");
+  list.number("near_underside", o.near_underside, "m", {0, 50},
+              "Maximum distance from a visible underside of what belongs to a crown, over the footprints.")
+      .advanced("measured on simulated crowns of odd seeds: docs/decisions/0062");
   list.number("margin", o.margin, "m", {0, 5}, "Width around a crown that does not count as evidence either.")
       .advanced("where a scan smooths the crown into the roof; that of refine.samples_melt");
   return list;

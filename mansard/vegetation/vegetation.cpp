@@ -66,14 +66,25 @@ auto tiles_of(const geometry::Mesh& mesh, const Box2& region, const Options& opt
 }
 
 /// Above which z a crown's triangles are, per cell of the surface; infinite elsewhere.
-void lower(std::vector<double>& floor, const Blob& blob, const Surface& surface, const Options& options) {
+void lower(std::vector<double>& floor, const Blob& blob, const Surface& surface,
+           std::span<const geometry::Polygon> outline, const Options& options) {
   constexpr double deeper = 0.3;  // m: noise, and the sides of the outermost cells
   constexpr double below = 1.0;   // m: what is so far under a crown's lowest does not carry it
   const auto& grid = surface.grid;
   const auto reach = static_cast<std::int64_t>(std::round(options.margin / grid.spacing));
   double lowest = std::numeric_limits<double>::infinity();
   for (const auto c : blob.cells) lowest = std::min(lowest, surface.top[c]);
+  std::vector<geometry::Point2> hanging;
+  for (const auto c : blob.cells)
+    if (!std::isnan(surface.under[c])) hanging.push_back(grid.centre(c));
+  // A roof beside a crown that is too narrow to be told from it is in one region with it, but hangs over nothing.
+  const auto is_roof = [&](std::uint32_t cell) {
+    const auto at = grid.centre(cell);
+    return std::ranges::any_of(outline, [&](const auto& polygon) { return geometry::contains(polygon, at); }) &&
+           std::ranges::none_of(hanging, [&](geometry::Point2 p) { return length(p - at) <= options.near_underside; });
+  };
   for (const auto c : blob.cells) {
+    if (is_roof(c)) continue;
     const auto column = static_cast<std::int64_t>(c % grid.columns), row = static_cast<std::int64_t>(c / grid.columns);
     for (std::int64_t y = row - reach; y <= row + reach; ++y)
       for (std::int64_t x = column - reach; x <= column + reach; ++x) {
@@ -108,7 +119,7 @@ auto find(const geometry::Mesh& mesh, std::span<const geometry::Polygon> outline
     std::vector<double> floor(grid.size(), std::numeric_limits<double>::infinity());
     for (const auto& blob : blobs) {
       each[i].crowns.push_back(blob.seen);
-      lower(floor, blob, surface, options);
+      lower(floor, blob, surface, outline, options);
     }
     // The sides of a crown are steep: what is next to a cell counts with it.
     floor = detail::least_around(grid, floor, 1);

@@ -33,7 +33,9 @@ struct Options {
   double even = 0.05;             ///< m, root mean square: planes are grown from places so even over half a window
   double plane_distance = 0.12;   ///< m; what is so near to a plane is on it
   double plane_area = 8.0;        ///< m²; a plane of so much is a roof: the top of a crown is smaller
-  double margin = 0.5;            ///< m; also removed around a crown, where the scan melts it into the roof
+  double near_underside =
+      2.0;              ///< m; over the outline, a crown is no farther than that from where it hangs over something
+  double margin = 0.5;  ///< m; also removed around a crown, where the scan melts it into the roof
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 

@@ -103,6 +103,19 @@ TEST(Vegetation, finds_a_crown_over_the_roof) {
   EXPECT_LT(length(crowns.crowns[0].centre - Point2{6, 5}), 0.6);
 }
 
+TEST(Vegetation, takes_over_the_footprints_what_is_near_a_visible_underside_only) {
+  // The crown is half in the roof: there it hangs over nothing.
+  const auto all = both(sheet(ground, 0.25, gable), ball({6, 0.4, 7}, 3, 0.25));
+  const auto cells = [&](double near_underside) {
+    Options options;
+    options.near_underside = near_underside;
+    return find(all, std::vector{outline}, options).below.size();
+  };
+  EXPECT_GT(cells(0.25), 0U);
+  EXPECT_LT(cells(0.25), cells(1));
+  EXPECT_LT(cells(1), cells(50));
+}
+
 TEST(Vegetation, leaves_trees_that_are_not_over_the_footprints) {
   EXPECT_TRUE(found(both(sheet(ground, 0.25, gable), ball({6, -5, 4}, 2.6, 0.25))).crowns.empty());
 }
