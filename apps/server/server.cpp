@@ -257,7 +257,10 @@ class Web {
       body.skip();
       out = refusal(route.error());
     } else if ((*route)->sends == Sends::file) {
-      out = upload(call, body);
+      std::optional<std::uint64_t> length;
+      if (const auto given = base::to_integer(header(request, "Content-Length")); given && *given >= 0)
+        length = static_cast<std::uint64_t>(*given);
+      out = upload(call, length, body);
     } else {
       bool fits = true;
       const bool whole = body.read([&](std::string_view piece) {
@@ -272,8 +275,10 @@ class Web {
     body.rest() ? put_and_close(out, response) : put(out, response);
   }
 
-  auto upload(const Call& call, Body& body) const -> Answer {
-    const auto path = workspace_.upload_path(call.captured.at("name"));
+  auto upload(const Call& call, const std::optional<std::uint64_t>& length, Body& body) const -> Answer {
+    const auto folder = call.query.find("folder");
+    const auto path = workspace_.upload_path(
+        call.captured.at("name"), folder == call.query.end() ? std::nullopt : std::optional(folder->second), length);
     auto file = path ? Arriving::open(*path) : base::Result<Arriving>(path.error());
     if (!file) {
       body.skip();
@@ -287,7 +292,7 @@ class Web {
     });
     if (why) return refusal(*why);
     if (!whole) return refusal(base::error("server-body", "the connection ended before the whole file was received"));
-    if (auto finished = file->finish(); !finished) return refusal(finished.error());
+    if (auto finished = file->finish_new(); !finished) return refusal(finished.error());
     return {200, "application/json", text_of({{"path", path->string()}}), {}};
   }
 
