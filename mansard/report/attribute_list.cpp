@@ -1,4 +1,5 @@
 #include "mansard/report/attributes.hpp"
+#include "mansard/report/measures.hpp"
 
 namespace mansard::report {
 
@@ -7,7 +8,7 @@ auto attributes() -> std::vector<formats::Attribute> {
   const Objects both{"Building", "BuildingPart"}, building{"Building"}, part{"BuildingPart"};
   auto all = formats::attributes();
   const auto add = [&all](const char* name, const Objects& of, const char* type, const char* unit,
-                          const char* meaning) {
+                          const std::string& meaning) {
     all.push_back({name, "pipeline", of, type, unit, meaning});
   };
   add("ms_outcome", building, "string", "",
@@ -58,19 +59,18 @@ auto attributes() -> std::vector<formats::Attribute> {
       "combination; the source's own where it has one.");
   add("storeysAboveGround", building, "number", "",
       "As in CityGML: ms_storeys, an estimate; the source's own where it has one.");
-  for (const auto& [suffix, lod] : {std::pair{"lod12", "1.2"}, {"lod13", "1.3"}, {"lod20", "2.0"}}) {
-    add(("ms_volume_" + std::string(suffix)).c_str(), building, "number", "m³",
-        ("Volume of LoD " + std::string(lod) + "; absent where it has no valid solid.").c_str());
-    add(("ms_rmse_" + std::string(suffix)).c_str(), building, "number", "m",
-        ("Root mean square of the vertical distance of LoD " + std::string(lod) +
-         " to the mesh; absent without mesh coverage.")
-            .c_str());
+  for (const auto lod : {formats::Lod::lod12, formats::Lod::lod13, formats::Lod::lod20}) {
+    const std::string level(formats::name_of(lod));
+    add(level_names(lod).volume, building, "number", "m³",
+        "Volume of LoD " + level + "; absent where it has no valid solid.");
+    add(level_names(lod).rmse, building, "number", "m",
+        "Root mean square of the vertical distance of LoD " + level + " to the mesh; absent without mesh coverage.");
   }
-  for (const auto& [suffix, lod] : {std::pair{"lod12", "1.2"}, {"lod13", "1.3"}, {"lod20", "2.0"}, {"lod22", "2.2"}}) {
-    add(("ms_surface_" + std::string(suffix)).c_str(), building, "number", "m²",
-        ("Area of all surfaces of LoD " + std::string(lod) + ".").c_str());
-    add(("ms_val3dity_" + std::string(suffix)).c_str(), building, "string", "",
-        ("The codes of val3dity that the check of LoD " + std::string(lod) + " found; [] is valid.").c_str());
+  for (const auto& names : level_names()) {
+    const std::string level(formats::name_of(names.lod));
+    add(names.surface, building, "number", "m²", "Area of all surfaces of LoD " + level + ".");
+    add(names.val3dity, building, "string", "",
+        "The codes of val3dity that the check of LoD " + level + " found; [] is valid.");
   }
   add("ms_volume_lod22", both, "number", "m³",
       "Volume of the LoD 2.2 solid; of a building over its parts, where it has some.");

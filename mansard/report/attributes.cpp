@@ -21,6 +21,20 @@ constexpr std::array<std::string_view, 14> of_model{
     "ms_h_ground",         "ms_h_roof_min", "ms_h_roof_50p",      "ms_h_roof_70p", "ms_h_roof_max",
     "ms_h_ridge",          "ms_roof_type",  "ms_volume_lod22",    "ms_rmse_lod22", "ms_area_roof_flat",
     "ms_area_roof_sloped", "ms_area_wall",  "ms_area_party_wall", "ms_fallback"};
+/// Those of a building that building_attributes() makes, beside those of its levels of detail.
+constexpr std::array of_building{"ms_outcome",     "ms_success",         "ms_quality",
+                                 "ms_h_ground",    "ms_h_roof_min",      "ms_h_roof_50p",
+                                 "ms_h_roof_70p",  "ms_h_roof_max",      "ms_h_eave",
+                                 "ms_h_ridge",     "ms_roof_type",       "ms_roof_planes",
+                                 "ms_ridges",      "ms_parts",           "ms_area_footprint",
+                                 "ms_area_ground", "ms_area_roof_flat",  "ms_area_roof_sloped",
+                                 "ms_area_wall",   "ms_area_party_wall", "ms_storeys",
+                                 "measuredHeight", "roofType",           "storeysAboveGround"};
+
+auto name_is_of(const model::Attributes& attributes, std::string_view name) -> bool {
+  return std::ranges::any_of(attributes, [&](const auto& one) { return one.first == name; });
+}
+
 /// The attributes without those named, and the new ones where the first of them stood.
 template <class Names>
 auto with(const model::Attributes& before, const Names& names, model::Attributes now) -> model::Attributes {
@@ -193,9 +207,12 @@ auto building_attributes(const model::Building& building, double z0) -> model::A
     if (area > 0) now.emplace_back("ms_rmse_lod22", std::sqrt(squared / area));
   }
   round_measures(now);
-  // Errors of levels of detail were measured before the edit.
-  std::vector<std::string> names{"ms_rmse_lod12", "ms_rmse_lod13", "ms_rmse_lod20", "ms_h_eave", "ms_h_ridge"};
-  for (const auto& [name, value] : now) names.push_back(name);
+  // All that was measured of the model before; errors of the coarser levels of detail are not measured again.
+  std::vector<std::string> names;
+  for (const auto* name : of_building)
+    if (!name_is_of(plain.attributes, name)) names.emplace_back(name);
+  for (const auto& level : level_names())
+    for (const auto* name : {level.volume, level.surface, level.rmse, level.val3dity}) names.emplace_back(name);
   return with(building.attributes, names, std::move(now));
 }
 

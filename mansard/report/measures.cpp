@@ -170,13 +170,28 @@ auto building_measures(const model::Building& building, double z0, double storey
   return out;
 }
 
+auto level_names() -> std::span<const LevelNames> {
+  using enum formats::Lod;
+  static constexpr std::array<LevelNames, 4> all{{
+      {lod12, "ms_volume_lod12", "ms_surface_lod12", "ms_rmse_lod12", "ms_val3dity_lod12"},
+      {lod13, "ms_volume_lod13", "ms_surface_lod13", "ms_rmse_lod13", "ms_val3dity_lod13"},
+      {lod20, "ms_volume_lod20", "ms_surface_lod20", "ms_rmse_lod20", "ms_val3dity_lod20"},
+      {lod22, "ms_volume_lod22", "ms_surface_lod22", "ms_rmse_lod22", "ms_val3dity_lod22"},
+  }};
+  return all;
+}
+
+auto level_names(formats::Lod lod) -> const LevelNames& {
+  return *std::ranges::find(level_names(), lod, &LevelNames::lod);
+}
+
 auto level_measures(const model::Building& building, const model::Frame& frame, const solid::LevelOptions& options,
                     const rays::Scene* mesh, double grid) -> model::Attributes {
   model::Attributes out;
   const auto all = formats::levels_of(building, frame, options);
   if (all.empty()) return out;
-  using enum formats::Lod;
-  for (const auto lod : {lod12, lod13, lod20, lod22}) {
+  for (const auto& names : level_names()) {
+    const auto lod = names.lod;
     double volume = 0, surface = 0, squared = 0, seen = 0;
     std::vector<base::Diagnostic> wrong;
     bool made = true;
@@ -190,7 +205,7 @@ auto level_measures(const model::Building& building, const model::Frame& frame, 
       for (const auto& face : model.solid.faces) surface += solid::area(model.solid, face);
       const auto found = solid::check(model.solid, solid::written_rules());
       wrong.insert(wrong.end(), found.begin(), found.end());
-      if (mesh == nullptr || lod == lod22) continue;
+      if (mesh == nullptr || lod == formats::Lod::lod22) continue;
       for (std::size_t f = 0; f < model.classes.size(); ++f) {
         if (model.classes[f] != model::FaceClass::ground) continue;
         const auto ground = geometry::oriented(geometry::polygon_of(
@@ -202,13 +217,12 @@ auto level_measures(const model::Building& building, const model::Frame& frame, 
       }
     }
     if (!made) continue;
-    const std::string suffix = "_" + formats::suffix_of(lod);
-    if (lod != lod22) out.emplace_back("ms_volume" + suffix, volume);
-    out.emplace_back("ms_surface" + suffix, surface);
-    if (seen > 0) out.emplace_back("ms_rmse" + suffix, std::sqrt(squared / seen));
+    if (lod != formats::Lod::lod22) out.emplace_back(names.volume, volume);
+    out.emplace_back(names.surface, surface);
+    if (seen > 0) out.emplace_back(names.rmse, std::sqrt(squared / seen));
     std::string codes;
     for (const int code : solid::val3dity_codes(wrong)) codes += (codes.empty() ? "" : ", ") + std::to_string(code);
-    out.emplace_back("ms_val3dity" + suffix, "[" + codes + "]");
+    out.emplace_back(names.val3dity, "[" + codes + "]");
   }
   return out;
 }
@@ -288,7 +302,8 @@ auto quality_of(std::string_view outcome, const model::Attributes& levels) -> st
   constexpr double half = 0.5;
   bool good = outcome == "full";
   for (const auto& [name, value] : levels) {
-    if (name.starts_with("ms_val3dity")) good = good && value == model::Value(std::string("[]"));
+    const bool validity = std::ranges::any_of(level_names(), [&](const auto& names) { return name == names.val3dity; });
+    if (validity) good = good && value == model::Value(std::string("[]"));
     if (const auto* share = std::get_if<double>(&value); share != nullptr && name == "ms_nodata_share")
       good = good && *share <= half;
   }

@@ -18,6 +18,14 @@ namespace mansard::report {
 /// three names that the source has stay as they are. Nothing of a building without a model.
 [[nodiscard]] auto building_measures(const model::Building& building, double z0, double storey) -> model::Attributes;
 
+/// The attributes of a level of detail, in the order of the levels.
+struct LevelNames {
+  formats::Lod lod = formats::Lod::lod22;
+  const char *volume = "", *surface = "", *rmse = "", *val3dity = "";
+};
+[[nodiscard]] auto level_names() -> std::span<const LevelNames>;
+[[nodiscard]] auto level_names(formats::Lod lod) -> const LevelNames&;
+
 /// Volume and surface of every level of detail, whether it is valid, and with a mesh its root mean square vertical
 /// error on a grid of `grid` metres. LoD 2.2 has volume and error elsewhere.
 [[nodiscard]] auto level_measures(const model::Building& building, const model::Frame& frame,

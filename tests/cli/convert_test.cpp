@@ -23,7 +23,10 @@ const std::vector<Kind> kinds{{"cityjson", "model.city.json"},
                               {"geopackage", "model.gpkg"},
                               {"stl", "model.stl", false},
                               {"geojson", "model.geojson"},
-                              {"plans", "plans.json"}};
+                              {"plans", "plans.json"},
+                              {"citygml", "model.gml", false},
+                              {"dxf", "model.dxf", false},
+                              {"flatgeobuf", "model.fgb", false}};
 
 /// A file's bytes, or those of all files of a folder, by name.
 auto bytes_of(const fs::path& path) -> std::map<std::string, std::string> {
@@ -58,7 +61,8 @@ class Convert : public Command {
       for (const auto& kind : kinds)
         EXPECT_TRUE(bytes_of(to + "/" + kind.file) == bytes_of(folder + "/" + kind.file))
             << from.format << " to " << kind.format;
-      EXPECT_EQ(read(to + "/model.mtl"), read(folder + "/model.mtl")) << from.format;
+      for (const auto* beside : {"/model.mtl", "/model.plans.jsonl"})
+        EXPECT_EQ(read(to + beside), read(folder + beside)) << from.format;
       fs::remove_all(to);
     }
   }
@@ -283,7 +287,7 @@ TEST_F(Convert, writes_nothing_where_one_result_cannot_be) {
 TEST_F(Convert, says_what_can_be_done_with_files_without_plans) {
   const auto foreign = put("foreign.city.json", R"({"type":"CityJSON","version":"2.0","transform":{"scale":[1,1,1],
       "translate":[0,0,0]},"CityObjects":{},"vertices":[]})");
-  expect_refusal(convert(foreign, at("x.glb")), 3, "write-read-plans", "mansard evaluate");
+  expect_refusal(convert(foreign, at("x.glb")), 3, "ingest-model-format", "it has no buildings");
   expect_refusal(convert(at("house.obj"), at("x.glb")), 3, "write-read-plans", "mansard extrude");
   expect_refusal(convert(at("house.geojson"), at("x.glb")), 3, "write-read-plans", "mansard extrude");
   expect_refusal(convert(at("none.glb"), at("x.obj")), 3, "file-missing");

@@ -23,8 +23,8 @@ TEST_F(Derive, reconstructs_a_mesh_without_footprints_and_says_so_in_every_forma
   EXPECT_EQ(report["buildings"][0]["id"], "derived-1");
   EXPECT_EQ(report["buildings"][0]["derived"], true);
   EXPECT_NEAR(report["buildings"][0]["areas_m2"]["ground"].get<double>(), 96, 12);
-  for (const auto* name :
-       {"model.city.json", "model.city.jsonl", "model.obj", "model.glb", "model.gpkg", "model.geojson", "plans.json"})
+  for (const auto* name : {"model.city.json", "model.city.jsonl", "model.plans.jsonl", "model.glb", "model.gpkg",
+                           "model.geojson", "plans.json"})
     EXPECT_THAT(read(at("out") + "/" + name), HasSubstr("ms_derived")) << name;
 }
 

@@ -72,7 +72,7 @@ TEST(GeoPackageCity, has_its_layers_with_a_row_for_every_thing) {
                                                     {"ground_lod13", 2},
                                                     {"solids_lod22", 2},
                                                     {"ground_lod22", 2},
-                                                    {"layer_styles", 5}}));
+                                                    {"layer_styles", 11}}));
 }
 
 TEST(GeoPackageCity, begins_with_the_footprints_which_programs_open_first) {
@@ -80,9 +80,9 @@ TEST(GeoPackageCity, begins_with_the_footprints_which_programs_open_first) {
   const auto file = open(place("city.gpkg"));
   std::vector<std::string> names;
   for (auto* layer : file->GetLayers()) names.emplace_back(layer->GetName());
-  EXPECT_THAT(names, ElementsAre("gis_footprints", "footprints", "edges", "roof_planes", "walls", "profiles", "made_by",
-                                 "mansard_records", "solids_lod12", "ground_lod12", "solids_lod13", "ground_lod13",
-                                 "solids_lod22", "ground_lod22", "layer_styles"));
+  EXPECT_THAT(names, ElementsAre("gis_footprints", "footprints", "edges", "roof_planes", "walls", "solids_lod12",
+                                 "ground_lod12", "solids_lod13", "ground_lod13", "solids_lod22", "ground_lod22",
+                                 "profiles", "made_by", "mansard_records", "layer_styles"));
 }
 
 TEST(GeoPackageCity, has_valid_geometry_in_the_frame_of_the_file_with_an_index) {
@@ -189,7 +189,7 @@ TEST(GeoPackageCity, takes_further_layers_beside_its_own) {
   EXPECT_EQ(rows(*file, "segment_edges").size(), 1U);
   EXPECT_EQ(rows(*file, "edges").size(), 16U);
   EXPECT_EQ(rows(*file, "gis_footprints").size(), 2U);
-  EXPECT_EQ(file->GetLayerCount(), 11);
+  EXPECT_EQ(file->GetLayerCount(), 17);
 }
 
 /// Every shape, type and emptiness that a layer may have.

@@ -117,8 +117,10 @@ auto segment_layers() -> std::vector<Layer> {
 
 TEST_F(QgisStyles, are_one_default_for_every_layer_that_can_be_drawn) {
   write(street(), segment_layers());
-  EXPECT_THAT(styled(), ElementsAre("gis_footprints", "footprints", "edges", "roof_planes", "walls", "sweep_edges",
-                                    "faces", "segment_edges", "conflicts", "segment_footprints", "diagnostics"));
+  EXPECT_THAT(styled(),
+              ElementsAre("gis_footprints", "footprints", "edges", "roof_planes", "walls", "solids_lod12",
+                          "ground_lod12", "solids_lod13", "ground_lod13", "solids_lod22", "ground_lod22", "sweep_edges",
+                          "faces", "segment_edges", "conflicts", "segment_footprints", "diagnostics"));
   for (auto* layer : file_->GetLayers()) {
     const auto row = style(layer->GetName());
     EXPECT_EQ(row != nullptr, layer->GetGeomType() != wkbNone) << layer->GetName();

@@ -113,8 +113,11 @@ TEST_F(Stream, reads_plans_attributes_and_how_it_was_made_from_an_obj) {
 TEST_F(Stream, keeps_a_reference_system_that_cityjson_cannot_name) {
   City city = town();
   city.frame.crs = "PROJCS[\"mine\"]";
+  (void)written(city, Format::obj);  // its plans are in the file beside it
   for (const Format format : {Format::cityjson, Format::cityjsonseq, Format::obj, Format::plans}) {
-    const auto back = read(written(city, format), format);
+    auto reader = formats::read_city(folder_ / "city.obj");
+    ASSERT_TRUE(reader) << to_string(reader.error());
+    const auto back = format == Format::obj ? formats::read_whole(**reader) : read(written(city, format), format);
     ASSERT_TRUE(back) << to_string(back.error());
     EXPECT_EQ(back->frame.crs, city.frame.crs);
     EXPECT_EQ(back->frame.origin, city.frame.origin);

@@ -47,8 +47,8 @@ class Reconstruct(WithFolder):
         city = mansard.reconstruct(MESH, FOOTPRINTS)
         compared = 0
         for path in sorted((self.folder / "cli").iterdir()):
-            if not path.name.startswith("model") or path.suffix == ".mtl":
-                continue
+            if not path.name.startswith("model") or path.suffix == ".mtl" or path.name.endswith(".plans.jsonl"):
+                continue  # beside the OBJ
             city.write(self.folder / path.name)
             if path.is_dir():
                 for file in sorted(path.rglob("*")):
@@ -60,6 +60,8 @@ class Reconstruct(WithFolder):
             self.assertEqual((self.folder / path.name).read_bytes(), path.read_bytes(), path.name)
             compared += 1
         self.assertGreaterEqual(compared, 8)
+        for beside in ("model.mtl", "model.plans.jsonl"):
+            self.assertEqual((self.folder / beside).read_bytes(), (self.folder / "cli" / beside).read_bytes(), beside)
         report = json.loads((self.folder / "cli" / "run.json").read_text())
         self.assertEqual(city.report["buildings"], report["buildings"])
 

@@ -367,7 +367,7 @@ TEST_F(Runs, export_the_bytes_that_extrude_makes_from_their_plans) {
       ASSERT_TRUE(compressed);
       EXPECT_EQ(bytes == *compressed, true) << name;
     }
-  EXPECT_EQ(fetched, written_formats().size() + 1) << "an OBJ has two files";
+  EXPECT_EQ(fetched, written_formats().size() + 2) << "an OBJ has three files";
   EXPECT_THAT(read(folder / "plans.json"), HasSubstr("ms_edited"));
   EXPECT_THAT(server.get("/api/runs/run-1/export/segment.gpkg").text, testing::StartsWith("SQLite format 3"));
   EXPECT_EQ(server.get("/api/runs/run-1/export/run.json").code(), "server-unknown");

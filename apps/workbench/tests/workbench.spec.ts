@@ -239,7 +239,7 @@ test("models of an earlier run are opened, edited and exported", async ({ clean:
   await expect(menuItem(page, "segment.gpkg"), "imported models have no layers").toHaveCount(0);
   await picture(page, "export");
   await page.getByRole("menuitem", { name: /^All files/ }).click();
-  await expect(page.getByText(/10 files written to/)).toBeVisible();
+  await expect(page.getByText(/14 files written to/)).toBeVisible();
   const exports = readdirSync(join(folder, "project/exports/run-1"));
   expect(exports.sort()).toContain("model.3dtiles");
 });

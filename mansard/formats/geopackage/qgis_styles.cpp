@@ -70,6 +70,9 @@ constexpr std::array walls{
     Case{"wall", "Wall", {of(model::FaceClass::wall), of(model::FaceClass::wall), 0.6}},
     Case{"party_wall", "Party wall", {of(model::FaceClass::party_wall), of(model::FaceClass::party_wall), 0.6}},
 };
+// Seen from above, the faces of a solid are drawn over each other.
+constexpr std::array solids{Case{nullptr, "Solid", {of(model::FaceClass::roof, 60), of(model::FaceClass::wall), 0.2}}};
+constexpr std::array grounds{Case{nullptr, "Ground", {of(model::FaceClass::ground, 140), ink, 0.2}}};
 constexpr std::array evidence{
     Case{"wall", "Wall", {none, blue, 0.4}},
     Case{"roof step", "Roof step", {none, amber, 0.4}},
@@ -105,6 +108,14 @@ constexpr std::array styles{
     LayerStyle{"segment_edges", "chosen", "Edges by whether they were chosen", chosen},
     LayerStyle{"roof_planes", "class", "Roofs by class", roofs},
     LayerStyle{"walls", "class", "Walls by class", walls},
+    LayerStyle{"solids_lod12", nullptr, "Solids of LoD 1.2", solids},
+    LayerStyle{"solids_lod13", nullptr, "Solids of LoD 1.3", solids},
+    LayerStyle{"solids_lod20", nullptr, "Solids of LoD 2.0", solids},
+    LayerStyle{"solids_lod22", nullptr, "Solids of LoD 2.2", solids},
+    LayerStyle{"ground_lod12", nullptr, "Ground of the solids of LoD 1.2", grounds},
+    LayerStyle{"ground_lod13", nullptr, "Ground of the solids of LoD 1.3", grounds},
+    LayerStyle{"ground_lod20", nullptr, "Ground of the solids of LoD 2.0", grounds},
+    LayerStyle{"ground_lod22", nullptr, "Ground of the solids of LoD 2.2", grounds},
     LayerStyle{"sweep_edges", "evidence", "Edges by what they were seen by", evidence},
     LayerStyle{"faces", "inside", "Faces by whether they are inside", inside},
     LayerStyle{"conflicts", "paid", "Bad pairs by whether both were cut", paid},
@@ -326,7 +337,8 @@ auto add_row(OGRLayer& layer, const QgisStyle& style, OGRLayer& table) -> bool {
 
 auto style_of(OGRLayer& layer) -> std::optional<QgisStyle> {
   const auto type = wkbFlatten(layer.GetGeomType());
-  const bool area = type == wkbPolygon || type == wkbMultiPolygon;
+  // QGIS reads polyhedral surfaces as polygons.
+  const bool area = type == wkbPolygon || type == wkbMultiPolygon || type == wkbPolyhedralSurface;
   if (!area && type != wkbLineString && type != wkbMultiLineString) return std::nullopt;
   for (const LayerStyle& style : styles) {
     if (std::string_view(layer.GetName()) != style.layer) continue;

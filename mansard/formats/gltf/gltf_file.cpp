@@ -502,7 +502,7 @@ auto GltfFile::write(base::Sink& sink, const std::string& generator, std::string
   }
   if (textured_) {
     const std::size_t chunks = compress_ ? packed_chunks_ : 1;
-    append_images(json, chunks * views() + parts.views().size() + surfaces.views().size());
+    append_images(json, chunks * views() + parts.views().size() + surfaces.views().size() + plans.views().size());
   }
   if (binary > 0) {
     json.key("bufferViews").begin_array();
