@@ -1,7 +1,7 @@
 // Small files that ask for much: for memory, for time, for the stack, or for what is no file. What fuzzers find is
 // replayed from fuzz/corpus; here stand those that one has to understand.
 #include <gmock/gmock.h>
-#include <stdlib.h>
+#include <cstdlib>
 
 #include "ingest/gltf_workshop.hpp"
 #include "mansard/ingest/model.hpp"

@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 #include <netinet/in.h>
 #include <poll.h>
-#include <stdlib.h>
 #include <sys/socket.h>
 #include <unistd.h>
+#include <cstdlib>
 
 #include "ingest/gltf_workshop.hpp"
 #include "mansard/formats/files/reach.hpp"

@@ -22,9 +22,9 @@ export function numbers(first: RunSummary, second: RunSummary): NumberRow[] {
     less: boolean | null = true,
   ): NumberRow => ({ name, unit, digits, first: of(first) ?? null, second: of(second) ?? null, less });
   const rows = [
-    row("RMSE over the footprints", "m", 3, (r) => rmse(scoresOf(r).scores?.footprint_mse)),
-    row("RMSE inside the footprints", "m", 3, (r) => rmse(scoresOf(r).scores?.inside_mse)),
-    row("RMSE where both have a surface", "m", 3, (r) => rmse(scoresOf(r).scores?.mse)),
+    row("RMSE, footprints", "m", 3, (r) => rmse(scoresOf(r).scores?.footprint_mse)),
+    row("RMSE, inside them", "m", 3, (r) => rmse(scoresOf(r).scores?.inside_mse)),
+    row("RMSE, whole box", "m", 3, (r) => rmse(scoresOf(r).scores?.mse)),
     row("Median absolute error", "m", 3, (r) => scoresOf(r).scores?.footprint_median_absolute),
     row("Missed", "m²", 1, (r) => scoresOf(r).scores?.missed),
     row("Invented", "m²", 1, (r) => scoresOf(r).scores?.invented),
