@@ -20,8 +20,12 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Each listener may occupy a thread; the others answer requests.
-constexpr std::size_t threads = 2 * Events::most_listeners;
+/// Each listener may occupy a thread, and so does a connection on which a request has begun to arrive, until the time
+/// limit ends it: forty of those a second leave some threads to answer others. An idle thread costs its stack's pages.
+constexpr std::size_t threads = 256;
+/// Seconds for the next bytes of a request to arrive. Connections on which nothing arrives are left to the kernel for
+/// as long, and occupy no thread.
+constexpr int arrival_limit = 5;
 /// Maximum length of a path in characters; the library's regular expressions use stack for each of them.
 constexpr std::size_t maximum_path = 1024;
 /// Bytes of a refused body that are read before the answer, so that a client that is still sending receives it.
@@ -122,8 +126,10 @@ class Web {
     http_.set_socket_options([](socket_t socket) {
       const int yes = 1;
       ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+      ::setsockopt(socket, IPPROTO_TCP, TCP_DEFER_ACCEPT, &arrival_limit, sizeof arrival_limit);
     });
     http_.set_tcp_nodelay(true);
+    http_.set_read_timeout(arrival_limit);
     http_.set_keep_alive_max_count(100'000);
     // Seconds. Browsers reuse connections, and a busy one may send on a connection that was just closed; but each idle
     // connection occupies a thread.
