@@ -441,5 +441,18 @@ TEST_F(Terrace, files_that_name_each_other_are_downloaded_together_under_their_n
   EXPECT_TRUE(fs::exists(folder_ / "both" / material)) << material;
 }
 
+TEST_F(Terrace, models_that_were_edited_exported_and_opened_again_keep_their_mark) {
+  ASSERT_EQ(server_->post("/api/runs/run-1/edits", lift(building(0), 1)).status, 200);
+  for (const std::string name : {"model.city.json", "model.glb", "model.gpkg"}) {
+    write(folder_ / name, server_->get("/api/runs/run-1/export/" + name).text);
+    const auto reply = server_->post("/api/runs/import", {{"path", (folder_ / name).string()}});
+    ASSERT_EQ(reply.status, 200) << reply.text;
+    server_->settle();
+    const auto buildings = server_->buildings(reply.json()["run"])["buildings"];
+    ASSERT_EQ(buildings.size(), 3U) << name;
+    for (const auto& one : buildings) EXPECT_EQ(one["edited"], one["id"] == "a") << name << " " << one["id"];
+  }
+}
+
 }  // namespace
 }  // namespace mansard::server
