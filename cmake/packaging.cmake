@@ -71,6 +71,7 @@ endif()
 
 # ---- the program, and what it says of itself
 install(TARGETS mansard COMPONENT program)
+install(TARGETS mansard_reader DESTINATION libexec/mansard COMPONENT program)
 add_custom_command(OUTPUT ${made}/mansard.1.gz ${made}/mansard.bash ${made}/_mansard ${made}/mansard.fish
   COMMAND mansard manual > ${made}/mansard.1
   COMMAND ${GZIP} -9nf ${made}/mansard.1

@@ -6,6 +6,7 @@
 #include "mansard/formats/files/virtual_files.hpp"
 #include "mansard/formats/mesh/mesh_file.hpp"
 #include "mansard/formats/mesh/mesh_formats.hpp"
+#include "mansard/formats/osgb/osgb_file.hpp"
 
 namespace mansard::formats {
 namespace {
@@ -31,6 +32,27 @@ auto gltf(const MeshBytes& source, MeshPiece& piece) -> base::Result<RawMesh> {
   if (read->centre)
     for (auto& v : read->mesh.vertices) v = v + *read->centre;
   return std::move(read->mesh);
+}
+
+/// By its file extension; the axis that the user says is stronger than that of the file.
+auto assimp(const MeshBytes& source, MeshPiece& piece) -> base::Result<RawMesh> {
+  auto read = read_by_assimp(source.bytes, source.path.string(), extension_of(source.path).substr(1));
+  if (!read) return read.failure();
+  piece.warnings = std::move(read->warnings);
+  if ((source.up == UpAxis::automatic ? read->up : source.up) == UpAxis::y)
+    for (auto& v : read->mesh.vertices) v = {v.x, -v.z, v.y};
+  return std::move(read->mesh);
+}
+
+auto osgb(const MeshBytes& source, MeshPiece& piece) -> base::Result<RawMesh> {
+  auto read = read_osgb(source.bytes, source.path, false);
+  if (!read) return read.failure();
+  piece.inputs.insert(piece.inputs.end(), read->inputs.begin(), read->inputs.end());
+  piece.warnings = std::move(read->mesh.warnings);
+  auto& mesh = read->mesh.mesh;
+  if (source.up == UpAxis::y)
+    for (auto& v : mesh.vertices) v = {v.x, -v.z, v.y};
+  return RawMesh{std::move(mesh.vertices), std::move(mesh.triangles), read->short_faces, {}};
 }
 
 constexpr Reads mesh{.mesh = true}, points{.mesh = true, .points = true}, raster{.raster = true},
@@ -81,7 +103,7 @@ auto table() -> std::vector<Driver> {
        Format::geopackage,
        "GeoPackage: footprints, solids, edges and roof planes as layers.",
        {}},
-      {"stl", "STL", {".stl"}, {}, Format::stl, "Binary STL of closed shells.", {}},
+      {"stl", "STL", {".stl"}, mesh, Format::stl, "Binary STL of closed shells; read as text too.", {{}, true, assimp}},
       {"geojson",
        "GeoJSON",
        {".geojson"},
@@ -114,6 +136,15 @@ auto table() -> std::vector<Driver> {
       {"ply", "PLY", {".ply"}, mesh, {}, "Stanford PLY, text or binary.", {{"ply\n", "ply\r"}, false, z_up<read_ply>}},
       {"off", "OFF", {".off"}, mesh, {}, "Object File Format, text.", {{"OFF"}, true, z_up<read_off>}},
       {"gltf", "glTF", {".gltf"}, mesh, {}, "glTF 2.0 with its buffers beside it.", {{}, true, gltf}},
+      {"osgb",
+       "OSGB",
+       {".osgb"},
+       mesh,
+       {},
+       "OpenSceneGraph's binary format, with the levels of detail beside it.",
+       {{"\xA1\x0E\x91\x6C\x45\x45\xFB\x1A"}, false, osgb}},
+      {"fbx", "FBX", {".fbx"}, mesh, {}, "Autodesk's FBX, binary or text.", {{}, true, assimp}},
+      {"collada", "COLLADA", {".dae"}, mesh, {}, "COLLADA.", {{}, true, assimp}},
       {"las", "LAS", {".las"}, points, {}, "LAS 1.0 to 1.4: a point cloud.", {}},
       {"laz", "LAZ", {".laz"}, points, {}, "Compressed LAS: a file, COPC, or EPT, a folder with an ept.json.", {}},
       {"geotiff", "GeoTIFF", {".tif", ".tiff"}, raster, {}, "A raster of heights.", {}},

@@ -48,6 +48,10 @@ data=$scratch/root/usr/share/mansard/data
 "$mansard" reconstruct -q "$data/hall/mesh.off" "$data/hall/footprints.geojson" -o "$scratch/hall" > /dev/null ||
   fail "no hall"
 [[ -s $scratch/hall/model.city.json ]] || fail "no model"
+# Its reader of other formats is where it looks for it, and no other mansard-reader is in PATH.
+printf 'solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 9 0 0\nvertex 0 9 0\nendloop\nendfacet\nendsolid a\n' > "$scratch/a.stl"
+PATH=/usr/bin:/bin "$mansard" reconstruct -q "$scratch/a.stl" "$data/hall/footprints.geojson" -o "$scratch/none" 2>&1 |
+  grep -qF ingest-no-overlap || fail "STL is not read"
 
 # The Python package, from where it was unpacked.
 [[ $(dpkg-deb -f "$python" Depends) == *python3-numpy*libgdal* || $(dpkg-deb -f "$python" Depends) == *libgdal*python3-numpy* ]] ||

@@ -21,6 +21,7 @@ struct MeshPiece {
   RawMesh mesh;
   std::size_t vertices = 0, triangles = 0;  ///< what was of the mesh, where it has been put aside since
   std::vector<model::InputFile> inputs;
+  std::vector<base::Diagnostic> warnings;
   std::set<std::string> skipped;  ///< kinds of tiles that were not read
   std::optional<base::Diagnostic> failure;
 };

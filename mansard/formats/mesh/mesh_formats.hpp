@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "mansard/base/result.hpp"
 #include "mansard/formats/mesh/raw_mesh.hpp"
@@ -29,5 +30,15 @@ struct GltfMesh {
 /// glTF 2.0, binary or JSON, plain or compressed with Draco or meshopt; `path` leads to the buffers beside it. Fails
 /// with "file-missing" and "file-read" for those too.
 [[nodiscard]] auto read_gltf(std::string_view bytes, const std::filesystem::path& path) -> base::Result<GltfMesh>;
+
+struct AssimpMesh {
+  RawMesh mesh;           ///< in metres; of STL, in its own unit
+  UpAxis up = UpAxis::y;  ///< that of `mesh`, never automatic; STL, which does not say, is taken as z up
+  std::vector<base::Diagnostic> warnings;
+};
+/// What the Open Asset Import Library reads, in another process, by the file extension without its dot: "stl", "dae" or
+/// "fbx". In single precision, with a warning where that is coarse ("ingest-mesh-precision").
+[[nodiscard]] auto read_by_assimp(std::string_view bytes, const std::string& name, const std::string& extension)
+    -> base::Result<AssimpMesh>;
 
 }  // namespace mansard::formats

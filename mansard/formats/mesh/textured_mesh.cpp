@@ -11,6 +11,7 @@
 #include "mansard/formats/mesh/mesh_file.hpp"
 #include "mansard/formats/mesh/mesh_formats.hpp"
 #include "mansard/formats/mesh/textured_formats.hpp"
+#include "mansard/formats/osgb/osgb_file.hpp"
 #include "mansard/formats/tiles3d/tile_content.hpp"
 #include "mansard/formats/tiles3d/tileset.hpp"
 
@@ -83,6 +84,14 @@ void append(TexturedMesh& all, TexturedMesh more) {
 auto read_textured_file(const std::filesystem::path& path, UpAxis up) -> base::Result<TexturedMesh> {
   const auto extension = extension_of(path);
   const bool obj = extension == ".obj", gltf = extension == ".glb" || extension == ".gltf";
+  if (extension == ".osgb")
+    return guarded(path, &Bytes::of, [&](std::string_view bytes) -> base::Result<TexturedMesh> {
+      auto read = read_osgb(bytes, path, true);
+      if (!read) return read.failure();
+      if (up == UpAxis::y)
+        for (auto& v : read->mesh.mesh.vertices) v = {v.x, -v.z, v.y};
+      return std::move(read->mesh);
+    });
   if (!obj && !gltf) {
     auto piece = read_mesh_file(path, up);
     if (piece.failure) return *piece.failure;

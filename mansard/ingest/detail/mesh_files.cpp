@@ -5,6 +5,7 @@
 #include <gdal.h>
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "mansard/crs/gdal.hpp"
 #include "mansard/crs/gdal_messages.hpp"
@@ -16,6 +17,7 @@
 #include "mansard/formats/input_file.hpp"
 #include "mansard/formats/mesh/append.hpp"
 #include "mansard/formats/mesh/mesh_file.hpp"
+#include "mansard/formats/osgb/osgb_file.hpp"
 #include "mansard/formats/raster/raster.hpp"
 #include "mansard/ingest/detail/clean.hpp"
 
@@ -123,8 +125,13 @@ auto MeshReading::list_folder(const fs::path& folder) -> base::Result<void> {
     const std::vector<std::string> before(tilesets.begin(), tilesets.begin() + static_cast<std::ptrdiff_t>(i));
     if (!is_below(tilesets[i], before)) found.emplace_back(tilesets[i] + index.at(tilesets[i]));
   }
+  const std::set<fs::path> all(below->begin(), below->end());
+  // A tile of OSGB leads to its levels.
+  const auto is_level = [&](const fs::path& path) {
+    return formats::extension_of(path) == ".osgb" && all.contains(formats::tile_of_level(path));
+  };
   for (const auto& path : *below)
-    if (formats::is_mesh_name(path) && !is_below(path, tilesets)) found.push_back(path);
+    if (formats::is_mesh_name(path) && !is_below(path, tilesets) && !is_level(path)) found.push_back(path);
   if (found.empty())
     return base::error("ingest-mesh-empty",
                        "the folder holds no meshes; expected a tileset.json, or files with the extension " +
@@ -368,6 +375,7 @@ auto MeshReading::finish(const std::string& working, const std::optional<Box2>& 
       vertices += piece.mesh.vertices.size() + piece.vertices;
       triangles += piece.mesh.triangles.size() + piece.triangles;
       for (const auto& kind : piece.skipped) ++skipped[kind];
+      warnings_.insert(warnings_.end(), piece.warnings.begin(), piece.warnings.end());
       if (source.kind == Kind::file && piece.mesh.triangles.empty() && piece.triangles == 0 && sources_.size() > 1)
         warnings_.push_back(base::warning("ingest-mesh-no-faces", "the file adds no faces", piece.inputs.front().path));
       pieces.push_back(std::move(piece));
