@@ -3,10 +3,14 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <utility>
+#include <vector>
 
 namespace mansard::server {
 namespace {
@@ -34,6 +38,27 @@ auto write_all(int file, std::string_view bytes) -> bool {
 auto flush_folder(const fs::path& folder) -> bool {
   const Descriptor open(::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   return open.is_open() && ::fsync(open.number()) == 0;
+}
+
+auto same_bytes(const fs::path& a, const fs::path& b) -> bool {
+  std::error_code status;
+  if (fs::file_size(a, status) != fs::file_size(b, status) || status) return false;
+  std::ifstream first(a, std::ios::binary), second(b, std::ios::binary);
+  std::vector<char> left(std::size_t{1} << 20), right(left.size());
+  while (first && second) {
+    first.read(left.data(), static_cast<std::streamsize>(left.size()));
+    second.read(right.data(), static_cast<std::streamsize>(right.size()));
+    if (first.gcount() != second.gcount() || !std::equal(left.begin(), left.begin() + first.gcount(), right.begin()))
+      return false;
+  }
+  return first.eof() && second.eof();
+}
+
+/// Renames unless the new name is taken. Some file systems cannot rename so; a second name does the same there.
+auto rename_to_new(const fs::path& from, const fs::path& to) -> bool {
+  if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return true;
+  if (errno != EINVAL && errno != ENOSYS) return false;
+  return ::link(from.c_str(), to.c_str()) == 0 && ::unlink(from.c_str()) == 0;
 }
 
 /// A temporary name in the same folder, unique in this process. Other processes do not write here: projects are locked.
@@ -65,10 +90,21 @@ auto write_durably(const fs::path& path, std::string_view bytes) -> base::Result
   return file->finish();
 }
 
+auto name_taken(const fs::path& path) -> base::Diagnostic {
+  return base::error("server-exists",
+                     "the project has another file of this name, and inputs are never replaced; upload the file into "
+                     "another folder of the inputs (?folder=2), or rename it",
+                     path.string());
+}
+
 auto make_folder(const fs::path& path) -> base::Result<void> {
   if (::mkdir(path.c_str(), 0777) != 0) {
     std::error_code status;
-    if (errno == EEXIST && fs::is_directory(path, status)) return {};
+    if (errno == EEXIST && fs::is_directory(fs::symlink_status(path, status))) return {};
+    if (errno == EEXIST)
+      return base::error("file-write",
+                         "expected a folder, but this is a file or a symbolic link; move it away, then start again",
+                         path.string());
     return cannot("make this folder", path);
   }
   if (!flush_folder(path.parent_path())) return cannot("flush the folder of", path);
@@ -132,6 +168,18 @@ auto Arriving::finish() -> base::Result<void> {
   file_ = Descriptor();
   if (!flush_folder(path_.parent_path())) return cannot("flush the folder of", path_);
   return {};
+}
+
+auto Arriving::finish_new() -> base::Result<void> {
+  if (::fsync(file_.number()) != 0) return cannot("write", path_);
+  if (rename_to_new(beside_, path_)) {
+    file_ = Descriptor();
+    if (!flush_folder(path_.parent_path())) return cannot("flush the folder of", path_);
+    return {};
+  }
+  if (errno != EEXIST) return cannot("rename into place", path_);
+  if (same_bytes(beside_, path_)) return {};
+  return name_taken(path_);
 }
 
 }  // namespace mansard::server

@@ -30,11 +30,15 @@ class Descriptor {
 /// Writes a temporary file in the same folder, flushes it, renames it and flushes the folder. Fails with
 /// "file-write".
 [[nodiscard]] auto write_durably(const std::filesystem::path& path, std::string_view bytes) -> base::Result<void>;
-/// Makes the folder; its parent must exist. An existing folder is no error. Fails with "file-write".
+/// Makes the folder; its parent must exist. An existing folder is no error, a symbolic link is: what is written into
+/// the folder would go elsewhere. Fails with "file-write".
 [[nodiscard]] auto make_folder(const std::filesystem::path& path) -> base::Result<void>;
 /// Renames within one file system and flushes both parent folders. Fails with "file-write".
 [[nodiscard]] auto move_durably(const std::filesystem::path& from, const std::filesystem::path& to)
     -> base::Result<void>;
+
+/// "server-exists": an upload would replace this file.
+[[nodiscard]] auto name_taken(const std::filesystem::path& path) -> base::Diagnostic;
 
 /// A file to which lines are appended; each line is on disk before append() returns.
 class Journal {
@@ -62,6 +66,9 @@ class Arriving {
   [[nodiscard]] auto add(std::string_view bytes) -> base::Result<void>;
   [[nodiscard]] auto size() const -> std::uint64_t { return size_; }
   [[nodiscard]] auto finish() -> base::Result<void>;
+  /// As finish(), but an existing file is never replaced: it is kept if it has the same bytes, and otherwise the call
+  /// fails with "server-exists".
+  [[nodiscard]] auto finish_new() -> base::Result<void>;
 
  private:
   Arriving(std::filesystem::path path, std::filesystem::path beside, Descriptor file);

@@ -54,13 +54,17 @@ void remove_work_folders(const fs::path& exports) {
 auto exported(const model::City& city, const formats::WriteOptions& options, std::string_view file,
               const fs::path& work) -> base::Result<std::string> {
   for (const auto format : written_formats()) {
-    if (const auto own = files_of(format); std::ranges::find(own, file) == own.end()) continue;
+    const auto own = files_of(format);
+    // Files that name each other can be had as one ZIP, in which they keep their names.
+    const bool together = own.size() > 1 && file == own.front() + ".zip";
+    if (!together && std::ranges::find(own, file) == own.end()) continue;
     const WorkFolder folder(work);
     if (auto made = make_folder(folder.path()); !made) return made.error();
     const auto targets = formats::targets_in(folder.path(), {format});
     base::Outputs outputs;
     if (auto written = formats::write_models(city, targets, options, outputs); !written) return written.error();
     if (auto committed = outputs.commit(); !committed) return committed.error();
+    if (together) return zip_of(folder.path());
     return format == formats::Format::tiles ? zip_of(targets.front().path) : base::read_file(folder.path() / file);
   }
   return base::error("server-unknown", "unknown export file; /api/options lists the files of each format",

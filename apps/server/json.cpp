@@ -104,15 +104,17 @@ auto json_of(const report::Times& times) -> Json {
   return out;
 }
 
+auto json_of(const std::optional<RunScores>& scores) -> Json {
+  if (!scores) return nullptr;
+  return {{"mse", scores->mse},
+          {"footprint_mse", scores->footprint_mse},
+          {"footprint_median_absolute", scores->footprint_median_absolute},
+          {"inside_mse", scores->inside_mse},
+          {"missed", scores->missed},
+          {"invented", scores->invented}};
+}
+
 auto json_of(const RunRecord& run, std::size_t edits) -> Json {
-  Json scores = nullptr;
-  if (run.scores)
-    scores = {{"mse", run.scores->mse},
-              {"footprint_mse", run.scores->footprint_mse},
-              {"footprint_median_absolute", run.scores->footprint_median_absolute},
-              {"inside_mse", run.scores->inside_mse},
-              {"missed", run.scores->missed},
-              {"invented", run.scores->invented}};
   return {{"id", run.id},
           {"label", run.label},
           {"state", to_string(run.state)},
@@ -121,7 +123,7 @@ auto json_of(const RunRecord& run, std::size_t edits) -> Json {
           {"preset", run.preset},
           {"options", run.options},
           {"blocks", run.blocks},
-          {"scores", scores},
+          {"scores", json_of(run.scores)},
           {"times", json_of(run.times)},
           {"buildings", run.buildings},
           {"full", run.full},

@@ -27,6 +27,7 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] auto json_of(std::span<const base::Diagnostic> diagnostics) -> Json;
 [[nodiscard]] auto json_of(const Job& job) -> Json;
 [[nodiscard]] auto json_of(const MapInfo& map) -> Json;
+[[nodiscard]] auto json_of(const std::optional<RunScores>& scores) -> Json;
 /// RunSummary; `edits` are applied.
 [[nodiscard]] auto json_of(const RunRecord& run, std::size_t edits) -> Json;
 [[nodiscard]] auto json_of(const model::Plan& plan) -> Json;

@@ -34,7 +34,9 @@ auto Models::known(const edit::Change& change, const View& view) const -> base::
 /// Neighbours are taken with their changes in the same edit.
 auto Models::raised(const edit::Change& change, std::size_t at, const std::vector<edit::Change>& together,
                     const View& view, const OpenScene* scene) const -> edit::RaisedBuilding {
-  const auto box = box_of(change.parts);
+  const auto* member = scene == nullptr ? nullptr : scene->member_of(change.building);
+  auto box = box_of(change.parts);
+  if (member != nullptr) box.include(geometry::bounds(member->polygons));
   std::vector<model::Plan> neighbours;
   for (std::size_t b = 0; b < view.buildings.size(); ++b) {
     if (b == at) continue;
@@ -45,7 +47,12 @@ auto Models::raised(const edit::Change& change, std::size_t at, const std::vecto
     for (const auto& part : parts) neighbours.push_back(part.plan);
   }
   const auto* mesh = scene == nullptr ? nullptr : scene->rays_of(change.building);
-  return edit::raise(change.parts, {neighbours, view.buildings[at]->parts, mesh}, options_);
+  edit::Site site{neighbours, view.buildings[at]->parts, mesh};
+  if (member != nullptr) {
+    site.footprint = member->polygons;
+    site.ground = member->ground;
+  }
+  return edit::raise(change.parts, site, options_);
 }
 
 auto Models::preview(const std::vector<edit::Change>& changes, const OpenScene* scene) const

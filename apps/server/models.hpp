@@ -3,6 +3,7 @@
 //   models.cpp        queries, previews and proposals
 //   models_open.cpp   from the files of the run
 //   models_edits.cpp  edits, undo, redo
+//   models_scores.cpp the scores of the edited models
 #pragma once
 
 #include <cstdint>
@@ -21,6 +22,7 @@
 #include "apps/server/scene.hpp"
 #include "mansard/base/result.hpp"
 #include "mansard/edit/edit.hpp"
+#include "mansard/evaluate/evaluate.hpp"
 #include "mansard/geometry/points.hpp"
 #include "mansard/pipeline/pipeline.hpp"
 
@@ -55,12 +57,27 @@ class Models {
   /// Fails with "edit-building", "edit-part".
   [[nodiscard]] auto plan_of(const PartName& name) const -> base::Result<model::Plan>;
 
+  /// The plans of the buildings that were edited. Buildings that one edit changed together, as a merge does, are
+  /// together: half of such an edit may leave ground without a model.
+  [[nodiscard]] auto edited_plans() -> std::vector<std::vector<edit::Change>>;
+  /// The edit that gives buildings the plans of `wanted`; none if they have them. Fails with "edit-building".
+  [[nodiscard]] auto edit_to(const std::vector<edit::Change>& wanted, const std::string& what) const
+      -> base::Result<std::optional<edit::Edit>>;
   /// Fails with "edit-invalid", and as edit::History::apply and Journal::append do.
   [[nodiscard]] auto apply(edit::Edit edit, const OpenScene* scene) -> base::Result<Changed>;
   [[nodiscard]] auto undo(const OpenScene* scene) -> base::Result<Changed>;
   [[nodiscard]] auto redo(const OpenScene* scene) -> base::Result<Changed>;
   /// Measures the buildings that were edited while there was no scene; none if there were none.
   [[nodiscard]] auto measure(const OpenScene& scene) -> std::optional<Changed>;
+
+  /// The scores and the error map of the models as they are now, block by block; only blocks in which something changed
+  /// since the last call are measured again. `blocks`: the names of those that the run reconstructed.
+  struct Measured {
+    std::vector<std::shared_ptr<const evaluate::Comparison>> blocks;  ///< in the order of the names
+    std::size_t applied = 0;                                          ///< edits
+  };
+  [[nodiscard]] auto measured(const std::vector<std::string>& blocks, const SceneOrNone& scene)
+      -> base::Result<Measured>;
 
   /// The edited city, for export. Fails as edit::edited_city does.
   [[nodiscard]] auto edited(const SceneOrNone& scene) -> base::Result<std::shared_ptr<const model::City>>;
@@ -75,11 +92,13 @@ class Models {
     std::vector<edit::NamedPlan> parts;
     geometry::Box2 box;
     bool measured = false;
+    std::vector<model::LabelledSolid> models;
     Json json;  ///< Building
   };
   struct View {
     std::vector<std::shared_ptr<const Seen>> buildings;  ///< in the source's order
     Json history;
+    std::size_t applied = 0;   ///< edits
     std::uint64_t number = 0;  ///< of the state
   };
 
@@ -107,6 +126,14 @@ class Models {
 
   mutable std::mutex view_mutex_;
   std::shared_ptr<const View> view_;
+
+  struct Block {
+    std::vector<std::shared_ptr<const Seen>> buildings;  // that were measured
+    std::shared_ptr<const evaluate::Comparison> comparison;
+  };
+  std::mutex measured_mutex_;
+  SceneOrNone measured_with_;
+  std::map<std::string, Block, std::less<>> measured_;  // by name
 
   struct Export {
     std::uint64_t number = 0;

@@ -1,5 +1,6 @@
 // Models: edits, undo and redo, and what is shown after them.
 #include <algorithm>
+#include <set>
 
 #include "apps/server/model_boxes.hpp"
 #include "apps/server/models.hpp"
@@ -17,7 +18,10 @@ auto Models::publish(const std::vector<std::string>& changed, const OpenScene* s
   std::vector<edit::Change> now;
   for (const auto& id : changed) now.push_back({id, 0, *history_.parts(id)});
   for (const auto& building : before->buildings) {
-    const auto near_by = [&](const geometry::Box2& box) { return touch(box, building->box); };
+    auto own = building->box;  // a neighbour's error changes with what covers its footprint
+    if (const auto* member = scene == nullptr ? nullptr : scene->member_of(building->id); member != nullptr)
+      own.include(geometry::bounds(member->polygons));
+    const auto near_by = [&](const geometry::Box2& box) { return touch(box, own); };
     if (std::ranges::find(changed, building->id) == changed.end() && !building->parts.empty() &&
         std::ranges::any_of(boxes, near_by))
       now.push_back({building->id, 0, building->parts});
@@ -39,6 +43,7 @@ auto Models::publish(const std::vector<std::string>& changed, const OpenScene* s
     buildings.push_back(slot->json);
   }
   after->history = json_of(history_);
+  after->applied = history_.done();
   ++after->number;
   {
     const std::scoped_lock lock(view_mutex_);
@@ -70,6 +75,42 @@ auto Models::apply(edit::Edit edit, const OpenScene* scene) -> base::Result<Chan
   if (auto written = journal_.append(edit::journal_line(edit)); !written) return written.error();
   history_ = std::move(tried);
   return publish(changed, scene);
+}
+
+auto Models::edited_plans() -> std::vector<std::vector<edit::Change>> {
+  const std::scoped_lock lock(edits_);
+  std::vector<std::set<std::string>> groups;
+  for (std::size_t e = 0; e < history_.done(); ++e) {
+    std::set<std::string> together;
+    for (const auto& change : history_.edits()[e].changes) together.insert(change.building);
+    std::erase_if(groups, [&](const auto& group) {
+      const bool meets = std::ranges::any_of(group, [&](const auto& id) { return together.contains(id); });
+      if (meets) together.insert(group.begin(), group.end());
+      return meets;
+    });
+    groups.push_back(std::move(together));
+  }
+  std::vector<std::vector<edit::Change>> out;
+  for (const auto& group : groups) {
+    std::vector<edit::Change> changes;
+    for (const auto& id : group)
+      if (history_.edited(id)) changes.push_back({id, 0, *history_.parts(id)});
+    if (!changes.empty()) out.push_back(std::move(changes));
+  }
+  return out;
+}
+
+auto Models::edit_to(const std::vector<edit::Change>& wanted, const std::string& what) const
+    -> base::Result<std::optional<edit::Edit>> {
+  const auto now = view();
+  edit::Edit edit{what, {}};
+  for (const auto& change : wanted) {
+    const auto at = known(change, *now);
+    if (!at) return at.error();
+    const auto& building = *now->buildings[*at];
+    if (building.parts != change.parts) edit.changes.push_back({building.id, building.revision, change.parts});
+  }
+  return edit.changes.empty() ? std::optional<edit::Edit>() : std::optional(std::move(edit));
 }
 
 auto Models::step(base::Result<std::vector<std::string>> (edit::History::*one)(), std::string_view line,

@@ -20,12 +20,24 @@ auto number(const model::Attributes& attributes, std::string_view name) -> std::
   return std::nullopt;
 }
 
+/// Whether the building was edited before it was exported and opened again.
+auto has_mark(const model::Building& building) -> bool {
+  const auto marked = [](const model::Attributes& attributes) {
+    return std::ranges::any_of(attributes, [](const auto& one) {
+      const auto* flag = std::get_if<bool>(&one.second);
+      return one.first == edit::edited_mark && (flag == nullptr || *flag);
+    });
+  };
+  return marked(building.attributes) ||
+         std::ranges::any_of(building.parts, [&](const auto& part) { return marked(part.attributes); });
+}
+
 auto squared(const std::optional<double>& value) -> std::optional<double> {
   return value ? std::optional(*value * *value) : std::nullopt;
 }
 
 /// The run's city after the edits: plans and ids, without attributes.
-auto edited_plans(const model::City& city, const edit::History& history) -> model::City {
+auto city_after(const model::City& city, const edit::History& history) -> model::City {
   model::City out{city.frame, city.made_by, {}};
   for (const auto& building : city.buildings) {
     model::Building now{building.id, {}, {}, building.ground, {}};
@@ -112,19 +124,19 @@ auto Models::read_reports(const std::filesystem::path& path) -> base::Result<voi
   return {};
 }
 
-/// All plans at once, as for an export. Buildings without edits keep the error that the run measured.
+/// All plans at once, as for an export. With a scene, every building is measured over its footprint, edited or not;
+/// without one, buildings without edits keep the error that the run measured over their parts.
 auto Models::raise_all(const OpenScene* scene) -> base::Result<void> {
-  auto raised = pipeline::raise_plans(edited_plans(city_, history_), options_, {});
+  auto raised = pipeline::raise_plans(city_after(city_, history_), options_, {});
   if (!raised) return raised.failure();
   if (!raised->refused.empty()) return base::Failure{std::move(raised->refused)};
   auto view = std::make_shared<View>();
   view->history = json_of(history_);
+  view->applied = history_.done();
+  std::vector<edit::RaisedBuilding> buildings(city_.buildings.size());
   auto fell_short = raised->fell_short.begin();
   for (std::size_t b = 0; b < city_.buildings.size(); ++b) {
     auto& source = raised->city.buildings[b];
-    const bool edited = history_.edited(source.id);
-    const auto* mesh = edited && scene != nullptr ? scene->rays_of(source.id) : nullptr;
-    edit::RaisedBuilding building;
     for (std::size_t p = 0; p < source.parts.size(); ++p) {
       edit::RaisedPart part{source.parts[p].id, std::move(source.parts[p].model), extrude::Outcome::full, {}, {}, 0};
       if (fell_short != raised->fell_short.end() && fell_short->building == b && fell_short->part == p) {
@@ -133,17 +145,37 @@ auto Models::raise_all(const OpenScene* scene) -> base::Result<void> {
         ++fell_short;
       }
       part.volume = solid::volume(part.model->solid);
-      if (!edited) part.mse = squared(number(city_.buildings[b].parts[p].attributes, "ms_rmse_lod22"));
-      if (mesh != nullptr) {
-        const double mse = evaluate::error_over(part.model->solid, model::polygon_of(source.parts[p].plan), *mesh,
-                                                options_.evaluate.grid);
-        if (std::isfinite(mse)) part.mse = mse;
-      }
-      building.parts.push_back(std::move(part));
+      if (!history_.edited(source.id))
+        part.mse = squared(number(city_.buildings[b].parts[p].attributes, "ms_rmse_lod22"));
+      buildings[b].parts.push_back(std::move(part));
     }
-    building.mse = mean_error(building.parts);
-    view->buildings.push_back(seen(source.id, building, !edited || scene != nullptr));
   }
+  std::vector<geometry::Box2> boxes;
+  for (const auto& building : city_.buildings) boxes.push_back(box_of(*history_.parts(building.id)));
+  base::parallel_for(buildings.size(), [&](std::size_t b) {
+    auto& building = buildings[b];
+    const auto& source = raised->city.buildings[b];
+    const auto* mesh = scene == nullptr ? nullptr : scene->rays_of(source.id);
+    const auto* member = scene == nullptr ? nullptr : scene->member_of(source.id);
+    if (mesh == nullptr || member == nullptr) {
+      building.mse = mean_error(building.parts);
+      return;
+    }
+    if (history_.edited(source.id))
+      for (std::size_t p = 0; p < source.parts.size(); ++p) {
+        const double mse = evaluate::error_over(building.parts[p].model->solid, model::polygon_of(source.parts[p].plan),
+                                                *mesh, options_.evaluate.grid);
+        if (std::isfinite(mse)) building.parts[p].mse = mse;
+      }
+    const auto own = geometry::bounds(member->polygons);
+    std::vector<const model::Solid*> solids;
+    for (std::size_t other = 0; other < buildings.size(); ++other)
+      if (other == b || touch(own, boxes[other]))
+        for (const auto& part : buildings[other].parts) solids.push_back(&part.model->solid);
+    building.mse = evaluate::footprint_error(solids, *mesh, member->polygons, member->ground, options_.evaluate);
+  });
+  for (std::size_t b = 0; b < buildings.size(); ++b)
+    view->buildings.push_back(seen(city_.buildings[b].id, buildings[b], scene != nullptr));
   view_ = std::move(view);
   return {};
 }
@@ -156,9 +188,11 @@ auto Models::seen(const std::string& id, const edit::RaisedBuilding& raised, boo
   out->parts = *history_.parts(id);
   out->box = box_of(out->parts);
   out->measured = measured;
+  for (const auto& part : raised.parts)
+    if (part.model) out->models.push_back(*part.model);
   out->json = json_of(id, out->revision, out->parts, raised);
   out->json.update(reports_[index_.find(id)->second]);
-  out->json["edited"] = history_.edited(id);
+  out->json["edited"] = history_.edited(id) || has_mark(city_.buildings[index_.find(id)->second]);
   return out;
 }
 

@@ -8,13 +8,20 @@
 #include "mansard/report/layers.hpp"
 
 namespace mansard::server {
-namespace {
 
 auto bytes_of(const std::vector<float>& values) -> std::string {
   return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)};
 }
 
-}  // namespace
+auto scores_of(const evaluate::Scores& s) -> RunScores {
+  return {s.mse, s.footprint_mse, s.footprint_median_absolute, s.inside.mse, s.missed, s.invented};
+}
+
+auto scores_of(const std::vector<std::shared_ptr<const evaluate::Comparison>>& blocks) -> RunScores {
+  std::vector<evaluate::Scores> scores;
+  for (const auto& block : blocks) scores.push_back(block->scores);
+  return scores_of(evaluate::combined(scores));
+}
 
 void count_models(const std::vector<report::BuildingReport>& reports, const model::City& city, RunRecord& record) {
   record.buildings = reports.size();
@@ -43,9 +50,7 @@ auto reconstruct(const OpenScene& scene, RunRecord record, const base::Run& how)
       scene.scene().frame);
   if (!layers) return layers.error();
   RunOutcome out{std::move(record), {}};
-  const auto& s = result->scores;
-  out.record.scores =
-      RunScores{s.mse, s.footprint_mse, s.footprint_median_absolute, s.inside.mse, s.missed, s.invented};
+  out.record.scores = scores_of(result->scores);
   out.record.times = result->times;
   count_models(result->buildings, result->city, out.record);
   out.files.emplace_back("report.json", report::run_json(*result, scene.scene()));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,8 +11,15 @@
 #include "apps/server/scene.hpp"
 #include "mansard/base/result.hpp"
 #include "mansard/base/run.hpp"
+#include "mansard/evaluate/evaluate.hpp"
 
 namespace mansard::server {
+
+/// The scores of blocks as those of the run.
+[[nodiscard]] auto scores_of(const evaluate::Scores& scores) -> RunScores;
+[[nodiscard]] auto scores_of(const std::vector<std::shared_ptr<const evaluate::Comparison>>& blocks) -> RunScores;
+/// The values of an error map as bytes.
+[[nodiscard]] auto bytes_of(const std::vector<float>& values) -> std::string;
 
 /// File name of an error map: "error-3.bin".
 [[nodiscard]] auto error_name(std::size_t map) -> std::string;

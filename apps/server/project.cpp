@@ -169,6 +169,31 @@ auto unreadable(const std::string& why, const fs::path& path) -> base::Diagnosti
                      path.string());
 }
 
+/// One damaged run does not keep the others from being opened.
+auto read_run(const fs::path& path, const std::string& id) -> RunRecord {
+  std::string why;
+  if (const auto text = base::read_file(path); !text) {
+    why = text.error().message;
+  } else {
+    try {
+      auto run = record_of(Json::parse(*text));
+      run.id = id;
+      return run;
+    } catch (const std::exception& e) {
+      why = e.what();
+    }
+  }
+  RunRecord run;
+  run.id = run.label = id;
+  run.state = State::failed;
+  run.damaged = true;
+  run.failure = base::error("server-damaged",
+                            "the record of this run cannot be read: " + base::on_one_line(why) +
+                                "; restore the file from a backup and start the server again, or delete the run",
+                            path.string());
+  return run;
+}
+
 /// Whether the folder is empty except for what an interrupted first start leaves: the lock and temporary files.
 auto is_unused(const fs::path& folder) -> bool {
   std::error_code status;
@@ -289,14 +314,7 @@ auto Project::runs() -> base::Result<std::vector<RunRecord>> {
     const auto path = folder_ / "runs" / ("run-" + std::to_string(number)) / run_file;
     std::error_code status;
     if (!fs::exists(path, status)) continue;
-    const auto text = base::read_file(path);
-    if (!text) return text.error();
-    try {
-      runs.push_back(record_of(Json::parse(*text)));
-      runs.back().id = "run-" + std::to_string(number);
-    } catch (const std::exception& e) {
-      return unreadable(e.what(), path);
-    }
+    runs.push_back(read_run(path, "run-" + std::to_string(number)));
     if (over(runs.back().state)) continue;
     runs.back().state = State::interrupted;
     if (auto saved = save(runs.back()); !saved) return saved.error();

@@ -78,6 +78,7 @@ struct RunRecord {
   report::Times times;
   std::size_t buildings = 0, full = 0, parts = 0, faces = 0;
   std::vector<MapInfo> maps;
+  bool damaged = false;  ///< its file cannot be read: `failure` says why, and the file is left as it is
 };
 
 class Project {
@@ -94,7 +95,8 @@ class Project {
   /// Passwords are kept in memory only.
   [[nodiscard]] auto save(const Inputs& inputs) -> base::Result<void>;
 
-  /// Sorted by number. Runs that had not ended when the last server ended become "interrupted", also on disk. A folder
+  /// Sorted by number. A run whose record cannot be read is listed as failed, with "server-damaged", and its file is
+  /// left as it is. Runs that had not ended when the last server ended become "interrupted", also on disk. A folder
   /// without a run.json, as a crash leaves it, is ignored.
   [[nodiscard]] auto runs() -> base::Result<std::vector<RunRecord>>;
   /// The id of a new run; its folder is created. Ids of deleted runs are not used again.

@@ -215,6 +215,10 @@ auto read_export(std::string_view body) -> base::Result<ExportRequest> {
   });
 }
 
+auto read_from(std::string_view body) -> base::Result<std::string> {
+  return reading(body, [](const Item& item) { return item.object({"from"}).member("from").text(); });
+}
+
 auto read_nothing(std::string_view body) -> base::Result<void> {
   if (body.empty()) return {};
   const auto read = reading(body, [](const Item& item) { return item.object({}).json.empty(); });

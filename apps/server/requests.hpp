@@ -56,6 +56,8 @@ using MergeRequest = std::pair<PartName, PartName>;
 [[nodiscard]] auto read_merge(std::string_view body) -> base::Result<MergeRequest>;
 [[nodiscard]] auto read_export(std::string_view body) -> base::Result<ExportRequest>;
 /// For calls without parameters: the body is empty or {}.
+/// The run whose edits are carried over.
+[[nodiscard]] auto read_from(std::string_view body) -> base::Result<std::string>;
 [[nodiscard]] auto read_nothing(std::string_view body) -> base::Result<void>;
 
 /// Checks that the plan has the edge and that the share is from 0 to 1. Fails with "server-body".

@@ -91,6 +91,8 @@ auto table() -> std::vector<Route> {
        [](auto& w, const auto& call) { return w.buildings(run_of(call)); }},
       {"GET", "/api/runs/{run}/layers", nothing, gives,
        [](auto& w, const auto& call) { return w.layers(run_of(call)); }},
+      {"GET", "/api/runs/{run}/scores", nothing, gives,
+       [](auto& w, const auto& call) { return w.scores(run_of(call)); }},
       {"GET", "/api/runs/{run}/error", nothing, gives,
        [](auto& w, const auto& call) { return w.error_maps(run_of(call)); }},
       {"GET", "/api/runs/{run}/error/{block}", nothing, bytes,
@@ -107,6 +109,9 @@ auto table() -> std::vector<Route> {
       {"POST", "/api/runs/{run}/edits", sends, gives,
        with(read_edit,
             [](auto& w, const auto& call, auto edit) { return w.apply(run_of(call), std::move(edit), call.client); })},
+      {"POST", "/api/runs/{run}/edits/carry-over", sends, gives,
+       with(read_from,
+            [](auto& w, const auto& call, auto from) { return w.carry_over(run_of(call), from, call.client); })},
       {"POST", "/api/runs/{run}/undo", sends, gives, without_body(&Workspace::undo)},
       {"POST", "/api/runs/{run}/redo", sends, gives, without_body(&Workspace::redo)},
       {"GET", "/api/runs/{run}/export/{file}", nothing, bytes,
@@ -143,7 +148,7 @@ auto matches(const Route& route, const std::vector<std::string_view>& words, Wor
 
 /// The HTTP status of a diagnostic code.
 auto status_of(std::string_view code) -> int {
-  static constexpr std::array<std::pair<std::string_view, int>, 26> known{{
+  static constexpr std::array<std::pair<std::string_view, int>, 29> known{{
       {"server-body", 400},    {"option-value", 400},     {"option-unknown", 400},
       {"file-missing", 400},   {"server-upload", 400},    {"server-token", 401},
       {"server-host", 403},    {"server-origin", 403},    {"server-path", 404},
@@ -152,7 +157,8 @@ auto status_of(std::string_view code) -> int {
       {"server-method", 405},  {"edit-stale", 409},       {"edit-nothing", 409},
       {"server-busy", 409},    {"server-inputs", 409},    {"server-input", 400},
       {"file-read", 400},      {"server-not-done", 409},  {"output-exists", 409},
-      {"server-large", 413},   {"server-listeners", 503},
+      {"server-large", 413},   {"server-listeners", 503}, {"server-exists", 409},
+      {"server-changed", 409}, {"server-damaged", 409},
   }};
   const auto at = std::ranges::find(known, code, &std::pair<std::string_view, int>::first);
   if (at != known.end()) return at->second;

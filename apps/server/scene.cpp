@@ -43,9 +43,7 @@ auto OpenScene::read(const Inputs& inputs, const base::Run& run) -> base::Result
   return std::shared_ptr<const OpenScene>(out);
 }
 
-auto OpenScene::has_block(std::string_view name) const -> bool {
-  return std::ranges::any_of(blocks_, [&](const auto& block) { return block.name == name; });
-}
+auto OpenScene::has_block(std::string_view name) const -> bool { return block_named(name) != nullptr; }
 
 auto OpenScene::tile_bytes(const std::string& id) const -> std::optional<std::string> {
   static_assert(std::endian::native == std::endian::little);
@@ -67,6 +65,20 @@ auto OpenScene::rays_of(std::string_view building) const -> const rays::Scene* {
   auto& prepared = prepared_[at->second];
   std::call_once(prepared.once_rays, [&] { prepared.rays = std::make_unique<rays::Scene>(blocks_[at->second].mesh); });
   return prepared.rays.get();
+}
+
+auto OpenScene::member_of(std::string_view building) const -> const block::Member* {
+  const auto at = block_of_.find(building);
+  if (at == block_of_.end()) return nullptr;
+  const auto& members = blocks_[at->second].members;
+  const auto found =
+      std::ranges::find(members, building, [&](const auto& member) { return scene_.feature(member.feature).id; });
+  return found == members.end() ? nullptr : &*found;
+}
+
+auto OpenScene::block_named(std::string_view name) const -> const block::Block* {
+  const auto at = std::ranges::find(blocks_, name, &block::Block::name);
+  return at == blocks_.end() ? nullptr : &*at;
 }
 
 auto OpenScene::section(const model::Plan& plan, std::size_t ring, std::size_t edge, double share,

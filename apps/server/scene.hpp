@@ -41,6 +41,10 @@ class OpenScene {
 
   /// The mesh around a building, prepared for ray casting on first use; null if there is none.
   [[nodiscard]] auto rays_of(std::string_view building) const -> const rays::Scene*;
+  /// A building's place in its block; null for an unknown one.
+  [[nodiscard]] auto member_of(std::string_view building) const -> const block::Member*;
+  /// The block of that name; null for an unknown one.
+  [[nodiscard]] auto block_named(std::string_view name) const -> const block::Block*;
   /// Section of openapi.json: the mesh across an edge of a plan. Without a building, the nearest block is used.
   [[nodiscard]] auto section(const model::Plan& plan, std::size_t ring, std::size_t edge, double share,
                              const std::optional<std::string>& building, const pipeline::Options& options) const

@@ -20,8 +20,12 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Each listener may occupy a thread; the others answer requests.
-constexpr std::size_t threads = 2 * Events::most_listeners;
+/// Each listener may occupy a thread, and so does a connection on which a request has begun to arrive, until the time
+/// limit ends it: forty of those a second leave some threads to answer others. An idle thread costs its stack's pages.
+constexpr std::size_t threads = 256;
+/// Seconds for the next bytes of a request to arrive. Connections on which nothing arrives are left to the kernel for
+/// as long, and occupy no thread.
+constexpr int arrival_limit = 5;
 /// Maximum length of a path in characters; the library's regular expressions use stack for each of them.
 constexpr std::size_t maximum_path = 1024;
 /// Bytes of a refused body that are read before the answer, so that a client that is still sending receives it.
@@ -122,8 +126,10 @@ class Web {
     http_.set_socket_options([](socket_t socket) {
       const int yes = 1;
       ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+      ::setsockopt(socket, IPPROTO_TCP, TCP_DEFER_ACCEPT, &arrival_limit, sizeof arrival_limit);
     });
     http_.set_tcp_nodelay(true);
+    http_.set_read_timeout(arrival_limit);
     http_.set_keep_alive_max_count(100'000);
     // Seconds. Browsers reuse connections, and a busy one may send on a connection that was just closed; but each idle
     // connection occupies a thread.
@@ -257,7 +263,10 @@ class Web {
       body.skip();
       out = refusal(route.error());
     } else if ((*route)->sends == Sends::file) {
-      out = upload(call, body);
+      std::optional<std::uint64_t> length;
+      if (const auto given = base::to_integer(header(request, "Content-Length")); given && *given >= 0)
+        length = static_cast<std::uint64_t>(*given);
+      out = upload(call, length, body);
     } else {
       bool fits = true;
       const bool whole = body.read([&](std::string_view piece) {
@@ -272,8 +281,10 @@ class Web {
     body.rest() ? put_and_close(out, response) : put(out, response);
   }
 
-  auto upload(const Call& call, Body& body) const -> Answer {
-    const auto path = workspace_.upload_path(call.captured.at("name"));
+  auto upload(const Call& call, const std::optional<std::uint64_t>& length, Body& body) const -> Answer {
+    const auto folder = call.query.find("folder");
+    const auto path = workspace_.upload_path(
+        call.captured.at("name"), folder == call.query.end() ? std::nullopt : std::optional(folder->second), length);
     auto file = path ? Arriving::open(*path) : base::Result<Arriving>(path.error());
     if (!file) {
       body.skip();
@@ -287,7 +298,7 @@ class Web {
     });
     if (why) return refusal(*why);
     if (!whole) return refusal(base::error("server-body", "the connection ended before the whole file was received"));
-    if (auto finished = file->finish(); !finished) return refusal(finished.error());
+    if (auto finished = file->finish_new(); !finished) return refusal(finished.error());
     return {200, "application/json", text_of({{"path", path->string()}}), {}};
   }
 

@@ -52,8 +52,12 @@ class Workspace {
 
   [[nodiscard]] auto open_inputs(const InputsRequest& request) -> Text;
   [[nodiscard]] auto open_sample() -> Text;
-  /// The path of an uploaded file. Fails with "server-upload".
-  [[nodiscard]] auto upload_path(const std::string& name) const -> base::Result<std::filesystem::path>;
+  /// The path of an uploaded file: in the folder of the inputs, or in one of its subfolders "2", "3" …, so that files
+  /// that belong together stay together when one of their names is taken. `length` in bytes, if known. Fails with
+  /// "server-upload", "server-exists" (another file has the name), "file-write".
+  [[nodiscard]] auto upload_path(const std::string& name, const std::optional<std::string>& folder,
+                                 const std::optional<std::uint64_t>& length) const
+      -> base::Result<std::filesystem::path>;
 
   [[nodiscard]] auto scene() const -> Text;
   [[nodiscard]] auto tiles() const -> Text;
@@ -67,8 +71,10 @@ class Workspace {
   [[nodiscard]] auto report(const std::string& run) const -> Text;
   [[nodiscard]] auto buildings(const std::string& run) -> Text;
   [[nodiscard]] auto layers(const std::string& run) const -> Text;
+  /// The scores of the run as it is now; as it was reconstructed if nothing was edited.
+  [[nodiscard]] auto scores(const std::string& run) -> Text;
   [[nodiscard]] auto error_maps(const std::string& run) const -> Text;
-  [[nodiscard]] auto error_map(const std::string& run, const std::string& block) const -> Text;
+  [[nodiscard]] auto error_map(const std::string& run, const std::string& block) -> Text;
 
   [[nodiscard]] auto section(const std::string& run, const PartName& part, std::size_t ring, std::size_t edge,
                              double share) -> Text;
@@ -77,6 +83,8 @@ class Workspace {
   [[nodiscard]] auto split(const std::string& run, const SplitRequest& request) -> Text;
   [[nodiscard]] auto merge(const std::string& run, const MergeRequest& request) -> Text;
   [[nodiscard]] auto apply(const std::string& run, edit::Edit edit, const std::string& client) -> Text;
+  /// Applies the edits of another run to this one, building by building; answers which could not be and why.
+  [[nodiscard]] auto carry_over(const std::string& run, const std::string& from, const std::string& client) -> Text;
   [[nodiscard]] auto undo(const std::string& run, const std::string& client) -> Text;
   [[nodiscard]] auto redo(const std::string& run, const std::string& client) -> Text;
 
@@ -110,6 +118,8 @@ class Workspace {
   [[nodiscard]] auto find(const std::string& run) -> Run*;
   [[nodiscard]] auto record(const std::string& run) const -> base::Result<RunRecord>;
   [[nodiscard]] auto done(const std::string& run) const -> base::Result<RunRecord>;
+  /// The run measured again after its edits; none if there are none, or it was imported and never measured.
+  [[nodiscard]] auto measured(const RunRecord& run) -> base::Result<std::optional<Models::Measured>>;
   [[nodiscard]] auto models(const std::string& run) -> base::Result<std::shared_ptr<Models>>;
   [[nodiscard]] auto layers_file(const std::string& run) const -> base::Result<std::optional<std::string>>;
 

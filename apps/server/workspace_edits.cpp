@@ -60,6 +60,48 @@ auto Workspace::redo(const std::string& run, const std::string& client) -> Text 
   return change(run, client, [](auto& models, const auto* scene) { return models.redo(scene); });
 }
 
+auto Workspace::carry_over(const std::string& run, const std::string& from, const std::string& client) -> Text {
+  if (run == from)
+    return base::error("server-body", "the edits are those of the same run; name another run in \"from\"", from);
+  const auto source = models(from);
+  if (!source) return source.error();
+  const auto target = models(run);
+  if (!target) return target.error();
+  const auto scene = scene_now();
+  std::string label = from;
+  if (const auto known = record(from)) label = known->label;
+  Json carried = Json::array(), refused = Json::array();
+  // Where a neighbour is in the way, its own edit may make room: what does not fit is tried again after the others.
+  auto left = (*source)->edited_plans();
+  std::vector<base::Diagnostic> why;
+  for (std::size_t before = left.size() + 1; left.size() < before;) {
+    before = left.size();
+    std::vector<std::vector<edit::Change>> again;
+    why.clear();
+    for (auto& wanted : left) {
+      std::string names;
+      for (const auto& one : wanted) names += (names.empty() ? "" : ", ") + one.building;
+      auto edit = (*target)->edit_to(wanted, "edit of " + names + " taken from " + label);
+      auto failure = edit ? std::optional<base::Diagnostic>() : std::optional(edit.error());
+      if (edit && *edit) {
+        const auto changed = (*target)->apply(std::move(**edit), scene.get());
+        if (changed) (void)send_change(run, *changed, client);
+        else failure = changed.error();
+      }
+      if (failure) {
+        failure->subject = names;
+        why.push_back(std::move(*failure));
+        again.push_back(std::move(wanted));
+      } else {
+        for (const auto& one : wanted) carried.push_back(one.building);
+      }
+    }
+    left = std::move(again);
+  }
+  for (const auto& one : why) refused.push_back(json_of(one));
+  return text_of({{"carried", std::move(carried)}, {"refused", std::move(refused)}});
+}
+
 auto Workspace::change(const std::string& run, const std::string& client,
                        const std::function<base::Result<Changed>(Models&, const OpenScene*)>& make) -> Text {
   const auto open = models(run);

@@ -142,6 +142,7 @@ auto Workspace::rename_run(const std::string& run, const std::string& label) -> 
     const std::scoped_lock lock(mutex_);
     auto* found = find(run);
     if (found == nullptr) return unknown_run(run);
+    if (found->record.damaged) return *found->record.failure;  // saving would replace what may be restored
     auto renamed = found->record;
     renamed.label = label;
     if (auto saved = project_.save(renamed); !saved) return saved.error();
@@ -172,14 +173,51 @@ auto Workspace::error_maps(const std::string& run) const -> Text {
   return text_of({{"maps", std::move(maps)}});
 }
 
-auto Workspace::error_map(const std::string& run, const std::string& block) const -> Text {
+auto Workspace::measured(const RunRecord& run) -> base::Result<std::optional<Models::Measured>> {
+  using None = std::optional<Models::Measured>;
+  if (run.maps.empty()) return None();
+  const auto open = models(run.id);
+  if (!open) return open.error();
+  {
+    const std::scoped_lock lock(mutex_);
+    const auto* found = find(run.id);
+    if (found == nullptr) return unknown_run(run.id);
+    if (found->edits == 0) return None();
+  }
+  const auto scene = scene_or_error();
+  if (!scene) return scene.error();
+  std::vector<std::string> blocks;
+  for (const auto& map : run.maps) blocks.push_back(map.block);
+  auto now = (*open)->measured(blocks, *scene);
+  if (!now) return now.error();
+  return None(std::move(*now));
+}
+
+auto Workspace::scores(const std::string& run) -> Text {
+  const auto known = done(run);
+  if (!known) return known.error();
+  auto now = measured(*known);
+  if (!now) return now.error();
+  auto scores = known->scores;
+  if (*now) scores = scores_of((*now)->blocks);
+  return text_of({{"edits", *now ? (*now)->applied : 0}, {"scores", json_of(scores)}});
+}
+
+auto Workspace::error_map(const std::string& run, const std::string& block) -> Text {
   const auto known = done(run);
   if (!known) return known.error();
   const auto at = std::ranges::find(known->maps, block, &MapInfo::block);
   if (at == known->maps.end())
     return base::error("server-unknown", "the run has no error map of this block; /api/runs/{run}/error lists them",
                        block);
-  return base::read_file(project_.run_folder(run) / error_name(static_cast<std::size_t>(at - known->maps.begin())));
+  const auto number = static_cast<std::size_t>(at - known->maps.begin());
+  const auto now = measured(*known);
+  if (!now) return now.error();
+  if (!*now) return base::read_file(project_.run_folder(run) / error_name(number));
+  const auto& map = (*now)->blocks[number]->map;
+  if (map.columns != at->columns || map.rows != at->rows)
+    return base::error("server-unknown", "the error map has another size than when the run was made", block);
+  return bytes_of(map.difference);
 }
 
 }  // namespace mansard::server

@@ -1,8 +1,8 @@
 // Workspace: inputs, and the scene that is read from them.
 #include <algorithm>
-#include <cctype>
 #include <utility>
 
+#include "apps/server/disk.hpp"
 #include "apps/server/inputs.hpp"
 #include "apps/server/workspace.hpp"
 #include "mansard/base/text.hpp"
@@ -12,10 +12,35 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether the name can be used in any folder: no separators, no leading dot.
+constexpr std::size_t maximum_name = 128;        // bytes; temporary names are longer, and file systems allow 255
+constexpr std::int64_t maximum_folders = 1'000;  // of uploads with equal names
+
+/// Whether the name is one file in any folder, can be shown, and can be typed on one line of a form: valid UTF-8
+/// without separators and control characters, no leading dot, no space at either end.
 auto is_safe_name(const std::string& name) -> bool {
-  const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '.' || c == '_' || c == '-'; };
-  return !name.empty() && name.size() <= 128 && name.front() != '.' && std::ranges::all_of(name, plain);
+  const auto plain = [](unsigned char c) { return c >= 0x20 && c != 0x7f && c != '/' && c != '\\'; };
+  if (name.empty() || name.size() > maximum_name || !std::ranges::all_of(name, plain)) return false;
+  if (name.front() == '.' || name.front() == ' ' || name.back() == ' ') return false;
+  try {
+    (void)Json(name).dump();
+  } catch (const Json::exception&) {
+    return false;  // not UTF-8
+  }
+  return true;
+}
+
+/// The first file that is not the one that was read before; none if all are. Databases have no hash.
+auto first_changed(const Inputs& before, const Inputs& now) -> std::optional<std::string> {
+  for (const auto files : {&Inputs::mesh_files, &Inputs::terrain_files, &Inputs::footprint_files}) {
+    const auto &old = before.*files, &read = now.*files;
+    for (const auto& file : read) {
+      const auto same = std::ranges::find(old, file.path, &KnownFile::path);
+      if (same == old.end() || same->sha256 != file.sha256) return file.path;
+    }
+    for (const auto& file : old)
+      if (std::ranges::find(read, file.path, &KnownFile::path) == read.end()) return file.path;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -56,14 +81,33 @@ auto Workspace::open_sample() -> Text {
   return open_inputs(*request);
 }
 
-auto Workspace::upload_path(const std::string& name) const -> base::Result<fs::path> {
+auto Workspace::upload_path(const std::string& name, const std::optional<std::string>& folder,
+                            const std::optional<std::uint64_t>& length) const -> base::Result<fs::path> {
   if (!is_safe_name(name))
     return base::error(
         "server-upload",
-        "this is not a valid file name; expected 1 to 128 characters (letters, digits, '.', '_', '-') and no "
-        "leading dot",
-        base::on_one_line(name.substr(0, 128)));
-  return project_.folder() / "inputs" / name;
+        "this is not a valid file name; expected 1 to " + std::to_string(maximum_name) +
+            " bytes of UTF-8 without '/', '\\' and control characters, no leading dot, and no space at either end",
+        base::on_one_line(name.substr(0, maximum_name)));
+  auto place = project_.folder() / "inputs";
+  if (auto made = make_folder(place); !made) return made.error();
+  if (folder) {
+    const auto number = base::to_integer(*folder);
+    if (!number || *number < 2 || *number > maximum_folders)
+      return base::error("server-upload",
+                         "the folder of an upload must be an integer from 2 to " + std::to_string(maximum_folders),
+                         base::on_one_line(folder->substr(0, maximum_name)));
+    place /= std::to_string(*number);
+    if (auto made = make_folder(place); !made) return made.error();
+  }
+  // Another size is known to be another file before anything is sent.
+  std::error_code status;
+  const auto path = place / name;
+  const auto kind = fs::symlink_status(path, status).type();
+  const bool other = kind == fs::file_type::regular ? length && fs::file_size(path, status) != *length
+                                                    : kind != fs::file_type::not_found;
+  if (other) return name_taken(path);
+  return path;
 }
 
 auto Workspace::start_reading(const Inputs& inputs, bool save) -> Job {
@@ -81,6 +125,13 @@ auto Workspace::read_scene(Inputs inputs, bool save, const base::Run& run) -> ba
   inputs = with_files(std::move(inputs), (*scene)->scene().inputs);
   {
     const std::scoped_lock lock(mutex_);
+    // Runs are shown over the files that they were made from, and over no others.
+    if (!runs_.empty() && project_.inputs())
+      if (const auto changed = first_changed(*project_.inputs(), inputs))
+        return base::error("server-changed",
+                           "this input has changed since the runs of the project were made from it; restore the file, "
+                           "delete the runs and read the inputs again, or start 'mansard serve' with another folder",
+                           *changed);
     // When a project is reopened its record stays as it is: it says which files the runs were made from.
     if (save)
       if (auto saved = project_.save(inputs); !saved) return saved;

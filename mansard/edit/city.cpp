@@ -9,8 +9,6 @@
 namespace mansard::edit {
 namespace {
 
-constexpr const char* edited_mark = "ms_edited";
-
 using model::Attributes;
 
 void set(Attributes& attributes, std::string_view name, model::Value value) {

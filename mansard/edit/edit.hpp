@@ -25,6 +25,9 @@
 
 namespace mansard::edit {
 
+/// The attribute of buildings and parts that were edited, in exported files.
+inline constexpr const char* edited_mark = "ms_edited";
+
 struct NamedPlan {
   std::string id;  ///< of the part; unique in its building
   model::Plan plan;
@@ -115,7 +118,9 @@ struct RaisedBuilding {
   /// Of the parts together, the subject the part's id: "edit-overlap" where they or `neighbours` share ground,
   /// "edit-duplicate-id".
   std::vector<base::Diagnostic> diagnostics;
-  std::optional<double> mse;  ///< m², over the parts, weighted by area
+  /// m², vertical: over the footprint as `mansard evaluate` measures it, ground without a model counting as missed, so
+  /// that an edit cannot lower the error by covering less. Over the parts, weighted by area, without a footprint.
+  std::optional<double> mse;
   /// Every part has a checked solid and nothing above is an error: may be written.
   [[nodiscard]] auto valid() const -> bool;
 };
@@ -125,7 +130,9 @@ struct Site {
   std::span<const model::Plan> neighbours;
   /// The building's parts as they stand: where these share ground already, as much of it is not held against a change.
   std::span<const NamedPlan> before;
-  const rays::Scene* mesh = nullptr;  ///< null: nothing is measured
+  const rays::Scene* mesh = nullptr;                  ///< null: nothing is measured
+  std::span<const geometry::Polygon> footprint = {};  ///< of the building
+  double ground = 0;                                  ///< z around the building, m
 };
 /// The parts as export and `mansard extrude` make them. Two parts overlap where more than 0.01 m² is left of what they
 /// share after a centimetre is taken off all around: seams of two surveys are no error, strips wider than 2 cm are.

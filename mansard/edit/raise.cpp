@@ -140,6 +140,18 @@ void find_overlaps(std::span<const NamedPlan* const> parts, std::span<const mode
   }
 }
 
+/// The error of the parts, weighted by their area.
+auto error_of_parts(std::span<const RaisedPart> parts) -> std::optional<double> {
+  double squared = 0, area = 0;
+  for (const auto& part : parts) {
+    if (!part.mse) continue;
+    const double ground = label::areas(*part.model).ground;
+    squared += *part.mse * ground;
+    area += ground;
+  }
+  return area > 0 ? std::optional(squared / area) : std::nullopt;
+}
+
 }  // namespace
 
 auto RaisedBuilding::valid() const -> bool {
@@ -152,7 +164,9 @@ auto raise(std::span<const NamedPlan> parts, const Site& site, const pipeline::O
     -> RaisedBuilding {
   base::Run inner = run;
   inner.progress = nullptr;
-  const auto box = box_of(parts).grown(options.label.party_distance + detail::snap);
+  auto box = box_of(parts);
+  if (!site.footprint.empty()) box.include(geometry::bounds(site.footprint));
+  box = box.grown(options.label.party_distance + detail::snap);
   std::vector<const model::Plan*> near;
   for (const auto& plan : site.neighbours)
     if (box.overlaps(geometry::bounds(plan.outer.points))) near.push_back(&plan);
@@ -191,14 +205,16 @@ auto raise(std::span<const NamedPlan> parts, const Site& site, const pipeline::O
     if (std::isfinite(mse)) part.mse = mse;
   });
 
-  double squared = 0, area = 0;
-  for (const auto& part : out.parts) {
-    if (!part.mse) continue;
-    const double ground = label::areas(*part.model).ground;
-    squared += *part.mse * ground;
-    area += ground;
+  if (site.mesh == nullptr || site.footprint.empty()) {
+    out.mse = error_of_parts(out.parts);
+  } else {
+    // Neighbours too: a part of theirs may cover some of the footprint, as after a merge.
+    std::vector<const model::Solid*> solids_near;
+    for (const auto& part : out.parts)
+      if (part.model) solids_near.push_back(&part.model->solid);
+    for (std::size_t i = sound.size(); i < labelled.size(); ++i) solids_near.push_back(&labelled[i].solid);
+    out.mse = evaluate::footprint_error(solids_near, *site.mesh, site.footprint, site.ground, options.evaluate);
   }
-  if (area > 0) out.mse = squared / area;
 
   std::set<std::string_view> ids;
   for (const auto& part : parts)

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -91,6 +92,12 @@ struct Comparison {
 [[nodiscard]] auto scores_over(const rays::Scene& model, const rays::Scene& mesh,
                                std::span<const geometry::Polygon> footprints, double ground, const Options& options)
     -> Scores;
+
+/// `footprint_mse` of scores_over for a surface of solids, m²; none where the mesh has no surface over the footprints.
+/// Solids that cannot be cut into triangles count as missed.
+[[nodiscard]] auto footprint_error(std::span<const model::Solid* const> solids, const rays::Scene& mesh,
+                                   std::span<const geometry::Polygon> footprints, double ground, const Options& options)
+    -> std::optional<double>;
 
 /// The footprints raised flat to one height: what any model has to be better than.
 struct Prism {

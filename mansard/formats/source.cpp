@@ -7,6 +7,7 @@
 
 #include "mansard/crs/gdal.hpp"
 #include "mansard/crs/gdal_messages.hpp"
+#include "mansard/formats/files/reach.hpp"
 #include "mansard/formats/files/virtual_files.hpp"
 #include "mansard/formats/raster/raster.hpp"
 
@@ -57,6 +58,7 @@ auto layer_of(OGRLayer& layer) -> SourceLayer {
 auto vector_source(const fs::path& path) -> base::Result<VectorSource> {
   if (path.string().find(':') == std::string::npos && !is_there(path)) return why_missing(path);
   const crs::GdalMessages messages;
+  const Offline offline(path);  // layers of some formats are opened when they are asked for
   const auto dataset = open(path, GDAL_OF_VECTOR);
   if (!dataset)
     return base::error("ingest-footprints-format",
@@ -77,6 +79,7 @@ auto vector_source(const fs::path& path) -> base::Result<VectorSource> {
 auto raster_source(const fs::path& path) -> base::Result<RasterSource> {
   if (!is_there(path)) return why_missing(path);
   const crs::GdalMessages messages;
+  const Offline offline(path);
   const auto dataset = open(path, GDAL_OF_RASTER);
   if (!dataset)
     return base::error("ingest-raster", "not a readable raster (" + messages.failure() + "); check what it is",

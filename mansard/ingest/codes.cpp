@@ -12,6 +12,12 @@ auto own_codes() -> std::vector<base::Code> {
        "Check the path. A mesh is a tileset.json, or a file with the extension " +
            formats::extensions_in_words(&formats::Reads::mesh) + ".",
        3},
+      {"ingest-outside",
+       "An input refers to a file outside its folder, or from a disk to a server. A file that somebody sent could so "
+       "show other files of this machine, or make the program call out.",
+       "Copy what it refers to into the folder, give that itself as the input, or set the environment variable "
+       "MANSARD_OUTSIDE=yes if the file is to be trusted.",
+       3},
       {"ingest-mesh-format", "A mesh file is not in its format, or uses a part of it that is not read.",
        "Export it again as one of " + formats::titles(&formats::Reads::mesh) + ".", 3},
       {"ingest-mesh-metadata", "The metadata.xml beside a mesh does not say clearly where it is.",

@@ -1,6 +1,7 @@
 // Small files that ask for much: for memory, for time, for the stack, or for what is no file. What fuzzers find is
 // replayed from fuzz/corpus; here stand those that one has to understand.
 #include <gmock/gmock.h>
+#include <cstdlib>
 
 #include "ingest/gltf_workshop.hpp"
 #include "mansard/ingest/model.hpp"
@@ -131,6 +132,7 @@ TEST_F(Hostile, draco_is_not_asked_for_more_faces_than_bytes_can_hold) {
 }
 
 TEST_F(Hostile, what_a_file_names_is_never_a_device) {
+  ::setenv("MANSARD_OUTSIDE", "yes", 1);  // otherwise nothing outside of the folder is opened at all
   const std::string up = "../../../../../../../../../../../../dev/zero";
   auto json = plain_gltf(3, 3);
   json["buffers"][0]["uri"] = up;
@@ -140,6 +142,7 @@ TEST_F(Hostile, what_a_file_names_is_never_a_device) {
   file("s.subtree", R"({"buffers":[{"uri":")" + up + R"("}],"bufferViews":[{"buffer":0,"byteLength":1}],
 "tileAvailability":{"bitstream":0}})");
   EXPECT_EQ(scan(file("c.json", implicit("{level}-{x}-{y}.glb", "s.subtree?{level}-{x}-{y}"))).code, "file-read");
+  ::unsetenv("MANSARD_OUTSIDE");
 }
 
 TEST_F(Hostile, a_tileset_that_is_twice_in_itself_is_found_at_once) {

@@ -98,7 +98,7 @@ TEST_F(Access, refuses_names_that_leave_their_folder) {
   const std::string secret = "not yours";
   write(folder_ / "secret.txt", secret);
   for (const std::string name : {"..", "%2e%2e", "..%2f..%2fsecret.txt", "%2e%2e%2fsecret.txt", ".hidden", "a%00b",
-                                 "a%2fb", "a%5cb", "%20", "a%0ab"}) {
+                                 "a%2fb", "a%5cb", "%20", "a%0ab", "%20a", "a%20", "a%7f", "a%ff"}) {
     const auto put = server_.call("PUT", "/api/uploads/" + name, "bytes");
     EXPECT_GE(put.status, 400) << name;
     const auto got = server_.get("/api/runs/run-1/export/" + name);
@@ -263,6 +263,43 @@ TEST(Serve, warns_when_other_machines_can_reach_it) {
   Running open(folder / "project", {"--address", "0.0.0.0"});
   EXPECT_THAT(open.complaint(), HasSubstr("other machines"));
   EXPECT_EQ(open.get("/api/status").status, 200);
+}
+
+/// Connections on which nothing, or half a request, arrives.
+class HalfOpen {
+ public:
+  HalfOpen(int port, std::size_t count, const std::string& begun) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const int s = ::socket(AF_INET, SOCK_STREAM, 0);
+      sockaddr_in to{};
+      to.sin_family = AF_INET;
+      to.sin_port = htons(static_cast<std::uint16_t>(port));
+      to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+      EXPECT_EQ(::connect(s, reinterpret_cast<sockaddr*>(&to), sizeof to), 0);
+      if (!begun.empty()) {
+        EXPECT_GT(::write(s, begun.data(), begun.size()), 0);
+      }
+      sockets_.push_back(s);
+    }
+  }
+  HalfOpen(const HalfOpen&) = delete;
+  auto operator=(const HalfOpen&) -> HalfOpen& = delete;
+  ~HalfOpen() {
+    for (const int s : sockets_) ::close(s);
+  }
+
+ private:
+  std::vector<int> sockets_;
+};
+
+TEST_F(Access, half_open_connections_do_not_keep_others_waiting) {
+  const HalfOpen begun(server_.port(), 100, "GET /api/status HTTP/1.1\r\n"), silent(server_.port(), 100, "");
+  // Threads that wait for the rest of a request are free after the time limit. An answer before that needs another.
+  httplib::Client client("127.0.0.1", server_.port());
+  client.set_read_timeout(3);
+  const auto answer = client.Get("/api/status", server_.headers());
+  ASSERT_TRUE(answer) << "no answer before the time limit of the half-open connections";
+  EXPECT_EQ(answer->status, 200);
 }
 
 }  // namespace

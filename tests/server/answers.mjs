@@ -163,6 +163,7 @@ await call("get", "/api/runs/{run}/report", { at: of });
 await call("get", "/api/runs/{run}/report", { at: { run: "run-2" }, expect: 409 });
 const { buildings } = await call("get", "/api/runs/{run}/buildings", { at: of });
 await call("get", "/api/runs/{run}/layers", { at: of });
+await call("get", "/api/runs/{run}/scores", { at: of });
 const { maps } = await call("get", "/api/runs/{run}/error", { at: of });
 await call("get", "/api/runs/{run}/error/{block}", { at: { ...of, block: maps[0].block } });
 
@@ -205,6 +206,7 @@ await call("get", "/api/runs/{run}/layers", { at: { run: "run-3" } });
 await call("get", "/api/runs/{run}/error", { at: { run: "run-3" } });
 await call("post", "/api/runs/import", { body: { path: openapi }, expect: 400 });
 await call("patch", "/api/runs/{run}", { at: of, body: { label: "renamed" } });
+await call("post", "/api/runs/{run}/edits/carry-over", { at: { run: "run-3" }, body: { from: "run-1" } });
 await call("delete", "/api/runs/{run}", { at: { run: "run-2" } });
 await call("post", "/api/runs/{run}/undo", { at: { run: "run-2" }, body: {}, expect: 404 });
 

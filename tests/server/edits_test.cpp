@@ -338,5 +338,121 @@ TEST_F(Terrace, reports_the_line_of_a_broken_journal) {
   EXPECT_EQ(server_->get("/api/status").status, 200);
 }
 
+/// The building with its first part scaled about the middle of its plan.
+auto shrunk(const Json& building, double by) -> Json {
+  Json parts = Json::array();
+  for (const auto& part : building["parts"]) parts.push_back({{"id", part["id"]}, {"plan", part["plan"]}});
+  auto& points = parts[0]["plan"]["outer"]["points"];
+  double x = 0, y = 0;
+  for (const auto& p : points) x += p[0].get<double>(), y += p[1].get<double>();
+  x /= static_cast<double>(points.size());
+  y /= static_cast<double>(points.size());
+  for (auto& p : points) p = {x + by * (p[0].get<double>() - x), y + by * (p[1].get<double>() - y)};
+  return {
+      {"what", "smaller"},
+      {"changes", Json::array({{{"building", building["id"]}, {"revision", building["revision"]}, {"parts", parts}}})}};
+}
+
+TEST_F(Terrace, errors_are_measured_over_the_footprint_so_that_removing_ground_never_helps) {
+  const auto building = server_->buildings("run-1")["buildings"][0];
+  const double before = building["mse"];
+  const auto preview = server_->post("/api/runs/run-1/preview", {{"changes", shrunk(building, 0.3)["changes"]}});
+  ASSERT_EQ(preview.status, 200) << preview.text;
+  EXPECT_GT(preview.json()["buildings"][0]["mse"].get<double>(), before + 1) << "metres of roof are missing";
+  const auto answer = server_->post("/api/runs/run-1/edits", shrunk(building, 0.3));
+  ASSERT_EQ(answer.status, 200) << answer.text;
+  EXPECT_GT(answer.json()["buildings"][0]["mse"].get<double>(), before + 1);
+}
+
+TEST_F(Terrace, the_scores_and_error_maps_of_a_run_follow_its_edits) {
+  const auto map_of = [&] {
+    const auto maps = server_->get("/api/runs/run-1/error").json()["maps"];
+    return server_->get("/api/runs/run-1/error/" + maps[0]["block"].get<std::string>()).text;
+  };
+  const auto first = server_->get("/api/project").json()["runs"][0]["scores"];
+  const auto map = map_of();
+  auto now = server_->get("/api/runs/run-1/scores").json();
+  EXPECT_EQ(now["edits"], 0);
+  EXPECT_EQ(now["scores"], first);
+  const auto building = server_->buildings("run-1")["buildings"][0];
+  ASSERT_EQ(server_->post("/api/runs/run-1/edits", lift(building, 2)).status, 200);
+  now = server_->get("/api/runs/run-1/scores").json();
+  EXPECT_EQ(now["edits"], 1);
+  // A third of the ground is 2 m too high: 4 m² there.
+  EXPECT_NEAR(now["scores"]["footprint_mse"].get<double>() - first["footprint_mse"].get<double>(), 4.0 / 3, 0.3);
+  EXPECT_NE(map_of(), map);
+  EXPECT_EQ(map_of().size(), map.size());
+  ASSERT_EQ(server_->call("POST", "/api/runs/run-1/undo", "{}").status, 200);
+  EXPECT_EQ(server_->get("/api/runs/run-1/scores").json()["scores"], first);
+  EXPECT_EQ(map_of(), map);
+}
+
+TEST_F(Terrace, edits_are_carried_over_to_another_run_where_they_fit) {
+  ASSERT_EQ(server_->reconstruct(), "run-2");
+  const auto buildings = server_->buildings("run-1")["buildings"];
+  ASSERT_EQ(server_->post("/api/runs/run-1/edits", lift(buildings[1], 1)).status, 200);
+  ASSERT_EQ(server_->post("/api/runs/run-1/edits", shrunk(buildings[2], 0.5)).status, 200);
+  const auto answer = server_->post("/api/runs/run-2/edits/carry-over", {{"from", "run-1"}});
+  ASSERT_EQ(answer.status, 200) << answer.text;
+  EXPECT_EQ(answer.json()["carried"].size(), 2U) << answer.text;
+  EXPECT_TRUE(answer.json()["refused"].empty()) << answer.text;
+  const auto from = server_->buildings("run-1")["buildings"], to = server_->buildings("run-2")["buildings"];
+  for (std::size_t b = 0; b < from.size(); ++b)
+    for (std::size_t p = 0; p < from[b]["parts"].size(); ++p)
+      EXPECT_EQ(from[b]["parts"][p]["plan"], to[b]["parts"][p]["plan"]) << b;
+  EXPECT_EQ(server_->post("/api/runs/run-2/edits/carry-over", {{"from", "run-2"}}).status, 400);
+  EXPECT_EQ(server_->post("/api/runs/run-2/edits/carry-over", {{"from", "run-9"}}).status, 404);
+}
+
+TEST_F(Terrace, edits_that_do_not_fit_another_run_are_named_and_left_out) {
+  ASSERT_EQ(server_->reconstruct(), "run-2");
+  const auto first = server_->buildings("run-1")["buildings"];
+  ASSERT_EQ(server_->post("/api/runs/run-1/edits", shrunk(first[0], 0.5)).status, 200);
+  const auto small = server_->buildings("run-1")["buildings"][0];
+  ASSERT_EQ(server_->post("/api/runs/run-1/edits", shrunk(small, 1.9)).status, 200) << "almost its old size";
+  // In the other run the neighbour has taken the ground.
+  const auto second = server_->buildings("run-2")["buildings"];
+  ASSERT_EQ(server_->post("/api/runs/run-2/edits", shrunk(second[0], 0.2)).status, 200);
+  auto wide = shrunk(second[1], 1.0);
+  auto& points = wide["changes"][0]["parts"][0]["plan"]["outer"]["points"];
+  double west = points[0][0];
+  for (const auto& p : points) west = std::min(west, p[0].get<double>());
+  for (auto& p : points)
+    if (p[0].get<double>() < west + 1) p[0] = p[0].get<double>() - 2;
+  const auto taken = server_->post("/api/runs/run-2/edits", wide);
+  ASSERT_EQ(taken.status, 200) << taken.text;
+  const auto answer = server_->post("/api/runs/run-2/edits/carry-over", {{"from", "run-1"}});
+  ASSERT_EQ(answer.status, 200) << answer.text;
+  EXPECT_TRUE(answer.json()["carried"].empty()) << answer.text;
+  ASSERT_EQ(answer.json()["refused"].size(), 1U) << answer.text;
+  EXPECT_EQ(answer.json()["refused"][0]["subject"], "a");
+}
+
+TEST_F(Terrace, files_that_name_each_other_are_downloaded_together_under_their_names) {
+  const auto reply = server_->get("/api/runs/run-1/export/model.obj.zip");
+  ASSERT_EQ(reply.status, 200) << reply.text;
+  write(folder_ / "both.zip", reply.text);
+  const auto list = "unzip -o -q '" + (folder_ / "both.zip").string() + "' -d '" + (folder_ / "both").string() + "'";
+  ASSERT_EQ(std::system(list.c_str()), 0);
+  const auto text = read(folder_ / "both/model.obj");
+  const auto at = text.find("mtllib ");
+  ASSERT_NE(at, std::string::npos);
+  const auto material = text.substr(at + 7, text.find_first_of("\r\n", at) - at - 7);
+  EXPECT_TRUE(fs::exists(folder_ / "both" / material)) << material;
+}
+
+TEST_F(Terrace, models_that_were_edited_exported_and_opened_again_keep_their_mark) {
+  ASSERT_EQ(server_->post("/api/runs/run-1/edits", lift(building(0), 1)).status, 200);
+  for (const std::string name : {"model.city.json", "model.glb", "model.gpkg"}) {
+    write(folder_ / name, server_->get("/api/runs/run-1/export/" + name).text);
+    const auto reply = server_->post("/api/runs/import", {{"path", (folder_ / name).string()}});
+    ASSERT_EQ(reply.status, 200) << reply.text;
+    server_->settle();
+    const auto buildings = server_->buildings(reply.json()["run"])["buildings"];
+    ASSERT_EQ(buildings.size(), 3U) << name;
+    for (const auto& one : buildings) EXPECT_EQ(one["edited"], one["id"] == "a") << name << " " << one["id"];
+  }
+}
+
 }  // namespace
 }  // namespace mansard::server

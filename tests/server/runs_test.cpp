@@ -108,6 +108,116 @@ TEST(Inputs, can_be_uploaded) {
   EXPECT_EQ(server.get("/api/scene").status, 200);
 }
 
+TEST(Inputs, can_have_names_with_spaces_and_umlauts) {
+  const Folder folder;
+  const auto hall = fs::path(MANSARD_DATA) / "hall";
+  const Running server(folder / "project");
+  const auto mesh = server.call("PUT", "/api/uploads/Halle%20Nord%20(1).off", read(hall / "mesh.off"));
+  const auto plans =
+      server.call("PUT", "/api/uploads/Grundst%C3%BCcke%20Stra%C3%9Fe.geojson", read(hall / "footprints.geojson"));
+  ASSERT_EQ(mesh.status, 200) << mesh.text;
+  ASSERT_EQ(plans.status, 200) << plans.text;
+  EXPECT_TRUE(fs::exists(folder / "project/inputs/Grundstücke Straße.geojson"));
+  const Json asked{{"meshes", {mesh.json()["path"]}}, {"footprints", plans.json()["path"]}};
+  ASSERT_EQ(server.post("/api/project/inputs", asked).status, 200);
+  server.settle();
+  EXPECT_EQ(server.get("/api/scene").status, 200) << server.get("/api/jobs").text;
+}
+
+TEST(Inputs, that_were_uploaded_are_never_replaced) {
+  const Folder folder;
+  const Running server(folder / "project");
+  ASSERT_EQ(server.call("PUT", "/api/uploads/mesh.ply", "first").status, 200);
+  for (const std::string other : {"other", "a longer file"}) {  // of the same size, of another size
+    const auto again = server.call("PUT", "/api/uploads/mesh.ply", other);
+    EXPECT_EQ(again.status, 409) << again.text;
+    EXPECT_EQ(again.code(), "server-exists");
+  }
+  EXPECT_EQ(read(folder / "project/inputs/mesh.ply"), "first");
+  EXPECT_EQ(server.call("PUT", "/api/uploads/mesh.ply", "first").status, 200) << "the same file again";
+  const auto beside = server.call("PUT", "/api/uploads/mesh.ply?folder=2", "other");
+  ASSERT_EQ(beside.status, 200) << beside.text;
+  EXPECT_EQ(beside.json()["path"], (folder / "project/inputs/2/mesh.ply").string());
+  EXPECT_EQ(read(folder / "project/inputs/2/mesh.ply"), "other");
+  for (const std::string wrong : {"1", "-2", "x", "..", "2%2f..", "1001"})
+    EXPECT_EQ(server.call("PUT", "/api/uploads/a.ply?folder=" + wrong, "x").code(), "server-upload") << wrong;
+  std::size_t files = 0;
+  for (const auto& file : fs::recursive_directory_iterator(folder / "project/inputs")) files += file.is_regular_file();
+  EXPECT_EQ(files, 2U) << "nothing is left of what was refused";
+}
+
+TEST(Inputs, are_not_written_through_symbolic_links) {
+  const Folder folder;
+  fs::create_directories(folder / "elsewhere");
+  const Running server(folder / "project");
+  fs::remove(folder / "project/inputs");
+  fs::create_directory_symlink(folder / "elsewhere", folder / "project/inputs");
+  EXPECT_EQ(server.call("PUT", "/api/uploads/a.ply", "x").code(), "file-write");
+  fs::remove(folder / "project/inputs");
+  fs::create_directories(folder / "project/inputs");
+  write(folder / "elsewhere/a.ply", "kept");
+  fs::create_symlink(folder / "elsewhere/a.ply", folder / "project/inputs/a.ply");
+  EXPECT_EQ(server.call("PUT", "/api/uploads/a.ply", "x").code(), "server-exists");
+  fs::create_directory_symlink(folder / "elsewhere", folder / "project/inputs/2");
+  EXPECT_EQ(server.call("PUT", "/api/uploads/b.ply?folder=2", "x").code(), "file-write");
+  EXPECT_EQ(read(folder / "elsewhere/a.ply"), "kept");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder / "elsewhere"), {}), 1);
+}
+
+TEST(Inputs, of_runs_cannot_change) {
+  const Folder folder;
+  const auto hall = fs::path(MANSARD_DATA) / "hall";
+  for (const auto* name : {"mesh.off", "footprints.geojson"}) fs::copy_file(hall / name, folder / name);
+  const Json asked{{"meshes", {(folder / "mesh.off").string()}},
+                   {"footprints", (folder / "footprints.geojson").string()}};
+  const auto failure = [&](const Running& server) {
+    const auto jobs = server.get("/api/jobs").json()["jobs"];
+    const auto& last = jobs[jobs.size() - 1]["failure"];
+    return last.is_null() ? std::string() : last["code"].get<std::string>();
+  };
+  {
+    const Running server(folder / "project");
+    ASSERT_EQ(server.post("/api/project/inputs", asked).status, 200);
+    server.settle();
+    ASSERT_EQ(server.reconstruct(), "run-1");
+    const auto scene = server.get("/api/scene").text;
+    auto text = read(folder / "footprints.geojson");
+    write(folder / "footprints.geojson", text + "\n");  // the same footprints, and still another file
+    ASSERT_EQ(server.post("/api/project/inputs", asked).status, 200);
+    server.settle();
+    EXPECT_EQ(failure(server), "server-changed");
+    EXPECT_EQ(server.get("/api/scene").text, scene) << "the scene of the runs stays";
+  }
+  const Running again(folder / "project");
+  again.settle();
+  EXPECT_EQ(failure(again), "server-changed");
+  EXPECT_EQ(again.get("/api/scene").code(), "server-no-scene");
+  EXPECT_EQ(again.get("/api/runs/run-1/buildings").status, 200) << "the models are still shown";
+  ASSERT_EQ(again.call("DELETE", "/api/runs/run-1").status, 200);
+  ASSERT_EQ(again.post("/api/project/inputs", asked).status, 200);
+  again.settle();
+  EXPECT_EQ(again.get("/api/scene").status, 200) << "without runs, inputs may be others";
+}
+
+TEST_F(WithHall, one_damaged_run_does_not_keep_the_others_from_being_opened) {
+  fs::copy(project() / "runs/run-1", project() / "runs/run-2", fs::copy_options::recursive);
+  fs::copy(project() / "runs/run-1", project() / "runs/run-3", fs::copy_options::recursive);
+  const std::string damaged = "{\"version\": 1, \"id\"";
+  write(project() / "runs/run-2/run.json", damaged);
+  const Running server(project());
+  server.settle();
+  const auto runs = server.get("/api/project").json()["runs"];
+  ASSERT_EQ(runs.size(), 3U);
+  EXPECT_EQ(runs[0]["state"], "done");
+  EXPECT_EQ(runs[1]["state"], "failed");
+  EXPECT_EQ(runs[1]["failure"]["code"], "server-damaged");
+  EXPECT_EQ(runs[2]["state"], "done");
+  EXPECT_EQ(server.get("/api/runs/run-3/buildings").status, 200);
+  EXPECT_EQ(server.call("PATCH", "/api/runs/run-2", R"({"label":"new"})").code(), "server-damaged");
+  EXPECT_EQ(read(project() / "runs/run-2/run.json"), damaged) << "it may be restored by hand";
+  EXPECT_EQ(server.call("DELETE", "/api/runs/run-2").status, 200);
+}
+
 TEST(Sample, is_read_with_the_options_in_its_folder) {
   const Folder folder;
   const Running server(folder / "project", {"--sample", std::string(MANSARD_DATA) + "/delft"});

@@ -286,3 +286,90 @@ describe("messages", () => {
     expect(state.messages.value[0]!.code).toBe("server-gone");
   });
 });
+
+describe("uploads", () => {
+  const file = (name: string) => new File(["bytes"], name);
+  const exists = () =>
+    Response.json(
+      { error: { severity: "error", code: "server-exists", message: "taken", subject: "" } },
+      { status: 409 },
+    );
+  beforeEach(() => {
+    vi.stubGlobal("fetch", async (path: string, init: RequestInit) => {
+      const answer = answers[`${init.method} ${path}`];
+      const given = answer ? answer(undefined) : { path: `/p/inputs/${path.slice("/api/uploads/".length)}` };
+      return given instanceof Response ? given : Response.json(given);
+    });
+  });
+
+  it("keep their names where these are free", async () => {
+    const paths = await actions.upload([file("Halle Süd.obj"), file("a.mtl")], () => {});
+    expect(paths).toEqual(["/p/inputs/Halle%20S%C3%BCd.obj", "/p/inputs/a.mtl"]);
+    expect(state.messages.value).toEqual([]);
+  });
+
+  it("never replace a file: all of them go where no name is taken, and that is said", async () => {
+    answers["PUT /api/uploads/a.mtl"] = exists;
+    answers["PUT /api/uploads/a.obj?folder=2"] = exists;
+    const paths = await actions.upload([file("a.obj"), file("a.mtl")], () => {});
+    expect(paths).toEqual(["/p/inputs/a.obj?folder=3", "/p/inputs/a.mtl?folder=3"]);
+    expect(state.messages.value.map((m) => m.code)).toEqual(["upload-beside"]);
+    expect(state.messages.value[0]!.message).toContain("a.mtl");
+  });
+
+  it("that are refused for another reason are not tried again", async () => {
+    answers["PUT /api/uploads/a.obj"] = () =>
+      Response.json({ error: { severity: "error", code: "server-large", message: "large", subject: "" } }, { status: 413 });
+    expect(await actions.upload([file("a.obj")], () => {})).toBeUndefined();
+    expect(state.messages.value.map((m) => m.code)).toEqual(["server-large"]);
+  });
+});
+
+describe("the scores of a run", () => {
+  const scores = (footprint_mse: number): api.Scores => ({
+    mse: 1,
+    footprint_mse,
+    footprint_median_absolute: 0.1,
+    inside_mse: 1,
+    missed: 0,
+    invented: 0,
+  });
+
+  it("follow its edits, and are marked until they have been measured", async () => {
+    vi.useFakeTimers();
+    try {
+      state.project.value = project(run("run-1", { scores: scores(1) }));
+      open(building("a"));
+      const now = () => state.scoresOf(state.project.value!.runs[0]!);
+      expect(now()).toEqual({ scores: scores(1), outdated: false });
+      answers["GET /api/runs/run-1/scores"] = () => ({ edits: 1, scores: scores(4) });
+      state.errorMaps.value = new Map([["run-1", []]]);
+      answers["GET /api/runs/run-1/error"] = () => ({ maps: [] });
+      actions.take("run-1", { buildings: [building("a", { revision: 1 })], history: history(1, "x") });
+      expect(now()).toEqual({ scores: scores(1), outdated: true });
+      expect(state.outdatedMaps.value.has("run-1")).toBe(true);
+      await vi.advanceTimersByTimeAsync(2000);
+      expect(now()).toEqual({ scores: scores(4), outdated: false });
+      expect(state.outdatedMaps.value.has("run-1")).toBe(false);
+      actions.take("run-1", { buildings: [building("a", { revision: 2 })], history: history(0, "x") });
+      expect(now(), "after undo they are those of the run").toEqual({ scores: scores(1), outdated: false });
+    } finally {
+      vi.useRealTimers();
+    }
+  });
+});
+
+describe("edits of another run", () => {
+  it("are carried over, and those that do not fit are named", async () => {
+    open(building("a"), building("b"));
+    answers["POST /api/runs/run-1/edits/carry-over"] = () => ({
+      carried: ["a"],
+      refused: [{ severity: "error", code: "edit-invalid", message: "overlaps", subject: "b" }],
+    });
+    answers["GET /api/runs/run-1/buildings"] = () => ({ ...buildings(building("a", { revision: 1 }), building("b")), history: history(1, "x") });
+    await actions.carryOver("run-1", "run-2");
+    expect(state.run.value!.buildings.get("a")!.revision).toBe(1);
+    expect(state.messages.value.map((m) => m.code)).toEqual(["edits-carried", "edit-invalid"]);
+    expect(state.messages.value[0]!.message).toContain("1 did not fit: b");
+  });
+});

@@ -28,18 +28,18 @@ export function newLink() {
 // ---- messages
 
 const most_messages = 5;
-export function showMessage(diagnostic: api.Diagnostic) {
-  const same = (m: api.Diagnostic) => m.code === diagnostic.code && m.message === diagnostic.message;
+export function showMessage(diagnostic: state.Message) {
+  const same = (m: state.Message) => m.code === diagnostic.code && m.message === diagnostic.message;
   state.messages.value = [diagnostic, ...state.messages.value.filter((m) => !same(m))].slice(0, most_messages);
 }
-export function dismiss(diagnostic: api.Diagnostic) {
+export function dismiss(diagnostic: state.Message) {
   state.messages.value = state.messages.value.filter((m) => m !== diagnostic);
 }
 const warn = (code: string, message: string, subject = "") => showMessage({ severity: "warning", code, message, subject });
 
 /** Shows a success for a few seconds. */
 function showSuccess(code: string, message: string) {
-  const diagnostic: api.Diagnostic = { severity: "warning", code, message, subject: "" };
+  const diagnostic: state.Message = { severity: "success", code, message, subject: "" };
   showMessage(diagnostic);
   setTimeout(() => dismiss(diagnostic), 8000);
 }
@@ -82,6 +82,7 @@ export async function begin(signal: AbortSignal) {
     received,
     (there, status) => {
       state.connected.value = there;
+      if (there) state.wasConnected.value = true;
       state.locked.value = status === 401 || status === 403;
       if (there && away) void refresh();
       away = !there;
@@ -134,6 +135,7 @@ export async function loadScene() {
       state.scene.value = scene;
       state.tiles.value = tiles;
     });
+    for (const open of [state.run.value, state.other.value]) if (open?.history.done) measureAgain(open.id);
   } catch (e) {
     // "server-no-scene": it was requested too early.
     if (e instanceof Refused && e.diagnostic.code !== "server-no-scene") showMessage(e.diagnostic);
@@ -144,17 +146,38 @@ export async function loadScene() {
 export const openInputs = (request: InputsRequest) => started(client.open(request));
 export const openSample = () => started(client.openSample());
 
-/** Uploads files into the project's folder; returns their paths there, in the same order. */
+/** Uploads files into the project's folder; returns their paths there, in the same order. No file is ever replaced: if
+ *  another file has one of the names, all of them go into a subfolder where none does, so that files that belong together
+ *  stay together. */
 export async function upload(files: File[], progress: (name: string) => void): Promise<string[] | undefined> {
-  const paths: string[] = [];
-  for (const file of files) {
-    progress(file.name);
-    const answer = await attempt(client.upload(file.name, file));
-    if (!answer) return undefined;
-    paths.push(answer.path);
+  let taken = "";
+  for (let folder = 1; folder <= most_folders; ++folder) {
+    const paths: string[] = [];
+    try {
+      for (const file of files) {
+        progress(file.name);
+        paths.push((await client.upload(file.name, file, folder)).path);
+      }
+    } catch (e) {
+      if (!(e instanceof Refused)) throw e;
+      const exists = e.diagnostic.code === "server-exists";
+      if (!exists || folder === most_folders) {
+        showMessage(e.diagnostic);
+        return undefined;
+      }
+      taken ||= files[paths.length]!.name;
+      continue;
+    }
+    if (taken)
+      warn(
+        "upload-beside",
+        `the project has another file named ${taken}; it was kept, and the new files are in the folder inputs/${folder}`,
+      );
+    return paths;
   }
-  return paths;
+  return undefined;
 }
+const most_folders = 100;
 
 // ---- runs
 
@@ -189,6 +212,7 @@ export async function openRun(id: string, at: state.Selection | null = state.sel
     state.selection.value = existing(opened, at);
     state.also.value = [];
   });
+  if (opened?.history.done) measureAgain(id);
   keepOpen();
 }
 
@@ -206,6 +230,7 @@ export async function compareWith(id: string | null) {
   const opened = id ? await fetchRun(id) : null;
   if (opened === undefined) return;
   state.other.value = opened;
+  if (opened?.history.done) measureAgain(opened.id);
   keepOpen();
 }
 
@@ -217,18 +242,57 @@ export async function needLayers(run: string) {
   if (answer) state.segmentations.value = new Map(state.segmentations.value).set(run, answer);
 }
 
-/** Fetches the error maps of all blocks, once per run. */
+/** Fetches the error maps of all blocks, once per run and again after edits. */
 export async function needErrorMaps(run: string) {
-  if (state.errorMaps.value.has(run) || requested.has(`error ${run}`)) return;
+  if (!state.outdatedMaps.value.has(run) && (state.errorMaps.value.has(run) || requested.has(`error ${run}`))) return;
   requested.add(`error ${run}`);
+  const edit = editNumber(run);
   const answer = await attempt(client.errorMaps(run));
   if (!answer) return;
   const cells = await attempt(Promise.all(answer.maps.map((map) => client.errorMap(run, map.block))));
   if (!cells) return;
+  if (edit !== editNumber(run)) return; // another edit was made meanwhile; it asks again
   const maps = answer.maps.map((map, i) => ({ ...map, cells: cells[i]! }));
+  const outdated = new Set(state.outdatedMaps.value);
+  outdated.delete(run);
+  state.outdatedMaps.value = outdated;
   state.errorMaps.value = new Map(state.errorMaps.value).set(run, maps);
 }
 const requested = new Set<string>();
+
+// ---- what follows from edits
+
+/** Time without edits after which a run is measured again, ms: while somebody types, every step is an edit. */
+const measure_after = 600;
+const edits = new Map<string, number>(); // edits of each run that this page has received
+const editNumber = (run: string) => edits.get(run) ?? 0;
+const measuring = new Map<string, ReturnType<typeof setTimeout>>();
+
+/** Marks scores and error maps of a run as outdated, and fetches the scores, and the maps if they are loaded. */
+function measureAgain(run: string) {
+  const summary = state.runSummary(run);
+  if (!summary?.scores) return;
+  edits.set(run, editNumber(run) + 1);
+  clearTimeout(measuring.get(run));
+  batch(() => {
+    const scores = new Map(state.scoresNow.value);
+    scores.delete(run);
+    state.scoresNow.value = scores;
+    if (state.errorMaps.value.has(run)) state.outdatedMaps.value = new Set(state.outdatedMaps.value).add(run);
+  });
+  measuring.set(run, setTimeout(() => void measure(run), measure_after));
+}
+
+async function measure(run: string) {
+  const edit = editNumber(run);
+  const scores = await client.scores(run).catch((e: unknown) => {
+    if (e instanceof Refused) return null; // without a scene nothing can be measured: the numbers stay marked
+    throw e;
+  });
+  if (!scores || edit !== editNumber(run)) return;
+  state.scoresNow.value = new Map(state.scoresNow.value).set(run, scores);
+  if (state.outdatedMaps.value.has(run)) await needErrorMaps(run);
+}
 
 // ---- selection
 
@@ -287,6 +351,7 @@ export function take(run: string, answer: api.Applied) {
     }
     opened.value = { id: run, buildings, history: answer.history };
   }
+  measureAgain(run);
   if (state.run.value?.id === run) state.selection.value = existing(state.run.value, state.selection.value);
 }
 
@@ -307,7 +372,21 @@ async function step(which: "undo" | "redo") {
   if (answer) take(open.id, answer);
 }
 
-/** Downloads one export file of the edited run. */
+/** Applies the edits of another run to this one, and says which buildings they do not fit any more. */
+export async function carryOver(run: string, from: string) {
+  const answer = await attempt(client.carryOver(run, from));
+  if (!answer) return;
+  if (state.run.value?.id === run) await openRun(run); // this page gets no events of its own edits
+  const { carried, refused } = answer;
+  for (const why of refused.slice(0, most_messages - 1)) showMessage({ ...why, severity: "warning" });
+  const not = refused.length ? `; ${refused.length} did not fit: ${refused.map((r) => r.subject).join("; ")}` : "";
+  const done = `edits of ${carried.length} ${carried.length === 1 ? "building" : "buildings"} carried over${not}`;
+  if (refused.length) warn("edits-carried", done);
+  else showSuccess("edits-carried", done);
+}
+
+/** Downloads one export file of the edited run. Files that name each other come together, in a ZIP: the browser may rename
+ *  single files. */
 export async function download(run: string, file: string) {
   const bytes = await attempt(client.exported(run, file));
   if (!bytes) return;

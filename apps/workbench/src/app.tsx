@@ -10,6 +10,7 @@ import { LayersTab } from "./panels/layers_tab";
 import { Messages } from "./panels/messages";
 import { PlotsPanel } from "./panels/plots_panel";
 import { Progress } from "./panels/progress";
+import { ReasonsStrip } from "./panels/reasons_strip";
 import { RunPanel } from "./panels/run";
 import { Start } from "./panels/start";
 import { TopBar } from "./panels/topbar";
@@ -57,6 +58,7 @@ export function App() {
           <Splitter />
           <aside aria-label="Panels">
             <Tabs />
+            <ReasonsStrip />
             <Panel />
           </aside>
         </>

@@ -36,6 +36,7 @@ export type Flight = "home" | "top" | "selection";
 
 export const connected = signal(true);
 export const locked = signal(false); // the server runs, but refuses the token of this page
+export const wasConnected = signal(false); // it has accepted the token before: it was restarted since
 export const project = signal<api.Project | null>(null);
 export const scene = signal<api.Scene | null>(null);
 export const tiles = signal<api.TileIndex | null>(null);
@@ -49,14 +50,21 @@ export const selection = signal<Selection | null>(null);
 /** Additional selected parts (Shift and click), to merge with. */
 export const also = signal<{ building: string; part: string }[]>([]);
 export const draft = signal<Draft | null>(null);
-export const messages = signal<api.Diagnostic[]>([]); // newest first
+/** A diagnostic, or a success. */
+export type Message = Omit<api.Diagnostic, "severity"> & { severity: api.Diagnostic["severity"] | "success" };
+export const messages = signal<Message[]>([]); // newest first
 
 /** Layers and error maps of the runs; fetched on demand. */
 export const segmentations = signal<Map<string, api.Layers>>(new Map());
 export const errorMaps = signal<Map<string, LoadedMap[]>>(new Map());
+/** Scores of edited runs, as they are now. Those of a run are missing from an edit until they have been measured. */
+export const scoresNow = signal<Map<string, api.ScoresNow>>(new Map());
+/** Runs whose error maps are older than their last edit. */
+export const outdatedMaps = signal<ReadonlySet<string>>(new Set());
 
 export const tab = signal<Tab>("run");
-export const hovered = signal<Selection | null>(null);
+/** What is under the pointer. `right`: in the run to compare with. */
+export const hovered = signal<(Selection & { right?: boolean }) | null>(null);
 export const keyboardHelp = signal(false);
 export const layersOpen = signal(false);
 export const changingInputs = signal(false); // the first screen is shown over an open project
@@ -87,6 +95,18 @@ export const selectedPlan = computed<api.Plan | null>(() => {
 
 /** Building ids in the order of the table, as it is sorted and filtered. */
 export const order = signal<string[]>([]);
+
+/** How many edits of a run are applied: of an open run as this page has them, else as the server listed them. */
+export function editsOf(summary: api.RunSummary): number {
+  const open = [run.value, other.value].find((r) => r?.id === summary.id);
+  return open?.history.done ?? summary.edits;
+}
+/** The scores of a run after its edits. `outdated`: they are still those before its last edits. */
+export function scoresOf(summary: api.RunSummary): { scores: api.Scores | null; outdated: boolean } {
+  if (!summary.scores || editsOf(summary) === 0) return { scores: summary.scores, outdated: false };
+  const now = scoresNow.value.get(summary.id);
+  return now ? { scores: now.scores, outdated: false } : { scores: summary.scores, outdated: true };
+}
 
 export const runSummary = (id: string | undefined) => project.value?.runs.find((r) => r.id === id);
 export const busyJob = computed(

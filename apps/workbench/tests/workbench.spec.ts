@@ -1,4 +1,5 @@
 // End-to-end tests of the workbench: the program, the shipped sample, and Chromium.
+import { execFileSync } from "node:child_process";
 import { readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import type { Download, Page } from "@playwright/test";
@@ -163,7 +164,7 @@ test("the sample is read, reconstructed, edited, undone and exported", async ({ 
 
   await test.step("exported files are those that the command line makes from the plans", async () => {
     const files: Record<string, string> = {};
-    for (const name of ["plans.json", "model.city.json", "model.obj", "model.glb", "model.gpkg", "model.stl"]) {
+    for (const name of ["plans.json", "model.city.json", "model.obj.zip", "model.glb", "model.gpkg", "model.stl"]) {
       await page.getByRole("button", { name: "Export" }).click();
       const [download] = await Promise.all([
         page.waitForEvent("download"),
@@ -173,6 +174,12 @@ test("the sample is read, reconstructed, edited, undone and exported", async ({ 
     }
     const again = join(folder, "again");
     mansard("extrude", files["plans.json"]!, "--formats", "all", "-o", again);
+    // Files that name each other come in one archive, under the names that they have for each other.
+    for (const name of ["model.obj", "model.mtl"]) {
+      files[name] = join(folder, name);
+      writeFileSync(files[name]!, execFileSync("unzip", ["-p", files["model.obj.zip"]!, name]));
+    }
+    delete files["model.obj.zip"];
     for (const [name, file] of Object.entries(files))
       expect(readFileSync(join(again, name)).equals(readFileSync(file)), `${name} is the same`).toBe(true);
     const city = JSON.parse(readFileSync(files["model.city.json"]!, "utf8")) as {
@@ -504,3 +511,80 @@ test("texts have enough contrast, and the keyboard is sufficient", async ({ clea
   await expect(page.getByRole("dialog", { name: "Keyboard" })).toBeVisible();
   expect(await faint(page), "Keyboard").toEqual([]);
 });
+
+test("the gutter is one operation, dragged or typed", async ({ clean: page, server }) => {
+  await openSample(page, server);
+  await reconstruct(page, "first");
+  const house = await aHouse(page);
+  await pick(page, house.id);
+  await pickEdge(page, pitched(house.parts[0]!.plan)[0]!);
+  const planNow = async () => (await buildingOf(page, house.id)).parts[0]!.plan;
+  const undo = async () => {
+    await page.getByRole("button", { name: /^Undo/ }).click();
+    await expect.poll(planNow).toEqual(house.parts[0]!.plan);
+  };
+  const point = page.getByRole("button", { name: /^point 1,/ });
+  await point.hover();
+  const box = (await point.boundingBox())!;
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  for (let i = 1; i <= 8; ++i) await page.mouse.move(x, y - 3 * i);
+  await page.mouse.up();
+  await expect.poll(planNow).not.toEqual(house.parts[0]!.plan);
+  const dragged = await planNow();
+  const shown = page.getByRole("textbox", { name: "Gutter, metres" });
+  const height = await shown.inputValue();
+  await undo();
+  await shown.fill(height);
+  await shown.press("Enter");
+  await expect.poll(planNow).not.toEqual(house.parts[0]!.plan);
+  const typed = await planNow();
+  expect(typed.profiles.length).toBe(dragged.profiles.length);
+  typed.profiles.forEach((profile, i) =>
+    profile.forEach(([inward, up], j) => {
+      expect(inward).toBeCloseTo(dragged.profiles[i]![j]![0], 6);
+      expect(up).toBeCloseTo(dragged.profiles[i]![j]![1], 2);
+    }),
+  );
+});
+
+for (const [width, height, what] of [
+  [512, 320, "1024 x 640 at 200 %"],
+  [683, 384, "1366 x 768 at 200 %"],
+  [911, 512, "1366 x 768 at 150 %"],
+] as const)
+  test(`everything can be reached at ${what}`, async ({ clean: page, server }) => {
+    await page.setViewportSize({ width, height });
+    await openSample(page, server);
+    await reconstruct(page, "first");
+    const house = await aHouse(page);
+    await pick(page, house.id);
+    await pickEdge(page, pitched(house.parts[0]!.plan)[0]!);
+    await picture(page, `small-${width}`);
+    // Playwright clicks only what is not covered, and scrolls to what is outside of the window.
+    for (const name of ["Courtyard", "Split"]) {
+      await page.getByRole("button", { name, exact: true }).click();
+      await page.keyboard.press("Escape");
+    }
+    for (const drawing of [/^Plan of/, /^Profile of edge/]) {
+      const box = (await page.getByRole("application", { name: drawing }).boundingBox())!;
+      expect(box.height, String(drawing)).toBeGreaterThan(110);
+      expect(box.width).toBeGreaterThan(300);
+      expect(box.x).toBeGreaterThanOrEqual(0);
+      expect(box.x + box.width).toBeLessThanOrEqual(width + 1);
+    }
+    for (const tab of ["Run", "Buildings", "Plots", "Layers", "Edit"]) {
+      await page.getByRole("tab", { name: tab }).click();
+      await picture(page, `small-${width}-${tab.toLowerCase()}`);
+    }
+    await page.getByRole("button", { name: "Export" }).click();
+    await menuItem(page, "model.glb").hover();
+    await page.keyboard.press("Escape");
+    await page.getByRole("button", { name: "Keyboard" }).click();
+    const help = (await page.getByRole("dialog", { name: "Keyboard" }).boundingBox())!;
+    expect(help.y).toBeGreaterThanOrEqual(0);
+    expect(help.y + help.height).toBeLessThanOrEqual(height);
+    const overflow = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+    expect(overflow, "nothing is cut off at the right").toBeLessThanOrEqual(0);
+  });

@@ -10,6 +10,7 @@
 #include "mansard/base/nesting.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/formats/files/named_file.hpp"
+#include "mansard/formats/files/reach.hpp"
 #include "mansard/formats/gltf/glb_container.hpp"
 #include "mansard/formats/gltf/meshopt.hpp"
 #include "mansard/formats/hash.hpp"
@@ -27,6 +28,7 @@ constexpr std::string_view binary_part = "mansard:binary-part", room = "mansard:
 /// What tinygltf asks for while it reads a file.
 struct Surroundings {
   std::string_view binary;
+  std::filesystem::path given;  ///< the file itself
   std::vector<model::InputFile> read;
   std::optional<base::Diagnostic> failure;
 };
@@ -54,7 +56,8 @@ auto read_buffer(std::vector<unsigned char>* out, std::string* errors, const std
     out->assign(1, 0);  // give_room has the rest
     return true;
   }
-  const auto bytes = bytes_of_named(name);
+  const auto reach = check_reach(around.given, name);
+  const auto bytes = reach ? bytes_of_named(name) : base::Result<Bytes>(reach.error());
   if (!bytes) {
     around.failure = bytes.error();
     *errors = bytes.error().message;
@@ -266,7 +269,7 @@ auto load_gltf(std::string_view bytes, const std::filesystem::path& path, bool i
   if (bytes.size() > std::numeric_limits<unsigned int>::max())
     return base::error("ingest-mesh-format", "glTF files end at 4 GB; cut the mesh into tiles", name);
 
-  Surroundings around{parts.binary, {}, {}};
+  Surroundings around{parts.binary, path, {}, {}};
   tinygltf::TinyGLTF loader;
   loader.SetImageLoader(images ? &keep_image : &skip_image, nullptr);
   loader.SetFsCallbacks({&exists, &same_name, &read_buffer, &write_nothing, &around});

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "mansard/base/text.hpp"
+#include "mansard/formats/files/reach.hpp"
 
 namespace mansard::formats {
 namespace {
@@ -96,6 +97,8 @@ auto image_source(const tinygltf::Model& model, int number, const std::string& f
   } else if (!image->uri.empty()) {
     out.path = std::filesystem::path(file).parent_path() / unescaped(image->uri);
     out.name = out.path.string();
+    // An image that may not be opened is one that cannot be read: the material has its colour.
+    if (!check_reach(file, out.path)) out.bytes = std::make_shared<const std::string>();
   } else {
     out.bytes = std::make_shared<const std::string>();
   }

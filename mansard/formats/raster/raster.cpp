@@ -10,6 +10,7 @@
 #include "mansard/crs/gdal.hpp"
 #include "mansard/crs/gdal_messages.hpp"
 #include "mansard/formats/drivers.hpp"
+#include "mansard/formats/files/reach.hpp"
 #include "mansard/formats/files/virtual_files.hpp"
 
 namespace mansard::formats {
@@ -91,6 +92,7 @@ auto RasterFile::open(const fs::path& path) -> base::Result<RasterFile> {
   crs::register_gdal();
   if (!is_there(path)) return why_missing(path);
   const crs::GdalMessages messages;
+  const Offline offline(path);
   RasterFile out;
   out.path_ = path;
   out.dataset_.reset(GDALDataset::Open(name_for_gdal(path).c_str(),
@@ -100,6 +102,11 @@ auto RasterFile::open(const fs::path& path) -> base::Result<RasterFile> {
     return bad("not a raster that GDAL reads" + (messages.failure().empty() ? "" : " (" + messages.failure() + ")") +
                    "; give heights as GeoTIFF, VRT, ASCII grid or IMG",
                path);
+  if (!is_virtual(path)) {
+    const CPLStringList files(out.dataset_->GetFileList());
+    for (int i = 0; i < files.Count(); ++i)
+      if (auto reach = check_reach(path, files[i]); !reach) return reach.error();
+  }
   if (auto done = out.understand(); !done) return done.error();
   return out;
 }
@@ -153,6 +160,7 @@ auto RasterFile::to_metres() const -> base::Result<double> {
 }
 
 auto RasterFile::read(const Window& window, int first, int count, std::vector<double>& heights) -> base::Result<void> {
+  const Offline offline(path_);  // sources of a VRT are opened when they are read
   const crs::GdalMessages messages;
   const std::size_t cells = static_cast<std::size_t>(window.columns) * static_cast<std::size_t>(count);
   heights.resize(cells);

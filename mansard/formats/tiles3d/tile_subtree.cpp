@@ -6,6 +6,7 @@
 
 #include "mansard/base/nesting.hpp"
 #include "mansard/formats/files/named_file.hpp"
+#include "mansard/formats/files/reach.hpp"
 #include "mansard/formats/hash.hpp"
 #include "mansard/formats/tiles3d/tileset.hpp"
 
@@ -134,8 +135,9 @@ class SubtreeReader {
     std::string_view bytes = binary_;
     if (buffer->contains("uri") && (*buffer)["uri"].is_string()) {
       auto& kept = beside_.emplace_back();
-      if (auto done = load(address_beside(path_, (*buffer)["uri"].get<std::string>()), kept); !done)
-        return done.error();
+      const auto beside = address_beside(path_, (*buffer)["uri"].get<std::string>());
+      if (auto reach = check_reach(path_, beside); !reach) return reach.error();
+      if (auto done = load(beside, kept); !done) return done.error();
       bytes = kept.view();
     }
     const std::size_t offset = whole(*view, "byteOffset"), size = whole(*view, "byteLength");

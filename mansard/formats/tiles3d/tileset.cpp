@@ -9,6 +9,7 @@
 
 #include "mansard/base/nesting.hpp"
 #include "mansard/formats/files/named_file.hpp"
+#include "mansard/formats/files/reach.hpp"
 #include "mansard/formats/hash.hpp"
 #include "mansard/formats/tiles3d/tile_subtree.hpp"
 #include "mansard/formats/tiles3d/tileset_json.hpp"
@@ -159,10 +160,16 @@ class Walk {
     return {};
   }
 
+  /// The file that was given: what it names, at any depth, is in its folder.
+  static auto first_of(const Sheet& sheet) -> const fs::path& {
+    return sheet.within == nullptr ? sheet.path : first_of(*sheet.within);
+  }
+
   auto take_content(const TileContentName& content, const Sheet& sheet, const Transform& place, int depth)
       -> base::Result<void> {
     if (!filter_.passes(placed(content.volume, place))) return {};
     const fs::path path = address_beside(sheet.path, content.uri);
+    if (auto reach = check_reach(first_of(sheet), path); !reach) return reach;
     std::string ending = path.extension().string();
     if (ending.starts_with(".json"))  // maybe with a server's "?key=…"
       return take_file(path, place, &sheet, depth + 1);
@@ -202,6 +209,7 @@ class Walk {
   auto take_subtree(const Implicit& tree, const Sheet& sheet, const TileIndex& root) -> base::Result<void> {
     if (run_.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
     const auto path = address_beside(sheet.path, filled_in(tree.subtrees, root));
+    if (auto reach = check_reach(first_of(sheet), path); !reach) return reach;
     const auto subtree = Subtree::read(path, tree.subtree_levels, tree.octree, list_.inputs);
     if (!subtree) return subtree.error();
     return take_index(tree, sheet, *subtree, root, {});

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "mansard/base/files.hpp"
+#include "mansard/formats/files/reach.hpp"
 #include "mansard/formats/source.hpp"
 #include "mansard/formats/tiles3d/tileset.hpp"
 #include "mansard/formats/tiles3d/tileset_json.hpp"
@@ -29,7 +30,8 @@ class Walk {
     }
     for (const auto& content : tile.contents()) {
       const fs::path path = address_beside(file, content.uri);
-      if (path.extension().string().starts_with(".json")) open(path, depth + 1);  // maybe with a server's "?key=…"
+      if (!check_reach(file, path)) ++out_.levels[depth].contents;
+      else if (path.extension().string().starts_with(".json")) open(path, depth + 1);  // maybe with a server's "?key=…"
       else ++out_.levels[depth].contents;
     }
     for (const auto& child : tile.children()) take(child, file, depth + 1);

@@ -12,6 +12,7 @@
 #include "mansard/crs/spatial_reference.hpp"
 #include "mansard/formats/cityjson/footprint_reader.hpp"
 #include "mansard/formats/drivers.hpp"
+#include "mansard/formats/files/reach.hpp"
 #include "mansard/formats/files/virtual_files.hpp"
 #include "mansard/formats/geojson/assumed_crs.hpp"
 #include "mansard/formats/hash.hpp"
@@ -63,6 +64,12 @@ auto inputs_of(GDALDataset& dataset, const fs::path& path) -> base::Result<std::
   for (int i = 0; i < listed.Count() && (archive || !is_virtual(path)); ++i) names.emplace_back(listed[i]);
   if (names.empty()) names.push_back(path.string());
   std::ranges::sort(names);
+  // All of an archive is one folder.
+  const fs::path given =
+      archive ? fs::path("/vsizip/" + archive_of(name_for_gdal(path)).first.string() + "/member") : path;
+  if (archive || !is_virtual(path))
+    for (const auto& name : names)
+      if (auto reach = check_reach(given, name); !reach) return reach.error();
   std::vector<model::InputFile> out;
   for (const auto& name : names) {
     std::error_code failure;
@@ -197,6 +204,7 @@ class Source {
       : path_(path), subject_(shown_name(path)), options_(options), run_(run) {}
 
   auto read() -> base::Result<FeatureFile> {
+    const Offline offline(path_);
     dataset_ = open(inside_of(name_for_gdal(path_)));
     if (!dataset_) return not_opened();
     at_opening_ = messages_.failure();

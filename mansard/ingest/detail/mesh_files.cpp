@@ -12,6 +12,7 @@
 #include "mansard/crs/spatial_reference.hpp"
 #include "mansard/formats/context_capture/context_capture.hpp"
 #include "mansard/formats/drivers.hpp"
+#include "mansard/formats/files/reach.hpp"
 #include "mansard/formats/files/virtual_files.hpp"
 #include "mansard/formats/input_file.hpp"
 #include "mansard/formats/mesh/append.hpp"
@@ -83,6 +84,7 @@ auto is_below(const fs::path& file, const std::vector<std::string>& folders) -> 
 auto crs_of_raster(const fs::path& path) -> std::optional<crs::MeshCrs> {
   const crs::GdalMessages messages;
   crs::register_gdal();
+  const formats::Offline offline(path);
   GDALDatasetH data =
       GDALOpenEx(formats::name_for_gdal(path).c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr, nullptr, nullptr);
   if (data == nullptr) return std::nullopt;  // why, reading it says

@@ -36,7 +36,9 @@ export class Client {
   project = () => this.json<api.Project>("GET", "/api/project");
   open = (request: InputsRequest) => this.json<api.Job>("POST", "/api/project/inputs", request);
   openSample = () => this.json<api.Job>("POST", "/api/project/sample", {});
-  upload = (name: string, body: Blob) => this.send<{ path: string }>("PUT", `/api/uploads/${escaped(name)}`, body);
+  /** `folder`: 1 for the folder of the inputs, more for one of its subfolders. */
+  upload = (name: string, body: Blob, folder = 1) =>
+    this.send<{ path: string }>("PUT", `/api/uploads/${escaped(name)}${folder > 1 ? `?folder=${folder}` : ""}`, body);
   scene = () => this.json<api.Scene>("GET", "/api/scene");
   tiles = () => this.json<api.TileIndex>("GET", "/api/scene/tiles");
   tile = (id: string, signal?: AbortSignal) => this.bytes(`/api/scene/tiles/${escaped(id)}`, signal);
@@ -48,6 +50,7 @@ export class Client {
   buildings = (run: string) =>
     this.json<{ buildings: api.Building[]; history: api.History }>("GET", this.of(run, "/buildings"));
   layers = (run: string) => this.json<api.Layers>("GET", this.of(run, "/layers"));
+  scores = (run: string) => this.json<api.ScoresNow>("GET", this.of(run, "/scores"));
   errorMaps = (run: string) => this.json<{ maps: api.ErrorMap[] }>("GET", this.of(run, "/error"));
   errorMap = async (run: string, block: string) =>
     new Float32Array(await this.bytes(this.of(run, `/error/${escaped(block)}`)));
@@ -62,6 +65,8 @@ export class Client {
   merge = (run: string, parts: { building: string; part: string }[]) =>
     this.json<api.Proposal>("POST", this.of(run, "/merge"), { parts });
   edit = (run: string, edit: api.Edit) => this.json<api.Applied>("POST", this.of(run, "/edits"), edit);
+  carryOver = (run: string, from: string) =>
+    this.json<api.CarriedOver>("POST", this.of(run, "/edits/carry-over"), { from });
   undo = (run: string) => this.json<api.Applied>("POST", this.of(run, "/undo"), {});
   redo = (run: string) => this.json<api.Applied>("POST", this.of(run, "/redo"), {});
   exported = (run: string, file: string) => this.bytes(this.of(run, `/export/${escaped(file)}`));

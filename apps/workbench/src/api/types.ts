@@ -91,6 +91,17 @@ export interface Scores {
   invented: number; // m²
 }
 
+export interface CarriedOver {
+  carried: string[]; // buildings
+  refused: Diagnostic[]; // why others could not be; the subject names the buildings
+}
+
+/** Of the run as it is now. */
+export interface ScoresNow {
+  edits: number; // that the scores count
+  scores: Scores | null; // null for imported models
+}
+
 export interface StageTime {
   stage: string;
   cpu_seconds: number;

@@ -19,7 +19,5 @@ export function shownNumber(value: number, most = 3, least = 2): string {
 
 export const metres = (value: number | null | undefined, digits = 2) =>
   value === null || value === undefined ? "–" : `${value.toFixed(digits).replace("-", "−")} m`;
-export const squareMetres = (value: number | null | undefined) =>
-  value === null || value === undefined ? "–" : `${value.toFixed(3)} m²`;
 export const cubicMetres = (value: number | null | undefined) =>
   value === null || value === undefined ? "–" : `${value.toFixed(value < 1000 ? 1 : 0)} m³`;

@@ -400,13 +400,25 @@ export function PlanEditor() {
   const mergeable = touching.find((o) => `${o.building} ${o.part}` === partner.value) ?? touching[0];
   const merge = async () => {
     if (!mergeable) return;
+    const other = mergeable.building !== building ? run.buildings.get(mergeable.building) : undefined;
+    const emptied = other?.parts.length === 1;
+    if (other) {
+      const loss = emptied
+        ? `Building ${other.id} loses its only part and is left without a model`
+        : `Building ${other.id} loses the part ${mergeable.part}`;
+      if (!window.confirm(`${loss}: it becomes a part of building ${building}. Merge them?`)) return;
+    }
     const proposal = await attempt(
       client.merge(run.id, [
         { building, part },
         { building: mergeable.building, part: mergeable.part },
       ]),
     );
-    if (proposal && session.propose(`${part} and ${mergeable.part} merged`, proposal.changes)) state.also.value = [];
+    if (proposal && session.propose(
+        `${part} and ${mergeable.part} merged${emptied ? `; ${mergeable.building} has no model` : ""}`,
+        proposal.changes,
+      ))
+      state.also.value = [];
   };
 
   const choose = (next: Tool) => {

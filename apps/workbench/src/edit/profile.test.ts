@@ -5,6 +5,7 @@ import {
   degreesOf,
   deletePoint,
   gutterOf,
+  gutterPoint,
   held,
   insertPoint,
   kindOf,
@@ -46,6 +47,16 @@ describe("the kind of a profile", () => {
         [4, 3],
       ]),
     ).toBe(0);
+  });
+  it("has its gutter at a point, unless the roof begins at the base", () => {
+    expect([gable, roof, mansard, setback].map(gutterPoint)).toEqual([null, 1, 1, 1]);
+    expect(
+      gutterPoint([
+        [0, 0],
+        [4, 3],
+      ]),
+    ).toBeNull();
+    for (const profile of [roof, mansard]) expect(profile[gutterPoint(profile)!]![1]).toBe(gutterOf(profile));
   });
   it("has the pitch of its topmost roof segment", () => {
     expect(degreesOf(pitchOf(roof)!)).toBeCloseTo(45);

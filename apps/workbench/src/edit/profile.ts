@@ -37,6 +37,13 @@ export function kindOf(profile: Profile): EdgeKind {
   return "wall";
 }
 
+/** Index of the point at the gutter: the top of the first wall, where the roof begins; null if the wall continues to the
+ *  cap, or if there is no wall. */
+export function gutterPoint(profile: Profile): number | null {
+  const i = profile.findIndex((p, n) => n > 0 && !isUpright(profile[n - 1]!, p)) - 1;
+  return i > 0 ? i : null;
+}
+
 /** Gutter height: of the top of the first wall, where the roof begins; null if the wall continues to the cap. */
 export function gutterOf(profile: Profile): number | null {
   const i = profile.findIndex((p, n) => n > 0 && !isUpright(profile[n - 1]!, p));

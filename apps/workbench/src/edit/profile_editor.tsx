@@ -17,13 +17,14 @@ import {
   withPlan,
 } from "./desk";
 import { session } from "./here";
-import { cubicMetres, metres, squareMetres } from "./numbers";
-import { collinear, edgesOf, inScope, opposite, profileOf, ringOf, setProfile, type EdgeAt, type Scope } from "./plan";
+import { cubicMetres, metres } from "./numbers";
+import { changeProfiles, collinear, edgesOf, inScope, opposite, profileOf, ringOf, setProfile, type EdgeAt, type Scope } from "./plan";
 import {
   continued,
   degreesOf,
   deletePoint,
   gutterOf,
+  gutterPoint,
   held,
   insertPoint,
   lifted,
@@ -32,13 +33,14 @@ import {
   same,
   slopes,
   slopeTo,
+  withGutter,
   type Profile,
 } from "./profile";
 import { Backdrop, lineOf } from "./profile_backdrop";
 import { ProfileFields } from "./profile_fields";
 import { fitted, panned, toMetres, toPixels, zoomed } from "./sheet";
 import { known, rounded, snapProfilePoint, type ProfileSnap } from "./snap";
-import { count } from "../panels/words";
+import { count, rmse } from "../panels/words";
 import { useSection } from "./use_section";
 import { useSheet } from "./use_sheet";
 import { distance, minus } from "./vector";
@@ -96,6 +98,7 @@ export function ProfileEditor() {
   const invalid = state.draft.value?.invalid ?? false;
   const drafted = state.draft.value?.changes.some((c) => c.building === selection.building) ?? false;
   const before = partBefore.value;
+  const shownBuilding = state.shown(selection.building);
   const after = raisedPart.value;
   const old = drafted && before ? profileOf(before.plan, at) : null;
   const ghost = old && !same(old, profile) ? old : null;
@@ -119,6 +122,14 @@ export function ProfileEditor() {
       slopes: known(from, at, changing, slopes),
       heights: known(from, at, changing, gutters),
     };
+  };
+  /** The gutter of all edges in scope, whether it is typed, dragged or moved with the keyboard: the roof moves along. */
+  const withGutters = (from: api.Plan, height: number) =>
+    changeProfiles(from, inScope(from, at, scope.value), (p) => (gutterOf(p) === null ? null : withGutter(p, height)));
+  const gutterWords = (height: number) => `gutter of ${who} to ${metres(height)}`;
+  const gutterMoved = (from: api.Plan, height: number, hints: string[], time: number) => {
+    session.change(gutterWords(height), withPlan(withGutters(from, height)), time);
+    words.value = `gutter at ${metres(height)}; the roof moves along${hints.length ? ` · ${hints.join(", ")}` : ""}`;
   };
   const describe = (changed: Profile, i: number, hints: string[] = []) => {
     const p = changed[i]!;
@@ -176,12 +187,16 @@ export function ProfileEditor() {
     }
     const from = d.profile[d.i]!;
     const snapped = snapProfilePoint(d.profile, d.i, [from[0] + by[0], from[1] + by[1]], snap(event, d.plan));
+    if (d.i === gutterPoint(d.profile)) {
+      // Up and down only, and beyond the points above: they move along.
+      const free = snapProfilePoint(d.profile.slice(0, d.i + 1), d.i, [from[0], from[1] + by[1]], snap(event, d.plan));
+      gutterMoved(d.plan, Math.max(free.at[1], d.profile[d.i - 1]![1] + 0.01), free.words, event.timeStamp);
+      return;
+    }
     pointMoved(d.plan, movePoint(d.profile, d.i, snapped.at), d.i, snapped.words, event.timeStamp);
   };
   const pointMoved = (from: api.Plan, changed: Profile, i: number, hints: string[], time: number) => {
-    const isGutter = i === 1 && gutterOf(changed) === changed[1]![1];
-    const what = isGutter ? `gutter of ${who} to ${metres(changed[1]![1])}` : `profile of ${who}`;
-    session.change(what, withPlan(withProfile(from, changed)), time);
+    session.change(`profile of ${who}`, withPlan(withProfile(from, changed)), time);
     describe(changed, i, hints);
   };
   const up = () => {
@@ -220,6 +235,11 @@ export function ProfileEditor() {
   const pointKey = (event: KeyboardEvent, i: number) => {
     const nudged = nudge(event, (by) => {
       const p = profile[i]!;
+      if (i === gutterPoint(profile)) {
+        const height = Math.max(whole(p[1] + by[1]), profile[i - 1]![1] + 0.01);
+        if (by[1] !== 0) gutterMoved(plan, height, [], event.timeStamp);
+        return;
+      }
       const to = held(profile, i, [whole(p[0] + by[0]), whole(p[1] + by[1])], keyStep(event));
       pointMoved(plan, movePoint(profile, i, to), i, [], event.timeStamp);
     });
@@ -449,14 +469,18 @@ export function ProfileEditor() {
         plan={plan}
         part={part}
         profile={profile}
-        edges={targets}
         who={who}
         point={point.value}
         share={share.value}
         onShare={(value) => (share.value = value)}
         onPlan={typed}
         onProfile={typedProfile}
-        onMove={(i, to) => typedProfile(`profile of ${who}`, movePoint(profile, i, to))}
+        onMove={(i, to) =>
+          i === gutterPoint(profile) && to[0] === profile[i]![0]
+            ? typed(gutterWords(to[1]), withGutters(plan, to[1]))
+            : typedProfile(`profile of ${who}`, movePoint(profile, i, to))
+        }
+        onGutter={(height) => typed(gutterWords(height), withGutters(plan, height))}
         onRemove={remove}
       />
       <dl class="edit-numbers" aria-live="polite">
@@ -469,14 +493,18 @@ export function ProfileEditor() {
           <dd>{changed(cubicMetres, drafted ? before?.volume : undefined, after?.volume)}</dd>
         </div>
         <div>
-          <dt>Error</dt>
-          <dd>{changed(squareMetres, drafted ? before?.mse : undefined, after?.mse)}</dd>
+          <dt title="Root mean squared vertical error of the building over its footprint; ground without a model counts as missed">
+            RMSE
+          </dt>
+          <dd>{changed(rootMetres, drafted ? state.selectedBuilding.value?.mse : undefined, shownBuilding?.mse)}</dd>
         </div>
         <div class="said">{words.value}</div>
       </dl>
     </div>
   );
 }
+
+const rootMetres = (mse: number | null | undefined) => metres(rmse(mse), 3);
 
 /** "before → after" while there is a draft, with one unit. */
 function changed(
@@ -485,5 +513,5 @@ function changed(
   after: number | null | undefined,
 ) {
   if (before === undefined || before === after) return text(after);
-  return `${text(before).replace(/ m[²³]$/, "")} → ${text(after)}`;
+  return `${text(before).replace(/ m[²³]?$/, "")} → ${text(after)}`;
 }

@@ -2,7 +2,6 @@ import type { Plan, ProfilePoint } from "../api/types";
 import { Icon } from "../panels/icons";
 import { NumberField } from "./fields";
 import { metres } from "./numbers";
-import { changeProfiles, type EdgeAt } from "./plan";
 import {
   degreesOf,
   gutterOf,
@@ -10,7 +9,6 @@ import {
   pitchOf,
   slopeOfDegrees,
   slopeTo,
-  withGutter,
   withSlope,
   type Profile,
 } from "./profile";
@@ -20,7 +18,6 @@ export function ProfileFields(props: {
   plan: Plan;
   part: string;
   profile: Profile;
-  edges: EdgeAt[]; // that a change applies to
   who: string; // description of these edges
   point: number | null;
   share: number;
@@ -28,9 +25,10 @@ export function ProfileFields(props: {
   onPlan(what: string, plan: Plan): void;
   onProfile(what: string, profile: Profile): void;
   onMove(i: number, to: ProfilePoint): void;
+  onGutter(height: number): void;
   onRemove(i: number): void;
 }) {
-  const { plan, part, profile, edges, who, share, onPlan, onProfile } = props;
+  const { plan, part, profile, who, share, onPlan, onProfile } = props;
   const i = props.point ?? 0;
   const point = i > 0 ? profile[i] : undefined;
   const slope = point ? slopeTo(profile, i) : null;
@@ -38,10 +36,6 @@ export function ProfileFields(props: {
   const turn = (at: number, degrees: number) => {
     if (degrees >= 0 && degrees < 90)
       onProfile(`pitch of ${who} to ${degrees.toFixed(1)}°`, withSlope(profile, at, slopeOfDegrees(degrees)));
-  };
-  const raise = (height: number) => {
-    const raised = (p: Profile) => (gutterOf(p) === null ? null : withGutter(p, height));
-    onPlan(`gutter of ${who} to ${metres(height)}`, changeProfiles(plan, edges, raised));
   };
   return (
     <div class="edit-fields">
@@ -63,7 +57,7 @@ export function ProfileFields(props: {
         unit="m"
         value={gutterOf(profile)}
         title="Height above the base at which the roof begins. The roof moves along"
-        onValue={raise}
+        onValue={props.onGutter}
       />
       <NumberField
         label="Pitch"

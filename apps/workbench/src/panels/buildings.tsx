@@ -21,7 +21,7 @@ const columns: { column: Column; name: string; title: string; number?: boolean }
   { column: "block", name: "Block", title: "Block of buildings that touch" },
   { column: "outcome", name: "Outcome", title: "Result of the run: full, or a simpler model" },
   { column: "parts", name: "Parts", title: "Number of solids", number: true },
-  { column: "rmse", name: "RMSE m", title: "Root mean squared vertical error", number: true },
+  { column: "rmse", name: "RMSE m", title: "Root mean squared vertical error over the footprint; ground without a model counts as missed", number: true },
   { column: "volume", name: "m³", title: "Volume", number: true },
   { column: "edited", name: "✎", title: "Edited by hand" },
 ];
@@ -147,8 +147,9 @@ function TableRow({ row, index, selected }: { row: Row; index: number; selected:
         {row.id}
       </div>
       <div role="gridcell">{row.block}</div>
-      <div role="gridcell" class={`outcome ${row.outcome}`}>
+      <div role="gridcell" class={`outcome ${row.outcome}`} title={row.reasons.join("\n") || undefined}>
         {row.outcome}
+        {row.reasons.length > 0 && <span aria-label={row.reasons.join(" ")}> ⓘ</span>}
       </div>
       <div role="gridcell" class="number">
         {row.parts}

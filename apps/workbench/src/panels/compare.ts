@@ -1,5 +1,7 @@
 // The numbers of two runs, compared.
 import type { Building, RunSummary } from "../api/types";
+import { editsOf, scoresOf } from "../state";
+import { rmse } from "./words";
 
 export interface NumberRow {
   name: string;
@@ -20,17 +22,17 @@ export function numbers(first: RunSummary, second: RunSummary): NumberRow[] {
     less: boolean | null = true,
   ): NumberRow => ({ name, unit, digits, first: of(first) ?? null, second: of(second) ?? null, less });
   const rows = [
-    row("Error as in the paper", "m²", 3, (r) => r.scores?.mse),
-    row("Error over the footprints", "m²", 3, (r) => r.scores?.footprint_mse),
-    row("Error inside the footprints", "m²", 3, (r) => r.scores?.inside_mse),
-    row("Median absolute error", "m", 3, (r) => r.scores?.footprint_median_absolute),
-    row("Missed", "m²", 1, (r) => r.scores?.missed),
-    row("Invented", "m²", 1, (r) => r.scores?.invented),
+    row("RMSE, footprints", "m", 3, (r) => rmse(scoresOf(r).scores?.footprint_mse)),
+    row("RMSE, inside them", "m", 3, (r) => rmse(scoresOf(r).scores?.inside_mse)),
+    row("RMSE, whole box", "m", 3, (r) => rmse(scoresOf(r).scores?.mse)),
+    row("Median absolute error", "m", 3, (r) => scoresOf(r).scores?.footprint_median_absolute),
+    row("Missed", "m²", 1, (r) => scoresOf(r).scores?.missed),
+    row("Invented", "m²", 1, (r) => scoresOf(r).scores?.invented),
     row("Buildings", "", 0, (r) => r.buildings, null),
     row("Fully reconstructed", "", 0, (r) => r.full, false),
     row("Parts", "", 0, (r) => r.parts, null),
     row("Faces", "", 0, (r) => r.faces, null),
-    row("Edits", "", 0, (r) => r.edits, null),
+    row("Edits", "", 0, editsOf, null),
     row("Elapsed time", "s", 1, (r) => r.times.wall_seconds),
     row("CPU time", "s", 1, (r) => r.times.cpu_seconds),
   ];
@@ -52,7 +54,7 @@ export interface BuildingDifference {
 }
 
 const volume = (b: Building | undefined) => b?.parts.reduce((sum, p) => sum + p.volume, 0) ?? 0;
-const rmse = (b: Building | undefined) => (b?.mse == null ? null : Math.sqrt(b.mse));
+const rmseOf = (b: Building | undefined) => rmse(b?.mse);
 
 /** Buildings that differ between two runs, the largest change of the error first. */
 export function buildingDifferences(
@@ -64,7 +66,7 @@ export function buildingDifferences(
     const [a, b] = [first.get(id), second.get(id)];
     return {
       id,
-      rmse: [rmse(a), rmse(b)],
+      rmse: [rmseOf(a), rmseOf(b)],
       parts: [a?.parts.length ?? 0, b?.parts.length ?? 0],
       volume: [volume(a), volume(b)],
       only: !a ? "second" : !b ? "first" : null,

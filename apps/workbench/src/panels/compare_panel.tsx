@@ -38,6 +38,9 @@ export function ComparePanel() {
       </div>
       <section class="card">
         <h2>Numbers</h2>
+        {[first, second].some((r) => state.scoresOf(r).outdated) && (
+          <p class="quiet">Some errors are those before the last edits; they are being measured again.</p>
+        )}
         <table class="plain-table">
           <thead>
             <tr>

@@ -2,7 +2,7 @@
 import { dismiss } from "../actions";
 import * as state from "../state";
 import { Icon } from "./icons";
-import { sentence } from "./words";
+import { inPage, sentence } from "./words";
 
 export function Messages() {
   return (
@@ -11,8 +11,10 @@ export function Messages() {
         <div class="message error" role="alert">
           {state.locked.value ? (
             <p>
-              The server was restarted and has a new link. Open the link that <code>mansard serve</code> printed last.
-              Saved edits are safe.
+              {state.wasConnected.value
+                ? "The server was restarted and has a new link. "
+                : "The link of this page is incomplete, or from an earlier start of the server. "}
+              Open the link that <code>mansard serve</code> printed last. Saved edits are safe.
             </p>
           ) : (
             <p>
@@ -25,7 +27,7 @@ export function Messages() {
       {state.messages.value.map((m) => (
         <div key={m.code + m.message} class={`message ${m.severity}`}>
           <p>
-            {sentence(m.message)} {m.subject && <span class="quiet">({m.subject})</span>} <code>{m.code}</code>
+            {sentence(inPage(m.message))} {m.subject && <span class="quiet">({m.subject})</span>} <code>{m.code}</code>
           </p>
           <button type="button" class="plain" aria-label="Dismiss" onClick={() => dismiss(m)}>
             <Icon name="close" />

@@ -194,7 +194,9 @@ function Errors() {
         <dt>Cells</dt>
         <dd>{grouped(spread.cells)}</dd>
       </dl>
-      {state.run.value!.history.done > 0 && <p class="quiet">Errors of the run, before edits.</p>}
+      {state.outdatedMaps.value.has(state.run.value!.id) && (
+        <p class="quiet">Errors before the last edits; they are being measured again.</p>
+      )}
     </>
   );
 }

@@ -9,7 +9,7 @@ import { OptionFields } from "./option_fields";
 import { changed, faulty, forRuns } from "./options";
 import { Progress } from "./progress";
 import { changeInputs } from "./start";
-import { bytes, count, fixed, grouped, nameOf, seconds, sentence } from "./words";
+import { bytes, count, fixed, grouped, inPage, nameOf, rmse, seconds, sentence } from "./words";
 
 /** The contents of the form; kept across reloads. */
 interface Form {
@@ -33,6 +33,7 @@ export function RunPanel() {
   return (
     <div class="panel">
       <Inputs />
+      <CarryOver />
       <NewRun />
       <RunList />
     </div>
@@ -202,6 +203,40 @@ function NewRun() {
   );
 }
 
+/** Offers the edits of another run for the open one, which has none. */
+function CarryOver() {
+  const open = state.runSummary(state.run.value?.id);
+  if (!open || state.editsOf(open) > 0) return null;
+  const edited = (state.project.value?.runs ?? []).filter(
+    (r) => r.id !== open.id && r.state === "done" && state.editsOf(r) > 0,
+  );
+  const last = edited.at(-1);
+  if (!last) return null;
+  return (
+    <section class="card carry" aria-label="Carry edits over">
+      <p>
+        {nameOf(open)} has no edits, {nameOf(last)} has {count(state.editsOf(last), "edit")}. Each edited building keeps its
+        plan where it still fits; the others are named and left as they are.
+      </p>
+      {edited.map((r) => (
+        <button
+          key={r.id}
+          type="button"
+          class="small"
+          disabled={carrying.value}
+          onClick={() => {
+            carrying.value = true;
+            void actions.carryOver(open.id, r.id).finally(() => (carrying.value = false));
+          }}
+        >
+          Carry over from {nameOf(r)}
+        </button>
+      ))}
+    </section>
+  );
+}
+const carrying = signal(false);
+
 function RunList() {
   const runs = [...(state.project.value?.runs ?? [])].reverse();
   if (!runs.length) return null;
@@ -227,6 +262,8 @@ function RunRow({ run }: { run: RunSummary }) {
     ...Object.entries(run.options).map(([k, v]) => `${k} = ${v}`),
   ].filter(Boolean);
   const name = nameOf(run);
+  const edits = state.editsOf(run);
+  const { scores, outdated } = state.scoresOf(run);
   return (
     <li class={"run-row" + (open ? " open" : "")}>
       <div class="run-head">
@@ -268,7 +305,7 @@ function RunRow({ run }: { run: RunSummary }) {
       </div>
       {deleting.value === run.id && (
         <div class="ask" role="alertdialog" aria-label={`Delete ${name}?`}>
-          Move {name} and its {count(run.edits, "edit")} to the trash folder of the project?
+          Move {name} and its {count(edits, "edit")} to the trash folder of the project?
           <button
             type="button"
             class="small danger"
@@ -284,12 +321,18 @@ function RunRow({ run }: { run: RunSummary }) {
           </button>
         </div>
       )}
-      {run.failure && <p class="wrong">{sentence(run.failure.message)}</p>}
+      {run.failure && <p class="wrong">{sentence(inPage(run.failure.message))}</p>}
       {run.state === "done" && (
         <p class="run-numbers">
-          {run.scores && (
-            <span title="Mean squared vertical error: as in the paper / over the footprints">
-              {fixed(run.scores.mse, 3)} / {fixed(run.scores.footprint_mse, 3)} m²
+          {scores && (
+            <span
+              class={outdated ? "outdated" : undefined}
+              title={
+                "Root mean squared vertical error over the footprints" +
+                (outdated ? ", before the last edits: it is measured again while the mesh is open" : "")
+              }
+            >
+              RMSE {fixed(rmse(scores.footprint_mse), 3)} m{outdated && " · before edits"}
             </span>
           )}
           <span>
@@ -298,7 +341,7 @@ function RunRow({ run }: { run: RunSummary }) {
           <span>{count(run.parts, "part")}</span>
           <span>{count(run.faces, "face")}</span>
           <span title={`Elapsed time; ${seconds(run.times.cpu_seconds)} of CPU time`}>{seconds(run.times.wall_seconds)}</span>
-          {run.edits > 0 && <span>{count(run.edits, "edit")}</span>}
+          {edits > 0 && <span>{count(edits, "edit")}</span>}
           {run.blocks.length > 0 && <span title={run.blocks.join(", ")}>only {count(run.blocks.length, "block")}</span>}
         </p>
       )}

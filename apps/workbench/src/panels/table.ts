@@ -1,5 +1,6 @@
 // The table of buildings: columns, order, and the visible rows.
 import type { Building } from "../api/types";
+import { reasonsOf } from "./reasons";
 
 export type Column = "id" | "block" | "outcome" | "parts" | "rmse" | "volume" | "edited";
 export interface Order {
@@ -11,7 +12,8 @@ export interface Row {
   block: string;
   outcome: string;
   parts: number;
-  rmse: number | null; // m
+  reasons: string[]; // why the model is simpler than asked for
+  rmse: number | null; // m, over the footprint
   volume: number; // m³
   edited: boolean;
 }
@@ -20,6 +22,7 @@ export const rowOf = (b: Building): Row => ({
   id: b.id,
   block: b.block,
   outcome: b.outcome,
+  reasons: reasonsOf(b),
   parts: b.parts.length,
   rmse: b.mse === null ? null : Math.sqrt(b.mse),
   volume: b.parts.reduce((sum, p) => sum + p.volume, 0),

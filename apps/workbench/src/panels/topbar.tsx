@@ -111,9 +111,10 @@ const open = signal(false);
 
 function Export({ run }: { run: string }) {
   const close = () => (open.value = false);
-  const files = (state.options.value?.formats ?? []).flatMap((f) =>
-    f.files.map((file, i): [file: string, what: string] => [file, i ? `belongs to ${f.files[0]}` : f.description]),
-  );
+  // Files that name each other, such as OBJ and MTL, come as one ZIP.
+  const files = (state.options.value?.formats ?? [])
+    .filter((f) => f.files.length > 0)
+    .map((f): [file: string, what: string] => [f.files.length > 1 ? `${f.files[0]}.zip` : f.files[0]!, f.description]);
   if (state.runSummary(run)?.scores) files.push([layersOfRun, "Layers of the segmentation for a GIS, before edits."]);
   return (
     <div

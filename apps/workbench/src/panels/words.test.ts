@@ -1,5 +1,5 @@
 import { expect, it } from "vitest";
-import { brief, bytes, count, fullNameOf, fixed, grouped, seconds, sentence, signed } from "./words";
+import { brief, bytes, count, fullNameOf, fixed, grouped, inPage, rmse, seconds, sentence, signed } from "./words";
 
 it("numbers are formatted", () => {
   expect(grouped(1234567)).toBe("1,234,567");
@@ -12,6 +12,17 @@ it("numbers are formatted", () => {
 
 it("messages begin with a capital letter", () => {
   expect([sentence("no such file"), sentence("3 files"), sentence("")]).toEqual(["No such file", "3 files", ""]);
+});
+
+it("options are named as in the page, not as on a command line", () => {
+  expect(inPage("the footprints are far from the mesh; give --mesh-offset or --crs")).toBe(
+    "the footprints are far from the mesh; give the option “mesh-offset” or the option “crs”",
+  );
+  expect(inPage("well--known and -- alone")).toBe("well--known and -- alone");
+});
+
+it("mean squares become roots, and nothing stays nothing", () => {
+  expect([rmse(0.04), rmse(null), rmse(undefined)]).toEqual([0.2, null, null]);
 });
 
 it("long names are shortened, and runs named without repetition", () => {

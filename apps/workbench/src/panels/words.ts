@@ -8,6 +8,8 @@ export function signed(x: number | null, digits: number): string {
   const text = Math.abs(x).toFixed(digits);
   return Number(text) === 0 ? text : `${x < 0 ? "−" : "+"}${text}`;
 }
+/** Root of a mean square; null where there is none. */
+export const rmse = (mse: number | null | undefined) => (mse === null || mse === undefined ? null : Math.sqrt(mse));
 export const count = (n: number, one: string, many = `${one}s`) => `${grouped(n)} ${n === 1 ? one : many}`;
 /** 12345 → 12,345. */
 export const grouped = (n: number) =>
@@ -31,6 +33,9 @@ export function bytes(n: number): string {
 }
 /** Shortens long names in a sentence, such as ids of 36 characters, to their beginnings and ends. */
 export const brief = (text: string) => text.replace(/[^\s]{20,}/g, (name) => `${name.slice(0, 9)}…${name.slice(-4)}`);
+/** Options as a page offers them: messages of the program give them as on a command line, such as --mesh-offset. */
+export const inPage = (text: string) =>
+  text.replace(/(^|[\s'(])--([a-z][a-z0-9.]*(?:-[a-z0-9]+)*)/g, (_, before: string, name: string) => `${before}the option “${name}”`);
 /** With a capital first letter. */
 export const sentence = (text: string) => text.charAt(0).toUpperCase() + text.slice(1);
 /** The name of a run: its label, or its id if it has none. */

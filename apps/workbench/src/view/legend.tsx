@@ -11,15 +11,15 @@ export function Legend() {
   return (
     <div class="legend">
       {error.shown && (
-        <div class="legend-error">
+        <div class={"legend-error" + (state.outdatedMaps.value.has(run.id) ? " outdated" : "")}>
           <div>
             model − mesh, m
             {!maps
               ? " (loading)"
               : maps.length === 0
                 ? " (not measured)"
-                : run.history.done > 0
-                  ? " · before edits"
+                : state.outdatedMaps.value.has(run.id)
+                  ? " · before the last edits"
                   : ""}
           </div>
           <div class="legend-ramp" aria-hidden="true" />

@@ -6,7 +6,8 @@ import type * as api from "../api/types";
 import { keep, kept } from "../keep";
 import * as state from "../state";
 import type { Pose } from "./camera";
-import { nameOf, sentence } from "../panels/words";
+import { reasonsOf } from "../panels/reasons";
+import { nameOf } from "../panels/words";
 import { viewer } from "./current";
 import type { RawClimbs } from "./highlight";
 import { choices, errorLimit, section } from "./layers";
@@ -116,7 +117,7 @@ function connect(to: Viewer): () => void {
         }),
         effect(() => {
           const run = id();
-          if (run && choices.value.error.shown) void actions.needErrorMaps(run);
+          if (run && choices.value.error.shown && !state.outdatedMaps.value.has(run)) void actions.needErrorMaps(run);
         }),
         effect(() => to.setSegmentation(which, state.segmentations.value.get(id() ?? "") ?? null)),
         effect(() => to.setErrorMaps(which, state.errorMaps.value.get(id() ?? "") ?? null)),
@@ -126,7 +127,7 @@ function connect(to: Viewer): () => void {
     effect(() => to.setErrorLimit(errorLimit.value)),
     effect(() => to.setSection(section.value)),
     effect(() => to.setSelection(state.selection.value, state.also.value)),
-    effect(() => to.setHover(state.hovered.value)),
+    effect(() => to.setHover(state.hovered.value?.right ? null : state.hovered.value)),
     effect(() => {
       void state.scene.value;
       to.setChosen(state.choosing.value ? state.chosenBlocks.value : none);
@@ -155,10 +156,12 @@ export function View() {
         canvas.current!,
         {
           click: clicked,
-          hover: (hit) => {
+          hover: (hit, right) => {
             const was = state.hovered.peek();
-            if (hit?.building === was?.building && hit?.part === was?.part && hit?.edge === was?.edge) return;
-            state.hovered.value = hit && { building: hit.building, part: hit.part, ring: hit.ring, edge: hit.edge };
+            const same = hit?.building === was?.building && hit?.part === was?.part && hit?.edge === was?.edge;
+            if (same && right === (was?.right ?? false)) return;
+            state.hovered.value =
+              hit && { building: hit.building, part: hit.part, ring: hit.ring, edge: hit.edge, right };
           },
           moved: (pose) => {
             keep("session", poseKey(), pose);
@@ -225,15 +228,15 @@ function Under() {
     );
   }
   if (!at) return null;
-  const building = state.run.value?.buildings.get(at.building);
-  const reasons = building ? [...building.reasons, ...building.diagnostics] : [];
+  const building = (at.right ? state.other : state.run).value?.buildings.get(at.building);
+  const reasons = building ? reasonsOf(building) : [];
   return (
     <div class="under">
       <b>{at.building}</b>
       {at.part && at.part !== at.building && ` · part ${at.part.replace(at.building, "").replace(/^-/, "")}`}
       {at.edge !== null && ` · edge ${at.edge}${at.ring ? ` of hole ${at.ring}` : ""}`}
       {reasons.map((r) => (
-        <div key={r.code + r.message}>{sentence(r.message)}</div>
+        <div key={r}>{r}</div>
       ))}
     </div>
   );

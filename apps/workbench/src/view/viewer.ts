@@ -18,7 +18,7 @@ import { SegmentationLayers } from "./segmentation";
 
 export interface Listener {
   click(hit: Hit | null, footprint: api.SceneFootprint | null, more: boolean): void;
-  hover(hit: Hit | null): void;
+  hover(hit: Hit | null, right: boolean): void; // right: over the run to compare with
   moved(pose: Pose): void; // called when the camera stops; in the frame of the scene
   loadTile(id: string, signal: AbortSignal): Promise<ArrayBuffer>;
 }
@@ -49,7 +49,7 @@ export class Viewer {
   private readonly world = new THREE.Scene();
   private readonly eye = new THREE.PerspectiveCamera();
   private readonly gone = new AbortController();
-  private readonly marks = new Marks();
+  private readonly marks = [new Marks(), new Marks()] as const; // of the left and of the right run
   private readonly footprints = new WideLines(colours.footprint, 2);
   private readonly buried = new WideLines(colours.footprint, 1.5, true); // the same, visible through the mesh
   private readonly chosen = new WideLines(colours.accent, 2.5, true);
@@ -59,7 +59,7 @@ export class Viewer {
   private sides: [Side, Side | null];
   private scene: api.Scene | null = null;
   private centre: Vector = [0, 0, 0];
-  private marked: { building: string; place: Vector }[] = [];
+  private readonly marked: { building: string; place: Vector }[][] = [[], []];
   private plane: THREE.Plane | null = null;
   private pose: Pose = camera.home([-50, -50, 0], [50, 50, 20], 1.5); // relative to the centre
   private goal: Pose = this.pose;
@@ -91,7 +91,7 @@ export class Viewer {
       this.buried.object,
       this.chosenSheet.object,
       this.chosen.object,
-      this.marks.object,
+      ...this.marks.map((m) => m.object),
     );
     this.world.add(this.highlight.group, this.sides[0].output.group);
     attach(canvas, this.gestures, this.gone.signal);
@@ -148,6 +148,7 @@ export class Viewer {
     if (which === 1 && !buildings) {
       this.sides[1]?.dispose();
       this.sides[1] = null;
+      this.placeMarks();
       return this.request();
     }
     if (!this.sides[which]) {
@@ -165,10 +166,8 @@ export class Viewer {
       side.output.set(side.buildings, drafts, invalid);
     }
     this.fadeModels(this.sides[which]!.output);
-    if (another && which === 0) {
-      this.placeMarks();
-      this.maskMesh();
-    }
+    if (another) this.placeMarks();
+    if (another && which === 0) this.maskMesh();
     this.showBuried();
     this.showSelection();
     this.place();
@@ -226,7 +225,7 @@ export class Viewer {
     const { footprints, diagnostics } = choices;
     this.footprints.opacity = footprints.shown ? footprints.opacity : 0;
     this.showBuried();
-    this.marks.object.visible = diagnostics.shown && this.marked.length > 0;
+    this.showMarks(0, diagnostics.shown);
     this.showMesh();
     this.maskMesh();
     this.showSelection();
@@ -289,7 +288,7 @@ export class Viewer {
     this.height = Math.max(1, height);
     this.renderer.setPixelRatio(Math.min(2, globalThis.devicePixelRatio || 1));
     this.renderer.setSize(this.width, this.height, false);
-    this.marks.material.uniforms.size!.value = 12 * this.renderer.getPixelRatio();
+    for (const marks of this.marks) marks.material.uniforms.size!.value = 12 * this.renderer.getPixelRatio();
     this.place();
     this.draw(); // a resized canvas is empty
   }
@@ -383,10 +382,11 @@ export class Viewer {
           marked
             ? { building: marked, part: null, ring: 0, edge: null, point: ray.origin, distance: 0 }
             : this.hit(ray, side),
+          side === this.sides[1],
         );
       });
     },
-    leave: () => this.listener.hover(null),
+    leave: () => this.listener.hover(null, false),
   };
 
   private move(goal: Pose) {
@@ -430,9 +430,10 @@ export class Viewer {
     this.plane.distanceToPoint(new THREE.Vector3(...(point.map((p, i) => p - this.centre[i]!) as Vector))) >= 0;
 
   private markAt(x: number, y: number): string | null {
-    if (!this.marks.object.visible) return null;
-    const local = this.sides[1] && x > this.paneWidth ? x - this.paneWidth : x;
-    for (const { building, place } of this.marked) {
+    if (!this.choices.diagnostics.shown) return null;
+    const right = this.sides[1] !== null && x > this.paneWidth;
+    const local = right ? x - this.paneWidth : x;
+    for (const { building, place } of this.marked[right ? 1 : 0]!) {
       const p = new THREE.Vector3(...place).project(this.eye);
       const [px, py] = [((p.x + 1) / 2) * this.paneWidth, ((1 - p.y) / 2) * this.height];
       if (p.z < 1 && Math.hypot(px - local, py - y) <= 8) return building;
@@ -526,22 +527,30 @@ export class Viewer {
   }
 
   private placeMarks() {
-    const [positions, tones]: [number[], number[]] = [[], []];
-    this.marked = [];
-    for (const building of this.sides[0].buildings.values()) {
-      const all = [...building.reasons, ...building.diagnostics, ...building.parts.flatMap((p) => p.diagnostics)];
-      if (!all.length) continue;
-      const { low, high } = this.centred(
-        building.parts.length ? boxOf(building) : this.footprintBox((f) => f.id === building.id),
-      );
-      if (!Number.isFinite(low[0])) continue;
-      const place: Vector = [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, high[2] + 1];
-      this.marked.push({ building: building.id, place });
-      positions.push(...place);
-      tones.push(...(all.some((d) => d.severity === "error") ? [0.82, 0.13, 0.13] : [0.85, 0.5, 0.05]));
-    }
-    this.marks.set(positions, tones);
-    this.marks.object.visible = this.choices.diagnostics.shown && this.marked.length > 0;
+    this.sides.forEach((side, i) => {
+      const [positions, tones]: [number[], number[]] = [[], []];
+      const marked: { building: string; place: Vector }[] = [];
+      for (const building of side?.buildings.values() ?? []) {
+        const all = [...building.reasons, ...building.diagnostics, ...building.parts.flatMap((p) => p.diagnostics)];
+        if (!all.length) continue;
+        const { low, high } = this.centred(
+          building.parts.length ? boxOf(building) : this.footprintBox((f) => f.id === building.id),
+        );
+        if (!Number.isFinite(low[0])) continue;
+        const place: Vector = [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, high[2] + 1];
+        marked.push({ building: building.id, place });
+        positions.push(...place);
+        tones.push(...(all.some((d) => d.severity === "error") ? [0.82, 0.13, 0.13] : [0.85, 0.5, 0.05]));
+      }
+      this.marked[i] = marked;
+      this.marks[i]!.set(positions, tones);
+    });
+    this.showMarks(0);
+  }
+
+  /** Shows the marks of one run: each pane has its own. */
+  private showMarks(side: number, shown = this.choices.diagnostics.shown) {
+    this.marks.forEach((marks, i) => (marks.object.visible = i === side && shown && this.marked[i]!.length > 0));
   }
 
   private showSelection() {
@@ -655,6 +664,7 @@ export class Viewer {
         if (other.segmentation) other.segmentation.group.visible = other === side;
       }
       this.highlight.group.visible = i === 0 || second !== null;
+      this.showMarks(i);
       const left = i * this.paneWidth;
       this.renderer.setViewport(left, 0, this.paneWidth, this.height);
       this.renderer.setScissor(left, 0, this.paneWidth, this.height);
