@@ -9,6 +9,7 @@
 
 #include "mansard/base/text.hpp"
 #include "mansard/formats/files/named_file.hpp"
+#include "mansard/formats/files/reach.hpp"
 #include "mansard/formats/hash.hpp"
 #include "mansard/formats/outside/process.hpp"
 
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 
 class Tree {
  public:
-  Tree(const fs::path& root, bool textured) : folder_(root.parent_path().lexically_normal()), textured_(textured) {
+  Tree(const fs::path& root, bool textured) : root_(root), textured_(textured) {
     visited_.insert(root.lexically_normal());
   }
 
@@ -76,16 +77,14 @@ class Tree {
     using Opened = std::optional<std::pair<fs::path, Bytes>>;
     std::string portable = name;
     std::ranges::replace(portable, '\\', '/');
-    const fs::path path = (from.parent_path() / portable).lexically_normal();
-    const fs::path inside = path.lexically_relative(folder_.empty() ? fs::path(".") : folder_);
+    const fs::path path = from.parent_path() / portable;  // as it is: "/vsizip//tmp" is not "/vsizip/tmp"
     const auto missing = [&](const std::string& why) {
       out.mesh.warnings.push_back(
           base::warning("ingest-mesh-level", why + "; the coarser level is taken", path.string()));
       return Opened();
     };
-    if (fs::path(portable).is_absolute() || inside.empty() || *inside.begin() == "..")
-      return missing("the file is outside the folder of the mesh");
-    if (!visited_.insert(path).second)
+    if (!check_reach(root_, path)) return missing("the file is outside the folder of the mesh");
+    if (!visited_.insert(path.lexically_normal()).second)
       return base::error("ingest-mesh-format", "it refers to a file twice through its levels; export it again",
                          from.string());
     auto bytes = bytes_of_named(path);
@@ -121,12 +120,14 @@ class Tree {
                                             : no_material);
   }
 
-  static auto material_of(const outside::Picture& picture, const fs::path& path) -> TextureMaterial {
+  auto material_of(const outside::Picture& picture, const fs::path& path) const -> TextureMaterial {
     TextureMaterial material;
     auto& image = material.image.emplace();
     image.path = path;
-    if (picture.bytes.empty()) image.path = (path.parent_path() / picture.file).lexically_normal();
-    else image.bytes = std::make_shared<const std::string>(picture.bytes);
+    if (picture.bytes.empty()) image.path = path.parent_path() / picture.file;
+    // One that may not be opened is one that cannot be read.
+    if (!picture.bytes.empty() || !check_reach(root_, image.path))
+      image.bytes = std::make_shared<const std::string>(picture.bytes);
     image.name = path.string() + " image " + base::on_one_line(picture.file);
     for (std::size_t side = 0; side < 2; ++side)
       material.wrap[side] = picture.wrap[side] == 0   ? Wrap::repeat
@@ -135,7 +136,7 @@ class Tree {
     return material;
   }
 
-  const fs::path folder_;
+  const fs::path root_;
   const bool textured_;
   std::set<fs::path> visited_;
 };
