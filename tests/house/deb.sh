@@ -16,21 +16,21 @@ python=$(echo "$scratch"/packages/python3-mansard_*.deb)
 
 # It depends on the libraries it is linked with, and on none of a compiler's.
 depends=$(dpkg-deb -f "$program" Depends)
-for library in libgdal libgeos-c1 libgmp10 libtbb libembree coinor-libcbc libpng16 libc6; do
+for library in libgdal libgeos-c1 libgmp10 libtbb libembree coinor-libcbc libpng16 libassimp libopenscenegraph libc6; do
   [[ $depends == *"$library"* ]] || fail "no dependency on $library: $depends"
 done
 [[ $depends != *-dev* ]] || fail "a program needs no headers: $depends"
 [[ $(dpkg-deb -f "$engine" Depends) == *libgdal-dev* ]] || fail "the engine needs the headers' packages"
 
 dpkg-deb -c "$program" | awk '{print $6}' > "$scratch/contents"
-for file in bin/mansard share/man/man1/mansard.1.gz share/bash-completion/completions/mansard \
+for file in bin/mansard libexec/mansard/mansard-reader share/man/man1/mansard.1.gz share/bash-completion/completions/mansard \
   share/zsh/vendor-completions/_mansard share/fish/vendor_completions.d/mansard.fish \
   share/mansard/data/hall/mesh.off share/qgis/python/plugins/mansard/metadata.txt \
   share/doc/mansard/docs/cli.md share/doc/mansard/changelog.gz share/doc/mansard/copyright share/doc/mansard/NOTICE share/doc/mansard/LICENSE; do
   grep -qx "./usr/$file" "$scratch/contents" || fail "no $file in the package"
 done
-! grep -vE '^\./(usr/)?$|^\./usr/(bin|share)/' "$scratch/contents" ||
-  fail "the package reaches beyond /usr/bin and /usr/share"
+! grep -vE '^\./(usr/)?$|^\./usr/(bin|share)/|^\./usr/libexec/(mansard/(mansard-reader)?)?$' "$scratch/contents" ||
+  fail "the package reaches beyond /usr/bin, /usr/share and /usr/libexec/mansard"
 dpkg-deb -c "$engine" | awk '{print $6}' > "$scratch/engine_contents"
 grep -qx './usr/include/mansard/pipeline/pipeline.hpp' "$scratch/engine_contents" ||
   fail "no door in the package of the engine"
@@ -50,8 +50,8 @@ data=$scratch/root/usr/share/mansard/data
 [[ -s $scratch/hall/model.city.json ]] || fail "no model"
 # Its reader of other formats is where it looks for it, and no other mansard-reader is in PATH.
 printf 'solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 9 0 0\nvertex 0 9 0\nendloop\nendfacet\nendsolid a\n' > "$scratch/a.stl"
-PATH=/usr/bin:/bin "$mansard" reconstruct -q "$scratch/a.stl" "$data/hall/footprints.geojson" -o "$scratch/none" 2>&1 |
-  grep -qF ingest-no-overlap || fail "STL is not read"
+said=$(PATH=/usr/bin:/bin "$mansard" reconstruct -q "$scratch/a.stl" "$data/hall/footprints.geojson" -o "$scratch/none" 2>&1) || true
+[[ $said == *ingest-no-overlap* ]] || fail "STL is not read: $said"
 
 # The Python package, from where it was unpacked.
 [[ $(dpkg-deb -f "$python" Depends) == *python3-numpy*libgdal* || $(dpkg-deb -f "$python" Depends) == *libgdal*python3-numpy* ]] ||
