@@ -1,3 +1,5 @@
+// Debian's Node 18 has no global File.
+import { File as NodeFile } from "node:buffer";
 import { beforeEach, describe, expect, it, vi } from "vitest";
 import * as actions from "./actions";
 import type * as api from "./api/types";
@@ -288,7 +290,7 @@ describe("messages", () => {
 });
 
 describe("uploads", () => {
-  const file = (name: string) => new File(["bytes"], name);
+  const file = (name: string) => new NodeFile(["bytes"], name) as unknown as File;
   const exists = () =>
     Response.json(
       { error: { severity: "error", code: "server-exists", message: "taken", subject: "" } },
