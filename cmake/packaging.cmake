@@ -86,6 +86,7 @@ install(FILES ${made}/mansard.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-com
   COMPONENT program)
 install(FILES ${made}/_mansard DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT program)
 install(FILES ${made}/mansard.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT program)
+install(FILES ${PROJECT_SOURCE_DIR}/tools/blender_import.py DESTINATION ${CMAKE_INSTALL_DATADIR}/mansard COMPONENT program)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/data DESTINATION ${CMAKE_INSTALL_DATADIR}/mansard COMPONENT program)
 install(FILES ${papers} ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/README.md
   DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/mansard COMPONENT program)

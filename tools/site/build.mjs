@@ -50,7 +50,7 @@ const top = [
   ["Options", ["options.html", "attributes.html", "codes.html"]],
   ["Command line", [...docs("cli"), "verbs.html"]],
   ["A whole city", docs("city")],
-  ["Python and QGIS", docs("python", "qgis")],
+  ["Python, QGIS, Blender", docs("python", "qgis", "blender")],
   ["Workbench", docs("workbench", "serve")],
   ["Results", docs("results", "robustness", "bench", "comparison")],
 ];
