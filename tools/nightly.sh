@@ -11,6 +11,8 @@
 #   kills       runs killed at KILLS (1000) random moments, where a test run has 50: results have the bytes of an undisturbed run
 #   clean       `make demo` and `make test` in a new Debian 12: tools/clean_debian.sh, as root. CLEAN has its options, for
 #               example CLEAN="--ccache /var/cache/ccache"
+# UNTIL=HH:MM (today) is for a run with little time: debug, asan and clang build and run the tests of one module after another,
+# and begin no module after that time. Their row says which modules were tested.
 # A lane replaces its row of docs/nightly.md; the others keep what they say. Logs: build/nightly/LANE.log. Exit code 1 when a
 # lane fails.
 set -euo pipefail
@@ -39,13 +41,43 @@ jobs=${JOBS:-$(make -s jobs)}
 
 # ---- the lanes
 all_tests() {  # preset, further packages
-  tools/setup.sh build test package "${@:2}" && cmake --preset "$1" --log-level=WARNING &&
+  tools/setup.sh build test package "${@:2}" && cmake --preset "$1" --log-level=WARNING || return
+  if [[ -n ${UNTIL:-} ]]; then
+    tests_by_module "$1"
+  else
     cmake --build --preset "$1" -j "$jobs" && ctest --preset "$1" --no-tests=error -j 2
+  fi
+}
+tests_by_module() {  # preset
+  local module modules=() code=0
+  while read -r module; do [[ ! -d tests/$module ]] || modules+=("$module"); done \
+    < <(sed -nE 's/^mansard_module\((\w+).*/\1/p' cmake/modules.cmake; echo cli)
+  for module in "${modules[@]}"; do
+    [[ $(date +%H:%M) < $UNTIL ]] || { echo "nightly: it is $UNTIL: no more modules"; return $code; }
+    cmake --build --preset "$1" -j "$jobs" --target "test_$module" || { echo "nightly: $module: not built"; code=1; continue; }
+    echo "nightly: $module: tested"
+    ctest --preset "$1" --no-tests=error -j 2 -R "^$module\\." || code=1
+  done
+  [[ $(date +%H:%M) < $UNTIL ]] || return $code
+  cmake --build --preset "$1" -j "$jobs" || return
+  echo "nightly: others: tested"
+  ctest --preset "$1" -j 2 -E "^($(IFS='|'; echo "${modules[*]}"))\\." || code=1
+  return $code
+}
+# What the lane was, where not all tests are in its log.
+meaning_of() {  # lane
+  local tested
+  tested=$(sed -nE 's/^nightly: (\w+): tested$/`\1`/p' "$logs/$1.log")
+  if [[ -z ${UNTIL:-} || ! $1 =~ ^(debug|asan|clang)$ || $tested == *'`others`' ]]; then
+    echo "${meaning[$1]}"
+  else
+    echo "${meaning[$1]/all tests/the tests of ${tested//$'\n'/, } only, in a run that had until $UNTIL}"
+  fi
 }
 run_debug() { all_tests debug; }
 run_asan() { all_tests asan; }
 run_clang() { all_tests clang clang; }
-run_headers() { tools/setup.sh build && JOBS=$jobs tools/check_headers.sh --all; }
+run_headers() { tools/setup.sh build python && JOBS=$jobs tools/check_headers.sh --all; }
 run_tidy() { JOBS=$jobs tools/tidy.sh; }
 run_fuzz() { tools/fuzz.sh "$FUZZ_SECONDS"; }
 run_properties() {
@@ -85,8 +117,9 @@ results_of() {  # lane
     lane ~ /^(properties|kills)$/ && /^\[  FAILED  \] [0-9]+ test/ { failed += $4; next }
     lane ~ /^(properties|kills)$/ && /^\[  FAILED  \] / { sub(",", "", $4); add($4) }
     lane ~ /^(debug|asan|clang|clean)$/ && /^[0-9]+% tests passed, [0-9]+ tests? failed out of [0-9]+$/ {
-      failed = $4; passed = $NF - failed; skipped = 0; summary = 1
+      failed += $4; passed += $NF - $4; summary = 1
     }
+    /^nightly: [a-z0-9]+: not built$/ { ++failed; sub(":", "", $2); add($2) }
     summary && /^\t *[0-9]+ - .* \((Skipped|Disabled)\)$/ { ++skipped; if (/Skipped/) --passed; next }
     summary && /^\t *[0-9]+ - / { add($3) }
     END { printf "%d %d %d %s\n", passed, failed, skipped, names }' "$logs/$1.log"
@@ -130,7 +163,7 @@ for lane in "${lanes[@]}"; do
   { time "run_$lane" > "$logs/$lane.log" 2>&1 || result=failed; } 2> "$logs/time"
   read -r passed failed skipped names < <(results_of "$lane")
   minutes=$(awk '{ printf "%.0f", ($1 + $2) / 60 }' "$logs/time")
-  write_page "| \`$lane\` | ${meaning[$lane]} | $result | $passed | $failed | $skipped | $minutes | $(date +%F) | $version, $commit |" \
+  write_page "| \`$lane\` | $(meaning_of "$lane") | $result | $passed | $failed | $skipped | $minutes | $(date +%F) | $version, $commit |" \
     "${names//,/, }"
   echo "$result: $passed passed, $failed failed${names:+ ($names)}, $skipped skipped; $minutes minutes of CPU"
   [[ $result == passed ]] || code=1

@@ -73,6 +73,22 @@ case $2 in
     says '^\| `tidy` \| .* \| failed \| 1 \| 1 \| 0 \|' || fail "no row of tidy"
     says '^- `tidy`: mansard/a/b.cpp$' || fail "what failed is not named"
     ;;
+  nightly_says_what_a_run_with_little_time_has_tested)
+    mkdir -p "$scratch/cmake" "$scratch"/tests/{base,geometry,solid,cli}
+    printf 'mansard_module(base     USES x)\nmansard_module(geometry DEPENDS base)\nmansard_module(lone DEPENDS base)\nmansard_module(solid)\n' \
+      > "$scratch/cmake/modules.cmake"
+    stand_in bin/cmake '[[ "$*" != *test_geometry* ]]'
+    stand_in bin/date "[[ \$1 != +%F ]] || exec /bin/date \$1
+      if grep -q 'ctest.*solid' '$calls'; then echo 10:31; else echo 10:29; fi"
+    UNTIL=10:30 nightly asan || [[ $? -eq 1 ]] || fail "failed"
+    says '^\| `asan` \| .*: the tests of `base`, `solid` only, in a run that had until 10:30 \| failed \| 22 \| 1 \| 4 \|' || fail "no row of asan"
+    says '^- `asan`: geometry$' || fail "what was not built is not named"
+    ! grep -qE '^bin/(cmake|ctest) .*(cli|lone)' "$calls" || fail "something was begun after the time"
+    stand_in bin/cmake ''
+    UNTIL=10:32 nightly asan || fail "failed"
+    grep -qE '^bin/ctest .* -E \^\(base\|geometry\|solid\|cli\)\\.$' "$calls" || fail "the other tests did not run"
+    says '^\| `asan` \| .*: all tests \| passed \| 55 \| 0 \| 10 \|' || fail "all tests are not all tests"
+    ;;
   nightly_refuses_a_lane_that_does_not_exist)
     ! nightly debug asam || fail "passed"
     grep -q "unknown lane 'asam'; expected debug asan" "$scratch/stdout" || fail "the error does not list the lanes"
