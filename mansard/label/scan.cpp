@@ -14,11 +14,53 @@ using geometry::Point3;
 using model::SurfaceClass;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Sine of the slope from vertical up to which a surface looks like a wall: the wall_angle of models, 0.2 rad, and the
+/// noise of a scan.
+constexpr double upright_rise = 0.25;
 
 auto normals_of(const geometry::Mesh& mesh) -> std::vector<Point3> {
   std::vector<Point3> normals;
   for (const auto& t : mesh.triangles) normals.push_back(normalised(detail::area_vector(mesh, t)));
   return normals;
+}
+
+/// The triangles at every vertex.
+struct Around {
+  std::vector<std::uint32_t> first, triangles;
+  explicit Around(const geometry::Mesh& mesh)
+      : first(mesh.vertices.size() + 1, 0), triangles(3 * mesh.triangles.size()) {
+    for (const auto& t : mesh.triangles)
+      for (const auto v : t) ++first[v + 1];
+    for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
+    auto next = first;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+      for (const auto v : mesh.triangles[t]) triangles[next[v]++] = t;
+  }
+};
+
+/// What every triangle faces, without the noise of a scan: the mean, by area, over those that touch it, within `reach`.
+/// What faces another way does not count, by the cosine: edges stay where they are.
+auto directions_of(const geometry::Mesh& mesh, const std::vector<Point3>& normals, double reach)
+    -> std::vector<Point3> {
+  std::vector<Point3> out(normals.size());
+  if (!(reach > 0)) return normals;
+  const Around around(mesh);
+  base::parallel_for(out.size(), [&](std::size_t t) {
+    const Point3 middle = detail::centre_of(mesh, mesh.triangles[t]);
+    std::vector<std::uint32_t> near;
+    for (const auto v : mesh.triangles[t])
+      near.insert(near.end(), around.triangles.begin() + around.first[v],
+                  around.triangles.begin() + around.first[v + 1]);
+    std::ranges::sort(near);
+    near.erase(std::ranges::unique(near).begin(), near.end());
+    Point3 sum = detail::area_vector(mesh, mesh.triangles[t]);
+    for (const auto other : near) {
+      if (other == t || length(detail::centre_of(mesh, mesh.triangles[other]) - middle) > reach) continue;
+      sum = sum + std::max(0.0, dot(normals[t], normals[other])) * detail::area_vector(mesh, mesh.triangles[other]);
+    }
+    out[t] = normalised(sum);
+  });
+  return out;
 }
 
 /// What a place costs as ground: its distance from the terrain, across it, and what it looks another way.
@@ -42,7 +84,8 @@ auto label_scan(const geometry::Mesh& scan, const model::ModelSurface& model, co
                 const base::Run& run) -> std::vector<SurfaceClass> {
   run.report("label", {}, 0);
   const rays::Scene scene(model.mesh);
-  const auto model_normals = normals_of(model.mesh), normals = normals_of(scan);
+  const auto model_normals = normals_of(model.mesh);
+  const auto normals = directions_of(scan, normals_of(scan), options.even_out);
   const detail::Terrain terrain = terrain_beside(scene, scan, options);
   std::vector<SurfaceClass> classes(scan.triangles.size(), SurfaceClass::other);
   base::parallel_for(classes.size(), [&](std::size_t i) {
@@ -50,7 +93,9 @@ auto label_scan(const geometry::Mesh& scan, const model::ModelSurface& model, co
     const Point3 p = detail::centre_of(scan, scan.triangles[i]);
     const auto extra = [&](std::uint32_t t) {
       if (model.classes[t] == SurfaceClass::ground) return infinity;
-      return options.turned * (1 - dot(normals[i], model_normals[t]));
+      const double turned = options.turned * (1 - dot(normals[i], model_normals[t]));
+      if (model.classes[t] != SurfaceClass::roof) return turned;
+      return turned + options.upright * std::max(0.0, 1 - std::abs(normals[i].z) / upright_rise);
     };
     const double as_ground = ground_cost(p, normals[i], terrain, options);
     if (as_ground < infinity) classes[i] = SurfaceClass::ground;

@@ -13,6 +13,8 @@ namespace mansard::label {
 struct ScanOptions {
   double reach = 1.0;          ///< m; what is farther from every wall and roof of the model is none of them
   double turned = 0.5;         ///< m; a surface that looks the other way counts as up to twice this farther
+  double upright = 2.0;        ///< m; a vertical surface counts as so much farther from a roof
+  double even_out = 0.5;       ///< m; the direction of a triangle is a mean over the triangles around it within this
   double ground_height = 0.5;  ///< m; what is no more than this above or below the terrain may be ground
   double cell = 3.0;           ///< m; of the grid on which the terrain is found
   double slope = 0.4;          ///< metres per metre; the terrain is nowhere steeper

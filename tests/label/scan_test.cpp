@@ -124,6 +124,44 @@ TEST(Label_scan, prefers_the_surface_that_looks_the_same_way) {
   EXPECT_EQ(label_scan(scene.mesh, model_of(), {.turned = 0}).front(), wall);
 }
 
+TEST(Label_scan, takes_upright_surfaces_for_walls_where_the_model_has_a_steep_roof) {
+  // A wall of which the model made a roof of 63°: its nearest face is the roof, but it is vertical.
+  Scene model;
+  model.add({0, 0, 0}, {8, 0, 0}, {0, 0, 3}, wall);
+  model.add({0, 0, 3}, {8, 0, 0}, {0, 1, 2}, roof);
+  ModelSurface surface;
+  surface.mesh = model.mesh;
+  surface.classes = model.truth;
+  surface.buildings.assign(model.truth.size(), 0);
+  surface.parts = surface.faces = surface.buildings;
+  Scene scene;
+  scene.add({2, 0.35, 3.6}, {2, 0, 0}, {0, 0, 0.2}, wall);
+  EXPECT_EQ(right(scene, label_scan(scene.mesh, surface)), 1);
+  EXPECT_EQ(right(scene, label_scan(scene.mesh, surface, {.upright = 0})), 0);
+  // What is as steep as the roof of the model is that roof.
+  Scene mansard;
+  mansard.add({2, 0.4, 3.8}, {2, 0, 0}, {0, 0.2, 0.4}, roof);
+  EXPECT_EQ(right(mansard, label_scan(mansard.mesh, surface)), 1);
+}
+
+TEST(Label_scan, judges_the_direction_without_the_noise_of_a_scan) {
+  // A wall of small triangles that lean by 30° to and fro, up to the edge of a roof.
+  // One sheet: scans share their vertices.
+  Mesh sheet;
+  for (int i = 0; i <= 40; ++i)
+    for (const double x : {2.0, 2.2}) sheet.vertices.push_back({x, i % 2 == 0 ? 0.30 : 0.3115, 5.18 + 0.02 * i});
+  for (std::uint32_t i = 0; i < 40; ++i) {
+    sheet.triangles.push_back({2 * i, 2 * i + 1, 2 * i + 3});
+    sheet.triangles.push_back({2 * i, 2 * i + 3, 2 * i + 2});
+  }
+  const auto count = [&](const mansard::label::ScanOptions& options) {
+    std::size_t walls = 0;
+    for (const auto c : label_scan(sheet, model_of(), options)) walls += c == wall ? 1 : 0;
+    return walls;
+  };
+  EXPECT_LT(count({.even_out = 0}), count({}));
+}
+
 TEST(Label_scan, never_takes_the_models_ground_for_a_wall_or_a_roof) {
   auto model = model_of();
   model.classes.assign(model.classes.size(), ground);
