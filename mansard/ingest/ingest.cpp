@@ -331,6 +331,7 @@ auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::files
     const auto counts = cells->settle(shift, within, run);
     if (!counts) return counts.failure();
     scene.mesh_counts = *counts;
+    scene.mesh_counts.vertices_read = meshes->vertices_read;  // several pieces of a file can have the same vertices
   }
   if (scene.mesh_counts.triangles == 0)
     return base::error("ingest-mesh-unusable", "no triangle has an area; export the mesh again", mesh_name);

@@ -6,6 +6,7 @@
 #include "mansard/base/run.hpp"
 #include "mansard/formats/files/words.hpp"
 #include "mansard/formats/mesh/mesh_formats.hpp"
+#include "mansard/formats/mesh/mesh_stream.hpp"
 #include "mansard/formats/mesh/text_chunks.hpp"
 
 namespace mansard::formats {
@@ -122,16 +123,17 @@ class ObjReader {
   std::string joined_;
 };
 
-auto read_pieces(std::string_view bytes) -> std::vector<Piece> {
+/// `before`: vertices before these bytes. `at_end`: whether the file ends with them.
+auto read_pieces(std::string_view bytes, std::size_t before, bool at_end) -> std::vector<Piece> {
   const auto chunks = chunks_of(bytes, true);
   std::vector<Piece> pieces(chunks.size());
   const auto read = [&](std::size_t i, std::size_t first) {
-    pieces[i] = ObjReader(chunks[i], first, i + 1 == chunks.size()).read();
+    pieces[i] = ObjReader(chunks[i], first, at_end && i + 1 == chunks.size()).read();
     pieces[i].binary = chunks[i].find('\0') != std::string_view::npos;
   };
-  base::parallel_for(chunks.size(), [&](std::size_t i) { read(i, 0); });
+  base::parallel_for(chunks.size(), [&](std::size_t i) { read(i, before); });
   // Where indices count back, the number of vertices before the piece is needed: only now is it known.
-  std::vector<std::size_t> first(pieces.size(), 0);
+  std::vector<std::size_t> first(pieces.size(), before);
   for (std::size_t i = 1; i < pieces.size(); ++i) first[i] = first[i - 1] + pieces[i - 1].mesh.vertices.size();
   base::parallel_for(chunks.size(), [&](std::size_t i) {
     if (pieces[i].counts_back && i > 0) read(i, first[i]);
@@ -139,36 +141,86 @@ auto read_pieces(std::string_view bytes) -> std::vector<Piece> {
   return pieces;
 }
 
+/// What all pieces of a file say of it.
+class Verdict {
+ public:
+  /// In the order of the file. False for what is behind the first failure.
+  auto take(const Piece& piece) -> bool {
+    binary_ = binary_ || piece.binary;
+    if (failure_) return false;
+    lines_ += piece.lines;
+    known_ = known_ || piece.known;
+    failure_ = piece.failure;
+    truncated_ = piece.truncated;
+    return !failure_;
+  }
+
+  [[nodiscard]] auto of(const std::string& name) const -> base::Result<void> {
+    // First of all, wherever it is: what lines of binary data seem to lack helps nobody.
+    if (binary_)
+      return base::error("ingest-mesh-format", "not an OBJ file: it holds binary data; check what it is", name);
+    if (failure_ && truncated_)
+      return base::error("ingest-mesh-truncated",
+                         "the file breaks off in line " + std::to_string(lines_) + "; copy or export it again", name);
+    if (failure_)
+      return base::error("ingest-mesh-format",
+                         "line " + std::to_string(lines_) + ": " + *failure_ + "; export the mesh again", name);
+    if (!known_ && lines_ > 0)
+      return base::error("ingest-mesh-format", "not an OBJ file: no line starts with v or f; check what it is", name);
+    return {};
+  }
+
+ private:
+  std::size_t lines_ = 0;
+  bool known_ = false, binary_ = false, truncated_ = false;
+  std::optional<std::string> failure_;
+};
+
+/// The text up to the last line end that ends a statement; empty where there is none.
+auto whole_statements(std::string_view text) -> std::string_view {
+  for (std::size_t end = text.rfind('\n'); end != text.npos; end = end == 0 ? text.npos : text.rfind('\n', end - 1)) {
+    std::string_view line = text.substr(0, end);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    if (!line.ends_with('\\')) return text.substr(0, end + 1);
+  }
+  return {};
+}
+
 }  // namespace
 
 auto read_obj(std::string_view bytes, const std::string& name) -> base::Result<RawMesh> {
-  auto pieces = read_pieces(bytes);
-  std::size_t lines = 0;
-  bool known = false;
-  const Piece* broken = nullptr;
-  for (const auto& piece : pieces) {
-    lines += piece.lines;
-    known = known || piece.known;
-    if (piece.failure) {
-      broken = &piece;
-      break;
-    }
-  }
-  // First of all, wherever it is: what lines of binary data seem to lack helps nobody.
-  if (std::ranges::any_of(pieces, &Piece::binary))
-    return base::error("ingest-mesh-format", "not an OBJ file: it holds binary data; check what it is", name);
-  if (broken != nullptr && broken->truncated)
-    return base::error("ingest-mesh-truncated",
-                       "the file breaks off in line " + std::to_string(lines) + "; copy or export it again", name);
-  if (broken != nullptr)
-    return base::error("ingest-mesh-format",
-                       "line " + std::to_string(lines) + ": " + *broken->failure + "; export the mesh again", name);
-  if (!known && lines > 0)
-    return base::error("ingest-mesh-format", "not an OBJ file: no line starts with v or f; check what it is", name);
+  auto pieces = read_pieces(bytes, 0, true);
+  Verdict verdict;
+  for (const auto& piece : pieces) (void)verdict.take(piece);
+  if (auto sound = verdict.of(name); !sound) return sound.failure();
   std::vector<RawMesh> meshes;
   meshes.reserve(pieces.size());
   for (auto& piece : pieces) meshes.push_back(std::move(piece.mesh));
   return join(meshes);
+}
+
+auto stream_obj(FileWindow& file, const std::string& name, const TakePiece& take, const base::Run& run)
+    -> base::Result<void> {
+  Verdict verdict;
+  std::size_t vertices = 0, wanted = FileWindow::usual;
+  for (;;) {
+    if (auto filled = file.fill(wanted); !filled) return filled;
+    const auto text = file.at_end() ? file.view() : whole_statements(file.view());
+    if (text.empty() && file.at_end()) break;
+    if (text.empty()) {
+      wanted *= 2;
+      continue;
+    }
+    for (auto& piece : read_pieces(text, vertices, file.at_end())) {
+      if (!verdict.take(piece)) continue;
+      vertices += piece.mesh.vertices.size();
+      if (vertices >= no_vertex) return too_many_vertices(name);
+      take(std::move(piece.mesh));
+    }
+    file.advance(text.size());
+    if (run.cancelled()) return {};
+  }
+  return verdict.of(name);
 }
 
 }  // namespace mansard::formats

@@ -11,6 +11,7 @@
 #include "mansard/base/text.hpp"
 #include "mansard/formats/files/words.hpp"
 #include "mansard/formats/mesh/mesh_formats.hpp"
+#include "mansard/formats/mesh/mesh_stream.hpp"
 #include "mansard/formats/mesh/text_chunks.hpp"
 #include "mansard/formats/ply/ply_file.hpp"
 
@@ -139,24 +140,25 @@ struct FaceLayout {
   }
 };
 
+/// Takes as many of the faces as are in `rest` as a whole. Nothing where faces are not like that.
 template <std::endian order>
-auto took_faces(std::string_view& rest, const Element& element, RawMesh& mesh) -> bool {
+auto took_whole_faces(std::string_view& rest, const Element& element, RawMesh& mesh) -> std::optional<std::size_t> {
   const auto layout = FaceLayout::of(element);
-  if (!layout || !mesh.triangles.empty()) return false;
+  if (!layout || !mesh.triangles.empty()) return std::nullopt;
   struct Start {
     std::size_t byte = 0, triangle = 0;
   };
   // Faces differ in length: hop over all, and remember where every block starts.
   std::vector<Start> starts;
-  std::size_t byte = 0, triangles = 0, short_faces = 0;
-  const auto count = static_cast<std::size_t>(element.count);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (i % block_size == 0) starts.push_back({byte, triangles});
+  std::size_t byte = 0, triangles = 0, short_faces = 0, count = 0;
+  for (const auto all = static_cast<std::size_t>(element.count); count < all; ++count) {
     const std::size_t at = byte + layout->before;
-    if (at >= rest.size()) return false;
+    if (at >= rest.size()) break;
     const auto size = static_cast<unsigned char>(rest[at]);
-    byte = at + 1 + 4 * std::size_t{size} + layout->after;
-    if (byte > rest.size()) return false;
+    const std::size_t end = at + 1 + 4 * std::size_t{size} + layout->after;
+    if (end > rest.size()) break;
+    if (count % block_size == 0) starts.push_back({byte, triangles});
+    byte = end;
     if (size < 3) ++short_faces;
     else triangles += size - 2U;
   }
@@ -185,6 +187,20 @@ auto took_faces(std::string_view& rest, const Element& element, RawMesh& mesh) -
   });
   mesh.short_faces += short_faces;
   rest.remove_prefix(byte);
+  return count;
+}
+
+template <std::endian order>
+auto took_faces(std::string_view& rest, const Element& element, RawMesh& mesh) -> bool {
+  if (!mesh.triangles.empty()) return false;
+  std::string_view look = rest;
+  RawMesh faces;
+  const auto count = took_whole_faces<order>(look, element, faces);
+  if (!count || *count != static_cast<std::size_t>(element.count)) return false;
+  mesh.triangles = std::move(faces.triangles);
+  mesh.classes = std::move(faces.classes);
+  mesh.short_faces += faces.short_faces;
+  rest = look;
   return true;
 }
 
@@ -264,67 +280,163 @@ auto took_side_by_side(BinaryValues<order>& values, const Element& element, RawM
   return element.name == "face" && took_faces<order>(values.rest, element, mesh);
 }
 
+/// Takes elements of one kind value by value.
+class ByValue {
+ public:
+  explicit ByValue(const Element& element) : element_(element) {
+    constexpr std::size_t nowhere = 3;
+    for (const Property& property : element.properties)
+      target_.push_back(property.name == "x" ? 0U : property.name == "y" ? 1U : property.name == "z" ? 2U : nowhere);
+  }
+  [[nodiscard]] auto vertices() const -> bool { return vertices_; }
+  [[nodiscard]] auto faces() const -> bool { return faces_; }
+
+  /// Adds the next one to the mesh. False where it is broken; the mesh may then have some of it.
+  template <class Values>
+  auto took(Values& values, RawMesh& mesh) -> bool {
+    std::array<double, 4> point{};
+    double of_face = 0;
+    for (std::size_t p = 0; p < element_.properties.size(); ++p) {
+      const Property& property = element_.properties[p];
+      if (!property.count) {
+        const double value = values.take(property.type);
+        if (classed_ && is_class(property)) of_face = value;
+        point[target_[p]] = value;
+        continue;
+      }
+      const double size = values.take(*property.count);
+      if (!(size >= 0) ||
+          size * static_cast<double>(values.least(property.type)) > static_cast<double>(values.rest.size()) + 1)
+        values.failed = true;
+      if (values.failed) break;
+      const bool indices = is_indices(property);
+      list_.clear();
+      for (double k = 0; k < size; ++k) list_.push_back(values.take(property.type));
+      if (strips_ && indices) take_strip(mesh, list_, corners_);
+      if (!faces_ || !indices) continue;
+      corners_.clear();
+      for (const double value : list_) corners_.push_back(corner_of(value));
+      add_face(mesh, corners_);
+    }
+    if (values.failed) return false;
+    if (vertices_) mesh.vertices.push_back({point[0], point[1], point[2]});
+    if (classed_) mesh.classes.resize(mesh.triangles.size(), to_class(of_face));
+    return true;
+  }
+
+ private:
+  const Element& element_;
+  bool vertices_ = element_.name == "vertex", faces_ = element_.name == "face", strips_ = element_.name == "tristrips";
+  bool classed_ = faces_ && std::ranges::any_of(element_.properties, is_class);
+  std::vector<std::size_t> target_;  // where each property of a vertex goes
+  std::vector<double> list_;
+  std::vector<std::uint32_t> corners_;
+};
+
+/// Before anything is allocated: a header can promise what no file holds.
+template <class Values>
+auto check_promise(const Values& values, const Element& element, double left, const std::string& name)
+    -> base::Result<void> {
+  double least = 0;
+  for (const Property& property : element.properties)
+    least += static_cast<double>(values.least(property.count.value_or(property.type)));
+  if (least * static_cast<double>(element.count) <= left + 1) return {};
+  return truncated("the " + std::to_string(element.count) + " elements '" + element.name + "' it promises", name);
+}
+
+auto number_in_words(std::int64_t number, const Element& element) -> std::string {
+  return "element " + std::to_string(number) + " of " + std::to_string(element.count) + " of '" + element.name + "'";
+}
+
 template <class Values>
 auto take_elements(Values values, const PlyHeader& header, const std::string& name) -> base::Result<RawMesh> {
   RawMesh mesh;
-  std::vector<double> list;
-  std::vector<std::uint32_t> corners;
   for (const Element& element : header.elements) {
     if (element.properties.empty()) continue;
-    double least = 0;
-    for (const Property& property : element.properties)
-      least += static_cast<double>(values.least(property.count.value_or(property.type)));
-    // Before anything is allocated: a header can promise what no file holds.
-    if (least * static_cast<double>(element.count) > static_cast<double>(values.rest.size()) + 1)
-      return truncated("the " + std::to_string(element.count) + " elements '" + element.name + "' it promises", name);
-
+    if (auto kept = check_promise(values, element, static_cast<double>(values.rest.size()), name); !kept)
+      return kept.failure();
     if (took_side_by_side(values, element, mesh)) continue;
-    const bool vertices = element.name == "vertex", faces = element.name == "face",
-               strips = element.name == "tristrips";
-    const bool classed = faces && std::ranges::any_of(element.properties, is_class);
-    if (vertices) mesh.vertices.reserve(static_cast<std::size_t>(element.count));
-    if (faces) mesh.triangles.reserve(static_cast<std::size_t>(element.count));
-    constexpr std::size_t nowhere = 3;
-    std::vector<std::size_t> target;  // where each property of a vertex goes
-    for (const Property& property : element.properties)
-      target.push_back(property.name == "x" ? 0U : property.name == "y" ? 1U : property.name == "z" ? 2U : nowhere);
-
+    ByValue by_value(element);
+    if (by_value.vertices()) mesh.vertices.reserve(static_cast<std::size_t>(element.count));
+    if (by_value.faces()) mesh.triangles.reserve(static_cast<std::size_t>(element.count));
     for (std::int64_t i = 0; i < element.count; ++i) {
-      std::array<double, 4> point{};
-      double of_face = 0;
-      for (std::size_t p = 0; p < element.properties.size(); ++p) {
-        const Property& property = element.properties[p];
-        if (!property.count) {
-          const double value = values.take(property.type);
-          if (classed && is_class(property)) of_face = value;
-          point[target[p]] = value;
-          continue;
-        }
-        const double size = values.take(*property.count);
-        if (!(size >= 0) ||
-            size * static_cast<double>(values.least(property.type)) > static_cast<double>(values.rest.size()) + 1)
-          values.failed = true;
-        if (values.failed) break;
-        const bool indices = is_indices(property);
-        list.clear();
-        for (double k = 0; k < size; ++k) list.push_back(values.take(property.type));
-        if (strips && indices) take_strip(mesh, list, corners);
-        if (!faces || !indices) continue;
-        corners.clear();
-        for (const double value : list) corners.push_back(corner_of(value));
-        add_face(mesh, corners);
-      }
-      if (values.failed) {
-        const std::string which =
-            "element " + std::to_string(i + 1) + " of " + std::to_string(element.count) + " of '" + element.name + "'";
-        if (!values.more()) return truncated(which, name);
-        return base::error("ingest-mesh-format", which + " is broken; export the mesh again", name);
-      }
-      if (vertices) mesh.vertices.push_back({point[0], point[1], point[2]});
-      if (classed) mesh.classes.resize(mesh.triangles.size(), to_class(of_face));
+      if (by_value.took(values, mesh)) continue;
+      const std::string which = number_in_words(i + 1, element);
+      if (!values.more()) return truncated(which, name);
+      return base::error("ingest-mesh-format", which + " is broken; export the mesh again", name);
     }
   }
   return mesh;
+}
+
+// ---- The same from a file of any size.
+
+/// Takes as many whole elements, up to `element.count`, as there are at the front of `rest`.
+template <std::endian order>
+auto take_some(std::string_view& rest, const Element& element, RawMesh& mesh) -> std::size_t {
+  if (element.name == "vertex") {
+    std::size_t stride = 0;
+    for (const Property& property : element.properties) stride += size_of(property.type);  // without lists, else below
+    Element some = element;
+    some.count = std::min(element.count, static_cast<std::int64_t>(rest.size() / stride));
+    if (some.count > 0 && took_vertices<order>(rest, some, mesh)) return static_cast<std::size_t>(some.count);
+  } else if (element.name == "face") {
+    if (const auto taken = took_whole_faces<order>(rest, element, mesh)) return *taken;
+  }
+  ByValue by_value(element);
+  std::size_t taken = 0;
+  for (; taken < static_cast<std::size_t>(element.count); ++taken) {
+    BinaryValues<order> values{rest};
+    const std::size_t triangles = mesh.triangles.size();
+    const auto short_faces = mesh.short_faces;
+    if (!by_value.took(values, mesh)) {
+      mesh.triangles.resize(triangles);
+      mesh.short_faces = short_faces;
+      break;
+    }
+    rest = values.rest;
+  }
+  return taken;
+}
+
+template <std::endian order>
+auto stream_elements(FileWindow& file, const PlyHeader& header, const std::string& name, const TakePiece& take,
+                     const base::Run& run) -> base::Result<void> {
+  std::size_t vertices = 0;
+  for (const Element& element : header.elements) {
+    if (element.properties.empty()) continue;
+    if (auto kept = check_promise(BinaryValues<order>{}, element, static_cast<double>(file.left()), name); !kept)
+      return kept;
+    Element left = element;
+    for (std::size_t wanted = FileWindow::usual; left.count > 0;) {
+      if (run.cancelled()) return {};
+      if (auto filled = file.fill(wanted); !filled) return filled;
+      std::string_view rest = file.view();
+      RawMesh piece;
+      const std::size_t taken = take_some<order>(rest, left, piece);
+      if (taken == 0 && file.at_end()) return truncated(number_in_words(element.count - left.count + 1, element), name);
+      if (taken == 0) {  // one that is larger than what is in memory
+        wanted = 2 * std::max(wanted, file.view().size());
+        continue;
+      }
+      left.count -= static_cast<std::int64_t>(taken);
+      file.advance(file.view().size() - rest.size());
+      vertices += piece.vertices.size();
+      if (vertices >= no_vertex) return too_many_vertices(name);
+      piece.classes.clear();
+      take(std::move(piece));
+    }
+  }
+  return {};
+}
+
+auto has_places(const PlyHeader& header) -> bool {
+  const auto* vertices = header.find("vertex");
+  int axes = 0;
+  if (vertices != nullptr)
+    for (const auto& property : vertices->properties)
+      if (property.name == "x" || property.name == "y" || property.name == "z") axes += property.count ? 0 : 1;
+  return axes == 3;
 }
 
 }  // namespace
@@ -332,12 +444,8 @@ auto take_elements(Values values, const PlyHeader& header, const std::string& na
 auto read_ply(std::string_view bytes, const std::string& name) -> base::Result<RawMesh> {
   const auto header = ply::take_header(bytes, name);
   if (!header) return header.error();
-  const auto* vertices = header->find("vertex");
-  int axes = 0;
-  if (vertices != nullptr)
-    for (const auto& property : vertices->properties)
-      if (property.name == "x" || property.name == "y" || property.name == "z") axes += property.count ? 0 : 1;
-  if (axes != 3) return base::error("ingest-mesh-format", "the PLY file has no vertices with x, y and z", name);
+  if (!has_places(*header))
+    return base::error("ingest-mesh-format", "the PLY file has no vertices with x, y and z", name);
   switch (header->format) {
     case ply::Encoding::little: return take_elements(ply::BinaryValues<std::endian::little>{bytes}, *header, name);
     case ply::Encoding::big: return take_elements(ply::BinaryValues<std::endian::big>{bytes}, *header, name);
@@ -345,6 +453,20 @@ auto read_ply(std::string_view bytes, const std::string& name) -> base::Result<R
       if (auto lines = read_text_lines(bytes, *header)) return *std::move(lines);
       return take_elements(ply::TextValues{bytes}, *header, name);
   }
+}
+
+auto stream_ply(FileWindow& file, const std::string& name, const TakePiece& take, const base::Run& run)
+    -> base::Result<bool> {
+  if (auto filled = file.fill(FileWindow::usual); !filled) return filled.failure();  // more than any header
+  std::string_view rest = file.view();
+  const auto header = ply::take_header(rest, name);
+  if (!header || !has_places(*header) || header->format == ply::Encoding::ascii) return false;
+  file.advance(file.view().size() - rest.size());
+  auto done = header->format == ply::Encoding::little
+                  ? stream_elements<std::endian::little>(file, *header, name, take, run)
+                  : stream_elements<std::endian::big>(file, *header, name, take, run);
+  if (!done) return done.failure();
+  return true;
 }
 
 }  // namespace mansard::formats

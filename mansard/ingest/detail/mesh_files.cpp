@@ -5,6 +5,7 @@
 #include <gdal.h>
 #include <algorithm>
 #include <map>
+#include <mutex>
 #include <set>
 
 #include "mansard/crs/gdal.hpp"
@@ -17,6 +18,7 @@
 #include "mansard/formats/input_file.hpp"
 #include "mansard/formats/mesh/append.hpp"
 #include "mansard/formats/mesh/mesh_file.hpp"
+#include "mansard/formats/mesh/mesh_stream.hpp"
 #include "mansard/formats/osgb/osgb_file.hpp"
 #include "mansard/formats/raster/raster.hpp"
 #include "mansard/ingest/detail/clean.hpp"
@@ -223,6 +225,11 @@ auto MeshReading::open(const std::vector<fs::path>& paths, const Options& option
   base::parallel_for(sources.size(), [&](std::size_t i) {
     if (sources[i].kind != Kind::file || run.cancelled()) return;
     Source& source = sources[i];
+    if (cells != nullptr) {
+      auto done = reading.streamed(source, run);
+      if (!done) source.piece.failure = done.error();
+      if (!done || *done) return;
+    }
     source.piece = formats::read_mesh_file(source.path, options.up);
     source.plan = bounds(source.piece.mesh, {0, 0, 0}).plan();
     if (cells == nullptr) return;
@@ -234,6 +241,43 @@ auto MeshReading::open(const std::vector<fs::path>& paths, const Options& option
   for (const auto& source : sources)
     if (source.piece.failure) return *source.piece.failure;
   return reading;
+}
+
+/// A file that can be read piece by piece is put aside, and then goes to the cells or waits until it is known where to.
+/// False where it must be read as a whole.
+auto MeshReading::streamed(Source& source, const base::Run& run) -> base::Result<bool> {
+  auto spooled = SpooledMesh::open();
+  if (!spooled) return spooled.failure();
+  auto& mesh = **spooled;
+  auto piece = formats::stream_mesh_file(
+      source.path, options_.up, [&](const formats::RawMesh& some) { mesh.add(some); }, run);
+  if (!piece) return false;
+  source.piece = std::move(*piece);
+  if (source.piece.failure || run.cancelled()) return true;
+  source.in_cells = !source.crs;
+  if (auto done = into_cells(mesh, source, run); !done) return done.failure();
+  if (!source.in_cells) source.spooled = std::move(*spooled);
+  return true;
+}
+
+/// Where the mesh is; and the mesh to the cells, once it is known where to.
+auto MeshReading::into_cells(SpooledMesh& mesh, Source& source, const base::Run& run) -> base::Result<void> {
+  std::mutex mutex;
+  const bool settled = source.in_cells || source.way;
+  auto done = mesh.each(run, [&](formats::RawMesh piece) {
+    const auto box = bounds(piece, {0, 0, 0}).plan();
+    if (source.way) source.way->take(piece.vertices);
+    if (settled) cells_->add(piece);
+    const std::scoped_lock lock(mutex);
+    if (!source.way) source.plan.include(box);
+  });
+  if (!done) return done;
+  if (settled) {
+    formats::RawMesh rest;  // what belongs to no piece
+    rest.short_faces = mesh.short_faces();
+    cells_->add(rest);
+  }
+  return {};
 }
 
 auto MeshReading::plan() const -> Box2 {
@@ -327,6 +371,12 @@ auto MeshReading::read_placed(Source& source, const std::optional<Box2>& within,
     warnings_.insert(warnings_.end(), raster->warnings.begin(), raster->warnings.end());
     auto input = formats::input_file(source.path);
     if (input) piece.inputs.push_back(std::move(*input));
+  } else if (source.spooled) {
+    auto& piece = pieces.emplace_back(std::move(source.piece));
+    source.in_cells = true;
+    if (auto done = into_cells(*source.spooled, source, run); !done) piece.failure = done.error();
+    source.spooled.reset();
+    return pieces;
   } else if (cells_ != nullptr && source.kind == Kind::file && !source.in_cells) {
     pieces.push_back(formats::read_mesh_file(source.path, options_.up));
   } else {
@@ -404,6 +454,7 @@ auto MeshReading::finish(const std::string& working, const std::optional<Box2>& 
   if (!working.empty())
     for (const auto& [folder, input] : metadata_) out.inputs.push_back(input);
   out.warnings = std::move(warnings_);
+  out.vertices_read = vertices;
   return out;
 }
 

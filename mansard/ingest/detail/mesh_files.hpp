@@ -17,13 +17,15 @@
 #include "mansard/formats/points.hpp"
 #include "mansard/formats/tiles3d/tileset.hpp"
 #include "mansard/ingest/cells.hpp"
+#include "mansard/ingest/detail/spooled_mesh.hpp"
 #include "mansard/ingest/ingest.hpp"
 #include "mansard/ingest/textured.hpp"
 
 namespace mansard::ingest::detail {
 
 struct MeshFiles {
-  formats::RawMesh mesh;  ///< of all files, z up, in the working CRS but for the offset
+  formats::RawMesh mesh;            ///< of all files, z up, in the working CRS but for the offset
+  std::uint64_t vertices_read = 0;  ///< of all files, also of those that are in the cells
   std::vector<model::InputFile> inputs;
   std::vector<base::Diagnostic> warnings;
   std::optional<cloud::Ground>
@@ -72,6 +74,7 @@ class MeshReading {
     formats::MeshPiece piece;                 ///< of a file; without its mesh where that is in the cells
     geometry::Box2 plan;                      ///< of a file
     bool in_cells = false;
+    std::shared_ptr<SpooledMesh> spooled;  ///< of a file of any size that goes to the cells when it is known where to
     std::vector<formats::TileFile> tiles;  ///< of a tileset
     std::shared_ptr<const formats::PointCloud> cloud;
     std::optional<crs::WayOfMesh> way;  ///< to the working CRS; none where coordinates stay
@@ -89,6 +92,8 @@ class MeshReading {
   [[nodiscard]] auto read_placed(Source& source, const std::optional<geometry::Box2>& within, const base::Run& run)
       -> std::vector<formats::MeshPiece>;
   void into_cells(formats::MeshPiece& piece);
+  [[nodiscard]] auto streamed(Source& source, const base::Run& run) -> base::Result<bool>;
+  [[nodiscard]] auto into_cells(SpooledMesh& mesh, Source& source, const base::Run& run) -> base::Result<void>;
   [[nodiscard]] auto surface_of_clouds(const std::optional<geometry::Box2>& within, const base::Run& run,
                                        MeshFiles& out) -> base::Result<std::vector<formats::MeshPiece>>;
 
