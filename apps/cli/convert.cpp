@@ -10,6 +10,7 @@
 #include "apps/cli/output.hpp"
 #include "apps/cli/scan.hpp"
 #include "apps/cli/verbs.hpp"
+#include "mansard/base/stopped.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/formats/foreign.hpp"
 #include "mansard/pipeline/stored.hpp"
@@ -92,7 +93,7 @@ auto pass_on(formats::CityReader& reader, const std::vector<Target>& targets, co
       if (more) buildings.push_back(**std::move(building));
     }
     if (completed) pipeline::complete(buildings, options, run);
-    if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+    if (run.cancelled()) return base::stopped();
     for (const auto& building : buildings)
       for (const auto& writer : writers)
         if (auto added = writer->add(building); !added) return added;

@@ -1,4 +1,5 @@
 #include "apps/cli/made.hpp"
+#include "mansard/base/stopped.hpp"
 
 namespace mansard::cli {
 
@@ -28,7 +29,7 @@ auto write_targets(const Made& made, const std::vector<Target>& targets, const f
         formats::open_writer(target.format, target.path, {made.frame, made.made_by}, options, outputs, layers);
     if (!writer) return writer.failure();
     auto written = made.each([&](const model::Building& building, const auto&) -> base::Result<void> {
-      if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+      if (run.cancelled()) return base::stopped();
       return (*writer)->add(building);
     });
     if (written) written = (*writer)->finish();

@@ -4,7 +4,6 @@
 #include <unistd.h>
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 #include "mansard/base/outputs.hpp"
 #include "mansard/base/text.hpp"
@@ -55,11 +54,7 @@ auto temporary_files_possible() -> base::Result<void> {
 auto holds_results(const fs::path& folder) -> bool {
   std::error_code status;
   return std::ranges::any_of(fs::directory_iterator(folder, status), [](const fs::directory_entry& entry) {
-    const auto name = entry.path().filename().string();
-    const auto part = name.rfind(".part");
-    const bool half_written = part != std::string::npos && part + 5 < name.size() &&
-                              std::isdigit(static_cast<unsigned char>(name[part + 5])) != 0;
-    return name != run_folder_name && !half_written;
+    return entry.path().filename() != run_folder_name && !base::is_part(entry.path());
   });
 }
 

@@ -12,6 +12,7 @@
 #include "mansard/base/files.hpp"
 #include "mansard/base/machine.hpp"
 #include "mansard/base/text.hpp"
+#include "mansard/base/unfinished.hpp"
 
 namespace mansard::cli {
 namespace {
@@ -98,7 +99,7 @@ auto RunFolder::open(const fs::path& out, const std::string& verb, Use use)
   std::unique_ptr<RunFolder> made(new RunFolder(folder, verb, use, lock, !holds_results(out) || began_empty(out)));
   if (use == Use::whole)
     for (const auto& entry : fs::directory_iterator(folder, failure))
-      if (entry.path().filename().string().find(".part") != std::string::npos) fs::remove(entry.path(), failure);
+      if (base::is_part(entry.path())) fs::remove(entry.path(), failure);
   auto kept = pipeline::KeptBlocks::open(folder / blocks_name, use == Use::whole);
   if (!kept) return kept.error();
   made->kept_ = std::move(*kept);

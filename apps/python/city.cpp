@@ -7,6 +7,7 @@
 
 #include "apps/python/settings.hpp"
 #include "apps/python/work.hpp"
+#include "mansard/base/stopped.hpp"
 #include "mansard/formats/stream.hpp"
 #include "mansard/pipeline/solids.hpp"
 #include "mansard/pipeline/stored.hpp"
@@ -421,7 +422,7 @@ auto write(const CityPointer& state, const std::vector<std::filesystem::path>& p
                                          options.write, outputs);
       if (!writer) return writer.failure();
       for (const auto& building : written->city.buildings) {
-        if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+        if (run.cancelled()) return base::stopped();
         if (auto added = (*writer)->add(building); !added) return added.failure();
       }
       if (auto finished = (*writer)->finish(); !finished) return finished.failure();

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "lab/explore/detail/measure.hpp"
+#include "mansard/base/stopped.hpp"
 #include "mansard/crs/globe.hpp"
 
 namespace mansard::explore {
@@ -89,7 +90,7 @@ auto investigate(const Request& request, const base::Run& run) -> base::Result<S
     const auto& dataset = request.datasets[d];
     const auto options = *with(request.options, dataset.options);
     const auto scene = ingest::read_scene(dataset.meshes, dataset.footprints, options.ingest, run);
-    if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+    if (run.cancelled()) return base::stopped();
     if (!scene) {
       unread = scene.error();
       study.datasets.push_back({dataset, {}, {}, {}, {}, {}});
@@ -104,7 +105,7 @@ auto investigate(const Request& request, const base::Run& run) -> base::Result<S
       const auto inner = part_of(run, told(dataset, setting), share * static_cast<double>(number), share,
                                  static_cast<std::uint64_t>(set.seed));
       Row row = detail::measure(*scene, set, request, number + 1, inner);
-      if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+      if (run.cancelled()) return base::stopped();
       row.dataset = d;
       row.setting = setting;
       row.command = detail::command_of(dataset, set);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "mansard/base/stopped.hpp"
 #include "mansard/geometry/angles.hpp"
 
 #include "lab/simulate/detail/party.hpp"
@@ -115,7 +116,7 @@ auto furnish(const model::Scene& footprints, const BlockOptions& options, std::u
   base::parallel_for(houses.size(), [&](std::size_t i) {
     if (!run.cancelled()) results[i] = detail::raise_house(houses[i], run);
   });
-  if (run.cancelled()) return detail::stopped();
+  if (run.cancelled()) return base::stopped();
   std::vector<Raised> raised;
   for (std::size_t i = 0; i < houses.size(); ++i) {
     if (!results[i]) {

@@ -7,6 +7,7 @@
 #include "lab/simulate/detail/raising.hpp"
 #include "lab/simulate/detail/surface_net.hpp"
 #include "lab/simulate/simulate.hpp"
+#include "mansard/base/stopped.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/solid/solid.hpp"
 
@@ -104,14 +105,14 @@ auto scan(const Surface& surface, const ScanOptions& options, std::uint64_t seed
   run.report("simulate", "labels", 0.4);
   const double radius = std::max(1.0, 2 * (options.melt + options.resolution));
   const auto labels = detail::labels_of(*mesh, world, nearest, radius, run);
-  if (run.cancelled()) return detail::stopped();
+  if (run.cancelled()) return base::stopped();
 
   run.report("simulate", "damage", 0.7);
   const auto normals = detail::vertex_normals(*mesh);
   // A laser from above sees all that a height field has.
   const auto seen = options.height_field ? std::vector<double>(mesh->vertices.size(), 1)
                                          : detail::visibility(*mesh, normals, options.camera_tilt, run);
-  if (run.cancelled()) return detail::stopped();
+  if (run.cancelled()) return base::stopped();
   auto lost = detail::losses(*mesh, labels, seen, world, options, seed_for(seed, damage));
   detail::roughen(*mesh, normals, seen, options, seed_for(seed, roughness));
   auto out = detail::torn(*mesh, labels, std::move(lost), surface, options, seed_for(seed, tiles));

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "mansard/base/stopped.hpp"
 #include "mansard/geometry/angles.hpp"
 
 #include "lab/simulate/detail/details.hpp"
@@ -30,7 +31,7 @@ auto raise_all(std::size_t count, Work work, const base::Run& run) -> base::Resu
   base::parallel_for(count, [&](std::size_t i) {
     if (!run.cancelled()) results[i] = work(i);
   });
-  if (run.cancelled()) return detail::stopped();
+  if (run.cancelled()) return base::stopped();
   std::vector<detail::Raised> raised;
   for (auto& result : results) {
     if (!result) return result.error();

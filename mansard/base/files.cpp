@@ -6,6 +6,7 @@
 #include <cstring>
 #include <memory>
 
+#include "mansard/base/stopped.hpp"
 #include "mansard/base/unfinished.hpp"
 
 namespace mansard::base {
@@ -43,7 +44,7 @@ auto write_files(const std::vector<FileToWrite>& files, const Cancel* cancel) ->
     if (!written) return give_up(std::string("cannot write: ") + std::strerror(errno), file);
     if (cancel != nullptr && cancel->requested()) {
       clean_up();
-      return error("cancelled", "stopped on request; nothing was written");
+      return stopped();
     }
   }
   const Finishing together;

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "mansard/base/stopped.hpp"
 #include "mansard/base/unfinished.hpp"
 
 namespace mansard::base {
@@ -160,7 +161,7 @@ auto Outputs::commit(const Cancel* cancel) -> Result<void> {
       entry.sink.reset();
       if (why != 0) return failed("cannot write this file", why, entry.path);
     }
-  if (cancel != nullptr && cancel->requested()) return error("cancelled", "stopped on request; nothing was written");
+  if (cancel != nullptr && cancel->requested()) return stopped();
   const Finishing together;
   std::vector<Placed> placed;
   for (const auto& entry : entries_) {

@@ -74,6 +74,11 @@ auto beside(const fs::path& path, Beside what) -> fs::path {
   return out;
 }
 
+auto is_part(const fs::path& path) -> bool {
+  const auto owner = owner_of(path.filename().string());
+  return owner && owner->what == Beside::part;
+}
+
 void sweep(const fs::path& folder) {
   std::error_code failure;
   std::vector<fs::path> gone;

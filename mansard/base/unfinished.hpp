@@ -11,6 +11,9 @@ namespace mansard::base {
 enum class Beside { part, old };
 [[nodiscard]] auto beside(const std::filesystem::path& path, Beside what) -> std::filesystem::path;
 
+/// Whether a file or folder is on its way to its place, or is a file of a database on its way.
+[[nodiscard]] auto is_part(const std::filesystem::path& path) -> bool;
+
 /// Removes such files and folders in `folder` whose process ended before its time, by kill or by a power cut. What such
 /// a process was about to replace is put back where nothing took its place. Left alone is what a running process owns,
 /// and on file systems of several machines what another machine's process may own: what was changed there in the last

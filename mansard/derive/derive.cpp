@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "mansard/base/statistics.hpp"
+#include "mansard/base/stopped.hpp"
 #include "mansard/derive/detail/buildings.hpp"
 #include "mansard/derive/detail/ground.hpp"
 #include "mansard/derive/detail/outline.hpp"
@@ -146,8 +147,6 @@ auto nothing() -> base::Diagnostic {
       "derive.least_area and derive.smooth, or give footprints");
 }
 
-auto stopped() -> base::Diagnostic { return base::error("cancelled", "stopped on request; nothing was written"); }
-
 }  // namespace
 
 auto footprints(const model::Scene& scene, const Options& options, const base::Run& run) -> base::Result<Derived> {
@@ -160,17 +159,17 @@ auto footprints(const model::Scene& scene, const Options& options, const base::R
                                           " million cells; raise derive.cell, or give the meshes "
                                           "of a smaller area");
   const auto top = detail::top_heights(scene.mesh, place);
-  if (run.cancelled()) return stopped();
+  if (run.cancelled()) return base::stopped();
 
   run.report("derive", "ground", 0.3);
   const auto ground = scene.terrain ? detail::ground_of(place, *scene.terrain) : detail::ground_of(place, top, options);
-  if (run.cancelled()) return stopped();
+  if (run.cancelled()) return base::stopped();
 
   run.report("derive", "buildings", 0.5);
   const auto standing = detail::standing(top, ground, options.above_ground);
   const auto planes = detail::in_planes(place, top, standing, options);
   const auto cut = detail::cut_at_steps(place, top, detail::buildings(place, top, standing, planes, options), options);
-  if (run.cancelled()) return stopped();
+  if (run.cancelled()) return base::stopped();
 
   run.report("derive", "outlines", 0.7);
   const auto extents = extents_of(place, cut);
@@ -191,7 +190,7 @@ auto footprints(const model::Scene& scene, const Options& options, const base::R
   });
   for (const auto& failure : failures)
     if (failure) return *failure;
-  if (run.cancelled()) return stopped();
+  if (run.cancelled()) return base::stopped();
 
   run.report("derive", "outlines", 0.9);
   std::vector<std::size_t> order(extents.size());

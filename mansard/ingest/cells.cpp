@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mansard/base/pack.hpp"
+#include "mansard/base/stopped.hpp"
 #include "mansard/formats/mesh/raw_mesh.hpp"
 #include "mansard/ingest/detail/clean.hpp"
 
@@ -169,7 +170,7 @@ auto MeshCells::settle(const std::array<double, 3>& shift, const std::optional<B
     cells_[all[i].first] = {clean_->size(), bytes.size(), mesh->triangles.size()};
     clean_->append(bytes);
   });
-  if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+  if (run.cancelled()) return base::stopped();
   model::MeshCounts sum = counts_;
   for (const auto& [counts, failure] : results) {
     if (failure) return *failure;

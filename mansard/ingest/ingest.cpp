@@ -6,6 +6,7 @@
 #include <limits>
 #include <new>
 
+#include "mansard/base/stopped.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/formats/drivers.hpp"
 #include "mansard/formats/input_file.hpp"
@@ -14,6 +15,7 @@
 #include "mansard/formats/vector/features.hpp"
 #include "mansard/ingest/detail/clean.hpp"
 #include "mansard/ingest/detail/crs.hpp"
+#include "mansard/ingest/detail/files_below.hpp"
 #include "mansard/ingest/detail/mesh_files.hpp"
 #include "mansard/ingest/detail/origin.hpp"
 #include "mansard/ingest/detail/rings.hpp"
@@ -282,9 +284,8 @@ auto bytes_of(const std::vector<std::filesystem::path>& paths) -> std::uintmax_t
       add(path);
       continue;
     }
-    for (auto at = fs::recursive_directory_iterator(folder, failure);
-         !failure && at != fs::recursive_directory_iterator(); at.increment(failure))
-      if (at->is_regular_file(failure)) add(at->path());
+    if (const auto files = detail::files_below(folder); files) std::ranges::for_each(*files, add);
+    // else reading it says why it cannot be listed
   }
   return sum;
 }
@@ -335,7 +336,7 @@ auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::files
   }
   if (scene.mesh_counts.triangles == 0)
     return base::error("ingest-mesh-unusable", "no triangle has an area; export the mesh again", mesh_name);
-  if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+  if (run.cancelled()) return base::stopped();
 
   run.report("ingest", subject, 0.9);
   const Box2 local{xy(mesh_box.least) - origin, xy(mesh_box.most) - origin};

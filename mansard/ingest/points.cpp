@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <optional>
 
+#include "mansard/base/stopped.hpp"
 #include "mansard/formats/points.hpp"
 #include "mansard/ingest/detail/cloud_pieces.hpp"
+#include "mansard/ingest/detail/files_below.hpp"
 
 namespace mansard::ingest {
 namespace {
@@ -12,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The clouds among the paths; what is in an EPT set belongs to it.
-auto clouds_in(const std::vector<fs::path>& paths) -> std::vector<fs::path> {
+auto clouds_in(const std::vector<fs::path>& paths) -> base::Result<std::vector<fs::path>> {
   std::vector<fs::path> out;
   std::error_code failure;
   for (const auto& path : paths) {
@@ -24,13 +26,13 @@ auto clouds_in(const std::vector<fs::path>& paths) -> std::vector<fs::path> {
       out.push_back(path / "ept.json");
       continue;
     }
-    std::vector<fs::path> found;
-    for (fs::recursive_directory_iterator at(path, failure), end; !failure && at != end; at.increment(failure))
-      if (at->is_regular_file(failure) && !at->path().filename().string().starts_with('.') &&
-          formats::is_point_cloud(at->path()))
-        found.push_back(at->path());
-    std::ranges::sort(found);
-    out.insert(out.end(), found.begin(), found.end());
+    auto found = detail::files_below(path);
+    if (!found) return found.failure();
+    std::erase_if(*found, [](const fs::path& file) {
+      return file.filename().string().starts_with('.') || !formats::is_point_cloud(file);
+    });
+    std::ranges::sort(*found);
+    out.insert(out.end(), found->begin(), found->end());
   }
   return out;
 }
@@ -40,7 +42,9 @@ auto clouds_in(const std::vector<fs::path>& paths) -> std::vector<fs::path> {
 auto read_points_of_class(const std::vector<fs::path>& paths, std::uint8_t classification, const model::Frame& frame,
                           const Options& options, const base::Run& run) -> base::Result<std::vector<geometry::Point3>> {
   std::vector<geometry::Point3> out;
-  for (const auto& path : clouds_in(paths)) {
+  const auto clouds = clouds_in(paths);
+  if (!clouds) return clouds.failure();
+  for (const auto& path : *clouds) {
     const auto opened = formats::open_points(path);
     if (!opened) return opened.failure();
     const auto& cloud = **opened;
@@ -56,7 +60,7 @@ auto read_points_of_class(const std::vector<fs::path>& paths, std::uint8_t class
         if (p.classification == classification && !p.withheld) pieces[i].push_back(p.position);
       if (way) way->take(pieces[i]);
     });
-    if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+    if (run.cancelled()) return base::stopped();
     if (!read) return read.failure();
     for (const auto& piece : pieces)
       for (const auto& p : piece) {

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "mansard/base/stopped.hpp"
 #include "mansard/ingest/detail/clean.hpp"
 #include "mansard/ingest/detail/mesh_files.hpp"
 
@@ -31,7 +32,7 @@ auto MeshReading::each_textured(const std::vector<std::filesystem::path>& paths,
   }
   constexpr std::size_t at_a_time = 8;  // bounds memory; threads are fewer on most machines
   for (std::size_t first = 0; first < pieces.size(); first += at_a_time) {
-    if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+    if (run.cancelled()) return base::stopped();
     std::vector<std::optional<base::Result<formats::TexturedMesh>>> some(std::min(at_a_time, pieces.size() - first));
     base::parallel_for(some.size(), [&](std::size_t i) {
       const auto& [source, tile] = pieces[first + i];

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "mansard/base/pack.hpp"
+#include "mansard/base/stopped.hpp"
 #include "mansard/pipeline/detail/assemble.hpp"
 #include "mansard/pipeline/detail/city_builder.hpp"
 #include "mansard/pipeline/detail/city_tasks.hpp"
@@ -120,7 +121,7 @@ auto for_every_task(const ingest::CityScene& city, const Options& options, const
   const auto boxes = detail::boxes_of(city.scene);
   detail::Progress progress{0, wanted.size()};
   for (const auto& task : tasks_of(wanted, city, options.ingest.task_triangles)) {
-    if (run.cancelled()) return detail::cancelled();
+    if (run.cancelled()) return base::stopped();
     auto part = detail::part_of(city.scene, task.groups, boxes, false);
     auto mesh = city.cells->load(task.cells);
     if (!mesh) return mesh.failure();
@@ -173,7 +174,7 @@ auto reconstruct_aside(const ingest::CityScene& city, const Options& options, co
             progress);
         std::ranges::move(some, std::back_inserter(made));
       });
-  if (run.cancelled()) return detail::cancelled();
+  if (run.cancelled()) return base::stopped();
   if (!done) return done.failure();
   auto reuse = maker.finish(true);
   if (!reuse) return reuse.failure();
@@ -187,7 +188,7 @@ auto reconstruct_aside(const ingest::CityScene& city, const Options& options, co
     std::ranges::move(one.warnings, std::back_inserter(summary.warnings));
   }
   builder.finish(run);
-  if (run.cancelled()) return detail::cancelled();
+  if (run.cancelled()) return base::stopped();
   out.frame = scene.frame;
   out.made_by = detail::made_by(scene, options);
   summary.reuse = std::move(*reuse);
@@ -210,7 +211,7 @@ auto make_share(const ingest::CityScene& city, const Options& options, const bas
                                    },
                                    progress);
                              });
-  if (run.cancelled()) return detail::cancelled();
+  if (run.cancelled()) return base::stopped();
   if (!done) return done;
   if (auto reuse = maker.finish(false); !reuse) return reuse.failure();
   return {};

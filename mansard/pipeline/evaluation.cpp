@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "mansard/base/stopped.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/block/block.hpp"
 #include "mansard/ingest/points.hpp"
@@ -398,7 +399,7 @@ auto evaluate_model(const report::EvaluationInput& input, const Options& options
   Totals totals;
   std::vector<BlockWork> work;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
-    if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+    if (run.cancelled()) return base::stopped();
     run.report("evaluate", blocks[b].name, static_cast<double>(b) / static_cast<double>(blocks.size()));
     std::vector<bool> own(outlines.size());
     for (std::size_t m = 0; m < own.size(); ++m) own[m] = stands_on[m] == b;
@@ -424,7 +425,7 @@ auto evaluate_model(const report::EvaluationInput& input, const Options& options
   }
   if (!input.building_points.empty()) out.points = evaluate::point_scores(surface.mesh, input.building_points);
   measure_form(input, options.evaluate.grid, out);
-  if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+  if (run.cancelled()) return base::stopped();
   return out;
 }
 

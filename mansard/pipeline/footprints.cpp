@@ -4,6 +4,7 @@
 #include <map>
 #include <mutex>
 
+#include "mansard/base/stopped.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/extrude/align.hpp"
 #include "mansard/pipeline/detail/assemble.hpp"
@@ -357,7 +358,7 @@ auto raise_footprints(const model::Scene& scene, const Options& options, const b
   if (!making) return making.failure();
   auto out = raise_all(scene, *making, options, run);
   if (!run.cancelled()) detail::report_overlaps(out, run);
-  if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+  if (run.cancelled()) return base::stopped();
   warn_of_assumed(static_cast<std::size_t>(std::ranges::count_if(out.buildings, is_assumed)), scene, out.warnings);
   out.times.total = total.stop();
   return out;
@@ -416,7 +417,7 @@ auto raise_footprints_aside(const model::Scene& scene, const Options& options, c
       take(features[i], unmade.city.buildings[i], unmade.buildings[i]);
     builder.finish(run);
   }
-  if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+  if (run.cancelled()) return base::stopped();
   warn_of_assumed(assumed, scene, out.summary.warnings);
   out.frame = scene.frame;
   out.made_by = detail::made_by(scene, options);

@@ -4,6 +4,7 @@
 
 #include "mansard/base/files.hpp"
 #include "mansard/base/pack.hpp"
+#include "mansard/base/unfinished.hpp"
 #include "mansard/formats/hash.hpp"
 #include "mansard/pipeline/detail/assemble.hpp"
 
@@ -59,7 +60,7 @@ auto KeptBlocks::open(const fs::path& folder, bool alone) -> base::Result<std::u
                        folder.string());
   if (alone)
     for (const auto& path : files_in(folder))
-      if (path.filename().string().find(".part") != std::string::npos) fs::remove(path, failure);
+      if (base::is_part(path)) fs::remove(path, failure);
   if (const auto list = unsealed(folder / list_name)) {
     std::vector<std::pair<std::string, BlockKey>> last;
     if (base::Unpacker(*list).take(last)) out->last_ = {last.begin(), last.end()};

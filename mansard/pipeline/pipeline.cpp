@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "mansard/base/stopped.hpp"
 #include "mansard/pipeline/detail/assemble.hpp"
 #include "mansard/pipeline/detail/every_block.hpp"
 #include "mansard/pipeline/detail/overlaps.hpp"
@@ -21,7 +22,7 @@ auto reconstruct(const model::Scene& scene, const Options& options, const base::
   detail::Maker maker(options, keep, schedule);
   maker.announce(*division);
   auto results = detail::for_every(*division, run, std::ref(maker));
-  if (run.cancelled()) return detail::cancelled();
+  if (run.cancelled()) return base::stopped();
   auto reuse = maker.finish(only.empty());
   if (!reuse) return reuse.failure();
 
@@ -46,7 +47,7 @@ auto reconstruct(const model::Scene& scene, const Options& options, const base::
   }
   out.scores = detail::combined_scores(out.blocks);
   detail::report_overlaps(out, run);
-  if (run.cancelled()) return detail::cancelled();
+  if (run.cancelled()) return base::stopped();
   out.times = {watch.stop(), detail::stage_times(division->time, out.blocks)};
   return out;
 }
@@ -82,7 +83,7 @@ auto segment(const model::Scene& scene, const Options& options, const base::Run&
         result.report.times.stages.insert(result.report.times.stages.begin(), making);
         return result;
       });
-  if (run.cancelled()) return detail::cancelled();
+  if (run.cancelled()) return base::stopped();
 
   report::Segmented out;
   out.made_by = detail::made_by(scene, options);

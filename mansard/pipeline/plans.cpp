@@ -3,6 +3,7 @@
 #include <iterator>
 #include <utility>
 
+#include "mansard/base/stopped.hpp"
 #include "mansard/pipeline/detail/assemble.hpp"
 #include "mansard/pipeline/detail/overlaps.hpp"
 #include "mansard/pipeline/pipeline.hpp"
@@ -26,7 +27,7 @@ auto raise_plans(model::City city, const Options& options, const base::Run& run)
     if (!run.cancelled()) raised[i] = raise_part(part_at(places[i]).plan, options, inner);
   });
   // A raise that is cut short by cancelling would be a prism.
-  if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+  if (run.cancelled()) return base::stopped();
 
   RaisedPlans out;
   std::vector<model::Solid> solids;
@@ -68,7 +69,7 @@ auto raise_plans(model::City city, const Options& options, const base::Run& run)
   }
   auto overlaps = detail::overlaps(out.city.buildings, run);
   std::ranges::move(overlaps.in_all, std::back_inserter(out.remarks));
-  if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+  if (run.cancelled()) return base::stopped();
   return out;
 }
 

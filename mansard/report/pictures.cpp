@@ -1,5 +1,6 @@
 // The pictures of a run, in the manner of the paper's Figure 5 and its error maps.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -71,21 +72,46 @@ auto colour_of(model::FaceClass kind) -> picture::Colour {
   return {};
 }
 
+/// A solid in triangles; one that cannot be cut into them is not left out but has its faces as fans. Its writers say
+/// what is wrong with it.
+auto cut_or_fans(const model::Solid& solid) -> solid::Triangulated {
+  if (auto cut = solid::triangulate(solid)) return std::move(*cut);
+  const auto finite = [&](std::uint32_t v) {
+    const Point3& p = solid.vertices[v];
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+  };
+  solid::Triangulated fans;
+  for (std::uint32_t f = 0; f < solid.faces.size(); ++f) {
+    if (solid.faces[f].loops.empty()) continue;
+    const auto& loop = solid.faces[f].loops.front();
+    for (std::size_t i = 2; i < loop.size(); ++i) {
+      const std::array<std::uint32_t, 3> corners{loop[0], loop[i - 1], loop[i]};
+      if (!std::ranges::all_of(corners, finite)) continue;
+      fans.triangles.push_back(corners);
+      fans.face_of.push_back(f);
+    }
+  }
+  return fans;
+}
+
+/// Adds a model, and calls `more` with the face of each of its triangles.
+template <class More>
+void append(const model::LabelledSolid& model, picture::Layer& layer, More more) {
+  const auto cut = cut_or_fans(model.solid);
+  const auto first = static_cast<std::uint32_t>(layer.mesh.vertices.size());
+  layer.mesh.vertices.insert(layer.mesh.vertices.end(), model.solid.vertices.begin(), model.solid.vertices.end());
+  for (std::size_t t = 0; t < cut.triangles.size(); ++t) {
+    const auto& corners = cut.triangles[t];
+    layer.mesh.triangles.push_back({first + corners[0], first + corners[1], first + corners[2]});
+    layer.colours.push_back(colour_of(model.classes[cut.face_of[t]]));
+    more(cut.face_of[t]);
+  }
+}
+
 auto models_of(const model::City& city) -> picture::Layer {
   picture::Layer layer;
   for (const auto& building : city.buildings)
-    for (const auto& part : building.parts) {
-      const auto triangulated = solid::triangulate(part.model.solid);
-      if (!triangulated) continue;
-      const auto first = static_cast<std::uint32_t>(layer.mesh.vertices.size());
-      layer.mesh.vertices.insert(layer.mesh.vertices.end(), part.model.solid.vertices.begin(),
-                                 part.model.solid.vertices.end());
-      for (std::size_t t = 0; t < triangulated->triangles.size(); ++t) {
-        const auto& corners = triangulated->triangles[t];
-        layer.mesh.triangles.push_back({first + corners[0], first + corners[1], first + corners[2]});
-        layer.colours.push_back(colour_of(part.model.classes[triangulated->face_of[t]]));
-      }
-    }
+    for (const auto& part : building.parts) append(part.model, layer, [](std::uint32_t) {});
   return layer;
 }
 
@@ -140,20 +166,10 @@ auto textured_models(const model::City& city, formats::Solids solids) -> picture
   for (const auto& building : city.buildings) {
     const auto written = formats::written_solids(building, solids);
     const bool textured = building.texture && building.texture->solids.size() == written.size();
-    for (std::size_t s = 0; s < written.size(); ++s) {
-      const auto triangulated = solid::triangulate(written[s].solid);
-      if (!triangulated) continue;
-      const auto first = static_cast<std::uint32_t>(layer.mesh.vertices.size());
-      layer.mesh.vertices.insert(layer.mesh.vertices.end(), written[s].solid.vertices.begin(),
-                                 written[s].solid.vertices.end());
-      for (std::size_t t = 0; t < triangulated->triangles.size(); ++t) {
-        const auto& corners = triangulated->triangles[t];
-        const auto face = triangulated->face_of[t];
-        layer.mesh.triangles.push_back({first + corners[0], first + corners[1], first + corners[2]});
-        layer.colours.push_back(colour_of(written[s].classes[face]));
+    for (std::size_t s = 0; s < written.size(); ++s)
+      append(written[s], layer, [&](std::uint32_t face) {
         textures.push_back(textured ? &building.texture->solids[s].faces[face] : nullptr);
-      }
-    }
+      });
   }
   layer.picture = [textures = std::move(textures)](std::size_t t, Point3 p) -> std::optional<picture::Colour> {
     if (textures[t] == nullptr) return std::nullopt;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "mansard/base/pack.hpp"
+#include "mansard/base/stopped.hpp"
 #include "mansard/formats/written.hpp"
 #include "mansard/geometry/box_index.hpp"
 #include "mansard/ingest/textured.hpp"
@@ -272,7 +273,7 @@ auto bake_all(const EachBuilding& each, const std::vector<std::filesystem::path>
   if (!textures) return textures.failure();
   std::size_t number = 0;
   done = each([&](const model::Building& building) -> base::Result<void> {
-    if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+    if (run.cancelled()) return base::stopped();
     run.report("texture", building.id, static_cast<double>(number++) / static_cast<double>(count));
     return (*textures)->add(building, **scan, options, write);
   });

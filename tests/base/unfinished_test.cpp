@@ -48,6 +48,16 @@ class UnfinishedTest : public testing::Test {
   mansard::test::Scratch folder_;
 };
 
+TEST_F(UnfinishedTest, names_say_what_is_on_its_way_to_its_place) {
+  const auto part = beside(folder_ / "a.gpkg", Beside::part);
+  EXPECT_TRUE(is_part(part));
+  EXPECT_TRUE(is_part(part.string() + "-journal"));
+  EXPECT_TRUE(is_part(of_killed(folder_ / "b", Beside::part)));
+  EXPECT_FALSE(is_part(beside(folder_ / "a.gpkg", Beside::old)));
+  for (const auto* name : {"a", "a.part", "a.part7", "spare.parts.obj", ".part7@host", "a.part0@host", "a.party@host"})
+    EXPECT_FALSE(is_part(folder_ / name)) << name;
+}
+
 TEST_F(UnfinishedTest, files_and_folders_of_killed_processes_are_swept_by_the_next_that_writes_there) {
   in_killed_process([&] {
     Outputs outputs;

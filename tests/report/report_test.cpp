@@ -5,6 +5,7 @@
 
 #include "mansard/pipeline/pipeline.hpp"
 #include "mansard/report/pictures.hpp"
+#include "mansard/solid/solid.hpp"
 #include "pipeline/houses.hpp"
 
 namespace mansard::report {
@@ -53,6 +54,22 @@ TEST(Pictures, are_drawn_for_a_reconstruction) {
     EXPECT_GT(image->width, 100U);
     EXPECT_EQ(image->pixels.size(), 3 * image->width * image->height);
   }
+}
+
+TEST(Pictures, show_a_solid_that_cannot_be_cut_into_triangles) {
+  auto city = reconstructed(test::lone_house()).city;
+  const auto whole = picture_of(city);
+  auto& solid = city.buildings.at(0).parts.at(0).model.solid;
+  for (auto& face : solid.faces)
+    if (face.loops.front().size() == 4) {
+      std::swap(face.loops.front()[1], face.loops.front()[2]);  // crosses itself
+      break;
+    }
+  ASSERT_FALSE(solid::triangulate(solid));
+  const auto crossed = picture_of(city);
+  city.buildings.clear();
+  EXPECT_NE(crossed.pixels, picture_of(city).pixels);
+  EXPECT_EQ(crossed.pixels.size(), whole.pixels.size());
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ TEST(PlanOf, stands_a_part_on_another_one) {
 TEST(WithParapet, puts_a_ring_on_a_flat_roof) {
   auto flat = lot(Roof::flat, 0, {});
   flat.parapet = true;
-  const auto lots = with_parapet(flat);
+  const auto lots = with_parapet(flat).value();
   ASSERT_EQ(lots.size(), 2U);
   EXPECT_EQ(lots[1].role, "parapet");
   EXPECT_EQ(lots[1].base, flat.eaves);
@@ -90,17 +90,26 @@ TEST(WithParapet, puts_rings_around_courtyards_too) {
   auto flat = lot(Roof::flat, 0, {});
   flat.parapet = true;
   flat.polygon.holes = {{{3, 3}, {3, 6}, {5, 6}, {5, 3}}};
-  EXPECT_EQ(with_parapet(flat).size(), 3U);
+  EXPECT_EQ(with_parapet(flat).value().size(), 3U);
 }
 
 TEST(WithParapet, leaves_other_roofs_and_narrow_lots_as_they_are) {
   auto pitched = lot(Roof::pitched, 0.5, {false, true, false, true});
   pitched.parapet = true;
-  EXPECT_EQ(with_parapet(pitched).size(), 1U);
+  EXPECT_EQ(with_parapet(pitched).value().size(), 1U);
   auto narrow = lot(Roof::flat, 0, {});
   narrow.parapet = true;
   narrow.polygon.outer = {{0, 0}, {8, 0}, {8, 0.5}, {0, 0.5}};
-  EXPECT_EQ(with_parapet(narrow).size(), 1U);
+  EXPECT_EQ(with_parapet(narrow).value().size(), 1U);
+}
+
+TEST(WithParapet, fails_where_there_can_be_no_ring) {
+  auto broken = lot(Roof::flat, 0, {});
+  broken.parapet = true;
+  broken.polygon.outer[1].x = std::numeric_limits<double>::quiet_NaN();
+  const auto lots = with_parapet(broken);
+  ASSERT_FALSE(lots);
+  EXPECT_EQ(lots.error().code, "geometry-boolean");
 }
 
 }  // namespace

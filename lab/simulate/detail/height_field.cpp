@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mansard/base/stopped.hpp"
 #include "mansard/rays/rays.hpp"
 
 namespace mansard::simulate::detail {
@@ -53,7 +54,7 @@ auto height_field(const World& world, double resolution, std::uint64_t seed, con
       mesh.vertices[row * columns + column] = {p.x, p.y, top(world, buildings, objects, p)};
     }
   });
-  if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+  if (run.cancelled()) return base::stopped();
   for (std::size_t row = 0; row + 1 < rows; ++row)
     for (std::size_t column = 0; column + 1 < columns; ++column) {
       const auto a = static_cast<std::uint32_t>(row * columns + column), b = a + 1;

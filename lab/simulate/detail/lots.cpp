@@ -54,14 +54,15 @@ auto plan_of(const Lot& lot, double ground) -> base::Result<Plan> {
   return plan;
 }
 
-auto with_parapet(const Lot& lot) -> std::vector<Lot> {
+auto with_parapet(const Lot& lot) -> base::Result<std::vector<Lot>> {
   constexpr double thick = 0.3, high = 0.7;
   std::vector<Lot> all{lot};
   if (!lot.parapet || lot.roof != Roof::flat) return all;
   const auto inside = geometry::buffer(lot.polygon, -thick);
-  if (!inside || inside->size() != 1) return all;
+  if (!inside) return inside.failure();
+  if (inside->size() != 1) return all;
   const auto rings = geometry::subtract(lot.polygon, inside->front());
-  if (!rings) return all;
+  if (!rings) return rings.failure();
   for (const auto& ring : *rings) {
     if (ring.holes.empty()) continue;
     Lot parapet;

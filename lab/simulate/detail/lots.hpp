@@ -42,8 +42,8 @@ inline constexpr double most_rise = 6.5;
 /// A lot as plan + profiles on that ground. Fails as extrude::crest does.
 [[nodiscard]] auto plan_of(const Lot& lot, double ground) -> base::Result<model::Plan>;
 
-/// The lot and, where it is wide enough, its parapet.
-[[nodiscard]] auto with_parapet(const Lot& lot) -> std::vector<Lot>;
+/// The lot and, where it is wide enough, its parapet. Fails with "geometry-boolean".
+[[nodiscard]] auto with_parapet(const Lot& lot) -> base::Result<std::vector<Lot>>;
 
 /// The buildings of a block in its own frame: the street along x, the ground at 0.
 [[nodiscard]] auto houses_of(Kind kind, const BlockOptions& options, base::Random& random) -> std::vector<House>;

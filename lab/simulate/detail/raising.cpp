@@ -60,8 +60,10 @@ auto raise_house(const House& house, const base::Run& run) -> base::Result<Raise
   if (!outline) return outline.error();
   out.building.footprint = std::move(*outline);
   out.building.attributes = {{"sim_roof", house.roof}, {"sim_storeys", std::int64_t{house.storeys}}};
-  for (const Lot& given : house.lots)
-    for (const Lot& lot : with_parapet(given)) {
+  for (const Lot& given : house.lots) {
+    const auto lots = with_parapet(given);
+    if (!lots) return lots.failure();
+    for (const Lot& lot : *lots) {
       model::Part part;
       part.id = house.id + "-" + std::to_string(out.building.parts.size() + 1);
       part.attributes = {{"ms_role", lot.role}, {"ms_eaves", house.ground + lot.eaves}};
@@ -71,6 +73,7 @@ auto raise_house(const House& house, const base::Run& run) -> base::Result<Raise
       out.solids.push_back(std::move(raised->second));
       out.building.parts.push_back(std::move(part));
     }
+  }
   return out;
 }
 
@@ -119,7 +122,5 @@ auto truth_over(std::vector<Raised> buildings, const base::Run& run) -> Truth {
   truth.party_walls = party_walls_of(standing, solids_touch);
   return truth;
 }
-
-auto stopped() -> base::Diagnostic { return base::error("cancelled", "stopped on request; nothing was written"); }
 
 }  // namespace mansard::simulate::detail

@@ -27,6 +27,4 @@ struct Raised {
 /// All solids labelled, all party walls found.
 [[nodiscard]] auto truth_over(std::vector<Raised> buildings, const base::Run& run) -> Truth;
 
-[[nodiscard]] auto stopped() -> base::Diagnostic;
-
 }  // namespace mansard::simulate::detail

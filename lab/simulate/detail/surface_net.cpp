@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lab/simulate/detail/columns.hpp"
+#include "mansard/base/stopped.hpp"
 
 namespace mansard::simulate::detail {
 namespace {
@@ -46,7 +47,7 @@ class Net {
     base::parallel_for(pieces.size(), [&](std::size_t at) {
       if (!run.cancelled()) pieces[at] = piece(static_cast<std::int64_t>(at));
     });
-    if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+    if (run.cancelled()) return base::stopped();
     return joined(pieces);
   }
 

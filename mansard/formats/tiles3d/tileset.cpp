@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "mansard/base/nesting.hpp"
+#include "mansard/base/stopped.hpp"
 #include "mansard/formats/files/named_file.hpp"
 #include "mansard/formats/files/reach.hpp"
 #include "mansard/formats/hash.hpp"
@@ -113,7 +114,7 @@ class Walk {
     for (const Sheet* sheet = within; sheet != nullptr; sheet = sheet->within, ++files)
       if (sheet->path == path) return bad("the tileset is nested in itself; export it again", name);
     if (files > 64) return bad("tilesets are nested more than 64 deep, as if they held one another", name);
-    if (run_.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+    if (run_.cancelled()) return base::stopped();
     const auto bytes = within == nullptr ? Bytes::of(path) : bytes_of_named(path);
     if (!bytes) return bytes.error();
     const auto tileset = parse_tileset(bytes->view(), name);
@@ -207,7 +208,7 @@ class Walk {
   }
 
   auto take_subtree(const Implicit& tree, const Sheet& sheet, const TileIndex& root) -> base::Result<void> {
-    if (run_.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+    if (run_.cancelled()) return base::stopped();
     const auto path = address_beside(sheet.path, filled_in(tree.subtrees, root));
     if (auto reach = check_reach(first_of(sheet), path); !reach) return reach;
     const auto subtree = Subtree::read(path, tree.subtree_levels, tree.octree, list_.inputs);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "mansard/base/options.hpp"
+#include "mansard/base/stopped.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/crs/gdal.hpp"
 #include "mansard/crs/gdal_messages.hpp"
@@ -303,7 +304,7 @@ class Source {
     layer.ResetReading();
     if (osm) dataset_->ResetReading();
     for (;;) {
-      if (run_.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+      if (run_.cancelled()) return base::stopped();
       messages_.forget();
       OGRLayer* of = &layer;
       const OGRFeatureUniquePtr feature{osm ? dataset_->GetNextFeature(&of, nullptr, nullptr, nullptr)

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <mutex>
 
+#include "mansard/base/stopped.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/cloud/cloud.hpp"
 #include "mansard/ingest/detail/cloud_pieces.hpp"
@@ -138,7 +139,7 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
       }
       surface.add(samples, within);
     });
-    if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+    if (run.cancelled()) return base::stopped();
     for (const auto& failure : failures)
       if (failure) return *failure;
     auto inputs = cloud.inputs();
@@ -165,7 +166,7 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
     const std::scoped_lock lock(mutex);
     counts.include(made->counts);
   });
-  if (run.cancelled()) return base::error("cancelled", "stopped on request; nothing was written");
+  if (run.cancelled()) return base::stopped();
   for (const auto& piece : pieces)
     if (piece.failure) return *piece.failure;
   if (counts.points == 0)

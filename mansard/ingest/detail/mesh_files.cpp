@@ -8,6 +8,7 @@
 #include <mutex>
 #include <set>
 
+#include "mansard/base/stopped.hpp"
 #include "mansard/crs/gdal.hpp"
 #include "mansard/crs/gdal_messages.hpp"
 #include "mansard/crs/spatial_reference.hpp"
@@ -22,6 +23,7 @@
 #include "mansard/formats/osgb/osgb_file.hpp"
 #include "mansard/formats/raster/raster.hpp"
 #include "mansard/ingest/detail/clean.hpp"
+#include "mansard/ingest/detail/files_below.hpp"
 
 namespace mansard::ingest::detail {
 namespace {
@@ -32,8 +34,6 @@ using geometry::Point2;
 using geometry::Point3;
 
 constexpr const char *tileset_name = "tileset.json", *ept_name = "ept.json";
-
-auto cancelled() -> base::Diagnostic { return base::error("cancelled", "stopped on request; nothing was written"); }
 
 /// Archives are folders; the file extension .3tz is that of a zipped tileset.
 auto unpacked_name(const fs::path& path) -> fs::path {
@@ -51,22 +51,6 @@ auto is_folder(const fs::path& path) -> bool {
   const crs::GdalMessages messages;
   VSIStatBufL found{};
   return VSIStatL(path.string().c_str(), &found) == 0 && VSI_ISDIR(found.st_mode);
-}
-
-/// All files in a folder and below it, in no order; folders too, which end in '/'.
-auto files_below(const fs::path& folder) -> base::Result<std::vector<fs::path>> {
-  std::vector<fs::path> found;
-  if (formats::is_virtual(folder)) {
-    const crs::GdalMessages messages;
-    const CPLStringList names(VSIReadDirRecursive(folder.string().c_str()));
-    for (int i = 0; i < names.size(); ++i) found.push_back(folder / names[i]);
-    return found;
-  }
-  std::error_code failure;
-  for (fs::recursive_directory_iterator at(folder, failure), end; !failure && at != end; at.increment(failure))
-    if (at->is_regular_file(failure)) found.push_back(at->path());
-  if (failure) return base::error("file-read", "cannot list the folder: " + failure.message(), folder.string());
-  return found;
 }
 
 /// Whether the name is that of an archive as such, not of a member, and it can be looked into.
@@ -237,7 +221,7 @@ auto MeshReading::open(const std::vector<fs::path>& paths, const Options& option
     if (source.in_cells) reading.into_cells(source.piece);
     else source.piece.mesh = {};
   });
-  if (run.cancelled()) return cancelled();
+  if (run.cancelled()) return base::stopped();
   for (const auto& source : sources)
     if (source.piece.failure) return *source.piece.failure;
   return reading;
@@ -419,7 +403,7 @@ auto MeshReading::finish(const std::string& working, const std::optional<Box2>& 
   for (auto& source : sources_) {
     if (source.kind == Kind::cloud) continue;
     auto some = read_placed(source, raw, run);
-    if (run.cancelled()) return cancelled();
+    if (run.cancelled()) return base::stopped();
     for (auto& piece : some) {
       if (piece.failure) return *piece.failure;
       vertices += piece.mesh.vertices.size() + piece.vertices;

@@ -16,8 +16,6 @@ auto along_curve(std::int64_t x, std::int64_t y) -> std::uint64_t {
   return spread(x) | spread(y) << 1U;
 }
 
-auto cancelled() -> base::Diagnostic { return base::error("cancelled", "stopped on request; nothing was written"); }
-
 auto check_usable(const model::Scene& scene) -> base::Result<void> {
   const bool usable = std::ranges::any_of(scene.footprints, [](const auto& f) { return !f.defect.has_value(); });
   if (!usable) {

@@ -18,8 +18,6 @@
 
 namespace mansard::pipeline::detail {
 
-[[nodiscard]] auto cancelled() -> base::Diagnostic;
-
 /// The blocks that are to be worked through, by their places in the partition.
 struct Division {
   block::Partition blocks;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "mansard/base/metres.hpp"
 #include "mansard/base/text.hpp"
 
 namespace mansard::report::detail {
@@ -32,8 +33,6 @@ auto listed(const Amounts& amounts) -> std::string {
   return count == 1 ? text : rounded(total) + " = " + text;
 }
 
-auto metres(double length) -> std::string { return base::to_text(length, 1) + " m"; }
-
 /// What refinement made of a wall; "" where that is not known.
 auto told(const std::optional<Later>& later) -> std::string {
   if (!later) return "";
@@ -47,9 +46,9 @@ auto told(const std::optional<Later>& later) -> std::string {
   const auto add = [&text](double metres_of_it, const std::string& what) {
     if (metres_of_it > 0) text += (text.empty() ? "" : ", ") + what;
   };
-  add(later->kept, "kept " + metres(later->kept));
-  add(later->moved, "moved " + metres(later->moved) + by);
-  add(later->dropped, "dropped " + metres(later->dropped));
+  add(later->kept, "kept " + base::metres(later->kept));
+  add(later->moved, "moved " + base::metres(later->moved) + by);
+  add(later->dropped, "dropped " + base::metres(later->dropped));
   return "; refinement " + text;
 }
 
