@@ -79,6 +79,7 @@ void lower(std::vector<double>& floor, const Blob& blob, const Surface& surface,
     if (!std::isnan(surface.under[c])) hanging.push_back(grid.centre(c));
   // A roof beside a crown that is too narrow to be told from it is in one region with it, but hangs over nothing.
   const auto is_roof = [&](std::uint32_t cell) {
+    if (blob.dome) return false;
     const auto at = grid.centre(cell);
     return std::ranges::any_of(outline, [&](const auto& polygon) { return geometry::contains(polygon, at); }) &&
            std::ranges::none_of(hanging, [&](geometry::Point2 p) { return length(p - at) <= options.near_underside; });

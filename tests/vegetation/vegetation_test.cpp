@@ -125,6 +125,25 @@ TEST(Vegetation, leaves_trees_that_are_not_over_the_footprints) {
   EXPECT_TRUE(found(both(sheet(ground, 0.25, gable), ball({6, -5, 4}, 2.6, 0.25))).crowns.empty());
 }
 
+/// The top of a crown of 2 m radius with lumps, over its middle.
+auto crown_over(Point2 p, Point2 middle) -> double {
+  const Point2 d = p - middle;
+  const double a = std::atan2(d.y, d.x), r = length(d) / (2 + 0.15 * std::sin(5 * a));
+  return r < 1 ? 2.4 * std::sqrt(1 - r * r) + 0.12 * std::sin(4 * d.x) * std::cos(4 * d.y) : -100;
+}
+
+TEST(Vegetation, finds_a_crown_that_grows_out_of_a_roof_and_hangs_over_nothing) {
+  for (const Point2 middle : {Point2{6, 3}, Point2{4, 5}}) {
+    const auto tree =
+        sheet(ground, 0.25, [&](Point2 p) { return std::max(gable(p), gable(middle) + 0.8 + crown_over(p, middle)); });
+    const auto crowns = found(tree);
+    ASSERT_EQ(crowns.crowns.size(), 1U) << middle.x;
+    EXPECT_LT(crowns.crowns[0].overhang, 0.05);
+    EXPECT_LT(length(crowns.crowns[0].centre - middle), 0.6);
+    for (const Point2 place : {Point2{10, 3}, {10, 7}}) EXPECT_FALSE(any_near(tree, crowns.below, place, 1));
+  }
+}
+
 /// What is built over the house, of a height above its level roof at 6 m.
 auto built(const std::function<double(Point2)>& height) -> Found {
   return found(sheet(ground, 0.25, [&](Point2 p) { return in_outline(p) ? 6 + height(p) : 0.0; }));

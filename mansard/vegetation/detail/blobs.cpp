@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <numbers>
 #include <numeric>
 
 #include "mansard/geometry/fit.hpp"
@@ -15,6 +16,8 @@ using geometry::Point2;
 constexpr double steep = 3.0;
 /// Rise per metre: flatter ones have no direction.
 constexpr double flat = 0.2;
+/// Relative determinant of points that are on a line but for rounding.
+constexpr double on_a_line = 1e-6;
 
 template <class Go>
 void each_beside(const Grid& grid, std::size_t cell, Go go) {
@@ -102,9 +105,8 @@ class Planes {
     return patch_;
   }
 
-  static constexpr double first_fit = 24;    // samples: before, a plane is that of the small square
-  static constexpr double on_a_line = 1e-6;  // relative determinant: rounding
-  static constexpr double patch_reach = 4;   // m: far enough for every plane_area that makes sense
+  static constexpr double first_fit = 24;   // samples: before, a plane is that of the small square
+  static constexpr double patch_reach = 4;  // m: far enough for every plane_area that makes sense
 
   const Surface& surface_;
   const std::vector<Fitted>& slopes_;
@@ -161,6 +163,82 @@ auto squareness_of(const std::vector<std::uint32_t>& cells, const std::vector<Fi
     total += std::min(size, steep);
   }
   return total > 0 ? std::abs(sum) / total : 1;
+}
+
+/// Where the border of a region turns, in cells: 4 π · area / border² is 0.79 for a square or a disc of cells.
+auto roundness_of(const std::vector<std::uint32_t>& cells, const Grid& grid) -> double {
+  std::size_t border = 0;
+  for (const auto c : cells) {
+    std::size_t beside = 0;
+    each_beside(grid, c, [&](std::size_t next) {
+      beside += std::ranges::binary_search(cells, static_cast<std::uint32_t>(next)) ? 1 : 0;
+    });
+    border += 4 - beside;
+  }
+  const auto side = static_cast<double>(border) / 4;
+  return static_cast<double>(cells.size()) / (side * side);
+}
+
+/// z = c + tilt · p + bend · p², by least squares.
+struct Dome {
+  double tilt = 0;       ///< rise per metre in the middle of the region
+  double bend = 0;       ///< per metre; negative for a dome
+  double explained = 0;  ///< share of the squared distances from the best plane
+};
+
+auto dome_of(const std::vector<std::uint32_t>& cells, const Surface& surface) -> Dome {
+  const auto count = static_cast<double>(cells.size());
+  Point2 middle;
+  double height = 0;
+  for (const auto c : cells) middle = middle + (1 / count) * surface.grid.centre(c), height += surface.top[c] / count;
+  double square = 0;
+  for (const auto c : cells) {
+    const Point2 at = surface.grid.centre(c) - middle;
+    square += dot(at, at) / count;
+  }
+  // About the means: the slopes, and what p² has that is no plane.
+  geometry::SlopeEquations plane, curved;
+  double qq = 0, qz = 0, zz = 0;
+  for (const auto c : cells) {
+    const Point2 at = surface.grid.centre(c) - middle;
+    const double z = surface.top[c] - height, q = dot(at, at) - square;
+    plane.add(at.x, at.y, z, 1);
+    curved.add(at.x, at.y, q, 1);
+    qq += q * q, qz += q * z, zz += z * z;
+  }
+  if (!(plane.determinant() > on_a_line * plane.xx * plane.yy)) return {};
+  const Point2 slope = plane.slopes(), lean = curved.slopes();
+  const double rest_q = qq - lean.x * curved.xz - lean.y * curved.yz,
+               rest_z = zz - slope.x * plane.xz - slope.y * plane.yz;
+  const double joint = qz - lean.x * plane.xz - lean.y * plane.yz;
+  if (!(rest_q > 0) || !(rest_z > 0)) return {};
+  const double bend = joint / rest_q;
+  return {length(slope - bend * lean), bend, joint * joint / (rest_q * rest_z)};
+}
+
+/// Whether enough of it has a visible underside, and it rises enough, for a crown.
+auto hangs_over(const Crown& seen, const Options& options) -> bool {
+  const bool beside = seen.area - seen.inside >= options.beyond * seen.area;
+  return beside ? seen.overhang >= options.overhang && seen.rise >= options.rise_beside
+                : seen.overhang >= options.overhang_within && seen.rise >= options.rise_within;
+}
+
+/// The shape of a crown, whatever is below it. Each limit is between what crowns and roofs were measured to have, on
+/// simulated crowns of odd seeds and on the real inputs: docs/decisions/0071.
+auto is_dome(const Crown& seen, const std::vector<std::uint32_t>& cells, const Surface& surface) -> bool {
+  constexpr double least_area = 5.8, most_area = 32;  // m²; dormers have less, roofs more
+  constexpr double flattest = 0.4, steepest = 1.6;    // height by radius; spires have more
+  constexpr double least_rise = 1.7;                  // m
+  constexpr double most_tilt = 0.7;                   // ends of ridges have more
+  constexpr double least_explained = 0.55;            // share of the squared distances from a plane
+  constexpr double least_round = 0.6;                 // of roundness_of
+  constexpr double most_square = 0.33;                // of squareness_of
+  if (seen.area < least_area || seen.area > most_area || seen.rise < least_rise || seen.squareness > most_square)
+    return false;
+  const auto dome = dome_of(cells, surface);
+  const double slender = -dome.bend * std::sqrt(seen.area / std::numbers::pi);
+  return dome.explained >= least_explained && slender >= flattest && slender <= steepest && dome.tilt <= most_tilt &&
+         roundness_of(cells, surface.grid) >= least_round;
 }
 
 }  // namespace
@@ -223,6 +301,7 @@ auto blobs_of(const Surface& surface, std::size_t halo, std::span<const geometry
     seen.rise = seen.top - lowest;
     seen.overhang = static_cast<double>(hanging) / count;
     seen.squareness = squareness_of(blob.cells, slopes);
+    blob.dome = !hangs_over(seen, options) && is_dome(seen, blob.cells, surface);
     blob.too_long = blob.cells.back() / grid.columns - row >= halo || east - west >= halo;
     out.push_back(std::move(blob));
   }
@@ -232,9 +311,7 @@ auto blobs_of(const Surface& surface, std::size_t halo, std::span<const geometry
 auto is_crown(const Blob& blob, const Options& options) -> bool {
   const auto& seen = blob.seen;
   if (blob.too_long || seen.inside < options.min_inside || seen.squareness > options.squareness) return false;
-  const bool beside = seen.area - seen.inside >= options.beyond * seen.area;
-  return beside ? seen.overhang >= options.overhang && seen.rise >= options.rise_beside
-                : seen.overhang >= options.overhang_within && seen.rise >= options.rise_within;
+  return blob.dome || hangs_over(seen, options);
 }
 
 }  // namespace mansard::vegetation::detail

@@ -52,6 +52,7 @@ struct Fitted {
 struct Blob {
   Crown seen;
   std::vector<std::uint32_t> cells;  ///< ascending
+  bool dome = false;                 ///< hangs over too little for a crown, but has the shape of one
   bool too_long = false;             ///< longer than the margin around a tile
 };
 /// Those that begin in the core of the grid, `halo` cells from its border.
