@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <new>
+#include <utility>
 
 #include "mansard/base/stopped.hpp"
 #include "mansard/base/text.hpp"
@@ -158,24 +159,28 @@ void append(std::vector<base::Diagnostic>& all, std::vector<base::Diagnostic> mo
   all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
-/// All features of the file as footprints. Where their polygons are beside `mesh`, they have a defect.
-auto finish_all(formats::FeatureFile& file, const Options& options, const model::Frame& frame, const Box2& mesh,
-                const std::string& subject) -> base::Result<std::vector<Finished>> {
-  auto ids = formats::ids_of(file.features, options.id_attribute, subject, file.warnings);
-  if (!ids) return ids.error();
-  std::vector<Finished> finished(file.features.size());
-  base::parallel_for(finished.size(), [&](std::size_t i) {
-    finished[i] = finish(std::move(file.features[i]), std::move((*ids)[i]), frame, mesh);
-  });
-  return finished;
-}
-
-void take(std::vector<Finished> finished, const std::vector<bool>& wanted, model::Scene& scene) {
-  for (std::size_t i = 0; i < finished.size(); ++i) {
-    auto& one = finished[i];
-    if (wanted[i] && one.warning) scene.warnings.push_back(std::move(*one.warning));
-    (wanted[i] ? scene.footprints : scene.surroundings).push_back(std::move(one.footprint));
+/// All features of the file as footprints. Where their polygons are beside `mesh`, they have a defect. Not all at once:
+/// what was read of a feature goes when its footprint is made.
+void finish_all(Chosen& chosen, std::vector<std::string> ids, const Box2& mesh, model::Scene& scene) {
+  auto& features = chosen.file.features;
+  const auto wanted = static_cast<std::size_t>(std::ranges::count(chosen.wanted, true));
+  scene.footprints.reserve(wanted);
+  scene.surroundings.reserve(features.size() - wanted);
+  constexpr std::size_t at_once = 8192;
+  std::vector<Finished> finished;
+  for (std::size_t first = 0; first < features.size(); first += at_once) {
+    finished.assign(std::min(at_once, features.size() - first), {});
+    base::parallel_for(finished.size(), [&](std::size_t i) {
+      finished[i] = finish(std::exchange(features[first + i], {}), std::move(ids[first + i]), scene.frame, mesh);
+    });
+    for (std::size_t i = 0; i < finished.size(); ++i) {
+      auto& one = finished[i];
+      const bool asked = chosen.wanted[first + i];
+      if (asked && one.warning) scene.warnings.push_back(std::move(*one.warning));
+      (asked ? scene.footprints : scene.surroundings).push_back(std::move(one.footprint));
+    }
   }
+  features = {};
 }
 
 /// The footprints in the working CRS, and what it is.
@@ -340,8 +345,9 @@ auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::files
 
   run.report("ingest", subject, 0.9);
   const Box2 local{xy(mesh_box.least) - origin, xy(mesh_box.most) - origin};
-  auto finished = finish_all(ground->chosen.file, options, scene.frame, local, subject);
-  if (!finished) return finished.error();
+  auto& file = ground->chosen.file;
+  auto ids = formats::ids_of(file.features, options.id_attribute, subject, file.warnings);
+  if (!ids) return ids.error();
 
   scene.inputs = std::move(meshes->inputs);
   const Box2 ground_box = cells == nullptr ? plan_of(scene.mesh) : within ? within->grown(mesh_margin) : local;
@@ -351,7 +357,7 @@ auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::files
   append(scene.warnings, detail::warnings_of(scene.mesh_counts, mesh_name));
   append(scene.warnings, std::move(ground->chosen.file.warnings));
   append(scene.warnings, ground->way.warnings);
-  take(std::move(*finished), ground->chosen.wanted, scene);
+  finish_all(ground->chosen, *std::move(ids), local, scene);
   run.report("ingest", subject, 1);
   return scene;
 }
@@ -378,12 +384,12 @@ auto read_alone(const std::filesystem::path& path, const Options& options, const
   if (!box.empty())
     scene.frame.origin = detail::origin_of(box, {{box.least.x, box.least.y, 0}, {box.most.x, box.most.y, 0}});
   constexpr double far = std::numeric_limits<double>::infinity();
-  auto finished = finish_all(*file, options, scene.frame, {{-far, -far}, {far, far}}, subject);
-  if (!finished) return finished.error();
+  auto ids = formats::ids_of(file->features, options.id_attribute, subject, file->warnings);
+  if (!ids) return ids.error();
   scene.inputs = std::move(file->inputs);
   append(scene.warnings, std::move(file->warnings));
   append(scene.warnings, way->warnings);
-  take(std::move(*finished), chosen->wanted, scene);
+  finish_all(*chosen, *std::move(ids), {{-far, -far}, {far, far}}, scene);
   return scene;
 }
 

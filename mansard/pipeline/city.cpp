@@ -22,9 +22,7 @@ auto PutAside::each(const Visit& visit) const -> base::Result<void> {
     if (!bytes) return bytes.failure();
     detail::Finished one;
     base::Unpacker from(*bytes);
-    if (!from.take(one) || !from.done())
-      return base::error("file-write",
-                         "what was put aside in the folder for temporary files (TMPDIR) was changed there");
+    if (!from.take(one) || !from.done()) return detail::put_aside_changed();
     if (const auto more = afterwards_.find(f); more != afterwards_.end())
       one.report.reasons.insert(one.report.reasons.end(), more->second.begin(), more->second.end());
     if (auto visited = visit(std::move(one.building), std::move(one.report)); !visited) return visited;

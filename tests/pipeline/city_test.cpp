@@ -198,6 +198,31 @@ TEST(City, without_a_mesh_is_that_in_memory) {
   }
 }
 
+TEST(City, tells_of_solids_that_overlap_as_in_memory) {
+  model::Scene scene;
+  for (int i = 0; i < 40; ++i) {
+    const double x = 3.7 * (i % 7), y = 4.1 * (i / 7);
+    model::Footprint footprint;
+    footprint.id = "a name that is not short " + std::to_string(i);
+    footprint.polygons.push_back({{{x, y}, {x + 5, y}, {x + 5, y + 5}, {x, y + 5}}, {}});
+    if (i % 5 == 0) footprint.polygons.push_back({{{x + 90, y}, {x + 95, y}, {x + 95, y + 5}, {x + 90, y + 5}}, {}});
+    scene.footprints.push_back(std::move(footprint));
+  }
+  const auto whole = raise_footprints(scene, {});
+  const auto aside = raise_footprints_aside(scene, {});
+  ASSERT_TRUE(whole);
+  ASSERT_TRUE(aside);
+  std::size_t i = 0, told = 0;
+  ASSERT_TRUE(aside->each([&](const model::Building&, const report::BuildingReport& report) {
+    EXPECT_EQ(report.reasons, whole->buildings[i++].reasons);
+    for (const auto& reason : report.reasons) told += reason.code == "pipeline-overlap" ? 1 : 0;
+    return base::Result<void>();
+  }));
+  EXPECT_EQ(i, 40U);
+  EXPECT_GT(told, 100U);
+  EXPECT_EQ(aside->summary.warnings, whole->warnings);
+}
+
 TEST(City, shares_of_cells_add_up) {
   const Files files;
   const auto in_cells = files.read({}, 0);

@@ -9,6 +9,7 @@
 #include "mansard/formats/files/ranges.hpp"
 #include "mansard/formats/files/virtual_files.hpp"
 #include "mansard/formats/las/las_file.hpp"
+#include "mansard/formats/mesh/mesh_stream.hpp"
 #include "mansard/formats/ply/point_reader.hpp"
 
 namespace mansard::formats {
@@ -20,6 +21,10 @@ constexpr const char* ept_name = "ept.json";
 /// The beginning of a file, in which the header of a PLY is; empty where it cannot be read.
 auto beginning_of(const fs::path& path) -> std::string {
   constexpr std::uint64_t enough = 65536;
+  if (auto window = FileWindow::open(path)) {  // no map of a file that may be larger than what memory is allowed
+    if (auto filled = window->fill(enough); !filled) return {};
+    return std::string(window->view());
+  }
   const auto file = RangeFile::open(path);
   if (!file) return {};
   const auto range = (*file)->read(0, enough);

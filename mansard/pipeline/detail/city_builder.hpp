@@ -15,12 +15,14 @@
 
 namespace mansard::pipeline::detail {
 
+inline auto put_aside_changed() -> base::Diagnostic {
+  return base::error("file-write", "what was put aside in the folder for temporary files (TMPDIR) was changed there");
+}
+
 /// Takes finished features from any thread.
 class CityBuilder {
  public:
-  CityBuilder(PutAside& city, std::size_t features) : city_(city), standing_(features) {
-    city.places_.resize(features);
-  }
+  CityBuilder(PutAside& city, std::size_t features) : city_(city) { city.places_.resize(features); }
 
   [[nodiscard]] auto open() -> base::Result<void> {
     auto spool = base::Spool::open();
@@ -34,21 +36,32 @@ class CityBuilder {
     if (feature >= city_.places_.size()) return;
     std::string bytes;
     base::pack(one, bytes);
-    auto standing = pipeline::detail::standing(feature, one.building);
+    const auto extents = pipeline::detail::extents(standing(feature, one.building));
     const std::scoped_lock lock(mutex_);
     city_.places_[feature] = {city_.spool_->size(), static_cast<std::uint32_t>(bytes.size())};
     city_.spool_->append(bytes);
     city_.outcomes.add(one.report.outcome);
-    standing_[feature] = std::move(standing);
+    extents_.insert(extents_.end(), extents.begin(), extents.end());
   }
 
   [[nodiscard]] auto has(std::size_t feature) const -> bool { return city_.places_[feature].bytes > 0; }
 
   /// After the last one: what only all of them together show.
   void finish(const base::Run& run) {
-    std::vector<Standing> all;
-    for (auto& some : standing_) std::ranges::move(some, std::back_inserter(all));
-    auto [of_each, in_all] = pipeline::detail::overlaps(all, run);
+    std::ranges::sort(extents_, {}, [](const Extent& extent) { return std::pair(extent.building, extent.solid); });
+    const auto load = [&](std::uint32_t building) -> base::Result<std::vector<Standing>> {
+      auto bytes = [&] {
+        const std::scoped_lock lock(mutex_);
+        return city_.spool_->read(city_.places_[building].offset, city_.places_[building].bytes);
+      }();
+      if (!bytes) return bytes.failure();
+      Finished one;
+      base::Unpacker from(*bytes);
+      if (!from.take(one) || !from.done()) return put_aside_changed();
+      return standing(building, one.building);
+    };
+    auto [of_each, in_all] = overlaps(extents_, load, run);
+    extents_ = {};
     for (auto& [building, what] : of_each) city_.afterwards_[building].push_back(std::move(what));
     std::ranges::move(in_all, std::back_inserter(city_.summary.warnings));
   }
@@ -56,7 +69,7 @@ class CityBuilder {
  private:
   PutAside& city_;
   std::mutex mutex_;
-  std::vector<std::vector<Standing>> standing_;  ///< by feature
+  std::vector<Extent> extents_;
 };
 
 }  // namespace mansard::pipeline::detail

@@ -6,6 +6,7 @@
 #include <functional>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -60,7 +61,7 @@ auto shared_ground(const Standing& a, const Standing& b) -> base::Result<double>
 }
 
 /// Whether the insides of both boxes have something in common: neighbours with a common wall do not overlap.
-auto may_overlap(const Standing& a, const Standing& b) -> bool {
+auto may_overlap(const Extent& a, const Extent& b) -> bool {
   const auto common = [](double least_a, double most_a, double least_b, double most_b) {
     return std::min(most_a, most_b) > std::max(least_a, least_b);
   };
@@ -81,9 +82,10 @@ struct Candidates {
   bool all = true;
 };
 
-auto candidates(const std::vector<Standing>& solids, const base::Run& run) -> Candidates {
+auto candidates(const std::vector<Extent>& solids, const base::Run& run) -> Candidates {
   std::vector<geometry::Box2> boxes;
-  for (const Standing& solid : solids) boxes.push_back(solid.box);
+  boxes.reserve(solids.size());
+  for (const Extent& solid : solids) boxes.push_back(solid.box);
   const geometry::BoxIndex index(boxes);
   std::vector<std::vector<std::uint32_t>> near(solids.size());
   base::parallel_for(solids.size(), [&](std::size_t i) {
@@ -109,21 +111,25 @@ auto candidates(const std::vector<Standing>& solids, const base::Run& run) -> Ca
 /// Small areas with the digits that they have.
 auto text(double value) -> std::string { return base::to_text(value, value < 0.01 ? 7 : 3); }
 
-auto height(const Standing& a, const Standing& b) -> double {
-  return std::min(a.high, b.high) - std::max(a.low, b.low);
-}
+auto height(const Extent& a, const Extent& b) -> double { return std::min(a.high, b.high) - std::max(a.low, b.low); }
+
+/// The solids, and the names of those that are in pairs.
+struct Named {
+  const std::vector<Extent>& solids;
+  std::map<std::uint32_t, std::string> names;
+};
 
 /// What is said of a solid because of another one.
-auto said(const Pair& pair, const Standing& of, const Standing& with) -> base::Diagnostic {
+auto said(const Pair& pair, const Named& all, std::uint32_t solid, std::uint32_t other) -> base::Diagnostic {
+  const auto &of = all.names.at(solid), &with = all.names.at(other);
   if (!pair.failure.empty())
     return base::warning(
         "pipeline-overlap-unchecked",
-        "whether it shares ground with " + with.name + " could not be computed (" + pair.failure + "); look at both",
-        of.name);
+        "whether it shares ground with " + with + " could not be computed (" + pair.failure + "); look at both", of);
   return base::warning("pipeline-overlap",
                        "it shares " + text(pair.area) + " m² of ground, and at most " +
-                           text(pair.area * height(of, with)) + " m³, with " + with.name,
-                       of.name);
+                           text(pair.area * height(all.solids[solid], all.solids[other])) + " m³, with " + with,
+                       of);
 }
 
 /// "at least " where not every pair was compared.
@@ -131,8 +137,8 @@ auto at_least(bool all) -> std::string { return all ? "" : "at least "; }
 
 /// What is said of each solid: its largest overlaps, and the number of the others. In the order of the pairs; of two
 /// solids of one building, only by the first.
-auto said_of_each(const std::vector<Standing>& solids, const std::vector<Pair>& pairs, bool all)
-    -> std::vector<Overlaps::Of> {
+auto said_of_each(const Named& named, const std::vector<Pair>& pairs, bool all) -> std::vector<Overlaps::Of> {
+  const auto& solids = named.solids;
   std::vector<std::vector<std::uint32_t>> of(solids.size());
   for (std::uint32_t i = 0; i < pairs.size(); ++i) {
     of[pairs[i].first].push_back(i);
@@ -154,7 +160,7 @@ auto said_of_each(const std::vector<Standing>& solids, const std::vector<Pair>& 
           {solids[s].building, base::warning("pipeline-overlap",
                                              "it overlaps " + at_least(all) + std::to_string(count - most_reported) +
                                                  " more solids, none of them by more; look for footprints that overlap",
-                                             solids[s].name)});
+                                             named.names.at(s))});
     }
     for (const auto i : own) told.emplace_back(i, s);
   }
@@ -162,23 +168,22 @@ auto said_of_each(const std::vector<Standing>& solids, const std::vector<Pair>& 
   std::vector<Overlaps::Of> out;
   for (const auto& [i, s] : told) {
     const auto other = pairs[i].first == s ? pairs[i].second : pairs[i].first;
-    out.push_back({solids[s].building, said(pairs[i], solids[s], solids[other])});
+    out.push_back({solids[s].building, said(pairs[i], named, s, other)});
   }
   std::ranges::move(more, std::back_inserter(out));
   return out;
 }
 
 /// What is said of the whole.
-auto said_of_all(const std::vector<Standing>& solids, const std::vector<Pair>& pairs, bool all)
-    -> std::vector<base::Diagnostic> {
+auto said_of_all(const Named& named, const std::vector<Pair>& pairs, bool all) -> std::vector<base::Diagnostic> {
   std::vector<base::Diagnostic> out;
   const Pair* most = nullptr;
   double volume = 0;
   std::size_t known = 0, unknown = 0;
   for (const Pair& pair : pairs) {
-    const Standing &a = solids[pair.first], &b = solids[pair.second];
+    const Extent &a = named.solids[pair.first], &b = named.solids[pair.second];
     if (!pair.failure.empty()) {
-      if (++unknown <= most_reported) out.push_back(said(pair, a, b));
+      if (++unknown <= most_reported) out.push_back(said(pair, named, pair.first, pair.second));
       continue;
     }
     ++known;
@@ -189,10 +194,10 @@ auto said_of_all(const std::vector<Standing>& solids, const std::vector<Pair>& p
     out.push_back(base::warning("pipeline-overlap-unchecked",
                                 "the same of " + std::to_string(unknown - most_reported) + " more pairs of solids"));
   if (known > 0)
-    out.push_back(base::warning(
-        "pipeline-overlap", at_least(all) + std::to_string(known) + (known == 1 ? " pair" : " pairs") +
-                                " of solids overlap, by at most " + text(volume) + " m³: " + solids[most->first].name +
-                                " and " + solids[most->second].name));
+    out.push_back(base::warning("pipeline-overlap",
+                                at_least(all) + std::to_string(known) + (known == 1 ? " pair" : " pairs") +
+                                    " of solids overlap, by at most " + text(volume) +
+                                    " m³: " + named.names.at(most->first) + " and " + named.names.at(most->second)));
   return out;
 }
 
@@ -205,24 +210,57 @@ auto standing(std::size_t number, const model::Building& building) -> std::vecto
   return all;
 }
 
-auto overlaps(const std::vector<model::Building>& buildings, const base::Run& run) -> Overlaps {
-  std::vector<Standing> all;
-  for (std::size_t i = 0; i < buildings.size(); ++i)
-    std::ranges::move(standing(i, buildings[i]), std::back_inserter(all));
-  return overlaps(all, run);
+auto extents(const std::vector<Standing>& solids) -> std::vector<Extent> {
+  std::vector<Extent> out;
+  std::uint32_t number = 0;
+  for (const auto& solid : solids) {
+    number = out.empty() || out.back().building != solid.building ? 0 : number + 1;
+    out.push_back({static_cast<std::uint32_t>(solid.building), number, solid.box, solid.low, solid.high});
+  }
+  return out;
 }
 
-auto overlaps(const std::vector<Standing>& solids, const base::Run& run) -> Overlaps {
+auto overlaps(const std::vector<model::Building>& buildings, const base::Run& run) -> Overlaps {
+  std::vector<Extent> all;
+  for (std::size_t i = 0; i < buildings.size(); ++i)
+    std::ranges::move(extents(standing(i, buildings[i])), std::back_inserter(all));
+  return overlaps(
+      all, [&](std::uint32_t building) { return standing(building, buildings[building]); }, run);
+}
+
+auto overlaps(const std::vector<Extent>& solids, const LoadStanding& load, const base::Run& run) -> Overlaps {
   auto [pairs, all] = candidates(solids, run);
-  base::parallel_for(pairs.size(), [&](std::size_t i) {
+  const auto loaded = [&](std::uint32_t i) -> base::Result<Standing> {
+    auto of_building = load(solids[i].building);
+    if (!of_building) return of_building.failure();
+    return std::move((*of_building)[solids[i].solid]);
+  };
+  // Pairs of one solid follow each other: it is loaded once for all of them.
+  std::vector<std::size_t> starts;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (i == 0 || pairs[i].first != pairs[i - 1].first) starts.push_back(i);
+  starts.push_back(pairs.size());
+  base::parallel_for(starts.size() - 1, [&](std::size_t s) {
     if (run.cancelled()) return;
-    const auto area = shared_ground(solids[pairs[i].first], solids[pairs[i].second]);
-    if (area) pairs[i].area = *area;
-    else pairs[i].failure = area.error().message;
+    const auto first = loaded(pairs[starts[s]].first);
+    for (std::size_t i = starts[s]; i < starts[s + 1]; ++i) {
+      if (run.cancelled()) return;
+      const auto second = loaded(pairs[i].second);
+      const auto area = !first    ? base::Result<double>(first.failure())
+                        : !second ? base::Result<double>(second.failure())
+                                  : shared_ground(*first, *second);
+      if (area) pairs[i].area = *area;
+      else pairs[i].failure = area.error().message;
+    }
   });
   std::erase_if(pairs, [](const Pair& pair) { return pair.failure.empty() && pair.area == 0; });
   if (run.cancelled()) return {};
-  return {said_of_each(solids, pairs, all), said_of_all(solids, pairs, all)};
+  Named named{solids, {}};
+  for (const Pair& pair : pairs)
+    for (const auto i : {pair.first, pair.second})
+      if (auto& name = named.names[i]; name.empty())
+        if (auto one = loaded(i)) name = std::move(one->name);
+  return {said_of_each(named, pairs, all), said_of_all(named, pairs, all)};
 }
 
 void report_overlaps(report::Reconstruction& reconstruction, const base::Run& run) {

@@ -1,6 +1,8 @@
 // Solids that overlap: no fault of any of them, and yet nothing that a city can be.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -36,8 +38,18 @@ struct Standing {
   double low = std::numeric_limits<double>::infinity(), high = -low;
 };
 [[nodiscard]] auto standing(std::size_t number, const model::Building& building) -> std::vector<Standing>;
-/// The same of solids in the order of their buildings.
-[[nodiscard]] auto overlaps(const std::vector<Standing>& solids, const base::Run& run = {}) -> Overlaps;
+/// What of a solid must be known while all are compared.
+struct Extent {
+  std::uint32_t building = 0, solid = 0;  ///< the number of the building, and that of the solid in it
+  geometry::Box2 box;
+  double low = 0, high = 0;
+};
+[[nodiscard]] auto extents(const std::vector<Standing>& solids) -> std::vector<Extent>;
+/// All solids of a building. From any thread.
+using LoadStanding = std::function<base::Result<std::vector<Standing>>(std::uint32_t building)>;
+/// The same of solids in the order of their buildings, of which only those that may overlap are loaded.
+[[nodiscard]] auto overlaps(const std::vector<Extent>& solids, const LoadStanding& load, const base::Run& run = {})
+    -> Overlaps;
 
 /// Says it among the reasons of the buildings, and among the warnings. `buildings[i]` is the report on
 /// `city.buildings[i]`.
