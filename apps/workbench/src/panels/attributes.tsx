@@ -37,8 +37,9 @@ export function AttributesPanel() {
   ];
   return (
     <div class={"panel" + (state.outdatedAttributes.value.has(run!) ? " outdated" : "")}>
-      <div class="table-head">
+      <div class="attribute-head">
         <b>{building.id}</b>
+        <div class="table-head">
         <SearchField label="Filter attributes" value={search.value} onValue={(text) => (search.value = text)} />
         <button
           type="button"
@@ -51,6 +52,7 @@ export function AttributesPanel() {
         >
           Copy
         </button>
+        </div>
       </div>
       {sections.map(([title, values, source]) => {
         const rows = of(values, source);
@@ -58,7 +60,7 @@ export function AttributesPanel() {
           rows.length > 0 && (
             <section class="card" key={title} aria-label={title}>
               <h2>{title}</h2>
-              <dl class="attributes">
+              <dl class="attribute-list">
                 {rows.map((a) => (
                   <Row key={a.name} attribute={a} value={values![a.name]!} />
                 ))}

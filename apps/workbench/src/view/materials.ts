@@ -12,6 +12,8 @@ export const colours = {
   ground: 0x787c78,
   soffit: 0xc4beb4,
   line: 0x26282e,
+  cut: 0x8a7f74,
+  cutLine: 0x2b2622,
   accent: 0x1d5fd0,
   wrong: 0xd02020,
 };

@@ -110,8 +110,10 @@ export function cutLines(geometry: Geometry, normal: Vector, at: number): Vector
 }
 
 /** Triangles that fill the cut, in the plane: three corners of three numbers each. */
-export function capOf(geometry: Geometry, normal: Vector, at: number): number[] {
-  const lines = cutLines(geometry, normal, at);
+export const capOf = (geometry: Geometry, normal: Vector, at: number) => filling(cutLines(geometry, normal, at), normal);
+
+/** Triangles that fill closed lines in a plane. */
+export function filling(lines: readonly Vector[][], normal: Vector): number[] {
   if (!lines.length) return [];
   // Two axes in the plane.
   const up: Vector = Math.abs(normal[2]) > 0.9 ? [1, 0, 0] : [0, 0, 1];

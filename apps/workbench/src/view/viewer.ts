@@ -15,7 +15,7 @@ import { Output } from "./output";
 import { Others } from "./others";
 import { type Hit, type Ray, covers, pick, pickFootprint } from "./pick";
 import { Tiles } from "./tiles";
-import { type SectionPlane, capOf, planeOf, reach } from "./section";
+import { type SectionPlane, cutLines, filling, planeOf, reach } from "./section";
 import { SegmentationLayers } from "./segmentation";
 import type { Colour } from "./styling";
 
@@ -61,7 +61,8 @@ export class Viewer {
   private readonly buried = new WideLines(colours.footprint, 1.5, true); // the same, visible through the mesh
   private readonly chosen = new WideLines(colours.accent, 2.5, true);
   private readonly chosenSheet = new Sheet(colours.accent, 0.25);
-  private readonly cap = new Sheet(0x3d3a37, 1, 0);
+  private readonly cap = new Sheet(colours.cut, 1, 0);
+  private readonly capLines = new WideLines(colours.cutLine, 2);
   private readonly measureLines = new WideLines(0xc2185b, 2.5, true);
   private readonly measureMarks = new Marks();
   private readonly others = new Others();
@@ -103,6 +104,7 @@ export class Viewer {
       this.chosenSheet.object,
       this.chosen.object,
       this.cap.object,
+      this.capLines.object,
       this.measureLines.object,
       this.measureMarks.object,
       this.others.group,
@@ -349,6 +351,7 @@ export class Viewer {
   /** Fills the solids where the section plane cuts them. */
   private fillCut() {
     const positions: number[] = [];
+    const outlines = new Segments(this.centre);
     if (this.section) {
       const { normal, at } = planeOf(this.section);
       const by = (this.section.flipped ? inside : -inside) as number;
@@ -358,12 +361,15 @@ export class Viewer {
         if (least > this.section.offset || most < this.section.offset) continue;
         for (const { geometry } of building.parts) {
           if (!geometry) continue;
-          const filled = capOf(geometry, normal, at);
+          const lines = cutLines(geometry, normal, at);
+          const filled = filling(lines, normal);
+          for (const line of lines) outlines.path([...line, line[0]!].map((p) => p.map((x, i) => x + by * normal[i]!)));
           for (let i = 0; i < filled.length; ++i) positions.push(filled[i]! - this.centre[i % 3]! + by * normal[i % 3]!);
         }
       }
     }
     this.cap.set(positions);
+    this.capLines.set(outlines);
     this.filled = positions.length / 9;
   }
   /** Triangles that fill the cut; for tests. */
@@ -831,7 +837,7 @@ export class Viewer {
       // The scan on the left, the models on the right.
       const masked = this.tiles?.look.masked.value ?? 0;
       const scan = this.tiles?.look.opacity.value ?? 0;
-      const hide = [first.output.group, this.highlight.group, this.cap.object];
+      const hide = [first.output.group, this.highlight.group, this.cap.object, this.capLines.object];
       const visible = hide.map((o) => o.visible);
       hide.forEach((o) => (o.visible = false));
       this.showMarks(-1);
@@ -856,7 +862,7 @@ export class Viewer {
           if (other.segmentation) other.segmentation.group.visible = other === side;
         }
         this.highlight.group.visible = i === 0 || second !== null;
-        this.cap.object.visible = i === 0 && this.filled > 0;
+        this.cap.object.visible = this.capLines.object.visible = i === 0 && this.filled > 0;
         this.showMarks(i);
         if (split !== null) this.pane(0, i ? split : 0, i ? this.width - split : split);
         else this.pane(i * this.paneWidth, i * this.paneWidth, this.paneWidth);
