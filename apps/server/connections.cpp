@@ -1,6 +1,6 @@
 #include "apps/server/connections.hpp"
 
-#include <netdb.h>
+#include <arpa/inet.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <array>
@@ -29,10 +29,12 @@ auto peer_of(int file, int port) -> std::optional<Peer> {
     return std::nullopt;
   size = sizeof remote;
   if (::getpeername(file, reinterpret_cast<sockaddr*>(&remote), &size) != 0) return std::nullopt;  // NOLINT
-  std::array<char, NI_MAXHOST> host{};
-  if (::getnameinfo(reinterpret_cast<sockaddr*>(&remote), size, host.data(), host.size(), nullptr, 0,  // NOLINT
-                    NI_NUMERICHOST) != 0)
-    return std::nullopt;
+  std::array<char, INET6_ADDRSTRLEN> host{};
+  const void* number =
+      remote.ss_family == AF_INET
+          ? static_cast<const void*>(&reinterpret_cast<const sockaddr_in*>(&remote)->sin_addr)     // NOLINT
+          : static_cast<const void*>(&reinterpret_cast<const sockaddr_in6*>(&remote)->sin6_addr);  // NOLINT
+  if (::inet_ntop(remote.ss_family, number, host.data(), host.size()) == nullptr) return std::nullopt;
   return Peer{host.data(), port_of(remote)};
 }
 

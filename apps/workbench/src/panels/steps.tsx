@@ -3,6 +3,8 @@ import { signal } from "@preact/signals";
 import * as actions from "../actions";
 import { keep, kept } from "../keep";
 import * as state from "../state";
+import { section } from "../view/layers";
+import { measuring } from "../view/measure";
 import { Icon } from "./icons";
 
 const closed = signal(kept("local", "steps closed", false));
@@ -20,6 +22,7 @@ export function guide() {
 export function Steps() {
   const runs = state.project.value?.runs.filter((r) => r.state === "done") ?? [];
   if (closed.value || !guided.value || !state.scene.value || state.changingInputs.value || state.busyJob.value) return null;
+  if (measuring.value || section.value) return null; // their controls are in the same place
   const run = state.run.value;
   const edited = (run?.history.done ?? 0) > 0;
   const step = !runs.length ? 1 : !state.selection.value ? 2 : 3;
