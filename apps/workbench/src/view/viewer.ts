@@ -111,6 +111,10 @@ export class Viewer {
       ...this.marks.map((m) => m.object),
     );
     this.world.add(this.highlight.group, this.sides[0].output.group);
+    // Opaque, so that nothing behind a cut shines through it.
+    this.cap.material.transparent = false;
+    this.cap.material.depthWrite = true;
+    this.cap.object.renderOrder = 0;
     attach(canvas, this.gestures, this.gone.signal);
     canvas.addEventListener("webglcontextrestored", () => this.request(), { signal: this.gone.signal });
   }
