@@ -37,6 +37,8 @@ auto codes() -> std::vector<base::Code> {
        usage},
       {"server-exists", "The project has another file of this name. Inputs are never replaced.",
        "Upload the file into another folder of the inputs (?folder=2), or rename it.", usage},
+      {"server-archive", "The ZIP file with models is compressed, damaged, or has no models that mansard wrote.",
+       "Unpack it and open what is in it, or export the models again.", unreadable},
       {"server-changed", "An input is not the file from which the runs of the project were made.",
        "Restore the file, delete the runs and read the inputs again, or start 'mansard serve' with another folder.",
        unreadable},

@@ -14,22 +14,6 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view work_name = ".work-";
 
-/// A folder that is deleted with its contents by the destructor.
-class WorkFolder {
- public:
-  explicit WorkFolder(fs::path path) : path_(std::move(path)) {}
-  WorkFolder(const WorkFolder&) = delete;
-  auto operator=(const WorkFolder&) -> WorkFolder& = delete;
-  ~WorkFolder() {
-    std::error_code status;
-    fs::remove_all(path_, status);
-  }
-  [[nodiscard]] auto path() const -> const fs::path& { return path_; }
-
- private:
-  fs::path path_;
-};
-
 /// Every name that an export may write.
 auto own_names() -> std::vector<std::string> {
   std::vector<std::string> names{run_layers};

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 #include "apps/server/formats.hpp"
@@ -13,6 +15,22 @@
 #include "mansard/formats/results.hpp"
 
 namespace mansard::server {
+
+/// A folder that is deleted with its contents by the destructor.
+class WorkFolder {
+ public:
+  explicit WorkFolder(std::filesystem::path path) : path_(std::move(path)) {}
+  WorkFolder(const WorkFolder&) = delete;
+  auto operator=(const WorkFolder&) -> WorkFolder& = delete;
+  ~WorkFolder() {
+    std::error_code status;
+    std::filesystem::remove_all(path_, status);
+  }
+  [[nodiscard]] auto path() const -> const std::filesystem::path& { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
 
 /// Layers of the segmentation for a GIS: sweep-edges, faces, cuts. They are of the run, before edits.
 inline constexpr const char* run_layers = "segment.gpkg";

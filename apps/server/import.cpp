@@ -1,7 +1,12 @@
 #include "apps/server/import.hpp"
 
+#include <algorithm>
+#include <vector>
+
+#include "apps/server/exports.hpp"
 #include "apps/server/json.hpp"
 #include "apps/server/options.hpp"
+#include "apps/server/zip.hpp"
 #include "mansard/formats/input_file.hpp"
 #include "mansard/formats/input_name.hpp"
 #include "mansard/formats/plans.hpp"
@@ -19,6 +24,24 @@ auto read(const fs::path& path) -> base::Result<std::unique_ptr<formats::CityRea
                        formats::name_to_show(path));
   if (auto there = formats::check_input(path); !there) return there.error();
   return formats::read_city(path);
+}
+
+/// The models in an unpacked archive: a tileset at its top or in its only folder, else the first file that mansard
+/// wrote.
+auto models_in(const fs::path& folder, const fs::path& zip) -> base::Result<fs::path> {
+  std::vector<fs::path> files;
+  std::error_code failure;
+  for (fs::recursive_directory_iterator at(folder, failure), end; !failure && at != end; at.increment(failure))
+    if (at->is_regular_file(failure)) files.push_back(at->path());
+  std::ranges::sort(files);
+  for (const auto& file : files)
+    if (file.filename() == "tileset.json") return file.parent_path();
+  for (const auto& file : files)
+    if (read(file)) return file;
+  return base::error("server-archive",
+                     "the ZIP file has no models that mansard wrote; it must have a tileset.json or one "
+                     "file in a format that can be opened again",
+                     zip.string());
 }
 
 void move(geometry::Ring& ring, geometry::Point2 by) {
@@ -87,15 +110,30 @@ auto report_of(const model::Building& building, const pipeline::RaisedPlans& rai
 }  // namespace
 
 auto check_import(const fs::path& path) -> base::Result<void> {
+  if (is_zip(path)) {
+    if (auto there = formats::check_input(path); !there) return there.error();
+    const auto names = names_in_zip(path);
+    return names ? base::Result<void>() : names.error();
+  }
   const auto reader = read(path);
   if (!reader) return reader.error();
   return {};
 }
 
-auto import_city(const fs::path& path, const std::optional<model::Frame>& frame, RunRecord record, const base::Run& run)
-    -> base::Result<RunOutcome> {
+auto import_city(const fs::path& path, const fs::path& work, const std::optional<model::Frame>& frame, RunRecord record,
+                 const base::Run& run) -> base::Result<RunOutcome> {
   run.report("read", path.string(), 0);
-  auto reader = read(path);
+  std::optional<WorkFolder> unpacked;
+  auto models = path;
+  if (is_zip(path)) {
+    unpacked.emplace(work);
+    const auto folder = work / "model.3dtiles";  // the name by which a tileset is known
+    if (auto done = unzip(path, folder); !done) return done.error();
+    const auto found = models_in(folder, path);
+    if (!found) return found.error();
+    models = *found;
+  }
+  auto reader = read(models);
   if (!reader) return reader.error();
   pipeline::Options options;
   report::Reconstruction result;

@@ -67,6 +67,8 @@ auto table() -> std::vector<Route> {
       {"GET", "/api/project", nothing, gives, [](auto& w, const auto&) { return w.project(); }},
       {"POST", "/api/project/inputs", sends, gives,
        with(read_inputs, [](auto& w, const auto&, auto request) { return w.open_inputs(request); })},
+      {"POST", "/api/project/alignment", sends, gives,
+       with(read_inputs, [](auto& w, const auto&, auto request) { return w.alignment(request); })},
       {"POST", "/api/project/sample", sends, gives,
        [](auto& w, const auto& call) {
          const auto read = read_nothing(call.body);
@@ -91,6 +93,12 @@ auto table() -> std::vector<Route> {
        [](auto& w, const auto& call) { return w.buildings(run_of(call)); }},
       {"GET", "/api/runs/{run}/layers", nothing, gives,
        [](auto& w, const auto& call) { return w.layers(run_of(call)); }},
+      {"GET", "/api/runs/{run}/attributes", nothing, gives,
+       [](auto& w, const auto& call) { return w.attributes(run_of(call)); }},
+      {"GET", "/api/runs/{run}/levels/{lod}", nothing, gives,
+       [](auto& w, const auto& call) { return w.level(run_of(call), call.captured.at("lod")); }},
+      {"POST", "/api/models", sends, gives,
+       with(read_import, [](auto& w, const auto&, auto request) { return w.other_model(request); })},
       {"GET", "/api/runs/{run}/scores", nothing, gives,
        [](auto& w, const auto& call) { return w.scores(run_of(call)); }},
       {"GET", "/api/runs/{run}/error", nothing, gives,
@@ -148,7 +156,7 @@ auto matches(const Route& route, const std::vector<std::string_view>& words, Wor
 
 /// The HTTP status of a diagnostic code.
 auto status_of(std::string_view code) -> int {
-  static constexpr std::array<std::pair<std::string_view, int>, 29> known{{
+  static constexpr std::array<std::pair<std::string_view, int>, 30> known{{
       {"server-body", 400},    {"option-value", 400},     {"option-unknown", 400},
       {"file-missing", 400},   {"server-upload", 400},    {"server-token", 401},
       {"server-host", 403},    {"server-origin", 403},    {"server-path", 404},
@@ -158,10 +166,11 @@ auto status_of(std::string_view code) -> int {
       {"server-busy", 409},    {"server-inputs", 409},    {"server-input", 400},
       {"file-read", 400},      {"server-not-done", 409},  {"output-exists", 409},
       {"server-large", 413},   {"server-listeners", 503}, {"server-exists", 409},
-      {"server-changed", 409}, {"server-damaged", 409},
+      {"server-changed", 409}, {"server-damaged", 409},   {"server-archive", 400},
   }};
   const auto at = std::ranges::find(known, code, &std::pair<std::string_view, int>::first);
   if (at != known.end()) return at->second;
+  if (code.starts_with("ingest-")) return 400;
   if (code.starts_with("write-plan-") || code.starts_with("write-read-")) return 400;
   if (code.starts_with("edit-")) return 422;
   return 500;

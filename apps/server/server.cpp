@@ -9,6 +9,7 @@
 #include <memory>
 #include <thread>
 
+#include "apps/server/connections.hpp"
 #include "apps/server/guard.hpp"
 #include "apps/server/json.hpp"
 #include "apps/server/routes.hpp"
@@ -31,6 +32,11 @@ constexpr std::size_t maximum_path = 1024;
 /// Bytes of a refused body that are read before the answer, so that a client that is still sending receives it.
 constexpr std::uint64_t maximum_skipped = std::uint64_t{64} << 20;
 constexpr auto between_pings = 10s;
+constexpr auto between_looks = 500ms;
+/// A body must come faster than this many bytes a second, counted from its beginning and after some grace: any network
+/// is faster, and a thread waits for it.
+constexpr std::uint64_t slowest = 1000;
+constexpr std::chrono::seconds grace{10};
 
 constexpr const char* content_security_policy =
     "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; object-src 'none'; "
@@ -75,9 +81,13 @@ class Body {
   /// False if `take` refused a piece or the connection was lost.
   auto read(const std::function<bool(std::string_view)>& take) -> bool {
     if (!has_body(request_)) return true;  // without a length the library would read until the client disconnects
-    std::uint64_t unwanted = 0;
+    std::uint64_t unwanted = 0, all = 0;
     bool wanted = true;
+    const auto began = std::chrono::steady_clock::now();
     const bool whole = reader_([&](const char* data, std::size_t length) {
+      all += length;
+      const auto passed = std::chrono::steady_clock::now() - began;
+      if (passed > grace && all < slowest * static_cast<std::uint64_t>(passed / 1s)) return false;
       if (wanted) wanted = take({data, length});
       if (!wanted) unwanted += length;
       return unwanted <= maximum_skipped;
@@ -97,22 +107,20 @@ class Body {
   bool rest_ = false;
 };
 
-/// Ends idle connections; answers in progress are still sent. The library does not expose its sockets: they are found
-/// by their local port.
-void close_idle_connections(int port) {
-  std::error_code status;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", status)) {
-    const int file = static_cast<int>(base::to_integer(entry.path().filename().string()).value_or(-1));
-    sockaddr_storage address{};
-    socklen_t size = sizeof address;
-    if (::getsockname(file, reinterpret_cast<sockaddr*>(&address), &size) != 0) continue;                    // NOLINT
-    const auto in = address.ss_family == AF_INET ? reinterpret_cast<const sockaddr_in*>(&address)->sin_port  // NOLINT
-                    : address.ss_family == AF_INET6
-                        ? reinterpret_cast<const sockaddr_in6*>(&address)->sin6_port  // NOLINT
-                        : in_port_t{0};
-    if (ntohs(in) == port) ::shutdown(file, SHUT_RD);
+/// A pool that reports every connection that it is given.
+class Threads : public httplib::TaskQueue {
+ public:
+  Threads(std::size_t count, Connections& connections) : pool_(count), connections_(connections) {}
+  void enqueue(std::function<void()> work) override {
+    connections_.accepted();
+    pool_.enqueue(std::move(work));
   }
-}
+  void shutdown() override { pool_.shutdown(); }
+
+ private:
+  httplib::ThreadPool pool_;
+  Connections& connections_;
+};
 
 auto too_large(std::uint64_t limit) -> base::Diagnostic {
   return base::error("server-large", "the body is larger than the limit of " + std::to_string(limit >> 20) + " MB");
@@ -121,7 +129,7 @@ auto too_large(std::uint64_t limit) -> base::Diagnostic {
 class Web {
  public:
   Web(const Options& options, Workspace& workspace) : options_(options), workspace_(workspace) {
-    http_.new_task_queue = [] { return new httplib::ThreadPool(threads); };
+    http_.new_task_queue = [this] { return new Threads(threads, connections_); };
     // Not SO_REUSEPORT, the library's default: another program could listen on the same port and receive calls.
     http_.set_socket_options([](socket_t socket) {
       const int yes = 1;
@@ -133,14 +141,20 @@ class Web {
     http_.set_keep_alive_max_count(100'000);
     // Seconds. Browsers reuse connections, and a busy one may send on a connection that was just closed; but each idle
     // connection occupies a thread.
-    http_.set_keep_alive_timeout(15);
+    http_.set_keep_alive_timeout(Connections::idle_limit.count());
     http_.set_default_headers({{"Content-Security-Policy", content_security_policy},
                                {"X-Content-Type-Options", "nosniff"},
                                {"X-Frame-Options", "DENY"},
                                {"Referrer-Policy", "no-referrer"},
                                {"Cross-Origin-Opener-Policy", "same-origin"},
                                {"Cross-Origin-Resource-Policy", "same-origin"}});
-    http_.set_pre_routing_handler([this](const auto& request, auto& response) { return receive(request, response); });
+    http_.set_pre_routing_handler([this](const auto& request, auto& response) {
+      connections_.arrived(request.remote_addr, request.remote_port);
+      return receive(request, response);
+    });
+    http_.set_logger([this](const auto& request, const auto&) {  // called when an answer has been sent
+      connections_.answered(request.remote_addr, request.remote_port);
+    });
     const auto with_body = [this](const auto& request, auto& response, const auto& reader) {
       receive(request, response, reader);
     };
@@ -175,18 +189,21 @@ class Web {
     auto token = new_token();
     if (!token) return token.error();
     guard_ = std::make_unique<Guard>(options_.address, port, *token);
-    port_ = port;
+    connections_.listen(port);
     thread_ = std::thread([this] { http_.listen_after_bind(); });
     while (!http_.is_running()) std::this_thread::sleep_for(1ms);  // an earlier stop() would have no effect
     const auto host = options_.address.find(':') == std::string::npos ? options_.address : "[" + options_.address + "]";
     return "http://" + host + ":" + std::to_string(port) + "/#token=" + *token;
   }
 
+  /// To be called now and then.
+  void tend() { connections_.end_slow(); }
+
   void stop() {
     if (!thread_.joinable()) return;
     http_.stop();
     workspace_.stop();  // ends the event streams
-    close_idle_connections(port_);
+    connections_.end_reading();
     thread_.join();
   }
 
@@ -323,7 +340,7 @@ class Web {
   Workspace& workspace_;
   httplib::Server http_;
   std::unique_ptr<Guard> guard_;
-  int port_ = 0;
+  Connections connections_;
   std::thread thread_;
 };
 
@@ -339,7 +356,14 @@ auto serve(const Options& options, const base::Cancel& cancel,
   const auto link = web.start();
   if (!link) return link.error();
   ready(*link);
-  while (!cancel.requested()) std::this_thread::sleep_for(20ms);
+  auto tended = std::chrono::steady_clock::now();
+  while (!cancel.requested()) {
+    std::this_thread::sleep_for(20ms);
+    if (const auto now = std::chrono::steady_clock::now(); now - tended > between_looks) {
+      web.tend();
+      tended = now;
+    }
+  }
   web.stop();
   return {};
 }

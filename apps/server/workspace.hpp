@@ -5,6 +5,7 @@
 //   workspace_runs.cpp     runs are started, imported, renamed, deleted; their results
 //   workspace_edits.cpp    models are shown, previewed and edited
 //   workspace_exports.cpp  models are exported
+//   workspace_inspect.cpp  attributes, levels of detail, models of others, alignment
 #pragma once
 
 #include <atomic>
@@ -87,6 +88,15 @@ class Workspace {
   [[nodiscard]] auto carry_over(const std::string& run, const std::string& from, const std::string& client) -> Text;
   [[nodiscard]] auto undo(const std::string& run, const std::string& client) -> Text;
   [[nodiscard]] auto redo(const std::string& run, const std::string& client) -> Text;
+
+  /// The attributes of all buildings and parts as they are now, with units and meanings.
+  [[nodiscard]] auto attributes(const std::string& run) -> Text;
+  /// The buildings at a lower level of detail: "1.2", "1.3" or "2.0".
+  [[nodiscard]] auto level(const std::string& run, const std::string& lod) -> Text;
+  /// Models of any producer, in the frame of the scene, to be shown beside those of a run. Nothing is stored.
+  [[nodiscard]] auto other_model(const ImportRequest& request) -> Text;
+  /// What makes mesh and footprints match: a CRS, or an offset of the mesh. Reads the inputs as a whole.
+  [[nodiscard]] auto alignment(const InputsRequest& request) const -> Text;
 
   [[nodiscard]] auto export_file(const std::string& run, const std::string& file) -> Text;
   [[nodiscard]] auto export_all(const std::string& run, const ExportRequest& request) -> Text;

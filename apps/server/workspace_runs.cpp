@@ -1,6 +1,7 @@
 // Workspace: runs are started, imported, renamed and deleted here, and their results read.
 #include <algorithm>
 
+#include "apps/server/exports.hpp"
 #include "apps/server/import.hpp"
 #include "apps/server/inputs.hpp"
 #include "apps/server/options.hpp"
@@ -58,7 +59,7 @@ auto Workspace::import_model(const ImportRequest& request) -> Text {
   return submit(std::move(run), [this, path](RunRecord record, const base::Run& how) -> base::Result<RunOutcome> {
     std::optional<model::Frame> frame;
     if (const auto scene = scene_now()) frame = scene->scene().frame;
-    return import_city(path, frame, std::move(record), how);
+    return import_city(path, work_folder(project_.folder() / "exports", next_work_++), frame, std::move(record), how);
   });
 }
 

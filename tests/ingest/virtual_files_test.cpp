@@ -45,6 +45,17 @@ TEST_F(VirtualFiles, on_disk_are_mapped_and_those_packed_are_unpacked) {
   EXPECT_EQ(text_of(at("large.gz")), large);
 }
 
+TEST_F(VirtualFiles, that_grow_as_no_input_does_are_refused) {
+  const std::string zeros(std::size_t{100} << 20, '\0');
+  for (const auto& name : {"/vsigzip/" + at("bomb.gz").string(), "/vsizip/" + at("bomb.zip").string() + "/mesh.ply"}) {
+    VSILFILE* file = VSIFOpenL(name.c_str(), "wb");
+    ASSERT_NE(file, nullptr);
+    for (int i = 0; i < 3; ++i) ASSERT_EQ(VSIFWriteL(zeros.data(), 1, zeros.size(), file), zeros.size());
+    VSIFCloseL(file);
+    EXPECT_THAT(text_of(name), HasSubstr("200 times the size of its archive")) << name;
+  }
+}
+
 TEST_F(VirtualFiles, are_called_what_gdal_calls_them) {
   using formats::name_for_gdal;
   EXPECT_EQ(formats::name_for_gdal("a/b.geojson.GZ"), "/vsigzip/a/b.geojson.GZ");

@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
+#include <atomic>
+#include <string_view>
+#include <thread>
+#include <vector>
 
 #include "server/running.hpp"
 
@@ -291,6 +295,74 @@ class HalfOpen {
  private:
   std::vector<int> sockets_;
 };
+
+/// Connections that send one byte of a header after the other, and never end it.
+class Trickling {
+ public:
+  Trickling(int port, std::size_t count) : port_(port) {
+    sender_ = std::thread([this, count] {
+      std::vector<int> sockets;
+      while (!enough_) {
+        // A few at a time: the kernel drops what the server has not accepted yet.
+        for (int i = 0; i < 4 && sockets.size() < count; ++i) sockets.push_back(opened());
+        all_ = sockets.size() == count;
+        for (const int s : sockets) {
+          if (::send(s, "X", 1, MSG_NOSIGNAL | MSG_DONTWAIT) == 1) continue;
+          ++ended_;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(25));
+      }
+      for (const int s : sockets) ::close(s);
+    });
+  }
+  Trickling(const Trickling&) = delete;
+  auto operator=(const Trickling&) -> Trickling& = delete;
+  ~Trickling() {
+    enough_ = true;
+    sender_.join();
+  }
+  /// Waits until all are open.
+  void wait_for_all() const {
+    while (!all_) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  /// Waits until the server has ended one.
+  void wait_for_an_end() const {
+    while (ended_ == 0) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+
+ private:
+  [[nodiscard]] auto opened() const -> int {
+    const int s = ::socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in to{};
+    to.sin_family = AF_INET;
+    to.sin_port = htons(static_cast<std::uint16_t>(port_));
+    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    EXPECT_EQ(::connect(s, reinterpret_cast<sockaddr*>(&to), sizeof to), 0);
+    constexpr std::string_view begun = "GET /api/status HTTP/1.1\r\nHost: ";
+    EXPECT_GT(::write(s, begun.data(), begun.size()), 0);
+    return s;
+  }
+  int port_;
+  std::atomic<bool> enough_ = false, all_ = false;
+  std::atomic<int> ended_ = 0;
+  std::thread sender_;
+};
+
+TEST_F(Access, more_half_open_connections_than_threads_do_not_keep_others_waiting) {
+  const Trickling slow(server_.port(), 400);
+  slow.wait_for_all();
+  httplib::Client client("127.0.0.1", server_.port());
+  client.set_read_timeout(5);
+  const auto answer = client.Get("/api/status", server_.headers());
+  ASSERT_TRUE(answer) << "no answer while connections of the same address send byte after byte";
+  EXPECT_EQ(answer->status, 200);
+}
+
+TEST_F(Access, a_request_that_comes_byte_by_byte_is_ended) {
+  const Trickling slow(server_.port(), 1);
+  slow.wait_for_an_end();  // without a limit of the whole request this never returns
+  EXPECT_EQ(server_.get("/api/status").status, 200);
+}
 
 TEST_F(Access, half_open_connections_do_not_keep_others_waiting) {
   const HalfOpen begun(server_.port(), 100, "GET /api/status HTTP/1.1\r\n"), silent(server_.port(), 100, "");

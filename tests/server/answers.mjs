@@ -164,6 +164,12 @@ await call("get", "/api/runs/{run}/report", { at: { run: "run-2" }, expect: 409 
 const { buildings } = await call("get", "/api/runs/{run}/buildings", { at: of });
 await call("get", "/api/runs/{run}/layers", { at: of });
 await call("get", "/api/runs/{run}/scores", { at: of });
+await call("get", "/api/runs/{run}/attributes", { at: of });
+for (const lod of ["1.2", "1.3", "2.0"]) await call("get", "/api/runs/{run}/levels/{lod}", { at: { ...of, lod } });
+await call("get", "/api/runs/{run}/levels/{lod}", { at: { ...of, lod: "3" }, expect: 404 });
+await call("post", "/api/project/alignment", {
+  body: { ...project.inputs.given, reading: project.reading },
+});
 const { maps } = await call("get", "/api/runs/{run}/error", { at: of });
 await call("get", "/api/runs/{run}/error/{block}", { at: { ...of, block: maps[0].block } });
 
@@ -205,6 +211,9 @@ await call("get", "/api/runs/{run}/buildings", { at: { run: "run-3" } });
 await call("get", "/api/runs/{run}/layers", { at: { run: "run-3" } });
 await call("get", "/api/runs/{run}/error", { at: { run: "run-3" } });
 await call("post", "/api/runs/import", { body: { path: openapi }, expect: 400 });
+await call("post", "/api/runs/{run}/export", { at: of, body: { overwrite: true, formats: ["cityjson"] } });
+await call("post", "/api/models", { body: { path: join(folder, "project/exports/run-1/model.city.json") } });
+await call("post", "/api/models", { body: { path: openapi }, expect: 400 });
 await call("patch", "/api/runs/{run}", { at: of, body: { label: "renamed" } });
 await call("post", "/api/runs/{run}/edits/carry-over", { at: { run: "run-3" }, body: { from: "run-1" } });
 await call("delete", "/api/runs/{run}", { at: { run: "run-2" } });

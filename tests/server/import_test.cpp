@@ -76,6 +76,31 @@ TEST(Import, reads_every_format_with_plans_and_refuses_others) {
   EXPECT_EQ(server.get("/api/project").json()["runs"].size(), 8U);
 }
 
+TEST(Import, opens_what_was_downloaded_also_where_it_is_a_zip) {
+  const Folder folder;
+  const Running server(folder / "project");
+  ASSERT_EQ(server.post("/api/runs/import", {{"path", made(folder, "model.json")}}).status, 200);
+  server.settle();
+  const auto building = server.buildings("run-1")["buildings"][0];
+  ASSERT_EQ(server.post("/api/runs/run-1/edits", lift(building, 1)).status, 200);
+  const auto plans = server.get("/api/runs/run-1/export/plans.json").text;
+  int run = 1;
+  for (const std::string name : {"model.3dtiles.zip", "model.obj.zip"}) {
+    write(folder / name, server.get("/api/runs/run-1/export/" + name).text);
+    const auto reply = server.post("/api/runs/import", {{"path", (folder / name).string()}});
+    ASSERT_EQ(reply.status, 200) << name << reply.text;
+    server.settle();
+    const auto id = "run-" + std::to_string(++run);
+    const auto again = server.buildings(id)["buildings"];
+    ASSERT_EQ(again.size(), 1U) << server.get("/api/jobs").text;
+    EXPECT_EQ(again[0]["edited"], true) << "the mark of an edit is kept";
+    EXPECT_EQ(again[0]["parts"][0]["plan"], server.buildings("run-1")["buildings"][0]["parts"][0]["plan"]);
+  }
+  EXPECT_TRUE(fs::is_empty(folder / "project/exports")) << "what was unpacked is deleted";
+  write(folder / "text.zip", "no archive");
+  EXPECT_EQ(server.post("/api/runs/import", {{"path", (folder / "text.zip").string()}}).code(), "server-archive");
+}
+
 TEST(Import, is_moved_into_the_frame_of_the_mesh) {
   const Folder folder;
   const auto model = made(folder, "model.glb");

@@ -11,7 +11,8 @@ function tokenOf(): string {
   const given = new URLSearchParams(location.hash.slice(1)).get("token");
   if (given) {
     keep("session", "token", given);
-    history.replaceState(null, "", location.pathname + location.search);
+    const view = new URLSearchParams(location.hash.slice(1)).get("view"); // a link to a view: view/link.ts reads it
+    history.replaceState(null, "", location.pathname + location.search + (view ? `#view=${view}` : ""));
   }
   return given ?? kept("session", "token", "");
 }
@@ -20,7 +21,7 @@ export const client = new Client(tokenOf());
 
 /** Opening a new link in the same tab changes only the fragment: the page is reloaded with its token. */
 export function newLink() {
-  if (!location.hash.includes("token=")) return;
+  if (!/(token|view)=/.test(location.hash)) return;
   tokenOf();
   location.reload();
 }
@@ -38,7 +39,7 @@ export function dismiss(diagnostic: state.Message) {
 const warn = (code: string, message: string, subject = "") => showMessage({ severity: "warning", code, message, subject });
 
 /** Shows a success for a few seconds. */
-function showSuccess(code: string, message: string) {
+export function showSuccess(code: string, message: string) {
   const diagnostic: state.Message = { severity: "success", code, message, subject: "" };
   showMessage(diagnostic);
   setTimeout(() => dismiss(diagnostic), 8000);
@@ -64,6 +65,16 @@ interface Open {
   selection: state.Selection | null;
 }
 const openKey = () => `open ${state.project.value?.folder ?? ""}`;
+/** Copies text; false if the browser does not allow it. */
+export async function copy(text: string): Promise<boolean> {
+  try {
+    await navigator.clipboard.writeText(text);
+    return true;
+  } catch {
+    return false;
+  }
+}
+
 export function keepOpen() {
   if (!state.project.value || state.opening.value) return;
   const open: Open = {
@@ -260,6 +271,45 @@ export async function needErrorMaps(run: string) {
 }
 const requested = new Set<string>();
 
+/** Fetches the attributes of the buildings, once per run and again after edits. */
+export async function needAttributes(run: string) {
+  const outdated = state.outdatedAttributes.value.has(run);
+  if (!outdated && (state.attributes.value.has(run) || requested.has(`attributes ${run}`))) return;
+  requested.add(`attributes ${run}`);
+  const edit = editNumber(run);
+  const table = await attempt(client.attributes(run));
+  if (!table || edit !== editNumber(run)) return; // another edit was made meanwhile; it asks again
+  batch(() => {
+    const rest = new Set(state.outdatedAttributes.value);
+    rest.delete(run);
+    state.outdatedAttributes.value = rest;
+    state.attributes.value = new Map(state.attributes.value).set(run, table);
+  });
+}
+
+/** Fetches the solids of a lower level of detail. Those of edited runs are fetched again after an edit. */
+export async function needLevel(run: string, lod: string) {
+  const key = `${run} ${lod}`;
+  if (state.levels.value.has(key) || requested.has(`level ${key}`)) return;
+  requested.add(`level ${key}`);
+  const edit = editNumber(run);
+  const level = await attempt(client.level(run, lod));
+  requested.delete(`level ${key}`);
+  if (level && edit === editNumber(run)) state.levels.value = new Map(state.levels.value).set(key, level);
+}
+
+/** Shows models of any program beside those of the run. */
+export async function openOther(path: string) {
+  const model = await attempt(client.otherModel(path));
+  if (!model) return false;
+  for (const warning of model.warnings.slice(0, most_messages - 1)) showMessage(warning);
+  const name = path.split("/").at(-1) ?? path;
+  state.others.value = [...state.others.value.filter((o) => o.name !== name), { name, model }];
+  showSuccess("models-opened", `${name}: ${model.buildings.length} ${model.buildings.length === 1 ? "building" : "buildings"} shown beside the run`);
+  return true;
+}
+export const closeOther = (name: string) => (state.others.value = state.others.value.filter((o) => o.name !== name));
+
 // ---- what follows from edits
 
 /** Time without edits after which a run is measured again, ms: while somebody types, every step is an edit. */
@@ -270,14 +320,14 @@ const measuring = new Map<string, ReturnType<typeof setTimeout>>();
 
 /** Marks scores and error maps of a run as outdated, and fetches the scores, and the maps if they are loaded. */
 function measureAgain(run: string) {
-  const summary = state.runSummary(run);
-  if (!summary?.scores) return;
   edits.set(run, editNumber(run) + 1);
   clearTimeout(measuring.get(run));
   batch(() => {
     const scores = new Map(state.scoresNow.value);
     scores.delete(run);
     state.scoresNow.value = scores;
+    if (state.attributes.value.has(run)) state.outdatedAttributes.value = new Set(state.outdatedAttributes.value).add(run);
+    state.levels.value = new Map([...state.levels.value].filter(([key]) => !key.startsWith(`${run} `)));
     if (state.errorMaps.value.has(run)) state.outdatedMaps.value = new Set(state.outdatedMaps.value).add(run);
   });
   measuring.set(run, setTimeout(() => void measure(run), measure_after));
@@ -285,6 +335,8 @@ function measureAgain(run: string) {
 
 async function measure(run: string) {
   const edit = editNumber(run);
+  if (state.outdatedAttributes.value.has(run)) void needAttributes(run);
+  if (!state.runSummary(run)?.scores) return;
   const scores = await client.scores(run).catch((e: unknown) => {
     if (e instanceof Refused) return null; // without a scene nothing can be measured: the numbers stay marked
     throw e;
@@ -385,16 +437,21 @@ export async function carryOver(run: string, from: string) {
   else showSuccess("edits-carried", done);
 }
 
+/** Offers bytes as a file. */
+export function offer(bytes: Blob, name: string) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(bytes);
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+}
+
 /** Downloads one export file of the edited run. Files that name each other come together, in a ZIP: the browser may rename
  *  single files. */
 export async function download(run: string, file: string) {
   const bytes = await attempt(client.exported(run, file));
   if (!bytes) return;
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(new Blob([bytes]));
-  link.download = `${run}-${file}`;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+  offer(new Blob([bytes]), `${run}-${file}`);
 }
 
 /** Exports all formats into the project's folder. Existing files are replaced only if `agreed` returns true. */

@@ -3,6 +3,7 @@ import { signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { EditPanel } from "./edit/panel";
 import { keep, kept } from "./keep";
+import { AttributesPanel } from "./panels/attributes";
 import { BuildingsPanel } from "./panels/buildings";
 import { ComparePanel } from "./panels/compare_panel";
 import { HelpSheet, pressed } from "./panels/help";
@@ -12,7 +13,8 @@ import { PlotsPanel } from "./panels/plots_panel";
 import { Progress } from "./panels/progress";
 import { ReasonsStrip } from "./panels/reasons_strip";
 import { RunPanel } from "./panels/run";
-import { Start } from "./panels/start";
+import { Start, changeInputs, take } from "./panels/start";
+import { Steps } from "./panels/steps";
 import { TopBar } from "./panels/topbar";
 import * as state from "./state";
 import { View } from "./view/view";
@@ -21,10 +23,12 @@ const tabs: { tab: state.Tab; name: string }[] = [
   { tab: "edit", name: "Edit" },
   { tab: "run", name: "Run" },
   { tab: "buildings", name: "Buildings" },
+  { tab: "attributes", name: "Attributes" },
   { tab: "plots", name: "Plots" },
   { tab: "layers", name: "Layers" },
 ];
 
+const dropping = signal(false);
 const [minimumWidth, maximumWidth] = [340, 760];
 const width = signal(Math.max(minimumWidth, Math.min(maximumWidth, kept("local", "sidebar", 440))));
 
@@ -45,8 +49,31 @@ export function App() {
         </main>
       ) : (
         <>
-          <main>
+          <main
+            onDragOver={(e) => {
+              if (!e.dataTransfer?.types.includes("Files")) return;
+              e.preventDefault();
+              dropping.value = true;
+            }}
+            onDragLeave={(e) => {
+              if (!e.currentTarget.contains(e.relatedTarget as Node | null)) dropping.value = false;
+            }}
+            onDrop={(e) => {
+              e.preventDefault();
+              dropping.value = false;
+              const files = [...(e.dataTransfer?.files ?? [])];
+              if (!files.length || state.changingInputs.value) return;
+              changeInputs();
+              void take(files);
+            }}
+          >
             <View />
+            {dropping.value && (
+              <div class="dropping">
+                <p>Drop mesh, footprints or terrain to use them as inputs</p>
+              </div>
+            )}
+            <Steps />
             {state.changingInputs.value && <Start />}
             {state.opening.value && <div class="opening">Opening {state.opening.value} …</div>}
             {state.busyJob.value && state.tab.value !== "run" && (
@@ -108,6 +135,7 @@ function Panel() {
       {tab === "edit" && <EditPanel />}
       {tab === "run" && <RunPanel />}
       {tab === "buildings" && <BuildingsPanel />}
+      {tab === "attributes" && <AttributesPanel />}
       {tab === "plots" && <PlotsPanel />}
       {tab === "layers" && <LayersTab />}
       {tab === "compare" && (state.other.value ? <ComparePanel /> : <RunPanel />)}

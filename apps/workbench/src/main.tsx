@@ -1,10 +1,11 @@
 import { effect } from "@preact/signals";
 import { render } from "preact";
-import { begin, newLink } from "./actions";
+import { begin, compareWith, newLink, openRun } from "./actions";
 import { App } from "./app";
 import { keep, kept } from "./keep";
 import * as state from "./state";
 import "./style.css";
+import { followLink, takeLink } from "./view/link";
 import { type ViewHandle, handle } from "./view/view";
 
 declare global {
@@ -20,5 +21,7 @@ state.tab.value = kept<state.Tab>("session", "tab", "run");
 effect(() => keep("session", "tab", state.tab.value));
 
 window.addEventListener("hashchange", newLink);
+takeLink();
 render(<App />, document.getElementById("app")!);
+followLink(openRun, compareWith);
 void begin(new AbortController().signal);

@@ -31,7 +31,7 @@ export interface LoadedMap extends api.ErrorMap {
   cells: Float32Array; // rows from south to north; NaN where there is no value
 }
 
-export type Tab = "edit" | "run" | "buildings" | "plots" | "layers" | "compare";
+export type Tab = "edit" | "run" | "buildings" | "attributes" | "plots" | "layers" | "compare";
 export type Flight = "home" | "top" | "selection";
 
 export const connected = signal(true);
@@ -62,10 +62,26 @@ export const scoresNow = signal<Map<string, api.ScoresNow>>(new Map());
 /** Runs whose error maps are older than their last edit. */
 export const outdatedMaps = signal<ReadonlySet<string>>(new Set());
 
+/** Attributes of the buildings of the runs; fetched on demand, and again after edits. */
+export const attributes = signal<Map<string, api.AttributeTable>>(new Map());
+/** Runs whose attributes are older than their last edit. */
+export const outdatedAttributes = signal<ReadonlySet<string>>(new Set());
+/** Solids of the runs at lower levels of detail, by "run lod"; fetched on demand. */
+export const levels = signal<Map<string, api.LevelOfDetail>>(new Map());
+/** Models of other programs that are shown beside those of the run. */
+export const others = signal<{ name: string; model: api.OtherModel }[]>([]);
+
 export const tab = signal<Tab>("run");
 /** What is under the pointer. `right`: in the run to compare with. */
 export const hovered = signal<(Selection & { right?: boolean }) | null>(null);
+/** The point of a model, the scan or the ground under the resting pointer, in the frame of the scene. */
+export const pointer = signal<[number, number, number] | null>(null);
+/** Direction of the view and size of a pixel at its target, of the last image. */
+export const compass = signal<{ azimuth: number; metresPerPixel: number } | null>(null);
 export const keyboardHelp = signal(false);
+/** Which page of the help is shown. */
+export const helpPage = signal<"keys" | "manual">("keys");
+export const pictureOpen = signal(false);
 export const layersOpen = signal(false);
 export const changingInputs = signal(false); // the first screen is shown over an open project
 /** Blocks that the next run reconstructs, and whether clicks in the view select them. */

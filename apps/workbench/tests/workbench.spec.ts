@@ -586,3 +586,254 @@ for (const [width, height, what] of [
     const overflow = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
     expect(overflow, "nothing is cut off at the right").toBeLessThanOrEqual(0);
   });
+
+/** The attribute panel, styling, section, measuring, pictures: each on the sample. */
+const state = <T,>(page: Page, of: (s: typeof import("../src/state")) => T) =>
+  page.evaluate(`(${of.toString()})(window.mansard.state)`) as Promise<T>;
+const idle = (page: Page) =>
+  page.evaluate(() => (window as unknown as { mansard: { view: { idle(): Promise<void> } } }).mansard.view.idle());
+const filled = (page: Page) =>
+  page.evaluate(() => (window as unknown as { mansard: { view: { filled(): number } } }).mansard.view.filled());
+/** The place of a building's top on the page. */
+const topOf = (page: Page, id: string) =>
+  page.evaluate(async (building) => {
+    const { view } = (window as unknown as { mansard: { view: import("../src/view/view").ViewHandle } }).mansard;
+    await view.idle();
+    return view.project(building)!;
+  }, id);
+
+test("a section plane goes through the selection, in any direction, and is filled", async ({ clean: page, server }) => {
+  await openSample(page, server);
+  await reconstruct(page, "cut");
+  const house = await aHouse(page);
+  await pick(page, house.id);
+  await page.getByRole("button", { name: "Zoom to the selection" }).click();
+  await idle(page);
+  const before = await canvas(page).screenshot();
+  await page.keyboard.press("Escape");
+  await page.getByRole("button", { name: "Section plane", exact: true }).click();
+  await pick(page, house.id);
+  await page.getByRole("button", { name: "At the selection" }).click();
+  await idle(page);
+  expect(await filled(page), "the cut of the house is filled").toBeGreaterThan(0);
+  expect((await canvas(page).screenshot()).equals(before)).toBe(false);
+  const controls = page.getByRole("group", { name: "Section plane" });
+  await controls.getByLabel("Direction of the plane's normal").fill("33");
+  expect(await filled(page)).toBeGreaterThan(0);
+  await controls.getByLabel("Tilt of the plane's normal").fill("60");
+  expect(await filled(page)).toBeGreaterThan(0);
+  await controls.getByLabel("Direction of the section plane").selectOption("horizontal");
+  expect(await filled(page)).toBeGreaterThan(0);
+  await controls.getByLabel("Direction of the section plane").selectOption("looking north or south");
+  await page.getByRole("button", { name: "At the selection" }).click();
+  await picture(page, "section");
+  await page.getByRole("button", { name: "Section plane", exact: true }).click();
+  await idle(page);
+  expect(await filled(page)).toBe(0);
+});
+
+test("attributes are shown, searched, and colour the models", async ({ clean: page, server }) => {
+  await openSample(page, server);
+  await reconstruct(page, "coloured");
+  const house = await aHouse(page);
+  await pick(page, house.id);
+  await page.getByRole("tab", { name: "Attributes" }).click();
+  const panel = page.getByRole("tabpanel");
+  await expect(panel).toContainText("bag_id"); // of the source
+  const ridge = panel.getByRole("region", { name: "Of the building, computed by mansard" });
+  await expect(ridge).toContainText("ms_h_roof_max");
+  await expect(ridge).toContainText(/\d+(\.\d+)? m/);
+  await expect(ridge).toContainText("z of the roof's highest corner");
+  await picture(page, "attributes");
+
+  await test.step("search", async () => {
+    await page.getByRole("tab", { name: "Buildings" }).click();
+    const all = (await buildings(page)).length;
+    await page.getByLabel("Filter buildings").fill("ms_roof_type=slanted");
+    const rows = () => state(page, (s) => s.order.value.length);
+    await expect.poll(rows).toBeLessThan(all);
+    const slanted = await rows();
+    expect(slanted).toBeGreaterThan(0);
+    await page.getByLabel("Filter buildings").fill("ms_roof_type=slanted measuredHeight>9");
+    await expect.poll(rows).toBeLessThan(slanted);
+    await page.getByLabel("Filter buildings").fill("");
+  });
+
+  await test.step("colours and legend", async () => {
+    const plain = await canvas(page).screenshot();
+    await page.getByRole("tab", { name: "Layers" }).click();
+    await page.getByRole("tabpanel").getByLabel("Colour by").selectOption("measuredHeight");
+    await expect(page.locator(".legend-style")).toContainText("measuredHeight, m");
+    await idle(page);
+    const heights = await canvas(page).screenshot();
+    expect(heights.equals(plain)).toBe(false);
+    await picture(page, "colours");
+    await page.getByRole("tabpanel").getByLabel("Colour by").selectOption("ms_roof_type");
+    await expect(page.locator(".legend-style")).toContainText("slanted");
+    await page.getByRole("tabpanel").getByLabel("Colour by").selectOption({ label: "RMSE" });
+    await expect(page.locator(".legend-style")).toContainText("RMSE, m");
+    await page.getByRole("tabpanel").getByLabel("Colour by").selectOption({ label: "class of faces" });
+    await expect(page.locator(".legend-style")).toHaveCount(0);
+  });
+
+  await test.step("levels of detail", async () => {
+    await idle(page);
+    const fine = await canvas(page).screenshot();
+    await page.getByRole("tabpanel").getByLabel("Level of detail").selectOption("1.2");
+    await expect.poll(() => state(page, (s) => s.levels.value.size)).toBe(1);
+    await idle(page);
+    expect((await canvas(page).screenshot()).equals(fine)).toBe(false);
+    await picture(page, "lod12");
+    await page.getByRole("tabpanel").getByLabel("Level of detail").selectOption("2.2");
+  });
+});
+
+test("distances, heights, angles and areas are measured on models and scan", async ({ clean: page, server }) => {
+  await openSample(page, server);
+  await reconstruct(page, "measured");
+  const house = await aHouse(page);
+  await pick(page, house.id);
+  await page.getByRole("button", { name: "Zoom to the selection" }).click();
+  await page.getByRole("button", { name: "View from above" }).click();
+  const top = await topOf(page, house.id);
+  await page.mouse.move(top.x, top.y);
+  const origin = await state(page, (s) => s.scene.value!.origin);
+  await expect(page.getByLabel("Coordinates at the pointer")).toContainText(new RegExp(`E ${String(origin[0]).slice(0, 3)}\\d+\\.\\d\\d N`));
+  await page.getByRole("button", { name: "Measure", exact: true }).click();
+  const box = page.getByRole("region", { name: "Measure" });
+  await page.mouse.click(top.x, top.y);
+  await page.mouse.click(top.x + 60, top.y + 20);
+  await expect(box).toContainText(/Distance\d+\.\d\d m/);
+  await box.getByLabel("Area").check();
+  for (const [dx, dy] of [[0, 0], [70, 0], [70, 60]] as const) await page.mouse.click(top.x + dx, top.y + dy);
+  await expect(box).toContainText(/Area\d+\.\d\d m²/);
+  await picture(page, "measure");
+  await box.getByLabel("Angle").check();
+  for (const [dx, dy] of [[0, 0], [70, 0], [70, 60]] as const) await page.mouse.click(top.x + dx, top.y + dy);
+  await expect(box).toContainText(/Angle\d+\.\d°/);
+  await box.getByLabel("Height").check();
+  await page.mouse.click(top.x, top.y);
+  await page.mouse.click(top.x + 300, top.y);
+  await expect(box).toContainText(/Height difference−?\d+\.\d\d m/);
+  expect(await state(page, (s) => s.selection.value?.building), "clicks do not select meanwhile").toBe(house.id);
+  await page.keyboard.press("Escape");
+  await expect(box).toHaveCount(0);
+});
+
+test("a picture of a chosen size is saved, and a link restores the view", async ({ clean: page, server, folder, context }) => {
+  await openSample(page, server);
+  await reconstruct(page, "linked");
+  const house = await aHouse(page);
+  await pick(page, house.id);
+  await page.getByRole("button", { name: "Zoom to the selection" }).click();
+  await idle(page);
+  await page.getByRole("button", { name: "Section plane", exact: true }).click();
+  await page.keyboard.press("l");
+  await page.getByRole("dialog", { name: "Layers" }).getByLabel("Footprints", { exact: true }).uncheck();
+  await page.keyboard.press("l");
+  await page.getByRole("button", { name: "Picture and link" }).click();
+  const dialog = page.getByRole("dialog", { name: "Picture and link" });
+  await dialog.getByLabel("Width, pixels").fill("640");
+  await dialog.getByLabel("Height, pixels").fill("360");
+  const [download] = await Promise.all([page.waitForEvent("download"), dialog.getByRole("button", { name: "Save PNG" }).click()]);
+  const bytes = readFileSync(await saved(download, folder));
+  expect([bytes.readUInt32BE(16), bytes.readUInt32BE(20)]).toEqual([640, 360]);
+  expect(bytes.length, "the picture is not empty").toBeGreaterThan(5000);
+  await dialog.getByRole("button", { name: "Copy link" }).click();
+  const link = await dialog.getByLabel("Link to this view").inputValue();
+  expect(link).not.toContain(server.token);
+  await picture(page, "picture");
+
+  const other = await context.newPage();
+  await other.goto(server.link);
+  await open(other, "linked");
+  await other.goto(link);
+  // The page loads itself again, to begin with the link.
+  await expect.poll(() => state(other, (s) => s.selection.value?.building ?? null).catch(() => null)).toBe(house.id);
+  await expect.poll(() => filled(other).catch(() => 0)).toBeGreaterThan(0);
+  await other.keyboard.press("l");
+  await expect(other.getByRole("dialog", { name: "Layers" }).getByLabel("Footprints", { exact: true })).not.toBeChecked();
+  expect(new URL(other.url()).hash, "the link is removed from the address").toBe("");
+});
+
+test("dark colours have enough contrast, menus work with keys, and the manual is behind ?", async ({ clean: page, server }) => {
+  await openSample(page, server);
+  await expect(page.getByRole("region", { name: "First steps" })).toContainText("Step 1 of 3");
+  await reconstruct(page, "dark");
+  await expect(page.getByRole("region", { name: "First steps" })).toContainText("Step 2 of 3");
+  await page.getByRole("button", { name: "Select a building" }).click();
+  await expect(page.getByRole("region", { name: "First steps" })).toContainText("Step 3 of 3");
+  const house = await aHouse(page);
+  await page.getByRole("button", { name: "Dark colours" }).click();
+  for (const tab of ["Run", "Buildings", "Attributes", "Plots", "Layers"]) {
+    await page.getByRole("tab", { name: tab }).click();
+    await page.waitForTimeout(300);
+    expect(await faint(page), tab).toEqual([]);
+    await picture(page, `dark-${tab.toLowerCase()}`);
+  }
+  await pick(page, house.id);
+  expect(await faint(page), "Edit").toEqual([]);
+  await picture(page, "dark-edit");
+  await page.getByRole("button", { name: "Export" }).focus();
+  await page.keyboard.press("Enter");
+  const items = page.getByRole("menuitem");
+  await expect(items.first()).toBeFocused();
+  await page.keyboard.press("ArrowDown");
+  await expect(items.nth(1)).toBeFocused();
+  await page.keyboard.press("End");
+  await expect(items.last()).toBeFocused();
+  expect(await faint(page), "Export").toEqual([]);
+  await page.keyboard.press("Escape");
+  await expect(page.getByRole("button", { name: "Export" })).toBeFocused();
+  await page.keyboard.press("?");
+  await page.getByRole("button", { name: "Manual" }).click();
+  await expect(page.getByRole("dialog", { name: "Manual" })).toContainText("Section plane");
+  expect(await faint(page), "Manual").toEqual([]);
+  await picture(page, "manual");
+  await page.keyboard.press("Escape");
+  await page.reload();
+  await open(page, "dark");
+  expect(await page.evaluate(() => document.documentElement.dataset.theme)).toBe("dark");
+});
+
+test("roof shapes are applied in one click, and the view is divided", async ({ clean: page, server }) => {
+  await openSample(page, server);
+  await reconstruct(page, "shaped");
+  const house = await aHouse(page);
+  await pick(page, house.id);
+  const shapes = page.getByRole("group", { name: "Roof shape" });
+  let before = await buildingOf(page, house.id);
+  for (const shape of ["Hip", "Mansard", "Gable", "Flat"]) {
+    await shapes.getByRole("button", { name: shape }).click();
+    await expect.poll(async () => (await buildingOf(page, house.id)).revision).toBeGreaterThan(before.revision);
+    const after = await buildingOf(page, house.id);
+    expect(after.valid, shape).toBe(true);
+    expect(volume(after), shape).not.toBeCloseTo(volume(before), 3);
+    before = after;
+    if (shape === "Mansard") await picture(page, "mansard");
+  }
+  await page.getByRole("button", { name: "Divide the view" }).click();
+  const boundary = page.getByRole("slider", { name: "Boundary between the scan and the models" });
+  await boundary.focus();
+  await page.keyboard.press("ArrowRight");
+  await expect(boundary).toHaveAttribute("aria-valuenow", "52");
+  await picture(page, "divided");
+});
+
+test("files are dropped on the view, and models of others are shown beside the run", async ({ clean: page, server, folder }) => {
+  const model = someModel(folder);
+  await openSample(page, server);
+  await reconstruct(page, "beside");
+  await page.getByRole("tab", { name: "Layers" }).click();
+  await page.getByRole("tabpanel").locator("summary", { hasText: "Models of others" }).click();
+  await page.getByRole("tabpanel").getByLabel("Path of models of another program").fill(model);
+  await page.getByRole("tabpanel").getByRole("button", { name: "Show" }).click();
+  await expect(page.getByRole("tabpanel")).toContainText("3 buildings");
+  const data = await page.evaluateHandle(() => {
+    const transfer = new DataTransfer();
+    transfer.items.add(new File(["v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"], "dropped mesh ä.obj"));
+    return transfer;
+  });
+  await page.dispatchEvent("main", "drop", { dataTransfer: data });
+  await expect(page.getByRole("dialog", { name: "Inputs" }).getByLabel(/^Mesh/)).toHaveValue(/dropped mesh ä\.obj$/);
+});

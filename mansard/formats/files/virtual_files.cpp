@@ -9,6 +9,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 #include <algorithm>
+#include <cstdint>
+#include <optional>
 
 #include "mansard/base/files.hpp"
 #include "mansard/base/text.hpp"
@@ -78,6 +80,21 @@ auto mapped(const fs::path& path) -> std::shared_ptr<const Mapping> {
   return std::make_shared<const Mapping>(start, size);
 }
 
+/// DEFLATE shrinks to a 1032nd at most (zlib's technical details). Meshes as text shrink to a third to a tenth, rasters
+/// with large empty areas to a hundredth. Up to the first number of bytes, nothing is refused.
+constexpr std::uint64_t always_unpacked = std::uint64_t{256} << 20;
+constexpr std::uint64_t most_growth = 200;
+
+/// The largest size of a file in an archive on disk, or of a .gz; none for what is on a server.
+auto most_unpacked(const fs::path& path) -> std::optional<std::uint64_t> {
+  std::error_code failure;
+  auto place = is_gdals(path) ? archive_of(path.string()).first : path;
+  if (place.empty()) return std::nullopt;
+  const auto size = fs::file_size(place, failure);
+  if (failure) return std::nullopt;
+  return std::max<std::uint64_t>(always_unpacked, most_growth * size);
+}
+
 auto unpacked(const fs::path& path) -> base::Result<std::string> {
   const std::string name = name_for_gdal(path);
   const crs::GdalMessages messages;
@@ -87,12 +104,20 @@ auto unpacked(const fs::path& path) -> base::Result<std::string> {
   if (!file) return why_missing(path);
   // The size of a .gz is known only once it is unpacked: read in ever larger pieces.
   constexpr std::size_t first_piece = std::size_t{1} << 20;
+  const auto most = most_unpacked(path);
   std::string bytes;
   std::size_t got = 0;
   for (std::size_t piece = first_piece;; piece = std::max(piece, got)) {
+    if (most) piece = std::min<std::size_t>(piece, *most + 1 - got);
     bytes.resize(got + piece);
     const std::size_t more = VSIFReadL(bytes.data() + got, 1, piece, file.get());
     got += more;
+    if (most && got > *most)
+      return base::error("file-read",
+                         "unpacks to more than " + std::to_string(most_growth) +
+                             " times the size of its archive, as no mesh "
+                             "and no raster does; unpack it, check what it is, and give the unpacked file",
+                         path.string());
     if (more < piece) break;
   }
   bytes.resize(got);

@@ -50,6 +50,10 @@ export class Client {
   buildings = (run: string) =>
     this.json<{ buildings: api.Building[]; history: api.History }>("GET", this.of(run, "/buildings"));
   layers = (run: string) => this.json<api.Layers>("GET", this.of(run, "/layers"));
+  attributes = (run: string) => this.json<api.AttributeTable>("GET", this.of(run, "/attributes"));
+  level = (run: string, lod: string) => this.json<api.LevelOfDetail>("GET", this.of(run, `/levels/${escaped(lod)}`));
+  otherModel = (path: string) => this.json<api.OtherModel>("POST", "/api/models", { path });
+  alignment = (request: InputsRequest) => this.json<api.Alignment>("POST", "/api/project/alignment", request);
   scores = (run: string) => this.json<api.ScoresNow>("GET", this.of(run, "/scores"));
   errorMaps = (run: string) => this.json<{ maps: api.ErrorMap[] }>("GET", this.of(run, "/error"));
   errorMap = async (run: string, block: string) =>

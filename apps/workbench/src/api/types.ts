@@ -96,6 +96,60 @@ export interface CarriedOver {
   refused: Diagnostic[]; // why others could not be; the subject names the buildings
 }
 
+export type AttributeValue = string | number | boolean | null;
+export interface AttributeMeaning {
+  name: string;
+  source: boolean; // of the footprints, not computed by mansard
+  unit: string; // empty for none
+  meaning: string; // empty for attributes of the source
+}
+export interface PartAttributes {
+  id: string;
+  values: Record<string, AttributeValue>;
+}
+export interface BuildingAttributes {
+  id: string;
+  values: Record<string, AttributeValue>;
+  parts: PartAttributes[];
+}
+/** Attributes of all buildings and parts as they are now. */
+export interface AttributeTable {
+  attributes: AttributeMeaning[];
+  buildings: BuildingAttributes[];
+}
+
+/** The buildings at a lower level of detail. */
+export interface LevelOfDetail {
+  buildings: LevelSolids[];
+}
+export interface LevelSolids {
+  id: string;
+  solids: Geometry[];
+}
+
+/** Models of any producer as triangles. */
+export interface OtherModel {
+  lod: string; // "2.2", or several; empty if the format has none
+  buildings: string[]; // ids
+  positions: number[]; // x y z …, local
+  triangles: number[]; // three vertex indices each
+  classes: string[]; // per triangle
+  building_of: number[]; // per triangle: index into buildings
+  warnings: Diagnostic[];
+}
+
+/** Options that make mesh and footprints match. */
+export interface Placing {
+  reading: Record<string, string>; // options to read the inputs with; empty: they match as they are
+  reason: string;
+  correlation: number; // of high cells with footprints, −1 to 1
+  next: number; // correlation at the best other place
+  inside: number; // share of the footprints that is high, 0 to 1
+}
+export interface Alignment {
+  proposal: Placing | null; // null: nothing was found
+}
+
 /** Of the run as it is now. */
 export interface ScoresNow {
   edits: number; // that the scores count

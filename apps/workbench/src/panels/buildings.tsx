@@ -1,8 +1,9 @@
 // The buildings of the open run as a table. Of thousands of rows only the visible ones are rendered.
 import { computed, effect, signal } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
-import { fly, select } from "../actions";
+import { fly, needAttributes, select } from "../actions";
 import * as state from "../state";
+import { searchedOf } from "./attribute_text";
 import { SearchField } from "./search_field";
 import { type Column, type Order, type Row, arranged, visibleRows, rowOf } from "./table";
 import { fixed, grouped } from "./words";
@@ -10,7 +11,13 @@ import { fixed, grouped } from "./words";
 const filter = signal("");
 const order = signal<Order>({ column: "id", down: false });
 const all = computed(() => [...(state.run.value?.buildings.values() ?? [])].map(rowOf));
-const rows = computed(() => arranged(all.value, filter.value, order.value));
+const searched = computed(() => searchedOf(state.attributes.value.get(state.run.value?.id ?? "")));
+const rows = computed(() => arranged(all.value, filter.value, order.value, searched.value));
+// The attributes are needed once something is searched.
+effect(() => {
+  const run = state.run.value?.id;
+  if (run && filter.value.trim() && !state.outdatedAttributes.value.has(run)) void needAttributes(run);
+});
 effect(() => {
   state.order.value = rows.value.map((r) => r.id);
 });
@@ -75,7 +82,7 @@ export function BuildingsPanel() {
       <div class="table-head">
         <SearchField
           label="Filter buildings"
-          placeholder="Filter by id, block, outcome, “edited”"
+          placeholder="Id, block, attribute, measuredHeight>12"
           value={filter.value}
           onValue={(text) => (filter.value = text)}
         />

@@ -2,18 +2,25 @@
 import { useEffect, useRef } from "preact/hooks";
 import * as actions from "../actions";
 import * as state from "../state";
+import { measure, measuring, removePoint } from "../view/measure";
+import { toggleSection } from "../view/toolbar";
 import { Icon } from "./icons";
+import { Manual } from "./manual";
 
 const keys: [keys: string, does: string][] = [
   ["f", "zoom to the selection"],
   ["h", "show all"],
   ["t", "view from above; press again to show all from above"],
   ["l", "show or hide the layers"],
+  ["x", "section plane through the selection"],
+  ["m", "measure"],
+  ["p", "picture and link"],
+  ["/", "search buildings"],
   ["[  ]", "previous building, next building"],
   ["Ctrl Z", "undo"],
   ["Ctrl Shift Z", "redo"],
   ["Esc", "close, or clear the selection"],
-  ["?", "show or hide this list"],
+  ["?", "show or hide this list and the manual"],
 ];
 const pointer: [what: string, does: string][] = [
   ["drag", "rotate"],
@@ -29,9 +36,27 @@ export function HelpSheet() {
   useEffect(() => close.current?.focus(), []);
   return (
     <div class="sheet-back" onClick={() => (state.keyboardHelp.value = false)}>
-      <div class="sheet" role="dialog" aria-modal="true" aria-label="Keyboard" onClick={(e) => e.stopPropagation()}>
+      <div
+        class={"sheet" + (state.helpPage.value === "manual" ? " wide" : "")}
+        role="dialog"
+        aria-modal="true"
+        aria-label={state.helpPage.value === "keys" ? "Keyboard" : "Manual"}
+        onClick={(e) => e.stopPropagation()}
+      >
         <header>
-          <h2>Keyboard and mouse</h2>
+          <div class="help-pages">
+            {(["keys", "manual"] as const).map((page) => (
+              <button
+                key={page}
+                type="button"
+                class="small"
+                aria-pressed={state.helpPage.value === page}
+                onClick={() => (state.helpPage.value = page)}
+              >
+                {page === "keys" ? "Keyboard and mouse" : "Manual"}
+              </button>
+            ))}
+          </div>
           <button
             ref={close}
             type="button"
@@ -42,7 +67,8 @@ export function HelpSheet() {
             <Icon name="close" />
           </button>
         </header>
-        {[keys, pointer].map((rows, i) => (
+        {state.helpPage.value === "manual" && <Manual />}
+        {state.helpPage.value === "keys" && [keys, pointer].map((rows, i) => (
           <dl key={i}>
             {rows.map(([what, does]) => (
               <>
@@ -88,12 +114,22 @@ export function pressed(e: KeyboardEvent) {
     h: () => actions.fly("home"),
     t: () => actions.fly("top"),
     l: () => (state.layersOpen.value = !state.layersOpen.value),
+    x: () => toggleSection(),
+    m: () => measure(measuring.value ? null : "distance"),
+    p: () => (state.pictureOpen.value = !state.pictureOpen.value),
+    "/": () => {
+      state.tab.value = "buildings";
+      requestAnimationFrame(() => document.querySelector<HTMLElement>("[aria-label='Filter buildings']")?.focus());
+    },
+    Backspace: () => measuring.value && removePoint(),
     "[": () => actions.selectNext(-1),
     "]": () => actions.selectNext(1),
     "?": () => (state.keyboardHelp.value = !state.keyboardHelp.value),
     Escape: () => {
       if (state.keyboardHelp.value) state.keyboardHelp.value = false;
       else if (state.changingInputs.value) state.changingInputs.value = false;
+      else if (state.pictureOpen.value) state.pictureOpen.value = false;
+      else if (measuring.value) measure(null);
       else if (state.layersOpen.value) state.layersOpen.value = false;
       else if (state.choosing.value) state.choosing.value = false;
       else if (!state.draft.value) actions.select(null);

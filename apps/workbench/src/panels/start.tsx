@@ -8,6 +8,7 @@ import { accepted, extensionsOf, sorted, titlesOf } from "./inputs";
 import { PlainOptionFields } from "./option_fields";
 import { faulty, forInputs, key } from "./options";
 import { Progress } from "./progress";
+import { guide } from "./steps";
 
 const meshes = signal("");
 const footprints = signal("");
@@ -30,7 +31,8 @@ function setTerrain(path: string) {
   reading.value = path.trim() ? { ...rest, [terrainKey]: path } : rest;
 }
 
-async function take(files: File[]) {
+/** Uploads dropped or chosen files, and puts their paths into the form. Models that mansard wrote are opened. */
+export async function take(files: File[]) {
   const formats = state.options.value;
   if (!formats) return;
   const kinds = sorted(
@@ -84,6 +86,55 @@ async function takeModel(file: File | undefined) {
   if (paths) model.value = paths[0]!;
 }
 
+const finding = signal(false);
+const found = signal<{ reading: Record<string, string>; reason: string } | "nothing" | null>(null);
+/** Looks for a CRS or an offset of the mesh that makes mesh and footprints match. */
+async function findOffset() {
+  finding.value = true;
+  found.value = null;
+  const answer = await actions.attempt(
+    actions.client.alignment({ meshes: lines(meshes.value), footprints: footprints.value.trim(), reading: reading.value }),
+  );
+  finding.value = false;
+  if (answer) found.value = answer.proposal ?? "nothing";
+}
+
+function Alignment({ ready }: { ready: boolean }) {
+  const proposal = found.value;
+  const words = proposal && proposal !== "nothing" ? Object.entries(proposal.reading) : [];
+  return (
+    <div class="alignment">
+      <button type="button" disabled={!ready || finding.value} onClick={() => void findOffset()}>
+        Find an offset
+      </button>{" "}
+      <span class="quiet" role="status">
+        {finding.value
+          ? "Comparing mesh and footprints …"
+          : proposal === "nothing"
+            ? "No CRS and no offset was found by which they match."
+            : proposal && !words.length
+              ? `They match as they are: ${proposal.reason}.`
+              : !proposal && "if mesh and footprints do not match: compares them, and proposes a CRS or an offset of the mesh"}
+      </span>
+      {proposal && proposal !== "nothing" && words.length > 0 && (
+        <p role="status">
+          Proposed: {words.map(([name, value]) => `${name} = ${value}`).join(", ")}. {proposal.reason}.{" "}
+          <button
+            type="button"
+            class="small"
+            onClick={() => {
+              reading.value = { ...reading.value, ...proposal.reading };
+              found.value = null;
+            }}
+          >
+            Use it
+          </button>
+        </p>
+      )}
+    </div>
+  );
+}
+
 /** Opens the form with the inputs of the project. */
 export function changeInputs() {
   const { inputs, reading: given } = state.project.value ?? {};
@@ -127,7 +178,10 @@ export function Start() {
         {job && <Progress job={job} />}
         {project?.sample && !project.inputs && (
           <p class="start-sample">
-            <button type="button" class="primary" disabled={!!job} onClick={() => void actions.openSample()}>
+            <button type="button" class="primary" disabled={!!job} onClick={() => {
+                guide();
+                void actions.openSample();
+              }}>
               Open the sample
             </button>
             <span>A small mesh with footprints that comes with mansard.</span>
@@ -207,6 +261,7 @@ export function Start() {
               onChange={(v) => (reading.value = v)}
             />
           </details>
+          {!derive.value && <Alignment ready={ready} />}
           <p class="start-go">
             <button
               type="submit"
@@ -254,7 +309,7 @@ function OpenModel() {
           or <span class="link">choose a model file</span>
           <input
             type="file"
-            accept={formats && accepted(formats, "models")}
+            accept={formats && `${accepted(formats, "models")},.zip`}
             class="unseen"
             onChange={(e) => {
               void takeModel(e.currentTarget.files?.[0]);

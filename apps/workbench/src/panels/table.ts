@@ -1,5 +1,6 @@
 // The table of buildings: columns, order, and the visible rows.
 import type { Building } from "../api/types";
+import { type Searched, hasValue, termOf } from "./attribute_text";
 import { reasonsOf } from "./reasons";
 
 export type Column = "id" | "block" | "outcome" | "parts" | "rmse" | "volume" | "edited";
@@ -31,11 +32,19 @@ export const rowOf = (b: Building): Row => ({
 
 const natural = new Intl.Collator("en", { numeric: true });
 
-/** Rows whose id, block or outcome contain every word of the filter; edited buildings also match "edited". Missing values
- *  come last in either order. */
-export function arranged(rows: readonly Row[], filter: string, { column, down }: Order): Row[] {
-  const words = filter.toLowerCase().split(/\s+/).filter(Boolean);
-  const text = (r: Row) => `${r.id} ${r.block} ${r.outcome}${r.edited ? " edited" : ""}`.toLowerCase();
+/** Rows whose id, block, outcome or attributes contain every word of the filter; edited buildings also match "edited".
+ *  A word such as measuredHeight>12 compares an attribute. Missing values come last in either order. */
+export function arranged(
+  rows: readonly Row[],
+  filter: string,
+  { column, down }: Order,
+  attributes: ReadonlyMap<string, Searched> = new Map(),
+): Row[] {
+  const words = filter.split(/\s+/).filter(Boolean).map(termOf);
+  const text = (r: Row) =>
+    `${r.id} ${r.block} ${r.outcome}${r.edited ? " edited" : ""} ${attributes.get(r.id)?.text ?? ""}`.toLowerCase();
+  const matches = (r: Row) =>
+    words.every((w) => ("text" in w ? text(r).includes(w.text) : hasValue(attributes.get(r.id), w)));
   const way = down ? -1 : 1;
   const compare = (a: Row, b: Row): number => {
     const [x, y] = [a[column], b[column]];
@@ -43,7 +52,7 @@ export function arranged(rows: readonly Row[], filter: string, { column, down }:
     return way * (typeof x === "string" ? natural.compare(x, y as string) : Number(x) - Number(y));
   };
   return rows
-    .filter((r) => words.every((w) => text(r).includes(w)))
+    .filter(matches)
     .sort((a, b) => compare(a, b) || natural.compare(a.id, b.id));
 }
 

@@ -1,7 +1,9 @@
 // The bar at the top: the open run, the run to compare with, undo and redo, exports.
 import { signal } from "@preact/signals";
+import { useEffect, useRef } from "preact/hooks";
 import * as actions from "../actions";
 import * as state from "../state";
+import { dark, theme } from "../view/theme";
 import { Icon } from "./icons";
 import { brief, fullNameOf } from "./words";
 
@@ -61,7 +63,17 @@ export function TopBar() {
       <button
         type="button"
         class="plain"
-        title="Keyboard and mouse (?)"
+        title={dark.value ? "Light colours" : "Dark colours"}
+        aria-label="Dark colours"
+        aria-pressed={dark.value ? true : undefined}
+        onClick={() => (theme.value = dark.value ? "light" : "dark")}
+      >
+        <Icon name={dark.value ? "sun" : "moon"} />
+      </button>
+      <button
+        type="button"
+        class="plain"
+        title="Keyboard, mouse and manual (?)"
         aria-label="Keyboard"
         onClick={() => (state.keyboardHelp.value = true)}
       >
@@ -111,6 +123,25 @@ const open = signal(false);
 
 function Export({ run }: { run: string }) {
   const close = () => (open.value = false);
+  const box = useRef<HTMLDivElement>(null);
+  const items = () => [...(box.current?.querySelectorAll<HTMLElement>("[role=menuitem]") ?? [])];
+  // The first item has the focus when the menu opens.
+  useEffect(() => {
+    if (open.value) items()[0]?.focus();
+  }, [open.value]);
+  const keys = (e: KeyboardEvent) => {
+    const all = items();
+    const at = all.indexOf(document.activeElement as HTMLElement);
+    const next = { ArrowDown: at + 1, ArrowUp: at < 0 ? all.length - 1 : at - 1, Home: 0, End: all.length - 1 }[e.key];
+    if (e.key === "Escape" && open.value) {
+      close();
+      box.current?.querySelector<HTMLElement>("[aria-haspopup]")?.focus();
+    } else if (e.key === "ArrowDown" && !open.value) open.value = true;
+    else if (next !== undefined && open.value) all[(next + all.length) % all.length]?.focus();
+    else return;
+    e.preventDefault();
+    e.stopPropagation();
+  };
   // Files that name each other, such as OBJ and MTL, come as one ZIP.
   const files = (state.options.value?.formats ?? [])
     .filter((f) => f.files.length > 0)
@@ -119,9 +150,8 @@ function Export({ run }: { run: string }) {
   return (
     <div
       class="menu"
-      onKeyDown={(e) => {
-        if (e.key === "Escape") close();
-      }}
+      ref={box}
+      onKeyDown={keys}
       onFocusOut={(e) => {
         if (!e.currentTarget.contains(e.relatedTarget as Node | null)) close();
       }}

@@ -1,6 +1,7 @@
 // The layers of the view. Which are shown, and their opacities, is stored in the browser.
 import { computed, effect, signal } from "@preact/signals";
 import { keep, kept } from "../keep";
+import type { SectionPlane } from "./section";
 
 export type LayerId =
   | "mesh"
@@ -16,7 +17,8 @@ export type LayerId =
   | "cuts"
   | "clean"
   | "raw"
-  | "diagnostics";
+  | "diagnostics"
+  | "others";
 
 export interface Layer {
   id: LayerId;
@@ -47,6 +49,7 @@ export const list: readonly Layer[] = [
   layer("Models", "roofs", "Roofs", "#b06250", "Sloping and flat roof faces."),
   layer("Models", "parties", "Party walls", "#96969e", "Walls that are shared with another part."),
   layer("Models", "outlines", "Edges", "#26282e", "Outlines of the faces of the models."),
+  layer("Models", "others", "Models of others", "#5b8c5a", "Models of another program that were opened beside those of the run."),
   layer("Models", "error", "Vertical error", "#b2182b", "On roofs: model above (red) or below (blue) the mesh.", false),
   layer(
     "Segmentation",
@@ -113,10 +116,10 @@ export const choose = (id: LayerId, change: Partial<Choice>) =>
 /** 0 where hidden. */
 export const opacity = (id: LayerId) => computed(() => (choices.value[id].shown ? choices.value[id].opacity : 0));
 
-/** A vertical or horizontal plane; everything on one side of it is hidden. */
-export interface SectionPlane {
-  axis: "x" | "y" | "z";
-  share: number; // 0 … 1 of the extent
-  flipped: boolean;
-}
 export const section = signal<SectionPlane | null>(null);
+/** The level of detail at which models are drawn. */
+export type Lod = "1.2" | "1.3" | "2.0" | "2.2";
+export const lod = signal<Lod>("2.2");
+/** Share of the width at which the view is divided: the scan or the run on its left, the models or the other run on its
+ *  right. Null: it is not. */
+export const divided = signal<number | null>(null);

@@ -1,13 +1,19 @@
 // The list of layers with their opacities: in a popover of the view, and in the sidebar.
 import { Icon } from "../panels/icons";
 import * as state from "../state";
-import { type Layer, choices, choose, errorLimit, list } from "./layers";
+import { closeOther, openOther } from "../actions";
+import { type Layer, type Lod, choices, choose, errorLimit, list, lod } from "./layers";
+import { own, styledBy } from "./styling";
+import { needAttributes } from "../actions";
+import { useEffect } from "preact/hooks";
+import { signal } from "@preact/signals";
 
 const groups = [...new Set(list.map((l) => l.group))];
 
 export function LayerList() {
   return (
     <div class="layer-list">
+      <ModelChoices />
       {groups.map((group) => (
         <fieldset key={group}>
           <legend>{group}</legend>
@@ -77,5 +83,94 @@ export function LayersPopover() {
       </header>
       <LayerList />
     </div>
+  );
+}
+
+/** The attribute that colours the models, their level of detail, and models of other programs. */
+function ModelChoices() {
+  const run = state.run.value?.id;
+  useEffect(() => {
+    if (run) void needAttributes(run);
+  }, [run]);
+  if (!run) return null;
+  const table = state.attributes.value.get(run);
+  const [ours, source] = [false, true].map((s) => table?.attributes.filter((a) => a.source === s) ?? []);
+  const option = (a: { name: string; unit: string; meaning: string }) => (
+    <option key={a.name} value={a.name} title={a.meaning}>
+      {a.name}
+      {a.unit && ` (${a.unit})`}
+    </option>
+  );
+  return (
+    <fieldset>
+      <legend>Appearance</legend>
+      <label class="field row">
+        Colour by
+        <select
+          aria-label="Colour by"
+          value={styledBy.value ?? ""}
+          onChange={(e) => (styledBy.value = e.currentTarget.value || null)}
+        >
+          <option value="">class of faces</option>
+          {Object.entries(own).map(([key, name]) => (
+            <option key={key} value={`own ${key}`}>
+              {name}
+            </option>
+          ))}
+          <optgroup label="Computed by mansard">{ours!.map(option)}</optgroup>
+          {source!.length > 0 && <optgroup label="Of the source">{source!.map(option)}</optgroup>}
+        </select>
+      </label>
+      <label class="field row">
+        Level of detail
+        <select aria-label="Level of detail" value={lod.value} onChange={(e) => (lod.value = e.currentTarget.value as Lod)}>
+          <option value="1.2">LoD 1.2</option>
+          <option value="1.3">LoD 1.3</option>
+          <option value="2.0">LoD 2.0</option>
+          <option value="2.2">LoD 2.2 (as edited)</option>
+        </select>
+      </label>
+      <OtherModels />
+    </fieldset>
+  );
+}
+
+const otherPath = signal("");
+function OtherModels() {
+  return (
+    <details>
+      <summary>Models of others</summary>
+      <form
+        class="field row"
+        onSubmit={(e) => {
+          e.preventDefault();
+          void openOther(otherPath.value.trim()).then((opened) => {
+            if (opened) otherPath.value = "";
+          });
+        }}
+      >
+        <input
+          type="text"
+          spellcheck={false}
+          aria-label="Path of models of another program"
+          placeholder="/data/city/3dbag.city.json"
+          value={otherPath.value}
+          onInput={(e) => (otherPath.value = e.currentTarget.value)}
+        />
+        <button type="submit" class="small" disabled={!otherPath.value.trim()}>
+          Show
+        </button>
+      </form>
+      {state.others.value.map(({ name, model }) => (
+        <div class="layer-row" key={name}>
+          <span class="swatch" style={{ background: "#5b8c5a" }} aria-hidden="true" />
+          <span>{name}</span> <span class="quiet">{model.buildings.length} buildings{model.lod && `, LoD ${model.lod}`}</span>
+          <span class="spring" />
+          <button type="button" class="plain" aria-label={`Close ${name}`} onClick={() => closeOther(name)}>
+            <Icon name="close" />
+          </button>
+        </div>
+      ))}
+    </details>
   );
 }

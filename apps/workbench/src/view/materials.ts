@@ -12,6 +12,8 @@ export const colours = {
   ground: 0x787c78,
   soffit: 0xc4beb4,
   line: 0x26282e,
+  cut: 0x8a7f74,
+  cutLine: 0x2b2622,
   accent: 0x1d5fd0,
   wrong: 0xd02020,
 };
@@ -57,11 +59,14 @@ export function modelMaterial(look: ModelLook) {
     vertexShader: /* glsl */ `
       #include <clipping_planes_pars_vertex>
       attribute float kind;
+      attribute vec4 paint;
       varying vec3 facing;
       varying vec2 ground;
       flat varying int which;
+      flat varying vec4 painted;
       void main() {
         which = int(kind + 0.5);
+        painted = paint;
         facing = normal;
         ground = position.xy;
         vec4 mvPosition = modelViewMatrix * vec4(position, 1.0);
@@ -79,6 +84,7 @@ export function modelMaterial(look: ModelLook) {
       varying vec3 facing;
       varying vec2 ground;
       flat varying int which;
+      flat varying vec4 painted;
       ${light}
       vec3 ramp(float t) {
         vec3 strong = t > 0.0 ? vec3(0.62, 0.05, 0.16) : vec3(0.08, 0.24, 0.60);
@@ -90,7 +96,7 @@ export function modelMaterial(look: ModelLook) {
         #include <clipping_planes_fragment>
         float opacity = opacities[which];
         if (opacity <= 0.0) discard;
-        vec3 colour = kindColours[which];
+        vec3 colour = mix(kindColours[which], painted.rgb, painted.a);
         if (errorOn > 0.0 && facing.z > 0.02) {
           vec2 at = (ground - errorFrame.xy) * errorFrame.zw;
           if (all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(1.0)))) {

@@ -4,8 +4,10 @@ import type { Building, RaisedBuilding } from "../api/types";
 import type { Vector } from "./camera";
 import { type Buffers, buffersOf, solidsOf } from "./geometry";
 import { colours, fade, modelLook, modelMaterial } from "./materials";
+import type { Colour } from "./styling";
 
 const buildingsPerChunk = 48;
+type Paint = [number, number, number, number]; // 0 … 255; the last: whether it is painted
 
 interface Range {
   from: number; // numbers of the position attributes
@@ -58,6 +60,17 @@ class Loose {
     put(this.lines.geometry, "position", buffers.lines, 3);
     this.lines.geometry.setDrawRange(0, buffers.lines.length / 3);
   }
+  paint(colour: Paint) {
+    const count = (this.solid.geometry.getAttribute("position")?.count ?? 0) * 4;
+    let attribute = this.solid.geometry.getAttribute("paint") as THREE.BufferAttribute | undefined;
+    if (attribute?.array.length !== count) {
+      if (attribute) this.solid.geometry.dispose();
+      attribute = new THREE.BufferAttribute(new Uint8Array(count), 4, true);
+      this.solid.geometry.setAttribute("paint", attribute);
+    }
+    for (let i = 0; i < count; i += 4) (attribute.array as Uint8Array).set(colour, i);
+    attribute.needsUpdate = true;
+  }
   dispose() {
     this.solid.removeFromParent();
     this.lines.removeFromParent();
@@ -93,7 +106,30 @@ export class Output {
   private drawn = new Map<string, RaisedBuilding>(); // as it is in the buffers
   private given: ReadonlyMap<string, Building> | null = null;
 
+  private paints: ReadonlyMap<string, Colour> | null = null;
+
   constructor(private centre: Vector) {}
+
+  /** Colours buildings; null: by the class of their faces. */
+  paint(colours: ReadonlyMap<string, Colour> | null) {
+    if (colours === this.paints) return;
+    this.paints = colours;
+    for (const chunk of this.chunks) {
+      const attribute = chunk.solid.geometry.getAttribute("paint") as THREE.BufferAttribute;
+      for (const [id, { from, to }] of chunk.ranges) this.fill(attribute.array as Uint8Array, id, from / 3, to / 3);
+      attribute.clearUpdateRanges();
+      attribute.needsUpdate = true;
+    }
+    for (const [id, loose] of this.loose) loose.paint(this.paintOf(id));
+  }
+  private paintOf = (id: string): Paint => {
+    const colour = this.paints?.get(id);
+    return colour ? [...(colour.map((c) => Math.round(255 * c)) as [number, number, number]), 255] : [0, 0, 0, 0];
+  };
+  private fill(array: Uint8Array, id: string, from: number, to: number) {
+    const paint = this.paintOf(id);
+    for (let i = from; i < to; ++i) array.set(paint, 4 * i);
+  }
 
   /** Draws these buildings, replaced by their drafts if they have one. Unchanged buildings keep their buffers. */
   set(buildings: ReadonlyMap<string, Building>, drafts: ReadonlyMap<string, RaisedBuilding>, invalid: boolean) {
@@ -129,6 +165,7 @@ export class Output {
       this.group.add(loose.solid, loose.lines);
     }
     loose.set(buffersOf(solidsOf(building.parts), this.centre));
+    loose.paint(this.paintOf(building.id));
   }
 
   fade(opacities: { walls: number; parties: number; roofs: number; outlines: number }) {
@@ -212,6 +249,8 @@ export class Output {
         1,
       ),
     );
+    const paint = new Uint8Array((solid.getAttribute("position").count) * 4);
+    solid.setAttribute("paint", new THREE.BufferAttribute(paint, 4, true));
     solid.computeBoundingSphere();
     const lines = new THREE.BufferGeometry();
     lines.setAttribute(
@@ -228,6 +267,7 @@ export class Output {
     buildings.forEach((building, i) => {
       const [to, lineTo] = [from + pieces[i]!.positions.length, lineFrom + pieces[i]!.lines.length];
       chunk.ranges.set(building.id, { from, to, lineFrom, lineTo });
+      this.fill(paint, building.id, from / 3, to / 3);
       [from, lineFrom] = [to, lineTo];
     });
     return chunk;

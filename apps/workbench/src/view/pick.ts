@@ -108,7 +108,7 @@ export function pickFootprint(
   return best;
 }
 
-export const covers = (footprint: SceneFootprint, x: number, y: number) =>
+export const covers = (footprint: Pick<SceneFootprint, "polygons">, x: number, y: number) =>
   footprint.polygons.some((p) => within(p.outer, x, y) && !p.holes.some((hole) => within(hole, x, y)));
 
 function within(ring: readonly (readonly [number, number])[], x: number, y: number): boolean {

@@ -66,6 +66,13 @@ export class Tiles {
     fade(this.material, value);
   }
 
+  /** The points at which a ray meets the drawn tiles, nearest first; relative to the centre. */
+  meets(ray: THREE.Raycaster): THREE.Vector3[] {
+    if (!this.group.visible) return [];
+    const drawn = [...this.loaded.values()].filter((e) => e.mesh.visible).map((e) => e.mesh);
+    return ray.intersectObjects(drawn, false).map((hit) => hit.point);
+  }
+
   dispose() {
     this.gone.abort();
     for (const { mesh } of this.loaded.values()) mesh.geometry.dispose();

@@ -1,9 +1,26 @@
-// The buttons of the view: camera, section plane, layers.
+// The buttons of the view: camera, section plane, measuring, layers, pictures.
 import { fly } from "../actions";
 import { Icon } from "../panels/icons";
 import * as state from "../state";
 import { viewer } from "./current";
-import { type SectionPlane, section } from "./layers";
+import { divided, section } from "./layers";
+import { measure, measuring } from "./measure";
+import { type Vector, gaze } from "./camera";
+import { type SectionPlane, across, normalOf } from "./section";
+
+/** Through the selected building, across its longest edge; through the target of the camera if none is selected. */
+function atSelection(): SectionPlane {
+  const at = state.selection.value;
+  const building = at && state.shown(at.building);
+  const pose = viewer.value?.seenFrom;
+  const plane = building?.parts.length
+    ? across(building)
+    : { origin: pose?.target ?? ([0, 0, 0] as Vector), azimuth: 0, tilt: 0, offset: 0, flipped: false };
+  // What is hidden is in front of the plane, so that the cut can be seen.
+  const normal = normalOf(plane);
+  const towards = pose ? gaze(pose) : normal;
+  return { ...plane, flipped: normal.reduce((sum, n, i) => sum + n * towards[i]!, 0) > 0 };
+}
 
 export function Toolbar() {
   const open = state.layersOpen.value;
@@ -27,12 +44,39 @@ export function Toolbar() {
       </button>
       <button
         type="button"
-        title="Section plane"
+        title="Section plane through the selection (x)"
         aria-label="Section plane"
         aria-pressed={cut !== null}
-        onClick={() => (section.value = cut ? null : { axis: "x", share: 0.5, flipped: false })}
+        onClick={toggleSection}
       >
         <Icon name="section" />
+      </button>
+      <button
+        type="button"
+        title="Measure (m)"
+        aria-label="Measure"
+        aria-pressed={measuring.value !== null}
+        onClick={() => measure(measuring.value ? null : "distance")}
+      >
+        <Icon name="ruler" />
+      </button>
+      <button
+        type="button"
+        title={state.other.value ? "Drag a boundary between the two runs" : "Drag a boundary between the scan and the models"}
+        aria-label="Divide the view"
+        aria-pressed={divided.value !== null}
+        onClick={() => (divided.value = divided.value === null ? 0.5 : null)}
+      >
+        <Icon name="divide" />
+      </button>
+      <button
+        type="button"
+        title="Picture and link (p)"
+        aria-label="Picture and link"
+        aria-expanded={state.pictureOpen.value}
+        onClick={() => (state.pictureOpen.value = !state.pictureOpen.value)}
+      >
+        <Icon name="camera" />
       </button>
       <button
         type="button"
@@ -48,37 +92,89 @@ export function Toolbar() {
   );
 }
 
+export const toggleSection = () => (section.value = section.value ? null : atSelection());
+
+const directions = [
+  { name: "looking east or west", azimuth: 90, tilt: 0 },
+  { name: "looking north or south", azimuth: 0, tilt: 0 },
+  { name: "horizontal", azimuth: 0, tilt: 90 },
+] as const;
+
 function SectionControls({ cut }: { cut: SectionPlane }) {
-  const at = viewer.value?.sectionAt(cut);
-  const name = { x: "east", y: "north", z: "height" }[cut.axis];
+  // The range depends on what is shown.
+  void state.run.value;
+  const [least, most] = viewer.value?.reachOf(cut) ?? [-10, 10];
+  const named = directions.findIndex((d) => d.tilt === cut.tilt && (cut.tilt === 90 || d.azimuth === cut.azimuth));
+  const change = (by: Partial<SectionPlane>) => (section.value = { ...cut, ...by });
   return (
-    <div class="section-controls">
+    <div class="section-controls" role="group" aria-label="Section plane">
+      <button type="button" class="wide" title="Put the plane across the selected building" onClick={() => (section.value = atSelection())}>
+        At the selection
+      </button>
       <select
-        aria-label="Axis of the section plane"
-        value={cut.axis}
-        onChange={(e) => (section.value = { ...cut, axis: e.currentTarget.value as SectionPlane["axis"] })}
+        aria-label="Direction of the section plane"
+        value={named >= 0 ? String(named) : "free"}
+        onChange={(e) => {
+          const chosen = directions[Number(e.currentTarget.value)];
+          if (chosen) change({ azimuth: chosen.azimuth, tilt: chosen.tilt, offset: 0 });
+        }}
       >
-        <option value="x">East–west</option>
-        <option value="y">North–south</option>
-        <option value="z">Height</option>
+        {directions.map((d, i) => (
+          <option key={d.name} value={String(i)}>
+            {d.name}
+          </option>
+        ))}
+        <option value="free">any direction</option>
       </select>
-      <input
-        type="range"
-        min="0"
-        max="1"
-        step="0.002"
-        value={cut.share}
-        aria-label="Position of the section plane"
-        aria-valuetext={at === undefined ? undefined : `${name} ${at.toFixed(1)} metres`}
-        onInput={(e) => (section.value = { ...cut, share: Number(e.currentTarget.value) })}
-      />
-      <output>{at === undefined ? "" : `${at.toFixed(1)} m`}</output>
+      {cut.tilt < 90 && (
+        <label>
+          <span class="quiet">turn</span>
+          <input
+            type="range"
+            min="0"
+            max="179"
+            step="1"
+            value={cut.azimuth}
+            aria-label="Direction of the plane's normal"
+            aria-valuetext={`${cut.azimuth} degrees from north`}
+            onInput={(e) => change({ azimuth: Number(e.currentTarget.value) })}
+          />
+          <output>{cut.azimuth}°</output>
+        </label>
+      )}
+      <label>
+        <span class="quiet">tilt</span>
+        <input
+          type="range"
+          min="0"
+          max="90"
+          step="1"
+          value={cut.tilt}
+          aria-label="Tilt of the plane's normal"
+          aria-valuetext={`${cut.tilt} degrees`}
+          onInput={(e) => change({ tilt: Number(e.currentTarget.value) })}
+        />
+      </label>
+      <label>
+        <span class="quiet">move</span>
+        <input
+          type="range"
+          min={least.toFixed(2)}
+          max={most.toFixed(2)}
+          step="0.05"
+          value={cut.offset}
+          aria-label="Position of the section plane"
+          aria-valuetext={`${cut.offset.toFixed(1)} metres from its origin`}
+          onInput={(e) => change({ offset: Number(e.currentTarget.value) })}
+        />
+        <output>{cut.offset.toFixed(1)} m</output>
+      </label>
       <button
         type="button"
         title="Show the other side"
         aria-label="Show the other side"
         aria-pressed={cut.flipped}
-        onClick={() => (section.value = { ...cut, flipped: !cut.flipped })}
+        onClick={() => change({ flipped: !cut.flipped })}
       >
         <Icon name="flip" />
       </button>

@@ -1,18 +1,25 @@
 // The 3D view as a component: passes signals to the viewer, and clicks and motions to the actions.
-import { effect, signal } from "@preact/signals";
+import { computed, effect, signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import * as actions from "../actions";
 import type * as api from "../api/types";
 import { keep, kept } from "../keep";
 import * as state from "../state";
-import type { Pose } from "./camera";
+import type { Pose, Vector } from "./camera";
 import { reasonsOf } from "../panels/reasons";
 import { nameOf } from "../panels/words";
 import { viewer } from "./current";
 import type { RawClimbs } from "./highlight";
-import { choices, errorLimit, section } from "./layers";
+import { Furniture } from "./furniture";
+import { choices, divided, errorLimit, lod, section } from "./layers";
 import { LayersPopover } from "./layers_panel";
 import { Legend } from "./legend";
+import { linkedPose } from "./link";
+import { MeasureBox } from "./measure_box";
+import { addPoint, measuring, points } from "./measure";
+import { PictureDialog } from "./picture_dialog";
+import { scale } from "./styled";
+import { dark } from "./theme";
 import type { Hit } from "./pick";
 import { Toolbar } from "./toolbar";
 import { Viewer } from "./viewer";
@@ -20,12 +27,15 @@ import { Viewer } from "./viewer";
 /** For tests and screenshots: `window.mansard.view`. */
 export interface ViewHandle {
   project(building: string): { x: number; y: number } | null;
+  /** Triangles that fill the cut of the section plane. */
+  filled(): number;
   idle(): Promise<void>;
 }
 const failure = signal("");
 
 export const handle: ViewHandle = {
   project: (building) => viewer.value?.project(building) ?? null,
+  filled: () => viewer.value?.filled ?? 0,
   idle: async () => {
     while (state.opening.value || rawBusy) await new Promise((resolve) => setTimeout(resolve, 25));
     await viewer.value?.idle();
@@ -34,7 +44,28 @@ export const handle: ViewHandle = {
 
 const poseKey = () => `camera ${state.project.value?.folder ?? ""}`;
 
-function clicked(hit: Hit | null, footprint: api.SceneFootprint | null, more: boolean) {
+/** The buildings as they are drawn: at the chosen level of detail. */
+const drawnBuildings = computed((): Map<string, api.Building> | null => {
+  const run = state.run.value;
+  if (!run || lod.value === "2.2") return run?.buildings ?? null;
+  const level = state.levels.value.get(`${run.id} ${lod.value}`);
+  if (!level) return run.buildings;
+  const solids = new Map(level.buildings.map((b) => [b.id, b.solids]));
+  const at = (b: api.Building): api.Building => ({
+    ...b,
+    parts: (solids.get(b.id) ?? []).flatMap((geometry, i) => {
+      const part = b.parts[Math.min(i, b.parts.length - 1)];
+      return part ? [{ ...part, geometry }] : [];
+    }),
+  });
+  return new Map([...run.buildings].map(([id, b]) => [id, at(b)]));
+});
+
+function clicked(hit: Hit | null, footprint: api.SceneFootprint | null, more: boolean, place: Vector | null) {
+  if (measuring.value) {
+    if (place) addPoint(place);
+    return;
+  }
   if (state.choosing.value) {
     const name = blockOf(hit?.building) ?? footprint?.block;
     if (!name) return;
@@ -97,15 +128,24 @@ function connect(to: Viewer): () => void {
       const key = poseKey();
       if (!state.project.value || placed === key) return;
       placed = key;
-      const pose = kept<Pose | null>("session", key, null) ?? kept<Pose | null>("local", key, null);
+      const pose = linkedPose() ?? kept<Pose | null>("session", key, null) ?? kept<Pose | null>("local", key, null);
       if (pose) to.look(pose);
     }),
     effect(() => to.setScene(state.scene.value)),
     effect(() => to.setTiles(state.tiles.value)),
     effect(() => {
       const draft = state.draft.value;
-      to.setRun(0, state.run.value?.buildings ?? null, draft?.raised, draft?.invalid);
+      to.setRun(0, drawnBuildings.value, draft?.raised, draft?.invalid);
     }),
+    effect(() => {
+      const run = state.run.value;
+      if (run && lod.value !== "2.2" && !state.levels.value.has(`${run.id} ${lod.value}`)) void actions.needLevel(run.id, lod.value);
+    }),
+    effect(() => to.setPaint(scale.value?.colours ?? null)),
+    effect(() => to.setOthers(state.others.value.map((o) => o.model))),
+    effect(() => to.setMeasure(points.value, measuring.value === "area")),
+    effect(() => to.setDark(dark.value)),
+    effect(() => to.setDivided(divided.value)),
     effect(() => to.setRun(1, state.other.value?.buildings ?? null)),
     ...([0, 1] as const).flatMap((which) => {
       const id = () => (which ? state.other : state.run).value?.id;
@@ -163,6 +203,12 @@ export function View() {
             state.hovered.value =
               hit && { building: hit.building, part: hit.part, ring: hit.ring, edge: hit.edge, right };
           },
+          point: (place) => (state.pointer.value = place),
+          drawn: (azimuth, metresPerPixel) => {
+            const was = state.compass.peek();
+            if (was?.azimuth !== azimuth || was.metresPerPixel !== metresPerPixel)
+              state.compass.value = { azimuth, metresPerPixel };
+          },
           moved: (pose) => {
             keep("session", poseKey(), pose);
             keep("local", poseKey(), pose);
@@ -188,7 +234,7 @@ export function View() {
     };
   }, []);
   return (
-    <div class={"view" + (state.choosing.value ? " choosing" : "")} ref={box}>
+    <div class={"view" + (state.choosing.value || measuring.value ? " choosing" : "")} ref={box}>
       <canvas
         ref={canvas}
         tabIndex={0}
@@ -197,9 +243,65 @@ export function View() {
       {failure.value && <p class="view-failure">{failure.value}</p>}
       <Toolbar />
       {state.layersOpen.value && <LayersPopover />}
-      <Legend />
+      <div class="corner">
+        <Legend />
+        <Furniture />
+      </div>
       <Sides />
-      <Under />
+      <Divider />
+      <div class="corner-left">
+        <MeasureBox />
+        <Under />
+        <Coordinates />
+      </div>
+      {state.pictureOpen.value && <PictureDialog />}
+    </div>
+  );
+}
+
+/** The boundary between what is shown on the left and on the right; it can be dragged. */
+function Divider() {
+  const share = divided.value;
+  if (share === null) return null;
+  const set = (x: number) => (divided.value = Math.min(0.98, Math.max(0.02, x)));
+  const what = state.other.value ? "the two runs" : "the scan and the models";
+  return (
+    <div
+      class="divider"
+      style={{ left: `${share * 100}%` }}
+      role="slider"
+      tabIndex={0}
+      aria-label={`Boundary between ${what}`}
+      aria-valuemin={0}
+      aria-valuemax={100}
+      aria-valuenow={Math.round(share * 100)}
+      onPointerDown={(e) => e.currentTarget.setPointerCapture(e.pointerId)}
+      onPointerMove={(e) => {
+        if (!e.currentTarget.hasPointerCapture(e.pointerId)) return;
+        const area = e.currentTarget.parentElement!.getBoundingClientRect();
+        set((e.clientX - area.left) / area.width);
+      }}
+      onKeyDown={(e) => {
+        const by = { ArrowLeft: -0.02, ArrowRight: 0.02 }[e.key];
+        if (by === undefined) return;
+        e.preventDefault();
+        e.stopPropagation();
+        set(share + by);
+      }}
+    />
+  );
+}
+
+/** The point under the pointer, in the coordinates of the files. */
+function Coordinates() {
+  const at = state.pointer.value;
+  const scene = state.scene.value;
+  if (!at) return null;
+  const origin = scene?.origin ?? [0, 0, 0];
+  const [east, north, height] = at.map((x, i) => (x + origin[i]!).toFixed(2));
+  return (
+    <div class="under coordinates" aria-label="Coordinates at the pointer">
+      E {east} N {north} H {height} <span class="quiet">{scene?.crs || "no CRS"}</span>
     </div>
   );
 }

@@ -8,18 +8,23 @@ import { attach, type Gestures } from "./controls";
 import { combine, textureOf } from "./errormap";
 import { type Box, boxOf, emptyBox, grow, isEmpty } from "./geometry";
 import { Highlight, type RawClimbs } from "./highlight";
-import type { Choices, SectionPlane } from "./layers";
+import type { Choices } from "./layers";
 import { Marks, Segments, Sheet, WideLines, flat } from "./lines";
 import { colours } from "./materials";
 import { Output } from "./output";
-import { type Hit, type Ray, pick, pickFootprint } from "./pick";
+import { Others } from "./others";
+import { type Hit, type Ray, covers, pick, pickFootprint } from "./pick";
 import { Tiles } from "./tiles";
+import { type SectionPlane, cutLines, filling, planeOf, reach } from "./section";
 import { SegmentationLayers } from "./segmentation";
+import type { Colour } from "./styling";
 
 export interface Listener {
-  click(hit: Hit | null, footprint: api.SceneFootprint | null, more: boolean): void;
+  click(hit: Hit | null, footprint: api.SceneFootprint | null, more: boolean, place: Vector | null): void;
   hover(hit: Hit | null, right: boolean): void; // right: over the run to compare with
   moved(pose: Pose): void; // called when the camera stops; in the frame of the scene
+  point(place: Vector | null): void; // under the resting pointer, in the frame of the scene
+  drawn(azimuth: number, metresPerPixel: number): void; // after each image
   loadTile(id: string, signal: AbortSignal): Promise<ArrayBuffer>;
 }
 
@@ -42,7 +47,9 @@ class Side {
 
 const followSeconds = 0.055; // delay of the camera behind the pointer
 const flightSeconds = 0.6;
-const background = 0xf6f6f3;
+const background = { light: 0xf6f6f3, dark: 0x1b1e23 };
+const restMilliseconds = 60; // after which the point under the pointer is looked for in the scan
+const inside = 0.003; // m; by which a cap is moved off its plane, which would hide it
 
 export class Viewer {
   private readonly renderer: THREE.WebGLRenderer;
@@ -54,6 +61,11 @@ export class Viewer {
   private readonly buried = new WideLines(colours.footprint, 1.5, true); // the same, visible through the mesh
   private readonly chosen = new WideLines(colours.accent, 2.5, true);
   private readonly chosenSheet = new Sheet(colours.accent, 0.25);
+  private readonly cap = new Sheet(colours.cut, 1, 0);
+  private readonly capLines = new WideLines(colours.cutLine, 2);
+  private readonly measureLines = new WideLines(0xc2185b, 2.5, true);
+  private readonly measureMarks = new Marks();
+  private readonly others = new Others();
   private highlight: Highlight;
   private tiles: Tiles | null = null;
   private sides: [Side, Side | null];
@@ -82,7 +94,7 @@ export class Viewer {
     this.choices = choices;
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace; // see materials.ts: nothing is converted
-    this.renderer.setClearColor(background);
+    this.renderer.setClearColor(background.light);
     this.renderer.autoClear = false;
     this.highlight = new Highlight(this.centre);
     this.sides = [new Side(new Output(this.centre)), null];
@@ -91,9 +103,18 @@ export class Viewer {
       this.buried.object,
       this.chosenSheet.object,
       this.chosen.object,
+      this.cap.object,
+      this.capLines.object,
+      this.measureLines.object,
+      this.measureMarks.object,
+      this.others.group,
       ...this.marks.map((m) => m.object),
     );
     this.world.add(this.highlight.group, this.sides[0].output.group);
+    // Opaque, so that nothing behind a cut shines through it.
+    this.cap.material.transparent = false;
+    this.cap.material.depthWrite = true;
+    this.cap.object.renderOrder = 0;
     attach(canvas, this.gestures, this.gone.signal);
     canvas.addEventListener("webglcontextrestored", () => this.request(), { signal: this.gone.signal });
   }
@@ -168,11 +189,60 @@ export class Viewer {
     this.fadeModels(this.sides[which]!.output);
     if (another) this.placeMarks();
     if (another && which === 0) this.maskMesh();
+    side.output.paint(this.paints);
     this.showBuried();
     this.showSelection();
     this.place();
+    this.fillCut();
     this.request();
   }
+
+  /** Colours the buildings of the run; null: by the class of their faces. */
+  setPaint(colours: ReadonlyMap<string, Colour> | null) {
+    this.paints = colours;
+    for (const side of this.sides) side?.output.paint(colours);
+    this.request();
+  }
+  private paints: ReadonlyMap<string, Colour> | null = null;
+
+  /** Models of another program, beside those of the run. */
+  setOthers(models: readonly api.OtherModel[]) {
+    this.others.set(models, this.centre);
+    this.otherModels = models;
+    this.showOthers();
+    this.request();
+  }
+  private otherModels: readonly api.OtherModel[] = [];
+  private showOthers() {
+    const { others } = this.choices;
+    this.others.opacity = others.shown ? others.opacity : 0;
+  }
+
+  setMeasure(points: readonly Vector[], closed: boolean) {
+    const lines = new Segments(this.centre);
+    lines.path(closed && points.length > 2 ? [...points, points[0]!] : points);
+    this.measureLines.set(lines);
+    this.measureMarks.set(
+      points.flatMap((p) => p.map((x, i) => x - this.centre[i]!)),
+      points.flatMap(() => [0.76, 0.09, 0.36]),
+    );
+    this.measureMarks.object.visible = points.length > 0;
+    this.measured = { points, closed };
+    this.request();
+  }
+  private measured: { points: readonly Vector[]; closed: boolean } = { points: [], closed: false };
+
+  setDark(dark: boolean) {
+    this.renderer.setClearColor(dark ? background.dark : background.light);
+    this.request();
+  }
+
+  /** Divides the view at this share of its width; null: not. */
+  setDivided(share: number | null) {
+    this.divided = share;
+    this.request();
+  }
+  private divided: number | null = null;
 
   setSegmentation(which: 0 | 1, layers: api.Layers | null) {
     const side = this.sides[which];
@@ -228,6 +298,7 @@ export class Viewer {
     this.showMarks(0, diagnostics.shown);
     this.showMesh();
     this.maskMesh();
+    this.showOthers();
     this.showSelection();
     this.request();
   }
@@ -264,24 +335,49 @@ export class Viewer {
   }
 
   setSection(section: SectionPlane | null) {
+    this.section = section;
     this.plane = null;
     if (section) {
-      const { low, high } = this.content();
-      const i = { x: 0, y: 1, z: 2 }[section.axis];
-      const at = low[i]! - 0.5 + (high[i]! - low[i]! + 1) * section.share - this.centre[i]!;
-      const normal = new THREE.Vector3().setComponent(i, section.flipped ? 1 : -1);
-      this.plane = new THREE.Plane(normal, section.flipped ? -at : at);
+      const { normal, at } = planeOf(section);
+      const sign = section.flipped ? 1 : -1;
+      const own = at - normal.reduce((sum, n, i) => sum + n * this.centre[i]!, 0);
+      this.plane = new THREE.Plane(new THREE.Vector3(...normal).multiplyScalar(sign), -sign * own);
     }
     this.renderer.clippingPlanes = this.plane ? [this.plane] : [];
+    this.fillCut();
     this.request();
   }
+  private section: SectionPlane | null = null;
 
-  /** Position of a section plane along its axis, in metres in the frame of the scene. */
-  sectionAt(section: SectionPlane): number {
-    const { low, high } = this.content();
-    const i = { x: 0, y: 1, z: 2 }[section.axis];
-    return low[i]! - 0.5 + (high[i]! - low[i]! + 1) * section.share;
+  /** The range of offsets of a section plane that meets the models. */
+  reachOf = (section: SectionPlane): [number, number] => reach(section, this.content());
+
+  /** Fills the solids where the section plane cuts them. */
+  private fillCut() {
+    const positions: number[] = [];
+    const outlines = new Segments(this.centre);
+    if (this.section) {
+      const { normal, at } = planeOf(this.section);
+      const by = (this.section.flipped ? inside : -inside) as number;
+      for (const building of this.sides[0].shown()) {
+        const box = boxOf(building);
+        const [least, most] = reach({ ...this.section, offset: 0 }, box);
+        if (least > this.section.offset || most < this.section.offset) continue;
+        for (const { geometry } of building.parts) {
+          if (!geometry) continue;
+          const lines = cutLines(geometry, normal, at);
+          const filled = filling(lines, normal);
+          for (const line of lines) outlines.path([...line, line[0]!].map((p) => p.map((x, i) => x + by * normal[i]!)));
+          for (let i = 0; i < filled.length; ++i) positions.push(filled[i]! - this.centre[i % 3]! + by * normal[i % 3]!);
+        }
+      }
+    }
+    this.cap.set(positions);
+    this.capLines.set(outlines);
+    this.filled = positions.length / 9;
   }
+  /** Triangles that fill the cut; for tests. */
+  filled = 0;
 
   resize(width: number, height: number) {
     this.width = Math.max(1, width);
@@ -289,6 +385,7 @@ export class Viewer {
     this.renderer.setPixelRatio(Math.min(2, globalThis.devicePixelRatio || 1));
     this.renderer.setSize(this.width, this.height, false);
     for (const marks of this.marks) marks.material.uniforms.size!.value = 12 * this.renderer.getPixelRatio();
+    this.measureMarks.material.uniforms.size!.value = 10 * this.renderer.getPixelRatio();
     this.place();
     this.draw(); // a resized canvas is empty
   }
@@ -344,6 +441,35 @@ export class Viewer {
     return { x: box.left + ((p.x + 1) / 2) * this.paneWidth, y: box.top + ((1 - p.y) / 2) * this.height };
   }
 
+  /** The pose of the camera, in the frame of the scene. */
+  get seenFrom(): Pose {
+    return { ...this.goal, target: this.goal.target.map((t, i) => t + this.centre[i]!) as Vector };
+  }
+
+  /** The view as an image of that size, without the marks of the pointer. */
+  async picture(width: number, height: number): Promise<Blob | null> {
+    const [w, h, ratio] = [this.width, this.height, this.renderer.getPixelRatio()];
+    const hovering = this.highlight;
+    hovering.hover(undefined);
+    try {
+      this.renderer.setPixelRatio(1);
+      this.renderer.setSize(width, height, false);
+      [this.width, this.height] = [width, height];
+      this.draw();
+      // The canvas is read in the same task: its contents are not kept after that.
+      return await new Promise((resolve) => this.canvas.toBlob(resolve, "image/png"));
+    } finally {
+      [this.width, this.height] = [w, h];
+      this.renderer.setPixelRatio(ratio);
+      this.renderer.setSize(w, h, false);
+      this.draw();
+    }
+  }
+  /** The largest image that the graphics driver can draw, pixels along a side. */
+  get largestPicture() {
+    return Math.min(8192, this.renderer.capabilities.maxTextureSize);
+  }
+
   /** Resolves when nothing moves, loads or waits to be drawn. */
   async idle(): Promise<void> {
     for (let calm = 0; calm < 3; ) {
@@ -369,9 +495,12 @@ export class Viewer {
         side === this.sides[0] || !hit ? hit : { ...hit, part: null, edge: null },
         footprint?.footprint ?? null,
         more,
+        this.placeAt(x, y),
       );
     },
     hover: (x, y) => {
+      clearTimeout(this.resting);
+      this.resting = setTimeout(() => this.listener.point(this.placeAt(x, y)), restMilliseconds);
       if (this.hoverAsked) return;
       this.hoverAsked = true;
       requestAnimationFrame(() => {
@@ -386,8 +515,48 @@ export class Viewer {
         );
       });
     },
-    leave: () => this.listener.hover(null, false),
+    leave: () => {
+      clearTimeout(this.resting);
+      this.listener.point(null);
+      this.listener.hover(null, false);
+    },
   };
+  private resting: ReturnType<typeof setTimeout> | undefined;
+
+  /** The nearest point under the pointer: of the models, the scan, or the ground of a footprint. */
+  private placeAt(x: number, y: number): Vector | null {
+    const { ray, side } = this.rayAt(x, y);
+    let best = this.modelsHidden(x) ? null : this.hit(ray, side);
+    const cast = new THREE.Raycaster(
+      new THREE.Vector3(...(ray.origin.map((o, i) => o - this.centre[i]!) as Vector)),
+      new THREE.Vector3(...ray.direction),
+    );
+    for (const p of this.tiles?.meets(cast) ?? []) {
+      const place = p.toArray().map((q, i) => q + this.centre[i]!) as Vector;
+      const distance = Math.hypot(...place.map((q, i) => q - ray.origin[i]!));
+      if (best && best.distance <= distance) break;
+      if (!this.keeps(place) || (this.masks(x) && this.isUnderModel(place))) continue;
+      best = { building: "", part: null, ring: 0, edge: null, point: place, distance };
+      break;
+    }
+    return best?.point ?? pickFootprint(ray, this.scene?.footprints ?? [], this.keeps)?.point ?? null;
+  }
+  /** Whether a place on the page shows the scan only. */
+  private modelsHidden(x: number) {
+    return this.divided !== null && !this.sides[1] && x < this.divided * this.width;
+  }
+  private masks(x: number) {
+    return (this.tiles?.look.masked.value ?? 0) > 0.5 && !this.modelsHidden(x);
+  }
+  private isUnderModel([x, y]: Vector): boolean {
+    for (const building of this.sides[0].buildings.values()) {
+      const { low, high } = boxOf(building);
+      if (x < low[0] || x > high[0] || y < low[1] || y > high[1]) continue;
+      for (const { plan } of building.parts)
+        if (covers({ polygons: [{ outer: plan.outer.points, holes: plan.holes.map((h) => h.points) }] }, x, y)) return true;
+    }
+    return false;
+  }
 
   private move(goal: Pose) {
     this.flight = null;
@@ -409,9 +578,9 @@ export class Viewer {
 
   private rayAt(x: number, y: number): { ray: Ray; side: Side } {
     this.aim();
-    const right = this.sides[1] !== null && x > this.paneWidth;
+    const right = this.isRight(x);
     const share = new THREE.Vector3(
-      ((right ? x - this.paneWidth : x) / this.paneWidth) * 2 - 1,
+      (this.inPane(x) / this.paneWidth) * 2 - 1,
       1 - (y / this.height) * 2,
       0.5,
     );
@@ -431,8 +600,8 @@ export class Viewer {
 
   private markAt(x: number, y: number): string | null {
     if (!this.choices.diagnostics.shown) return null;
-    const right = this.sides[1] !== null && x > this.paneWidth;
-    const local = right ? x - this.paneWidth : x;
+    const right = this.isRight(x);
+    const local = this.inPane(x);
     for (const { building, place } of this.marked[right ? 1 : 0]!) {
       const p = new THREE.Vector3(...place).project(this.eye);
       const [px, py] = [((p.x + 1) / 2) * this.paneWidth, ((1 - p.y) / 2) * this.height];
@@ -467,6 +636,10 @@ export class Viewer {
     if (this.tiles) this.setTiles(this.index);
     this.placeMarks();
     this.showSelection();
+    for (const side of this.sides) side?.output.paint(this.paints);
+    this.setOthers(this.otherModels);
+    this.setMeasure(this.measured.points, this.measured.closed);
+    this.setSection(this.section);
   }
 
   private fadeModels(output: Output) {
@@ -595,7 +768,13 @@ export class Viewer {
   }
 
   private get paneWidth() {
-    return this.sides[1] ? this.width / 2 : this.width;
+    return this.sides[1] && this.divided === null ? this.width / 2 : this.width;
+  }
+  private isRight(x: number) {
+    return this.sides[1] !== null && x > (this.divided === null ? this.paneWidth : this.divided * this.width);
+  }
+  private inPane(x: number) {
+    return this.divided === null && this.isRight(x) ? x - this.paneWidth : x;
   }
   private get aspect() {
     return this.paneWidth / this.height;
@@ -655,26 +834,58 @@ export class Viewer {
     this.highlight.detailed = this.pose.size < 150;
     for (const side of this.sides) side?.output.seenFrom(this.pose.size, this.choices.outlines.opacity);
     const [first, second] = this.sides;
-    this.renderer.setScissorTest(second !== null);
-    [first, second].forEach((side, i) => {
-      if (!side) return;
-      for (const other of this.sides) {
-        if (!other) continue;
-        other.output.group.visible = other === side;
-        if (other.segmentation) other.segmentation.group.visible = other === side;
+    const { divided } = this;
+    const split = divided === null ? null : Math.round(divided * this.width);
+    this.renderer.setScissorTest(second !== null || split !== null);
+    if (split !== null && !second) {
+      // The scan on the left, the models on the right.
+      const masked = this.tiles?.look.masked.value ?? 0;
+      const scan = this.tiles?.look.opacity.value ?? 0;
+      const hide = [first.output.group, this.highlight.group, this.cap.object, this.capLines.object];
+      const visible = hide.map((o) => o.visible);
+      hide.forEach((o) => (o.visible = false));
+      this.showMarks(-1);
+      if (this.tiles) {
+        this.tiles.look.masked.value = 0;
+        this.tiles.opacity = 1;
       }
-      this.highlight.group.visible = i === 0 || second !== null;
-      this.showMarks(i);
-      const left = i * this.paneWidth;
-      this.renderer.setViewport(left, 0, this.paneWidth, this.height);
-      this.renderer.setScissor(left, 0, this.paneWidth, this.height);
-      this.renderer.clear();
-      this.renderer.render(this.world, this.eye);
-    });
+      this.pane(0, 0, split);
+      hide.forEach((o, i) => (o.visible = visible[i]!));
+      this.showMarks(0);
+      if (this.tiles) {
+        this.tiles.look.masked.value = masked;
+        this.tiles.opacity = scan;
+      }
+      this.pane(0, split, this.width - split);
+    } else {
+      [first, second].forEach((side, i) => {
+        if (!side) return;
+        for (const other of this.sides) {
+          if (!other) continue;
+          other.output.group.visible = other === side;
+          if (other.segmentation) other.segmentation.group.visible = other === side;
+        }
+        this.highlight.group.visible = i === 0 || second !== null;
+        this.cap.object.visible = this.capLines.object.visible = i === 0 && this.filled > 0;
+        this.showMarks(i);
+        if (split !== null) this.pane(0, i ? split : 0, i ? this.width - split : split);
+        else this.pane(i * this.paneWidth, i * this.paneWidth, this.paneWidth);
+      });
+    }
+    this.listener.drawn(this.pose.azimuth, this.pose.size / this.height);
+  }
+
+  /** Draws one pane: its left edge, and the part of it that is drawn. */
+  private pane(left: number, from: number, wide: number) {
+    if (wide <= 0) return;
+    this.renderer.setViewport(left, 0, this.paneWidth, this.height);
+    this.renderer.setScissor(from, 0, wide, this.height);
+    this.renderer.clear();
+    this.renderer.render(this.world, this.eye);
   }
 
   private stream() {
-    if (!this.tiles?.group.visible) return;
+    if (!this.tiles || (!this.tiles.group.visible && this.divided === null)) return;
     const frustum = new THREE.Frustum().setFromProjectionMatrix(
       new THREE.Matrix4().multiplyMatrices(this.eye.projectionMatrix, this.eye.matrixWorldInverse),
     );

@@ -1,0 +1,65 @@
+// Workspace: answers about models beyond what editing needs.
+#include "apps/server/inputs.hpp"
+#include "apps/server/inspect.hpp"
+#include "apps/server/options.hpp"
+#include "apps/server/workspace.hpp"
+#include "mansard/formats/input_name.hpp"
+#include "mansard/ingest/model.hpp"
+#include "mansard/pipeline/stored.hpp"
+
+namespace mansard::server {
+
+auto Workspace::attributes(const std::string& run) -> Text {
+  const auto open = models(run);
+  if (!open) return open.error();
+  const auto city = (*open)->edited(scene_now());
+  return city ? Text(text_of(attributes_json(**city))) : Text(city.error());
+}
+
+auto Workspace::level(const std::string& run, const std::string& lod) -> Text {
+  std::optional<formats::Lod> level;
+  for (const auto one : {formats::Lod::lod12, formats::Lod::lod13, formats::Lod::lod20})
+    if (formats::name_of(one) == lod) level = one;
+  if (!level)
+    return base::error("server-unknown", "unknown level of detail; expected 1.2, 1.3 or 2.0",
+                       base::on_one_line(lod.substr(0, 20)));
+  const auto open = models(run);
+  if (!open) return open.error();
+  const auto city = (*open)->edited(scene_now());
+  return city ? Text(text_of(level_json(**city, *level, (*open)->options().write.levels))) : Text(city.error());
+}
+
+auto Workspace::other_model(const ImportRequest& request) -> Text {
+  const auto path = absolute_name(request.path);
+  if (auto there = formats::check_input(path); !there) return there.error();
+  auto model = pipeline::read_any_model(path);
+  if (!model) return model.error();
+  std::optional<model::Frame> frame;
+  if (const auto scene = scene_now()) frame = scene->scene().frame;
+  if (frame) {
+    auto moved = ingest::in_frame(std::move(*model), *frame);
+    if (!moved) return moved.error();
+    return text_of(other_model_json(*moved));
+  }
+  return text_of(other_model_json(*model));
+}
+
+auto Workspace::alignment(const InputsRequest& request) const -> Text {
+  std::optional<Inputs> known;
+  {
+    const std::scoped_lock lock(mutex_);
+    known = project_.inputs();
+  }
+  auto inputs = requested_inputs(request, known);
+  if (!inputs) return inputs.error();
+  if (inputs->footprints.empty())
+    return base::error("server-input", "an offset can be found only with footprints; give a file or a database");
+  pipeline::Options options;
+  if (auto set = set_all(options, inputs->reading); !set) return set.error();
+  const std::vector<std::filesystem::path> meshes(inputs->meshes.begin(), inputs->meshes.end());
+  const auto placing = pipeline::find_placing({meshes, inputs->footprints, false}, options);
+  if (!placing) return explained(placing.error(), *inputs);
+  return text_of({{"proposal", placing_json(*placing, options)}});
+}
+
+}  // namespace mansard::server

@@ -1,0 +1,43 @@
+import { expect, test } from "vitest";
+import type { Plan } from "../api/types";
+import { planFault } from "./check";
+import { eavesOf, shaped, shapes, sharedEdges } from "./shapes";
+
+const house = (x0: number, x1: number): Plan => ({
+  base: 0,
+  cap: 9,
+  outer: { points: [[x0, 0], [x1, 0], [x1, 6], [x0, 6]], profile_of_edge: [0, 1, 0, 1] },
+  holes: [],
+  profiles: [
+    [[0, 0], [0, 5], [3, 8]],
+    [[0, 0], [0, 9]],
+  ],
+});
+const kinds = (plan: Plan) => plan.outer.profile_of_edge.map((p) => (plan.profiles[p]!.length > 2 ? "slope" : "wall"));
+
+test("every shape is a valid plan with the same outline and eaves", () => {
+  for (const { shape } of shapes) {
+    const plan = shaped(house(0, 10), shape);
+    expect(planFault(plan, shape)).toBeNull();
+    expect(plan.outer.points).toEqual(house(0, 10).outer.points);
+    if (shape !== "flat") expect(eavesOf(plan)).toBe(5);
+  }
+});
+
+test("gables are across the longest edge, hips all around", () => {
+  expect(kinds(shaped(house(0, 10), "gable"))).toEqual(["slope", "wall", "slope", "wall"]);
+  expect(kinds(shaped(house(0, 4), "gable"))).toEqual(["wall", "slope", "wall", "slope"]);
+  expect(kinds(shaped(house(0, 10), "hip"))).toEqual(["slope", "slope", "slope", "slope"]);
+  expect(shaped(house(0, 10), "flat").cap).toBe(5);
+});
+
+test("the pitch of the part stays", () => {
+  const [, slope] = shaped(house(0, 10), "hip").profiles;
+  expect((slope![2]![1] - slope![1]![1]) / (slope![2]![0] - slope![1]![0])).toBeCloseTo(1);
+});
+
+test("walls to neighbours stay walls", () => {
+  const shared = sharedEdges(house(0, 10), [house(10, 20)]);
+  expect(shared).toEqual([false, true, false, false]);
+  expect(kinds(shaped(house(0, 10), "hip", (i) => shared[i]!))).toEqual(["slope", "wall", "slope", "slope"]);
+});

@@ -1,0 +1,89 @@
+// Roof shapes in one step: flat, gable, hip and mansard roofs for a part.
+import type { Plan, Point2 } from "../api/types";
+import { after } from "./plan";
+import { type Profile, gutterOf, pitchOf } from "./profile";
+import { distance, minus, unit } from "./vector";
+
+export type Shape = "flat" | "gable" | "hip" | "mansard";
+export const shapes: { shape: Shape; name: string; meaning: string }[] = [
+  { shape: "flat", name: "Flat", meaning: "A flat roof at the height of the gutter" },
+  { shape: "gable", name: "Gable", meaning: "Slopes along the longest edge, walls up to the roof across it" },
+  { shape: "hip", name: "Hip", meaning: "The same slope on every edge without a neighbour" },
+  { shape: "mansard", name: "Mansard", meaning: "A steep slope, and a shallow one above it, on every edge without a neighbour" },
+];
+
+const usualPitch = Math.tan((40 * Math.PI) / 180); // of new slopes, where the part has none
+const steep = { rise: 2.4, run: 0.85 }; // m; of a mansard roof: about 70°
+const shallow = Math.tan((20 * Math.PI) / 180);
+
+const median = (values: number[]) => [...values].sort((a, b) => a - b)[values.length >> 1];
+
+/** Height of the gutters of a part; of its top if it has none. */
+export function eavesOf(plan: Plan): number {
+  const own = plan.outer.profile_of_edge.flatMap((p) => gutterOf(plan.profiles[p]!) ?? []);
+  return Math.min(median(own) ?? plan.cap, plan.cap);
+}
+const pitchNow = (plan: Plan) =>
+  median(plan.outer.profile_of_edge.flatMap((p) => {
+    const pitch = pitchOf(plan.profiles[p]!);
+    return pitch !== null && Number.isFinite(pitch) && pitch > 0.05 && pitch < 3 ? [pitch] : [];
+  })) ?? usualPitch;
+
+/** Whether an edge runs along the longest one, to within 45°. */
+function alongLongest(points: readonly Point2[]): boolean[] {
+  const ends = points.map((p, i) => [p, points[(i + 1) % points.length]!] as const);
+  const longest = ends.reduce((a, b) => (distance(...b) > distance(...a) ? b : a));
+  const along = unit(minus(longest[1], longest[0]));
+  return ends.map(([a, b]) => {
+    const own = unit(minus(b, a));
+    return !!own && !!along && Math.abs(own[0] * along[0] + own[1] * along[1]) > Math.SQRT1_2;
+  });
+}
+
+/** The plan with another roof. Eaves and pitch stay. Edges at which `shared` is true have a neighbour: their walls reach
+ *  up to the roof. Courtyards get walls. */
+export function shaped(plan: Plan, shape: Shape, shared: (edge: number) => boolean = () => false): Plan {
+  const eaves = eavesOf(plan);
+  const pitch = pitchNow(plan);
+  const xs = plan.outer.points.map((p) => p[0]);
+  const ys = plan.outer.points.map((p) => p[1]);
+  const reach = Math.hypot(Math.max(...xs) - Math.min(...xs), Math.max(...ys) - Math.min(...ys));
+  const slope: Profile =
+    shape === "mansard"
+      ? [[0, 0], [0, eaves], [steep.run, eaves + steep.rise], [steep.run + reach, eaves + steep.rise + shallow * reach]]
+      : [[0, 0], [0, eaves], [reach, eaves + pitch * reach]];
+  // Higher than any ridge: slopes meet before.
+  const cap = shape === "flat" ? eaves : slope.at(-1)![1];
+  const wall: Profile = [[0, 0], [0, cap]];
+  const lengthwise = alongLongest(plan.outer.points);
+  const slopes = plan.outer.points.map((_, i) => shape !== "flat" && !shared(i) && (shape !== "gable" || lengthwise[i]!));
+  return {
+    ...plan,
+    cap,
+    profiles: slopes.some(Boolean) ? [wall, slope] : [wall],
+    outer: { points: plan.outer.points, profile_of_edge: slopes.map((is) => (is ? 1 : 0)) },
+    holes: plan.holes.map((h) => ({ points: h.points, profile_of_edge: h.points.map(() => 0) })),
+  };
+}
+
+/** Edges of the outline that touch an outline of others, over more than a third of their length. */
+export function sharedEdges(plan: Plan, others: readonly Plan[], tolerance = 0.05): boolean[] {
+  const { points } = plan.outer;
+  return points.map((a, i) => {
+    const b = points[after(plan.outer, i)]!;
+    const along = unit(minus(b, a));
+    const length = distance(a, b);
+    if (!along) return false;
+    let covered = 0;
+    for (const other of others) {
+      other.outer.points.forEach((c, j) => {
+        const d = other.outer.points[after(other.outer, j)]!;
+        const off = (p: Point2) => Math.abs((p[0] - a[0]) * along[1] - (p[1] - a[1]) * along[0]);
+        if (off(c) > tolerance || off(d) > tolerance) return;
+        const at = (p: Point2) => (p[0] - a[0]) * along[0] + (p[1] - a[1]) * along[1];
+        covered += Math.max(0, Math.min(length, Math.max(at(c), at(d))) - Math.max(0, Math.min(at(c), at(d))));
+      });
+    }
+    return covered > length / 3;
+  });
+}

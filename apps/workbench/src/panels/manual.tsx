@@ -1,0 +1,52 @@
+// The manual behind "?".
+const sections: [title: string, text: string][] = [
+  [
+    "Open data",
+    "Open the sample, enter the paths of a mesh and footprints, or drop files on the page. Uploaded files never replace others. If mesh and footprints do not match, “Find an offset” in the form of the inputs compares them and proposes a CRS or an offset of the mesh.",
+  ],
+  [
+    "Run",
+    "The panel Run has all options with their meanings. Choose blocks in the view to reconstruct only some. “Carry over” applies the edits of another run to the open one.",
+  ],
+  [
+    "Find buildings",
+    "The list of buildings finds ids, blocks, outcomes and attributes: “slanted”, “measuredHeight>12”, “ms_edited=yes”. A click selects a building and moves the camera to it. The panel Attributes has all attributes of the selected building with units and meanings.",
+  ],
+  [
+    "Colours",
+    "Layers › Colour by colours the models by any attribute, the error or the outcome. Numbers have a scale that looks nearly the same with any colour vision; categories have different colours, the rarest share one. Level of detail draws the models at LoD 1.2, 1.3 or 2.0. Models of others shows CityJSON or OBJ of another program beside those of the run.",
+  ],
+  [
+    "Section plane",
+    "The plane goes through the selected building, across its longest edge. Turn, tilt and move it; cut solids are filled.",
+  ],
+  [
+    "Measure",
+    "Distances, heights, angles and areas between points on models, scan and ground. The coordinates under the pointer are those of the files, in their CRS. Backspace removes the last point, Esc ends.",
+  ],
+  [
+    "Compare",
+    "“Compare with” shows a second run beside the open one. “Divide the view” shows both in one image with a boundary that can be dragged; with one run, the scan on its left and the models on its right.",
+  ],
+  [
+    "Edit",
+    "Select a part and drag its corners, edges and profile points, or type numbers. Flat, Gable, Hip and Mansard replace the roof of a part; walls to neighbours stay. Changes are saved when you release the mouse. Invalid plans are shown in red and are not saved. Undo has no limit.",
+  ],
+  [
+    "Pictures, links and exports",
+    "“Picture and link” saves the view as PNG of any size, or copies a link that restores run, selection, camera and layers. Export writes the edited models in every format; they can be opened again, ZIP files too.",
+  ],
+];
+
+export function Manual() {
+  return (
+    <div class="manual">
+      {sections.map(([title, text]) => (
+        <section key={title}>
+          <h3>{title}</h3>
+          <p>{text}</p>
+        </section>
+      ))}
+    </div>
+  );
+}

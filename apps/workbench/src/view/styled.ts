@@ -1,0 +1,18 @@
+// The scale of the attribute by which the buildings of the open run are coloured.
+import { computed, effect } from "@preact/signals";
+import { needAttributes } from "../actions";
+import * as state from "../state";
+import { type Scale, scaleOf, styledBy, valuesOf, whatIs } from "./styling";
+
+export const scale = computed((): Scale | null => {
+  const run = state.run.value;
+  const name = styledBy.value;
+  if (!run || name === null) return null;
+  const table = state.attributes.value.get(run.id);
+  return scaleOf(valuesOf(name, run.buildings, table), whatIs(name, table));
+});
+
+effect(() => {
+  const run = state.run.value;
+  if (run && styledBy.value !== null && !state.outdatedAttributes.value.has(run.id)) void needAttributes(run.id);
+});
