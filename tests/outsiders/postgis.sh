@@ -34,7 +34,10 @@ expect "buildings" "$count" 87
 expect "solids have all levels" "$(sql "SELECT string_agg(DISTINCT lod, ',' ORDER BY lod) FROM mansard_solids")" "1.2,1.3,2.2"
 solids=$(sql "SELECT count(*) FROM mansard_solids")
 expect "the coordinate system" "$(sql "SELECT DISTINCT ST_SRID(geom) FROM mansard_solids")" 28992
-expect "closed solids" "$(sql "SELECT count(*) FROM mansard_solids WHERE NOT ST_IsClosed(geom)")" 0
+# Edges that are not those of two faces. ST_IsClosed of PostGIS 3.3 is not asked: it denies it of boxes for which this finds none.
+expect "open edges" "$(sql "SELECT count(*) FROM (SELECT id FROM (SELECT fid id, LEAST(ST_AsText(p), ST_AsText(n)) a, GREATEST(ST_AsText(p), ST_AsText(n)) b
+  FROM (SELECT fid, geom p, lead(geom) OVER (PARTITION BY fid, path[1], path[2] ORDER BY path[3]) n
+  FROM (SELECT fid, (ST_DumpPoints(geom)).* FROM mansard_solids) d) e WHERE n IS NOT NULL) x GROUP BY id, a, b HAVING count(*) <> 2) y")" 0
 expect "invalid footprints" "$(sql "SELECT count(*) FROM mansard_buildings WHERE NOT ST_IsValid(geom)")" 0
 
 # Twice in a row, with a column of somebody else, and one building at another height.
