@@ -10,7 +10,7 @@ mansard_module(solver   DEPENDS base                                            
 mansard_module(model    DEPENDS base geometry)
 mansard_module(solid    DEPENDS base geometry model                             USES GMP::gmpxx TESTED_WITH extrude)
 mansard_module(crs      DEPENDS base geometry model                             USES GDAL::GDAL)
-mansard_module(formats  DEPENDS base geometry model solid crs                   USES GDAL::GDAL tinygltf draco meshoptimizer OpenSSL::Crypto nlohmann_json wabt
+mansard_module(formats  DEPENDS base geometry model solid crs                   USES GDAL::GDAL tinygltf draco meshoptimizer OpenSSL::Crypto LibXml2::LibXml2 nlohmann_json wabt
                                                                                 TESTED_WITH rays ingest extrude label)
 mansard_module(cloud    DEPENDS base geometry                                   TESTED_WITH ingest)
 mansard_module(ingest   DEPENDS base geometry model crs formats cloud           USES GDAL::GDAL)
@@ -30,9 +30,10 @@ mansard_module(evaluate DEPENDS base geometry rays model solid block label      
 mansard_module(derive   DEPENDS base geometry rays model crs                    USES GDAL::GDAL TESTED_WITH ingest)
 mansard_module(align    DEPENDS base geometry)
 mansard_module(roof     DEPENDS base geometry model extrude)
+mansard_module(terrain  DEPENDS base geometry model solid)
 mansard_module(picture  DEPENDS base geometry rays                              USES PNG::PNG)
 mansard_module(report   DEPENDS base geometry rays model solid formats texture sweep fracture segment label evaluate picture USES nlohmann_json TESTED_WITH pipeline)
-mansard_module(pipeline DEPENDS base geometry rays solver model solid crs formats cloud ingest block vegetation slice sweep fracture segment profile extrude refine label evaluate derive align roof picture report texture)
+mansard_module(pipeline DEPENDS base geometry rays solver model solid crs formats cloud ingest block vegetation slice sweep fracture segment profile extrude refine label evaluate derive align roof terrain picture report texture)
 mansard_module(edit     DEPENDS base geometry rays model solid formats ingest extrude label evaluate report pipeline USES nlohmann_json)
 
 # Experiments: used by the programs and the tests, not part of what is installed.

@@ -135,7 +135,7 @@ QGIS, and samples in /usr/share/mansard/data.")
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libmansard-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libtbb-dev, libgmp-dev, libgeos-dev, libembree-dev (>= 3.13), coinor-libcbc-dev, \
-libgdal-dev, libtinygltf-dev, libdraco-dev, libmeshoptimizer-dev, libssl-dev, libpng-dev, pkg-config")
+libgdal-dev, libtinygltf-dev, libdraco-dev, libmeshoptimizer-dev, libssl-dev, libxml2-dev, libpng-dev, pkg-config")
 set(CPACK_COMPONENT_GROUP_DEV_DESCRIPTION
   "The modules of mansard as static libraries with their public headers, for
 find_package(mansard COMPONENTS pipeline).")

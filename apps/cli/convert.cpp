@@ -13,6 +13,7 @@
 #include "mansard/base/stopped.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/formats/foreign.hpp"
+#include "mansard/formats/input_name.hpp"
 #include "mansard/pipeline/stored.hpp"
 
 namespace mansard::cli {
@@ -47,7 +48,7 @@ auto targets_of(const Request& request) -> base::Result<std::vector<Target>> {
 auto check_outputs(const Request& request, const std::vector<Target>& targets) -> base::Result<void> {
   std::vector<fs::path> places;
   for (const auto& target : targets)
-    for (const auto& place : places_of(target)) {
+    for (const auto& place : formats::is_database_name(target.path) ? std::vector<fs::path>() : places_of(target)) {
       if (auto apart = spare_results(place, places); !apart) return apart;
       places.push_back(place);
     }
@@ -61,7 +62,8 @@ auto check_outputs(const Request& request, const std::vector<Target>& targets) -
 auto explained(base::Diagnostic why, const std::string& input) -> base::Diagnostic {
   if (pipeline::is_foreign(why))
     why.message +=
-        "; only models that mansard wrote and CityJSON can be converted. 'mansard evaluate' measures other producers' "
+        "; only models that mansard wrote, CityJSON and CityGML can be converted. 'mansard evaluate' measures other "
+        "producers' "
         "OBJ, 'mansard extrude " +
         base::on_one_line(input) + "' extrudes the footprints of a vector file";
   return why;
@@ -103,11 +105,11 @@ auto pass_on(formats::CityReader& reader, const std::vector<Target>& targets, co
   return {};
 }
 
-/// CityJSON and CityJSONSeq by their names, which other producers' files have too.
-auto may_be_cityjson(const std::string& input) -> bool {
+/// CityJSON, CityJSONSeq and CityGML by their names, which other producers' files have too.
+auto may_be_city_model(const std::string& input) -> bool {
   const std::string name = base::lower(fs::path(input).filename().string());
   return name.ends_with(".json") || name.ends_with(".jsonl") || name.ends_with(".cityjson") ||
-         name.ends_with(".cityjsonl");
+         name.ends_with(".cityjsonl") || name.ends_with(".gml") || name.ends_with(".citygml") || name.ends_with(".xml");
 }
 
 /// Models of another producer, as they are.
@@ -133,7 +135,7 @@ auto convert_foreign(const Request& request, const std::vector<Target>& targets,
   if (!written) return give_up(written.errors());
   for (const auto& warning : *written) progress.say(base::to_string(warning));
   if (auto committed = outputs.commit(run.cancel); !committed) return give_up(committed.errors());
-  for (const auto& target : targets) std::printf("%s\n", target.path.c_str());
+  for (const auto& target : targets) std::printf("%s\n", formats::name_to_show(target.path).c_str());
   return all_done;
 }
 
@@ -141,7 +143,7 @@ auto convert(const Request& request, const base::Cancel& cancel) -> int {
   const auto targets = targets_of(request);
   if (!targets) return give_up(targets.errors());
   auto reader = open_city(request.input);
-  if (!reader && pipeline::is_foreign(reader.error()) && may_be_cityjson(request.input))
+  if (!reader && pipeline::is_foreign(reader.error()) && may_be_city_model(request.input))
     return convert_foreign(request, *targets, cancel);
   if (!reader) return give_up(explained(reader.error(), request.input));
   formats::Header header = (*reader)->header();
@@ -182,7 +184,7 @@ auto convert(const Request& request, const base::Cancel& cancel) -> int {
     for (const auto& warning : *written) progress.say(base::to_string(warning));
   }
   if (auto committed = outputs.commit(run.cancel); !committed) return give_up(committed.errors());
-  for (const auto& target : *targets) std::printf("%s\n", target.path.c_str());
+  for (const auto& target : *targets) std::printf("%s\n", formats::name_to_show(target.path).c_str());
   return all_full ? all_done : some_fell_back;
 }
 
@@ -191,12 +193,14 @@ auto convert(const Request& request, const base::Cancel& cancel) -> int {
 auto convert_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
   auto* verb = add_verb(app, "convert");
   auto request = std::make_shared<Request>();
-  verb->add_option("INPUT", request->input,
-                   "Model that mansard wrote: " + readable_formats().own_models + "; or CityJSON of any producer")
+  verb->add_option(
+          "INPUT", request->input,
+          "Model that mansard wrote: " + readable_formats().own_models + "; or CityJSON or CityGML of any producer")
       ->required()
       ->type_name("MODEL");
   verb->add_option("-o,--output", request->outs,
-                   "Output, with its format by its file extension (" + extensions() + "); may be given several times")
+                   "Output, with its format by its file extension (" + extensions() +
+                       "), or a database (PG:...); may be given several times")
       ->required()
       ->expected(1, 1000)
       ->allow_extra_args(false)

@@ -14,6 +14,7 @@
 #include "apps/cli/settings.hpp"
 #include "apps/cli/verbs.hpp"
 #include "mansard/base/files.hpp"
+#include "mansard/formats/input_name.hpp"
 #include "mansard/pipeline/stored.hpp"
 #include "mansard/report/pictures.hpp"
 
@@ -24,6 +25,7 @@ namespace fs = std::filesystem;
 
 /// Whether OUT names one result, by its ending; several formats go into a folder otherwise.
 auto is_one(const fs::path& out) -> bool {
+  if (formats::is_database_name(out)) return true;
   const auto format = formats::format_of(out);
   if (!format) return false;
   if (*format != formats::Format::tiles) return true;
@@ -54,6 +56,11 @@ auto extrude_plans(formats::CityReader& reader, const ExtrudeRequest& request, c
   if (!request.report.empty())
     return give_up(
         base::error("usage", "there is no report where models are rebuilt from plans; leave it out", "--report"));
+  if (request.terrain.asked())
+    return give_up(base::error("usage",
+                               "there is no terrain where models are rebuilt from plans; extrude the footprints with "
+                               "--dtm instead",
+                               "--terrain-out"));
   pipeline::Options options;
   tell(pipeline::take_options(reader.header().made_by, options), request);
   if (auto applied = request.settings.apply(options); !applied) return give_up(applied.errors());
@@ -79,7 +86,7 @@ auto extrude_plans(formats::CityReader& reader, const ExtrudeRequest& request, c
   tell(beside->warnings, request);
   if (auto written = write_out(raised->city, options, request, run, beside->layers); !written)
     return give_up(written.errors());
-  std::printf("%s\n", request.out.c_str());
+  std::printf("%s\n", formats::name_to_show(request.out).c_str());
   return raised->fell_short.empty() && refused.empty() ? all_done : some_fell_back;
 }
 
@@ -115,9 +122,14 @@ auto check_outputs(const ExtrudeRequest& request) -> base::Result<void> {
   const bool one = is_one(request.out);
   const auto targets = targets_of(request);
   if (!targets) return targets.failure();
+  const bool database = formats::is_database_name(request.out);
+  if (database && request.picture)
+    return base::error("usage", "a picture is written beside a file or into a folder, and the output is a database",
+                       "--picture");
   std::vector<fs::path> all, single;
   for (const auto& target : *targets)
-    for (const auto& place : places_of(target)) all.push_back(place);
+    if (!database)
+      for (const auto& place : places_of(target)) all.push_back(place);
   if (request.picture || !one) all.push_back(picture_file(request.out));
   if (!one) all.push_back(fs::path(request.out) / "run.json");
   if (one && request.picture) single.push_back(picture_file(request.out));
@@ -131,7 +143,7 @@ auto check_outputs(const ExtrudeRequest& request) -> base::Result<void> {
   if (!ready) return ready;
   for (const auto& path : single)
     if (auto usable = file_free(path, request.overwrite); !usable) return usable;
-  return {};
+  return request.terrain.check(all, {request.input}, request.overwrite);
 }
 
 namespace {
@@ -164,6 +176,8 @@ auto write_out(const Made& made, const model::Scene& scene, const pipeline::Opti
   if (!targets) return targets.failure();
   base::Outputs outputs;
   if (auto written = write_targets(made, *targets, options.write, {}, outputs, run, progress); !written) return written;
+  if (auto written = request.terrain.write(made, scene, nullptr, options, outputs, run, progress); !written)
+    return written;
   std::vector<fs::path> reports;
   if (!is_one(request.out)) reports.push_back(fs::path(request.out) / "run.json");
   if (!request.report.empty()) reports.emplace_back(request.report);
@@ -192,6 +206,7 @@ auto extrude_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
   verb->add_option("--report", request->report, "Write a copy of the report (run.json) to this file")
       ->type_name("FILE");
   request->join.add_to(*verb);
+  request->terrain.add_to(*verb);
   add_jobs(*verb, request->jobs);
   verb->add_flag("-q,--quiet", request->quiet, "Print no progress and no summary");
   verb->add_flag("-v,--verbose", request->verbose,

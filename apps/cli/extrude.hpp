@@ -9,6 +9,7 @@
 #include "apps/cli/made.hpp"
 #include "apps/cli/scan.hpp"
 #include "apps/cli/settings.hpp"
+#include "apps/cli/terrain.hpp"
 #include "mansard/base/run.hpp"
 #include "mansard/formats/layers.hpp"
 
@@ -19,6 +20,7 @@ struct ExtrudeRequest {
   bool overwrite = false, picture = false, quiet = false, verbose = false;
   std::size_t jobs = 0;
   Join join;
+  TerrainOut terrain;
   Settings settings;
 };
 

@@ -4,6 +4,7 @@
 #include "apps/cli/exit.hpp"
 #include "apps/cli/extrude.hpp"
 #include "apps/cli/progress.hpp"
+#include "mansard/formats/input_name.hpp"
 
 namespace mansard::cli {
 namespace {
@@ -48,11 +49,11 @@ auto extrude_footprints(const ExtrudeRequest& request, const base::Cancel& cance
 
   const auto finish = [&](const Made& made) -> int {
     for (const auto& warning : made.summary.warnings) progress.say(base::to_string(warning));
-    progress.show("write", request.out, 1);
+    progress.show("write", formats::name_to_show(request.out), 1);
     auto done = write_out(made, *scene, options, request, run, progress);
     if (done) done = summarise(made, request, progress);
     if (!done) return give_up(done.errors());
-    std::printf("%s\n", request.out.c_str());
+    std::printf("%s\n", formats::name_to_show(request.out).c_str());
     return made.outcomes.full == made.outcomes.all() ? all_done : some_fell_back;
   };
   if (request.picture) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "apps/cli/output.hpp"
+#include "mansard/formats/input_name.hpp"
 
 namespace mansard::cli {
 
@@ -136,8 +137,11 @@ auto all_results() -> const std::vector<std::string>& {
 }
 
 auto target_at(const fs::path& path) -> base::Result<Target> {
+  if (formats::is_database_name(path)) return Target{Format::geopackage, path};  // the same tables' writer
   const auto format = formats::format_of(path);
-  if (!format) return base::error("usage", "unknown file extension; expected " + extensions(), path.string());
+  if (!format)
+    return base::error("usage", "unknown file extension; expected " + extensions() + ", or a database (PG:...)",
+                       path.string());
   // Of a tileset the folder is written, not the one file that names the others.
   return Target{*format, path.filename() == "tileset.json" ? path.parent_path() : path};
 }
@@ -164,6 +168,7 @@ auto layers_beside(formats::CityReader& reader, const std::string& input, const 
 }
 
 auto target_free(const Target& target, bool overwrite) -> base::Result<void> {
+  if (formats::is_database_name(target.path)) return {};  // rows are updated, and nothing is replaced
   if (target.format == Format::tiles) return folder_free(target.path, overwrite);
   for (const auto& path : places_of(target))
     if (auto usable = file_free(path, overwrite); !usable) return usable;

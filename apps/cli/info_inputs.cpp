@@ -53,7 +53,10 @@ auto info_of_model(const fs::path& path, const model::Model& model) -> Json {
       for (const auto& face : part.faces) ++classes[static_cast<std::size_t>(face.kind)];
     }
   }
-  Json out = head(path, "models", extension_of(path) == "obj" ? "obj" : "cityjson");
+  Json out = head(path, "models",
+                  extension_of(path) == "obj"                            ? "obj"
+                  : extension_of(path).find("json") != std::string::npos ? "cityjson"
+                                                                         : "citygml");
   out["by"] = "others";
   out["crs"] = model.frame.crs;
   out["extent"] = extent.json();
@@ -240,10 +243,14 @@ auto is_mesh(const fs::path& path) -> bool {
   return fs::is_directory(path, status) || formats::has_extension(path, &formats::Reads::mesh);
 }
 
-/// JSON with the file extension or the member of CityJSON.
-auto may_be_cityjson(const fs::path& path) -> bool {
+/// JSON with the file extension or the member of CityJSON, and GML with the root of CityGML.
+auto may_be_city_model(const fs::path& path) -> bool {
   const auto extension = extension_of(path);
-  if (extension == "jsonl") return true;
+  if (extension == "jsonl" || extension == "citygml") return true;
+  if (extension == "gml" || extension == "xml") {
+    const auto bytes = base::read_file(path);
+    return bytes && bytes->substr(0, 16384).find("CityModel") != std::string::npos;
+  }
   if (extension != "json") return false;
   const auto bytes = base::read_file(path);
   return bytes && bytes->find("\"CityJSON\"") != std::string::npos;
@@ -288,7 +295,7 @@ auto info_of_other(const fs::path& path, const base::Diagnostic& why, const base
     out["tileset"] = std::move(tileset);
     return out;
   }
-  if (may_be_cityjson(path) || extension_of(path) == "obj") {
+  if (may_be_city_model(path) || extension_of(path) == "obj") {
     const auto model = ingest::read_model(path);
     // An OBJ whose faces have no class is a mesh like any other.
     const auto guessed = [](const base::Diagnostic& warning) { return warning.code == "ingest-model-semantics"; };

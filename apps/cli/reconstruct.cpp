@@ -11,6 +11,7 @@
 #include "apps/cli/output.hpp"
 #include "apps/cli/run_folder.hpp"
 #include "apps/cli/scan.hpp"
+#include "apps/cli/terrain.hpp"
 #include "apps/cli/verbs.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/base/text.hpp"
@@ -24,6 +25,7 @@ namespace fs = std::filesystem;
 
 struct Request {
   ScanRequest scan;
+  TerrainOut terrain;
   std::string out;
   std::string formats = "default";
   bool picture = false, layers = false, no_resume = false;
@@ -96,8 +98,9 @@ auto is_result(const std::string& name) -> bool {
 }
 
 auto write_all(const Request& request, const std::vector<Target>& targets, const pipeline::Options& options,
-               const Made& made, const model::Scene& scene, const base::Run& run, Progress& progress)
+               const Made& made, const ingest::CityScene& city, const base::Run& run, Progress& progress)
     -> base::Result<void> {
+  const auto& scene = city.scene;
   base::Outputs outputs;
   std::vector<formats::Layer> layers;
   if (request.layers) {
@@ -114,6 +117,8 @@ auto write_all(const Request& request, const std::vector<Target>& targets, const
   if (auto written = write_targets(baked.textures ? with_textures(made, *baked.textures) : made, targets, options.write,
                                    layers, outputs, run, progress);
       !written)
+    return written;
+  if (auto written = request.terrain.write(made, scene, city.cells.get(), options, outputs, run, progress); !written)
     return written;
   const auto report_path = fs::path(request.out) / "run.json";
   if (auto written = write_report(made, scene, report_path, outputs); !written) return written;
@@ -146,6 +151,11 @@ auto check_outputs(const Request& request, const std::vector<Target>& targets) -
     return spared;
   if (!request.scan.report.empty())
     if (auto apart = spare_results(request.scan.report, results); !apart) return apart;
+  if (!request.scan.report.empty()) results.emplace_back(request.scan.report);
+  if (auto usable = request.terrain.check(results, {request.scan.inputs.begin(), request.scan.inputs.end()},
+                                          request.scan.overwrite);
+      !usable)
+    return usable;
   if (auto ready = prepare(request.out, request.scan.overwrite); !ready) return ready;
   if (auto usable = files_free(request.scan, {}); !usable) return usable;
   // A run that was killed while its results took their places left some of them: they are its own.
@@ -207,7 +217,7 @@ auto reconstruct(const Request& request, const base::Cancel& cancel) -> int {
     return all_done;
   }
   const auto finish = [&](const Made& made) -> int {
-    auto done = write_all(request, *targets, *options, made, city->scene, run, progress);
+    auto done = write_all(request, *targets, *options, made, *city, run, progress);
     if (done) (*folder)->finished();
     if (done) done = summarise(made, request, progress);
     if (!done) return stopped(done);
@@ -236,6 +246,7 @@ auto reconstruct_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
   verb->add_flag("--layers", request->layers,
                  "Also write the layers of 'mansard segment' and all diagnostics to model.gpkg");
   verb->add_option("--formats", request->formats, formats_help)->type_name("FORMATS")->default_str(default_formats);
+  request->terrain.add_to(*verb);
   verb->add_flag("--no-resume", request->no_resume,
                  "Keep no blocks in OUTDIR/.mansard for a later run, and take none over from an earlier one");
   verb->add_option("--shares", request->shares, "Number of shares that the work is divided into; see --share")

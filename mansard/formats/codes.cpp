@@ -61,6 +61,11 @@ auto codes() -> std::vector<base::Code> {
        "The message has GDAL's words; its FlatGeobuf driver and PROJ's data must be installed, and there must be "
        "memory.",
        3},
+      {"write-postgis", "A PostGIS database could not be written; nothing in it has changed.",
+       "The message has GDAL's words. The address is that of GDAL (PG:dbname=NAME host=HOST user=USER), PostGIS must "
+       "be "
+       "enabled in the database, and a table mansard_buildings of others must have another name or schema.",
+       3},
       {"write-tiles-height",
        "The heights of a 3D Tiles tileset are not above the ellipsoid, so that it is too high or too low on a globe.",
        "Give the height of the geoid there with --tiles-height-offset (about 43 m in the Netherlands), or a CRS with "

@@ -387,6 +387,12 @@ auto read_alone(const std::filesystem::path& path, const Options& options, const
   auto ids = formats::ids_of(file->features, options.id_attribute, subject, file->warnings);
   if (!ids) return ids.error();
   scene.inputs = std::move(file->inputs);
+  if (!options.terrain.empty()) {
+    constexpr double around = 100;  // m; --terrain-margin may ask for more, where the terrain is continued
+    const Point2 origin{static_cast<double>(scene.frame.origin[0]), static_cast<double>(scene.frame.origin[1])};
+    const Box2 local{box.least - origin, box.most - origin};
+    if (auto taken = take_terrain(options, local.grown(around), std::nullopt, scene); !taken) return taken.error();
+  }
   append(scene.warnings, std::move(file->warnings));
   append(scene.warnings, way->warnings);
   finish_all(*chosen, *std::move(ids), {{-far, -far}, {far, far}}, scene);

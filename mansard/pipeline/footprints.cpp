@@ -41,19 +41,24 @@ struct BlockJobs {
   geometry::Point3 origin;
 };
 
-auto divide(const model::Scene& scene, const Options& options, const base::Run& run, std::vector<Raising>& jobs)
-    -> std::vector<BlockJobs> {
+/// Where the scene has a terrain, the ground of the buildings is that, unless an attribute gives it.
+auto divide(const model::Scene& scene, const Options& options, const base::Run& run, std::vector<Raising>& jobs,
+            std::vector<roof::Read>& read) -> std::vector<BlockJobs> {
+  const bool on_terrain = scene.terrain != nullptr && options.roof.ground_attribute.empty();
   std::vector<BlockJobs> out;
   for (auto& block : block::partition(scene, options.block, run)) {
     const auto own = block::in_own_frame(std::move(block));
     const auto& origin = own.block.origin;
     out.push_back({jobs.size(), 0, {static_cast<double>(origin[0]), static_cast<double>(origin[1]), 0}});
-    for (std::size_t m = 0; m < own.block.members.size(); ++m)
+    for (std::size_t m = 0; m < own.block.members.size(); ++m) {
+      if (on_terrain && own.block.ground_known)
+        read[own.features[m]].form.ground = own.block.members[m].ground + static_cast<double>(origin[2]);
       for (const auto& polygon : own.block.members[m].polygons) {
         auto& job = jobs.emplace_back();
         job.feature = own.features[m];
         job.outline = polygon;
       }
+    }
     out.back().count = jobs.size() - out.back().first;
   }
   return out;
@@ -258,7 +263,7 @@ auto raise_all(const model::Scene& scene, const Making& making, const Options& o
   }
   base::Watch planning;
   std::vector<Raising> jobs;
-  const auto blocks = divide(scene, options, run, jobs);
+  const auto blocks = divide(scene, options, run, jobs, read);
 
   base::Run inner = run;
   inner.progress = nullptr;

@@ -29,6 +29,7 @@ auto option_lists(Options& options) -> std::vector<base::OptionList> {
   lists.push_back(solid::option_list(options.write.levels));
   lists.push_back(formats::option_list(options.write));
   lists.push_back(texture::option_list(options.texture));
+  lists.push_back(terrain::option_list(options.terrain));
   base::OptionList own("pipeline");
   own.integer("seed", options.seed, "", {0, 9e15}, "Seed of all sampling; the same seed gives the same bytes.")
       .alias("seed")
@@ -130,6 +131,7 @@ auto codes() -> std::vector<base::Code> {
   add(roof::codes());
   add(formats::codes());
   add(texture::codes());
+  add(terrain::codes());
   add(picture::codes());
   add({
       {"pipeline-nothing", "No footprint of the input could be used.",

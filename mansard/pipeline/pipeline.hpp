@@ -29,6 +29,7 @@
 #include "mansard/slice/slice.hpp"
 #include "mansard/solid/solid.hpp"
 #include "mansard/sweep/sweep.hpp"
+#include "mansard/terrain/terrain.hpp"
 #include "mansard/texture/options.hpp"
 #include "mansard/vegetation/vegetation.hpp"
 
@@ -52,6 +53,7 @@ struct Options {
   evaluate::Options evaluate;
   formats::WriteOptions write;
   texture::Options texture;
+  terrain::Options terrain;
 
   std::int64_t seed = 1;
   double assumed_height = 3.0;             ///< m; of the prism of a footprint over which the mesh shows nothing

@@ -96,7 +96,7 @@ auto read_model_knows(const fs::path& path) -> bool {
     return opened ? (*opened)->has_models() : is_foreign(opened.error());
   }
   return format == formats::Format::cityjson || format == formats::Format::cityjsonseq ||
-         format == formats::Format::obj;
+         format == formats::Format::citygml || format == formats::Format::obj;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "mansard/base/nesting.hpp"
 #include "mansard/base/text.hpp"
+#include "mansard/formats/citygml/citygml_document.hpp"
 #include "mansard/formats/files/words.hpp"
 
 namespace mansard::formats {
@@ -78,6 +79,7 @@ auto CityDocument::vertex(const Json& index) const -> const geometry::Point3* {
 
 auto each_document(std::string_view bytes, const CityComplaints& complaints,
                    const std::function<base::Result<void>(const CityDocument&)>& work) -> base::Result<std::string> {
+  if (looks_like_citygml(bytes)) return each_citygml_building(bytes, complaints, work);
   if (base::nests_too_deep(bytes)) return complaints("its JSON nests too deep");
   Json head = Json::parse(bytes, nullptr, false);
   if (head.is_discarded()) {

@@ -50,7 +50,8 @@ struct CityComplaints {
   }
 };
 
-/// Parses a file and calls `work` with each document in it: one, or those of CityJSONSeq line by line. Returns the
+/// Parses a file and calls `work` with each document in it: one, those of CityJSONSeq line by line, or those of CityGML
+/// building by building. Returns the
 /// reference system of the file as it is spelled, empty if there is none. Fails with the code of `complaints` and
 /// with what `work` fails with.
 [[nodiscard]] auto each_document(std::string_view bytes, const CityComplaints& complaints,

@@ -9,6 +9,8 @@
 #include "mansard/formats/geopackage/city_tables.hpp"
 #include "mansard/formats/geopackage/geopackage_tables.hpp"
 #include "mansard/formats/geopackage/qgis_styles.hpp"
+#include "mansard/formats/input_name.hpp"
+#include "mansard/formats/postgis/postgis_writer.hpp"
 #include "mansard/solid/solid.hpp"
 
 namespace mansard::formats::detail {
@@ -347,6 +349,7 @@ class GeoPackageReader : public CityReader {
 
 auto geopackage_writer(const Path& path, const Header& header, const WriteOptions& options,
                        const std::vector<Layer>& more, base::Outputs& outputs) -> WriterResult {
+  if (is_database_name(path)) return postgis_writer(path.string(), header, options);
   auto lods = lods_of(options.lod, Format::geopackage);
   if (!lods) return lods.error();
   auto layers = beside_ours(more);

@@ -11,6 +11,7 @@
 #include "mansard/crs/gdal.hpp"
 #include "mansard/crs/gdal_messages.hpp"
 #include "mansard/crs/spatial_reference.hpp"
+#include "mansard/formats/citygml/citygml_document.hpp"
 #include "mansard/formats/cityjson/footprint_reader.hpp"
 #include "mansard/formats/drivers.hpp"
 #include "mansard/formats/files/reach.hpp"
@@ -449,11 +450,12 @@ auto filter(std::vector<RawFeature>& features, const std::string& where, const s
 /// A city model as a source; nothing where the file is none.
 auto read_city_model(const fs::path& path, const FeatureQuery& options) -> base::Result<std::optional<FeatureFile>> {
   const std::string ending = plain_name(path).extension().string(), subject = path.string();
-  if (ending != ".json" && ending != ".jsonl" && ending != ".cityjson" && ending != ".cityjsonl")
+  if (ending != ".json" && ending != ".jsonl" && ending != ".cityjson" && ending != ".cityjsonl" && ending != ".gml" &&
+      ending != ".citygml" && ending != ".xml")
     return std::optional<FeatureFile>();
   const auto bytes = Bytes::of(path);
   if (!bytes) return bytes.error();
-  if (!looks_like_cityjson(bytes->view())) return std::optional<FeatureFile>();
+  if (!looks_like_cityjson(bytes->view()) && !looks_like_citygml(bytes->view())) return std::optional<FeatureFile>();
   if (!options.layer.empty() && options.layer != "buildings")
     return base::error("ingest-layer", "there is no layer '" + options.layer + "'; the file has: buildings", subject);
   auto file = read_cityjson_footprints(bytes->view(), subject);

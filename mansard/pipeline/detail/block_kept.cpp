@@ -11,7 +11,7 @@ auto key_of(const Options& options, Keep keep) -> BlockKey {
   for (const auto& list : option_lists(copy)) {
     // What is read shows in the block; how it is written does not matter to it.
     if (list.module() == "ingest" || list.module() == "cloud" || list.module() == "derive" ||
-        list.module() == "write" || list.module() == "roof" || list.module() == "texture")
+        list.module() == "write" || list.module() == "roof" || list.module() == "texture" || list.module() == "terrain")
       continue;
     for (const auto& option : list.options()) used += list.module() + "." + option.name + "=" + option.get() + "\n";
   }
