@@ -21,6 +21,33 @@ auto box(double x, double width, double high) -> Plan {
   return plan(rectangle(x, 20.8, width, depth), std::vector<Profile>(4, wall(front + high)), front + high);
 }
 
+/// As a scan shows it: every 0.2 m, smoothed with a standard deviation of 0.35 m.
+auto melted(const std::vector<Plan>& seen) -> rays::Scene {
+  const auto sharp = scan(seen, 0);
+  constexpr double step = 0.2, deviation = 0.35;
+  constexpr int reach = 5, columns = 80, rows = 65;
+  geometry::Mesh mesh;
+  for (int j = 0; j < rows; ++j)
+    for (int i = 0; i < columns; ++i) {
+      const Point2 at{8 + step * i, 18 + step * j};
+      double sum = 0, weights = 0;
+      for (int dj = -reach; dj <= reach; ++dj)
+        for (int di = -reach; di <= reach; ++di) {
+          const Point2 off{step * di, step * dj};
+          const double weight = std::exp(-dot(off, off) / (2 * deviation * deviation));
+          sum += weight * sharp.top(at + off).value_or(ground), weights += weight;
+        }
+      mesh.vertices.push_back({at.x, at.y, sum / weights});
+    }
+  for (std::uint32_t j = 0; j + 1 < rows; ++j)
+    for (std::uint32_t i = 0; i + 1 < columns; ++i) {
+      const std::uint32_t a = j * columns + i;
+      mesh.triangles.push_back({a, a + 1, a + columns});
+      mesh.triangles.push_back({a + 1, a + columns + 1, a + columns});
+    }
+  return rays::Scene(mesh);
+}
+
 auto options_at(double price) -> refine::Options {
   refine::Options options;
   options.dormers.price = price;
@@ -46,6 +73,23 @@ TEST(Dormers, become_parts_in_holes_of_the_roof) {
   for (const std::size_t d : {1U, 2U}) {
     EXPECT_NEAR(geometry::area(model::polygon_of(parts[d].plan)), 1.6 * 1.4 / 0.9, 0.8);
     EXPECT_NEAR(parts[d].plan.cap, 5 + 0.9 * 0.8 + 1.4, 0.15);
+  }
+}
+
+TEST(Dormers, that_a_scan_melts_are_found_where_they_are) {
+  // Low ones, 1.4 m wide, on a flat slope and 0.5 m behind the eaves: a scan shows half of their height.
+  constexpr double slope = 0.5, front = 0.5, high = 1.2;
+  const double eaves = 5 + slope * front + high;
+  std::vector<Plan> seen{plan(house, {roof(5, slope), wall(5), roof(5, slope), wall(5)}, 12)};
+  for (const double x : {12.0, 15.3, 18.6})
+    seen.push_back(plan(rectangle(x, 20 + front, 1.4, high / slope), std::vector<Profile>(4, wall(eaves)), eaves));
+  const auto refined = refine::refine(std::vector{flat_draft(house, 6)}, melted(seen), options_at(0.25), {});
+  ASSERT_THAT(refined.parts, SizeIs(4));
+  for (std::size_t d = 1; d < 4; ++d) {
+    const auto box = geometry::bounds(refined.parts[d].plan.outer.points);
+    EXPECT_NEAR(box.most.x - box.least.x, 1.4, 0.35);
+    EXPECT_NEAR(box.least.y, 20 + front, 0.4);
+    EXPECT_NEAR(refined.parts[d].plan.cap, eaves, 0.3);
   }
 }
 

@@ -1,8 +1,10 @@
 #include "mansard/refine/detail/dormers.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include "mansard/base/statistics.hpp"
@@ -23,6 +25,8 @@ struct Slope {
   std::uint32_t face = 0, ring = 0, edge = 0;
   Point2 start, along, inward;
   double gutter = 0, slope = 0;
+  Profile profile;  // of its edge, and the slope's place in it
+  std::uint32_t part = 0;
   [[nodiscard]] auto at(double v) const -> double { return gutter + slope * v; }
   [[nodiscard]] auto u_of(Point2 p) const -> double { return dot(p - start, along); }
   [[nodiscard]] auto v_of(Point2 p) const -> double { return dot(p - start, inward); }
@@ -44,7 +48,8 @@ auto slopes_of(const Judged& judged, const Options::Dormers& options) -> std::ve
     if (slope < options.min_slope || slope > options.max_slope) continue;
     const Point2 start = of.points[edge], end = of.points[(edge + 1) % of.points.size()];
     const Point2 along = geometry::normalised(end - start);
-    out.push_back({f, ring, edge, start, along, geometry::left_of(along), a.height - slope * a.inward, slope});
+    out.push_back(
+        {f, ring, edge, start, along, geometry::left_of(along), a.height - slope * a.inward, slope, profile, part});
   }
   return out;
 }
@@ -70,39 +75,82 @@ struct Box {
   }
 };
 
-auto error_of(const std::vector<Sample>& samples, const Slope& slope, const Box* box) -> double {
-  double sum = 0;
-  for (const auto& s : samples) {
-    const double d = (box ? box->height(slope, s.u, s.v) : slope.at(s.v)) - s.z;
-    sum += d * d;
+/// m: the standard deviation of what a scan smooths, of which `melt` is the reach.
+auto blur_of(const Options& options) -> double { return options.samples.melt / std::numbers::sqrt2; }
+
+/// Below a standard normal curve, up to x.
+auto up_to(double x) -> double { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
+auto density(double x) -> double { return std::exp(-x * x / 2) / std::sqrt(2 * std::numbers::pi); }
+
+/// What a scan shows of a box above its slope, m: the box smoothed by a normal curve.
+class Shown {
+ public:
+  Shown(const Box& box, const Slope& slope, double blur) : box_(box), slope_(slope), blur_(blur) {
+    // A gable as strips of one height: a quarter of a narrow one is less than what a scan smooths.
+    constexpr int most = 8;
+    strips_ = box.pitch > 0 ? most : 1;
   }
-  return sum;
+  [[nodiscard]] auto operator()(double u, double v) const -> double {
+    double sum = 0;
+    const double wide = box_.width() / strips_;
+    for (int k = 0; k < strips_; ++k) {
+      const double from = box_.left + k * wide;
+      const double share = up_to((from + wide - u) / blur_) - up_to((from - u) / blur_);
+      if (share > 1e-4) sum += share * ramp(v, box_.pitch > 0 ? box_.own(from + wide / 2) : box_.eaves);
+    }
+    return sum;
+  }
+
+ private:
+  /// The part of a level roof that is above the slope, from the front to where they meet.
+  [[nodiscard]] auto ramp(double v, double height) const -> double {
+    const double end = (height - slope_.gutter) / slope_.slope;
+    if (end <= box_.front) return 0;
+    const double from = (box_.front - v) / blur_, to = (end - v) / blur_;
+    return (height - slope_.at(v)) * (up_to(to) - up_to(from)) - slope_.slope * blur_ * (density(from) - density(to));
+  }
+
+  const Box& box_;
+  const Slope& slope_;
+  double blur_;
+  int strips_ = 1;
+};
+
+/// The squared error that is left when the slope, too, may be raised and tilted a little: what it was fitted to was in
+/// part the dormer.
+auto error_of(const std::vector<Sample>& samples, const Slope& slope, const Box* box, double blur) -> double {
+  double n = 0, sv = 0, svv = 0, sd = 0, svd = 0, sdd = 0;
+  for (const auto& s : samples) {
+    double d = s.z - slope.at(s.v);
+    if (box) d -= Shown(*box, slope, blur)(s.u, s.v);
+    ++n, sv += s.v, svv += s.v * s.v, sd += d, svd += s.v * d, sdd += d * d;
+  }
+  const double determinant = n * svv - sv * sv;
+  if (!(n > 0) || !(determinant > 1e-9 * n * svv)) return sdd;
+  const double raised = (svv * sd - sv * svd) / determinant, tilted = (n * svd - sv * sd) / determinant;
+  return std::max(0.0, sdd - raised * sd - tilted * svd);
 }
 
-/// Its roof at the height of most of what is well inside.
-void level(Box& box, const std::vector<Sample>& samples, const Slope& slope, double melt) {
-  std::vector<double> heights;
-  const double aside = std::min(melt, box.width() / 4);
-  for (const auto& s : samples)
-    if (s.u > box.left + aside && s.u < box.right - aside && s.v > box.front + aside && s.z > slope.at(s.v) + aside)
-      heights.push_back(s.z - (box.own(s.u) - box.eaves));
-  if (!heights.empty()) box.eaves = base::median(std::move(heights));
-}
-
-/// The walls moved until that no longer helps, by less and less.
-auto fitted(Box box, const std::vector<Sample>& samples, const Slope& slope, double melt) -> Box {
-  level(box, samples, slope, melt);
-  double error = error_of(samples, slope, &box);
-  for (const double step : {0.2, 0.1, 0.05}) {
-    for (int round = 0; round < 20; ++round) {
+/// Walls and eaves moved until that no longer helps, by less and less.
+auto fitted(Box box, const std::vector<Sample>& samples, const Slope& slope, double blur, double reach) -> Box {
+  Box least = box, most = box;
+  least.left -= reach, least.front -= reach, most.right += reach, most.eaves += reach;
+  double error = error_of(samples, slope, &box, blur);
+  for (const double step : {0.4, 0.2, 0.1, 0.05}) {
+    for (int round = 0; round < 12; ++round) {
       bool moved = false;
-      for (double Box::*side : {&Box::left, &Box::right, &Box::front})
+      // left, right, front, eaves; all of it along the edge, and up the slope
+      const double ways[6][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0},
+                                 {0, 0, 0, 1}, {1, 1, 0, 0}, {0, 0, 1, slope.slope}};
+      for (const auto& way : ways)
         for (const double by : {-step, step}) {
           Box other = box;
-          other.*side += by;
-          if (!(other.width() > 2 * step)) continue;
-          level(other, samples, slope, melt);
-          const double e = error_of(samples, slope, &other);
+          other.left += by * way[0], other.right += by * way[1], other.front += by * way[2];
+          other.eaves += by * way[3];
+          if (!(other.width() > 0.4) || !(other.back(slope) > other.front)) continue;
+          if (other.left < least.left || other.right > most.right || other.front < least.front) continue;
+          if (other.eaves > most.eaves) continue;
+          const double e = error_of(samples, slope, &other, blur);
           if (e < error - same_cost) box = other, error = e, moved = true;
         }
       if (!moved) break;
@@ -112,13 +160,13 @@ auto fitted(Box box, const std::vector<Sample>& samples, const Slope& slope, dou
 }
 
 /// Connected cells of a slope that stand out of it.
-auto islands(const Judged& judged, const Site& site, const Slope& slope, const Options::Dormers& options)
+auto islands(const Judged& judged, const Site& site, const Slope& slope, double above)
     -> std::vector<std::vector<std::uint32_t>> {
   const auto& grid = site.measured;
   std::vector<std::uint8_t> out_of_it(grid.z.size(), 0);
   for (const auto cell : site.cells)
     if (!std::isnan(judged.view.z[cell]) && judged.view.face[cell] == slope.face &&
-        grid.z[cell] - judged.view.z[cell] > options.min_rise / 2)
+        grid.z[cell] - judged.view.z[cell] > above)
       out_of_it[cell] = 1;
   std::vector<std::vector<std::uint32_t>> found;
   for (const auto cell : site.cells) {
@@ -146,11 +194,12 @@ auto islands(const Judged& judged, const Site& site, const Slope& slope, const O
 /// Whether the box lies on the slope with all of its plan.
 auto on_slope(const Box& box, const Slope& slope, const Judged& judged, const Site& site) -> bool {
   const auto& grid = site.measured;
-  const double step = grid.spacing, aside = step;
-  for (double u = box.left - aside; u <= box.right + aside + step / 2; u += step)
-    for (double v = box.front - aside; v <= box.back(slope) + aside + step / 2; v += step) {
+  const double step = grid.spacing / 2;
+  for (double u = box.left - step; u <= box.right + step + step / 2; u += step)
+    for (double v = box.front - step; v <= box.back(slope) + step + step / 2; v += step) {
       const Point2 p = slope.place(u, v);
-      const double column = std::round((p.x - grid.origin.x) / step), row = std::round((p.y - grid.origin.y) / step);
+      const double column = std::round((p.x - grid.origin.x) / grid.spacing);
+      const double row = std::round((p.y - grid.origin.y) / grid.spacing);
       if (column < 0 || row < 0 || column >= static_cast<double>(grid.columns) || row >= static_cast<double>(grid.rows))
         return false;
       const auto cell = static_cast<std::size_t>(row) * grid.columns + static_cast<std::size_t>(column);
@@ -159,16 +208,47 @@ auto on_slope(const Box& box, const Slope& slope, const Judged& judged, const Si
   return true;
 }
 
+/// The same, where necessary with a front, sides and a back that are moved inwards by what a displaced outline makes of
+/// it. None where that is not enough.
+auto moved_onto(Box box, const Slope& slope, const Judged& judged, const Site& site, double most)
+    -> std::optional<Box> {
+  const double step = site.measured.spacing / 4;
+  for (double by = 0; by <= most; by += step) {
+    for (const auto& [left, right, top] :
+         {std::array{0.0, 0.0, 0.0}, std::array{by, 0.0, 0.0}, std::array{0.0, by, 0.0}, std::array{0.0, 0.0, by}}) {
+      for (const double front : {0.0, by}) {
+        Box other = box;
+        other.left += left, other.right -= right, other.eaves -= top * slope.slope, other.front += front;
+        if (on_slope(other, slope, judged, site)) return other;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+/// What the roof does from a place on the slope on: the rest of its profile. A slope that ends at no knot keeps its run
+/// and rise, which a kernel rounds to the same plane as beside the dormer.
+auto from_there(const Slope& slope, double inward) -> Profile {
+  const auto& of = slope.profile;
+  const auto &a = of[slope.part], &b = of[slope.part + 1];
+  const double height = slope.at(inward);
+  Profile out{{0, 0}, {0, height}};
+  if (slope.part + 2 == of.size()) {
+    out.push_back({b.inward - a.inward, height + b.height - a.height});
+    return out;
+  }
+  for (std::size_t i = slope.part + 1; i < of.size(); ++i)
+    if (of[i].inward > inward) out.push_back({of[i].inward - inward, of[i].height});
+  return out;
+}
+
 auto built(const Box& box, const Slope& slope, double base, double gain, const Options& options) -> Dormer {
-  // Error bound, m: the slope reaches the hole's back a millimetre before its wall ends, so that rounding does not
-  // decide which of the two goes on.
-  constexpr double before = 1e-3;
   const double back = box.back(slope);
   Dormer out;
   out.ring = slope.ring;
   out.edge = slope.edge;
   out.gain = gain;
-  out.back = pitched(slope.at(back) + before, slope.slope);
+  out.back = from_there(slope, back);
   out.plan.outer.points = {slope.place(box.left, box.front), slope.place(box.right, box.front),
                            slope.place(box.right, back), slope.place(box.left, back)};
   out.plan.base = base;
@@ -187,45 +267,73 @@ auto built(const Box& box, const Slope& slope, double base, double gain, const O
 }
 
 auto best_box(const std::vector<std::uint32_t>& island, const Slope& slope, const Judged& judged, const Site& site,
-              const Options& options) -> std::optional<Dormer> {
+              double above, Where where, const Options& options) -> std::optional<Dormer> {
   const auto& o = options.dormers;
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Box start{infinity, -infinity, infinity, 0, 0};
   double last = -infinity;
+  std::vector<double> heights;
   for (const auto cell : island) {
     const Point2 p = site.measured.centre(cell);
     start.left = std::min(start.left, slope.u_of(p)), start.right = std::max(start.right, slope.u_of(p));
     start.front = std::min(start.front, slope.v_of(p)), last = std::max(last, slope.v_of(p));
+    heights.push_back(site.measured.z[cell]);
   }
   if (start.width() > o.max_width || last - start.front > o.max_width) return std::nullopt;
   const double reach = 2 * options.samples.melt;
   std::vector<std::uint32_t> own(island);
   std::ranges::sort(own);
   std::vector<Sample> samples;
-  for (const auto cell : site.cells) {
+  for (std::size_t i = 0; i < site.cells.size(); ++i) {
+    const auto cell = site.cells[i];
     if (std::isnan(judged.view.z[cell]) || judged.view.face[cell] != slope.face) continue;
-    const bool other = site.measured.z[cell] - judged.view.z[cell] > o.min_rise / 2;  // of another dormer
+    if (site.weight[i] < 1) continue;                                        // a melted wall
+    const bool other = site.measured.z[cell] - judged.view.z[cell] > above;  // of another dormer
     if (other && !std::ranges::binary_search(own, cell)) continue;
     const Point2 p = site.measured.centre(cell);
     const Sample s{slope.u_of(p), slope.v_of(p), site.measured.z[cell]};
     if (s.u > start.left - reach && s.u < start.right + reach && s.v > start.front - reach && s.v < last + reach)
       samples.push_back(s);
   }
-  const double before = error_of(samples, slope, nullptr);
+  start.front -= site.measured.spacing;  // a scan's front leans back
+  start.eaves = base::percentile(std::move(heights), 0.8);
+  start.eaves = std::max(start.eaves, slope.at(start.front) + o.min_rise);
+  // Scans of the same grid are smoothed by unlike lengths.
+  double blur = 0, least_rough = infinity;
+  Box rough = start;
+  for (const double may_be : {site.measured.spacing / 2, blur_of(options)}) {
+    const Box box = fitted(start, samples, slope, may_be, options.samples.melt);
+    if (const double error = error_of(samples, slope, &box, may_be); error < least_rough)
+      rough = box, blur = may_be, least_rough = error;
+  }
+  // What stands out of both, a chimney beside it, belongs to neither, if it is little.
+  const Shown shown(rough, slope, blur);
+  std::vector<Sample> clean;
+  for (const auto& s : samples)
+    if (std::abs(s.z - slope.at(s.v) - shown(s.u, s.v)) < options.samples.melt) clean.push_back(s);
+  constexpr double most_of_it = 0.75;
+  if (static_cast<double>(clean.size()) >= most_of_it * static_cast<double>(samples.size())) samples = std::move(clean);
+  const double before = error_of(samples, slope, nullptr, blur);
+  start = rough;
   std::optional<Box> best;
   double least = infinity;
   for (const double pitch : {0.0, 0.7}) {  // level; a gable, whose pitch a scan of this size does not show
-    Box box = start;
+    Box box = best ? *best : start;
     box.pitch = pitch;
-    box = fitted(box, samples, slope, options.samples.melt);
-    const double error = error_of(samples, slope, &box);
+    if (best) box.eaves -= pitch * box.width() / 4;
+    box = fitted(box, samples, slope, blur, options.samples.melt / 2);
+    const double error = error_of(samples, slope, &box, blur);
     if (error < o.gable_gain * least) best = box, least = error;
   }
   const double gain = (before - least) * site.cell_area, rise = best->eaves - slope.at(best->front);
+  const auto placed = where == Where::anywhere ? best : moved_onto(*best, slope, judged, site, options.samples.melt);
   if (best->width() < o.min_width || rise < o.min_rise || rise > o.max_rise || least > o.max_rest * before ||
-      gain < o.price || !on_slope(*best, slope, judged, site))
+      gain < o.price || !placed || placed->width() < o.min_width / 2 ||
+      placed->eaves - slope.at(placed->front) < o.min_rise / 2)
     return std::nullopt;
-  return built(*best, slope, judged.plan.base, gain, options);
+  auto dormer = built(*placed, slope, judged.plan.base, gain, options);
+  dormer.rest = least * site.cell_area;
+  return dormer;
 }
 
 /// Whether a line along a side of the first leaves the other beyond it, and farther than `by`.
@@ -240,20 +348,53 @@ auto apart(const Dormer& a, const Dormer& b, double by) -> bool {
 
 }  // namespace
 
-auto dormers_on(const Judged& judged, const Site& site, const Options& options) -> std::vector<Dormer> {
+auto dormers_on(const Judged& judged, const Site& site, const Options& options, Where where) -> std::vector<Dormer> {
   const auto& o = options.dormers;
+  // A scan rounds off about half of the smallest.
+  const double least = o.min_width * o.min_width / 4;
   std::vector<Dormer> found;
   for (const auto& slope : slopes_of(judged, o))
-    for (const auto& island : islands(judged, site, slope, o)) {
-      if (static_cast<double>(island.size()) * site.cell_area < o.min_width * o.min_width / 2) continue;
-      if (auto dormer = best_box(island, slope, judged, site, options)) found.push_back(std::move(*dormer));
-    }
+    for (const double above : {o.min_rise / 2, o.min_rise})  // in a row of dormers a scan fills what is between them
+      for (const auto& island : islands(judged, site, slope, above)) {
+        if (static_cast<double>(island.size()) * site.cell_area < least) continue;
+        if (auto dormer = best_box(island, slope, judged, site, above, where, options))
+          found.push_back(std::move(*dormer));
+      }
   rank(found, [](const Dormer& dormer) { return -dormer.gain; });
   std::vector<Dormer> out;
   for (auto& dormer : found) {
     if (std::ranges::all_of(out, [&](const Dormer& other) { return apart(dormer, other, site.measured.spacing); }))
       out.push_back(std::move(dormer));
   }
+  return out;
+}
+
+auto straightened(const Judged& judged, const Site& site) -> std::optional<Plan> {
+  std::vector<double> last(judged.plan.profiles.size(), 0);
+  for (const auto cell : site.cells) {
+    if (std::isnan(judged.view.z[cell])) continue;
+    const auto& face = judged.sketch.faces[judged.view.face[cell]];
+    if (face.kind != model::FaceKind::side || !face.provenance || face.provenance->ring != 0) continue;
+    const auto& points = judged.plan.outer.points;
+    const auto edge = face.provenance->edge;
+    const Point2 along = geometry::normalised(points[(edge + 1) % points.size()] - points[edge]);
+    auto& farthest = last[judged.plan.outer.profile_of_edge[edge]];
+    farthest = std::max(farthest, dot(site.measured.centre(cell) - points[edge], geometry::left_of(along)));
+  }
+  Plan out = judged.plan;
+  bool any = false;
+  for (std::size_t p = 0; p < out.profiles.size(); ++p) {
+    const auto& profile = judged.plan.profiles[p];
+    if (profile.size() < 4 || profile[1].inward > 0 || last[p] <= profile[profile.size() - 2].inward) continue;
+    const auto &a = profile[profile.size() - 2], &b = profile.back();
+    if (b.inward <= a.inward) continue;
+    const double slope = (b.height - a.height) / (b.inward - a.inward);
+    const double top = a.height + slope * (last[p] - a.inward);
+    if (top <= profile[1].height) continue;
+    out.profiles[p] = {{0, 0}, profile[1], {last[p], top}};
+    any = true;
+  }
+  if (!any) return std::nullopt;
   return out;
 }
 

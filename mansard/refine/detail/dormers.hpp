@@ -1,6 +1,8 @@
 // Dormers: small boxes and gables that stand on a slope, each a part with a plan of its own.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "mansard/refine/detail/judge.hpp"
@@ -13,12 +15,23 @@ struct Dormer {
   model::Plan plan;
   std::uint32_t ring = 0, edge = 0;  ///< of the host's plan: the slope rises from it
   model::Profile back;               ///< what the slope does behind it, from the back edge of its hole
+  double rest = 0;                   ///< m²·m²; of the squared differences around it, what it leaves
   double gain = 0;                   ///< m²·m²; what it takes off the sum of squared differences
+};
+
+enum class Where : std::uint8_t {
+  whole,     ///< on the slope with all of the plan, so that it can be built
+  anywhere,  ///< the roof may still be another one
 };
 
 /// Dormers on the slopes of a roof, those that explain most first; none near to another. Cost: O(cells) and some
 /// hundred passes over the samples around each.
-[[nodiscard]] auto dormers_on(const Judged& judged, const Site& site, const Options& options) -> std::vector<Dormer>;
+[[nodiscard]] auto dormers_on(const Judged& judged, const Site& site, const Options& options,
+                              Where where = Where::whole) -> std::vector<Dormer>;
+
+/// The roof with one slope from eaves to ridge where it has several, a row of dormers looks like a mansard from afar.
+/// None where it has no such slopes.
+[[nodiscard]] auto straightened(const Judged& judged, const Site& site) -> std::optional<model::Plan>;
 
 /// The host's plan with a hole for the dormer.
 [[nodiscard]] auto with_hole(const model::Plan& host, const Dormer& dormer) -> model::Plan;

@@ -228,19 +228,45 @@ auto Work::tried(const Piece& piece, const Proposal& proposal, double worth) con
   return out;
 }
 
+/// The roof was fitted to what stands on it, too: looked for again without that.
+void Work::without_dormers_of(Piece& piece, Judged& roof) const {
+  if (const auto plan = straightened(roof, piece.site))
+    if (const auto plain = Judge(piece.site, options_, raising_, run_)(*plan)) {
+      const auto dormers = dormers_on(*plain, piece.site, options_, Where::anywhere);
+      double cost = options_.face_price * static_cast<double>(dormers.size());
+      for (const auto& dormer : dormers) cost += dormer.rest;
+      Site without = detail::without_dormers(piece.site, dormers, options_.samples.melt, options_);
+      if (!dormers.empty() && !without.cells.empty())
+        if (auto moved = Judge(without, options_, raising_, run_)(refitted(*plain, without, options_));
+            moved && cheaper(moved->cost + cost, roof.cost)) {
+          roof = std::move(*moved);
+          piece.whole = std::move(piece.site);
+          piece.site = std::move(without);
+        }
+    }
+  constexpr int rounds = 2;  // a better roof shows more of them
+  for (int round = 0; round < rounds; ++round) {
+    const Site& all = piece.whole ? *piece.whole : piece.site;
+    const auto dormers = dormers_on(roof, all, options_, Where::anywhere);
+    if (dormers.empty()) return;
+    Site without = detail::without_dormers(piece.site, dormers, options_.samples.melt, options_);
+    if (without.cells.empty()) return;
+    auto moved = Judge(without, options_, raising_, run_)(refitted(roof, without, options_));
+    auto again = roofed(piece.draft_index, without, piece.draft);
+    if (moved) roof = std::move(*moved);
+    if (again && (!moved || cheaper(again->roof.cost, roof.cost))) roof = std::move(again->roof);
+    if (!piece.whole) piece.whole = std::move(piece.site);
+    piece.site = std::move(without);
+  }
+}
+
 auto Work::finished(Piece piece) const -> Piece {
   const bool keep = options_.effort == Effort::caps || piece.site.cells.empty() ||
                     piece.roof.wrong() < options_.face_price || run_.cancelled();
   if (keep) return piece;
   auto roof = piece.roof;
   if (options_.effort == Effort::parts && options_.dormers.price > 0 && roof.misfit >= options_.dormers.price)
-    if (const auto dormers = dormers_on(roof, piece.site, options_); !dormers.empty()) {
-      // The planes were moved towards what stands on them.
-      Site without = without_dormers(piece.site, dormers, options_.samples.melt, options_);
-      piece.whole = std::exchange(piece.site, std::move(without));
-      const Judge judge(piece.site, options_, raising_, run_);
-      if (auto moved = judge(refitted(roof, piece.site, options_))) roof = std::move(*moved);
-    }
+    without_dormers_of(piece, roof);
   auto sharp = sharpened(std::move(roof), Judge(piece.site, options_, raising_, run_));
   if (sharp.plan == piece.roof.plan) return piece;
   auto raised = extrude::raise(sharp.plan, raising_, run_);

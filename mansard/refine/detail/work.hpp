@@ -79,6 +79,7 @@ class Work {
   [[nodiscard]] auto cancelled() const -> bool { return run_.cancelled(); }
 
  private:
+  void without_dormers_of(Piece& piece, Judged& roof) const;
   [[nodiscard]] auto with_ceilings(Site site) const -> Site;
   [[nodiscard]] auto both_of(const Piece& a, const Piece& b, const geometry::Polygon& both) const -> Site;
   [[nodiscard]] auto cut_within(const Piece& piece, double least_gain, double worth) const -> std::vector<Piece>;
