@@ -133,12 +133,25 @@ auto add_copy(const Request& request, const Known& known, std::vector<std::pair<
   return {};
 }
 
+/// Whether a part stands on another one, as dormers do: the union of both would not show it.
+auto stands_on_another(const model::City& city) -> bool {
+  return std::ranges::any_of(city.buildings, [](const model::Building& building) {
+    return std::ranges::any_of(building.parts, [](const model::Part& part) {
+      return std::ranges::any_of(part.attributes, [](const auto& attribute) {
+        const auto* role = std::get_if<std::string>(&attribute.second);
+        return attribute.first == "ms_role" && role && (*role == "dormer" || *role == "plant room");
+      });
+    });
+  });
+}
+
 /// The truth as models and plans.
 auto add_models(const model::City& city, std::vector<std::pair<std::string, std::string>>& files)
     -> base::Result<void> {
-  auto cityjson = formats::cityjson(city);
+  const auto solids = stands_on_another(city) ? formats::Solids::part : formats::Solids::building;
+  auto cityjson = formats::cityjson(city, solids);
   if (!cityjson) return cityjson.failure();
-  auto obj = formats::obj(city, "truth.mtl");
+  auto obj = formats::obj(city, "truth.mtl", solids);
   if (!obj) return obj.failure();
   files.emplace_back("truth.city.json", std::move(*cityjson));
   files.emplace_back("truth.obj", std::move(obj->obj));

@@ -37,6 +37,18 @@ TEST_F(Simulate, makes_a_terrace_that_is_reconstructed_building_by_building) {
   }
 }
 
+TEST_F(Simulate, writes_dormers_as_solids_of_their_own_because_a_union_does_not_show_them) {
+  ASSERT_EQ(simulate("--block terrace --simulate-size 30 --simulate-dormers 1 --resolution 0.6").exit, 0);
+  const auto truth = json::parse(read(at("block/truth.city.json")));
+  std::size_t dormers = 0;
+  for (const auto& [id, object] : truth["CityObjects"].items())
+    if (object.contains("attributes") && object["attributes"].value("ms_role", "") == "dormer") {
+      ++dormers;
+      EXPECT_TRUE(object.contains("geometry") && !object["geometry"].empty()) << id;
+    }
+  EXPECT_GT(dormers, 0U);
+}
+
 TEST_F(Simulate, scans_its_own_plans_and_finds_the_same_truth_again) {
   ASSERT_EQ(simulate("--block detached --simulate-size 40 --resolution 0.6").exit, 0);
   ASSERT_EQ(simulate(at("block/plans.json") + " --resolution 0.6", "again").exit, 0);
