@@ -15,7 +15,8 @@ void TerrainOut::add_to(CLI::App& verb) {
   verb.add_option("--terrain-out", files,
                   "Also write the terrain around the models, joined to them, to these files (" +
                       formats::terrain_extensions() + "); STL is one closed surface of terrain and models")
-      ->type_name("FILE...");
+      ->type_name("FILE")
+      ->allow_extra_args(false);
 }
 
 auto TerrainOut::targets() const -> base::Result<std::vector<Target>> {
