@@ -37,7 +37,7 @@ auto codes() -> std::vector<base::Code> {
        "Use a terrain model that covers the buildings and terrain.margin around them, or lower terrain.margin.", 0},
       {"terrain-overlap",
        "The ground of a building overlaps that of another one, so that the terrain does not meet it.",
-       "Repair the footprints; the building stands on the terrain of the others.", 0},
+       "Repair the footprints; the building is above the terrain that the others have.", 0},
       {"terrain-extent", "The terrain would be wider than 53 km.", "Run smaller areas with --bbox.", 4},
       {"terrain-join", "The terrain does not have the outlines of all buildings as edges.",
        "This is a bug; please report it with the data.", 70},

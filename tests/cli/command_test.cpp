@@ -430,16 +430,16 @@ TEST_F(Command, refuses_a_folder_that_is_named_as_a_file) {
 }
 
 TEST_F(Command, gives_one_line_when_memory_runs_out) {
-  // A mesh as large as it says (a sparse file), and a process that may not have that much memory.
+  // A mesh as large as it says (a sparse file) that is read whole, and a process that may not have that much memory.
   const std::string header =
       "ply\nformat binary_little_endian 1.0\nelement vertex 60000000\nproperty float x\nproperty float y\n"
       "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
   const auto mesh = put("huge.ply", header);
   fs::resize_file(mesh, header.size() + 60000000ULL * 12 + 13);
-  const int status =
-      std::system(("bash -c 'ulimit -v 700000; exec " + std::string(MANSARD_BINARY) + " reconstruct -q -j 1 " + mesh +
-                   " " + at("house.geojson") + " -o " + at("out") + "' 2>" + at("stderr"))
-                      .c_str());
+  const int status = std::system(("bash -c 'ulimit -v 700000; exec " + std::string(MANSARD_BINARY) +
+                                  " reconstruct -q -j 1 --ingest-cells-from 1000000 " + mesh + " " +
+                                  at("house.geojson") + " -o " + at("out") + "' 2>" + at("stderr"))
+                                     .c_str());
   ASSERT_TRUE(WIFEXITED(status));
   expect_refusal({WEXITSTATUS(status), "", read(at("stderr"))}, 3, "ingest-memory", "huge.ply");
 }

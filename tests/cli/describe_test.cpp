@@ -90,6 +90,7 @@ TEST_F(Describe, zsh_and_fish_take_their_scripts) {
   for (const auto* name : {"zsh", "fish"}) {
     const auto script = completion_for(name);
     EXPECT_THAT(read(script), HasSubstr("sweep-gamma")) << name;
+    EXPECT_LT(fs::file_size(script), 1'000'000U) << name << " repeats what options without a maximum of values take";
     if (!has(name)) continue;
     const auto checked = shell(std::string(name) + " -n " + script);
     EXPECT_EQ(checked.exit, 0) << checked.err;

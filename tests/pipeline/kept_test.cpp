@@ -5,6 +5,7 @@
 
 #include "base/scratch.hpp"
 #include "mansard/base/files.hpp"
+#include "mansard/base/unfinished.hpp"
 #include "mansard/formats/documents.hpp"
 #include "mansard/formats/plans.hpp"
 #include "mansard/pipeline/city.hpp"
@@ -160,7 +161,7 @@ TEST(Kept, makes_again_what_is_damaged) {
 TEST(Kept, sweeps_half_written_files_where_it_works_alone) {
   const test::Scratch folder;
   (void)made(city(), opened(folder).get());
-  const auto left = kept_files(folder).front().string() + ".part4711";
+  const auto left = base::beside(kept_files(folder).front(), base::Beside::part);
   ASSERT_TRUE(base::write_file(left, "half"));
   EXPECT_TRUE(KeptBlocks::open(folder, false));
   EXPECT_TRUE(fs::exists(left));
