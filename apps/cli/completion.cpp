@@ -118,7 +118,8 @@ auto zsh_action(const Term& term) -> std::string {
   return "";
 }
 
-/// CLI11 gives a vector without a maximum 2^29 values; no option with one has as many as this.
+/// From here on an option is one that is given several times: CLI11 says 2^29 of a vector without a maximum, and
+/// the outputs of `convert` may be 1,000.
 constexpr std::size_t repeated_values = 1000;
 
 auto zsh(const std::vector<Form>& forms) -> std::string {
