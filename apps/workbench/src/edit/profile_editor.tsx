@@ -498,7 +498,7 @@ export function ProfileEditor() {
           </dt>
           <dd>{changed(rootMetres, drafted ? state.selectedBuilding.value?.mse : undefined, shownBuilding?.mse)}</dd>
         </div>
-        <div class="said">{words.value}</div>
+        <div class="edit-said">{words.value}</div>
       </dl>
     </div>
   );

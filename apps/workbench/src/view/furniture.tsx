@@ -22,7 +22,7 @@ export function Furniture() {
           <path d="M0-10 5 8 0 4.5-5 8Z" class="needle" />
         </g>
       </svg>
-      <div class="scale" role="img" aria-label={`Scale bar: ${name(metres)} at the centre of the view`}>
+      <div class="scale-bar" role="img" aria-label={`Scale bar: ${name(metres)} at the centre of the view`}>
         <span>{name(metres)}</span>
         <i style={{ width: `${pixels}px` }} />
       </div>

@@ -243,13 +243,13 @@ export function View() {
       {failure.value && <p class="view-failure">{failure.value}</p>}
       <Toolbar />
       {state.layersOpen.value && <LayersPopover />}
-      <div class="corner">
+      <div class="view-corner">
         <Legend />
         <Furniture />
       </div>
       <Sides />
       <Divider />
-      <div class="corner-left">
+      <div class="view-corner-left">
         <MeasureBox />
         <Under />
         <Coordinates />
