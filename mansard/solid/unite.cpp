@@ -5,8 +5,10 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 
 #include "mansard/base/disjoint_sets.hpp"
 #include "mansard/base/run.hpp"
@@ -17,6 +19,7 @@ namespace mansard::solid {
 namespace {
 
 using detail::Reach;
+using detail::Shared;
 using model::LabelledSolid;
 using One = United::One;
 
@@ -24,11 +27,15 @@ using One = United::One;
 /// between points that near, 5 mm and 2 cm help.
 constexpr std::array reaches{Reach{.corners = false}, Reach{}, Reach{50}, Reach{200}, Reach{.prisms = true}};
 
-/// What is left of a part, closed; none where no valid solid can be made of it.
-auto closed(const LabelledSolid& shape) -> std::optional<LabelledSolid> {
+/// What is left of a part, closed.
+struct Closed {
+  std::optional<LabelledSolid> solid;  ///< none where no valid solid can be made of it
+  bool simplified = false;
+};
+auto closed(const LabelledSolid& shape) -> Closed {
   const std::array<const LabelledSolid*, 1> alone{&shape};
   const auto made = detail::united_by(alone, Reach{});
-  if (made.solids.empty() || !made.warnings.empty()) return std::nullopt;
+  if (made.solids.empty()) return {};
   LabelledSolid out;
   for (const One& one : made.solids) {
     const auto first = static_cast<std::uint32_t>(out.solid.vertices.size());
@@ -41,7 +48,7 @@ auto closed(const LabelledSolid& shape) -> std::optional<LabelledSolid> {
     }
     out.classes.insert(out.classes.end(), one.model.classes.begin(), one.model.classes.end());
   }
-  return out;
+  return {std::move(out), !made.warnings.empty()};
 }
 
 /// The parts of buildings that are united together, as they are given or without what they share.
@@ -49,7 +56,12 @@ class Parts {
  public:
   /// `families`: buildings, by number, no two solids of which may share ground.
   Parts(std::vector<std::vector<const LabelledSolid*>> buildings, std::vector<std::vector<std::uint32_t>> families)
-      : of_(std::move(buildings)), families_(std::move(families)), numbers_(of_.size()), warnings_(of_.size()) {
+      : given_(buildings),
+        of_(std::move(buildings)),
+        families_(std::move(families)),
+        numbers_(of_.size()),
+        covered_(of_.size()),
+        warnings_(of_.size()) {
     for (std::size_t b = 0; b < of_.size(); ++b)
       for (std::size_t p = 0; p < of_[b].size(); ++p) numbers_[b].push_back(p);
   }
@@ -69,10 +81,10 @@ class Parts {
   }
 
   /// Takes what parts share off one of them, in the families whose solids do. Whether anything changed.
-  auto part(const std::vector<United>& made) -> bool {
+  auto part(const std::vector<United>& made, Shared shared) -> bool {
     bool any = false;
     for (const auto& family : families_)
-      if (overlap(family, made)) any = part(family) || any;
+      if (overlap(family, made)) any = part(family, shared) || any;
     return any;
   }
 
@@ -86,28 +98,68 @@ class Parts {
       }
       std::ranges::for_each(made[b].simplified, number);
       made[b].warnings.insert(made[b].warnings.begin(), warnings_[b].begin(), warnings_[b].end());
+      tell_of_lost(b, made[b]);
     }
   }
 
  private:
-  auto part(const std::vector<std::uint32_t>& family) -> bool {
+  /// Whatever went wrong above, a part is not missing without a word.
+  void tell_of_lost(std::size_t b, United& made) const {
+    if (std::ranges::any_of(made.warnings, [](const auto& warning) { return warning.code == "solid-left-out"; }))
+      return;
+    std::set<std::size_t> in;
+    for (const One& one : made.solids) in.insert(one.of.begin(), one.of.end());
+    for (std::size_t p = 0; p < given_[b].size(); ++p)
+      if (!in.contains(p) && !covered_[b].contains(p) && detail::wider_than_points(*given_[b][p], reaches[3].near)) {
+        made.warnings.push_back(base::warning("solid-left-out", "a part of it is in none of its solids"));
+        return;
+      }
+  }
+
+  /// The parts of a family without what they share. A part of which no valid solid is left keeps its ground, and the
+  /// others are cut back from it: not a part is lost for a strip that it shares with another one.
+  using Flat = std::vector<bool>;
+  static auto parted_and_closed(std::span<const LabelledSolid* const> all, Shared shared)
+      -> std::pair<detail::Parted, Flat> {
+    std::vector<bool> firm(all.size(), false);
+    while (true) {
+      auto parted = detail::parted(all, firm, shared);
+      Flat flat(all.size(), false);
+      bool again = false;
+      for (std::size_t p = 0; p < all.size(); ++p) {
+        if (!parted.changed[p] && !parted.failed[p]) continue;
+        Closed rest;
+        if (parted.changed[p]) rest = closed(*parted.changed[p]);
+        if ((!rest.solid || rest.simplified) && !firm[p]) {
+          again = firm[p] = true;
+          continue;
+        }
+        parted.changed[p] = std::move(rest.solid);  // without one it stays as it is, and shares ground still
+        flat[p] = rest.simplified;
+      }
+      if (!again) return {std::move(parted), std::move(flat)};
+    }
+  }
+
+  auto part(const std::vector<std::uint32_t>& family, Shared shared) -> bool {
     std::vector<const LabelledSolid*> all;
     for (const auto b : family) all.insert(all.end(), of_[b].begin(), of_[b].end());
-    auto parted = detail::parted(all);
+    auto [parted, flat] = parted_and_closed(all, shared);
     if (!parted.any) return false;
-    for (std::size_t p = 0; p < all.size(); ++p) {
-      if (!parted.changed[p]) continue;
-      parted.changed[p] = closed(*parted.changed[p]);
-      parted.gone[p] = !parted.changed[p];
-    }
     std::size_t next = 0;
     for (const auto b : family) {
       std::vector<const LabelledSolid*> left;
       std::vector<std::size_t> numbers;
       bool changed = false;
       for (std::size_t p = 0; p < of_[b].size(); ++p, ++next) {
-        changed = changed || parted.gone[next] || parted.changed[next];
-        if (parted.gone[next]) continue;
+        changed = changed || parted.covered[next] || parted.changed[next];
+        if (parted.covered[next]) {
+          covered_[b].insert(numbers_[b][p]);
+          continue;
+        }
+        if (flat[next])
+          warnings_[b].push_back(base::warning(
+              "solid-simplified", "a part that shares ground with another one became a flat-roofed prism beside it"));
         if (parted.changed[next]) owned_.push_back(std::move(*parted.changed[next]));
         left.push_back(parted.changed[next] ? &owned_.back() : of_[b][p]);
         numbers.push_back(numbers_[b][p]);
@@ -121,9 +173,10 @@ class Parts {
     return true;
   }
 
-  std::vector<std::vector<const LabelledSolid*>> of_;
+  std::vector<std::vector<const LabelledSolid*>> given_, of_;
   std::vector<std::vector<std::uint32_t>> families_;
-  std::vector<std::vector<std::size_t>> numbers_;
+  std::vector<std::vector<std::size_t>> numbers_;  ///< of each part of of_, its place in given_
+  std::vector<std::set<std::size_t>> covered_;     ///< of given_: by other parts, wholly
   std::vector<std::vector<base::Diagnostic>> warnings_;
   std::deque<LabelledSolid> owned_;
 };
@@ -132,7 +185,7 @@ class Parts {
 /// else flat.
 auto cut_back(const LabelledSolid& solid, std::span<const LabelledSolid* const> others) -> std::vector<One> {
   constexpr double gap = 2 * model::least_apart;
-  const auto rest = detail::without(solid, others, gap);
+  const auto rest = detail::without(solid, others, gap).solid;
   if (!rest) return {};
   const LabelledSolid flat = prism_over_ground(*rest, detail::roof_middle(*rest));
   for (const LabelledSolid* shape : {&*rest, &flat})
@@ -196,40 +249,47 @@ void let_give_way(const std::vector<std::uint32_t>& family, std::vector<United>&
 
 /// The first result without a warning, over plans in which ever more becomes one; else that with the fewest loose
 /// solids, of those the one with the fewest parts simplified or left out, then with the fewest solids, then with the
-/// fewest warnings. Where solids of a building share ground, its parts are parted before more becomes one.
+/// fewest warnings. Where solids of a building share ground, its parts are parted before more becomes one: first where
+/// they share more than rounding, and again, exactly, where no plan helps.
 template <class Make>
 auto best(Parts& parts, const Make& make) -> std::vector<United> {
-  std::optional<std::vector<United>> chosen;
-  std::array<std::size_t, 4> least{};
-  bool parted = false;
-  for (std::size_t r = 0; r < reaches.size(); ++r) {
-    const Reach& reach = reaches[r];
-    if (reach.prisms && least[0] == 0) break;
-    std::vector<United> made = make(parts, reach);
-    std::array<std::size_t, 4> lacking{};
-    bool as_asked = std::ranges::none_of(parts.families(), [&](auto& family) { return Parts::overlap(family, made); });
-    for (const United& one : made) {
-      for (const auto& warning : one.warnings) lacking[1] += warning.code == "solid-not-united" ? 0 : 1;
-      as_asked = as_asked && one.warnings.empty() && one.loose == 0;
-      lacking[0] += one.loose;
-      lacking[2] += one.solids.size();
-      lacking[3] += one.warnings.size();
-    }
-    if (!as_asked && reach.corners && !parted) {
-      parted = true;
-      if (parts.part(made)) {
-        chosen.reset();
+  std::vector<United> chosen;
+  const auto overlapping = [&](const std::vector<United>& made) {
+    return std::ranges::any_of(parts.families(), [&](auto& family) { return Parts::overlap(family, made); });
+  };
+  /// Whether one was as asked. `to_part`: what to part by where one is not.
+  const auto over_all_reaches = [&](std::optional<Shared> to_part) {
+    std::array<std::size_t, 4> least{};
+    bool any = false;
+    for (std::size_t r = 0; r < reaches.size(); ++r) {
+      const Reach& reach = reaches[r];
+      if (reach.prisms && least[0] == 0) break;
+      std::vector<United> made = make(parts, reach);
+      std::array<std::size_t, 4> lacking{};
+      bool as_asked = !overlapping(made);
+      for (const United& one : made) {
+        for (const auto& warning : one.warnings) lacking[1] += warning.code == "solid-not-united" ? 0 : 1;
+        as_asked = as_asked && one.warnings.empty() && one.loose == 0;
+        lacking[0] += one.loose;
+        lacking[2] += one.solids.size();
+        lacking[3] += one.warnings.size();
+      }
+      if (!as_asked && reach.corners && to_part && parts.part(made, *std::exchange(to_part, std::nullopt))) {
+        any = false;
         r = static_cast<std::size_t>(-1);
         continue;
       }
+      if (!any || lacking < least) chosen = std::move(made), least = lacking, any = true;
+      if (as_asked) return true;
     }
-    if (!chosen || lacking < least) chosen = std::move(made), least = lacking;
-    if (as_asked) break;
-  }
+    return false;
+  };
+  if (!over_all_reaches(Shared::wide) && overlapping(chosen) && parts.part(chosen, Shared::any))
+    over_all_reaches(std::nullopt);
   for (const auto& family : parts.families())
-    if (Parts::overlap(family, *chosen)) let_give_way(family, *chosen);
-  parts.finish(*chosen);
-  return std::move(*chosen);
+    if (Parts::overlap(family, chosen)) let_give_way(family, chosen);
+  parts.finish(chosen);
+  return chosen;
 }
 
 auto united_alone(std::span<const LabelledSolid* const> building) -> United {

@@ -97,6 +97,21 @@ auto taken_off(std::vector<Polygon> from, const Polygon& other) -> std::optional
   return out;
 }
 
+/// Whether what solids share is wider than what becomes one point, or that cannot be computed.
+auto share_wide(const LabelledSolid& a, const LabelledSolid& b) -> bool {
+  for (const Polygon& p : ground_of(a))
+    for (const Polygon& q : ground_of(b)) {
+      if (!geometry::bounds(p.outer).overlaps(geometry::bounds(q.outer))) continue;
+      const auto shared = geometry::intersect(p, q);
+      if (!shared) return true;
+      for (const Polygon& one : *shared) {
+        const auto core = geometry::buffer(one, -0.5 * model::least_apart);
+        if (!core || !core->empty()) return true;
+      }
+    }
+  return false;
+}
+
 /// One face of a solid over a polygon: heights on its edges are those between their ends, so that faces beside each
 /// other have the same.
 class Heights {
@@ -240,12 +255,18 @@ auto share_ground(const LabelledSolid& a, const LabelledSolid& b) -> bool {
   return meet(ground_a, ground_b) || meet(overhang_of(a), ground_b) || meet(ground_a, overhang_of(b));
 }
 
+auto wider_than_points(const LabelledSolid& solid, double near) -> bool {
+  return std::ranges::any_of(ground_of(solid), [&](const Polygon& ground) {
+    const auto core = geometry::buffer(ground, -near);
+    return !core || !core->empty();
+  });
+}
+
 auto clipped(const LabelledSolid& solid, std::span<const Polygon> over) -> std::optional<LabelledSolid> {
   return Clipping(solid, over).run();
 }
 
-auto without(const LabelledSolid& solid, std::span<const LabelledSolid* const> others, double gap)
-    -> std::optional<LabelledSolid> {
+auto without(const LabelledSolid& solid, std::span<const LabelledSolid* const> others, double gap) -> Rest {
   std::vector<Polygon> rest = ground_of(solid);
   for (const LabelledSolid* other : others) {
     if (!at_common_height(solid, *other)) continue;
@@ -253,35 +274,42 @@ auto without(const LabelledSolid& solid, std::span<const LabelledSolid* const> o
       std::vector<Polygon> wide{ground};
       if (gap > 0) {
         auto grown = geometry::buffer(ground, gap);
-        if (!grown) return std::nullopt;
+        if (!grown) return {{}, true};
         wide = std::move(*grown);
       }
       for (const Polygon& one : wide) {
         auto left = taken_off(std::move(rest), one);
-        if (!left) return std::nullopt;
+        if (!left) return {{}, true};
         rest = std::move(*left);
       }
     }
   }
-  return clipped(solid, rest);
+  if (rest.empty()) return {};
+  auto out = clipped(solid, rest);
+  const bool failed = !out;
+  return {std::move(out), failed};
 }
 
-auto parted(std::span<const LabelledSolid* const> solids) -> Parted {
-  Parted out{std::vector<std::optional<LabelledSolid>>(solids.size()), std::vector<bool>(solids.size(), false)};
-  // The higher one keeps what two share, as the height of a union is the greater of both.
-  std::vector<std::size_t> order(solids.size());
+auto parted(std::span<const LabelledSolid* const> solids, const std::vector<bool>& firm, Shared shared) -> Parted {
+  const std::size_t count = solids.size();
+  Parted out{std::vector<std::optional<LabelledSolid>>(count), std::vector<bool>(count), std::vector<bool>(count)};
+  std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, std::greater(), [&](std::size_t i) { return heights_of(*solids[i]).high; });
+  std::ranges::stable_sort(order, std::greater(),
+                           [&](std::size_t i) { return std::pair(bool{firm[i]}, heights_of(*solids[i]).high); });
   std::vector<std::size_t> before;
   for (const std::size_t i : order) {
     if (has_eaves(*solids[i])) continue;
     std::vector<const LabelledSolid*> in_its_way;
     for (const std::size_t k : before)
-      if (share_ground(*solids[k], *solids[i])) in_its_way.push_back(solids[k]);
+      if (share_ground(*solids[k], *solids[i]) && (shared == Shared::any || share_wide(*solids[k], *solids[i])))
+        in_its_way.push_back(solids[k]);
     before.push_back(i);
     if (in_its_way.empty()) continue;
-    out.changed[i] = without(*solids[i], in_its_way, 0);
-    out.gone[i] = !out.changed[i];
+    auto rest = without(*solids[i], in_its_way, 0);
+    out.changed[i] = std::move(rest.solid);
+    out.failed[i] = rest.failed;
+    out.covered[i] = !out.changed[i] && !rest.failed;
     out.any = true;
   }
   return out;

@@ -15,23 +15,36 @@ namespace mansard::solid::detail {
 /// that they intersect then. Where that cannot be computed they do. Solids with overhanging eaves are not compared.
 [[nodiscard]] auto share_ground(const model::LabelledSolid& a, const model::LabelledSolid& b) -> bool;
 
+/// Whether there is ground wider than two points that become one, `near` units apart.
+[[nodiscard]] auto wider_than_points(const model::LabelledSolid& solid, double near) -> bool;
+
 /// Roof and ground of a solid over a part of its plan, and those of its walls that bound it still: not closed, but all
 /// that a union needs. `over` in whole units of files. None where nothing is left.
 [[nodiscard]] auto clipped(const model::LabelledSolid& solid, std::span<const geometry::Polygon> over)
     -> std::optional<model::LabelledSolid>;
 
-/// What clipped() leaves of a solid when the ground of others is taken off, and of what is `gap` units around it.
-/// None where nothing is left, or it cannot be computed.
-[[nodiscard]] auto without(const model::LabelledSolid& solid, std::span<const model::LabelledSolid* const> others,
-                           double gap) -> std::optional<model::LabelledSolid>;
+/// What is left of a solid, and why it is nothing: because others cover it, or because it cannot be computed.
+struct Rest {
+  std::optional<model::LabelledSolid> solid;
+  bool failed = false;
+};
 
-/// Solids that share ground with higher ones, without it: of each, its new shape, and whether it has one. The others
-/// stay as they are.
+/// What clipped() leaves of a solid when the ground of others is taken off, and of what is `gap` units around it.
+[[nodiscard]] auto without(const model::LabelledSolid& solid, std::span<const model::LabelledSolid* const> others,
+                           double gap) -> Rest;
+
+/// Solids that share ground with others, without it: of each, its new shape where it has one, and whether others cover
+/// it. The rest stay as they are. The higher of two keeps what they share, as the height of a union is the greater of
+/// both; but those that are `firm` keep theirs before all others.
 struct Parted {
   std::vector<std::optional<model::LabelledSolid>> changed;
-  std::vector<bool> gone;
+  std::vector<bool> covered;
+  std::vector<bool> failed;  ///< it shares ground still: taking that off cannot be computed
   bool any = false;
 };
-[[nodiscard]] auto parted(std::span<const model::LabelledSolid* const> solids) -> Parted;
+/// `Shared::wide` leaves what is as narrow as what becomes one point: the rounding of walls that two have in common.
+enum class Shared { any, wide };
+[[nodiscard]] auto parted(std::span<const model::LabelledSolid* const> solids, const std::vector<bool>& firm,
+                          Shared shared) -> Parted;
 
 }  // namespace mansard::solid::detail
