@@ -153,7 +153,7 @@ struct Options {
   /// What may become a part of its own (propose).
   struct Cuts {
     double min_step = 0.5;   ///< m
-    double min_width = 1.2;  ///< m
+    double min_width = 0.8;  ///< m
     std::int64_t max_count = 6;
     double crisp_rms = 0.15;   ///< m
     double smooth_rms = 0.35;  ///< m
