@@ -3,8 +3,8 @@
 # table. How each number is measured: docs/evaluate.md, "Targets".
 # usage: tools/targets.sh DATA OUT [real|simulated|all] [mansard reconstruct options…]
 # DATA is the folder with mvs_buildings, delft, zhongshan and sim_rotterdam. Simulated scans are kept in OUT/scans and
-# used again; JOBS=n is the number of threads, SEEDS="4 6 8" the seeds of the blocks: by default those of which the
-# program was tuned on some; even ones are for scoring only. Ends with 0 whether or not targets are reached.
+# used again; JOBS=n is the number of threads, SEEDS the seeds of the blocks: by default 1 3 5, of the odd ones that the
+# program is tuned on. SEEDS="4 6 8" are for scoring, once, when the work is done. Ends with 0 whether or not targets are reached.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 data=$1 out=$2 group=${3:-all}

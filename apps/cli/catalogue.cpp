@@ -9,7 +9,7 @@ namespace {
 const char* const make = "Make building models";
 const char* const city = "Run a whole city";
 const char* const inspect = "Inspect and measure";
-const char* const edit = "View and edit";
+const char* const edit = "Projects";
 const char* const experiment = "Test data and experiments";
 const char* const look_up = "Reference";
 
@@ -101,6 +101,13 @@ auto catalogue() -> const std::vector<VerbEntry>& {
        {"--output", "--truth-mesh", "--truth", "--lod", "--reach", "--ground-height", "--crs", "--mesh-offset", "--up",
         "--config", "--overwrite", "--jobs", "--quiet"},
        {"mansard label mesh.ply out/model.city.json -o labelled.ply"}},
+      {"new",
+       edit,
+       "Make a project of meshes and footprints: find them, check them, and print the commands to run",
+       {"mansard new PROJECT MESH... FOOTPRINTS [options]", "mansard new PROJECT FOLDER [options]"},
+       {"ingest"},
+       {"--no-check", "--crs", "--mesh-offset", "--up", "--layer", "--where", "--config", "--jobs", "--quiet"},
+       {"mansard new my-street data/delft/mesh.ply data/delft/footprints.geojson", "mansard new my-city scans/"}},
       {"serve",
        edit,
        "View meshes and models in a browser, and edit the models",

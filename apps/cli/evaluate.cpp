@@ -7,6 +7,7 @@
 #include "apps/cli/formats.hpp"
 #include "apps/cli/output.hpp"
 #include "apps/cli/scan.hpp"
+#include "apps/cli/shell_word.hpp"
 #include "apps/cli/verbs.hpp"
 #include "mansard/formats/scan.hpp"
 #include "mansard/picture/picture.hpp"
@@ -68,6 +69,11 @@ auto write_all(const Request& request, const report::Evaluation& result, const r
 
 auto evaluate(const Request& request, const base::Cancel& cancel) -> int {
   if (request.inputs.size() < 2) return give_up(base::error("usage", "expected a model, then one or more meshes"));
+  if (auto order =
+          check_model_place(request.inputs.front(), request.inputs.back(),
+                            "mansard evaluate " + quoted(request.inputs.back()) + " " + quoted(request.inputs.front()));
+      !order)
+    return give_up(order.errors());
   pipeline::Options options;
   if (auto applied = request.settings.apply(options); !applied) return give_up(applied.errors());
   if (auto ready = check_outputs(request); !ready) return give_up(ready.errors());

@@ -39,6 +39,12 @@ auto codes() -> std::vector<base::Code> {
        input_unreadable},
       {"status-none", "No run of 'mansard reconstruct' has worked in this folder, or it kept nothing.",
        "Give the folder that was its -o.", usage},
+      {"new-inputs",
+       "Among the files that were given to 'mansard new', a mesh and the footprints were not found, or not "
+       "without doubt.",
+       "Name the meshes and the one file with the footprints.", usage},
+      {"new-match", "Mesh and footprints do not match, and no CRS or offset was found with which they do.",
+       "Compare their extents with 'mansard info'. Give --crs or --mesh-offset, or --no-check.", input_unreadable},
       {"config", "The configuration file is not valid TOML, or a value in it has the wrong type.",
        "Options are keys in one table for each module: [sweep] gamma = 10.", option_invalid},
       {"code-unknown", "The diagnostic code is unknown.", "'mansard explain' lists all codes.", usage},

@@ -105,6 +105,7 @@ auto datasets_of(const Request& request) -> base::Result<std::vector<explore::Da
   }
   if (inputs.size() < 2)
     return base::error("usage", "expected one or more meshes, then the footprints; or --datasets LIST");
+  if (auto order = check_order(request.scan); !order) return order.failure();
   const fs::path footprints = inputs.back();
   auto name = fs::absolute(footprints).parent_path().filename().string();
   if (name.empty()) name = footprints.stem().string();
@@ -213,6 +214,7 @@ auto explore_verb(CLI::App& app, std::vector<std::string> words, const base::Can
   names += std::string(", ") + sensitivity;
   verb->add_option("EXPERIMENT", request->experiment, "The experiment: " + names)->required()->type_name("");
   add_to(*verb, request->scan, false);
+  request->scan.words = words;
   verb->remove_option(verb->get_option("--report"));  // the report is what it writes
   verb->remove_option(verb->get_option("--verbose"));
   verb->add_option("-o,--output", request->out, "Output folder for the report")->required()->type_name("OUTDIR");

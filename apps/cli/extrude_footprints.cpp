@@ -21,9 +21,7 @@ auto summarise(const Made& made, const ExtrudeRequest& request, Progress& progre
     return {};
   });
   if (!counted) return counted;
-  progress.say(std::to_string(n.full) + " of " + std::to_string(n.all()) + " buildings in full (" +
-               std::to_string(remarks) + " of them with remarks), " + std::to_string(n.fallback) + " fell back, " +
-               std::to_string(n.refused) + " refused");
+  progress.say(in_words(n, remarks));
   for (const auto& reason : reasons) progress.say(reason);
   return {};
 }

@@ -146,6 +146,17 @@ auto target_at(const fs::path& path) -> base::Result<Target> {
   return Target{*format, path.filename() == "tileset.json" ? path.parent_path() : path};
 }
 
+auto check_model_place(const fs::path& model, const fs::path& other, const std::string& call) -> base::Result<void> {
+  using formats::has_extension;
+  using formats::Reads;
+  const auto is_model = [](const fs::path& path) {
+    return has_extension(path, &Reads::models) || has_extension(path, &Reads::results);
+  };
+  const auto is_mesh = [](const fs::path& path) { return has_extension(path, &Reads::mesh); };
+  if (is_model(model) || !is_mesh(model) || !is_model(other) || is_mesh(other)) return {};
+  return base::error("usage", "this is a mesh where the model is expected; call it as: " + call, model.string());
+}
+
 auto open_city(const fs::path& path) -> base::Result<std::unique_ptr<formats::CityReader>> {
   std::error_code status;
   if (!path.string().starts_with("/vsi") && !fs::exists(path, status))

@@ -42,6 +42,11 @@ inline constexpr auto formats_help = "Formats of the models: a list with commas,
 /// By the file extension. Fails with "usage" where no format has it.
 [[nodiscard]] auto target_at(const std::filesystem::path& path) -> base::Result<Target>;
 
+/// That a mesh does not have the place of the model, nor the model that of a mesh, where their names leave no doubt:
+/// `model` is at its place, `other` at that of a mesh. `call` is how the verb is called. Fails with "usage".
+[[nodiscard]] auto check_model_place(const std::filesystem::path& model, const std::filesystem::path& other,
+                                     const std::string& call) -> base::Result<void>;
+
 /// What mansard wrote, by formats::read_city; a missing file is told as one whatever it is called. Fails with
 /// "file-missing" and as that does.
 [[nodiscard]] auto open_city(const std::filesystem::path& path) -> base::Result<std::unique_ptr<formats::CityReader>>;

@@ -11,6 +11,7 @@
 #include "apps/cli/scan.hpp"
 #include "apps/cli/verbs.hpp"
 #include "mansard/base/text.hpp"
+#include "mansard/formats/drivers.hpp"
 #include "mansard/pipeline/stored.hpp"
 
 namespace mansard::cli {
@@ -25,6 +26,11 @@ struct Request {
 };
 
 auto info_of(const fs::path& path, const Request& request, const base::Run& run) -> base::Result<Json> {
+  // A CityJSON of terrain alone has no models for a reader of models.
+  const auto extension = formats::extension_of(path);
+  if (extension.ends_with("json") || extension.ends_with("jsonl"))
+    if (const auto terrain = formats::terrain_info(path); terrain && terrain->others == 0)
+      return info_of_terrain(path, *terrain, request.verbose);
   auto reader = open_city(path);
   if (reader) return info_of_city(path, **reader, request.verbose, run);
   const auto& why = reader.error();
@@ -33,9 +39,9 @@ auto info_of(const fs::path& path, const Request& request, const base::Run& run)
   // Of a folder the reader only reports that it is not a tileset.
   std::error_code status;
   const bool other_folder = fs::is_directory(path, status) && !fs::exists(path / "tileset.json", status);
-  if (other_folder) return info_of_other(path, why, run);
+  if (other_folder) return info_of_other(path, why, request.verbose, run);
   if (broken || (why.code == "file-missing" && path.string().find(':') == std::string::npos)) return why;
-  return info_of_other(path, why, run);
+  return info_of_other(path, why, request.verbose, run);
 }
 
 auto info(const Request& request, const base::Cancel& cancel) -> int {

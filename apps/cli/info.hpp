@@ -7,6 +7,7 @@
 
 #include "mansard/base/run.hpp"
 #include "mansard/formats/stream.hpp"
+#include "mansard/formats/terrain.hpp"
 #include "mansard/geometry/points.hpp"
 
 namespace mansard::cli {
@@ -27,14 +28,21 @@ class Extent3 {
 [[nodiscard]] auto info_of_city(const std::filesystem::path& path, formats::CityReader& reader, bool all_options,
                                 const base::Run& run) -> base::Result<Json>;
 
+/// {"version", "options_not_default", "inputs"}; "options" of `all_options`.
+[[nodiscard]] auto made_by_json(const model::MadeBy& made_by, bool all_options) -> Json;
+
 /// Anything else: models of other producers, STL, tilesets, meshes, rasters, footprint sources. `why`: why mansard did
 /// not write it.
-[[nodiscard]] auto info_of_other(const std::filesystem::path& path, const base::Diagnostic& why, const base::Run& run)
-    -> base::Result<Json>;
+[[nodiscard]] auto info_of_other(const std::filesystem::path& path, const base::Diagnostic& why, bool all_options,
+                                 const base::Run& run) -> base::Result<Json>;
 
 /// What a tileset.json has: its version, and per level how many tiles and what geometric errors; null where there is
 /// none in the folder.
 [[nodiscard]] auto info_of_tileset(const std::filesystem::path& path) -> Json;
+
+/// A CityJSON with terrain and no buildings.
+[[nodiscard]] auto info_of_terrain(const std::filesystem::path& path, const formats::TerrainInfo& terrain,
+                                   bool all_options) -> Json;
 
 /// The layers of a vector source, with geometry, CRS, number of features, extent and fields. Fails with
 /// "file-missing", "ingest-footprints-format".

@@ -7,6 +7,7 @@
 #include "apps/cli/info.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/base/text.hpp"
+#include "mansard/formats/citygml/citygml_made_by.hpp"
 #include "mansard/formats/points.hpp"
 #include "mansard/formats/source.hpp"
 #include "mansard/ingest/model.hpp"
@@ -40,7 +41,14 @@ auto warnings_json(const std::vector<base::Diagnostic>& warnings) -> Json {
 
 // ---- models of other producers
 
-auto info_of_model(const fs::path& path, const model::Model& model) -> Json {
+/// How a CityGML that mansard wrote was made; none of any other file.
+auto made_by_mansard(const fs::path& path, const std::string& format) -> std::optional<model::MadeBy> {
+  if (format != "citygml") return std::nullopt;
+  const auto bytes = base::read_file(path);
+  return bytes ? formats::citygml_made_by(*bytes) : std::nullopt;
+}
+
+auto info_of_model(const fs::path& path, const model::Model& model, bool all_options) -> Json {
   const auto surface = model::surface_of(model);
   Extent3 extent;
   for (const auto p : surface.mesh.vertices) extent.add(p, model.frame);
@@ -57,7 +65,8 @@ auto info_of_model(const fs::path& path, const model::Model& model) -> Json {
                   extension_of(path) == "obj"                            ? "obj"
                   : extension_of(path).find("json") != std::string::npos ? "cityjson"
                                                                          : "citygml");
-  out["by"] = "others";
+  const auto made_by = made_by_mansard(path, out["format"]);
+  out["by"] = made_by ? "mansard" : "others";
   out["crs"] = model.frame.crs;
   out["extent"] = extent.json();
   out["counts"] = {{"buildings", model.buildings.size()},
@@ -68,6 +77,7 @@ auto info_of_model(const fs::path& path, const model::Model& model) -> Json {
   if (!model.lod.empty()) out["lods"] = Json::array({model.lod});
   for (std::size_t i = 0; i < classes.size(); ++i)
     out["classes"][std::string(model::to_string(static_cast<model::SurfaceClass>(i)))] = classes[i];
+  if (made_by) out["made_by"] = made_by_json(*made_by, all_options);
   out["warnings"] = warnings_json(model.warnings);
   return out;
 }
@@ -91,6 +101,7 @@ auto info_of_stl(const fs::path& path) -> base::Result<Json> {
     return out;
   }
   std::string text = bytes->substr(0, std::min<std::size_t>(80, bytes->find('\0')));
+  text.erase(text.find_last_not_of(' ') + 1);
   out["header"] = base::on_one_line(text);
   out["counts"] = {{"triangles", count}};
   return out;
@@ -285,7 +296,8 @@ auto info_of_layers(const fs::path& path) -> base::Result<Json> {
   return layers_of(*source);
 }
 
-auto info_of_other(const fs::path& path, const base::Diagnostic& why, const base::Run& run) -> base::Result<Json> {
+auto info_of_other(const fs::path& path, const base::Diagnostic& why, bool all_options, const base::Run& run)
+    -> base::Result<Json> {
   if (extension_of(path) == "stl") return info_of_stl(path);
   if (formats::is_point_cloud(path)) return info_of_points(path, run);
   std::error_code status;
@@ -300,7 +312,7 @@ auto info_of_other(const fs::path& path, const base::Diagnostic& why, const base
     // An OBJ whose faces have no class is a mesh like any other.
     const auto guessed = [](const base::Diagnostic& warning) { return warning.code == "ingest-model-semantics"; };
     const bool labelled = model && (extension_of(path) != "obj" || std::ranges::none_of(model->warnings, guessed));
-    if (labelled) return info_of_model(path, *model);
+    if (labelled) return info_of_model(path, *model, all_options);
     if (!model && extension_of(path) != "obj") return model.failure();
   }
   if (is_mesh(path)) {

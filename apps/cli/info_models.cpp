@@ -4,6 +4,7 @@
 
 #include "apps/cli/info.hpp"
 #include "mansard/base/text.hpp"
+#include "mansard/formats/drivers.hpp"
 #include "mansard/formats/input_file.hpp"
 #include "mansard/pipeline/stored.hpp"
 #include "mansard/solid/solid.hpp"
@@ -112,15 +113,6 @@ auto options_json(const model::MadeBy& made_by, bool all) -> Json {
   return out;
 }
 
-auto made_by_json(const model::MadeBy& made_by, bool all_options) -> Json {
-  Json inputs = Json::array();
-  for (const auto& input : made_by.inputs)
-    inputs.push_back({{"path", input.path}, {"bytes", input.bytes}, {"sha256", input.sha256}});
-  return {{"version", made_by.version},
-          {all_options ? "options" : "options_not_default", options_json(made_by, all_options)},
-          {"inputs", std::move(inputs)}};
-}
-
 /// The levels of detail in a file, by its format and the option that it was written with.
 auto lods_in(formats::Format format, const model::MadeBy& made_by) -> std::vector<std::string> {
   std::string asked;
@@ -165,6 +157,36 @@ auto add_all(formats::CityReader& reader, const base::Run& run, Tally& tally, st
 }
 
 }  // namespace
+
+auto made_by_json(const model::MadeBy& made_by, bool all_options) -> Json {
+  Json inputs = Json::array();
+  for (const auto& input : made_by.inputs)
+    inputs.push_back({{"path", input.path}, {"bytes", input.bytes}, {"sha256", input.sha256}});
+  return {{"version", made_by.version},
+          {all_options ? "options" : "options_not_default", options_json(made_by, all_options)},
+          {"inputs", std::move(inputs)}};
+}
+
+auto info_of_terrain(const fs::path& path, const formats::TerrainInfo& terrain, bool all_options) -> Json {
+  Json out;
+  out["file"] = path.string();
+  out["kind"] = "terrain";
+  out["format"] =
+      formats::extension_of(path) == ".json" || formats::extension_of(path) == ".cityjson" ? "cityjson" : "cityjsonseq";
+  out["bytes"] = size_of(path);
+  out["by"] = terrain.made_by ? "mansard" : "others";
+  out["crs"] = terrain.crs;
+  Extent3 extent;
+  if (!terrain.box.empty()) {
+    extent.add(terrain.box.least, {});
+    extent.add(terrain.box.most, {});
+  }
+  out["extent"] = extent.json();
+  out["counts"] = {{"triangles", terrain.triangles}, {"vertices", terrain.vertices}};
+  if (!terrain.lod.empty()) out["lods"] = Json::array({terrain.lod});
+  if (terrain.made_by) out["made_by"] = made_by_json(*terrain.made_by, all_options);
+  return out;
+}
 
 void Extent3::add(geometry::Point3 p, const model::Frame& frame) {
   box_.add({p.x + static_cast<double>(frame.origin[0]), p.y + static_cast<double>(frame.origin[1]),

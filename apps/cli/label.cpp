@@ -9,6 +9,7 @@
 #include "apps/cli/formats.hpp"
 #include "apps/cli/output.hpp"
 #include "apps/cli/scan.hpp"
+#include "apps/cli/shell_word.hpp"
 #include "apps/cli/verbs.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/formats/scan.hpp"
@@ -159,6 +160,11 @@ void print(const Input& input, const Classes& classes) {
 
 auto label_mesh(const Request& request, const base::Cancel& cancel) -> int {
   if (request.inputs.size() < 2) return give_up(base::error("usage", "expected one or more meshes, then a model"));
+  if (auto order = check_model_place(request.inputs.back(), request.inputs.front(),
+                                     "mansard label " + quoted(request.inputs.back()) + " " +
+                                         quoted(request.inputs.front()) + " -o " + quoted(request.out));
+      !order)
+    return give_up(order.errors());
   pipeline::Options options;
   if (auto applied = request.settings.apply(options); !applied) return give_up(applied.errors());
   if (auto ready = check_outputs(request); !ready) return give_up(ready.errors());

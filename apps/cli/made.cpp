@@ -1,4 +1,8 @@
 #include "apps/cli/made.hpp"
+
+#include <array>
+#include <utility>
+
 #include "mansard/base/stopped.hpp"
 
 namespace mansard::cli {
@@ -19,6 +23,18 @@ auto made_of(const report::Reconstruction& r) -> Made {
 auto made_of(const pipeline::PutAside& city) -> Made {
   return {city.summary, city.outcomes, city.frame, city.made_by,
           [&city](const Made::Visit& visit) { return city.each(visit); }};
+}
+
+auto in_words(const report::Outcomes& outcomes, std::size_t remarks) -> std::string {
+  std::string words =
+      std::to_string(outcomes.full) + " of " + std::to_string(outcomes.all()) + " buildings with a full model";
+  if (remarks > 0) words += " (" + std::to_string(remarks) + " of them with remarks)";
+  const std::array others{std::pair{outcomes.fallback, " with a simpler one"},
+                          std::pair{outcomes.covered, " covered by neighbours"},
+                          std::pair{outcomes.refused, " not usable"}};
+  for (const auto& [count, what] : others)
+    if (count > 0) words += ", " + std::to_string(count) + what;
+  return words;
 }
 
 auto write_targets(const Made& made, const std::vector<Target>& targets, const formats::WriteOptions& options,

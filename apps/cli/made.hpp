@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "apps/cli/formats.hpp"
@@ -24,6 +25,10 @@ struct Made {
 };
 [[nodiscard]] auto made_of(const report::Reconstruction& reconstruction) -> Made;
 [[nodiscard]] auto made_of(const pipeline::PutAside& city) -> Made;
+
+/// "87 of 87 buildings with a full model, 2 with a simpler one": what became of the buildings; `remarks` of those with
+/// a full model have some.
+[[nodiscard]] auto in_words(const report::Outcomes& outcomes, std::size_t remarks = 0) -> std::string;
 
 /// The models; the files are there after Outputs::commit. What could not be written as it was meant is said. Fails as
 /// the writers do, and with "cancelled".

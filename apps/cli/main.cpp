@@ -110,8 +110,11 @@ auto parse_failure(const CLI::App& app, const CLI::ParseError& e, const std::str
   if (auto unknown = unknown_options(app, verb); !unknown.empty()) return unknown;
   const bool of_value = dynamic_cast<const CLI::ValidationError*>(&e) != nullptr ||
                         dynamic_cast<const CLI::ConversionError*>(&e) != nullptr;
+  // What is missing is seen best in how the verb is called.
+  const auto call =
+      dynamic_cast<const CLI::RequiredError*>(&e) == nullptr ? "" : ": " + entry_of(verb.get_name()).usage.front();
   return {base::error(of_value ? "option-value" : "usage",
-                      std::string(e.what()) + "; see 'mansard " + verb.get_name() + " --help'")};
+                      std::string(e.what()) + call + "; see 'mansard " + verb.get_name() + " --help'")};
 }
 
 auto help_of(const CLI::App& app, bool all) -> std::string {
@@ -143,17 +146,19 @@ auto run(int argc, char** argv) -> int {
   app.set_help_all_flag("--help-all");
   app.option_defaults()->always_capture_default();
   app.require_subcommand(1);
-  const std::vector<Verb> verbs{reconstruct_verb(app, cancel),
+  const std::vector<std::string> typed(argv, argv + argc);
+  const std::vector<Verb> verbs{reconstruct_verb(app, typed, cancel),
                                 extrude_verb(app, cancel),
                                 convert_verb(app, cancel),
                                 info_verb(app, cancel),
                                 doctor_verb(app, cancel),
                                 evaluate_verb(app, cancel),
-                                segment_verb(app, cancel),
+                                segment_verb(app, typed, cancel),
                                 label_verb(app, cancel),
+                                new_verb(app, cancel),
                                 serve_verb(app, cancel),
                                 simulate_verb(app, cancel),
-                                explore_verb(app, {argv, argv + argc}, cancel),
+                                explore_verb(app, typed, cancel),
                                 cluster_verb(app),
                                 status_verb(app),
                                 options_verb(app),

@@ -1,5 +1,6 @@
 // `mansard reconstruct MESH… FOOTPRINTS -o OUTDIR`.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -48,11 +49,10 @@ void tell_reuse(const report::Summary& summary, Progress& progress) {
 auto summarise(const Made& made, const Request& request, Progress& progress) -> base::Result<void> {
   tell_reuse(made.summary, progress);
   const auto& n = made.outcomes;
-  progress.say(std::to_string(n.full) + " of " + std::to_string(n.all()) + " buildings in full, " +
-               std::to_string(n.fallback) + " fell back, " + std::to_string(n.covered) + " covered by neighbours, " +
-               std::to_string(n.refused) + " refused");
-  progress.say("mean squared vertical error " + base::to_text(made.summary.scores.mse, 3) + " m² over the blocks, " +
-               base::to_text(made.summary.scores.footprint_mse, 3) + " m² over the footprints");
+  progress.say(in_words(n));
+  const auto& scores = made.summary.scores;
+  progress.say("vertical error against the scan (RMSE): " + base::to_text(std::sqrt(scores.footprint_mse), 2) +
+               " m over the footprints, " + base::to_text(std::sqrt(scores.mse), 2) + " m with the ground around them");
   if (n.full == n.all() || (!request.scan.verbose && n.all() > 20)) return {};
   return made.each([&](const auto&, const report::BuildingReport& building) -> base::Result<void> {
     if (building.outcome != report::Outcome::full)
@@ -152,11 +152,11 @@ auto check_outputs(const Request& request, const std::vector<Target>& targets) -
   if (!request.scan.report.empty())
     if (auto apart = spare_results(request.scan.report, results); !apart) return apart;
   if (!request.scan.report.empty()) results.emplace_back(request.scan.report);
+  if (auto ready = prepare(request.out, request.scan.overwrite); !ready) return ready;
   if (auto usable = request.terrain.check(results, {request.scan.inputs.begin(), request.scan.inputs.end()},
                                           request.scan.overwrite);
       !usable)
     return usable;
-  if (auto ready = prepare(request.out, request.scan.overwrite); !ready) return ready;
   if (auto usable = files_free(request.scan, {}); !usable) return usable;
   // A run that was killed while its results took their places left some of them: they are its own.
   const bool replace = request.scan.overwrite || began_empty(request.out);
@@ -236,10 +236,11 @@ auto reconstruct(const Request& request, const base::Cancel& cancel) -> int {
 
 }  // namespace
 
-auto reconstruct_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
+auto reconstruct_verb(CLI::App& app, std::vector<std::string> words, const base::Cancel& cancel) -> Verb {
   auto* verb = add_verb(app, "reconstruct");
   auto request = std::make_shared<Request>();
   add_to(*verb, request->scan);
+  request->scan.words = std::move(words);
   verb->add_option("-o,--output", request->out, "Output folder")->required()->type_name("OUTDIR");
   verb->add_flag("--picture", request->picture,
                  "Also write pictures of scan and models (picture.png, above.png, error.png)");

@@ -1,7 +1,10 @@
 #include "apps/cli/scan.hpp"
 
+#include <algorithm>
+
 #include "apps/cli/formats.hpp"
 #include "apps/cli/output.hpp"
+#include "apps/cli/shell_word.hpp"
 #include "mansard/ingest/join.hpp"
 #include "mansard/pipeline/placing.hpp"
 
@@ -16,6 +19,23 @@ void add_flags(CLI::App& verb, Common& common, const std::string& silenced) {
   add_jobs(verb, common.jobs);
   verb.add_flag("-q,--quiet", common.quiet, "Print no progress and no " + silenced);
 }
+
+/// The command line as a shell takes it, with other inputs at the places of the inputs; empty where these places are
+/// not clear, because an input is also the value of an option.
+auto command_with(const ScanRequest& request, const std::vector<std::string>& inputs) -> std::string {
+  const auto is_input = [&](const std::string& word) {
+    return std::ranges::find(request.inputs, word) != request.inputs.end();
+  };
+  if (std::ranges::count_if(request.words, is_input) != std::ranges::ssize(request.inputs)) return {};
+  std::string command = "mansard";
+  std::size_t next = 0;
+  for (std::size_t i = 1; i < request.words.size(); ++i)
+    command += " " + quoted(is_input(request.words[i]) ? inputs[next++] : request.words[i]);
+  return command;
+}
+
+/// "; run: COMMAND", where there is one.
+auto to_run(const std::string& command) -> std::string { return command.empty() ? "" : "; run: " + command; }
 
 }  // namespace
 
@@ -65,11 +85,33 @@ void add_to(CLI::App& verb, ScanRequest& request, bool may_derive) {
   add_common(verb, request, "summary");
 }
 
+auto check_order(const ScanRequest& request) -> base::Result<void> {
+  const std::vector<fs::path> typed(request.inputs.begin(), request.inputs.end());
+  if (request.derive_footprints) {
+    const auto vector = std::ranges::find_if(typed, pipeline::is_footprints_name);
+    if (vector == typed.end()) return {};
+    return base::error("usage",
+                       "this is a vector file, and --derive-footprints makes the footprints from the mesh; leave out "
+                       "the file or the option",
+                       vector->string());
+  }
+  const auto ordered = pipeline::in_order(typed);
+  if (!ordered.wrong_order) return {};
+  std::vector<std::string> inputs;
+  for (const auto& mesh : ordered.paths.meshes) inputs.push_back(mesh.string());
+  inputs.push_back(ordered.paths.footprints.string());
+  return base::error("usage",
+                     "the footprints are given before a mesh; meshes come first, the footprints last" +
+                         to_run(command_with(request, inputs)),
+                     ordered.paths.footprints.string());
+}
+
 auto options_of(const ScanRequest& request) -> base::Result<pipeline::Options> {
   if (request.inputs.size() < (request.derive_footprints ? 1 : 2))
     return base::error("usage", request.derive_footprints ? "expected one or more meshes"
                                                           : "expected one or more meshes, then the footprints; "
                                                             "--derive-footprints derives them from the meshes");
+  if (auto order = check_order(request); !order) return order.failure();
   pipeline::Options options;
   if (auto applied = request.settings.apply(options); !applied) return applied.failure();
   return options;
@@ -119,8 +161,17 @@ auto explained(base::Failure failure, const ScanRequest& request, const pipeline
   const auto placing = pipeline::find_placing(paths_of(request), options, run);
   if (!placing || !*placing) return failure;
   why.message.resize(why.message.size() - asks.size());
-  why.message +=
-      "; add " + pipeline::options_in_words(**placing, options) + ": then " + pipeline::reason_in_words(**placing);
+  const auto more = pipeline::options_in_words(**placing, options);
+  // What is given already is replaced: an option is given once.
+  std::vector<std::string> replaced;
+  if (more.find("--crs") != std::string::npos) replaced.emplace_back("ingest.crs");
+  if (more.find("--mesh-offset") != std::string::npos) replaced.emplace_back("ingest.mesh_offset");
+  const auto given = request.settings.typed({});
+  const bool again = request.settings.typed(replaced) != given;
+  why.message += (again ? "; with " + more + " in place of what is given, " : "; add " + more + ": then ") +
+                 pipeline::reason_in_words(**placing);
+  if (const auto command = command_with(request, request.inputs); !again && !command.empty())
+    why.message += to_run(command + " " + more);
   return failure;
 }
 

@@ -44,12 +44,17 @@ struct ScanRequest : Common {
   std::string report;
   Join join;
   bool verbose = false;
+  std::vector<std::string> words;  ///< the whole command line, from which messages make the command to run instead
 };
 
 /// Inputs and the options that these verbs share; --derive-footprints where the verb `may_derive`.
 void add_to(CLI::App& verb, ScanRequest& request, bool may_derive = true);
 
-/// Fails with "usage" where footprints or meshes are missing, and as Settings::apply.
+/// That the footprints come last, and that there are none where they are to be derived. Fails with "usage", which names
+/// the command to run.
+[[nodiscard]] auto check_order(const ScanRequest& request) -> base::Result<void>;
+
+/// Fails with "usage" where footprints or meshes are missing, as check_order and as Settings::apply.
 [[nodiscard]] auto options_of(const ScanRequest& request) -> base::Result<pipeline::Options>;
 
 /// Whether these files, and the report, can be written there. Fails with "output-input", "output-exists",

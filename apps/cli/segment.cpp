@@ -170,10 +170,11 @@ auto segment_scan(const Request& request, const base::Cancel& cancel) -> int {
 
 }  // namespace
 
-auto segment_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
+auto segment_verb(CLI::App& app, std::vector<std::string> words, const base::Cancel& cancel) -> Verb {
   auto* verb = add_verb(app, "segment");
   auto request = std::make_shared<Request>();
   add_to(*verb, request->scan);
+  request->scan.words = std::move(words);
   verb->add_option("-o,--output", request->out, "Output GeoPackage")->required()->type_name("OUT.gpkg");
   verb->add_option("--export-mps", request->mps, "Also write the integer program as MPS, one file for each block")
       ->type_name("FILE");

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "apps/cli/catalogue.hpp"
+#include "apps/cli/shell_word.hpp"
 #include "mansard/base/bound_text.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/base/text.hpp"
@@ -184,6 +185,18 @@ auto Settings::apply(Menu menu) const -> base::Result<void> {
     append(wrong, pipeline::set_option(menu.lists, given.key, value), typed);
   }
   return result_of(std::move(wrong));
+}
+
+auto Settings::typed(const std::vector<std::string>& without) const -> std::string {
+  std::string all;
+  if (!preset_.empty()) all += " --preset " + quoted(preset_);
+  if (!config_.empty()) all += " --config " + quoted(config_);
+  for (const auto& given : given_) {
+    if (given.option->count() == 0 || std::ranges::find(without, given.key) != without.end()) continue;
+    all += " --" + given.option->get_lnames().back();  // the short name, where it has two
+    for (const auto& word : given.words) all += " " + quoted(word);
+  }
+  return all;
 }
 
 }  // namespace mansard::cli

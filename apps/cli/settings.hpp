@@ -37,6 +37,10 @@ class Settings {
   [[nodiscard]] auto apply(pipeline::Options& options) const -> base::Result<void>;
   [[nodiscard]] auto apply(Menu menu) const -> base::Result<void>;
 
+  /// The options that were typed, " --layer buildings --up y", as a shell takes them; without those of the named keys
+  /// ("ingest.crs").
+  [[nodiscard]] auto typed(const std::vector<std::string>& without) const -> std::string;
+
  private:
   struct Given {
     std::string key;  // module.name

@@ -13,7 +13,7 @@ using formats::Format;
 
 void TerrainOut::add_to(CLI::App& verb) {
   verb.add_option("--terrain-out", files,
-                  "Also write the terrain around the models, joined to them, to these files (" +
+                  "Also write the terrain around the models, joined to them, to this file; repeat it for more (" +
                       formats::terrain_extensions() + "); STL is one closed surface of terrain and models")
       ->type_name("FILE")
       ->allow_extra_args(false);

@@ -15,17 +15,18 @@ struct Verb {
   std::function<int()> run;
 };
 
-[[nodiscard]] auto reconstruct_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
-[[nodiscard]] auto segment_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
+/// `words` are the whole command line, here and below: messages and reports repeat it.
+[[nodiscard]] auto reconstruct_verb(CLI::App& app, std::vector<std::string> words, const base::Cancel& cancel) -> Verb;
+[[nodiscard]] auto segment_verb(CLI::App& app, std::vector<std::string> words, const base::Cancel& cancel) -> Verb;
 [[nodiscard]] auto extrude_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
 [[nodiscard]] auto simulate_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
 [[nodiscard]] auto evaluate_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
 [[nodiscard]] auto label_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
-/// `words` are the whole command line, which the report repeats.
 [[nodiscard]] auto explore_verb(CLI::App& app, std::vector<std::string> words, const base::Cancel& cancel) -> Verb;
 [[nodiscard]] auto convert_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
 [[nodiscard]] auto info_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
 [[nodiscard]] auto doctor_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
+[[nodiscard]] auto new_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
 [[nodiscard]] auto serve_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
 [[nodiscard]] auto cluster_verb(CLI::App& app) -> Verb;
 [[nodiscard]] auto status_verb(CLI::App& app) -> Verb;

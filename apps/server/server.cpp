@@ -192,7 +192,12 @@ class Web {
     connections_.listen(port);
     thread_ = std::thread([this] { http_.listen_after_bind(); });
     while (!http_.is_running()) std::this_thread::sleep_for(1ms);  // an earlier stop() would have no effect
-    const auto host = options_.address.find(':') == std::string::npos ? options_.address : "[" + options_.address + "]";
+    // "Every address" is none that a browser can open: on this machine it is the loopback's, also from outside a
+    // container that passes the port on.
+    const std::string address = options_.address == "0.0.0.0" ? "127.0.0.1"
+                                : options_.address == "::"    ? "::1"
+                                                              : options_.address;
+    const auto host = address.find(':') == std::string::npos ? address : "[" + address + "]";
     return "http://" + host + ":" + std::to_string(port) + "/#token=" + *token;
   }
 

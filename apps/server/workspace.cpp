@@ -24,7 +24,8 @@ auto Workspace::open(Project project, fs::path sample) -> base::Result<std::uniq
     known.record = std::move(run);
     known.edits = edits;
   }
-  if (workspace->project_.inputs()) (void)workspace->start_reading(*workspace->project_.inputs(), false);
+  if (workspace->project_.inputs())
+    (void)workspace->start_reading(*workspace->project_.inputs(), workspace->runs_.empty());
   return workspace;
 }
 

@@ -132,7 +132,7 @@ auto Workspace::read_scene(Inputs inputs, bool save, const base::Run& run) -> ba
                            "this input has changed since the runs of the project were made from it; restore the file, "
                            "delete the runs and read the inputs again, or start 'mansard serve' with another folder",
                            *changed);
-    // When a project is reopened its record stays as it is: it says which files the runs were made from.
+    // When a project with runs is reopened its record stays as it is: it says which files the runs were made from.
     if (save)
       if (auto saved = project_.save(inputs); !saved) return saved;
     scene_ = *scene;

@@ -5,6 +5,7 @@
 #include "mansard/base/text.hpp"
 #include "mansard/formats/attribute_choice.hpp"
 #include "mansard/formats/detail/writers.hpp"
+#include "mansard/formats/drivers.hpp"
 
 namespace mansard::formats {
 
@@ -176,7 +177,11 @@ auto read_city(const std::filesystem::path& path) -> base::Result<std::unique_pt
   // By what is in it before its name.
   auto format = format_in(path);
   if (!format) format = format_of(path);
-  if (!format) return base::error("write-read-format", "no format of buildings has this ending", path.string());
+  if (!format)
+    return base::error(
+        "write-read-format",
+        "no format of building models has this file extension; these are read: " + extensions_in_words(&Reads::results),
+        path.string());
   switch (*format) {
     case Format::cityjson:
     case Format::cityjsonseq: return detail::cityjson_reader(path);

@@ -23,4 +23,16 @@ namespace mansard::formats {
                                  const Header& header, const WriteOptions& options, base::Outputs& outputs)
     -> base::Result<std::vector<base::Diagnostic>>;
 
+/// What a CityJSON or CityJSONSeq has of terrain.
+struct TerrainInfo {
+  std::size_t others = 0;                                 ///< objects of other types: buildings
+  std::size_t surfaces = 0, triangles = 0, vertices = 0;  ///< objects of the type TINRelief, and what they are made of
+  geometry::Box3 box;                                     ///< in the coordinates of the file
+  std::string crs, lod;                                   ///< "EPSG:n", "1"; empty where the file does not say
+  std::optional<model::MadeBy> made_by;                   ///< of a file that mansard wrote
+};
+
+/// None where the file has no TINRelief, or cannot be read. A file without the word is not parsed.
+[[nodiscard]] auto terrain_info(const std::filesystem::path& path) -> std::optional<TerrainInfo>;
+
 }  // namespace mansard::formats

@@ -1,8 +1,11 @@
 #include "mansard/pipeline/inputs.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "mansard/base/text.hpp"
+#include "mansard/formats/drivers.hpp"
+#include "mansard/formats/input_name.hpp"
 
 namespace mansard::pipeline {
 namespace {
@@ -33,6 +36,35 @@ auto keep_within(const Box2& box, model::Scene& scene) -> base::Result<void> {
 }
 
 }  // namespace
+
+auto is_footprints_name(const std::filesystem::path& path) -> bool {
+  using formats::Reads;
+  return formats::is_database_name(path.string()) ||
+         (formats::has_extension(path, &Reads::footprints) && !formats::has_extension(path, &Reads::mesh));
+}
+
+auto is_mesh_name(const std::filesystem::path& path) -> bool {
+  using formats::Reads;
+  if (is_footprints_name(path)) return false;
+  std::error_code status;  // a folder named .gdb is a database of Esri, and one that ends in .shp has shapefiles
+  const bool folder = std::filesystem::is_directory(path, status) && formats::extension_of(path) != ".gdb";
+  return folder || path.filename() == "tileset.json" || path.filename() == "ept.json" ||
+         formats::has_extension(path, &Reads::mesh) || formats::has_extension(path, &Reads::raster);
+}
+
+auto in_order(const std::vector<std::filesystem::path>& typed) -> TypedInputs {
+  TypedInputs out{{typed, {}, false}, false};
+  auto& meshes = out.paths.meshes;
+  if (meshes.empty()) return out;
+  if (is_mesh_name(meshes.back()) && std::ranges::count_if(meshes, is_footprints_name) == 1) {
+    const auto at = std::ranges::find_if(meshes, is_footprints_name);
+    std::rotate(at, std::next(at), meshes.end());
+    out.wrong_order = true;
+  }
+  out.paths.footprints = std::move(meshes.back());
+  meshes.pop_back();
+  return out;
+}
 
 auto read_inputs(const InputPaths& paths, const Options& options, const base::Run& run) -> base::Result<model::Scene> {
   if (paths.footprints.empty() != paths.derive_footprints)

@@ -56,7 +56,7 @@ auto in_another_crs(const InputPaths& paths, const Options& options, const geome
     const auto match = align::match_at(mesh, outlines_of(*scene), 0, 0);
     if (!fits(match)) continue;
     if (!best || match->correlation > best->match.correlation + tie)
-      best = Placing{candidate.name, candidate.title, options.ingest.mesh_offset, *match};
+      best = Placing{candidate.name, candidate.title, options.ingest.mesh_offset, *match, footprints.frame.crs};
   }
   return best;
 }
@@ -100,13 +100,13 @@ auto find_placing(const InputPaths& paths, const Options& options, const base::R
   const Box2 outlines = geometry::bounds(polygons);
   if (box.overlaps(outlines))
     if (const auto match = align::match_at(mesh, polygons, 0, 0); fits(match))
-      return std::optional(Placing{{}, {}, options.ingest.mesh_offset, *match});
+      return std::optional(Placing{{}, {}, options.ingest.mesh_offset, *match, frame.crs});
   if (!frame.crs.empty())
     if (auto found = in_another_crs(paths, wide, mesh, box, *footprints, outlines, run)) return found;
   const auto match = align::best_match(mesh, polygons, {}, run);
   if (run.cancelled()) return base::error("cancelled", "stopped on request");
   if (!fits(match) || match->correlation < least_lead * match->next) return none;
-  Placing placing{{}, {}, options.ingest.mesh_offset, *match};
+  Placing placing{{}, {}, options.ingest.mesh_offset, *match, frame.crs};
   placing.offset[0] += match->x;
   placing.offset[1] += match->y;
   return std::optional(placing);

@@ -14,6 +14,7 @@ struct Placing {
   std::string crs, title;        ///< the CRS to work in, "EPSG:n", and what it is called; empty: as it is
   std::array<double, 3> offset;  ///< m; Options::ingest.mesh_offset
   align::Match match;            ///< with both
+  std::string working;           ///< the CRS of the coordinates without `crs`, as model::Frame has it; empty: unknown
 };
 
 /// The options to add to a command, "--mesh-offset 84800 447400 0"; empty where they match as they are.

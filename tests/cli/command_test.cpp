@@ -82,7 +82,7 @@ TEST_F(Command, raises_footprints_by_their_attributes) {
   const auto outcome = run("extrude " + file + " -o " + at("out") + " --picture --report " + at("copy.json"));
   EXPECT_EQ(outcome.exit, 0) << outcome.err;
   EXPECT_EQ(outcome.out, at("out") + "\n");
-  EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("2 of 2 buildings in full (1 of them with remarks)"),
+  EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("2 of 2 buildings with a full model (1 of them with remarks)"),
                                           HasSubstr("warning[roof-value] odd: height = \"tall\"")));
   for (const auto* name :
        {"model.city.json", "model.obj", "model.mtl", "model.glb", "plans.json", "run.json", "picture.png"})
@@ -168,7 +168,7 @@ TEST_F(Command, says_one_plain_line_per_stage_when_piped) {
   const auto outcome = run("reconstruct " + at("house.obj") + " " + at("house.geojson") + " -o " + at("out"));
   EXPECT_EQ(outcome.exit, 0);
   EXPECT_THAT(outcome.err, HasSubstr("mansard: done block-"));
-  EXPECT_THAT(outcome.err, HasSubstr("1 of 1 buildings in full"));
+  EXPECT_THAT(outcome.err, HasSubstr("1 of 1 buildings with a full model"));
   EXPECT_EQ(outcome.err.find('\x1b'), std::string::npos);
   EXPECT_EQ(outcome.err.find('\r'), std::string::npos);
 }

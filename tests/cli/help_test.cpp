@@ -101,6 +101,19 @@ TEST_F(Help, of_every_verb_fits_one_screen) {
   }
 }
 
+TEST_F(Help, fits_a_narrow_terminal) {
+  ::setenv("COLUMNS", "80", 1);
+  for (const auto& verb : known_["verbs"])
+    for (const auto* help : {" --help", " --help-all"})
+      for (const auto& line : lines_of(run(verb["verb"].get<std::string>() + help).out))
+        if (line.find(" mansard ") == std::string::npos) {  // commands are not broken
+          EXPECT_LE(columns(line), 80U) << line;
+        }
+  for (const auto* words : {"", "--help"})
+    for (const auto& line : lines_of(run(words).out)) EXPECT_LE(columns(line), 80U) << line;
+  ::unsetenv("COLUMNS");
+}
+
 TEST_F(Help, names_units_and_defaults) {
   const auto help = run("reconstruct --help").out;
   EXPECT_THAT(help, HasSubstr("default 10]"));
@@ -167,7 +180,8 @@ TEST_F(Help, an_option_of_a_module_that_the_verb_does_not_read_is_refused_with_t
     for (const auto& [module, options] : by_module()) {
       const std::string name = verb["verb"];
       if (readers[module].contains(name) || verb["modules"].empty()) continue;
-      const auto outcome = run(name + (name == "doctor" ? " a b " : " a b -o c ") + options.front() + " 1");
+      const auto outcome =
+          run(name + (name == "doctor" || name == "new" ? " a b " : " a b -o c ") + options.front() + " 1");
       expect_refusal(outcome, 2, "option-verb", "of the module " + module + ";");
       EXPECT_THAT(outcome.err, HasSubstr("] " + options.front() + ": 'mansard " + name + "'"));
       for (const auto& reader : readers[module]) EXPECT_THAT(outcome.err, HasSubstr(reader)) << outcome.err;

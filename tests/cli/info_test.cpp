@@ -59,6 +59,40 @@ TEST_F(Info, says_of_models_in_every_format_how_many_there_are_and_that_they_are
   EXPECT_GT(all[0]["made_by"]["options"].size(), 50U);
 }
 
+TEST_F(Info, knows_a_terrain_and_a_citygml_of_its_own) {
+  const auto terrain = [&](const std::string& name) { return " --terrain-out " + at("out") + "/" + name; };
+  const auto made = reconstruct(at("house.obj"), at("house.geojson"),
+                                "--formats citygml --sweep-gamma 7" + terrain("t.city.json") + terrain("t.city.jsonl"));
+  ASSERT_EQ(made.exit, 0) << made.err;
+  for (const auto* name : {"t.city.json", "t.city.jsonl"}) {
+    const auto it = info(at("out") + "/" + name)[0];
+    EXPECT_EQ(it["kind"], "terrain") << name;
+    EXPECT_EQ(it["by"], "mansard") << name;
+    EXPECT_EQ(it["crs"], "EPSG:28992") << name;
+    EXPECT_EQ(it["lods"], Json::parse(R"(["1"])")) << name;
+    EXPECT_EQ(it["counts"]["triangles"], 8) << name;  // a plain around a rectangle
+    EXPECT_FALSE(it["counts"].contains("buildings")) << name;
+    EXPECT_FALSE(it.contains("validity")) << name;
+    EXPECT_NEAR(it["extent"][0].get<double>(), -20, 1) << name;  // the house and 20 m around it
+    EXPECT_NEAR(it["extent"][5].get<double>(), 0, 0.2) << name;
+    EXPECT_EQ(it["made_by"]["inputs"].size(), 2U) << name;
+    const auto text = run("info " + at("out") + "/" + name).out;
+    EXPECT_THAT(text, HasSubstr("type        terrain, ")) << text;
+    EXPECT_THAT(text, testing::Not(HasSubstr("buildings"))) << text;
+    expect_narrow(text, 1);
+  }
+  const auto gml = info(at("out") + "/model.gml")[0];
+  EXPECT_EQ(gml["by"], "mansard");
+  EXPECT_EQ(gml["made_by"]["options_not_default"], Json::parse(R"({"sweep.gamma":"7"})"));
+  EXPECT_EQ(gml["made_by"]["inputs"].size(), 2U);
+  // Without the comment it is a file of anybody.
+  auto text = read(at("out") + "/model.gml");
+  const auto from = text.find("<!-- mansard "), to = text.find("-->", from) + 3;
+  ASSERT_NE(from, std::string::npos);
+  text.erase(from, to - from);
+  EXPECT_EQ(info(put("theirs.gml", text))[0]["by"], "others");
+}
+
 TEST_F(Info, says_why_a_solid_is_not_valid) {
   const std::string hall = MANSARD_DATA "/hall/";
   ASSERT_LE(reconstruct(hall + "mesh.off", hall + "footprints.geojson", "--formats cityjson").exit, 1);

@@ -4,6 +4,7 @@
 #include "base/scratch.hpp"
 #include "cities.hpp"
 #include "mansard/base/files.hpp"
+#include "mansard/formats/citygml/citygml_made_by.hpp"
 #include "mansard/formats/foreign.hpp"
 #include "mansard/formats/models.hpp"
 #include "mansard/formats/stream.hpp"
@@ -31,6 +32,31 @@ auto value_of(const model::Attributes& attributes, const std::string& name) -> m
   for (const auto& [key, value] : attributes)
     if (key == name) return value;
   return {};
+}
+
+TEST_F(CityGmlRead, own_files_say_how_they_were_made_whatever_the_names_of_their_inputs) {
+  City city = street();
+  city.made_by.inputs = {{"a--b-->c<&>\"--", 7, std::string(64, '0')}};
+  city.made_by.options = {{"ingest.where", "x < 3 -- y"}};
+  const auto path = folder_ / "own.gml";
+  base::Outputs outputs;
+  auto writer = formats::open_writer(Format::citygml, path, {city.frame, city.made_by}, {}, outputs);
+  ASSERT_TRUE(writer);
+  ASSERT_TRUE(formats::write_city(city, **writer));
+  ASSERT_TRUE(outputs.commit());
+  const auto bytes = base::read_file(path);
+  const auto start = bytes->find(formats::citygml_made_by_start), end = bytes->find(" -->", start);
+  ASSERT_NE(end, std::string::npos);
+  EXPECT_EQ(bytes->substr(start + 4, end - start - 4).find("--"), std::string::npos);  // no comment may have two
+  const auto made_by = formats::citygml_made_by(*bytes);
+  ASSERT_TRUE(made_by);
+  EXPECT_EQ(made_by->version, city.made_by.version);
+  EXPECT_EQ(made_by->options, city.made_by.options);
+  ASSERT_EQ(made_by->inputs.size(), 1U);
+  EXPECT_EQ(made_by->inputs[0].path, "a--b-->c<&>\"--");
+  EXPECT_TRUE(formats::read_foreign(path));
+  EXPECT_FALSE(formats::citygml_made_by("<CityModel><!-- mansard {} --></CityModel>"));
+  EXPECT_FALSE(formats::citygml_made_by("<!-- mansard {\"version\": 3} --><CityModel/>"));
 }
 
 TEST_F(CityGmlRead, own_files_come_back_in_both_versions) {

@@ -18,6 +18,27 @@ auto values_of(const model::Attributes& attributes, const std::string& name) -> 
   return out;
 }
 
+TEST(InOrder, puts_footprints_last_only_where_names_leave_no_doubt) {
+  using Paths = std::vector<std::filesystem::path>;
+  const auto folder = hall.string();
+  for (const auto& mesh :
+       {std::string("m.ply"), std::string("scan.laz"), std::string("dsm.tif"), std::string("a/tileset.json"), folder}) {
+    const auto ordered = in_order({"f.gpkg", "b.obj", mesh});
+    EXPECT_TRUE(ordered.wrong_order) << mesh;
+    EXPECT_EQ(ordered.paths.footprints, "f.gpkg") << mesh;
+    EXPECT_EQ(ordered.paths.meshes, (Paths{"b.obj", mesh})) << mesh;
+    EXPECT_TRUE(in_order({"PG:dbname=city", mesh}).wrong_order) << mesh;
+    EXPECT_FALSE(in_order({mesh, "f.gpkg"}).wrong_order) << mesh;
+  }
+  // Two vector files, and names that say nothing.
+  for (const auto& typed : {Paths{"f.gpkg", "g.geojson", "m.ply"}, Paths{"f.gpkg", "m.json"},
+                            Paths{"f.gpkg", "city.gdb"}, Paths{"m.ply", "n.obj"}, Paths{"f.gpkg"}}) {
+    const auto ordered = in_order(typed);
+    EXPECT_FALSE(ordered.wrong_order) << typed.front();
+    EXPECT_EQ(ordered.paths.footprints, typed.back());
+  }
+}
+
 TEST(ReadInputs, takes_footprints_or_draws_them_but_not_both) {
   const auto given = read_inputs({{hall / "mesh.off"}, hall / "footprints.geojson", false}, {});
   ASSERT_TRUE(given) << given.error().message;

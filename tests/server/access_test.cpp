@@ -266,6 +266,7 @@ TEST(Serve, warns_when_other_machines_can_reach_it) {
   const Folder folder;
   Running open(folder / "project", {"--address", "0.0.0.0"});
   EXPECT_THAT(open.complaint(), HasSubstr("other machines"));
+  EXPECT_THAT(open.link(), testing::StartsWith("http://127.0.0.1:"));  // no browser opens 0.0.0.0
   EXPECT_EQ(open.get("/api/status").status, 200);
 }
 

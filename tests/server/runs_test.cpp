@@ -56,6 +56,26 @@ TEST(Inputs, are_read_in_the_background_and_again_when_the_project_is_reopened) 
   EXPECT_TRUE(changed());
 }
 
+TEST(Inputs, of_a_project_that_was_made_on_the_command_line_are_read_when_it_is_opened) {
+  const Folder folder;
+  const auto project = folder / "project";
+  const auto command = std::string(MANSARD_BINARY) + " new -q " + project.string() + " " MANSARD_DATA "/hall >" +
+                       (folder / "said").string();
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  for (int opened = 0; opened < 2; ++opened) {
+    const Running server(project);
+    server.settle();
+    EXPECT_EQ(server.get("/api/scene").status, 200);
+    const auto inputs = server.get("/api/project").json()["inputs"];
+    EXPECT_EQ(inputs["meshes"][0]["path"], MANSARD_DATA "/hall/mesh.off");
+    EXPECT_EQ(inputs["meshes"][0]["changed"], false);
+    EXPECT_EQ(inputs["footprints"][0]["path"], MANSARD_DATA "/hall/footprints.geojson");
+  }
+  // Its files are known by their hashes before the first run.
+  const auto record = Json::parse(read(project / "project.json"));
+  EXPECT_EQ(record["inputs"]["mesh_files"][0]["sha256"].get<std::string>().size(), 64U);
+}
+
 TEST(Inputs, without_footprints_derive_them_from_the_mesh) {
   const Folder folder;
   const auto hall = std::string(MANSARD_DATA) + "/hall/";

@@ -37,15 +37,17 @@ const in_folder = (folder, ...first) => {
 const module_pages = rooms.map((room) => `docs/${room}.md`).filter(there);
 // What users look for first, then modules and decisions. A page is called as here, otherwise by its title.
 const titles = {
-  "README.md": "Overview", "docs/packaging.md": "Install", "data/README.md": "Sample data",
+  "docs/tutorials/your_data.md": "Ten minutes", "README.md": "Overview", "docs/packaging.md": "Install", "data/README.md": "Sample data",
   "docs/ingest.md": "Input formats", "docs/formats.md": "Output formats",
   "docs/cli.md": "Command line", "docs/city.md": "Resume, share, watch", "docs/workbench.md": "The workbench", "docs/serve.md": "Server and projects",
   "docs/results.md": "Results", "docs/robustness.md": "Robustness", "docs/bench.md": "Benchmarks",
 };
+/// What the site begins with: for somebody who has data and ten minutes.
+const front = "docs/tutorials/your_data.md";
 const docs = (...names) => names.map((name) => `docs/${name}.md`).filter(there);
 const top = [
-  ["Start", ["README.md", ...docs("packaging"), "data/README.md"]],
-  ["Tutorials", in_folder("docs/tutorials", "one_house.md", "one_block.md", "one_city.md", "lidar_tile.md", "textured_city.md", "whole_city.md")],
+  ["Start", [front, "README.md", ...docs("packaging"), "data/README.md"]],
+  ["Tutorials", in_folder("docs/tutorials", "one_house.md", "one_block.md", "one_city.md", "lidar_tile.md", "textured_city.md", "whole_city.md").filter((name) => name !== front)],
   ["Formats", docs("ingest", "formats")],
   ["Options", ["options.html", "attributes.html", "codes.html"]],
   ["Command line", [...docs("cli"), "verbs.html"]],
@@ -64,7 +66,7 @@ const nav = [
 ];
 const pages = [...new Set(nav.flatMap(([, names]) => names))].filter((name) => name.endsWith(".md"));
 const address = (name) =>
-  name === "README.md" ? "index.html" : name.replace(/(^|\/)README\.md$/, "$1index.html").replace(/\.md$/, ".html");
+  name === front ? "index.html" : name === "README.md" ? "overview.html" : name.replace(/(^|\/)README\.md$/, "$1index.html").replace(/\.md$/, ".html");
 
 // ---- pages
 const checks = new Checks(root, rooms, known);

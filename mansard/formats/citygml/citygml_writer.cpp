@@ -6,9 +6,11 @@
 #include <set>
 
 #include "mansard/base/text.hpp"
+#include "mansard/formats/citygml/citygml_made_by.hpp"
 #include "mansard/formats/citygml/xml_text.hpp"
 #include "mansard/formats/detail/drawn.hpp"
 #include "mansard/formats/detail/flat_level.hpp"
+#include "mansard/formats/detail/parts.hpp"
 #include "mansard/formats/detail/writers.hpp"
 
 namespace mansard::formats::detail {
@@ -41,6 +43,16 @@ auto surface_name(FaceClass kind) -> std::string_view {
     case FaceClass::soffit: return "OuterCeilingSurface";
     default: return "WallSurface";
   }
+}
+
+/// How the file was made, as a comment: CityGML has no element for it that its schemas allow in every version. Two
+/// dashes would end the comment, so that the second is written as JSON's escape; they occur in strings only.
+auto made_by_comment(const model::MadeBy& made_by) -> std::string {
+  JsonText json;
+  append_made_by(json, made_by);
+  std::string text = std::move(json).str();
+  for (std::size_t at = 0; (at = text.find("--", at)) != std::string::npos;) text.replace(at + 1, 1, "\\u002d");
+  return std::string(citygml_made_by_start) + text + " -->\n";
 }
 
 auto attribute(std::string_view name, std::string_view value) -> std::string {
@@ -95,6 +107,7 @@ class CityGmlWriter : public CityWriter {
 
   auto finish() -> base::Result<void> override {
     file_.append("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
+    if (!header_.made_by.version.empty()) file_.append(made_by_comment(header_.made_by));
     file_.append(v3_ ? head_3 : head_2);
     XmlText xml(1);
     if (!options_.lineage.empty()) xml.leaf("gml:description", options_.lineage);

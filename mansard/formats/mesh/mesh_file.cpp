@@ -46,7 +46,9 @@ auto parse(const MeshBytes& source, MeshPiece& piece) -> base::Result<RawMesh> {
                        name);
   if (has_extension(source.path, &Reads::footprints))
     return base::error("ingest-mesh-format",
-                       "this is a vector file, where a mesh is expected; give the footprints last", name);
+                       "this is a vector file, and a mesh is expected here; give a mesh, a point cloud or a raster of "
+                       "heights, and this file as the footprints",
+                       name);
   return base::error("ingest-mesh-format", "not a mesh that is read here; give " + titles(&Reads::mesh) + " or GeoTIFF",
                      name);
 }

@@ -241,9 +241,16 @@ class Source {
  private:
   auto unreadable(const std::string& why) const -> base::Diagnostic {
     if (has_extension(path_, &Reads::mesh) || extension_of(path_) == ".osgb")
+      return base::error(
+          "ingest-footprints-format",
+          "this is a " + std::string(has_extension(path_, &Reads::points) ? "point cloud" : "mesh") +
+              ", and footprints are expected here; give a vector file with polygons, or derive the footprints from "
+              "the mesh with --derive-footprints",
+          subject_);
+    std::error_code status;
+    if (fs::is_directory(path_, status))
       return base::error("ingest-footprints-format",
-                         "this is a " + std::string(has_extension(path_, &Reads::points) ? "point cloud" : "mesh") +
-                             ", where footprints are expected; give the footprints last, or --derive-footprints",
+                         "this is a folder that GDAL does not read as one source of footprints; name the file in it",
                          subject_);
     return base::error("ingest-footprints-format",
                        "not a readable vector file" + (why.empty() ? std::string() : " (" + why + ")") +

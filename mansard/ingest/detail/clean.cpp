@@ -365,16 +365,22 @@ auto clean(formats::RawMesh raw, const std::array<double, 3>& shift, const std::
 
 auto warnings_of(const model::MeshCounts& counts, const std::string& subject) -> std::vector<base::Diagnostic> {
   std::vector<base::Diagnostic> out;
-  const auto tell = [&](std::uint64_t count, const char* code, const char* what) {
-    if (count > 0) out.push_back(base::warning(code, std::to_string(count) + " " + what, subject));
+  const auto tell = [&](std::uint64_t count, const char* code, const char* one, const char* several) {
+    if (count > 0)
+      out.push_back(base::warning(code, std::to_string(count) + " " + (count == 1 ? one : several), subject));
   };
-  tell(counts.not_finite, "ingest-mesh-not-finite",
+  tell(counts.not_finite, "ingest-mesh-not-finite", "triangle with NaN, infinite or absurdly far corners was left out",
        "triangles with NaN, infinite or absurdly far corners were left out");
-  tell(counts.out_of_range, "ingest-mesh-index", "triangles that name missing vertices were left out");
-  tell(counts.degenerate, "ingest-mesh-degenerate", "triangles without area were left out");
-  tell(counts.duplicate, "ingest-mesh-duplicate", "triangles that repeat another one were left out");
-  tell(counts.non_manifold_edges, "ingest-mesh-non-manifold", "edges have more than two triangles; they were kept");
-  tell(counts.flipped_edges, "ingest-mesh-flipped", "edges have triangles that face opposite ways; they were kept");
+  tell(counts.out_of_range, "ingest-mesh-index", "triangle that names missing vertices was left out",
+       "triangles that name missing vertices were left out");
+  tell(counts.degenerate, "ingest-mesh-degenerate", "triangle without area was left out",
+       "triangles without area were left out");
+  tell(counts.duplicate, "ingest-mesh-duplicate", "triangle that repeats another one was left out",
+       "triangles that repeat another one were left out");
+  tell(counts.non_manifold_edges, "ingest-mesh-non-manifold", "edge has more than two triangles, which were kept",
+       "edges have more than two triangles, which were kept");
+  tell(counts.flipped_edges, "ingest-mesh-flipped", "edge has triangles that face opposite ways; they were kept",
+       "edges have triangles that face opposite ways; they were kept");
   return out;
 }
 

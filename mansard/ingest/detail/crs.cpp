@@ -43,18 +43,19 @@ auto utm_crs(const OGRSpatialReference& geographic, const geometry::Box2& box) -
 }
 
 auto without_crs(const std::string& option, const std::string& subject, bool geojson) -> base::Result<Way> {
-  const std::string why =
-      geojson ? "GeoJSON without a crs member whose numbers are not degrees" : "the file has no CRS";
+  const std::string why = geojson ? "this GeoJSON names no CRS, and its coordinates are not degrees"
+                                  : "the file names no CRS of its coordinates";
   Way way;
   if (option.empty()) {
     way.warnings.push_back(base::warning(
-        "ingest-crs-local", why + ": taken as metres in the mesh's own frame; --crs EPSG:n names their CRS", subject));
+        "ingest-crs-local",
+        why + "; they are taken as metres in the frame of the mesh. Give --crs EPSG:n if they have a CRS", subject));
     return way;
   }
   const auto wanted = crs::wanted_crs(option);
   if (!wanted) return wanted.error();
   way.name = crs::name_of(wanted->system);
-  way.warnings.push_back(base::warning("ingest-crs-local", why + ": taken to be in " + way.name + " already", subject));
+  way.warnings.push_back(base::warning("ingest-crs-local", why + "; they are taken to be in " + way.name, subject));
   return way;
 }
 

@@ -49,7 +49,8 @@ class Shown {
     warnings.push_back(base::warning(
         "vegetation-crowns",
         base::to_text(inside, 1) + " m² of the footprints are below " + std::to_string(found.crowns.size()) +
-            (found.crowns.size() == 1 ? " tree crown" : " tree crowns") + ", which do not count as evidence of roofs",
+            (found.crowns.size() == 1 ? " tree crown, which does" : " tree crowns, which do") +
+            " not count as evidence of roofs",
         block.name));
   return found;
 }

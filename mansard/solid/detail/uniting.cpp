@@ -220,9 +220,9 @@ class Uniting {
         ++joined;
       }
     }
-    out_.warnings.push_back(base::warning(
-        "solid-not-united",
-        std::to_string(parts_.size()) + " parts became " + std::to_string(parts_.size() - joined) + " solids: " + why));
+    out_.warnings.push_back(base::warning("solid-not-united", std::to_string(parts_.size()) + " parts are written as " +
+                                                                  std::to_string(parts_.size() - joined) +
+                                                                  " solids and not as one: " + why));
     for (std::size_t p = 0; p < parts_.size(); ++p) {
       if (members[p].empty()) continue;
       if (Attempt shared = united(members[p], true); shared.why.empty()) heaps[p] = std::move(shared);
