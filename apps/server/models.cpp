@@ -79,6 +79,14 @@ auto Models::plan_of(const PartName& name) const -> base::Result<model::Plan> {
   return part->plan;
 }
 
+auto Models::solids_of(const std::string& building) const -> base::Result<Solids> {
+  const auto now = view();
+  const auto at = index_.find(building);
+  if (at == index_.end() || at->second >= now->buildings.size()) return no_building(building);
+  const auto& seen = *now->buildings[at->second];
+  return Solids{seen.revision, seen.models};
+}
+
 auto Models::split(const SplitRequest& request) const -> base::Result<std::string> {
   const auto now = view();
   const auto at = index_.find(request.at.building);

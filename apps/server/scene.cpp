@@ -31,13 +31,14 @@ auto OpenScene::read(const Inputs& inputs, const base::Run& run) -> base::Result
   out->scene_ = std::move(*scene);
   run.report("block", formats::name_to_show(inputs.footprints), 0.9);
   out->blocks_ = block::partition(out->scene_, options.block, run);
+  if (run.cancelled()) return base::error("cancelled", "stopped on request");
   run.report("tiles", inputs.meshes.front(), 0.95);
   out->tiles_ = picture::tiles(out->scene_.mesh, {}, run);
   if (run.cancelled()) return base::error("cancelled", "stopped on request");
   out->prepared_.resize(out->blocks_.size());
   for (std::size_t b = 0; b < out->blocks_.size(); ++b)
     for (const auto& member : out->blocks_[b].members) out->block_of_[out->scene_.feature(member.feature).id] = b;
-  for (std::size_t t = 0; t < out->tiles_.size(); ++t) out->tile_of_[id_of(out->tiles_[t])] = t;
+  for (std::size_t t = 0; t < out->tiles_.size(); ++t) out->number_of_tile_[id_of(out->tiles_[t])] = t;
   out->scene_json_ = text_of(json_of(out->scene_, out->blocks_));
   out->tiles_json_ = text_of(json_of(out->tiles_));
   return std::shared_ptr<const OpenScene>(out);
@@ -45,11 +46,16 @@ auto OpenScene::read(const Inputs& inputs, const base::Run& run) -> base::Result
 
 auto OpenScene::has_block(std::string_view name) const -> bool { return block_named(name) != nullptr; }
 
+auto OpenScene::tile_of(const std::string& id) const -> const picture::Tile* {
+  const auto at = number_of_tile_.find(id);
+  return at == number_of_tile_.end() ? nullptr : &tiles_[at->second];
+}
+
 auto OpenScene::tile_bytes(const std::string& id) const -> std::optional<std::string> {
   static_assert(std::endian::native == std::endian::little);
-  const auto at = tile_of_.find(id);
-  if (at == tile_of_.end()) return std::nullopt;
-  const auto& tile = tiles_[at->second];
+  const auto* found = tile_of(id);
+  if (found == nullptr) return std::nullopt;
+  const auto& tile = *found;
   std::string bytes;
   bytes.reserve(8 + (tile.positions.size() + tile.triangles.size()) * 4);
   append(bytes, std::vector<std::uint32_t>{static_cast<std::uint32_t>(tile.positions.size() / 3),

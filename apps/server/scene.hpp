@@ -36,6 +36,8 @@ class OpenScene {
   [[nodiscard]] auto has_block(std::string_view name) const -> bool;
   [[nodiscard]] auto scene_json() const -> const std::string& { return scene_json_; }
   [[nodiscard]] auto tiles_json() const -> const std::string& { return tiles_json_; }
+  /// Null for an unknown tile.
+  [[nodiscard]] auto tile_of(const std::string& id) const -> const picture::Tile*;
   /// The bytes of a tile as openapi.json describes them; none for an unknown tile.
   [[nodiscard]] auto tile_bytes(const std::string& id) const -> std::optional<std::string>;
 
@@ -63,7 +65,7 @@ class OpenScene {
   std::vector<block::Block> blocks_;
   std::map<std::string, std::size_t, std::less<>> block_of_;  // by building
   std::vector<picture::Tile> tiles_;
-  std::map<std::string, std::size_t, std::less<>> tile_of_;
+  std::map<std::string, std::size_t, std::less<>> number_of_tile_;
   std::string scene_json_, tiles_json_;
   mutable std::deque<Prepared> prepared_;  // per block
 };
