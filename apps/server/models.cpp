@@ -46,8 +46,8 @@ auto Models::raised(const edit::Change& change, std::size_t at, const std::vecto
     if (!touch(box, changed == together.end() ? other.box : box_of(parts))) continue;
     for (const auto& part : parts) neighbours.push_back(part.plan);
   }
-  const auto* mesh = scene == nullptr ? nullptr : scene->rays_of(change.building);
-  edit::Site site{neighbours, view.buildings[at]->parts, mesh};
+  const auto mesh = scene == nullptr ? nullptr : scene->rays_of(change.building);
+  edit::Site site{neighbours, view.buildings[at]->parts, mesh.get()};
   if (member != nullptr) {
     site.footprint = member->polygons;
     site.ground = member->ground;

@@ -1,4 +1,5 @@
 // Workspace: inputs, and the scene that is read from them.
+#include <malloc.h>
 #include <algorithm>
 #include <utility>
 
@@ -144,6 +145,9 @@ auto Workspace::read_scene(Inputs inputs, bool save, const base::Run& run) -> ba
   }
   send_project();
   measure_edited();
+  // Reading takes several times the memory of its result. The C library keeps it for what comes next, which may be
+  // nothing.
+  ::malloc_trim(0);
   return {};
 }
 
@@ -188,8 +192,9 @@ auto Workspace::tile(const std::string& id) const -> Text {
   const auto scene = scene_or_error();
   if (!scene) return scene.error();
   auto bytes = (*scene)->tile_bytes(id);
-  if (!bytes) return unknown_tile(id);
-  return std::move(*bytes);
+  if (!bytes) return bytes.error();
+  if (!*bytes) return unknown_tile(id);
+  return std::move(**bytes);
 }
 
 auto Workspace::read_textures() -> Text {
@@ -226,8 +231,9 @@ auto Workspace::tile_texture(const std::string& id) const -> Text {
   if (!scene) return scene.error();
   const auto textures = textures_or_error();
   if (!textures) return textures.error();
-  const auto* tile = (*scene)->tile_of(id);
-  return tile != nullptr ? (*textures)->of_tile(*tile) : Text(unknown_tile(id));
+  const auto tile = (*scene)->tile(id);
+  if (!tile) return tile.error();
+  return *tile ? (*textures)->of_tile(**tile) : Text(unknown_tile(id));
 }
 
 auto Workspace::building_texture(const std::string& run, const std::string& building) -> Text {

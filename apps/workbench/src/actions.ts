@@ -89,9 +89,13 @@ export function keepOpen() {
 /** Loads the project, and receives events until aborted. */
 export async function begin(signal: AbortSignal) {
   let away = false;
+  // What happens between the answers below and the first event would be missed: events come first.
+  let listening = () => {};
+  const heard = new Promise<void>((resolve) => (listening = resolve));
   void client.events(
     received,
     (there, status) => {
+      listening();
       state.connected.value = there;
       if (there) state.wasConnected.value = true;
       state.locked.value = status === 401 || status === 403;
@@ -100,6 +104,7 @@ export async function begin(signal: AbortSignal) {
     },
     signal,
   );
+  await heard;
   await refresh();
 }
 
