@@ -364,7 +364,7 @@ test("two runs are compared side by side, with the error map, the plots and the 
   await picture(page, "error");
 });
 
-test("a click in the 3D view selects the building there", { tag: "@firefox" }, async ({ clean: page, server }) => {
+test("a click in the 3D view selects the building there", async ({ clean: page, server }) => {
   await openSample(page, server);
   await reconstruct(page, "view");
   const house = await aHouse(page);
@@ -414,7 +414,7 @@ test("a killed server is restarted, and no acknowledged change is lost", async (
   await expect.poll(async () => (await buildingOf(page, house.id)).edited).toBe(false);
 });
 
-test("two tabs show each other's edits", { tag: "@firefox" }, async ({ clean: page, context, server }) => {
+test("two tabs show each other's edits", async ({ clean: page, context, server }) => {
   await openSample(page, server);
   await reconstruct(page, "shared");
   const house = await aHouse(page);
@@ -811,7 +811,7 @@ test("roof shapes are applied in one click, and the view is divided", async ({ c
   await picture(page, "divided");
 });
 
-test("files are dropped on the view, and models of others are shown beside the run", { tag: "@firefox" }, async ({ clean: page, server, folder }) => {
+test("files are dropped on the view, and models of others are shown beside the run", async ({ clean: page, server, folder }) => {
   const model = someModel(folder);
   await openSample(page, server);
   await reconstruct(page, "beside");
@@ -945,6 +945,13 @@ test("pairs of points move the mesh to the footprints", { tag: "@firefox" }, asy
   expect(Math.abs(number(north!) + 2)).toBeLessThan(0.2);
   expect(number(rms!)).toBeLessThan(0.6);
   await picture(page, "align");
+  await page.getByRole("button", { name: "Dark colours" }).click();
+  await page.setViewportSize({ width: 683, height: 384 }); // 1366 x 768 at 200 %
+  expect(await faint(page)).toEqual([]);
+  const seen = (await box.boundingBox())!;
+  expect(seen.y).toBeGreaterThanOrEqual(0);
+  expect(seen.y + seen.height).toBeLessThanOrEqual(384);
+  await picture(page, "align-dark-small");
   await box.getByRole("button", { name: "Read the inputs again with this offset" }).click();
   await expect(box).toHaveCount(0);
   await expect
@@ -1026,6 +1033,9 @@ test("roofs of a row, parts like another, an annex and a deleted part", { tag: "
     await expect.poll(() => state(page, (s) => s.selection.value?.part)).toBe(house.parts[1]!.id);
     await idle(page);
     await picture(page, "annex");
+    await page.getByRole("button", { name: "Dark colours" }).click();
+    expect(await faint(page)).toEqual([]);
+    await picture(page, "annex-dark");
     await page.getByRole("button", { name: "Delete part" }).click();
     await expect.poll(async () => (await buildingOf(page, "right")).parts.length).toBe(1);
     // The last part is deleted only after a question.
