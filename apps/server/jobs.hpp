@@ -19,7 +19,7 @@
 namespace mansard::server {
 
 struct Job {
-  std::string id, kind;            ///< kind: "read", "run"
+  std::string id, kind;            ///< kind: "read", "run", "textures"
   std::optional<std::string> run;  ///< the run that the job computes
   State state = State::queued;
   std::string stage, subject;

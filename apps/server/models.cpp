@@ -46,8 +46,8 @@ auto Models::raised(const edit::Change& change, std::size_t at, const std::vecto
     if (!touch(box, changed == together.end() ? other.box : box_of(parts))) continue;
     for (const auto& part : parts) neighbours.push_back(part.plan);
   }
-  const auto* mesh = scene == nullptr ? nullptr : scene->rays_of(change.building);
-  edit::Site site{neighbours, view.buildings[at]->parts, mesh};
+  const auto mesh = scene == nullptr ? nullptr : scene->rays_of(change.building);
+  edit::Site site{neighbours, view.buildings[at]->parts, mesh.get()};
   if (member != nullptr) {
     site.footprint = member->polygons;
     site.ground = member->ground;
@@ -77,6 +77,14 @@ auto Models::plan_of(const PartName& name) const -> base::Result<model::Plan> {
   if (part == parts.end())
     return base::error("edit-part", "the building has no part '" + name.part + "'", name.building);
   return part->plan;
+}
+
+auto Models::solids_of(const std::string& building) const -> base::Result<Solids> {
+  const auto now = view();
+  const auto at = index_.find(building);
+  if (at == index_.end() || at->second >= now->buildings.size()) return no_building(building);
+  const auto& seen = *now->buildings[at->second];
+  return Solids{seen.revision, seen.models};
 }
 
 auto Models::split(const SplitRequest& request) const -> base::Result<std::string> {

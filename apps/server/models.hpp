@@ -82,6 +82,13 @@ class Models {
   /// The edited city, for export. Fails as edit::edited_city does.
   [[nodiscard]] auto edited(const SceneOrNone& scene) -> base::Result<std::shared_ptr<const model::City>>;
 
+  /// The solids of a building as it is now, part by part, and its revision. Fails with "edit-building".
+  struct Solids {
+    std::uint64_t revision = 0;
+    std::vector<model::LabelledSolid> models;
+  };
+  [[nodiscard]] auto solids_of(const std::string& building) const -> base::Result<Solids>;
+
   [[nodiscard]] auto options() const -> const pipeline::Options& { return options_; }
 
  private:

@@ -151,7 +151,13 @@ auto Models::edited(const SceneOrNone& scene) -> base::Result<std::shared_ptr<co
     if (export_ && export_->number == number && export_->with_scene == (scene != nullptr)) return export_->city;
     history = history_;
   }
-  const auto mesh_of = [&](std::string_view id) { return scene ? scene->rays_of(id) : nullptr; };
+  std::mutex mutex;
+  std::vector<std::shared_ptr<const rays::Scene>> used;  // until the city is made
+  const auto mesh_of = [&](std::string_view id) -> const rays::Scene* {
+    auto mesh = scene ? scene->rays_of(id) : nullptr;
+    const std::scoped_lock adding(mutex);
+    return used.emplace_back(std::move(mesh)).get();
+  };
   auto city = edit::edited_city(city_, *history, mesh_of, options_);
   if (!city) return city.error();
   export_ = Export{number, scene != nullptr, std::make_shared<const model::City>(std::move(*city))};

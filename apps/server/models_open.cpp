@@ -155,7 +155,7 @@ auto Models::raise_all(const OpenScene* scene) -> base::Result<void> {
   base::parallel_for(buildings.size(), [&](std::size_t b) {
     auto& building = buildings[b];
     const auto& source = raised->city.buildings[b];
-    const auto* mesh = scene == nullptr ? nullptr : scene->rays_of(source.id);
+    const auto mesh = scene == nullptr ? nullptr : scene->rays_of(source.id);
     const auto* member = scene == nullptr ? nullptr : scene->member_of(source.id);
     if (mesh == nullptr || member == nullptr) {
       building.mse = mean_error(building.parts);

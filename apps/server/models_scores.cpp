@@ -19,7 +19,7 @@ auto Models::measured(const std::vector<std::string>& blocks, const SceneOrNone&
                          name);
     std::vector<std::shared_ptr<const Seen>> buildings;
     std::vector<geometry::Polygon> footprints;
-    const rays::Scene* mesh = nullptr;
+    std::shared_ptr<const rays::Scene> mesh;
     for (const auto& member : block->members) {
       const auto& id = scene->scene().feature(member.feature).id;
       footprints.insert(footprints.end(), member.polygons.begin(), member.polygons.end());

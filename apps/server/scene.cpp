@@ -1,7 +1,9 @@
 #include "apps/server/scene.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
+#include <iterator>
 #include <limits>
 
 #include "apps/server/options.hpp"
@@ -13,6 +15,8 @@ namespace {
 
 /// Half the width of a section, and its height above and below the base of the edge, in m.
 constexpr double reach = 20.0;
+/// Triangles that are kept prepared for rays: about 100 MB.
+constexpr std::size_t most_prepared = 500'000;
 
 template <class T>
 void append(std::string& bytes, const std::vector<T>& values) {
@@ -31,40 +35,87 @@ auto OpenScene::read(const Inputs& inputs, const base::Run& run) -> base::Result
   out->scene_ = std::move(*scene);
   run.report("block", formats::name_to_show(inputs.footprints), 0.9);
   out->blocks_ = block::partition(out->scene_, options.block, run);
+  if (run.cancelled()) return base::error("cancelled", "stopped on request");
   run.report("tiles", inputs.meshes.front(), 0.95);
-  out->tiles_ = picture::tiles(out->scene_.mesh, {}, run);
+  auto tiles = picture::tiles(out->scene_.mesh, {}, run);
   if (run.cancelled()) return base::error("cancelled", "stopped on request");
   out->prepared_.resize(out->blocks_.size());
   for (std::size_t b = 0; b < out->blocks_.size(); ++b)
     for (const auto& member : out->blocks_[b].members) out->block_of_[out->scene_.feature(member.feature).id] = b;
-  for (std::size_t t = 0; t < out->tiles_.size(); ++t) out->tile_of_[id_of(out->tiles_[t])] = t;
   out->scene_json_ = text_of(json_of(out->scene_, out->blocks_));
-  out->tiles_json_ = text_of(json_of(out->tiles_));
+  out->tiles_json_ = text_of(json_of(tiles));
+  if (auto done = out->put_aside(std::move(tiles)); !done) return done.failure();
   return std::shared_ptr<const OpenScene>(out);
 }
 
 auto OpenScene::has_block(std::string_view name) const -> bool { return block_named(name) != nullptr; }
 
-auto OpenScene::tile_bytes(const std::string& id) const -> std::optional<std::string> {
+/// What a page asks for, in a file without a name: in memory it would be a second mesh.
+auto OpenScene::put_aside(std::vector<picture::Tile> tiles) -> base::Result<void> {
   static_assert(std::endian::native == std::endian::little);
-  const auto at = tile_of_.find(id);
-  if (at == tile_of_.end()) return std::nullopt;
-  const auto& tile = tiles_[at->second];
-  std::string bytes;
-  bytes.reserve(8 + (tile.positions.size() + tile.triangles.size()) * 4);
-  append(bytes, std::vector<std::uint32_t>{static_cast<std::uint32_t>(tile.positions.size() / 3),
-                                           static_cast<std::uint32_t>(tile.triangles.size() / 3)});
-  append(bytes, tile.positions);
-  append(bytes, tile.triangles);
-  return bytes;
+  auto spool = base::Spool::open();
+  if (!spool) return spool.failure();
+  tile_bytes_ = std::move(*spool);
+  for (auto& tile : tiles) {
+    PutAside aside{{}, tile_bytes_->size(), tile.positions.size() / 3, tile.triangles.size() / 3};
+    std::string bytes;
+    append(bytes, std::vector<std::uint32_t>{static_cast<std::uint32_t>(aside.vertices),
+                                             static_cast<std::uint32_t>(aside.triangles)});
+    append(bytes, tile.positions);
+    append(bytes, tile.triangles);
+    tile_bytes_->append(bytes);
+    tile.positions = {};
+    tile.triangles = {};
+    aside.tile = std::move(tile);
+    tiles_.emplace(id_of(aside.tile), std::move(aside));
+  }
+  return {};
 }
 
-auto OpenScene::rays_of(std::string_view building) const -> const rays::Scene* {
+auto OpenScene::tile_bytes(const std::string& id) const -> base::Result<std::optional<std::string>> {
+  const auto at = tiles_.find(id);
+  if (at == tiles_.end()) return std::optional<std::string>();
+  const auto& aside = at->second;
+  const std::scoped_lock lock(tiles_mutex_);
+  auto bytes = tile_bytes_->read(aside.offset, 8 + 12 * (aside.vertices + aside.triangles));
+  if (!bytes) return bytes.failure();
+  return std::optional(std::move(*bytes));
+}
+
+auto OpenScene::tile(const std::string& id) const -> base::Result<std::optional<picture::Tile>> {
+  const auto bytes = tile_bytes(id);
+  if (!bytes) return bytes.failure();
+  if (!*bytes) return std::optional<picture::Tile>();
+  const auto& aside = tiles_.find(id)->second;
+  auto tile = aside.tile;
+  tile.positions.resize(3 * aside.vertices);
+  tile.triangles.resize(3 * aside.triangles);
+  std::memcpy(tile.positions.data(), (*bytes)->data() + 8, 12 * aside.vertices);
+  std::memcpy(tile.triangles.data(), (*bytes)->data() + 8 + 12 * aside.vertices, 12 * aside.triangles);
+  return std::optional(std::move(tile));
+}
+
+auto OpenScene::rays_of(std::string_view building) const -> std::shared_ptr<const rays::Scene> {
   const auto at = block_of_.find(building);
   if (at == block_of_.end() || blocks_[at->second].mesh.triangles.empty()) return nullptr;
   auto& prepared = prepared_[at->second];
-  std::call_once(prepared.once_rays, [&] { prepared.rays = std::make_unique<rays::Scene>(blocks_[at->second].mesh); });
-  return prepared.rays.get();
+  const std::scoped_lock lock(prepared.rays_mutex);
+  auto rays = prepared.rays.lock();
+  if (!rays) prepared.rays = rays = std::make_shared<const rays::Scene>(blocks_[at->second].mesh);
+  keep(at->second, rays);
+  return rays;
+}
+
+void OpenScene::keep(std::size_t block, const std::shared_ptr<const rays::Scene>& rays) const {
+  const std::scoped_lock lock(kept_mutex_);
+  const auto known = std::ranges::find(kept_, block, [](const auto& one) { return one.first; });
+  if (known != kept_.end()) kept_.erase(known);
+  kept_.emplace_front(block, rays);
+  std::size_t triangles = 0;
+  for (auto one = kept_.begin(); one != kept_.end();) {
+    triangles += blocks_[one->first].mesh.triangles.size();
+    one = triangles > most_prepared && one != kept_.begin() ? kept_.erase(one) : std::next(one);
+  }
 }
 
 auto OpenScene::member_of(std::string_view building) const -> const block::Member* {

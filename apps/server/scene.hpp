@@ -2,17 +2,21 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <deque>
+#include <list>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "apps/server/json.hpp"
 #include "apps/server/project.hpp"
+#include "mansard/base/outputs.hpp"
 #include "mansard/base/result.hpp"
 #include "mansard/base/run.hpp"
 #include "mansard/block/block.hpp"
@@ -27,7 +31,7 @@ namespace mansard::server {
 /// Immutable once it is read; queries may run on any thread.
 class OpenScene {
  public:
-  /// Fails as ingest::read_scene does, and with "cancelled", "option-…".
+  /// Fails as ingest::read_scene does, and with "file-write", "cancelled", "option-…".
   [[nodiscard]] static auto read(const Inputs& inputs, const base::Run& run)
       -> base::Result<std::shared_ptr<const OpenScene>>;
 
@@ -36,11 +40,15 @@ class OpenScene {
   [[nodiscard]] auto has_block(std::string_view name) const -> bool;
   [[nodiscard]] auto scene_json() const -> const std::string& { return scene_json_; }
   [[nodiscard]] auto tiles_json() const -> const std::string& { return tiles_json_; }
-  /// The bytes of a tile as openapi.json describes them; none for an unknown tile.
-  [[nodiscard]] auto tile_bytes(const std::string& id) const -> std::optional<std::string>;
+  /// The bytes of a tile as openapi.json describes them; none for an unknown tile. Fails with "file-write" where what
+  /// was put aside cannot be read.
+  [[nodiscard]] auto tile_bytes(const std::string& id) const -> base::Result<std::optional<std::string>>;
+  /// The tile itself. Fails in the same way.
+  [[nodiscard]] auto tile(const std::string& id) const -> base::Result<std::optional<picture::Tile>>;
 
-  /// The mesh around a building, prepared for ray casting on first use; null if there is none.
-  [[nodiscard]] auto rays_of(std::string_view building) const -> const rays::Scene*;
+  /// The mesh around a building, prepared for ray casting; null if there is none. Those used last are kept, within a
+  /// bound: prepared, a mesh takes several times its own memory.
+  [[nodiscard]] auto rays_of(std::string_view building) const -> std::shared_ptr<const rays::Scene>;
   /// A building's place in its block; null for an unknown one.
   [[nodiscard]] auto member_of(std::string_view building) const -> const block::Member*;
   /// The block of that name; null for an unknown one.
@@ -53,8 +61,9 @@ class OpenScene {
  private:
   OpenScene() = default;
   struct Prepared {
-    std::once_flag once_rays, once_raw;
-    std::unique_ptr<rays::Scene> rays;
+    std::mutex rays_mutex;
+    std::weak_ptr<const rays::Scene> rays;
+    std::once_flag once_raw;
     std::unique_ptr<profile::RawProfiles> raw;
   };
   [[nodiscard]] auto block_near(geometry::Point2 at) const -> std::size_t;
@@ -62,10 +71,20 @@ class OpenScene {
   model::Scene scene_;
   std::vector<block::Block> blocks_;
   std::map<std::string, std::size_t, std::less<>> block_of_;  // by building
-  std::vector<picture::Tile> tiles_;
-  std::map<std::string, std::size_t, std::less<>> tile_of_;
+  [[nodiscard]] auto put_aside(std::vector<picture::Tile> tiles) -> base::Result<void>;
+  struct PutAside {
+    picture::Tile tile;  ///< without its arrays
+    std::uint64_t offset = 0;
+    std::size_t vertices = 0, triangles = 0;
+  };
+  std::map<std::string, PutAside, std::less<>> tiles_;
+  mutable std::mutex tiles_mutex_;
+  std::unique_ptr<base::Spool> tile_bytes_;  ///< of all tiles: they are as large as the mesh, and rarely asked for
   std::string scene_json_, tiles_json_;
   mutable std::deque<Prepared> prepared_;  // per block
+  void keep(std::size_t block, const std::shared_ptr<const rays::Scene>& rays) const;
+  mutable std::mutex kept_mutex_;
+  mutable std::list<std::pair<std::size_t, std::shared_ptr<const rays::Scene>>> kept_;  // by block, the last one first
 };
 
 }  // namespace mansard::server

@@ -27,6 +27,7 @@
 #include "apps/server/project.hpp"
 #include "apps/server/requests.hpp"
 #include "apps/server/scene.hpp"
+#include "apps/server/textures.hpp"
 #include "mansard/base/result.hpp"
 
 namespace mansard::server {
@@ -63,6 +64,10 @@ class Workspace {
   [[nodiscard]] auto scene() const -> Text;
   [[nodiscard]] auto tiles() const -> Text;
   [[nodiscard]] auto tile(const std::string& id) const -> Text;
+  /// Reads the textures of the scan, once; the others need them and fail with "server-no-textures" without.
+  [[nodiscard]] auto read_textures() -> Text;
+  [[nodiscard]] auto tile_texture(const std::string& id) const -> Text;
+  [[nodiscard]] auto building_texture(const std::string& run, const std::string& building) -> Text;
 
   [[nodiscard]] auto start_run(const RunRequest& request) -> Text;
   /// Opens models that mansard wrote as a finished run. If there is a scene, they are moved into its frame.
@@ -93,6 +98,8 @@ class Workspace {
   [[nodiscard]] auto attributes(const std::string& run) -> Text;
   /// The buildings at a lower level of detail: "1.2", "1.3" or "2.0".
   [[nodiscard]] auto level(const std::string& run, const std::string& lod) -> Text;
+  /// The terrain around the models as they are.
+  [[nodiscard]] auto terrain(const std::string& run) -> Text;
   /// Models of any producer, in the frame of the scene, to be shown beside those of a run. Nothing is stored.
   [[nodiscard]] auto other_model(const ImportRequest& request) -> Text;
   /// What makes mesh and footprints match: a CRS, or an offset of the mesh. Reads the inputs as a whole.
@@ -118,6 +125,7 @@ class Workspace {
   [[nodiscard]] auto has_sample() const -> bool;
   [[nodiscard]] auto scene_now() const -> SceneOrNone;
   [[nodiscard]] auto scene_or_error() const -> base::Result<SceneOrNone>;
+  [[nodiscard]] auto textures_or_error() const -> base::Result<std::shared_ptr<const Textures>>;
 
   // Runs. `Make` computes the outcome of a run from its record.
   using Make = std::function<base::Result<RunOutcome>(RunRecord, const base::Run&)>;
@@ -144,10 +152,11 @@ class Workspace {
   void send_project();
 
   std::filesystem::path sample_;
-  mutable std::mutex mutex_;  // guards the next four; held for moments only
+  mutable std::mutex mutex_;  // guards the next five; held for moments only
   Project project_;
   std::vector<Run> runs_;
   SceneOrNone scene_;
+  std::shared_ptr<const Textures> textures_;  // of the scene; null until they are asked for
   std::optional<base::Diagnostic> scene_failure_;
   mutable ChangedFiles changed_files_;
   std::mutex exports_mutex_;

@@ -1,5 +1,8 @@
 // Workspace: the models of a run as files.
+#include <algorithm>
+
 #include "apps/server/exports.hpp"
+#include "apps/server/ground.hpp"
 #include "apps/server/workspace.hpp"
 #include "mansard/base/files.hpp"
 
@@ -21,9 +24,14 @@ auto Workspace::export_file(const std::string& run, const std::string& file) -> 
                          "the run has no segmentation layers: its models were imported, not reconstructed", file);
     return std::move(**layers);
   }
-  const auto city = (*open)->edited(scene_now());
+  const auto scene = scene_now();
+  const auto city = (*open)->edited(scene);
   if (!city) return city.error();
   const auto work = work_folder(project_.folder() / "exports", next_work_++);
+  if (std::ranges::find(terrain_files(), file) != terrain_files().end()) {
+    if (!scene) return base::error("server-no-scene", "the terrain is made from the mesh, which has not been read");
+    return terrain_file(**city, *scene, (*open)->options(), file, work);
+  }
   return exported(**city, (*open)->options().write, file, work);
 }
 

@@ -1,4 +1,5 @@
 // Workspace: answers about models beyond what editing needs.
+#include "apps/server/ground.hpp"
 #include "apps/server/inputs.hpp"
 #include "apps/server/inspect.hpp"
 #include "apps/server/options.hpp"
@@ -27,6 +28,15 @@ auto Workspace::level(const std::string& run, const std::string& lod) -> Text {
   if (!open) return open.error();
   const auto city = (*open)->edited(scene_now());
   return city ? Text(text_of(level_json(**city, *level, (*open)->options().write.levels))) : Text(city.error());
+}
+
+auto Workspace::terrain(const std::string& run) -> Text {
+  const auto scene = scene_or_error();
+  if (!scene) return scene.error();
+  const auto open = models(run);
+  if (!open) return open.error();
+  const auto city = (*open)->edited(*scene);
+  return city ? terrain_bytes(**city, **scene, (*open)->options()) : Text(city.error());
 }
 
 auto Workspace::other_model(const ImportRequest& request) -> Text {

@@ -1,4 +1,5 @@
 // Workspace: inputs, and the scene that is read from them.
+#include <malloc.h>
 #include <algorithm>
 #include <utility>
 
@@ -27,6 +28,10 @@ auto is_safe_name(const std::string& name) -> bool {
     return false;  // not UTF-8
   }
   return true;
+}
+
+auto unknown_tile(const std::string& id) -> base::Diagnostic {
+  return base::error("server-unknown", "unknown tile; /api/scene/tiles lists the tiles of the scene", id);
 }
 
 /// The first file that is not the one that was read before; none if all are. Databases have no hash.
@@ -136,9 +141,13 @@ auto Workspace::read_scene(Inputs inputs, bool save, const base::Run& run) -> ba
     if (save)
       if (auto saved = project_.save(inputs); !saved) return saved;
     scene_ = *scene;
+    textures_ = nullptr;
   }
   send_project();
   measure_edited();
+  // Reading takes several times the memory of its result. The C library keeps it for what comes next, which may be
+  // nothing.
+  ::malloc_trim(0);
   return {};
 }
 
@@ -183,8 +192,57 @@ auto Workspace::tile(const std::string& id) const -> Text {
   const auto scene = scene_or_error();
   if (!scene) return scene.error();
   auto bytes = (*scene)->tile_bytes(id);
-  if (!bytes) return base::error("server-unknown", "unknown tile; /api/scene/tiles lists the tiles of the scene", id);
-  return std::move(*bytes);
+  if (!bytes) return bytes.error();
+  if (!*bytes) return unknown_tile(id);
+  return std::move(**bytes);
+}
+
+auto Workspace::read_textures() -> Text {
+  if (const auto scene = scene_or_error(); !scene) return scene.error();
+  return text_of(json_of(jobs_.submit(
+      "textures", std::nullopt,
+      [this](const base::Run& run) -> base::Result<void> {
+        const auto scene = scene_or_error();
+        if (!scene) return scene.error();
+        std::optional<Inputs> inputs;
+        {
+          const std::scoped_lock lock(mutex_);
+          if (textures_) return {};
+          inputs = project_.inputs();
+        }
+        const auto read = Textures::read(inputs.value_or(Inputs()), **scene, run);
+        if (!read) return read.failure();
+        const std::scoped_lock lock(mutex_);
+        if (scene_ == *scene) textures_ = *read;
+        return {};
+      },
+      nullptr)));
+}
+
+auto Workspace::textures_or_error() const -> base::Result<std::shared_ptr<const Textures>> {
+  const std::scoped_lock lock(mutex_);
+  if (textures_) return textures_;
+  return base::error("server-no-textures",
+                     "the textures of the scan have not been read; POST /api/scene/textures does");
+}
+
+auto Workspace::tile_texture(const std::string& id) const -> Text {
+  const auto scene = scene_or_error();
+  if (!scene) return scene.error();
+  const auto textures = textures_or_error();
+  if (!textures) return textures.error();
+  const auto tile = (*scene)->tile(id);
+  if (!tile) return tile.error();
+  return *tile ? (*textures)->of_tile(**tile) : Text(unknown_tile(id));
+}
+
+auto Workspace::building_texture(const std::string& run, const std::string& building) -> Text {
+  const auto textures = textures_or_error();
+  if (!textures) return textures.error();
+  const auto open = models(run);
+  if (!open) return open.error();
+  const auto solids = (*open)->solids_of(building);
+  return solids ? (*textures)->of_building(solids->models, solids->revision) : Text(solids.error());
 }
 
 }  // namespace mansard::server

@@ -1,6 +1,34 @@
 import { defineConfig } from "@playwright/test";
 
-// Chromium of Debian, with WebGL in software: test machines have no graphics card.
+// Browsers of Debian, with WebGL in software: test machines have no graphics card. Playwright drives a Firefox that is not its own
+// by WebDriver BiDi, which it calls experimental; tests/run.sh gives it a screen, since WebGL of Firefox needs one.
+const firefox = process.env.MANSARD_BROWSER === "firefox";
+const chromium = {
+  browserName: "chromium" as const,
+  launchOptions: {
+    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+    args: [
+      "--no-sandbox",
+      "--use-gl=angle",
+      "--use-angle=swiftshader",
+      "--enable-unsafe-swiftshader",
+      "--disable-quic",
+      "--no-first-run",
+      "--disable-background-networking",
+      "--disable-component-update",
+      "--disable-sync",
+    ],
+  },
+};
+const mozilla = {
+  browserName: "_bidiFirefox" as "firefox", // not among the names that its types know
+  headless: false,
+  launchOptions: {
+    executablePath: process.env.FIREFOX ?? "/usr/bin/firefox-esr",
+    firefoxUserPrefs: { "browser.download.folderList": 2, "browser.download.dir": process.env.MANSARD_DOWNLOADS ?? "" },
+  },
+};
+
 export default defineConfig({
   testDir: "./tests",
   testMatch: "*.spec.ts",
@@ -14,19 +42,6 @@ export default defineConfig({
   use: {
     actionTimeout: 60_000,
     viewport: { width: 1366, height: 768 },
-    launchOptions: {
-      executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-      args: [
-        "--no-sandbox",
-        "--use-gl=angle",
-        "--use-angle=swiftshader",
-        "--enable-unsafe-swiftshader",
-        "--disable-quic",
-        "--no-first-run",
-        "--disable-background-networking",
-        "--disable-component-update",
-        "--disable-sync",
-      ],
-    },
+    ...(firefox ? mozilla : chromium),
   },
 });

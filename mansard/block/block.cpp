@@ -369,6 +369,7 @@ Partition::Partition(const model::Scene& scene, const Options& options, const ba
     reaches.push_back(box.grown(options.ground_reach));
   }
   near_by = detail::candidates(scene.mesh, regions);
+  if (run.cancelled()) return;
   prepared_->shapes_near = detail::candidates(as_mesh(shapes.boxes), regions);
   // Only where nothing is nearer does the mesh farther away matter.
   for (std::size_t b = 0; b < outlines.size(); ++b)

@@ -330,7 +330,8 @@ auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::files
   std::optional<Box2> within;
   if (ground->kept) within = Box2{ground->kept->least - origin, ground->kept->most - origin};
   if (cells == nullptr) {
-    auto clean = detail::clean(std::move(meshes->mesh), shift, within);
+    auto clean = detail::clean(std::move(meshes->mesh), shift, within, {}, run);
+    if (run.cancelled()) return base::stopped();
     scene.mesh = std::move(clean.mesh);
     scene.mesh_counts = clean.counts;
   } else {

@@ -50,12 +50,15 @@ auto turned(Triangle t) -> Triangle {
 }
 
 /// The mesh with all vertices of one cell as their mean; triangles without three corners are gone, and repeated ones.
-auto clustered(const Mesh& mesh, Point3 low, double cell) -> Mesh {
+/// Empty when cancelled: each step takes seconds for tens of millions of triangles.
+auto clustered(const Mesh& mesh, Point3 low, double cell, const base::Run& run) -> Mesh {
   std::vector<std::pair<std::uint64_t, std::uint32_t>> order(mesh.vertices.size());
   in_pieces(order.size(), [&](std::size_t v) {
     order[v] = {key_of(mesh.vertices[v], low, cell), static_cast<std::uint32_t>(v)};
   });
+  if (run.cancelled()) return {};
   std::ranges::sort(order);
+  if (run.cancelled()) return {};
 
   Mesh out;
   std::vector<std::uint32_t> cluster(order.size());
@@ -73,6 +76,7 @@ auto clustered(const Mesh& mesh, Point3 low, double cell) -> Mesh {
     const Triangle moved{cluster[t[0]], cluster[t[1]], cluster[t[2]]};
     if (moved[0] != moved[1] && moved[1] != moved[2] && moved[2] != moved[0]) out.triangles.push_back(turned(moved));
   }
+  if (run.cancelled()) return {};
   std::ranges::sort(out.triangles);
   out.triangles.erase(std::ranges::unique(out.triangles).begin(), out.triangles.end());
   return out;
@@ -150,8 +154,10 @@ auto tile_of(const Mesh& mesh, std::span<const std::uint32_t> group) -> Tile {
   return tile;
 }
 
-void add_level(const Mesh& mesh, Point3 low, double size, std::size_t level, double cell, std::vector<Tile>& out) {
+void add_level(const Mesh& mesh, Point3 low, double size, std::size_t level, double cell, const base::Run& run,
+               std::vector<Tile>& out) {
   const auto places = places_of(mesh, low, size);
+  if (run.cancelled()) return;
   const auto counts = counts_of(places);
   std::unordered_map<Place, std::size_t> next;
   std::vector<std::size_t> starts{0};
@@ -162,11 +168,14 @@ void add_level(const Mesh& mesh, Point3 low, double size, std::size_t level, dou
   std::vector<std::uint32_t> order(places.size());
   for (std::uint32_t t = 0; t < places.size(); ++t) order[next[places[t]]++] = t;
 
+  if (run.cancelled()) return;
+
   std::vector<Place> place_of_tile;
   for (const auto& [p, count] : counts) place_of_tile.push_back(p);
   const std::size_t first = out.size();
   out.resize(first + counts.size());
   base::parallel_for(counts.size(), [&](std::size_t i) {
+    if (run.cancelled()) return;
     Tile& tile = out[first + i] = tile_of(mesh, std::span(order).subspan(starts[i], starts[i + 1] - starts[i]));
     tile.level = level;
     tile.row = row_of(place_of_tile[i]);
@@ -181,9 +190,10 @@ auto tiles(const Mesh& mesh, const TileOptions& options, const base::Run& run) -
   std::vector<Tile> out;
   if (mesh.triangles.empty()) return out;
   const Box3 box = box_of(mesh);
+  if (run.cancelled()) return out;
   double size = tile_size(mesh, box, options.most), cell = options.error;
   run.report("tiles", "level 0", 0);
-  add_level(mesh, box.least, size, 0, 0, out);
+  add_level(mesh, box.least, size, 0, 0, run, out);
 
   std::size_t before = mesh.triangles.size();
   const double extent = std::max({box.most.x - box.least.x, box.most.y - box.least.y, box.most.z - box.least.z});
@@ -192,16 +202,18 @@ auto tiles(const Mesh& mesh, const TileOptions& options, const base::Run& run) -
     Mesh coarse;
     for (;; cell *= 2) {
       if (run.cancelled()) return {};
-      coarse = clustered(mesh, box.least, cell);
+      coarse = clustered(mesh, box.least, cell, run);
+      if (run.cancelled()) return {};
       if (coarse.triangles.size() <= before / 2 || cell >= extent) break;  // else it is hardly worth a level
     }
     size *= 2;
     run.report("tiles", "level " + std::to_string(level),
                1 - static_cast<double>(coarse.triangles.size()) / static_cast<double>(mesh.triangles.size()));
-    add_level(coarse, box.least, size, level, cell, out);
+    add_level(coarse, box.least, size, level, cell, run, out);
     before = coarse.triangles.size();
     cell *= 2;
   }
+  if (run.cancelled()) return {};
   return out;
 }
 

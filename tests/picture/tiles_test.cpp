@@ -207,6 +207,23 @@ TEST(Tiles, are_the_same_at_any_thread_count) {
   }
 }
 
+TEST(Tiles, are_none_when_cancelled_at_any_step) {
+  const auto mesh = hills(80, 1.6);
+  int steps = 0;
+  for (int at = 0; at < 3; ++at) {
+    base::Cancel cancel;
+    base::Run run;
+    run.cancel = &cancel;
+    int reports = 0;
+    run.progress = [&](auto, auto, double) {
+      if (reports++ == at) cancel.request();
+    };
+    EXPECT_TRUE(tiles(mesh, small, run).empty()) << "cancelled at report " << at;
+    steps += cancel.requested() ? 1 : 0;
+  }
+  EXPECT_GE(steps, 2) << "levels were reported";
+}
+
 TEST(Tiles, of_a_tall_heap_on_one_spot_are_made_too) {
   Mesh heap;
   for (std::uint32_t i = 0; i < 3000; ++i) {

@@ -154,6 +154,8 @@ await call("get", "/api/scene");
 const { tiles } = await call("get", "/api/scene/tiles");
 await call("get", "/api/scene/tiles/{id}", { at: { id: tiles[0].id } });
 await call("get", "/api/scene/tiles/{id}", { at: { id: "9-9-9" }, expect: 404 });
+await call("post", "/api/scene/textures", { body: {} });
+await call("get", "/api/scene/tiles/{id}/texture", { at: { id: tiles[0].id }, expect: 404 });
 await call("post", "/api/runs", { body: { label: "one", preset: "", options: {}, blocks: [] } });
 const second = await call("post", "/api/runs", { body: {} });
 await call("delete", "/api/jobs/{id}", { at: { id: second.id } });
@@ -167,6 +169,8 @@ await call("get", "/api/runs/{run}/scores", { at: of });
 await call("get", "/api/runs/{run}/attributes", { at: of });
 for (const lod of ["1.2", "1.3", "2.0"]) await call("get", "/api/runs/{run}/levels/{lod}", { at: { ...of, lod } });
 await call("get", "/api/runs/{run}/levels/{lod}", { at: { ...of, lod: "3" }, expect: 404 });
+await call("get", "/api/runs/{run}/terrain", { at: of });
+await call("get", "/api/runs/{run}/textures/{building}", { at: { ...of, building: "none" }, expect: 404 });
 await call("post", "/api/project/alignment", {
   body: { ...project.inputs.given, reading: project.reading },
 });

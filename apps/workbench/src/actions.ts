@@ -89,9 +89,13 @@ export function keepOpen() {
 /** Loads the project, and receives events until aborted. */
 export async function begin(signal: AbortSignal) {
   let away = false;
+  // What happens between the answers below and the first event would be missed: events come first.
+  let listening = () => {};
+  const heard = new Promise<void>((resolve) => (listening = resolve));
   void client.events(
     received,
     (there, status) => {
+      listening();
       state.connected.value = there;
       if (there) state.wasConnected.value = true;
       state.locked.value = status === 401 || status === 403;
@@ -100,6 +104,7 @@ export async function begin(signal: AbortSignal) {
     },
     signal,
   );
+  await heard;
   await refresh();
 }
 
@@ -145,6 +150,7 @@ export async function loadScene() {
     batch(() => {
       state.scene.value = scene;
       state.tiles.value = tiles;
+      state.texturesRead.value = false;
     });
     for (const open of [state.run.value, state.other.value]) if (open?.history.done) measureAgain(open.id);
   } catch (e) {
@@ -153,6 +159,20 @@ export async function loadScene() {
     else if (!(e instanceof Refused)) throw e;
   }
 }
+
+/** Reads the textures of the scan on the server; false if there are none. */
+export async function needTextures(): Promise<boolean> {
+  if (state.texturesRead.value || reading) return true;
+  reading = true;
+  const job = await started(client.readTextures());
+  const now = () => state.jobs.value.find((j) => j.id === job?.id);
+  while (job && !ended(now() ?? job)) await new Promise((resolve) => setTimeout(resolve, 50));
+  reading = false;
+  if (!job || now()?.state !== "done") return false;
+  state.texturesRead.value = true;
+  return true;
+}
+let reading = false;
 
 export const openInputs = (request: InputsRequest) => started(client.open(request));
 export const openSample = () => started(client.openSample());
@@ -298,6 +318,17 @@ export async function needLevel(run: string, lod: string) {
   if (level && edit === editNumber(run)) state.levels.value = new Map(state.levels.value).set(key, level);
 }
 
+/** Fetches the terrain around the models; false if it cannot be made. That of an edited run is fetched again after an edit. */
+export async function needTerrain(run: string): Promise<boolean> {
+  if (state.terrains.value.has(run) || requested.has(`terrain ${run}`)) return true;
+  requested.add(`terrain ${run}`);
+  const edit = editNumber(run);
+  const bytes = await attempt(client.terrain(run));
+  requested.delete(`terrain ${run}`);
+  if (bytes && edit === editNumber(run)) state.terrains.value = new Map(state.terrains.value).set(run, bytes);
+  return bytes !== undefined;
+}
+
 /** Shows models of any program beside those of the run. */
 export async function openOther(path: string) {
   const model = await attempt(client.otherModel(path));
@@ -328,6 +359,7 @@ function measureAgain(run: string) {
     state.scoresNow.value = scores;
     if (state.attributes.value.has(run)) state.outdatedAttributes.value = new Set(state.outdatedAttributes.value).add(run);
     state.levels.value = new Map([...state.levels.value].filter(([key]) => !key.startsWith(`${run} `)));
+    state.terrains.value = new Map([...state.terrains.value].filter(([id]) => id !== run));
     if (state.errorMaps.value.has(run)) state.outdatedMaps.value = new Set(state.outdatedMaps.value).add(run);
   });
   measuring.set(run, setTimeout(() => void measure(run), measure_after));

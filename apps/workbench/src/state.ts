@@ -40,6 +40,8 @@ export const wasConnected = signal(false); // it has accepted the token before: 
 export const project = signal<api.Project | null>(null);
 export const scene = signal<api.Scene | null>(null);
 export const tiles = signal<api.TileIndex | null>(null);
+/** Whether the server has read the textures of the scene. */
+export const texturesRead = signal(false);
 export const options = signal<api.Options | null>(null);
 export const jobs = signal<api.Job[]>([]);
 
@@ -68,6 +70,8 @@ export const attributes = signal<Map<string, api.AttributeTable>>(new Map());
 export const outdatedAttributes = signal<ReadonlySet<string>>(new Set());
 /** Solids of the runs at lower levels of detail, by "run lod"; fetched on demand. */
 export const levels = signal<Map<string, api.LevelOfDetail>>(new Map());
+/** The terrain around the models of the runs; fetched on demand, and again after edits. */
+export const terrains = signal<Map<string, ArrayBuffer>>(new Map());
 /** Models of other programs that are shown beside those of the run. */
 export const others = signal<{ name: string; model: api.OtherModel }[]>([]);
 

@@ -1,9 +1,9 @@
 // Starts a server with a new project, opens the page, and fails tests whose page logs errors.
 import { type ChildProcess, execFileSync, spawn } from "node:child_process";
-import { mkdirSync, mkdtempSync, rmSync } from "node:fs";
+import { mkdirSync, mkdtempSync, readdirSync, renameSync, rmSync, statSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { type Page, test as base } from "@playwright/test";
+import { type Page, expect, test as base } from "@playwright/test";
 
 const binary = process.env.MANSARD_BINARY;
 if (!binary) throw new Error("set MANSARD_BINARY to the path of the program");
@@ -78,7 +78,29 @@ export const test = base.extend<{ folder: string; server: Server; clean: Page }>
     if (wrong.length > 0) throw new Error(`the page logged errors:\n${wrong.join("\n")}`);
   },
 });
-export { expect } from "@playwright/test";
+export { expect };
+
+/** The path of the file that the browser saves when `act` is done, moved to `folder`. */
+export async function saved(page: Page, folder: string, act: () => Promise<void>) {
+  const downloads = process.env.MANSARD_DOWNLOADS;
+  if (!downloads) {
+    const [download] = await Promise.all([page.waitForEvent("download"), act()]);
+    const path = join(folder, download.suggestedFilename());
+    await download.saveAs(path);
+    return path;
+  }
+  // Over WebDriver BiDi this version of Playwright does not hear of downloads. The folder of Firefox is empty before each; a
+  // file that is not complete stands beside one with the ending ".part".
+  await act();
+  const complete = () => {
+    const names = readdirSync(downloads);
+    return names.length === 1 && statSync(join(downloads, names[0]!)).size > 0 ? names[0]! : "";
+  };
+  await expect.poll(complete).not.toBe("");
+  const path = join(folder, complete());
+  renameSync(join(downloads, complete()), path);
+  return path;
+}
 
 /** A screenshot, in the folder MANSARD_PICTURES, or beside the results of the tests. */
 export async function picture(page: Page, name: string, when: "when idle" | "at once" = "when idle") {

@@ -252,14 +252,18 @@ auto at_home(const Triangle& t, const std::vector<Point3>& points, const std::op
 
 /// Takes out triangles that are there twice, and counts what is odd about the edges of the others.
 template <class Index>
-void look_at_neighbours(CleanMesh& mesh, const std::vector<Point3>& points, const std::optional<Home>& home) {
+void look_at_neighbours(CleanMesh& mesh, const std::vector<Point3>& points, const std::optional<Home>& home,
+                        const base::Run& run) {
   auto& triangles = mesh.mesh.triangles;
   std::vector<char> repeated;
   {
     const Around<Index> around(triangles, points.size());
+    if (run.cancelled()) return;
     repeated = find_repeated(triangles, around, points);
+    if (run.cancelled()) return;
     count_edges(triangles, repeated, around, points, home, mesh.counts);
   }
+  if (run.cancelled()) return;
   for (std::size_t i = 0; i < triangles.size(); ++i)
     if (repeated[i] != 0 && at_home(triangles[i], points, home)) ++mesh.counts.duplicate;
   keep(triangles, mesh.classes, [&](std::size_t, std::size_t i) { return repeated[i] == 0; });
@@ -313,7 +317,7 @@ auto bounds(const formats::RawMesh& raw, const std::array<double, 3>& offset) ->
 }
 
 auto clean(formats::RawMesh raw, const std::array<double, 3>& shift, const std::optional<geometry::Box2>& within,
-           const std::optional<Home>& home) -> CleanMesh {
+           const std::optional<Home>& home, const base::Run& run) -> CleanMesh {
   CleanMesh out;
   auto& counts = out.counts;
   counts.vertices_read = raw.vertices.size();
@@ -331,7 +335,9 @@ auto clean(formats::RawMesh raw, const std::array<double, 3>& shift, const std::
   };
   std::vector<Found> found(blocks_of(triangles.size()));
   {
+    if (run.cancelled()) return {};
     const auto place = Welder::weld(raw.vertices);
+    if (run.cancelled()) return {};
     keep(triangles, out.classes, [&](std::size_t block, std::size_t i) {
       Triangle& t = triangles[i];
       if (!in_range(t, raw.vertices.size())) return ++found[block].out_of_range, false;
@@ -342,13 +348,15 @@ auto clean(formats::RawMesh raw, const std::array<double, 3>& shift, const std::
       return has_area(a, b, c) || (found[block].degenerate += at_home(t, raw.vertices, home) ? 1 : 0, false);
     });
   }
+  if (run.cancelled()) return {};
   for (const Found& one : found) {
     counts.out_of_range += one.out_of_range;
     counts.not_finite += one.not_finite;
     counts.degenerate += one.degenerate;
   }
-  if (2 * triangles.size() < formats::no_vertex) look_at_neighbours<std::uint32_t>(out, raw.vertices, home);
-  else look_at_neighbours<std::uint64_t>(out, raw.vertices, home);
+  if (2 * triangles.size() < formats::no_vertex) look_at_neighbours<std::uint32_t>(out, raw.vertices, home, run);
+  else look_at_neighbours<std::uint64_t>(out, raw.vertices, home, run);
+  if (run.cancelled()) return {};
   out.mesh.vertices = std::move(raw.vertices);
   compact(out.mesh);
   triangles.shrink_to_fit();

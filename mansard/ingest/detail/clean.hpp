@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "mansard/base/run.hpp"
 #include "mansard/formats/mesh/raw_mesh.hpp"
 #include "mansard/ingest/ingest.hpp"
 
@@ -31,11 +32,11 @@ struct Home {
 
 /// Drops what cannot be used, makes corners at the same place one, takes out what then has no area or is there twice.
 /// `shift` is added to all coordinates; with `within`, triangles whose box misses it are left out uncounted; with
-/// `home`, what is at home elsewhere is uncounted. Cost: linear in vertices and triangles but for sorting around each
-/// vertex.
+/// `home`, what is at home elsewhere is uncounted. Without a result when cancelled. Cost: linear in vertices and
+/// triangles but for sorting around each vertex.
 [[nodiscard]] auto clean(formats::RawMesh raw, const std::array<double, 3>& shift,
-                         const std::optional<geometry::Box2>& within, const std::optional<Home>& home = {})
-    -> CleanMesh;
+                         const std::optional<geometry::Box2>& within, const std::optional<Home>& home = {},
+                         const base::Run& run = {}) -> CleanMesh;
 
 /// One warning for each kind of fault that was found.
 [[nodiscard]] auto warnings_of(const model::MeshCounts& counts, const std::string& subject)

@@ -42,6 +42,10 @@ export class Client {
   scene = () => this.json<api.Scene>("GET", "/api/scene");
   tiles = () => this.json<api.TileIndex>("GET", "/api/scene/tiles");
   tile = (id: string, signal?: AbortSignal) => this.bytes(`/api/scene/tiles/${escaped(id)}`, signal);
+  readTextures = () => this.json<api.Job>("POST", "/api/scene/textures", {});
+  tileTexture = (id: string, signal?: AbortSignal) => this.bytes(`/api/scene/tiles/${escaped(id)}/texture`, signal);
+  buildingTexture = (run: string, building: string) => this.bytes(this.of(run, `/textures/${escaped(building)}`));
+  terrain = (run: string) => this.bytes(this.of(run, "/terrain"));
   start = (request: RunRequest) => this.json<api.Job>("POST", "/api/runs", request);
   importModel = (path: string) => this.json<api.Job>("POST", "/api/runs/import", { path });
   remove = (run: string) => this.json<unknown>("DELETE", this.of(run));

@@ -351,7 +351,7 @@ export interface History {
 
 export interface Job {
   id: string;
-  kind: "read" | "run";
+  kind: "read" | "run" | "textures";
   run: string | null;
   state: RunState;
   stage: string;

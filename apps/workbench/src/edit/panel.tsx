@@ -5,11 +5,11 @@ import { keep, kept } from "../keep";
 import * as state from "../state";
 import { sentence } from "../panels/words";
 import "./edit.css";
-import { selectEdge, shortId, shortName, withPlan } from "./desk";
+import { selectEdge, shortId, shortName } from "./desk";
 import { session, showDraft } from "./here";
 import { PlanEditor } from "./plan_editor";
 import { ProfileEditor } from "./profile_editor";
-import { type Shape, shaped, shapes, sharedEdges } from "./shapes";
+import { Roofs } from "./roofs";
 
 /** The editors of the selected part: its plan above, the profile of its selected edge below. */
 export function EditPanel() {
@@ -144,37 +144,9 @@ function EditBar() {
           </button>
         )}
       </div>
-      <Shapes />
+      <Roofs />
       <Held />
     </header>
-  );
-}
-
-/** Roof shapes for the selected part. */
-function Shapes() {
-  const at = state.selection.value!;
-  const plan = state.selectedPlan.value;
-  const apply = (shape: Shape) => {
-    if (!plan) return;
-    const others = [...state.run.value!.buildings.values()].flatMap((b) =>
-      b.parts.filter((p) => p.id !== at.part).map((p) => p.plan),
-    );
-    const [low, high] = [0, 1].map((i) => plan.outer.points.map((p) => p[i]!)).map((v) => [Math.min(...v), Math.max(...v)]);
-    const near = others.filter((p) =>
-      p.outer.points.some(([x, y]) => x > low![0]! - 60 && x < low![1]! + 60 && y > high![0]! - 60 && y < high![1]! + 60),
-    );
-    const shared = sharedEdges(plan, near);
-    session.propose(`${shape} roof`, withPlan(shaped(plan, shape, (i) => shared[i]!)));
-  };
-  return (
-    <div class="shapes" role="group" aria-label="Roof shape">
-      <span class="quiet">Roof</span>
-      {shapes.map(({ shape, name, meaning }) => (
-        <button key={shape} type="button" class="small" title={meaning} onClick={() => apply(shape)}>
-          {name}
-        </button>
-      ))}
-    </div>
   );
 }
 

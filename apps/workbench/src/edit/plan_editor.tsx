@@ -13,9 +13,11 @@ import {
   renumber,
   selectEdge,
   snapping,
+  partsOf,
   toggleChosen,
   withPlan,
 } from "./desk";
+import { annex } from "./alike";
 import { session } from "./here";
 import { useNeighbours } from "./neighbours";
 import { metres } from "./numbers";
@@ -52,6 +54,7 @@ interface Drag {
 }
 
 const reachPixels = 9;
+const usualAnnex = 3; // m; the height of an annex, until it is changed
 export function PlanEditor() {
   const plan = state.selectedPlan.value;
   const at = state.selection.value;
@@ -330,7 +333,7 @@ export function PlanEditor() {
       showMessage({
         severity: "warning",
         code: "edit-last-corners",
-        message: "an outline needs at least three corners; to remove the part, merge it with a neighbour",
+        message: "an outline needs at least three corners; “Delete part” removes the part",
         subject: part,
       });
     else if (once(`corner of ${part} removed`, changed)) {
@@ -353,7 +356,7 @@ export function PlanEditor() {
   };
   const drawingPoint = (event: { altKey: boolean }, p: Point2): Point2 => {
     const first = drawn.value[0];
-    if (tool.value === "hole" && drawn.value.length > 2 && first && distance(first, p) < reachPixels / now.scale)
+    if (tool.value !== "split" && drawn.value.length > 2 && first && distance(first, p) < reachPixels / now.scale)
       return first;
     const around = surroundings(
       plan,
@@ -367,7 +370,7 @@ export function PlanEditor() {
   const place = (p: Point2) => {
     const first = drawn.value[0];
     const last = drawn.value.at(-1);
-    if (tool.value === "hole" && first && drawn.value.length > 2 && distance(first, p) < 1e-6) return finish();
+    if (tool.value !== "split" && first && drawn.value.length > 2 && distance(first, p) < 1e-6) return finish();
     if (last && distance(last, p) < 1e-6) {
       if (tool.value === "split" && drawn.value.length > 1) finish(); // the second click of a double click
       return;
@@ -378,9 +381,10 @@ export function PlanEditor() {
   const finish = () => {
     const points = drawn.value;
     const which = tool.value;
-    if (points.length < (which === "hole" ? 3 : 2)) return;
+    if (points.length < (which === "split" ? 2 : 3)) return;
     leaveDrawing();
-    if (which === "hole") once(`courtyard in ${part}`, addHole(plan, points));
+    if (which === "annex") add(points);
+    else if (which === "hole") once(`courtyard in ${part}`, addHole(plan, points));
     else void split(points);
   };
   function leaveDrawing() {
@@ -396,6 +400,19 @@ export function PlanEditor() {
   const split = async (line: Point2[]) => {
     const proposal = await attempt(client.split(run.id, building, part, line));
     if (proposal) session.propose(`${part} split`, proposal.changes);
+  };
+  const add = (points: Point2[]) => {
+    const parts = partsOf(building).map((p) => ({ id: p.id, plan: p.plan }));
+    const made = annex(building, parts, points, plan.base, Math.min(usualAnnex, plan.cap));
+    if (!session.propose(`annex ${made.id}`, [{ building, parts: [...parts, made] }])) return;
+    select({ building, part: made.id, ring: 0, edge: null });
+  };
+  const remove = () => {
+    const rest = partsOf(building).filter((p) => p.id !== part).map((p) => ({ id: p.id, plan: p.plan }));
+    if (!rest.length && !window.confirm(`This is the only part of building ${building}, which is left without a model. Delete it?`))
+      return;
+    if (session.propose(`${part} deleted`, [{ building, parts: rest }]))
+      select({ building, part: rest[0]?.id ?? null, ring: 0, edge: null });
   };
   const mergeable = touching.find((o) => `${o.building} ${o.part}` === partner.value) ?? touching[0];
   const merge = async () => {
@@ -441,6 +458,7 @@ export function PlanEditor() {
     move: spoken.value || measures,
     hole: "Click the corners of the courtyard. Enter: close, Esc: cancel",
     split: "Click points of a line across the part. Enter: split, Esc: cancel",
+    annex: "Click the corners of the missing part. Enter: close, Esc: cancel",
   };
   const instructions =
     `Plan of ${part}. Tab moves from edge to edge, then from corner to corner. Arrow keys move an edge or corner by 0.1 ` +
@@ -459,6 +477,7 @@ export function PlanEditor() {
         partner={mergeable}
         onTool={choose}
         onFill={fillHole}
+        onDelete={remove}
         onPartner={(n) => (partner.value = `${n.building} ${n.part}`)}
         onMerge={() => void merge()}
       />
@@ -500,11 +519,11 @@ export function PlanEditor() {
           guides={guides.value}
           dimensions={dimensions.value}
           drawn={preview}
-          closed={tool.value === "hole"}
+          closed={tool.value === "hole" || tool.value === "annex"}
         />
         <ScaleBar sheet={now} length={ruling(now.scale, 50)} />
       </svg>
-      <button type="button" class="edit-fit" onClick={fit} title="Zoom to the part">
+      <button type="button" class="edit-fit low" onClick={fit} title="Zoom to the part">
         Fit
       </button>
       <PlanHint words={hints[tool.value]} sweeps={sweeps} />

@@ -2,7 +2,7 @@ import type { Signal } from "@preact/signals";
 import { grid, shortId, shortName, snapping } from "./desk";
 import type { Neighbour } from "./neighbours";
 
-export type Tool = "move" | "hole" | "split";
+export type Tool = "move" | "hole" | "split" | "annex";
 
 /** The tools of the plan editor. */
 export function PlanTools(props: {
@@ -14,6 +14,7 @@ export function PlanTools(props: {
   partner: Neighbour | undefined;
   onTool(tool: Tool): void;
   onFill(): void;
+  onDelete(): void;
   onPartner(partner: Neighbour): void;
   onMerge(): void;
 }) {
@@ -38,6 +39,23 @@ export function PlanTools(props: {
         title={drafted ? first : "Split the part: click points of a line that starts and ends outside of it, then press Enter"}
       >
         Split
+      </button>
+      <button
+        type="button"
+        aria-pressed={tool === "annex"}
+        disabled={drafted}
+        onClick={() => props.onTool("annex")}
+        title={drafted ? first : "Draw a part that is missing: click its corners. Enter or a click on the first corner closes it"}
+      >
+        Annex
+      </button>
+      <button
+        type="button"
+        disabled={drafted}
+        onClick={props.onDelete}
+        title={drafted ? first : "Delete this part, as of a tree that was taken for one"}
+      >
+        Delete part
       </button>
       {props.hole && (
         <button type="button" onClick={props.onFill} title="Fill the courtyard of the selected edge">

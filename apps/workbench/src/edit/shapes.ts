@@ -40,11 +40,24 @@ function alongLongest(points: readonly Point2[]): boolean[] {
   });
 }
 
-/** The plan with another roof. Eaves and pitch stay. Edges at which `shared` is true have a neighbour: their walls reach
+/** What a new roof takes from elsewhere; otherwise from the part. */
+export interface Roof {
+  eaves?: number; // m above the base
+  pitch?: number; // rise over run
+}
+
+/** The plan with another roof. Eaves and pitch stay, or are those of `roof`. A gable has its slopes on the edges of
+ *  `lengthwise`, by default those along the longest edge. Edges at which `shared` is true have a neighbour: their walls reach
  *  up to the roof. Courtyards get walls. */
-export function shaped(plan: Plan, shape: Shape, shared: (edge: number) => boolean = () => false): Plan {
-  const eaves = eavesOf(plan);
-  const pitch = pitchNow(plan);
+export function shaped(
+  plan: Plan,
+  shape: Shape,
+  shared: (edge: number) => boolean = () => false,
+  roof: Roof = {},
+  lengthwise: readonly boolean[] = alongLongest(plan.outer.points),
+): Plan {
+  const eaves = roof.eaves ?? eavesOf(plan);
+  const pitch = roof.pitch ?? pitchNow(plan);
   const xs = plan.outer.points.map((p) => p[0]);
   const ys = plan.outer.points.map((p) => p[1]);
   const reach = Math.hypot(Math.max(...xs) - Math.min(...xs), Math.max(...ys) - Math.min(...ys));
@@ -55,7 +68,6 @@ export function shaped(plan: Plan, shape: Shape, shared: (edge: number) => boole
   // Higher than any ridge: slopes meet before.
   const cap = shape === "flat" ? eaves : slope.at(-1)![1];
   const wall: Profile = [[0, 0], [0, cap]];
-  const lengthwise = alongLongest(plan.outer.points);
   const slopes = plan.outer.points.map((_, i) => shape !== "flat" && !shared(i) && (shape !== "gable" || lengthwise[i]!));
   return {
     ...plan,

@@ -2,6 +2,7 @@
 import { useEffect, useRef } from "preact/hooks";
 import * as actions from "../actions";
 import * as state from "../state";
+import { align, aligning, takeBack } from "../view/align";
 import { measure, measuring, removePoint } from "../view/measure";
 import { toggleSection } from "../view/toolbar";
 import { Icon } from "./icons";
@@ -115,13 +116,16 @@ export function pressed(e: KeyboardEvent) {
     t: () => actions.fly("top"),
     l: () => (state.layersOpen.value = !state.layersOpen.value),
     x: () => toggleSection(),
-    m: () => measure(measuring.value ? null : "distance"),
+    m: () => {
+      align(false);
+      measure(measuring.value ? null : "distance");
+    },
     p: () => (state.pictureOpen.value = !state.pictureOpen.value),
     "/": () => {
       state.tab.value = "buildings";
       requestAnimationFrame(() => document.querySelector<HTMLElement>("[aria-label='Filter buildings']")?.focus());
     },
-    Backspace: () => measuring.value && removePoint(),
+    Backspace: () => (aligning.value ? takeBack() : measuring.value && removePoint()),
     "[": () => actions.selectNext(-1),
     "]": () => actions.selectNext(1),
     "?": () => (state.keyboardHelp.value = !state.keyboardHelp.value),
@@ -130,6 +134,7 @@ export function pressed(e: KeyboardEvent) {
       else if (state.changingInputs.value) state.changingInputs.value = false;
       else if (state.pictureOpen.value) state.pictureOpen.value = false;
       else if (measuring.value) measure(null);
+      else if (aligning.value) align(false);
       else if (state.layersOpen.value) state.layersOpen.value = false;
       else if (state.choosing.value) state.choosing.value = false;
       else if (!state.draft.value) actions.select(null);

@@ -13,6 +13,7 @@ const paths = {
   bin: "M4 7h16M9 7V4h6v3M6 7l1 13h10l1-13",
   help: "M9 9a3 3 0 1 1 4.5 2.6c-1 .6-1.5 1.2-1.5 2.4M12 18h.01",
   ruler: "M3 15 15 3l6 6L9 21zM7 11l2 2M10 8l3 3M13 5l2 2",
+  pairs: "M4 18 14 8M11 8h3v3M4 18h.01M3 21h2v-2M17 3h4v4M17 21h4v-4M21 12v2",
   divide: "M12 3v18M4 7h5v10H4zM15 7h5v10h-5z",
   camera: "M4 8h4l2-3h4l2 3h4v11H4zM9 13a3 3 0 1 0 6 0 3 3 0 1 0-6 0",
   moon: "M20 14A8 8 0 0 1 10 4a8 8 0 1 0 10 10z",

@@ -25,6 +25,14 @@ const sections: [title: string, text: string][] = [
     "Distances, heights, angles and areas between points on models, scan and ground. The coordinates under the pointer are those of the files, in their CRS. Backspace removes the last point, Esc ends.",
   ],
   [
+    "Align",
+    "If mesh and footprints do not match, “Align mesh and footprints” takes pairs of points: a point of the scan, and the corner of a footprint where it should be. Two pairs or more give an offset of the mesh, with what it leaves of each pair. The inputs are read again with it.",
+  ],
+  [
+    "Textures and terrain",
+    "Layers › Texture shows the colours of the scan, on the scan and on the models as they are. Layers › Terrain shows the ground around the models; Export writes it.",
+  ],
+  [
     "Compare",
     "“Compare with” shows a second run beside the open one. “Divide the view” shows both in one image with a boundary that can be dragged; with one run, the scan on its left and the models on its right.",
   ],

@@ -14,7 +14,7 @@ export function Progress({ job }: { job: Job }) {
   }, []);
   if (job.state === "running" && !seen.has(job.id)) seen.set(job.id, now);
   const since = seen.get(job.id);
-  const what = { read: "Reading inputs", run: `Reconstructing ${job.run ?? ""}` }[job.kind];
+  const what = { read: "Reading inputs", run: `Reconstructing ${job.run ?? ""}`, textures: "Reading textures" }[job.kind];
   const where = [job.stage, job.subject].filter(Boolean).join(" · ");
   return (
     <div class="progress" role="status" aria-live="polite">

@@ -146,6 +146,12 @@ function Export({ run }: { run: string }) {
   const files = (state.options.value?.formats ?? [])
     .filter((f) => f.files.length > 0)
     .map((f): [file: string, what: string] => [f.files.length > 1 ? `${f.files[0]}.zip` : f.files[0]!, f.description]);
+  if (state.scene.value)
+    files.push(
+      ["terrain.city.json", "The ground around the models, joined to them, as CityJSON (a TINRelief)."],
+      ["terrain.glb", "The same as GLB."],
+      ["terrain.stl", "One closed surface of ground and models, for simulations."],
+    );
   if (state.runSummary(run)?.scores) files.push([layersOfRun, "Layers of the segmentation for a GIS, before edits."]);
   return (
     <div

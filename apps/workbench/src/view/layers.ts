@@ -5,6 +5,8 @@ import type { SectionPlane } from "./section";
 
 export type LayerId =
   | "mesh"
+  | "texture"
+  | "terrain"
   | "meshWithin"
   | "footprints"
   | "walls"
@@ -37,6 +39,15 @@ export const list: readonly Layer[] = [
   layer("Input", "mesh", "Photogrammetric mesh", "#7a9acc", "The input mesh. It is loaded in more detail near the camera."),
   layer(
     "Input",
+    "texture",
+    "Texture",
+    "#8a7f5c",
+    "The colours of the scan, on the scan and on the models as they are. They are read when this is shown first.",
+    false,
+    false,
+  ),
+  layer(
+    "Input",
     "meshWithin",
     "Mesh inside models",
     "#7a9acc",
@@ -45,6 +56,14 @@ export const list: readonly Layer[] = [
     false,
   ),
   layer("Input", "footprints", "Footprints", "#f08c1e", "Input footprints, at ground height."),
+  layer(
+    "Models",
+    "terrain",
+    "Terrain",
+    "#9aa583",
+    "The ground around the models, joined to their outlines. Export writes it too.",
+    false,
+  ),
   layer("Models", "walls", "Walls", "#d8d4cc", "Faces of vertical profile segments."),
   layer("Models", "roofs", "Roofs", "#b06250", "Sloping and flat roof faces."),
   layer("Models", "parties", "Party walls", "#96969e", "Walls that are shared with another part."),

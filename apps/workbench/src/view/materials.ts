@@ -5,6 +5,7 @@ THREE.ColorManagement.enabled = false;
 
 export const colours = {
   mesh: 0x7a9acc,
+  terrain: 0x9aa583,
   footprint: 0xf08c1e,
   wall: 0xd8d4cc,
   party: 0x96969e,
@@ -123,13 +124,16 @@ export const meshLook = (): MeshLook => ({
   masked: { value: 0 },
 });
 
-/** Material of the mesh: flat-shaded without normals, hidden where there are models. */
-export function meshMaterial(look: MeshLook) {
+/** Material of the mesh: flat-shaded without normals, or with its picture, which has its own light. Hidden where there are
+ *  models. */
+export function meshMaterial(look: MeshLook, picture: THREE.Texture | null = null, colour = colours.mesh) {
   return new THREE.ShaderMaterial({
     uniforms: {
       ...(look as unknown as Record<string, THREE.IUniform>),
-      colour: { value: new THREE.Color(colours.mesh) },
+      colour: { value: new THREE.Color(colour) },
+      picture: { value: picture },
     },
+    defines: picture ? { PICTURE: "" } : {},
     clipping: true,
     side: THREE.DoubleSide,
     polygonOffset: true,
@@ -138,8 +142,12 @@ export function meshMaterial(look: MeshLook) {
     vertexShader: /* glsl */ `
       #include <clipping_planes_pars_vertex>
       varying vec3 place;
+      varying vec2 across;
       void main() {
         place = (modelMatrix * vec4(position, 1.0)).xyz;
+        #ifdef PICTURE
+          across = uv;
+        #endif
         vec4 mvPosition = modelViewMatrix * vec4(position, 1.0);
         gl_Position = projectionMatrix * mvPosition;
         #include <clipping_planes_vertex>
@@ -150,7 +158,9 @@ export function meshMaterial(look: MeshLook) {
       uniform float opacity, masked;
       uniform sampler2D mask;
       uniform vec4 maskFrame;
+      uniform sampler2D picture;
       varying vec3 place;
+      varying vec2 across;
       ${light}
       void main() {
         #include <clipping_planes_fragment>
@@ -158,8 +168,47 @@ export function meshMaterial(look: MeshLook) {
           vec2 at = (place.xy - maskFrame.xy) * maskFrame.zw;
           if (all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(1.0))) && texture2D(mask, at).r > 0.5) discard;
         }
-        vec3 normal = normalize(cross(dFdx(place), dFdy(place)));
-        gl_FragColor = vec4(lit(colour, normal), opacity);
+        #ifdef PICTURE
+          gl_FragColor = vec4(texture2D(picture, across).rgb, opacity);
+        #else
+          vec3 normal = normalize(cross(dFdx(place), dFdy(place)));
+          gl_FragColor = vec4(lit(colour, normal), opacity);
+        #endif
+      }`,
+  });
+}
+
+/** Material of models with pictures, drawn over their plain faces. The pictures have their own light. */
+export function pictureMaterial(look: ModelLook, picture: THREE.Texture) {
+  return new THREE.ShaderMaterial({
+    uniforms: { opacities: look.opacities, picture: { value: picture } },
+    clipping: true,
+    polygonOffset: true,
+    polygonOffsetFactor: 0.5,
+    polygonOffsetUnits: 0.5,
+    vertexShader: /* glsl */ `
+      #include <clipping_planes_pars_vertex>
+      attribute float kind;
+      varying vec2 across;
+      flat varying int which;
+      void main() {
+        across = uv;
+        which = int(kind + 0.5);
+        vec4 mvPosition = modelViewMatrix * vec4(position, 1.0);
+        gl_Position = projectionMatrix * mvPosition;
+        #include <clipping_planes_vertex>
+      }`,
+    fragmentShader: /* glsl */ `
+      #include <clipping_planes_pars_fragment>
+      uniform float opacities[5];
+      uniform sampler2D picture;
+      varying vec2 across;
+      flat varying int which;
+      void main() {
+        #include <clipping_planes_fragment>
+        // Faded faces are plain: two layers would be seen through each other.
+        if (opacities[which] < 1.0) discard;
+        gl_FragColor = vec4(texture2D(picture, across).rgb, 1.0);
       }`,
   });
 }

@@ -5,6 +5,7 @@ import type { Vector } from "./camera";
 import { type Buffers, buffersOf, solidsOf } from "./geometry";
 import { colours, fade, modelLook, modelMaterial } from "./materials";
 import type { Colour } from "./styling";
+import { ModelTextures } from "./textures";
 
 const buildingsPerChunk = 48;
 type Paint = [number, number, number, number]; // 0 … 255; the last: whether it is painted
@@ -108,7 +109,16 @@ export class Output {
 
   private paints: ReadonlyMap<string, Colour> | null = null;
 
-  constructor(private centre: Vector) {}
+  readonly textures: ModelTextures;
+
+  constructor(
+    private centre: Vector,
+    loadTexture: (building: string) => Promise<ArrayBuffer>,
+    arrived: () => void,
+  ) {
+    this.textures = new ModelTextures(centre, this.look, loadTexture, arrived);
+    this.group.add(this.textures.group);
+  }
 
   /** Colours buildings; null: by the class of their faces. */
   paint(colours: ReadonlyMap<string, Colour> | null) {
@@ -143,6 +153,7 @@ export class Output {
       for (const [id, building] of drafts) if (buildings.has(id)) this.show(building);
     }
     this.given = buildings;
+    this.textures.set(buildings, drafts);
     for (const [id, loose] of this.loose) {
       const wrong = invalid && drafts.has(id);
       loose.material.uniforms.tint!.value.set(0.82, 0.12, 0.12, wrong ? 0.55 : 0);
@@ -201,6 +212,7 @@ export class Output {
 
   dispose() {
     this.clear();
+    this.textures.dispose();
     this.material.dispose();
     this.lineMaterial.dispose();
     this.look.errorMap.value?.dispose();

@@ -2,6 +2,7 @@
 import { fly } from "../actions";
 import { Icon } from "../panels/icons";
 import * as state from "../state";
+import { align, aligning } from "./align";
 import { viewer } from "./current";
 import { divided, section } from "./layers";
 import { measure, measuring } from "./measure";
@@ -56,10 +57,27 @@ export function Toolbar() {
         title="Measure (m)"
         aria-label="Measure"
         aria-pressed={measuring.value !== null}
-        onClick={() => measure(measuring.value ? null : "distance")}
+        onClick={() => {
+          align(false);
+          measure(measuring.value ? null : "distance");
+        }}
       >
         <Icon name="ruler" />
       </button>
+      {state.scene.value && (
+        <button
+          type="button"
+          title="Align mesh and footprints by pairs of points"
+          aria-label="Align mesh and footprints"
+          aria-pressed={aligning.value !== null}
+          onClick={() => {
+            measure(null);
+            align(aligning.value === null);
+          }}
+        >
+          <Icon name="pairs" />
+        </button>
+      )}
       <button
         type="button"
         title={state.other.value ? "Drag a boundary between the two runs" : "Drag a boundary between the scan and the models"}

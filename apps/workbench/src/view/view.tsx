@@ -5,13 +5,15 @@ import * as actions from "../actions";
 import type * as api from "../api/types";
 import { keep, kept } from "../keep";
 import * as state from "../state";
+import { addPlace, aligning } from "./align";
+import { AlignBox } from "./align_box";
 import type { Pose, Vector } from "./camera";
 import { reasonsOf } from "../panels/reasons";
 import { nameOf } from "../panels/words";
 import { viewer } from "./current";
 import type { RawClimbs } from "./highlight";
 import { Furniture } from "./furniture";
-import { choices, divided, errorLimit, lod, section } from "./layers";
+import { choices, choose, divided, errorLimit, lod, section } from "./layers";
 import { LayersPopover } from "./layers_panel";
 import { Legend } from "./legend";
 import { linkedPose } from "./link";
@@ -29,6 +31,12 @@ export interface ViewHandle {
   project(building: string): { x: number; y: number } | null;
   /** Triangles that fill the cut of the section plane. */
   filled(): number;
+  /** Tiles and buildings that are drawn with the pictures of the scan. */
+  pictures(): [number, number];
+  /** The place of a point of the scene's frame on the page. */
+  place(at: [number, number, number]): { x: number; y: number } | null;
+  /** Triangles of the terrain that are drawn. */
+  terrain(): number;
   idle(): Promise<void>;
 }
 const failure = signal("");
@@ -36,6 +44,9 @@ const failure = signal("");
 export const handle: ViewHandle = {
   project: (building) => viewer.value?.project(building) ?? null,
   filled: () => viewer.value?.filled ?? 0,
+  place: (at) => viewer.value?.placeOf(at) ?? null,
+  terrain: () => viewer.value?.terrainTriangles ?? 0,
+  pictures: () => viewer.value?.pictures ?? [0, 0],
   idle: async () => {
     while (state.opening.value || rawBusy) await new Promise((resolve) => setTimeout(resolve, 25));
     await viewer.value?.idle();
@@ -61,7 +72,24 @@ const drawnBuildings = computed((): Map<string, api.Building> | null => {
   return new Map([...run.buildings].map(([id, b]) => [id, at(b)]));
 });
 
-function clicked(hit: Hit | null, footprint: api.SceneFootprint | null, more: boolean, place: Vector | null) {
+function clicked(
+  hit: Hit | null,
+  footprint: api.SceneFootprint | null,
+  more: boolean,
+  place: Vector | null,
+  corner: Vector | null,
+) {
+  if (aligning.value) {
+    const begun = aligning.value.scan !== null;
+    if (!addPlace(place, corner))
+      actions.showMessage({
+        severity: "warning",
+        code: "align-place",
+        message: begun ? "no corner of a footprint is near this place; move the camera, or click nearer to one" : "there is no scan at this place",
+        subject: "",
+      });
+    return;
+  }
   if (measuring.value) {
     if (place) addPoint(place);
     return;
@@ -141,9 +169,32 @@ function connect(to: Viewer): () => void {
       const run = state.run.value;
       if (run && lod.value !== "2.2" && !state.levels.value.has(`${run.id} ${lod.value}`)) void actions.needLevel(run.id, lod.value);
     }),
+    effect(() => {
+      const wanted = choices.value.texture.shown && state.scene.value !== null;
+      if (!wanted || state.texturesRead.value) return;
+      void actions.needTextures().then((there) => {
+        if (!there) choose("texture", { shown: false });
+      });
+    }),
+    effect(() => {
+      const on = choices.value.texture.shown && state.texturesRead.value;
+      to.setTextured(on, on && lod.value === "2.2" && scale.value === null);
+    }),
+    effect(() => {
+      const run = state.run.value?.id;
+      if (!choices.value.terrain.shown || !run || !state.scene.value || state.terrains.value.has(run)) return;
+      void actions.needTerrain(run).then((made) => {
+        if (!made) choose("terrain", { shown: false });
+      });
+    }),
+    effect(() => {
+      const terrain = state.terrains.value.get(state.run.value?.id ?? "");
+      if (terrain || !state.run.value) to.setTerrain(terrain ?? null); // after an edit the old one stays until the new one is there
+    }),
     effect(() => to.setPaint(scale.value?.colours ?? null)),
     effect(() => to.setOthers(state.others.value.map((o) => o.model))),
     effect(() => to.setMeasure(points.value, measuring.value === "area")),
+    effect(() => to.setPairs(aligning.value?.pairs ?? [], aligning.value?.scan ?? null)),
     effect(() => to.setDark(dark.value)),
     effect(() => to.setDivided(divided.value)),
     effect(() => to.setRun(1, state.other.value?.buildings ?? null)),
@@ -214,6 +265,9 @@ export function View() {
             keep("local", poseKey(), pose);
           },
           loadTile: (id, signal) => actions.client.tile(id, signal),
+          loadTilePicture: (id, signal) => actions.client.tileTexture(id, signal),
+          loadBuildingPicture: (which, building) =>
+            actions.client.buildingTexture((which ? state.other : state.run).value?.id ?? "", building),
         },
         choices.peek(),
       );
@@ -234,7 +288,7 @@ export function View() {
     };
   }, []);
   return (
-    <div class={"view" + (state.choosing.value || measuring.value ? " choosing" : "")} ref={box}>
+    <div class={"view" + (state.choosing.value || measuring.value || aligning.value ? " choosing" : "")} ref={box}>
       <canvas
         ref={canvas}
         tabIndex={0}
@@ -251,6 +305,7 @@ export function View() {
       <Divider />
       <div class="view-corner-left">
         <MeasureBox />
+        <AlignBox />
         <Under />
         <Coordinates />
       </div>

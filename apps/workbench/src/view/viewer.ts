@@ -2,6 +2,7 @@
 import * as THREE from "three";
 import type * as api from "../api/types";
 import type { LoadedMap, Selection } from "../state";
+import type { Pair } from "./align";
 import * as camera from "./camera";
 import type { Pose, Vector } from "./camera";
 import { attach, type Gestures } from "./controls";
@@ -14,18 +15,22 @@ import { colours } from "./materials";
 import { Output } from "./output";
 import { Others } from "./others";
 import { type Hit, type Ray, covers, pick, pickFootprint } from "./pick";
+import { Terrain } from "./terrain";
 import { Tiles } from "./tiles";
 import { type SectionPlane, cutLines, filling, planeOf, reach } from "./section";
 import { SegmentationLayers } from "./segmentation";
 import type { Colour } from "./styling";
 
 export interface Listener {
-  click(hit: Hit | null, footprint: api.SceneFootprint | null, more: boolean, place: Vector | null): void;
+  /** `corner`: of a footprint, near the pointer on the page. */
+  click(hit: Hit | null, footprint: api.SceneFootprint | null, more: boolean, place: Vector | null, corner: Vector | null): void;
   hover(hit: Hit | null, right: boolean): void; // right: over the run to compare with
   moved(pose: Pose): void; // called when the camera stops; in the frame of the scene
   point(place: Vector | null): void; // under the resting pointer, in the frame of the scene
   drawn(azimuth: number, metresPerPixel: number): void; // after each image
   loadTile(id: string, signal: AbortSignal): Promise<ArrayBuffer>;
+  loadTilePicture(id: string, signal: AbortSignal): Promise<ArrayBuffer>;
+  loadBuildingPicture(which: 0 | 1, building: string): Promise<ArrayBuffer>;
 }
 
 /** A drawn run. */
@@ -48,6 +53,7 @@ class Side {
 const followSeconds = 0.055; // delay of the camera behind the pointer
 const flightSeconds = 0.6;
 const background = { light: 0xf6f6f3, dark: 0x1b1e23 };
+const nearCorner = 14; // pixels between a click and the corner of a footprint
 const restMilliseconds = 60; // after which the point under the pointer is looked for in the scan
 const inside = 0.003; // m; by which a cap is moved off its plane, which would hide it
 
@@ -65,7 +71,10 @@ export class Viewer {
   private readonly capLines = new WideLines(colours.cutLine, 2);
   private readonly measureLines = new WideLines(0xc2185b, 2.5, true);
   private readonly measureMarks = new Marks();
+  private readonly pairLines = new WideLines(0x2e59b8, 2, true);
+  private readonly pairMarks = new Marks();
   private readonly others = new Others();
+  private readonly terrain = new Terrain();
   private highlight: Highlight;
   private tiles: Tiles | null = null;
   private sides: [Side, Side | null];
@@ -97,7 +106,7 @@ export class Viewer {
     this.renderer.setClearColor(background.light);
     this.renderer.autoClear = false;
     this.highlight = new Highlight(this.centre);
-    this.sides = [new Side(new Output(this.centre)), null];
+    this.sides = [new Side(this.output(0)), null];
     this.world.add(
       this.footprints.object,
       this.buried.object,
@@ -107,7 +116,10 @@ export class Viewer {
       this.capLines.object,
       this.measureLines.object,
       this.measureMarks.object,
+      this.pairLines.object,
+      this.pairMarks.object,
       this.others.group,
+      this.terrain.group,
       ...this.marks.map((m) => m.object),
     );
     this.world.add(this.highlight.group, this.sides[0].output.group);
@@ -127,7 +139,35 @@ export class Viewer {
     this.renderer.dispose();
   }
 
+  private output(which: 0 | 1) {
+    const output = new Output(
+      this.centre,
+      (building) => this.listener.loadBuildingPicture(which, building),
+      () => this.request(),
+    );
+    output.textures.show(this.textured.models && which === 0);
+    output.textures.lookAt(this.target);
+    return output;
+  }
+  private get target(): Vector {
+    return this.goal.target.map((t, i) => t + this.centre[i]!) as Vector;
+  }
+
   // ---- contents
+
+  /** Draws the scan, and the models of the open run, with the pictures of the scan. */
+  setTextured(scan: boolean, models: boolean) {
+    this.textured = { scan, models };
+    if (this.tiles) this.tiles.textures = scan;
+    this.sides[0].output.textures.lookAt(this.target);
+    this.sides[0].output.textures.show(models);
+    this.request();
+  }
+  private textured = { scan: false, models: false };
+  /** Tiles and buildings that are drawn with pictures; for tests. */
+  get pictures(): [number, number] {
+    return [this.tiles?.pictures ?? 0, this.sides[0].output.textures.count];
+  }
 
   setScene(scene: api.Scene | null) {
     const moved = scene && scene.origin.some((o, i) => o !== this.scene?.origin[i]);
@@ -150,7 +190,10 @@ export class Viewer {
     this.tiles?.dispose();
     this.tiles = null;
     if (index) {
-      this.tiles = new Tiles(index, this.centre, this.listener.loadTile, () => this.request());
+      this.tiles = new Tiles(index, this.centre, this.listener.loadTile, this.listener.loadTilePicture, () =>
+        this.request(),
+      );
+      this.tiles.textures = this.textured.scan;
       this.world.add(this.tiles.group);
       this.index = index;
       this.showMesh();
@@ -173,7 +216,7 @@ export class Viewer {
       return this.request();
     }
     if (!this.sides[which]) {
-      this.sides[which] = new Side(new Output(this.centre));
+      this.sides[which] = new Side(this.output(which));
       this.world.add(this.sides[which]!.output.group);
     }
     const side = this.sides[which]!;
@@ -218,6 +261,22 @@ export class Viewer {
     this.others.opacity = others.shown ? others.opacity : 0;
   }
 
+  setTerrain(bytes: ArrayBuffer | null) {
+    this.terrainBytes = bytes;
+    this.terrain.set(bytes, this.centre);
+    this.showTerrain();
+    this.request();
+  }
+  private terrainBytes: ArrayBuffer | null = null;
+  private showTerrain() {
+    const { terrain } = this.choices;
+    this.terrain.opacity = terrain.shown ? terrain.opacity : 0;
+  }
+  /** Triangles of the terrain; for tests. */
+  get terrainTriangles() {
+    return this.choices.terrain.shown ? this.terrain.triangles : 0;
+  }
+
   setMeasure(points: readonly Vector[], closed: boolean) {
     const lines = new Segments(this.centre);
     lines.path(closed && points.length > 2 ? [...points, points[0]!] : points);
@@ -231,6 +290,22 @@ export class Viewer {
     this.request();
   }
   private measured: { points: readonly Vector[]; closed: boolean } = { points: [], closed: false };
+
+  /** Points of the scan, and the corners of footprints where they should be. */
+  setPairs(pairs: readonly Pair[], begun: Vector | null) {
+    this.pairs = { pairs, begun };
+    const lines = new Segments(this.centre);
+    for (const { scan, corner } of pairs) lines.path([scan, corner]);
+    this.pairLines.set(lines);
+    const places = [...pairs.flatMap((p) => [p.scan, p.corner]), ...(begun ? [begun] : [])];
+    this.pairMarks.set(
+      places.flatMap((p) => p.map((x, i) => x - this.centre[i]!)),
+      places.flatMap((_, i) => (i % 2 ? [0.94, 0.55, 0.12] : [0.18, 0.35, 0.72])),
+    );
+    this.pairMarks.object.visible = places.length > 0;
+    this.request();
+  }
+  private pairs: { pairs: readonly Pair[]; begun: Vector | null } = { pairs: [], begun: null };
 
   setDark(dark: boolean) {
     this.renderer.setClearColor(dark ? background.dark : background.light);
@@ -299,6 +374,7 @@ export class Viewer {
     this.showMesh();
     this.maskMesh();
     this.showOthers();
+    this.showTerrain();
     this.showSelection();
     this.request();
   }
@@ -385,7 +461,8 @@ export class Viewer {
     this.renderer.setPixelRatio(Math.min(2, globalThis.devicePixelRatio || 1));
     this.renderer.setSize(this.width, this.height, false);
     for (const marks of this.marks) marks.material.uniforms.size!.value = 12 * this.renderer.getPixelRatio();
-    this.measureMarks.material.uniforms.size!.value = 10 * this.renderer.getPixelRatio();
+    for (const marks of [this.measureMarks, this.pairMarks])
+      marks.material.uniforms.size!.value = 10 * this.renderer.getPixelRatio();
     this.place();
     this.draw(); // a resized canvas is empty
   }
@@ -433,9 +510,13 @@ export class Viewer {
   project(building: string): { x: number; y: number } | null {
     const found = this.sides[0].building(building);
     if (!found) return null;
-    const { low, high } = this.centred(boxOf(found));
+    const { low, high } = boxOf(found);
+    return this.placeOf([(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, high[2]]);
+  }
+  /** The place of a point on the page; null if it is behind the camera. */
+  placeOf(at: Vector): { x: number; y: number } | null {
     this.aim();
-    const p = new THREE.Vector3((low[0] + high[0]) / 2, (low[1] + high[1]) / 2, high[2]).project(this.eye);
+    const p = new THREE.Vector3(...(at.map((x, i) => x - this.centre[i]!) as Vector)).project(this.eye);
     if (p.z > 1) return null;
     const box = this.canvas.getBoundingClientRect();
     return { x: box.left + ((p.x + 1) / 2) * this.paneWidth, y: box.top + ((1 - p.y) / 2) * this.height };
@@ -474,7 +555,7 @@ export class Viewer {
   async idle(): Promise<void> {
     for (let calm = 0; calm < 3; ) {
       await new Promise((resolve) => setTimeout(resolve, 25));
-      calm = this.frameAsked || this.tiles?.busy ? 0 : calm + 1;
+      calm = this.frameAsked || this.tiles?.busy || this.sides[0].output.textures.busy ? 0 : calm + 1;
     }
   }
 
@@ -496,6 +577,7 @@ export class Viewer {
         footprint?.footprint ?? null,
         more,
         this.placeAt(x, y),
+        this.cornerAt(x, y),
       );
     },
     hover: (x, y) => {
@@ -524,6 +606,25 @@ export class Viewer {
   private resting: ReturnType<typeof setTimeout> | undefined;
 
   /** The nearest point under the pointer: of the models, the scan, or the ground of a footprint. */
+  /** The corner of a footprint that is nearest to a place on the page, within some pixels. */
+  private cornerAt(x: number, y: number): Vector | null {
+    let [nearest, least]: [Vector | null, number] = [null, nearCorner];
+    const p = new THREE.Vector3();
+    this.aim();
+    for (const footprint of this.scene?.footprints ?? []) {
+      for (const { outer, holes } of footprint.polygons) {
+        for (const corner of [outer, ...holes].flat()) {
+          const place: Vector = [corner[0], corner[1], footprint.ground];
+          p.set(...(place.map((c, i) => c - this.centre[i]!) as Vector)).project(this.eye);
+          if (p.z > 1) continue;
+          const away = Math.hypot(((p.x + 1) / 2) * this.paneWidth - this.inPane(x), ((1 - p.y) / 2) * this.height - y);
+          if (away < least) [nearest, least] = [place, away];
+        }
+      }
+    }
+    return nearest;
+  }
+
   private placeAt(x: number, y: number): Vector | null {
     const { ray, side } = this.rayAt(x, y);
     let best = this.modelsHidden(x) ? null : this.hit(ray, side);
@@ -623,7 +724,7 @@ export class Viewer {
     this.world.add(this.highlight.group);
     this.sides.forEach((side, i) => {
       if (!side) return;
-      const fresh = new Side(new Output(centre));
+      const fresh = new Side(this.output(i as 0 | 1));
       Object.assign(fresh, { buildings: side.buildings, drafts: side.drafts, maps: side.maps });
       side.dispose();
       this.sides[i as 0 | 1] = fresh;
@@ -638,7 +739,9 @@ export class Viewer {
     this.showSelection();
     for (const side of this.sides) side?.output.paint(this.paints);
     this.setOthers(this.otherModels);
+    this.setTerrain(this.terrainBytes);
     this.setMeasure(this.measured.points, this.measured.closed);
+    this.setPairs(this.pairs.pairs, this.pairs.begun);
     this.setSection(this.section);
   }
 
@@ -802,6 +905,7 @@ export class Viewer {
     const settled = !this.flight && camera.same(this.pose, this.goal);
     if (settled && this.pose !== this.goal) {
       this.pose = this.goal;
+      this.sides[0].output.textures.lookAt(this.target);
       if (this.framed)
         this.listener.moved({ ...this.pose, target: this.pose.target.map((t, i) => t + this.centre[i]!) as Vector });
     }
@@ -841,7 +945,7 @@ export class Viewer {
       // The scan on the left, the models on the right.
       const masked = this.tiles?.look.masked.value ?? 0;
       const scan = this.tiles?.look.opacity.value ?? 0;
-      const hide = [first.output.group, this.highlight.group, this.cap.object, this.capLines.object];
+      const hide = [first.output.group, this.terrain.group, this.highlight.group, this.cap.object, this.capLines.object];
       const visible = hide.map((o) => o.visible);
       hide.forEach((o) => (o.visible = false));
       this.showMarks(-1);
