@@ -78,6 +78,44 @@ TEST(Pieces, that_touch_in_one_point_are_none) {
   EXPECT_TRUE(cut(part, {{{0, 4}, {4, 2}, {6, 5}, {4, 6}}, {}}, {}).empty());
 }
 
+auto turned_30(const geometry::Ring& ring, double shift) -> geometry::Polygon {
+  geometry::Polygon out;
+  for (const auto p : ring)
+    out.outer.push_back({shift + std::sqrt(0.75) * p.x - 0.5 * p.y, 0.7 * shift + 0.5 * p.x + std::sqrt(0.75) * p.y});
+  return out;
+}
+
+/// A tower in the middle of the south side whose head meets the north side in a point, moved by that much.
+auto cut_to_a_point(double moved) -> std::vector<geometry::Polygon> {
+  const auto part = turned_30(rectangle(0, 0, 24, 12), 61.7);
+  return cut(part, turned_30({{8, 0}, {16, 0}, {16, 6}, {13, 12 + moved}, {8, 7}}, 61.7), {});
+}
+
+TEST(Pieces, are_two_where_a_nanometre_decides_whether_they_hang_together) {
+  for (const double moved : {0.0, 1e-12, -1e-12, 1e-9, -1e-9, 1e-6, -1e-6, 1e-4, -1e-4}) {
+    const auto pieces = cut_to_a_point(moved);
+    ASSERT_EQ(pieces.size(), 3U) << moved;
+    EXPECT_NEAR(area_of(pieces), 288, 0.01) << moved;
+    for (const auto& piece : pieces) EXPECT_TRUE(geometry::is_simple(piece)) << moved;
+  }
+}
+
+/// Two halves of a part beside each other whose common side has a corner of one of them, moved aside.
+auto joined_at_a_side(double aside) -> std::optional<geometry::Polygon> {
+  return joined(turned_30({{0, 0}, {7, 0}, {7 + aside, 4}, {7, 9}, {0, 9}}, 61.7),
+                turned_30({{7, 0}, {12, 0}, {12, 9}, {7, 9}}, 61.7), {});
+}
+
+TEST(Pieces, are_joined_where_a_corner_of_one_is_a_nanometre_off_the_side_of_the_other) {
+  for (const double aside : {0.0, 1e-12, -1e-12, 1e-9, -1e-9, 1e-6, -1e-6, 1e-4, -1e-4}) {
+    const auto one = joined_at_a_side(aside);
+    ASSERT_TRUE(one) << aside;
+    EXPECT_EQ(one->outer.size(), 4U) << aside;
+    EXPECT_TRUE(one->holes.empty()) << aside;
+    EXPECT_NEAR(geometry::area(*one), 108, 0.01) << aside;
+  }
+}
+
 TEST(Pieces, are_joined_where_they_share_an_edge) {
   const auto one = joined({rectangle(0, 0, 5, 8), {}}, {rectangle(5, 0, 7, 8), {}}, {});
   ASSERT_TRUE(one);

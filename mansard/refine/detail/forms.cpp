@@ -169,7 +169,8 @@ auto setback(std::vector<Look> looks, const Options& options) -> std::vector<Pro
 auto axes_of(const std::vector<Side>& sides, const Options::Forms& options) -> std::vector<Point2> {
   std::vector<std::size_t> order(sides.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::ranges::stable_sort(order, std::greater<>{}, [&](std::size_t i) { return sides[i].length; });
+  rank(
+      order, [&](std::size_t i) { return -sides[i].length; }, same_length);
   std::vector<Point2> axes;
   for (const std::size_t i : order) {
     const bool known = std::ranges::any_of(
@@ -211,7 +212,8 @@ auto nearest_eaves(const std::vector<Eaves>& eaves, Point2 at) -> std::optional<
   std::optional<Nearest> nearest;
   for (const Eaves& edge : eaves) {
     const double d = dot(at - edge.start, geometry::left_of(edge.along)), t = dot(at - edge.start, edge.along);
-    if (d >= 0 && t >= -d && t <= edge.length + d && (!nearest || d < nearest->inward)) nearest = {edge.profile, d};
+    if (d >= 0 && t >= -d && t <= edge.length + d && (!nearest || d < nearest->inward - same_distance))
+      nearest = {edge.profile, d};
   }
   return nearest;
 }

@@ -5,10 +5,12 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <ranges>
 #include <utility>
 
 #include "mansard/base/statistics.hpp"
 #include "mansard/refine/detail/forms.hpp"
+#include "mansard/refine/detail/order.hpp"
 
 namespace mansard::refine::detail {
 namespace {
@@ -86,6 +88,80 @@ auto cleaned(Ring ring, const Options::Pieces& options) -> Ring {
   return ring;
 }
 
+/// With the corners of `to` for those of its own that are as near to them.
+auto snapped(Polygon polygon, const Polygon& to, double near) -> Polygon {
+  const auto snap = [&](Ring& ring) {
+    for (Point2& p : ring) {
+      double least = near;
+      const auto consider = [&](const Ring& other) {
+        for (const Point2 q : other)
+          if (const double d = geometry::length(q - p); d < least) {
+            least = d;
+            p = q;
+          }
+      };
+      const Point2 was = p;
+      consider(to.outer);
+      for (const auto& hole : to.holes) consider(hole);
+      if (least == 0) p = was;
+    }
+  };
+  snap(polygon.outer);
+  for (auto& hole : polygon.holes) snap(hole);
+  return polygon;
+}
+
+/// Its edges pass through the corners of the other that are as near to them.
+auto noded(const Polygon& polygon, const Polygon& by, double near) -> Polygon {
+  const auto node = [&](const Ring& ring) {
+    Ring out;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Point2 a = ring[i], b = ring[(i + 1) % ring.size()];
+      const double length = geometry::length(b - a);
+      std::vector<std::pair<double, Point2>> on;
+      const auto consider = [&](const Ring& other) {
+        for (const Point2 q : other)
+          if (geometry::distance({a, b}, q) < near)
+            if (const double t = dot(q - a, b - a) / length; t >= near && t <= length - near) on.emplace_back(t, q);
+      };
+      consider(by.outer);
+      for (const auto& hole : by.holes) consider(hole);
+      std::ranges::stable_sort(on, {}, &std::pair<double, Point2>::first);
+      out.push_back(a);
+      for (const auto& [t, q] : on) out.push_back(q);
+    }
+    return out;
+  };
+  Polygon out{node(polygon.outer), {}};
+  for (const auto& hole : polygon.holes) out.holes.push_back(node(hole));
+  return out;
+}
+
+/// Rings that touch themselves at a corner, taken apart there: what an operation leaves between two sides that meet in
+/// a point is one ring with a neck of no width, or two, as rounding has it. A ring that closes around a hole stays.
+auto unpinched(const Ring& ring, const Options::Pieces& options) -> std::vector<Ring> {
+  const std::size_t n = ring.size();
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t step = 1; step + 1 < n; ++step) {
+      const std::size_t j = (i + step) % n, k = (j + 1) % n;
+      if (geometry::distance({ring[j], ring[k]}, ring[i]) >= options.straight) continue;
+      Ring first, second;
+      for (std::size_t at = i; at != k; at = (at + 1) % n) first.push_back(ring[at]);
+      for (std::size_t at = k; at != i; at = (at + 1) % n) second.push_back(ring[at]);
+      second.push_back(ring[i]);
+      std::vector<Ring> out;
+      bool apart = true;
+      for (const Ring* loop : {&first, &second}) {
+        const double area = geometry::signed_area(*loop);
+        if (loop->size() < 3 || 2 * std::abs(area) < options.slit * geometry::perimeter(*loop)) continue;
+        apart = apart && area > 0;
+        std::ranges::move(unpinched(*loop, options), std::back_inserter(out));
+      }
+      if (apart) return out;
+    }
+  return {ring};
+}
+
 /// Whether a corner is so near to another edge that rounding decides on which side of it.
 auto touches_itself(const Polygon& polygon, double near) -> bool {
   std::vector<const Ring*> rings{&polygon.outer};
@@ -115,7 +191,8 @@ auto without(const Polygon& part, const std::vector<Polygon>& pieces, const Opti
   for (const auto& piece : pieces) {
     std::vector<Polygon> next;
     for (const auto& polygon : left) {
-      auto rest = geometry::subtract(polygon, piece);
+      const auto [from, what] = fitted(polygon, piece, options);
+      auto rest = geometry::subtract(from, what);
       if (!rest) return {};
       std::ranges::move(*rest, std::back_inserter(next));
     }
@@ -140,6 +217,11 @@ auto caps_of(const Site& site, double otherwise, const Options& options) -> std:
 
 }  // namespace
 
+auto fitted(const Polygon& a, const Polygon& b, const Options::Pieces& options) -> std::pair<Polygon, Polygon> {
+  const Polygon other = snapped(b, a, options.straight);
+  return {noded(a, other, options.straight), noded(other, a, options.straight)};
+}
+
 auto around(const Polygon& polygon) -> double {
   double out = geometry::perimeter(polygon.outer);
   for (const auto& hole : polygon.holes) out += geometry::perimeter(hole);
@@ -148,8 +230,20 @@ auto around(const Polygon& polygon) -> double {
 
 auto mean_width(const Polygon& polygon) -> double { return 2 * geometry::area(polygon) / around(polygon); }
 
-auto tidied(std::vector<Polygon> overlay, const Options::Pieces& options) -> std::vector<Polygon> {
-  std::erase_if(overlay, [&](const Polygon& piece) { return mean_width(piece) < options.slit; });
+auto tidied(std::vector<Polygon> all, const Options::Pieces& options) -> std::vector<Polygon> {
+  std::erase_if(all, [&](const Polygon& piece) { return mean_width(piece) < options.slit; });
+  std::vector<Polygon> overlay;
+  for (auto& piece : all) {
+    auto rings = unpinched(cleaned(std::move(piece.outer), options), options);
+    if (rings.size() == 1) {
+      overlay.push_back({std::move(rings.front()), std::move(piece.holes)});
+      continue;
+    }
+    for (auto& ring : rings) overlay.push_back({std::move(ring), {}});
+    for (auto& hole : piece.holes)
+      for (auto& one : overlay | std::views::drop(std::ssize(overlay) - std::ssize(rings)))
+        if (geometry::contains(one.outer, hole.front())) one.holes.push_back(hole);
+  }
   for (auto& piece : overlay) {
     std::erase_if(piece.holes, [&](const Ring& hole) {
       return 2 * std::abs(geometry::signed_area(hole)) < options.straight * geometry::perimeter(hole);
@@ -161,14 +255,17 @@ auto tidied(std::vector<Polygon> overlay, const Options::Pieces& options) -> std
 }
 
 auto cut(const Polygon& part, const Polygon& structure, const Options& options) -> std::vector<Polygon> {
-  auto inside = geometry::intersect(part, structure), rest = geometry::subtract(part, structure);
+  const auto [whole, taken] = fitted(part, structure, options.pieces);
+  auto inside = geometry::intersect(whole, taken), rest = geometry::subtract(whole, taken);
   if (!inside || !rest) return {};
   // A sliver of one side belongs to the other.
   auto in = tidied(*inside, options.pieces), out = tidied(*rest, options.pieces);
-  if (in.size() < inside->size()) out = without(part, in, options.pieces);
-  if (out.size() < rest->size()) in = without(part, out, options.pieces);
+  const auto is_sliver = [&](const Polygon& piece) { return mean_width(piece) < options.pieces.slit; };
+  if (std::ranges::any_of(*inside, is_sliver)) out = without(part, in, options.pieces);
+  if (std::ranges::any_of(*rest, is_sliver)) in = without(part, out, options.pieces);
   if (in.empty() || out.empty()) return {};
-  std::ranges::stable_sort(out, [](const auto& a, const auto& b) { return geometry::area(a) > geometry::area(b); });
+  rank(
+      out, [](const Polygon& piece) { return -geometry::area(piece); }, same_area);
   out.insert(out.end(), in.begin(), in.end());
   // Along shared walls rounding can make an operation keep what it should take off.
   double covered = 0;
@@ -183,7 +280,8 @@ auto cut(const Polygon& part, const Polygon& structure, const Options& options) 
 
 auto joined(const Polygon& a, const Polygon& b, const Options& options) -> std::optional<Polygon> {
   const double slit = options.pieces.slit;
-  const Polygon both[]{a, b};
+  const auto [first, second] = fitted(a, b, options.pieces);
+  const Polygon both[]{first, second};
   auto united = geometry::unite(both);
   if (!united || united->empty()) return std::nullopt;
   Polygon out = united->front();
@@ -193,7 +291,7 @@ auto joined(const Polygon& a, const Polygon& b, const Options& options) -> std::
   });
   out.outer = cleaned(std::move(out.outer), options.pieces);
   for (auto& hole : out.holes) hole = cleaned(std::move(hole), options.pieces);
-  if (!geometry::is_simple(out)) return std::nullopt;
+  if (!geometry::is_simple(out) || touches_itself(out, options.pieces.straight)) return std::nullopt;
   const double closed = slit * (geometry::perimeter(a.outer) + geometry::perimeter(b.outer));  // m², at most
   if (std::abs(geometry::area(out) - geometry::area(a) - geometry::area(b)) > closed) return std::nullopt;
   return out;

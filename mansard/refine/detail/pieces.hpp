@@ -3,14 +3,22 @@
 
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "mansard/refine/detail/site.hpp"
 
 namespace mansard::refine::detail {
 
-/// What a polygon operation leaves, without slivers narrower than `slit`, and without corners and spikes nearer than
-/// `straight` to the line between their neighbours: whether those are there is a matter of rounding.
+/// Both polygons with common corners where they meet: corners of the second that are near to one of the first take its
+/// place, and edges of each pass through the corners of the other that are near to them. Their edges are then equal
+/// instead of crossing or missing each other as rounding has it.
+[[nodiscard]] auto fitted(const geometry::Polygon& a, const geometry::Polygon& b, const Options::Pieces& options)
+    -> std::pair<geometry::Polygon, geometry::Polygon>;
+
+/// What a polygon operation leaves, without slivers narrower than `slit`, without corners and spikes nearer than
+/// `straight` to the line between their neighbours, and in two where it has a neck of no width: whether those are there
+/// is a matter of rounding.
 [[nodiscard]] auto tidied(std::vector<geometry::Polygon> overlay, const Options::Pieces& options)
     -> std::vector<geometry::Polygon>;
 

@@ -171,10 +171,12 @@ void consider_regions(const Polygon& part, const carve::Raster& raster, const ca
 }
 
 /// The piece with the slivers that it would leave, where that keeps it simple.
-auto without_slivers(const Polygon& part, Polygon piece, const Options::Cuts& options) -> Polygon {
-  const auto rest = geometry::subtract(part, piece);
+auto without_slivers(const Polygon& part, Polygon piece, const Options& all) -> Polygon {
+  const auto& options = all.cuts;
+  const auto [whole, taken] = fitted(part, piece, all.pieces);
+  const auto rest = geometry::subtract(whole, taken);
   if (!rest) return piece;
-  std::vector<Polygon> together{piece};
+  std::vector<Polygon> together{taken};
   for (const Polygon& r : *rest) {
     const double area = geometry::area(r);
     if (area < options.sliver_area || 2 * area < options.sliver_width * geometry::perimeter(r.outer))
@@ -216,7 +218,8 @@ auto with_corners_of(const Polygon& part, const Polygon& piece, double same_plac
 auto sound(const Polygon& part, const Polygon& piece, const Options& options) -> bool {
   const double nothing = options.pieces.straight * around(part), least_area = options.least_area;
   if (piece.outer.size() < 3 || !geometry::is_simple(piece)) return false;
-  const auto rest = geometry::subtract(part, piece), beyond = geometry::subtract(piece, part);
+  const auto [whole, taken] = fitted(part, piece, options.pieces);
+  const auto rest = geometry::subtract(whole, taken), beyond = geometry::subtract(taken, whole);
   if (!rest || !beyond) return false;
   const auto total = [](const std::vector<Polygon>& polygons) {
     double sum = 0;
@@ -300,8 +303,7 @@ auto propose(const Polygon& part, const Heights& measured, const Heights& model,
   }
   std::vector<Proposal> out;
   for (Cut& cut : std::move(cuts).best()) {
-    Polygon piece =
-        with_corners_of(part, without_slivers(part, std::move(cut.polygon), options.cuts), options.pieces.slit);
+    Polygon piece = with_corners_of(part, without_slivers(part, std::move(cut.polygon), options), options.pieces.slit);
     if (!sound(part, piece, options)) continue;
     std::string what = words_for(as_measured, cut, options);
     out.push_back({std::move(piece), cut.gain, cut.errors.inside_mean, std::move(what), cut.shape == 0});

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "mansard/geometry/fit.hpp"
+#include "mansard/refine/detail/order.hpp"
 #include "mansard/refine/detail/pieces.hpp"
 
 namespace mansard::refine::detail::carve {
@@ -314,10 +315,12 @@ auto outlines_of(const Raster& raster, const Raster& across, const Region& regio
 
 auto pieces_in_part(const Polygon& part, const Polygon& in_frame, const Frame& frame, const Options::Pieces& options)
     -> std::vector<Polygon> {
-  auto pieces = geometry::intersect(part, from_frame(in_frame, frame));
+  const auto [whole, taken] = fitted(part, from_frame(in_frame, frame), options);
+  auto pieces = geometry::intersect(whole, taken);
   if (!pieces) return {};
   auto out = tidied(std::move(*pieces), options);
-  std::ranges::stable_sort(out, std::greater{}, [](const Polygon& p) { return geometry::area(p); });
+  rank(
+      out, [](const Polygon& piece) { return -geometry::area(piece); }, same_area);
   return out;
 }
 

@@ -88,9 +88,10 @@ auto others_of(const Draft& draft, const Plan& plan, std::size_t p, const std::v
   std::optional<std::size_t> opposite, longest;
   for (std::size_t q = 0; q < sides.size(); ++q) {
     if (q == p || is_wall(plan.profiles[q])) continue;
-    if (!longest || sides[q].length > sides[*longest].length) longest = q;
+    const auto longer_than = [&](std::size_t other) { return sides[q].length > sides[other].length + same_length; };
+    if (!longest || longer_than(*longest)) longest = q;
     if (dot(sides[q].inward, sides[p].inward) < -options.search.opposite_cosine &&
-        (!opposite || sides[q].length > sides[*opposite].length))
+        (!opposite || longer_than(*opposite)))
       opposite = q;
   }
   if (opposite) add(plan.profiles[*opposite]);
@@ -122,7 +123,8 @@ auto descend(Judged judged, const Draft& draft, const Judge& judge) -> Judged {
   std::vector<std::size_t> order;
   for (std::size_t p = 0; p < sides.size(); ++p)
     if (sides[p].length > 0) order.push_back(p);
-  std::ranges::stable_sort(order, std::greater<>{}, [&](std::size_t p) { return sides[p].length; });
+  rank(
+      order, [&](std::size_t p) { return -sides[p].length; }, same_length);
   if (order.size() > most_sides) order.resize(most_sides);
   const auto misfit = misfit_by_side(judged, judge);
   std::optional<std::vector<std::vector<Profile>>> setbacks;
