@@ -6,6 +6,7 @@
 #include "mansard/base/text.hpp"
 #include "mansard/extrude/detail/footprint.hpp"
 #include "mansard/extrude/detail/narrow.hpp"
+#include "mansard/extrude/detail/outlines.hpp"
 #include "mansard/extrude/detail/rounding.hpp"
 #include "mansard/extrude/detail/source.hpp"
 #include "mansard/extrude/detail/sweep.hpp"
@@ -105,7 +106,7 @@ auto after_sweep(const model::Plan& plan, const Options& options, const base::Ru
   if (!source) return source.error();
   std::string why;
   try {
-    if (const auto footprint = detail::canonical(*source, options, why))
+    if (const detail::Footprint* footprint = detail::canonical_outline(*source, options, why))
       return use(*footprint, detail::sweep(*footprint, detail::on_grid(plan.cap), run));
   } catch (const detail::Broken& broken) {
     why = broken.what();

@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <tuple>
+
 #include "mansard/base/run.hpp"
 
 namespace {
@@ -25,6 +27,27 @@ auto side_by_rationals(const Planes& planes, const Plane& plane, const Triple& a
   const auto a = plane.narrow ? Rational(to_integer(plane.whole.A)) : Rational(plane.unbounded->A);
   const auto b = plane.narrow ? Rational(to_integer(plane.whole.B)) : Rational(plane.unbounded->B);
   return sgn(Rational(a * e.x + b * e.y - s * e.t - c));
+}
+
+TEST(Plane, is_the_same_from_integers_as_from_rationals) {
+  base::Random random(7);
+  const auto below = [&random](double most) { return static_cast<std::int64_t>(random.uniform(0, most)); };
+  for (int i = 0; i < 20000; ++i) {
+    const double size = i % 4 == 0 ? 0x1.0p39 : 0x1.0p22, steep = i % 3 == 0 ? 0x1.0p29 : 0x1.0p12;
+    const Direction d = direction_of({below(0x1.0p19) - (1 << 18), static_cast<int>(below(4))});
+    const std::int64_t offset = below(2 * size) - static_cast<std::int64_t>(size), height = below(size);
+    const std::int64_t run = i % 5 == 0 ? 0 : below(steep), rise = 1 + below(steep);
+    Rational slope{mpz_class(run), mpz_class(rise)};
+    slope.canonicalize();
+    const Plane made = plane_of(d, offset, height, slope.get_num().get_si(), slope.get_den().get_si());
+    const Plane expected = plane_of(d, Rational(offset) - slope * Rational(height), slope);
+    ASSERT_TRUE(made.narrow && expected.narrow) << i;
+    EXPECT_TRUE(made.direction == expected.direction) << i;
+    EXPECT_TRUE(made.whole.A == expected.whole.A && made.whole.B == expected.whole.B) << i;
+    EXPECT_TRUE(made.whole.D == expected.whole.D && made.whole.S == expected.whole.S) << i;
+    EXPECT_EQ(std::tie(made.nx, made.ny, made.c, made.s), std::tie(expected.nx, expected.ny, expected.c, expected.s))
+        << i;
+  }
 }
 
 TEST(Predicate, is_decided_by_doubles_where_they_are_sure) {

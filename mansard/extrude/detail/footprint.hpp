@@ -68,6 +68,7 @@ struct SourceRing {
   std::vector<geometry::Point2> points;
   std::vector<std::uint32_t> profile;  ///< of edge i
   std::vector<std::uint32_t> edge;     ///< the plan's edge index
+  friend auto operator==(const SourceRing&, const SourceRing&) -> bool = default;
 };
 struct Source {
   std::vector<SourceRing> rings;  ///< outer first

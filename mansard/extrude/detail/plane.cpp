@@ -1,6 +1,7 @@
 #include "mansard/extrude/detail/plane.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -22,6 +23,23 @@ auto ratio(const mpz_class& n, const mpz_class& d) -> double {
   long n_power = 0, d_power = 0;
   const double n_digits = mpz_get_d_2exp(&n_power, n.get_mpz_t()), d_digits = mpz_get_d_2exp(&d_power, d.get_mpz_t());
   return std::ldexp(n_digits / d_digits, static_cast<int>(n_power - d_power));
+}
+
+/// The next double towards zero, as GMP converts.
+auto truncated(Int128 value) -> double {
+  UInt128 magnitude = value < 0 ? -static_cast<UInt128>(value) : static_cast<UInt128>(value);
+  int power = 0;
+  while ((magnitude >> 64) != 0) {
+    magnitude >>= 11;  // 53 of 64 bits are needed, so that none of those is lost
+    power += 11;
+  }
+  auto digits = static_cast<std::uint64_t>(magnitude);
+  if (const int spare = static_cast<int>(std::bit_width(digits)) - 53; spare > 0) {
+    digits >>= spare;
+    power += spare;
+  }
+  const double size = std::ldexp(static_cast<double>(digits), power);
+  return value < 0 ? -size : size;
 }
 
 /// Doubles and narrowness from exact coefficients.
@@ -152,6 +170,22 @@ auto plane_of(const Direction& direction, const Rational& offset, const Rational
   return finished(std::move(plane), {-mpz_class(direction.b) * scale, mpz_class(direction.a) * scale,
                                      l * offset.get_num() * mpz_class(scale / offset.get_den()),
                                      l * speed.get_num() * mpz_class(scale / speed.get_den())});
+}
+
+auto plane_of(const Direction& direction, std::int64_t offset, std::int64_t height, std::int64_t run, std::int64_t rise)
+    -> Plane {
+  Plane plane;
+  plane.direction = direction;
+  // As above: the offset at height 0 is (offset · rise − run · height) / rise, whose denominator divides that of the
+  // speed. A, B, S < 2⁴¹ · 2³⁰, D < 2⁴¹ · (2⁷⁰ + 2⁷⁰) = 2¹¹².
+  const Int128 l = direction.l, scale = l * rise;
+  plane.whole = {-static_cast<Int128>(direction.b) * rise, static_cast<Int128>(direction.a) * rise,
+                 l * (static_cast<Int128>(offset) * rise - static_cast<Int128>(run) * height), l * run};
+  plane.nx = -static_cast<double>(direction.b) / static_cast<double>(direction.l);
+  plane.ny = static_cast<double>(direction.a) / static_cast<double>(direction.l);
+  plane.c = truncated(plane.whole.D) / truncated(scale);
+  plane.s = truncated(plane.whole.S) / truncated(scale);
+  return plane;
 }
 
 auto flipped(const Plane& plane) -> Plane {

@@ -46,6 +46,10 @@ struct Plane {
 
 /// The line n · x = offset + slope t in quanta, n the direction turned left.
 [[nodiscard]] auto plane_of(const Direction& direction, const Rational& offset, const Rational& speed) -> Plane;
+/// The same from integers, without allocation: a line that is at `offset` quanta at a height of `height` quanta and
+/// moves by run / rise, in lowest terms, rise > 0. |offset| < 2^40, |height| < 2^39; run, rise < 2^30.
+[[nodiscard]] auto plane_of(const Direction& direction, std::int64_t offset, std::int64_t height, std::int64_t run,
+                            std::int64_t rise) -> Plane;
 /// The same line looked at from the other side.
 [[nodiscard]] auto flipped(const Plane& plane) -> Plane;
 /// Where a moving line is at t, for ever.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <tuple>
 
 #include "mansard/extrude/detail/wavefront.hpp"
@@ -9,8 +10,21 @@
 namespace mansard::extrude::detail {
 namespace {
 
+/// Of a multiple of the grid below 2^39 quanta; reads the number alone, no arithmetic of GMP.
+auto quanta_of(const Rational& metres) -> std::optional<std::int64_t> {
+  constexpr long most = 1L << 39;
+  const mpz_srcptr n = mpq_numref(metres.get_mpq_t()), d = mpq_denref(metres.get_mpq_t());
+  if (!mpz_fits_slong_p(n) || !mpz_fits_slong_p(d)) return std::nullopt;
+  const long over = mpz_get_si(n), under = mpz_get_si(d);
+  if (under > quanta_per_metre || quanta_per_metre % under != 0) return std::nullopt;
+  const long times = quanta_per_metre / under;
+  if (over >= most / times || over <= -most / times) return std::nullopt;
+  return over * times;
+}
+
 /// Of a number that must be whole.
 auto whole_quanta(const Rational& metres) -> std::int64_t {
+  if (const auto whole = quanta_of(metres)) return *whole;
   const Rational quanta = metres * quanta_per_metre;
   if (quanta.get_den() != 1 || bits_of(quanta.get_num()) > 40) throw Broken("a height off the grid");
   return quanta.get_num().get_si();
@@ -58,7 +72,10 @@ class Sweep {
 
   /// One line per canonical edge; edges on one line with one track share a plane for ever.
   void lay_out() {
-    std::map<std::tuple<Direction, Rational, std::uint32_t>, std::uint32_t> motions;
+    const auto before = [](const CanonicalEdge* p, const CanonicalEdge* q) {
+      return std::tie(p->direction, p->offset, p->track) < std::tie(q->direction, q->offset, q->track);
+    };
+    std::map<const CanonicalEdge*, std::uint32_t, decltype(before)> motions(before);
     for (std::size_t r = 0; r < footprint_.rings.size(); ++r) {
       const auto& ring = footprint_.rings[r];
       const auto size = static_cast<std::uint32_t>(ring.size());
@@ -68,9 +85,7 @@ class Sweep {
         courses_.push_back({&edge, &footprint_.tracks[edge.track], 0});
         Line line;
         line.direction = edge.direction;
-        line.motions =
-            motions.try_emplace({edge.direction, edge.offset, edge.track}, static_cast<std::uint32_t>(motions.size()))
-                .first->second;
+        line.motions = motions.try_emplace(&edge, static_cast<std::uint32_t>(motions.size())).first->second;
         wave_.add(std::move(line));
         // Where a roof overhangs, the sweep begins with it.
         const std::uint32_t begins = overhangs(r, static_cast<std::size_t>(&edge - ring.data())) ? 1 : 0;
@@ -106,6 +121,11 @@ class Sweep {
     wave_.lines[line].plane = plane_on(*course.edge, course.now());
   }
   auto plane_on(const CanonicalEdge& edge, const TrackPart& p) -> PlaneId {
+    constexpr long most = 1L << 30;
+    const mpz_srcptr run = mpq_numref(p.slope.get_mpq_t()), rise = mpq_denref(p.slope.get_mpq_t());
+    const auto at = quanta_of(edge.offset), inward = quanta_of(p.inward), height = quanta_of(p.height);
+    if (at && inward && height && mpz_cmp_si(run, most) < 0 && mpz_cmp_si(rise, most) < 0)
+      return trace_.planes.add(plane_of(edge.direction, *at + *inward, *height, mpz_get_si(run), mpz_get_si(rise)));
     const Rational offset = (edge.offset + p.inward - p.slope * p.height) * quanta_per_metre;
     return trace_.planes.add(plane_of(edge.direction, offset, p.slope));
   }

@@ -40,8 +40,7 @@ auto looks_over(const Plan& plan, const std::vector<bool>& carries, const Site& 
   std::vector<Look> looks;
   for (std::size_t i = 0; i < site.cells.size(); i += stride) {
     const auto cell = site.cells[i];
-    const Point2 at = site.measured.centre(cell);
-    if (const auto near = nearest_eaves(eaves, at))
+    if (const auto near = nearest_eaves(eaves, site.centres[i]))
       looks.push_back({near->inward, site.measured.z[cell], site.weight[i]});
   }
   return looks;
@@ -243,7 +242,7 @@ auto setbacks_of(const Plan& plan, const Site& site, const Options& options) -> 
   for (std::size_t i = 0; i < site.cells.size(); ++i) {
     const auto cell = site.cells[i];
     if (site.weight[i] < 1) continue;  // the melted wall hides how level the strip is
-    if (const auto near = nearest_eaves(eaves, site.measured.centre(cell)))
+    if (const auto near = nearest_eaves(eaves, site.centres[i]))
       looks[near->profile].push_back({near->inward, site.measured.z[cell], site.weight[i]});
   }
   std::vector<std::vector<Profile>> out;

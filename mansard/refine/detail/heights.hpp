@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "mansard/geometry/points.hpp"
@@ -31,17 +32,35 @@ inline void add_crossing(geometry::Point2 a, geometry::Point2 b, double y, std::
   if ((a.y <= y) != (b.y <= y)) crossings.push_back(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
 }
 
-/// Sorts the crossings and calls see(column) for every cell of the row whose centre lies inside, by the even-odd rule.
+/// Sorts the crossings of a row and calls see(first, last) for the columns [first, last) whose centres lie inside, by
+/// the even-odd rule.
 template <class See>
-void each_between(const Heights& grid, std::size_t row, std::vector<double>& crossings, See see) {
-  std::ranges::sort(crossings);
-  for (std::size_t k = 0; k + 1 < crossings.size(); k += 2) {
-    const double first = std::ceil((crossings[k] - grid.origin.x) / grid.spacing);
-    for (auto column = static_cast<std::size_t>(std::max(0.0, first)); column < grid.columns; ++column) {
-      if (grid.centre(column, row).x >= crossings[k + 1]) break;
-      see(column);
-    }
+void each_span(const Heights& grid, std::vector<double>& crossings, See see) {
+  if (crossings.size() == 2) {  // nearly always
+    if (crossings[1] < crossings[0]) std::swap(crossings[0], crossings[1]);
+  } else {
+    std::ranges::sort(crossings);
   }
+  // The number of the first column that is not left of x: within a cell of what the quotient says.
+  const auto column_at = [&grid](double x) {
+    const double most = static_cast<double>(grid.columns);
+    return static_cast<std::size_t>(std::clamp(std::ceil((x - grid.origin.x) / grid.spacing), 0.0, most));
+  };
+  for (std::size_t k = 0; k + 1 < crossings.size(); k += 2) {
+    const std::size_t first = column_at(crossings[k]);
+    std::size_t last = std::max(first, column_at(crossings[k + 1]));
+    while (last > first && grid.centre(last - 1, 0).x >= crossings[k + 1]) --last;
+    while (last < grid.columns && grid.centre(last, 0).x < crossings[k + 1]) ++last;
+    if (first < last) see(first, last);
+  }
+}
+
+/// The same, by column.
+template <class See>
+void each_between(const Heights& grid, std::vector<double>& crossings, See see) {
+  each_span(grid, crossings, [&see](std::size_t first, std::size_t last) {
+    for (std::size_t column = first; column < last; ++column) see(column);
+  });
 }
 
 }  // namespace mansard::refine::detail

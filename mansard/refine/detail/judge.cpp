@@ -1,66 +1,134 @@
 #include "mansard/refine/detail/judge.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "mansard/refine/detail/blur.hpp"
+#include "mansard/refine/detail/order.hpp"
 
 namespace mansard::refine::detail {
 namespace {
 
-/// Working memory that a thread keeps: heights, and their sums along rows.
+/// Working memory that a thread keeps, for a few rows at a time: grids of large parts do not fit into a cache.
 struct Scratch {
-  std::vector<double> heights, sums;  // m above the base, in rows with two cells of nothing on every side
+  std::vector<double> heights;  // m above the base, with two cells of nothing on both sides
+  std::array<std::vector<double>, 2 * blur_reach + 1> sums;  // along the last rows
+  std::vector<double> losses;                                // m²
 };
 auto scratch() -> Scratch& {
   thread_local Scratch one;
   return one;
 }
 
+/// The weighed losses of some cells of a row. No branches, and nothing overlaps: the compiler takes several at a time.
+void losses_of(std::size_t count, const std::array<const double*, 2 * blur_reach + 1>& sums, const double* unblurred,
+               const double* measured, const double* weights, double robust, double* __restrict out) {
+  const auto [before_2, before, here, after, after_2] = sums;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double shown = unblurred[i] * (6 * here[i] + 4 * (before[i] + after[i]) + (before_2[i] + after_2[i]));
+    const double d = std::abs(shown - measured[i]), least = std::min(d, robust);
+    out[i] = weights[i] * (least * (2 * d - least));  // loss(): d · (2 d − d) or robust · (2 d − robust)
+  }
+}
+
 }  // namespace
 
-auto Judge::misfit_of(const std::vector<double>& z, double cap) const -> double {
+auto Judge::misfit_of(const std::vector<double>& z, double cap, double most) const -> double {
   // The heights as a scan would have them, whose corners are round: smoothed with a standard deviation of one cell, the
   // 0.25 m by which photogrammetry melts a block. Else a slope would suit the scan of a step better than the step. A
   // sample past the solid (its outline is rounded by some millimetres) falls to its base.
   const auto& grid = site_.measured;
-  const std::size_t stride = grid.columns + 2 * blur_reach;
-  auto& [heights, sums] = scratch();
-  heights.assign(stride * (grid.rows + 2 * blur_reach), 0);
-  sums.assign(heights.size(), 0);
-  for (std::size_t row = 0; row < grid.rows; ++row) {
-    double* to = &heights[(row + blur_reach) * stride + blur_reach];
-    const double* from = &z[row * grid.columns];
-    const double* inside = &site_.unblurred[row * grid.columns];
-    for (std::size_t column = 0; column < grid.columns; ++column)
-      if (inside[column] > 0 && !std::isnan(from[column])) to[column] = std::min(from[column], cap);
-  }
-  blur_rows(heights, sums);
+  auto& [heights, sums, losses] = scratch();
+  heights.assign(grid.columns + 2 * blur_reach, 0);
+  for (auto& row : sums) row.assign(heights.size(), 0);
+  losses.resize(grid.columns);
+  const double robust = options_.robust;
   double sum = 0;
-  for (std::size_t i = 0; i < site_.cells.size(); ++i) {
-    const auto cell = site_.cells[i];
-    const std::size_t at = (cell / grid.columns + blur_reach) * stride + cell % grid.columns + blur_reach;
-    const double shown = site_.unblurred[cell] * blurred(sums, at, stride);
-    sum += site_.weight[i] * loss(shown - grid.z[cell], options_.robust);
+  // Whole rows, with a weight of nothing where there is no sample. The sum is in the order of the cells. No loss is
+  // negative, so that what is too much already stays that.
+  for (std::size_t row = 0; row < grid.rows + blur_reach; ++row) {
+    auto& newest = sums[row % sums.size()];
+    if (row < grid.rows) {
+      const double *from = &z[row * grid.columns], *inside = &site_.unblurred[row * grid.columns];
+      double* to = &heights[blur_reach];
+      for (std::size_t column = 0; column < grid.columns; ++column) {
+        const double height = from[column];
+        to[column] = inside[column] > 0 && height == height ? std::min(height, cap) : 0.0;
+      }
+      blur_rows(heights, newest);
+    } else {
+      std::ranges::fill(newest, 0.0);
+    }
+    if (row < blur_reach) continue;
+    const std::size_t seen = row - blur_reach, start = seen * grid.columns;
+    const auto [first, last] = site_.extents[seen];
+    std::array<const double*, 2 * blur_reach + 1> around{};  // those of row − 4, which is as good as row + 1, … row
+    for (std::size_t k = 0; k < around.size(); ++k) around[k] = &sums[(row + 1 + k) % sums.size()][blur_reach + first];
+    losses_of(last - first, around, &site_.unblurred[start + first], &site_.heights[start + first],
+              &site_.weights[start + first], robust, losses.data());
+    for (std::size_t i = 0; i < last - first; ++i) sum += losses[i];
+    if (sum * site_.cell_area >= most) return sum * site_.cell_area;
   }
   // A roof is under the crown that hides it.
   for (const auto& [cell, ceiling] : site_.ceilings)
-    if (const double above = std::min(z[cell], cap) - ceiling; above > 0) sum += loss(above, options_.robust);
+    if (const double above = std::min(z[cell], cap) - ceiling; above > 0) sum += loss(above, robust);
   return sum * site_.cell_area;
 }
 
 auto Judge::operator()(const model::Plan& plan) const -> base::Result<Judged> {
+  constexpr double any = std::numeric_limits<double>::infinity();
+  if (auto judged = again(plan, any)) return std::move(*judged);
   auto sketch = extrude::sketch(plan, raising_, run_);
   if (!sketch) return sketch.error();
-  Judged out{plan, std::move(*sketch), {}, 0, {}, 0, 0};
-  out.view = view_of(out.sketch, site_.measured, site_.base);
-  out.misfit = misfit_of(out.view.z);
-  out.bare = bare_faces(out.sketch, out.view, site_, options_);
-  // Evidence would have to come from elsewhere: as dear as a part.
-  out.unsupported = options_.part_price * static_cast<double>(out.bare.size());
-  out.cost = out.unsupported + out.misfit + options_.face_price * static_cast<double>(out.sketch.faces.size());
+  return std::move(*of(plan, std::move(*sketch), any));
+}
+
+auto Judge::cheaper(const model::Plan& plan, double than) const -> std::optional<Judged> {
+  const double most = than - same_cost;
+  if (known_ && known_->costs_at_least(plan) >= most) return std::nullopt;
+  auto judged = again(plan, most);
+  if (!judged) {
+    auto sketch = extrude::sketch(plan, raising_, run_);
+    if (!sketch) return std::nullopt;
+    judged = of(plan, std::move(*sketch), most);
+  }
+  if (judged && detail::cheaper(judged->cost, than)) return judged;
+  if (known_) known_->add_too_dear(plan, most);
+  return std::nullopt;
+}
+
+auto Judge::again(const model::Plan& plan, double most) const -> std::optional<Judged> {
+  const Known* known = known_ ? known_->find(plan) : nullptr;
+  if (!known) return std::nullopt;
+  Judged out{plan, known->sketch, {}, known->misfit, known->bare, 0, 0};
+  price(out);
+  if (out.cost < most) out.view = view_of(out.sketch, site_.measured, site_.base);
   return out;
+}
+
+auto Judge::of(const model::Plan& plan, model::Solid sketch, double most) const -> std::optional<Judged> {
+  // Sums of what is not negative, rounded, do not fall by what is added: each bound is one of the cost as priced below.
+  const double faces = options_.face_price * static_cast<double>(sketch.faces.size());
+  if (faces >= most) return std::nullopt;
+  Judged out{plan, std::move(sketch), {}, 0, {}, 0, 0};
+  out.view = view_of(out.sketch, site_.measured, site_.base);
+  out.misfit = misfit_of(out.view.z, std::numeric_limits<double>::infinity(), most);
+  if (out.misfit + faces >= most) return std::nullopt;
+  out.bare = bare_faces(out.sketch, out.view, site_, options_);
+  price(out);
+  if (known_) known_->add({plan, out.sketch, out.misfit, out.bare});
+  return out;
+}
+
+void Judge::price(Judged& judged) const {
+  // Evidence would have to come from elsewhere: as dear as a part.
+  judged.unsupported = options_.part_price * static_cast<double>(judged.bare.size());
+  judged.cost =
+      judged.unsupported + judged.misfit + options_.face_price * static_cast<double>(judged.sketch.faces.size());
 }
 
 }  // namespace mansard::refine::detail

@@ -3,10 +3,12 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "mansard/extrude/extrude.hpp"
 #include "mansard/refine/detail/bare.hpp"
+#include "mansard/refine/detail/known.hpp"
 #include "mansard/refine/detail/site.hpp"
 #include "mansard/refine/detail/view.hpp"
 
@@ -32,24 +34,39 @@ struct Judged {
 
 class Judge {
  public:
-  Judge(const Site& site, const Options& options, const extrude::Options& raising, const base::Run& run)
-      : site_(site), options_(options), raising_(raising), run_(run) {}
+  /// `known`: of this site, these options and no others; what is judged is added. Null: every roof is made.
+  Judge(const Site& site, const Options& options, const extrude::Options& raising, const base::Run& run,
+        KnownRoofs* known = nullptr)
+      : site_(site), options_(options), raising_(raising), run_(run), known_(known) {}
 
   /// Gives up where the plan cannot be raised in full.
   [[nodiscard]] auto operator()(const model::Plan& plan) const -> base::Result<Judged>;
 
-  /// m²·m²: of heights on the site's grid, cut off at `cap`, m above the base; NaN where there are none.
-  [[nodiscard]] auto misfit_of(const std::vector<double>& z, double cap = std::numeric_limits<double>::infinity()) const
-      -> double;
+  /// The same where it is cheaper (order.hpp) than that; none where it is not, or cannot be raised. What is too dear is
+  /// mostly known before all of it was compared.
+  [[nodiscard]] auto cheaper(const model::Plan& plan, double than) const -> std::optional<Judged>;
+
+  /// m²·m²: of heights on the site's grid, cut off at `cap`, m above the base; NaN where there are none. A sum that
+  /// reaches `most` may end there.
+  [[nodiscard]] auto misfit_of(const std::vector<double>& z, double cap = std::numeric_limits<double>::infinity(),
+                               double most = std::numeric_limits<double>::infinity()) const -> double;
 
   [[nodiscard]] auto site() const -> const Site& { return site_; }
   [[nodiscard]] auto options() const -> const Options& { return options_; }
 
  private:
+  /// None where it costs at least that much.
+  [[nodiscard]] auto of(const model::Plan& plan, model::Solid sketch, double most) const -> std::optional<Judged>;
+  /// If it is known; seen from above only where it costs less than that.
+  [[nodiscard]] auto again(const model::Plan& plan, double most) const -> std::optional<Judged>;
+  /// Fills in what the faces and what is unsupported cost, and the sum.
+  void price(Judged& judged) const;
+
   const Site& site_;
   const Options& options_;
   const extrude::Options& raising_;
   const base::Run& run_;
+  KnownRoofs* known_;
 };
 
 }  // namespace mansard::refine::detail

@@ -11,9 +11,10 @@ namespace {
 /// m, and rise per run: a line that moves less than a micrometre between rounds stays.
 constexpr double settled = 1e-6;
 
+/// 1 within `robust`, without a branch: which samples are beyond is as good as random.
 auto weight_of(const Look& look, const RoofLine& line, double robust) -> double {
   const double d = std::abs(look.height - line.at_edge - line.slope * look.inward);
-  return look.weight * (d <= robust ? 1 : robust / d);
+  return look.weight * (robust / std::max(d, robust));
 }
 
 }  // namespace

@@ -93,25 +93,35 @@ auto sort_looks(const Judged& judged, const Site& site, const Options& options, 
   out.looks.resize(judged.plan.profiles.size());
   for (std::size_t p = 0; p < out.looks.size(); ++p) out.looks[p].resize(judged.plan.profiles[p].size());
   const auto edges = edges_of(judged.plan);
+  struct Target {
+    const Edge* edge = nullptr;  // none: the face has no line of its own
+    std::uint32_t part = 0;
+    std::vector<Look>* looks = nullptr;
+    bool is_cap = false;
+  };
+  std::vector<Target> targets(judged.sketch.faces.size());  // by face
+  for (std::size_t f = 0; f < targets.size(); ++f) {
+    const auto& face = judged.sketch.faces[f];
+    targets[f].is_cap = face.kind == model::FaceKind::cap;
+    if (!face.provenance || face.kind == model::FaceKind::connector) continue;
+    const Edge& edge = edges[face.provenance->ring][face.provenance->edge];
+    auto& parts = out.looks[edge.profile];
+    const auto part = face.provenance->part;
+    const bool ends = used == Used::middle && part + 1 >= parts.size();
+    if (part < parts.size() && !ends) targets[f] = {&edge, part, &parts[part], targets[f].is_cap};
+  }
   for (std::size_t i = 0; i < site.cells.size(); ++i) {
     const auto cell = site.cells[i];
     if (std::isnan(judged.view.z[cell])) continue;
-    const auto& face = judged.sketch.faces[judged.view.face[cell]];
-    if (face.kind == model::FaceKind::cap && site.weight[i] == 1) out.cap.push_back(site.measured.z[cell]);
-    if (!face.provenance || face.kind == model::FaceKind::connector) continue;
-    const auto& from = *face.provenance;
-    const Edge& edge = edges[from.ring][from.edge];
-    auto& parts = out.looks[edge.profile];
-    if (from.part >= parts.size()) continue;
-    const Point2 at = site.measured.centre(cell);
-    const double inward = edge.to(at);
-    if (used == Used::all) {
-      parts[from.part].push_back({inward, site.measured.z[cell], site.weight[i]});
-    } else if (from.part + 1 < parts.size()) {
-      const auto& profile = judged.plan.profiles[edge.profile];
-      if (middle.holds(cell, profile, from.part, at, inward, edge.inward))
-        parts[from.part].push_back({inward, site.measured.z[cell], 1});
-    }
+    const Target& target = targets[judged.view.face[cell]];
+    if (target.is_cap && site.weight[i] == 1) out.cap.push_back(site.measured.z[cell]);
+    if (!target.edge) continue;
+    const Point2 at = site.centres[i];
+    const double inward = target.edge->to(at);
+    if (used == Used::all) target.looks->push_back({inward, site.measured.z[cell], site.weight[i]});
+    else if (middle.holds(cell, judged.plan.profiles[target.edge->profile], target.part, at, inward,
+                          target.edge->inward))
+      target.looks->push_back({inward, site.measured.z[cell], 1});
   }
   return out;
 }

@@ -67,8 +67,8 @@ auto settle(Judged judged, const Judge& judge) -> Judged {
   for (std::int64_t round = 0; round < judge.options().search.settle_rounds; ++round) {
     const Plan plan = refitted(judged, judge.site(), judge.options());
     if (plan == judged.plan) break;
-    auto next = judge(plan);
-    if (!next || !cheaper(next->cost, judged.cost)) break;
+    auto next = judge.cheaper(plan, judged.cost);
+    if (!next) break;
     judged = std::move(*next);
   }
   return judged;
@@ -108,8 +108,7 @@ auto misfit_by_side(const Judged& judged, const Judge& judge) -> std::vector<dou
     const auto cell = site.cells[i];
     const double difference = std::abs(judged.view.z[cell] - site.measured.z[cell]);
     if (!(difference > judge.options().search.min_difference)) continue;
-    const auto at = site.measured.centre(cell);
-    if (const auto nearest = nearest_eaves(edges, at))
+    if (const auto nearest = nearest_eaves(edges, site.centres[i]))
       out[nearest->profile] +=
           site.weight[i] * difference * std::min(difference, judge.options().robust) * site.cell_area;
   }
@@ -136,8 +135,7 @@ auto descend(Judged judged, const Draft& draft, const Judge& judge) -> Judged {
     for (auto& profile : others) {
       Plan plan = judged.plan;
       plan.profiles[p] = std::move(profile);
-      auto next = judge(plan);
-      if (next && cheaper(next->cost, judged.cost)) judged = std::move(*next);
+      if (auto next = judge.cheaper(plan, judged.cost)) judged = std::move(*next);
     }
   }
   return judged;
@@ -152,8 +150,8 @@ auto below_ceilings(Judged judged, const Judge& judge) -> Judged {
   plan.cap = std::max(judge.options().forms.min_height, base::median(std::move(heights)));
   if (plan.cap >= judged.plan.cap) return judged;
   for (auto& profile : plan.profiles) profile = wall(plan.cap, judge.options().forms);
-  auto lower = judge(plan);
-  return lower && cheaper(lower->cost, judged.cost) ? std::move(*lower) : std::move(judged);
+  auto lower = judge.cheaper(plan, judged.cost);
+  return lower ? std::move(*lower) : std::move(judged);
 }
 
 auto pitched_sides(const Plan& plan) -> std::size_t {
@@ -217,16 +215,22 @@ auto best_roof(const Draft& draft, const Judge& judge, Search search, double wor
   std::vector<Judged> starts;
   starts.push_back(best);
   const auto followed = static_cast<std::size_t>(search == Search::thorough ? options.starts : options.quick_starts);
-  for (const auto& form : forms_of(draft.plan, judge.site(), judge.options())) {
-    if (starts.size() > followed + 1) break;  // the most promising, one more than are followed
-    if (auto judged = judge(form.plan)) starts.push_back(std::move(*judged));
+  const auto forms = forms_of(draft.plan, judge.site(), judge.options());
+  const std::size_t most = followed + 2;  // the most promising, one more than are followed, and the draft's
+  for (std::size_t from = 0, to = 0; from < forms.size() && starts.size() < most; from = to) {
+    to = std::min(forms.size(), from + most - starts.size());  // no more than are needed if all can be sketched
+    std::vector<std::optional<Judged>> judged(to - from);
+    base::parallel_for(judged.size(), [&](std::size_t i) {
+      if (auto one = judge(forms[from + i].plan)) judged[i] = std::move(*one);
+    });
+    for (auto& one : judged)
+      if (one) starts.push_back(std::move(*one));
   }
   rank(starts, &Judged::cost);
-  if (starts.size() > followed) starts.resize(followed);
-  for (auto& judged : starts) {
-    judged = settle(std::move(judged), judge);
-    if (cheaper(judged.cost, best.cost)) best = judged;
-  }
+  if (starts.size() > followed) starts.erase(starts.begin() + static_cast<std::ptrdiff_t>(followed), starts.end());
+  base::parallel_for(starts.size(), [&](std::size_t i) { starts[i] = settle(std::move(starts[i]), judge); });
+  for (auto& judged : starts)
+    if (cheaper(judged.cost, best.cost)) best = std::move(judged);
   if (search == Search::quick || best.cost > options.hopeless * worth) return best;
   for (std::int64_t round = 0; round < options.rounds; ++round) {
     const double cost = best.cost;

@@ -28,7 +28,7 @@ void each_inside(const Polygon& polygon, const Heights& grid, See see) {
     const double y = grid.centre(0, row).y;
     cross(polygon.outer, y);
     for (const auto& hole : polygon.holes) cross(hole, y);
-    each_between(grid, row, crossings, [&](std::size_t column) { see(column, row); });
+    each_between(grid, crossings, [&](std::size_t column) { see(column, row); });
   }
 }
 
@@ -102,12 +102,28 @@ void finish(Site& site, const Options& options) {
   };
   mark(site.polygon.outer);
   for (const auto& hole : site.polygon.holes) mark(hole);
-  for (std::size_t cell = 0; cell < grid.z.size(); ++cell) {
-    if (std::isnan(grid.z[cell])) continue;
-    site.cells.push_back(static_cast<std::uint32_t>(cell));
-    site.sorted.push_back(grid.z[cell]);
-    site.weight.push_back(margin[cell] ? options.samples.margin_weight : 1);
-  }
+  const auto count = static_cast<std::size_t>(std::ranges::count_if(grid.z, [](double z) { return !std::isnan(z); }));
+  site.cells.reserve(count);
+  site.sorted.reserve(count);
+  site.weight.reserve(count);
+  site.centres.reserve(count);
+  site.heights.assign(grid.z.size(), 0);
+  site.weights.assign(grid.z.size(), 0);
+  site.extents.assign(grid.rows, {0, 0});
+  for (std::size_t row = 0, cell = 0; row < grid.rows; ++row)
+    for (std::size_t column = 0; column < grid.columns; ++column, ++cell) {
+      if (std::isnan(grid.z[cell])) continue;
+      const double weight = margin[cell] ? options.samples.margin_weight : 1;
+      site.cells.push_back(static_cast<std::uint32_t>(cell));
+      site.sorted.push_back(grid.z[cell]);
+      site.weight.push_back(weight);
+      site.centres.push_back(grid.centre(column, row));
+      site.heights[cell] = grid.z[cell];
+      site.weights[cell] = weight;
+      auto& [first, last] = site.extents[row];
+      if (last == 0) first = column;
+      last = column + 1;
+    }
   std::ranges::sort(site.sorted);
   site.unblurred = unblurred_of(site.polygon, grid);
 }
@@ -140,7 +156,7 @@ class Cells {
 }  // namespace
 
 auto look(const Polygon& polygon, double base, const rays::Scene& mesh, const Options& options) -> Site {
-  Site site{polygon, base, grid_over(polygon, spacing_over(polygon, options)), {}, {}, {}, 0, {}};
+  Site site{polygon, base, grid_over(polygon, spacing_over(polygon, options)), {}, {}, {}, {}, 0, {}, {}, {}, {}};
   auto& grid = site.measured;
   each_inside(polygon, grid, [&](std::size_t column, std::size_t row) {
     if (const auto z = mesh.top(grid.centre(column, row))) grid.z[row * grid.columns + column] = *z - base;
@@ -150,7 +166,7 @@ auto look(const Polygon& polygon, double base, const rays::Scene& mesh, const Op
 }
 
 auto crop(const Site& site, const Polygon& piece, const Options& options) -> Site {
-  Site out{piece, site.base, grid_over(piece, site.measured.spacing), {}, {}, {}, 0, {}};
+  Site out{piece, site.base, grid_over(piece, site.measured.spacing), {}, {}, {}, {}, 0, {}, {}, {}, {}};
   auto& grid = out.measured;
   const Cells cells(site.measured, grid);
   each_inside(piece, grid, [&](std::size_t column, std::size_t row) {
@@ -162,7 +178,7 @@ auto crop(const Site& site, const Polygon& piece, const Options& options) -> Sit
 
 auto merged(const Site& a, const Site& b, const Polygon& both, const rays::Scene& mesh, const Options& options)
     -> Site {
-  Site out{both, a.base, grid_over(both, spacing_over(both, options)), {}, {}, {}, 0, {}};
+  Site out{both, a.base, grid_over(both, spacing_over(both, options)), {}, {}, {}, {}, 0, {}, {}, {}, {}};
   auto& grid = out.measured;
   if (a.measured.spacing != grid.spacing || b.measured.spacing != grid.spacing)
     return look(both, a.base, mesh, options);

@@ -14,15 +14,20 @@ namespace mansard::refine::detail {
 
 struct Site {
   geometry::Polygon polygon;
-  double base = 0;                   ///< z, metres
-  Heights measured;                  ///< NaN where nothing was seen, or outside the polygon
-  std::vector<std::uint32_t> cells;  ///< those with a height, ascending
-  std::vector<double> weight;        ///< per entry of `cells`: less along the outline
-  std::vector<double> sorted;        ///< the heights
-  double cell_area = 0;              ///< m²
+  double base = 0;                        ///< z, metres
+  Heights measured;                       ///< NaN where nothing was seen, or outside the polygon
+  std::vector<std::uint32_t> cells;       ///< those with a height, ascending
+  std::vector<double> weight;             ///< per entry of `cells`: less along the outline
+  std::vector<geometry::Point2> centres;  ///< per entry of `cells`
+  std::vector<double> sorted;             ///< the heights
+  double cell_area = 0;                   ///< m²
   /// Per cell of the grid: 0 outside the polygon, else the factor that makes a sum of `blurred` a mean of what is
   /// inside.
   std::vector<double> unblurred;
+  /// The same as `measured` and `weight` for sums over whole rows: per cell of the grid, 0 where there is no height.
+  std::vector<double> heights, weights;
+  /// Per row of the grid the columns [first, last) from its first cell with a height to its last.
+  std::vector<std::pair<std::size_t, std::size_t>> extents;
   /// Cells without a height, and how high a roof there may be at most: the crown of a tree hides it.
   std::vector<std::pair<std::uint32_t, double>> ceilings{};
 };

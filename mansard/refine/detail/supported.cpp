@@ -1,6 +1,7 @@
 #include "mansard/refine/detail/supported.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -95,16 +96,20 @@ auto variants_of(const Judged& judged, std::uint32_t bare, const Judge& judge) -
 auto supported(Judged judged, const Judge& judge) -> Judged {
   if (judge.site().sorted.empty()) return judged;
   for (std::size_t left = 2 * judged.bare.size(); left > 0; --left) {
+    std::vector<Plan> plans;
+    for (const auto bare : judged.bare) std::ranges::move(variants_of(judged, bare, judge), std::back_inserter(plans));
+    std::vector<std::optional<Judged>> each(plans.size());
+    base::parallel_for(plans.size(), [&](std::size_t i) {
+      auto next = judge(plans[i]);
+      if (!next) return;
+      const Plan moved = refitted(*next, judge.site(), judge.options());
+      if (auto better = moved == next->plan ? std::nullopt : judge.cheaper(moved, std::min(next->cost, judged.cost)))
+        each[i] = std::move(*better);
+      else if (cheaper(next->cost, judged.cost)) each[i] = std::move(*next);
+    });
     std::optional<Judged> best;
-    for (const auto bare : judged.bare)
-      for (const auto& plan : variants_of(judged, bare, judge)) {
-        auto next = judge(plan);
-        if (!next) continue;
-        if (auto moved = judge(refitted(*next, judge.site(), judge.options()));
-            moved && cheaper(moved->cost, next->cost))
-          next = std::move(moved);
-        if (cheaper(next->cost, best ? best->cost : judged.cost)) best = std::move(*next);
-      }
+    for (auto& next : each)
+      if (next && cheaper(next->cost, best ? best->cost : judged.cost)) best = std::move(*next);
     if (!best) break;
     judged = std::move(*best);
   }

@@ -26,6 +26,8 @@ class Painter {
   Painter(const model::Solid& solid, const Heights& grid, double base) : solid_(solid), grid_(grid), base_(base) {
     view_.z.assign(grid.z.size(), std::numeric_limits<double>::quiet_NaN());
     view_.face.assign(grid.z.size(), 0);
+    x_.reserve(grid.columns);
+    for (std::size_t column = 0; column < grid.columns; ++column) x_.push_back(grid.centre(column, 0).x);
   }
 
   void paint(std::uint32_t f) {
@@ -41,10 +43,13 @@ class Painter {
     for (std::size_t row = rows.first; row < rows.last; ++row) {
       const double y = grid_.centre(0, row).y;
       cross(face, y);
-      each_between(grid_, row, crossings_, [&](std::size_t column) {
-        const std::size_t cell = row * grid_.columns + column;
-        view_.z[cell] = at.z + dx * (grid_.centre(column, row).x - at.x) + dy * (y - at.y) - base_;
-        view_.face[cell] = f;
+      double* z = &view_.z[row * grid_.columns];
+      std::uint32_t* faces = &view_.face[row * grid_.columns];
+      const double up = dy * (y - at.y), base = base_;
+      each_span(grid_, crossings_, [&](std::size_t first, std::size_t last) {
+        for (std::size_t column = first; column < last; ++column)
+          z[column] = at.z + dx * (x_[column] - at.x) + up - base;
+        std::fill(faces + first, faces + last, f);
       });
     }
   }
@@ -63,6 +68,7 @@ class Painter {
   const model::Solid& solid_;
   const Heights& grid_;
   double base_;
+  std::vector<double> x_;  // m, of the columns' centres
   std::vector<double> crossings_;
   View view_;
 };

@@ -39,13 +39,17 @@ auto Work::both_of(const Piece& a, const Piece& b, const geometry::Polygon& both
 }
 
 /// `worth`: dearer roofs are of no interest.
-auto Work::roofed(std::size_t draft_index, Site site, Draft draft, Search search, double worth) const
-    -> base::Result<Piece> {
+auto Work::roofed(std::size_t draft_index, Site site, Draft draft, Search search, double worth,
+                  std::shared_ptr<KnownRoofs> known) const -> base::Result<Piece> {
   std::vector<std::string> changes;
-  auto roof = best_roof(draft, Judge(site, options_, raising_, run_), search, worth, changes);
+  if (!known) known = std::make_shared<KnownRoofs>();
+  auto roof = best_roof(draft, Judge(site, options_, raising_, run_, known.get()), search, worth, changes);
   if (!roof) return roof.error();
   Piece piece{draft_index, std::move(site), std::move(draft), std::move(*roof), std::nullopt, std::move(changes)};
-  if (search != Search::thorough) return piece;
+  if (search != Search::thorough) {
+    piece.known = std::move(known);
+    return piece;
+  }
   auto raised = extrude::raise(piece.roof.plan, raising_, run_);
   if (!raised) return raised.error();
   if (raised->outcome != extrude::Outcome::full) return raised->warnings.back();
@@ -134,7 +138,7 @@ auto Work::misfit_about(const Piece& piece, geometry::Point2 place, double withi
   double sum = 0;
   for (std::size_t i = 0; i < site.cells.size(); ++i) {
     const auto cell = site.cells[i];
-    const auto off = site.measured.centre(cell) - place;
+    const auto off = site.centres[i] - place;
     const double d = std::abs(piece.roof.view.z[cell] - site.measured.z[cell]);
     if (dot(off, off) < within * within && !std::isnan(d)) sum += site.weight[i] * d * std::min(d, options_.robust);
   }
@@ -150,14 +154,15 @@ auto Work::united(const Piece& a, const Piece& b) const -> std::optional<Union> 
   Draft draft = draft_of(origins, site, options_);
   auto made = roofed(std::min(a.draft_index, b.draft_index), std::move(site), std::move(draft), Search::quick);
   if (!made) return std::nullopt;
-  return Union{std::move(*polygon), std::move(made->draft), std::move(made->roof)};
+  return Union{std::move(*polygon), std::move(made->draft), std::move(made->roof), std::move(made->known)};
 }
 
 /// The same where that is cheaper.
 auto Work::as_one(const Piece& a, const Piece& b, const Union& both) const -> std::optional<Piece> {
   const double worth = cost_of(a, b);
   if (both.roof.cost >= options_.joins.quick_excess * worth) return std::nullopt;
-  auto made = roofed(std::min(a.draft_index, b.draft_index), both_of(a, b, both.polygon), both.draft);
+  auto made = roofed(std::min(a.draft_index, b.draft_index), both_of(a, b, both.polygon), both.draft, Search::thorough,
+                     std::numeric_limits<double>::infinity(), both.known);
   if (!made || !cheaper(made->roof.cost, worth)) return std::nullopt;
   made->changes.insert(made->changes.begin(), "parts of " + square_metres(a) + " and " + square_metres(b) +
                                                   " joined under one roof, at a cost of " +
@@ -313,7 +318,8 @@ auto Work::searched(const Piece& piece, const Proposal& proposal, std::vector<Pi
   const auto before_and_after =
       ", at a cost of at most " + base::to_text(cost, 1) + " instead of " + base::to_text(piece.roof.cost, 1);
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    auto better = roofed(piece.draft_index, std::move(pieces[i].site), std::move(pieces[i].draft));
+    auto better = roofed(piece.draft_index, std::move(pieces[i].site), std::move(pieces[i].draft), Search::thorough,
+                         std::numeric_limits<double>::infinity(), std::move(pieces[i].known));
     if (!better) return {};
     pieces[i] = std::move(*better);
     auto& changes = pieces[i].changes;

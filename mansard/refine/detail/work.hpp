@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,8 +22,9 @@ struct Piece {
   Judged roof;
   std::optional<extrude::Raised> raised;  ///< in full; none until the search was thorough
   std::vector<std::string> changes;
-  std::optional<Site> whole = {};  ///< with the dormers, where the site is without
-  std::size_t number = 0;          ///< no other piece of its owner ever has it: what was tried with it is known by it
+  std::optional<Site> whole = {};          ///< with the dormers, where the site is without
+  std::shared_ptr<KnownRoofs> known = {};  ///< over its site, while it may be searched more thoroughly
+  std::size_t number = 0;  ///< no other piece of its owner ever has it: what was tried with it is known by it
 };
 
 /// Two pieces under one roof that was found quickly.
@@ -30,6 +32,7 @@ struct Union {
   geometry::Polygon polygon;
   Draft draft;
   Judged roof;
+  std::shared_ptr<KnownRoofs> known;  ///< over the ground of both
 };
 
 /// Costs are in m²·m² throughout. Calls may run on any thread.
@@ -41,10 +44,11 @@ class Work {
 
   [[nodiscard]] auto look(const geometry::Polygon& polygon, double base) const -> Site;
 
-  /// `worth`: dearer roofs are of no interest. Gives up where the roof cannot be sketched, or, thoroughly searched, not
-  /// be raised in full.
+  /// `worth`: dearer roofs are of no interest. `known`: of an earlier search over the same site. Gives up where the
+  /// roof cannot be sketched, or, thoroughly searched, not be raised in full.
   [[nodiscard]] auto roofed(std::size_t draft_index, Site site, Draft draft, Search search = Search::thorough,
-                            double worth = std::numeric_limits<double>::infinity()) const -> base::Result<Piece>;
+                            double worth = std::numeric_limits<double>::infinity(),
+                            std::shared_ptr<KnownRoofs> known = nullptr) const -> base::Result<Piece>;
 
   /// Whether their grounds may meet, and there is anything to see over them.
   [[nodiscard]] auto touch(const Piece& a, const Piece& b) const -> bool;
