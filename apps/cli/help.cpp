@@ -114,8 +114,8 @@ auto first_words() -> std::string {
 
 auto overview() -> std::string {
   std::string text =
-      "Usage: mansard VERB [arguments] [options]\n\n"
-      "Building models from city meshes and footprints: watertight, labelled as wall,\nroof and ground.\n";
+      "Usage: mansard VERB [arguments] [options]\n\n" +
+      on_lines("Building models from city meshes and footprints: watertight, labelled as wall, roof and ground.");
   std::size_t margin = 0;
   for (const auto& entry : catalogue()) margin = std::max(margin, entry.name.size() + 4);
   std::string task;
@@ -124,9 +124,10 @@ auto overview() -> std::string {
     task = entry.task;
     text += term_and_text("  " + entry.name, entry.meaning, margin, width());
   }
-  return text +
-         "\n'mansard VERB --help' shows how to call a verb, 'mansard explain CODE' what a\nmessage means. "
-         "'mansard --version' prints the version.\n";
+  return text + "\n" +
+         on_lines(
+             "'mansard VERB --help' shows how to call a verb, 'mansard explain CODE' what a message means. "
+             "'mansard --version' prints the version.");
 }
 
 auto short_help(const Form& form) -> std::string {
