@@ -116,11 +116,11 @@ auto for_every_task(const ingest::CityScene& city, const Options& options, const
     work(city.scene, *division, detail::Progress{}, std::vector<std::size_t>());
     return {};
   }
-  const auto boxes = detail::boxes_of(city.scene);
+  const auto index = detail::index_of(city.scene);
   detail::Progress progress{0, wanted.size()};
   for (const auto& task : tasks_of(wanted, city, options.ingest.task_triangles)) {
     if (run.cancelled()) return base::stopped();
-    auto part = detail::part_of(city.scene, task.groups, boxes, false);
+    auto part = detail::part_of(city.scene, task.groups, index, false);
     auto mesh = city.cells->load(task.cells);
     if (!mesh) return mesh.failure();
     part.scene.mesh = std::move(*mesh);
