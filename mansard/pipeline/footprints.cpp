@@ -401,6 +401,7 @@ auto raise_footprints_aside(const model::Scene& scene, const Options& options, c
     if (run.cancelled()) break;
     for (std::size_t i = 0; i < made.buildings.size(); ++i)
       take(part.features[i], made.city.buildings[i], made.buildings[i]);
+    if (auto put = builder.check(); !put) return put.failure();
     for (const auto& [stage, time] : made.times.stages) {
       if (!spent.contains(stage)) stages.push_back(stage);
       spent[stage].push_back(time);

@@ -1,5 +1,7 @@
 // A city whose mesh is in cells on disk comes out as one whose mesh is in memory, to the byte.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <csignal>
 
 #include "base/scratch.hpp"
 #include "mansard/base/files.hpp"
@@ -253,6 +255,44 @@ TEST(City, loads_for_a_task_only_what_is_near_its_groups) {
   const auto with_others = detail::part_of(close, ends, detail::index_of(close), true);
   EXPECT_EQ(with_others.features, (std::vector<std::size_t>{0, 99, 1, 2, 97, 98}));
   EXPECT_EQ(with_others.scene.surroundings.size(), 4U);
+}
+
+/// Files of this process stay below so many bytes, as on a full disk.
+class SmallFiles {
+ public:
+  explicit SmallFiles(rlim_t bytes) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit small{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+  }
+  ~SmallFiles() { setrlimit(RLIMIT_FSIZE, &before_); }
+  SmallFiles(const SmallFiles&) = delete;
+  auto operator=(const SmallFiles&) -> SmallFiles& = delete;
+
+ private:
+  rlimit before_{};
+};
+
+TEST(City, that_cannot_be_put_aside_ends_at_once) {
+  const auto scene = row_of_squares(300, 200);
+  Options options;
+  options.ingest.task_footprints = 1;
+  std::size_t tasks = 0;
+  base::Run run;
+  run.progress = [&](std::string_view stage, std::string_view, double) { tasks += stage == "roof" ? 1 : 0; };
+  {
+    const SmallFiles full(40'000);
+    const auto aside = raise_footprints_aside(scene, options, run);
+    ASSERT_FALSE(aside);
+    EXPECT_EQ(aside.error().code, "file-write");
+    EXPECT_NE(aside.error().message.find("TMPDIR"), std::string::npos) << aside.error().message;
+  }
+  EXPECT_GT(tasks, 1U);
+  EXPECT_LT(tasks, 100U);
+  tasks = 0;
+  EXPECT_TRUE(raise_footprints_aside(scene, options, run));
+  EXPECT_GE(tasks, 300U);
 }
 
 TEST(City, tells_of_solids_that_overlap_as_in_memory) {
