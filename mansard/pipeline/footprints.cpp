@@ -402,6 +402,9 @@ auto raise_footprints_aside(const model::Scene& scene, const Options& options, c
     for (std::size_t i = 0; i < made.buildings.size(); ++i)
       take(part.features[i], made.city.buildings[i], made.buildings[i]);
     if (auto put = builder.check(); !put) return put.failure();
+    if (before < places.size())
+      run.report("done", std::to_string(before) + " of " + std::to_string(places.size()) + " blocks",
+                 static_cast<double>(before) / static_cast<double>(places.size()));
     for (const auto& [stage, time] : made.times.stages) {
       if (!spent.contains(stage)) stages.push_back(stage);
       spent[stage].push_back(time);

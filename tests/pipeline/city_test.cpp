@@ -1,6 +1,7 @@
 // A city whose mesh is in cells on disk comes out as one whose mesh is in memory, to the byte.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <algorithm>
 #include <csignal>
 
 #include "base/scratch.hpp"
@@ -280,7 +281,11 @@ TEST(City, that_cannot_be_put_aside_ends_at_once) {
   options.ingest.task_footprints = 1;
   std::size_t tasks = 0;
   base::Run run;
-  run.progress = [&](std::string_view stage, std::string_view, double) { tasks += stage == "roof" ? 1 : 0; };
+  std::vector<double> done;
+  run.progress = [&](std::string_view stage, std::string_view, double fraction) {
+    tasks += stage == "roof" ? 1 : 0;
+    if (stage == "done") done.push_back(fraction);
+  };
   {
     const SmallFiles full(40'000);
     const auto aside = raise_footprints_aside(scene, options, run);
@@ -291,8 +296,11 @@ TEST(City, that_cannot_be_put_aside_ends_at_once) {
   EXPECT_GT(tasks, 1U);
   EXPECT_LT(tasks, 100U);
   tasks = 0;
+  done.clear();
   EXPECT_TRUE(raise_footprints_aside(scene, options, run));
   EXPECT_GE(tasks, 300U);
+  EXPECT_EQ(done.size(), 299U) << "after every task but the last, so that a log shows how far a run is";
+  EXPECT_TRUE(std::ranges::is_sorted(done));
 }
 
 TEST(City, tells_of_solids_that_overlap_as_in_memory) {
