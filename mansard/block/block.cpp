@@ -180,21 +180,37 @@ auto name_of(const std::vector<Member>& members, const model::Scene& scene) -> s
   return name;
 }
 
-/// The footprints of a scene and its surroundings, rounded.
-struct Shapes {
+auto round_polygons(Polygons polygons) -> Polygons {
+  round_all(polygons);
+  return polygons;
+}
+
+/// The footprints of a scene and its surroundings that can be used, and their boxes, rounded.
+struct Boxes {
   std::vector<std::size_t> features;  ///< ascending
-  std::vector<Polygons> polygons;
   std::vector<geometry::Box2> boxes;
 
-  explicit Shapes(const model::Scene& scene) {
+  explicit Boxes(const model::Scene& scene) {
     for (std::size_t f = 0; f < scene.footprints.size() + scene.surroundings.size(); ++f) {
       const auto& footprint = scene.feature(f);
       if (footprint.defect || footprint.polygons.empty()) continue;
       features.push_back(f);
-      polygons.push_back(footprint.polygons);
-      round_all(polygons.back());
-      boxes.push_back(geometry::bounds(polygons.back()));
+      boxes.push_back(geometry::bounds(round_polygons(footprint.polygons)));
     }
+  }
+};
+
+/// The same with the shapes themselves.
+struct Shapes : Boxes {
+  std::vector<Polygons> polygons;
+
+  explicit Shapes(const model::Scene& scene) : Boxes(scene) {
+    polygons.reserve(features.size());
+    for (const auto f : features) polygons.push_back(round_polygons(scene.feature(f).polygons));
+  }
+  [[nodiscard]] auto groups(double touch) const -> std::vector<std::vector<std::size_t>> {
+    return detail::groups_of(
+        boxes, [this](std::size_t i) -> const Polygons& { return polygons[i]; }, touch);
   }
 };
 
@@ -317,10 +333,17 @@ auto option_list(Options& o) -> base::OptionList {
 }
 
 auto groups(const model::Scene& scene, const Options& options) -> std::vector<Group> {
-  const Shapes shapes(scene);
+  const Boxes shapes(scene);
   const double reach = std::max({options.padding, options.ground_ring, options.ground_reach});
   std::vector<Group> out;
-  for (const auto& group : detail::groups_of(shapes.polygons, options.touch)) {
+  // Shapes are rounded for the pairs that come near each other: those of a city are in memory once, in the scene.
+  std::array<Polygons, 2> rounded_ones;
+  std::size_t turn = 0;
+  const auto shape_of = [&](std::size_t i) -> const Polygons& {
+    turn = 1 - turn;
+    return rounded_ones[turn] = round_polygons(scene.feature(shapes.features[i]).polygons);
+  };
+  for (const auto& group : detail::groups_of(shapes.boxes, shape_of, options.touch)) {
     if (shapes.features[group.front()] >= scene.footprints.size()) continue;
     Group one;
     for (const auto m : group) {
@@ -352,7 +375,7 @@ Partition::Partition(const model::Scene& scene, const Options& options, const ba
   auto& shapes = prepared_->shapes;
   auto& groups = prepared_->groups;
   auto& near_by = prepared_->near_by;
-  groups = detail::groups_of(shapes.polygons, options.touch);
+  groups = shapes.groups(options.touch);
   std::erase_if(groups, [&](const auto& group) { return shapes.features[group.front()] >= scene.footprints.size(); });
   if (run.cancelled()) return;
 

@@ -481,8 +481,9 @@ auto option_list(Options& o) -> base::OptionList {
               "that are processed alone.")
       .advanced("about 200 MB with all that is made of them; docs/city.md")
       .number("task_footprints", o.task_footprints, "", {1, 1e9},
-              "Number of blocks that are extruded at a time, where there is no mesh.")
-      .advanced("about 200 MB with all that is made of them; docs/city.md");
+              "Number of footprints that are extruded at a time, where there is no mesh; blocks of more than that are "
+              "processed alone.")
+      .advanced("about 13 kB a footprint with all that is made of it; docs/city.md");
   return list;
 }
 

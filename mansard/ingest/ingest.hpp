@@ -39,7 +39,7 @@ struct Options {
   double cells_from = 400;            ///< MB of mesh files from which on read_city cuts the mesh into cells on disk
   double cell_side = 64;              ///< m
   double task_triangles = 2'000'000;  ///< of the mesh in cells, so many are in memory at a time
-  double task_footprints = 10'000;    ///< without a mesh, so many blocks are
+  double task_footprints = 2'000;     ///< without a mesh, the blocks of so many are
   cloud::Options cloud;               ///< how point clouds become a surface; a group of options of its own
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;

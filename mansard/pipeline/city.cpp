@@ -88,7 +88,8 @@ auto tasks_of(const std::vector<const block::Group*>& groups, const ingest::City
   return out;
 }
 
-/// work(scene, division, progress, feature numbers of the whole; empty where they are the scene's own) for every task.
+/// work(scene, division, progress, feature numbers of the whole; empty where they are the scene's own) for every task,
+/// until one fails.
 template <class Work>
 auto for_every_task(const ingest::CityScene& city, const Options& options, const base::Run& run, detail::Maker& maker,
                     std::optional<std::pair<std::size_t, std::size_t>> share, const Work& work) -> base::Result<void> {
@@ -96,8 +97,7 @@ auto for_every_task(const ingest::CityScene& city, const Options& options, const
     auto division = detail::divide(city.scene, options, run);
     if (!division) return division.failure();
     maker.announce(*division);
-    work(city.scene, *division, detail::Progress{}, std::vector<std::size_t>());
-    return {};
+    return work(city.scene, *division, detail::Progress{}, std::vector<std::size_t>());
   }
   const auto groups = block::groups(city.scene, options.block);
   auto wanted = detail::by_place(groups);
@@ -113,14 +113,13 @@ auto for_every_task(const ingest::CityScene& city, const Options& options, const
     std::erase_if(division->wanted, [&](std::size_t i) {
       return !firsts.contains(division->blocks.outlined(i).members.front().feature);
     });
-    work(city.scene, *division, detail::Progress{}, std::vector<std::size_t>());
-    return {};
+    return work(city.scene, *division, detail::Progress{}, std::vector<std::size_t>());
   }
-  const auto boxes = detail::boxes_of(city.scene);
+  const auto index = detail::index_of(city.scene);
   detail::Progress progress{0, wanted.size()};
   for (const auto& task : tasks_of(wanted, city, options.ingest.task_triangles)) {
     if (run.cancelled()) return base::stopped();
-    auto part = detail::part_of(city.scene, task.groups, boxes, false);
+    auto part = detail::part_of(city.scene, task.groups, index, false);
     auto mesh = city.cells->load(task.cells);
     if (!mesh) return mesh.failure();
     part.scene.mesh = std::move(*mesh);
@@ -128,7 +127,7 @@ auto for_every_task(const ingest::CityScene& city, const Options& options, const
     inner.progress = nullptr;  // the division of a part is no stage of the whole
     auto division = detail::divide(part.scene, options, inner);
     if (!division) return division.failure();
-    work(part.scene, *division, progress, part.features);
+    if (auto worked = work(part.scene, *division, progress, part.features); !worked) return worked;
     progress.before += division->wanted.size();
   }
   return {};
@@ -155,7 +154,7 @@ auto reconstruct_aside(const ingest::CityScene& city, const Options& options, co
   auto done = for_every_task(
       city, options, run, maker, std::nullopt,
       [&](const model::Scene& part, const detail::Division& division, detail::Progress progress,
-          const std::vector<std::size_t>& features) {
+          const std::vector<std::size_t>& features) -> base::Result<void> {
         dividing.push_back(division.time.spent);
         const auto number = [&](std::size_t f) { return features.empty() ? f : features[f]; };
         auto some = detail::for_every(
@@ -171,6 +170,7 @@ auto reconstruct_aside(const ingest::CityScene& city, const Options& options, co
             },
             progress);
         std::ranges::move(some, std::back_inserter(made));
+        return builder.check();
       });
   if (run.cancelled()) return base::stopped();
   if (!done) return done.failure();
@@ -201,13 +201,14 @@ auto make_share(const ingest::CityScene& city, const Options& options, const bas
   detail::Maker maker(options, keep, schedule);
   auto done = for_every_task(city, options, run, maker, std::pair(share, shares),
                              [&](const model::Scene&, const detail::Division& division, detail::Progress progress,
-                                 const std::vector<std::size_t>&) {
+                                 const std::vector<std::size_t>&) -> base::Result<void> {
                                (void)detail::for_every(
                                    division, run,
                                    [&](const auto& block, const auto& inner, const auto& tell, const auto& making) {
                                      return maker(block, inner, tell, making).parts.size();  // the rest is kept
                                    },
                                    progress);
+                               return {};
                              });
   if (run.cancelled()) return base::stopped();
   if (!done) return done;

@@ -379,8 +379,7 @@ auto raise_footprints_aside(const model::Scene& scene, const Options& options, c
   if (auto opened = builder.open(); !opened) return opened.failure();
   const auto groups = block::groups(scene, options.block);
   const auto places = detail::by_place(groups);
-  const auto boxes = detail::boxes_of(scene);
-  const auto together = static_cast<std::size_t>(options.ingest.task_footprints);
+  const auto index = detail::index_of(scene);
   std::size_t assumed = 0;
   std::map<std::string, std::vector<base::Spent>> spent;
   std::vector<std::string> stages;
@@ -388,20 +387,24 @@ auto raise_footprints_aside(const model::Scene& scene, const Options& options, c
     if (feature < scene.footprints.size() && is_assumed(report)) ++assumed;
     builder.take(feature, {std::move(building), std::move(report)});
   };
-  for (std::size_t first = 0; first < places.size() && !run.cancelled(); first += together) {
-    const std::vector<const block::Group*> some(
-        places.begin() + static_cast<std::ptrdiff_t>(first),
-        places.begin() + static_cast<std::ptrdiff_t>(std::min(places.size(), first + together)));
-    const auto part = detail::part_of(scene, some, boxes, true);
+  std::size_t before = 0;
+  for (const auto& task : detail::in_tasks(places, static_cast<std::size_t>(options.ingest.task_footprints))) {
+    if (run.cancelled()) break;
+    const auto part = detail::part_of(scene, task, index, true);
     base::Run inner = run;
     inner.progress = [&](auto stage, auto subject, double fraction) {
-      const auto groups_before = static_cast<double>(first), groups_here = static_cast<double>(some.size());
+      const auto groups_before = static_cast<double>(before), groups_here = static_cast<double>(task.size());
       run.report(stage, subject, (groups_before + fraction * groups_here) / static_cast<double>(places.size()));
     };
     auto made = raise_all(part.scene, *making, options, inner);
+    before += task.size();
     if (run.cancelled()) break;
     for (std::size_t i = 0; i < made.buildings.size(); ++i)
       take(part.features[i], made.city.buildings[i], made.buildings[i]);
+    if (auto put = builder.check(); !put) return put.failure();
+    if (before < places.size())
+      run.report("done", std::to_string(before) + " of " + std::to_string(places.size()) + " blocks",
+                 static_cast<double>(before) / static_cast<double>(places.size()));
     for (const auto& [stage, time] : made.times.stages) {
       if (!spent.contains(stage)) stages.push_back(stage);
       spent[stage].push_back(time);

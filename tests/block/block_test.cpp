@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 #include <cmath>
+#include <map>
+#include <numeric>
 
 #include "mansard/block/detail/near.hpp"
 #include "mansard/block/detail/neighbours.hpp"
@@ -240,6 +242,42 @@ TEST(Partition, knows_surroundings_but_makes_no_block_of_them_alone) {
   const auto blocks = partition(scene, {});
   EXPECT_THAT(members(blocks), ElementsAre(ElementsAre(0, 1)));
   EXPECT_EQ(scene.feature(1).id, "x");
+}
+
+TEST(Groups, are_those_that_all_pairs_give) {
+  constexpr std::uint64_t seed = 20;
+  base::Random random(seed);
+  for (int round = 0; round < 20; ++round) {
+    // Boxes on a grid of 1/32 m: gaps of 0.094 m touch, those of 0.125 m do not. Some have a second part far away.
+    std::vector<std::vector<Polygon>> shapes;
+    const double side = round % 2 == 0 ? 60 : 150;
+    for (int i = 0; i < 120; ++i) {
+      const auto place = [&] { return std::round(random.uniform(0, side) * 32) / 32; };
+      const double x = place(), y = place();
+      shapes.push_back({box(x, y, x + 1 + std::round(random.uniform(0, 6)), y + 1 + std::round(random.uniform(0, 6)))});
+      if (i % 9 == 0) shapes.back().push_back(box(x + 500, y, x + 502, y + 2));
+    }
+    const Options options;
+    std::vector<std::size_t> of(shapes.size());
+    std::iota(of.begin(), of.end(), std::size_t{0});
+    const auto root = [&](std::size_t i) {
+      while (of[i] != i) i = of[i];
+      return i;
+    };
+    for (std::size_t i = 0; i < shapes.size(); ++i)
+      for (std::size_t j = i + 1; j < shapes.size(); ++j)
+        if (detail::are_near(shapes[i], shapes[j], options.touch))
+          of[std::max(root(i), root(j))] = std::min(root(i), root(j));
+    std::map<std::size_t, std::vector<std::size_t>> expected;
+    for (std::size_t i = 0; i < shapes.size(); ++i) expected[root(i)].push_back(i);
+    std::vector<std::vector<std::size_t>> of_all_pairs, found;
+    for (auto& [first, group] : expected) of_all_pairs.push_back(std::move(group));
+    const auto scene = scene_of({}, shapes);
+    for (const auto& group : groups(scene, options)) found.push_back(group.features);
+    EXPECT_EQ(found, of_all_pairs) << "seed " << seed << ", round " << round;
+    EXPECT_EQ(members(partition(scene, options)), of_all_pairs) << "seed " << seed << ", round " << round;
+    EXPECT_LT(found.size(), shapes.size());
+  }
 }
 
 TEST(Partition, names_a_block_after_the_first_id_whatever_else_is_there) {

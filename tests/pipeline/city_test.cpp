@@ -1,11 +1,15 @@
 // A city whose mesh is in cells on disk comes out as one whose mesh is in memory, to the byte.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <algorithm>
+#include <csignal>
 
 #include "base/scratch.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/formats/documents.hpp"
 #include "mansard/formats/plans.hpp"
 #include "mansard/pipeline/city.hpp"
+#include "mansard/pipeline/detail/city_tasks.hpp"
 #include "pipeline/houses.hpp"
 
 namespace mansard::pipeline {
@@ -196,6 +200,107 @@ TEST(City, without_a_mesh_is_that_in_memory) {
     EXPECT_EQ(*formats::cityjson(again), *formats::cityjson(whole->city)) << together;
     EXPECT_EQ(aside->summary.warnings, whole->warnings);
   }
+}
+
+/// Squares of 5 m in a row, so far apart that each is a block.
+auto row_of_squares(int count, double apart) -> model::Scene {
+  model::Scene scene;
+  for (int i = 0; i < count; ++i) {
+    const double x = apart * i;
+    model::Footprint footprint;
+    footprint.id = "square-" + std::to_string(i);
+    footprint.polygons.push_back({{{x, 0}, {x + 5, 0}, {x + 5, 5}, {x, 5}}, {}});
+    scene.footprints.push_back(std::move(footprint));
+  }
+  return scene;
+}
+
+TEST(City, is_extruded_in_tasks_of_so_many_footprints) {
+  auto scene = row_of_squares(20, 5.05);  // two rows of ten that touch, 200 m apart, and 7 that stand alone
+  for (std::size_t i = 10; i < 20; ++i)
+    for (auto& corner : scene.footprints[i].polygons.front().outer) corner.x += 200;
+  for (auto alone = row_of_squares(7, 300).footprints; auto& footprint : alone) {
+    for (auto& corner : footprint.polygons.front().outer) corner.y += 1000;
+    scene.footprints.push_back(std::move(footprint));
+  }
+  const auto groups = block::groups(scene, {});
+  ASSERT_EQ(groups.size(), 9U);
+  const auto places = detail::by_place(groups);
+  for (const std::size_t most : {1U, 4U, 12U, 1000U}) {
+    std::vector<const block::Group*> again;
+    for (const auto& task : detail::in_tasks(places, most)) {
+      ASSERT_FALSE(task.empty());
+      std::size_t features = 0;
+      for (const auto* group : task) features += group->features.size();
+      EXPECT_TRUE(features <= most || task.size() == 1) << features << " where " << most << " are the most";
+      again.insert(again.end(), task.begin(), task.end());
+    }
+    EXPECT_EQ(again, places) << most;
+  }
+  EXPECT_EQ(detail::in_tasks(places, 1000).size(), 1U);
+  EXPECT_TRUE(detail::in_tasks({}, 4).empty());
+}
+
+TEST(City, loads_for_a_task_only_what_is_near_its_groups) {
+  const auto scene = row_of_squares(100, 200);
+  const auto groups = block::groups(scene, {});
+  ASSERT_EQ(groups.size(), 100U);
+  // Far from each other, as where the order by place jumps: what is between them is near none.
+  const std::vector<const block::Group*> both{&groups.front(), &groups.back()};
+  const auto part = detail::part_of(scene, both, detail::index_of(scene), true);
+  EXPECT_EQ(part.features, (std::vector<std::size_t>{0, 99}));
+  EXPECT_TRUE(part.scene.surroundings.empty());
+  const auto close = row_of_squares(100, 20);
+  const auto beside = block::groups(close, {});
+  const std::vector<const block::Group*> ends{&beside.front(), &beside.back()};
+  const auto with_others = detail::part_of(close, ends, detail::index_of(close), true);
+  EXPECT_EQ(with_others.features, (std::vector<std::size_t>{0, 99, 1, 2, 97, 98}));
+  EXPECT_EQ(with_others.scene.surroundings.size(), 4U);
+}
+
+/// Files of this process stay below so many bytes, as on a full disk.
+class SmallFiles {
+ public:
+  explicit SmallFiles(rlim_t bytes) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit small{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+  }
+  ~SmallFiles() { setrlimit(RLIMIT_FSIZE, &before_); }
+  SmallFiles(const SmallFiles&) = delete;
+  auto operator=(const SmallFiles&) -> SmallFiles& = delete;
+
+ private:
+  rlimit before_{};
+};
+
+TEST(City, that_cannot_be_put_aside_ends_at_once) {
+  const auto scene = row_of_squares(300, 200);
+  Options options;
+  options.ingest.task_footprints = 1;
+  std::size_t tasks = 0;
+  base::Run run;
+  std::vector<double> done;
+  run.progress = [&](std::string_view stage, std::string_view, double fraction) {
+    tasks += stage == "roof" ? 1 : 0;
+    if (stage == "done") done.push_back(fraction);
+  };
+  {
+    const SmallFiles full(40'000);
+    const auto aside = raise_footprints_aside(scene, options, run);
+    ASSERT_FALSE(aside);
+    EXPECT_EQ(aside.error().code, "file-write");
+    EXPECT_NE(aside.error().message.find("TMPDIR"), std::string::npos) << aside.error().message;
+  }
+  EXPECT_GT(tasks, 1U);
+  EXPECT_LT(tasks, 100U);
+  tasks = 0;
+  done.clear();
+  EXPECT_TRUE(raise_footprints_aside(scene, options, run));
+  EXPECT_GE(tasks, 300U);
+  EXPECT_EQ(done.size(), 299U) << "after every task but the last, so that a log shows how far a run is";
+  EXPECT_TRUE(std::ranges::is_sorted(done));
 }
 
 TEST(City, tells_of_solids_that_overlap_as_in_memory) {

@@ -1,9 +1,9 @@
 #include "mansard/block/detail/neighbours.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include "mansard/base/disjoint_sets.hpp"
+#include "mansard/geometry/box_index.hpp"
 #include "mansard/geometry/predicates.hpp"
 
 namespace mansard::block::detail {
@@ -109,24 +109,20 @@ auto are_near(const Polygons& a, const Polygons& b, double touch) -> bool {
          std::ranges::any_of(b, [&a](const Polygon& p) { return holds(a, p.outer.front()); });
 }
 
-auto groups_of(const std::vector<Polygons>& shapes, double touch) -> std::vector<std::vector<std::size_t>> {
-  std::vector<Box2> boxes;
-  for (const auto& shape : shapes) boxes.push_back(geometry::bounds(shape).grown(touch / 2));
-  std::vector<std::uint32_t> order(shapes.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::ranges::sort(order, {}, [&](std::uint32_t i) { return std::pair(boxes[i].least.x, i); });
-
-  base::DisjointSets sets(shapes.size());
-  std::vector<std::uint32_t> open;  // those whose box may still meet the next one's
-  for (const std::uint32_t i : order) {
-    std::erase_if(open, [&](std::uint32_t j) { return boxes[j].most.x < boxes[i].least.x; });
-    for (const std::uint32_t j : open)
-      if (boxes[i].overlaps(boxes[j]) && sets.of(i) != sets.of(j) && are_near(shapes[i], shapes[j], touch))
-        sets.join(i, j);
-    open.push_back(i);
-  }
-  std::vector<std::vector<std::size_t>> groups(shapes.size());
-  for (std::uint32_t i = 0; i < shapes.size(); ++i) groups[sets.of(i)].push_back(i);
+auto groups_of(const std::vector<Box2>& boxes, const ShapeOf& shape_of, double touch)
+    -> std::vector<std::vector<std::size_t>> {
+  std::vector<Box2> reaches;
+  reaches.reserve(boxes.size());
+  for (const auto& box : boxes) reaches.push_back(box.grown(touch / 2));
+  const geometry::BoxIndex index(reaches);
+  base::DisjointSets sets(boxes.size());
+  for (std::uint32_t i = 0; i < boxes.size(); ++i)
+    for (const std::uint32_t j : index.overlapping(reaches[i])) {
+      if (j >= i) break;  // ascending; the others are found from their side
+      if (sets.of(i) != sets.of(j) && are_near(shape_of(i), shape_of(j), touch)) sets.join(i, j);
+    }
+  std::vector<std::vector<std::size_t>> groups(boxes.size());
+  for (std::uint32_t i = 0; i < boxes.size(); ++i) groups[sets.of(i)].push_back(i);
   std::erase_if(groups, [](const auto& group) { return group.empty(); });
   return groups;
 }

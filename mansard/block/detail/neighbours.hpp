@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "mansard/base/result.hpp"
@@ -17,9 +18,13 @@ using Polygons = std::vector<geometry::Polygon>;
 /// Whether two areas are nearer than `touch` or have a point in common.
 [[nodiscard]] auto are_near(const Polygons& a, const Polygons& b, double touch) -> bool;
 
-/// Groups of shapes linked by nearness: each ascending, ordered by their first. Boxes are swept along x, so the cost
-/// is O(m log m + pairs whose boxes come near).
-[[nodiscard]] auto groups_of(const std::vector<Polygons>& shapes, double touch)
+/// A shape by its number. The reference is good until the next call but one.
+using ShapeOf = std::function<const Polygons&(std::size_t)>;
+
+/// Groups of shapes linked by nearness: each ascending, ordered by their first. `boxes` are those of the shapes; only
+/// shapes whose boxes come near are asked for. Cost: O(m log m + pairs whose boxes come near), where boxes overlap few
+/// others.
+[[nodiscard]] auto groups_of(const std::vector<geometry::Box2>& boxes, const ShapeOf& shape_of, double touch)
     -> std::vector<std::vector<std::size_t>>;
 
 /// The union, with gaps narrower than `touch` closed. Where those have less than `gap_area` m², or there are none, its

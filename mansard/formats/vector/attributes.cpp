@@ -156,8 +156,10 @@ auto names_of(const std::vector<RawFeature>& features) -> std::vector<std::strin
 }
 
 auto all_different(const std::vector<std::string>& ids) -> bool {
-  const std::set<std::string_view> different(ids.begin(), ids.end());
-  return different.size() == ids.size() && !different.contains("");
+  if (std::ranges::find(ids, "") != ids.end()) return false;
+  std::vector<std::string_view> sorted(ids.begin(), ids.end());  // not a set, which takes four times the memory
+  std::ranges::sort(sorted);
+  return std::ranges::adjacent_find(sorted) == sorted.end();
 }
 
 auto numbers_of(const std::vector<RawFeature>& features) -> std::vector<std::string> {
@@ -240,10 +242,12 @@ auto ids_of(const std::vector<RawFeature>& features, const std::string& attribut
     return ids;
   }
 
-  std::vector<std::string> own;
-  own.reserve(features.size());
-  for (const auto& feature : features) own.push_back(feature.own_id);
-  if (all_different(own)) return own;
+  if (std::ranges::none_of(features, [](const auto& feature) { return feature.own_id.empty(); })) {
+    std::vector<std::string> own;
+    own.reserve(features.size());
+    for (const auto& feature : features) own.push_back(feature.own_id);
+    if (all_different(own)) return own;
+  }
 
   // Names under which GML, Dutch registers, OpenStreetMap and common tools keep identities; the last one is what a
   // Shapefile makes of "identificatie".

@@ -29,9 +29,10 @@ auto Graph::find(std::uint32_t a, std::uint32_t b) const -> std::optional<std::u
   return std::nullopt;
 }
 
-auto Graph::vertices_near(const Segment2& segment, double distance) const -> std::vector<std::uint32_t> {
+auto Graph::vertices_near(const Segment2& segment, double distance, const Segment2& part) const
+    -> std::vector<std::uint32_t> {
   std::vector<std::uint32_t> found;
-  vertex_cells_.near(segment, 1.001 * distance, [&](std::uint32_t v) {
+  vertex_cells_.near(part, 1.001 * distance, [&](std::uint32_t v) {
     if (vertices_[v].alive && squared_distance(segment, vertices_[v].at) < square(distance)) found.push_back(v);
   });
   sort_out(found);
@@ -47,12 +48,12 @@ auto Graph::edges_near(Point2 p, double distance) const -> std::vector<std::uint
   return found;
 }
 
-auto Graph::edges_across(const Segment2& segment) const -> std::vector<std::uint32_t> {
+auto Graph::edges_across(const Segment2& segment, const Segment2& part) const -> std::vector<std::uint32_t> {
   using geometry::orientation;
   const Point2 a = segment.start, b = segment.end;
   const Box2 box = Box2::of(segment);
   std::vector<std::uint32_t> found;
-  edge_cells_.near(segment, 0, [&](std::uint32_t e) {
+  edge_cells_.near(part, 0, [&](std::uint32_t e) {
     if (!edges_[e].alive) return;
     const Point2 c = place(edges_[e].a), d = place(edges_[e].b);
     if (std::max(c.x, d.x) < box.least.x || std::min(c.x, d.x) > box.most.x || std::max(c.y, d.y) < box.least.y ||

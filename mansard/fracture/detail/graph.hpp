@@ -44,10 +44,18 @@ class Graph {
   [[nodiscard]] auto find(std::uint32_t a, std::uint32_t b) const -> std::optional<std::uint32_t>;
 
   /// All nearer than `distance`, metres, by number.
-  [[nodiscard]] auto vertices_near(const Segment2& segment, double distance) const -> std::vector<std::uint32_t>;
+  [[nodiscard]] auto vertices_near(const Segment2& segment, double distance) const -> std::vector<std::uint32_t> {
+    return vertices_near(segment, distance, segment);
+  }
   [[nodiscard]] auto edges_near(Point2 p, double distance) const -> std::vector<std::uint32_t>;
   /// All edges that the segment crosses, by number: properly, so that no end of either lies on the other. Exact.
-  [[nodiscard]] auto edges_across(const Segment2& segment) const -> std::vector<std::uint32_t>;
+  [[nodiscard]] auto edges_across(const Segment2& segment) const -> std::vector<std::uint32_t> {
+    return edges_across(segment, segment);
+  }
+  /// Of these, at least all that are near, or cross, `part` of the segment; only what is about there is looked at.
+  [[nodiscard]] auto vertices_near(const Segment2& segment, double distance, const Segment2& part) const
+      -> std::vector<std::uint32_t>;
+  [[nodiscard]] auto edges_across(const Segment2& segment, const Segment2& part) const -> std::vector<std::uint32_t>;
 
   auto add_vertex(Point2 p) -> std::uint32_t;
   void drop_vertex(std::uint32_t vertex);

@@ -94,12 +94,22 @@ auto Insertion::reach(Point2 from, Point2 towards, double at_least) const -> Poi
   }
   if (!graph_.edges_near(near, tolerances_.merge).empty()) return near;
   std::optional<Point2> first;
+  const auto ahead = [&](Point2 p) { return geometry::dot(p - near, direction); };
   const auto consider = [&](Point2 p) {
-    if (!first || geometry::dot(p - near, direction) < geometry::dot(*first - near, direction)) first = p;
+    if (!first || ahead(p) < ahead(*first)) first = p;
   };
-  for (const std::uint32_t e : graph_.edges_across({near, far})) consider(crossing(e));
-  for (const std::uint32_t v : graph_.vertices_near({near, far}, tolerances_.merge)) consider(graph_.place(v));
-  return first.value_or(near);
+  // The first one is mostly a few metres away, and the rectangle may be as wide as a city: the part of the ray that is
+  // looked at grows until what comes first in it is well before its end.
+  constexpr double first_part = 8;   // m
+  constexpr double well_before = 1;  // m; the part is off the ray by roundings, and a vertex by the tolerance
+  for (double part = first_part;; part *= 4) {
+    const bool all = part >= ahead(far);
+    const Segment2 ray{near, far}, looked_at{near, all ? far : near + to_grid(part * direction)};
+    first.reset();
+    for (const std::uint32_t e : graph_.edges_across(ray, looked_at)) consider(crossing(e));
+    for (const std::uint32_t v : graph_.vertices_near(ray, tolerances_.merge, looked_at)) consider(graph_.place(v));
+    if (all || (first && ahead(*first) + tolerances_.merge + well_before < part)) return first.value_or(near);
+  }
 }
 
 /// The vertex an end of the cut becomes: one nearby, else on an edge nearby, else a new one if it may be `loose`.

@@ -44,6 +44,14 @@ class CityBuilder {
     extents_.insert(extents_.end(), extents.begin(), extents.end());
   }
 
+  /// Whether all could be put aside until now: asked from time to time, so that a full disk ends a run of hours at
+  /// once. Fails with "file-write".
+  [[nodiscard]] auto check() -> base::Result<void> {
+    const std::scoped_lock lock(mutex_);
+    if (const auto bytes = city_.spool_->read(0, 0); !bytes) return bytes.failure();
+    return {};
+  }
+
   [[nodiscard]] auto has(std::size_t feature) const -> bool { return city_.places_[feature].bytes > 0; }
 
   /// After the last one: what only all of them together show.

@@ -16,34 +16,52 @@ auto by_place(const std::vector<block::Group>& groups) -> std::vector<const bloc
   return out;
 }
 
-auto boxes_of(const model::Scene& scene) -> std::vector<geometry::Box2> {
-  std::vector<geometry::Box2> boxes;
-  for (std::size_t f = 0; f < scene.footprints.size() + scene.surroundings.size(); ++f)
-    boxes.push_back(geometry::bounds(scene.feature(f).polygons));
-  return boxes;
+auto in_tasks(std::span<const block::Group* const> groups, std::size_t most_features)
+    -> std::vector<std::span<const block::Group* const>> {
+  std::vector<std::span<const block::Group* const>> out;
+  std::size_t first = 0, features = 0;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    if (i > first && features + groups[i]->features.size() > most_features) {
+      out.push_back(groups.subspan(first, i - first));
+      first = i;
+      features = 0;
+    }
+    features += groups[i]->features.size();
+  }
+  if (first < groups.size()) out.push_back(groups.subspan(first));
+  return out;
 }
 
-auto part_of(const model::Scene& scene, const std::vector<const block::Group*>& groups,
-             const std::vector<geometry::Box2>& boxes, bool attributes_around) -> Part {
+auto index_of(const model::Scene& scene) -> geometry::BoxIndex {
+  std::vector<geometry::Box2> boxes;
+  boxes.reserve(scene.footprints.size() + scene.surroundings.size());
+  for (std::size_t f = 0; f < scene.footprints.size() + scene.surroundings.size(); ++f)
+    boxes.push_back(geometry::bounds(scene.feature(f).polygons));
+  return geometry::BoxIndex(boxes);
+}
+
+auto part_of(const model::Scene& scene, std::span<const block::Group* const> groups, const geometry::BoxIndex& index,
+             bool attributes_around) -> Part {
   Part out;
   out.scene.frame = scene.frame;
   out.scene.terrain = scene.terrain;
-  std::vector<bool> own(boxes.size(), false);
-  std::vector<std::size_t> around;
-  geometry::Box2 reach;
+  // Group by group: the box of several may span the city where the order by place jumps.
+  std::vector<std::size_t> own, near;
   for (const auto* group : groups) {
-    reach.include(group->reach);
-    for (const std::size_t f : group->features) own[f] = true;
+    own.insert(own.end(), group->features.begin(), group->features.end());
+    const auto found = index.overlapping(group->reach);
+    near.insert(near.end(), found.begin(), found.end());
   }
-  for (std::size_t f = 0; f < boxes.size(); ++f) {
-    if (own[f] && f < scene.footprints.size()) {
-      out.features.push_back(f);
-      out.scene.footprints.push_back(scene.footprints[f]);
-    } else if (!boxes[f].empty() && boxes[f].overlaps(reach)) {
-      around.push_back(f);
-    }
+  std::ranges::sort(own);
+  std::ranges::sort(near);
+  near.erase(std::unique(near.begin(), near.end()), near.end());
+  for (const std::size_t f : own) {
+    if (f >= scene.footprints.size()) continue;
+    out.features.push_back(f);
+    out.scene.footprints.push_back(scene.footprints[f]);
   }
-  for (const std::size_t f : around) {
+  for (const std::size_t f : near) {
+    if (f < scene.footprints.size() && std::ranges::binary_search(own, f)) continue;
     const auto& feature = scene.feature(f);
     model::Footprint shape;
     shape.id = feature.id;

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "mansard/block/block.hpp"
+#include "mansard/geometry/box_index.hpp"
 #include "mansard/model/scene.hpp"
 
 namespace mansard::pipeline::detail {
@@ -12,8 +14,12 @@ namespace mansard::pipeline::detail {
 /// In an order in which neighbours are mostly near each other.
 [[nodiscard]] auto by_place(const std::vector<block::Group>& groups) -> std::vector<const block::Group*>;
 
-/// Of every feature; empty where it has no polygon.
-[[nodiscard]] auto boxes_of(const model::Scene& scene) -> std::vector<geometry::Box2>;
+/// The same order in pieces, each of groups with at most so many features together, or of one group with more.
+[[nodiscard]] auto in_tasks(std::span<const block::Group* const> groups, std::size_t most_features)
+    -> std::vector<std::span<const block::Group* const>>;
+
+/// Which of a scene's features are near a box. Features without polygons are near nothing.
+[[nodiscard]] auto index_of(const model::Scene& scene) -> geometry::BoxIndex;
 
 /// Some groups of a scene as a scene of their own, without a mesh.
 struct Part {
@@ -21,8 +27,8 @@ struct Part {
   std::vector<std::size_t> features;  ///< of the whole, by the numbers of the part
 };
 /// The features of the groups, and as surroundings what their blocks may depend on; these without attributes unless
-/// asked for.
-[[nodiscard]] auto part_of(const model::Scene& scene, const std::vector<const block::Group*>& groups,
-                           const std::vector<geometry::Box2>& boxes, bool attributes_around) -> Part;
+/// asked for. Cost: that of the features near the groups, however many others the scene has.
+[[nodiscard]] auto part_of(const model::Scene& scene, std::span<const block::Group* const> groups,
+                           const geometry::BoxIndex& index, bool attributes_around) -> Part;
 
 }  // namespace mansard::pipeline::detail

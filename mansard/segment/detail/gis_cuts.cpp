@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
+#include "mansard/geometry/box_index.hpp"
 #include "mansard/geometry/polygon.hpp"
 
 namespace mansard::segment::detail {
@@ -100,22 +102,30 @@ auto party_lines(const block::Block& block, const Options& o) -> std::vector<Seg
 }
 
 auto torn_lines(const block::Block& block, const sweep::SweepEdges& sweeps, const Options& o) -> std::vector<Segment2> {
+  // Walls that may be known already: sweep-edges, which belong to no member, and the edges of all members.
+  std::vector<Segment2> walls;
+  std::vector<std::optional<std::size_t>> owners;
+  for (const auto& sweep : sweeps.edges) walls.push_back(sweep.segment);
+  owners.resize(walls.size());
   std::vector<std::vector<Segment2>> edges;
-  for (const auto& member : block.members) edges.push_back(edges_of(member));
+  for (const auto& member : block.members) {
+    const auto& own = edges.emplace_back(edges_of(member));
+    walls.insert(walls.end(), own.begin(), own.end());
+    owners.resize(walls.size(), edges.size() - 1);
+  }
+  std::vector<Box2> boxes;
+  boxes.reserve(walls.size());
+  for (const Segment2& wall : walls) boxes.push_back(Box2::of(wall));
+  const geometry::BoxIndex index(boxes);
   std::vector<Segment2> lines;
   for (std::size_t m = 0; m < edges.size(); ++m)
     for (const Segment2& edge : edges[m]) {
-      const Box2 box = Box2::of(edge).grown(o.gis_near);
       std::vector<std::pair<double, double>> known;  // stretches along which the wall is known already
-      const auto look = [&](const Segment2& other) {
-        if (!box.overlaps(Box2::of(other))) return;
-        const auto stretch = shared(edge, other, o);
+      for (const auto k : index.overlapping(Box2::of(edge).grown(o.gis_near))) {
+        if (owners[k] == m) continue;
+        const auto stretch = shared(edge, walls[k], o);
         if (stretch.first < stretch.second) known.push_back(stretch);
-      };
-      for (const auto& sweep : sweeps.edges) look(sweep.segment);
-      for (std::size_t n = 0; n < edges.size(); ++n)
-        if (n != m)
-          for (const Segment2& other : edges[n]) look(other);
+      }
       double from = 0;
       for (const auto& [first, last] : merged(std::move(known), o.gis_shortest)) {
         add_piece(edge, from, first, o.gis_shortest, lines);

@@ -153,21 +153,24 @@ auto is_blurred_wall(const fracture::Arrangement& arrangement, const Evidence& e
 void take_up_small_parts(const fracture::Arrangement& arrangement, const Evidence& evidence, LabelOfFace& label_of_face,
                          const Options& o, Segmentation& segmentation) {
   auto& warnings = segmentation.warnings;
-  std::set<std::uint32_t> kept;  // narrow, but all there is of their feature
-  for (;;) {
-    const auto faces = faces_by_label(label_of_face);
-    std::map<std::uint32_t, std::optional<std::size_t>> features;
-    std::optional<std::pair<double, std::uint32_t>> smallest;
-    for (const auto& [label, members] : faces) {
-      features[label] = feature_of(arrangement, evidence, members);
-      const double area = area_of(arrangement, members);
-      if (kept.contains(label) || (smallest && std::pair(area, label) > *smallest)) continue;
-      if (area < o.smallest_part || width_of(arrangement, members, label_of_face, area) < o.narrow)
-        smallest = {area, label};
-    }
-    if (!smallest) return;
-    const auto [area, label] = *smallest;
+  auto faces = faces_by_label(label_of_face);
+  std::map<std::uint32_t, std::optional<std::size_t>> features;
+  std::set<std::pair<double, std::uint32_t>> small;  // area and label; without those that stay as they are
+  std::set<std::uint32_t> kept;                      // narrow, but all there is of their feature
+  // What joins one part changes nothing about any other: which feature, how large and how narrow it is.
+  const auto measure = [&](std::uint32_t label) {
     const auto& members = faces.at(label);
+    features[label] = feature_of(arrangement, evidence, members);
+    const double area = area_of(arrangement, members);
+    if (kept.contains(label)) return;
+    if (area < o.smallest_part || width_of(arrangement, members, label_of_face, area) < o.narrow)
+      small.emplace(area, label);
+  };
+  for (const auto& [label, members] : faces) measure(label);
+  while (!small.empty()) {
+    const auto [area, label] = *small.begin();
+    small.erase(small.begin());
+    const auto members = faces.at(label);
     auto into = best_neighbour(arrangement, members, label_of_face, features);
     if (area >= o.smallest_part && !into) {
       kept.insert(label);
@@ -188,6 +191,14 @@ void take_up_small_parts(const fracture::Arrangement& arrangement, const Evidenc
            apart ? "the blurred wall of a part " + base::to_text(next - ground, 1) + " m high"
                  : "too small for a part, without a neighbour"});
     for (const std::uint32_t f : members) label_of_face[f] = into;
+    faces.erase(label);
+    if (into) {
+      small.erase({area_of(arrangement, faces.at(*into)), *into});
+      auto& joined = faces.at(*into);
+      const auto middle = joined.insert(joined.end(), members.begin(), members.end());
+      std::inplace_merge(joined.begin(), middle, joined.end());  // ascending, so that sums do not depend on the order
+      measure(*into);
+    }
     warnings.push_back(base::warning("segment-part-small",
                                      "a part of " + base::to_text(area, 2) + " m² " +
                                          (into    ? "was joined to its neighbour"

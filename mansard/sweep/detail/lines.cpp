@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
 #include "mansard/geometry/fit.hpp"
 #include "mansard/sweep/detail/chains.hpp"
+#include "mansard/sweep/detail/line_index.hpp"
 #include "mansard/sweep/detail/units.hpp"
 
 namespace mansard::sweep::detail {
@@ -137,9 +139,22 @@ auto longer(const Piece& a, const Piece& b) -> bool {
   return Segment2{a.start(), a.end()} < Segment2{b.start(), b.end()};
 }
 
+/// Where a piece must have a part to be joined to that line.
+auto reach_of(const Piece& line, double tolerance, const Options& o) -> geometry::Box2 {
+  constexpr double rounding = 1e-6;  // m; of products of coordinates within a block, far more than they have
+  geometry::Box2 box;
+  box.add(line.centre + (line.low - o.line_gap) * line.direction);
+  box.add(line.centre + (line.high + o.line_gap) * line.direction);
+  return box.grown(tolerance + rounding);
+}
+
 /// Grows each piece, longest first, by the pieces that lie on its line no farther than line_gap along it.
 auto merge(std::vector<Piece> pieces, double tolerance, const Options& o) -> std::vector<Piece> {
   std::sort(pieces.begin(), pieces.end(), longer);
+  std::vector<Segment2> places;
+  places.reserve(pieces.size());
+  for (const auto& piece : pieces) places.push_back({piece.start(), piece.end()});
+  const LineIndex index(places, 8);
   std::vector<char> used(pieces.size(), 0);
   std::vector<Piece> merged;
   for (std::size_t seed = 0; seed < pieces.size(); ++seed) {
@@ -147,21 +162,31 @@ auto merge(std::vector<Piece> pieces, double tolerance, const Options& o) -> std
     used[seed] = 1;
     Piece line = pieces[seed];
     std::vector<Point2> ends{line.start(), line.end()};
+    const auto joins = [&](std::uint32_t k) {
+      const auto& other = pieces[k];
+      if (used[k] != 0 || dot(other.direction, line.direction) < o.line_merge_cosine) return false;
+      const Point2 a = other.start() - line.centre, b = other.end() - line.centre;
+      if (std::abs(cross(line.direction, a)) > tolerance || std::abs(cross(line.direction, b)) > tolerance)
+        return false;
+      const double s = dot(line.direction, a), t = dot(line.direction, b);
+      return std::min(s, t) <= line.high + o.line_gap && std::max(s, t) >= line.low - o.line_gap;
+    };
+    // All pieces in their order, again and again until none joins. The line changes with every one that does, and with
+    // it which others may; those near it are then looked up again, and the round goes on behind the last one.
     for (bool grown = true; grown;) {
       grown = false;
-      for (std::size_t k = seed + 1; k < pieces.size(); ++k) {
-        const auto& other = pieces[k];
-        if (used[k] != 0 || dot(other.direction, line.direction) < o.line_merge_cosine) continue;
-        const Point2 a = other.start() - line.centre, b = other.end() - line.centre;
-        if (std::abs(cross(line.direction, a)) > tolerance || std::abs(cross(line.direction, b)) > tolerance) continue;
-        const double s = dot(line.direction, a), t = dot(line.direction, b);
-        if (std::min(s, t) > line.high + o.line_gap || std::max(s, t) < line.low - o.line_gap) continue;
+      auto near = index.near(reach_of(line, tolerance, o));
+      for (auto at = std::upper_bound(near.begin(), near.end(), seed); at != near.end();) {
+        const auto k = *at++;
+        if (!joins(k)) continue;
         used[k] = 1;
         grown = true;
-        line.moments = line.moments + other.moments;
-        ends.push_back(other.start());
-        ends.push_back(other.end());
+        line.moments = line.moments + pieces[k].moments;
+        ends.push_back(pieces[k].start());
+        ends.push_back(pieces[k].end());
         fit(line, line.direction, ends);
+        near = index.near(reach_of(line, tolerance, o));
+        at = std::upper_bound(near.begin(), near.end(), k);
       }
     }
     merged.push_back(line);

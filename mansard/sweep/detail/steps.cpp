@@ -189,15 +189,20 @@ auto steps_along(const HeightGrid& grid, const Options& o) -> std::vector<Step> 
   const auto line_at = [&](std::size_t c) { return (static_cast<double>(c) + 0.5) * o.step_cell; };
   const auto straight_at = [&](std::size_t c) { return Line{line_at(c), 0, 0, o.step_cell}; };
   std::vector<Stretch> best(field.columns());
-  base::parallel_for(best.size(), [&](std::size_t c) { best[c] = field.best_along(straight_at(c)); });
-  for (;;) {
-    std::size_t c = 0;
-    for (std::size_t k = 1; k < best.size(); ++k)
-      if (worth_of(best[k], o) > worth_of(best[c], o)) c = k;
-    if (best.empty() || length_of(best[c], o) < o.step_length || worth_of(best[c], o) <= 0) {
+  std::vector<double> worths(
+      best.size());  // of these; a sum over each would be made again for every line that is taken
+  const auto measure = [&](std::size_t c) {
+    best[c] = field.best_along(straight_at(c));
+    worths[c] = worth_of(best[c], o);
+  };
+  base::parallel_for(best.size(), measure);
+  while (!best.empty()) {
+    const auto c = static_cast<std::size_t>(std::ranges::max_element(worths) - worths.begin());
+    if (worths[c] <= 0) break;
+    if (length_of(best[c], o) < o.step_length) {
       // The line of most worth may be a short high one; others may still be long enough.
-      if (best.empty() || worth_of(best[c], o) <= 0) break;
       best[c].clear();
+      worths[c] = worth_of(best[c], o);
       continue;
     }
     Stretch stretch = best[c];
@@ -213,7 +218,7 @@ auto steps_along(const HeightGrid& grid, const Options& o) -> std::vector<Step> 
     const double sideways = 2 * o.step_band + o.step_turn * step.length();
     const auto first = field.column_of(std::max(0.0, std::min(line.across, line_at(c)) - sideways));
     const auto last = std::min(best.size() - 1, field.column_of(std::max(line.across, line_at(c)) + sideways));
-    for (auto k = first; k <= last; ++k) best[k] = field.best_along(straight_at(k));
+    for (auto k = first; k <= last; ++k) measure(k);
   }
   return steps;
 }
