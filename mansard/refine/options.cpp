@@ -238,6 +238,10 @@ void add_pieces(OptionList& list, Options::Pieces& o) {
       .number("pieces_profile_share", o.profile_share, "", share,
               "An edge takes a profile where at least this share of its length runs along edges with it.")
       .advanced(by_hand)
+      .number(
+          "pieces_seen_share", o.seen_share, "", share,
+          "No piece is cut out of which the scan shows less than this share: crowns hide the rest, or it has holes.")
+      .advanced(by_hand)
       .number("pieces_min_width", o.min_width, "m", length,
               "A piece with a smaller mean width is a strip along an edge, and the cut is not made.")
       .advanced(by_hand)

@@ -118,6 +118,7 @@ struct Options {
   struct Pieces {
     double aside = 0.02;  ///< m
     double profile_share = 0.5;
+    double seen_share = 0.7;
     double min_width = 0.6;  ///< m
     double slit = 0.02;      ///< m
     double straight = 1e-3;  ///< m

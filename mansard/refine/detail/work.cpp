@@ -219,7 +219,8 @@ auto Work::tried(const Piece& piece, const Proposal& proposal, double worth) con
   if (fewest >= worth) return {};
   for (const auto& polygon : polygons) {
     Site site = with_ceilings(crop(piece.site, polygon, options_));
-    if (site.cells.empty()) return {};
+    const double seen = site.cell_area * static_cast<double>(site.cells.size());
+    if (site.cells.empty() || seen < options_.pieces.seen_share * geometry::area(polygon)) return {};
     Draft draft = draft_of(origin, site, options_);
     const bool rest = out.empty() && !proposal.whole_side;  // its roof was found before; a little of it is gone
     const Search search = rest ? Search::settled : Search::quick;
