@@ -153,6 +153,50 @@ TEST_F(Convert, leaves_a_model_that_another_program_changed_as_it_is) {
   EXPECT_NEAR(greatest_y(after) - greatest_y(before), 1, 1e-3);
 }
 
+TEST_F(Convert, keeps_the_solids_of_parts_and_unites_them_as_their_plans) {
+  const std::string delft = MANSARD_DATA "/delft/";
+  const auto made = reconstruct(delft + "mesh.ply", delft + "footprints.geojson",
+                                "--mesh-offset 84800 447400 0 --write-solids part --lod cityjson=1.2,1.3,2.0,2.2 "
+                                "--formats cityjson,cityjsonseq,glb,obj,dxf,stl,plans --write-stl-shell part");
+  ASSERT_LE(made.exit, 1) << made.err;
+  fs::create_directory(at("to"));
+  const std::vector<std::string> files{"model.city.json", "model.city.jsonl", "model.glb",
+                                       "model.obj",       "model.dxf",        "model.stl"};
+  const std::string as_parts = "--write-solids part --lod cityjson=1.2,1.3,2.0,2.2 --write-stl-shell part --overwrite";
+  for (const std::string from : {"model.city.json", "model.city.jsonl"}) {
+    std::string outputs;
+    for (const auto& file : files) outputs += " -o " + at("to/" + file);
+    ASSERT_EQ(run("convert -q " + out(from) + outputs + " " + as_parts).exit, 0);
+    for (const auto& file : files) EXPECT_TRUE(read(at("to/" + file)) == read(out(file))) << from << " to " << file;
+    // One at a time: buildings are passed on as they are read.
+    ASSERT_EQ(convert(out(from), at("to/model.city.json"), as_parts).exit, 0);
+    EXPECT_TRUE(read(at("to/model.city.json")) == read(out("model.city.json"))) << from;
+  }
+  const auto city = [&](const std::string& name) {
+    auto file = nlohmann::json::parse(read(at(name)));
+    return std::pair(std::move(file["CityObjects"]), std::move(file["vertices"]));
+  };
+  ASSERT_LE(convert(out("plans.json"), at("plans.city.json")).exit, 1);
+  ASSERT_LE(convert(out("model.city.json"), at("parts.city.json")).exit, 1);
+  EXPECT_TRUE(city("parts.city.json") == city("plans.city.json"));
+}
+
+TEST_F(Convert, keeps_parts_that_another_program_changed) {
+  const std::string hall = MANSARD_DATA "/hall/";
+  ASSERT_LE(reconstruct(hall + "mesh.off", hall + "footprints.geojson", "--write-solids part").exit, 1);
+  auto file = nlohmann::ordered_json::parse(read(out("model.city.json")));
+  for (auto& vertex : file["vertices"]) vertex[2] = vertex[2].get<std::int64_t>() + 10000;  // 1 m up, the plans stay
+  put("moved.city.json", file.dump());
+  const auto extent = [&](const std::string& name) {
+    return nlohmann::json::parse(run("info --json " + name).out)[0]["extent"];
+  };
+  const double top = extent(out("model.city.json"))[5];
+  for (const std::string solids : {"part", "building"}) {
+    ASSERT_LE(convert(at("moved.city.json"), at("to.city.json"), "--overwrite --write-solids " + solids).exit, 1);
+    EXPECT_NEAR(extent(at("to.city.json"))[5].get<double>() - top, 1, 1e-9) << solids;
+  }
+}
+
 TEST_F(Convert, takes_no_file_for_the_value_of_a_flag) {
   make_all();
   const auto first = run("convert -q --write-compress " + out("plans.json") + " -o " + at("a.glb"));
