@@ -354,6 +354,39 @@ TEST_F(Convert, tells_where_a_plan_is_broken) {
 
 // ---- the other verbs
 
+TEST_F(Convert, solids_of_one_building_have_the_same_ground_at_all_levels) {
+  // Two parts that are two solids: a corner of one is on a wall of the other, 0.03 mm beside its line.
+  const auto plans = put("pair.json", R"({"type":"mansard-plan","version":1,
+    "made_by":{"generator":"mansard","version":"0.1.0","options":{},"inputs":[]},
+    "frame":{"origin":[84000,447000,0],"crs":"EPSG:28992"},"buildings":[{"id":"b","attributes":{},"parts":[
+    {"id":"b-0","attributes":{},"plan":{"base":4.1963,"cap":17.4754,"holes":[],"outer":{
+      "points":[[1.2429,3.0507],[-0.0001,0],[1.8123,0.1149],[8.3907,3.0507]],"profile_of_edge":[0,0,0,0]},
+      "profiles":[[[0,0],[0,5.1094],[3.5485,5.4512],[3.5671,7.1882],[3.5885,8.8527]]]}},
+    {"id":"b-1","attributes":{},"plan":{"base":4.1914,"cap":11.3919,"holes":[],"outer":{
+      "points":[[6.9557,2.4103],[1.8124,0.1149],[11.2457,0.713],[8.5011,3.0508],[7.066,2.4103]],
+      "profile_of_edge":[1,2,1,2,3]},"profiles":[[[0,0],[0,1.1242],[0.731,1.8979],[0.7562,1.8988]],
+      [[0,0],[2.2543,3.6]],[[0,0],[0,2.517],[3.1473,2.517],[5.3344,2.5251]],
+      [[0,0],[0,1.2585],[2.509,1.9495],[4.7972,1.9651],[8.6768,1.9651],[9.3768,2.4651]]]}}]}]})");
+  ASSERT_LE(convert(plans, at("pair.city.json"), "--lod cityjson=1.2,1.3,2.0,2.2").exit, 1);
+  const auto file = nlohmann::json::parse(read(at("pair.city.json")));
+  for (const auto* part : {"b-0", "b-1"}) {
+    std::map<std::string, std::set<std::pair<int, int>>> corners;  // of the ground, by level
+    ASSERT_TRUE(file["CityObjects"][part].contains("geometry")) << "it is one solid with the other";
+    for (const auto& solid : file["CityObjects"][part]["geometry"])
+      for (std::size_t f = 0; f < solid["boundaries"][0].size(); ++f) {
+        const auto& semantics = solid["semantics"];
+        if (semantics["surfaces"][semantics["values"][0][f].get<std::size_t>()]["type"] != "GroundSurface") continue;
+        for (const auto& ring : solid["boundaries"][0][f])
+          for (const auto& corner : ring) {
+            const auto& v = file["vertices"][corner.get<std::size_t>()];
+            corners[solid["lod"]].emplace(v[0].get<int>(), v[1].get<int>());
+          }
+      }
+    ASSERT_EQ(corners.size(), 4U) << part;
+    for (const auto& [lod, ground] : corners) EXPECT_EQ(ground, corners["2.2"]) << part << " at LoD " << lod;
+  }
+}
+
 TEST_F(Convert, extrude_raises_whatever_has_plans) {
   make_all();
   for (const auto& from : kinds) {
