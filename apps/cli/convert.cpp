@@ -75,30 +75,33 @@ auto tells_of_faces(const Target& target) -> bool {
   return target.format == glb || target.format == tiles || target.format == geopackage;
 }
 
-/// Whether it takes more than the corners and classes of a building's solids: the models of parts, or exact normals.
-auto needs_parts(const Target& target, const formats::WriteOptions& options) -> bool {
-  if (target.format == formats::Format::stl) return options.stl_shell != formats::Shell::building;
-  return tells_of_faces(target) || options.solids == formats::Solids::part;
+/// Whether a reader's solids are all that a format takes: those of buildings or of single parts, by their corners and
+/// classes.
+auto is_enough(const formats::CityReader& reader, const Target& target, const formats::WriteOptions& options) -> bool {
+  using enum formats::Format;
+  if (tells_of_faces(target)) return false;
+  switch (target.format) {
+    case plans:
+    case geojson:
+    case flatgeobuf: return reader.has_models() || reader.has_solids();
+    case stl:
+      return options.stl_shell == formats::Shell::part
+                 ? reader.has_models()
+                 : options.stl_shell == formats::Shell::building && reader.has_solids();
+    case citygml: return reader.has_solids();
+    default: return options.solids == formats::Solids::part ? reader.has_models() : reader.has_solids();
+  }
 }
 
-/// A few buildings after the other, so that threads have work: memory does not grow with their number.
-auto pass_on(formats::CityReader& reader, const std::vector<Target>& targets, const Writers& writers,
-             const pipeline::Options& options, const base::Run& run) -> base::Result<void> {
-  constexpr std::size_t few = 64;
-  const bool completed = std::ranges::any_of(targets, tells_of_faces);
-  for (bool more = true; more;) {
-    std::vector<model::Building> buildings;
-    while (more && buildings.size() < few) {
-      auto building = reader.next();
-      if (!building) return building.failure();
-      more = building->has_value();
-      if (more) buildings.push_back(**std::move(building));
-    }
-    if (completed) pipeline::complete(buildings, options, run);
+/// One building after the other: memory does not grow with their number.
+auto pass_on(formats::CityReader& reader, const Writers& writers, const base::Run& run) -> base::Result<void> {
+  for (;;) {
     if (run.cancelled()) return base::stopped();
-    for (const auto& building : buildings)
-      for (const auto& writer : writers)
-        if (auto added = writer->add(building); !added) return added;
+    const auto building = reader.next();
+    if (!building) return building.failure();
+    if (!*building) break;
+    for (const auto& writer : writers)
+      if (auto added = writer->add(**building); !added) return added;
   }
   for (const auto& writer : writers)
     if (auto finished = writer->finish(); !finished) return finished;
@@ -161,13 +164,11 @@ auto convert(const Request& request, const base::Cancel& cancel) -> int {
   base::Outputs outputs;
   bool all_full = true;
   const bool has_all =
-      (*reader)->has_models() || ((*reader)->has_solids() && std::ranges::none_of(*targets, [&](const Target& target) {
-                                    return needs_parts(target, options.write);
-                                  }));
+      std::ranges::all_of(*targets, [&](const Target& target) { return is_enough(**reader, target, options.write); });
   if (has_all && pipeline::same_options(header.made_by, options)) {
     const auto writers = open_writers(*targets, header, options.write, outputs, beside->layers);
     if (!writers) return give_up(writers.errors());
-    if (auto passed = pass_on(**reader, *targets, *writers, options, run); !passed) return give_up(passed.errors());
+    if (auto passed = pass_on(**reader, *writers, run); !passed) return give_up(passed.errors());
     for (const auto& writer : *writers)
       for (const auto& warning : writer->warnings()) progress.say(base::to_string(warning));
   } else {

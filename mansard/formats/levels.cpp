@@ -163,9 +163,10 @@ auto levels_of(const model::Building& building, const model::Frame& frame, const
   for (const auto& part : building.parts) keys.parts.push_back(part.id);
   std::vector<Levels> out;
   using enum Lod;
-  for (const auto& one : detail::drawn(building, keys, Solids::building).solids) {
-    const auto made =
-        detail::level_surfaces(one.part.model, one.part.attributes, frame, {lod12, lod13, lod20}, options);
+  const auto drawn = detail::drawn(building, keys, Solids::building);
+  for (const auto& one : drawn.solids) {
+    const auto made = detail::level_surfaces(one.part.model, one.part.attributes, frame, {lod12, lod13, lod20}, options,
+                                             drawn.solids.size() == 1);
     out.push_back(
         {detail::solid_of(made.lod12), detail::solid_of(made.lod13), detail::solid_of(made.lod20), one.part.model});
   }

@@ -4,7 +4,11 @@
 #include <array>
 #include <map>
 
+#include "mansard/base/stopped.hpp"
 #include "mansard/formats/input_file.hpp"
+#include "mansard/formats/written.hpp"
+#include "mansard/model/append.hpp"
+#include "mansard/pipeline/solids.hpp"
 
 namespace mansard::pipeline {
 namespace {
@@ -66,6 +70,56 @@ auto same_corners(const model::Solid& a, const model::Solid& b) -> bool {
 
 auto same_solid(const model::PartsSolid& a, const model::PartsSolid& b) -> bool {
   return a.parts == b.parts && a.model.classes == b.model.classes && same_corners(a.model.solid, b.model.solid);
+}
+
+/// The solids of a building as a file has them, and how many parts they are of.
+struct Stored {
+  std::size_t parts = 0;
+  std::vector<model::PartsSolid> solids;
+};
+
+/// Whether a building's parts are written as these solids.
+auto is_written_as(const model::Building& building, const std::vector<model::PartsSolid>& solids) -> bool {
+  return std::ranges::equal(formats::written_solids(building, formats::Solids::part), solids,
+                            [](const model::LabelledSolid& a, const model::PartsSolid& b) {
+                              return a.classes == b.model.classes && same_corners(a.solid, b.model.solid);
+                            });
+}
+
+/// Puts the solids of a file in the place of others that came of its plans. Those of single parts are united, unless
+/// they are wanted as they are.
+void keep_stored(RaisedPlans& raised, std::map<std::string, Stored> stored, bool of_parts, formats::Solids wanted) {
+  auto& buildings = raised.city.buildings;
+  std::vector<Stored*> changed(buildings.size(), nullptr);
+  base::parallel_for(buildings.size(), [&](std::size_t b) {
+    const auto found = stored.find(buildings[b].id);
+    if (found == stored.end()) return;
+    const auto& [parts, solids] = found->second;
+    if (solids.empty() || parts != buildings[b].parts.size()) return;
+    const bool same =
+        of_parts ? is_written_as(buildings[b], solids) : std::ranges::equal(buildings[b].solids, solids, same_solid);
+    if (!same) changed[b] = &found->second;
+  });
+  if (std::ranges::none_of(changed, [](const auto* own) { return own != nullptr; })) return;
+  for (std::size_t b = 0; b < buildings.size(); ++b) {
+    if (changed[b] == nullptr) continue;
+    buildings[b].solids = std::move(changed[b]->solids);
+    if (!of_parts) continue;
+    for (auto& part : buildings[b].parts) part.model = {};
+    for (const auto& solid : buildings[b].solids)
+      model::append(solid.model, buildings[b].parts[solid.parts.front()].model);
+  }
+  if (!of_parts || wanted == formats::Solids::part) return;
+  // All of them, since walls of neighbours are put on the same points.
+  auto united = unite_parts(buildings);
+  for (std::size_t b = 0; b < united.size(); ++b) {
+    buildings[b].solids = std::move(united[b].solids);
+    if (changed[b] == nullptr) continue;
+    for (auto& warning : united[b].warnings) {
+      warning.subject = buildings[b].id;
+      raised.remarks.push_back(std::move(warning));
+    }
+  }
 }
 
 /// The file, or every file of a folder of tiles, by name.
@@ -139,21 +193,6 @@ auto same_options(const model::MadeBy& made_by, const Options& options) -> bool 
   return true;
 }
 
-void complete(std::span<model::Building> buildings, const Options& options, const base::Run& run) {
-  std::vector<model::Part*> parts;
-  for (auto& building : buildings)
-    for (auto& part : building.parts)
-      if (!part.model.solid.faces.empty()) parts.push_back(&part);
-  base::Run inner = run;
-  inner.progress = nullptr;
-  base::parallel_for(parts.size(), [&](std::size_t i) {
-    if (run.cancelled()) return;
-    auto raised = raise_part(parts[i]->plan, options, inner);
-    auto& solid = parts[i]->model.solid;
-    if (raised && same_corners(raised->solid, solid)) solid = std::move(raised->solid);
-  });
-}
-
 auto read_raised(formats::CityReader& reader, const Options& options, const base::Run& run)
     -> base::Result<RaisedPlans> {
   std::vector<base::Diagnostic> refused;
@@ -163,18 +202,14 @@ auto read_raised(formats::CityReader& reader, const Options& options, const base
     return base::Failure{std::move(refused)};
   const bool as_made = same_options(city->made_by, options);
   note_options(options, city->made_by);
-  if (reader.has_models() && as_made) return RaisedPlans{std::move(*city), {}, {}, std::move(refused)};
-  // Another program may have changed them; where it did not, raising them gives normals with all digits.
-  std::map<std::string, std::vector<model::PartsSolid>> solids;
-  if (reader.has_solids() && as_made)
-    for (auto& building : city->buildings) solids[building.id] = std::move(building.solids);
+  std::map<std::string, Stored> stored;
+  if (as_made)
+    for (auto& building : city->buildings) stored[building.id] = {building.parts.size(), std::move(building.solids)};
   auto raised = raise_plans(std::move(*city), options, run);
-  if (raised)
-    for (auto& building : raised->city.buildings)
-      if (const auto found = solids.find(building.id); found != solids.end() && !found->second.empty() &&
-                                                       !std::ranges::equal(building.solids, found->second, same_solid))
-        building.solids = std::move(found->second);
-  if (raised) raised->refused.insert(raised->refused.begin(), refused.begin(), refused.end());
+  if (!raised) return raised;
+  if (run.cancelled()) return base::stopped();
+  keep_stored(*raised, std::move(stored), reader.has_models(), options.write.solids);
+  raised->refused.insert(raised->refused.begin(), refused.begin(), refused.end());
   return raised;
 }
 

@@ -24,13 +24,10 @@ void note_options(const Options& options, model::MadeBy& made_by);
 /// Whether they are what the file was made with.
 [[nodiscard]] auto same_options(const model::MadeBy& made_by, const Options& options) -> bool;
 
-/// Gives models that were read what CityJSON has no place for: the edge and the part of the profile that each face
-/// comes from, and its normal to the last digit. It raises their plans, by the options that they were made with. Where
-/// that gives other corners than were read, since another program or version had its hand in, a model stays as it is.
-void complete(std::span<model::Building> buildings, const Options& options, const base::Run& run = {});
-
-/// All that is left in a file, with models: the file's own, or raised with `options` where there are none or where it
-/// was made with others. Parts that could not be read are `refused` too. Fails as the reader and raise_plans do.
+/// All that is left in a file, with models raised with `options`, which give faces what CityJSON has no place for.
+/// Where the file has solids, was made with these options, and other solids come of its plans, since another program or
+/// version changed them, its own stay: those of buildings, or of single parts, united unless options.write asks for
+/// parts. Parts that could not be read are `refused` too. Fails as the reader and raise_plans do.
 [[nodiscard]] auto read_raised(formats::CityReader& reader, const Options& options, const base::Run& run = {})
     -> base::Result<RaisedPlans>;
 

@@ -12,6 +12,7 @@
 
 #include "mansard/base/disjoint_sets.hpp"
 #include "mansard/base/run.hpp"
+#include "mansard/model/append.hpp"
 #include "mansard/solid/detail/disjoint.hpp"
 #include "mansard/solid/detail/uniting.hpp"
 
@@ -37,17 +38,7 @@ auto closed(const LabelledSolid& shape) -> Closed {
   const auto made = detail::united_by(alone, Reach{});
   if (made.solids.empty()) return {};
   LabelledSolid out;
-  for (const One& one : made.solids) {
-    const auto first = static_cast<std::uint32_t>(out.solid.vertices.size());
-    out.solid.vertices.insert(out.solid.vertices.end(), one.model.solid.vertices.begin(),
-                              one.model.solid.vertices.end());
-    for (model::Face face : one.model.solid.faces) {
-      for (auto& loop : face.loops)
-        for (auto& v : loop) v += first;
-      out.solid.faces.push_back(std::move(face));
-    }
-    out.classes.insert(out.classes.end(), one.model.classes.begin(), one.model.classes.end());
-  }
+  for (const One& one : made.solids) model::append(one.model, out);
   return {std::move(out), !made.warnings.empty()};
 }
 

@@ -345,6 +345,98 @@ auto prism(std::span<const LabelledSolid* const> models) -> std::optional<Shell>
   return out;
 }
 
+/// A solid with a flat roof half-way between the lowest and the highest corner of its roofs.
+auto flattened(const LabelledSolid& model) -> LabelledSolid {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (std::size_t f = 0; f < model.solid.faces.size(); ++f)
+    if (model.classes[f] == FaceClass::roof)
+      for (const auto v : model.solid.faces[f].loops.front()) {
+        low = std::min(low, model.solid.vertices[v].z);
+        high = std::max(high, model.solid.vertices[v].z);
+      }
+  return solid::prism_over_ground(model, std::round((low + high) / 2 * scale) / scale);
+}
+
+/// Solids that touch as one closed surface: with their roofs, else with as many of these as can be found quickly.
+class Joining {
+ public:
+  struct Joined {
+    std::vector<Shell> shells;  ///< none where there is no such surface
+    std::size_t flat = 0;       ///< solids whose roofs are flat in it
+    std::string why;            ///< they are
+  };
+
+  Joining(std::span<const LabelledSolid* const> solids, const Feet& feet) : feet_(feet), solids_(solids) {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const auto* solid : solids)
+      for (const auto& v : solid->solid.vertices) lowest = std::min(lowest, v.z);
+    low_ = std::llround((lowest - 1) * scale);
+    const double z = static_cast<double>(low_) / scale;
+    for (const auto* solid : solids) {
+      with_roofs_.push_back(lowered(*solid, z));
+      flat_.push_back(lowered(flattened(*solid), z));
+    }
+  }
+
+  /// With `some_flat`, some roofs may be flat.
+  auto run(bool some_flat) -> Joined {
+    Joined out;
+    std::vector<std::uint8_t> flat(solids_.size(), 0);
+    if (attempt(flat, out)) return out;
+    out.why = why_;
+    const std::vector<std::uint8_t> all(solids_.size(), 1);
+    if (!some_flat || !attempt(all, out)) {
+      out.flat = solids_.size();
+      return out;
+    }
+    // Of the first solids so many must be flat that the last of them does: it stays flat, and the others are tried
+    // again.
+    constexpr int most = 8;
+    for (int i = 0; i < most; ++i) {
+      std::size_t fails = 0, works = solids_.size();
+      while (fails + 1 < works) {
+        const std::size_t middle = (fails + works) / 2;
+        auto first = flat;
+        std::fill_n(first.begin(), middle, std::uint8_t{1});
+        if (attempt(first, out)) works = middle;
+        else fails = middle;
+      }
+      if (works == 0) break;
+      flat[works - 1] = 1;
+      if (attempt(flat, out)) break;
+    }
+    return out;
+  }
+
+ private:
+  /// With these solids flat. Replaces shells that have more of them.
+  auto attempt(const std::vector<std::uint8_t>& flat, Joined& out) -> bool {
+    std::vector<const LabelledSolid*> parts;
+    for (std::size_t i = 0; i < flat.size(); ++i) parts.push_back(flat[i] != 0 ? &flat_[i] : &with_roofs_[i]);
+    if (std::ranges::any_of(parts, [](const auto* part) { return part->solid.faces.empty(); })) return false;
+    const auto united = solid::unite(parts);
+    const auto bad = std::ranges::find_if(united.warnings, [](const auto& w) {
+      return w.code == "solid-not-united" || w.code == "solid-left-out" || w.code == "solid-simplified";
+    });
+    if (bad != united.warnings.end()) return why_ = bad->message, false;
+    std::vector<Shell> shells;
+    for (const auto& one : united.solids) {
+      auto shell = raised(one.model, low_, feet_);
+      if (!shell) return why_ = "a wall does not end on the ground of its building", false;
+      shells.push_back(std::move(*shell));
+    }
+    const auto count = static_cast<std::size_t>(std::ranges::count(flat, 1));
+    if (out.shells.empty() || count < out.flat) out.shells = std::move(shells), out.flat = count;
+    return true;
+  }
+
+  const Feet& feet_;
+  std::span<const LabelledSolid* const> solids_;
+  std::vector<LabelledSolid> with_roofs_, flat_;
+  std::int64_t low_ = 0;
+  std::string why_;
+};
+
 /// Collects triangles with corners in single precision.
 class Surface {
  public:
@@ -437,10 +529,9 @@ auto faults_of(const geometry::Mesh& mesh) -> std::string {
   return {};
 }
 
-}  // namespace
-
-auto closed(const Heights& heights, std::span<const model::Building> buildings, const Options& options,
-            const base::Run& run) -> base::Result<Closed> {
+/// With prisms over the outlines of all groups that have no union, or only of those that have none with flat roofs.
+auto closed_with(bool prisms, const Heights& heights, std::span<const model::Building> buildings,
+                 const Options& options, const base::Run& run) -> base::Result<Closed> {
   Closed out;
   std::vector<Models> models;
   std::vector<Ground> grounds;
@@ -462,33 +553,21 @@ auto closed(const Heights& heights, std::span<const model::Building> buildings, 
     if (all.size() == 1)
       if (auto shell = plain(*all.front())) made.push_back(std::move(*shell));
     if (made.empty()) {
-      double lowest = std::numeric_limits<double>::infinity();
-      for (const auto* solid : all)
-        for (const auto& v : solid->solid.vertices) lowest = std::min(lowest, v.z);
-      const auto low = std::llround((lowest - 1) * scale);
-      std::vector<LabelledSolid> below;
-      for (const auto* solid : all) below.push_back(lowered(*solid, static_cast<double>(low) / scale));
-      std::vector<const LabelledSolid*> parts;
-      for (const auto& solid : below) parts.push_back(&solid);
-      auto united = solid::unite(parts);
-      bool good = united.simplified.empty() && std::ranges::none_of(united.warnings, [](const auto& w) {
-                    return w.code == "solid-not-united" || w.code == "solid-left-out";
-                  });
-      for (const auto& one : united.solids) {
-        if (!good) break;
-        if (auto shell = raised(one.model, low, feet)) made.push_back(std::move(*shell));
-        else good = false;
-      }
-      if (!good) {
-        made.clear();
+      auto joined = Joining(all, feet).run(!prisms);
+      const bool flat_roofs = !joined.shells.empty();
+      made = std::move(joined.shells);
+      if (made.empty())
         if (auto shell = prism(all)) made.push_back(std::move(*shell));
-        out.warnings.push_back(base::warning("terrain-simplified",
-                                             "the buildings that touch this one have no union that is a closed "
-                                             "surface, so that the closed surface has a "
-                                             "prism over their outline (" +
-                                                 std::to_string(group.size()) + " buildings)",
-                                             id));
-      }
+      if (joined.flat > 0)
+        out.warnings.push_back(base::warning(
+            "terrain-simplified",
+            flat_roofs ? "the buildings that touch this one have no union that is a closed surface (" + joined.why +
+                             "), so that " + std::to_string(joined.flat) + " of " + std::to_string(all.size()) +
+                             " solids have flat roofs in the closed surface"
+                       : "the buildings that touch this one have no union that is a closed surface (" + joined.why +
+                             "), so that the closed surface has a prism over their outline (" +
+                             std::to_string(group.size()) + " buildings)",
+            id));
     }
     for (auto& shell : made) {
       shell.ground.id = id;
@@ -514,6 +593,15 @@ auto closed(const Heights& heights, std::span<const model::Building> buildings, 
     return base::error("terrain-closed", "the closed surface of terrain and buildings is not valid (" + wrong + ")");
   out.mesh = std::move(surface.mesh);
   return out;
+}
+
+}  // namespace
+
+auto closed(const Heights& heights, std::span<const model::Building> buildings, const Options& options,
+            const base::Run& run) -> base::Result<Closed> {
+  auto made = closed_with(false, heights, buildings, options, run);
+  if (made || made.error().code != "terrain-closed") return made;
+  return closed_with(true, heights, buildings, options, run);  // the simplest
 }
 
 }  // namespace mansard::terrain

@@ -41,7 +41,7 @@ auto codes() -> std::vector<base::Code> {
       {"terrain-extent", "The terrain would be wider than 53 km.", "Run smaller areas with --bbox.", 4},
       {"terrain-join", "The terrain does not have the outlines of all buildings as edges.",
        "This is a bug; please report it with the data.", 70},
-      {"terrain-simplified", "A building is a prism in the closed surface.",
+      {"terrain-simplified", "Some buildings have flat roofs in the closed surface, or are one prism.",
        "Nothing, where that is detailed enough; the message says what was wrong with its union.", 0},
       {"terrain-closed", "The closed surface of terrain and buildings has open edges or intersects itself.",
        "Raise terrain.tolerance, or leave out the STL; the message says where.", 1},

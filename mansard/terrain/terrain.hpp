@@ -111,7 +111,8 @@ struct Closed {
   std::vector<base::Diagnostic> warnings;
 };
 /// Guarantees: 1 every edge has two triangles, in opposite directions · 2 no two triangles intersect. Buildings whose
-/// union is not such a surface are replaced by the prism over their outline, with the warning "terrain-simplified".
+/// union is not such a surface have flat roofs, as few as are found quickly, or are replaced by the prism over their
+/// outline, with the warning "terrain-simplified".
 /// Fails with "terrain-closed", and as make().
 [[nodiscard]] auto closed(const Heights& heights, std::span<const model::Building> buildings, const Options& options,
                           const base::Run& run = {}) -> base::Result<Closed>;

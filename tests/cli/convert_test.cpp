@@ -153,6 +153,50 @@ TEST_F(Convert, leaves_a_model_that_another_program_changed_as_it_is) {
   EXPECT_NEAR(greatest_y(after) - greatest_y(before), 1, 1e-3);
 }
 
+TEST_F(Convert, keeps_the_solids_of_parts_and_unites_them_as_their_plans) {
+  const std::string delft = MANSARD_DATA "/delft/";
+  const auto made = reconstruct(delft + "mesh.ply", delft + "footprints.geojson",
+                                "--mesh-offset 84800 447400 0 --write-solids part --lod cityjson=1.2,1.3,2.0,2.2 "
+                                "--formats cityjson,cityjsonseq,glb,obj,dxf,stl,plans --write-stl-shell part");
+  ASSERT_LE(made.exit, 1) << made.err;
+  fs::create_directory(at("to"));
+  const std::vector<std::string> files{"model.city.json", "model.city.jsonl", "model.glb",
+                                       "model.obj",       "model.dxf",        "model.stl"};
+  const std::string as_parts = "--write-solids part --lod cityjson=1.2,1.3,2.0,2.2 --write-stl-shell part --overwrite";
+  for (const std::string from : {"model.city.json", "model.city.jsonl"}) {
+    std::string outputs;
+    for (const auto& file : files) outputs += " -o " + at("to/" + file);
+    ASSERT_EQ(run("convert -q " + out(from) + outputs + " " + as_parts).exit, 0);
+    for (const auto& file : files) EXPECT_TRUE(read(at("to/" + file)) == read(out(file))) << from << " to " << file;
+    // One at a time: buildings are passed on as they are read.
+    ASSERT_EQ(convert(out(from), at("to/model.city.json"), as_parts).exit, 0);
+    EXPECT_TRUE(read(at("to/model.city.json")) == read(out("model.city.json"))) << from;
+  }
+  const auto city = [&](const std::string& name) {
+    auto file = nlohmann::json::parse(read(at(name)));
+    return std::pair(std::move(file["CityObjects"]), std::move(file["vertices"]));
+  };
+  ASSERT_LE(convert(out("plans.json"), at("plans.city.json")).exit, 1);
+  ASSERT_LE(convert(out("model.city.json"), at("parts.city.json")).exit, 1);
+  EXPECT_TRUE(city("parts.city.json") == city("plans.city.json"));
+}
+
+TEST_F(Convert, keeps_parts_that_another_program_changed) {
+  const std::string hall = MANSARD_DATA "/hall/";
+  ASSERT_LE(reconstruct(hall + "mesh.off", hall + "footprints.geojson", "--write-solids part").exit, 1);
+  auto file = nlohmann::ordered_json::parse(read(out("model.city.json")));
+  for (auto& vertex : file["vertices"]) vertex[2] = vertex[2].get<std::int64_t>() + 10000;  // 1 m up, the plans stay
+  put("moved.city.json", file.dump());
+  const auto extent = [&](const std::string& name) {
+    return nlohmann::json::parse(run("info --json " + name).out)[0]["extent"];
+  };
+  const double top = extent(out("model.city.json"))[5];
+  for (const std::string solids : {"part", "building"}) {
+    ASSERT_LE(convert(at("moved.city.json"), at("to.city.json"), "--overwrite --write-solids " + solids).exit, 1);
+    EXPECT_NEAR(extent(at("to.city.json"))[5].get<double>() - top, 1, 1e-9) << solids;
+  }
+}
+
 TEST_F(Convert, takes_no_file_for_the_value_of_a_flag) {
   make_all();
   const auto first = run("convert -q --write-compress " + out("plans.json") + " -o " + at("a.glb"));
@@ -309,6 +353,39 @@ TEST_F(Convert, tells_where_a_plan_is_broken) {
 }
 
 // ---- the other verbs
+
+TEST_F(Convert, solids_of_one_building_have_the_same_ground_at_all_levels) {
+  // Two parts that are two solids: a corner of one is on a wall of the other, 0.03 mm beside its line.
+  const auto plans = put("pair.json", R"({"type":"mansard-plan","version":1,
+    "made_by":{"generator":"mansard","version":"0.1.0","options":{},"inputs":[]},
+    "frame":{"origin":[84000,447000,0],"crs":"EPSG:28992"},"buildings":[{"id":"b","attributes":{},"parts":[
+    {"id":"b-0","attributes":{},"plan":{"base":4.1963,"cap":17.4754,"holes":[],"outer":{
+      "points":[[1.2429,3.0507],[-0.0001,0],[1.8123,0.1149],[8.3907,3.0507]],"profile_of_edge":[0,0,0,0]},
+      "profiles":[[[0,0],[0,5.1094],[3.5485,5.4512],[3.5671,7.1882],[3.5885,8.8527]]]}},
+    {"id":"b-1","attributes":{},"plan":{"base":4.1914,"cap":11.3919,"holes":[],"outer":{
+      "points":[[6.9557,2.4103],[1.8124,0.1149],[11.2457,0.713],[8.5011,3.0508],[7.066,2.4103]],
+      "profile_of_edge":[1,2,1,2,3]},"profiles":[[[0,0],[0,1.1242],[0.731,1.8979],[0.7562,1.8988]],
+      [[0,0],[2.2543,3.6]],[[0,0],[0,2.517],[3.1473,2.517],[5.3344,2.5251]],
+      [[0,0],[0,1.2585],[2.509,1.9495],[4.7972,1.9651],[8.6768,1.9651],[9.3768,2.4651]]]}}]}]})");
+  ASSERT_LE(convert(plans, at("pair.city.json"), "--lod cityjson=1.2,1.3,2.0,2.2").exit, 1);
+  const auto file = nlohmann::json::parse(read(at("pair.city.json")));
+  for (const auto* part : {"b-0", "b-1"}) {
+    std::map<std::string, std::set<std::pair<int, int>>> corners;  // of the ground, by level
+    ASSERT_TRUE(file["CityObjects"][part].contains("geometry")) << "it is one solid with the other";
+    for (const auto& solid : file["CityObjects"][part]["geometry"])
+      for (std::size_t f = 0; f < solid["boundaries"][0].size(); ++f) {
+        const auto& semantics = solid["semantics"];
+        if (semantics["surfaces"][semantics["values"][0][f].get<std::size_t>()]["type"] != "GroundSurface") continue;
+        for (const auto& ring : solid["boundaries"][0][f])
+          for (const auto& corner : ring) {
+            const auto& v = file["vertices"][corner.get<std::size_t>()];
+            corners[solid["lod"]].emplace(v[0].get<int>(), v[1].get<int>());
+          }
+      }
+    ASSERT_EQ(corners.size(), 4U) << part;
+    for (const auto& [lod, ground] : corners) EXPECT_EQ(ground, corners["2.2"]) << part << " at LoD " << lod;
+  }
+}
 
 TEST_F(Convert, extrude_raises_whatever_has_plans) {
   make_all();

@@ -92,6 +92,24 @@ TEST_F(Stream, reads_back_what_is_written_as_the_same_bytes) {
     }
 }
 
+TEST_F(Stream, reads_all_pieces_of_a_part_back) {
+  City city = town();
+  auto& low = city.buildings.back();
+  low.solids = {{{0}, low.parts[0].model}, {{0}, gable(80, 0, 10, 8, 0, 3, 5)}, {{1}, low.parts[1].model}};
+  for (const Format format : {Format::cityjson, Format::cityjsonseq}) {
+    const std::string first = written(city, format);
+    EXPECT_THAT(first, HasSubstr("\"low-1-piece\""));
+    const auto again = read(first, format);
+    ASSERT_TRUE(again) << to_string(again.error());
+    const auto building = std::ranges::find(again->buildings, "low", &mansard::model::Building::id);
+    ASSERT_NE(building, again->buildings.end());
+    ASSERT_EQ(building->solids.size(), 3U);
+    EXPECT_EQ(building->solids[1].parts, std::vector<std::size_t>{0});
+    EXPECT_EQ(building->parts[0].model.solid.faces.size(), 2 * low.parts[0].model.solid.faces.size());
+    EXPECT_EQ(written(*again, format), first);
+  }
+}
+
 TEST_F(Stream, goes_from_any_format_with_models_to_any_other_as_if_written_at_once) {
   const std::vector<Format> all{Format::cityjson, Format::cityjsonseq, Format::plans, Format::obj};
   for (const Format from : {Format::cityjson, Format::cityjsonseq}) {

@@ -324,6 +324,31 @@ TEST(Closed, is_one_shell_for_rows_of_houses_on_a_slope) {
   EXPECT_LE(simplified, 4U);  // of about 90 rows
 }
 
+TEST(Closed, gives_a_flat_roof_to_the_solid_that_no_union_can_have_and_keeps_the_others) {
+  std::vector<model::Building> buildings;
+  const std::vector<double> heights{9, 7, 11, 6, 8};
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    const double x = 8 * static_cast<double>(i);
+    buildings.push_back(box_building(std::to_string(i), {{x, 0}, {x + 8, 8}}, 1, 1 + heights[i]));
+  }
+  auto& leaning = buildings[2].solids.front().model.solid;  // its front leans out, as no height field does
+  for (const std::size_t v : {4U, 5U}) leaning.vertices[v].y -= 1;
+  leaning.faces[2].normal = geometry::normalised(Point3{0, -11, -1});
+  const Options options;
+  const auto area = area_around(grounds_of(buildings), options);
+  const auto surface = closed(heights_on(area, 1, [](Point2) { return 1.0; }), buildings, options);
+  ASSERT_TRUE(surface) << base::to_string(surface.error());
+  EXPECT_TRUE(is_closed(surface->mesh));
+  double above = 0;
+  for (const double height : heights) above += 8 * 8 * height;
+  EXPECT_NEAR(volume_of(surface->mesh),
+              (area.most.x - area.least.x) * (area.most.y - area.least.y) * options.depth + above, 1e-2);
+  ASSERT_EQ(surface->warnings.size(), 1U);
+  EXPECT_EQ(surface->warnings[0].code, "terrain-simplified");
+  EXPECT_NE(surface->warnings[0].message.find("1 of 5 solids have flat roofs"), std::string::npos)
+      << surface->warnings[0].message;
+}
+
 /// Two triangles a cell.
 auto sheet(Box2 box, double spacing, const Slope& z) -> geometry::Mesh {
   geometry::Mesh mesh;

@@ -85,7 +85,8 @@ class CityGmlWriter : public CityWriter {
     if (lod2_) wanted.push_back(*lod2_);
     std::vector<LevelSurfaces> levels;
     for (const auto& [part, parts] : all.solids)
-      levels.push_back(level_surfaces(part.model, part.attributes, header_.frame, wanted, options_.levels));
+      levels.push_back(
+          level_surfaces(part.model, part.attributes, header_.frame, wanted, options_.levels, all.solids.size() == 1));
     XmlText xml(1);
     const std::string id = unique_id(building.id);
     xml.open("cityObjectMember").open("bldg:Building", attribute("gml:id", id));

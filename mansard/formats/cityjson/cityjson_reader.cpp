@@ -9,6 +9,7 @@
 #include "mansard/formats/cityjson/cityjson.hpp"
 #include "mansard/formats/cityjson/cityjson_model.hpp"
 #include "mansard/formats/plans/plan_items.hpp"
+#include "mansard/model/append.hpp"
 
 namespace mansard::formats::detail {
 namespace {
@@ -133,8 +134,12 @@ class Objects {
       for (const auto& name : solid.of)
         if (const auto part = number.find(name); part != number.end()) parts.push_back(part->second);
       std::ranges::sort(parts);
-      if (!parts.empty()) building.solids.push_back({std::move(parts), std::move(solid.model)});
+      if (parts.empty()) continue;
+      if (models_ == Models::of_parts) model::append(solid.model, building.parts[parts.front()].model);
+      building.solids.push_back({std::move(parts), std::move(solid.model)});
     }
+    // Pieces of a part come after all parts in a file, and after their part when they are written.
+    std::ranges::stable_sort(building.solids, {}, [](const auto& solid) { return solid.parts.front(); });
     return building;
   }
 
@@ -164,7 +169,6 @@ class Objects {
                      read_embedded_plan({*plan, {&object.place, name, 0}}, origin_),
                      {},
                      read_plain_attributes(json)};
-    if (models_ == Models::of_parts && vertices_ != nullptr) part.model = read_model(object, *vertices_);
     return part;
   }
 
@@ -174,7 +178,7 @@ class Objects {
   };
   /// The solid of an object, which is of these parts unless it names others.
   void find_solid(const Item& object, std::vector<std::string> of, std::vector<Found>& solids) const {
-    if (models_ != Models::of_buildings || vertices_ == nullptr) return;
+    if (models_ == Models::none || vertices_ == nullptr) return;
     auto model = read_model(object, *vertices_);
     if (model.solid.faces.empty()) return;
     if (object.has("attributes")) {

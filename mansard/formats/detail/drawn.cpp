@@ -104,11 +104,17 @@ auto drawn(const model::Building& building, const Gate::Keyed& keys, Solids soli
     }
   };
   std::vector<std::size_t> numbers;
-  if (solids == Solids::building && !building.solids.empty()) {
-    solid::United made;
-    for (const auto& [parts, model] : building.solids) made.solids.push_back({parts, model, {}});
+  const bool each_of_a_part =
+      std::ranges::all_of(building.solids, [](const auto& solid) { return solid.parts.size() == 1; });
+  if (!building.solids.empty() && (solids == Solids::building || each_of_a_part)) {
     for (std::size_t p = 0; p < building.parts.size(); ++p) numbers.push_back(p);
-    take(std::move(made), numbers);
+    for (std::size_t i = 0; i < building.solids.size();) {
+      solid::United made;  // of the building, or of a part with its pieces
+      const auto& of = building.solids[i].parts;
+      do made.solids.push_back({building.solids[i].parts, building.solids[i].model, {}});
+      while (++i < building.solids.size() && (solids == Solids::building || building.solids[i].parts == of));
+      take(std::move(made), numbers);
+    }
     return out;
   }
   std::vector<const model::LabelledSolid*> models;

@@ -45,6 +45,16 @@ auto is_valid(const std::vector<Surface>& surfaces) -> bool {
   return solid::check(solid_of(surfaces).solid, solid::written_rules()).empty();
 }
 
+/// In plan.
+auto ground_corners(const std::vector<Surface>& surfaces) -> std::set<std::array<std::int64_t, 2>> {
+  std::set<std::array<std::int64_t, 2>> out;
+  for (const Surface& surface : surfaces)
+    if (surface.kind == FaceClass::ground)
+      for (const auto& loop : surface.loops)
+        for (const Vertex& v : loop) out.insert({v[0], v[1]});
+  return out;
+}
+
 }  // namespace
 
 auto solid_of(const std::vector<Surface>& surfaces) -> model::LabelledSolid {
@@ -116,7 +126,7 @@ auto LevelSurfaces::at(Lod lod) const -> const std::vector<Surface>& {
 }
 
 auto level_surfaces(const model::LabelledSolid& model, const model::Attributes& attributes, const model::Frame& frame,
-                    const Lods& wanted, const solid::LevelOptions& options) -> LevelSurfaces {
+                    const Lods& wanted, const solid::LevelOptions& options, bool alone) -> LevelSurfaces {
   const auto has = [&](Lod lod) { return std::ranges::find(wanted, lod) != wanted.end(); };
   LevelSurfaces out;
   auto fine = quantised(model);
@@ -128,6 +138,17 @@ auto level_surfaces(const model::LabelledSolid& model, const model::Attributes& 
     if (has(Lod::lod20)) out.lod20 = quantised(main);
     if (has(Lod::lod13)) out.lod13 = quantised(solid::flat_pieces(main, options));
     if (has(Lod::lod13) && out.lod13.empty()) out.lod13 = out.lod12;
+  }
+  if (!alone) {
+    const auto ground = ground_corners(fine);
+    const auto lacks_some = [&](const std::vector<Surface>& level) {
+      return !level.empty() && ground_corners(level) != ground;
+    };
+    if (lacks_some(out.lod12))
+      if (auto prism = flat_prism(fine, roof_height(fine, attributes, frame.origin[2])); is_valid(prism))
+        out.lod12 = std::move(prism);
+    if (lacks_some(out.lod13)) out.lod13 = out.lod12;
+    if (lacks_some(out.lod20)) out.lod20 = fine;
   }
   if (!has(Lod::lod12)) out.lod12.clear();
   if (has(Lod::lod22)) out.lod22 = std::move(fine);
@@ -143,7 +164,7 @@ auto LevelOf::of(const WriteOptions& options, Format format) -> base::Result<Lev
 void LevelOf::apply(Drawn& drawn, const model::Frame& frame) const {
   if (lod == Lod::lod22) return;
   for (auto& [part, parts] : drawn.solids) {
-    const auto made = level_surfaces(part.model, part.attributes, frame, {lod}, options);
+    const auto made = level_surfaces(part.model, part.attributes, frame, {lod}, options, drawn.solids.size() == 1);
     if (!made.at(lod).empty()) part.model = solid_of(made.at(lod));
   }
 }

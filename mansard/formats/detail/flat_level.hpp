@@ -23,14 +23,16 @@ namespace mansard::formats::detail {
 /// The corners of surfaces on the grid, as a solid.
 [[nodiscard]] auto solid_of(const std::vector<Surface>& surfaces) -> model::LabelledSolid;
 
-/// The surfaces of a solid at the levels that are wanted; no surfaces at the others.
+/// The surfaces of a solid at the levels that are wanted; no surfaces at the others. A solid that is not the only one
+/// of its building keeps every corner of its ground at all levels: on a wall that it shares with another one, a corner
+/// that only one of them has would make them overlap by rounding.
 struct LevelSurfaces {
   std::vector<Surface> lod12, lod13, lod20, lod22;
   [[nodiscard]] auto at(Lod lod) const -> const std::vector<Surface>&;
 };
 [[nodiscard]] auto level_surfaces(const model::LabelledSolid& model, const model::Attributes& attributes,
-                                  const model::Frame& frame, const Lods& wanted, const solid::LevelOptions& options)
-    -> LevelSurfaces;
+                                  const model::Frame& frame, const Lods& wanted, const solid::LevelOptions& options,
+                                  bool alone) -> LevelSurfaces;
 
 /// Solids at another level of detail. One that has no valid solid there stays as it is.
 struct LevelOf {

@@ -195,7 +195,8 @@ class GeoPackageWriter : public CityWriter {
     const Drawn all = drawn(building, keyed, Solids::building);
     std::size_t number = 0;
     for (const auto& [part, parts] : all.solids) {
-      const auto made = level_surfaces(part.model, part.attributes, header_.frame, lods_, levels_);
+      const auto made =
+          level_surfaces(part.model, part.attributes, header_.frame, lods_, levels_, all.solids.size() == 1);
       for (const auto lod : lods_) {
         if (lod == Lod::lod0) continue;
         const auto model = lod == Lod::lod22 ? part.model : solid_of(made.at(lod));
