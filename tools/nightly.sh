@@ -74,7 +74,7 @@ meaning_of() {  # lane
     echo "${meaning[$1]/all tests/the tests of ${tested//$'\n'/, } only, in a run that had until $UNTIL}"
   fi
 }
-run_debug() { all_tests debug; }
+run_debug() { all_tests debug firefox; }  # in integration the tests in Firefox would take too long
 run_asan() { all_tests asan; }
 run_clang() { all_tests clang clang; }
 run_headers() { tools/setup.sh build python && JOBS=$jobs tools/check_headers.sh --all; }
