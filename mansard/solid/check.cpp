@@ -48,7 +48,10 @@ class Check {
     find_inside_out();
     find_intersections();
     find_needles();
-    if (rules_.snap > 0) find_near_vertices();
+    if (rules_.snap > 0) {
+      find_near_vertices();
+      find_touching_courtyards();
+    }
     if (rules_.one_shell) find_several_shells();
     return std::move(faults_);
   }
@@ -127,6 +130,23 @@ class Check {
   void find_split_vertices() {
     if (const auto v = detail::split_vertex(solid_, connectivity_.half_edges))
       fault("solid-non-manifold", "faces that are no neighbours share the vertex " + place(solid_.vertices[*v]));
+  }
+
+  /// A courtyard that touches the outline in a point: four walls meet there in one vertical line, or lie beside each
+  /// other on it within rounding. All faces are in one fan around that vertex, and no edge need be in more than two.
+  void find_touching_courtyards() {
+    std::vector<std::uint32_t> corners;
+    for (std::size_t f = 0; f < solid_.faces.size(); ++f) {
+      const auto& loops = solid_.faces[f].loops;
+      if (loops.size() < 2 || areas_[f].z >= 0) continue;
+      corners.clear();
+      for (const auto& loop : loops) corners.insert(corners.end(), loop.begin(), loop.end());
+      std::ranges::sort(corners);
+      const auto twice = std::ranges::adjacent_find(corners);
+      if (twice == corners.end()) continue;
+      fault("solid-non-manifold", "a courtyard touches the outline at " + place(solid_.vertices[*twice]));
+      return;
+    }
   }
 
   void find_bent_faces() {

@@ -143,6 +143,50 @@ TEST(Check, finds_a_shared_vertex_with_two_fans) {
   EXPECT_THAT(codes_of(solid), testing::ElementsAre("solid-non-manifold"));
 }
 
+TEST(Check, finds_a_courtyard_that_touches_the_outline) {
+  // At the corner (5, 0, 0) all faces are in one fan. val3dity 2.6: 303, where rounding lets no faces intersect, too.
+  const std::vector<Point2> low{{0, 0}, {5, 0}, {3, 4}, {5, 4}, {5, 10}, {0, 10}},
+      high{{5, 0}, {10, 0}, {10, 10}, {5, 10}, {5, 4}, {7, 4}};
+  Solid solid;
+  const auto at = [&](Point2 p, double z) {
+    const Point3 v{p.x, p.y, z};
+    const auto found = std::ranges::find(solid.vertices, v);
+    if (found != solid.vertices.end()) return static_cast<std::uint32_t>(found - solid.vertices.begin());
+    solid.vertices.push_back(v);
+    return static_cast<std::uint32_t>(solid.vertices.size() - 1);
+  };
+  const auto add = [&](std::vector<std::vector<std::uint32_t>> loops, Point3 normal) {
+    solid.faces.push_back({std::move(loops), model::FaceKind::side, {}, normal});
+  };
+  const auto roof = [&](const std::vector<Point2>& ring, double z) {
+    std::vector<std::uint32_t> loop;
+    for (const Point2 p : ring) loop.push_back(at(p, z));
+    add({loop}, {0, 0, 1});
+  };
+  const auto wall_of = [&](Point2 a, Point2 b, double low_z, double high_z) {
+    const Point3 normal{b.y - a.y, a.x - b.x, 0};
+    add({{at(a, low_z), at(b, low_z), at(b, high_z), at(a, high_z)}}, normal);
+  };
+  roof(low, 3);
+  roof(high, 5);
+  const std::vector<std::pair<Point2, Point2>> of_low{
+      {{0, 0}, {5, 0}}, {{5, 0}, {3, 4}}, {{3, 4}, {5, 4}}, {{5, 10}, {0, 10}}, {{0, 10}, {0, 0}}},
+      of_high{{{5, 0}, {10, 0}}, {{10, 0}, {10, 10}}, {{10, 10}, {5, 10}}, {{7, 4}, {5, 0}}};
+  for (const auto& [a, b] : of_low) wall_of(a, b, 0, 3);
+  for (const auto& [a, b] : of_high) wall_of(a, b, 0, 5);
+  // At the ends of the step the walls of the higher part have its foot as a corner.
+  solid.faces.pop_back(), solid.faces.pop_back();
+  add({{at({10, 10}, 0), at({5, 10}, 0), at({5, 10}, 3), at({5, 10}, 5), at({10, 10}, 5)}}, {0, 1, 0});
+  wall_of({7, 4}, {5, 0}, 0, 5);
+  add({{at({5, 4}, 0), at({7, 4}, 0), at({7, 4}, 5), at({5, 4}, 5), at({5, 4}, 3)}}, {0, -1, 0});
+  wall_of({5, 10}, {5, 4}, 3, 5);
+  std::vector<std::uint32_t> outer, hole;
+  for (const Point2 p : {Point2{0, 10}, {5, 10}, {10, 10}, {10, 0}, {5, 0}, {0, 0}}) outer.push_back(at(p, 0));
+  for (const Point2 p : {Point2{5, 0}, {7, 4}, {5, 4}, {3, 4}}) hole.push_back(at(p, 0));
+  add({outer, hole}, {0, 0, -1});
+  EXPECT_THAT(written_codes_of(solid), testing::Contains("solid-non-manifold"));
+}
+
 TEST(Check, finds_a_bent_face_by_its_limit) {
   Solid solid = cube();
   const auto corner = std::ranges::find(solid.vertices, Point3{2, 2, 2});
