@@ -7,7 +7,7 @@
 #include "apps/cli/info.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/base/text.hpp"
-#include "mansard/formats/citygml/citygml_made_by.hpp"
+#include "mansard/formats/citygml_made_by.hpp"
 #include "mansard/formats/points.hpp"
 #include "mansard/formats/source.hpp"
 #include "mansard/ingest/model.hpp"

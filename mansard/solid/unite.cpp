@@ -62,13 +62,12 @@ class Parts {
 
   /// Whether solids of one family share ground.
   [[nodiscard]] static auto overlap(const std::vector<std::uint32_t>& family, const std::vector<United>& made) -> bool {
-    std::vector<const LabelledSolid*> solids;
-    for (const auto b : family)
-      for (const One& one : made[b].solids) solids.push_back(&one.model);
-    for (std::size_t i = 0; i < solids.size(); ++i)
-      for (std::size_t k = 0; k < i; ++k)
-        if (detail::share_ground(*solids[k], *solids[i])) return true;
-    return false;
+    return any_two(family, made, detail::share_ground);
+  }
+
+  /// Whether walls of solids of one family lean into others.
+  [[nodiscard]] static auto lean(const std::vector<std::uint32_t>& family, const std::vector<United>& made) -> bool {
+    return any_two(family, made, detail::overlap);
   }
 
   /// Takes what parts share off one of them, in the families whose solids do. Whether anything changed.
@@ -94,6 +93,17 @@ class Parts {
   }
 
  private:
+  template <class Test>
+  static auto any_two(const std::vector<std::uint32_t>& family, const std::vector<United>& made, Test test) -> bool {
+    std::vector<const LabelledSolid*> solids;
+    for (const auto b : family)
+      for (const One& one : made[b].solids) solids.push_back(&one.model);
+    for (std::size_t i = 0; i < solids.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k)
+        if (test(*solids[k], *solids[i])) return true;
+    return false;
+  }
+
   /// Whatever went wrong above, a part is not missing without a word.
   void tell_of_lost(std::size_t b, United& made) const {
     if (std::ranges::any_of(made.warnings, [](const auto& warning) { return warning.code == "solid-left-out"; }))
@@ -185,7 +195,7 @@ auto cut_back(const LabelledSolid& solid, std::span<const LabelledSolid* const> 
       const std::array<const LabelledSolid*, 1> alone{shape};
       auto made = detail::united_by(alone, Reach{near});
       const auto is_apart = [&](const One& one) {
-        return std::ranges::none_of(others, [&](auto* other) { return detail::share_ground(*other, one.model); });
+        return std::ranges::none_of(others, [&](auto* other) { return detail::overlap(*other, one.model); });
       };
       if (!made.solids.empty() && made.warnings.empty() && std::ranges::all_of(made.solids, is_apart))
         return std::move(made.solids);
@@ -218,13 +228,20 @@ void let_give_way(const std::vector<std::uint32_t>& family, std::vector<United>&
   };
   for (auto& [b, one, size] : all) {
     std::vector<const LabelledSolid*> others;
-    for (const auto* other : kept)
-      if (detail::share_ground(*other, one.model)) others.push_back(other);
-    if (others.empty()) {
+    bool only_leaning = true;
+    for (const auto* other : kept) {
+      if (!detail::overlap(*other, one.model)) continue;
+      others.push_back(other);
+      only_leaning = only_leaning && !detail::share_ground(*other, one.model);
+    }
+    auto pieces = others.empty() ? std::vector<One>{} : cut_back(one.model, others);
+    double rest = 0;
+    for (const One& piece : pieces) rest += volume(piece.model.solid);
+    constexpr double much = 0.01;  // a share of it that rounding of a wall is not worth
+    if (others.empty() || (only_leaning && rest < (1 - much) * size)) {
       keep(b, std::move(one));
       continue;
     }
-    auto pieces = cut_back(one.model, others);
     made[b].warnings.push_back(
         pieces.empty() ? base::warning("solid-left-out", "a solid of it overlaps another one, and cannot be cut back")
                        : base::warning("solid-simplified", "a solid of it overlapped another one, and was cut back"));
@@ -278,7 +295,7 @@ auto best(Parts& parts, const Make& make) -> std::vector<United> {
   if (!over_all_reaches(Shared::wide) && overlapping(chosen) && parts.part(chosen, Shared::any))
     over_all_reaches(std::nullopt);
   for (const auto& family : parts.families())
-    if (Parts::overlap(family, chosen)) let_give_way(family, chosen);
+    if (Parts::overlap(family, chosen) || Parts::lean(family, chosen)) let_give_way(family, chosen);
   parts.finish(chosen);
   return chosen;
 }

@@ -4,7 +4,7 @@
 #include "base/scratch.hpp"
 #include "cities.hpp"
 #include "mansard/base/files.hpp"
-#include "mansard/formats/citygml/citygml_made_by.hpp"
+#include "mansard/formats/citygml_made_by.hpp"
 #include "mansard/formats/foreign.hpp"
 #include "mansard/formats/models.hpp"
 #include "mansard/formats/stream.hpp"

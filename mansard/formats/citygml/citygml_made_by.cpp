@@ -1,4 +1,4 @@
-#include "mansard/formats/citygml/citygml_made_by.hpp"
+#include "mansard/formats/citygml_made_by.hpp"
 
 #include "mansard/formats/json/json_item.hpp"
 #include "mansard/formats/plans/plan_items.hpp"

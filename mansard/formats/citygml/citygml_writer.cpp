@@ -6,8 +6,8 @@
 #include <set>
 
 #include "mansard/base/text.hpp"
-#include "mansard/formats/citygml/citygml_made_by.hpp"
 #include "mansard/formats/citygml/xml_text.hpp"
+#include "mansard/formats/citygml_made_by.hpp"
 #include "mansard/formats/detail/drawn.hpp"
 #include "mansard/formats/detail/flat_level.hpp"
 #include "mansard/formats/detail/parts.hpp"

@@ -53,13 +53,18 @@ auto at_common_height(const LabelledSolid& a, const LabelledSolid& b) -> bool {
   return std::min(own.high, other.high) > std::max(own.low, other.low);
 }
 
+/// A face as it is seen from above: its loops turn to the right where it looks down.
+auto seen_from_above(const LabelledSolid& solid, const model::Face& face) -> Polygon {
+  return geometry::polygon_of(face.loops,
+                              [&](std::uint32_t v) { return geometry::xy(units(solid.solid.vertices[v])); });
+}
+
 /// What of a solid's plan is outside of its ground: roofs that look down by rounding.
 auto overhang_of(const LabelledSolid& solid) -> std::vector<Polygon> {
   std::vector<Polygon> out;
   for (std::size_t f = 0; f < solid.classes.size(); ++f) {
     if (solid.classes[f] != FaceClass::roof) continue;
-    const auto seen = geometry::polygon_of(
-        solid.solid.faces[f].loops, [&](std::uint32_t v) { return geometry::xy(units(solid.solid.vertices[v])); });
+    const auto seen = seen_from_above(solid, solid.solid.faces[f]);
     if (geometry::signed_area(seen.outer) < 0) out.push_back(geometry::oriented(seen));
   }
   return out;
@@ -253,6 +258,64 @@ auto share_ground(const LabelledSolid& a, const LabelledSolid& b) -> bool {
   if (has_eaves(a) || has_eaves(b) || !at_common_height(a, b)) return false;
   const auto ground_a = ground_of(a), ground_b = ground_of(b);
   return meet(ground_a, ground_b) || meet(overhang_of(a), ground_b) || meet(ground_a, overhang_of(b));
+}
+
+namespace {
+
+/// A height, in units, on the plane of a face; the face is not vertical.
+auto height_on(const LabelledSolid& solid, const model::Face& face, Point2 at) -> double {
+  const Point3 o = units(solid.solid.vertices[face.loops[0][0]]);
+  Point3 area;
+  for (const auto& loop : face.loops)
+    for (std::size_t i = 0; i < loop.size(); ++i)
+      area = area + cross(units(solid.solid.vertices[loop[i]]) - o,
+                          units(solid.solid.vertices[loop[(i + 1) % loop.size()]]) - o);
+  return o.z - (area.x * (at.x - o.x) + area.y * (at.y - o.y)) / area.z;
+}
+
+/// Whether the solid is higher there than a height by more than a unit.
+auto is_above(const LabelledSolid& solid, Point2 at, double height) -> bool {
+  return std::ranges::any_of(solid.solid.faces, [&](const model::Face& face) {
+    const Polygon seen = seen_from_above(solid, face);
+    return geometry::signed_area(seen.outer) > 0 && geometry::contains(seen, at) &&
+           height_on(solid, face, at) > height + 1;
+  });
+}
+
+auto middle_of(const geometry::Ring& ring) -> Point2 {
+  Point2 sum;
+  for (const Point2 p : ring) sum = sum + p;
+  return (1.0 / static_cast<double>(ring.size())) * sum;
+}
+
+/// Whether a wall of one that looks down is within the other, below what that one has there. Where both have the same
+/// wall there is nothing above it.
+auto leans_into(const LabelledSolid& one, const LabelledSolid& other) -> bool {
+  const auto ground = ground_of(other);
+  for (std::size_t f = 0; f < one.classes.size(); ++f) {
+    const model::Face& face = one.solid.faces[f];
+    if (one.classes[f] == FaceClass::ground || one.classes[f] == FaceClass::roof) continue;
+    const Polygon seen = seen_from_above(one, face);
+    if (!(geometry::signed_area(seen.outer) < 0)) continue;
+    const Polygon wall = geometry::oriented(seen);
+    for (const Polygon& below : ground) {
+      if (!geometry::bounds(wall.outer).overlaps(geometry::bounds(below.outer))) continue;
+      const auto shared = geometry::intersect(wall, below);
+      if (!shared) return true;
+      for (const Polygon& piece : *shared) {
+        const Point2 at = middle_of(piece.outer);
+        if (geometry::area(piece) > 0 && is_above(other, at, height_on(one, face, at))) return true;
+      }
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+auto overlap(const LabelledSolid& a, const LabelledSolid& b) -> bool {
+  if (has_eaves(a) || has_eaves(b) || !at_common_height(a, b)) return false;
+  return share_ground(a, b) || leans_into(a, b) || leans_into(b, a);
 }
 
 auto wider_than_points(const LabelledSolid& solid, double near) -> bool {
