@@ -341,6 +341,7 @@ describe("the scores of a run", () => {
     vi.useFakeTimers();
     try {
       state.project.value = project(run("run-1", { scores: scores(1) }));
+      state.scene.value = {} as api.Scene;
       open(building("a"));
       const now = () => state.scoresOf(state.project.value!.runs[0]!);
       expect(now()).toEqual({ scores: scores(1), outdated: false });
@@ -359,6 +360,24 @@ describe("the scores of a run", () => {
       vi.useRealTimers();
     }
   });
+});
+
+it("scores are not asked for while there is no scene, and stay marked", async () => {
+  vi.useFakeTimers();
+  try {
+    const scores = { mse: 1, footprint_mse: 1, footprint_median_absolute: 0, inside_mse: 0, missed: 0, invented: 0 };
+    state.project.value = project(run("run-1", { scores }));
+    state.scene.value = null;
+    open(building("a"));
+    let asked = 0;
+    answers["GET /api/runs/run-1/scores"] = () => ({ edits: ++asked, scores });
+    actions.take("run-1", { buildings: [building("a", { revision: 1 })], history: history(1, "x") });
+    await vi.advanceTimersByTimeAsync(2000);
+    expect(asked).toBe(0);
+    expect(state.scoresOf(state.project.value!.runs[0]!).outdated).toBe(true);
+  } finally {
+    vi.useRealTimers();
+  }
 });
 
 describe("edits of another run", () => {

@@ -368,9 +368,10 @@ function measureAgain(run: string) {
 async function measure(run: string) {
   const edit = editNumber(run);
   if (state.outdatedAttributes.value.has(run)) void needAttributes(run);
-  if (!state.runSummary(run)?.scores) return;
+  // Without a scene nothing can be measured: the numbers stay marked, and are measured when it has been read.
+  if (!state.runSummary(run)?.scores || !state.scene.value) return;
   const scores = await client.scores(run).catch((e: unknown) => {
-    if (e instanceof Refused) return null; // without a scene nothing can be measured: the numbers stay marked
+    if (e instanceof Refused) return null; // the scene is being read again
     throw e;
   });
   if (!scores || edit !== editNumber(run)) return;
