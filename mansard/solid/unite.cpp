@@ -65,8 +65,9 @@ class Parts {
     return any_two(family, made, detail::share_ground);
   }
 
-  /// Whether walls of solids of one family lean into others.
-  [[nodiscard]] static auto lean(const std::vector<std::uint32_t>& family, const std::vector<United>& made) -> bool {
+  /// The same, or walls of theirs lean into others.
+  [[nodiscard]] static auto overlap_or_lean(const std::vector<std::uint32_t>& family, const std::vector<United>& made)
+      -> bool {
     return any_two(family, made, detail::overlap);
   }
 
@@ -295,7 +296,7 @@ auto best(Parts& parts, const Make& make) -> std::vector<United> {
   if (!over_all_reaches(Shared::wide) && overlapping(chosen) && parts.part(chosen, Shared::any))
     over_all_reaches(std::nullopt);
   for (const auto& family : parts.families())
-    if (Parts::overlap(family, chosen) || Parts::lean(family, chosen)) let_give_way(family, chosen);
+    if (Parts::overlap_or_lean(family, chosen)) let_give_way(family, chosen);
   parts.finish(chosen);
   return chosen;
 }

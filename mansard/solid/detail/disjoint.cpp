@@ -23,9 +23,14 @@ using model::LabelledSolid;
 auto units(double metres) -> double { return std::floor(metres * model::quanta_per_metre + 0.5); }
 auto units(Point3 p) -> Point3 { return {units(p.x), units(p.y), units(p.z)}; }
 
+/// A face as it is seen from above: its loops turn to the right where it looks down.
+auto seen_from_above(const LabelledSolid& solid, const model::Face& face) -> Polygon {
+  return geometry::polygon_of(face.loops,
+                              [&](std::uint32_t v) { return geometry::xy(units(solid.solid.vertices[v])); });
+}
+
 auto polygon_of(const LabelledSolid& solid, const model::Face& face) -> Polygon {
-  return geometry::oriented(
-      geometry::polygon_of(face.loops, [&](std::uint32_t v) { return geometry::xy(units(solid.solid.vertices[v])); }));
+  return geometry::oriented(seen_from_above(solid, face));
 }
 
 auto ground_of(const LabelledSolid& solid) -> std::vector<Polygon> {
@@ -53,12 +58,6 @@ auto at_common_height(const LabelledSolid& a, const LabelledSolid& b) -> bool {
   return std::min(own.high, other.high) > std::max(own.low, other.low);
 }
 
-/// A face as it is seen from above: its loops turn to the right where it looks down.
-auto seen_from_above(const LabelledSolid& solid, const model::Face& face) -> Polygon {
-  return geometry::polygon_of(face.loops,
-                              [&](std::uint32_t v) { return geometry::xy(units(solid.solid.vertices[v])); });
-}
-
 /// What of a solid's plan is outside of its ground: roofs that look down by rounding.
 auto overhang_of(const LabelledSolid& solid) -> std::vector<Polygon> {
   std::vector<Polygon> out;
@@ -70,16 +69,26 @@ auto overhang_of(const LabelledSolid& solid) -> std::vector<Polygon> {
   return out;
 }
 
-auto meet(const std::vector<Polygon>& some, const std::vector<Polygon>& others) -> bool {
+/// Whether anything that polygons share passes a test, or what they share cannot be computed.
+template <class Test>
+auto any_shared(const std::vector<Polygon>& some, const std::vector<Polygon>& others, Test test) -> bool {
   for (const Polygon& p : some)
     for (const Polygon& q : others) {
       if (!geometry::bounds(p.outer).overlaps(geometry::bounds(q.outer))) continue;
       const auto shared = geometry::intersect(p, q);
-      if (!shared) return true;
-      for (const Polygon& polygon : *shared)
-        if (geometry::area(polygon) > 0) return true;
+      if (!shared || std::ranges::any_of(*shared, test)) return true;
     }
   return false;
+}
+
+auto meet(const std::vector<Polygon>& some, const std::vector<Polygon>& others) -> bool {
+  return any_shared(some, others, [](const Polygon& polygon) { return geometry::area(polygon) > 0; });
+}
+
+/// Whether anything is left of a polygon without a margin, or that cannot be computed.
+auto is_wider(const Polygon& polygon, double margin) -> bool {
+  const auto core = geometry::buffer(polygon, -margin);
+  return !core || !core->empty();
 }
 
 /// None where the library fails.
@@ -104,17 +113,8 @@ auto taken_off(std::vector<Polygon> from, const Polygon& other) -> std::optional
 
 /// Whether what solids share is wider than what becomes one point, or that cannot be computed.
 auto share_wide(const LabelledSolid& a, const LabelledSolid& b) -> bool {
-  for (const Polygon& p : ground_of(a))
-    for (const Polygon& q : ground_of(b)) {
-      if (!geometry::bounds(p.outer).overlaps(geometry::bounds(q.outer))) continue;
-      const auto shared = geometry::intersect(p, q);
-      if (!shared) return true;
-      for (const Polygon& one : *shared) {
-        const auto core = geometry::buffer(one, -0.5 * model::least_apart);
-        if (!core || !core->empty()) return true;
-      }
-    }
-  return false;
+  return any_shared(ground_of(a), ground_of(b),
+                    [](const Polygon& one) { return is_wider(one, 0.5 * model::least_apart); });
 }
 
 /// One face of a solid over a polygon: heights on its edges are those between their ends, so that faces beside each
@@ -141,9 +141,14 @@ class Heights {
       const double length2 = dot(along, along), t = dot(to, along) / length2, off = cross(along, to);
       if (t > 0 && t < 1 && off * off <= length2) return std::round(a.z + t * (b.z - a.z));
     }
+    return std::round(on_plane(p));
+  }
+
+  /// Not rounded; the face must not be vertical.
+  [[nodiscard]] auto on_plane(Point2 p) const -> double {
     const Point3 a = edges_.front()[0];
     const Point2 to = p - geometry::xy(a);
-    return std::round(a.z - (normal_.x * to.x + normal_.y * to.y) / normal_.z);
+    return a.z - (normal_.x * to.x + normal_.y * to.y) / normal_.z;
   }
 
  private:
@@ -252,33 +257,12 @@ class Clipping {
   std::set<Point2> roofs_, ground_;
 };
 
-}  // namespace
-
-auto share_ground(const LabelledSolid& a, const LabelledSolid& b) -> bool {
-  if (has_eaves(a) || has_eaves(b) || !at_common_height(a, b)) return false;
-  const auto ground_a = ground_of(a), ground_b = ground_of(b);
-  return meet(ground_a, ground_b) || meet(overhang_of(a), ground_b) || meet(ground_a, overhang_of(b));
-}
-
-namespace {
-
-/// A height, in units, on the plane of a face; the face is not vertical.
-auto height_on(const LabelledSolid& solid, const model::Face& face, Point2 at) -> double {
-  const Point3 o = units(solid.solid.vertices[face.loops[0][0]]);
-  Point3 area;
-  for (const auto& loop : face.loops)
-    for (std::size_t i = 0; i < loop.size(); ++i)
-      area = area + cross(units(solid.solid.vertices[loop[i]]) - o,
-                          units(solid.solid.vertices[loop[(i + 1) % loop.size()]]) - o);
-  return o.z - (area.x * (at.x - o.x) + area.y * (at.y - o.y)) / area.z;
-}
-
 /// Whether the solid is higher there than a height by more than a unit.
 auto is_above(const LabelledSolid& solid, Point2 at, double height) -> bool {
   return std::ranges::any_of(solid.solid.faces, [&](const model::Face& face) {
     const Polygon seen = seen_from_above(solid, face);
     return geometry::signed_area(seen.outer) > 0 && geometry::contains(seen, at) &&
-           height_on(solid, face, at) > height + 1;
+           Heights(solid, face).on_plane(at) > height + 1;
   });
 }
 
@@ -298,13 +282,14 @@ auto leans_into(const LabelledSolid& one, const LabelledSolid& other) -> bool {
     const Polygon seen = seen_from_above(one, face);
     if (!(geometry::signed_area(seen.outer) < 0)) continue;
     const Polygon wall = geometry::oriented(seen);
+    const Heights heights(one, face);
     for (const Polygon& below : ground) {
       if (!geometry::bounds(wall.outer).overlaps(geometry::bounds(below.outer))) continue;
       const auto shared = geometry::intersect(wall, below);
       if (!shared) return true;
       for (const Polygon& piece : *shared) {
         const Point2 at = middle_of(piece.outer);
-        if (geometry::area(piece) > 0 && is_above(other, at, height_on(one, face, at))) return true;
+        if (geometry::area(piece) > 0 && is_above(other, at, heights.on_plane(at))) return true;
       }
     }
   }
@@ -313,16 +298,19 @@ auto leans_into(const LabelledSolid& one, const LabelledSolid& other) -> bool {
 
 }  // namespace
 
+auto share_ground(const LabelledSolid& a, const LabelledSolid& b) -> bool {
+  if (has_eaves(a) || has_eaves(b) || !at_common_height(a, b)) return false;
+  const auto ground_a = ground_of(a), ground_b = ground_of(b);
+  return meet(ground_a, ground_b) || meet(overhang_of(a), ground_b) || meet(ground_a, overhang_of(b));
+}
+
 auto overlap(const LabelledSolid& a, const LabelledSolid& b) -> bool {
   if (has_eaves(a) || has_eaves(b) || !at_common_height(a, b)) return false;
   return share_ground(a, b) || leans_into(a, b) || leans_into(b, a);
 }
 
 auto wider_than_points(const LabelledSolid& solid, double near) -> bool {
-  return std::ranges::any_of(ground_of(solid), [&](const Polygon& ground) {
-    const auto core = geometry::buffer(ground, -near);
-    return !core || !core->empty();
-  });
+  return std::ranges::any_of(ground_of(solid), [&](const Polygon& ground) { return is_wider(ground, near); });
 }
 
 auto clipped(const LabelledSolid& solid, std::span<const Polygon> over) -> std::optional<LabelledSolid> {
