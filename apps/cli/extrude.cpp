@@ -16,6 +16,7 @@
 #include "mansard/base/files.hpp"
 #include "mansard/formats/input_name.hpp"
 #include "mansard/pipeline/stored.hpp"
+#include "mansard/report/layers.hpp"
 #include "mansard/report/pictures.hpp"
 
 namespace mansard::cli {
@@ -175,7 +176,10 @@ auto write_out(const Made& made, const model::Scene& scene, const pipeline::Opti
   const auto targets = targets_of(request);
   if (!targets) return targets.failure();
   base::Outputs outputs;
-  if (auto written = write_targets(made, *targets, options.write, {}, outputs, run, progress); !written) return written;
+  std::vector<formats::Layer> layers;
+  if (auto overlaps = report::overlaps_layer(made.summary)) layers.push_back(std::move(*overlaps));
+  if (auto written = write_targets(made, *targets, options.write, layers, outputs, run, progress); !written)
+    return written;
   if (auto written = request.terrain.write(made, scene, nullptr, options, outputs, run, progress); !written)
     return written;
   std::vector<fs::path> reports;

@@ -107,6 +107,7 @@ auto write_all(const Request& request, const std::vector<Target>& targets, const
     layers = report::segment_layers(scene, made.whole->segmented, made.made_by, made.whole->city.buildings);
     layers.push_back(report::diagnostics_layer(*made.whole, scene));
   }
+  if (auto overlaps = report::overlaps_layer(made.summary)) layers.push_back(std::move(*overlaps));
   texture::Baked baked;
   if (options.texture.bake) {
     auto done = textures_of(made, paths_of(request.scan).meshes, options, run, progress);

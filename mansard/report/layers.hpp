@@ -1,6 +1,7 @@
 // Layers for a GIS: why walls were drawn, and what went otherwise than it should.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,5 +20,8 @@ namespace mansard::report {
 /// What went otherwise than it should, as one more layer: `diagnostics`, a row per reason of a building and per
 /// warning. `reconstruction` must be of the whole scene.
 [[nodiscard]] auto diagnostics_layer(const Reconstruction& reconstruction, const model::Scene& scene) -> formats::Layer;
+
+/// Solids that share ground, as one more layer: `overlaps`, a row for each two of them. None where there are none.
+[[nodiscard]] auto overlaps_layer(const Summary& summary) -> std::optional<formats::Layer>;
 
 }  // namespace mansard::report

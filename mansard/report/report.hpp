@@ -101,6 +101,13 @@ struct Outcomes {
   [[nodiscard]] auto all() const -> std::size_t { return full + fallback + covered + refused; }
 };
 
+/// Two solids that share ground.
+struct Overlap {
+  std::string first, second;               ///< their first parts
+  double area = 0, height = 0;             ///< m² of ground, and m of height that both have
+  std::vector<geometry::Polygon> polygons;  ///< the ground that they share; m, in the frame
+};
+
 /// A run without its buildings.
 struct Summary {
   std::vector<BlockReport> blocks;
@@ -108,6 +115,7 @@ struct Summary {
   Reuse reuse;
   evaluate::Scores scores;  ///< over all blocks, weighted by cells
   std::vector<base::Diagnostic> warnings;
+  std::vector<Overlap> overlaps;  ///< all that were found, in the order of the buildings
 };
 
 struct Reconstruction : Summary {

@@ -1,8 +1,10 @@
 // Solids that overlap are reported, and neighbours do not.
 #include <gmock/gmock.h>
 
+#include "mansard/pipeline/city.hpp"
 #include "mansard/pipeline/detail/overlaps.hpp"
 #include "mansard/pipeline/pipeline.hpp"
+#include "mansard/report/layers.hpp"
 #include "pipeline/houses.hpp"
 
 namespace mansard::pipeline {
@@ -31,6 +33,32 @@ TEST(Overlaps, are_told_in_both_buildings_and_once) {
   EXPECT_THAT(r->buildings[0].reasons.back().message, HasSubstr("8.000 m² of ground"));
   EXPECT_THAT(r->buildings[0].reasons.back().message, HasSubstr("with b-1"));
   EXPECT_EQ(r->buildings[0].outcome, report::Outcome::full);
+}
+
+TEST(Overlaps, are_a_layer_with_the_ground_that_two_share) {
+  model::Scene scene;
+  scene.footprints.push_back(test::footprint("a", rectangle(0, 0, 10, 8)));
+  scene.footprints.push_back(test::footprint("b", rectangle(9, 0, 19, 8)));
+  scene.footprints.push_back(test::footprint("c", rectangle(19, 0, 30, 8)));
+  const auto whole = raise_footprints(scene, {});
+  const auto aside = raise_footprints_aside(scene, {});
+  ASSERT_TRUE(whole && aside);
+  for (const report::Summary* summary : {static_cast<const report::Summary*>(&*whole), &aside->summary}) {
+    const auto layer = report::overlaps_layer(*summary);
+    ASSERT_TRUE(layer);
+    ASSERT_EQ(layer->features.size(), 1u);
+    const auto& [lines, polygons, values] = layer->features[0];
+    ASSERT_EQ(polygons.size(), 1u);
+    const auto box = geometry::bounds(polygons[0].outer);
+    EXPECT_NEAR(box.least.x, 9, 1e-3);
+    EXPECT_NEAR(box.most.x, 10, 1e-3);
+    EXPECT_EQ(values[0], model::Value(std::string("a-1")));
+    EXPECT_EQ(values[1], model::Value(std::string("b-1")));
+    EXPECT_NEAR(std::get<double>(values[2]), 8, 0.01);
+    EXPECT_NEAR(std::get<double>(values[3]), 6, 0.01);  // both are as high as houses of unknown height
+  }
+  scene.footprints.erase(scene.footprints.begin() + 1);
+  EXPECT_FALSE(report::overlaps_layer(*raise_footprints(scene, {})));
 }
 
 TEST(Overlaps, are_none_between_neighbours_that_straighten_their_wall_by_themselves) {

@@ -68,10 +68,11 @@ class CityBuilder {
       if (!from.take(one) || !from.done()) return put_aside_changed();
       return standing(building, one.building);
     };
-    auto [of_each, in_all] = overlaps(extents_, load, run);
+    auto [of_each, in_all, pairs] = overlaps(extents_, load, run);
     extents_ = {};
     for (auto& [building, what] : of_each) city_.afterwards_[building].push_back(std::move(what));
     std::ranges::move(in_all, std::back_inserter(city_.summary.warnings));
+    city_.summary.overlaps = std::move(pairs);
   }
 
  private:

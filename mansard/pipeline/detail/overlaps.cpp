@@ -47,17 +47,24 @@ auto standing(std::size_t building, std::string name, const model::Solid& solid)
   return out;
 }
 
-/// m². Walls that coincide share none: the library's predicates are exact, and it makes no corners where chains are
+/// In m. Walls that coincide share none: the library's predicates are exact, and it makes no corners where chains are
 /// equal.
-auto shared_ground(const Standing& a, const Standing& b) -> base::Result<double> {
-  double sum = 0;
+auto shared_ground(const Standing& a, const Standing& b) -> base::Result<std::vector<Polygon>> {
+  std::vector<Polygon> out;
   for (const auto& p : a.ground)
     for (const auto& q : b.ground) {
-      const auto shared = geometry::intersect(p, q);
+      auto shared = geometry::intersect(p, q);
       if (!shared) return shared.failure();
-      for (const auto& polygon : *shared) sum += geometry::area(polygon);
+      std::ranges::move(*shared, std::back_inserter(out));
     }
-  return sum / (units_per_metre * units_per_metre);
+  const auto in_metres = [](geometry::Ring& ring) {
+    for (auto& point : ring) point = (1 / units_per_metre) * point;
+  };
+  for (auto& polygon : out) {
+    in_metres(polygon.outer);
+    std::ranges::for_each(polygon.holes, in_metres);
+  }
+  return out;
 }
 
 /// Whether the insides of both boxes have something in common: neighbours with a common wall do not overlap.
@@ -72,8 +79,9 @@ auto may_overlap(const Extent& a, const Extent& b) -> bool {
 /// Two solids by their numbers, and what they share.
 struct Pair {
   std::uint32_t first = 0, second = 0;
-  double area = 0;           ///< m² of ground
-  std::string failure = {};  ///< why it could not be computed; empty where it could
+  double area = 0;                         ///< m² of ground
+  std::vector<Polygon> ground = {};  ///< m
+  std::string failure = {};                ///< why it could not be computed; empty where it could
 };
 
 /// The pairs to compare, in the source's order, and whether there may be others.
@@ -246,11 +254,15 @@ auto overlaps(const std::vector<Extent>& solids, const LoadStanding& load, const
     for (std::size_t i = starts[s]; i < starts[s + 1]; ++i) {
       if (run.cancelled()) return;
       const auto second = loaded(pairs[i].second);
-      const auto area = !first    ? base::Result<double>(first.failure())
-                        : !second ? base::Result<double>(second.failure())
-                                  : shared_ground(*first, *second);
-      if (area) pairs[i].area = *area;
-      else pairs[i].failure = area.error().message;
+      auto ground = !first    ? base::Result<std::vector<Polygon>>(first.failure())
+                    : !second ? base::Result<std::vector<Polygon>>(second.failure())
+                              : shared_ground(*first, *second);
+      if (ground) {
+        for (const auto& polygon : *ground) pairs[i].area += geometry::area(polygon);
+        pairs[i].ground = std::move(*ground);
+      } else {
+        pairs[i].failure = ground.error().message;
+      }
     }
   });
   std::erase_if(pairs, [](const Pair& pair) { return pair.failure.empty() && pair.area == 0; });
@@ -260,13 +272,19 @@ auto overlaps(const std::vector<Extent>& solids, const LoadStanding& load, const
     for (const auto i : {pair.first, pair.second})
       if (auto& name = named.names[i]; name.empty())
         if (auto one = loaded(i)) name = std::move(one->name);
-  return {said_of_each(named, pairs, all), said_of_all(named, pairs, all)};
+  Overlaps out{said_of_each(named, pairs, all), said_of_all(named, pairs, all), {}};
+  for (Pair& pair : pairs)
+    if (pair.failure.empty())
+      out.pairs.push_back({named.names.at(pair.first), named.names.at(pair.second), pair.area,
+                           height(solids[pair.first], solids[pair.second]), std::move(pair.ground)});
+  return out;
 }
 
 void report_overlaps(report::Reconstruction& reconstruction, const base::Run& run) {
-  auto [of_each, in_all] = overlaps(reconstruction.city.buildings, run);
+  auto [of_each, in_all, pairs] = overlaps(reconstruction.city.buildings, run);
   for (auto& [building, what] : of_each) reconstruction.buildings[building].reasons.push_back(std::move(what));
   for (auto& warning : in_all) reconstruction.warnings.push_back(std::move(warning));
+  reconstruction.overlaps = std::move(pairs);
 }
 
 }  // namespace mansard::pipeline::detail

@@ -20,6 +20,7 @@ struct Overlaps {
   };
   std::vector<Of> of_each;               ///< the largest overlaps of each solid, and how many more it has
   std::vector<base::Diagnostic> in_all;  ///< the number of pairs and the largest, and what could not be computed
+  std::vector<report::Overlap> pairs;    ///< all that were computed
 };
 
 /// Every two of the written solids whose ground floors share any area at all, and whose heights do: walls of neighbours
