@@ -101,6 +101,9 @@ auto option_list(Options& o) -> base::OptionList {
       .source("a mast, a bird, a person; not tuned");
   list.number("points_per_cell", o.points_per_cell, "", {0.1, 1000}, "Minimum density of points that a cell must hold.")
       .advanced("Delft at several densities; docs/robustness.md")
+      .number("points_per_large_cell", o.points_per_large_cell, "", {0.1, 1000},
+              "Minimum density of points that a cell of 1 m or more must hold.")
+      .advanced("Delft and two simulated blocks with 2 points/m²; docs/results.md")
       .number("minimum_cell", o.minimum_cell, "m", {0.0625, 16},
               "Minimum side length of a cell taken from the density.")
       .advanced("walls are half-way between cells; smaller cells cost time")
@@ -133,7 +136,9 @@ auto cell_for(double density, const Options& options) -> double {
   double side = options.cell;
   if (side == 0) {
     side = options.minimum_cell;
-    while (side < options.maximum_cell && side * side * density < options.points_per_cell) side *= 2;
+    // Cells of 2 m lose narrow houses and ridges, which costs more than a few cells without points.
+    const auto enough = [&] { return side < 1 ? options.points_per_cell : options.points_per_large_cell; };
+    while (side < options.maximum_cell && side * side * density < enough()) side *= 2;
   }
   return std::clamp(power(side), 1.0 / 16, 16.0);
 }

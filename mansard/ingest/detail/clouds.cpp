@@ -4,6 +4,7 @@
 #include <cmath>
 #include <mutex>
 
+#include "mansard/base/statistics.hpp"
 #include "mansard/base/stopped.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/cloud/cloud.hpp"
@@ -47,6 +48,47 @@ auto measured(const formats::PointCloud& cloud, const base::Run& run) -> base::R
   return all;
 }
 
+/// Clouds are often cut out along a street, or of one building: the box around them is mostly empty then. Points in
+/// a square of a metre that has any, the median: edges and single points in the air count little. Of some pieces of the
+/// cloud, evenly spaced. Pieces with a box are levels of an index, each with a part of the points at its place, and say
+/// nothing: 0.
+auto density_where_points_are(const formats::PointCloud& cloud, const std::optional<crs::WayOfMesh>& way,
+                              const base::Run& run) -> base::Result<double> {
+  constexpr std::size_t most = 4;  // pieces; 50,000 points each in most files
+  std::vector<std::size_t> chosen;
+  for (std::size_t k = 0; k < std::min(most, cloud.pieces()); ++k)
+    chosen.push_back(k * cloud.pieces() / std::min(most, cloud.pieces()));
+  std::vector<double> densities(chosen.size(), 0);
+  std::vector<std::optional<base::Failure>> failures(chosen.size());
+  base::parallel_for(chosen.size(), [&](std::size_t i) {
+    if (run.cancelled() || cloud.box_of(chosen[i])) return;
+    const auto points = cloud.read(chosen[i]);
+    if (!points) {
+      failures[i] = points.failure();
+      return;
+    }
+    std::vector<Point3> positions;
+    for (const auto& p : *points)
+      if (finite(p.position)) positions.push_back(p.position);
+    if (positions.empty()) return;
+    if (way) way->take(positions);
+    std::vector<std::array<double, 2>> squares;
+    squares.reserve(positions.size());
+    for (const auto& p : positions) squares.push_back({std::floor(p.x), std::floor(p.y)});
+    std::ranges::sort(squares);
+    std::vector<double> counts;
+    for (auto at = squares.begin(); at != squares.end();) {
+      const auto end = std::upper_bound(at, squares.end(), *at);
+      counts.push_back(static_cast<double>(end - at));
+      at = end;
+    }
+    densities[i] = base::median(std::move(counts));
+  });
+  for (const auto& failure : failures)
+    if (failure) return *failure;
+  return densities.empty() ? 0 : base::median(std::move(densities));
+}
+
 auto percent(std::uint64_t part, std::uint64_t whole) -> std::string {
   return base::to_text(whole == 0 ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole), 1) + " %";
 }
@@ -76,7 +118,9 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
   if (clouds.empty()) return std::vector<formats::MeshPiece>();
   const std::string subject = clouds.front()->path.string() + (clouds.size() > 1 ? " and others" : "");
 
-  // The same for every part of the clouds that is read: of all their headers, the middle one.
+  // The same for every part of the clouds that is read: of all files, the middle one. Of a folder with more files than
+  // these, those in the middle are not cut out of anything, and their headers are right.
+  constexpr std::size_t few = 8;
   std::vector<double> densities;
   for (const auto* source : clouds) {
     const auto& info = source->cloud->info();
@@ -89,7 +133,13 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
       if (!box) return box.failure();
       area = box->empty() ? 0 : area_of(*box, source->way);
     }
-    if (area > 0) densities.push_back(static_cast<double>(info.points) / area);
+    if (!(area > 0)) continue;
+    densities.push_back(static_cast<double>(info.points) / area);
+    if (clouds.size() > few) continue;
+    const auto seen = density_where_points_are(*source->cloud, source->way, run);
+    if (!seen) return seen.failure();
+    constexpr double cut_out = 1.5;  // a third of the box is empty; roads, water and edges alone leave less
+    if (*seen > cut_out * densities.back()) densities.back() = *seen;
   }
   const auto none = [&](const std::string& what) { return base::error("ingest-points-empty", what, subject); };
   if (densities.empty()) return none("there are no points in it; check what it is");
@@ -151,6 +201,7 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
   std::vector<formats::MeshPiece> pieces(tiles.size());
   std::vector<cloud::GroundTile> grounds(tiles.size());
   cloud::Counts counts;
+  std::size_t triangles = 0;
   std::mutex mutex;
   base::parallel_for(tiles.size(), [&](std::size_t i) {
     if (run.cancelled()) return;
@@ -162,9 +213,11 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
     pieces[i].mesh.vertices = std::move(made->mesh.vertices);
     pieces[i].mesh.triangles = std::move(made->mesh.triangles);
     grounds[i] = std::move(made->ground);
+    const auto own = pieces[i].mesh.triangles.size();
     if (cells_ != nullptr) into_cells(pieces[i]);
     const std::scoped_lock lock(mutex);
     counts.include(made->counts);
+    triangles += own;
   });
   if (run.cancelled()) return base::stopped();
   for (const auto& piece : pieces)
@@ -172,7 +225,10 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
   if (counts.points == 0)
     return none(within ? "no point is in the box asked for; check --bbox, --crs and --mesh-offset"
                        : "no point can be used: all are noise, or their coordinates are not finite");
-  if (counts.cells == 0) return none("its points are vegetation, noise or wires only; nothing can be a surface");
+  if (triangles == 0)
+    return none("none of its " + std::to_string(counts.points) +
+                " points can be a surface: they are vegetation, noise or wires, or too few are beside each other; see "
+                "cloud.cell and cloud.isolated");
   out.ground = cloud::join(grounds, options_.cloud.ground_reach);
   warnings_.push_back(
       base::warning("ingest-points-surface", in_words(counts, density, cell, out.ground.has_value()), subject));
