@@ -1,5 +1,6 @@
 // Two plans as one: corners brought together, the wall between them taken out, the outline traced again.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -195,6 +196,7 @@ auto merge(const model::Plan& first, const model::Plan& second) -> base::Result<
   outline.outer = without(corners, number_of, std::move(outline.outer));
   for (auto& hole : outline.holes) hole = without(corners, number_of, std::move(hole));
   auto plan = detail::plan_of(std::move(outline), profiles, base, std::max(first.cap + rise, second.cap + other_rise));
+  detail::keep_overhangs(std::array{&first, &second}, plan);
   if (!geometry::is_simple(model::polygon_of(plan)))
     return refusal("the outline of both would touch itself; merge what lies between them first, or move the corner");
   return plan;

@@ -1,5 +1,6 @@
 // A plan cut along a line: what of the line lies inside becomes walls, and the outlines are traced again.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -191,6 +192,7 @@ auto split(const model::Plan& plan, std::span<const Point2> line) -> base::Resul
   double sum = 0;
   for (auto& piece : *outlines) {
     plans.push_back(detail::plan_of(std::move(piece), profiles, plan.base, plan.cap));
+    detail::keep_overhangs(std::array{&plan}, plans.back());
     const auto ground = model::polygon_of(plans.back());
     const double area = geometry::area(ground);
     sum += area;

@@ -155,7 +155,9 @@ class Moved {
       ring = {};
       for (std::size_t i = 0; i < out_.rings[r].size(); ++i) {
         ring.points.push_back(place(out_.corners[r][i], out_.origin));
-        ring.profile_of_edge.push_back(from.profile_of_edge[out_.rings[r][i].provenance.edge]);
+        const auto edge = out_.rings[r][i].provenance.edge;
+        ring.profile_of_edge.push_back(from.profile_of_edge[edge]);
+        if (!from.overhang_of_edge.empty()) ring.overhang_of_edge.push_back(from.overhang_of_edge[edge]);
       }
     }
     return made;

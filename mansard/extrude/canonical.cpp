@@ -14,7 +14,9 @@ auto ring_of(const detail::Footprint& footprint, std::size_t r, const model::Pla
   for (std::size_t i = 0; i < footprint.rings[r].size(); ++i) {
     const detail::ExactPoint& p = footprint.corners[r][i];
     ring.points.push_back(geometry::Point2{p.x.get_d(), p.y.get_d()} + footprint.origin);
-    ring.profile_of_edge.push_back(from.profile_of_edge[footprint.rings[r][i].provenance.edge]);
+    const auto edge = footprint.rings[r][i].provenance.edge;
+    ring.profile_of_edge.push_back(from.profile_of_edge[edge]);
+    if (!from.overhang_of_edge.empty()) ring.overhang_of_edge.push_back(from.overhang_of_edge[edge]);
   }
   return ring;
 }

@@ -25,6 +25,10 @@ using Profile = std::vector<ProfilePoint>;
 struct PlanRing {
   geometry::Ring points;
   std::vector<std::uint32_t> profile_of_edge;
+  /// Per edge, m: how far the eaves above its wall overhang, if a roof rises from the top of a vertical wall there.
+  /// Empty: nothing overhangs. extrude::raise() makes none of them; solid::with_eaves() does, on the solid of all
+  /// parts.
+  std::vector<double> overhang_of_edge{};
   friend auto operator==(const PlanRing&, const PlanRing&) -> bool = default;
 };
 

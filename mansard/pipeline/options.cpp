@@ -156,6 +156,11 @@ auto codes() -> std::vector<base::Code> {
        0},
       {"pipeline-block", "The segmentation of a block failed, so its footprints became prisms.",
        "The message says why; please report it.", 1},
+      {"pipeline-overhang", "Overhanging eaves of a plan could not be made, and the walls go up to the roof there.",
+       "Look at the corner that is named: another face meets the eaves, or they would run into something. Set the "
+       "edge's "
+       "overhang to 0 to be rid of the message.",
+       0},
       {"pipeline-overlap", "Two solids overlap.", "Look whether the input's footprints overlap, or repeat a building.",
        0},
       {"pipeline-cover-unchecked",

@@ -1,5 +1,9 @@
 #include "mansard/pipeline/solids.hpp"
 
+#include <algorithm>
+
+#include "mansard/base/run.hpp"
+#include "mansard/solid/eaves.hpp"
 #include "mansard/solid/unite.hpp"
 
 namespace mansard::pipeline {
@@ -37,7 +41,51 @@ auto unite_parts(std::span<model::Building> buildings) -> std::vector<SolidsOf> 
   std::vector<std::vector<LabelledSolid*>> models(buildings.size());
   for (std::size_t b = 0; b < buildings.size(); ++b)
     for (auto& part : buildings[b].parts) models[b].push_back(&part.model);
-  return unite_parts(models);
+  auto out = unite_parts(models);
+  base::parallel_for(buildings.size(), [&](std::size_t b) {
+    std::vector<const model::Plan*> plans;
+    for (const auto& part : buildings[b].parts) plans.push_back(&part.plan);
+    out[b] = with_eaves(std::move(out[b]), plans);
+  });
+  return out;
+}
+
+namespace {
+
+/// The edges of a plan that have eaves.
+void add_eaves(const model::Plan& plan, std::vector<solid::Eaves>& wanted) {
+  const auto add = [&](const model::PlanRing& ring) {
+    for (std::size_t i = 0; i < ring.overhang_of_edge.size(); ++i)
+      if (ring.overhang_of_edge[i] > 0)
+        wanted.push_back({ring.points[i], ring.points[(i + 1) % ring.points.size()], ring.overhang_of_edge[i]});
+  };
+  add(plan.outer);
+  for (const auto& hole : plan.holes) add(hole);
+}
+
+}  // namespace
+
+auto has_overhangs(const model::Plan& plan) -> bool {
+  std::vector<solid::Eaves> wanted;
+  add_eaves(plan, wanted);
+  return !wanted.empty();
+}
+
+auto with_eaves(SolidsOf made, std::span<const model::Plan* const> plans) -> SolidsOf {
+  for (auto& one : made.solids) {
+    std::vector<solid::Eaves> wanted;
+    for (const auto p : one.parts)
+      // What became a prism has no roof that could overhang.
+      if (std::ranges::find(made.simplified, p) == made.simplified.end()) add_eaves(*plans[p], wanted);
+    if (wanted.empty()) continue;
+    // Eaves that extrude.overhang made.
+    if (std::ranges::find(one.model.classes, model::FaceClass::soffit) != one.model.classes.end()) continue;
+    auto eaves = solid::with_eaves(one.model, wanted);
+    one.model = std::move(eaves.model);
+    for (const auto& why : eaves.left)
+      made.warnings.push_back(base::warning("pipeline-overhang", "some eaves do not overhang: " + why));
+  }
+  return made;
 }
 
 }  // namespace mansard::pipeline

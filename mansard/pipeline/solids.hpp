@@ -16,9 +16,15 @@ struct SolidsOf {
   std::vector<std::size_t> simplified;     ///< parts whose model is a prism now
 };
 
+/// Overhanging eaves where the plans of a building have them, on its solids. "pipeline-overhang" where they cannot be
+/// made, which leaves the solid there as it was. `plans`: of the building's parts.
+[[nodiscard]] auto with_eaves(SolidsOf made, std::span<const model::Plan* const> plans) -> SolidsOf;
+[[nodiscard]] auto has_overhangs(const model::Plan& plan) -> bool;
+
 /// Of every building, the union of its parts (solid::unite_all), over one plan of each group of buildings that touch.
 /// `buildings[b]` are the models of the parts of b. Those of simplified parts become prisms.
 [[nodiscard]] auto unite_parts(std::span<const std::vector<model::LabelledSolid*>> buildings) -> std::vector<SolidsOf>;
+/// The same, with the overhanging eaves of the plans.
 [[nodiscard]] auto unite_parts(std::span<model::Building> buildings) -> std::vector<SolidsOf>;
 
 }  // namespace mansard::pipeline

@@ -26,6 +26,41 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("low_height", o.low_height, "m", {0, 20},
               "Height above ground below which cars, hedges and shops are expected and tolerances are wide.")
       .source("reference implementation chordatlas: 2 m");
+  list.choice("overhangs", o.overhangs,
+              {{"off", Overhangs::off}, {"measured", Overhangs::measured}, {"soffits", Overhangs::soffits}},
+              "Overhanging eaves of a scan that shows the walls below them: not looked for, measured as attributes, or "
+              "also made, with soffits.")
+      .source("docs/decisions/0088-measured-overhangs.md");
+  list.number("overhang_min", o.overhang_min, "m", {0.01, 3}, "Minimum overhang of eaves that counts.")
+      .source("docs/decisions/0088-measured-overhangs.md");
+  list.number("overhang_max", o.overhang_max, "m", {0.01, 3}, "Maximum overhang of eaves; more is taken for a canopy.")
+      .source("chosen by hand; not measured");
+  list.number("overhang_support", o.overhang_support, "", {0, 1},
+              "Minimum share of an edge's slices that show the wall and an edge of the roof outside of it.")
+      .source("docs/decisions/0088-measured-overhangs.md");
+  list.number("overhang_wall", o.overhang_wall, "m", {0.1, 50}, "Minimum height of wall below overhanging eaves.")
+      .advanced("chosen by hand; not measured");
+  list.number("overhang_clear", o.overhang_clear, "m", {0, 5},
+              "Distance below the lowest possible soffit within which no wall is read.")
+      .advanced("chosen by hand; not measured");
+  list.number("overhang_shadow", o.overhang_shadow, "", {0, 1},
+              "Minimum share of the height of the wall below the eaves that a slice shows.")
+      .advanced("chosen by hand; not measured");
+  list.number("overhang_near", o.overhang_near, "m", {0.05, 5},
+              "Maximum distance between an edge and the wall that is seen below its eaves.")
+      .advanced("chosen by hand; not measured");
+  list.number("overhang_agree", o.overhang_agree, "m", {0.01, 5},
+              "Slices whose wall is farther than this from the median of their edge do not count.")
+      .advanced("chosen by hand; not measured");
+  list.number("overhang_level", o.overhang_level, "m", {0.01, 1},
+              "Distance between the heights at which a slice is read at the edge of a roof.")
+      .advanced("a tenth of a usual overhang; not measured");
+  list.number("overhang_melt", o.overhang_melt, "m", {0.01, 2},
+              "Distance over which a scan rounds off the edge of a roof; the roof is read from three times that on.")
+      .advanced("the smoothing of simulated scans; not measured");
+  list.number("overhang_hidden", o.overhang_hidden, "m", {0, 2},
+              "Maximum distance between the outermost point that a scan shows of eaves and the edge of their roof.")
+      .advanced("docs/decisions/0088-measured-overhangs.md");
   list.number("slice_outward", o.slice_outward, "m", {0, 50}, "Distance outside an edge at which its slices begin.")
       .advanced("chosen by hand; not measured");
   list.number("slice_inward", o.slice_inward, "m", {1, 1000}, "Maximum length of a slice inside an edge.")

@@ -11,6 +11,9 @@ namespace mansard::profile {
 /// One vertical line; at most one pitch; all that is supported.
 enum class Quality : std::uint8_t { simple, moderate, high };
 
+/// Overhanging eaves: not looked for; measured and told; measured and made.
+enum class Overhangs : std::uint8_t { off, measured, soffits };
+
 struct Options {
   Quality quality = Quality::high;
   double spacing = 0.2;         ///< m between perpendicular slices along an edge
@@ -20,6 +23,21 @@ struct Options {
   double vertical_angle = 0.1;  ///< rad; lines this near to vertical become vertical
   double run_angle = 0.1;       ///< rad; edges turning less than this share a profile
   double low_height = 2.0;      ///< m above ground; below, tolerances are wider (cars, hedges, shops)
+
+  Overhangs overhangs = Overhangs::off;
+  double overhang_min = 0.15;     ///< m
+  double overhang_max = 1.5;      ///< m
+  double overhang_support = 0.4;  ///< share of an edge's slices that show the wall and the edge of the roof above it
+
+  // Overhanging eaves.
+  double overhang_wall = 0.8;    ///< m of wall below the eaves, at least
+  double overhang_clear = 0.3;   ///< m below the deepest edge of the roof, and above low_height, where no wall is read
+  double overhang_shadow = 0.5;  ///< share of the wall's height between these that a slice must show
+  double overhang_near = 0.5;    ///< m between the plan's edge and the wall, at most
+  double overhang_agree = 0.15;  ///< m; slices whose wall is farther from the median do not count
+  double overhang_level = 0.05;  ///< m between heights of the scan that are read
+  double overhang_melt = 0.3;    ///< m; a scan rounds edges off over about so much
+  double overhang_hidden = 0.5;  ///< m; of the edge of a roof, a sharp wedge, more than that
 
   // Slices.
   double slice_outward = 2.0;    ///< m outside the edge where a slice begins

@@ -94,6 +94,10 @@ auto attributes() -> std::vector<formats::Attribute> {
   add("ms_refined", part, "string", "",
       "What measured error changed of the part's plan, in words, with sizes, errors and costs; absent where nothing "
       "was.");
+  add("ms_overhang", both, "number", "m",
+      "Mean overhang of the eaves that overhang, by length; only with profile.overhangs, absent where none were seen.");
+  add("ms_overhang_share", both, "number", "",
+      "Share of the length of the eaves that overhangs, 0 to 1; only with ms_overhang.");
   add("ms_block", part, "string", "", "The block; only with a mesh.");
   add("ms_opt_status", part, "string", "",
       "How the block's integer program ended: optimal, stopped, empty or failed; only with a mesh.");

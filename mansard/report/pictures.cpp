@@ -108,10 +108,20 @@ void append(const model::LabelledSolid& model, picture::Layer& layer, More more)
   }
 }
 
+/// Eaves are on the solids of parts together.
+auto has_soffits(const model::Building& building) -> bool {
+  return std::ranges::any_of(building.solids, [](const model::PartsSolid& one) {
+    return std::ranges::find(one.model.classes, model::FaceClass::soffit) != one.model.classes.end();
+  });
+}
+
 auto models_of(const model::City& city) -> picture::Layer {
   picture::Layer layer;
   for (const auto& building : city.buildings)
-    for (const auto& part : building.parts) append(part.model, layer, [](std::uint32_t) {});
+    if (has_soffits(building))
+      for (const auto& one : building.solids) append(one.model, layer, [](std::uint32_t) {});
+    else
+      for (const auto& part : building.parts) append(part.model, layer, [](std::uint32_t) {});
   return layer;
 }
 

@@ -9,6 +9,7 @@
 #include "mansard/geometry/change.hpp"
 #include "mansard/model/file_grid.hpp"
 #include "mansard/solid/detail/roof_field.hpp"
+#include "mansard/solid/eaves.hpp"
 #include "mansard/solid/flat_roof.hpp"
 #include "mansard/solid/solid.hpp"
 
@@ -237,7 +238,8 @@ auto option_list(LevelOptions& o) -> base::OptionList {
           .advanced("more than half: an annex beside a house touches it on one side of four"));
 }
 
-auto main_roofs(const LabelledSolid& solid, const LevelOptions& options) -> LabelledSolid {
+auto main_roofs(const LabelledSolid& whole, const LevelOptions& options) -> LabelledSolid {
+  const LabelledSolid solid = without_eaves(whole);
   auto field = detail::roof_field(solid);
   if (!field || field->pieces < 2) return solid;
   const double base = ground_level(solid);
@@ -281,14 +283,16 @@ auto with_terraces(const RoofField& field, const Terraces& terraces, const Label
 
 }  // namespace
 
-auto flat_pieces(const LabelledSolid& solid, const LevelOptions& options) -> LabelledSolid {
+auto flat_pieces(const LabelledSolid& whole, const LevelOptions& options) -> LabelledSolid {
+  const LabelledSolid solid = without_eaves(whole);
   const auto field = detail::roof_field(solid);
   if (!field || field->pieces < 2) return {};
   const auto terraces = terraces_of(*field, options.lod13_step);
   return terraces.height.size() < 2 ? LabelledSolid() : with_terraces(*field, terraces, solid);
 }
 
-auto flat_roof(const LabelledSolid& solid, double z) -> LabelledSolid {
+auto flat_roof(const LabelledSolid& whole, double z) -> LabelledSolid {
+  const LabelledSolid solid = without_eaves(whole);
   const auto field = detail::roof_field(solid);
   if (!field || !(z > ground_level(solid))) return {};
   return with_terraces(*field, {std::vector<std::uint32_t>(field->pieces, 0), {{0, on_grid(z)}}}, solid);

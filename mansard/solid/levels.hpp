@@ -19,8 +19,9 @@ struct LevelOptions {
 /// LoD 2.0: the solid without dormers, chimneys and other small structures on its roofs; the planes of the roof around
 /// each are continued over it. Guarantees: 1 the result is valid by written_rules() where the solid is · 2 it has the
 /// same ground, so that solids that did not overlap do not overlap now · 3 it has no more faces · 4 where that cannot
-/// be made, nothing is left out: the solid itself. Solids with overhanging eaves or with ground at several heights are
-/// returned as they are. Cost: O(n log n) for n edges, once for structures on the roof and once for those on these.
+/// be made, nothing is left out: the solid itself. Eaves do not overhang (without_eaves). Solids with ground at several
+/// heights are returned as they are. Cost: O(n log n) for n edges, once for structures on the roof and once for those
+/// on these.
 [[nodiscard]] auto main_roofs(const model::LabelledSolid& solid, const LevelOptions& options = {})
     -> model::LabelledSolid;
 

@@ -40,6 +40,34 @@ TEST(Split, cuts_a_house_into_two_that_keep_its_profiles_and_share_a_wall) {
   }
 }
 
+TEST(Split, leaves_eaves_with_the_edges_that_have_them_and_merge_brings_them_together) {
+  auto house = test::house();
+  house.outer.overhang_of_edge.assign(house.outer.points.size(), 0);
+  const auto overhang_at = [](const Plan& plan, Point2 at) {
+    for (std::size_t i = 0; i < plan.outer.overhang_of_edge.size(); ++i)
+      if (const auto& a = plan.outer.points[i], &b = plan.outer.points[(i + 1) % plan.outer.points.size()];
+          geometry::distance({a, b}, at) < 0.01)
+        return plan.outer.overhang_of_edge[i];
+    return -1.0;
+  };
+  for (std::size_t i = 0; i < house.outer.points.size(); ++i)
+    if (house.outer.points[i].y == 0 && house.outer.points[(i + 1) % house.outer.points.size()].y == 0)
+      house.outer.overhang_of_edge[i] = 0.4;
+  const auto pieces = split_at(house, {{6, -1}, {6, 9}});
+  ASSERT_EQ(pieces.size(), 2U);
+  for (const auto& piece : pieces) {
+    ASSERT_EQ(piece.outer.overhang_of_edge.size(), piece.outer.points.size());
+    EXPECT_EQ(overhang_at(piece, {&piece == &pieces[0] ? 3.0 : 8.0, 0}), 0.4);
+    EXPECT_EQ(overhang_at(piece, {&piece == &pieces[0] ? 3.0 : 8.0, 8}), 0);
+    EXPECT_EQ(overhang_at(piece, {6, 4}), 0);
+  }
+  const auto whole = merge(pieces[0], pieces[1]);
+  ASSERT_TRUE(whole) << base::to_string(whole.error());
+  EXPECT_EQ(overhang_at(*whole, {3, 0}), 0.4);
+  EXPECT_EQ(overhang_at(*whole, {3, 8}), 0);
+  EXPECT_TRUE(split_at(test::house(), {{6, -1}, {6, 9}})[0].outer.overhang_of_edge.empty());
+}
+
 TEST(Split, follows_a_line_with_corners) {
   const auto pieces = split_at(test::house(), {{4, -1}, {4, 4}, {7, 4}, {7, 9}});
   ASSERT_EQ(pieces.size(), 2U);

@@ -110,6 +110,8 @@ TEST_F(Plans, come_back_to_the_bit_whatever_the_numbers) {
             out.points.push_back({wild(), wild()});
             out.profile_of_edge.push_back(static_cast<std::uint32_t>(random.index(part.plan.profiles.size())));
           }
+          if (random.index(2) == 0)
+            for (std::size_t i = 0; i < out.points.size(); ++i) out.overhang_of_edge.push_back(random.uniform(0, 3));
           return out;
         };
         part.plan.outer = ring();
@@ -122,6 +124,31 @@ TEST_F(Plans, come_back_to_the_bit_whatever_the_numbers) {
     ASSERT_TRUE(back) << to_string(back.error());
     expect_same(city, *back);
   }
+}
+
+TEST_F(Plans, have_an_overhang_for_each_edge_or_none) {
+  auto city = street();
+  auto& ring = city.buildings[0].parts[0].plan.outer;
+  const std::string none = mansard::formats::plans(city);
+  EXPECT_EQ(none.find("overhang"), std::string::npos) << "files without overhangs are as they were";
+  ring.overhang_of_edge.assign(ring.points.size(), 0.35);
+  const std::string text = mansard::formats::plans(city);
+  const auto back = read(text);
+  ASSERT_TRUE(back) << to_string(back.error());
+  EXPECT_EQ(back->buildings[0].parts[0].plan, city.buildings[0].parts[0].plan);
+  const auto schema =
+      mansard::base::read_file(std::filesystem::path(MANSARD_TEST_DATA) / "../../docs/plan.schema.json");
+  EXPECT_EQ(schema::first_fault(Json::parse(*schema), Json::parse(text)), "");
+
+  const auto refused = [&](const Json& overhangs) {
+    Json json = Json::parse(text);
+    json["buildings"][0]["parts"][0]["plan"]["outer"]["overhang_of_edge"] = overhangs;
+    const auto read_back = read(json.dump());
+    return read_back ? std::string() : read_back.error().message;
+  };
+  EXPECT_THAT(refused({0.1, 0.2}), HasSubstr("overhang_of_edge has 2 entries for 4 points"));
+  EXPECT_THAT(refused({0.1, 0.2, -0.1, 0}), HasSubstr("overhang_of_edge[2]"));
+  EXPECT_THAT(refused({0.1, 0.2, 0.1, 3.5}), HasSubstr("an overhang of 0 to 3 m"));
 }
 
 TEST_F(Plans, follow_the_published_schema) {

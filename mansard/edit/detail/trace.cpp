@@ -1,6 +1,7 @@
 #include "mansard/edit/detail/trace.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <utility>
@@ -111,6 +112,40 @@ auto plan_of(Outline outline, const std::vector<model::Profile>& profiles, doubl
   use(plan.outer, index_of);
   for (auto& hole : plan.holes) use(hole, index_of);
   return plan;
+}
+
+namespace {
+
+/// In one direction, within a hundredth.
+auto parallel(Point2 a, Point2 b) -> bool { return dot(a, b) > 0 && std::abs(cross(a, b)) <= 0.01 * dot(a, b); }
+
+}  // namespace
+
+void keep_overhangs(std::span<const model::Plan* const> from, model::Plan& plan) {
+  const auto each_ring = [](auto& of, auto visit) {
+    visit(of.outer);
+    for (auto& hole : of.holes) visit(hole);
+  };
+  /// Of the edge from a to b; 0 where it is part of none that overhangs.
+  const auto overhang_of = [&](Point2 a, Point2 b) {
+    double found = 0;
+    for (const auto* other : from)
+      each_ring(*other, [&](const model::PlanRing& ring) {
+        for (std::size_t i = 0; i < ring.overhang_of_edge.size(); ++i) {
+          const geometry::Segment2 edge{ring.points[i], ring.points[(i + 1) % ring.points.size()]};
+          if (parallel(edge.end - edge.start, b - a) && geometry::distance(edge, 0.5 * (a + b)) <= snap)
+            found = std::max(found, ring.overhang_of_edge[i]);
+        }
+      });
+    return found;
+  };
+  each_ring(plan, [&](model::PlanRing& ring) {
+    std::vector<double> overhangs;
+    for (std::size_t i = 0; i < ring.points.size(); ++i)
+      overhangs.push_back(overhang_of(ring.points[i], ring.points[(i + 1) % ring.points.size()]));
+    const bool any = std::ranges::any_of(overhangs, [](double o) { return o > 0; });
+    ring.overhang_of_edge = any ? std::move(overhangs) : std::vector<double>();
+  });
 }
 
 auto edges_of(const model::Plan& plan) -> std::vector<Edge> {

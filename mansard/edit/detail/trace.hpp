@@ -44,6 +44,9 @@ struct Outline {
 [[nodiscard]] auto plan_of(Outline outline, const std::vector<model::Profile>& profiles, double base, double cap)
     -> model::Plan;
 
+/// Gives the edges of a plan the overhangs of those edges of others that their middles are on.
+void keep_overhangs(std::span<const model::Plan* const> from, model::Plan& plan);
+
 /// The edges of all rings of the plan, labelled by their profiles.
 [[nodiscard]] auto edges_of(const model::Plan& plan) -> std::vector<Edge>;
 

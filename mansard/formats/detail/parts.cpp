@@ -116,7 +116,13 @@ void append_plan(JsonText& json, const model::Plan& plan, int level) {
     append_ring(json.begin_object().key("points"), ring.points);
     json.key("profile_of_edge").begin_array();
     for (const auto profile : ring.profile_of_edge) json.whole(profile);
-    json.end_array().end_object();
+    json.end_array();
+    if (!ring.overhang_of_edge.empty()) {
+      json.key("overhang_of_edge").begin_array();
+      for (const double overhang : ring.overhang_of_edge) json.number(overhang);
+      json.end_array();
+    }
+    json.end_object();
   };
   line().key("base").number(plan.base);
   line().key("cap").number(plan.cap);

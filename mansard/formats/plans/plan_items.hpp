@@ -11,9 +11,10 @@
 namespace mansard::formats::detail {
 
 /// Limits of docs/plan.schema.json, m: of coordinates from the origin of their frame, of the origin, of caps, of points
-/// of profiles. Doubles are 1.5e-8 m apart at the first and 1.2e-7 m at the second, where files have 1e-4 m; the others
-/// are those of the extrusion.
-inline constexpr double farthest = 1e8, farthest_origin = 1e9, highest_cap = 1e5, longest_profile = 1e6;
+/// of profiles, of overhangs. Doubles are 1.5e-8 m apart at the first and 1.2e-7 m at the second, where files have
+/// 1e-4 m; the others are those of the extrusion.
+inline constexpr double farthest = 1e8, farthest_origin = 1e9, highest_cap = 1e5, longest_profile = 1e6,
+                        farthest_overhang = 3;
 
 /// "type", "version", "made_by" and "frame"; `others` are members that the file may have beside them.
 [[nodiscard]] auto read_header(const Item& item, std::initializer_list<const char*> others) -> Header;

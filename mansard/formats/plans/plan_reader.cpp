@@ -37,7 +37,7 @@ auto read_polygon(const Item& item) -> geometry::Polygon {
 }
 
 auto read_plan_ring(const Item& item, std::size_t profiles) -> model::PlanRing {
-  item.object({"points", "profile_of_edge"});
+  item.object({"points", "profile_of_edge", "overhang_of_edge"});
   model::PlanRing ring;
   ring.points = read_ring(item.member("points"));
   const Item edges = item.member("profile_of_edge");
@@ -52,6 +52,18 @@ auto read_plan_ring(const Item& item, std::size_t profiles) -> model::PlanRing {
     throw Defect{"write-plan-value", edges.where() + " has " + std::to_string(ring.profile_of_edge.size()) +
                                          " entries for " + std::to_string(ring.points.size()) +
                                          " points; give one profile per edge"};
+  if (!item.has("overhang_of_edge")) return ring;
+  const Item overhangs = item.member("overhang_of_edge");
+  overhangs.each([&](const Item& overhang) {
+    const double metres = overhang.number();
+    if (!(metres >= 0 && metres <= farthest_overhang))
+      overhang.refuse("an overhang of 0 to " + base::to_text(farthest_overhang, 0) + " m");
+    ring.overhang_of_edge.push_back(metres);
+  });
+  if (ring.overhang_of_edge.size() != ring.points.size())
+    throw Defect{"write-plan-value", overhangs.where() + " has " + std::to_string(ring.overhang_of_edge.size()) +
+                                         " entries for " + std::to_string(ring.points.size()) +
+                                         " points; give one overhang per edge, 0 where nothing overhangs"};
   return ring;
 }
 

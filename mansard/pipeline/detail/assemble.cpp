@@ -69,7 +69,7 @@ void add_solids(model::Building& building, report::BuildingReport& report, Solid
   }
   for (auto& warning : made.warnings) {
     warning.subject = building.id;
-    if (warning.code != "solid-not-united" && warning.code != "solid-parted")
+    if (warning.code != "solid-not-united" && warning.code != "solid-parted" && warning.code != "pipeline-overhang")
       report.outcome = report::Outcome::fallback;
     report.reasons.push_back(std::move(warning));
   }
@@ -86,6 +86,7 @@ auto attributes_of(const PartResult& part, const report::BlockReport& block, dou
     for (const auto& change : part.changes) words += (words.empty() ? "" : "; ") + change;
     out.emplace_back("ms_refined", words);
   }
+  add_eaves(part.eaves, out);
   out.emplace_back("ms_block", block.name);
   out.emplace_back("ms_opt_status", block.status);
   out.emplace_back("ms_opt_gap", block.objective - block.bound);

@@ -3,6 +3,7 @@
 #include "mansard/base/statistics.hpp"
 #include "mansard/pipeline/detail/assemble.hpp"
 #include "mansard/pipeline/detail/left_out.hpp"
+#include "mansard/pipeline/detail/overhangs.hpp"
 #include "mansard/pipeline/detail/shown.hpp"
 #include "mansard/pipeline/detail/uncovered.hpp"
 #include "mansard/report/attributes.hpp"
@@ -210,6 +211,16 @@ auto unite(std::vector<PartResult>& parts) -> std::vector<std::pair<std::size_t,
   return out;
 }
 
+}  // namespace
+
+void add_eaves(const PartResult::EavesSeen& eaves, model::Attributes& attributes) {
+  if (eaves.overhanging == 0) return;
+  attributes.emplace_back("ms_overhang", report::rounded_measure(eaves.area / eaves.overhanging));
+  attributes.emplace_back("ms_overhang_share", report::rounded_measure(eaves.overhanging / eaves.length));
+}
+
+namespace {
+
 /// Every feature's attributes that take the mesh.
 auto measured(const block::Block& block, const rays::Scene& mesh, const std::vector<PartResult>& parts,
               const std::vector<std::pair<std::size_t, SolidsOf>>& solids, const Options& options)
@@ -230,6 +241,14 @@ auto measured(const block::Block& block, const rays::Scene& mesh, const std::vec
     feature = member.feature;
     if (!building.solids.empty())
       attributes = report::level_measures(building, {}, options.write.levels, &mesh, options.evaluate.grid);
+    PartResult::EavesSeen eaves;
+    for (const auto& part : parts)
+      if (part.feature == member.feature) {
+        eaves.length += part.eaves.length;
+        eaves.overhanging += part.eaves.overhanging;
+        eaves.area += part.eaves.area;
+      }
+    add_eaves(eaves, attributes);
     const auto seen = report::coverage(mesh, member.polygons, options.roof_grid);
     attributes.emplace_back("ms_nodata_share", seen.missing);
     attributes.emplace_back("ms_nodata_radius", seen.radius);
@@ -275,6 +294,9 @@ auto run_block(const block::Block& block, const Options& options, const base::Ru
   }
   report.parts = parts.size();
   out.solids = stage("unite", tell, report, [&] { return unite(parts); });
+  if (options.profile.overhangs != profile::Overhangs::off)
+    out.solids = stage("overhangs", tell, report,
+                       [&] { return with_overhangs(shown.block().mesh, options, run, parts, std::move(out.solids)); });
   out.measures = stage("measure", tell, report, [&] { return measured(block, mesh, parts, out.solids, options); });
 
   std::vector<model::LabelledSolid> models;

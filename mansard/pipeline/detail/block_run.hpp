@@ -36,6 +36,10 @@ struct PartResult {
   std::vector<std::string> changes;  ///< what measured error changed of its plan, in words
   std::vector<double> roof;          ///< z of the model's top surface on a grid, sorted, local frame
   std::optional<double> mse;         ///< m² against the mesh
+  /// The eaves that its plan has, m, how much of them overhangs in the scan, and the area below that.
+  struct EavesSeen {
+    double length = 0, overhanging = 0, area = 0;
+  } eaves{};
 };
 
 struct BlockResult {
@@ -62,6 +66,9 @@ struct BlockResult {
   std::vector<base::Diagnostic> warnings;
   std::optional<report::SegmentedBlock> segmented;  ///< with Keep::segmentations
 };
+
+/// "ms_overhang" and "ms_overhang_share", where some eaves overhang.
+void add_eaves(const PartResult::EavesSeen& eaves, model::Attributes& attributes);
 
 /// The warning that the union of a place's footprints could not be computed for its scores.
 [[nodiscard]] auto union_unknown(const std::string& subject) -> base::Diagnostic;

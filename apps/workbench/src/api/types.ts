@@ -8,6 +8,7 @@ export type ProfilePoint = [inward: number, height: number];
 export interface PlanRing {
   points: Point2[];
   profile_of_edge: number[];
+  overhang_of_edge?: number[]; // of the eaves; absent: nowhere
 }
 /** The editable source of a part, as in plans.json. The outer ring is counter-clockwise, holes are clockwise. */
 export interface Plan {

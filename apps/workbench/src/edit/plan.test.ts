@@ -57,6 +57,17 @@ describe("corners", () => {
     expect(profiles(deleteVertex(house(), at(0))!)).toEqual([gable, roof, roof]);
   });
 
+  it("keep overhangs with their edges", () => {
+    const eaves = { ...house(), outer: { ...house().outer, overhang_of_edge: [0.4, 0, 0.6, 0] } };
+    expect(insertVertex(eaves, at(2), [5, 8]).outer.overhang_of_edge).toEqual([0.4, 0, 0.6, 0.6, 0]);
+    expect(deleteVertex(eaves, at(1))!.outer.overhang_of_edge).toEqual([0.4, 0.6, 0]);
+    expect(clean(eaves).outer.overhang_of_edge).toEqual([0.4, 0, 0.6, 0]);
+    expect(setProfile(eaves, [at(1)], steeper).outer.overhang_of_edge).toEqual([0.4, 0, 0.6, 0]);
+    const backward = { ...eaves, outer: { ...eaves.outer, points: [...eaves.outer.points].reverse() } };
+    expect(oriented(backward).outer.overhang_of_edge).toEqual([0.6, 0, 0.4, 0]);
+    expect(insertVertex(house(), at(0), [5, 0]).outer).not.toHaveProperty("overhang_of_edge");
+  });
+
   it("of a triangle cannot be deleted; of a triangular hole, they delete the hole", () => {
     const triangle = withCorners([
       [0, 0],

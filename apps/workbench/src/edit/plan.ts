@@ -80,17 +80,23 @@ export function moveEdge(plan: Plan, at: EdgeAt, by: number): Plan {
   return withPoints(plan, at.ring, (p, i) => (i === at.edge ? first : i === next ? second : p));
 }
 
+/** The overhangs of a ring's edges after a change of its edges; nothing where it has none. */
+const overhangs = (ring: PlanRing, change: (values: number[]) => number[]): Partial<PlanRing> =>
+  ring.overhang_of_edge ? { overhang_of_edge: change(ring.overhang_of_edge) } : {};
+
 /** Inserts a corner on an edge; both halves keep its profile. */
 export function insertVertex(plan: Plan, at: EdgeAt, point: Point2): Plan {
   const ring = ringOf(plan, at.ring);
   if (!ring || at.edge >= ring.points.length) return plan;
+  const twice = (values: number[]) => [
+    ...values.slice(0, at.edge + 1),
+    values[at.edge]!,
+    ...values.slice(at.edge + 1),
+  ];
   return withRing(plan, at.ring, {
     points: [...ring.points.slice(0, at.edge + 1), point, ...ring.points.slice(at.edge + 1)],
-    profile_of_edge: [
-      ...ring.profile_of_edge.slice(0, at.edge + 1),
-      ring.profile_of_edge[at.edge]!,
-      ...ring.profile_of_edge.slice(at.edge + 1),
-    ],
+    profile_of_edge: twice(ring.profile_of_edge),
+    ...overhangs(ring, twice),
   });
 }
 
@@ -103,11 +109,14 @@ export function deleteVertex(plan: Plan, at: EdgeAt): Plan | null {
   const previous = before(ring, at.edge);
   const corner = ring.points[at.edge]!;
   const keepsOwn = distance(corner, ring.points[after(ring, at.edge)]!) > distance(ring.points[previous]!, corner);
-  const profiles = ring.profile_of_edge.map((p, i) =>
-    i === previous && keepsOwn ? ring.profile_of_edge[at.edge]! : p,
-  );
   const others = <T>(values: T[]) => values.filter((_, i) => i !== at.edge);
-  return withRing(plan, at.ring, { points: others(ring.points), profile_of_edge: others(profiles) });
+  const joined = (values: number[]) =>
+    others(values.map((value, i) => (i === previous && keepsOwn ? values[at.edge]! : value)));
+  return withRing(plan, at.ring, {
+    points: others(ring.points),
+    profile_of_edge: joined(ring.profile_of_edge),
+    ...overhangs(ring, joined),
+  });
 }
 
 /** Adds a courtyard with walls up to the cap. The points may have any orientation; the hole is clockwise. */
@@ -159,6 +168,7 @@ export function clean(plan: Plan): Plan {
       const known = kept.findIndex((k) => same(k, profile));
       return known >= 0 ? known : kept.push(profile) - 1;
     }),
+    ...overhangs(ring, (values) => values),
   });
   const outer = renamed(plan.outer);
   const holes = plan.holes.map(renamed);
@@ -170,10 +180,16 @@ export function clean(plan: Plan): Plan {
 export function oriented(plan: Plan): Plan {
   const turned = (ring: PlanRing, r: number): PlanRing => {
     if (area(ring.points) >= 0 === (r === 0)) return ring;
-    const profiles = [...ring.profile_of_edge].reverse();
     // Edge i now runs from the old corner n − 1 − i to the one before it: the old edge n − 2 − i.
-    profiles.push(profiles.shift()!);
-    return { points: [...ring.points].reverse(), profile_of_edge: profiles };
+    const backward = (values: number[]) => {
+      const all = [...values].reverse();
+      return [...all.slice(1), all[0]!];
+    };
+    return {
+      points: [...ring.points].reverse(),
+      profile_of_edge: backward(ring.profile_of_edge),
+      ...overhangs(ring, backward),
+    };
   };
   return { ...plan, outer: turned(plan.outer, 0), holes: plan.holes.map((h, i) => turned(h, i + 1)) };
 }
