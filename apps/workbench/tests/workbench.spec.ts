@@ -594,6 +594,27 @@ const topOf = (page: Page, id: string) =>
     return view.project(building)!;
   }, id);
 
+/** How many pixels of the view have one of these colours. */
+async function pixels(page: Page, colours: [number, number, number][]) {
+  const png = (await canvas(page).screenshot()).toString("base64");
+  return page.evaluate(
+    async ([bytes, wanted]) => {
+      const image = await createImageBitmap(new Blob([Uint8Array.from(atob(bytes), (c) => c.charCodeAt(0))]));
+      const surface = new OffscreenCanvas(image.width, image.height).getContext("2d")!;
+      surface.drawImage(image, 0, 0);
+      const { data } = surface.getImageData(0, 0, image.width, image.height);
+      let count = 0;
+      for (let i = 0; i < data.length; i += 4)
+        if (wanted.some((c) => c.every((value, k) => Math.abs(value - data[i + k]!) <= 1))) ++count;
+      return count;
+    },
+    [png, colours] as const,
+  );
+}
+/** The inside of the walls of the selected building, and of others, and the fill of a cut, as materials.ts has them. */
+const insides: [number, number, number][] = [[66, 76, 91], [73, 72, 69]];
+const fill: [number, number, number][] = [[138, 127, 116]];
+
 test("a section plane goes through the selection, in any direction, and is filled", { tag: "@firefox" }, async ({ clean: page, server }) => {
   await openSample(page, server);
   await reconstruct(page, "cut");
@@ -608,6 +629,8 @@ test("a section plane goes through the selection, in any direction, and is fille
   await page.getByRole("button", { name: "At the selection" }).click();
   await idle(page);
   expect(await filled(page), "the cut of the house is filled").toBeGreaterThan(0);
+  expect(await pixels(page, fill)).toBeGreaterThan(5000);
+  expect(await pixels(page, insides), "pixels through which the inside of a solid is seen").toBeLessThan(200);
   expect((await canvas(page).screenshot()).equals(before)).toBe(false);
   const controls = page.getByRole("group", { name: "Section plane" });
   await controls.getByLabel("Direction of the plane's normal").fill("33");

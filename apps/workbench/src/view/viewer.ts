@@ -10,7 +10,7 @@ import { combine, textureOf } from "./errormap";
 import { type Box, boxOf, emptyBox, grow, isEmpty } from "./geometry";
 import { Highlight, type RawClimbs } from "./highlight";
 import type { Choices } from "./layers";
-import { Marks, Segments, Sheet, WideLines, flat } from "./lines";
+import { Cap, Marks, Segments, Sheet, WideLines, flat } from "./lines";
 import { colours } from "./materials";
 import { Output } from "./output";
 import { Others } from "./others";
@@ -55,7 +55,7 @@ const flightSeconds = 0.6;
 const background = { light: 0xf6f6f3, dark: 0x1b1e23 };
 const nearCorner = 14; // pixels between a click and the corner of a footprint
 const restMilliseconds = 60; // after which the point under the pointer is looked for in the scan
-const inside = 0.003; // m; by which a cap is moved off its plane, which would hide it
+const before = 0.003; // m; by which the outlines of a cut are in front of it
 
 export class Viewer {
   private readonly renderer: THREE.WebGLRenderer;
@@ -67,7 +67,7 @@ export class Viewer {
   private readonly buried = new WideLines(colours.footprint, 1.5, true); // the same, visible through the mesh
   private readonly chosen = new WideLines(colours.accent, 2.5, true);
   private readonly chosenSheet = new Sheet(colours.accent, 0.25);
-  private readonly cap = new Sheet(colours.cut, 1, 0);
+  private readonly cap = new Cap(colours.cut);
   private readonly capLines = new WideLines(colours.cutLine, 2);
   private readonly measureLines = new WideLines(0xc2185b, 2.5, true);
   private readonly measureMarks = new Marks();
@@ -123,10 +123,7 @@ export class Viewer {
       ...this.marks.map((m) => m.object),
     );
     this.world.add(this.highlight.group, this.sides[0].output.group);
-    // Opaque, so that nothing behind a cut shines through it.
-    this.cap.material.transparent = false;
-    this.cap.material.depthWrite = true;
-    this.cap.object.renderOrder = 0;
+    this.capLines.material.clipping = false; // as the cap: see Cap
     attach(canvas, this.gestures, this.gone.signal);
     canvas.addEventListener("webglcontextrestored", () => this.request(), { signal: this.gone.signal });
   }
@@ -434,7 +431,7 @@ export class Viewer {
     const outlines = new Segments(this.centre);
     if (this.section) {
       const { normal, at } = planeOf(this.section);
-      const by = (this.section.flipped ? inside : -inside) as number;
+      const by = (this.section.flipped ? -before : before) as number;
       for (const building of this.sides[0].shown()) {
         const box = boxOf(building);
         const [least, most] = reach({ ...this.section, offset: 0 }, box);
@@ -444,7 +441,7 @@ export class Viewer {
           const lines = cutLines(geometry, normal, at);
           const filled = filling(lines, normal);
           for (const line of lines) outlines.path([...line, line[0]!].map((p) => p.map((x, i) => x + by * normal[i]!)));
-          for (let i = 0; i < filled.length; ++i) positions.push(filled[i]! - this.centre[i % 3]! + by * normal[i % 3]!);
+          for (let i = 0; i < filled.length; ++i) positions.push(filled[i]! - this.centre[i % 3]!);
         }
       }
     }
