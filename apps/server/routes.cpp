@@ -36,6 +36,11 @@ auto parameter(const Call& call, const char* name) -> base::Result<std::string> 
   return at->second;
 }
 
+auto maybe(const Call& call, const char* name) -> std::optional<std::string> {
+  const auto at = call.query.find(name);
+  return at == call.query.end() ? std::nullopt : std::optional(at->second);
+}
+
 auto section_of_part(Workspace& workspace, const Call& call) -> Text {
   const auto building = parameter(call, "building"), part = parameter(call, "part"), ring = parameter(call, "ring"),
              edge = parameter(call, "edge"), share = parameter(call, "share");
@@ -97,11 +102,19 @@ auto table() -> std::vector<Route> {
       {"GET", "/api/runs/{run}/report", nothing, gives,
        [](auto& w, const auto& call) { return w.report(run_of(call)); }},
       {"GET", "/api/runs/{run}/buildings", nothing, gives,
-       [](auto& w, const auto& call) { return w.buildings(run_of(call)); }},
+       [](auto& w, const auto& call) { return w.buildings(run_of(call), maybe(call, "building")); }},
+      {"GET", "/api/runs/{run}/list", nothing, gives, [](auto& w, const auto& call) { return w.list(run_of(call)); }},
+      {"GET", "/api/runs/{run}/tiles/{tile}", nothing, gives,
+       [](auto& w, const auto& call) { return w.tile_of_models(run_of(call), call.captured.at("tile")); }},
+      {"GET", "/api/runs/{run}/search", nothing, gives,
+       [](auto& w, const auto& call) -> Text {
+         const auto words = parameter(call, "words");
+         return words ? w.search(run_of(call), *words) : Text(words.error());
+       }},
       {"GET", "/api/runs/{run}/layers", nothing, gives,
        [](auto& w, const auto& call) { return w.layers(run_of(call)); }},
       {"GET", "/api/runs/{run}/attributes", nothing, gives,
-       [](auto& w, const auto& call) { return w.attributes(run_of(call)); }},
+       [](auto& w, const auto& call) { return w.attributes(run_of(call), maybe(call, "building")); }},
       {"GET", "/api/runs/{run}/levels/{lod}", nothing, gives,
        [](auto& w, const auto& call) { return w.level(run_of(call), call.captured.at("lod")); }},
       {"GET", "/api/runs/{run}/terrain", nothing, bytes,

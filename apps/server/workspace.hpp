@@ -75,7 +75,12 @@ class Workspace {
   [[nodiscard]] auto remove_run(const std::string& run) -> Text;
   [[nodiscard]] auto rename_run(const std::string& run, const std::string& label) -> Text;
   [[nodiscard]] auto report(const std::string& run) const -> Text;
-  [[nodiscard]] auto buildings(const std::string& run) -> Text;
+  /// All buildings, or one.
+  [[nodiscard]] auto buildings(const std::string& run, const std::optional<std::string>& building) -> Text;
+  /// Of a large run: what a page needs of every building, those in a tile, and those that a search finds.
+  [[nodiscard]] auto list(const std::string& run) -> Text;
+  [[nodiscard]] auto tile_of_models(const std::string& run, const std::string& name) -> Text;
+  [[nodiscard]] auto search(const std::string& run, const std::string& words) -> Text;
   [[nodiscard]] auto layers(const std::string& run) const -> Text;
   /// The scores of the run as it is now; as it was reconstructed if nothing was edited.
   [[nodiscard]] auto scores(const std::string& run) -> Text;
@@ -94,8 +99,8 @@ class Workspace {
   [[nodiscard]] auto undo(const std::string& run, const std::string& client) -> Text;
   [[nodiscard]] auto redo(const std::string& run, const std::string& client) -> Text;
 
-  /// The attributes of all buildings and parts as they are now, with units and meanings.
-  [[nodiscard]] auto attributes(const std::string& run) -> Text;
+  /// The attributes of all buildings and parts as they are now, or of one building, with units and meanings.
+  [[nodiscard]] auto attributes(const std::string& run, const std::optional<std::string>& building) -> Text;
   /// The buildings at a lower level of detail: "1.2", "1.3" or "2.0".
   [[nodiscard]] auto level(const std::string& run, const std::string& lod) -> Text;
   /// The terrain around the models as they are.

@@ -10,9 +10,15 @@
 
 namespace mansard::server {
 
-auto Workspace::attributes(const std::string& run) -> Text {
+auto Workspace::attributes(const std::string& run, const std::optional<std::string>& building) -> Text {
   const auto open = models(run);
   if (!open) return open.error();
+  if (building) {
+    auto around = (*open)->edited_around(*building, scene_now());
+    if (!around) return around.error();
+    around->buildings.resize(1);
+    return text_of(attributes_json(*around));
+  }
   const auto city = (*open)->edited(scene_now());
   return city ? Text(text_of(attributes_json(**city))) : Text(city.error());
 }

@@ -1,6 +1,7 @@
 // The state of the page as signals: panels read them, actions (src/actions.ts) change them.
 import { computed, signal } from "@preact/signals";
 import type * as api from "./api/types";
+import type { Large } from "./large";
 
 /** A building, part or edge of the open run. `edge` belongs to `ring` (0: the outer ring) of `part`. */
 export interface Selection {
@@ -13,8 +14,9 @@ export interface Selection {
 /** A run with its models in their state on the server. */
 export interface OpenRun {
   id: string;
-  buildings: Map<string, api.Building>;
+  buildings: Map<string, api.Building>; // of a large run those whose models are loaded
   history: api.History;
+  large?: Large;
 }
 
 /** Changed plans that are not saved: while dragging, and when they are invalid. */

@@ -161,13 +161,17 @@ function connect(to: Viewer): () => void {
     }),
     effect(() => to.setScene(state.scene.value)),
     effect(() => to.setTiles(state.tiles.value)),
+    effect(() => to.setLarge(state.run.value?.large ?? null)),
     effect(() => {
       const draft = state.draft.value;
       to.setRun(0, drawnBuildings.value, draft?.raised, draft?.invalid);
     }),
     effect(() => {
       const run = state.run.value;
-      if (run && lod.value !== "2.2" && !state.levels.value.has(`${run.id} ${lod.value}`)) void actions.needLevel(run.id, lod.value);
+      if (run?.large && lod.value !== "2.2") {
+        lod.value = "2.2";
+        actions.warn("lod-large", "runs of more than 5,000 buildings are shown at LoD 2.2 only");
+      } else if (run && lod.value !== "2.2" && !state.levels.value.has(`${run.id} ${lod.value}`)) void actions.needLevel(run.id, lod.value);
     }),
     effect(() => {
       const wanted = choices.value.texture.shown && state.scene.value !== null;
@@ -263,6 +267,10 @@ export function View() {
           moved: (pose) => {
             keep("session", poseKey(), pose);
             keep("local", poseKey(), pose);
+          },
+          near: (tiles) => {
+            const run = state.run.peek();
+            if (run?.large) void actions.needTiles(run.id, tiles);
           },
           loadTile: (id, signal) => actions.client.tile(id, signal),
           loadTilePicture: (id, signal) => actions.client.tileTexture(id, signal),

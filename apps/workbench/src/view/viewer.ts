@@ -7,11 +7,13 @@ import * as camera from "./camera";
 import type { Pose, Vector } from "./camera";
 import { attach, type Gestures } from "./controls";
 import { combine, textureOf } from "./errormap";
+import { Far } from "./far";
 import { type Box, boxOf, emptyBox, grow, isEmpty } from "./geometry";
 import { Highlight, type RawClimbs } from "./highlight";
 import type { Choices } from "./layers";
 import { Cap, Marks, Segments, Sheet, WideLines, flat } from "./lines";
-import { colours } from "./materials";
+import { colours, modelLook } from "./materials";
+import { type Large, boxOfShapes, tilesNear } from "../large";
 import { Output } from "./output";
 import { Others } from "./others";
 import { type Hit, type Ray, covers, pick, pickFootprint } from "./pick";
@@ -28,6 +30,8 @@ export interface Listener {
   moved(pose: Pose): void; // called when the camera stops; in the frame of the scene
   point(place: Vector | null): void; // under the resting pointer, in the frame of the scene
   drawn(azimuth: number, metresPerPixel: number): void; // after each image
+  /** Tiles of a large run whose models are near the camera. */
+  near(tiles: string[]): void;
   loadTile(id: string, signal: AbortSignal): Promise<ArrayBuffer>;
   loadTilePicture(id: string, signal: AbortSignal): Promise<ArrayBuffer>;
   loadBuildingPicture(which: 0 | 1, building: string): Promise<ArrayBuffer>;
@@ -55,6 +59,7 @@ const flightSeconds = 0.6;
 const background = { light: 0xf6f6f3, dark: 0x1b1e23 };
 const nearCorner = 14; // pixels between a click and the corner of a footprint
 const restMilliseconds = 60; // after which the point under the pointer is looked for in the scan
+const mostVisible = 2000; // m; with more of a large run in view, its models would be a few pixels each
 const before = 0.003; // m; by which the outlines of a cut are in front of it
 
 export class Viewer {
@@ -75,6 +80,10 @@ export class Viewer {
   private readonly pairMarks = new Marks();
   private readonly others = new Others();
   private readonly terrain = new Terrain();
+  private readonly farLook = modelLook();
+  private readonly far = new Far(this.farLook);
+  private large: Large | null = null;
+  private contents: Box | null = null; // the box of what is shown, until it changes
   private highlight: Highlight;
   private tiles: Tiles | null = null;
   private sides: [Side, Side | null];
@@ -120,6 +129,7 @@ export class Viewer {
       this.pairMarks.object,
       this.others.group,
       this.terrain.group,
+      this.far.group,
       ...this.marks.map((m) => m.object),
     );
     this.world.add(this.highlight.group, this.sides[0].output.group);
@@ -132,6 +142,7 @@ export class Viewer {
     this.gone.abort();
     cancelAnimationFrame(this.frameAsked);
     this.tiles?.dispose();
+    this.far.dispose();
     for (const side of this.sides) side?.dispose();
     this.renderer.dispose();
   }
@@ -167,6 +178,7 @@ export class Viewer {
   }
 
   setScene(scene: api.Scene | null) {
+    this.contents = null;
     const moved = scene && scene.origin.some((o, i) => o !== this.scene?.origin[i]);
     this.scene = scene;
     if (scene && (moved || !this.framed))
@@ -200,6 +212,28 @@ export class Viewer {
   }
   private index: api.TileIndex | null = null;
 
+  /** The buildings of a large run; those that are not among the models are drawn as prisms. */
+  setLarge(large: Large | null) {
+    if (large === this.large) return;
+    const another = large?.tiles !== this.large?.tiles;
+    this.large = large;
+    this.contents = null;
+    if (another && large && !this.scene && !this.framed)
+      this.recentre(large.low.map((l, i) => Math.round((l + large.high[i]!) / 2)) as Vector);
+    this.far.set(large, this.centre);
+    if (another) {
+      this.place();
+      this.loadNear();
+    }
+    this.request();
+  }
+  private loadNear() {
+    const { size, target } = this.goal;
+    if (!this.large) return;
+    const at = target.map((t, i) => t + this.centre[i]!);
+    this.listener.near(size > mostVisible ? [] : tilesNear(this.large, at, Math.max(100, 1.5 * size)));
+  }
+
   setRun(
     which: 0 | 1,
     buildings: ReadonlyMap<string, api.Building> | null,
@@ -216,11 +250,12 @@ export class Viewer {
       this.sides[which] = new Side(this.output(which));
       this.world.add(this.sides[which]!.output.group);
     }
+    this.contents = null;
     const side = this.sides[which]!;
     const another = side.buildings !== (buildings ?? empty);
     side.buildings = buildings ?? empty;
     side.drafts = drafts;
-    if (which === 0 && buildings?.size && !this.scene && !this.framed) {
+    if (which === 0 && buildings?.size && !this.scene && !this.framed && !this.large) {
       const { low, high } = this.content();
       this.recentre(low.map((l, i) => Math.round((l + high[i]!) / 2)) as Vector);
     } else {
@@ -470,6 +505,7 @@ export class Viewer {
   look(pose: Pose) {
     this.goal = this.pose = { ...pose, target: pose.target.map((t, i) => t - this.centre[i]!) as Vector };
     this.framed = true;
+    this.loadNear();
     this.request();
   }
   home() {
@@ -485,7 +521,7 @@ export class Viewer {
   }
   flyTo(building: string) {
     const found = this.sides[0].building(building);
-    const box = found ? boxOf(found) : this.footprintBox((f) => f.id === building);
+    const box = found ? boxOf(found) : (this.listed(building) ?? this.footprintBox((f) => f.id === building));
     if (isEmpty(box)) return;
     const { low, high } = this.centred(box);
     const wide = { low: low.map((x) => x - 3) as Vector, high: high.map((x) => x + 2) as Vector };
@@ -493,6 +529,11 @@ export class Viewer {
       ? this.goal
       : { ...this.goal, elevation: Math.max(this.goal.elevation, 0.5) };
     this.fly(camera.frame(tilted, wide.low, wide.high, this.aspect));
+  }
+  /** The box of a building of a large run, as the list has it. */
+  private listed(building: string): Box | null {
+    const at = this.large?.index.get(building);
+    return at === undefined ? null : boxOfShapes(this.large!.shapes[at]!);
   }
   private fly(to: Pose) {
     const still = globalThis.matchMedia?.("(prefers-reduced-motion: reduce)").matches;
@@ -506,8 +547,9 @@ export class Viewer {
   /** Position of the top of a building on the page; null if it is behind the camera or unknown. */
   project(building: string): { x: number; y: number } | null {
     const found = this.sides[0].building(building);
-    if (!found) return null;
-    const { low, high } = boxOf(found);
+    const box = found ? boxOf(found) : this.listed(building);
+    if (!box) return null;
+    const { low, high } = box;
     return this.placeOf([(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, high[2]]);
   }
   /** The place of a point on the page; null if it is behind the camera. */
@@ -552,7 +594,7 @@ export class Viewer {
   async idle(): Promise<void> {
     for (let calm = 0; calm < 3; ) {
       await new Promise((resolve) => setTimeout(resolve, 25));
-      calm = this.frameAsked || this.tiles?.busy || this.sides[0].output.textures.busy ? 0 : calm + 1;
+      calm = this.frameAsked || this.far.busy || this.tiles?.busy || this.sides[0].output.textures.busy ? 0 : calm + 1;
     }
   }
 
@@ -690,7 +732,9 @@ export class Viewer {
   private hit(ray: Ray, side: Side): Hit | null {
     const { walls, roofs, parties } = this.choices;
     const seen = { wall: walls, party_wall: parties, roof: roofs, ground: walls, soffit: roofs };
-    return pick(ray, side.shown(), (face) => seen[face.class].shown, this.keeps);
+    const hit = pick(ray, side.shown(), (face) => seen[face.class].shown, this.keeps);
+    const far = side === this.sides[0] && walls.shown ? this.far.pick(ray) : null;
+    return far && (!hit || far.distance < hit.distance) ? far : hit;
   }
   private readonly keeps = (point: Vector) =>
     !this.plane ||
@@ -735,6 +779,7 @@ export class Viewer {
     this.placeMarks();
     this.showSelection();
     for (const side of this.sides) side?.output.paint(this.paints);
+    this.far.set(this.large, centre);
     this.setOthers(this.otherModels);
     this.setTerrain(this.terrainBytes);
     this.setMeasure(this.measured.points, this.measured.closed);
@@ -746,6 +791,7 @@ export class Viewer {
     const of = ({ shown, opacity }: { shown: boolean; opacity: number }) => (shown ? opacity : 0);
     const { walls, parties, roofs, outlines, error } = this.choices;
     output.fade({ walls: of(walls), parties: of(parties), roofs: of(roofs), outlines: of(outlines) });
+    this.farLook.opacities.value = [of(walls), of(walls), of(roofs), of(walls), of(roofs)];
     output.look.errorOn.value = output.look.errorMap.value ? of(error) : 0;
   }
 
@@ -836,6 +882,10 @@ export class Viewer {
 
   /** Box of the models; of the footprints if there are none; else of the mesh. */
   private content(): Box {
+    return (this.contents ??= this.contentNow());
+  }
+  private contentNow(): Box {
+    if (this.large && this.large.low[0] <= this.large.high[0]) return { low: this.large.low, high: this.large.high };
     const box = emptyBox();
     for (const building of this.sides[0].shown()) {
       const { low, high } = boxOf(building);
@@ -862,7 +912,7 @@ export class Viewer {
 
   /** Shows everything, as long as the camera has not been moved. */
   private place() {
-    if (this.framed || (!this.scene && !this.sides[0].buildings.size)) return;
+    if (this.framed || (!this.scene && !this.sides[0].buildings.size && !this.large)) return;
     const { low, high } = this.centred(this.content());
     this.goal = this.pose = camera.home(low, high, this.aspect);
   }
@@ -903,6 +953,7 @@ export class Viewer {
     if (settled && this.pose !== this.goal) {
       this.pose = this.goal;
       this.sides[0].output.textures.lookAt(this.target);
+      this.loadNear();
       if (this.framed)
         this.listener.moved({ ...this.pose, target: this.pose.target.map((t, i) => t + this.centre[i]!) as Vector });
     }
@@ -932,6 +983,7 @@ export class Viewer {
   private draw() {
     this.aim();
     this.stream();
+    if (this.far.build(this.target, this.moving ? 4 : 25)) this.request();
     this.highlight.detailed = this.pose.size < 150;
     for (const side of this.sides) side?.output.seenFrom(this.pose.size, this.choices.outlines.opacity);
     const [first, second] = this.sides;
@@ -942,7 +994,7 @@ export class Viewer {
       // The scan on the left, the models on the right.
       const masked = this.tiles?.look.masked.value ?? 0;
       const scan = this.tiles?.look.opacity.value ?? 0;
-      const hide = [first.output.group, this.terrain.group, this.highlight.group, this.cap.object, this.capLines.object];
+      const hide = [first.output.group, this.far.group, this.terrain.group, this.highlight.group, this.cap.object, this.capLines.object];
       const visible = hide.map((o) => o.visible);
       hide.forEach((o) => (o.visible = false));
       this.showMarks(-1);
