@@ -5,6 +5,7 @@
 //   models_open.cpp   from the files of the run
 //   models_edits.cpp  edits, undo, redo
 //   models_scores.cpp the scores of the edited models
+//   models_kept.cpp   what was measured, kept in the folder of the run
 #pragma once
 
 #include <cstdint>
@@ -49,8 +50,9 @@ class Models {
   /// From the files in the folder of the run. An incomplete last line of the journal is cut off. Fails with
   /// "edit-journal", "server-project", "write-plan-…", "file-…". Cost: every plan is extruded, on all threads; of a
   /// large run only those of edited buildings.
-  [[nodiscard]] static auto open(const std::filesystem::path& folder, const RunRecord& run, const SceneOrNone& scene)
-      -> base::Result<std::shared_ptr<Models>>;
+  /// `inputs`: what key_of gives of the scene's. What was measured with the same inputs is not measured again.
+  [[nodiscard]] static auto open(const std::filesystem::path& folder, const RunRecord& run, const SceneOrNone& scene,
+                                 const std::string& inputs) -> base::Result<std::shared_ptr<Models>>;
 
   /// {"buildings": …, "history": …}
   [[nodiscard]] auto all() const -> std::string;
@@ -119,7 +121,8 @@ class Models {
     bool measured = false;
     double volume = 0;          ///< m³
     std::optional<double> mse;  ///< m²
-    bool made = false;          ///< whether the rest is there
+    std::vector<std::optional<double>> mse_of_parts;
+    bool made = false;  ///< whether the rest is there
     std::vector<model::LabelledSolid> models;
     std::string json;  ///< Building
   };
@@ -148,12 +151,28 @@ class Models {
       -> std::shared_ptr<const Seen>;
   [[nodiscard]] auto named(const std::string& id) const -> Seen;
   [[nodiscard]] auto with_models(Seen named, const edit::RaisedBuilding& raised) const -> std::shared_ptr<const Seen>;
+  /// What was measured of a building, with all that it depends on as one hash.
+  struct Measure {
+    geometry::Box2 over;  ///< of what it was measured over: models of others there count
+    std::string key;
+    std::optional<double> mse;
+    std::vector<std::optional<double>> mse_of_parts;
+  };
+  void read_measures();
+  /// Hash of what the error over a box depends on. `plans`: one hash per building.
+  [[nodiscard]] auto measure_key(std::size_t building, const geometry::Box2& over,
+                                 const std::vector<std::string>& plans, const std::vector<geometry::Box2>& boxes) const
+      -> std::string;
+  void keep_measures(const OpenScene& scene) const;
   [[nodiscard]] auto publish(const std::vector<std::string>& changed, const OpenScene* scene) -> Changed;
   [[nodiscard]] auto step(base::Result<std::vector<std::string>> (edit::History::*one)(), std::string_view line,
                           const OpenScene* scene) -> base::Result<Changed>;
 
   model::City city_;  // the plans of the run, without models
   pipeline::Options options_;
+  std::filesystem::path folder_;
+  std::string inputs_;                                    // empty: nothing is kept
+  std::map<std::string, Measure, std::less<>> measures_;  // as they were kept
   std::map<std::string, std::size_t, std::less<>> index_;
   struct Report {
     std::string block, outcome;

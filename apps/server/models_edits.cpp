@@ -139,7 +139,9 @@ auto Models::measure(const OpenScene& scene) -> std::optional<Changed> {
   for (const auto& building : view()->buildings)
     if (!building->measured) unmeasured.push_back(building->id);
   if (unmeasured.empty()) return std::nullopt;
-  return publish(unmeasured, &scene);
+  auto changed = publish(unmeasured, &scene);
+  keep_measures(scene);
+  return changed;
 }
 
 auto Models::edited(const SceneOrNone& scene) -> base::Result<std::shared_ptr<const model::City>> {

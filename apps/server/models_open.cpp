@@ -66,8 +66,8 @@ Models::Models(model::City city, edit::History history, Journal journal, pipelin
   for (std::size_t b = 0; b < city_.buildings.size(); ++b) index_[city_.buildings[b].id] = b;
 }
 
-auto Models::open(const std::filesystem::path& folder, const RunRecord& run, const SceneOrNone& scene)
-    -> base::Result<std::shared_ptr<Models>> {
+auto Models::open(const std::filesystem::path& folder, const RunRecord& run, const SceneOrNone& scene,
+                  const std::string& inputs) -> base::Result<std::shared_ptr<Models>> {
   pipeline::Options options;
   if (auto set = set_all(options, run.options); !set) return set.error();
   auto city = formats::read_plans(folder / "plans.json");
@@ -86,8 +86,15 @@ auto Models::open(const std::filesystem::path& folder, const RunRecord& run, con
   const std::shared_ptr<Models> models(
       new Models(std::move(*city), std::move(replayed->history), std::move(*journal), std::move(options)));
   if (auto read = models->read_reports(folder / "report.json"); !read) return read.error();
-  if (models->city_.buildings.size() > most_at_once) models->list_all(scene.get());
-  else if (auto raised = models->raise_all(scene.get()); !raised) return raised.error();
+  if (models->city_.buildings.size() > most_at_once) {
+    models->list_all(scene.get());
+    return models;
+  }
+  models->folder_ = folder;
+  models->inputs_ = inputs;
+  models->read_measures();
+  if (auto raised = models->raise_all(scene.get()); !raised) return raised.error();
+  if (scene) models->keep_measures(*scene);
   return models;
 }
 
@@ -151,9 +158,21 @@ auto Models::raise_all(const OpenScene* scene) -> base::Result<void> {
   }
   std::vector<geometry::Box2> boxes;
   for (const auto& building : city_.buildings) boxes.push_back(box_of(*history_.parts(building.id)));
+  std::vector<std::string> plans;
+  if (!measures_.empty())
+    for (const auto& building : city_.buildings) plans.push_back(hash_of(*history_.parts(building.id)));
+  std::vector<char> measured(buildings.size(), scene == nullptr ? 0 : 1);
   base::parallel_for(buildings.size(), [&](std::size_t b) {
     auto& building = buildings[b];
     const auto& source = raised->city.buildings[b];
+    if (const auto kept = measures_.find(source.id);
+        kept != measures_.end() && kept->second.mse_of_parts.size() == building.parts.size() &&
+        kept->second.key == measure_key(b, kept->second.over, plans, boxes)) {
+      building.mse = kept->second.mse;
+      for (std::size_t p = 0; p < building.parts.size(); ++p) building.parts[p].mse = kept->second.mse_of_parts[p];
+      measured[b] = 1;
+      return;
+    }
     const auto mesh = scene == nullptr ? nullptr : scene->rays_of(source.id);
     const auto* member = scene == nullptr ? nullptr : scene->member_of(source.id);
     if (mesh == nullptr || member == nullptr) {
@@ -174,7 +193,7 @@ auto Models::raise_all(const OpenScene* scene) -> base::Result<void> {
     building.mse = evaluate::footprint_error(solids, *mesh, member->polygons, member->ground, options_.evaluate);
   });
   for (std::size_t b = 0; b < buildings.size(); ++b)
-    view->buildings.push_back(seen(city_.buildings[b].id, buildings[b], scene != nullptr));
+    view->buildings.push_back(seen(city_.buildings[b].id, buildings[b], measured[b] != 0));
   view_ = std::move(view);
   return {};
 }
@@ -235,6 +254,7 @@ auto Models::with_models(Seen named, const edit::RaisedBuilding& raised) const -
   out->mse = raised.mse;
   for (const auto& part : raised.parts) {
     out->volume += part.volume;
+    out->mse_of_parts.push_back(part.mse);
     if (part.model) out->models.push_back(*part.model);
   }
   auto json = json_of(out->id, out->revision, out->parts, raised);

@@ -127,6 +127,11 @@ class Workspace {
   auto start_reading(const Inputs& inputs, bool save) -> Job;
   [[nodiscard]] auto read_scene(Inputs inputs, bool save, const base::Run& run) -> base::Result<void>;
   void measure_edited();
+  /// Opens what was kept of the scene, if its inputs are as they were.
+  void open_kept_view();
+  [[nodiscard]] auto kept_view_file() const -> std::filesystem::path;
+  /// What pages show: of the scene, or kept until there is one.
+  [[nodiscard]] auto view_or_error() const -> base::Result<std::shared_ptr<const SceneView>>;
   [[nodiscard]] auto has_sample() const -> bool;
   [[nodiscard]] auto scene_now() const -> SceneOrNone;
   [[nodiscard]] auto scene_or_error() const -> base::Result<SceneOrNone>;
@@ -161,6 +166,8 @@ class Workspace {
   Project project_;
   std::vector<Run> runs_;
   SceneOrNone scene_;
+  /// Of the project as it was when it was last open, until the inputs have been read.
+  std::shared_ptr<const SceneView> kept_view_;
   std::shared_ptr<const Textures> textures_;  // of the scene; null until they are asked for
   std::optional<base::Diagnostic> scene_failure_;
   mutable ChangedFiles changed_files_;

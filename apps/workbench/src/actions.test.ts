@@ -13,6 +13,7 @@ const project = (...runs: api.RunSummary[]): api.Project => ({
   inputs: null,
   reading: {},
   runs,
+  scene: false,
   sample: false,
 });
 const history = (done: number, ...edits: string[]): api.History => ({ edits, done });
@@ -132,6 +133,31 @@ describe("the scene", () => {
     actions.received({ type: "job", job: read({ state: "done" }) });
     await vi.waitFor(() => expect(state.scene.value).toEqual(scene));
     expect(asked).toEqual(["scene"]);
+  });
+
+  it("that the server kept is shown while the inputs are read again, and its tiles stay if they are the same", async () => {
+    answers["GET /api/project"] = () => ({ ...project(), inputs: {}, scene: true });
+    answers["GET /api/jobs"] = () => ({ jobs: [read({})] });
+    await actions.refresh();
+    await vi.waitFor(() => expect(state.scene.value).toEqual(scene));
+    expect(state.sceneRead.value).toBe(false);
+    const tiles = state.tiles.value;
+    actions.received({ type: "job", job: read({ state: "done" }) });
+    await vi.waitFor(() => expect(asked).toEqual(["scene", "scene"]));
+    expect(state.sceneRead.value).toBe(true);
+    await Promise.resolve();
+    expect(state.tiles.value).toBe(tiles);
+  });
+
+  it("disappears if the inputs can no longer be read", async () => {
+    answers["GET /api/project"] = () => ({ ...project(), inputs: {}, scene: true });
+    answers["GET /api/jobs"] = () => ({ jobs: [read({})] });
+    await actions.refresh();
+    await vi.waitFor(() => expect(state.scene.value).toEqual(scene));
+    const none = { severity: "error", code: "server-no-scene", message: "the inputs could not be read", subject: "" };
+    answers["GET /api/scene"] = () => Response.json({ error: none }, { status: 404 });
+    actions.received({ type: "job", job: read({ state: "failed" }) });
+    await vi.waitFor(() => expect(state.scene.value).toBeNull());
   });
 
   it("is requested also if the end of reading arrives before the list of jobs", async () => {

@@ -129,8 +129,8 @@ export async function refresh() {
       ...arrived.filter((a) => !answered.some((j) => j.id === a.id)),
     ];
   });
-  // While inputs are being read there is no scene. It is loaded when that job has ended.
-  if (!state.jobs.value.some((j) => j.kind === "read" && !ended(j))) void loadScene();
+  // While inputs are being read the server has what it kept of the scene, or none. It is loaded again when that job has ended.
+  if (project.scene || !state.jobs.value.some((j) => j.kind === "read" && !ended(j))) void loadScene();
   const open = kept<Open | null>("session", openKey(), null) ?? kept<Open | null>("local", openKey(), null);
   const finished = project.runs.filter((r) => r.state === "done");
   const there = (id: string | null | undefined) => finished.some((r) => r.id === id);
@@ -149,9 +149,11 @@ export async function loadScene() {
   if (!state.project.value?.inputs) return;
   try {
     const [scene, tiles] = await Promise.all([client.scene(), client.tiles()]);
+    // What was shown while the inputs were read again is mostly the same: its tiles stay.
+    const same = (a: unknown, b: unknown) => JSON.stringify(a) === JSON.stringify(b);
     batch(() => {
-      state.scene.value = scene;
-      state.tiles.value = tiles;
+      if (!same(scene, state.scene.value)) state.scene.value = scene;
+      if (!same(tiles, state.tiles.value)) state.tiles.value = tiles;
       state.texturesRead.value = false;
     });
     for (const open of [state.run.value, state.other.value]) if (open?.history.done) measureAgain(open.id);
@@ -159,6 +161,7 @@ export async function loadScene() {
     // "server-no-scene": it was requested too early.
     if (e instanceof Refused && e.diagnostic.code !== "server-no-scene") showMessage(e.diagnostic);
     else if (!(e instanceof Refused)) throw e;
+    else state.scene.value = state.tiles.value = null;
   }
 }
 
@@ -601,8 +604,8 @@ function receiveJob(job: api.Job) {
   if (known && ended(known)) return; // an event was faster than this answer
   state.jobs.value = known ? state.jobs.value.map((j) => (j.id === job.id ? job : j)) : [...state.jobs.value, job];
   if (job.failure && job.state === "failed") showMessage(job.failure);
+  if (job.kind === "read" && (job.state === "done" || (ended(job) && state.scene.value))) void loadScene();
   if (job.state !== "done") return;
-  if (job.kind === "read") void loadScene();
   if (job.kind === "run" && job.run && (mine.has(job.id) || !state.run.value)) void openRun(job.run);
 }
 

@@ -96,6 +96,11 @@ export const choosing = signal(false);
 /** Requests a camera flight; `at` distinguishes two equal requests. */
 export const flight = signal<{ to: Flight; at: number } | null>(null);
 
+/** Whether the server has read the inputs: until then a scene that is shown is that of the last time. */
+export const sceneRead = computed(
+  () => scene.value !== null && !jobs.value.some((j) => j.kind === "read" && (j.state === "queued" || j.state === "running")),
+);
+
 /** The building to draw: its draft, if it has one. */
 export function shown(id: string): api.RaisedBuilding | undefined {
   return draft.value?.raised.get(id) ?? run.value?.buildings.get(id);

@@ -1069,3 +1069,58 @@ test("roofs of a row, parts like another, an annex and a deleted part", { tag: "
     await expect.poll(async () => (await buildingOf(page, "right")).parts.length).toBe(1);
   });
 });
+
+test("a run of thousands of buildings is a list at once, and models come near the camera", { tag: "@firefox" }, async ({ clean: page, server, folder }) => {
+  const footprints = join(folder, "town.geojson");
+  const square = (x: number, y: number) => [[[x, y], [x + 9, y], [x + 9, y + 8], [x, y + 8], [x, y]]];
+  writeFileSync(
+    footprints,
+    JSON.stringify({
+      type: "FeatureCollection",
+      crs: { type: "name", properties: { name: "EPSG:28992" } },
+      features: Array.from({ length: 5_184 }, (_, i) => ({
+        type: "Feature",
+        properties: { id: `b${i}`, street: i % 1000 === 17 ? "Canal" : "Market" },
+        geometry: { type: "Polygon", coordinates: square(85_000 + 20 * (i % 72), 447_000 + 20 * Math.floor(i / 72)) },
+      })),
+    }),
+  );
+  const model = join(folder, "town.json");
+  mansard("extrude", "-q", footprints, "--profile", "0,0 0,6 4,9", "-o", model);
+  await page.goto(server.link);
+  await page.getByLabel("Models that mansard wrote").fill(model);
+  await page.getByRole("button", { name: "Open model" }).click();
+  await page.getByRole("tab", { name: "Buildings" }).click();
+  await expect(page.getByRole("row", { name: "b0" })).toBeVisible({ timeout: 150_000 });
+  await expect(page.getByText("5,184", { exact: true })).toBeVisible();
+  await idle(page);
+  await picture(page, "large");
+
+  // The server searches attributes; the table finds ids at once.
+  await page.getByLabel("Filter buildings").fill("canal b40");
+  await expect(page.getByRole("row", { name: /^b/ })).toHaveText([/^b4017/]);
+  await page.getByRole("row", { name: "b4017" }).click();
+  await expect.poll(() => state(page, (s) => s.selection.value?.part)).toBe("b4017-1");
+  await idle(page);
+  const loaded = await state(page, (s) => s.run.value!.buildings.size);
+  expect(loaded).toBeGreaterThan(100);
+  expect(loaded, "only what is near").toBeLessThan(3_500);
+  await page.getByRole("tab", { name: "Attributes" }).click();
+  await expect(page.getByLabel("Of the source")).toContainText("Canal");
+
+  // It is edited like any other, and a click in the view selects a building.
+  await page.getByRole("tab", { name: "Edit" }).click();
+  await page.getByRole("button", { name: "Flat", exact: true }).click();
+  await expect.poll(async () => (await buildingOf(page, "b4017")).edited).toBe(true);
+  await page.getByRole("tab", { name: "Buildings" }).click();
+  await page.getByLabel("Filter buildings").fill("edited");
+  await expect(page.getByRole("row", { name: /^b/ })).toHaveText([/^b4017/]);
+  await idle(page);
+  await picture(page, "large-near");
+  await page.getByRole("button", { name: "Show all" }).click();
+  await idle(page);
+  const far = await topOf(page, "b71");
+  await page.mouse.click(far.x, far.y);
+  await expect.poll(() => state(page, (s) => s.selection.value?.part ?? null)).not.toBe("b4017-1");
+  await expect.poll(() => state(page, (s) => s.selection.value?.part ?? "")).toMatch(/^b\d+-1$/);
+});

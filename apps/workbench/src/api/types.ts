@@ -212,6 +212,7 @@ export interface Project {
   } | null;
   reading: Record<string, string>; // options that the scene was read with, as given
   runs: RunSummary[];
+  scene: boolean; // GET /api/scene answers: the inputs have been read, or their scene was kept from the last time
   sample: boolean; // a sample is available: POST /api/project/sample
 }
 

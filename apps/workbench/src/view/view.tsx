@@ -122,7 +122,7 @@ function watchRaw(to: Viewer) {
     const building = at && run?.buildings.get(at.building);
     const part = building?.parts.find((p) => p.id === at!.part);
     const wanted =
-      choices.value.raw.shown && run && part ? `${run.id} ${building!.id} ${building!.revision} ${part.id}` : "";
+      choices.value.raw.shown && state.sceneRead.value && run && part ? `${run.id} ${building!.id} ${building!.revision} ${part.id}` : "";
     if (wanted === last) return;
     last = wanted;
     stop.abort();
@@ -174,7 +174,7 @@ function connect(to: Viewer): () => void {
       } else if (run && lod.value !== "2.2" && !state.levels.value.has(`${run.id} ${lod.value}`)) void actions.needLevel(run.id, lod.value);
     }),
     effect(() => {
-      const wanted = choices.value.texture.shown && state.scene.value !== null;
+      const wanted = choices.value.texture.shown && state.sceneRead.value;
       if (!wanted || state.texturesRead.value) return;
       void actions.needTextures().then((there) => {
         if (!there) choose("texture", { shown: false });
@@ -186,7 +186,7 @@ function connect(to: Viewer): () => void {
     }),
     effect(() => {
       const run = state.run.value?.id;
-      if (!choices.value.terrain.shown || !run || !state.scene.value || state.terrains.value.has(run)) return;
+      if (!choices.value.terrain.shown || !run || !state.sceneRead.value || state.terrains.value.has(run)) return;
       void actions.needTerrain(run).then((made) => {
         if (!made) choose("terrain", { shown: false });
       });
