@@ -8,7 +8,13 @@ import { type Hit, type Ray, enters } from "./pick";
 const wall = 0; // indices into the kinds of geometry.ts
 const roof = 2;
 
-/** Positions, normals and kinds of the walls and roofs of some prisms, relative to a centre. */
+/** How near a tile has to be to the eye, in metres, for its roofs to have their outlines, and for its walls to be drawn. */
+const outlinesWithin = 2000;
+const wallsWithin = 800;
+const slice = 12; // ms of building buffers, between which the page does other things
+const pause = 700; // ms between images while they are built: an image of a whole city takes longer than a slice
+
+/** Positions, normals and kinds of some prisms, relative to a centre: first the box of each roof, then roofs, then walls. */
 export function prisms(shapes: readonly Shape[], centre: Vector) {
   const positions: number[] = [];
   const normals: number[] = [];
@@ -18,22 +24,38 @@ export function prisms(shapes: readonly Shape[], centre: Vector) {
     normals.push(...n);
     kinds.push(kind);
   };
-  for (const [base, height, ...flat] of shapes) {
+  const up = [0, 0, 1];
+  const rings = shapes.map(([base, height, ...flat]) => {
     const ring: THREE.Vector2[] = [];
     for (let i = 0; i < flat.length; i += 2) ring.push(new THREE.Vector2(flat[i]!, flat[i + 1]!));
-    const top = base! + height!;
+    return { base: base!, top: base! + height!, ring };
+  });
+  for (const { top, ring } of rings) {
+    const { min: a, max: b } = new THREE.Box2().setFromPoints(ring);
+    for (const [x, y] of [[a.x, a.y], [b.x, a.y], [b.x, b.y], [a.x, a.y], [b.x, b.y], [a.x, b.y]] as const) corner(x, y, top, up, roof);
+  }
+  const boxes = kinds.length;
+  for (const { top, ring } of rings) {
+    const points = [...ring]; // triangulateShape may shorten what it is given
+    for (const triangle of THREE.ShapeUtils.triangulateShape(points, []))
+      for (const k of triangle) corner(ring[k]!.x, ring[k]!.y, top, up, roof);
+  }
+  const roofs = kinds.length - boxes;
+  for (const { base, top, ring } of rings)
     ring.forEach((a, i) => {
       const b = ring[(i + 1) % ring.length]!;
       const length = Math.hypot(b.x - a.x, b.y - a.y);
       if (length === 0) return;
       const n = [(b.y - a.y) / length, (a.x - b.x) / length, 0];
-      for (const [p, z] of [[a, base!], [b, base!], [b, top], [a, base!], [b, top], [a, top]] as const) corner(p.x, p.y, z, n, wall);
+      for (const [p, z] of [[a, base], [b, base], [b, top], [a, base], [b, top], [a, top]] as const) corner(p.x, p.y, z, n, wall);
     });
-    const points = [...ring]; // triangulateShape may shorten what it is given
-    for (const triangle of THREE.ShapeUtils.triangulateShape(points, []))
-      for (const k of triangle) corner(ring[k]!.x, ring[k]!.y, top, [0, 0, 1], roof);
-  }
-  return { positions, normals, kinds };
+  return { positions, normals, kinds, boxes, roofs };
+}
+
+interface Drawn {
+  mesh: THREE.Mesh;
+  boxes: number; // vertices
+  roofs: number;
 }
 
 export class Far {
@@ -41,10 +63,15 @@ export class Far {
   private readonly material: THREE.ShaderMaterial;
   private large: Large | null = null;
   private centre: Vector = [0, 0, 0];
-  private readonly meshes = new Map<string, THREE.Mesh>();
+  private readonly meshes = new Map<string, Drawn>();
   private waiting: string[] = [];
+  private timer: ReturnType<typeof setTimeout> | undefined;
+  private asked = 0;
 
-  constructor(look: ModelLook) {
+  constructor(
+    look: ModelLook,
+    private readonly arrived: () => void,
+  ) {
     this.material = modelMaterial(look);
   }
 
@@ -55,29 +82,37 @@ export class Far {
     if (!same) {
       this.clear();
       this.waiting = [...(large?.tiles.keys() ?? [])];
+      if (this.waiting.length) this.timer = setTimeout(this.build);
     }
-    for (const [key, mesh] of this.meshes) mesh.visible = !large?.loaded.has(key);
+    for (const [key, { mesh }] of this.meshes) mesh.visible = !large?.loaded.has(key);
   }
 
-  /** Builds tiles for some milliseconds, those near a point first; whether some are left. */
-  build(near: Vector, milliseconds: number): boolean {
-    if (!this.large || !this.waiting.length) return false;
-    const { tiles, shapes, loaded } = this.large;
-    const away = (key: string) => {
-      const { low, high } = tiles.get(key)!;
-      return Math.hypot((low[0] + high[0]) / 2 - near[0], (low[1] + high[1]) / 2 - near[1]);
-    };
-    const order = this.waiting.map((key) => ({ key, at: away(key) })).sort((a, b) => b.at - a.at);
-    const until = performance.now() + milliseconds;
-    while (order.length && performance.now() < until) {
-      const { key } = order.pop()!;
-      const mesh = this.meshOf(tiles.get(key)!.buildings.flatMap((i) => shapes[i]!));
-      mesh.visible = !loaded.has(key);
-      this.meshes.set(key, mesh);
-      this.group.add(mesh);
+  /** Builds buffers for a moment, and goes on later. */
+  private readonly build = () => {
+    const { tiles, shapes, loaded } = this.large!;
+    const until = performance.now() + slice;
+    while (this.waiting.length && performance.now() < until) {
+      const key = this.waiting.pop()!;
+      const drawn = this.meshOf(tiles.get(key)!.buildings.flatMap((i) => shapes[i]!));
+      drawn.mesh.visible = !loaded.has(key);
+      this.meshes.set(key, drawn);
+      this.group.add(drawn.mesh);
     }
-    this.waiting = order.map((o) => o.key);
-    return this.waiting.length > 0;
+    this.timer = this.waiting.length ? setTimeout(this.build, 4) : undefined;
+    if (this.timer !== undefined && performance.now() < this.asked + pause) return;
+    this.asked = performance.now();
+    this.arrived();
+  };
+
+  /** Chooses how much of each tile is drawn. `eye`: relative to the centre. */
+  seenFrom(eye: THREE.Vector3) {
+    for (const { mesh, boxes, roofs } of this.meshes.values()) {
+      if (!mesh.visible) continue;
+      const { center, radius } = mesh.geometry.boundingSphere!;
+      const away = eye.distanceTo(center) - radius;
+      if (away > outlinesWithin) mesh.geometry.setDrawRange(0, boxes);
+      else mesh.geometry.setDrawRange(boxes, away > wallsWithin ? roofs : Infinity);
+    }
   }
   get busy() {
     return this.waiting.length > 0;
@@ -100,19 +135,20 @@ export class Far {
     return best;
   }
 
-  private meshOf(shapes: readonly Shape[]) {
-    const { positions, normals, kinds } = prisms(shapes, this.centre);
+  private meshOf(shapes: readonly Shape[]): Drawn {
+    const { positions, normals, kinds, boxes, roofs } = prisms(shapes, this.centre);
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.BufferAttribute(Float32Array.from(positions), 3));
     geometry.setAttribute("normal", new THREE.BufferAttribute(Int8Array.from(normals, (n) => Math.round(127 * n)), 3, true));
     geometry.setAttribute("kind", new THREE.BufferAttribute(Uint8Array.from(kinds), 1));
     geometry.setAttribute("paint", new THREE.BufferAttribute(new Uint8Array(4 * kinds.length), 4, true));
     geometry.computeBoundingSphere();
-    return new THREE.Mesh(geometry, this.material);
+    return { mesh: new THREE.Mesh(geometry, this.material), boxes, roofs };
   }
 
   clear() {
-    for (const mesh of this.meshes.values()) {
+    clearTimeout(this.timer);
+    for (const { mesh } of this.meshes.values()) {
       mesh.geometry.dispose();
       mesh.removeFromParent();
     }

@@ -81,7 +81,7 @@ export class Viewer {
   private readonly others = new Others();
   private readonly terrain = new Terrain();
   private readonly farLook = modelLook();
-  private readonly far = new Far(this.farLook);
+  private readonly far = new Far(this.farLook, () => this.request());
   private large: Large | null = null;
   private contents: Box | null = null; // the box of what is shown, until it changes
   private highlight: Highlight;
@@ -983,7 +983,7 @@ export class Viewer {
   private draw() {
     this.aim();
     this.stream();
-    if (this.far.build(this.target, this.moving ? 4 : 25)) this.request();
+    this.far.seenFrom(this.eye.position);
     this.highlight.detailed = this.pose.size < 150;
     for (const side of this.sides) side?.output.seenFrom(this.pose.size, this.choices.outlines.opacity);
     const [first, second] = this.sides;
