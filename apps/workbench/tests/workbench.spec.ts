@@ -1124,3 +1124,57 @@ test("a run of thousands of buildings is a list at once, and models come near th
   await expect.poll(() => state(page, (s) => s.selection.value?.part ?? null)).not.toBe("b4017-1");
   await expect.poll(() => state(page, (s) => s.selection.value?.part ?? "")).toMatch(/^b\d+-1$/);
 });
+
+test.describe("on a touch screen", () => {
+  test.use({ hasTouch: true });
+
+  test("fingers turn, move and zoom the view, and drag points", async ({ clean: page, server }) => {
+    await openSample(page, server);
+    await reconstruct(page, "touched");
+    const house = await aHouse(page);
+    await pick(page, house.id);
+    await pickEdge(page, pitched(house.parts[0]!.plan)[0]!);
+    await idle(page);
+    const devtools = await page.context().newCDPSession(page);
+    /** Fingers on lines from the first to the second places. */
+    const drag = async (...fingers: [from: [number, number], to: [number, number]][]) => {
+      const at = (share: number) =>
+        fingers.map(([a, b], id) => ({ x: a[0] + (b[0] - a[0]) * share, y: a[1] + (b[1] - a[1]) * share, id }));
+      await devtools.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: at(0) });
+      for (let i = 1; i <= 8; ++i) await devtools.send("Input.dispatchTouchEvent", { type: "touchMove", touchPoints: at(i / 8) });
+      await devtools.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
+      await idle(page);
+    };
+    const seen = async () => ({ ...(await state(page, (s) => s.compass.value))!, top: await topOf(page, house.id) });
+    const before = await seen();
+    await drag([[300, 400], [400, 400]]);
+    const turned = await seen();
+    expect(Math.abs(turned.azimuth - before.azimuth)).toBeCloseTo(0.6, 1); // 0.006 per pixel
+    expect(turned.metresPerPixel).toBeCloseTo(before.metresPerPixel, 6);
+    await drag([[300, 400], [380, 420]], [[500, 400], [580, 420]]);
+    const moved = await seen();
+    expect(moved.azimuth).toBeCloseTo(turned.azimuth, 6);
+    expect(moved.top.x - turned.top.x, "the view follows two fingers").toBeGreaterThan(40);
+    await drag([[400, 400], [300, 400]], [[500, 400], [600, 400]]);
+    const zoomed = await seen();
+    expect(zoomed.metresPerPixel / moved.metresPerPixel, "fingers that part by a factor of three").toBeCloseTo(1 / 3, 1);
+
+    // A tap selects; a point of the profile and a corner of the plan follow the finger.
+    const before_edit = await buildingOf(page, house.id);
+    const point = page.getByRole("button", { name: /^point 1,/ });
+    const middle = async (of: typeof point) => {
+      const box = (await of.boundingBox())!;
+      return [box.x + box.width / 2, box.y + box.height / 2] as [number, number];
+    };
+    const from = await middle(point);
+    await drag([from, [from[0], from[1] - 25]]);
+    await expect.poll(async () => volume(await buildingOf(page, house.id))).toBeGreaterThan(volume(before_edit) + 1);
+    const corner = await middle(page.getByRole("button", { name: /^corner 0 at/ }));
+    const [x, y] = (await buildingOf(page, house.id)).parts[0]!.plan.outer.points[0]!;
+    await drag([corner, [corner[0] + 6, corner[1] + 6]]);
+    const changed = () =>
+      state(page, (s) => s.draft.value?.changes[0]?.parts[0]?.plan.outer.points[0] ?? s.selectedPlan.value!.outer.points[0]!);
+    await expect.poll(async () => Math.hypot((await changed())[0] - x, (await changed())[1] - y)).toBeGreaterThan(0.05);
+    await picture(page, "touch");
+  });
+});
