@@ -108,6 +108,7 @@ class Models {
   };
   [[nodiscard]] auto solids_of(const std::string& building) const -> base::Result<Solids>;
 
+  [[nodiscard]] auto frame() const -> const model::Frame& { return city_.frame; }
   [[nodiscard]] auto options() const -> const pipeline::Options& { return options_; }
 
  private:

@@ -29,6 +29,7 @@
 #include "apps/server/scene.hpp"
 #include "apps/server/textures.hpp"
 #include "mansard/base/result.hpp"
+#include "mansard/formats/ground_picture.hpp"
 
 namespace mansard::server {
 
@@ -103,6 +104,9 @@ class Workspace {
   [[nodiscard]] auto attributes(const std::string& run, const std::optional<std::string>& building) -> Text;
   /// The buildings at a lower level of detail: "1.2", "1.3" or "2.0".
   [[nodiscard]] auto level(const std::string& run, const std::string& lod) -> Text;
+  /// The basemap in the frame of the run, as openapi.json describes it. Fails with "server-no-basemap" without one.
+  [[nodiscard]] auto basemap(const std::string& run) -> Text;
+  void set_basemap(std::filesystem::path file) { basemap_file_ = std::move(file); }
   /// The terrain around the models as they are.
   [[nodiscard]] auto terrain(const std::string& run) -> Text;
   /// Models of any producer, in the frame of the scene, to be shown beside those of a run. Nothing is stored.
@@ -168,7 +172,10 @@ class Workspace {
   SceneOrNone scene_;
   /// Of the project as it was when it was last open, until the inputs have been read.
   std::shared_ptr<const SceneView> kept_view_;
-  std::shared_ptr<const Textures> textures_;  // of the scene; null until they are asked for
+  std::filesystem::path basemap_file_;  ///< set before anything is asked; empty: none
+  std::mutex basemap_mutex_;
+  std::map<std::string, formats::GroundPicture, std::less<>> basemaps_;  ///< by CRS
+  std::shared_ptr<const Textures> textures_;                             // of the scene; null until they are asked for
   std::optional<base::Diagnostic> scene_failure_;
   mutable ChangedFiles changed_files_;
   std::mutex exports_mutex_;

@@ -180,6 +180,7 @@ await call("get", "/api/runs/{run}/attributes", { at: of, query: { building: bui
 for (const lod of ["1.2", "1.3", "2.0"]) await call("get", "/api/runs/{run}/levels/{lod}", { at: { ...of, lod } });
 await call("get", "/api/runs/{run}/levels/{lod}", { at: { ...of, lod: "3" }, expect: 404 });
 await call("get", "/api/runs/{run}/terrain", { at: of });
+await call("get", "/api/runs/{run}/basemap", { at: of, expect: 409 });
 await call("get", "/api/runs/{run}/textures/{building}", { at: { ...of, building: "none" }, expect: 404 });
 await call("post", "/api/project/alignment", {
   body: { ...project.inputs.given, reading: project.reading },

@@ -395,6 +395,16 @@ export async function needTerrain(run: string): Promise<boolean> {
   return bytes !== undefined;
 }
 
+/** Fetches the basemap in the frame of a run; false if the server has none. */
+export async function needBasemap(run: string): Promise<boolean> {
+  if (state.basemaps.value.has(run) || requested.has(`basemap ${run}`)) return true;
+  requested.add(`basemap ${run}`);
+  const bytes = await attempt(client.basemap(run));
+  requested.delete(`basemap ${run}`);
+  if (bytes) state.basemaps.value = new Map(state.basemaps.value).set(run, bytes);
+  return bytes !== undefined;
+}
+
 /** Shows models of any program beside those of the run. */
 export async function openOther(path: string) {
   const model = await attempt(client.otherModel(path));

@@ -74,6 +74,8 @@ export const outdatedAttributes = signal<ReadonlySet<string>>(new Set());
 export const levels = signal<Map<string, api.LevelOfDetail>>(new Map());
 /** The terrain around the models of the runs; fetched on demand, and again after edits. */
 export const terrains = signal<Map<string, ArrayBuffer>>(new Map());
+/** The picture of the ground in the frame of the runs; fetched on demand. */
+export const basemaps = signal<Map<string, ArrayBuffer>>(new Map());
 /** Models of other programs that are shown beside those of the run. */
 export const others = signal<{ name: string; model: api.OtherModel }[]>([]);
 

@@ -1178,3 +1178,36 @@ test.describe("on a touch screen", () => {
     await picture(page, "touch");
   });
 });
+
+test("a basemap is shown under the models, if the server was started with one", { tag: "@firefox" }, async ({ clean: page, server, folder }) => {
+  const model = someModel(folder);
+  await page.goto(server.link);
+  await page.getByLabel("Models that mansard wrote").fill(model);
+  await page.getByRole("button", { name: "Open model" }).click();
+  await open(page, "street.city.json");
+  const shown = () => page.evaluate(() => (window as unknown as { mansard: { view: { basemap(): boolean } } }).mansard.view.basemap());
+  const layer = page.getByRole("checkbox", { name: "Basemap" });
+  await page.getByRole("tab", { name: "Layers" }).click();
+  await expect(layer).not.toBeChecked();
+  await layer.click();
+  await expect(page.getByText(/There is no basemap; start/)).toBeVisible();
+  await expect(layer).not.toBeChecked();
+
+  // A picture with a world file: stripes of 10 m, much larger than the street.
+  const [columns, rows] = [200, 200];
+  const bytes = Buffer.alloc(3 * columns * rows);
+  for (let i = 0; i < columns * rows; ++i) bytes.set(Math.floor((i % columns) / 10) % 2 ? [20, 150, 60] : [200, 230, 120], 3 * i);
+  writeFileSync(join(folder, "map.ppm"), Buffer.concat([Buffer.from(`P6\n${columns} ${rows}\n255\n`), bytes]));
+  writeFileSync(join(folder, "map.wld"), "1\n0\n0\n-1\n84900.5\n447099.5\n");
+  await server.stop();
+  await server.start("--basemap", join(folder, "map.ppm"));
+  await page.goto("about:blank");
+  await page.goto(server.link);
+  await open(page, "street.city.json");
+  await page.getByRole("tab", { name: "Layers" }).click();
+  await layer.click();
+  await expect.poll(shown).toBe(true);
+  await idle(page);
+  expect(await pixels(page, [[20, 150, 60], [200, 230, 120]])).toBeGreaterThan(20_000);
+  await picture(page, "basemap");
+});

@@ -46,6 +46,7 @@ export class Client {
   tileTexture = (id: string, signal?: AbortSignal) => this.bytes(`/api/scene/tiles/${escaped(id)}/texture`, signal);
   buildingTexture = (run: string, building: string) => this.bytes(this.of(run, `/textures/${escaped(building)}`));
   terrain = (run: string) => this.bytes(this.of(run, "/terrain"));
+  basemap = (run: string) => this.bytes(this.of(run, "/basemap"));
   start = (request: RunRequest) => this.json<api.Job>("POST", "/api/runs", request);
   importModel = (path: string) => this.json<api.Job>("POST", "/api/runs/import", { path });
   remove = (run: string) => this.json<unknown>("DELETE", this.of(run));

@@ -35,6 +35,8 @@ export interface ViewHandle {
   pictures(): [number, number];
   /** The place of a point of the scene's frame on the page. */
   place(at: [number, number, number]): { x: number; y: number } | null;
+  /** Whether a picture of the ground is drawn. */
+  basemap(): boolean;
   /** Triangles of the terrain that are drawn. */
   terrain(): number;
   idle(): Promise<void>;
@@ -45,6 +47,7 @@ export const handle: ViewHandle = {
   project: (building) => viewer.value?.project(building) ?? null,
   filled: () => viewer.value?.filled ?? 0,
   place: (at) => viewer.value?.placeOf(at) ?? null,
+  basemap: () => viewer.value?.basemapThere ?? false,
   terrain: () => viewer.value?.terrainTriangles ?? 0,
   pictures: () => viewer.value?.pictures ?? [0, 0],
   idle: async () => {
@@ -195,6 +198,14 @@ function connect(to: Viewer): () => void {
       const terrain = state.terrains.value.get(state.run.value?.id ?? "");
       if (terrain || !state.run.value) to.setTerrain(terrain ?? null); // after an edit the old one stays until the new one is there
     }),
+    effect(() => {
+      const run = state.run.value?.id;
+      if (!choices.value.basemap.shown || !run || state.basemaps.value.has(run)) return;
+      void actions.needBasemap(run).then((there) => {
+        if (!there) choose("basemap", { shown: false });
+      });
+    }),
+    effect(() => to.setBasemap(state.basemaps.value.get(state.run.value?.id ?? "") ?? null)),
     effect(() => to.setPaint(scale.value?.colours ?? null)),
     effect(() => to.setOthers(state.others.value.map((o) => o.model))),
     effect(() => to.setMeasure(points.value, measuring.value === "area")),

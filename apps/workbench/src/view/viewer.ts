@@ -7,6 +7,7 @@ import * as camera from "./camera";
 import type { Pose, Vector } from "./camera";
 import { attach, type Gestures } from "./controls";
 import { combine, textureOf } from "./errormap";
+import { Basemap } from "./basemap";
 import { Far } from "./far";
 import { type Box, boxOf, emptyBox, grow, isEmpty } from "./geometry";
 import { Highlight, type RawClimbs } from "./highlight";
@@ -60,6 +61,7 @@ const background = { light: 0xf6f6f3, dark: 0x1b1e23 };
 const nearCorner = 14; // pixels between a click and the corner of a footprint
 const restMilliseconds = 60; // after which the point under the pointer is looked for in the scan
 const mostVisible = 2000; // m; with more of a large run in view, its models would be a few pixels each
+const underFeet = 0.05; // m; the basemap is below the models, whose ground faces would flicker with it
 const before = 0.003; // m; by which the outlines of a cut are in front of it
 
 export class Viewer {
@@ -80,6 +82,8 @@ export class Viewer {
   private readonly pairMarks = new Marks();
   private readonly others = new Others();
   private readonly terrain = new Terrain();
+  private readonly basemap = new Basemap(() => this.request());
+  private basemapBytes: ArrayBuffer | null = null;
   private readonly farLook = modelLook();
   private readonly far = new Far(this.farLook, () => this.request());
   private large: Large | null = null;
@@ -130,6 +134,7 @@ export class Viewer {
       this.others.group,
       this.terrain.group,
       this.far.group,
+      this.basemap.group,
       ...this.marks.map((m) => m.object),
     );
     this.world.add(this.highlight.group, this.sides[0].output.group);
@@ -143,6 +148,7 @@ export class Viewer {
     cancelAnimationFrame(this.frameAsked);
     this.tiles?.dispose();
     this.far.dispose();
+    this.basemap.clear();
     for (const side of this.sides) side?.dispose();
     this.renderer.dispose();
   }
@@ -265,6 +271,7 @@ export class Viewer {
     if (another) this.placeMarks();
     if (another && which === 0) this.maskMesh();
     side.output.paint(this.paints);
+    if (another && this.basemapBytes) this.placeBasemap();
     this.showBuried();
     this.showSelection();
     this.place();
@@ -307,6 +314,19 @@ export class Viewer {
   /** Triangles of the terrain; for tests. */
   get terrainTriangles() {
     return this.choices.terrain.shown ? this.terrain.triangles : 0;
+  }
+
+  setBasemap(bytes: ArrayBuffer | null) {
+    this.basemapBytes = bytes;
+    this.placeBasemap();
+    this.request();
+  }
+  /** At the foot of the lowest building: above the ground it would hide models on a slope. */
+  private placeBasemap() {
+    this.basemap.set(this.basemapBytes, this.centre, this.content().low[2] - underFeet);
+  }
+  get basemapThere() {
+    return this.basemap.there;
   }
 
   setMeasure(points: readonly Vector[], closed: boolean) {
@@ -407,6 +427,7 @@ export class Viewer {
     this.maskMesh();
     this.showOthers();
     this.showTerrain();
+    this.basemap.opacity = choices.basemap.shown ? choices.basemap.opacity : 0;
     this.showSelection();
     this.request();
   }
@@ -594,7 +615,7 @@ export class Viewer {
   async idle(): Promise<void> {
     for (let calm = 0; calm < 3; ) {
       await new Promise((resolve) => setTimeout(resolve, 25));
-      calm = this.frameAsked || this.far.busy || this.tiles?.busy || this.sides[0].output.textures.busy ? 0 : calm + 1;
+      calm = this.frameAsked || this.far.busy || this.basemap.busy || this.tiles?.busy || this.sides[0].output.textures.busy ? 0 : calm + 1;
     }
   }
 
@@ -780,6 +801,7 @@ export class Viewer {
     this.showSelection();
     for (const side of this.sides) side?.output.paint(this.paints);
     this.far.set(this.large, centre);
+    this.setBasemap(this.basemapBytes);
     this.setOthers(this.otherModels);
     this.setTerrain(this.terrainBytes);
     this.setMeasure(this.measured.points, this.measured.closed);
