@@ -630,7 +630,7 @@ test("a section plane goes through the selection, in any direction, and is fille
   await idle(page);
   expect(await filled(page), "the cut of the house is filled").toBeGreaterThan(0);
   expect(await pixels(page, fill)).toBeGreaterThan(5000);
-  expect(await pixels(page, insides), "pixels through which the inside of a solid is seen").toBeLessThan(200);
+  expect(await pixels(page, insides), "pixels through which the inside of a solid is seen").toBeLessThan(50);
   expect((await canvas(page).screenshot()).equals(before)).toBe(false);
   const controls = page.getByRole("group", { name: "Section plane" });
   await controls.getByLabel("Direction of the plane's normal").fill("33");

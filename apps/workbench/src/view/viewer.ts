@@ -12,7 +12,7 @@ import { Far } from "./far";
 import { type Box, boxOf, emptyBox, grow, isEmpty } from "./geometry";
 import { Highlight, type RawClimbs } from "./highlight";
 import type { Choices } from "./layers";
-import { Cap, Marks, Segments, Sheet, WideLines, flat } from "./lines";
+import { Cap, capNearer, Marks, Segments, Sheet, WideLines, flat } from "./lines";
 import { colours, modelLook } from "./materials";
 import { type Large, boxOfShapes, tilesNear } from "../large";
 import { Output } from "./output";
@@ -62,7 +62,7 @@ const nearCorner = 14; // pixels between a click and the corner of a footprint
 const restMilliseconds = 60; // after which the point under the pointer is looked for in the scan
 const mostVisible = 2000; // m; with more of a large run in view, its models would be a few pixels each
 const underFeet = 0.05; // m; the basemap is below the models, whose ground faces would flicker with it
-const before = 0.003; // m; by which the outlines of a cut are in front of it
+const inside = 0.05; // m; by which the outlines of a cut are behind its plane, which would hide them
 
 export class Viewer {
   private readonly renderer: THREE.WebGLRenderer;
@@ -138,7 +138,11 @@ export class Viewer {
       ...this.marks.map((m) => m.object),
     );
     this.world.add(this.highlight.group, this.sides[0].output.group);
-    this.capLines.material.clipping = false; // as the cap: see Cap
+    Object.assign(this.capLines.material, {
+      polygonOffset: true,
+      polygonOffsetFactor: 0,
+      polygonOffsetUnits: -2 * capNearer,
+    });
     attach(canvas, this.gestures, this.gone.signal);
     canvas.addEventListener("webglcontextrestored", () => this.request(), { signal: this.gone.signal });
   }
@@ -487,7 +491,7 @@ export class Viewer {
     const outlines = new Segments(this.centre);
     if (this.section) {
       const { normal, at } = planeOf(this.section);
-      const by = (this.section.flipped ? -before : before) as number;
+      const by = (this.section.flipped ? inside : -inside) as number;
       for (const building of this.sides[0].shown()) {
         const box = boxOf(building);
         const [least, most] = reach({ ...this.section, offset: 0 }, box);
