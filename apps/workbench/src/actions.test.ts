@@ -149,6 +149,24 @@ describe("the scene", () => {
     expect(state.tiles.value).toBe(tiles);
   });
 
+  it("that was kept is not measured with: the server has no mesh yet", async () => {
+    vi.useFakeTimers();
+    const scored: string[] = [];
+    answers["GET /api/runs/run-1/scores"] = () => (scored.push("scores"), { edits: 1, scores: null });
+    state.project.value = project(run("run-1", { scores: { mse: 1 } as api.Scores }));
+    state.scene.value = scene;
+    state.jobs.value = [read({})];
+    open(building("a"));
+    actions.take("run-1", { buildings: [], history: history(1, "x") });
+    await vi.advanceTimersByTimeAsync(1000);
+    expect(scored).toEqual([]);
+    state.jobs.value = [];
+    actions.take("run-1", { buildings: [], history: history(1, "x") });
+    await vi.advanceTimersByTimeAsync(1000);
+    expect(scored).toEqual(["scores"]);
+    vi.useRealTimers();
+  });
+
   it("disappears if the inputs can no longer be read", async () => {
     answers["GET /api/project"] = () => ({ ...project(), inputs: {}, scene: true });
     answers["GET /api/jobs"] = () => ({ jobs: [read({})] });

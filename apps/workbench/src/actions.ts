@@ -445,7 +445,7 @@ async function measure(run: string) {
   const edit = editNumber(run);
   if (state.outdatedAttributes.value.has(run)) void needAttributes(run);
   // Without a scene nothing can be measured: the numbers stay marked, and are measured when it has been read.
-  if (!state.runSummary(run)?.scores || !state.scene.value) return;
+  if (!state.runSummary(run)?.scores || !state.sceneRead.value) return;
   const scores = await client.scores(run).catch((e: unknown) => {
     if (e instanceof Refused) return null; // the scene is being read again
     throw e;
