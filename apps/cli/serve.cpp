@@ -13,6 +13,7 @@
 #include "apps/cli/verbs.hpp"
 #include "apps/server/guard.hpp"
 #include "apps/server/server.hpp"
+#include "mansard/formats/input_name.hpp"
 
 namespace mansard::cli {
 namespace {
@@ -21,7 +22,7 @@ namespace fs = std::filesystem;
 
 struct Request {
   server::Options options;
-  std::string project = "mansard-project", sample;
+  std::string project = "mansard-project", sample, basemap;
   std::uint64_t upload_limit = 4096;  // MB
   std::size_t jobs = 0;
   bool open = false, quiet = false;
@@ -75,10 +76,13 @@ auto serve(const Request& request, const base::Cancel& cancel) -> int {
   auto options = request.options;
   options.project = request.project;
   options.sample = request.sample.empty() ? own_sample() : fs::path(request.sample);
+  if (!request.basemap.empty()) options.basemap = fs::absolute(request.basemap);
   options.upload_limit = request.upload_limit << 20;
   std::error_code status;
   if (!request.sample.empty() && !fs::is_directory(options.sample, status))
     return give_up(base::error("server-sample", "the folder does not exist; check --sample", request.sample));
+  if (!request.basemap.empty())
+    if (auto there = formats::check_input(request.basemap); !there) return give_up(there.error());
   base::limit_threads(request.jobs);
   if (!server::is_loopback(options.address))
     std::fprintf(
@@ -112,6 +116,9 @@ auto serve_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
   verb->add_option("--sample", request->sample,
                    "Folder with meshes and a file 'footprints', offered to empty projects as a sample")
       ->type_name("DIR");
+  verb->add_option("--basemap", request->basemap,
+                   "Picture of the ground, offered as a layer under the models: a raster that says where it is")
+      ->type_name("FILE");
   verb->add_option("--upload-limit", request->upload_limit, "Maximum size of an uploaded file, in MB")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 24));
   add_jobs(*verb, request->jobs);

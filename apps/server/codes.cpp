@@ -53,6 +53,8 @@ auto codes() -> std::vector<base::Code> {
        "Open inputs, wait until they have been read, or correct what the message names.", usage},
       {"server-no-textures", "The scan has neither textures nor colours, or they have not been read.",
        "Read them first. OBJ, glTF and 3D Tiles can have textures; meshes of other formats are shown without.", usage},
+      {"server-no-basemap", "The server was started without a basemap.",
+       "Start mansard serve with --basemap and a raster that says where it is, such as a GeoTIFF.", usage},
       {"server-not-done", "The run has no results: it has not ended, it failed, or it was cancelled.",
        "Wait until it is done, or start it again.", usage},
       {"server-busy", "The request has to wait: inputs are being read, or the run to delete has not ended.",

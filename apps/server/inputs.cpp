@@ -6,6 +6,7 @@
 #include "apps/server/options.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/formats/drivers.hpp"
+#include "mansard/formats/hash.hpp"
 #include "mansard/formats/input_name.hpp"
 
 namespace mansard::server {
@@ -124,6 +125,25 @@ auto with_files(Inputs inputs, const std::vector<model::InputFile>& read) -> Inp
     into->push_back({file.path, file.bytes, file.sha256, stamp.value_or(Stamp{})});
   }
   return inputs;
+}
+
+auto key_of(const Inputs& inputs) -> std::string {
+  const auto program = stamp_of("/proc/self/exe");
+  if (!program) return {};
+  Json all{{"version", MANSARD_VERSION},
+           {"program", {program->bytes, program->modified}},
+           {"meshes", inputs.meshes},
+           {"footprints", inputs.footprints},
+           {"reading", inputs.reading}};
+  for (const auto files : {&Inputs::mesh_files, &Inputs::terrain_files, &Inputs::footprint_files}) {
+    Json list = Json::array();
+    for (const auto& file : inputs.*files) {
+      if (file.sha256.empty() || !formats::disk_place_of(file.path)) return {};
+      list.push_back({file.path, file.sha256});
+    }
+    all["files"].push_back(std::move(list));
+  }
+  return formats::sha256(text_of(all));
 }
 
 auto shown_json(const Inputs& inputs) -> Json {

@@ -30,6 +30,10 @@ namespace mansard::server {
 /// The inputs with the files that were read.
 [[nodiscard]] auto with_files(Inputs inputs, const std::vector<model::InputFile>& read) -> Inputs;
 
+/// What a scene is made from, as a hash: files, options and this program. Empty where something of it is not known: a
+/// database, a file on a server.
+[[nodiscard]] auto key_of(const Inputs& inputs) -> std::string;
+
 /// The requested names without passwords: {"meshes", "footprints"}.
 [[nodiscard]] auto shown_json(const Inputs& inputs) -> Json;
 

@@ -179,6 +179,10 @@ auto json_of(const edit::History& history) -> Json {
   return {{"edits", std::move(edits)}, {"done", history.done()}};
 }
 
+auto both_of(const std::string& buildings, const Json& history) -> std::string {
+  return R"({"buildings":)" + buildings + R"(,"history":)" + text_of(history) + '}';
+}
+
 auto json_of(const std::string& id, std::uint64_t revision, std::span<const edit::NamedPlan> plans,
              const edit::RaisedBuilding& raised) -> Json {
   Json parts = Json::array();

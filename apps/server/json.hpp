@@ -38,6 +38,9 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] auto json_of(const edit::Change& change) -> Json;
 [[nodiscard]] auto json_of(const edit::History& history) -> Json;
 
+/// {"buildings": …, "history": …}; the buildings as text.
+[[nodiscard]] auto both_of(const std::string& buildings, const Json& history) -> std::string;
+
 /// RaisedBuilding. `plans` are those of its parts, in the same order.
 [[nodiscard]] auto json_of(const std::string& id, std::uint64_t revision, std::span<const edit::NamedPlan> plans,
                            const edit::RaisedBuilding& raised) -> Json;

@@ -1,6 +1,7 @@
-// Bounding boxes of buildings in plan: shared by models.cpp and its siblings.
+// Bounding boxes and hashes of buildings: shared by models.cpp and its siblings.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "mansard/edit/edit.hpp"
@@ -13,6 +14,9 @@ namespace mansard::server {
   for (const auto& part : parts) box.include(geometry::Box2::of(part.plan.outer.points));
   return box;
 }
+
+/// Hash of the plans of a building.
+[[nodiscard]] auto hash_of(const std::vector<edit::NamedPlan>& parts) -> std::string;
 
 /// Whether two boxes are so close that the buildings in them may share a party wall or overlap.
 [[nodiscard]] inline auto touch(const geometry::Box2& a, const geometry::Box2& b) -> bool {

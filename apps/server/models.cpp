@@ -1,11 +1,23 @@
 #include "apps/server/models.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "apps/server/model_boxes.hpp"
 
 namespace mansard::server {
 namespace {
+
+/// The texts of buildings as an array.
+template <class Buildings>
+auto array_of(const Buildings& buildings) -> std::string {
+  std::size_t length = 2;
+  for (const auto& building : buildings) length += building->json.size() + 1;
+  std::string out;
+  out.reserve(length);
+  for (const auto& building : buildings) (out += out.empty() ? '[' : ',') += building->json;
+  return out.empty() ? "[]" : out + ']';
+}
 
 auto no_building(const std::string& id) -> base::Diagnostic {
   return base::error("edit-building", "unknown building; /api/runs/{run}/buildings lists those of the run", id);
@@ -20,9 +32,16 @@ auto Models::view() const -> std::shared_ptr<const View> {
 
 auto Models::all() const -> std::string {
   const auto now = view();
-  Json buildings = Json::array();
-  for (const auto& building : now->buildings) buildings.push_back(building->json);
-  return text_of({{"buildings", std::move(buildings)}, {"history", now->history}});
+  std::vector<std::size_t> which(now->buildings.size());
+  std::iota(which.begin(), which.end(), std::size_t{0});
+  return both_of(array_of(made_all(which, *now)), now->history);
+}
+
+auto Models::single(const std::string& building) const -> base::Result<std::string> {
+  const auto now = view();
+  const auto at = index_.find(building);
+  if (at == index_.end() || at->second >= now->buildings.size()) return no_building(building);
+  return both_of(array_of(made_all({at->second}, *now)), now->history);
 }
 
 auto Models::known(const edit::Change& change, const View& view) const -> base::Result<std::size_t> {
@@ -83,8 +102,8 @@ auto Models::solids_of(const std::string& building) const -> base::Result<Solids
   const auto now = view();
   const auto at = index_.find(building);
   if (at == index_.end() || at->second >= now->buildings.size()) return no_building(building);
-  const auto& seen = *now->buildings[at->second];
-  return Solids{seen.revision, seen.models};
+  const auto seen = made(at->second, *now);
+  return Solids{seen->revision, seen->models};
 }
 
 auto Models::split(const SplitRequest& request) const -> base::Result<std::string> {

@@ -1,12 +1,15 @@
 // The models of an open run with its edits: shown, previewed and changed.
 //
 //   models.cpp        queries, previews and proposals
+//   models_list.cpp   large runs: the list of buildings, tiles, search
 //   models_open.cpp   from the files of the run
 //   models_edits.cpp  edits, undo, redo
 //   models_scores.cpp the scores of the edited models
+//   models_kept.cpp   what was measured, kept in the folder of the run
 #pragma once
 
 #include <cstdint>
+#include <list>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -32,7 +35,7 @@ using SceneOrNone = std::shared_ptr<const OpenScene>;
 
 /// What an edit, an undo or a redo changed.
 struct Changed {
-  Json buildings;           ///< an array of Building
+  std::string buildings;    ///< an array of Building
   Json history;             ///< History
   std::size_t applied = 0;  ///< edits, after undos
 };
@@ -41,13 +44,26 @@ struct Changed {
 /// and each is on disk before it becomes visible.
 class Models {
  public:
+  /// Runs with more buildings than this are large: their models are made when they are asked for.
+  static constexpr std::size_t most_at_once = 5'000;
+
   /// From the files in the folder of the run. An incomplete last line of the journal is cut off. Fails with
-  /// "edit-journal", "server-project", "write-plan-…", "file-…". Cost: every plan is extruded, on all threads.
-  [[nodiscard]] static auto open(const std::filesystem::path& folder, const RunRecord& run, const SceneOrNone& scene)
-      -> base::Result<std::shared_ptr<Models>>;
+  /// "edit-journal", "server-project", "write-plan-…", "file-…". Cost: every plan is extruded, on all threads; of a
+  /// large run only those of edited buildings.
+  /// `inputs`: what key_of gives of the scene's. What was measured with the same inputs is not measured again.
+  [[nodiscard]] static auto open(const std::filesystem::path& folder, const RunRecord& run, const SceneOrNone& scene,
+                                 const std::string& inputs) -> base::Result<std::shared_ptr<Models>>;
 
   /// {"buildings": …, "history": …}
   [[nodiscard]] auto all() const -> std::string;
+  /// The same with one building. Fails with "edit-building".
+  [[nodiscard]] auto single(const std::string& building) const -> base::Result<std::string>;
+  /// What a page needs of every building, without plans and models: BuildingList.
+  [[nodiscard]] auto list() const -> std::string;
+  /// The buildings in a tile of the list: those whose box in plan has its centre there.
+  [[nodiscard]] auto tile(std::int64_t column, std::int64_t row) const -> std::string;
+  /// {"ids": …}: the buildings with every word in their id, block, outcome or attributes, as the page finds them.
+  [[nodiscard]] auto search(const std::string& words) const -> std::string;
   /// {"buildings": [RaisedBuilding]}. Fails with "edit-building".
   [[nodiscard]] auto preview(const std::vector<edit::Change>& changes, const OpenScene* scene) const
       -> base::Result<std::string>;
@@ -79,6 +95,9 @@ class Models {
   [[nodiscard]] auto measured(const std::vector<std::string>& blocks, const SceneOrNone& scene)
       -> base::Result<Measured>;
 
+  /// The edited city around one building: that building first, then those whose walls may touch its own.
+  [[nodiscard]] auto edited_around(const std::string& building, const SceneOrNone& scene) const
+      -> base::Result<model::City>;
   /// The edited city, for export. Fails as edit::edited_city does.
   [[nodiscard]] auto edited(const SceneOrNone& scene) -> base::Result<std::shared_ptr<const model::City>>;
 
@@ -89,6 +108,7 @@ class Models {
   };
   [[nodiscard]] auto solids_of(const std::string& building) const -> base::Result<Solids>;
 
+  [[nodiscard]] auto frame() const -> const model::Frame& { return city_.frame; }
   [[nodiscard]] auto options() const -> const pipeline::Options& { return options_; }
 
  private:
@@ -98,9 +118,14 @@ class Models {
     std::uint64_t revision = 0;
     std::vector<edit::NamedPlan> parts;
     geometry::Box2 box;
+    bool edited = false;
     bool measured = false;
+    double volume = 0;          ///< m³
+    std::optional<double> mse;  ///< m²
+    std::vector<std::optional<double>> mse_of_parts;
+    bool made = false;  ///< whether the rest is there
     std::vector<model::LabelledSolid> models;
-    Json json;  ///< Building
+    std::string json;  ///< Building
   };
   struct View {
     std::vector<std::shared_ptr<const Seen>> buildings;  ///< in the source's order
@@ -113,19 +138,49 @@ class Models {
   [[nodiscard]] auto view() const -> std::shared_ptr<const View>;
   [[nodiscard]] auto read_reports(const std::filesystem::path& path) -> base::Result<void>;
   [[nodiscard]] auto raise_all(const OpenScene* scene) -> base::Result<void>;
+  void list_all(const OpenScene* scene);
+  /// The building with its models: from the view, or of a large run made now. Those made last are kept.
+  [[nodiscard]] auto made(std::size_t at, const View& view) const -> std::shared_ptr<const Seen>;
+  [[nodiscard]] auto made_all(const std::vector<std::size_t>& which, const View& view) const
+      -> std::vector<std::shared_ptr<const Seen>>;
+  /// m² of a part, as the run measured it over its polygon.
+  [[nodiscard]] auto mse_of_run(std::size_t building, std::size_t part) const -> std::optional<double>;
   [[nodiscard]] auto known(const edit::Change& change, const View& view) const -> base::Result<std::size_t>;
   [[nodiscard]] auto raised(const edit::Change& change, std::size_t at, const std::vector<edit::Change>& together,
                             const View& view, const OpenScene* scene) const -> edit::RaisedBuilding;
   [[nodiscard]] auto seen(const std::string& id, const edit::RaisedBuilding& raised, bool measured) const
       -> std::shared_ptr<const Seen>;
+  [[nodiscard]] auto named(const std::string& id) const -> Seen;
+  [[nodiscard]] auto with_models(Seen named, const edit::RaisedBuilding& raised) const -> std::shared_ptr<const Seen>;
+  /// What was measured of a building, with all that it depends on as one hash.
+  struct Measure {
+    geometry::Box2 over;  ///< of what it was measured over: models of others there count
+    std::string key;
+    std::optional<double> mse;
+    std::vector<std::optional<double>> mse_of_parts;
+  };
+  void read_measures();
+  /// Hash of what the error over a box depends on. `plans`: one hash per building.
+  [[nodiscard]] auto measure_key(std::size_t building, const geometry::Box2& over,
+                                 const std::vector<std::string>& plans, const std::vector<geometry::Box2>& boxes) const
+      -> std::string;
+  void keep_measures(const OpenScene& scene) const;
   [[nodiscard]] auto publish(const std::vector<std::string>& changed, const OpenScene* scene) -> Changed;
   [[nodiscard]] auto step(base::Result<std::vector<std::string>> (edit::History::*one)(), std::string_view line,
                           const OpenScene* scene) -> base::Result<Changed>;
 
   model::City city_;  // the plans of the run, without models
   pipeline::Options options_;
+  std::filesystem::path folder_;
+  std::string inputs_;                                    // empty: nothing is kept
+  std::map<std::string, Measure, std::less<>> measures_;  // as they were kept
   std::map<std::string, std::size_t, std::less<>> index_;
-  std::vector<Json> reports_;  // members of Building that edits do not change
+  struct Report {
+    std::string block, outcome;
+    Json reasons;  ///< an array; null for none
+    double ground = 0, volume = 0;
+  };
+  std::vector<Report> reports_;  // what edits do not change, and the volume that the run measured
 
   std::mutex edits_;  // guards the next two
   edit::History history_;
@@ -133,6 +188,14 @@ class Models {
 
   mutable std::mutex view_mutex_;
   std::shared_ptr<const View> view_;
+
+  /// Of a large run, by the buildings that they were made from.
+  struct Kept {
+    std::shared_ptr<const Seen> from, made;
+  };
+  mutable std::mutex kept_mutex_;
+  mutable std::list<Kept> kept_;  // the last one first
+  mutable std::map<const Seen*, std::list<Kept>::iterator> kept_at_;
 
   struct Block {
     std::vector<std::shared_ptr<const Seen>> buildings;  // that were measured

@@ -34,13 +34,14 @@ auto Models::publish(const std::vector<std::string>& changed, const OpenScene* s
   });
 
   auto after = std::make_shared<View>(*before);
-  Json buildings = Json::array();
+  std::string buildings;
   for (std::size_t i = 0; i < now.size(); ++i) {
     auto& slot = after->buildings[index_.find(now[i].building)->second];
-    if (i >= changed.size() && slot->json == renewed[i]->json) continue;
+    // A neighbour of which nothing changed keeps its place; in a large run it may never have been made.
+    if (i >= changed.size() && slot->made && slot->json == renewed[i]->json) continue;
     if (i >= changed.size() && scene == nullptr) continue;  // it would lose its measured error
     slot = renewed[i];
-    buildings.push_back(slot->json);
+    (buildings += buildings.empty() ? "" : ",") += slot->json;
   }
   after->history = json_of(history_);
   after->applied = history_.done();
@@ -49,7 +50,7 @@ auto Models::publish(const std::vector<std::string>& changed, const OpenScene* s
     const std::scoped_lock lock(view_mutex_);
     view_ = after;
   }
-  return {std::move(buildings), after->history, history_.done()};
+  return {'[' + buildings + ']', after->history, history_.done()};
 }
 
 auto Models::apply(edit::Edit edit, const OpenScene* scene) -> base::Result<Changed> {
@@ -138,7 +139,9 @@ auto Models::measure(const OpenScene& scene) -> std::optional<Changed> {
   for (const auto& building : view()->buildings)
     if (!building->measured) unmeasured.push_back(building->id);
   if (unmeasured.empty()) return std::nullopt;
-  return publish(unmeasured, &scene);
+  auto changed = publish(unmeasured, &scene);
+  keep_measures(scene);
+  return changed;
 }
 
 auto Models::edited(const SceneOrNone& scene) -> base::Result<std::shared_ptr<const model::City>> {

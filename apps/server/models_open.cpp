@@ -66,8 +66,8 @@ Models::Models(model::City city, edit::History history, Journal journal, pipelin
   for (std::size_t b = 0; b < city_.buildings.size(); ++b) index_[city_.buildings[b].id] = b;
 }
 
-auto Models::open(const std::filesystem::path& folder, const RunRecord& run, const SceneOrNone& scene)
-    -> base::Result<std::shared_ptr<Models>> {
+auto Models::open(const std::filesystem::path& folder, const RunRecord& run, const SceneOrNone& scene,
+                  const std::string& inputs) -> base::Result<std::shared_ptr<Models>> {
   pipeline::Options options;
   if (auto set = set_all(options, run.options); !set) return set.error();
   auto city = formats::read_plans(folder / "plans.json");
@@ -86,7 +86,15 @@ auto Models::open(const std::filesystem::path& folder, const RunRecord& run, con
   const std::shared_ptr<Models> models(
       new Models(std::move(*city), std::move(replayed->history), std::move(*journal), std::move(options)));
   if (auto read = models->read_reports(folder / "report.json"); !read) return read.error();
+  if (models->city_.buildings.size() > most_at_once) {
+    models->list_all(scene.get());
+    return models;
+  }
+  models->folder_ = folder;
+  models->inputs_ = inputs;
+  models->read_measures();
   if (auto raised = models->raise_all(scene.get()); !raised) return raised.error();
+  if (scene) models->keep_measures(*scene);
   return models;
 }
 
@@ -100,18 +108,17 @@ auto Models::read_reports(const std::filesystem::path& path) -> base::Result<voi
     for (const auto& building : json.at("buildings")) {
       const auto at = index_.find(building.at("id").get<std::string>());
       if (at == index_.end()) continue;
-      Json reasons = Json::array();
-      for (const auto& reason : building.at("reasons")) reasons.push_back(reason);
+      auto& report = reports_[at->second];
+      for (const auto& reason : building.at("reasons")) report.reasons.push_back(reason);
+      report.block = building.at("block").get<std::string>();
+      report.outcome = building.at("outcome").get<std::string>();
       // The report has no ground height for a building without parts; the plans have it.
-      const double ground = building.contains("ground_m") ? building.at("ground_m").get<double>() - z0
-                                                          : city_.buildings[at->second].ground;
-      reports_[at->second] = {{"block", building.at("block").get<std::string>()},
-                              {"outcome", building.at("outcome")},
-                              {"reasons", reasons},
-                              {"ground", ground}};
+      report.ground = building.contains("ground_m") ? building.at("ground_m").get<double>() - z0
+                                                    : city_.buildings[at->second].ground;
+      if (building.contains("volume_m3")) report.volume = building.at("volume_m3").get<double>();
     }
     for (std::size_t b = 0; b < reports_.size(); ++b)
-      if (reports_[b].empty())
+      if (reports_[b].outcome.empty())
         return base::error("server-project",
                            "the report lacks a building of plans.json; delete the run and start it again",
                            city_.buildings[b].id);
@@ -145,16 +152,27 @@ auto Models::raise_all(const OpenScene* scene) -> base::Result<void> {
         ++fell_short;
       }
       part.volume = solid::volume(part.model->solid);
-      if (!history_.edited(source.id))
-        part.mse = squared(number(city_.buildings[b].parts[p].attributes, "ms_rmse_lod22"));
+      if (!history_.edited(source.id)) part.mse = mse_of_run(b, p);
       buildings[b].parts.push_back(std::move(part));
     }
   }
   std::vector<geometry::Box2> boxes;
   for (const auto& building : city_.buildings) boxes.push_back(box_of(*history_.parts(building.id)));
+  std::vector<std::string> plans;
+  if (!measures_.empty())
+    for (const auto& building : city_.buildings) plans.push_back(hash_of(*history_.parts(building.id)));
+  std::vector<char> measured(buildings.size(), scene == nullptr ? 0 : 1);
   base::parallel_for(buildings.size(), [&](std::size_t b) {
     auto& building = buildings[b];
     const auto& source = raised->city.buildings[b];
+    if (const auto kept = measures_.find(source.id);
+        kept != measures_.end() && kept->second.mse_of_parts.size() == building.parts.size() &&
+        kept->second.key == measure_key(b, kept->second.over, plans, boxes)) {
+      building.mse = kept->second.mse;
+      for (std::size_t p = 0; p < building.parts.size(); ++p) building.parts[p].mse = kept->second.mse_of_parts[p];
+      measured[b] = 1;
+      return;
+    }
     const auto mesh = scene == nullptr ? nullptr : scene->rays_of(source.id);
     const auto* member = scene == nullptr ? nullptr : scene->member_of(source.id);
     if (mesh == nullptr || member == nullptr) {
@@ -175,24 +193,78 @@ auto Models::raise_all(const OpenScene* scene) -> base::Result<void> {
     building.mse = evaluate::footprint_error(solids, *mesh, member->polygons, member->ground, options_.evaluate);
   });
   for (std::size_t b = 0; b < buildings.size(); ++b)
-    view->buildings.push_back(seen(city_.buildings[b].id, buildings[b], scene != nullptr));
+    view->buildings.push_back(seen(city_.buildings[b].id, buildings[b], measured[b] != 0));
   view_ = std::move(view);
   return {};
 }
 
+/// Without models, but for the edited buildings. The others keep the error that the run measured over their parts.
+void Models::list_all(const OpenScene* scene) {
+  auto view = std::make_shared<View>();
+  view->history = json_of(history_);
+  view->applied = history_.done();
+  for (std::size_t b = 0; b < city_.buildings.size(); ++b) {
+    auto listed = std::make_shared<Seen>(named(city_.buildings[b].id));
+    listed->measured = true;
+    listed->volume = reports_[b].volume;
+    double sum = 0, area = 0;
+    for (std::size_t p = 0; p < listed->parts.size() && !history_.edited(listed->id); ++p) {
+      const auto mse = mse_of_run(b, p);
+      const double own = geometry::area(model::polygon_of(listed->parts[p].plan));
+      if (mse) sum += *mse * own, area += own;
+    }
+    if (area > 0) listed->mse = sum / area;
+    view->buildings.push_back(std::move(listed));
+  }
+  for (std::size_t b = 0; b < view->buildings.size(); ++b) {
+    const auto& id = view->buildings[b]->id;
+    if (!history_.edited(id)) continue;
+    const auto raised = this->raised({id, 0, *history_.parts(id)}, b, {}, *view, scene);
+    view->buildings[b] = seen(id, raised, scene != nullptr);
+  }
+  view_ = std::move(view);
+}
+
+auto Models::mse_of_run(std::size_t building, std::size_t part) const -> std::optional<double> {
+  const auto& parts = city_.buildings[building].parts;
+  return part < parts.size() ? squared(number(parts[part].attributes, "ms_rmse_lod22")) : std::nullopt;
+}
+
+auto Models::named(const std::string& id) const -> Seen {
+  Seen out;
+  out.id = id;
+  out.revision = history_.revision(id);
+  out.parts = *history_.parts(id);
+  out.box = box_of(out.parts);
+  out.edited = history_.edited(id) || has_mark(city_.buildings[index_.find(id)->second]);
+  return out;
+}
+
 auto Models::seen(const std::string& id, const edit::RaisedBuilding& raised, bool measured) const
     -> std::shared_ptr<const Seen> {
-  auto out = std::make_shared<Seen>();
-  out->id = id;
-  out->revision = history_.revision(id);
-  out->parts = *history_.parts(id);
-  out->box = box_of(out->parts);
-  out->measured = measured;
-  for (const auto& part : raised.parts)
+  auto out = named(id);
+  out.measured = measured;
+  return with_models(std::move(out), raised);
+}
+
+auto Models::with_models(Seen named, const edit::RaisedBuilding& raised) const -> std::shared_ptr<const Seen> {
+  auto out = std::make_shared<Seen>(std::move(named));
+  out->made = true;
+  out->volume = 0;
+  out->mse = raised.mse;
+  for (const auto& part : raised.parts) {
+    out->volume += part.volume;
+    out->mse_of_parts.push_back(part.mse);
     if (part.model) out->models.push_back(*part.model);
-  out->json = json_of(id, out->revision, out->parts, raised);
-  out->json.update(reports_[index_.find(id)->second]);
-  out->json["edited"] = history_.edited(id) || has_mark(city_.buildings[index_.find(id)->second]);
+  }
+  auto json = json_of(out->id, out->revision, out->parts, raised);
+  const auto& report = reports_[index_.find(out->id)->second];
+  json["block"] = report.block;
+  json["outcome"] = report.outcome;
+  json["reasons"] = report.reasons.is_null() ? Json::array() : report.reasons;
+  json["ground"] = report.ground;
+  json["edited"] = out->edited;
+  out->json = text_of(json);
   return out;
 }
 

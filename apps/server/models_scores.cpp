@@ -29,8 +29,10 @@ auto Models::measured(const std::vector<std::string>& blocks, const SceneOrNone&
     auto& known = measured_[name];
     if (known.comparison == nullptr || known.buildings != buildings) {
       std::vector<model::LabelledSolid> models;
-      for (const auto& building : buildings)
-        models.insert(models.end(), building->models.begin(), building->models.end());
+      for (const auto& building : buildings) {
+        const auto made = this->made(index_.find(building->id)->second, *now);
+        models.insert(models.end(), made->models.begin(), made->models.end());
+      }
       known.comparison = mesh == nullptr ? std::make_shared<const evaluate::Comparison>()
                                          : std::make_shared<const evaluate::Comparison>(evaluate::compare(
                                                models, *mesh, footprints, block->ground, options_.evaluate));

@@ -36,6 +36,11 @@ auto parameter(const Call& call, const char* name) -> base::Result<std::string> 
   return at->second;
 }
 
+auto maybe(const Call& call, const char* name) -> std::optional<std::string> {
+  const auto at = call.query.find(name);
+  return at == call.query.end() ? std::nullopt : std::optional(at->second);
+}
+
 auto section_of_part(Workspace& workspace, const Call& call) -> Text {
   const auto building = parameter(call, "building"), part = parameter(call, "part"), ring = parameter(call, "ring"),
              edge = parameter(call, "edge"), share = parameter(call, "share");
@@ -97,15 +102,25 @@ auto table() -> std::vector<Route> {
       {"GET", "/api/runs/{run}/report", nothing, gives,
        [](auto& w, const auto& call) { return w.report(run_of(call)); }},
       {"GET", "/api/runs/{run}/buildings", nothing, gives,
-       [](auto& w, const auto& call) { return w.buildings(run_of(call)); }},
+       [](auto& w, const auto& call) { return w.buildings(run_of(call), maybe(call, "building")); }},
+      {"GET", "/api/runs/{run}/list", nothing, gives, [](auto& w, const auto& call) { return w.list(run_of(call)); }},
+      {"GET", "/api/runs/{run}/tiles/{tile}", nothing, gives,
+       [](auto& w, const auto& call) { return w.tile_of_models(run_of(call), call.captured.at("tile")); }},
+      {"GET", "/api/runs/{run}/search", nothing, gives,
+       [](auto& w, const auto& call) -> Text {
+         const auto words = parameter(call, "words");
+         return words ? w.search(run_of(call), *words) : Text(words.error());
+       }},
       {"GET", "/api/runs/{run}/layers", nothing, gives,
        [](auto& w, const auto& call) { return w.layers(run_of(call)); }},
       {"GET", "/api/runs/{run}/attributes", nothing, gives,
-       [](auto& w, const auto& call) { return w.attributes(run_of(call)); }},
+       [](auto& w, const auto& call) { return w.attributes(run_of(call), maybe(call, "building")); }},
       {"GET", "/api/runs/{run}/levels/{lod}", nothing, gives,
        [](auto& w, const auto& call) { return w.level(run_of(call), call.captured.at("lod")); }},
       {"GET", "/api/runs/{run}/terrain", nothing, bytes,
        [](auto& w, const auto& call) { return w.terrain(run_of(call)); }},
+      {"GET", "/api/runs/{run}/basemap", nothing, bytes,
+       [](auto& w, const auto& call) { return w.basemap(run_of(call)); }},
       {"GET", "/api/runs/{run}/textures/{building}", nothing, bytes,
        [](auto& w, const auto& call) { return w.building_texture(run_of(call), call.captured.at("building")); }},
       {"POST", "/api/models", sends, gives,
@@ -167,19 +182,19 @@ auto matches(const Route& route, const std::vector<std::string_view>& words, Wor
 
 /// The HTTP status of a diagnostic code.
 auto status_of(std::string_view code) -> int {
-  static constexpr std::array<std::pair<std::string_view, int>, 34> known{{
-      {"server-body", 400},        {"option-value", 400},     {"option-unknown", 400},
-      {"file-missing", 400},       {"server-upload", 400},    {"server-token", 401},
-      {"server-host", 403},        {"server-origin", 403},    {"server-path", 404},
-      {"server-unknown", 404},     {"server-no-scene", 404},  {"server-sample", 404},
-      {"edit-building", 404},      {"edit-part", 404},        {"pipeline-block-unknown", 404},
-      {"server-method", 405},      {"edit-stale", 409},       {"edit-nothing", 409},
-      {"server-busy", 409},        {"server-inputs", 409},    {"server-input", 400},
-      {"file-read", 400},          {"server-not-done", 409},  {"output-exists", 409},
-      {"server-large", 413},       {"server-listeners", 503}, {"server-exists", 409},
-      {"server-changed", 409},     {"server-damaged", 409},   {"server-archive", 400},
-      {"server-no-textures", 404}, {"pipeline-nothing", 409}, {"terrain-no-ground", 409},
-      {"terrain-extent", 409},
+  static constexpr std::array<std::pair<std::string_view, int>, 35> known{{
+      {"server-body", 400},        {"option-value", 400},      {"option-unknown", 400},
+      {"file-missing", 400},       {"server-upload", 400},     {"server-token", 401},
+      {"server-host", 403},        {"server-origin", 403},     {"server-path", 404},
+      {"server-unknown", 404},     {"server-no-scene", 404},   {"server-sample", 404},
+      {"edit-building", 404},      {"edit-part", 404},         {"pipeline-block-unknown", 404},
+      {"server-method", 405},      {"edit-stale", 409},        {"edit-nothing", 409},
+      {"server-busy", 409},        {"server-inputs", 409},     {"server-input", 400},
+      {"file-read", 400},          {"server-not-done", 409},   {"output-exists", 409},
+      {"server-large", 413},       {"server-listeners", 503},  {"server-exists", 409},
+      {"server-changed", 409},     {"server-damaged", 409},    {"server-archive", 400},
+      {"server-no-textures", 404}, {"pipeline-nothing", 409},  {"terrain-no-ground", 409},
+      {"terrain-extent", 409},     {"server-no-basemap", 409},
   }};
   const auto at = std::ranges::find(known, code, &std::pair<std::string_view, int>::first);
   if (at != known.end()) return at->second;

@@ -1,8 +1,6 @@
 #include "apps/server/scene.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
 #include <iterator>
 #include <limits>
 
@@ -17,11 +15,6 @@ namespace {
 constexpr double reach = 20.0;
 /// Triangles that are kept prepared for rays: about 100 MB.
 constexpr std::size_t most_prepared = 500'000;
-
-template <class T>
-void append(std::string& bytes, const std::vector<T>& values) {
-  bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
-}
 
 }  // namespace
 
@@ -42,58 +35,13 @@ auto OpenScene::read(const Inputs& inputs, const base::Run& run) -> base::Result
   out->prepared_.resize(out->blocks_.size());
   for (std::size_t b = 0; b < out->blocks_.size(); ++b)
     for (const auto& member : out->blocks_[b].members) out->block_of_[out->scene_.feature(member.feature).id] = b;
-  out->scene_json_ = text_of(json_of(out->scene_, out->blocks_));
-  out->tiles_json_ = text_of(json_of(tiles));
-  if (auto done = out->put_aside(std::move(tiles)); !done) return done.failure();
+  auto view = SceneView::make(text_of(json_of(out->scene_, out->blocks_)), std::move(tiles));
+  if (!view) return view.failure();
+  out->view_ = std::move(*view);
   return std::shared_ptr<const OpenScene>(out);
 }
 
 auto OpenScene::has_block(std::string_view name) const -> bool { return block_named(name) != nullptr; }
-
-/// What a page asks for, in a file without a name: in memory it would be a second mesh.
-auto OpenScene::put_aside(std::vector<picture::Tile> tiles) -> base::Result<void> {
-  static_assert(std::endian::native == std::endian::little);
-  auto spool = base::Spool::open();
-  if (!spool) return spool.failure();
-  tile_bytes_ = std::move(*spool);
-  for (auto& tile : tiles) {
-    PutAside aside{{}, tile_bytes_->size(), tile.positions.size() / 3, tile.triangles.size() / 3};
-    std::string bytes;
-    append(bytes, std::vector<std::uint32_t>{static_cast<std::uint32_t>(aside.vertices),
-                                             static_cast<std::uint32_t>(aside.triangles)});
-    append(bytes, tile.positions);
-    append(bytes, tile.triangles);
-    tile_bytes_->append(bytes);
-    tile.positions = {};
-    tile.triangles = {};
-    aside.tile = std::move(tile);
-    tiles_.emplace(id_of(aside.tile), std::move(aside));
-  }
-  return {};
-}
-
-auto OpenScene::tile_bytes(const std::string& id) const -> base::Result<std::optional<std::string>> {
-  const auto at = tiles_.find(id);
-  if (at == tiles_.end()) return std::optional<std::string>();
-  const auto& aside = at->second;
-  const std::scoped_lock lock(tiles_mutex_);
-  auto bytes = tile_bytes_->read(aside.offset, 8 + 12 * (aside.vertices + aside.triangles));
-  if (!bytes) return bytes.failure();
-  return std::optional(std::move(*bytes));
-}
-
-auto OpenScene::tile(const std::string& id) const -> base::Result<std::optional<picture::Tile>> {
-  const auto bytes = tile_bytes(id);
-  if (!bytes) return bytes.failure();
-  if (!*bytes) return std::optional<picture::Tile>();
-  const auto& aside = tiles_.find(id)->second;
-  auto tile = aside.tile;
-  tile.positions.resize(3 * aside.vertices);
-  tile.triangles.resize(3 * aside.triangles);
-  std::memcpy(tile.positions.data(), (*bytes)->data() + 8, 12 * aside.vertices);
-  std::memcpy(tile.triangles.data(), (*bytes)->data() + 8 + 12 * aside.vertices, 12 * aside.triangles);
-  return std::optional(std::move(tile));
-}
 
 auto OpenScene::rays_of(std::string_view building) const -> std::shared_ptr<const rays::Scene> {
   const auto at = block_of_.find(building);

@@ -16,13 +16,12 @@
 
 #include "apps/server/json.hpp"
 #include "apps/server/project.hpp"
-#include "mansard/base/outputs.hpp"
+#include "apps/server/scene_view.hpp"
 #include "mansard/base/result.hpp"
 #include "mansard/base/run.hpp"
 #include "mansard/block/block.hpp"
 #include "mansard/edit/edit.hpp"
 #include "mansard/ingest/ingest.hpp"
-#include "mansard/picture/tiles.hpp"
 #include "mansard/profile/raw.hpp"
 #include "mansard/rays/rays.hpp"
 
@@ -38,13 +37,7 @@ class OpenScene {
   [[nodiscard]] auto scene() const -> const model::Scene& { return scene_; }
   [[nodiscard]] auto blocks() const -> const std::vector<block::Block>& { return blocks_; }
   [[nodiscard]] auto has_block(std::string_view name) const -> bool;
-  [[nodiscard]] auto scene_json() const -> const std::string& { return scene_json_; }
-  [[nodiscard]] auto tiles_json() const -> const std::string& { return tiles_json_; }
-  /// The bytes of a tile as openapi.json describes them; none for an unknown tile. Fails with "file-write" where what
-  /// was put aside cannot be read.
-  [[nodiscard]] auto tile_bytes(const std::string& id) const -> base::Result<std::optional<std::string>>;
-  /// The tile itself. Fails in the same way.
-  [[nodiscard]] auto tile(const std::string& id) const -> base::Result<std::optional<picture::Tile>>;
+  [[nodiscard]] auto view() const -> const std::shared_ptr<const SceneView>& { return view_; }
 
   /// The mesh around a building, prepared for ray casting; null if there is none. Those used last are kept, within a
   /// bound: prepared, a mesh takes several times its own memory.
@@ -71,16 +64,7 @@ class OpenScene {
   model::Scene scene_;
   std::vector<block::Block> blocks_;
   std::map<std::string, std::size_t, std::less<>> block_of_;  // by building
-  [[nodiscard]] auto put_aside(std::vector<picture::Tile> tiles) -> base::Result<void>;
-  struct PutAside {
-    picture::Tile tile;  ///< without its arrays
-    std::uint64_t offset = 0;
-    std::size_t vertices = 0, triangles = 0;
-  };
-  std::map<std::string, PutAside, std::less<>> tiles_;
-  mutable std::mutex tiles_mutex_;
-  std::unique_ptr<base::Spool> tile_bytes_;  ///< of all tiles: they are as large as the mesh, and rarely asked for
-  std::string scene_json_, tiles_json_;
+  std::shared_ptr<const SceneView> view_;
   mutable std::deque<Prepared> prepared_;  // per block
   void keep(std::size_t block, const std::shared_ptr<const rays::Scene>& rays) const;
   mutable std::mutex kept_mutex_;

@@ -17,6 +17,7 @@ struct Options {
   std::string address = "127.0.0.1";                    ///< to listen on
   int port = 8642;                                      ///< 0: any free port
   std::filesystem::path sample;                         ///< folder with meshes and footprints; empty: none
+  std::filesystem::path basemap;                        ///< a picture of the ground; empty: none
   std::uint64_t upload_limit = std::uint64_t{4} << 30;  ///< bytes per uploaded file
 };
 

@@ -24,6 +24,7 @@ auto Workspace::open(Project project, fs::path sample) -> base::Result<std::uniq
     known.record = std::move(run);
     known.edits = edits;
   }
+  workspace->open_kept_view();
   if (workspace->project_.inputs())
     (void)workspace->start_reading(*workspace->project_.inputs(), workspace->runs_.empty());
   return workspace;
@@ -58,9 +59,11 @@ auto Workspace::files_json(const std::vector<KnownFile>& files) const -> Json {
 auto Workspace::project_json() const -> Json {
   std::optional<Inputs> inputs;
   Json runs = Json::array();
+  bool scene = false;
   {
     const std::scoped_lock lock(mutex_);
     inputs = project_.inputs();
+    scene = scene_ || kept_view_;
     for (const auto& run : runs_) runs.push_back(json_of(run.record, run.edits));
   }
   Json files = nullptr;
@@ -71,7 +74,8 @@ auto Workspace::project_json() const -> Json {
              {"footprints", files_json(inputs->footprint_files)}};
   return {{"name", project_.name()},    {"folder", project_.folder().string()},
           {"inputs", std::move(files)}, {"reading", inputs ? Json(inputs->reading) : Json::object()},
-          {"runs", std::move(runs)},    {"sample", has_sample()}};
+          {"runs", std::move(runs)},    {"scene", scene},
+          {"sample", has_sample()}};
 }
 
 auto Workspace::project() const -> Text { return text_of(project_json()); }
@@ -127,6 +131,7 @@ auto Workspace::models(const std::string& run) -> base::Result<std::shared_ptr<M
   }
   const std::scoped_lock only_one(*opening);
   SceneOrNone scene;
+  std::string key;
   fs::path folder;
   {
     const std::scoped_lock lock(mutex_);
@@ -134,9 +139,10 @@ auto Workspace::models(const std::string& run) -> base::Result<std::shared_ptr<M
     if (found == nullptr) return unknown_run(run);
     if (found->models) return found->models;
     scene = scene_;
+    key = project_.inputs() ? key_of(*project_.inputs()) : std::string();
     folder = project_.run_folder(run);
   }
-  auto models = Models::open(folder, *known, scene);
+  auto models = Models::open(folder, *known, scene, key);
   if (!models) return models.error();
   SceneOrNone read_meanwhile;
   {

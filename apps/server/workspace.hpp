@@ -29,6 +29,7 @@
 #include "apps/server/scene.hpp"
 #include "apps/server/textures.hpp"
 #include "mansard/base/result.hpp"
+#include "mansard/formats/ground_picture.hpp"
 
 namespace mansard::server {
 
@@ -75,7 +76,12 @@ class Workspace {
   [[nodiscard]] auto remove_run(const std::string& run) -> Text;
   [[nodiscard]] auto rename_run(const std::string& run, const std::string& label) -> Text;
   [[nodiscard]] auto report(const std::string& run) const -> Text;
-  [[nodiscard]] auto buildings(const std::string& run) -> Text;
+  /// All buildings, or one.
+  [[nodiscard]] auto buildings(const std::string& run, const std::optional<std::string>& building) -> Text;
+  /// Of a large run: what a page needs of every building, those in a tile, and those that a search finds.
+  [[nodiscard]] auto list(const std::string& run) -> Text;
+  [[nodiscard]] auto tile_of_models(const std::string& run, const std::string& name) -> Text;
+  [[nodiscard]] auto search(const std::string& run, const std::string& words) -> Text;
   [[nodiscard]] auto layers(const std::string& run) const -> Text;
   /// The scores of the run as it is now; as it was reconstructed if nothing was edited.
   [[nodiscard]] auto scores(const std::string& run) -> Text;
@@ -94,10 +100,13 @@ class Workspace {
   [[nodiscard]] auto undo(const std::string& run, const std::string& client) -> Text;
   [[nodiscard]] auto redo(const std::string& run, const std::string& client) -> Text;
 
-  /// The attributes of all buildings and parts as they are now, with units and meanings.
-  [[nodiscard]] auto attributes(const std::string& run) -> Text;
+  /// The attributes of all buildings and parts as they are now, or of one building, with units and meanings.
+  [[nodiscard]] auto attributes(const std::string& run, const std::optional<std::string>& building) -> Text;
   /// The buildings at a lower level of detail: "1.2", "1.3" or "2.0".
   [[nodiscard]] auto level(const std::string& run, const std::string& lod) -> Text;
+  /// The basemap in the frame of the run, as openapi.json describes it. Fails with "server-no-basemap" without one.
+  [[nodiscard]] auto basemap(const std::string& run) -> Text;
+  void set_basemap(std::filesystem::path file) { basemap_file_ = std::move(file); }
   /// The terrain around the models as they are.
   [[nodiscard]] auto terrain(const std::string& run) -> Text;
   /// Models of any producer, in the frame of the scene, to be shown beside those of a run. Nothing is stored.
@@ -122,6 +131,11 @@ class Workspace {
   auto start_reading(const Inputs& inputs, bool save) -> Job;
   [[nodiscard]] auto read_scene(Inputs inputs, bool save, const base::Run& run) -> base::Result<void>;
   void measure_edited();
+  /// Opens what was kept of the scene, if its inputs are as they were.
+  void open_kept_view();
+  [[nodiscard]] auto kept_view_file() const -> std::filesystem::path;
+  /// What pages show: of the scene, or kept until there is one.
+  [[nodiscard]] auto view_or_error() const -> base::Result<std::shared_ptr<const SceneView>>;
   [[nodiscard]] auto has_sample() const -> bool;
   [[nodiscard]] auto scene_now() const -> SceneOrNone;
   [[nodiscard]] auto scene_or_error() const -> base::Result<SceneOrNone>;
@@ -156,7 +170,12 @@ class Workspace {
   Project project_;
   std::vector<Run> runs_;
   SceneOrNone scene_;
-  std::shared_ptr<const Textures> textures_;  // of the scene; null until they are asked for
+  /// Of the project as it was when it was last open, until the inputs have been read.
+  std::shared_ptr<const SceneView> kept_view_;
+  std::filesystem::path basemap_file_;  ///< set before anything is asked; empty: none
+  std::mutex basemap_mutex_;
+  std::map<std::string, formats::GroundPicture, std::less<>> basemaps_;  ///< by CRS
+  std::shared_ptr<const Textures> textures_;                             // of the scene; null until they are asked for
   std::optional<base::Diagnostic> scene_failure_;
   mutable ChangedFiles changed_files_;
   std::mutex exports_mutex_;

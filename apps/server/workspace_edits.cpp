@@ -2,12 +2,36 @@
 #include <utility>
 
 #include "apps/server/workspace.hpp"
+#include "mansard/base/text.hpp"
 
 namespace mansard::server {
 
-auto Workspace::buildings(const std::string& run) -> Text {
+auto Workspace::buildings(const std::string& run, const std::optional<std::string>& building) -> Text {
   const auto open = models(run);
-  return open ? Text((*open)->all()) : Text(open.error());
+  if (!open) return open.error();
+  return building ? (*open)->single(*building) : Text((*open)->all());
+}
+
+auto Workspace::list(const std::string& run) -> Text {
+  const auto open = models(run);
+  return open ? Text((*open)->list()) : Text(open.error());
+}
+
+auto Workspace::tile_of_models(const std::string& run, const std::string& name) -> Text {
+  const auto open = models(run);
+  if (!open) return open.error();
+  const auto between = name.find('_');
+  const auto column = base::to_integer(name.substr(0, between));
+  const auto row = between == std::string::npos ? std::nullopt : base::to_integer(name.substr(between + 1));
+  if (!column || !row)
+    return base::error("server-body", "expected the column and the row of a tile, as in '-2_14'",
+                       base::on_one_line(name.substr(0, 40)));
+  return (*open)->tile(*column, *row);
+}
+
+auto Workspace::search(const std::string& run, const std::string& words) -> Text {
+  const auto open = models(run);
+  return open ? Text((*open)->search(words)) : Text(open.error());
 }
 
 auto Workspace::section(const std::string& run, const PartName& part, std::size_t ring, std::size_t edge, double share)
@@ -116,11 +140,10 @@ auto Workspace::send_change(const std::string& run, const Changed& changed, cons
     const std::scoped_lock lock(mutex_);
     if (auto* found = find(run)) found->edits = changed.applied;
   }
-  const Json both{{"buildings", changed.buildings}, {"history", changed.history}};
-  Json event{{"type", "buildings"}, {"run", run}, {"client", client}};
-  event.update(both);
-  events_.send(text_of(event));
-  return text_of(both);
+  const auto both = both_of(changed.buildings, changed.history);
+  const auto head = text_of({{"type", "buildings"}, {"run", run}, {"client", client}});
+  events_.send(head.substr(0, head.size() - 1) + ',' + both.substr(1));
+  return both;
 }
 
 }  // namespace mansard::server

@@ -1,4 +1,6 @@
 // Workspace: answers about models beyond what editing needs.
+#include <array>
+
 #include "apps/server/ground.hpp"
 #include "apps/server/inputs.hpp"
 #include "apps/server/inspect.hpp"
@@ -10,9 +12,15 @@
 
 namespace mansard::server {
 
-auto Workspace::attributes(const std::string& run) -> Text {
+auto Workspace::attributes(const std::string& run, const std::optional<std::string>& building) -> Text {
   const auto open = models(run);
   if (!open) return open.error();
+  if (building) {
+    auto around = (*open)->edited_around(*building, scene_now());
+    if (!around) return around.error();
+    around->buildings.resize(1);
+    return text_of(attributes_json(*around));
+  }
   const auto city = (*open)->edited(scene_now());
   return city ? Text(text_of(attributes_json(**city))) : Text(city.error());
 }
@@ -28,6 +36,27 @@ auto Workspace::level(const std::string& run, const std::string& lod) -> Text {
   if (!open) return open.error();
   const auto city = (*open)->edited(scene_now());
   return city ? Text(text_of(level_json(**city, *level, (*open)->options().write.levels))) : Text(city.error());
+}
+
+auto Workspace::basemap(const std::string& run) -> Text {
+  if (basemap_file_.empty())
+    return base::error("server-no-basemap",
+                       "there is no basemap; start 'mansard serve' with --basemap and a raster that says where it is");
+  const auto open = models(run);
+  if (!open) return open.error();
+  const auto& frame = (*open)->frame();
+  constexpr int most = 4096;  // pixels along a side: 64 MB on the graphics card
+  const std::scoped_lock lock(basemap_mutex_);
+  auto known = basemaps_.find(frame.crs);
+  if (known == basemaps_.end()) {
+    auto picture = formats::read_ground_picture(basemap_file_, frame.crs, most);
+    if (!picture) return picture.error();
+    known = basemaps_.emplace(frame.crs, std::move(*picture)).first;
+  }
+  const auto& [png, place] = known->second;
+  const auto x = static_cast<double>(frame.origin[0]), y = static_cast<double>(frame.origin[1]);
+  const std::array<double, 4> edges{place.least.x - x, place.least.y - y, place.most.x - x, place.most.y - y};
+  return std::string(reinterpret_cast<const char*>(edges.data()), sizeof(edges)) + png;
 }
 
 auto Workspace::terrain(const std::string& run) -> Text {

@@ -72,6 +72,10 @@ auto Workspace::open_inputs(const InputsRequest& request) -> Text {
           "server-inputs",
           "the project has runs with other inputs; delete them, or start 'mansard serve' with another folder");
   }
+  {
+    const std::scoped_lock lock(mutex_);
+    if (!project_.inputs() || !project_.inputs()->same_request(inputs)) kept_view_ = nullptr;
+  }
   return text_of(json_of(start_reading(inputs, true)));
 }
 
@@ -121,6 +125,7 @@ auto Workspace::start_reading(const Inputs& inputs, bool save) -> Job {
       [this](State, const std::optional<base::Diagnostic>& failure) {
         const std::scoped_lock lock(mutex_);
         scene_failure_ = failure;
+        kept_view_ = nullptr;  // there is a scene now, or the inputs are not what they were
       });
 }
 
@@ -128,6 +133,8 @@ auto Workspace::read_scene(Inputs inputs, bool save, const base::Run& run) -> ba
   auto scene = OpenScene::read(inputs, run);
   if (!scene) return explained(scene.error(), inputs);
   inputs = with_files(std::move(inputs), (*scene)->scene().inputs);
+  std::string key;
+  bool keeps = false;
   {
     const std::scoped_lock lock(mutex_);
     // Runs are shown over the files that they were made from, and over no others.
@@ -142,9 +149,14 @@ auto Workspace::read_scene(Inputs inputs, bool save, const base::Run& run) -> ba
       if (auto saved = project_.save(inputs); !saved) return saved;
     scene_ = *scene;
     textures_ = nullptr;
+    key = key_of(inputs);
+    keeps = !kept_view_;
   }
   send_project();
   measure_edited();
+  // Not being able to keep it costs time when the project is opened again, and nothing else.
+  if (keeps && !key.empty() && make_folder(kept_view_file().parent_path()))
+    (void)(*scene)->view()->keep(kept_view_file(), key);
   // Reading takes several times the memory of its result. The C library keeps it for what comes next, which may be
   // nothing.
   ::malloc_trim(0);
@@ -178,20 +190,41 @@ auto Workspace::scene_or_error() const -> base::Result<SceneOrNone> {
                                                        : "the project has no inputs; open a mesh and footprints first");
 }
 
-auto Workspace::scene() const -> Text {
+auto Workspace::kept_view_file() const -> fs::path { return project_.folder() / "kept" / "scene"; }
+
+void Workspace::open_kept_view() {
+  if (!project_.inputs()) return;
+  const auto& inputs = *project_.inputs();
+  for (const auto files : {&Inputs::mesh_files, &Inputs::terrain_files, &Inputs::footprint_files})
+    for (const auto& file : inputs.*files)
+      if (changed_files_.changed(file)) return;
+  if (const auto key = key_of(inputs); !key.empty()) kept_view_ = SceneView::open(kept_view_file(), key);
+}
+
+auto Workspace::view_or_error() const -> base::Result<std::shared_ptr<const SceneView>> {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (!scene_ && kept_view_) return kept_view_;
+  }
   const auto scene = scene_or_error();
-  return scene ? Text((*scene)->scene_json()) : Text(scene.error());
+  if (!scene) return scene.error();
+  return (*scene)->view();
+}
+
+auto Workspace::scene() const -> Text {
+  const auto view = view_or_error();
+  return view ? Text((*view)->scene_json()) : Text(view.error());
 }
 
 auto Workspace::tiles() const -> Text {
-  const auto scene = scene_or_error();
-  return scene ? Text((*scene)->tiles_json()) : Text(scene.error());
+  const auto view = view_or_error();
+  return view ? Text((*view)->tiles_json()) : Text(view.error());
 }
 
 auto Workspace::tile(const std::string& id) const -> Text {
-  const auto scene = scene_or_error();
-  if (!scene) return scene.error();
-  auto bytes = (*scene)->tile_bytes(id);
+  const auto view = view_or_error();
+  if (!view) return view.error();
+  auto bytes = (*view)->tile_bytes(id);
   if (!bytes) return bytes.error();
   if (!*bytes) return unknown_tile(id);
   return std::move(**bytes);
@@ -231,7 +264,7 @@ auto Workspace::tile_texture(const std::string& id) const -> Text {
   if (!scene) return scene.error();
   const auto textures = textures_or_error();
   if (!textures) return textures.error();
-  const auto tile = (*scene)->tile(id);
+  const auto tile = (*scene)->view()->tile(id);
   if (!tile) return tile.error();
   return *tile ? (*textures)->of_tile(**tile) : Text(unknown_tile(id));
 }

@@ -164,12 +164,23 @@ await call("get", "/api/jobs");
 await call("get", "/api/runs/{run}/report", { at: of });
 await call("get", "/api/runs/{run}/report", { at: { run: "run-2" }, expect: 409 });
 const { buildings } = await call("get", "/api/runs/{run}/buildings", { at: of });
+const one = await call("get", "/api/runs/{run}/buildings", { at: of, query: { building: buildings[0].id } });
+assert.deepEqual(one.buildings, buildings.slice(0, 1));
+await call("get", "/api/runs/{run}/buildings", { at: of, query: { building: "none" }, expect: 404 });
+const list = await call("get", "/api/runs/{run}/list", { at: of });
+assert.deepEqual(list.ids, buildings.map((b) => b.id));
+await call("get", "/api/runs/{run}/tiles/{tile}", { at: { ...of, tile: "0_0" } });
+await call("get", "/api/runs/{run}/tiles/{tile}", { at: { ...of, tile: "0" }, expect: 400 });
+await call("get", "/api/runs/{run}/search", { at: of, query: { words: buildings[0].id } });
+await call("get", "/api/runs/{run}/search", { at: of, expect: 400 });
 await call("get", "/api/runs/{run}/layers", { at: of });
 await call("get", "/api/runs/{run}/scores", { at: of });
 await call("get", "/api/runs/{run}/attributes", { at: of });
+await call("get", "/api/runs/{run}/attributes", { at: of, query: { building: buildings[0].id } });
 for (const lod of ["1.2", "1.3", "2.0"]) await call("get", "/api/runs/{run}/levels/{lod}", { at: { ...of, lod } });
 await call("get", "/api/runs/{run}/levels/{lod}", { at: { ...of, lod: "3" }, expect: 404 });
 await call("get", "/api/runs/{run}/terrain", { at: of });
+await call("get", "/api/runs/{run}/basemap", { at: of, expect: 409 });
 await call("get", "/api/runs/{run}/textures/{building}", { at: { ...of, building: "none" }, expect: 404 });
 await call("post", "/api/project/alignment", {
   body: { ...project.inputs.given, reading: project.reading },

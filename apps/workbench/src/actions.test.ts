@@ -13,6 +13,7 @@ const project = (...runs: api.RunSummary[]): api.Project => ({
   inputs: null,
   reading: {},
   runs,
+  scene: false,
   sample: false,
 });
 const history = (done: number, ...edits: string[]): api.History => ({ edits, done });
@@ -49,6 +50,69 @@ const buildings = (...all: api.Building[]) => ({ buildings: all, history: histor
 const open = (...all: api.Building[]) =>
   (state.run.value = { id: "run-1", buildings: new Map(all.map((b) => [b.id, b])), history: history(0) });
 
+describe("a large run", () => {
+  const list: api.BuildingList = {
+    tile_size: 200,
+    ids: ["a", "b", "c"],
+    blocks: ["", "", ""],
+    outcomes: ["full", "full", "full"],
+    volumes: [1, 2, 3],
+    errors: [null, null, null],
+    edited: [false, false, false],
+    shapes: [0, 1000, 20000].map((x) => [[0, 600, x, 0, x + 800, 0, x + 800, 800]]),
+    reasons: {},
+    history: history(0),
+  };
+  const asked: string[] = [];
+  beforeEach(() => {
+    asked.length = 0;
+    state.project.value = project(run("run-1", { buildings: 100_000 }));
+    answers["GET /api/runs/run-1/list"] = () => list;
+    for (const [tile, ids] of [["0_0", ["a", "b"]], ["1_0", ["c"]]] as const)
+      answers[`GET /api/runs/run-1/tiles/${tile}`] = () => {
+        asked.push(tile);
+        return { buildings: ids.map((id) => building(id)) };
+      };
+  });
+
+  it("is opened as a list, without models", async () => {
+    await actions.openRun("run-1", null);
+    expect(state.run.value!.buildings.size).toBe(0);
+    expect(state.run.value!.large!.rows.map((r) => r.id)).toEqual(["a", "b", "c"]);
+    expect(asked).toEqual([]);
+  });
+
+  it("loads the models of tiles once", async () => {
+    await actions.openRun("run-1", null);
+    await actions.needTiles("run-1", ["1_0", "0_0"]);
+    await actions.needTiles("run-1", ["0_0"]);
+    expect(asked).toEqual(["1_0", "0_0"]);
+    expect([...state.run.value!.buildings.keys()]).toEqual(["c", "a", "b"]);
+  });
+
+  it("loads the models around a selected building, and then selects its part", async () => {
+    await actions.openRun("run-1", null);
+    actions.select({ building: "c", part: null, ring: 0, edge: null });
+    expect(state.selection.value).toMatchObject({ building: "c", part: null });
+    await vi.waitFor(() => expect(state.run.value!.large!.loaded.size).toBe(2));
+    expect(asked).toEqual(["1_0", "0_0"]);
+    expect(state.selection.value!.part).toBe(building("c").parts[0]!.id);
+  });
+
+  it("follows edits in its list, also of buildings that are not loaded", async () => {
+    await actions.openRun("run-1", null);
+    actions.take("run-1", { buildings: [building("b", { edited: true, revision: 1 })], history: history(1, "x") });
+    expect(state.run.value!.large!.rows.map((r) => r.edited)).toEqual([false, true, false]);
+    expect(state.run.value!.buildings.size).toBe(0);
+  });
+
+  it("cannot be compared side by side, and says so", async () => {
+    await actions.compareWith("run-1");
+    expect(state.other.value).toBeNull();
+    expect(state.messages.value[0]!.code).toBe("compare-large");
+  });
+});
+
 describe("the scene", () => {
   const asked: string[] = [];
   const scene = { name: "read" } as unknown as api.Scene;
@@ -69,6 +133,49 @@ describe("the scene", () => {
     actions.received({ type: "job", job: read({ state: "done" }) });
     await vi.waitFor(() => expect(state.scene.value).toEqual(scene));
     expect(asked).toEqual(["scene"]);
+  });
+
+  it("that the server kept is shown while the inputs are read again, and its tiles stay if they are the same", async () => {
+    answers["GET /api/project"] = () => ({ ...project(), inputs: {}, scene: true });
+    answers["GET /api/jobs"] = () => ({ jobs: [read({})] });
+    await actions.refresh();
+    await vi.waitFor(() => expect(state.scene.value).toEqual(scene));
+    expect(state.sceneRead.value).toBe(false);
+    const tiles = state.tiles.value;
+    actions.received({ type: "job", job: read({ state: "done" }) });
+    await vi.waitFor(() => expect(asked).toEqual(["scene", "scene"]));
+    expect(state.sceneRead.value).toBe(true);
+    await Promise.resolve();
+    expect(state.tiles.value).toBe(tiles);
+  });
+
+  it("that was kept is not measured with: the server has no mesh yet", async () => {
+    vi.useFakeTimers();
+    const scored: string[] = [];
+    answers["GET /api/runs/run-1/scores"] = () => (scored.push("scores"), { edits: 1, scores: null });
+    state.project.value = project(run("run-1", { scores: { mse: 1 } as api.Scores }));
+    state.scene.value = scene;
+    state.jobs.value = [read({})];
+    open(building("a"));
+    actions.take("run-1", { buildings: [], history: history(1, "x") });
+    await vi.advanceTimersByTimeAsync(1000);
+    expect(scored).toEqual([]);
+    state.jobs.value = [];
+    actions.take("run-1", { buildings: [], history: history(1, "x") });
+    await vi.advanceTimersByTimeAsync(1000);
+    expect(scored).toEqual(["scores"]);
+    vi.useRealTimers();
+  });
+
+  it("disappears if the inputs can no longer be read", async () => {
+    answers["GET /api/project"] = () => ({ ...project(), inputs: {}, scene: true });
+    answers["GET /api/jobs"] = () => ({ jobs: [read({})] });
+    await actions.refresh();
+    await vi.waitFor(() => expect(state.scene.value).toEqual(scene));
+    const none = { severity: "error", code: "server-no-scene", message: "the inputs could not be read", subject: "" };
+    answers["GET /api/scene"] = () => Response.json({ error: none }, { status: 404 });
+    actions.received({ type: "job", job: read({ state: "failed" }) });
+    await vi.waitFor(() => expect(state.scene.value).toBeNull());
   });
 
   it("is requested also if the end of reading arrives before the list of jobs", async () => {

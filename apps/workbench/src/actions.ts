@@ -3,6 +3,8 @@ import { batch } from "@preact/signals";
 import { Client, type InputsRequest, Refused, type RunRequest } from "./api/client";
 import type * as api from "./api/types";
 import { keep, kept } from "./keep";
+import { type Large, largeOf, mostAtOnce, mostLoaded, tilesAround } from "./large";
+import { rowOf } from "./panels/table";
 import * as state from "./state";
 
 /** The token is in the fragment of the link. It is kept for reloads of this tab, and removed from the address. */
@@ -36,7 +38,7 @@ export function showMessage(diagnostic: state.Message) {
 export function dismiss(diagnostic: state.Message) {
   state.messages.value = state.messages.value.filter((m) => m !== diagnostic);
 }
-const warn = (code: string, message: string, subject = "") => showMessage({ severity: "warning", code, message, subject });
+export const warn = (code: string, message: string, subject = "") => showMessage({ severity: "warning", code, message, subject });
 
 /** Shows a success for a few seconds. */
 export function showSuccess(code: string, message: string) {
@@ -127,8 +129,8 @@ export async function refresh() {
       ...arrived.filter((a) => !answered.some((j) => j.id === a.id)),
     ];
   });
-  // While inputs are being read there is no scene. It is loaded when that job has ended.
-  if (!state.jobs.value.some((j) => j.kind === "read" && !ended(j))) void loadScene();
+  // While inputs are being read the server has what it kept of the scene, or none. It is loaded again when that job has ended.
+  if (project.scene || !state.jobs.value.some((j) => j.kind === "read" && !ended(j))) void loadScene();
   const open = kept<Open | null>("session", openKey(), null) ?? kept<Open | null>("local", openKey(), null);
   const finished = project.runs.filter((r) => r.state === "done");
   const there = (id: string | null | undefined) => finished.some((r) => r.id === id);
@@ -147,9 +149,11 @@ export async function loadScene() {
   if (!state.project.value?.inputs) return;
   try {
     const [scene, tiles] = await Promise.all([client.scene(), client.tiles()]);
+    // What was shown while the inputs were read again is mostly the same: its tiles stay.
+    const same = (a: unknown, b: unknown) => JSON.stringify(a) === JSON.stringify(b);
     batch(() => {
-      state.scene.value = scene;
-      state.tiles.value = tiles;
+      if (!same(scene, state.scene.value)) state.scene.value = scene;
+      if (!same(tiles, state.tiles.value)) state.tiles.value = tiles;
       state.texturesRead.value = false;
     });
     for (const open of [state.run.value, state.other.value]) if (open?.history.done) measureAgain(open.id);
@@ -157,6 +161,7 @@ export async function loadScene() {
     // "server-no-scene": it was requested too early.
     if (e instanceof Refused && e.diagnostic.code !== "server-no-scene") showMessage(e.diagnostic);
     else if (!(e instanceof Refused)) throw e;
+    else state.scene.value = state.tiles.value = null;
   }
 }
 
@@ -224,7 +229,13 @@ export async function deleteRun(run: string) {
   if (state.other.value?.id === run) state.other.value = null;
 }
 
+const isLarge = (run: string) => (state.runSummary(run)?.buildings ?? 0) > mostAtOnce;
+
 async function fetchRun(id: string): Promise<state.OpenRun | undefined> {
+  if (isLarge(id)) {
+    const list = await attempt(client.list(id));
+    return list && { id, buildings: new Map(), history: list.history, large: largeOf(list) };
+  }
   const answer = await attempt(client.buildings(id));
   if (!answer) return undefined;
   return { id, buildings: new Map(answer.buildings.map((b) => [b.id, b])), history: answer.history };
@@ -244,6 +255,7 @@ export async function openRun(id: string, at: state.Selection | null = state.sel
     state.also.value = [];
   });
   if (opened?.history.done) measureAgain(id);
+  if (opened?.large && state.selection.value) void needTiles(id, []);
   keepOpen();
 }
 
@@ -257,7 +269,61 @@ function closeRun() {
   if (next) void openRun(next.id);
 }
 
+/** Loads the models of these tiles of a large run, in this order. */
+export async function needTiles(id: string, tiles: readonly string[]) {
+  wantedTiles = tiles;
+  if (loadingTiles) return;
+  loadingTiles = true;
+  try {
+    for (;;) {
+      const open = state.run.value;
+      if (open?.id !== id || !open.large) return;
+      const at = state.selection.value;
+      const first = at && !open.buildings.has(at.building) ? tilesAround(open.large, at.building) : [];
+      const next = [...first, ...wantedTiles].find((t) => !open.large!.loaded.has(t));
+      if (next === undefined) return;
+      const answer = await attempt(client.modelTile(id, next));
+      if (!answer) return;
+      addTile(id, next, answer.buildings);
+    }
+  } finally {
+    loadingTiles = false;
+  }
+}
+let wantedTiles: readonly string[] = [];
+let loadingTiles = false;
+
+/** Adds the models of a tile; those of tiles that nobody looks at are forgotten when there are too many. */
+function addTile(id: string, tile: string, models: readonly api.Building[]) {
+  const open = state.run.value;
+  if (open?.id !== id || !open.large) return;
+  const { large } = open;
+  const buildings = new Map(open.buildings);
+  for (const building of models) {
+    const known = buildings.get(building.id);
+    if (!known || known.revision <= building.revision) buildings.set(building.id, building);
+  }
+  const loaded = new Set(large.loaded).add(tile);
+  const drafted = state.draft.value?.changes.map((c) => c.building) ?? [];
+  const needed = [state.selection.value?.building, ...drafted].flatMap((b) => (b ? tilesAround(large, b) : []));
+  for (const old of loaded) {
+    if (buildings.size <= mostLoaded) break;
+    if (old === tile || wantedTiles.includes(old) || needed.includes(old)) continue;
+    for (const i of large.tiles.get(old)!.buildings) buildings.delete(large.rows[i]!.id);
+    loaded.delete(old);
+  }
+  batch(() => {
+    state.run.value = { ...open, buildings, large: { ...large, loaded } };
+    const at = state.selection.value;
+    if (at && !at.part && models.some((b) => b.id === at.building)) select(at);
+  });
+}
+
 export async function compareWith(id: string | null) {
+  if (id && isLarge(id)) {
+    warn("compare-large", "runs of more than 5,000 buildings cannot be shown side by side");
+    return;
+  }
   const opened = id ? await fetchRun(id) : null;
   if (opened === undefined) return;
   state.other.value = opened;
@@ -329,6 +395,16 @@ export async function needTerrain(run: string): Promise<boolean> {
   return bytes !== undefined;
 }
 
+/** Fetches the basemap in the frame of a run; false if the server has none. */
+export async function needBasemap(run: string): Promise<boolean> {
+  if (state.basemaps.value.has(run) || requested.has(`basemap ${run}`)) return true;
+  requested.add(`basemap ${run}`);
+  const bytes = await attempt(client.basemap(run));
+  requested.delete(`basemap ${run}`);
+  if (bytes) state.basemaps.value = new Map(state.basemaps.value).set(run, bytes);
+  return bytes !== undefined;
+}
+
 /** Shows models of any program beside those of the run. */
 export async function openOther(path: string) {
   const model = await attempt(client.otherModel(path));
@@ -369,7 +445,7 @@ async function measure(run: string) {
   const edit = editNumber(run);
   if (state.outdatedAttributes.value.has(run)) void needAttributes(run);
   // Without a scene nothing can be measured: the numbers stay marked, and are measured when it has been read.
-  if (!state.runSummary(run)?.scores || !state.scene.value) return;
+  if (!state.runSummary(run)?.scores || !state.sceneRead.value) return;
   const scores = await client.scores(run).catch((e: unknown) => {
     if (e instanceof Refused) return null; // the scene is being read again
     throw e;
@@ -383,7 +459,7 @@ async function measure(run: string) {
 
 function existing(run: state.OpenRun, at: state.Selection | null): state.Selection | null {
   const building = at && run.buildings.get(at.building);
-  if (!building) return null;
+  if (!building) return at && run.large?.index.has(at.building) ? { building: at.building, part: null, ring: 0, edge: null } : null;
   const part = building.parts.find((p) => p.id === at.part) ?? (at.part ? building.parts[0] : undefined);
   if (!part) return { building: building.id, part: null, ring: 0, edge: null };
   const ring = at.ring === 0 ? part.plan.outer : part.plan.holes[at.ring - 1];
@@ -398,6 +474,8 @@ export function select(at: state.Selection | null) {
     state.selection.value = at && { ...at, part };
     state.also.value = [];
   });
+  const open = state.run.value;
+  if (at && open?.large && !open.buildings.has(at.building)) void needTiles(open.id, wantedTiles);
   keepOpen();
 }
 
@@ -415,7 +493,8 @@ export const fly = (to: state.Flight) => (state.flight.value = { to, at: ++reque
 
 /** Selects the building `step` rows further down in the table, as it is sorted and filtered. */
 export function selectNext(step: number) {
-  const ids = state.order.value.length ? state.order.value : [...(state.run.value?.buildings.keys() ?? [])];
+  const all = () => state.run.value?.large?.index.keys() ?? state.run.value?.buildings.keys() ?? [];
+  const ids = state.order.value.length ? state.order.value : [...all()];
   if (!ids.length) return;
   const now = ids.indexOf(state.selection.value?.building ?? "");
   const next = now < 0 ? (step > 0 ? 0 : ids.length - 1) : (now + step + ids.length) % ids.length;
@@ -432,12 +511,24 @@ export function take(run: string, answer: api.Applied) {
     const buildings = new Map(opened.value.buildings);
     for (const building of answer.buildings) {
       const known = buildings.get(building.id);
+      if (opened.value.large && !known) continue; // it is not near the camera
       if (!known || known.revision <= building.revision) buildings.set(building.id, building);
     }
-    opened.value = { id: run, buildings, history: answer.history };
+    const large = opened.value.large && withRows(opened.value.large, answer.buildings);
+    opened.value = { ...opened.value, buildings, history: answer.history, ...(large && { large }) };
   }
   measureAgain(run);
   if (state.run.value?.id === run) state.selection.value = existing(state.run.value, state.selection.value);
+}
+
+/** The list of a large run with these buildings as they are now. */
+function withRows(large: Large, changed: readonly api.Building[]): Large {
+  const rows = large.rows.slice();
+  for (const building of changed) {
+    const at = large.index.get(building.id);
+    if (at !== undefined) rows[at] = rowOf(building);
+  }
+  return { ...large, rows };
 }
 
 export const undo = () => step("undo");
@@ -523,8 +614,8 @@ function receiveJob(job: api.Job) {
   if (known && ended(known)) return; // an event was faster than this answer
   state.jobs.value = known ? state.jobs.value.map((j) => (j.id === job.id ? job : j)) : [...state.jobs.value, job];
   if (job.failure && job.state === "failed") showMessage(job.failure);
+  if (job.kind === "read" && (job.state === "done" || (ended(job) && state.scene.value))) void loadScene();
   if (job.state !== "done") return;
-  if (job.kind === "read") void loadScene();
   if (job.kind === "run" && job.run && (mine.has(job.id) || !state.run.value)) void openRun(job.run);
 }
 

@@ -1,6 +1,7 @@
 // The state of the page as signals: panels read them, actions (src/actions.ts) change them.
 import { computed, signal } from "@preact/signals";
 import type * as api from "./api/types";
+import type { Large } from "./large";
 
 /** A building, part or edge of the open run. `edge` belongs to `ring` (0: the outer ring) of `part`. */
 export interface Selection {
@@ -13,8 +14,9 @@ export interface Selection {
 /** A run with its models in their state on the server. */
 export interface OpenRun {
   id: string;
-  buildings: Map<string, api.Building>;
+  buildings: Map<string, api.Building>; // of a large run those whose models are loaded
   history: api.History;
+  large?: Large;
 }
 
 /** Changed plans that are not saved: while dragging, and when they are invalid. */
@@ -72,6 +74,8 @@ export const outdatedAttributes = signal<ReadonlySet<string>>(new Set());
 export const levels = signal<Map<string, api.LevelOfDetail>>(new Map());
 /** The terrain around the models of the runs; fetched on demand, and again after edits. */
 export const terrains = signal<Map<string, ArrayBuffer>>(new Map());
+/** The picture of the ground in the frame of the runs; fetched on demand. */
+export const basemaps = signal<Map<string, ArrayBuffer>>(new Map());
 /** Models of other programs that are shown beside those of the run. */
 export const others = signal<{ name: string; model: api.OtherModel }[]>([]);
 
@@ -93,6 +97,11 @@ export const chosenBlocks = signal<ReadonlySet<string>>(new Set());
 export const choosing = signal(false);
 /** Requests a camera flight; `at` distinguishes two equal requests. */
 export const flight = signal<{ to: Flight; at: number } | null>(null);
+
+/** Whether the server has read the inputs: until then a scene that is shown is that of the last time. */
+export const sceneRead = computed(
+  () => scene.value !== null && !jobs.value.some((j) => j.kind === "read" && (j.state === "queued" || j.state === "running")),
+);
 
 /** The building to draw: its draft, if it has one. */
 export function shown(id: string): api.RaisedBuilding | undefined {

@@ -17,8 +17,8 @@ export class Server {
   private child: ChildProcess | null = null;
   constructor(readonly project: string) {}
 
-  async start() {
-    const child = spawn(binary!, ["serve", this.project, "--port", "0", "--sample", join(data, "delft")], {
+  async start(...more: string[]) {
+    const child = spawn(binary!, ["serve", this.project, "--port", "0", "--sample", join(data, "delft"), ...more], {
       stdio: ["ignore", "pipe", "inherit"],
     });
     this.child = child;

@@ -594,6 +594,27 @@ const topOf = (page: Page, id: string) =>
     return view.project(building)!;
   }, id);
 
+/** How many pixels of the view have one of these colours. */
+async function pixels(page: Page, colours: [number, number, number][]) {
+  const png = (await canvas(page).screenshot()).toString("base64");
+  return page.evaluate(
+    async ([bytes, wanted]) => {
+      const image = await createImageBitmap(new Blob([Uint8Array.from(atob(bytes), (c) => c.charCodeAt(0))]));
+      const surface = new OffscreenCanvas(image.width, image.height).getContext("2d")!;
+      surface.drawImage(image, 0, 0);
+      const { data } = surface.getImageData(0, 0, image.width, image.height);
+      let count = 0;
+      for (let i = 0; i < data.length; i += 4)
+        if (wanted.some((c) => c.every((value, k) => Math.abs(value - data[i + k]!) <= 1))) ++count;
+      return count;
+    },
+    [png, colours] as const,
+  );
+}
+/** The inside of the walls of the selected building, and of others, and the fill of a cut, as materials.ts has them. */
+const insides: [number, number, number][] = [[66, 76, 91], [73, 72, 69]];
+const fill: [number, number, number][] = [[138, 127, 116]];
+
 test("a section plane goes through the selection, in any direction, and is filled", { tag: "@firefox" }, async ({ clean: page, server }) => {
   await openSample(page, server);
   await reconstruct(page, "cut");
@@ -608,6 +629,8 @@ test("a section plane goes through the selection, in any direction, and is fille
   await page.getByRole("button", { name: "At the selection" }).click();
   await idle(page);
   expect(await filled(page), "the cut of the house is filled").toBeGreaterThan(0);
+  expect(await pixels(page, fill)).toBeGreaterThan(5000);
+  expect(await pixels(page, insides), "pixels through which the inside of a solid is seen").toBeLessThan(50);
   expect((await canvas(page).screenshot()).equals(before)).toBe(false);
   const controls = page.getByRole("group", { name: "Section plane" });
   await controls.getByLabel("Direction of the plane's normal").fill("33");
@@ -1045,4 +1068,146 @@ test("roofs of a row, parts like another, an annex and a deleted part", { tag: "
     await page.getByRole("button", { name: /^Undo/ }).click();
     await expect.poll(async () => (await buildingOf(page, "right")).parts.length).toBe(1);
   });
+});
+
+test("a run of thousands of buildings is a list at once, and models come near the camera", { tag: "@firefox" }, async ({ clean: page, server, folder }) => {
+  const footprints = join(folder, "town.geojson");
+  const square = (x: number, y: number) => [[[x, y], [x + 9, y], [x + 9, y + 8], [x, y + 8], [x, y]]];
+  writeFileSync(
+    footprints,
+    JSON.stringify({
+      type: "FeatureCollection",
+      crs: { type: "name", properties: { name: "EPSG:28992" } },
+      features: Array.from({ length: 5_184 }, (_, i) => ({
+        type: "Feature",
+        properties: { id: `b${i}`, street: i % 1000 === 17 ? "Canal" : "Market" },
+        geometry: { type: "Polygon", coordinates: square(85_000 + 20 * (i % 72), 447_000 + 20 * Math.floor(i / 72)) },
+      })),
+    }),
+  );
+  const model = join(folder, "town.json");
+  mansard("extrude", "-q", footprints, "--profile", "0,0 0,6 4,9", "-o", model);
+  await page.goto(server.link);
+  await page.getByLabel("Models that mansard wrote").fill(model);
+  await page.getByRole("button", { name: "Open model" }).click();
+  await page.getByRole("tab", { name: "Buildings" }).click();
+  await expect(page.getByRole("row", { name: "b0" })).toBeVisible({ timeout: 150_000 });
+  await expect(page.getByText("5,184", { exact: true })).toBeVisible();
+  await idle(page);
+  await picture(page, "large");
+
+  // The server searches attributes; the table finds ids at once.
+  await page.getByLabel("Filter buildings").fill("canal b40");
+  await expect(page.getByRole("row", { name: /^b/ })).toHaveText([/^b4017/]);
+  await page.getByRole("row", { name: "b4017" }).click();
+  await expect.poll(() => state(page, (s) => s.selection.value?.part)).toBe("b4017-1");
+  await idle(page);
+  const loaded = await state(page, (s) => s.run.value!.buildings.size);
+  expect(loaded).toBeGreaterThan(100);
+  expect(loaded, "only what is near").toBeLessThan(3_500);
+  await page.getByRole("tab", { name: "Attributes" }).click();
+  await expect(page.getByLabel("Of the source")).toContainText("Canal");
+
+  // It is edited like any other, and a click in the view selects a building.
+  await page.getByRole("tab", { name: "Edit" }).click();
+  await page.getByRole("button", { name: "Flat", exact: true }).click();
+  await expect.poll(async () => (await buildingOf(page, "b4017")).edited).toBe(true);
+  await page.getByRole("tab", { name: "Buildings" }).click();
+  await page.getByLabel("Filter buildings").fill("edited");
+  await expect(page.getByRole("row", { name: /^b/ })).toHaveText([/^b4017/]);
+  await idle(page);
+  await picture(page, "large-near");
+  await page.getByRole("button", { name: "Show all" }).click();
+  await idle(page);
+  const far = await topOf(page, "b71");
+  await page.mouse.click(far.x, far.y);
+  await expect.poll(() => state(page, (s) => s.selection.value?.part ?? null)).not.toBe("b4017-1");
+  await expect.poll(() => state(page, (s) => s.selection.value?.part ?? "")).toMatch(/^b\d+-1$/);
+});
+
+test.describe("on a touch screen", () => {
+  test.use({ hasTouch: true });
+
+  test("fingers turn, move and zoom the view, and drag points", async ({ clean: page, server }) => {
+    await openSample(page, server);
+    await reconstruct(page, "touched");
+    const house = await aHouse(page);
+    await pick(page, house.id);
+    await pickEdge(page, pitched(house.parts[0]!.plan)[0]!);
+    await idle(page);
+    const devtools = await page.context().newCDPSession(page);
+    /** Fingers on lines from the first to the second places. */
+    const drag = async (...fingers: [from: [number, number], to: [number, number]][]) => {
+      const at = (share: number) =>
+        fingers.map(([a, b], id) => ({ x: a[0] + (b[0] - a[0]) * share, y: a[1] + (b[1] - a[1]) * share, id }));
+      await devtools.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: at(0) });
+      for (let i = 1; i <= 8; ++i) await devtools.send("Input.dispatchTouchEvent", { type: "touchMove", touchPoints: at(i / 8) });
+      await devtools.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
+      await idle(page);
+    };
+    const seen = async () => ({ ...(await state(page, (s) => s.compass.value))!, top: await topOf(page, house.id) });
+    const before = await seen();
+    await drag([[300, 400], [400, 400]]);
+    const turned = await seen();
+    expect(Math.abs(turned.azimuth - before.azimuth)).toBeCloseTo(0.6, 1); // 0.006 per pixel
+    expect(turned.metresPerPixel).toBeCloseTo(before.metresPerPixel, 6);
+    await drag([[300, 400], [380, 420]], [[500, 400], [580, 420]]);
+    const moved = await seen();
+    expect(moved.azimuth).toBeCloseTo(turned.azimuth, 6);
+    expect(moved.top.x - turned.top.x, "the view follows two fingers").toBeGreaterThan(40);
+    await drag([[400, 400], [300, 400]], [[500, 400], [600, 400]]);
+    const zoomed = await seen();
+    expect(zoomed.metresPerPixel / moved.metresPerPixel, "fingers that part by a factor of three").toBeCloseTo(1 / 3, 1);
+
+    // A tap selects; a point of the profile and a corner of the plan follow the finger.
+    const before_edit = await buildingOf(page, house.id);
+    const point = page.getByRole("button", { name: /^point 1,/ });
+    const middle = async (of: typeof point) => {
+      const box = (await of.boundingBox())!;
+      return [box.x + box.width / 2, box.y + box.height / 2] as [number, number];
+    };
+    const from = await middle(point);
+    await drag([from, [from[0], from[1] - 25]]);
+    await expect.poll(async () => volume(await buildingOf(page, house.id))).toBeGreaterThan(volume(before_edit) + 1);
+    const corner = await middle(page.getByRole("button", { name: /^corner 0 at/ }));
+    const [x, y] = (await buildingOf(page, house.id)).parts[0]!.plan.outer.points[0]!;
+    await drag([corner, [corner[0] + 6, corner[1] + 6]]);
+    const changed = () =>
+      state(page, (s) => s.draft.value?.changes[0]?.parts[0]?.plan.outer.points[0] ?? s.selectedPlan.value!.outer.points[0]!);
+    await expect.poll(async () => Math.hypot((await changed())[0] - x, (await changed())[1] - y)).toBeGreaterThan(0.05);
+    await picture(page, "touch");
+  });
+});
+
+test("a basemap is shown under the models, if the server was started with one", { tag: "@firefox" }, async ({ clean: page, server, folder }) => {
+  const model = someModel(folder);
+  await page.goto(server.link);
+  await page.getByLabel("Models that mansard wrote").fill(model);
+  await page.getByRole("button", { name: "Open model" }).click();
+  await open(page, "street.city.json");
+  const shown = () => page.evaluate(() => (window as unknown as { mansard: { view: { basemap(): boolean } } }).mansard.view.basemap());
+  const layer = page.getByRole("checkbox", { name: "Basemap" });
+  await page.getByRole("tab", { name: "Layers" }).click();
+  await expect(layer).not.toBeChecked();
+  await layer.click();
+  await expect(page.getByText(/There is no basemap; start/)).toBeVisible();
+  await expect(layer).not.toBeChecked();
+
+  // A picture with a world file: stripes of 10 m, much larger than the street.
+  const [columns, rows] = [200, 200];
+  const bytes = Buffer.alloc(3 * columns * rows);
+  for (let i = 0; i < columns * rows; ++i) bytes.set(Math.floor((i % columns) / 10) % 2 ? [20, 150, 60] : [200, 230, 120], 3 * i);
+  writeFileSync(join(folder, "map.ppm"), Buffer.concat([Buffer.from(`P6\n${columns} ${rows}\n255\n`), bytes]));
+  writeFileSync(join(folder, "map.wld"), "1\n0\n0\n-1\n84900.5\n447099.5\n");
+  await server.stop();
+  await server.start("--basemap", join(folder, "map.ppm"));
+  await page.goto("about:blank");
+  await page.goto(server.link);
+  await open(page, "street.city.json");
+  await page.getByRole("tab", { name: "Layers" }).click();
+  await layer.click();
+  await expect.poll(shown).toBe(true);
+  await idle(page);
+  expect(await pixels(page, [[20, 150, 60], [200, 230, 120]])).toBeGreaterThan(20_000);
+  await picture(page, "basemap");
 });

@@ -46,6 +46,7 @@ export class Client {
   tileTexture = (id: string, signal?: AbortSignal) => this.bytes(`/api/scene/tiles/${escaped(id)}/texture`, signal);
   buildingTexture = (run: string, building: string) => this.bytes(this.of(run, `/textures/${escaped(building)}`));
   terrain = (run: string) => this.bytes(this.of(run, "/terrain"));
+  basemap = (run: string) => this.bytes(this.of(run, "/basemap"));
   start = (request: RunRequest) => this.json<api.Job>("POST", "/api/runs", request);
   importModel = (path: string) => this.json<api.Job>("POST", "/api/runs/import", { path });
   remove = (run: string) => this.json<unknown>("DELETE", this.of(run));
@@ -53,8 +54,17 @@ export class Client {
   report = (run: string) => this.json<unknown>("GET", this.of(run, "/report"));
   buildings = (run: string) =>
     this.json<{ buildings: api.Building[]; history: api.History }>("GET", this.of(run, "/buildings"));
+  building = (run: string, id: string) =>
+    this.json<{ buildings: api.Building[]; history: api.History }>("GET", this.of(run, `/buildings?building=${escaped(id)}`));
+  list = (run: string) => this.json<api.BuildingList>("GET", this.of(run, "/list"));
+  modelTile = (run: string, tile: string) =>
+    this.json<{ buildings: api.Building[] }>("GET", this.of(run, `/tiles/${escaped(tile)}`));
+  search = (run: string, words: string, signal?: AbortSignal) =>
+    this.json<{ ids: string[] }>("GET", this.of(run, `/search?words=${escaped(words)}`), undefined, signal);
   layers = (run: string) => this.json<api.Layers>("GET", this.of(run, "/layers"));
-  attributes = (run: string) => this.json<api.AttributeTable>("GET", this.of(run, "/attributes"));
+  /** Of all buildings, or of one. */
+  attributes = (run: string, building?: string) =>
+    this.json<api.AttributeTable>("GET", this.of(run, `/attributes${building === undefined ? "" : `?building=${escaped(building)}`}`));
   level = (run: string, lod: string) => this.json<api.LevelOfDetail>("GET", this.of(run, `/levels/${escaped(lod)}`));
   otherModel = (path: string) => this.json<api.OtherModel>("POST", "/api/models", { path });
   alignment = (request: InputsRequest) => this.json<api.Alignment>("POST", "/api/project/alignment", request);

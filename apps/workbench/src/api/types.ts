@@ -74,6 +74,20 @@ export interface Building extends RaisedBuilding {
   ground: number; // z
 }
 
+/** Every building of a run without plans and models, column by column: of large runs, whose models are asked for by tile. */
+export interface BuildingList {
+  tile_size: number; // m; a building is in the tile of the centre of its box in plan: floor(centre / size)
+  ids: string[];
+  blocks: string[];
+  outcomes: ("full" | "fallback" | "covered" | "refused")[];
+  volumes: number[]; // m³
+  errors: (number | null)[]; // mse, m²: of unedited buildings as the run measured it over their parts
+  edited: boolean[];
+  shapes: number[][][]; // of each part: base, height of a prism in place of its model, x, y, x, y …, in centimetres
+  reasons: Record<string, Diagnostic[]>; // by id, of those that have some
+  history: History;
+}
+
 export interface InputFile {
   path: string;
   bytes: number;
@@ -199,6 +213,7 @@ export interface Project {
   } | null;
   reading: Record<string, string>; // options that the scene was read with, as given
   runs: RunSummary[];
+  scene: boolean; // GET /api/scene answers: the inputs have been read, or their scene was kept from the last time
   sample: boolean; // a sample is available: POST /api/project/sample
 }
 

@@ -98,6 +98,7 @@ function table() {
       ++undone;
       return Promise.resolve({ buildings: [building("a", 3, 6)], history: none });
     },
+    building: () => Promise.reject(new Error("not asked for")),
     buildings: () => Promise.resolve({ buildings: now, history: none }),
   };
   const run = signal<OpenRun | null>({

@@ -12,6 +12,7 @@ export interface Calls {
   edit(run: string, edit: api.Edit): Promise<api.Applied>;
   undo(run: string): Promise<api.Applied>;
   buildings(run: string): Promise<{ buildings: api.Building[]; history: api.History }>;
+  building(run: string, id: string): Promise<{ buildings: api.Building[]; history: api.History }>;
 }
 
 /** An unsaved draft, kept across reloads. */
@@ -355,7 +356,11 @@ export class EditSession {
     this.drop();
     let now: Awaited<ReturnType<Calls["buildings"]>>;
     try {
-      now = await this.calls.buildings(run);
+      // Of a large run only what the draft is about.
+      const answers = this.desk.run.value?.large
+        ? await Promise.all(draft.changes.map((c) => this.calls.building(run, c.building)))
+        : [await this.calls.buildings(run)];
+      now = { buildings: answers.flatMap((a) => a.buildings), history: answers.at(-1)!.history };
     } catch (e) {
       this.desk.showMessage(diagnosticOf(e));
       return;

@@ -19,7 +19,7 @@ export function useSection(
   const selection = state.selection.value;
   const ends = plan && at && endsOf(plan, at);
   // A section needs the mesh: it is fetched once the scene has been loaded.
-  const there = state.scene.value !== null;
+  const there = state.sceneRead.value;
   const key = run && plan && at && ends && there ? JSON.stringify([run, at, ends, plan.base, share]) : "";
 
   useEffect(() => {

@@ -1,24 +1,32 @@
 // The attributes of the selected building: those of the source and those that mansard computed, with units and meanings.
 import { signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
-import { copy, needAttributes, showSuccess } from "../actions";
-import type { AttributeMeaning, AttributeValue } from "../api/types";
+import { attempt, client, copy, needAttributes, showSuccess } from "../actions";
+import type { AttributeMeaning, AttributeTable, AttributeValue } from "../api/types";
 import * as state from "../state";
 import { styledBy } from "../view/styling";
 import { attributeText, matching } from "./attribute_text";
 import { SearchField } from "./search_field";
 
 const search = signal("");
+/** Of one building of a large run. */
+const single = signal<{ key: string; table: AttributeTable } | null>(null);
 
 export function AttributesPanel() {
   const run = state.run.value?.id;
   const building = state.selectedBuilding.value;
+  const large = state.run.value?.large !== undefined;
+  const key = large && building ? `${run} ${building.id} ${building.revision}` : "";
   useEffect(() => {
-    if (run) void needAttributes(run);
-  }, [run]);
+    if (run && !large) void needAttributes(run);
+    else if (key)
+      void attempt(client.attributes(run!, building!.id)).then((table) => {
+        if (table) single.value = { key, table };
+      });
+  }, [run, key]);
   if (!building)
     return <p class="quiet pad">{run ? "Select a building to see its attributes." : "No run is open."}</p>;
-  const table = state.attributes.value.get(run!);
+  const table = !large ? state.attributes.value.get(run!) : single.value?.key === key ? single.value.table : undefined;
   if (!table)
     return (
       <p class="quiet pad" role="status">

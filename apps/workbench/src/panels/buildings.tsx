@@ -1,22 +1,51 @@
 // The buildings of the open run as a table. Of thousands of rows only the visible ones are rendered.
 import { computed, effect, signal } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
-import { fly, needAttributes, select } from "../actions";
+import { client, fly, needAttributes, select } from "../actions";
+import { Refused } from "../api/client";
 import * as state from "../state";
 import { searchedOf } from "./attribute_text";
 import { SearchField } from "./search_field";
-import { type Column, type Order, type Row, arranged, visibleRows, rowOf } from "./table";
+import { type Column, type Order, type Row, filtered, rowOf, sorted, visibleRows } from "./table";
 import { fixed, grouped } from "./words";
 
 const filter = signal("");
 const order = signal<Order>({ column: "id", down: false });
-const all = computed(() => [...(state.run.value?.buildings.values() ?? [])].map(rowOf));
+const all = computed(() => state.run.value?.large?.rows ?? [...(state.run.value?.buildings.values() ?? [])].map(rowOf));
 const searched = computed(() => searchedOf(state.attributes.value.get(state.run.value?.id ?? "")));
-const rows = computed(() => arranged(all.value, filter.value, order.value, searched.value));
-// The attributes are needed once something is searched.
+const inOrder = computed(() => sorted(all.value, order.value));
+/** What the server found in a large run. */
+const found = signal<{ run: string; words: string; ids: ReadonlySet<string> } | null>(null);
+const rows = computed((): readonly Row[] => {
+  const answer = found.value;
+  if (answer && state.run.value?.large && answer.run === state.run.value.id && answer.words === filter.value)
+    return inOrder.value.filter((r) => answer.ids.has(r.id));
+  return filtered(inOrder.value, filter.value, searched.value);
+});
+const runId = computed(() => state.run.value?.id);
+const isLarge = computed(() => state.run.value?.large !== undefined);
+// The attributes are needed once something is searched. Those of a large run stay on the server, which searches them.
 effect(() => {
-  const run = state.run.value?.id;
-  if (run && filter.value.trim() && !state.outdatedAttributes.value.has(run)) void needAttributes(run);
+  const run = runId.value;
+  const words = filter.value;
+  if (!run || !words.trim()) return;
+  if (!isLarge.value) {
+    if (!state.outdatedAttributes.value.has(run)) void needAttributes(run);
+    return;
+  }
+  const stop = new AbortController();
+  const asked = setTimeout(() => {
+    client.search(run, words, stop.signal).then(
+      ({ ids }) => (found.value = { run, words, ids: new Set(ids) }),
+      (e: unknown) => {
+        if (!(e instanceof Refused) && !stop.signal.aborted) throw e;
+      },
+    );
+  }, 80);
+  return () => {
+    clearTimeout(asked);
+    stop.abort();
+  };
 });
 effect(() => {
   state.order.value = rows.value.map((r) => r.id);

@@ -25,6 +25,7 @@ const found = computed((): Found[] => {
   for (const b of open?.buildings.values() ?? []) {
     add(b.id, [...b.reasons, ...b.diagnostics, ...b.parts.flatMap((p) => p.diagnostics)]);
   }
+  for (const [id, reasons] of open?.large?.reasons ?? []) if (!open!.buildings.has(id)) add(id, reasons);
   return all.sort((a, b) => Number(b.severity === "error") - Number(a.severity === "error"));
 });
 

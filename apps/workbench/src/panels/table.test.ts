@@ -1,14 +1,14 @@
 import { describe, expect, it } from "vitest";
 import { building } from "../view/fixtures";
-import { arranged, visibleRows, rowOf } from "./table";
+import { filtered, sorted, visibleRows, rowOf } from "./table";
 
 const rows = [
   rowOf(building("b-10", { mse: 0.25, edited: true })),
   rowOf(building("b-9", { mse: null, outcome: "fallback" })),
   rowOf(building("b-2", { mse: 0.01, block: "block-7" })),
 ];
-const ids = (filter: string, column: Parameters<typeof arranged>[2]["column"], down = false) =>
-  arranged(rows, filter, { column, down }).map((r) => r.id);
+const ids = (filter: string, column: Parameters<typeof sorted>[1]["column"], down = false) =>
+  filtered(sorted(rows, { column, down }), filter).map((r) => r.id);
 
 describe("the table of buildings", () => {
   it("sorts numbers in names as numbers", () => {

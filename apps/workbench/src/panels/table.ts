@@ -32,28 +32,41 @@ export const rowOf = (b: Building): Row => ({
 
 const natural = new Intl.Collator("en", { numeric: true });
 
+/** A text whose order by its characters is the natural one: a number begins with how many digits it has. */
+const keyOf = (id: string) => id.toLowerCase().replace(/\d+/g, (digits) => digits.length.toString(36).padStart(2, "0") + digits);
+const plain = (id: string) => /^[\x20-\x7e]*$/.test(id);
+
+/** Missing values come last in either order. */
+export function sorted(rows: readonly Row[], { column, down }: Order): Row[] {
+  // A collator takes a second for 100,000 ids; keys are right where ids are ASCII.
+  const quick = rows.every((r) => plain(r.id));
+  const keyed = rows.map((row) => ({ row, key: quick ? keyOf(row.id) : row.id }));
+  const byId = (a: (typeof keyed)[0], b: (typeof keyed)[0]) =>
+    quick ? (a.key < b.key ? -1 : a.key > b.key ? 1 : 0) : natural.compare(a.key, b.key);
+  const way = down ? -1 : 1;
+  const compare = (a: (typeof keyed)[0], b: (typeof keyed)[0]): number => {
+    if (column === "id") return way * byId(a, b);
+    const [x, y] = [a.row[column], b.row[column]];
+    if (x === null || y === null) return x === y ? 0 : x === null ? 1 : -1;
+    return way * (typeof x === "string" ? (x === y ? 0 : natural.compare(x, y as string)) : Number(x) - Number(y));
+  };
+  return keyed.sort((a, b) => compare(a, b) || byId(a, b)).map((k) => k.row);
+}
+
 /** Rows whose id, block, outcome or attributes contain every word of the filter; edited buildings also match "edited".
- *  A word such as measuredHeight>12 compares an attribute. Missing values come last in either order. */
-export function arranged(
+ *  A word such as measuredHeight>12 compares an attribute. */
+export function filtered(
   rows: readonly Row[],
   filter: string,
-  { column, down }: Order,
   attributes: ReadonlyMap<string, Searched> = new Map(),
-): Row[] {
+): readonly Row[] {
   const words = filter.split(/\s+/).filter(Boolean).map(termOf);
+  if (!words.length) return rows;
   const text = (r: Row) =>
     `${r.id} ${r.block} ${r.outcome}${r.edited ? " edited" : ""} ${attributes.get(r.id)?.text ?? ""}`.toLowerCase();
   const matches = (r: Row) =>
     words.every((w) => ("text" in w ? text(r).includes(w.text) : hasValue(attributes.get(r.id), w)));
-  const way = down ? -1 : 1;
-  const compare = (a: Row, b: Row): number => {
-    const [x, y] = [a[column], b[column]];
-    if (x === null || y === null) return x === y ? 0 : x === null ? 1 : -1;
-    return way * (typeof x === "string" ? natural.compare(x, y as string) : Number(x) - Number(y));
-  };
-  return rows
-    .filter(matches)
-    .sort((a, b) => compare(a, b) || natural.compare(a.id, b.id));
+  return rows.filter(matches);
 }
 
 /** The rows to render for a window of `height` pixels that is scrolled down by `top`, with `spare` rows on each side. */

@@ -7,6 +7,7 @@ export type LayerId =
   | "mesh"
   | "texture"
   | "terrain"
+  | "basemap"
   | "meshWithin"
   | "footprints"
   | "walls"
@@ -53,6 +54,14 @@ export const list: readonly Layer[] = [
     "#7a9acc",
     "If off, the mesh is hidden where there are models.",
     false,
+    false,
+  ),
+  layer(
+    "Input",
+    "basemap",
+    "Basemap",
+    "#7d9a6a",
+    "A picture of the ground under the models, that the server was started with (--basemap).",
     false,
   ),
   layer("Input", "footprints", "Footprints", "#f08c1e", "Input footprints, at ground height."),

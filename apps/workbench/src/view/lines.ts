@@ -145,6 +145,38 @@ export class Sheet {
   }
 }
 
+/** By how much a cap is drawn nearer, in steps of the depth buffer: some decimetres at 50 m. Its slope plays no part, so that the
+ *  outlines of the cut can be nearer still. */
+export const capNearer = 8000;
+
+/** The filled cut of a section plane. It lies in that plane, where graphics drivers interpolate the distance to the plane with
+ *  errors: clipped by it, the cap would have holes, and pieces of faces that are cut are left in front of it. Nothing else is in
+ *  front of the cap, so that it may be drawn nearer than it is. Opaque, so that nothing behind the cut shines through it. */
+export class Cap {
+  readonly object: THREE.Mesh;
+  constructor(colour: number) {
+    const material = new THREE.ShaderMaterial({
+      uniforms: { colour: { value: new THREE.Color(colour) } },
+      side: THREE.DoubleSide,
+      clipping: false,
+      polygonOffset: true,
+      polygonOffsetFactor: 0,
+      polygonOffsetUnits: -capNearer,
+      vertexShader: "void main() { gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }",
+      fragmentShader: "uniform vec3 colour; void main() { gl_FragColor = vec4(colour, 1.0); }",
+    });
+    this.object = new THREE.Mesh(new THREE.BufferGeometry(), material);
+    this.object.visible = false;
+    this.object.frustumCulled = false;
+  }
+  set(positions: ArrayLike<number>) {
+    this.object.geometry.dispose();
+    this.object.geometry = new THREE.BufferGeometry();
+    this.object.geometry.setAttribute("position", new THREE.Float32BufferAttribute(positions, 3));
+    this.object.visible = positions.length > 0;
+  }
+}
+
 /** Round marks with a size in pixels, visible through other objects. */
 export class Marks {
   readonly material = new THREE.ShaderMaterial({

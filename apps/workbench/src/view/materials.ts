@@ -169,7 +169,9 @@ export function meshMaterial(look: MeshLook, picture: THREE.Texture | null = nul
           if (all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(1.0))) && texture2D(mask, at).r > 0.5) discard;
         }
         #ifdef PICTURE
-          gl_FragColor = vec4(texture2D(picture, across).rgb, opacity);
+          vec4 seen = texture2D(picture, across);
+          if (seen.a < 0.5) discard; // a basemap ends somewhere
+          gl_FragColor = vec4(seen.rgb, opacity);
         #else
           vec3 normal = normalize(cross(dFdx(place), dFdy(place)));
           gl_FragColor = vec4(lit(colour, normal), opacity);

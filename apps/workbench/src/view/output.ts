@@ -144,8 +144,12 @@ export class Output {
   /** Draws these buildings, replaced by their drafts if they have one. Unchanged buildings keep their buffers. */
   set(buildings: ReadonlyMap<string, Building>, drafts: ReadonlyMap<string, RaisedBuilding>, invalid: boolean) {
     if (buildings !== this.given) {
-      const kept = [...buildings.keys()].filter((id) => this.drawn.has(id)).length;
-      if (!this.drawn.size || kept !== this.drawn.size || kept !== buildings.size) this.rebuild(buildings);
+      const gone = [...this.drawn.keys()].filter((id) => !buildings.has(id));
+      if (gone.length === this.drawn.size) this.rebuild(buildings);
+      else {
+        for (const id of gone) this.forget(id);
+        this.add([...buildings.values()].filter((b) => !this.drawn.has(b.id)));
+      }
       for (const [id, building] of buildings) this.show(drafts.get(id) ?? building);
     } else {
       // During a drag only drafts change, and buildings that have their own buffers because of one.
@@ -221,11 +225,33 @@ export class Output {
 
   private rebuild(buildings: ReadonlyMap<string, Building>) {
     this.clear();
-    const all = [...buildings.values()];
-    for (let i = 0; i < all.length; i += buildingsPerChunk)
-      this.chunks.push(this.chunk(all.slice(i, i + buildingsPerChunk)));
-    for (const { solid, lines } of this.chunks) this.group.add(solid, lines);
-    this.drawn = new Map(buildings);
+    this.add([...buildings.values()]);
+  }
+
+  private add(all: Building[]) {
+    for (let i = 0; i < all.length; i += buildingsPerChunk) {
+      const chunk = this.chunk(all.slice(i, i + buildingsPerChunk));
+      this.chunks.push(chunk);
+      this.group.add(chunk.solid, chunk.lines);
+    }
+    for (const building of all) this.drawn.set(building.id, building);
+  }
+
+  private forget(id: string) {
+    this.drawn.delete(id);
+    this.loose.get(id)?.dispose();
+    this.loose.delete(id);
+    this.chunks = this.chunks.filter((chunk) => {
+      if (!chunk.ranges.has(id)) return true;
+      if (chunk.ranges.size > 1) {
+        chunk.hide(id);
+        return true;
+      }
+      chunk.solid.geometry.dispose();
+      chunk.lines.geometry.dispose();
+      this.group.remove(chunk.solid, chunk.lines);
+      return false;
+    });
   }
 
   private chunk(buildings: Building[]): Chunk {

@@ -35,6 +35,8 @@ export interface ViewHandle {
   pictures(): [number, number];
   /** The place of a point of the scene's frame on the page. */
   place(at: [number, number, number]): { x: number; y: number } | null;
+  /** Whether a picture of the ground is drawn. */
+  basemap(): boolean;
   /** Triangles of the terrain that are drawn. */
   terrain(): number;
   idle(): Promise<void>;
@@ -45,6 +47,7 @@ export const handle: ViewHandle = {
   project: (building) => viewer.value?.project(building) ?? null,
   filled: () => viewer.value?.filled ?? 0,
   place: (at) => viewer.value?.placeOf(at) ?? null,
+  basemap: () => viewer.value?.basemapThere ?? false,
   terrain: () => viewer.value?.terrainTriangles ?? 0,
   pictures: () => viewer.value?.pictures ?? [0, 0],
   idle: async () => {
@@ -122,7 +125,7 @@ function watchRaw(to: Viewer) {
     const building = at && run?.buildings.get(at.building);
     const part = building?.parts.find((p) => p.id === at!.part);
     const wanted =
-      choices.value.raw.shown && run && part ? `${run.id} ${building!.id} ${building!.revision} ${part.id}` : "";
+      choices.value.raw.shown && state.sceneRead.value && run && part ? `${run.id} ${building!.id} ${building!.revision} ${part.id}` : "";
     if (wanted === last) return;
     last = wanted;
     stop.abort();
@@ -161,16 +164,20 @@ function connect(to: Viewer): () => void {
     }),
     effect(() => to.setScene(state.scene.value)),
     effect(() => to.setTiles(state.tiles.value)),
+    effect(() => to.setLarge(state.run.value?.large ?? null)),
     effect(() => {
       const draft = state.draft.value;
       to.setRun(0, drawnBuildings.value, draft?.raised, draft?.invalid);
     }),
     effect(() => {
       const run = state.run.value;
-      if (run && lod.value !== "2.2" && !state.levels.value.has(`${run.id} ${lod.value}`)) void actions.needLevel(run.id, lod.value);
+      if (run?.large && lod.value !== "2.2") {
+        lod.value = "2.2";
+        actions.warn("lod-large", "runs of more than 5,000 buildings are shown at LoD 2.2 only");
+      } else if (run && lod.value !== "2.2" && !state.levels.value.has(`${run.id} ${lod.value}`)) void actions.needLevel(run.id, lod.value);
     }),
     effect(() => {
-      const wanted = choices.value.texture.shown && state.scene.value !== null;
+      const wanted = choices.value.texture.shown && state.sceneRead.value;
       if (!wanted || state.texturesRead.value) return;
       void actions.needTextures().then((there) => {
         if (!there) choose("texture", { shown: false });
@@ -182,7 +189,7 @@ function connect(to: Viewer): () => void {
     }),
     effect(() => {
       const run = state.run.value?.id;
-      if (!choices.value.terrain.shown || !run || !state.scene.value || state.terrains.value.has(run)) return;
+      if (!choices.value.terrain.shown || !run || !state.sceneRead.value || state.terrains.value.has(run)) return;
       void actions.needTerrain(run).then((made) => {
         if (!made) choose("terrain", { shown: false });
       });
@@ -191,6 +198,14 @@ function connect(to: Viewer): () => void {
       const terrain = state.terrains.value.get(state.run.value?.id ?? "");
       if (terrain || !state.run.value) to.setTerrain(terrain ?? null); // after an edit the old one stays until the new one is there
     }),
+    effect(() => {
+      const run = state.run.value?.id;
+      if (!choices.value.basemap.shown || !run || state.basemaps.value.has(run)) return;
+      void actions.needBasemap(run).then((there) => {
+        if (!there) choose("basemap", { shown: false });
+      });
+    }),
+    effect(() => to.setBasemap(state.basemaps.value.get(state.run.value?.id ?? "") ?? null)),
     effect(() => to.setPaint(scale.value?.colours ?? null)),
     effect(() => to.setOthers(state.others.value.map((o) => o.model))),
     effect(() => to.setMeasure(points.value, measuring.value === "area")),
@@ -263,6 +278,10 @@ export function View() {
           moved: (pose) => {
             keep("session", poseKey(), pose);
             keep("local", poseKey(), pose);
+          },
+          near: (tiles) => {
+            const run = state.run.peek();
+            if (run?.large) void actions.needTiles(run.id, tiles);
           },
           loadTile: (id, signal) => actions.client.tile(id, signal),
           loadTilePicture: (id, signal) => actions.client.tileTexture(id, signal),

@@ -7,11 +7,14 @@ import * as camera from "./camera";
 import type { Pose, Vector } from "./camera";
 import { attach, type Gestures } from "./controls";
 import { combine, textureOf } from "./errormap";
+import { Basemap } from "./basemap";
+import { Far } from "./far";
 import { type Box, boxOf, emptyBox, grow, isEmpty } from "./geometry";
 import { Highlight, type RawClimbs } from "./highlight";
 import type { Choices } from "./layers";
-import { Marks, Segments, Sheet, WideLines, flat } from "./lines";
-import { colours } from "./materials";
+import { Cap, capNearer, Marks, Segments, Sheet, WideLines, flat } from "./lines";
+import { colours, modelLook } from "./materials";
+import { type Large, boxOfShapes, tilesNear } from "../large";
 import { Output } from "./output";
 import { Others } from "./others";
 import { type Hit, type Ray, covers, pick, pickFootprint } from "./pick";
@@ -28,6 +31,8 @@ export interface Listener {
   moved(pose: Pose): void; // called when the camera stops; in the frame of the scene
   point(place: Vector | null): void; // under the resting pointer, in the frame of the scene
   drawn(azimuth: number, metresPerPixel: number): void; // after each image
+  /** Tiles of a large run whose models are near the camera. */
+  near(tiles: string[]): void;
   loadTile(id: string, signal: AbortSignal): Promise<ArrayBuffer>;
   loadTilePicture(id: string, signal: AbortSignal): Promise<ArrayBuffer>;
   loadBuildingPicture(which: 0 | 1, building: string): Promise<ArrayBuffer>;
@@ -55,7 +60,9 @@ const flightSeconds = 0.6;
 const background = { light: 0xf6f6f3, dark: 0x1b1e23 };
 const nearCorner = 14; // pixels between a click and the corner of a footprint
 const restMilliseconds = 60; // after which the point under the pointer is looked for in the scan
-const inside = 0.003; // m; by which a cap is moved off its plane, which would hide it
+const mostVisible = 2000; // m; with more of a large run in view, its models would be a few pixels each
+const underFeet = 0.05; // m; the basemap is below the models, whose ground faces would flicker with it
+const inside = 0.05; // m; by which the outlines of a cut are behind its plane, which would hide them
 
 export class Viewer {
   private readonly renderer: THREE.WebGLRenderer;
@@ -67,7 +74,7 @@ export class Viewer {
   private readonly buried = new WideLines(colours.footprint, 1.5, true); // the same, visible through the mesh
   private readonly chosen = new WideLines(colours.accent, 2.5, true);
   private readonly chosenSheet = new Sheet(colours.accent, 0.25);
-  private readonly cap = new Sheet(colours.cut, 1, 0);
+  private readonly cap = new Cap(colours.cut);
   private readonly capLines = new WideLines(colours.cutLine, 2);
   private readonly measureLines = new WideLines(0xc2185b, 2.5, true);
   private readonly measureMarks = new Marks();
@@ -75,6 +82,12 @@ export class Viewer {
   private readonly pairMarks = new Marks();
   private readonly others = new Others();
   private readonly terrain = new Terrain();
+  private readonly basemap = new Basemap(() => this.request());
+  private basemapBytes: ArrayBuffer | null = null;
+  private readonly farLook = modelLook();
+  private readonly far = new Far(this.farLook, () => this.request());
+  private large: Large | null = null;
+  private contents: Box | null = null; // the box of what is shown, until it changes
   private highlight: Highlight;
   private tiles: Tiles | null = null;
   private sides: [Side, Side | null];
@@ -120,13 +133,16 @@ export class Viewer {
       this.pairMarks.object,
       this.others.group,
       this.terrain.group,
+      this.far.group,
+      this.basemap.group,
       ...this.marks.map((m) => m.object),
     );
     this.world.add(this.highlight.group, this.sides[0].output.group);
-    // Opaque, so that nothing behind a cut shines through it.
-    this.cap.material.transparent = false;
-    this.cap.material.depthWrite = true;
-    this.cap.object.renderOrder = 0;
+    Object.assign(this.capLines.material, {
+      polygonOffset: true,
+      polygonOffsetFactor: 0,
+      polygonOffsetUnits: -2 * capNearer,
+    });
     attach(canvas, this.gestures, this.gone.signal);
     canvas.addEventListener("webglcontextrestored", () => this.request(), { signal: this.gone.signal });
   }
@@ -135,6 +151,8 @@ export class Viewer {
     this.gone.abort();
     cancelAnimationFrame(this.frameAsked);
     this.tiles?.dispose();
+    this.far.dispose();
+    this.basemap.clear();
     for (const side of this.sides) side?.dispose();
     this.renderer.dispose();
   }
@@ -170,6 +188,7 @@ export class Viewer {
   }
 
   setScene(scene: api.Scene | null) {
+    this.contents = null;
     const moved = scene && scene.origin.some((o, i) => o !== this.scene?.origin[i]);
     this.scene = scene;
     if (scene && (moved || !this.framed))
@@ -203,6 +222,28 @@ export class Viewer {
   }
   private index: api.TileIndex | null = null;
 
+  /** The buildings of a large run; those that are not among the models are drawn as prisms. */
+  setLarge(large: Large | null) {
+    if (large === this.large) return;
+    const another = large?.tiles !== this.large?.tiles;
+    this.large = large;
+    this.contents = null;
+    if (another && large && !this.scene && !this.framed)
+      this.recentre(large.low.map((l, i) => Math.round((l + large.high[i]!) / 2)) as Vector);
+    this.far.set(large, this.centre);
+    if (another) {
+      this.place();
+      this.loadNear();
+    }
+    this.request();
+  }
+  private loadNear() {
+    const { size, target } = this.goal;
+    if (!this.large) return;
+    const at = target.map((t, i) => t + this.centre[i]!);
+    this.listener.near(size > mostVisible ? [] : tilesNear(this.large, at, Math.max(100, 1.5 * size)));
+  }
+
   setRun(
     which: 0 | 1,
     buildings: ReadonlyMap<string, api.Building> | null,
@@ -219,11 +260,12 @@ export class Viewer {
       this.sides[which] = new Side(this.output(which));
       this.world.add(this.sides[which]!.output.group);
     }
+    this.contents = null;
     const side = this.sides[which]!;
     const another = side.buildings !== (buildings ?? empty);
     side.buildings = buildings ?? empty;
     side.drafts = drafts;
-    if (which === 0 && buildings?.size && !this.scene && !this.framed) {
+    if (which === 0 && buildings?.size && !this.scene && !this.framed && !this.large) {
       const { low, high } = this.content();
       this.recentre(low.map((l, i) => Math.round((l + high[i]!) / 2)) as Vector);
     } else {
@@ -233,6 +275,7 @@ export class Viewer {
     if (another) this.placeMarks();
     if (another && which === 0) this.maskMesh();
     side.output.paint(this.paints);
+    if (another && this.basemapBytes) this.placeBasemap();
     this.showBuried();
     this.showSelection();
     this.place();
@@ -275,6 +318,19 @@ export class Viewer {
   /** Triangles of the terrain; for tests. */
   get terrainTriangles() {
     return this.choices.terrain.shown ? this.terrain.triangles : 0;
+  }
+
+  setBasemap(bytes: ArrayBuffer | null) {
+    this.basemapBytes = bytes;
+    this.placeBasemap();
+    this.request();
+  }
+  /** At the foot of the lowest building: above the ground it would hide models on a slope. */
+  private placeBasemap() {
+    this.basemap.set(this.basemapBytes, this.centre, this.content().low[2] - underFeet);
+  }
+  get basemapThere() {
+    return this.basemap.there;
   }
 
   setMeasure(points: readonly Vector[], closed: boolean) {
@@ -375,6 +431,7 @@ export class Viewer {
     this.maskMesh();
     this.showOthers();
     this.showTerrain();
+    this.basemap.opacity = choices.basemap.shown ? choices.basemap.opacity : 0;
     this.showSelection();
     this.request();
   }
@@ -444,7 +501,7 @@ export class Viewer {
           const lines = cutLines(geometry, normal, at);
           const filled = filling(lines, normal);
           for (const line of lines) outlines.path([...line, line[0]!].map((p) => p.map((x, i) => x + by * normal[i]!)));
-          for (let i = 0; i < filled.length; ++i) positions.push(filled[i]! - this.centre[i % 3]! + by * normal[i % 3]!);
+          for (let i = 0; i < filled.length; ++i) positions.push(filled[i]! - this.centre[i % 3]!);
         }
       }
     }
@@ -473,6 +530,7 @@ export class Viewer {
   look(pose: Pose) {
     this.goal = this.pose = { ...pose, target: pose.target.map((t, i) => t - this.centre[i]!) as Vector };
     this.framed = true;
+    this.loadNear();
     this.request();
   }
   home() {
@@ -488,7 +546,7 @@ export class Viewer {
   }
   flyTo(building: string) {
     const found = this.sides[0].building(building);
-    const box = found ? boxOf(found) : this.footprintBox((f) => f.id === building);
+    const box = found ? boxOf(found) : (this.listed(building) ?? this.footprintBox((f) => f.id === building));
     if (isEmpty(box)) return;
     const { low, high } = this.centred(box);
     const wide = { low: low.map((x) => x - 3) as Vector, high: high.map((x) => x + 2) as Vector };
@@ -496,6 +554,11 @@ export class Viewer {
       ? this.goal
       : { ...this.goal, elevation: Math.max(this.goal.elevation, 0.5) };
     this.fly(camera.frame(tilted, wide.low, wide.high, this.aspect));
+  }
+  /** The box of a building of a large run, as the list has it. */
+  private listed(building: string): Box | null {
+    const at = this.large?.index.get(building);
+    return at === undefined ? null : boxOfShapes(this.large!.shapes[at]!);
   }
   private fly(to: Pose) {
     const still = globalThis.matchMedia?.("(prefers-reduced-motion: reduce)").matches;
@@ -509,8 +572,9 @@ export class Viewer {
   /** Position of the top of a building on the page; null if it is behind the camera or unknown. */
   project(building: string): { x: number; y: number } | null {
     const found = this.sides[0].building(building);
-    if (!found) return null;
-    const { low, high } = boxOf(found);
+    const box = found ? boxOf(found) : this.listed(building);
+    if (!box) return null;
+    const { low, high } = box;
     return this.placeOf([(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, high[2]]);
   }
   /** The place of a point on the page; null if it is behind the camera. */
@@ -555,7 +619,7 @@ export class Viewer {
   async idle(): Promise<void> {
     for (let calm = 0; calm < 3; ) {
       await new Promise((resolve) => setTimeout(resolve, 25));
-      calm = this.frameAsked || this.tiles?.busy || this.sides[0].output.textures.busy ? 0 : calm + 1;
+      calm = this.frameAsked || this.far.busy || this.basemap.busy || this.tiles?.busy || this.sides[0].output.textures.busy ? 0 : calm + 1;
     }
   }
 
@@ -693,7 +757,9 @@ export class Viewer {
   private hit(ray: Ray, side: Side): Hit | null {
     const { walls, roofs, parties } = this.choices;
     const seen = { wall: walls, party_wall: parties, roof: roofs, ground: walls, soffit: roofs };
-    return pick(ray, side.shown(), (face) => seen[face.class].shown, this.keeps);
+    const hit = pick(ray, side.shown(), (face) => seen[face.class].shown, this.keeps);
+    const far = side === this.sides[0] && walls.shown ? this.far.pick(ray) : null;
+    return far && (!hit || far.distance < hit.distance) ? far : hit;
   }
   private readonly keeps = (point: Vector) =>
     !this.plane ||
@@ -738,6 +804,8 @@ export class Viewer {
     this.placeMarks();
     this.showSelection();
     for (const side of this.sides) side?.output.paint(this.paints);
+    this.far.set(this.large, centre);
+    this.setBasemap(this.basemapBytes);
     this.setOthers(this.otherModels);
     this.setTerrain(this.terrainBytes);
     this.setMeasure(this.measured.points, this.measured.closed);
@@ -749,6 +817,7 @@ export class Viewer {
     const of = ({ shown, opacity }: { shown: boolean; opacity: number }) => (shown ? opacity : 0);
     const { walls, parties, roofs, outlines, error } = this.choices;
     output.fade({ walls: of(walls), parties: of(parties), roofs: of(roofs), outlines: of(outlines) });
+    this.farLook.opacities.value = [of(walls), of(walls), of(roofs), of(walls), of(roofs)];
     output.look.errorOn.value = output.look.errorMap.value ? of(error) : 0;
   }
 
@@ -839,6 +908,10 @@ export class Viewer {
 
   /** Box of the models; of the footprints if there are none; else of the mesh. */
   private content(): Box {
+    return (this.contents ??= this.contentNow());
+  }
+  private contentNow(): Box {
+    if (this.large && this.large.low[0] <= this.large.high[0]) return { low: this.large.low, high: this.large.high };
     const box = emptyBox();
     for (const building of this.sides[0].shown()) {
       const { low, high } = boxOf(building);
@@ -865,7 +938,7 @@ export class Viewer {
 
   /** Shows everything, as long as the camera has not been moved. */
   private place() {
-    if (this.framed || (!this.scene && !this.sides[0].buildings.size)) return;
+    if (this.framed || (!this.scene && !this.sides[0].buildings.size && !this.large)) return;
     const { low, high } = this.centred(this.content());
     this.goal = this.pose = camera.home(low, high, this.aspect);
   }
@@ -906,6 +979,7 @@ export class Viewer {
     if (settled && this.pose !== this.goal) {
       this.pose = this.goal;
       this.sides[0].output.textures.lookAt(this.target);
+      this.loadNear();
       if (this.framed)
         this.listener.moved({ ...this.pose, target: this.pose.target.map((t, i) => t + this.centre[i]!) as Vector });
     }
@@ -935,6 +1009,7 @@ export class Viewer {
   private draw() {
     this.aim();
     this.stream();
+    this.far.seenFrom(this.eye.position);
     this.highlight.detailed = this.pose.size < 150;
     for (const side of this.sides) side?.output.seenFrom(this.pose.size, this.choices.outlines.opacity);
     const [first, second] = this.sides;
@@ -945,7 +1020,7 @@ export class Viewer {
       // The scan on the left, the models on the right.
       const masked = this.tiles?.look.masked.value ?? 0;
       const scan = this.tiles?.look.opacity.value ?? 0;
-      const hide = [first.output.group, this.terrain.group, this.highlight.group, this.cap.object, this.capLines.object];
+      const hide = [first.output.group, this.far.group, this.terrain.group, this.highlight.group, this.cap.object, this.capLines.object];
       const visible = hide.map((o) => o.visible);
       hide.forEach((o) => (o.visible = false));
       this.showMarks(-1);

@@ -1,0 +1,131 @@
+// Large runs: a list of all buildings, and models by tile.
+#include <gmock/gmock.h>
+
+#include <map>
+#include <set>
+
+#include "server/running.hpp"
+
+namespace mansard::server {
+namespace {
+
+using testing::ElementsAre;
+
+/// Pairs of houses that share a wall, every 40 m, in rows of 100 pairs.
+auto pairs(const fs::path& path, int houses) -> std::string {
+  std::string text =
+      R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:28992"}},"features":[)";
+  for (int i = 0; i < houses; ++i) {
+    const int x = 85'000 + i / 2 % 100 * 40 + i % 2 * 10, y = 447'000 + i / 200 * 40, w = 10, d = i % 2 == 0 ? 8 : 7;
+    const auto at = [](int px, int py) { return "[" + std::to_string(px) + "," + std::to_string(py) + "]"; };
+    text += (i == 0 ? "" : ",") + std::string(R"({"type":"Feature","properties":{"id":"b)") + std::to_string(i) +
+            R"(","year":)" + std::to_string(1900 + i % 100) + R"(,"street":")" + (i % 7 == 0 ? "Canal" : "Market") +
+            R"("},"geometry":{"type":"Polygon","coordinates":[[)" + at(x, y) + "," + at(x + w, y) + "," +
+            at(x + w, y + d) + "," + at(x, y + d) + "," + at(x, y) + "]]}}";
+  }
+  write(path, text + "]}");
+  return path.string();
+}
+
+/// A project with the models of so many houses as its first run.
+void import_houses(const Folder& folder, const Running& server, int houses, const std::string& name) {
+  const auto model = (folder / (name + ".json")).string();
+  const auto command = std::string(MANSARD_BINARY) + " extrude -q " + pairs(folder / (name + ".geojson"), houses) +
+                       " --profile '0,0 0,6 4,9' -o " + model + " >/dev/null";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  ASSERT_EQ(server.post("/api/runs/import", {{"path", model}}).status, 200);
+  server.settle();
+}
+
+TEST(Large, list_tiles_and_search_say_the_same_as_the_buildings_of_a_small_run) {
+  const Folder folder;
+  const Running server(folder / "project");
+  import_houses(folder, server, 210, "small");
+  const auto all = server.get("/api/runs/run-1/buildings").json();
+  const auto list = server.get("/api/runs/run-1/list").json();
+  ASSERT_EQ(list["ids"].size(), 210U);
+  EXPECT_EQ(list["history"], all["history"]);
+  std::map<std::string, Json> by_id;
+  std::set<std::string> tiles;
+  for (std::size_t i = 0; i < all["buildings"].size(); ++i) {
+    const auto& building = all["buildings"][i];
+    by_id[building["id"]] = building;
+    EXPECT_EQ(list["ids"][i], building["id"]);
+    EXPECT_EQ(list["blocks"][i], building["block"]);
+    EXPECT_EQ(list["outcomes"][i], building["outcome"]);
+    EXPECT_EQ(list["edited"][i], building["edited"]);
+    EXPECT_NEAR(list["volumes"][i].get<double>(), building["parts"][0]["volume"].get<double>(), 0.01);
+    const auto& shape = list["shapes"][i][0];
+    double low = 1e9, high = -1e9, south = 1e9, north = -1e9;
+    for (std::size_t k = 2; k < shape.size(); k += 2) {
+      low = std::min(low, shape[k].get<double>() / 100), high = std::max(high, shape[k].get<double>() / 100);
+      south = std::min(south, shape[k + 1].get<double>() / 100),
+      north = std::max(north, shape[k + 1].get<double>() / 100);
+    }
+    EXPECT_EQ(shape[1], 750) << "half of a roof from 6 to 9 m";
+    const double size = list["tile_size"];
+    tiles.insert(std::to_string(std::llround(std::floor((low + high) / 2 / size))) + "_" +
+                 std::to_string(std::llround(std::floor((south + north) / 2 / size))));
+  }
+  std::size_t found = 0;
+  for (const auto& tile : tiles) {
+    const auto there = server.get("/api/runs/run-1/tiles/" + tile).json();
+    for (const auto& building : there["buildings"]) {
+      EXPECT_EQ(building, by_id[building["id"]]);
+      ++found;
+    }
+  }
+  EXPECT_EQ(found, 210U);
+  const auto ids = [&](const std::string& words) {
+    return server.get("/api/runs/run-1/search?words=" + words).json()["ids"].get<std::vector<std::string>>();
+  };
+  EXPECT_THAT(ids("b209"), ElementsAre("b209"));
+  EXPECT_THAT(ids("year%3E1998"), ElementsAre("b99", "b199"));
+  EXPECT_THAT(ids("CANAL%20year%3C1908"), ElementsAre("b0", "b7", "b105", "b203"));
+  EXPECT_THAT(ids("street%3Dcanal%20b20"), ElementsAre("b203"));
+  EXPECT_TRUE(ids("street%3Dcana").empty());
+}
+
+TEST(Large, models_that_are_made_when_they_are_asked_for_are_those_of_a_small_run) {
+  const Folder folder;
+  Json few;
+  {
+    const Running server(folder / "small");
+    import_houses(folder, server, 210, "small");
+    few = server.get("/api/runs/run-1/buildings").json()["buildings"];
+  }
+  const Running server(folder / "large");
+  import_houses(folder, server, 5'004, "large");
+  EXPECT_EQ(server.get("/api/runs/run-1/list").json()["ids"].size(), 5'004U);
+  const auto now = [&](std::size_t i) {
+    return server.get("/api/runs/run-1/buildings?building=b" + std::to_string(i)).json()["buildings"][0];
+  };
+  for (const std::size_t i : {0U, 1U, 50U, 199U}) {
+    const auto one = now(i);
+    // The frames of the two runs differ by whole metres.
+    for (const auto* name : {"triangles", "face_of", "faces"})
+      EXPECT_EQ(one["parts"][0]["geometry"][name], few[i]["parts"][0]["geometry"][name]) << i;
+    for (const auto* name : {"volume", "outcome", "mse", "diagnostics"})
+      EXPECT_EQ(one["parts"][0][name], few[i]["parts"][0][name]) << i;
+    for (const auto* name : {"revision", "valid", "mse", "block", "outcome", "reasons", "ground", "edited"})
+      EXPECT_EQ(one[name], few[i][name]) << i;
+  }
+
+  // An edit of one, its attributes, and the list after it; also after the server has been started again.
+  auto part = now(50)["parts"][0];
+  part["plan"]["cap"] = 7.0;
+  const Json changes = {
+      {{"building", "b50"}, {"revision", 0}, {"parts", {{{"id", part["id"]}, {"plan", part["plan"]}}}}}};
+  ASSERT_EQ(server.post("/api/runs/run-1/edits", {{"what", "cap"}, {"changes", changes}}).status, 200);
+  EXPECT_EQ(server.get("/api/runs/run-1/list").json()["edited"][50], true);
+  const auto attributes = server.get("/api/runs/run-1/attributes?building=b50").json()["buildings"];
+  ASSERT_EQ(attributes.size(), 1U);
+  EXPECT_EQ(attributes[0]["id"], "b50");
+  EXPECT_EQ(attributes[0]["values"]["ms_edited"], true);
+  EXPECT_EQ(attributes[0]["values"]["year"], 1950);
+  const auto untouched = server.get("/api/runs/run-1/attributes?building=b60").json()["buildings"][0];
+  EXPECT_FALSE(untouched["values"].contains("ms_edited") && untouched["values"]["ms_edited"] == true);
+}
+
+}  // namespace
+}  // namespace mansard::server
