@@ -37,7 +37,7 @@ auto flags_of(const Sample& s) -> std::uint8_t {
                                    (s.return_number >= s.returns ? detail::last_return : 0));
 }
 
-/// Mean height of the points of class 2 in every metre of the tile itself.
+/// The number of points, and the mean height of those of class 2, in every metre of the tile itself.
 auto ground_of(const std::vector<detail::Point>& points, std::int64_t cell, std::int64_t x, std::int64_t y)
     -> std::pair<GroundTile, std::uint64_t> {
   GroundTile out;
@@ -46,10 +46,13 @@ auto ground_of(const std::vector<detail::Point>& points, std::int64_t cell, std:
   out.y = floored(y, per_metre);
   out.columns = out.rows = static_cast<std::size_t>(side / per_metre);
   std::vector<std::int64_t> sum(out.columns * out.rows, 0), count(sum.size(), 0);
+  out.points.assign(sum.size(), 0);
   for (const auto& p : points) {
     const std::int64_t px = p.x - border, py = p.y - border;
-    if (p.classification != 2 || px < 0 || py < 0 || px >= side || py >= side) continue;
+    if (px < 0 || py < 0 || px >= side || py >= side) continue;
     const auto i = static_cast<std::size_t>(py / per_metre) * out.columns + static_cast<std::size_t>(px / per_metre);
+    out.points[i] += 1;
+    if (p.classification != 2) continue;
     sum[i] += p.z;
     ++count[i];
   }
@@ -262,30 +265,49 @@ auto Surface::make(const Tile& tile) const -> base::Result<TileSurface> {
   return out;
 }
 
-auto join(const std::vector<GroundTile>& tiles, double reach) -> std::optional<Ground> {
-  Ground out;
+namespace {
+
+/// The tiles that have values, in one grid with `border` more cells on all sides; NaN where there is no tile.
+template <class Grid>
+auto laid_out(const std::vector<GroundTile>& tiles, std::vector<float> GroundTile::*values_of, std::int64_t border,
+              std::vector<float> Grid::*into) -> std::optional<Grid> {
+  Grid out;
   std::int64_t east = std::numeric_limits<std::int64_t>::min(), north = east;
   out.x = out.y = std::numeric_limits<std::int64_t>::max();
   for (const auto& tile : tiles) {
-    if (tile.heights.empty()) continue;
+    if ((tile.*values_of).empty()) continue;
     out.x = std::min(out.x, tile.x);
     out.y = std::min(out.y, tile.y);
     east = std::max(east, tile.x + static_cast<std::int64_t>(tile.columns));
     north = std::max(north, tile.y + static_cast<std::int64_t>(tile.rows));
   }
   if (east <= out.x) return std::nullopt;
-  const auto steps = static_cast<std::int64_t>(reach);
-  out.x -= steps;
-  out.y -= steps;
-  out.columns = static_cast<std::size_t>(east + steps - out.x);
-  out.rows = static_cast<std::size_t>(north + steps - out.y);
-  out.heights.assign(out.columns * out.rows, std::numeric_limits<float>::quiet_NaN());
+  out.x -= border;
+  out.y -= border;
+  out.columns = static_cast<std::size_t>(east + border - out.x);
+  out.rows = static_cast<std::size_t>(north + border - out.y);
+  auto& values = out.*into;
+  values.assign(out.columns * out.rows, std::numeric_limits<float>::quiet_NaN());
   for (const auto& tile : tiles)
-    for (std::size_t row = 0; row < tile.rows && !tile.heights.empty(); ++row)
-      std::copy_n(tile.heights.begin() + static_cast<std::ptrdiff_t>(row * tile.columns), tile.columns,
-                  out.heights.begin() +
-                      static_cast<std::ptrdiff_t>((static_cast<std::size_t>(tile.y - out.y) + row) * out.columns +
-                                                  static_cast<std::size_t>(tile.x - out.x)));
+    for (std::size_t row = 0; row < tile.rows && !(tile.*values_of).empty(); ++row)
+      std::copy_n(
+          (tile.*values_of).begin() + static_cast<std::ptrdiff_t>(row * tile.columns), tile.columns,
+          values.begin() + static_cast<std::ptrdiff_t>((static_cast<std::size_t>(tile.y - out.y) + row) * out.columns +
+                                                       static_cast<std::size_t>(tile.x - out.x)));
+  return out;
+}
+
+}  // namespace
+
+auto density(const std::vector<GroundTile>& tiles) -> std::optional<Density> {
+  return laid_out<Density>(tiles, &GroundTile::points, 0, &Density::points);
+}
+
+auto join(const std::vector<GroundTile>& tiles, double reach) -> std::optional<Ground> {
+  const auto steps = static_cast<std::int64_t>(reach);
+  auto laid = laid_out<Ground>(tiles, &GroundTile::heights, steps, &Ground::heights);
+  if (!laid) return std::nullopt;
+  auto& out = *laid;
   std::vector<std::pair<std::size_t, float>> found;
   for (std::int64_t step = 0; step < steps; ++step) {
     found.clear();
@@ -306,7 +328,7 @@ auto join(const std::vector<GroundTile>& tiles, double reach) -> std::optional<G
     if (found.empty()) break;
     for (const auto& [i, height] : found) out.heights[i] = height;
   }
-  return out;
+  return laid;
 }
 
 }  // namespace mansard::cloud

@@ -25,6 +25,10 @@ auto attributes() -> std::vector<formats::Attribute> {
       "Share of the footprint without a surface of the mesh, 0 to 1; only with a mesh.");
   add("ms_nodata_radius", building, "number", "m",
       "Radius of the largest circle in the footprint without a surface of the mesh; only with a mesh.");
+  add("ms_point_density", building, "number", "1/m²",
+      "Points of the point clouds over the footprint per square metre of it, without noise and points that are "
+      "withheld; "
+      "counted in cells of 1 m; only with point clouds.");
   add("ms_h_ground", both, "number", "m", "z of the ground; of a building where it has parts.");
   const Objects with_roof{"Building", "BuildingPart", "RoofSurface"};
   add("ms_h_roof_min", with_roof, "number", "m",

@@ -98,6 +98,31 @@ auto soup(const geometry::Mesh& mesh) -> std::vector<std::array<double, 9>> {
   return all;
 }
 
+TEST(Density, counts_every_point_but_noise_once_whatever_the_tiles) {
+  auto samples = scatter(-40, 0, 60, 60, 16, 1, house);
+  const auto points = samples.size();
+  for (int i = 0; i < 100; ++i) samples.push_back({{1.5, 1.5, 3}, 7, 1, 1});  // noise
+  for (const double cell : {0.25, 0.5}) {
+    auto surface = cloud::Surface::open(cell, {});
+    ASSERT_TRUE(surface);
+    (*surface)->add(samples, std::nullopt);
+    std::vector<cloud::GroundTile> tiles;
+    for (const auto& tile : (*surface)->tiles()) tiles.push_back((*surface)->make(tile)->ground);
+    const auto all = cloud::density(tiles);
+    ASSERT_TRUE(all);
+    double sum = 0, cell_at_3_4 = 0;
+    for (std::size_t i = 0; i < all->points.size(); ++i)
+      if (!std::isnan(all->points[i])) sum += static_cast<double>(all->points[i]);
+    cell_at_3_4 = static_cast<double>(
+        all->points[static_cast<std::size_t>(4 - all->y) * all->columns + static_cast<std::size_t>(3 - all->x)]);
+    EXPECT_EQ(sum, static_cast<double>(points));
+    EXPECT_EQ(cell_at_3_4, static_cast<double>(std::ranges::count_if(samples, [](const Sample& s) {
+                return std::floor(s.position.x) == 3 && std::floor(s.position.y) == 4 && s.classification != 7;
+              })));
+  }
+  EXPECT_FALSE(cloud::density({}));
+}
+
 TEST(Surface, of_a_gabled_house_has_its_heights_without_bias) {
   const auto made = surface_of(scatter(0, 0, 60, 60, 16, 1, house), 0.5);
   double sum = 0, squares = 0, count = 0;

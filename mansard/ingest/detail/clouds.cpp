@@ -173,6 +173,7 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
     return none(within ? "no point is in the box asked for; check --bbox, --crs and --mesh-offset"
                        : "no point can be used: all are noise, or their coordinates are not finite");
   if (counts.cells == 0) return none("its points are vegetation, noise or wires only; nothing can be a surface");
+  out.density = cloud::density(grounds);
   out.ground = cloud::join(grounds, options_.cloud.ground_reach);
   warnings_.push_back(
       base::warning("ingest-points-surface", in_words(counts, density, cell, out.ground.has_value()), subject));
