@@ -57,6 +57,12 @@ TEST_F(CityGmlRead, own_files_say_how_they_were_made_whatever_the_names_of_their
   EXPECT_TRUE(formats::read_foreign(path));
   EXPECT_FALSE(formats::citygml_made_by("<CityModel><!-- mansard {} --></CityModel>"));
   EXPECT_FALSE(formats::citygml_made_by("<!-- mansard {\"version\": 3} --><CityModel/>"));
+  // Somebody else's file that quotes it.
+  const auto comment = bytes->substr(start, end + 4 - start);
+  EXPECT_TRUE(
+      formats::citygml_made_by("<?xml version=\"1.0\"?>\n<CityModel xmlns=\"a\">\n" + comment + "<a/></CityModel>"));
+  EXPECT_FALSE(formats::citygml_made_by("<CityModel xmlns=\"a\"><b/>" + comment + "<a/></CityModel>"));
+  EXPECT_FALSE(formats::citygml_made_by(comment + "<CityModel/>"));
 }
 
 TEST_F(CityGmlRead, own_files_come_back_in_both_versions) {
