@@ -236,23 +236,21 @@ auto check_overlap(const Ground& ground, const Box2& mesh, const std::string& su
                      subject);
 }
 
-/// Of cells of 1 m with their south-west corner at a whole metre, but for the offset.
-auto grid_of(std::int64_t x, std::int64_t y, std::size_t columns, std::size_t rows, std::vector<float> values,
-             const Options& options, const model::Frame& frame) -> model::HeightGrid {
-  const auto centre = [&](std::int64_t corner, std::size_t axis) {
-    return static_cast<double>(corner - frame.origin[axis]) + 0.5 + options.mesh_offset[axis];
-  };
-  return {{centre(x, 0), centre(y, 1)}, 1, columns, rows, std::move(values), 0};
-}
-
 /// The ground's heights, where they are given or point clouds have them, around what is kept of the mesh.
 auto take_terrain(const Options& options, const Box2& around, std::optional<cloud::Ground> ground, model::Scene& scene)
     -> base::Result<void> {
   if (options.terrain.empty()) {
     if (!ground) return {};
-    auto grid =
-        grid_of(ground->x, ground->y, ground->columns, ground->rows, std::move(ground->heights), options, scene.frame);
-    grid.base = static_cast<double>(scene.frame.origin[2]) - options.mesh_offset[2];
+    // Cells of 1 m, whose centres are half a metre from their corners.
+    const auto at = [&](std::int64_t corner, std::size_t axis) {
+      return static_cast<double>(corner - scene.frame.origin[axis]) + 0.5 + options.mesh_offset[axis];
+    };
+    model::HeightGrid grid{{at(ground->x, 0), at(ground->y, 1)},
+                           1,
+                           ground->columns,
+                           ground->rows,
+                           std::move(ground->heights),
+                           static_cast<double>(scene.frame.origin[2]) - options.mesh_offset[2]};
     scene.terrain = std::make_shared<const model::HeightGrid>(std::move(grid));
     return {};
   }
@@ -355,9 +353,6 @@ auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::files
   scene.inputs = std::move(meshes->inputs);
   const Box2 ground_box = cells == nullptr ? plan_of(scene.mesh) : within ? within->grown(mesh_margin) : local;
   if (auto taken = take_terrain(options, ground_box, std::move(meshes->ground), scene); !taken) return taken.error();
-  if (auto& found = meshes->density)
-    scene.density = std::make_shared<const model::HeightGrid>(
-        grid_of(found->x, found->y, found->columns, found->rows, std::move(found->points), options, scene.frame));
   scene.inputs.insert(scene.inputs.end(), ground->chosen.file.inputs.begin(), ground->chosen.file.inputs.end());
   append(scene.warnings, std::move(meshes->warnings));
   append(scene.warnings, detail::warnings_of(scene.mesh_counts, mesh_name));

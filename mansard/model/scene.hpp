@@ -46,8 +46,6 @@ struct Scene {
   std::vector<Footprint> surroundings;
   /// The ground, where it was given; else blocks look for it in the mesh.
   std::shared_ptr<const HeightGrid> terrain;
-  /// Points per square metre in place of heights, where point clouds were given.
-  std::shared_ptr<const HeightGrid> density;
   Frame frame;
   std::vector<InputFile> inputs;
   MeshCounts mesh_counts;

@@ -297,36 +297,6 @@ auto coverage(const rays::Scene& mesh, std::span<const geometry::Polygon> polygo
           std::max(0.0, std::sqrt(widest(empty)) - 0.5) * grid};
 }
 
-auto mean_over(const model::HeightGrid& grid, std::span<const geometry::Polygon> polygons) -> std::optional<double> {
-  constexpr double fine = 0.25, most_places = 250'000;  // m: sixteen places in a cell of 1 m
-  geometry::Box2 box;
-  for (const auto& polygon : polygons)
-    for (const auto p : polygon.outer) box.add(p);
-  if (box.empty()) return std::nullopt;
-  const Point2 extent = box.most - box.least;
-  const double step = std::max(fine, std::sqrt(extent.x * extent.y / most_places));
-  // From the corner of a cell on that is near the polygons, so that the size of the grid does not matter.
-  const Point2 corner{grid.centre.x - grid.cell / 2, grid.centre.y - grid.cell / 2};
-  const double x0 = std::floor((box.least.x - corner.x) / grid.cell) * grid.cell,
-               y0 = std::floor((box.least.y - corner.y) / grid.cell) * grid.cell;
-  double sum = 0;
-  std::size_t places = 0;
-  for (double j = 0.5; corner.y + y0 + j * step <= box.most.y; ++j)
-    for (double i = 0.5; corner.x + x0 + i * step <= box.most.x; ++i) {
-      const double x = x0 + i * step, y = y0 + j * step;
-      const Point2 p{corner.x + x, corner.y + y};
-      if (std::ranges::none_of(polygons, [&](const auto& polygon) { return geometry::contains(polygon, p); })) continue;
-      ++places;
-      const double column = std::floor(x / grid.cell), row = std::floor(y / grid.cell);
-      if (column < 0 || row < 0 || column >= static_cast<double>(grid.columns) || row >= static_cast<double>(grid.rows))
-        continue;
-      const float value = grid.values[static_cast<std::size_t>(row) * grid.columns + static_cast<std::size_t>(column)];
-      if (!std::isnan(value)) sum += static_cast<double>(value);
-    }
-  if (places == 0) return std::nullopt;
-  return sum / static_cast<double>(places);
-}
-
 auto quality_of(std::string_view outcome, const model::Attributes& levels) -> std::string {
   if (outcome == "refused" || outcome == "covered") return "none";
   constexpr double half = 0.5;

@@ -9,7 +9,6 @@
 #include "mansard/formats/levels.hpp"
 #include "mansard/geometry/polygon.hpp"
 #include "mansard/model/city.hpp"
-#include "mansard/model/scene.hpp"
 #include "mansard/rays/rays.hpp"
 
 namespace mansard::report {
@@ -40,11 +39,6 @@ struct Coverage {
 };
 [[nodiscard]] auto coverage(const rays::Scene& mesh, std::span<const geometry::Polygon> polygons, double grid)
     -> Coverage;
-
-/// The mean of a grid's values over polygons, 0 where the grid has none; none where the polygons are smaller than a
-/// quarter of a metre.
-[[nodiscard]] auto mean_over(const model::HeightGrid& grid, std::span<const geometry::Polygon> polygons)
-    -> std::optional<double>;
 
 /// "good", "check" or "none": see the attribute ms_quality. `levels` has the attributes of level_measures.
 [[nodiscard]] auto quality_of(std::string_view outcome, const model::Attributes& levels) -> std::string;

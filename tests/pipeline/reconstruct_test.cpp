@@ -139,29 +139,6 @@ TEST(Reconstruct, raises_a_footprint_on_bare_ground_as_a_low_prism_and_says_so) 
   expect_valid(r);
 }
 
-TEST(Reconstruct, tells_of_the_density_of_points_with_or_without_a_model) {
-  const auto density_of = [](const model::Building& building) -> std::optional<double> {
-    for (const auto& [name, value] : building.attributes)
-      if (name == "ms_point_density") return std::get<double>(value);
-    return std::nullopt;
-  };
-  auto scene = test::lone_house();
-  scene.footprints.push_back(test::footprint("crossed", {{{0, 0}, {10, 10}, {10, 0}, {0, 10}}, {}}));
-  scene.footprints.back().defect = base::error("ingest-footprint", "crosses itself");
-  const auto without = reconstruct(scene, {});
-  ASSERT_TRUE(without);
-  EXPECT_EQ(density_of(without->city.buildings[0]), std::nullopt);
-  // 5 points in each square metre of the west half of the house, none in the east.
-  model::HeightGrid grid{{-19.5, -19.5}, 1, 60, 60, std::vector<float>(3600, 0), 0};
-  for (std::size_t row = 0; row < 60; ++row)
-    for (std::size_t column = 0; column < 26; ++column) grid.values[row * 60 + column] = 5;
-  scene.density = std::make_shared<const model::HeightGrid>(grid);
-  const auto with = reconstruct(scene, {});
-  ASSERT_TRUE(with);
-  EXPECT_EQ(density_of(with->city.buildings[0]), 2.5);
-  EXPECT_TRUE(density_of(with->city.buildings[1]));
-}
-
 TEST(Reconstruct, stops_on_request) {
   base::Cancel cancel;
   cancel.request();

@@ -111,21 +111,6 @@ TEST(Coverage, is_the_share_without_a_surface_and_the_largest_circle_in_it) {
   EXPECT_EQ(all.radius, 0);
 }
 
-TEST(MeanOver, is_the_mean_of_the_cells_by_their_share_of_the_polygon) {
-  // Cells of 1 m from (10, 20): 4 in the west, 8 in the east, and one without a value.
-  const model::HeightGrid grid{{10.5, 20.5}, 1, 2, 2, {4, 8, 4, std::numeric_limits<float>::quiet_NaN()}, 0};
-  const auto over = [&](double x0, double y0, double x1, double y1) {
-    const std::vector<geometry::Polygon> all{{{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, {}}};
-    return report::mean_over(grid, all);
-  };
-  EXPECT_EQ(over(10, 20, 12, 21), 6);
-  EXPECT_EQ(over(10.5, 20, 12, 21), (0.5 * 4 + 8) / 1.5);
-  EXPECT_EQ(over(10, 20, 12, 22), 4) << "0 where there is no value";
-  EXPECT_EQ(over(8, 20, 12, 21), 3) << "and beside the grid";
-  EXPECT_EQ(over(10, 20, 10.01, 20.01), std::nullopt);
-  EXPECT_EQ(report::mean_over(grid, {}), std::nullopt);
-}
-
 TEST(Quality, is_good_only_where_nothing_speaks_against_it) {
   const model::Attributes valid{{"ms_val3dity_lod22", std::string("[]")}, {"ms_nodata_share", 0.1}};
   EXPECT_EQ(report::quality_of("full", valid), "good");

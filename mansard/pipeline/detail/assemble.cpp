@@ -164,23 +164,9 @@ auto begun(const model::Scene& scene, std::size_t feature) -> Finished {
 
 }  // namespace
 
-namespace {
-
-/// What point clouds say of a footprint, whether it has a model or not.
-void add_density(const model::Scene& scene, const std::vector<geometry::Polygon>& footprint,
-                 model::Attributes& attributes) {
-  if (!scene.density) return;
-  if (const auto density = report::mean_over(*scene.density, footprint))
-    attributes.emplace_back("ms_point_density", *density);
-}
-
-}  // namespace
-
 auto unbuilt(const model::Scene& scene, std::size_t feature, const Options& options) -> Finished {
   auto out = begun(scene, feature);
-  model::Attributes measures;
-  add_density(scene, out.building.footprint, measures);
-  add_attributes(out.building, out.report, measures, options, static_cast<double>(scene.frame.origin[2]));
+  add_attributes(out.building, out.report, {}, options, static_cast<double>(scene.frame.origin[2]));
   return out;
 }
 
@@ -232,9 +218,7 @@ auto finish_block(const model::Scene& scene, BlockResult& result, const Options&
     auto& [building, report] = out[i].second;
     if (accounts[i].area > 0) report.rmse = std::sqrt(accounts[i].squared / accounts[i].area);
     const auto known = std::ranges::find(result.measures, out[i].first, [](const auto& one) { return one.first; });
-    auto measures = known != result.measures.end() ? known->second : model::Attributes();
-    add_density(scene, building.footprint, measures);
-    add_attributes(building, report, measures, options, z0);
+    add_attributes(building, report, known != result.measures.end() ? known->second : model::Attributes(), options, z0);
   }
   return out;
 }

@@ -45,7 +45,6 @@ auto part_of(const model::Scene& scene, std::span<const block::Group* const> gro
   Part out;
   out.scene.frame = scene.frame;
   out.scene.terrain = scene.terrain;
-  out.scene.density = scene.density;
   // Group by group: the box of several may span the city where the order by place jumps.
   std::vector<std::size_t> own, near;
   for (const auto* group : groups) {
