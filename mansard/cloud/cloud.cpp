@@ -265,49 +265,30 @@ auto Surface::make(const Tile& tile) const -> base::Result<TileSurface> {
   return out;
 }
 
-namespace {
-
-/// The tiles that have values, in one grid with `border` more cells on all sides; NaN where there is no tile.
-template <class Grid>
-auto laid_out(const std::vector<GroundTile>& tiles, std::vector<float> GroundTile::*values_of, std::int64_t border,
-              std::vector<float> Grid::*into) -> std::optional<Grid> {
-  Grid out;
+auto join(const std::vector<GroundTile>& tiles, double reach) -> std::optional<Ground> {
+  Ground out;
   std::int64_t east = std::numeric_limits<std::int64_t>::min(), north = east;
   out.x = out.y = std::numeric_limits<std::int64_t>::max();
   for (const auto& tile : tiles) {
-    if ((tile.*values_of).empty()) continue;
+    if (tile.heights.empty()) continue;
     out.x = std::min(out.x, tile.x);
     out.y = std::min(out.y, tile.y);
     east = std::max(east, tile.x + static_cast<std::int64_t>(tile.columns));
     north = std::max(north, tile.y + static_cast<std::int64_t>(tile.rows));
   }
   if (east <= out.x) return std::nullopt;
-  out.x -= border;
-  out.y -= border;
-  out.columns = static_cast<std::size_t>(east + border - out.x);
-  out.rows = static_cast<std::size_t>(north + border - out.y);
-  auto& values = out.*into;
-  values.assign(out.columns * out.rows, std::numeric_limits<float>::quiet_NaN());
-  for (const auto& tile : tiles)
-    for (std::size_t row = 0; row < tile.rows && !(tile.*values_of).empty(); ++row)
-      std::copy_n(
-          (tile.*values_of).begin() + static_cast<std::ptrdiff_t>(row * tile.columns), tile.columns,
-          values.begin() + static_cast<std::ptrdiff_t>((static_cast<std::size_t>(tile.y - out.y) + row) * out.columns +
-                                                       static_cast<std::size_t>(tile.x - out.x)));
-  return out;
-}
-
-}  // namespace
-
-auto density(const std::vector<GroundTile>& tiles) -> std::optional<Density> {
-  return laid_out<Density>(tiles, &GroundTile::points, 0, &Density::points);
-}
-
-auto join(const std::vector<GroundTile>& tiles, double reach) -> std::optional<Ground> {
   const auto steps = static_cast<std::int64_t>(reach);
-  auto laid = laid_out<Ground>(tiles, &GroundTile::heights, steps, &Ground::heights);
-  if (!laid) return std::nullopt;
-  auto& out = *laid;
+  out.x -= steps;
+  out.y -= steps;
+  out.columns = static_cast<std::size_t>(east + steps - out.x);
+  out.rows = static_cast<std::size_t>(north + steps - out.y);
+  out.heights.assign(out.columns * out.rows, std::numeric_limits<float>::quiet_NaN());
+  for (const auto& tile : tiles)
+    for (std::size_t row = 0; row < tile.rows && !tile.heights.empty(); ++row)
+      std::copy_n(tile.heights.begin() + static_cast<std::ptrdiff_t>(row * tile.columns), tile.columns,
+                  out.heights.begin() +
+                      static_cast<std::ptrdiff_t>((static_cast<std::size_t>(tile.y - out.y) + row) * out.columns +
+                                                  static_cast<std::size_t>(tile.x - out.x)));
   std::vector<std::pair<std::size_t, float>> found;
   for (std::int64_t step = 0; step < steps; ++step) {
     found.clear();
@@ -328,7 +309,7 @@ auto join(const std::vector<GroundTile>& tiles, double reach) -> std::optional<G
     if (found.empty()) break;
     for (const auto& [i, height] : found) out.heights[i] = height;
   }
-  return laid;
+  return out;
 }
 
 }  // namespace mansard::cloud

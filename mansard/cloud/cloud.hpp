@@ -135,12 +135,4 @@ struct Ground {
 };
 [[nodiscard]] auto join(const std::vector<GroundTile>& tiles, double reach) -> std::optional<Ground>;
 
-/// The points per square metre of all tiles as one grid; NaN where there is no tile.
-struct Density {
-  std::int64_t x = 0, y = 0;  ///< of the south-west corner, m
-  std::size_t columns = 0, rows = 0;
-  std::vector<float> points;
-};
-[[nodiscard]] auto density(const std::vector<GroundTile>& tiles) -> std::optional<Density>;
-
 }  // namespace mansard::cloud

@@ -172,9 +172,24 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
   if (counts.points == 0)
     return none(within ? "no point is in the box asked for; check --bbox, --crs and --mesh-offset"
                        : "no point can be used: all are noise, or their coordinates are not finite");
+  const bool any = std::ranges::any_of(
+      pieces, [](const auto& piece) { return !piece.mesh.triangles.empty() || piece.triangles > 0; });
   if (counts.cells == 0) return none("its points are vegetation, noise or wires only; nothing can be a surface");
-  out.density = cloud::density(grounds);
+  if (!any)
+    return none("its points are too few for a surface: " + base::to_text(density, density < 0.1 ? 6 : 1) +
+                " points/m² in cells of " + base::to_text(cell) + " m; check its CRS and unit, and what it is");
+  Box2 area;
+  for (const auto& tile : grounds)
+    if (!tile.heights.empty()) area.add({static_cast<double>(tile.x), static_cast<double>(tile.y)});
+  constexpr double most_ground = 1e9;  // cells of 1 m, of 4 bytes
+  if (const auto extent = area.most - area.least; !area.empty() && extent.x * extent.y > most_ground)
+    return base::error("ingest-memory",
+                       "ground points are " + base::to_text(length(extent) / 1000, 0) +
+                           " km apart; clouds of different CRSs need --crs, and points far off --bbox",
+                       subject);
   out.ground = cloud::join(grounds, options_.cloud.ground_reach);
+  for (auto& tile : grounds) tile.heights = {};
+  out.counted = std::move(grounds);
   warnings_.push_back(
       base::warning("ingest-points-surface", in_words(counts, density, cell, out.ground.has_value()), subject));
   return pieces;
