@@ -234,6 +234,41 @@ auto info_of_points(const fs::path& path, const base::Run& run) -> base::Result<
   return out;
 }
 
+// ---- reports of runs
+
+/// The run.json of a run; none where it is none.
+auto info_of_report(const fs::path& path, bool all_options) -> std::optional<Json> {
+  if (extension_of(path) != "json") return std::nullopt;
+  const auto bytes = base::read_file(path);
+  if (!bytes) return std::nullopt;
+  const auto report = Json::parse(*bytes, nullptr, false);
+  if (!report.is_object() || !report.value("mansard", Json()).is_string()) return std::nullopt;
+  const auto member = [&](const char* name) { return report.value(name, Json()); };
+  const auto counts = member("counts"), options = member("options"), inputs = member("inputs");
+  if (!counts.is_object() || !options.is_object() || !inputs.is_array()) return std::nullopt;
+  model::MadeBy made_by;
+  made_by.version = member("mansard").get<std::string>();
+  for (const auto& [name, value] : options.items())
+    if (value.is_string()) made_by.options.emplace_back(name, value.get<std::string>());
+  for (const auto& input : inputs)
+    if (input.is_object())
+      made_by.inputs.push_back({input.value("path", std::string()), input.value("bytes", std::uintmax_t{0}),
+                                input.value("sha256", std::string())});
+  Json out = head(path, "report", "run.json");
+  out["by"] = "mansard";
+  if (member("crs").is_string()) out["crs"] = member("crs");
+  out["outcomes"] = Json::object();
+  for (const auto& [name, count] : counts.items())
+    if (count.is_number_integer()) out["outcomes"][name] = count;
+  out["made_by"] = made_by_json(made_by, all_options);
+  out["warnings"] = Json::array();
+  for (const auto& warning : member("warnings"))
+    if (warning.is_object())
+      out["warnings"].push_back(
+          {{"code", warning.value("code", std::string())}, {"message", warning.value("message", std::string())}});
+  return out;
+}
+
 // ---- what GDAL reads
 
 auto info_of_raster(const fs::path& path) -> base::Result<Json> {
@@ -359,9 +394,12 @@ auto info_of_other(const fs::path& path, const base::Diagnostic& why, bool all_o
     return source ? std::move(source) : std::move(mesh);
   }
   if (formats::named_as_raster(path)) return info_of_raster(path);
+  if (auto report = info_of_report(path, all_options)) return *std::move(report);
   auto source = info_of_source(path);
   if (!source && extension_of(path) == "zip")
     if (auto mesh = info_of_mesh(path, run)) return mesh;
+  if (!source)  // a picture
+    if (auto raster = info_of_raster(path)) return raster;
   // A broken file of plans is better reported as one.
   return !source && why.code.starts_with("write-plan") ? base::Result<Json>(why) : source;
 }

@@ -233,6 +233,7 @@ auto info_text(const Json& info) -> std::string {
   if (info.contains("extent") && !info["extent"].is_null()) lines.add("extent", extent_in_words(info["extent"]));
   if (info.contains("columns")) add_raster(info, lines);
   if (info.contains("counts")) add_counts(info["counts"], lines);
+  if (info.contains("outcomes")) lines.add("outcomes", counted(info["outcomes"]));
   if (info.contains("points")) add_points(info, lines);
   else if (info.contains("classes")) lines.add("classes", counted(info["classes"]));
   if (info.contains("lods") && !info["lods"].empty()) lines.add("LoD", joined(info["lods"]));

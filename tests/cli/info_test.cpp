@@ -141,6 +141,30 @@ TEST_F(Info, compares_solids_with_each_other_as_a_run_does_in_every_format) {
   }
 }
 
+TEST_F(Info, describes_every_file_of_a_run) {
+  ASSERT_LE(reconstruct(at("house.obj"), at("house.geojson"),
+                        "--formats all --picture --terrain-out " + at("out") + "/t.glb --terrain-out " + at("out") +
+                            "/t.3dtiles --terrain-out " + at("out") + "/t.stl")
+                .exit,
+            1);
+  std::size_t files = 0;
+  for (const auto& entry : fs::directory_iterator(at("out"))) {
+    if (entry.path().filename() == ".mansard") continue;
+    ++files;
+    const auto told = run("info " + entry.path().string());
+    EXPECT_EQ(told.exit, 0) << entry.path() << told.err;
+    EXPECT_THAT(told.out, HasSubstr("type        ")) << entry.path();
+    expect_narrow(told.out, 1);
+  }
+  EXPECT_GT(files, 18U);
+  const auto report = info(at("out") + "/run.json")[0];
+  EXPECT_EQ(report["kind"], "report");
+  EXPECT_EQ(report["outcomes"]["full"], 1);
+  EXPECT_EQ(report["made_by"]["inputs"].size(), 2U);
+  EXPECT_EQ(info(at("out") + "/model.mtl")[0]["format"], "obj");
+  EXPECT_EQ(info(at("out") + "/picture.png")[0]["kind"], "raster");
+}
+
 TEST_F(Info, says_what_a_mesh_and_footprints_hold) {
   const auto told = info(at("house.obj") + " " + at("house.geojson"));
   ASSERT_EQ(told.size(), 2U);
