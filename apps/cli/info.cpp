@@ -31,6 +31,13 @@ auto info_of(const fs::path& path, const Request& request, const base::Run& run)
   if (extension.ends_with("json") || extension.ends_with("jsonl"))
     if (const auto terrain = formats::terrain_info(path); terrain && terrain->others == 0)
       return info_of_terrain(path, *terrain, request.verbose);
+  // What is beside an OBJ is described with it.
+  for (const std::string_view beside : {".plans.jsonl", ".mtl"})
+    if (const auto name = path.filename().string(); name.ends_with(beside)) {
+      const auto obj = path.parent_path() / (name.substr(0, name.size() - beside.size()) + ".obj");
+      std::error_code status;
+      if (fs::is_regular_file(obj, status)) return info_of(obj, request, run);
+    }
   auto reader = open_city(path);
   if (reader) return info_of_city(path, **reader, request.verbose, run);
   const auto& why = reader.error();

@@ -8,6 +8,7 @@
 #include "mansard/base/files.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/formats/citygml_made_by.hpp"
+#include "mansard/formats/models.hpp"
 #include "mansard/formats/points.hpp"
 #include "mansard/formats/source.hpp"
 #include "mansard/ingest/model.hpp"
@@ -41,11 +42,30 @@ auto warnings_json(const std::vector<base::Diagnostic>& warnings) -> Json {
 
 // ---- models of other producers
 
+/// A file from its start, up to the place where `enough(bytes)` is true: asked after every megabyte.
+template <class Enough>
+auto start_of(const fs::path& path, Enough enough) -> std::string {
+  constexpr std::size_t piece = std::size_t{1} << 20;
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes;
+  while (file && !enough(bytes)) {
+    const std::size_t before = bytes.size();
+    bytes.resize(before + piece);
+    file.read(bytes.data() + before, piece);
+    bytes.resize(before + static_cast<std::size_t>(file.gcount()));
+  }
+  return bytes;
+}
+
 /// How a CityGML that mansard wrote was made; none of any other file.
 auto made_by_mansard(const fs::path& path, const std::string& format) -> std::optional<model::MadeBy> {
   if (format != "citygml") return std::nullopt;
-  const auto bytes = base::read_file(path);
-  return bytes ? formats::citygml_made_by(*bytes) : std::nullopt;
+  const auto whole = [](const std::string& bytes) {
+    const auto comment = bytes.find(formats::citygml_made_by_start);
+    return bytes.find("CityModel") != bytes.npos &&
+           (comment == bytes.npos || bytes.find(" -->", comment) != bytes.npos);
+  };
+  return formats::citygml_made_by(start_of(path, whole));
 }
 
 auto info_of_model(const fs::path& path, const model::Model& model, bool all_options) -> Json {
@@ -86,21 +106,27 @@ auto info_of_model(const fs::path& path, const model::Model& model, bool all_opt
 
 /// Binary: 80 bytes of text, the number of triangles, 50 bytes for each.
 auto info_of_stl(const fs::path& path) -> base::Result<Json> {
-  const auto bytes = base::read_file(path);
-  if (!bytes) return bytes.failure();
+  constexpr std::size_t before_triangles = 84, triangle = 50, length_of_text = 80;
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes(before_triangles, '\0');
+  file.read(bytes.data(), before_triangles);
+  bytes.resize(static_cast<std::size_t>(file.gcount()));
+  std::error_code status;
+  const auto size = fs::file_size(path, status);
+  if (status) return base::error("file-read", "cannot be read: " + status.message(), path.string());
   Json out = head(path, "shells", "stl");
   const auto at = [&](std::size_t offset) {
-    return static_cast<std::uint32_t>(static_cast<unsigned char>((*bytes)[offset]));
+    return static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[offset]));
   };
-  const std::size_t count =
-      bytes->size() < 84 ? 0 : at(80) | at(81) << 8 | at(82) << 16 | static_cast<std::size_t>(at(83)) << 24;
-  if (bytes->size() < 84 || bytes->size() != 84 + 50 * count) {
-    if (bytes->starts_with("solid")) out["text"] = true;
+  const bool whole = bytes.size() == before_triangles;
+  const std::size_t count = whole ? at(80) | at(81) << 8 | at(82) << 16 | static_cast<std::size_t>(at(83)) << 24 : 0;
+  if (!whole || size != before_triangles + triangle * count) {
+    if (bytes.starts_with("solid")) out["text"] = true;
     else
       return base::error("ingest-mesh-truncated", "not a complete binary STL; copy or export it again", path.string());
     return out;
   }
-  std::string text = bytes->substr(0, std::min<std::size_t>(80, bytes->find('\0')));
+  std::string text = bytes.substr(0, std::min(length_of_text, bytes.find('\0')));
   text.erase(text.find_last_not_of(' ') + 1);
   out["header"] = base::on_one_line(text);
   out["counts"] = {{"triangles", count}};
@@ -208,6 +234,41 @@ auto info_of_points(const fs::path& path, const base::Run& run) -> base::Result<
   return out;
 }
 
+// ---- reports of runs
+
+/// The run.json of a run; none where it is none.
+auto info_of_report(const fs::path& path, bool all_options) -> std::optional<Json> {
+  if (extension_of(path) != "json") return std::nullopt;
+  const auto bytes = base::read_file(path);
+  if (!bytes) return std::nullopt;
+  const auto report = Json::parse(*bytes, nullptr, false);
+  if (!report.is_object() || !report.value("mansard", Json()).is_string()) return std::nullopt;
+  const auto member = [&](const char* name) { return report.value(name, Json()); };
+  const auto counts = member("counts"), options = member("options"), inputs = member("inputs");
+  if (!counts.is_object() || !options.is_object() || !inputs.is_array()) return std::nullopt;
+  model::MadeBy made_by;
+  made_by.version = member("mansard").get<std::string>();
+  for (const auto& [name, value] : options.items())
+    if (value.is_string()) made_by.options.emplace_back(name, value.get<std::string>());
+  for (const auto& input : inputs)
+    if (input.is_object())
+      made_by.inputs.push_back({input.value("path", std::string()), input.value("bytes", std::uintmax_t{0}),
+                                input.value("sha256", std::string())});
+  Json out = head(path, "report", "run.json");
+  out["by"] = "mansard";
+  if (member("crs").is_string()) out["crs"] = member("crs");
+  out["outcomes"] = Json::object();
+  for (const auto& [name, count] : counts.items())
+    if (count.is_number_integer()) out["outcomes"][name] = count;
+  out["made_by"] = made_by_json(made_by, all_options);
+  out["warnings"] = Json::array();
+  for (const auto& warning : member("warnings"))
+    if (warning.is_object())
+      out["warnings"].push_back(
+          {{"code", warning.value("code", std::string())}, {"message", warning.value("message", std::string())}});
+  return out;
+}
+
 // ---- what GDAL reads
 
 auto info_of_raster(const fs::path& path) -> base::Result<Json> {
@@ -259,12 +320,23 @@ auto may_be_city_model(const fs::path& path) -> bool {
   const auto extension = extension_of(path);
   if (extension == "jsonl" || extension == "citygml") return true;
   if (extension == "gml" || extension == "xml") {
-    const auto bytes = base::read_file(path);
-    return bytes && bytes->substr(0, 16384).find("CityModel") != std::string::npos;
+    const auto any = [](const std::string& bytes) { return !bytes.empty(); };
+    return start_of(path, any).substr(0, 16384).find("CityModel") != std::string::npos;
   }
   if (extension != "json") return false;
-  const auto bytes = base::read_file(path);
-  return bytes && bytes->find("\"CityJSON\"") != std::string::npos;
+  constexpr std::string_view word = "\"CityJSON\"";
+  constexpr std::size_t piece = std::size_t{1} << 20;
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes;
+  while (file) {  // the end of a piece stays: the word may be in two
+    bytes.erase(0, bytes.size() > word.size() ? bytes.size() - word.size() : 0);
+    const std::size_t before = bytes.size();
+    bytes.resize(before + piece);
+    file.read(bytes.data() + before, piece);
+    bytes.resize(before + static_cast<std::size_t>(file.gcount()));
+    if (bytes.find(word) != bytes.npos) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -307,13 +379,12 @@ auto info_of_other(const fs::path& path, const base::Diagnostic& why, bool all_o
     out["tileset"] = std::move(tileset);
     return out;
   }
-  if (may_be_city_model(path) || extension_of(path) == "obj") {
+  // An OBJ whose faces have no class is a mesh like any other.
+  const bool obj = extension_of(path) == "obj";
+  if (obj ? formats::labels_every_face(path) : may_be_city_model(path)) {
     const auto model = ingest::read_model(path);
-    // An OBJ whose faces have no class is a mesh like any other.
-    const auto guessed = [](const base::Diagnostic& warning) { return warning.code == "ingest-model-semantics"; };
-    const bool labelled = model && (extension_of(path) != "obj" || std::ranges::none_of(model->warnings, guessed));
-    if (labelled) return info_of_model(path, *model, all_options);
-    if (!model && extension_of(path) != "obj") return model.failure();
+    if (model) return info_of_model(path, *model, all_options);
+    if (!obj) return model.failure();
   }
   if (is_mesh(path)) {
     auto mesh = info_of_mesh(path, run);
@@ -323,9 +394,12 @@ auto info_of_other(const fs::path& path, const base::Diagnostic& why, bool all_o
     return source ? std::move(source) : std::move(mesh);
   }
   if (formats::named_as_raster(path)) return info_of_raster(path);
+  if (auto report = info_of_report(path, all_options)) return *std::move(report);
   auto source = info_of_source(path);
   if (!source && extension_of(path) == "zip")
     if (auto mesh = info_of_mesh(path, run)) return mesh;
+  if (!source)  // a picture
+    if (auto raster = info_of_raster(path)) return raster;
   // A broken file of plans is better reported as one.
   return !source && why.code.starts_with("write-plan") ? base::Result<Json>(why) : source;
 }

@@ -6,6 +6,7 @@
 #include "mansard/base/text.hpp"
 #include "mansard/formats/drivers.hpp"
 #include "mansard/formats/input_file.hpp"
+#include "mansard/pipeline/compared.hpp"
 #include "mansard/pipeline/stored.hpp"
 #include "mansard/solid/solid.hpp"
 
@@ -23,7 +24,7 @@ auto attribute(const model::Attributes& attributes, std::string_view name) -> co
 /// What adds up building by building.
 class Tally {
  public:
-  explicit Tally(const model::Frame& frame) : frame_(frame) {}
+  Tally(const model::Frame& frame, pipeline::ComparedSolids compared) : frame_(frame), compared_(std::move(compared)) {}
 
   void add(const model::Building& building) {
     ++buildings_;
@@ -43,6 +44,15 @@ class Tally {
     base::parallel_for(wrong.size(),
                        [&](std::size_t i) { wrong[i] = solid::check(*solids[i].solid, solid::written_rules()); });
     for (std::size_t i = 0; i < wrong.size(); ++i) add(building, solids[i], wrong[i]);
+    compared_.add(building);
+  }
+
+  /// Compares the solids with each other, after the last building.
+  [[nodiscard]] auto compare(const base::Run& run) -> base::Result<void> {
+    auto found = compared_.overlapping(run);
+    if (!found) return found.failure();
+    overlapping_ = std::move(*found);
+    return {};
   }
 
   [[nodiscard]] auto counts() const -> Json {
@@ -54,7 +64,15 @@ class Tally {
   }
   [[nodiscard]] auto extent() const -> Json { return extent_.json(); }
   [[nodiscard]] auto validity() const -> Json {
-    return {{"planarity_m", 1e-4}, {"solids", solids_}, {"valid", solids_ - invalid_.size()}, {"invalid", invalid_}};
+    Json overlaps = Json::array();
+    for (const auto* some : {&overlapping_.in_all, &overlapping_.of_each})
+      for (const auto& one : *some)
+        overlaps.push_back({{"code", one.code}, {"solid", one.subject}, {"message", one.message}});
+    return {{"planarity_m", 1e-4},
+            {"solids", solids_},
+            {"valid", solids_ - invalid_.size()},
+            {"invalid", invalid_},
+            {"overlaps", std::move(overlaps)}};
   }
   [[nodiscard]] auto fallbacks() const -> Json {
     Json out = Json::object();
@@ -94,6 +112,8 @@ class Tally {
   }
 
   model::Frame frame_;
+  pipeline::ComparedSolids compared_;
+  pipeline::ComparedSolids::Overlapping overlapping_;
   Extent3 extent_;
   std::size_t buildings_ = 0, derived_ = 0, parts_ = 0, solids_ = 0, faces_ = 0, triangles_ = 0, vertices_ = 0;
   Json invalid_ = Json::array();
@@ -202,10 +222,13 @@ auto info_of_city(const fs::path& path, formats::CityReader& reader, bool all_op
     -> base::Result<Json> {
   // The header stays while buildings are read.
   const formats::Header header = reader.header();
-  Tally tally(header.frame);
+  auto compared = pipeline::ComparedSolids::open();
+  if (!compared) return compared.failure();
+  Tally tally(header.frame, std::move(*compared));
   std::vector<base::Diagnostic> warnings;
   const auto has_models = add_all(reader, run, tally, warnings);
   if (!has_models) return has_models.failure();
+  if (auto done = tally.compare(run); !done) return done.failure();
   // By its name; the content distinguishes CityJSON from plans, which may both have the extension ".json".
   auto format = formats::format_of(path).value_or(formats::Format::plans);
   if (*has_models && format == formats::Format::plans) format = formats::Format::cityjson;

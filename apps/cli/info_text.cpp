@@ -108,6 +108,18 @@ void add_validity(const Json& validity, Lines& lines) {
   }
 }
 
+void add_overlaps(const Json& overlaps, Lines& lines) {
+  std::size_t told = 0;
+  for (const auto& overlap : overlaps) {
+    if (++told > few) {
+      lines.add("", "--json lists the others");
+      break;
+    }
+    const auto solid = overlap["solid"].get<std::string>();
+    lines.add(told == 1 ? "overlaps" : "", (solid.empty() ? "" : solid + ": ") + overlap["message"].get<std::string>());
+  }
+}
+
 void add_made_by(const Json& made_by, Lines& lines) {
   const bool all = made_by.contains("options");
   const auto& options = made_by[all ? "options" : "options_not_default"];
@@ -221,11 +233,13 @@ auto info_text(const Json& info) -> std::string {
   if (info.contains("extent") && !info["extent"].is_null()) lines.add("extent", extent_in_words(info["extent"]));
   if (info.contains("columns")) add_raster(info, lines);
   if (info.contains("counts")) add_counts(info["counts"], lines);
+  if (info.contains("outcomes")) lines.add("outcomes", counted(info["outcomes"]));
   if (info.contains("points")) add_points(info, lines);
   else if (info.contains("classes")) lines.add("classes", counted(info["classes"]));
   if (info.contains("lods") && !info["lods"].empty()) lines.add("LoD", joined(info["lods"]));
   if (info.contains("validity")) add_validity(info["validity"], lines);
   if (info.value("raised", false)) lines.add("", "rebuilt from the plans in the file");
+  if (info.contains("validity")) add_overlaps(info["validity"]["overlaps"], lines);
   if (info.contains("fallbacks") && !info["fallbacks"].empty()) lines.add("fallbacks", counted(info["fallbacks"]));
   if (info.contains("footprints"))
     lines.add("footprints", whole(info["footprints"]["surveyed"]) + " surveyed, " +

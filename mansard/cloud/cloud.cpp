@@ -37,7 +37,7 @@ auto flags_of(const Sample& s) -> std::uint8_t {
                                    (s.return_number >= s.returns ? detail::last_return : 0));
 }
 
-/// Mean height of the points of class 2 in every metre of the tile itself.
+/// The number of points, and the mean height of those of class 2, in every metre of the tile itself.
 auto ground_of(const std::vector<detail::Point>& points, std::int64_t cell, std::int64_t x, std::int64_t y)
     -> std::pair<GroundTile, std::uint64_t> {
   GroundTile out;
@@ -46,10 +46,13 @@ auto ground_of(const std::vector<detail::Point>& points, std::int64_t cell, std:
   out.y = floored(y, per_metre);
   out.columns = out.rows = static_cast<std::size_t>(side / per_metre);
   std::vector<std::int64_t> sum(out.columns * out.rows, 0), count(sum.size(), 0);
+  out.points.assign(sum.size(), 0);
   for (const auto& p : points) {
     const std::int64_t px = p.x - border, py = p.y - border;
-    if (p.classification != 2 || px < 0 || py < 0 || px >= side || py >= side) continue;
+    if (px < 0 || py < 0 || px >= side || py >= side) continue;
     const auto i = static_cast<std::size_t>(py / per_metre) * out.columns + static_cast<std::size_t>(px / per_metre);
+    out.points[i] += 1;
+    if (p.classification != 2) continue;
     sum[i] += p.z;
     ++count[i];
   }

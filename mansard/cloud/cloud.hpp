@@ -73,11 +73,12 @@ struct Counts {
 
 using Tile = std::pair<std::int64_t, std::int64_t>;
 
-/// Heights of the ground in cells of 1 m whose borders are at whole metres.
+/// Heights of the ground, and numbers of points, in cells of 1 m whose borders are at whole metres.
 struct GroundTile {
   std::int64_t x = 0, y = 0;  ///< of the south-west corner, m
   std::size_t columns = 0, rows = 0;
   std::vector<float> heights;  ///< m; row by row from the south; NaN for none
+  std::vector<float> points;   ///< of all classes but noise, likewise; 0 for none
 };
 
 struct TileSurface {

@@ -38,6 +38,7 @@ auto name_presets() -> const std::vector<NamePreset>& {
         {"ms_val3dity_lod22", "b3_val3dity_lod22"},
         {"ms_nodata_share", "b3_nodata_fractie"},
         {"ms_nodata_radius", "b3_nodata_radius"},
+        {"ms_point_density", "b3_puntdichtheid"},
         {"ms_source", "b3_pw_bron"},
         {"ms_source_date", "b3_pw_datum"}}},
       {"roofer",
@@ -64,6 +65,7 @@ auto name_presets() -> const std::vector<NamePreset>& {
         {"ms_val3dity_lod22", "rf_val3dity_lod22"},
         {"ms_nodata_share", "rf_nodata_frac"},
         {"ms_nodata_radius", "rf_nodata_r"},
+        {"ms_point_density", "rf_pt_density"},
         {"ms_source", "rf_pc_source"},
         {"ms_source_date", "rf_pc_year"}}}};
   return all;

@@ -11,7 +11,8 @@ namespace mansard::formats {
 /// How the comment starts. What follows is the JSON that other formats have as "made_by", in one line.
 inline constexpr std::string_view citygml_made_by_start = "<!-- mansard ";
 
-/// Of the text of a file; none where there is no such comment before the first element, or it cannot be read.
+/// Of the text of a file; none where there is no such comment right behind the start of the root element, or it cannot
+/// be read.
 [[nodiscard]] auto citygml_made_by(std::string_view text) -> std::optional<model::MadeBy>;
 
 }  // namespace mansard::formats

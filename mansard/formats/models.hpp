@@ -1,6 +1,7 @@
 // One reader per model format, from the bytes of a file.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -24,5 +25,9 @@ struct RawModel {
 
 /// OBJ whose objects, groups or materials say what is what. Fails with "ingest-model-format".
 [[nodiscard]] auto read_labelled_obj(std::string_view bytes, const std::string& name) -> base::Result<RawModel>;
+
+/// Whether groups or materials of an OBJ name the class of every face. Memory: a line; it ends at the first face
+/// without one. False where the file cannot be read.
+[[nodiscard]] auto labels_every_face(const std::filesystem::path& obj) -> bool;
 
 }  // namespace mansard::formats

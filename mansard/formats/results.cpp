@@ -40,7 +40,8 @@ auto textures_of(const Target& target) -> std::optional<fs::path> {
   switch (target.format) {
     case Format::obj:
     case Format::cityjson:
-    case Format::cityjsonseq: return textures_beside(target.path);
+    case Format::cityjsonseq:
+    case Format::citygml: return textures_beside(target.path);
     default: return std::nullopt;
   }
 }

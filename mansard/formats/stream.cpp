@@ -53,7 +53,7 @@ auto option_list(WriteOptions& o) -> base::OptionList {
           .flag("compress", o.compress, "Compress the meshes of GLB and 3D Tiles (meshopt, quantised).")
           .number("tile_triangles", o.tile_triangles, "", {100, 1e7}, "Triangles of a leaf of a tileset, at most.")
           .choice("texture_format", o.texture_format, {{"jpeg", TextureFormat::jpeg}, {"webp", TextureFormat::webp}},
-                  "Codec of the textures of GLB and 3D Tiles; OBJ and CityJSON always have JPEG.")
+                  "Codec of the textures of GLB and 3D Tiles; OBJ, CityJSON and CityGML always have JPEG.")
           .integer("texture_quality", o.texture_quality, "", {1, 100}, "Quality of JPEG and WebP textures.")
           .alias("texture_quality")
           .integer("atlas_size", o.atlas_size, "px", {256, 16384}, "Side length of an image with textures, at most.")

@@ -9,6 +9,7 @@
 
 #include "mansard/base/stopped.hpp"
 #include "mansard/base/text.hpp"
+#include "mansard/cloud/density.hpp"
 #include "mansard/formats/drivers.hpp"
 #include "mansard/formats/input_file.hpp"
 #include "mansard/formats/raster/raster.hpp"
@@ -263,6 +264,21 @@ auto take_terrain(const Options& options, const Box2& around, std::optional<clou
   return {};
 }
 
+/// What point clouds have over each footprint.
+void take_density(std::vector<cloud::GroundTile> counted, const Options& options, model::Scene& scene) {
+  if (counted.empty()) return;
+  const cloud::Density density(std::move(counted));
+  const Point2 origin{static_cast<double>(scene.frame.origin[0]) - options.mesh_offset[0],
+                      static_cast<double>(scene.frame.origin[1]) - options.mesh_offset[1]};
+  base::parallel_for(scene.footprints.size(), [&](std::size_t f) {
+    auto& attributes = scene.footprints[f].attributes;
+    const auto value = density.over(scene.footprints[f].polygons, origin);
+    if (!value) return;
+    std::erase_if(attributes, [](const auto& one) { return one.first == "ms_point_density"; });
+    attributes.emplace_back("ms_point_density", *value);
+  });
+}
+
 auto plan_of(const geometry::Mesh& mesh) -> Box2 { return Box2::of(mesh.vertices); }
 
 auto moved(const geometry::Box3& box, const std::array<double, 3>& by) -> geometry::Box3 {
@@ -359,6 +375,7 @@ auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::files
   append(scene.warnings, std::move(ground->chosen.file.warnings));
   append(scene.warnings, ground->way.warnings);
   finish_all(ground->chosen, *std::move(ids), local, scene);
+  take_density(std::move(meshes->counted), options, scene);
   run.report("ingest", subject, 1);
   return scene;
 }

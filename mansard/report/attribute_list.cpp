@@ -25,6 +25,10 @@ auto attributes() -> std::vector<formats::Attribute> {
       "Share of the footprint without a surface of the mesh, 0 to 1; only with a mesh.");
   add("ms_nodata_radius", building, "number", "m",
       "Radius of the largest circle in the footprint without a surface of the mesh; only with a mesh.");
+  add("ms_point_density", building, "number", "1/m²",
+      "Points of the point clouds over the footprint per square metre of it, without noise and points that are "
+      "withheld; "
+      "counted in cells of 1 m; only with point clouds and footprints that were given.");
   add("ms_h_ground", both, "number", "m", "z of the ground; of a building where it has parts.");
   const Objects with_roof{"Building", "BuildingPart", "RoofSurface"};
   add("ms_h_roof_min", with_roof, "number", "m",
@@ -47,7 +51,8 @@ auto attributes() -> std::vector<formats::Attribute> {
   add("ms_height_from", part, "string", "",
       "What gave the height: height, levels, assumed or profile; only of models without a mesh.");
   add("ms_roof_planes", building, "number", "", "Number of roof surfaces of LoD 2.2.");
-  add("ms_ridges", building, "number", "", "Number of ridges of LoD 2.2; those that go straight on are one.");
+  add("ms_ridges", building, "number", "",
+      "Number of ridges of LoD 2.2, inclined by up to 5°; those that go straight on are one.");
   add("ms_parts", building, "number", "", "Number of parts.");
   add("ms_storeys", building, "number", "",
       "Estimate of the storeys above ground: the height of the roof that 70 % of it is below, in storeys of "

@@ -68,6 +68,35 @@ auto count_ridges(const model::Solid& solid, const std::vector<solid::Line>& rid
   return count;
 }
 
+/// What a roof's line is to those who count ridges and measure eaves. The kinds of solid::lines are exact, for solids
+/// as they are extruded; united and on the grid of the files, what was level is so within a quantum or two, and the
+/// normals of faces are as exact as their rounded corners.
+enum class RoofLine : std::uint8_t { eave, ridge, other };
+
+auto roof_line(const LabelledSolid& model, const solid::Line& line) -> RoofLine {
+  constexpr double level = 1e-3;             // m
+  constexpr double rises = 1e-3;             // 0.06°
+  constexpr double ridge_inclined = 0.0872;  // sine of 5°
+  constexpr double flat = 0.99996;           // cosine of 0.5°
+  using enum model::FaceClass;
+  const auto a = model.solid.vertices[line.from], b = model.solid.vertices[line.to];
+  const auto left = model.classes[line.left_face], right = model.classes[line.right_face];
+  if ((left == soffit && right == roof) || (left == roof && right == soffit)) return RoofLine::eave;
+  if (!(length(b - a) > 0)) return RoofLine::other;
+  const auto n = model.solid.faces[line.left_face].normal, m = model.solid.faces[line.right_face].normal;
+  const auto along = geometry::normalised(b - a);
+  if (!(dot(cross(n, m), along) > 0)) return RoofLine::other;               // not convex
+  const double in_left = cross(n, along).z, in_right = -cross(m, along).z;  // from the line into each face
+  if (left == roof && right == roof) {
+    // Of a house whose sides are not quite parallel the ridge is inclined.
+    const bool ridge = std::abs(along.z) < ridge_inclined && in_left < -rises && in_right < -rises;
+    return ridge ? RoofLine::ridge : RoofLine::other;
+  }
+  if ((left != roof && right != roof) || std::abs(a.z - b.z) > level) return RoofLine::other;
+  const bool is_flat = (left == roof ? n : m).z > flat;
+  return is_flat || (left == roof ? in_left : in_right) > rises ? RoofLine::eave : RoofLine::other;
+}
+
 /// The height of the eaves is that below which half of their length lies.
 auto lines_of(const std::vector<const LabelledSolid*>& solids) -> Lines {
   Lines out;
@@ -78,8 +107,9 @@ auto lines_of(const std::vector<const LabelledSolid*>& solids) -> Lines {
     if (!lines) continue;
     std::vector<solid::Line> ridges;
     for (const auto& line : *lines) {
-      if (line.kind == solid::LineKind::ridge) ridges.push_back(line);
-      if (line.kind != solid::LineKind::eave && line.kind != solid::LineKind::flat_edge) continue;
+      const auto kind = roof_line(*one, line);
+      if (kind == RoofLine::ridge) ridges.push_back(line);
+      if (kind != RoofLine::eave) continue;
       const auto a = one->solid.vertices[line.from], b = one->solid.vertices[line.to];
       eaves.emplace_back(0.5 * (a.z + b.z), length(b - a));
       all += eaves.back().second;

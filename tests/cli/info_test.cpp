@@ -118,6 +118,53 @@ TEST_F(Info, says_why_a_solid_is_not_valid) {
   EXPECT_THAT(run("info " + at("torn.city.json")).out, HasSubstr("1 of 2 solids"));
 }
 
+TEST_F(Info, compares_solids_with_each_other_as_a_run_does_in_every_format) {
+  const auto two = put("two.geojson", R"({"type":"FeatureCollection","features":[
+{"type":"Feature","properties":{"id":"a"},"geometry":)" +
+                                          polygon("[0,0],[10,0],[10,8],[0,8],[0,0]") +
+                                          R"(},
+{"type":"Feature","properties":{"id":"b"},"geometry":)" +
+                                          polygon("[9,0],[19,0],[19,8],[9,8],[9,0]") + "}]}");
+  const auto made = run("extrude --crs local " + two + " -o " + at("out") + " --formats all");
+  ASSERT_LE(made.exit, 1) << made.err;
+  EXPECT_THAT(made.err, HasSubstr("1 pair of solids overlap"));
+  for (const auto* file : {"model.city.json", "model.city.jsonl", "model.obj", "model.glb", "model.3dtiles",
+                           "model.gpkg", "model.geojson", "plans.json"}) {
+    const auto name = "out/" + std::string(file);
+    const auto validity = info(at(name))[0]["validity"];
+    ASSERT_EQ(validity["overlaps"].size(), 3U) << name;
+    EXPECT_EQ(validity["overlaps"][0]["code"], "pipeline-overlap") << name;
+    EXPECT_EQ(validity["overlaps"][1]["solid"], "a-1") << name;
+    EXPECT_THAT(validity["overlaps"][1]["message"].get<std::string>(), HasSubstr("8.000 m² of ground")) << name;
+    EXPECT_EQ(validity["valid"], 2) << name;
+    EXPECT_THAT(run("info " + at(name)).out, HasSubstr("overlaps    1 pair of solids overlap")) << name;
+  }
+}
+
+TEST_F(Info, describes_every_file_of_a_run) {
+  ASSERT_LE(reconstruct(at("house.obj"), at("house.geojson"),
+                        "--formats all --picture --terrain-out " + at("out") + "/t.glb --terrain-out " + at("out") +
+                            "/t.3dtiles --terrain-out " + at("out") + "/t.stl")
+                .exit,
+            1);
+  std::size_t files = 0;
+  for (const auto& entry : fs::directory_iterator(at("out"))) {
+    if (entry.path().filename() == ".mansard") continue;
+    ++files;
+    const auto told = run("info " + entry.path().string());
+    EXPECT_EQ(told.exit, 0) << entry.path() << told.err;
+    EXPECT_THAT(told.out, HasSubstr("type        ")) << entry.path();
+    expect_narrow(told.out, 1);
+  }
+  EXPECT_GT(files, 18U);
+  const auto report = info(at("out") + "/run.json")[0];
+  EXPECT_EQ(report["kind"], "report");
+  EXPECT_EQ(report["outcomes"]["full"], 1);
+  EXPECT_EQ(report["made_by"]["inputs"].size(), 2U);
+  EXPECT_EQ(info(at("out") + "/model.mtl")[0]["format"], "obj");
+  EXPECT_EQ(info(at("out") + "/picture.png")[0]["kind"], "raster");
+}
+
 TEST_F(Info, says_what_a_mesh_and_footprints_hold) {
   const auto told = info(at("house.obj") + " " + at("house.geojson"));
   ASSERT_EQ(told.size(), 2U);

@@ -1,5 +1,6 @@
 // Surfaces of synthetic points whose shape is known, and of Delft.
 #include "mansard/cloud/cloud.hpp"
+#include "mansard/cloud/density.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -96,6 +97,45 @@ auto soup(const geometry::Mesh& mesh) -> std::vector<std::array<double, 9>> {
   }
   std::ranges::sort(all);
   return all;
+}
+
+auto square(double x0, double y0, double x1, double y1) -> std::vector<geometry::Polygon> {
+  return {{{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, {}}};
+}
+
+TEST(Density, counts_every_point_but_noise_once_whatever_the_tiles) {
+  auto samples = scatter(-40, 0, 60, 60, 16, 1, house);
+  const auto points = samples.size();
+  for (int i = 0; i < 100; ++i) samples.push_back({{1.5, 1.5, 3}, 7, 1, 1});  // noise
+  samples.push_back({{5e6, -5e6, 3}, 2, 1, 1});                               // far away: no reason for a large grid
+  const auto in_cell = static_cast<double>(std::ranges::count_if(samples, [](const Sample& s) {
+    return std::floor(s.position.x) == 3 && std::floor(s.position.y) == 4 && s.classification != 7;
+  }));
+  for (const double cell : {0.25, 0.5}) {
+    auto surface = cloud::Surface::open(cell, {});
+    ASSERT_TRUE(surface);
+    (*surface)->add(samples, std::nullopt);
+    std::vector<cloud::GroundTile> tiles;
+    for (const auto& tile : (*surface)->tiles()) tiles.push_back((*surface)->make(tile)->ground);
+    const cloud::Density density(std::move(tiles));
+    EXPECT_NEAR(*density.over(square(-40, 0, 60, 60), {}) * 6000, static_cast<double>(points), 1e-6);
+    EXPECT_EQ(density.over(square(3, 4, 4, 5), {}), in_cell);
+    EXPECT_EQ(density.over(square(3 - 1000, 4 + 2000, 4 - 1000, 5 + 2000), {1000, -2000}), in_cell) << "in any frame";
+    EXPECT_EQ(density.over(square(3.5, 4, 4, 5), {}), in_cell) << "of the cells that it is in";
+    EXPECT_EQ(density.over(square(200, 0, 210, 10), {}), 0) << "no tile";
+    EXPECT_EQ(density.over(square(3, 4, 3.01, 4.01), {}), std::nullopt);
+    EXPECT_EQ(density.over({}, {}), std::nullopt);
+  }
+}
+
+TEST(Density, of_several_cells_is_their_mean_by_area) {
+  cloud::GroundTile tile;
+  tile.x = 8, tile.y = -4, tile.columns = tile.rows = 4;
+  tile.points = {4, 8, 0, 0, 4, 8, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+  const cloud::Density density({tile});
+  EXPECT_EQ(density.over(square(8, -4, 10, -2), {}), 6);
+  EXPECT_EQ(density.over(square(8.5, -4, 10, -3), {}), (0.5 * 4 + 8) / 1.5);
+  EXPECT_EQ(density.over(square(6, -4, 10, -3), {}), 3) << "nothing west of the tile";
 }
 
 TEST(Surface, of_a_gabled_house_has_its_heights_without_bias) {

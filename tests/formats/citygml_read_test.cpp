@@ -57,6 +57,12 @@ TEST_F(CityGmlRead, own_files_say_how_they_were_made_whatever_the_names_of_their
   EXPECT_TRUE(formats::read_foreign(path));
   EXPECT_FALSE(formats::citygml_made_by("<CityModel><!-- mansard {} --></CityModel>"));
   EXPECT_FALSE(formats::citygml_made_by("<!-- mansard {\"version\": 3} --><CityModel/>"));
+  // Somebody else's file that quotes it.
+  const auto comment = bytes->substr(start, end + 4 - start);
+  EXPECT_TRUE(
+      formats::citygml_made_by("<?xml version=\"1.0\"?>\n<CityModel xmlns=\"a\">\n" + comment + "<a/></CityModel>"));
+  EXPECT_FALSE(formats::citygml_made_by("<CityModel xmlns=\"a\"><b/>" + comment + "<a/></CityModel>"));
+  EXPECT_FALSE(formats::citygml_made_by(comment + "<CityModel/>"));
 }
 
 TEST_F(CityGmlRead, own_files_come_back_in_both_versions) {
@@ -164,6 +170,41 @@ TEST_F(CityGmlRead, solids_find_the_surfaces_that_they_name) {
   EXPECT_EQ(value_of(building.attributes, "function"), model::Value(std::string("31001_1000")));
   EXPECT_EQ(building.attributes.size(), 4U);
   EXPECT_NEAR(geometry::area(building.footprint.at(0)), 80, 1e-9);
+}
+
+TEST_F(CityGmlRead, addresses_are_attributes_in_the_words_of_cityjson) {
+  const std::string surface = R"(<b:lod2Solid><gml:Solid><gml:exterior><gml:CompositeSurface>
+<gml:surfaceMember><gml:Polygon><gml:exterior><gml:LinearRing><gml:posList>0 0 0 0 1 0 1 1 0 1 0 0 0 0 0</gml:posList></gml:LinearRing></gml:exterior></gml:Polygon></gml:surfaceMember>
+<gml:surfaceMember><gml:Polygon><gml:exterior><gml:LinearRing><gml:posList>0 0 1 1 0 1 1 1 1 0 1 1 0 0 1</gml:posList></gml:LinearRing></gml:exterior></gml:Polygon></gml:surfaceMember>
+</gml:CompositeSurface></gml:exterior></gml:Solid></b:lod2Solid>)";
+  const auto read = [&](const std::string& version, const std::string& gml, const std::string& addresses) {
+    return formats::read_foreign(
+        given("<core:CityModel xmlns:core=\"http://www.opengis.net/citygml/" + version +
+              "\" xmlns:b=\"http://www.opengis.net/citygml/building/" + version + "\" xmlns:gml=\"" + gml +
+              "\" xmlns:x=\"urn:oasis:names:tc:ciq\"><core:cityObjectMember><b:Building gml:id=\"h\">" + surface +
+              addresses + "</b:Building></core:cityObjectMember></core:CityModel>"));
+  };
+  const std::string old = R"(<b:address><core:Address><core:xalAddress><x:AddressDetails><x:Country>
+<x:CountryName>Nederland</x:CountryName><x:Locality Type="Town"><x:LocalityName>Den Haag</x:LocalityName>
+<x:Thoroughfare Type="Street"><x:ThoroughfareNumber>70</x:ThoroughfareNumber><x:ThoroughfareName>Spui</x:ThoroughfareName></x:Thoroughfare>
+<x:PostalCode><x:PostalCodeNumber>2511 BT</x:PostalCodeNumber></x:PostalCode></x:Locality></x:Country></x:AddressDetails></core:xalAddress>
+<core:multiPoint><gml:MultiPoint><gml:pos>1 2 3</gml:pos></gml:MultiPoint></core:multiPoint></core:Address></b:address>)";
+  const std::string now =
+      R"(<b:address><core:Address><core:xalAddress><x:Address><x:Country><x:NameElement>Nederland</x:NameElement></x:Country>
+<x:Locality><x:NameElement>Den Haag</x:NameElement></x:Locality><x:Thoroughfare><x:NameElement>Spui</x:NameElement><x:Number>70</x:Number></x:Thoroughfare>
+<x:PostCode><x:Identifier>2511 BT</x:Identifier></x:PostCode></x:Address></core:xalAddress></core:Address></b:address>)";
+  for (const bool v3 : {false, true}) {
+    const auto city = v3 ? read("3.0", "http://www.opengis.net/gml/3.2", now + now)
+                         : read("2.0", "http://www.opengis.net/gml", old + old);
+    ASSERT_TRUE(city) << to_string(city.error());
+    const auto& attributes = city->city.buildings.at(0).attributes;
+    const auto text = [](const char* words) { return model::Value(std::string(words)); };
+    EXPECT_EQ(value_of(attributes, "address_Country"), text("Nederland"));
+    EXPECT_EQ(value_of(attributes, "address_Locality"), text("Den Haag"));
+    EXPECT_EQ(value_of(attributes, "address_ThoroughfareName"), text("Spui"));
+    EXPECT_EQ(value_of(attributes, "address_ThoroughfareNumber"), text("70"));
+    EXPECT_EQ(value_of(attributes, "address2_Postcode"), text("2511 BT"));
+  }
 }
 
 TEST_F(CityGmlRead, files_with_a_doctype_are_refused) {

@@ -1,10 +1,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
 #include "base/scratch.hpp"
 #include "formats/painted.hpp"
@@ -245,6 +249,204 @@ TEST(Textures, are_the_appearance_of_cityjson_with_a_coordinate_for_every_corner
     EXPECT_EQ(used, uv.size());
     EXPECT_GT(used, 0U);
   }
+}
+
+/// What is between `from` and `to` in a text, every time.
+auto all_between(const std::string& text, const std::string& from, const std::string& to) -> std::vector<std::string> {
+  std::vector<std::string> out;
+  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + 1)) {
+    const auto start = at + from.size(), end = text.find(to, start);
+    if (end == std::string::npos) break;
+    out.push_back(text.substr(start, end - start));
+  }
+  return out;
+}
+
+auto numbers_in(const std::string& text) -> std::vector<double> {
+  std::istringstream in(text);
+  return {std::istream_iterator<double>(in), {}};
+}
+
+/// The colours that the rings of a CityGML file have in its images, at the middle of their corners; and that each ring
+/// has as many places as corners.
+auto colours_of_rings(const std::string& text, const fs::path& folder, bool v3) -> std::set<std::array<int, 3>> {
+  std::map<std::string, std::size_t> corners;  // by the id of the ring
+  for (const auto& ring : all_between(text, "<gml:LinearRing gml:id=\"", "</gml:LinearRing>")) {
+    const auto id = ring.substr(0, ring.find('"'));
+    EXPECT_FALSE(corners.contains(id)) << id;
+    corners[id] = numbers_in(all_between(ring, "srsDimension=\"3\">", "<").at(0)).size() / 3;
+  }
+  std::set<std::array<int, 3>> found;
+  std::size_t rings = 0;
+  for (const auto& texture : all_between(text, "<app:ParameterizedTexture ", "</app:ParameterizedTexture>")) {
+    const auto image = decode_image(bytes_in(folder / all_between(texture, "<app:imageURI>", "<").at(0)), "image");
+    EXPECT_TRUE(image);
+    if (!image) return found;
+    for (const auto& list : all_between(texture, "<app:TexCoordList>", "</app:TexCoordList>")) {
+      const auto ids = v3 ? all_between(list, "<app:ring>#", "<") : all_between(list, "ring=\"#", "\"");
+      const auto places = all_between(list, v3 ? "<app:textureCoordinates>" : "\">", "<");
+      EXPECT_EQ(ids.size(), places.size());
+      for (std::size_t i = 0; i < std::min(ids.size(), places.size()); ++i, ++rings) {
+        const auto uv = numbers_in(places[i]);
+        EXPECT_EQ(uv.size(), 2 * corners[ids[i]]) << ids[i];
+        if (i > 0) continue;  // a hole
+        EXPECT_EQ(uv[0], uv[uv.size() - 2]);
+        double u = 0, v = 0;
+        const auto count = static_cast<double>(uv.size() / 2 - 1);
+        for (std::size_t k = 0; k + 3 < uv.size(); k += 2) u += uv[k] / count, v += uv[k + 1] / count;
+        const auto x = static_cast<std::size_t>(u * image->width),
+                   y = static_cast<std::size_t>((1 - v) * image->height);  // v rises, rows go down
+        const auto* rgb = &image->rgb[3 * (y * image->width + x)];
+        found.insert({rgb[0], rgb[1], rgb[2]});
+      }
+    }
+  }
+  EXPECT_EQ(rings, corners.size()) << "rings with an id have places";
+  return found;
+}
+
+TEST(Textures, are_the_appearance_of_citygml_with_a_place_for_every_corner) {
+  const test::Scratch folder;
+  auto city = painted_street();
+  // Nothing is known of one face: it has a colour, and no place in an image.
+  auto& unknown = city.buildings[0].texture->solids[0].faces[0];
+  unknown.pixels = plain(1, 1, {51, 102, 255});
+  unknown.frame = {{}, {}, {0.5, 0.5}};
+  for (const auto version : {CityGml::v2, CityGml::v3}) {
+    const bool v3 = version == CityGml::v3;
+    WriteOptions options;
+    options.citygml = version;
+    options.atlas_size = 256;  // several images
+    ASSERT_TRUE(write(city, Format::citygml, folder / "my model.gml", options));
+    const auto text = bytes_in(folder / "my model.gml");
+    EXPECT_TRUE(fs::exists(folder / "my_model_gml_textures" / "0000.jpg"));
+    EXPECT_TRUE(text.find("<app:diffuseColor>0.2000 0.4000 1.0000</app:diffuseColor>") != std::string::npos);
+    EXPECT_TRUE(text.find("xmlns:app=\"http://www.opengis.net/citygml/appearance/") != std::string::npos);
+    for (const auto& target : all_between(text, "<app:target>#", "<"))
+      EXPECT_TRUE(text.find("<gml:Polygon gml:id=\"" + target + "\"") != std::string::npos);
+    for (const auto& target : all_between(text, "<app:target uri=\"#", "\""))
+      EXPECT_TRUE(text.find("<gml:Polygon gml:id=\"" + target + "\"") != std::string::npos);
+    std::size_t wanted = 0;
+    const auto found = colours_of_rings(text, folder / "", v3);
+    for (std::size_t b = 0; b < city.buildings.size(); ++b)
+      for (const auto& solid : city.buildings[b].texture->solids)
+        for (std::size_t f = 0; f < solid.faces.size(); ++f) {
+          if (solid.faces[f].pixels.width == 1) continue;
+          ++wanted;
+          const auto c = colour_of(b, f);
+          EXPECT_TRUE(std::ranges::any_of(found,
+                                          [&](const auto& one) {
+                                            return std::abs(c[0] - one[0]) < 8 && std::abs(c[1] - one[1]) < 8 &&
+                                                   std::abs(c[2] - one[2]) < 8;
+                                          }))
+              << "building " << b << ", face " << f;
+        }
+    EXPECT_GT(wanted, 10U);
+    // Simpler levels have the mean colours.
+    options.lod = "1.2,2.0";
+    ASSERT_TRUE(write(city, Format::citygml, folder / "simple.gml", options));
+    const auto simple = bytes_in(folder / "simple.gml");
+    EXPECT_TRUE(simple.find("<app:diffuseColor>0.7843 0.0392 0.0392</app:diffuseColor>") != std::string::npos);
+    EXPECT_TRUE(simple.find("ParameterizedTexture") == std::string::npos);
+    // Without textures there is nothing of them.
+    ASSERT_TRUE(write(cities::street(), Format::citygml, folder / "plain.gml", options));
+    EXPECT_TRUE(bytes_in(folder / "plain.gml").find("app") == std::string::npos);
+    EXPECT_FALSE(fs::exists(folder / "plain_gml_textures"));
+  }
+}
+
+auto ply_of(const std::string& format, const std::string& header, const std::string& body) -> std::string {
+  return "ply\nformat " + format + " 1.0\n" + header + "end_header\n" + body;
+}
+
+TEST(TexturedPly, has_the_colours_of_vertices_and_of_faces) {
+  const test::Scratch folder;
+  const auto read = [&](const std::string& bytes) {
+    std::ofstream(folder / "a.ply", std::ios::binary) << bytes;
+    auto mesh = read_textured_file(folder / "a.ply", UpAxis::automatic);
+    EXPECT_TRUE(mesh);
+    return mesh ? *std::move(mesh) : TexturedMesh();
+  };
+  const std::string places = "property float x\nproperty float y\nproperty float z\n";
+  const std::string faces = "element face 1\nproperty list uchar int vertex_indices\n";
+  const auto of_bytes = read(
+      ply_of("ascii",
+             "element vertex 3\n" + places + "property uchar red\nproperty uchar green\nproperty uchar blue\n" + faces,
+             "0 0 0 255 0 51\n1 0 0 0 255 0\n0 1 0 0 0 255\n3 0 1 2\n"));
+  ASSERT_TRUE(of_bytes.has_colour());
+  EXPECT_EQ(of_bytes.corners[0].colour[0], (LinearColour{65535, 0, linear_of(51)}));
+  EXPECT_EQ(of_bytes.corners[0].colour[2], (LinearColour{0, 0, 65535}));
+  EXPECT_EQ(of_bytes.material_of[0], no_material);
+  const auto of_shares = read(ply_of("ascii",
+                                     "element vertex 3\n" + places +
+                                         "property float diffuse_red\nproperty float diffuse_green\n"
+                                         "property float diffuse_blue\n" +
+                                         faces,
+                                     "0 0 0 1 0 0.2\n1 0 0 nan 1 0\n0 1 0 0 -3 1\n3 0 1 2\n"));
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(of_shares.corners[0].colour[c], of_bytes.corners[0].colour[c]) << c;
+  const auto of_faces = read(
+      ply_of("ascii",
+             "element vertex 4\n" + places + faces + "property uchar red\nproperty uchar green\nproperty uchar blue\n",
+             "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3 255 0 0\n"));
+  ASSERT_EQ(of_faces.mesh.triangles.size(), 2U);
+  EXPECT_EQ(of_faces.corners[1].colour[2], (LinearColour{65535, 0, 0}));
+  const auto plain = read(ply_of("ascii", "element vertex 3\n" + places + faces, "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"));
+  EXPECT_FALSE(plain.has_colour());
+  EXPECT_EQ(plain.mesh.triangles.size(), 1U);
+}
+
+TEST(TexturedPly, has_its_pictures_by_places_of_vertices_and_of_faces_in_any_order_of_bytes) {
+  const test::Scratch folder;
+  for (const bool big : {false, true})
+    for (const bool wedges : {false, true}) {
+      std::string body;
+      const auto append = [&](auto value) {
+        std::array<char, sizeof(value)> bytes{};
+        std::memcpy(bytes.data(), &value, sizeof(value));
+        if (big) std::ranges::reverse(bytes);
+        body.append(bytes.data(), bytes.size());
+      };
+      const std::vector<std::array<float, 5>> corners{
+          {0, 0, 0, 0.25F, 0.75F}, {1, 0, 0, 0.5F, 1}, {0, 1, 0, 1, 0.125F}};
+      for (const auto& [x, y, z, u, v] : corners) {
+        for (const float c : {x, y, z}) append(c);
+        if (!wedges)
+          for (const float c : {u, v}) append(c);
+      }
+      append(std::uint8_t{3});
+      for (const std::int32_t i : {0, 1, 2}) append(i);
+      if (wedges) {
+        append(std::uint8_t{6});
+        for (const auto& [x, y, z, u, v] : corners)
+          for (const float c : {u, v}) append(c);
+        append(std::int32_t{1});  // the second picture
+      }
+      const std::string header =
+          "comment TextureFile other.png\ncomment TextureFile C:\\scans\\my picture.png\nelement vertex 3\n"
+          "property float x\nproperty float y\nproperty float z\n" +
+          std::string(wedges ? "" : "property float s\nproperty float t\n") +
+          "element face 1\nproperty list uchar int vertex_indices\n" +
+          (wedges ? "property list uchar float texcoord\nproperty int texnumber\n" : "");
+      std::ofstream(folder / "my picture.png") << "";
+      const auto bytes = ply_of(big ? "binary_big_endian" : "binary_little_endian", header, body);
+      std::ofstream(folder / "a.ply", std::ios::binary) << bytes;
+      const auto mesh = read_textured_file(folder / "a.ply", UpAxis::automatic);
+      ASSERT_TRUE(mesh) << base::to_string(mesh.error());
+      ASSERT_TRUE(mesh->has_colour());
+      EXPECT_EQ(mesh->corners[0].uv[0], (std::array<float, 2>{0.25F, 0.25F})) << "v counts upwards in the file";
+      EXPECT_EQ(mesh->corners[0].uv[2], (std::array<float, 2>{1, 0.875F}));
+      ASSERT_EQ(mesh->materials.size(), 2U);
+      EXPECT_EQ(mesh->material_of[0], wedges ? 1U : 0U);
+      EXPECT_EQ(mesh->materials[1].image->path, folder / "my picture.png")
+          << "beside the mesh, not on another computer";
+      // Cut short anywhere, it is refused.
+      for (std::size_t size = bytes.size() - body.size(); size < bytes.size(); ++size) {
+        std::ofstream(folder / "cut.ply", std::ios::binary) << bytes.substr(0, size);
+        const auto cut = read_textured_file(folder / "cut.ply", UpAxis::automatic);
+        ASSERT_FALSE(cut) << size;
+        EXPECT_EQ(cut.error().code, "ingest-mesh-truncated");
+      }
+    }
 }
 
 TEST(Textures, do_not_appear_without_their_file) {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "mansard/pipeline/city.hpp"
+#include "mansard/pipeline/compared.hpp"
 #include "mansard/pipeline/detail/overlaps.hpp"
 #include "mansard/pipeline/pipeline.hpp"
 #include "mansard/report/layers.hpp"
@@ -59,6 +60,39 @@ TEST(Overlaps, are_a_layer_with_the_ground_that_two_share) {
   }
   scene.footprints.erase(scene.footprints.begin() + 1);
   EXPECT_FALSE(report::overlaps_layer(*raise_footprints(scene, {})));
+}
+
+TEST(ComparedSolids, are_told_what_a_run_tells_of_them) {
+  model::Scene scene;
+  scene.footprints.push_back(test::footprint("a", rectangle(0, 0, 10, 8)));
+  scene.footprints.push_back(test::footprint("b", rectangle(9, 0, 19, 8)));
+  scene.footprints.push_back(test::footprint("c", rectangle(19, 0, 30, 8)));
+  auto r = raise_footprints(scene, {});
+  ASSERT_TRUE(r);
+  auto compared = ComparedSolids::open();
+  ASSERT_TRUE(compared);
+  for (const auto& building : r->city.buildings) compared->add(building);
+  const auto found = compared->overlapping({});
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->of_each.size(), 2U);
+  EXPECT_EQ(found->of_each[0].message, r->buildings[0].reasons.back().message);
+  EXPECT_EQ(found->of_each[1].subject, "b-1");
+  ASSERT_EQ(found->in_all.size(), 1U);
+  EXPECT_THAT(found->in_all[0].message, HasSubstr("1 pair of solids overlap"));
+
+  // Two parts of one building, which has no solids of its own.
+  model::Building two = r->city.buildings[0];
+  two.parts.push_back(r->city.buildings[1].parts[0]);
+  two.solids.clear();
+  auto within = ComparedSolids::open();
+  ASSERT_TRUE(within);
+  within->add(r->city.buildings[2]);
+  within->add(two);
+  const auto pair = within->overlapping({});
+  ASSERT_TRUE(pair);
+  ASSERT_EQ(pair->of_each.size(), 1U) << "told once of a building";
+  EXPECT_EQ(pair->of_each[0].subject, "a-1");
+  EXPECT_THAT(pair->of_each[0].message, HasSubstr("8.000 m² of ground"));
 }
 
 TEST(Overlaps, are_none_between_neighbours_that_straighten_their_wall_by_themselves) {

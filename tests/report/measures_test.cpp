@@ -43,6 +43,32 @@ TEST(BuildingMeasures, of_a_gabled_house_are_those_that_one_calculates) {
   EXPECT_THAT(*value<double>(all, "ms_area_wall"), DoubleNear(2 * 10 * 6 + 2 * 8 * 6 + 8 * 4, 1e-9));
 }
 
+TEST(BuildingMeasures, find_eaves_and_ridges_on_the_grid_of_the_files_whichever_way_a_house_is_turned) {
+  for (double angle = 0; angle < 3.2; angle += 0.37) {
+    auto house = gabled_house();
+    auto& solid = house.parts[0].model.solid;
+    for (auto& v : solid.vertices) {
+      const Point3 turned{std::cos(angle) * v.x - std::sin(angle) * v.y, std::sin(angle) * v.x + std::cos(angle) * v.y,
+                          v.z + 0.00004};
+      for (const auto& [to, from] : {std::pair{&v.x, turned.x}, std::pair{&v.y, turned.y}, std::pair{&v.z, turned.z}})
+        *to = std::round(from * 1e4) / 1e4;
+    }
+    solid.vertices[solid.faces[5].loops[0][0]].z += 0.0001;  // as the union of parts leaves it
+    for (auto& face : solid.faces) {
+      Point3 normal;
+      const auto& loop = face.loops[0];
+      for (std::size_t i = 1; i + 1 < loop.size(); ++i)
+        normal = normal + cross(solid.vertices[loop[i]] - solid.vertices[loop[0]],
+                                solid.vertices[loop[i + 1]] - solid.vertices[loop[0]]);
+      face.normal = geometry::normalised(normal);
+    }
+    const auto all = report::building_measures(house, 0, 3);
+    ASSERT_TRUE(value<double>(all, "ms_h_eave")) << angle;
+    EXPECT_THAT(*value<double>(all, "ms_h_eave"), DoubleNear(7.25, 2e-4)) << angle;
+    EXPECT_EQ(value<std::int64_t>(all, "ms_ridges"), 1) << angle;
+  }
+}
+
 TEST(BuildingMeasures, leave_what_the_source_has) {
   auto house = gabled_house();
   house.attributes = {{"storeysAboveGround", std::int64_t{5}}, {"roofType", std::string("gable")}};

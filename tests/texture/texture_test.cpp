@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <sstream>
 
 #include "mansard/base/run.hpp"
 #include "texture/houses.hpp"
@@ -287,6 +289,63 @@ TEST(Scan, reads_the_same_picture_from_obj_and_glb) {
         if (std::abs(int{a.rgb[i]} - int{b.rgb[i]}) <= 2) ++same;
     }
   EXPECT_GT(static_cast<double>(same), 0.999 * static_cast<double>(all));
+}
+
+/// The houses as PLY, with a list of places in each face as MeshLab and OpenMVS write it.
+void write_ply(const std::filesystem::path& obj, const std::filesystem::path& path) {
+  std::ifstream in(obj);
+  std::string vertices, faces, line, word;
+  std::vector<std::array<std::string, 2>> uv;
+  std::map<std::string, int> images;
+  std::string comments;
+  std::size_t vertex_count = 0, face_count = 0;
+  int image = 0;
+  while (std::getline(in, line)) {
+    std::istringstream words(line);
+    words >> word;
+    if (word == "v") vertices += line.substr(2) + "\n", ++vertex_count;
+    if (word == "vt") words >> uv.emplace_back()[0] >> uv.back()[1];
+    if (word == "usemtl") {
+      words >> word;
+      const auto [at, added] = images.try_emplace(word, static_cast<int>(images.size()));
+      image = at->second;
+      if (added) comments += "comment TextureFile " + word + ".png\n";
+    }
+    if (word != "f") continue;
+    std::string corners, places;
+    std::size_t count = 0;
+    while (words >> word) {
+      const auto slash = word.find('/');
+      corners += " " + std::to_string(std::stoul(word) - 1);
+      const auto& [u, v] = uv.at(std::stoul(word.substr(slash + 1)) - 1);
+      places += " " + u + " " + v;
+      ++count;
+    }
+    faces +=
+        std::to_string(count) + corners + " " + std::to_string(2 * count) + places + " " + std::to_string(image) + "\n";
+    ++face_count;
+  }
+  std::ofstream(path, std::ios::binary)
+      << "ply\nformat ascii 1.0\ncomment made by hand\n"
+      << comments << "element vertex " << vertex_count
+      << "\nproperty float x\nproperty float y\nproperty float z\nelement face " << face_count
+      << "\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\nproperty int texnumber\n"
+         "end_header\n"
+      << vertices << faces;
+}
+
+TEST(Scan, reads_the_same_picture_from_obj_and_ply) {
+  const auto solids = exact_solids();
+  const test::Scratch folder;
+  const auto obj = houses_with(folder, "houses.mtl");
+  write_ply(obj, folder / "houses.ply");
+  const auto from_obj = bake(solids, *scan_of({obj}, solids), {}, side);
+  const auto from_ply = bake(solids, *scan_of({folder / "houses.ply"}, solids), {}, side);
+  ASSERT_TRUE(from_obj && from_ply);
+  EXPECT_GT(from_ply->known, 0.9);
+  for (std::size_t s = 0; s < solids.size(); ++s)
+    for (std::size_t f = 0; f < solids[s].solid.faces.size(); ++f)
+      EXPECT_EQ(from_obj->solids[s].faces[f].pixels.rgb, from_ply->solids[s].faces[f].pixels.rgb) << s << " " << f;
 }
 
 TEST(Scan, reads_tilesets_and_materials_by_shaders) {

@@ -151,6 +151,7 @@ class BuildingReader {
     Json attributes = Json::object();
     add_attributes(node, id, attributes);
     if (!attributes.empty()) objects_[id]["attributes"] = std::move(attributes);
+    if (auto addresses = addresses_of(node); !addresses.empty()) objects_[id]["address"] = std::move(addresses);
     Levels levels;
     gather(node, levels);
     Json geometry = Json::array();
@@ -214,6 +215,52 @@ class BuildingReader {
           out[std::string(name)] = numbers.contains(name) ? number_or_text(text) : Json(text);
       }
     });
+  }
+
+  /// In the words of CityJSON; of xAL 2.0, where names are elements of their own, and 3.0, where they are in the
+  /// element of what they name.
+  static void add_address(const xmlNode* node, std::string_view within, Json& out) {
+    static const std::map<std::string_view, const char*> leaves{
+        {"CountryName", "Country"},
+        {"AdministrativeAreaName", "AdministrativeArea"},
+        {"LocalityName", "Locality"},
+        {"ThoroughfareName", "ThoroughfareName"},
+        {"ThoroughfareNumber", "ThoroughfareNumber"},
+        {"PostalCodeNumber", "Postcode"},
+        {"PremiseName", "PremiseName"},
+        {"PremiseNumber", "PremiseNumber"},
+    };
+    static const std::map<std::string_view, std::pair<const char*, const char*>> named{
+        {"Country", {"Country", "CountryCode"}},
+        {"AdministrativeArea", {"AdministrativeArea", "AdministrativeAreaNumber"}},
+        {"Locality", {"Locality", "LocalityNumber"}},
+        {"Thoroughfare", {"ThoroughfareName", "ThoroughfareNumber"}},
+        {"PostCode", {"Postcode", "Postcode"}},
+        {"Premises", {"PremiseName", "PremiseNumber"}},
+    };
+    const auto name = name_of(node);
+    if (name == "multiPoint") return;
+    const auto put = [&](const char* key) {
+      const auto text = words_of(node);
+      if (!text.empty() && !out.contains(key)) out[key] = text;
+    };
+    if (const auto leaf = leaves.find(name); leaf != leaves.end()) return put(leaf->second);
+    if (const auto what = named.find(within); what != named.end()) {
+      if (name == "NameElement") return put(what->second.first);
+      if (name == "Number" || name == "Identifier") return put(what->second.second);
+    }
+    each_child(node, [&](const xmlNode* child) { add_address(child, named.contains(name) ? name : within, out); });
+  }
+
+  static auto addresses_of(const xmlNode* node) -> Json {
+    Json out = Json::array();
+    each_child(node, [&](const xmlNode* child) {
+      if (name_of(child) != "address") return;
+      Json one = Json::object();
+      add_address(child, {}, one);
+      if (!one.empty()) out.push_back(std::move(one));
+    });
+    return out;
   }
 
   // ---- geometry

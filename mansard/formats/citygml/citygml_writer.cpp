@@ -1,4 +1,5 @@
-// Buildings as CityGML 2.0 (OGC 12-019) and 3.0 (OGC 20-010 and 21-006): solids with semantic surfaces and attributes.
+// Buildings as CityGML 2.0 (OGC 12-019) and 3.0 (OGC 20-010 and 21-006): solids with semantic surfaces, attributes
+// and appearance.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -6,6 +7,7 @@
 #include <set>
 
 #include "mansard/base/text.hpp"
+#include "mansard/formats/atlas/texture_folder.hpp"
 #include "mansard/formats/citygml/xml_text.hpp"
 #include "mansard/formats/citygml_made_by.hpp"
 #include "mansard/formats/detail/drawn.hpp"
@@ -18,23 +20,30 @@ namespace {
 
 using model::FaceClass;
 
-constexpr std::string_view head_2 =
-    "<CityModel xmlns=\"http://www.opengis.net/citygml/2.0\" "
-    "xmlns:bldg=\"http://www.opengis.net/citygml/building/2.0\" "
-    "xmlns:gen=\"http://www.opengis.net/citygml/generics/2.0\" xmlns:gml=\"http://www.opengis.net/gml\" "
-    "xmlns:xlink=\"http://www.w3.org/1999/xlink\" xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" "
-    "xsi:schemaLocation=\"http://www.opengis.net/citygml/building/2.0 "
-    "http://schemas.opengis.net/citygml/building/2.0/building.xsd http://www.opengis.net/citygml/generics/2.0 "
-    "http://schemas.opengis.net/citygml/generics/2.0/generics.xsd\">\n";
-constexpr std::string_view head_3 =
-    "<CityModel xmlns=\"http://www.opengis.net/citygml/3.0\" "
-    "xmlns:bldg=\"http://www.opengis.net/citygml/building/3.0\" "
-    "xmlns:con=\"http://www.opengis.net/citygml/construction/3.0\" "
-    "xmlns:gen=\"http://www.opengis.net/citygml/generics/3.0\" xmlns:gml=\"http://www.opengis.net/gml/3.2\" "
-    "xmlns:xlink=\"http://www.w3.org/1999/xlink\" xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" "
-    "xsi:schemaLocation=\"http://www.opengis.net/citygml/building/3.0 "
-    "http://schemas.opengis.net/citygml/building/3.0/building.xsd http://www.opengis.net/citygml/generics/3.0 "
-    "http://schemas.opengis.net/citygml/generics/3.0/generics.xsd\">\n";
+/// A module of CityGML: the prefix of its names, and where its schema is.
+struct Module {
+  std::string_view prefix, name;
+};
+
+auto head_of(bool v3, bool appearance) -> std::string {
+  const std::string version = v3 ? "3.0" : "2.0", citygml = "http://www.opengis.net/citygml/";
+  std::vector<Module> modules{{"bldg", "building"}, {"gen", "generics"}};
+  if (v3) modules.push_back({"con", "construction"});
+  if (appearance) modules.push_back({"app", "appearance"});
+  std::string spaces, places;
+  for (const auto& [prefix, name] : modules) {
+    const std::string module(name);
+    spaces += " xmlns:" + std::string(prefix) + "=\"" + citygml + module + "/" + version + "\"";
+    if (prefix == "con") continue;  // by that of buildings
+    places += (places.empty() ? "" : " ") + citygml + module + "/" + version + " http://schemas.opengis.net/citygml/" +
+              module + "/" + version + "/" + module + ".xsd";
+  }
+  return "<CityModel xmlns=\"" + citygml + version + "\"" + spaces + " xmlns:gml=\"http://www.opengis.net/gml" +
+         (v3 ? "/3.2" : "") +
+         "\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" "
+         "xsi:schemaLocation=\"" +
+         places + "\">\n";
+}
 
 auto surface_name(FaceClass kind) -> std::string_view {
   switch (kind) {
@@ -59,15 +68,42 @@ auto attribute(std::string_view name, std::string_view value) -> std::string {
   return std::string(name) + "=\"" + xml_escaped(value) + "\"";
 }
 
+using Colour = std::array<std::uint8_t, 3>;
+
+/// What colours a building: the polygons on each image, with their rings and the places in the image, and those of one
+/// colour.
+struct Appearance {
+  struct Ring {
+    std::string id;
+    std::vector<std::array<double, 2>> places;  ///< of every corner, and of the first again; from the lower left
+  };
+  struct Target {
+    std::string id;
+    std::vector<Ring> rings;
+  };
+  std::map<std::uint32_t, std::vector<Target>> images;
+  std::map<Colour, std::vector<std::string>> colours;
+  [[nodiscard]] auto empty() const -> bool { return images.empty() && colours.empty(); }
+};
+
+/// The textures of one solid of a building.
+struct SolidTextures {
+  const TexturedSolids* textured = nullptr;
+  std::size_t number = 0;  ///< of the solid, in the atlas
+  const model::SolidTexture* own = nullptr;
+};
+
 class CityGmlWriter : public CityWriter {
  public:
   CityGmlWriter(Header header, const WriteOptions& options, Lods lods, std::unique_ptr<base::Spool> objects,
-                base::Sink& file)
+                base::Sink& file, TextureFolder folder)
       : header_(std::move(header)),
         options_(options),
         v3_(options.citygml == CityGml::v3),
         objects_(std::move(objects)),
-        file_(file) {
+        file_(file),
+        folder_(std::move(folder)),
+        queue_(static_cast<std::uint32_t>(options.atlas_size)) {
     for (const auto lod : lods) {  // CityGML has whole levels: of two that share one the finer is written
       if (lod == Lod::lod0) footprint_ = true;
       if (lod == Lod::lod12 || lod == Lod::lod13) lod1_ = lod;
@@ -76,40 +112,25 @@ class CityGmlWriter : public CityWriter {
   }
 
   auto add(const model::Building& building) -> base::Result<void> override {
-    const auto keys = gate_.admit(building);
+    auto keys = gate_.admit(building);
     if (!keys) return keys.error();
-    const Drawn all = drawn(building, *keys, Solids::building);
-    warnings_.insert(warnings_.end(), all.warnings.begin(), all.warnings.end());
-    Lods wanted;
-    if (lod1_) wanted.push_back(*lod1_);
-    if (lod2_) wanted.push_back(*lod2_);
-    std::vector<LevelSurfaces> levels;
-    for (const auto& [part, parts] : all.solids)
-      levels.push_back(
-          level_surfaces(part.model, part.attributes, header_.frame, wanted, options_.levels, all.solids.size() == 1));
-    XmlText xml(1);
-    const std::string id = unique_id(building.id);
-    xml.open("cityObjectMember").open("bldg:Building", attribute("gml:id", id));
-    const LevelSurfaces none;
-    append(xml, building.id, id, building.attributes, building.footprint, building.ground,
-           levels.size() == 1 ? levels.front() : none);
-    if (levels.size() > 1)
-      for (std::size_t i = 0; i < levels.size(); ++i) {
-        const std::string part = id + "_solid" + std::to_string(i + 1);
-        xml.open(v3_ ? "bldg:buildingPart" : "bldg:consistsOfBuildingPart");
-        xml.open("bldg:BuildingPart", attribute("gml:id", part));
-        append(xml, all.solids[i].part.id, part, {}, {}, building.ground, levels[i]);
-        xml.close().close();
-      }
-    xml.close().close();
-    objects_->append(xml.take());
+    if (!building.texture && queue_.waiting.empty()) {
+      write(building, *keys, nullptr);
+      return {};
+    }
+    if (queue_.full_with(building))
+      if (auto done = empty(); !done) return done;
+    queue_.add(building);
+    keys_.push_back(*std::move(keys));
     return {};
   }
 
   auto finish() -> base::Result<void> override {
+    if (auto done = empty(); !done) return done;
     file_.append("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
+    file_.append(head_of(v3_, appearance_));
+    // Behind the root element: GDAL looks for that in the first 4,000 bytes.
     if (!header_.made_by.version.empty()) file_.append(made_by_comment(header_.made_by));
-    file_.append(v3_ ? head_3 : head_2);
     XmlText xml(1);
     if (!options_.lineage.empty()) xml.leaf("gml:description", options_.lineage);
     if (!options_.title.empty()) xml.leaf("gml:name", options_.title);
@@ -130,6 +151,54 @@ class CityGmlWriter : public CityWriter {
   [[nodiscard]] auto warnings() const -> std::vector<base::Diagnostic> override { return warnings_; }
 
  private:
+  auto empty() -> base::Result<void> {
+    auto done = empty_queue(
+        queue_, static_cast<std::uint32_t>(options_.atlas_size),
+        [&](const SolidAtlas& atlas) { return folder_.write(atlas); },
+        [&](std::size_t number, const model::Building& building, const TexturedSolids* textured) {
+          write(building, keys_[number], textured);
+          return base::Result<void>();
+        });
+    keys_.clear();
+    return done;
+  }
+
+  void write(const model::Building& building, const Gate::Keyed& keys, const TexturedSolids* textured) {
+    const Drawn all = drawn(building, keys, Solids::building);
+    warnings_.insert(warnings_.end(), all.warnings.begin(), all.warnings.end());
+    Lods wanted;
+    if (lod1_) wanted.push_back(*lod1_);
+    if (lod2_) wanted.push_back(*lod2_);
+    std::vector<LevelSurfaces> levels;
+    for (const auto& [part, parts] : all.solids)
+      levels.push_back(
+          level_surfaces(part.model, part.attributes, header_.frame, wanted, options_.levels, all.solids.size() == 1));
+    const auto* texture = textured != nullptr ? textures_for(building, all.solids.size()) : nullptr;
+    for (std::size_t i = 0; texture != nullptr && i < all.solids.size(); ++i)
+      if (texture->solids[i].faces.size() != all.solids[i].part.model.solid.faces.size())
+        texture = nullptr;  // they are those of parts (write.solids), which CityGML does not have
+    const auto textures_of = [&](std::size_t solid) {
+      if (texture == nullptr) return SolidTextures();
+      return SolidTextures{textured, textured->first + solid, &texture->solids[solid]};
+    };
+    XmlText xml(1);
+    const std::string id = unique_id(building.id);
+    xml.open("cityObjectMember").open("bldg:Building", attribute("gml:id", id));
+    const LevelSurfaces none;
+    append(xml, building.id, id, building.attributes, building.footprint, building.ground,
+           levels.size() == 1 ? levels.front() : none, levels.size() == 1 ? textures_of(0) : SolidTextures());
+    if (levels.size() > 1)
+      for (std::size_t i = 0; i < levels.size(); ++i) {
+        const std::string part = id + "_solid" + std::to_string(i + 1);
+        xml.open(v3_ ? "bldg:buildingPart" : "bldg:consistsOfBuildingPart");
+        xml.open("bldg:BuildingPart", attribute("gml:id", part));
+        append(xml, all.solids[i].part.id, part, {}, {}, building.ground, levels[i], textures_of(i));
+        xml.close().close();
+      }
+    xml.close().close();
+    objects_->append(xml.take());
+  }
+
   auto unique_id(const std::string& name) -> std::string {
     std::string id = xml_id(name);
     if (id != name) id += "_n" + std::to_string(renamed_++);  // two names may become one
@@ -143,18 +212,141 @@ class CityGmlWriter : public CityWriter {
     return out;
   }
 
-  void append_ring(XmlText& xml, std::string_view role, const std::vector<Vertex>& loop) {
+  /// `id` may be empty.
+  void append_ring(XmlText& xml, std::string_view role, const std::vector<Vertex>& loop, const std::string& id) {
     std::string places;
     for (std::size_t i = 0; i <= loop.size(); ++i) {
       widen(extent_, loop[i % loop.size()]);
       places += (i == 0 ? "" : " ") + point(loop[i % loop.size()]);
     }
-    xml.open(role).open("gml:LinearRing").leaf("gml:posList", places, "srsDimension=\"3\"").close().close();
+    xml.open(role)
+        .open("gml:LinearRing", id.empty() ? id : attribute("gml:id", id))
+        .leaf("gml:posList", places, "srsDimension=\"3\"")
+        .close()
+        .close();
   }
 
-  void append_polygon(XmlText& xml, const Loops& loops, const std::string& id) {
+  static auto ring_id(const std::string& polygon, std::size_t loop) -> std::string {
+    return polygon + "_r" + std::to_string(loop);
+  }
+
+  /// Rings have ids where something refers to them.
+  void append_polygon(XmlText& xml, const Loops& loops, const std::string& id, bool rings = false) {
     xml.open("gml:surfaceMember").open("gml:Polygon", attribute("gml:id", id));
-    for (std::size_t i = 0; i < loops.size(); ++i) append_ring(xml, i == 0 ? "gml:exterior" : "gml:interior", loops[i]);
+    for (std::size_t i = 0; i < loops.size(); ++i)
+      append_ring(xml, i == 0 ? "gml:exterior" : "gml:interior", loops[i], rings ? ring_id(id, i) : std::string());
+    xml.close().close();
+  }
+
+  static auto polygon_id(const std::string& id, std::size_t surface) -> std::string {
+    return id + "_s" + std::to_string(surface) + "_p";
+  }
+  static auto coarse_id(const std::string& id, std::size_t surface) -> std::string {
+    return id + "_c" + std::to_string(surface);
+  }
+
+  /// Whether a surface is on an image, and not of one colour.
+  [[nodiscard]] static auto pictured(const SolidTextures& textures, const Surface& surface) -> bool {
+    if (textures.own == nullptr) return false;
+    const auto& picture = textures.own->faces[surface.face].pixels;
+    return picture.width > 1 || picture.height > 1;
+  }
+
+  /// Pictures belong to LoD 2.2; simpler levels have the mean colours.
+  [[nodiscard]] auto has_pictures() const -> bool { return lod2_ == Lod::lod22; }
+
+  [[nodiscard]] auto appearance_of(const std::vector<Surface>& coarse, const std::vector<Surface>& fine,
+                                   const std::string& id, const SolidTextures& textures) const -> Appearance {
+    Appearance out;
+    if (textures.own == nullptr) return out;
+    const auto mean = [&](const Surface& surface) {
+      return surface.kind == FaceClass::roof ? textures.own->roof : textures.own->wall;
+    };
+    for (std::size_t i = 0; i < coarse.size(); ++i) out.colours[mean(coarse[i])].push_back(coarse_id(id, i));
+    for (std::size_t i = 0; i < fine.size(); ++i) {
+      const auto polygon = polygon_id(id, i);
+      if (!has_pictures()) {
+        out.colours[mean(fine[i])].push_back(polygon);
+        continue;
+      }
+      if (!pictured(textures, fine[i])) {
+        const auto& rgb = textures.own->faces[fine[i].face].pixels.rgb;
+        out.colours[{rgb[0], rgb[1], rgb[2]}].push_back(polygon);
+        continue;
+      }
+      const auto& atlas = *textures.textured->atlas;
+      Appearance::Target target{polygon, {}};
+      for (std::size_t l = 0; l < fine[i].loops.size(); ++l) {
+        const auto& loop = fine[i].loops[l];
+        auto& ring = target.rings.emplace_back(Appearance::Ring{ring_id(polygon, l), {}});
+        for (std::size_t k = 0; k <= loop.size(); ++k) {
+          const auto& v = loop[k % loop.size()];
+          const auto metres = [](std::int64_t quanta) { return static_cast<double>(quanta) / quanta_per_metre; };
+          const auto [x, y] = atlas.uv(textures.number, fine[i].face, {metres(v[0]), metres(v[1]), metres(v[2])});
+          ring.places.push_back({x, 1 - y});
+        }
+      }
+      out.images[textures.textured->first_page + atlas.page_of(textures.number, fine[i].face)].push_back(
+          std::move(target));
+    }
+    return out;
+  }
+
+  static auto place_text(const std::vector<std::array<double, 2>>& places) -> std::string {
+    constexpr int decimals = 6;  // a hundredth of a pixel of the largest image
+    std::string out;
+    for (const auto& [u, v] : places)
+      out += (out.empty() ? "" : " ") + base::to_text(u, decimals) + " " + base::to_text(v, decimals);
+    return out;
+  }
+
+  void append_target(XmlText& xml, const Appearance::Target& target) {
+    const auto list = [&] {
+      xml.open("app:TexCoordList");
+      for (const auto& ring : target.rings)
+        xml.leaf("app:textureCoordinates", place_text(ring.places),
+                 v3_ ? std::string() : attribute("ring", "#" + ring.id));
+      if (v3_)
+        for (const auto& ring : target.rings) xml.leaf("app:ring", "#" + ring.id);
+      xml.close();
+    };
+    if (!v3_) {
+      xml.open("app:target", attribute("uri", "#" + target.id));
+      list();
+      xml.close();
+      return;
+    }
+    xml.open("app:textureParameterization").open("app:TextureAssociation", attribute("gml:id", target.id + "_t"));
+    xml.leaf("app:target", "#" + target.id).open("app:textureParameterization");
+    list();
+    xml.close().close().close();
+  }
+
+  void append_appearance(XmlText& xml, const std::string& id, const Appearance& appearance) {
+    if (appearance.empty()) return;
+    appearance_ = true;
+    std::size_t number = 0;
+    const auto open_data = [&](std::string_view element) {
+      xml.open(v3_ ? "app:surfaceData" : "app:surfaceDataMember");
+      xml.open(element, attribute("gml:id", id + "_app" + std::to_string(number++)));
+    };
+    xml.open(v3_ ? "appearance" : "app:appearance").open("app:Appearance", attribute("gml:id", id + "_app"));
+    xml.leaf("app:theme", "visual");
+    for (const auto& [image, targets] : appearance.images) {
+      open_data("app:ParameterizedTexture");
+      xml.leaf("app:imageURI", folder_.name(image)).leaf("app:mimeType", "image/jpeg");
+      xml.leaf("app:textureType", "specific").leaf("app:wrapMode", "none");
+      for (const auto& target : targets) append_target(xml, target);
+      xml.close().close();
+    }
+    for (const auto& [colour, targets] : appearance.colours) {
+      open_data("app:X3DMaterial");
+      std::string text;
+      for (const auto value : colour) text += (text.empty() ? "" : " ") + base::to_text(value / 255.0, 4);
+      xml.leaf("app:diffuseColor", text);
+      for (const auto& target : targets) xml.leaf("app:target", "#" + target);
+      xml.close().close();
+    }
     xml.close().close();
   }
 
@@ -230,7 +422,8 @@ class CityGmlWriter : public CityWriter {
     if (storeys != nullptr && *storeys >= 0) xml.leaf("bldg:storeysAboveGround", std::to_string(*storeys));
   }
 
-  void append_boundaries(XmlText& xml, const std::vector<Surface>& surfaces, const std::string& id) {
+  void append_boundaries(XmlText& xml, const std::vector<Surface>& surfaces, const std::string& id,
+                         const SolidTextures& textures) {
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
       const auto& surface = surfaces[i];
       const std::string own = id + "_s" + std::to_string(i);
@@ -250,7 +443,7 @@ class CityGmlWriter : public CityWriter {
         append_generic(xml, "ms_party_wall", std::string(surface.kind == FaceClass::party_wall ? "true" : "false"));
       xml.open(v3_ ? "lod2MultiSurface" : "bldg:lod2MultiSurface")
           .open("gml:MultiSurface", attribute("gml:id", own + "_m"));
-      append_polygon(xml, surface.loops, own + "_p");
+      append_polygon(xml, surface.loops, polygon_id(id, i), has_pictures() && pictured(textures, surface));
       xml.close().close().close().close();
     }
   }
@@ -269,23 +462,27 @@ class CityGmlWriter : public CityWriter {
 
   /// Of a building or a part, in the order of the schema of its version.
   void append(XmlText& xml, const std::string& name, const std::string& id, const model::Attributes& attributes,
-              const std::vector<geometry::Polygon>& footprint, double ground, const LevelSurfaces& levels) {
+              const std::vector<geometry::Polygon>& footprint, double ground, const LevelSurfaces& levels,
+              const SolidTextures& textures) {
     const std::vector<Surface> none;
     const auto& coarse = lod1_ ? levels.at(*lod1_) : none;
     const auto& fine = lod2_ ? levels.at(*lod2_) : none;
+    const auto appearance = appearance_of(coarse, fine, id, textures);
     xml.leaf("gml:name", name);
+    if (v3_) append_appearance(xml, id, appearance);
     append_generics(xml, attributes);
-    if (v3_) append_boundaries(xml, fine, id);
+    if (!v3_) append_appearance(xml, id, appearance);
+    if (v3_) append_boundaries(xml, fine, id, textures);
     if (!v3_) append_native(xml, attributes);
     append_footprint(xml, footprint, ground, id);
     if (!coarse.empty())
       append_solid(xml, v3_ ? "lod1Solid" : "bldg:lod1Solid", id + "_lod1", coarse.size(),
-                   [&](std::size_t i) { append_polygon(xml, coarse[i].loops, id + "_c" + std::to_string(i)); });
+                   [&](std::size_t i) { append_polygon(xml, coarse[i].loops, coarse_id(id, i)); });
     if (!fine.empty())
       append_solid(xml, v3_ ? "lod2Solid" : "bldg:lod2Solid", id + "_lod2", fine.size(), [&](std::size_t i) {
-        xml.empty("gml:surfaceMember", attribute("xlink:href", "#" + id + "_s" + std::to_string(i) + "_p"));
+        xml.empty("gml:surfaceMember", attribute("xlink:href", "#" + polygon_id(id, i)));
       });
-    if (!v3_) append_boundaries(xml, fine, id);
+    if (!v3_) append_boundaries(xml, fine, id, textures);
     if (v3_) append_native(xml, attributes);
   }
 
@@ -299,6 +496,10 @@ class CityGmlWriter : public CityWriter {
   std::size_t renamed_ = 0;
   std::unique_ptr<base::Spool> objects_;  ///< the extent of all comes first in the file
   base::Sink& file_;
+  TextureFolder folder_;
+  AtlasQueue queue_;
+  std::vector<Gate::Keyed> keys_;  ///< of the buildings in the queue
+  bool appearance_ = false;        ///< whether any building has one
   std::vector<base::Diagnostic> warnings_;
 };
 
@@ -312,7 +513,8 @@ auto citygml_writer(const Path& path, const Header& header, const WriteOptions& 
   if (!objects) return objects.error();
   const auto file = outputs.file(path);
   if (!file) return file.error();
-  return WriterResult(std::make_unique<CityGmlWriter>(header, options, *std::move(lods), *std::move(objects), **file));
+  return WriterResult(std::make_unique<CityGmlWriter>(header, options, *std::move(lods), *std::move(objects), **file,
+                                                      TextureFolder(path, options, outputs)));
 }
 
 }  // namespace mansard::formats::detail

@@ -1,4 +1,5 @@
 #include "mansard/formats/cityjson/footprint_reader.hpp"
+#include "mansard/formats/cityjson/address.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -71,6 +72,9 @@ class Reader {
     feature.own_id = id;
     for (const auto& [name, value] : member(building, "attributes").items())
       if (!name.starts_with("ms_")) feature.attributes.emplace_back(name, to_value(value));
+    detail::each_of_address(building, [&](const std::string& name, const Json& value) {
+      feature.attributes.emplace_back(name, to_value(value));
+    });
     std::vector<Outline> surfaces = outline_of({&building}, document);
     if (surfaces.empty()) surfaces = outline_of(parts_of(building, document.objects()), document);
     for (const auto& surface : surfaces) feature.parts.push_back(flat_polygon(surface));

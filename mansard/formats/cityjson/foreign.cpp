@@ -11,6 +11,7 @@
 #include "mansard/crs/gdal.hpp"
 #include "mansard/crs/gdal_messages.hpp"
 #include "mansard/crs/spatial_reference.hpp"
+#include "mansard/formats/cityjson/address.hpp"
 #include "mansard/formats/cityjson/cityjson_document.hpp"
 #include "mansard/formats/input_file.hpp"
 #include "mansard/model/file_grid.hpp"
@@ -47,6 +48,8 @@ auto attributes_of(const Json& object) -> model::Attributes {
   const Json& all = member(object, "attributes");
   if (all.is_object())
     for (const auto& [name, value] : all.items()) out.emplace_back(name, value_of(value));
+  detail::each_of_address(object,
+                          [&](const std::string& name, const Json& value) { out.emplace_back(name, value_of(value)); });
   return out;
 }
 

@@ -15,6 +15,11 @@ namespace mansard::formats {
 [[nodiscard]] auto read_textured_obj(std::string_view bytes, const std::filesystem::path& path)
     -> base::Result<TexturedMesh>;
 
+/// PLY with texture coordinates of faces or vertices, its files ("comment TextureFile"), and colours of vertices or
+/// faces; fails as read_ply.
+[[nodiscard]] auto read_textured_ply(std::string_view bytes, const std::filesystem::path& path)
+    -> base::Result<TexturedMesh>;
+
 struct TexturedGltf {
   TexturedMesh mesh;                       ///< y up, as the file has it
   std::optional<geometry::Point3> centre;  ///< as of GltfMesh

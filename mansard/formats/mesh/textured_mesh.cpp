@@ -83,7 +83,7 @@ void append(TexturedMesh& all, TexturedMesh more) {
 
 auto read_textured_file(const std::filesystem::path& path, UpAxis up) -> base::Result<TexturedMesh> {
   const auto extension = extension_of(path);
-  const bool obj = extension == ".obj", gltf = extension == ".glb" || extension == ".gltf";
+  const bool obj = extension == ".obj", ply = extension == ".ply", gltf = extension == ".glb" || extension == ".gltf";
   if (extension == ".osgb")
     return guarded(path, &Bytes::of, [&](std::string_view bytes) -> base::Result<TexturedMesh> {
       auto read = read_osgb(bytes, path, true);
@@ -92,7 +92,7 @@ auto read_textured_file(const std::filesystem::path& path, UpAxis up) -> base::R
         for (auto& v : read->mesh.mesh.vertices) v = {v.x, -v.z, v.y};
       return std::move(read->mesh);
     });
-  if (!obj && !gltf) {
+  if (!obj && !ply && !gltf) {
     auto piece = read_mesh_file(path, up);
     if (piece.failure) return *piece.failure;
     TexturedMesh out;
@@ -100,8 +100,9 @@ auto read_textured_file(const std::filesystem::path& path, UpAxis up) -> base::R
     return out;
   }
   return guarded(path, &Bytes::of, [&](std::string_view bytes) -> base::Result<TexturedMesh> {
-    if (obj && !bytes.starts_with("glTF")) {
-      auto read = read_textured_obj(without_mark(bytes), path);
+    if ((obj || ply) && !bytes.starts_with("glTF")) {
+      const auto text = without_mark(bytes);
+      auto read = ply ? read_textured_ply(text, path) : read_textured_obj(text, path);
       if (read && up == UpAxis::y)
         for (auto& v : read->mesh.vertices) v = {v.x, -v.z, v.y};
       return read;

@@ -1,5 +1,6 @@
 // OBJ as modellers write it: `o` is a building, groups and materials are classes.
 #include <algorithm>
+#include <fstream>
 #include <map>
 #include <optional>
 
@@ -30,6 +31,24 @@ auto trimmed(std::string_view text) -> std::string {
   return std::string(text);
 }
 
+/// What a face is, by the lines above it.
+class ClassAbove {
+ public:
+  /// A line that begins with `o`, `g` or `usemtl`; others change nothing.
+  void take(std::string_view keyword, std::string_view rest) {
+    if (keyword == "usemtl") by_material_ = class_in(rest);
+    if (keyword == "g") by_group_ = class_in(rest);
+    if (keyword == "o") by_group_ = by_material_ = std::nullopt;
+  }
+  [[nodiscard]] auto of_group() const -> bool { return by_group_.has_value(); }
+  [[nodiscard]] auto now() const -> std::optional<model::SurfaceClass> {
+    return by_material_ ? by_material_ : by_group_;
+  }
+
+ private:
+  std::optional<model::SurfaceClass> by_group_, by_material_;
+};
+
 class Reader {
  public:
   Reader(std::string_view bytes, const std::string& name) : rest_(bytes), name_(name) {}
@@ -40,11 +59,11 @@ class Reader {
       std::string_view line = take_line(rest_);
       const std::string_view keyword = take_word(line);
       base::Result<void> done;
+      above_.take(keyword, line);
       if (keyword == "v") done = take_vertex(line);
       else if (keyword == "f") done = take_face(line);
       else if (keyword == "o") start_object(trimmed(line));
       else if (keyword == "g") start_group(trimmed(line));
-      else if (keyword == "usemtl") by_material_ = class_in(line);
       else if (keyword == "#") take_comment(line);
       if (!done) return done.error();
     }
@@ -89,7 +108,7 @@ class Reader {
       if (index >= vertices_.size()) return bad("corner " + std::string(word) + " names no vertex above it");
       loop.push_back(vertices_[index]);
     }
-    const auto kind = by_material_ ? by_material_ : by_group_;
+    const auto kind = above_.now();
     face.kind = kind.value_or(model::SurfaceClass::other);
     face.by_normal = !kind;
     part().faces.push_back(std::move(face));
@@ -98,15 +117,12 @@ class Reader {
 
   void start_object(const std::string& name) {
     objects_ = true;
-    by_group_.reset();
-    by_material_.reset();
     enter(name, name);
   }
 
   /// A group is a class, or a building where there are no objects, or a part of one.
   void start_group(const std::string& name) {
-    by_group_ = class_in(name);
-    if (by_group_ || name.empty()) return;
+    if (above_.of_group() || name.empty()) return;
     if (objects_) enter(model_.buildings[building_].id, name);
     else enter(name, name);
   }
@@ -136,10 +152,26 @@ class Reader {
   std::size_t building_ = 0, part_ = 0;
   std::map<std::string, std::size_t> building_of_;
   std::map<std::pair<std::size_t, std::string>, std::size_t> part_of_;
-  std::optional<model::SurfaceClass> by_group_, by_material_;
+  ClassAbove above_;
 };
 
 }  // namespace
+
+auto labels_every_face(const std::filesystem::path& obj) -> bool {
+  std::ifstream file(obj, std::ios::binary);
+  ClassAbove above;
+  bool any = false;
+  for (std::string text; std::getline(file, text);) {
+    std::string_view line = text;
+    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+    const auto keyword = take_word(line);
+    above.take(keyword, line);
+    if (keyword != "f") continue;
+    if (!above.now()) return false;
+    any = true;
+  }
+  return any;
+}
 
 auto read_labelled_obj(std::string_view bytes, const std::string& name) -> base::Result<RawModel> {
   return Reader(without_mark(bytes), name).read();

@@ -22,15 +22,6 @@ auto trimmed(std::string_view text) -> std::string {
   return std::string(text);
 }
 
-/// A file that another one in `folder` names, perhaps with the path of another computer.
-auto named_beside(const fs::path& folder, std::string name) -> fs::path {
-  std::ranges::replace(name, '\\', '/');
-  const fs::path given = folder / name;
-  if (is_there(given)) return given;
-  const fs::path here = folder / fs::path(name).filename();
-  return is_there(here) ? here : given;
-}
-
 auto light_of(double srgb) -> std::uint16_t {
   return linear_of(static_cast<std::uint8_t>((srgb > 0 ? std::min(srgb, 1.0) : 0) * 255 + 0.5));  // NaN is black
 }

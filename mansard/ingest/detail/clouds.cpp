@@ -201,7 +201,6 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
   std::vector<formats::MeshPiece> pieces(tiles.size());
   std::vector<cloud::GroundTile> grounds(tiles.size());
   cloud::Counts counts;
-  std::size_t triangles = 0;
   std::mutex mutex;
   base::parallel_for(tiles.size(), [&](std::size_t i) {
     if (run.cancelled()) return;
@@ -213,11 +212,9 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
     pieces[i].mesh.vertices = std::move(made->mesh.vertices);
     pieces[i].mesh.triangles = std::move(made->mesh.triangles);
     grounds[i] = std::move(made->ground);
-    const auto own = pieces[i].mesh.triangles.size();
     if (cells_ != nullptr) into_cells(pieces[i]);
     const std::scoped_lock lock(mutex);
     counts.include(made->counts);
-    triangles += own;
   });
   if (run.cancelled()) return base::stopped();
   for (const auto& piece : pieces)
@@ -225,11 +222,25 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
   if (counts.points == 0)
     return none(within ? "no point is in the box asked for; check --bbox, --crs and --mesh-offset"
                        : "no point can be used: all are noise, or their coordinates are not finite");
-  if (triangles == 0)
-    return none("none of its " + std::to_string(counts.points) +
-                " points can be a surface: they are vegetation, noise or wires, or too few are beside each other; see "
-                "cloud.cell and cloud.isolated");
+  const bool any = std::ranges::any_of(
+      pieces, [](const auto& piece) { return !piece.mesh.triangles.empty() || piece.triangles > 0; });
+  if (!any)
+    return none(
+        "none of its " + std::to_string(counts.points) + " points (" + base::to_text(density, density < 0.1 ? 6 : 1) +
+        " points/m²) can be a surface: they are vegetation, noise or wires, or too few for a surface in cells of " +
+        base::to_text(cell) + " m; check its CRS and unit, and cloud.isolated");
+  Box2 area;
+  for (const auto& tile : grounds)
+    if (!tile.heights.empty()) area.add({static_cast<double>(tile.x), static_cast<double>(tile.y)});
+  constexpr double most_ground = 1e9;  // cells of 1 m, of 4 bytes
+  if (const auto extent = area.most - area.least; !area.empty() && extent.x * extent.y > most_ground)
+    return base::error("ingest-memory",
+                       "ground points are " + base::to_text(length(extent) / 1000, 0) +
+                           " km apart; clouds of different CRSs need --crs, and points far off --bbox",
+                       subject);
   out.ground = cloud::join(grounds, options_.cloud.ground_reach);
+  for (auto& tile : grounds) tile.heights = {};
+  out.counted = std::move(grounds);
   warnings_.push_back(
       base::warning("ingest-points-surface", in_words(counts, density, cell, out.ground.has_value()), subject));
   return pieces;

@@ -30,6 +30,7 @@ struct MeshFiles {
   std::vector<base::Diagnostic> warnings;
   std::optional<cloud::Ground>
       ground;  ///< of point clouds with classified ground, in the working CRS but for the offset
+  std::vector<cloud::GroundTile> counted;  ///< the points of point clouds, likewise
 };
 
 /// Reading in two steps, since the working CRS is chosen between them: files that say where they are only by their
