@@ -15,6 +15,7 @@ constexpr const char* decision_39 = "docs/decisions/0039-alike-what-is-alike.md"
 constexpr const char* decision_41 = "docs/decisions/0041-faces-want-evidence.md";
 constexpr const char* decision_42 = "docs/decisions/0042-dormers.md";
 constexpr const char* decision_47 = "docs/decisions/0047-moderate-detail.md";
+constexpr const char* decision_86 = "docs/decisions/0086-tall-parts-and-crowns.md";
 
 constexpr Range share{0, 1};                 // of a whole, or a cosine
 constexpr Range count{0, 1000};              // things; none switches the step off
@@ -263,6 +264,27 @@ void add_bare(OptionList& list, Options::Bare& o) {
       .advanced("a scan's noise, as mansard evaluate takes it")
       .number("bare_area", o.area, "m²", area, "A steep face with samples over this area is shown by the scan.")
       .advanced("as mansard evaluate counts them");
+}
+
+void add_tall(OptionList& list, Options::Tall& o) {
+  list.number("tall_ratio", o.ratio, "", {0, 1000},
+              "No part is cut out that is taller than this many times the root of its area, unless the scan shows its "
+              "walls; 0: without limit.")
+      .advanced("as mansard evaluate counts them")
+      .number("tall_walls", o.walls, "", share,
+              "Walls are seen where the scan is near to this share of the places that are looked at on them.")
+      .advanced(decision_86)
+      .number("tall_spacing", o.spacing, "m", positive_length, "Distance between these places, along and up a wall.")
+      .advanced(by_hand)
+      .number("tall_clear", o.clear, "m", length,
+              "These places are so far below the upper and above the lower end of a wall.")
+      .advanced("more than tall_reach, so that no roof is near")
+      .number("tall_reach", o.reach, "m", length, "A surface this near to such a place is the wall.")
+      .advanced("half of the spacing of the points of 2.5D meshes, and some noise")
+      .number("tall_inside", o.inside, "m", length, "Where the height of the part is taken, inward from its wall.")
+      .advanced(by_hand)
+      .number("tall_beside", o.beside, "m", length, "Where the height beside the part is taken, outward from its wall.")
+      .advanced("past what a scan melts; by hand");
 }
 
 void add_joins(OptionList& list, Options::Joins& o) {
@@ -593,6 +615,7 @@ auto option_list(Options& o) -> OptionList {
   add_alike(list, o.alike);
   add_pieces(list, o.pieces);
   add_bare(list, o.bare);
+  add_tall(list, o.tall);
   add_joins(list, o.joins);
   add_wings(list, o.wings);
   add_cuts(list, o.cuts);

@@ -132,6 +132,17 @@ struct Options {
     double area = 1;                             ///< m²
   } bare;
 
+  /// Parts that are taller than they are wide (tall).
+  struct Tall {
+    double ratio = 3;
+    double walls = 0.5;
+    double spacing = 0.5;  ///< m
+    double clear = 0.5;    ///< m
+    double reach = 0.4;    ///< m
+    double inside = 0.4;   ///< m
+    double beside = 0.75;  ///< m
+  } tall;
+
   /// Which parts are joined, cut and cut again (work, owner).
   struct Joins {
     double touching = 0.05;  ///< m

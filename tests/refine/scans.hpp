@@ -40,7 +40,7 @@ inline auto plan(geometry::Ring ring, std::vector<Profile> profiles, double cap)
 }
 
 /// The plans' top surface every 0.2 m, with noise of that many metres both ways, and the ground around them.
-inline auto scan(const std::vector<Plan>& plans, double noise = 0.04) -> rays::Scene {
+inline auto scanned(const std::vector<Plan>& plans, double noise = 0.04) -> geometry::Mesh {
   geometry::Mesh solids;
   geometry::Box2 box;
   for (const auto& p : plans) {
@@ -69,7 +69,10 @@ inline auto scan(const std::vector<Plan>& plans, double noise = 0.04) -> rays::S
       mesh.triangles.push_back({a, a + 1, a + columns});
       mesh.triangles.push_back({a + 1, a + columns + 1, a + columns});
     }
-  return rays::Scene(mesh);
+  return mesh;
+}
+inline auto scan(const std::vector<Plan>& plans, double noise = 0.04) -> rays::Scene {
+  return rays::Scene(scanned(plans, noise));
 }
 
 /// What a draft knows before: walls all around and a height.

@@ -144,6 +144,20 @@ TEST(Vegetation, finds_a_crown_that_grows_out_of_a_roof_and_hangs_over_nothing) 
   }
 }
 
+TEST(Vegetation, finds_a_small_crown_that_is_clearly_a_dome) {
+  const auto small = [](Point2 p, Point2 middle) {
+    return 0.55 * crown_over(middle + (1 / 0.62) * (p - middle), middle);
+  };
+  for (const Point2 middle : {Point2{6, 3}, Point2{4, 7}}) {
+    const auto tree =
+        sheet(ground, 0.25, [&](Point2 p) { return std::max(gable(p), gable(middle) + 0.6 + small(p, middle)); });
+    const auto crowns = found(tree);
+    ASSERT_EQ(crowns.crowns.size(), 1U) << middle.x;
+    EXPECT_LT(crowns.crowns[0].area, 5.8);
+    EXPECT_LT(length(crowns.crowns[0].centre - middle), 0.6);
+  }
+}
+
 /// What is built over the house, of a height above its level roof at 6 m.
 auto built(const std::function<double(Point2)>& height) -> Found {
   return found(sheet(ground, 0.25, [&](Point2 p) { return in_outline(p) ? 6 + height(p) : 0.0; }));
@@ -167,6 +181,13 @@ TEST(Vegetation, takes_nothing_built_for_a_crown) {
     const double r = length(p - Point2{6, 5});
     return r < 2 ? 3 * (2 - r) : 0.0;
   }))) << "spire";
+  EXPECT_TRUE(nothing(built([](Point2 p) {  // a turret of 2.4 m with a cone on it
+    const double r = length(p - Point2{6, 5});
+    return r < 1.2 ? 1.5 + 1.5 * (1.2 - r) : 0.0;
+  }))) << "turret";
+  EXPECT_TRUE(nothing(built([&](Point2 p) {  // a pavilion of 2.5 m
+    return square(p, {4, 4}, 1.25) ? 1 + 1.25 - std::max(std::abs(p.x - 4), std::abs(p.y - 4)) : 0.0;
+  }))) << "pavilion";
   EXPECT_TRUE(nothing(found(sheet(ground, 0.25,
                                   [&](Point2 p) {  // dormers on the gable
                                     const bool dormer = p.y > 1 && p.y < 3.5 &&

@@ -11,6 +11,7 @@
 #include "mansard/refine/detail/pieces.hpp"
 #include "mansard/refine/detail/refit.hpp"
 #include "mansard/refine/detail/sharpen.hpp"
+#include "mansard/refine/detail/tall.hpp"
 #include "mansard/refine/detail/wings.hpp"
 
 namespace mansard::refine::detail {
@@ -112,9 +113,14 @@ auto Work::cheapest(const Piece& piece, const std::vector<Proposal>& proposals, 
   });
   std::erase_if(trials, [](const Trial& trial) { return trial.pieces.empty(); });
   rank(trials, &Trial::cost);
+  const auto needles = [this](const std::vector<Piece>& pieces) {
+    return std::ranges::any_of(pieces,
+                               [this](const Piece& one) { return is_needle(one.site, one.roof, mesh_, options_); });
+  };
   for (auto& trial : trials) {
+    if (needles(trial.pieces)) continue;
     auto pieces = searched(piece, *trial.proposal, std::move(trial.pieces));
-    if (!pieces.empty()) return pieces;
+    if (!pieces.empty() && !needles(pieces)) return pieces;
   }
   return {};
 }

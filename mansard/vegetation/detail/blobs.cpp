@@ -224,21 +224,29 @@ auto hangs_over(const Crown& seen, const Options& options) -> bool {
 }
 
 /// The shape of a crown, whatever is below it. Each limit is between what crowns and roofs were measured to have, on
-/// simulated crowns of odd seeds and on the real inputs: docs/decisions/0071.
+/// simulated crowns of odd seeds and on the real inputs: docs/decisions/0071. The smaller a region, and the less it
+/// rises, the more clearly it must be a dome: docs/decisions/0086.
 auto is_dome(const Crown& seen, const std::vector<std::uint32_t>& cells, const Surface& surface) -> bool {
-  constexpr double least_area = 5.8, most_area = 32;  // m²; dormers have less, roofs more
-  constexpr double flattest = 0.4, steepest = 1.6;    // height by radius; spires have more
-  constexpr double least_rise = 1.7;                  // m
-  constexpr double most_tilt = 0.7;                   // ends of ridges have more
-  constexpr double least_explained = 0.55;            // share of the squared distances from a plane
-  constexpr double least_round = 0.6;                 // of roundness_of
-  constexpr double most_square = 0.33;                // of squareness_of
-  if (seen.area < least_area || seen.area > most_area || seen.rise < least_rise || seen.squareness > most_square)
-    return false;
+  constexpr double most_area = 32;                  // m²; roofs have more
+  constexpr double flattest = 0.4, steepest = 1.6;  // height by radius; spires have more
+  constexpr double most_tilt = 0.7;                 // ends of ridges have more
+  constexpr double least_explained = 0.55;          // share of the squared distances from a plane
+  constexpr double least_round = 0.59;              // of roundness_of; dormers and ends of ridges have less
+  if (seen.area > most_area) return false;
   const auto dome = dome_of(cells, surface);
   const double slender = -dome.bend * std::sqrt(seen.area / std::numbers::pi);
-  return dome.explained >= least_explained && slender >= flattest && slender <= steepest && dome.tilt <= most_tilt &&
-         roundness_of(cells, surface.grid) >= least_round;
+  const double round = roundness_of(cells, surface.grid);
+  if (dome.explained < least_explained || slender < flattest || slender > steepest || dome.tilt > most_tilt ||
+      round < least_round)
+    return false;
+  const auto has = [&](double area, double rise, double squareness) {
+    return seen.area >= area && seen.rise >= rise && seen.squareness <= squareness;
+  };
+  const bool is_large = has(5.8, 1.7, 0.33) && round >= 0.6;  // m², m; dormers have less
+  const bool hangs = has(3.5, 1.3, 0.42) && seen.overhang >= 0.06 && dome.explained >= 0.7 && slender >= 0.6;
+  const bool is_clear = has(3.5, 1.0, 0.42) && dome.explained >= 0.78 && round >= 0.7 && dome.tilt <= 0.3 &&
+                        slender >= 0.6 && slender <= 1.3;
+  return is_large || hangs || is_clear;
 }
 
 }  // namespace
