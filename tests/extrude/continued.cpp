@@ -103,6 +103,27 @@ TEST(Continued, the_parts_of_a_profile_above_are_the_hosts) {
   }
 }
 
+TEST(Continued, the_slope_of_a_courtyard_goes_on_as_well) {
+  // A courtyard of 6 m × 5 m in a house of 20 m × 19 m, and a hole of the slope that rises from it to the south.
+  const Profile roof{{0, 0}, {0, gutter}, {run, gutter + rise}};
+  for (const double angle : {0.0, 0.77}) {
+    Plan p = plan(box(20, 19), {roof, {{0, 0}, {0, 30}}}, {}, 40);
+    p.holes.push_back({{{7, 7}, {7, 12}, {13, 12}, {13, 7}}, {0, 0, 0, 0}});
+    EXPECT_EQ(slopes_of(full(turned(p, angle))).size(), 8U);
+    const double height = gutter + rise / run * 1.9;
+    p.profiles.push_back({{0, 0}, {0, height}, {run, height + rise}});
+    p.holes.push_back({{{9, 5.1}, {9, 6.3}, {10.37, 6.3}, {10.37, 5.1}}, {1, 1, 1, 2}});
+    EXPECT_EQ(slopes_of(full(turned(p, angle))).size(), 8U);
+  }
+}
+
+TEST(Continued, a_back_edge_that_is_turned_by_a_rounding_is_turned_back) {
+  auto p = gable({{1, 2.63, 0.8, 2.04}});
+  p.holes[0].points[1].y += 4e-4;  // on a direction of its own
+  p.holes[0].points[2].y -= 4e-4;
+  EXPECT_EQ(slopes_of(full(turned(p, 0.4))).size(), 2U);
+}
+
 TEST(Continued, the_face_is_named_after_the_outline) {
   for (const auto& face : slopes_of(full(gable({{1, 2.63, 0.8, 2.04}})))) {
     ASSERT_TRUE(face.provenance);

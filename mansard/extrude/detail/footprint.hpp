@@ -37,9 +37,9 @@ struct CanonicalProfile {
 /// All runs between knots less by `parts` 4096ths, and on the grid again.
 void shorten_runs(Track& track, int parts);
 
-/// What a hole's edge goes on with above its wall: the roof of an edge of the outline, from a part of its track on.
+/// What a hole's edge goes on with above its wall: the roof of another edge, from a part of its track on.
 struct Continues {
-  std::uint32_t edge = 0, part = 0;
+  std::uint32_t ring = 0, edge = 0, part = 0;
   friend auto operator==(const Continues&, const Continues&) -> bool = default;
 };
 
@@ -97,9 +97,10 @@ inline constexpr int most_nudges = 6;
 [[nodiscard]] auto nudged(const Footprint& footprint, int attempt, const Options& options, std::string& how)
     -> std::optional<Footprint>;
 
-/// With the edges of holes whose roof is, to within 2 mm, what a slope of the outline does behind them: moved to where
-/// they begin exactly in that slope's plane, which need not be a multiple of the grid. Nothing where there are none.
-[[nodiscard]] auto continued(const Footprint& footprint) -> std::optional<Footprint>;
+/// With the edges of holes whose roof is, to within 2 mm, what the slope of another edge does behind them, the
+/// outline's or a courtyard's: moved to where they begin exactly in that slope's plane, which need not be a multiple of
+/// the grid. Nothing where there are none. `moved`: m, that lines were moved before, each by another distance.
+[[nodiscard]] auto continued(const Footprint& footprint, double moved = 0) -> std::optional<Footprint>;
 
 /// The corner where two lines meet that are not parallel.
 [[nodiscard]] auto corner_of(const CanonicalEdge& before, const CanonicalEdge& after) -> ExactPoint;

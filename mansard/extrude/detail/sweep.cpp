@@ -113,7 +113,7 @@ class Sweep {
     const Course& course = courses_[line];
     if (const auto& roof = course.edge->roof) {
       knots_.push_back({whole_quanta((*course.track)[1].height), line, roof->part});
-      const Track& track = footprint_.tracks[footprint_.rings[0][roof->edge].track];
+      const Track& track = footprint_.tracks[footprint_.rings[roof->ring][roof->edge].track];
       for (std::uint32_t part = roof->part + 1; part < track.size(); ++part)
         knots_.push_back({whole_quanta(track[part].height), line, part});
       return;
@@ -122,12 +122,14 @@ class Sweep {
       knots_.push_back({whole_quanta((*course.track)[part].height), line, part});
   }
 
-  /// At its first knot such an edge becomes one of the outline's: they coincide for ever, and so do their faces.
+  /// At its first knot such an edge becomes the other: they coincide for ever, and so do their faces.
   void go_on(std::uint32_t line) {
     Course& course = courses_[line];
     if (!course.edge->roof) return;
-    const std::uint32_t host = course.edge->roof->edge;  // lines are numbered as edges, the outline's first
-    course.edge = &footprint_.rings[0][host];
+    const auto [ring, edge, part] = *course.edge->roof;
+    std::size_t host = edge;  // lines are numbered as edges, ring by ring
+    for (std::size_t r = 0; r < ring; ++r) host += footprint_.rings[r].size();
+    course.edge = &footprint_.rings[ring][edge];
     course.track = &footprint_.tracks[course.edge->track];
     wave_.lines[line].motions = wave_.lines[host].motions;
   }

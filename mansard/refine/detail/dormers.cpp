@@ -9,6 +9,7 @@
 
 #include "mansard/base/statistics.hpp"
 #include "mansard/refine/detail/forms.hpp"
+#include "mansard/refine/detail/normal_curve.hpp"
 #include "mansard/refine/detail/order.hpp"
 
 namespace mansard::refine::detail {
@@ -78,10 +79,6 @@ struct Box {
 /// m: the standard deviation of what a scan smooths, of which `melt` is the reach.
 auto blur_of(const Options& options) -> double { return options.samples.melt / std::numbers::sqrt2; }
 
-/// Below a standard normal curve, up to x.
-auto up_to(double x) -> double { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
-auto density(double x) -> double { return std::exp(-x * x / 2) / std::sqrt(2 * std::numbers::pi); }
-
 /// What a scan shows of a box above its slope, m: the box smoothed by a normal curve.
 class Shown {
  public:
@@ -95,7 +92,7 @@ class Shown {
     const double wide = box_.width() / strips_;
     for (int k = 0; k < strips_; ++k) {
       const double from = box_.left + k * wide;
-      const double share = up_to((from + wide - u) / blur_) - up_to((from - u) / blur_);
+      const double share = normal_curve.below((from + wide - u) / blur_) - normal_curve.below((from - u) / blur_);
       if (share > 1e-4) sum += share * ramp(v, box_.pitch > 0 ? box_.own(from + wide / 2) : box_.eaves);
     }
     return sum;
@@ -107,7 +104,8 @@ class Shown {
     const double end = (height - slope_.gutter) / slope_.slope;
     if (end <= box_.front) return 0;
     const double from = (box_.front - v) / blur_, to = (end - v) / blur_;
-    return (height - slope_.at(v)) * (up_to(to) - up_to(from)) - slope_.slope * blur_ * (density(from) - density(to));
+    return (height - slope_.at(v)) * (normal_curve.below(to) - normal_curve.below(from)) -
+           slope_.slope * blur_ * (normal_curve.density(from) - normal_curve.density(to));
   }
 
   const Box& box_;
@@ -248,6 +246,8 @@ auto built(const Box& box, const Slope& slope, double base, double gain, const O
   out.ring = slope.ring;
   out.edge = slope.edge;
   out.gain = gain;
+  out.eaves = box.eaves;
+  out.pitch = box.pitch;
   out.back = from_there(slope, back);
   out.plan.outer.points = {slope.place(box.left, box.front), slope.place(box.right, box.front),
                            slope.place(box.right, back), slope.place(box.left, back)};
@@ -367,6 +367,27 @@ auto dormers_on(const Judged& judged, const Site& site, const Options& options, 
       out.push_back(std::move(dormer));
   }
   return out;
+}
+
+void paint(const Dormer& dormer, const Heights& grid, std::vector<double>& z) {
+  const auto& p = dormer.plan.outer.points;  // front left, front right, back right, back left
+  const Point2 along = geometry::normalised(p[1] - p[0]), inward = geometry::left_of(along);
+  const double width = dot(p[1] - p[0], along), depth = dot(p[3] - p[0], inward);
+  const auto box = geometry::bounds(p);
+  const auto index = [&grid](double at, double origin, std::size_t count) {
+    return static_cast<std::size_t>(
+        std::clamp(std::ceil((at - origin) / grid.spacing), 0.0, static_cast<double>(count)));
+  };
+  const std::size_t last_row = index(box.most.y, grid.origin.y, grid.rows);
+  const std::size_t last_column = index(box.most.x, grid.origin.x, grid.columns);
+  for (std::size_t row = index(box.least.y, grid.origin.y, grid.rows); row < last_row; ++row)
+    for (std::size_t column = index(box.least.x, grid.origin.x, grid.columns); column < last_column; ++column) {
+      const Point2 at = grid.centre(column, row) - p[0];
+      const double u = dot(at, along), v = dot(at, inward);
+      if (u < 0 || u > width || v < 0 || v > depth) continue;
+      double& height = z[row * grid.columns + column];
+      height = std::max(height, dormer.eaves + dormer.pitch * (width / 2 - std::abs(u - width / 2)));
+    }
 }
 
 auto straightened(const Judged& judged, const Site& site) -> std::optional<Plan> {

@@ -234,58 +234,96 @@ auto Work::tried(const Piece& piece, const Proposal& proposal, double worth) con
   return out;
 }
 
-/// The roof was fitted to what stands on it, too: looked for again without that.
-void Work::without_dormers_of(Piece& piece, Judged& roof) const {
-  if (const auto plan = straightened(roof, piece.site))
-    if (const auto plain = Judge(piece.site, options_, raising_, run_)(*plan)) {
-      const auto dormers = dormers_on(*plain, piece.site, options_, Where::anywhere);
+/// The roof was fitted to what stands on it, too: looked for again without that. None where nothing stands on it.
+auto Work::beside_dormers(const Piece& piece) const -> std::optional<Piece> {
+  Piece out = piece;
+  Judged& roof = out.roof;
+  const auto take_away = [&](Judged other, Site without) {
+    roof = std::move(other);
+    if (!out.whole) out.whole = std::move(out.site);
+    out.site = std::move(without);
+  };
+  if (const auto plan = straightened(roof, out.site))
+    if (const auto plain = Judge(out.site, options_, raising_, run_)(*plan)) {
+      const auto dormers = dormers_on(*plain, out.site, options_, Where::anywhere);
       double cost = options_.face_price * static_cast<double>(dormers.size());
       for (const auto& dormer : dormers) cost += dormer.rest;
-      Site without = detail::without_dormers(piece.site, dormers, options_.samples.melt, options_);
+      Site without = detail::without_dormers(out.site, dormers, options_.samples.melt, options_);
       if (!dormers.empty() && !without.cells.empty())
         if (auto moved = Judge(without, options_, raising_, run_)(refitted(*plain, without, options_));
-            moved && cheaper(moved->cost + cost, roof.cost)) {
-          roof = std::move(*moved);
-          piece.whole = std::move(piece.site);
-          piece.site = std::move(without);
-        }
+            moved && cheaper(moved->cost + cost, roof.cost))
+          take_away(std::move(*moved), std::move(without));
     }
   constexpr int rounds = 2;  // a better roof shows more of them
   for (int round = 0; round < rounds; ++round) {
-    const Site& all = piece.whole ? *piece.whole : piece.site;
-    const auto dormers = dormers_on(roof, all, options_, Where::anywhere);
-    if (dormers.empty()) return;
-    Site without = detail::without_dormers(piece.site, dormers, options_.samples.melt, options_);
-    if (without.cells.empty()) return;
+    const auto dormers = dormers_on(roof, out.whole ? *out.whole : out.site, options_, Where::anywhere);
+    if (dormers.empty()) break;
+    Site without = detail::without_dormers(out.site, dormers, options_.samples.melt, options_);
+    if (without.cells.empty()) break;
     auto moved = Judge(without, options_, raising_, run_)(refitted(roof, without, options_));
-    auto again = roofed(piece.draft_index, without, piece.draft);
-    if (moved) roof = std::move(*moved);
-    if (again && (!moved || cheaper(again->roof.cost, roof.cost))) roof = std::move(again->roof);
-    if (!piece.whole) piece.whole = std::move(piece.site);
-    piece.site = std::move(without);
+    auto again = roofed(out.draft_index, without, out.draft);
+    Judged best = moved ? std::move(*moved) : roof;
+    if (again && (!moved || cheaper(again->roof.cost, best.cost))) best = std::move(again->roof);
+    take_away(std::move(best), std::move(without));
   }
+  if (!out.whole) return std::nullopt;
+  roof = sharpened(std::move(roof), Judge(out.site, options_, raising_, run_));
+  return out;
+}
+
+/// The dormers that can be built on the roof of a piece that is beside them and are worth it, and what roof and dormers
+/// cost together on all of the ground, m²·m².
+auto Work::dormers_of(const Piece& piece) const -> std::pair<std::vector<Dormer>, double> {
+  const Judge judge(*piece.whole, options_, raising_, run_);
+  auto z = piece.roof.view.z;  // both sites have one grid
+  double misfit = judge.misfit_of(z), cost = piece.roof.cost - piece.roof.misfit;
+  std::vector<Dormer> out;
+  for (auto& dormer : dormers_on(piece.roof, *piece.whole, options_)) {
+    auto with = z;
+    paint(dormer, piece.whole->measured, with);
+    const double then = judge.misfit_of(with);
+    if (!cheaper(then + options_.dormers.price, misfit)) continue;
+    z = std::move(with);
+    misfit = then;
+    cost += options_.dormers.price;
+    out.push_back(std::move(dormer));
+  }
+  return {std::move(out), cost + misfit};
 }
 
 auto Work::finished(Piece piece) const -> Piece {
   const bool keep = options_.effort == Effort::caps || piece.site.cells.empty() ||
                     piece.roof.wrong() < options_.face_price || run_.cancelled();
   if (keep) return piece;
-  auto roof = piece.roof;
-  if (options_.effort == Effort::parts && options_.dormers.price > 0 && roof.misfit >= options_.dormers.price)
-    without_dormers_of(piece, roof);
-  auto sharp = sharpened(std::move(roof), Judge(piece.site, options_, raising_, run_));
-  if (sharp.plan == piece.roof.plan) return piece;
-  auto raised = extrude::raise(sharp.plan, raising_, run_);
-  if (!raised || raised->outcome != extrude::Outcome::full) return piece;
-  piece.roof = std::move(sharp);
-  piece.raised = std::move(*raised);
-  return piece;
+  const auto in_full = [&](const Judged& roof) -> std::optional<extrude::Raised> {
+    auto raised = extrude::raise(roof.plan, raising_, run_);
+    if (!raised || raised->outcome != extrude::Outcome::full) return std::nullopt;
+    return std::move(*raised);
+  };
+  auto sharp = sharpened(piece.roof, Judge(piece.site, options_, raising_, run_));
+  const double plain_cost = sharp.cost;
+  std::optional<Piece> beside;
+  if (options_.effort == Effort::parts && options_.dormers.price > 0 && piece.roof.misfit >= options_.dormers.price)
+    beside = beside_dormers(piece);
+  if (sharp.plan != piece.roof.plan)
+    if (auto raised = in_full(sharp)) {
+      piece.roof = std::move(sharp);
+      piece.raised = std::move(*raised);
+    }
+  if (!beside) return piece;
+  const auto [dormers, cost] = dormers_of(*beside);
+  if (dormers.empty() || !cheaper(cost, plain_cost)) return piece;
+  auto raised = in_full(beside->roof);
+  if (!raised) return piece;
+  beside->raised = std::move(*raised);
+  beside->plain = std::make_shared<Piece>(std::move(piece));
+  return std::move(*beside);
 }
 
 auto Work::with_dormers(Piece piece) const -> std::vector<Piece> {
   std::vector<Piece> out;
   if (piece.whole && !run_.cancelled()) {
-    for (const auto& dormer : dormers_on(piece.roof, *piece.whole, options_)) {
+    for (const auto& dormer : dormers_of(piece).first) {
       auto holed = with_hole(piece.roof.plan, dormer);
       auto host = raised(holed), own = raised(dormer.plan);
       if (!host || host->outcome != extrude::Outcome::full || !own || own->outcome != extrude::Outcome::full) continue;
@@ -295,6 +333,7 @@ auto Work::with_dormers(Piece piece) const -> std::vector<Piece> {
       part.roof.plan = dormer.plan;
       out.push_back(std::move(part));
     }
+    if (out.empty()) piece = std::move(*piece.plain);
   }
   out.insert(out.begin(), std::move(piece));
   return out;
