@@ -234,53 +234,67 @@ auto Work::tried(const Piece& piece, const Proposal& proposal, double worth) con
   return out;
 }
 
-/// The roof was fitted to what stands on it, too: looked for again without that. None where nothing stands on it.
+/// The roof was fitted to what stands on it, too: looked for again without that, until roof and dormers together cost
+/// no less. None where nothing stands on it.
 auto Work::beside_dormers(const Piece& piece) const -> std::optional<Piece> {
-  Piece out = piece;
-  Judged& roof = out.roof;
-  const auto take_away = [&](Judged other, Site without) {
-    roof = std::move(other);
-    if (!out.whole) out.whole = std::move(out.site);
-    out.site = std::move(without);
+  struct Found {
+    Judged roof;
+    Site without;
+    double cost = std::numeric_limits<double>::infinity();
   };
-  if (const auto plan = straightened(roof, out.site))
-    if (const auto plain = Judge(out.site, options_, raising_, run_)(*plan)) {
-      const auto dormers = dormers_on(*plain, out.site, options_, Where::anywhere);
-      double cost = options_.face_price * static_cast<double>(dormers.size());
-      for (const auto& dormer : dormers) cost += dormer.rest;
-      Site without = detail::without_dormers(out.site, dormers, options_.samples.melt, options_);
-      if (!dormers.empty() && !without.cells.empty())
-        if (auto moved = Judge(without, options_, raising_, run_)(refitted(*plain, without, options_));
-            moved && cheaper(moved->cost + cost, roof.cost))
-          take_away(std::move(*moved), std::move(without));
-    }
-  constexpr int rounds = 2;  // a better roof shows more of them
-  for (int round = 0; round < rounds; ++round) {
-    const auto dormers = dormers_on(roof, out.whole ? *out.whole : out.site, options_, Where::anywhere);
-    if (dormers.empty()) break;
-    Site without = detail::without_dormers(out.site, dormers, options_.samples.melt, options_);
-    if (without.cells.empty()) break;
-    auto moved = Judge(without, options_, raising_, run_)(refitted(roof, without, options_));
-    auto again = roofed(out.draft_index, without, out.draft);
-    Judged best = moved ? std::move(*moved) : roof;
-    if (again && (!moved || cheaper(again->roof.cost, best.cost))) best = std::move(again->roof);
-    take_away(std::move(best), std::move(without));
+  const Site& all = piece.site;
+  std::optional<Found> best;
+  bool better = false;
+  const auto consider = [&](base::Result<Judged> roof, const Site& without) {
+    if (!roof) return;
+    const auto [dormers, cost] = dormers_of(*roof, all);
+    if (dormers.empty() || (best && !cheaper(cost, best->cost))) return;
+    best = Found{std::move(*roof), without, cost};
+    better = true;
+  };
+  const auto try_beside_dormers_of = [&](const Judged& roof, bool thorough) {
+    const auto dormers = dormers_on(roof, all, options_, Where::anywhere);
+    if (dormers.empty()) return;
+    const Site without = detail::without_dormers(all, dormers, options_.samples.melt, options_);
+    if (without.cells.empty()) return;
+    const Judge judge(without, options_, raising_, run_);
+    consider(judge(refitted(roof, without, options_)), without);
+    if (!thorough) return;
+    if (auto again = roofed(piece.draft_index, without, piece.draft)) consider(std::move(again->roof), without);
+  };
+  // In a row of dormers the search has taken the roof for one with a steep foot and a flat top.
+  if (const auto plan = straightened(piece.roof, all))
+    if (const auto plain = Judge(all, options_, raising_, run_)(*plan)) try_beside_dormers_of(*plain, false);
+  try_beside_dormers_of(piece.roof, true);
+  constexpr int rounds = 3;  // a better roof shows more of them
+  for (int round = 0; round < rounds && std::exchange(better, false); ++round) {
+    const Judged roof = best->roof;
+    if (const auto plan = straightened(roof, best->without))
+      if (const auto plain = Judge(best->without, options_, raising_, run_)(*plan))
+        try_beside_dormers_of(*plain, false);
+    try_beside_dormers_of(roof, false);
   }
-  if (!out.whole) return std::nullopt;
-  roof = sharpened(std::move(roof), Judge(out.site, options_, raising_, run_));
+  if (!best) return std::nullopt;
+  auto sharp = sharpened(best->roof, Judge(best->without, options_, raising_, run_));
+  const auto [dormers, cost] = dormers_of(sharp, all);
+  if (!dormers.empty() && cost <= best->cost + options_.face_price) best->roof = std::move(sharp);
+  Piece out = piece;
+  out.roof = std::move(best->roof);
+  out.whole = std::move(out.site);
+  out.site = std::move(best->without);
   return out;
 }
 
-/// The dormers that can be built on the roof of a piece that is beside them and are worth it, and what roof and dormers
-/// cost together on all of the ground, m²·m².
-auto Work::dormers_of(const Piece& piece) const -> std::pair<std::vector<Dormer>, double> {
-  const Judge judge(*piece.whole, options_, raising_, run_);
-  auto z = piece.roof.view.z;  // both sites have one grid
-  double misfit = judge.misfit_of(z), cost = piece.roof.cost - piece.roof.misfit;
+/// The dormers that can be built on a roof and are worth it, and what roof and dormers cost together on all of the
+/// ground, m²·m².
+auto Work::dormers_of(const Judged& roof, const Site& all) const -> std::pair<std::vector<Dormer>, double> {
+  const Judge judge(all, options_, raising_, run_);
+  auto z = roof.view.z;  // the site without dormers has the same grid
+  double misfit = judge.misfit_of(z), cost = roof.cost - roof.misfit;
   std::vector<Dormer> out;
-  for (auto& dormer : dormers_on(piece.roof, *piece.whole, options_)) {
+  for (auto& dormer : dormers_on(roof, all, options_)) {
     auto with = z;
-    paint(dormer, piece.whole->measured, with);
+    paint(dormer, all.measured, with);
     const double then = judge.misfit_of(with);
     if (!cheaper(then + options_.dormers.price, misfit)) continue;
     z = std::move(with);
@@ -311,7 +325,7 @@ auto Work::finished(Piece piece) const -> Piece {
       piece.raised = std::move(*raised);
     }
   if (!beside) return piece;
-  const auto [dormers, cost] = dormers_of(*beside);
+  const auto [dormers, cost] = dormers_of(beside->roof, *beside->whole);
   if (dormers.empty() || !cheaper(cost, plain_cost)) return piece;
   auto raised = in_full(beside->roof);
   if (!raised) return piece;
@@ -323,7 +337,7 @@ auto Work::finished(Piece piece) const -> Piece {
 auto Work::with_dormers(Piece piece) const -> std::vector<Piece> {
   std::vector<Piece> out;
   if (piece.whole && !run_.cancelled()) {
-    for (const auto& dormer : dormers_of(piece).first) {
+    for (const auto& dormer : dormers_of(piece.roof, *piece.whole).first) {
       auto holed = with_hole(piece.roof.plan, dormer);
       auto host = raised(holed), own = raised(dormer.plan);
       if (!host || host->outcome != extrude::Outcome::full || !own || own->outcome != extrude::Outcome::full) continue;
