@@ -326,7 +326,8 @@ auto Work::finished(Piece piece) const -> Piece {
     }
   if (!beside) return piece;
   const auto [dormers, cost] = dormers_of(beside->roof, *beside->whole);
-  if (dormers.empty() || !cheaper(cost, plain_cost)) return piece;
+  // A scan melts dormers: what is as good to within that is said with them, as when planes are sharpened.
+  if (dormers.empty() || !cheaper(cost, plain_cost + options_.face_price)) return piece;
   auto raised = in_full(beside->roof);
   if (!raised) return piece;
   beside->raised = std::move(*raised);
