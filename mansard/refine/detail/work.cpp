@@ -290,19 +290,18 @@ auto Work::beside_dormers(const Piece& piece) const -> std::optional<Piece> {
 auto Work::dormers_of(const Judged& roof, const Site& all) const -> std::pair<std::vector<Dormer>, double> {
   const Judge judge(all, options_, raising_, run_);
   auto z = roof.view.z;  // the site without dormers has the same grid
-  double misfit = judge.misfit_of(z), cost = roof.cost - roof.misfit;
+  double misfit = judge.misfit_of(z);
   std::vector<Dormer> out;
   for (auto& dormer : dormers_on(roof, all, options_)) {
     auto with = z;
     paint(dormer, all.measured, with);
     const double then = judge.misfit_of(with);
-    if (!cheaper(then + options_.dormers.price, misfit)) continue;
+    if (!cheaper(then, misfit)) continue;
     z = std::move(with);
     misfit = then;
-    cost += options_.dormers.price;
     out.push_back(std::move(dormer));
   }
-  return {std::move(out), cost + misfit};
+  return {std::move(out), roof.cost - roof.misfit + misfit};
 }
 
 auto Work::finished(Piece piece) const -> Piece {
