@@ -82,36 +82,52 @@ auto blur_of(const Options& options) -> double { return options.samples.melt / s
 /// What a scan shows of a box above its slope, m: the box smoothed by a normal curve.
 class Shown {
  public:
-  Shown(const Box& box, const Slope& slope, double blur) : box_(box), slope_(slope), blur_(blur) {
-    // A gable as strips of one height: a quarter of a narrow one is less than what a scan smooths.
-    constexpr int most = 8;
-    strips_ = box.pitch > 0 ? most : 1;
+  Shown(const Box& box, const Slope& slope, double blur) : box_(box), slope_(slope), inverse_(1 / blur), blur_(blur) {
+    // A gable as strips of one height, the same on both sides of the ridge: a quarter of a narrow one is less than what
+    // a scan smooths.
+    strips_ = box.pitch > 0 ? most_strips : 1;
+    wide_ = box.width() / strips_;
+    for (int k = 0; k < (strips_ + 1) / 2; ++k) {
+      heights_[k] = box.pitch > 0 ? box_.own(box_.left + (k + 0.5) * wide_) : box_.eaves;
+      ends_[k] = (heights_[k] - slope_.gutter) / slope_.slope;
+    }
   }
   [[nodiscard]] auto operator()(double u, double v) const -> double {
-    double sum = 0;
-    const double wide = box_.width() / strips_;
-    for (int k = 0; k < strips_; ++k) {
-      const double from = box_.left + k * wide;
-      const double share = normal_curve.below((from + wide - u) / blur_) - normal_curve.below((from - u) / blur_);
-      if (share > 1e-4) sum += share * ramp(v, box_.pitch > 0 ? box_.own(from + wide / 2) : box_.eaves);
+    const double first = normal_curve.below((box_.left - u) * inverse_),
+                 last = normal_curve.below((box_.right - u) * inverse_);
+    if (last - first <= least_share) return 0;
+    const double from = (box_.front - v) * inverse_;
+    const double below = normal_curve.below(from), density = normal_curve.density(from);
+    if (strips_ == 1) return (last - first) * ramp(v, 0, below, density);
+    double sum = 0, left = first, right = last;
+    for (int k = 0; k < strips_ / 2; ++k) {
+      const double next = normal_curve.below((box_.left + (k + 1) * wide_ - u) * inverse_);
+      const double before =
+          k + 1 < strips_ / 2 ? normal_curve.below((box_.right - (k + 1) * wide_ - u) * inverse_) : next;
+      const double share = next - left + right - before;
+      if (share > least_share) sum += share * ramp(v, k, below, density);
+      left = next, right = before;
     }
     return sum;
   }
 
  private:
   /// The part of a level roof that is above the slope, from the front to where they meet.
-  [[nodiscard]] auto ramp(double v, double height) const -> double {
-    const double end = (height - slope_.gutter) / slope_.slope;
-    if (end <= box_.front) return 0;
-    const double from = (box_.front - v) / blur_, to = (end - v) / blur_;
-    return (height - slope_.at(v)) * (normal_curve.below(to) - normal_curve.below(from)) -
-           slope_.slope * blur_ * (normal_curve.density(from) - normal_curve.density(to));
+  [[nodiscard]] auto ramp(double v, int k, double below, double density) const -> double {
+    if (ends_[k] <= box_.front) return 0;
+    const double to = (ends_[k] - v) * inverse_;
+    return (heights_[k] - slope_.at(v)) * (normal_curve.below(to) - below) -
+           slope_.slope * blur_ * (density - normal_curve.density(to));
   }
 
+  static constexpr int most_strips = 8;
+  static constexpr double least_share = 1e-4;
   const Box& box_;
   const Slope& slope_;
-  double blur_;
+  double inverse_, blur_;
   int strips_ = 1;
+  double wide_ = 0;
+  std::array<double, most_strips / 2> heights_{}, ends_{};
 };
 
 /// The squared error that is left when the slope, too, may be raised and tilted a little: what it was fitted to was in
@@ -318,6 +334,8 @@ auto best_box(const std::vector<std::uint32_t>& island, const Slope& slope, cons
   std::optional<Box> best;
   double least = infinity;
   for (const double pitch : {0.0, 0.7}) {  // level; a gable, whose pitch a scan of this size does not show
+    // Where a roof is looked for beside it, it is enough to know that there is one.
+    if (where == Where::anywhere && least <= o.max_rest * before) break;
     Box box = best ? *best : start;
     box.pitch = pitch;
     if (best) box.eaves -= pitch * box.width() / 4;
@@ -346,6 +364,13 @@ auto apart(const Dormer& a, const Dormer& b, double by) -> bool {
   return false;
 }
 
+/// Whether an island is what was seen of the dormer, at another height above the slope.
+auto holds(const Dormer& dormer, const std::vector<std::uint32_t>& island, const Site& site) -> bool {
+  const auto polygon = model::polygon_of(dormer.plan);
+  return std::ranges::all_of(
+      island, [&](std::uint32_t cell) { return geometry::contains(polygon, site.measured.centre(cell)); });
+}
+
 }  // namespace
 
 auto dormers_on(const Judged& judged, const Site& site, const Options& options, Where where) -> std::vector<Dormer> {
@@ -357,6 +382,7 @@ auto dormers_on(const Judged& judged, const Site& site, const Options& options, 
     for (const double above : {o.min_rise / 2, o.min_rise})  // in a row of dormers a scan fills what is between them
       for (const auto& island : islands(judged, site, slope, above)) {
         if (static_cast<double>(island.size()) * site.cell_area < least) continue;
+        if (std::ranges::any_of(found, [&](const Dormer& dormer) { return holds(dormer, island, site); })) continue;
         if (auto dormer = best_box(island, slope, judged, site, above, where, options))
           found.push_back(std::move(*dormer));
       }

@@ -235,8 +235,8 @@ auto Work::tried(const Piece& piece, const Proposal& proposal, double worth) con
 }
 
 /// The roof was fitted to what stands on it, too: looked for again without that, until roof and dormers together cost
-/// no less. None where nothing stands on it.
-auto Work::beside_dormers(const Piece& piece) const -> std::optional<Piece> {
+/// no less. None where nothing stands on it, or that costs more than `most`.
+auto Work::beside_dormers(const Piece& piece, double most) const -> std::optional<Piece> {
   struct Found {
     Judged roof;
     Site without;
@@ -249,8 +249,8 @@ auto Work::beside_dormers(const Piece& piece) const -> std::optional<Piece> {
     if (!roof) return;
     const auto [dormers, cost] = dormers_of(*roof, all);
     if (dormers.empty() || (best && !cheaper(cost, best->cost))) return;
+    better = better || !best || cost < best->cost - options_.dormers.price;
     best = Found{std::move(*roof), without, cost};
-    better = true;
   };
   const auto try_beside_dormers_of = [&](const Judged& roof, bool thorough) {
     const auto dormers = dormers_on(roof, all, options_, Where::anywhere);
@@ -274,10 +274,12 @@ auto Work::beside_dormers(const Piece& piece) const -> std::optional<Piece> {
         try_beside_dormers_of(*plain, false);
     try_beside_dormers_of(roof, false);
   }
-  if (!best) return std::nullopt;
+  if (!best || !cheaper(best->cost, most)) return std::nullopt;
   auto sharp = sharpened(best->roof, Judge(best->without, options_, raising_, run_));
-  const auto [dormers, cost] = dormers_of(sharp, all);
-  if (!dormers.empty() && cost <= best->cost + options_.face_price) best->roof = std::move(sharp);
+  if (sharp.plan != best->roof.plan)
+    if (const auto [dormers, cost] = dormers_of(sharp, all);
+        !dormers.empty() && cost <= best->cost + options_.face_price && cheaper(cost, most))
+      best->roof = std::move(sharp);
   Piece out = piece;
   out.roof = std::move(best->roof);
   out.whole = std::move(out.site);
@@ -314,19 +316,17 @@ auto Work::finished(Piece piece) const -> Piece {
     return std::move(*raised);
   };
   auto sharp = sharpened(piece.roof, Judge(piece.site, options_, raising_, run_));
-  const double plain_cost = sharp.cost;
+  // A scan melts dormers: what is as good to within that is said with them, as when planes are sharpened.
+  const double most = sharp.cost + options_.face_price;
   std::optional<Piece> beside;
   if (options_.effort == Effort::parts && options_.dormers.price > 0 && piece.roof.misfit >= options_.dormers.price)
-    beside = beside_dormers(piece);
+    beside = beside_dormers(piece, most);
   if (sharp.plan != piece.roof.plan)
     if (auto raised = in_full(sharp)) {
       piece.roof = std::move(sharp);
       piece.raised = std::move(*raised);
     }
   if (!beside) return piece;
-  const auto [dormers, cost] = dormers_of(beside->roof, *beside->whole);
-  // A scan melts dormers: what is as good to within that is said with them, as when planes are sharpened.
-  if (dormers.empty() || !cheaper(cost, plain_cost + options_.face_price)) return piece;
   auto raised = in_full(beside->roof);
   if (!raised) return piece;
   beside->raised = std::move(*raised);

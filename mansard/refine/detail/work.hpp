@@ -87,7 +87,7 @@ class Work {
   [[nodiscard]] auto cancelled() const -> bool { return run_.cancelled(); }
 
  private:
-  [[nodiscard]] auto beside_dormers(const Piece& piece) const -> std::optional<Piece>;
+  [[nodiscard]] auto beside_dormers(const Piece& piece, double most) const -> std::optional<Piece>;
   [[nodiscard]] auto dormers_of(const Judged& roof, const Site& all) const -> std::pair<std::vector<Dormer>, double>;
   [[nodiscard]] auto with_ceilings(Site site) const -> Site;
   [[nodiscard]] auto both_of(const Piece& a, const Piece& b, const geometry::Polygon& both) const -> Site;
