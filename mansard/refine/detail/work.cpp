@@ -23,6 +23,12 @@ auto square_metres(const Piece& piece) -> std::string {
   return base::to_text(geometry::area(piece.site.polygon), 1) + " m²";
 }
 
+/// In full, and as it was planned: a solid that only a nudge makes a manifold has strips and needles there.
+auto is_sound(const base::Result<extrude::Raised>& raised) -> bool {
+  return raised && raised->outcome == extrude::Outcome::full &&
+         std::ranges::none_of(raised->warnings, [](const auto& warning) { return warning.code == "extrude-nudged"; });
+}
+
 }  // namespace
 
 auto Work::look(const geometry::Polygon& polygon, double base) const -> Site {
@@ -248,7 +254,7 @@ auto Work::beside_dormers(const Piece& piece, double most) const -> std::optiona
   const auto consider = [&](base::Result<Judged> roof, const Site& without) {
     if (!roof) return;
     const auto [dormers, cost] = dormers_of(*roof, all);
-    if (dormers.empty() || (best && !cheaper(cost, best->cost))) return;
+    if (dormers.empty() || (best && !cheaper(cost, best->cost)) || !is_sound(raised(roof->plan))) return;
     better = better || !best || cost < best->cost - options_.dormers.price;
     best = Found{std::move(*roof), without, cost};
   };
@@ -277,8 +283,9 @@ auto Work::beside_dormers(const Piece& piece, double most) const -> std::optiona
   if (!best || !cheaper(best->cost, most)) return std::nullopt;
   auto sharp = sharpened(best->roof, Judge(best->without, options_, raising_, run_));
   if (sharp.plan != best->roof.plan)
-    if (const auto [dormers, cost] = dormers_of(sharp, all);
-        !dormers.empty() && cost <= best->cost + options_.face_price && cheaper(cost, most))
+    if (const auto [dormers, cost] = dormers_of(sharp, all); !dormers.empty() &&
+                                                             cost <= best->cost + options_.face_price &&
+                                                             cheaper(cost, most) && is_sound(raised(sharp.plan)))
       best->roof = std::move(sharp);
   Piece out = piece;
   out.roof = std::move(best->roof);
@@ -340,7 +347,7 @@ auto Work::with_dormers(Piece piece) const -> std::vector<Piece> {
     for (const auto& dormer : dormers_of(piece.roof, *piece.whole).first) {
       auto holed = with_hole(piece.roof.plan, dormer);
       auto host = raised(holed), own = raised(dormer.plan);
-      if (!host || host->outcome != extrude::Outcome::full || !own || own->outcome != extrude::Outcome::full) continue;
+      if (!is_sound(host) || !is_sound(own)) continue;
       piece.roof.plan = std::move(holed);
       piece.raised = std::move(*host);
       Piece part{piece.draft_index, {}, {}, {}, std::move(*own), {"a part of its own: a dormer"}};
