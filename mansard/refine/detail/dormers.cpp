@@ -311,7 +311,9 @@ auto best_box(const std::vector<std::uint32_t>& island, const Slope& slope, cons
     if (s.u > start.left - reach && s.u < start.right + reach && s.v > start.front - reach && s.v < last + reach)
       samples.push_back(s);
   }
-  start.front -= site.measured.spacing;  // a scan's front leans back
+  const double all = error_of(samples, slope, nullptr, 0);
+  if (all * site.cell_area < o.price) return std::nullopt;  // no box saves more than there is
+  start.front -= site.measured.spacing;                     // a scan's front leans back
   start.eaves = base::percentile(std::move(heights), 0.8);
   start.eaves = std::max(start.eaves, slope.at(start.front) + o.min_rise);
   // Scans of the same grid are smoothed by unlike lengths.
@@ -322,6 +324,9 @@ auto best_box(const std::vector<std::uint32_t>& island, const Slope& slope, cons
     if (const double error = error_of(samples, slope, &box, may_be); error < least_rough)
       rough = box, blur = may_be, least_rough = error;
   }
+  // What is left out below is seldom most of it.
+  constexpr double hopeless = 0.75;
+  if (least_rough > hopeless * all) return std::nullopt;
   // What stands out of both, a chimney beside it, belongs to neither, if it is little.
   const Shown shown(rough, slope, blur);
   std::vector<Sample> clean;
