@@ -152,7 +152,8 @@ void level_pinned(model::LabelledSolid& model, const std::vector<std::uint8_t>& 
 }
 
 /// Corners of one roof alone, where its other faces are walls, put back into its plane in height: merging points has
-/// moved them in plan. Only where the roof is not planar; its plane is that of most of its corners.
+/// moved them in plan. Only where a roof with holes is not planar, which would be cut into many triangles; its plane is
+/// that of most of its corners.
 void level_corners(model::LabelledSolid& model, double planar) {
   constexpr double most = 2e-3;  // m
   auto& [solid, classes] = model;
@@ -164,7 +165,7 @@ void level_corners(model::LabelledSolid& model, double planar) {
   std::vector<double> offsets;
   for (std::size_t f = 0; f < solid.faces.size(); ++f) {
     const model::Face& face = solid.faces[f];
-    if (classes[f] != model::FaceClass::roof || face.normal.z < 1e-3) continue;
+    if (classes[f] != model::FaceClass::roof || face.normal.z < 1e-3 || face.loops.size() < 2) continue;
     if (fitted_plane(solid, face).furthest <= planar) continue;
     offsets.clear();
     for (const auto& loop : face.loops)
