@@ -73,12 +73,16 @@ auto attempt(const detail::Source& source, const model::Plan& plan, const Option
              std::vector<base::Diagnostic>& warnings, std::string& why) -> std::optional<Sound> {
   auto footprint = detail::canonical(source, options, why);
   if (!footprint) return std::nullopt;
+  // Nudges are made of the footprint as it was: what they move has to be put on one plane again.
+  auto outline = footprint;
+  if (auto on_one_plane = detail::continued(*footprint)) footprint = std::move(on_one_plane);
   auto solid = tried(*footprint, plan, options, run, nullptr, why);
   // Vertical walls that meet in a line exactly: the right answer is not a manifold. A little less or more parts them.
   for (int nudge = 0; !solid && nudge < detail::most_nudges && !run.cancelled(); ++nudge) {
     std::string how, reason;
-    auto other = detail::nudged(*footprint, nudge, options, how);
+    auto other = detail::nudged(*outline, nudge, options, how);
     if (!other) continue;
+    if (auto on_one_plane = detail::continued(*other, other->moved - outline->moved)) other = std::move(on_one_plane);
     solid = tried(*other, plan, options, run, nullptr, reason);
     if (!solid) continue;
     warnings.push_back(base::warning("extrude-nudged", how.append(": ").append(why)));
@@ -106,8 +110,11 @@ auto after_sweep(const model::Plan& plan, const Options& options, const base::Ru
   if (!source) return source.error();
   std::string why;
   try {
-    if (const detail::Footprint* footprint = detail::canonical_outline(*source, options, why))
+    if (const detail::Footprint* footprint = detail::canonical_outline(*source, options, why)) {
+      const auto on_one_plane = detail::continued(*footprint);
+      if (on_one_plane) footprint = &*on_one_plane;
       return use(*footprint, detail::sweep(*footprint, detail::on_grid(plan.cap), run));
+    }
   } catch (const detail::Broken& broken) {
     why = broken.what();
   }

@@ -13,7 +13,7 @@ constexpr const char* decision_16 = "docs/decisions/0016-roof-steps.md";
 constexpr const char* decision_17 = "docs/decisions/0017-setbacks-by-measured-error.md";
 constexpr const char* decision_39 = "docs/decisions/0039-alike-what-is-alike.md";
 constexpr const char* decision_41 = "docs/decisions/0041-faces-want-evidence.md";
-constexpr const char* decision_42 = "docs/decisions/0042-dormers.md";
+constexpr const char* decision_87 = "docs/decisions/0087-dormers-by-default.md";
 constexpr const char* decision_47 = "docs/decisions/0047-moderate-detail.md";
 constexpr const char* decision_86 = "docs/decisions/0086-tall-parts-and-crowns.md";
 
@@ -420,7 +420,7 @@ void add_dormers(OptionList& list, Options::Dormers& o) {
           "dormers_price", o.price, "m²·m²", {0, 1e9},
           "A dormer must reduce the sum of squared differences by this much; 0 looks for none. It is a few numbers on "
           "a slope, so it is cheaper than a part.")
-      .advanced(decision_42)
+      .advanced(decision_87)
       .number("dormers_min_width", o.min_width, "m", positive_length, "The minimum width of a dormer.")
       .advanced("dormers of 1.2 m and more, less half a sample")
       .number("dormers_max_width", o.max_width, "m", positive_length,
@@ -437,7 +437,7 @@ void add_dormers(OptionList& list, Options::Dormers& o) {
       .number(
           "dormers_max_rest", o.max_rest, "", share,
           "Share of the squared difference from the slope that a dormer may leave; a tree or a chimney leaves more.")
-      .advanced(decision_42)
+      .advanced(decision_87)
       .number("dormers_gable_gain", o.gable_gain, "", share,
               "A dormer is gabled where that leaves less than this share of the error of a level one.")
       .advanced(by_hand);

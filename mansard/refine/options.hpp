@@ -194,14 +194,14 @@ struct Options {
 
   /// Dormers on slopes, parts of their own (dormers).
   struct Dormers {
-    double price = 0;        ///< m² · m²; 0: no dormers
+    double price = 0.15;     ///< m² · m²; 0: no dormers
     double min_width = 1.1;  ///< m
     double max_width = 5;    ///< m
     double min_rise = 0.6;   ///< m
     double max_rise = 3;     ///< m
     double min_slope = 0.25;
     double max_slope = 2;
-    double max_rest = 0.5;
+    double max_rest = 0.25;
     double gable_gain = 0.8;
   } dormers;
 

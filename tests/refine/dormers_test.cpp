@@ -93,6 +93,25 @@ TEST(Dormers, that_a_scan_melts_are_found_where_they_are) {
   }
 }
 
+TEST(Dormers, leave_one_face_of_the_slope_around_and_behind_them) {
+  const auto parts = refined({gabled(), box(12, 1.6, 1.4), box(16, 1.6, 1.4)});
+  ASSERT_THAT(parts, SizeIs(3));
+  std::size_t slopes = 0, loops = 0;
+  for (const auto& face : parts[0].raised.solid.faces)
+    if (face.normal.z > 0.1) ++slopes, loops += face.loops.size();
+  EXPECT_EQ(slopes, 2U);
+  EXPECT_EQ(loops, 4U);  // both holes are in one of them
+}
+
+TEST(Dormers, that_are_none_leave_the_roof_as_it_is) {
+  const auto looked_for = refined({gabled(), box(12, 0.6, 1.4)}),
+             not_looked_for = refined({gabled(), box(12, 0.6, 1.4)}, options_at(0));
+  ASSERT_THAT(looked_for, SizeIs(1));
+  EXPECT_EQ(looked_for[0].plan, not_looked_for[0].plan);
+}
+
+TEST(Dormers, are_looked_for_by_default) { EXPECT_THAT(refined({gabled(), box(12, 1.6, 1.4)}, {}), SizeIs(2)); }
+
 TEST(Dormers, cost_what_they_must_explain) {
   EXPECT_THAT(refined({gabled(), box(12, 1.6, 1.4)}, options_at(100)), SizeIs(1));
   EXPECT_THAT(refined({gabled(), box(12, 1.6, 1.4)}, options_at(0)), SizeIs(1));

@@ -37,12 +37,19 @@ struct CanonicalProfile {
 /// All runs between knots less by `parts` 4096ths, and on the grid again.
 void shorten_runs(Track& track, int parts);
 
+/// What a hole's edge goes on with above its wall: the roof of another edge, from a part of its track on.
+struct Continues {
+  std::uint32_t ring = 0, edge = 0, part = 0;
+  friend auto operator==(const Continues&, const Continues&) -> bool = default;
+};
+
 struct CanonicalEdge {
   Direction direction;
   Rational offset;  ///< n · x = offset on the edge's line, n = direction turned left, from the footprint's origin
   std::uint32_t track = 0;
-  model::Provenance provenance;     ///< part is not used here
-  std::optional<ExactPoint> joint;  ///< the start point where the predecessor lies on the same line
+  model::Provenance provenance;        ///< part is not used here
+  std::optional<ExactPoint> joint;     ///< the start point where the predecessor lies on the same line
+  std::optional<Continues> roof = {};  ///< set by continued() alone
 };
 
 /// What the canonicaliser did.
@@ -89,6 +96,11 @@ struct Source {
 inline constexpr int most_nudges = 6;
 [[nodiscard]] auto nudged(const Footprint& footprint, int attempt, const Options& options, std::string& how)
     -> std::optional<Footprint>;
+
+/// With the edges of holes whose roof is, to within 2 mm, what the slope of another edge does behind them, the
+/// outline's or a courtyard's: moved to where they begin exactly in that slope's plane, which need not be a multiple of
+/// the grid. Nothing where there are none. `moved`: m, that lines were moved before, each by another distance.
+[[nodiscard]] auto continued(const Footprint& footprint, double moved = 0) -> std::optional<Footprint>;
 
 /// The corner where two lines meet that are not parallel.
 [[nodiscard]] auto corner_of(const CanonicalEdge& before, const CanonicalEdge& after) -> ExactPoint;

@@ -90,8 +90,7 @@ class Sweep {
         // Where a roof overhangs, the sweep begins with it.
         const std::uint32_t begins = overhangs(r, static_cast<std::size_t>(&edge - ring.data())) ? 1 : 0;
         enter(index, begins);
-        for (std::uint32_t part = begins + 1; part < courses_.back().track->size(); ++part)
-          knots_.push_back({whole_quanta((*courses_.back().track)[part].height), index, part});
+        add_knots(index, begins);
         wave_.create(index, face_of(index));
       }
       for (std::uint32_t i = 0; i < size; ++i) {
@@ -107,6 +106,32 @@ class Sweep {
     }
     std::ranges::sort(knots_);
     for (const std::uint32_t i : wave_.alive()) wave_.changed(i);
+  }
+
+  /// Where a hole's edge goes on with another's roof, its knots after the first are the other's.
+  void add_knots(std::uint32_t line, std::uint32_t begins) {
+    const Course& course = courses_[line];
+    if (const auto& roof = course.edge->roof) {
+      knots_.push_back({whole_quanta((*course.track)[1].height), line, roof->part});
+      const Track& track = footprint_.tracks[footprint_.rings[roof->ring][roof->edge].track];
+      for (std::uint32_t part = roof->part + 1; part < track.size(); ++part)
+        knots_.push_back({whole_quanta(track[part].height), line, part});
+      return;
+    }
+    for (std::uint32_t part = begins + 1; part < course.track->size(); ++part)
+      knots_.push_back({whole_quanta((*course.track)[part].height), line, part});
+  }
+
+  /// At its first knot such an edge becomes the other: they coincide for ever, and so do their faces.
+  void go_on(std::uint32_t line) {
+    Course& course = courses_[line];
+    if (!course.edge->roof) return;
+    const auto [ring, edge, part] = *course.edge->roof;
+    std::size_t host = edge;  // lines are numbered as edges, ring by ring
+    for (std::size_t r = 0; r < ring; ++r) host += footprint_.rings[r].size();
+    course.edge = &footprint_.rings[ring][edge];
+    course.track = &footprint_.tracks[course.edge->track];
+    wave_.lines[line].motions = wave_.lines[host].motions;
   }
 
   [[nodiscard]] auto overhangs(std::size_t ring, std::size_t edge) const -> bool {
@@ -270,6 +295,7 @@ class Sweep {
     bool terraces = false;
     for (; knot_ < knots_.size() && knots_[knot_].height == wave_.height; ++knot_) {
       const Knot& k = knots_[knot_];
+      go_on(k.line);
       if ((*courses_[k.line].track)[k.part].horizontal) {
         courses_[k.line].part = k.part;
         terraces = true;

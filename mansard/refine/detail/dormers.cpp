@@ -9,6 +9,7 @@
 
 #include "mansard/base/statistics.hpp"
 #include "mansard/refine/detail/forms.hpp"
+#include "mansard/refine/detail/normal_curve.hpp"
 #include "mansard/refine/detail/order.hpp"
 
 namespace mansard::refine::detail {
@@ -78,42 +79,55 @@ struct Box {
 /// m: the standard deviation of what a scan smooths, of which `melt` is the reach.
 auto blur_of(const Options& options) -> double { return options.samples.melt / std::numbers::sqrt2; }
 
-/// Below a standard normal curve, up to x.
-auto up_to(double x) -> double { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
-auto density(double x) -> double { return std::exp(-x * x / 2) / std::sqrt(2 * std::numbers::pi); }
-
 /// What a scan shows of a box above its slope, m: the box smoothed by a normal curve.
 class Shown {
  public:
-  Shown(const Box& box, const Slope& slope, double blur) : box_(box), slope_(slope), blur_(blur) {
-    // A gable as strips of one height: a quarter of a narrow one is less than what a scan smooths.
-    constexpr int most = 8;
-    strips_ = box.pitch > 0 ? most : 1;
+  Shown(const Box& box, const Slope& slope, double blur) : box_(box), slope_(slope), inverse_(1 / blur), blur_(blur) {
+    // A gable as strips of one height, the same on both sides of the ridge: a quarter of a narrow one is less than what
+    // a scan smooths.
+    strips_ = box.pitch > 0 ? most_strips : 1;
+    wide_ = box.width() / strips_;
+    for (int k = 0; k < (strips_ + 1) / 2; ++k) {
+      heights_[k] = box.pitch > 0 ? box_.own(box_.left + (k + 0.5) * wide_) : box_.eaves;
+      ends_[k] = (heights_[k] - slope_.gutter) / slope_.slope;
+    }
   }
   [[nodiscard]] auto operator()(double u, double v) const -> double {
-    double sum = 0;
-    const double wide = box_.width() / strips_;
-    for (int k = 0; k < strips_; ++k) {
-      const double from = box_.left + k * wide;
-      const double share = up_to((from + wide - u) / blur_) - up_to((from - u) / blur_);
-      if (share > 1e-4) sum += share * ramp(v, box_.pitch > 0 ? box_.own(from + wide / 2) : box_.eaves);
+    const double first = normal_curve.below((box_.left - u) * inverse_),
+                 last = normal_curve.below((box_.right - u) * inverse_);
+    if (last - first <= least_share) return 0;
+    const double from = (box_.front - v) * inverse_;
+    const double below = normal_curve.below(from), density = normal_curve.density(from);
+    if (strips_ == 1) return (last - first) * ramp(v, 0, below, density);
+    double sum = 0, left = first, right = last;
+    for (int k = 0; k < strips_ / 2; ++k) {
+      const double next = normal_curve.below((box_.left + (k + 1) * wide_ - u) * inverse_);
+      const double before =
+          k + 1 < strips_ / 2 ? normal_curve.below((box_.right - (k + 1) * wide_ - u) * inverse_) : next;
+      const double share = next - left + right - before;
+      if (share > least_share) sum += share * ramp(v, k, below, density);
+      left = next, right = before;
     }
     return sum;
   }
 
  private:
   /// The part of a level roof that is above the slope, from the front to where they meet.
-  [[nodiscard]] auto ramp(double v, double height) const -> double {
-    const double end = (height - slope_.gutter) / slope_.slope;
-    if (end <= box_.front) return 0;
-    const double from = (box_.front - v) / blur_, to = (end - v) / blur_;
-    return (height - slope_.at(v)) * (up_to(to) - up_to(from)) - slope_.slope * blur_ * (density(from) - density(to));
+  [[nodiscard]] auto ramp(double v, int k, double below, double density) const -> double {
+    if (ends_[k] <= box_.front) return 0;
+    const double to = (ends_[k] - v) * inverse_;
+    return (heights_[k] - slope_.at(v)) * (normal_curve.below(to) - below) -
+           slope_.slope * blur_ * (density - normal_curve.density(to));
   }
 
+  static constexpr int most_strips = 8;
+  static constexpr double least_share = 1e-4;
   const Box& box_;
   const Slope& slope_;
-  double blur_;
+  double inverse_, blur_;
   int strips_ = 1;
+  double wide_ = 0;
+  std::array<double, most_strips / 2> heights_{}, ends_{};
 };
 
 /// The squared error that is left when the slope, too, may be raised and tilted a little: what it was fitted to was in
@@ -248,6 +262,8 @@ auto built(const Box& box, const Slope& slope, double base, double gain, const O
   out.ring = slope.ring;
   out.edge = slope.edge;
   out.gain = gain;
+  out.eaves = box.eaves;
+  out.pitch = box.pitch;
   out.back = from_there(slope, back);
   out.plan.outer.points = {slope.place(box.left, box.front), slope.place(box.right, box.front),
                            slope.place(box.right, back), slope.place(box.left, back)};
@@ -295,7 +311,9 @@ auto best_box(const std::vector<std::uint32_t>& island, const Slope& slope, cons
     if (s.u > start.left - reach && s.u < start.right + reach && s.v > start.front - reach && s.v < last + reach)
       samples.push_back(s);
   }
-  start.front -= site.measured.spacing;  // a scan's front leans back
+  const double all = error_of(samples, slope, nullptr, 0);
+  if (all * site.cell_area < o.price) return std::nullopt;  // no box saves more than there is
+  start.front -= site.measured.spacing;                     // a scan's front leans back
   start.eaves = base::percentile(std::move(heights), 0.8);
   start.eaves = std::max(start.eaves, slope.at(start.front) + o.min_rise);
   // Scans of the same grid are smoothed by unlike lengths.
@@ -306,6 +324,9 @@ auto best_box(const std::vector<std::uint32_t>& island, const Slope& slope, cons
     if (const double error = error_of(samples, slope, &box, may_be); error < least_rough)
       rough = box, blur = may_be, least_rough = error;
   }
+  // What is left out below is seldom most of it.
+  constexpr double hopeless = 0.75;
+  if (least_rough > hopeless * all) return std::nullopt;
   // What stands out of both, a chimney beside it, belongs to neither, if it is little.
   const Shown shown(rough, slope, blur);
   std::vector<Sample> clean;
@@ -318,6 +339,8 @@ auto best_box(const std::vector<std::uint32_t>& island, const Slope& slope, cons
   std::optional<Box> best;
   double least = infinity;
   for (const double pitch : {0.0, 0.7}) {  // level; a gable, whose pitch a scan of this size does not show
+    // Where a roof is looked for beside it, it is enough to know that there is one.
+    if (where == Where::anywhere && least <= o.max_rest * before) break;
     Box box = best ? *best : start;
     box.pitch = pitch;
     if (best) box.eaves -= pitch * box.width() / 4;
@@ -346,6 +369,13 @@ auto apart(const Dormer& a, const Dormer& b, double by) -> bool {
   return false;
 }
 
+/// Whether an island is what was seen of the dormer, at another height above the slope.
+auto holds(const Dormer& dormer, const std::vector<std::uint32_t>& island, const Site& site) -> bool {
+  const auto polygon = model::polygon_of(dormer.plan);
+  return std::ranges::all_of(
+      island, [&](std::uint32_t cell) { return geometry::contains(polygon, site.measured.centre(cell)); });
+}
+
 }  // namespace
 
 auto dormers_on(const Judged& judged, const Site& site, const Options& options, Where where) -> std::vector<Dormer> {
@@ -357,6 +387,7 @@ auto dormers_on(const Judged& judged, const Site& site, const Options& options, 
     for (const double above : {o.min_rise / 2, o.min_rise})  // in a row of dormers a scan fills what is between them
       for (const auto& island : islands(judged, site, slope, above)) {
         if (static_cast<double>(island.size()) * site.cell_area < least) continue;
+        if (std::ranges::any_of(found, [&](const Dormer& dormer) { return holds(dormer, island, site); })) continue;
         if (auto dormer = best_box(island, slope, judged, site, above, where, options))
           found.push_back(std::move(*dormer));
       }
@@ -367,6 +398,27 @@ auto dormers_on(const Judged& judged, const Site& site, const Options& options, 
       out.push_back(std::move(dormer));
   }
   return out;
+}
+
+void paint(const Dormer& dormer, const Heights& grid, std::vector<double>& z) {
+  const auto& p = dormer.plan.outer.points;  // front left, front right, back right, back left
+  const Point2 along = geometry::normalised(p[1] - p[0]), inward = geometry::left_of(along);
+  const double width = dot(p[1] - p[0], along), depth = dot(p[3] - p[0], inward);
+  const auto box = geometry::bounds(p);
+  const auto index = [&grid](double at, double origin, std::size_t count) {
+    return static_cast<std::size_t>(
+        std::clamp(std::ceil((at - origin) / grid.spacing), 0.0, static_cast<double>(count)));
+  };
+  const std::size_t last_row = index(box.most.y, grid.origin.y, grid.rows);
+  const std::size_t last_column = index(box.most.x, grid.origin.x, grid.columns);
+  for (std::size_t row = index(box.least.y, grid.origin.y, grid.rows); row < last_row; ++row)
+    for (std::size_t column = index(box.least.x, grid.origin.x, grid.columns); column < last_column; ++column) {
+      const Point2 at = grid.centre(column, row) - p[0];
+      const double u = dot(at, along), v = dot(at, inward);
+      if (u < 0 || u > width || v < 0 || v > depth) continue;
+      double& height = z[row * grid.columns + column];
+      height = std::max(height, dormer.eaves + dormer.pitch * (width / 2 - std::abs(u - width / 2)));
+    }
 }
 
 auto straightened(const Judged& judged, const Site& site) -> std::optional<Plan> {

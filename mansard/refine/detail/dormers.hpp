@@ -17,6 +17,7 @@ struct Dormer {
   model::Profile back;               ///< what the slope does behind it, from the back edge of its hole
   double rest = 0;                   ///< m²·m²; of the squared differences around it, what it leaves
   double gain = 0;                   ///< m²·m²; what it takes off the sum of squared differences
+  double eaves = 0, pitch = 0;       ///< m above the base; rise per run of its own roof, towards the middle
 };
 
 enum class Where : std::uint8_t {
@@ -28,6 +29,9 @@ enum class Where : std::uint8_t {
 /// hundred passes over the samples around each.
 [[nodiscard]] auto dormers_on(const Judged& judged, const Site& site, const Options& options,
                               Where where = Where::whole) -> std::vector<Dormer>;
+
+/// Adds the dormer to a roof's heights above the base, by cell of the grid.
+void paint(const Dormer& dormer, const Heights& grid, std::vector<double>& z);
 
 /// The roof with one slope from eaves to ridge where it has several, a row of dormers looks like a mansard from afar.
 /// None where it has no such slopes.

@@ -24,6 +24,12 @@ auto square_metres(const Piece& piece) -> std::string {
   return base::to_text(geometry::area(piece.site.polygon), 1) + " m²";
 }
 
+/// In full, and as it was planned: a solid that only a nudge makes a manifold has strips and needles there.
+auto is_sound(const base::Result<extrude::Raised>& raised) -> bool {
+  return raised && raised->outcome == extrude::Outcome::full &&
+         std::ranges::none_of(raised->warnings, [](const auto& warning) { return warning.code == "extrude-nudged"; });
+}
+
 }  // namespace
 
 auto Work::look(const geometry::Polygon& polygon, double base) const -> Site {
@@ -240,67 +246,121 @@ auto Work::tried(const Piece& piece, const Proposal& proposal, double worth) con
   return out;
 }
 
-/// The roof was fitted to what stands on it, too: looked for again without that.
-void Work::without_dormers_of(Piece& piece, Judged& roof) const {
-  if (const auto plan = straightened(roof, piece.site))
-    if (const auto plain = Judge(piece.site, options_, raising_, run_)(*plan)) {
-      const auto dormers = dormers_on(*plain, piece.site, options_, Where::anywhere);
-      double cost = options_.face_price * static_cast<double>(dormers.size());
-      for (const auto& dormer : dormers) cost += dormer.rest;
-      Site without = detail::without_dormers(piece.site, dormers, options_.samples.melt, options_);
-      if (!dormers.empty() && !without.cells.empty())
-        if (auto moved = Judge(without, options_, raising_, run_)(refitted(*plain, without, options_));
-            moved && cheaper(moved->cost + cost, roof.cost)) {
-          roof = std::move(*moved);
-          piece.whole = std::move(piece.site);
-          piece.site = std::move(without);
-        }
-    }
-  constexpr int rounds = 2;  // a better roof shows more of them
-  for (int round = 0; round < rounds; ++round) {
-    const Site& all = piece.whole ? *piece.whole : piece.site;
+/// The roof was fitted to what stands on it, too: looked for again without that, until roof and dormers together cost
+/// no less. None where nothing stands on it, or that costs more than `most`.
+auto Work::beside_dormers(const Piece& piece, double most) const -> std::optional<Piece> {
+  struct Found {
+    Judged roof;
+    Site without;
+    double cost = std::numeric_limits<double>::infinity();
+  };
+  const Site& all = piece.site;
+  std::optional<Found> best;
+  bool better = false;
+  const auto consider = [&](base::Result<Judged> roof, const Site& without) {
+    if (!roof) return;
+    const auto [dormers, cost] = dormers_of(*roof, all);
+    if (dormers.empty() || (best && !cheaper(cost, best->cost)) || !is_sound(raised(roof->plan))) return;
+    better = better || !best || cost < best->cost - options_.dormers.price;
+    best = Found{std::move(*roof), without, cost};
+  };
+  const auto try_beside_dormers_of = [&](const Judged& roof, bool thorough) {
     const auto dormers = dormers_on(roof, all, options_, Where::anywhere);
     if (dormers.empty()) return;
-    Site without = detail::without_dormers(piece.site, dormers, options_.samples.melt, options_);
+    const Site without = detail::without_dormers(all, dormers, options_.samples.melt, options_);
     if (without.cells.empty()) return;
-    auto moved = Judge(without, options_, raising_, run_)(refitted(roof, without, options_));
-    auto again = roofed(piece.draft_index, without, piece.draft);
-    if (moved) roof = std::move(*moved);
-    if (again && (!moved || cheaper(again->roof.cost, roof.cost))) roof = std::move(again->roof);
-    if (!piece.whole) piece.whole = std::move(piece.site);
-    piece.site = std::move(without);
+    const Judge judge(without, options_, raising_, run_);
+    consider(judge(refitted(roof, without, options_)), without);
+    if (!thorough) return;
+    if (auto again = roofed(piece.draft_index, without, piece.draft)) consider(std::move(again->roof), without);
+  };
+  // In a row of dormers the search has taken the roof for one with a steep foot and a flat top.
+  if (const auto plan = straightened(piece.roof, all))
+    if (const auto plain = Judge(all, options_, raising_, run_)(*plan)) try_beside_dormers_of(*plain, false);
+  try_beside_dormers_of(piece.roof, true);
+  constexpr int rounds = 3;  // a better roof shows more of them
+  for (int round = 0; round < rounds && std::exchange(better, false); ++round) {
+    const Judged roof = best->roof;
+    if (const auto plan = straightened(roof, best->without))
+      if (const auto plain = Judge(best->without, options_, raising_, run_)(*plan))
+        try_beside_dormers_of(*plain, false);
+    try_beside_dormers_of(roof, false);
   }
+  if (!best || !cheaper(best->cost, most)) return std::nullopt;
+  auto sharp = sharpened(best->roof, Judge(best->without, options_, raising_, run_));
+  if (sharp.plan != best->roof.plan)
+    if (const auto [dormers, cost] = dormers_of(sharp, all); !dormers.empty() &&
+                                                             cost <= best->cost + options_.face_price &&
+                                                             cheaper(cost, most) && is_sound(raised(sharp.plan)))
+      best->roof = std::move(sharp);
+  Piece out = piece;
+  out.roof = std::move(best->roof);
+  out.whole = std::move(out.site);
+  out.site = std::move(best->without);
+  return out;
+}
+
+/// The dormers that can be built on a roof and are worth it, and what roof and dormers cost together on all of the
+/// ground, m²·m².
+auto Work::dormers_of(const Judged& roof, const Site& all) const -> std::pair<std::vector<Dormer>, double> {
+  const Judge judge(all, options_, raising_, run_);
+  auto z = roof.view.z;  // the site without dormers has the same grid
+  double misfit = judge.misfit_of(z);
+  std::vector<Dormer> out;
+  for (auto& dormer : dormers_on(roof, all, options_)) {
+    auto with = z;
+    paint(dormer, all.measured, with);
+    const double then = judge.misfit_of(with);
+    if (!cheaper(then, misfit)) continue;
+    z = std::move(with);
+    misfit = then;
+    out.push_back(std::move(dormer));
+  }
+  return {std::move(out), roof.cost - roof.misfit + misfit};
 }
 
 auto Work::finished(Piece piece) const -> Piece {
   const bool keep = options_.effort == Effort::caps || piece.site.cells.empty() ||
                     piece.roof.wrong() < options_.face_price || run_.cancelled();
   if (keep) return piece;
-  auto roof = piece.roof;
-  if (options_.effort == Effort::parts && options_.dormers.price > 0 && roof.misfit >= options_.dormers.price)
-    without_dormers_of(piece, roof);
-  auto sharp = sharpened(std::move(roof), Judge(piece.site, options_, raising_, run_));
-  if (sharp.plan == piece.roof.plan) return piece;
-  auto raised = extrude::raise(sharp.plan, raising_, run_);
-  if (!raised || raised->outcome != extrude::Outcome::full) return piece;
-  piece.roof = std::move(sharp);
-  piece.raised = std::move(*raised);
-  return piece;
+  const auto in_full = [&](const Judged& roof) -> std::optional<extrude::Raised> {
+    auto raised = extrude::raise(roof.plan, raising_, run_);
+    if (!raised || raised->outcome != extrude::Outcome::full) return std::nullopt;
+    return std::move(*raised);
+  };
+  auto sharp = sharpened(piece.roof, Judge(piece.site, options_, raising_, run_));
+  // A scan melts dormers: what is as good to within that is said with them, as when planes are sharpened.
+  const double most = sharp.cost + options_.face_price;
+  std::optional<Piece> beside;
+  if (options_.effort == Effort::parts && options_.dormers.price > 0 && piece.roof.misfit >= options_.dormers.price)
+    beside = beside_dormers(piece, most);
+  if (sharp.plan != piece.roof.plan)
+    if (auto raised = in_full(sharp)) {
+      piece.roof = std::move(sharp);
+      piece.raised = std::move(*raised);
+    }
+  if (!beside) return piece;
+  auto raised = in_full(beside->roof);
+  if (!raised) return piece;
+  beside->raised = std::move(*raised);
+  beside->plain = std::make_shared<Piece>(std::move(piece));
+  return std::move(*beside);
 }
 
 auto Work::with_dormers(Piece piece) const -> std::vector<Piece> {
   std::vector<Piece> out;
   if (piece.whole && !run_.cancelled()) {
-    for (const auto& dormer : dormers_on(piece.roof, *piece.whole, options_)) {
+    for (const auto& dormer : dormers_of(piece.roof, *piece.whole).first) {
       auto holed = with_hole(piece.roof.plan, dormer);
       auto host = raised(holed), own = raised(dormer.plan);
-      if (!host || host->outcome != extrude::Outcome::full || !own || own->outcome != extrude::Outcome::full) continue;
+      if (!is_sound(host) || !is_sound(own)) continue;
       piece.roof.plan = std::move(holed);
       piece.raised = std::move(*host);
       Piece part{piece.draft_index, {}, {}, {}, std::move(*own), {"a part of its own: a dormer"}};
       part.roof.plan = dormer.plan;
       out.push_back(std::move(part));
     }
+    if (out.empty()) piece = std::move(*piece.plain);
   }
   out.insert(out.begin(), std::move(piece));
   return out;

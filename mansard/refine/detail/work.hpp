@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mansard/refine/detail/judge.hpp"
@@ -15,6 +16,8 @@
 
 namespace mansard::refine::detail {
 
+struct Dormer;
+
 struct Piece {
   std::size_t draft_index = 0;
   Site site;
@@ -23,6 +26,7 @@ struct Piece {
   std::optional<extrude::Raised> raised;  ///< in full; none until the search was thorough
   std::vector<std::string> changes;
   std::optional<Site> whole = {};          ///< with the dormers, where the site is without
+  std::shared_ptr<Piece> plain = {};       ///< as it is best without dormers, where the site is without
   std::shared_ptr<KnownRoofs> known = {};  ///< over its site, while it may be searched more thoroughly
   std::size_t number = 0;  ///< no other piece of its owner ever has it: what was tried with it is known by it
 };
@@ -83,7 +87,8 @@ class Work {
   [[nodiscard]] auto cancelled() const -> bool { return run_.cancelled(); }
 
  private:
-  void without_dormers_of(Piece& piece, Judged& roof) const;
+  [[nodiscard]] auto beside_dormers(const Piece& piece, double most) const -> std::optional<Piece>;
+  [[nodiscard]] auto dormers_of(const Judged& roof, const Site& all) const -> std::pair<std::vector<Dormer>, double>;
   [[nodiscard]] auto with_ceilings(Site site) const -> Site;
   [[nodiscard]] auto both_of(const Piece& a, const Piece& b, const geometry::Polygon& both) const -> Site;
   [[nodiscard]] auto cut_within(const Piece& piece, double least_gain, double worth) const -> std::vector<Piece>;

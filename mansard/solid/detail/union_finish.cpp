@@ -151,12 +151,44 @@ void level_pinned(model::LabelledSolid& model, const std::vector<std::uint8_t>& 
   }
 }
 
+/// Corners of one roof alone, where its other faces are walls, put back into its plane in height: merging points has
+/// moved them in plan. Only where a roof with holes is not planar, which would be cut into many triangles; its plane is
+/// that of most of its corners.
+void level_corners(model::LabelledSolid& model, double planar) {
+  constexpr double most = 2e-3;  // m
+  auto& [solid, classes] = model;
+  std::vector<std::uint32_t> slopes(solid.vertices.size(), 0);
+  for (std::size_t f = 0; f < solid.faces.size(); ++f)
+    if (classes[f] != model::FaceClass::wall && classes[f] != model::FaceClass::party_wall)
+      for (const auto& loop : solid.faces[f].loops)
+        for (const auto v : loop) ++slopes[v];
+  std::vector<double> offsets;
+  for (std::size_t f = 0; f < solid.faces.size(); ++f) {
+    const model::Face& face = solid.faces[f];
+    if (classes[f] != model::FaceClass::roof || face.normal.z < 1e-3 || face.loops.size() < 2) continue;
+    if (fitted_plane(solid, face).furthest <= planar) continue;
+    offsets.clear();
+    for (const auto& loop : face.loops)
+      for (const auto v : loop) offsets.push_back(dot(face.normal, solid.vertices[v]));
+    const auto middle = offsets.begin() + static_cast<std::ptrdiff_t>(offsets.size() / 2);
+    std::ranges::nth_element(offsets, middle);
+    for (const auto& loop : face.loops)
+      for (const auto v : loop) {
+        if (slopes[v] != 1) continue;
+        Point3& p = solid.vertices[v];
+        const double off = (dot(face.normal, p) - *middle) / face.normal.z;
+        if (std::abs(off) < most) p.z = std::round((p.z - off) * quanta_per_metre) / quanta_per_metre;
+      }
+  }
+}
+
 }  // namespace
 
-auto finish(Union& made, double planar) -> bool {
+auto finish(Union& made, double planar, bool level) -> bool {
   auto& [solid, classes] = made.model;
   Straightening(solid, made.pinned).run();
   level_pinned(made.model, made.pinned);
+  if (level) level_corners(made.model, planar);
   Union out;
   out.model.solid.vertices = solid.vertices;
   Triangulator triangulator(solid);

@@ -101,15 +101,20 @@ auto pinned_between(const Sheets& sheets) -> Sheets {
 }
 
 /// The union of those solids of which there are sheets. It is made and checked near the origin, where no coordinate has
-/// more digits than another.
-auto made_of(const Sheets& sheets, std::span<const LabelledSolid* const> parts, bool alone = true) -> Attempt {
+/// more digits than another. `level`: roofs with holes are made planar where corners may move in height.
+auto made_of(const Sheets& sheets, std::span<const LabelledSolid* const> parts, bool alone = true, bool level = true)
+    -> Attempt {
   auto made = union_of(sheets, parts);
   if (!made.why.empty()) return {{}, made.why};
-  if (!finish(made, planar)) return {{}, "a face crosses itself"};
+  if (!finish(made, planar, level)) {
+    if (level) return made_of(sheets, parts, alone, false);
+    return {{}, "a face crosses itself"};
+  }
   auto solids = apart(made.model, made.solid_of_face);
   if (solids.size() > 1 && alone) return made_of(pinned_between(sheets), parts, false);
   for (One& one : solids)
     if (!check(one.model.solid, written_rules()).empty()) {
+      if (level) return made_of(sheets, parts, alone, false);
       place(one.model.solid, sheets);  // so that the message names a place that can be found
       const auto faults = check(one.model.solid, written_rules());
       return {{}, faults.empty() ? std::string("rounding") : faults.front().message};
