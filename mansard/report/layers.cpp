@@ -355,11 +355,12 @@ auto diagnostics_layer(const Reconstruction& reconstruction, const model::Scene&
 
 auto overlaps_layer(const Summary& summary) -> std::optional<formats::Layer> {
   if (summary.overlaps.empty()) return std::nullopt;
-  formats::Layer layer{"overlaps",
-                       "The ground that two solids share: a row for each two that overlap.",
-                       formats::Shape::polygons,
-                       {{"first", string}, {"second", string}, {"area", real}, {"height", real}, {"volume_at_most", real}},
-                       {}};
+  formats::Layer layer{
+      "overlaps",
+      "The ground that two solids share: a row for each two that overlap.",
+      formats::Shape::polygons,
+      {{"first", string}, {"second", string}, {"area", real}, {"height", real}, {"volume_at_most", real}},
+      {}};
   for (const auto& o : summary.overlaps)
     layer.features.push_back(
         {{}, o.polygons, {Value(o.first), Value(o.second), Value(o.area), Value(o.height), Value(o.area * o.height)}});

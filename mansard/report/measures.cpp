@@ -110,8 +110,11 @@ auto lines_of(const std::vector<const LabelledSolid*>& solids) -> Lines {
       const auto kind = roof_line(*one, line);
       if (kind == RoofLine::ridge) ridges.push_back(line);
       if (kind != RoofLine::eave) continue;
+      // A corner's height and lengths in whole units of the files: the same wherever the building stands.
+      constexpr double units_per_metre = 1e4;
       const auto a = one->solid.vertices[line.from], b = one->solid.vertices[line.to];
-      eaves.emplace_back(0.5 * (a.z + b.z), length(b - a));
+      const auto whole = [](double metres) { return std::round(metres * units_per_metre); };
+      eaves.emplace_back(std::min(a.z, b.z), std::hypot(whole(b.x - a.x), whole(b.y - a.y)));
       all += eaves.back().second;
     }
     out.ridges += static_cast<std::int64_t>(count_ridges(one->solid, ridges));

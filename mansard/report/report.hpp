@@ -103,8 +103,8 @@ struct Outcomes {
 
 /// Two solids that share ground.
 struct Overlap {
-  std::string first, second;               ///< their first parts
-  double area = 0, height = 0;             ///< m² of ground, and m of height that both have
+  std::string first, second;                ///< their first parts
+  double area = 0, height = 0;              ///< m² of ground, and m of height that both have
   std::vector<geometry::Polygon> polygons;  ///< the ground that they share; m, in the frame
 };
 

@@ -79,9 +79,9 @@ auto may_overlap(const Extent& a, const Extent& b) -> bool {
 /// Two solids by their numbers, and what they share.
 struct Pair {
   std::uint32_t first = 0, second = 0;
-  double area = 0;                         ///< m² of ground
+  double area = 0;                   ///< m² of ground
   std::vector<Polygon> ground = {};  ///< m
-  std::string failure = {};                ///< why it could not be computed; empty where it could
+  std::string failure = {};          ///< why it could not be computed; empty where it could
 };
 
 /// The pairs to compare, in the source's order, and whether there may be others.
