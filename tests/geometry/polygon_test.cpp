@@ -94,6 +94,27 @@ TEST(Boolean, operations_agree_on_areas) {
   for (const auto& p : *all) EXPECT_TRUE(is_simple(p));
 }
 
+TEST(Boolean, operations_divide_a_polygon_that_touches_along_a_line_up_to_rounding) {
+  // GEOS 3.11 alone leaves all of the piece in the difference.
+  const Polygon part{{{0, 0},
+                      {10.295365028199225, -2.9636435733108684},
+                      {13.068611847903082, 6.6703045098073357},
+                      {7.9209293338034703, 8.1521262964627699},
+                      {9.7697605469393753, 14.574758351874905},
+                      {4.622078032839763, 16.056580138530339}},
+                     {}};
+  const Polygon piece{{{1.8529534795589477, -0.53339475155058313},
+                       {9.5681570678747505, -2.7543080915505778},
+                       {10.026437709399637, -1.1622925967233517},
+                       {2.3112341210838343, 1.0586207432766412}},
+                      {}};
+  const auto beyond = subtract(piece, part), within = intersect(piece, part), rest = subtract(part, piece);
+  ASSERT_TRUE(beyond && within && rest);
+  EXPECT_NEAR(total(*beyond), 0, 1e-9);
+  EXPECT_NEAR(total(*within), area(piece), 1e-9);
+  EXPECT_NEAR(total(*rest), area(part) - area(piece), 1e-9);
+}
+
 TEST(Boolean, operations_fail_on_polygons_that_cross_themselves_rather_than_find_nothing) {
   const Polygon square{{{0, 0}, {10, 0}, {10, 10}, {0, 10}}, {}}, bow_tie{{{0, 0}, {10, 10}, {10, 0}, {0, 10}}, {}};
   const Polygon other{{{5, 5}, {15, 5}, {15, 15}, {5, 15}}, {}};
