@@ -1,6 +1,5 @@
 #include "mansard/formats/image.hpp"
 
-#include <cpl_conv.h>
 #include <cpl_string.h>
 #include <cpl_vsi.h>
 #include <gdal.h>
@@ -12,6 +11,7 @@
 #include "mansard/crs/gdal.hpp"
 #include "mansard/crs/gdal_messages.hpp"
 #include "mansard/formats/files/named_file.hpp"
+#include "mansard/formats/image/memory_file.hpp"
 
 namespace mansard::formats {
 namespace {
@@ -28,28 +28,6 @@ struct CloseDataset {
   void operator()(void* data) const { GDALClose(data); }
 };
 using Dataset = std::unique_ptr<void, CloseDataset>;
-
-/// A file in memory for as long as it lives.
-class MemoryFile {
- public:
-  explicit MemoryFile(std::string name) : name_(std::move(name)) {}
-  MemoryFile(const MemoryFile&) = delete;
-  auto operator=(const MemoryFile&) -> MemoryFile& = delete;
-  ~MemoryFile() { VSIUnlink(name_.c_str()); }
-  [[nodiscard]] auto name() const -> const char* { return name_.c_str(); }
-
- private:
-  std::string name_;
-};
-
-/// No file with metadata is looked for, or written, beside a picture.
-class WithoutSidecars {
- public:
-  WithoutSidecars() { CPLSetThreadLocalConfigOption("GDAL_PAM_ENABLED", "NO"); }
-  WithoutSidecars(const WithoutSidecars&) = delete;
-  auto operator=(const WithoutSidecars&) -> WithoutSidecars& = delete;
-  ~WithoutSidecars() { CPLSetThreadLocalConfigOption("GDAL_PAM_ENABLED", nullptr); }
-};
 
 /// What a picture is that is not read; empty for others.
 auto refused_kind(std::string_view bytes) -> std::string {
@@ -179,10 +157,9 @@ auto encode_image(const Pixels& pixels, ImageCodec codec, int quality) -> base::
     const Dataset copy(GDALCreateCopy(driver, file.name(), source.get(), FALSE, options.List(), nullptr, nullptr));
     if (!copy) return bad(messages.failure());
   }
-  vsi_l_offset size = 0;
-  const GByte* bytes = VSIGetMemFileBuffer(file.name(), &size, FALSE);
-  if (bytes == nullptr || size == 0) return bad(messages.failure());
-  return std::string(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(size));
+  auto bytes = file.bytes();
+  if (bytes.empty()) return bad(messages.failure());
+  return bytes;
 }
 
 }  // namespace mansard::formats

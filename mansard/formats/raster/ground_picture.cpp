@@ -1,8 +1,6 @@
 #include "mansard/formats/ground_picture.hpp"
 
-#include <cpl_conv.h>
 #include <cpl_string.h>
-#include <cpl_vsi.h>
 #include <gdal_priv.h>
 #include <gdal_utils.h>
 
@@ -18,6 +16,7 @@
 #include "mansard/formats/drivers.hpp"
 #include "mansard/formats/files/reach.hpp"
 #include "mansard/formats/files/virtual_files.hpp"
+#include "mansard/formats/image/memory_file.hpp"
 
 namespace mansard::formats {
 namespace {
@@ -55,15 +54,6 @@ auto warp(GDALDataset& from, const std::vector<std::string>& words) -> GDALDatas
   GDALWarpAppOptionsFree(options);
   return out;
 }
-
-/// No file with metadata is looked for, or written, beside the picture in memory.
-class WithoutSidecars {
- public:
-  WithoutSidecars() { CPLSetThreadLocalConfigOption("GDAL_PAM_ENABLED", "NO"); }
-  WithoutSidecars(const WithoutSidecars&) = delete;
-  auto operator=(const WithoutSidecars&) -> WithoutSidecars& = delete;
-  ~WithoutSidecars() { CPLSetThreadLocalConfigOption("GDAL_PAM_ENABLED", nullptr); }
-};
 
 /// What makes 8-bit grey or RGB of its bands; empty where they are.
 auto to_colours(GDALDataset& dataset) -> std::vector<std::string> {
@@ -127,17 +117,15 @@ auto read_ground_picture(const fs::path& path, const std::string& crs, int most)
   const double scale = std::min(1.0, static_cast<double>(most) / std::max(columns, rows));
   const auto scaled = [&](int count) { return std::to_string(std::max(1L, std::lround(count * scale))); };
   static std::atomic<std::uint64_t> count{0};
-  const auto name = "/vsimem/mansard_ground_" + std::to_string(count.fetch_add(1)) + ".png";
+  const MemoryFile in_memory("/vsimem/mansard_ground_" + std::to_string(count.fetch_add(1)) + ".png");
   GroundPicture out;
   {
     const WithoutSidecars none;
-    auto png = translate(*now, name, {"-of", "PNG", "-r", "average", "-outsize", scaled(columns), scaled(rows)});
+    auto png =
+        translate(*now, in_memory.name(), {"-of", "PNG", "-r", "average", "-outsize", scaled(columns), scaled(rows)});
     const bool written = png != nullptr;
-    png.reset();
-    vsi_l_offset size = 0;
-    const auto* bytes = written ? VSIGetMemFileBuffer(name.c_str(), &size, FALSE) : nullptr;
-    if (bytes != nullptr) out.png.assign(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(size));
-    VSIUnlink(name.c_str());
+    png.reset();  // closed, it is in the file
+    if (written) out.png = in_memory.bytes();
   }
   if (out.png.empty())
     return bad("it cannot be read" + (messages.failure().empty() ? "" : " (" + messages.failure() + ")"), path);
