@@ -1,7 +1,7 @@
-# A quicker build from nothing, for the preset `release`: `make demo`, `make test` and continuous integration. Rooms and
+# A quicker build from nothing, for the preset `release`: `make demo`, `make test` and continuous integration. Modules and
 # programs are optimised as without it. What is different:
 #   Headers of the standard library, GoogleTest in tests and CLI11 in the command line are parsed once, not once a source.
-#   Those of the house are not among them: to change one costs those who include it, no more. Nor is nlohmann/json: g++
+#   Our own are not among them: to change one compiles those that include it, no more. Nor is nlohmann/json: g++
 #   instantiates again in every source what such a header leaves open, which costs as much as parsing it.
 #   Tests are compiled with -O1. They spend their time in the modules.
 # A source that forgets an #include of these still compiles, and g++ 12 warns of strings that it does not understand. So

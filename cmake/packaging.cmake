@@ -62,8 +62,8 @@ find_program(GZIP gzip REQUIRED)
 set(made ${PROJECT_BINARY_DIR}/packaging)
 configure_file(${PROJECT_SOURCE_DIR}/packaging/changelog.in ${made}/changelog @ONLY)
 execute_process(COMMAND ${GZIP} -9nkf ${made}/changelog COMMAND_ERROR_IS_FATAL ANY)
-set(papers ${made}/changelog.gz ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE ${PROJECT_SOURCE_DIR}/packaging/copyright)
-install(FILES ${papers} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libmansard-dev COMPONENT extrude)
+set(notices ${made}/changelog.gz ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE ${PROJECT_SOURCE_DIR}/packaging/copyright)
+install(FILES ${notices} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libmansard-dev COMPONENT extrude)
 
 if(NOT TARGET mansard)
   return()
@@ -88,7 +88,7 @@ install(FILES ${made}/_mansard DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-c
 install(FILES ${made}/mansard.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT program)
 install(FILES ${PROJECT_SOURCE_DIR}/tools/blender_import.py DESTINATION ${CMAKE_INSTALL_DATADIR}/mansard COMPONENT program)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/data DESTINATION ${CMAKE_INSTALL_DATADIR}/mansard COMPONENT program)
-install(FILES ${papers} ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/README.md
+install(FILES ${notices} ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/README.md
   DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/mansard COMPONENT program)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/mansard COMPONENT program
   FILES_MATCHING PATTERN "*.md" PATTERN "*.json" PATTERN "*.ipynb")
@@ -100,7 +100,7 @@ if(TARGET mansard_python)
   install(DIRECTORY ${MANSARD_PYTHON_DIR}/mansard DESTINATION lib/python3/dist-packages COMPONENT python
     PATTERN "__pycache__" EXCLUDE PATTERN "*.so" EXCLUDE)
   install(TARGETS mansard_python LIBRARY DESTINATION lib/python3/dist-packages/mansard COMPONENT python)  # stripped
-  install(FILES ${papers} ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-mansard
+  install(FILES ${notices} ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-mansard
     COMPONENT python)
 endif()
 add_dependencies(mansard_manual mansard_qgis)
@@ -146,6 +146,7 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-mansard)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "mansard")  # mansard-reader
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION
   "The engine of mansard for Python: building models of meshes and footprints,
 as numpy arrays and editable plans.")

@@ -233,7 +233,7 @@ void try_plan(const Plan& plan) {
     const auto codes = extrude::codes();
     const auto known = std::ranges::find(codes, raised.error().code, &base::Code::code);
     promise(known != codes.end() && known->code.starts_with("extrude-") && known->exit_code != 0,
-            "an error that is not the room's", with(refusal));
+            "an error that is not the module's", with(refusal));
     promise(!valid(polygon) || smallest_detail(polygon) < 0.01, "a simple polygon is refused", with(refusal));
     return;
   }
@@ -263,7 +263,7 @@ auto LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) -> int 
   try {
     try_plan(plan);
   } catch (const std::exception& thrown) {
-    promise(false, "an exception left the room", [&] { return thrown.what() + text(plan); });
+    promise(false, "an exception left the module", [&] { return thrown.what() + text(plan); });
   }
   return 0;
 }

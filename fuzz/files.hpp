@@ -67,14 +67,14 @@ class Folder {
   MemoryFile file_;
 };
 
-/// A room's codes, and those that all rooms have in common.
+/// A module's codes, and those that all modules have in common.
 inline auto with_common(std::vector<base::Code> codes) -> std::vector<base::Code> {
   const auto more = base::codes();
   codes.insert(codes.end(), more.begin(), more.end());
   return codes;
 }
 
-/// An error must be one that the rooms list, on one line, and say something.
+/// An error must be one that the modules list, on one line, and say something.
 inline void check_error(const base::Diagnostic& error, const std::vector<base::Code>& codes) {
   const auto known = std::ranges::find(codes, error.code, &base::Code::code);
   const auto words = [&] { return base::to_string(error); };

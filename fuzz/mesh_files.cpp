@@ -1,5 +1,5 @@
 // Bytes → a mesh file; the first says which format it is taken for. Reading must not throw, must give an error of the
-// room's or a mesh that keeps what its door guarantees.
+// module's or a mesh that keeps what the public header guarantees.
 #include <array>
 #include <cmath>
 #include <exception>
@@ -61,7 +61,7 @@ auto LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) -> int 
     if (textured) check(*textured);
     else fuzz::check_error(textured.error(), codes());
   } catch (const std::exception& thrown) {
-    promise(false, "an exception left the room", [&] { return thrown.what(); });
+    promise(false, "an exception left the module", [&] { return thrown.what(); });
   }
   return 0;
 }

@@ -1,5 +1,5 @@
 // Bytes → a file of building models; the first says by which name it is taken. What reads cities that mansard wrote
-// must give an error of its room's, or a city whose plans read back as they were; what reads models of others an error,
+// must give an error of its module, or a city whose plans read back as they were; what reads models of others an error,
 // or models that can be cut into triangles; what takes their footprints an error, or footprints that are simple.
 #include <array>
 #include <cmath>
@@ -111,7 +111,7 @@ auto LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) -> int 
     // GDAL reads the rest, at its own pace.
     if (which <= 2 && text.find("\"CityJSON\"") != text.npos) check_footprints(path);
   } catch (const std::exception& thrown) {
-    promise(false, "an exception left the room", [&] { return thrown.what(); });
+    promise(false, "an exception left the module", [&] { return thrown.what(); });
   }
   return 0;
 }

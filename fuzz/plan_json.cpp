@@ -1,5 +1,5 @@
-// Bytes → the reader of plan + profiles. It must not throw, must give an error with a code of its room or a city, and a
-// city that was read must come back the same from its own text.
+// Bytes → the reader of plan + profiles. It must not throw, must give an error with a code of its module or a city, and
+// a city that was read must come back the same from its own text.
 #include <algorithm>
 #include <exception>
 #include <string>
@@ -42,7 +42,7 @@ auto LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) -> int 
       for (std::size_t p = 0; p < city->buildings[b].parts.size(); ++p)
         promise(city->buildings[b].parts[p].plan == again->buildings[b].parts[p].plan, "a plan changed on its way");
   } catch (const std::exception& thrown) {
-    promise(false, "an exception left the room", [&] { return thrown.what(); });
+    promise(false, "an exception left the module", [&] { return thrown.what(); });
   }
   return 0;
 }

@@ -1,6 +1,6 @@
 // Bytes → a file of a tileset; the first says which: the tileset.json, a tile's content, or the subtree of an implicit
 // quadtree or octree, the others being sound. Reading must not throw nor go on for ever, and must give an error of the
-// room's or a mesh.
+// module's or a mesh.
 #include <array>
 #include <cmath>
 #include <exception>
@@ -112,7 +112,7 @@ auto LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) -> int 
     for (const auto& t : scan->mesh.triangles)
       promise(std::max({t[0], t[1], t[2]}) < scan->mesh.vertices.size(), "a triangle names no vertex");
   } catch (const std::exception& thrown) {
-    promise(false, "an exception left the room", [&] { return thrown.what(); });
+    promise(false, "an exception left the module", [&] { return thrown.what(); });
   }
   return 0;
 }

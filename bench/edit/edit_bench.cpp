@@ -1,6 +1,6 @@
 // How long an edit takes: every building of a scan raised and measured among its neighbours, as the workbench does
 // while a corner is dragged; and the tiles of its mesh.
-//   bench_edit MESH FOOTPRINTS [ROOM.OPTION=VALUE…]
+//   bench_edit MESH FOOTPRINTS [MODULE.OPTION=VALUE…]
 //   bench_edit TRIANGLES        tiles of so many triangles of hills
 #include <algorithm>
 #include <chrono>
@@ -100,7 +100,7 @@ auto main(int argc, char** argv) -> int {
     cut_tiles(hills(static_cast<std::uint32_t>(std::sqrt(static_cast<double>(*base::to_whole(argv[1])) / 2))));
     return 0;
   }
-  if (argc < 3) return std::puts("bench_edit MESH FOOTPRINTS [ROOM.OPTION=VALUE…]"), 2;
+  if (argc < 3) return std::puts("bench_edit MESH FOOTPRINTS [MODULE.OPTION=VALUE…]"), 2;
   pipeline::Options options;
   auto lists = pipeline::option_lists(options);
   for (int i = 3; i < argc; ++i) {

@@ -43,7 +43,7 @@ void describe(benchmark::State& state, const Plans& plans) {
       benchmark::Counter(count, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);  // s
 }
 
-/// The whole door: canonical footprint, sweep, rounding, check.
+/// The whole public function: canonical footprint, sweep, rounding, check.
 void raise(benchmark::State& state, const Plans& plans) {
   double full = 0;
   for (auto _ : state) {

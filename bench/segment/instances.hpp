@@ -1,4 +1,4 @@
-// What is measured: planted blocks, and blocks of real scans. Both go through the rooms as the pipeline takes them.
+// What is measured: planted blocks, and blocks of real scans. Both go through the modules as the pipeline takes them.
 #pragma once
 
 #include <array>

@@ -16,8 +16,8 @@ namespace mansard::pipeline {
 /// broken: "write-read-format", "write-read-plans", "write-plan-type".
 [[nodiscard]] auto is_foreign(const base::Diagnostic& why) -> bool;
 
-/// Sets the options that plans are raised and classified by (those of the rooms extrude and label) to what a file says
-/// it was made with. Warnings: "option-unknown" and "option-value" of what this version does not take.
+/// Sets the options that plans are extruded and classified by (those of the modules extrude and label) to what a file
+/// says it was made with. Warnings: "option-unknown" and "option-value" of what this version does not take.
 [[nodiscard]] auto take_options(const model::MadeBy& made_by, Options& options) -> std::vector<base::Diagnostic>;
 /// Writes down these options as what it is made with now; all others stay as they were.
 void note_options(const Options& options, model::MadeBy& made_by);

@@ -1,4 +1,4 @@
-// Integer programs, behind one door (CBC).
+// Integer programs, solved by CBC, which no other module includes.
 #pragma once
 
 #include <cstddef>

@@ -3,7 +3,8 @@
     pip install .                                                  builds in build/wheel
     pip install . --config-settings=build-dir=build/release        takes what is built there already
 
-The wheel holds the extension module and the package around it. The libraries that it links (GDAL, GEOS, CBC, Embree, …)
+The wheel holds the extension module, the package around it, and mansard-reader, which reads OSGB, FBX, COLLADA and STL
+(docs/decisions/0052) and is looked for beside the module. The libraries that it links (GDAL, GEOS, CBC, Embree, …)
 are those of the machine and are not bundled: docs/python.md says why.
 """
 
@@ -12,6 +13,7 @@ import hashlib
 import os
 import pathlib
 import re
+import stat
 import subprocess
 import sys
 import sysconfig
@@ -44,7 +46,7 @@ def _jobs():
 
 
 def _built(config_settings):
-    """The folder of the package, built."""
+    """The folder of the package and the program mansard-reader, built."""
     folder = ROOT / (config_settings or {}).get("build-dir", "build/wheel")
     if not (folder / "CMakeCache.txt").exists() or folder == ROOT / "build/wheel":
         subprocess.run(
@@ -52,9 +54,9 @@ def _built(config_settings):
              "-DMANSARD_TESTS=OFF", "-DMANSARD_PYTHON=ON", "-DMANSARD_PAGE=OFF", "-DMANSARD_QUICK_BUILD=ON",
              f"-DPython3_EXECUTABLE={sys.executable}"],
             check=True, stdout=sys.stderr)
-    subprocess.run(["cmake", "--build", str(folder), "--target", "mansard_python", "-j", str(_jobs())], check=True,
-                   stdout=sys.stderr)
-    return folder / "python" / "mansard"
+    subprocess.run(["cmake", "--build", str(folder), "--target", "mansard_python", "mansard_reader", "-j", str(_jobs())],
+                   check=True, stdout=sys.stderr)
+    return folder / "python" / "mansard", folder / "bin" / "mansard-reader"
 
 
 def _tag():
@@ -64,13 +66,14 @@ def _tag():
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
-    package = _built(config_settings)
+    package, reader = _built(config_settings)
     version, tag = _version(), _tag()
     info = f"mansard-{version}.dist-info"
     files = {}
     for path in sorted(package.iterdir()):
         if path.is_file():
             files[f"mansard/{path.name}"] = path.read_bytes()
+    files[f"mansard/{reader.name}"] = reader.read_bytes()
     files[f"{info}/METADATA"] = _metadata().encode()
     files[f"{info}/WHEEL"] = (
         f"Wheel-Version: 1.0\nGenerator: mansard {version}\nRoot-Is-Purelib: false\nTag: {tag}\n").encode()
@@ -85,7 +88,9 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     with zipfile.ZipFile(os.path.join(wheel_directory, name), "w", zipfile.ZIP_DEFLATED) as wheel:
         for path, data in files.items():
             entry = zipfile.ZipInfo(path)  # dated 1980: the same files give the same wheel
-            entry.external_attr = (0o755 if path.endswith(".so") else 0o644) << 16
+            executable = path.endswith((".so", "/mansard-reader"))
+            # pip makes executable what is a regular file with this permission.
+            entry.external_attr = (stat.S_IFREG | (0o755 if executable else 0o644)) << 16
             entry.compress_type = zipfile.ZIP_DEFLATED
             wheel.writestr(entry, data)
     return name

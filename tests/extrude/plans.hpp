@@ -16,7 +16,7 @@
 
 namespace plans {
 
-using namespace mansard;  // a test's own namespace, in which the rooms may be called by their short names
+using namespace mansard;  // a test's own namespace, in which modules have short names
 using geometry::Point2;
 using geometry::Point3;
 using geometry::Ring;

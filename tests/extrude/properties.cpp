@@ -1,4 +1,4 @@
-// The guarantees of docs/extrude.md on raised solids, over random plans. Those on exact surfaces are next door in
+// The guarantees of docs/extrude.md on raised solids, over random plans. Those on exact surfaces are in
 // exact_properties.cpp. RC_PARAMS and MANSARD_RUNS steer both (forall.hpp).
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-// Fields and labelled meshes, read back by the libraries and rooms that users read them with.
+// Fields and labelled meshes, read back by the libraries and modules that users read them with.
 #include "mansard/formats/scan.hpp"
 #include "base/scratch.hpp"
 #include "mansard/ingest/model.hpp"

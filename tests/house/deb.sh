@@ -33,7 +33,7 @@ done
   fail "the package reaches beyond /usr/bin, /usr/share and /usr/libexec/mansard"
 dpkg-deb -c "$engine" | awk '{print $6}' > "$scratch/engine_contents"
 grep -qx './usr/include/mansard/pipeline/pipeline.hpp' "$scratch/engine_contents" ||
-  fail "no door in the package of the engine"
+  fail "no public header in the package of the engine"
 ! grep '/detail/' "$scratch/engine_contents" || fail "a detail/ in the package of the engine"
 
 dpkg-deb -x "$program" "$scratch/root"

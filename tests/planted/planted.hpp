@@ -1,5 +1,5 @@
 // Planted blocks: a truth of houses and walls, and what a scan, a sweep and a GIS would know of it, with their errors.
-// From here the real rooms go on: fracture::arrange, segment::choose. Metres, radians, z up, ground at 0.
+// From here the real modules go on: fracture::arrange, segment::choose. Metres, radians, z up, ground at 0.
 #pragma once
 
 #include <cstddef>
@@ -88,7 +88,7 @@ struct Wall {
 
 struct Block {
   std::string name;
-  block::Block block;       ///< mesh and footprints as they are given to the rooms, with their errors
+  block::Block block;       ///< mesh and footprints as they are given to the modules, with their errors
   sweep::SweepEdges edges;  ///< as find_edges promises them; `clusters` have areas but no lines
   std::vector<House> houses;
   std::vector<Wall> walls;

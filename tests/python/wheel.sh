@@ -22,5 +22,9 @@ assert "/env/" in mansard.__file__, mansard.__file__
 city = mansard.reconstruct(f"{sys.argv[1]}/hall/mesh.off", f"{sys.argv[1]}/hall/footprints.geojson")
 assert [building.outcome for building in city] == ["full", "full"], city
 city.write("hall.glb")
+# STL is read by mansard-reader, which is in the wheel.
+city.write("hall.stl")
+again = mansard.reconstruct("hall.stl", f"{sys.argv[1]}/hall/footprints.geojson")
+assert len(again) == 2, again
 PYTHON
 "$scratch/env/bin/pip" show mansard | grep "^License: Apache-2.0"

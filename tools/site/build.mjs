@@ -27,14 +27,14 @@ const version = spawnSync(program, ["--version"], { encoding: "utf8" }).stdout.t
 // ---- the pages, in the order of the menu
 const there = (name) => fs.existsSync(path.join(root, name));
 const list = "cmake/modules.cmake";
-const rooms = [...read(list).replace(/#.*/g, "").matchAll(/mansard_module\(([a-z_]+)/g)].map((match) => match[1]);
-const tables = new Tables(rooms, known);
+const modules = [...read(list).replace(/#.*/g, "").matchAll(/mansard_module\(([a-z_]+)/g)].map((match) => match[1]);
+const tables = new Tables(modules, known);
 const in_folder = (folder, ...first) => {
   const all = fs.readdirSync(path.join(root, folder)).filter((name) => name.endsWith(".md")).sort();
   const rest = all.filter((name) => !first.includes(name));
   return [...first.filter((name) => all.includes(name)), ...rest].map((name) => `${folder}/${name}`);
 };
-const module_pages = rooms.map((room) => `docs/${room}.md`).filter(there);
+const module_pages = modules.map((module) => `docs/${module}.md`).filter(there);
 // What users look for first, then modules and decisions. A page is called as here, otherwise by its title.
 const titles = {
   "docs/tutorials/your_data.md": "Ten minutes", "README.md": "Overview", "docs/packaging.md": "Install", "data/README.md": "Sample data",
@@ -69,8 +69,8 @@ const address = (name) =>
   name === front ? "index.html" : name === "README.md" ? "overview.html" : name.replace(/(^|\/)README\.md$/, "$1index.html").replace(/\.md$/, ".html");
 
 // ---- pages
-const checks = new Checks(root, rooms, known);
-for (const room of rooms) if (!there(`docs/${room}.md`)) checks.complain(`docs/${room}.md`, "every module has a page");
+const checks = new Checks(root, modules, known);
+for (const module of modules) if (!there(`docs/${module}.md`)) checks.complain(`docs/${module}.md`, "every module has a page");
 const anchors = new Map();  // address → the ids on that page
 const links = [];           // from, address, anchor, as written
 const copied = new Set();
@@ -105,10 +105,10 @@ function render(name) {
     page_ids.add(id);
     return id;
   };
-  const room = rooms.find((candidate) => name === `docs/${candidate}.md`);
-  const made = room ? tables.of_room(room) : {};
+  const module = modules.find((candidate) => name === `docs/${candidate}.md`);
+  const made = module ? tables.of_module(module) : {};
   const tokens = marked.lexer(source);
-  checks.page(name, room, tokens);
+  checks.page(name, module, tokens);
 
   // The program's tables stand at the end of the section of their name; a page without it gets one.
   const sections = [];
@@ -154,8 +154,8 @@ function render(name) {
 
 const title_of = (name) => (/^#\s+(.+)$/m.exec(read(name))?.[1] ?? name).replace(/`/g, "");
 const short_title = (name, section) => {
-  const room = rooms.find((candidate) => name === `docs/${candidate}.md`);
-  if (room && section === "Modules") return room;
+  const module = modules.find((candidate) => name === `docs/${candidate}.md`);
+  if (module && section === "Modules") return module;
   return titles[name] ?? title_of(name);
 };
 const made_pages = tables.pages();

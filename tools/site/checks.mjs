@@ -18,9 +18,9 @@ const parts = {
 };
 
 export class Checks {
-  constructor(root, rooms, known) {
+  constructor(root, modules, known) {
     this.root = root;
-    this.rooms = rooms;
+    this.modules = modules;
     this.known = known;
     this.complaints = [];
     this.options = new Map(known.options.map((option) => [`${option.module}.${option.name}`, option]));
@@ -42,7 +42,7 @@ export class Checks {
         this.tests.add(`${suite}.${test}`);
     this.suites = new Set([...this.tests].map((test) => test.split(".")[0]));
     for (const names of this.verbs.values()) for (const name of names) this.words.add(name);
-    // Words that an option takes may look like a code of its room.
+    // Words that an option takes may look like a code of its module.
     this.values = new Set([...known.options.flatMap((option) => option.choices),
       ...known.presets.map((preset) => preset.name), ...known.simulate_presets.map((preset) => preset.name)]);
   }
@@ -58,14 +58,14 @@ export class Checks {
 
   complain(page, what) { this.complaints.push(`${page}: ${what}`); }
 
-  page(name, room, tokens) {
+  page(name, module, tokens) {
     const history = name === "CHANGELOG.md";  // speaks of what was, too
     const walk = (list, section) => {
       for (const token of list ?? []) {
         if (token.type === "heading") section = token.text;
         if (token.type === "codespan" && !history) this.word(name, token.text);
         if (token.type === "code" && !history) this.commands(name, token.text);
-        if (token.type === "table") this.table(name, room, token);
+        if (token.type === "table") this.table(name, module, token);
         if (token.type === "image") this.has_picture = true;
         for (const inner of [token.tokens, token.items]) if (inner) walk(inner, section);
         if (token.type === "table")
@@ -74,7 +74,7 @@ export class Checks {
     };
     this.has_picture = false;
     walk(tokens, "");
-    if (room) this.room_page(name, tokens);
+    if (module) this.module_page(name, tokens);
   }
 
   /// One word in code.
@@ -83,10 +83,10 @@ export class Checks {
     if (decoded.startsWith("mansard ")) return this.command(name, decoded);
     const option = /^(--[a-z0-9][a-z0-9.-]*)(?=$|[ =,])/.exec(decoded)?.[1];
     if (option && !this.words.has(option)) this.complain(name, `the option ${option} does not exist in the program`);
-    const [, room, member] = /^([a-z]+)\.([a-z0-9_]+)(?:$| =)/.exec(decoded) ?? [];
-    if (room && !this.tests.has(`${room}.${member}`) && !/^(md|[ch]pp|json|mjs|gpkg|svg|png|html)$/.test(member) &&
-        this.known.options.some((entry) => entry.module === room) && !this.options.has(`${room}.${member}`))
-      this.complain(name, `the option ${room}.${member} does not exist in the program`);
+    const [, module, member] = /^([a-z]+)\.([a-z0-9_]+)(?:$| =)/.exec(decoded) ?? [];
+    if (module && !this.tests.has(`${module}.${member}`) && !/^(md|[ch]pp|json|mjs|gpkg|svg|png|html)$/.test(member) &&
+        this.known.options.some((entry) => entry.module === module) && !this.options.has(`${module}.${member}`))
+      this.complain(name, `the option ${module}.${member} does not exist in the program`);
     // A test by its name, or by the beginning of it and "…".
     const [, suite, test] = /^([A-Z]\w+)\.(\w+)…?$/.exec(decoded) ?? [];
     const begins = decoded.endsWith("…");
@@ -97,7 +97,7 @@ export class Checks {
     const attribute = /^\+?ms_[a-z0-9_]+$/.exec(decoded)?.[0];
     if (attribute && !this.attributes.has(attribute))
       this.complain(name, `the attribute ${attribute} does not exist in the program`);
-    if (/^[a-z]+(-[a-z0-9]+)+$/.test(decoded) && this.rooms.includes(decoded.split("-")[0]) &&
+    if (/^[a-z]+(-[a-z0-9]+)+$/.test(decoded) && this.modules.includes(decoded.split("-")[0]) &&
         this.code_prefixes.has(decoded.split("-")[0]) && !this.codes.has(decoded) && !this.values.has(decoded))
       this.complain(name, `the code ${decoded} does not exist in the program`);
   }
@@ -122,15 +122,15 @@ export class Checks {
   }
 
   /// A table of options written by hand names options there are, with the defaults they have.
-  table(name, room, token) {
+  table(name, module, token) {
     const header = token.header.map((cell) => cell.text.toLowerCase());
-    if (room && header[0] === "option") {
+    if (module && header[0] === "option") {
       for (const row of token.rows) {
         const names = cells(row[0].text);
         const defaults = header[1] !== "default" ? []
           : row[1].text.split(",").map((text) => text.trim().replace(/`/g, ""));
         names.forEach((option, i) => {
-          const entry = this.options.get(`${room}.${option}`);
+          const entry = this.options.get(`${module}.${option}`);
           if (!entry) return this.complain(name, `the table of options names ${option}, which the module does not have`);
           const given = defaults.length === names.length ? defaults[i] : undefined;
           const number = /^[0-9.]+/.exec(given ?? "")?.[0];
@@ -146,7 +146,7 @@ export class Checks {
     }
   }
 
-  room_page(name, tokens) {
+  module_page(name, tokens) {
     const starts = [];
     for (const token of tokens) {
       if (token.type === "heading") starts.push(token.text);

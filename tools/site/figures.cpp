@@ -1,5 +1,5 @@
-// The pictures of the rooms' pages, each made by the room itself of a sample: site_figures DATA OUTDIR
-// Not installed and not part of the test run: docs/pictures/rooms is what it wrote last.
+// The pictures of the modules' pages, each made by the module itself of a sample: site_figures DATA OUTDIR
+// Not installed and not part of the test run: docs/pictures/modules is what it wrote last.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

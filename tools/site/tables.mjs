@@ -54,33 +54,33 @@ const exit_table = (exits) =>
 
 function verb_section(verb) {
   const own = [...verb.arguments, ...verb.options.filter((entry) => entry.module === "")];
-  const rooms = [...new Set(verb.options.map((entry) => entry.module).filter((room) => room !== ""))];
+  const modules = [...new Set(verb.options.map((entry) => entry.module).filter((module) => module !== ""))];
   const rows = own.map((entry) => ({
     id: entry.names.length > 0 ? `${verb.verb}${entry.names[0]}` : undefined,
     cells: [`${entry.names.map(code).join(", ")} ${escape(entry.value)}${entry.required ? " (required)" : ""}`.trim(),
       escape(entry.meaning)],
   }));
-  const links = rooms.map((room) => `<a href="options.html#${room}">${room}</a>`).join(", ");
+  const links = modules.map((module) => `<a href="options.html#${module}">${module}</a>`).join(", ");
   return `<h2 id="${verb.verb}">mansard ${verb.verb}</h2><p>${escape(verb.meaning)}.</p>` +
-    table(["", "meaning"], rows) + (rooms.length > 0 ? `<p>And the options of ${links}.</p>` : "");
+    table(["", "meaning"], rows) + (modules.length > 0 ? `<p>And the options of ${links}.</p>` : "");
 }
 
 export class Tables {
-  constructor(rooms, known) {
-    this.rooms = rooms;
+  constructor(modules, known) {
+    this.modules = modules;
     this.known = known;
   }
 
-  /// What a code belongs to: the room that it begins with, else what is under all rooms.
-  #room_of(entry) { return this.rooms.find((room) => entry.code.startsWith(`${room}-`)) ?? "base"; }
+  /// What a code belongs to: the module that it begins with, else what is under all modules.
+  #module_of(entry) { return this.modules.find((module) => entry.code.startsWith(`${module}-`)) ?? "base"; }
 
-  /// By the heading of the section that each belongs to; nothing for what the room does not have.
-  of_room(room) {
+  /// By the heading of the section that each belongs to; nothing for what the module does not have.
+  of_module(module) {
     const { options, codes, attributes } = this.known;
     const own = {
-      Options: [option_table, options.filter((option) => option.module === room)],
-      Codes: [code_table, codes.filter((entry) => this.#room_of(entry) === room)],
-      Attributes: [attribute_table, attributes.filter((attribute) => attribute.module === room)],
+      Options: [option_table, options.filter((option) => option.module === module)],
+      Codes: [code_table, codes.filter((entry) => this.#module_of(entry) === module)],
+      Attributes: [attribute_table, attributes.filter((attribute) => attribute.module === module)],
     };
     return Object.fromEntries(Object.entries(own).filter(([, [, list]]) => list.length > 0)
       .map(([heading, [make, list]]) => [heading, make(list)]));
@@ -89,8 +89,8 @@ export class Tables {
   /// The pages that are nothing else: title and body by address.
   pages() {
     const { verbs, options, presets, simulate_presets, attributes, codes, exit_codes } = this.known;
-    const of_options = [...new Set(options.map((option) => option.module))].map((room) =>
-      `<h2 id="${room}">${room}</h2>${option_table(options.filter((option) => option.module === room))}`);
+    const of_options = [...new Set(options.map((option) => option.module))].map((module) =>
+      `<h2 id="${module}">${module}</h2>${option_table(options.filter((option) => option.module === module))}`);
     return {
       "verbs.html": ["Verbs", verbs.map(verb_section).join("\n")],
       "options.html": ["Options", `<p>Option ${code("name")} of module ${code("module")} is ${code("--module-name")} on the

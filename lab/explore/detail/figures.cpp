@@ -90,7 +90,7 @@ auto heat_maps(const Study& study) -> std::string {
   return out;
 }
 
-/// Without the rooms, where it stands below a figure.
+/// Without the names of modules, for the text below a figure.
 auto setting_text(const Setting& setting) -> std::string {
   std::string text;
   for (const auto& [key, value] : setting)

@@ -230,12 +230,12 @@ auto command_of(const Dataset& dataset, pipeline::Options options) -> std::strin
   pipeline::Options defaults;
   const auto before = pipeline::option_lists(defaults);
   const auto now = pipeline::option_lists(options);
-  for (std::size_t room = 0; room < now.size(); ++room)
-    for (const auto& option : now[room].options()) {
-      const auto usual = before[room].find(option.name)->get();
+  for (std::size_t module = 0; module < now.size(); ++module)
+    for (const auto& option : now[module].options()) {
+      const auto usual = before[module].find(option.name)->get();
       if (option.get() == usual) continue;
       const bool words = option.kind == base::Option::Kind::string && usual.find(' ') != std::string::npos;
-      command += " " + typed(now[room].module() + "." + option.name, option.get(), words);
+      command += " " + typed(now[module].module() + "." + option.name, option.get(), words);
     }
   return command + " -o out";
 }

@@ -1,4 +1,4 @@
-// Measures of a solid's faces, shared by the doors and the check.
+// Measures of a solid's faces, shared by the public functions and the check.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-# Holds the papers to the tree: cmake -DROOT=<repository> -P papers.cmake
+# Compares the documents with the tree: cmake -DROOT=<repository> -P documents.cmake
 cmake_minimum_required(VERSION 3.25)
 set(complaints "")
 
@@ -36,18 +36,18 @@ endif()
 file(READ ${ROOT}/cmake/modules.cmake list)
 string(REGEX REPLACE "#[^\n]*" "" list "${list}")
 string(REGEX MATCHALL "mansard_module[(][a-z_]+" modules "${list}")
-foreach(paper IN ITEMS ARCHITECTURE.md)
-  file(READ ${ROOT}/${paper} text)
+foreach(document IN ITEMS ARCHITECTURE.md)
+  file(READ ${ROOT}/${document} text)
   foreach(module IN LISTS modules)
     string(REPLACE "mansard_module(" "" module ${module})
     string(FIND "${text}" "`${module}`" found)
     if(found EQUAL -1)
-      list(APPEND complaints "${paper} does not name the module `${module}`")
+      list(APPEND complaints "${document} does not name the module `${module}`")
     endif()
   endforeach()
 endforeach()
 
-# data/README.md has every sample, and every relative link of a paper leads somewhere.
+# data/README.md has every sample, and every relative link of a document leads somewhere.
 file(GLOB samples RELATIVE ${ROOT}/data ${ROOT}/data/*)
 file(READ ${ROOT}/data/README.md catalogue)
 foreach(sample IN LISTS samples)
@@ -56,17 +56,17 @@ foreach(sample IN LISTS samples)
     list(APPEND complaints "data/README.md does not name `${sample}`")
   endif()
 endforeach()
-file(GLOB papers RELATIVE ${ROOT} ${ROOT}/*.md ${ROOT}/docs/*.md ${ROOT}/docs/decisions/*.md ${ROOT}/docs/tutorials/*.md
+file(GLOB documents RELATIVE ${ROOT} ${ROOT}/*.md ${ROOT}/docs/*.md ${ROOT}/docs/decisions/*.md ${ROOT}/docs/tutorials/*.md
   ${ROOT}/data/*.md)
-foreach(paper IN LISTS papers)
-  file(READ ${ROOT}/${paper} text)
-  cmake_path(GET paper PARENT_PATH folder)
+foreach(document IN LISTS documents)
+  file(READ ${ROOT}/${document} text)
+  cmake_path(GET document PARENT_PATH folder)
   string(REGEX REPLACE "[][;]" "@" text "${text}")  # brackets and semicolons mean something in CMake's lists
   string(REGEX MATCHALL "@[(][^)#:]+[)]" links "${text}")
   foreach(link IN LISTS links)
     string(REGEX REPLACE "^@[(](.+)[)]$" "\\1" target "${link}")
     if(NOT EXISTS ${ROOT}/${folder}/${target})
-      list(APPEND complaints "${paper} links to ${target}, which does not exist")
+      list(APPEND complaints "${document} links to ${target}, which does not exist")
     endif()
   endforeach()
 endforeach()
@@ -85,5 +85,5 @@ endforeach()
 
 if(complaints)
   list(JOIN complaints "\n  " text)
-  message(FATAL_ERROR "the papers and the tree disagree:\n  ${text}\n")
+  message(FATAL_ERROR "the documents and the tree disagree:\n  ${text}\n")
 endif()
