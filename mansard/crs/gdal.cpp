@@ -19,7 +19,10 @@ void register_gdal() {
   std::call_once(registered, [] {
     GDALAllRegister();
     for (const char* name : picture_services)
-      if (GDALDriverH driver = GDALGetDriverByName(name); driver != nullptr) GDALDeregisterDriver(driver);
+      if (GDALDriverH driver = GDALGetDriverByName(name); driver != nullptr) {
+        GDALDeregisterDriver(driver);
+        GDALDestroyDriver(driver);
+      }
   });
 }
 
