@@ -56,7 +56,7 @@ void set_limits(std::size_t bytes) {
   rusage used{};
   ::getrusage(RUSAGE_SELF, &used);
   const rlim_t so_far = static_cast<rlim_t>(used.ru_utime.tv_sec) + static_cast<rlim_t>(used.ru_stime.tv_sec);
-  const rlimit memory{memory_least + memory_each * bytes, RLIM_INFINITY},
+  [[maybe_unused]] const rlimit memory{memory_least + memory_each * bytes, RLIM_INFINITY},
       time{so_far + seconds_least + bytes / bytes_per_second, RLIM_INFINITY}, core{0, 0};
 #ifndef __SANITIZE_ADDRESS__  // the sanitizer's own memory does not fit under a limit
   ::setrlimit(RLIMIT_AS, &memory);
