@@ -101,7 +101,7 @@ class Details {
 
   /// A row of equal ones on the slope that rises from the front.
   void add_dormers(House& house, const Site& site) {
-    const Lot& roof = house.lots.front();
+    const Lot roof = house.lots.front();  // a copy: a vector that grows moves what it holds
     const double slope = geometry::tangent(roof.pitch), start = roof.gutter ? 0.3 : 0;
     const double set_back = start + random_.uniform(0.4, 0.9), high = random_.uniform(1.2, 1.6);
     const double spacing = random_.uniform(2.6, 3.6), wish = random_.uniform(1.2, 2.4), gable = random_.uniform();
