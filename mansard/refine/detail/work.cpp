@@ -360,7 +360,8 @@ auto Work::with_dormers(Piece piece) const -> std::vector<Piece> {
       part.roof.plan = dormer.plan;
       out.push_back(std::move(part));
     }
-    if (out.empty()) piece = std::move(*piece.plain);
+    // A copy first: assigning to a piece lets go of its plain one, member by member.
+    if (out.empty()) piece = Piece(*piece.plain);
   }
   out.insert(out.begin(), std::move(piece));
   return out;
