@@ -168,4 +168,23 @@ TEST(InsidesMeet, of_an_edge_through_a_wall) {
   EXPECT_TRUE(insides_meet(house.solid, beside.solid));
 }
 
+TEST(TouchByChance, of_a_corner_on_a_slanting_wall_that_has_none_there) {
+  using mansard::solid::detail::touch_by_chance;
+  const auto turned = [](LabelledSolid solid) {
+    for (auto& v : solid.solid.vertices) v = {v.x - v.y / 2, v.y + v.x / 2, v.z};  // in whole units of files
+    return solid;
+  };
+  const auto house = box(0, 0, 10), beside = box(10, 10, 20);
+  EXPECT_FALSE(touch_by_chance(turned(house).solid, turned(beside).solid)) << "the same corners";
+  auto shorter = beside;
+  for (auto& v : shorter.solid.vertices) v.y = 2 + v.y / 2;
+  EXPECT_FALSE(touch_by_chance(house.solid, shorter.solid)) << "on a wall along y";
+  EXPECT_TRUE(touch_by_chance(turned(house).solid, turned(shorter).solid));
+  EXPECT_TRUE(touch_by_chance(turned(shorter).solid, turned(house).solid));
+  EXPECT_TRUE(overlap(turned(house), turned(shorter)));
+  auto higher = beside;
+  for (auto& v : higher.solid.vertices) v.z += 2;
+  EXPECT_FALSE(touch_by_chance(turned(house).solid, turned(higher).solid)) << "corners above each other";
+}
+
 }  // namespace

@@ -263,7 +263,7 @@ auto share_ground(const LabelledSolid& a, const LabelledSolid& b) -> bool {
 
 auto overlap(const LabelledSolid& a, const LabelledSolid& b) -> bool {
   if (has_eaves(a) || has_eaves(b) || !at_common_height(a, b)) return false;
-  return share_ground(a, b) || insides_meet(a.solid, b.solid);
+  return share_ground(a, b) || insides_meet(a.solid, b.solid) || touch_by_chance(a.solid, b.solid);
 }
 
 auto wider_than_points(const LabelledSolid& solid, double near) -> bool {

@@ -231,6 +231,25 @@ auto meet(const Plate& s, const Plate& t) -> bool {
   return meet_on_a_face(s, of_s, t) || meet_on_a_face(t, of_t, s) || meet_on_an_edge(s, of_s, t, of_t);
 }
 
+/// Whether a corner of s lies on t by the decimals of a file only.
+auto lies_on_by_chance(const Plate& s, const Plate& t) -> bool {
+  for (const auto axis : {&Point3::x, &Point3::y, &Point3::z})
+    if (t.at[0].*axis == t.at[1].*axis && t.at[1].*axis == t.at[2].*axis) return false;
+  const Flat flat(t.at);
+  for (const Point3 p : s.at) {
+    const auto is_exact = [&](Point3 corner) { return corner == p || (corner.x == p.x && corner.y == p.y); };
+    const bool upright = turn({t.at[0].x, t.at[0].y}, {t.at[1].x, t.at[1].y}, {t.at[2].x, t.at[2].y}) == 0;
+    if (std::ranges::any_of(t.at, [&](Point3 corner) { return upright ? is_exact(corner) : corner == p; })) continue;
+    if (above(t.at[0], t.at[1], t.at[2], p) != 0) continue;
+    const int inner = turn(flat(t.at[0]), flat(t.at[1]), flat(t.at[2]));
+    bool outside = false;
+    for (std::size_t i = 0; i < 3; ++i)
+      outside = outside || turn(flat(t.at[i]), flat(t.at[(i + 1) % 3]), flat(p)) == -inner;
+    if (!outside) return true;
+  }
+  return false;
+}
+
 auto box_of(const std::vector<Plate>& plates) -> Box {
   Box out;
   for (const Plate& plate : plates)
@@ -238,9 +257,9 @@ auto box_of(const std::vector<Plate>& plates) -> Box {
   return out;
 }
 
-}  // namespace
-
-auto insides_meet(const model::Solid& a, const model::Solid& b) -> bool {
+/// Whether two triangles whose boxes meet, one of each solid, pass a test; and where a solid cannot be cut.
+template <class Test>
+auto any_two(const model::Solid& a, const model::Solid& b, Test test) -> bool {
   auto of_a = plates_of(a), of_b = plates_of(b);
   if (!of_a || !of_b) return true;
   const Box box_a = box_of(*of_a), box_b = box_of(*of_b);
@@ -256,9 +275,18 @@ auto insides_meet(const model::Solid& a, const model::Solid& b) -> bool {
     while (next != of_b->end() && next->box.least.x <= s.box.most.x) open.push_back(&*next++);
     std::erase_if(open, [&](const Plate* t) { return t->box.most.x < s.box.least.x; });
     for (const Plate* t : open)
-      if (s.box.meets(t->box) && meet(s, *t)) return true;
+      if (s.box.meets(t->box) && test(s, *t)) return true;
   }
   return false;
+}
+
+}  // namespace
+
+auto insides_meet(const model::Solid& a, const model::Solid& b) -> bool { return any_two(a, b, meet); }
+
+auto touch_by_chance(const model::Solid& a, const model::Solid& b) -> bool {
+  return any_two(a, b,
+                 [](const Plate& s, const Plate& t) { return lies_on_by_chance(s, t) || lies_on_by_chance(t, s); });
 }
 
 }  // namespace mansard::solid::detail

@@ -12,4 +12,9 @@ namespace mansard::solid::detail {
 /// be cut. Cost: O(n log n) but for triangles that overlap in their boxes.
 [[nodiscard]] auto insides_meet(const model::Solid& a, const model::Solid& b) -> bool;
 
+/// Whether a corner of one lies on a face of the other that has no corner there. On the decimals of a file it may be on
+/// it exactly; read as doubles it is on one side or the other, so that it is chance whether the insides meet. Not on
+/// faces along two axes, nor above or below a corner of a wall: these are exact in doubles, too.
+[[nodiscard]] auto touch_by_chance(const model::Solid& a, const model::Solid& b) -> bool;
+
 }  // namespace mansard::solid::detail
