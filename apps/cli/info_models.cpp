@@ -9,6 +9,7 @@
 #include "mansard/pipeline/compared.hpp"
 #include "mansard/pipeline/stored.hpp"
 #include "mansard/solid/solid.hpp"
+#include "mansard/solid/unite.hpp"
 
 namespace mansard::cli {
 namespace {
@@ -36,13 +37,16 @@ class Tally {
     std::vector<Named> solids;
     for (const auto& [parts, model] : building.solids)
       solids.push_back(
-          {parts.size() == building.parts.size() ? building.id : building.parts[parts.front()].id, &model.solid});
+          {parts.size() == building.parts.size() ? building.id : building.parts[parts.front()].id, &model});
     if (building.solids.empty())
       for (const auto& part : building.parts)
-        if (!part.model.solid.faces.empty()) solids.push_back({part.id, &part.model.solid});
+        if (!part.model.solid.faces.empty()) solids.push_back({part.id, &part.model});
     std::vector<std::vector<base::Diagnostic>> wrong(solids.size());
     base::parallel_for(wrong.size(),
-                       [&](std::size_t i) { wrong[i] = solid::check(*solids[i].solid, solid::written_rules()); });
+                       [&](std::size_t i) { wrong[i] = solid::check(solids[i].model->solid, solid::written_rules()); });
+    std::vector<const model::LabelledSolid*> models;
+    for (const Named& named : solids) models.push_back(named.model);
+    for (auto& [i, what] : solid::overlapping(models)) wrong[i].push_back(std::move(what));
     for (std::size_t i = 0; i < wrong.size(); ++i) add(building, solids[i], wrong[i]);
     compared_.add(building);
   }
@@ -84,7 +88,7 @@ class Tally {
  private:
   struct Named {
     std::string id;  ///< of the building, or of its first part
-    const model::Solid* solid = nullptr;
+    const model::LabelledSolid* model = nullptr;
   };
 
   void add(const model::Part& part) {
@@ -94,7 +98,7 @@ class Tally {
   }
 
   void add(const model::Building& building, const Named& named, const std::vector<base::Diagnostic>& wrong) {
-    const auto& solid = *named.solid;
+    const auto& solid = named.model->solid;
     ++solids_;
     faces_ += solid.faces.size();
     vertices_ += solid.vertices.size();

@@ -13,6 +13,7 @@
 #include "mansard/report/attributes.hpp"
 #include "mansard/solid/half_edges.hpp"
 #include "mansard/solid/solid.hpp"
+#include "mansard/solid/unite.hpp"
 
 namespace mansard::report {
 namespace {
@@ -227,6 +228,7 @@ auto level_measures(const model::Building& building, const model::Frame& frame, 
     const auto lod = names.lod;
     double volume = 0, surface = 0, squared = 0, seen = 0;
     std::vector<base::Diagnostic> wrong;
+    std::vector<const model::LabelledSolid*> solids;
     bool made = true;
     for (const auto& levels : all) {
       const auto& model = levels.at(lod);
@@ -238,6 +240,7 @@ auto level_measures(const model::Building& building, const model::Frame& frame, 
       for (const auto& face : model.solid.faces) surface += solid::area(model.solid, face);
       const auto found = solid::check(model.solid, solid::written_rules());
       wrong.insert(wrong.end(), found.begin(), found.end());
+      solids.push_back(&model);
       if (mesh == nullptr || lod == formats::Lod::lod22) continue;
       for (std::size_t f = 0; f < model.classes.size(); ++f) {
         if (model.classes[f] != model::FaceClass::ground) continue;
@@ -250,6 +253,7 @@ auto level_measures(const model::Building& building, const model::Frame& frame, 
       }
     }
     if (!made) continue;
+    for (auto& one : solid::overlapping(solids)) wrong.push_back(std::move(one.what));
     if (lod != formats::Lod::lod22) out.emplace_back(names.volume, volume);
     out.emplace_back(names.surface, surface);
     if (seen > 0) out.emplace_back(names.rmse, std::sqrt(squared / seen));

@@ -315,15 +315,16 @@ auto roof_percentile(const LabelledSolid& solid, double share) -> double {
 }
 
 auto val3dity_codes(std::span<const base::Diagnostic> findings) -> std::vector<int> {
-  constexpr std::array<std::pair<std::string_view, int>, 9> codes{{{"solid-degenerate", 104},
-                                                                   {"solid-near-vertices", 102},
-                                                                   {"solid-not-planar", 203},
-                                                                   {"solid-needle", 204},
-                                                                   {"solid-open", 302},
-                                                                   {"solid-non-manifold", 303},
-                                                                   {"solid-several-shells", 305},
-                                                                   {"solid-self-intersection", 306},
-                                                                   {"solid-orientation", 307}}};
+  constexpr std::array<std::pair<std::string_view, int>, 10> codes{{{"solid-degenerate", 104},
+                                                                    {"solid-near-vertices", 102},
+                                                                    {"solid-not-planar", 203},
+                                                                    {"solid-needle", 204},
+                                                                    {"solid-open", 302},
+                                                                    {"solid-non-manifold", 303},
+                                                                    {"solid-several-shells", 305},
+                                                                    {"solid-self-intersection", 306},
+                                                                    {"solid-orientation", 307},
+                                                                    {"solid-overlap", 601}}};
   std::set<int> out;
   for (const auto& finding : findings)
     for (const auto& [code, number] : codes)

@@ -53,6 +53,8 @@ auto codes() -> std::vector<base::Code> {
       {"solid-near-vertices", "Two vertices of a solid are less than 1 mm apart.",
        "Validators merge them; merge them in the file.", 1},
       {"solid-several-shells", "The faces of a solid are not all connected.", "Write each shell as a solid.", 1},
+      {"solid-overlap", "Two solids of a building share space, be it a tenth of a millimetre.",
+       "Separate them, or write the building as one solid.", 1},
       {"solid-not-united", "The parts of a building are several solids.",
        "Parts that touch in an edge or a point only, or that overlap, have no union that is a valid solid; edit their "
        "plans where the message says so.",

@@ -183,28 +183,42 @@ class Parts {
   std::deque<LabelledSolid> owned_;
 };
 
-/// A solid that shares ground with others of its building, cut back from them, if there is a valid one. With its roofs,
-/// else flat.
+/// Ground at several heights comes to be at the lowest: what was cut is closed over one.
+void level_ground(LabelledSolid& model) {
+  std::set<std::uint32_t> ground;
+  for (std::size_t f = 0; f < model.classes.size(); ++f)
+    if (model.classes[f] == model::FaceClass::ground)
+      for (const auto& loop : model.solid.faces[f].loops) ground.insert(loop.begin(), loop.end());
+  auto& vertices = model.solid.vertices;
+  double lowest = 1e300;
+  for (const auto v : ground) lowest = std::min(lowest, vertices[v].z);
+  for (const auto v : ground) vertices[v].z = lowest;
+}
+
+/// A solid that shares space with others of its building, cut back from them, if there is a valid one. With its roofs,
+/// as little as rounding needs, else by twice what becomes one point or by 2 cm; else flat.
 auto cut_back(const LabelledSolid& solid, std::span<const LabelledSolid* const> others) -> std::vector<One> {
-  constexpr double gap = 2 * model::least_apart;
-  const auto rest = detail::without(solid, others, gap).solid;
-  if (!rest) return {};
-  const LabelledSolid flat = prism_over_ground(*rest, detail::roof_middle(*rest));
-  for (const LabelledSolid* shape : {&*rest, &flat})
-    for (const std::int64_t near : {std::int64_t{model::least_apart}, std::int64_t{50}}) {
-      if (shape->solid.faces.empty()) continue;
-      const std::array<const LabelledSolid*, 1> alone{shape};
-      auto made = detail::united_by(alone, Reach{near});
-      const auto is_apart = [&](const One& one) {
-        return std::ranges::none_of(others, [&](auto* other) { return detail::overlap(*other, one.model); });
-      };
-      if (!made.solids.empty() && made.warnings.empty() && std::ranges::all_of(made.solids, is_apart))
-        return std::move(made.solids);
+  for (const bool flat : {false, true})
+    for (const double gap : {3.0, 2.0 * model::least_apart, 200.0}) {
+      auto rest = detail::without(solid, others, gap).solid;
+      if (!rest) continue;
+      level_ground(*rest);
+      if (flat) rest = prism_over_ground(*rest, detail::roof_middle(*rest));
+      if (rest->solid.faces.empty()) continue;
+      for (const std::int64_t near : {std::int64_t{model::least_apart}, std::int64_t{50}}) {
+        const std::array<const LabelledSolid*, 1> alone{&*rest};
+        auto made = detail::united_by(alone, Reach{near});
+        const auto is_apart = [&](const One& one) {
+          return std::ranges::none_of(others, [&](auto* other) { return detail::overlap(*other, one.model); });
+        };
+        if (!made.solids.empty() && made.warnings.empty() && std::ranges::all_of(made.solids, is_apart))
+          return std::move(made.solids);
+      }
     }
   return {};
 }
 
-/// Of solids of a family that share ground the larger one stays.
+/// Of solids of a family that share space the larger one stays.
 void let_give_way(const std::vector<std::uint32_t>& family, std::vector<United>& made) {
   struct Standing {
     std::uint32_t building = 0;
@@ -229,20 +243,13 @@ void let_give_way(const std::vector<std::uint32_t>& family, std::vector<United>&
   };
   for (auto& [b, one, size] : all) {
     std::vector<const LabelledSolid*> others;
-    bool only_leaning = true;
-    for (const auto* other : kept) {
-      if (!detail::overlap(*other, one.model)) continue;
-      others.push_back(other);
-      only_leaning = only_leaning && !detail::share_ground(*other, one.model);
-    }
-    auto pieces = others.empty() ? std::vector<One>{} : cut_back(one.model, others);
-    double rest = 0;
-    for (const One& piece : pieces) rest += volume(piece.model.solid);
-    constexpr double much = 0.01;  // a share of it that rounding of a wall is not worth
-    if (others.empty() || (only_leaning && rest < (1 - much) * size)) {
+    for (const auto* other : kept)
+      if (detail::overlap(*other, one.model)) others.push_back(other);
+    if (others.empty()) {
       keep(b, std::move(one));
       continue;
     }
+    auto pieces = cut_back(one.model, others);
     made[b].warnings.push_back(
         pieces.empty() ? base::warning("solid-left-out", "a solid of it overlaps another one, and cannot be cut back")
                        : base::warning("solid-simplified", "a solid of it overlapped another one, and was cut back"));
@@ -455,6 +462,18 @@ auto share_walls(std::span<const LabelledSolid* const> parts) -> bool {
 }
 
 auto unite(std::span<const LabelledSolid* const> parts) -> United { return united_alone(parts); }
+
+auto overlapping(std::span<const LabelledSolid* const> solids) -> std::vector<Overlapping> {
+  std::vector<Overlapping> out;
+  for (std::size_t i = 0; i < solids.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (detail::overlap(*solids[k], *solids[i])) {
+        out.push_back({i, base::error("solid-overlap",
+                                      "it shares space with solid " + std::to_string(k + 1) + " of its building")});
+        break;
+      }
+  return out;
+}
 
 auto unite_all(std::span<const std::vector<const LabelledSolid*>> buildings) -> std::vector<United> {
   return unite_groups(buildings, detail::of_a_building);

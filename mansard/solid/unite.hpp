@@ -49,6 +49,14 @@ struct United {
 /// unite_each() has nothing to do. Parts with overhanging eaves are only checked for validity.
 [[nodiscard]] auto share_walls(std::span<const model::LabelledSolid* const> parts) -> bool;
 
+/// "solid-overlap" of each solid of a building that shares space with one before it, by its place: val3dity's 601.
+/// Exact over whole units of files, and surfaces that touch share none. Solids with overhanging eaves are not compared.
+struct Overlapping {
+  std::size_t solid = 0;
+  base::Diagnostic what;
+};
+[[nodiscard]] auto overlapping(std::span<const model::LabelledSolid* const> solids) -> std::vector<Overlapping>;
+
 /// The ground of a model raised to a flat roof at z. It is based on the corners of the model's ground, and its walls
 /// are party walls where the model's are. Empty where z is not above the ground.
 [[nodiscard]] auto prism_over_ground(const model::LabelledSolid& model, double z) -> model::LabelledSolid;

@@ -92,7 +92,7 @@ class Feet {
   }
   [[nodiscard]] auto all() const -> const std::vector<Foot>& { return feet_; }
   [[nodiscard]] auto near(const Flat& a, const Flat& b) const -> std::vector<std::uint32_t> {
-    return index_.overlapping(box_of(a, b));
+    return index_.overlapping(box_of(a, b).grown(2));  // units: rounding
   }
 
  private:
@@ -145,6 +145,36 @@ auto lowered(const LabelledSolid& model, double z) -> LabelledSolid {
   return out;
 }
 
+/// Whether a point is on an edge but for rounding.
+auto is_on(const Foot& foot, const Flat& p) -> bool {
+  constexpr double off = 1.5;  // units of files
+  const auto square = [](std::int64_t v) { return static_cast<double>(v) * static_cast<double>(v); };
+  const double length2 = square(foot.to[0] - foot.from[0]) + square(foot.to[1] - foot.from[1]);
+  const auto at = static_cast<double>(foot.along(p));
+  return at >= -off * std::sqrt(length2) && at <= length2 + off * std::sqrt(length2) &&
+         square(foot.aside(p)) <= off * off * length2;
+}
+
+/// The height of the ground at an edge that a union has cut off a corner, or that ends at one: that of the building
+/// that has both of its ends on its edges, on one where there is such a one.
+auto height_of_cut(const Flat& from, const Flat& to, const Feet& feet) -> std::optional<std::int64_t> {
+  std::optional<std::int64_t> on_one, on_two;
+  std::map<std::size_t, std::array<bool, 2>> ends;
+  std::map<std::size_t, std::int64_t> heights;
+  const auto lower = [](std::optional<std::int64_t>& z, std::int64_t other) { z = z ? std::min(*z, other) : other; };
+  for (const auto number : feet.near(from, to)) {
+    const Foot& foot = feet.all()[number];
+    const bool first = is_on(foot, from), last = is_on(foot, to);
+    if (first && last) lower(on_one, foot.z);
+    auto& both = ends[foot.owner];
+    both = {both[0] || first, both[1] || last};
+    heights.try_emplace(foot.owner, foot.z);
+  }
+  for (const auto& [owner, both] : ends)
+    if (both[0] && both[1]) lower(on_two, heights[owner]);
+  return on_one ? on_one : on_two;
+}
+
 /// The pieces of an edge of a united ground, each with the height of the building whose edge it is; nothing where some
 /// of it is that of none.
 struct Piece {
@@ -173,16 +203,66 @@ auto pieces_of(const Flat& from, const Flat& to, const Feet& feet) -> std::vecto
       if (whole.along(foot->from) <= whole.along(ends[i]) && whole.along(foot->to) >= whole.along(ends[i + 1]) &&
           (owner == nullptr || foot->z < owner->z))
         owner = foot;
-    if (owner == nullptr) return {};
+    if (owner == nullptr) {
+      const auto z = height_of_cut(from, to, feet);
+      return z ? std::vector<Piece>{{from, to, *z}} : std::vector<Piece>{};
+    }
     if (!out.empty() && out.back().z == owner->z) out.back().to = ends[i + 1];
     else out.push_back({ends[i], ends[i + 1], owner->z});
   }
   return out;
 }
 
+/// Walls that were cut into triangles since they are narrow, put together across edges that begin at the lowest height
+/// and end above another corner: raised to several heights, the two sides of such an edge would differ.
+auto without_diagonals(const LabelledSolid& model, std::int64_t low) -> LabelledSolid {
+  LabelledSolid out = model;
+  auto& [vertices, faces] = out.solid;
+  using Edge = std::pair<std::uint32_t, std::uint32_t>;
+  std::map<Edge, std::size_t> face_of;
+  const auto enter = [&](std::size_t f) {
+    const auto& loop = faces[f].loops.front();
+    for (std::size_t i = 0; i < loop.size(); ++i) face_of[{loop[i], loop[(i + 1) % loop.size()]}] = f;
+  };
+  const auto is_diagonal = [&](std::uint32_t a, std::uint32_t b) {
+    const Place p = place_of(vertices[a]), q = place_of(vertices[b]);
+    return (p[2] == low) != (q[2] == low) && flat(p) != flat(q);
+  };
+  for (std::size_t f = 0; f < faces.size(); ++f) enter(f);
+  std::vector<Edge> diagonals;
+  for (const auto& [edge, f] : face_of)
+    if (edge.first < edge.second && is_diagonal(edge.first, edge.second)) diagonals.push_back(edge);
+  for (const auto& [a, b] : diagonals) {
+    const auto there = face_of.find({a, b}), back = face_of.find({b, a});
+    if (there == face_of.end() || back == face_of.end() || there->second == back->second) continue;
+    const std::size_t f = there->second, g = back->second;
+    auto &into = faces[f].loops.front(), &from = faces[g].loops.front();
+    const auto shared = std::ranges::count_if(into, [&](auto v) { return std::ranges::find(from, v) != from.end(); });
+    if (shared != 2) continue;                              // it would come to a corner twice
+    std::ranges::rotate(into, std::ranges::find(into, b));  // b … a
+    std::ranges::rotate(from, std::ranges::find(from, a));  // a … b
+    into.insert(into.end(), from.begin() + 1, from.end() - 1);
+    faces[f].loops.insert(faces[f].loops.end(), faces[g].loops.begin() + 1, faces[g].loops.end());
+    faces[g].loops.clear();
+    face_of.erase({a, b});
+    face_of.erase({b, a});
+    enter(f);
+  }
+  std::size_t next = 0;
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    if (!faces[f].loops.empty()) {
+      if (next != f) faces[next] = std::move(faces[f]);
+      out.classes[next++] = out.classes[f];
+    }
+  faces.resize(next);
+  out.classes.resize(next);
+  return out;
+}
+
 /// A lowered solid raised again to the heights of its buildings, edge by edge. None where that cannot be done.
-auto raised(const LabelledSolid& model, std::int64_t low, const Feet& feet) -> std::optional<Shell> {
+auto raised(const LabelledSolid& lowered, std::int64_t low, const Feet& feet) -> std::optional<Shell> {
   Shell out;
+  const LabelledSolid model = without_diagonals(lowered, low);
   const auto& [vertices, faces] = model.solid;
   std::map<Flat, std::set<std::int64_t>> heights;  // of the ground at each corner
   std::map<std::pair<Flat, Flat>, std::vector<Piece>> pieces;

@@ -118,6 +118,51 @@ TEST_F(Info, says_why_a_solid_is_not_valid) {
   EXPECT_THAT(run("info " + at("torn.city.json")).out, HasSubstr("1 of 2 solids"));
 }
 
+TEST_F(Info, compares_the_solids_of_a_building_with_each_other) {
+  const auto part = [](const std::string& id, const std::string& ring) {
+    return R"({"id":")" + id + R"(","attributes":{},"plan":{"base":0,"cap":5,"outer":{"points":)" + ring +
+           R"(,"profile_of_edge":[0,0,0,0]},"holes":[],"profiles":[[[0,0],[0,9]]]}})";
+  };
+  const auto plans =
+      put("plans.json", R"({"type":"mansard-plan","version":1,"frame":{"origin":[0,0,0],"crs":"EPSG:28992"},
+"made_by":{"generator":"mansard","version":"0.1.0","options":{},"inputs":[]},"buildings":[{"id":"c","attributes":{},"parts":[)" +
+                            part("a", "[[0,0],[10,0],[10,8],[0,8]]") + "," +
+                            part("b", "[[10,0],[19,0],[19,8],[10,8]]") + "]}]}");
+  const auto made = run("extrude " + plans + " -o " + at("out") + " --formats cityjson --write-solids part");
+  ASSERT_EQ(made.exit, 0) << made.err;
+  // In the order of the file: others are edited ones, which are made again from their plans.
+  auto model = nlohmann::ordered_json::parse(read(at("out") + "/model.city.json"));
+  EXPECT_EQ(info(put("sound.city.json", model.dump()))[0]["validity"]["valid"], 2);
+  // An upright edge of one moves into the other by a unit of the file, which has 1 mm or less, and both are valid
+  // still.
+  auto& vertices = model["vertices"];
+  for (auto& geometry : model["CityObjects"]["a"]["geometry"]) {
+    if (geometry["lod"] != "2.2") continue;
+    std::map<std::size_t, std::size_t> copies;
+    for (auto& face : geometry["boundaries"][0])
+      for (auto& ring : face)
+        for (auto& v : ring) {
+          const auto was = v.get<std::size_t>();
+          const double x = vertices[was][0].get<double>() * model["transform"]["scale"][0].get<double>();
+          const double y = vertices[was][1].get<double>() * model["transform"]["scale"][1].get<double>();
+          if (std::abs(x - 10) > 1e-6 || std::abs(y) > 1e-6) continue;
+          if (!copies.contains(was)) {
+            auto moved = vertices[was];
+            moved[0] = moved[0].get<int>() + 1;
+            copies[was] = vertices.size();
+            vertices.push_back(std::move(moved));
+          }
+          v = copies[was];
+        }
+    ASSERT_EQ(copies.size(), 2U);
+  }
+  const auto validity = info(put("leaning.city.json", model.dump()))[0]["validity"];
+  EXPECT_EQ(validity["solids"], 2) << validity.dump();
+  EXPECT_EQ(validity["valid"], 1);
+  ASSERT_EQ(validity["invalid"].size(), 1U);
+  EXPECT_EQ(validity["invalid"][0]["reasons"][0]["code"], "solid-overlap");
+}
+
 TEST_F(Info, compares_solids_with_each_other_as_a_run_does_in_every_format) {
   const auto two = put("two.geojson", R"({"type":"FeatureCollection","features":[
 {"type":"Feature","properties":{"id":"a"},"geometry":)" +

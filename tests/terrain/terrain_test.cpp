@@ -324,6 +324,37 @@ TEST(Closed, is_one_shell_for_rows_of_houses_on_a_slope) {
   EXPECT_LE(simplified, 4U);  // of about 90 rows
 }
 
+/// A union cuts a corner of some millimetres off one of them, which no building has, with a wall too narrow for a
+/// plane.
+TEST(Closed, keeps_the_roofs_of_houses_that_touch_in_a_corner) {
+  for (const double base : {1.0, 1.4})
+    for (const double angle : {0.0, 0.3, 1.1}) {
+      SCOPED_TRACE(testing::Message() << "ground " << base << ", turned by " << angle);
+      std::vector<model::Building> buildings{box_building("a", {{0, 0}, {10, 8}}, 1, 9),
+                                             box_building("b", {{10, 8}, {19, 15}}, base, 8),
+                                             box_building("c", {{0, 8}, {4, 12}}, base, 7)};
+      for (auto& building : buildings)
+        for (auto& v : building.solids.front().model.solid.vertices) {
+          const double x = v.x * std::cos(angle) - v.y * std::sin(angle),
+                       y = v.x * std::sin(angle) + v.y * std::cos(angle);
+          v.x = std::round(x * 1e4) / 1e4, v.y = std::round(y * 1e4) / 1e4;
+        }
+      for (auto& building : buildings)
+        for (auto& face : building.solids.front().model.solid.faces)
+          face.normal =
+              geometry::Point3{face.normal.x * std::cos(angle) - face.normal.y * std::sin(angle),
+                               face.normal.x * std::sin(angle) + face.normal.y * std::cos(angle), face.normal.z};
+      const Options options;
+      const auto area = area_around(grounds_of(buildings), options);
+      const auto surface = closed(heights_on(area, 1, [](Point2) { return 1.0; }), buildings, options);
+      ASSERT_TRUE(surface) << base::to_string(surface.error());
+      EXPECT_TRUE(is_closed(surface->mesh));
+      for (const auto& warning : surface->warnings) ADD_FAILURE() << warning.message;
+      const auto highest = std::ranges::max_element(surface->mesh.vertices, {}, &geometry::Point3::z);
+      EXPECT_NEAR(highest->z, 9, 1e-5);
+    }
+}
+
 TEST(Closed, gives_a_flat_roof_to_the_solid_that_no_union_can_have_and_keeps_the_others) {
   std::vector<model::Building> buildings;
   const std::vector<double> heights{9, 7, 11, 6, 8};

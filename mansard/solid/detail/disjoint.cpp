@@ -9,6 +9,7 @@
 
 #include "mansard/geometry/change.hpp"
 #include "mansard/model/file_grid.hpp"
+#include "mansard/solid/detail/interiors.hpp"
 
 namespace mansard::solid::detail {
 namespace {
@@ -141,14 +142,9 @@ class Heights {
       const double length2 = dot(along, along), t = dot(to, along) / length2, off = cross(along, to);
       if (t > 0 && t < 1 && off * off <= length2) return std::round(a.z + t * (b.z - a.z));
     }
-    return std::round(on_plane(p));
-  }
-
-  /// Not rounded; the face must not be vertical.
-  [[nodiscard]] auto on_plane(Point2 p) const -> double {
     const Point3 a = edges_.front()[0];
     const Point2 to = p - geometry::xy(a);
-    return a.z - (normal_.x * to.x + normal_.y * to.y) / normal_.z;
+    return std::round(a.z - (normal_.x * to.x + normal_.y * to.y) / normal_.z);
   }
 
  private:
@@ -257,45 +253,6 @@ class Clipping {
   std::set<Point2> roofs_, ground_;
 };
 
-/// Whether the solid is higher there than a height by more than a unit.
-auto is_above(const LabelledSolid& solid, Point2 at, double height) -> bool {
-  return std::ranges::any_of(solid.solid.faces, [&](const model::Face& face) {
-    const Polygon seen = seen_from_above(solid, face);
-    return geometry::signed_area(seen.outer) > 0 && geometry::contains(seen, at) &&
-           Heights(solid, face).on_plane(at) > height + 1;
-  });
-}
-
-auto middle_of(const geometry::Ring& ring) -> Point2 {
-  Point2 sum;
-  for (const Point2 p : ring) sum = sum + p;
-  return (1.0 / static_cast<double>(ring.size())) * sum;
-}
-
-/// Whether a wall of one that looks down is within the other, below what that one has there. Where both have the same
-/// wall there is nothing above it.
-auto leans_into(const LabelledSolid& one, const LabelledSolid& other) -> bool {
-  const auto ground = ground_of(other);
-  for (std::size_t f = 0; f < one.classes.size(); ++f) {
-    const model::Face& face = one.solid.faces[f];
-    if (one.classes[f] == FaceClass::ground || one.classes[f] == FaceClass::roof) continue;
-    const Polygon seen = seen_from_above(one, face);
-    if (!(geometry::signed_area(seen.outer) < 0)) continue;
-    const Polygon wall = geometry::oriented(seen);
-    const Heights heights(one, face);
-    for (const Polygon& below : ground) {
-      if (!geometry::bounds(wall.outer).overlaps(geometry::bounds(below.outer))) continue;
-      const auto shared = geometry::intersect(wall, below);
-      if (!shared) return true;
-      for (const Polygon& piece : *shared) {
-        const Point2 at = middle_of(piece.outer);
-        if (geometry::area(piece) > 0 && is_above(other, at, heights.on_plane(at))) return true;
-      }
-    }
-  }
-  return false;
-}
-
 }  // namespace
 
 auto share_ground(const LabelledSolid& a, const LabelledSolid& b) -> bool {
@@ -306,7 +263,7 @@ auto share_ground(const LabelledSolid& a, const LabelledSolid& b) -> bool {
 
 auto overlap(const LabelledSolid& a, const LabelledSolid& b) -> bool {
   if (has_eaves(a) || has_eaves(b) || !at_common_height(a, b)) return false;
-  return share_ground(a, b) || leans_into(a, b) || leans_into(b, a);
+  return share_ground(a, b) || insides_meet(a.solid, b.solid) || touch_by_chance(a.solid, b.solid);
 }
 
 auto wider_than_points(const LabelledSolid& solid, double near) -> bool {

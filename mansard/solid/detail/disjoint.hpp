@@ -15,8 +15,9 @@ namespace mansard::solid::detail {
 /// that they intersect then. Where that cannot be computed they do. Solids with overhanging eaves are not compared.
 [[nodiscard]] auto share_ground(const model::LabelledSolid& a, const model::LabelledSolid& b) -> bool;
 
-/// The same, or a wall of one leans into the other: by rounding, a wall that is not on shared corners looks down a
-/// little.
+/// The same, or their walls pass through each other: by rounding, a wall that is not on shared corners leans a little,
+/// and one around a corner that another solid has, too, does not keep to it. Exact, as insides_meet(); or
+/// it is chance whether they do, by touch_by_chance().
 [[nodiscard]] auto overlap(const model::LabelledSolid& a, const model::LabelledSolid& b) -> bool;
 
 /// Whether there is ground wider than two points that become one, `near` units apart.

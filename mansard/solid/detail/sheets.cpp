@@ -34,7 +34,9 @@ class Conforming {
 
   auto run() -> bool {
     constexpr int most_rounds = 40;
-    for (int round = 0; round < most_rounds; ++round) {
+    // Where edges run back and forth over each other, each round could double them.
+    const std::size_t most_nodes = 16 * nodes() + 4096;
+    for (int round = 0; round < most_rounds && nodes() <= most_nodes; ++round) {
       merge();
       if (at_points() || at_corners_of_roofs() || lift_roofs() || at_crossings() || at_inversions()) continue;
       return true;
@@ -54,6 +56,13 @@ class Conforming {
     for (Sheet& sheet : s_.sheets)
       for (Path& path : sheet.paths)
         for (Node& node : path) work(node, sheet);
+  }
+
+  [[nodiscard]] auto nodes() const -> std::size_t {
+    std::size_t count = 0;
+    for (const Sheet& sheet : s_.sheets)
+      for (const Path& path : sheet.paths) count += path.size();
+    return count;
   }
 
   /// Ground floors at nearly one height come to be at the lowest of them.

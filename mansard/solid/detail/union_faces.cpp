@@ -196,14 +196,15 @@ class Building {
     for (const Piece* piece : group)
       if (length(run(*piece)) > length(run(*longest))) longest = piece;
     const Point2 along = geometry::normalised(run(*longest)), start = flat_of({longest->step.first, 0});
-    // A wall that another solid of the building has too must be the same there, so it must be planar exactly:
-    // validators compare them.
+    // A wall that another solid of the building has too must be the same there: validators compare them, and cut a wall
+    // that bends a little at a corner into triangles that do not keep to it.
     const auto is_pinned = [&](const Node& node) {
       return node.at < s_.pinned.size() && s_.pinned[node.at] == of_a_solid;
     };
     const bool shared =
         std::ranges::any_of(group, [&](const Piece* piece) { return std::ranges::any_of(piece->path, is_pinned); });
-    const double most = shared ? 1e-3 : 1.5;  // quanta
+    if (shared && !is_level_with_an_axis(group)) return false;
+    constexpr double most = 1.5;  // quanta
     std::vector<Path> paths;
     for (const Piece* piece : group) {
       if (dot(run(*piece), along) <= 0) return false;
@@ -216,6 +217,22 @@ class Building {
     if (!faces) return false;
     for (const auto& loops : *faces) add_face(loops, group.front()->kind, group.front()->solid, &from);
     return true;
+  }
+
+  /// Over one step, or along x or y. Only such walls are planar for those who read files: decimals become doubles,
+  /// which are on no line but these.
+  [[nodiscard]] auto is_level_with_an_axis(const std::vector<const Piece*>& group) const -> bool {
+    const Step& first = group.front()->step;
+    const auto is_same = [&](std::size_t k) {
+      return std::ranges::all_of(group, [&](const Piece* piece) {
+        return s_.places[piece->step.first][k] == s_.places[first.first][k] &&
+               s_.places[piece->step.second][k] == s_.places[first.first][k];
+      });
+    };
+    const bool one = std::ranges::all_of(group, [&](const Piece* piece) {
+      return std::minmax(piece->step.first, piece->step.second) == std::minmax(first.first, first.second);
+    });
+    return one || is_same(0) || is_same(1);
   }
 
   void add_face(const std::vector<Path>& loops, FaceClass kind, std::uint32_t solid, const model::Face* from) {

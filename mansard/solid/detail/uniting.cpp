@@ -85,8 +85,8 @@ struct Attempt {
   std::string why;
 };
 
-/// Several solids keep the corners of each other that they have on their walls.
-auto pinned_between(const Sheets& sheets) -> Sheets {
+/// Several solids keep the corners of each other that they have on their walls. `several`: they, in one.
+auto pinned_between(const Sheets& sheets, const model::Solid& several) -> Sheets {
   Sheets out = sheets;
   out.pinned.resize(out.places.size(), 0);
   std::vector<std::uint32_t> user(out.places.size(), UINT32_MAX);
@@ -97,6 +97,21 @@ auto pinned_between(const Sheets& sheets) -> Sheets {
         if (user[node.at] == UINT32_MAX) user[node.at] = sheet.solid;
         else if (user[node.at] != sheet.solid && pinned == 0) pinned = of_a_building;
       }
+  base::DisjointSets sets(several.vertices.size());
+  for (const auto& face : several.faces)
+    for (const auto& loop : face.loops)
+      for (const auto v : loop) sets.join(v, face.loops[0][0]);
+  std::map<Place, std::uint32_t> owner;
+  std::set<Place> of_several;
+  for (std::uint32_t v = 0; v < several.vertices.size(); ++v) {
+    const auto quanta = [](double metres) {
+      return static_cast<std::int64_t>(std::llround(metres * quanta_per_metre));
+    };
+    const Place place{quanta(several.vertices[v].x), quanta(several.vertices[v].y)};
+    if (owner.try_emplace(place, sets.of(v)).first->second != sets.of(v)) of_several.insert(place);
+  }
+  for (std::size_t p = 0; p < out.places.size(); ++p)
+    if (of_several.contains(out.places[p])) out.pinned[p] = of_a_solid;
   return out;
 }
 
@@ -106,12 +121,13 @@ auto made_of(const Sheets& sheets, std::span<const LabelledSolid* const> parts, 
     -> Attempt {
   auto made = union_of(sheets, parts);
   if (!made.why.empty()) return {{}, made.why};
+  const model::Solid before = made.model.solid;
   if (!finish(made, planar, level)) {
     if (level) return made_of(sheets, parts, alone, false);
     return {{}, "a face crosses itself"};
   }
   auto solids = apart(made.model, made.solid_of_face);
-  if (solids.size() > 1 && alone) return made_of(pinned_between(sheets), parts, false);
+  if (solids.size() > 1 && alone) return made_of(pinned_between(sheets, before), parts, false);
   for (One& one : solids)
     if (!check(one.model.solid, written_rules()).empty()) {
       if (level) return made_of(sheets, parts, alone, false);
