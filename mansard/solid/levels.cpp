@@ -384,7 +384,8 @@ auto option_list(LevelOptions& o) -> base::OptionList {
   return std::move(
       base::OptionList("solid")
           .number("lod13_step", o.lod13_step, "m", {0, 1000},
-                  "Smallest step of height between two roofs that LoD 1.3 keeps.")
+                  "Smallest step of height between two roofs that LoD 1.3 keeps, and depth from which LoD 2.0 keeps a "
+                  "small recess.")
           .source("that of roofer, its option lod13-step-height, so that models can be compared")
           .number("lod20_structure", o.lod20_structure, "m²", {0, 1e6},
                   "Area below which LoD 2.0 leaves out a structure on a roof.")

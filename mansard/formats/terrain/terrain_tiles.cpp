@@ -99,8 +99,11 @@ auto simplified(const Mesh& mesh, std::size_t most) -> Mesh {
   // Relative to a corner: single precision decides only which corners go.
   const Point3 origin = mesh.vertices.front();
   std::vector<float> places;
+  // Flattened, because only triangles that turn over in space are noticed: a steep one can turn over in plan by less.
+  constexpr double flattened = 0.1;
   for (const auto& v : mesh.vertices)
-    for (const double c : {v.x - origin.x, v.y - origin.y, v.z - origin.z}) places.push_back(static_cast<float>(c));
+    for (const double c : {v.x - origin.x, v.y - origin.y, flattened * (v.z - origin.z)})
+      places.push_back(static_cast<float>(c));
   std::vector<std::uint32_t> corners, kept(3 * mesh.triangles.size());
   for (const auto& t : mesh.triangles) corners.insert(corners.end(), t.begin(), t.end());
   constexpr float any_error = 1;  // of the size of the mesh
