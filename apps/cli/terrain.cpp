@@ -71,7 +71,7 @@ auto TerrainOut::write(const Made& made, const model::Scene& scene, const ingest
     return base::error("pipeline-nothing", "there are no models, so there is no terrain around them", "--terrain-out");
   const auto heights = pipeline::terrain_heights(scene, cells, area, options.terrain, run);
   if (!heights) return heights.failure();
-  geometry::Mesh mesh, shell;
+  geometry::Mesh mesh, below, shell;
   const auto tell = [&](const std::vector<base::Diagnostic>& warnings) {
     for (const auto& warning : warnings) progress.say(base::to_string(warning));
   };
@@ -80,6 +80,7 @@ auto TerrainOut::write(const Made& made, const model::Scene& scene, const ingest
     if (!made_terrain) return made_terrain.failure();
     tell(made_terrain->warnings);
     mesh = terrain::mesh_of(*made_terrain);
+    below = terrain::mesh_below(*made_terrain);
     progress.say("terrain: " + std::to_string(mesh.triangles.size()) + " triangles around " +
                  std::to_string(grounds.size()) + " buildings");
   }
@@ -92,7 +93,7 @@ auto TerrainOut::write(const Made& made, const model::Scene& scene, const ingest
   }
   for (const auto& target : *all) {
     const auto written = formats::write_terrain(target.format, target.path, target.format == Format::stl ? shell : mesh,
-                                                {made.frame, made.made_by}, options.write, outputs);
+                                                {made.frame, made.made_by}, options.write, outputs, below);
     if (!written) return written.failure();
     tell(*written);
   }

@@ -106,7 +106,15 @@ auto AttributeChoice::of(std::string_view text) -> base::Result<AttributeChoice>
     for (const auto& [other, other_to] : out.names_)
       if (other == name || other_to == to) return wrong("'" + std::string(word) + "' is given twice");
     out.names_.emplace_back(name, to);
+    out.list_ = true;
   }
+  return out;
+}
+
+auto AttributeChoice::listed() const -> std::vector<std::string> {
+  std::vector<std::string> out;
+  for (const auto& [name, to] : names_)
+    if (list_) out.push_back(name);
   return out;
 }
 

@@ -31,9 +31,11 @@ class AttributeChoice {
 
   [[nodiscard]] auto is_all() const -> bool { return all_; }
   [[nodiscard]] auto chosen(const model::Attributes& attributes) const -> model::Attributes;
+  /// The names of a list, not those of a preset, which has more than any building.
+  [[nodiscard]] auto listed() const -> std::vector<std::string>;
 
  private:
-  bool all_ = true;
+  bool all_ = true, list_ = false;
   std::vector<std::pair<std::string, std::string>> names_;
 };
 

@@ -61,6 +61,12 @@ auto codes() -> std::vector<base::Code> {
        "The message has GDAL's words; its FlatGeobuf driver and PROJ's data must be installed, and there must be "
        "memory.",
        3},
+      {"write-attribute-missing",
+       "A name in the list of --attributes is that of no attribute of the buildings written.",
+       "Compare the name with those of 'mansard options --attributes'. Some attributes need a scan or points, and "
+       "models "
+       "of other producers have none.",
+       0},
       {"write-postgis", "A PostGIS database could not be written; nothing in it has changed.",
        "The message has GDAL's words. The address is that of GDAL (PG:dbname=NAME host=HOST user=USER), PostGIS must "
        "be "

@@ -65,7 +65,12 @@ auto parse(std::string_view text) -> base::Result<Asked> {
     const auto name = trimmed(take_until(item, '='));
     const auto driver =
         std::ranges::find_if(drivers(), [&](const Driver& d) { return d.name == name && d.writes.has_value(); });
-    if (driver == drivers().end()) return wrong("'" + std::string(name) + "' is not a format that is written");
+    if (driver == drivers().end()) {
+      std::string known;
+      for (const auto& d : drivers())
+        if (d.writes && !possible_lods(*d.writes).empty()) known += (known.empty() ? "" : ", ") + std::string(d.name);
+      return wrong("'" + std::string(name) + "' is not the name of a format with levels of detail; these are " + known);
+    }
     auto levels = levels_in(item);
     if (!levels) return levels.failure();
     const auto possible = possible_lods(*driver->writes);

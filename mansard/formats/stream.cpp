@@ -98,18 +98,34 @@ auto open_plain(Format format, const std::filesystem::path& path, const Header& 
 class Choosing : public CityWriter {
  public:
   Choosing(std::unique_ptr<CityWriter> inner, AttributeChoice choice)
-      : inner_(std::move(inner)), choice_(std::move(choice)) {}
+      : inner_(std::move(inner)), choice_(std::move(choice)), unseen_(choice_.listed()) {}
   [[nodiscard]] auto add(const model::Building& building) -> base::Result<void> override {
+    std::erase_if(unseen_, [&](const std::string& name) {
+      return std::ranges::find(building.attributes, name, [](const auto& own) { return own.first; }) !=
+             building.attributes.end();
+    });
+    any_ = true;
     model::Building copy = building;
     copy.attributes = choice_.chosen(building.attributes);
     return inner_->add(copy);
   }
   [[nodiscard]] auto finish() -> base::Result<void> override { return inner_->finish(); }
-  [[nodiscard]] auto warnings() const -> std::vector<base::Diagnostic> override { return inner_->warnings(); }
+  [[nodiscard]] auto warnings() const -> std::vector<base::Diagnostic> override {
+    auto all = inner_->warnings();
+    for (const auto& name : unseen_)
+      if (any_)
+        all.push_back(base::warning("write-attribute-missing",
+                                    "no building has the attribute '" + name +
+                                        "'; 'mansard options --attributes' lists those that there may be",
+                                    "--attributes"));
+    return all;
+  }
 
  private:
   std::unique_ptr<CityWriter> inner_;
   AttributeChoice choice_;
+  std::vector<std::string> unseen_;  ///< names of a list that no building has had
+  bool any_ = false;                 ///< whether there was a building
 };
 
 }  // namespace

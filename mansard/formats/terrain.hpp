@@ -17,11 +17,12 @@ namespace mansard::formats {
 [[nodiscard]] auto terrain_extensions() -> std::string;
 
 /// Triangles in the local frame, on the grid of files, each corner once in `mesh.vertices`. The file is there after
-/// Outputs::commit. Guarantee: corners have the coordinates that models have in a file of the same format. Returns
-/// warnings. Fails with "file-write", "write-tiles-crs", "write-stl-size", "write-glb-size".
+/// Outputs::commit. `below`: the ground under the buildings, which only 3D Tiles have, in tiles that are seen from
+/// afar. Guarantee: corners have the coordinates that models have in a file of the same format. Returns warnings. Fails
+/// with "file-write", "write-tiles-crs", "write-stl-size", "write-glb-size".
 [[nodiscard]] auto write_terrain(Format format, const std::filesystem::path& path, const geometry::Mesh& mesh,
-                                 const Header& header, const WriteOptions& options, base::Outputs& outputs)
-    -> base::Result<std::vector<base::Diagnostic>>;
+                                 const Header& header, const WriteOptions& options, base::Outputs& outputs,
+                                 const geometry::Mesh& below = {}) -> base::Result<std::vector<base::Diagnostic>>;
 
 /// What a CityJSON or CityJSONSeq has of terrain.
 struct TerrainInfo {

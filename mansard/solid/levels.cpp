@@ -6,6 +6,7 @@
 #include <numeric>
 #include <set>
 
+#include "mansard/base/disjoint_sets.hpp"
 #include "mansard/geometry/change.hpp"
 #include "mansard/model/file_grid.hpp"
 #include "mansard/solid/detail/roof_field.hpp"
@@ -28,6 +29,9 @@ using model::LabelledSolid;
 /// Halves go up everywhere, so that a shift by whole metres shifts the result.
 auto on_grid(double v) -> double { return std::floor(v * model::quanta_per_metre + 0.5) / model::quanta_per_metre; }
 
+/// m; planes of faces are rounded to 0.1 mm at corners that may be a metre apart.
+constexpr double same_plane = 5e-3;
+
 /// A face that goes on over a structure, where the planes around it show it.
 struct Neighbour {
   std::uint32_t face = 0;
@@ -39,12 +43,11 @@ struct Neighbour {
 enum class Envelope : std::uint8_t { lowest, highest };
 
 auto agrees(const std::vector<Neighbour>& around, const RoofField& field, Envelope envelope) -> bool {
-  constexpr double close = 5e-3;  // m; planes of faces are rounded to 0.1 mm at corners that may be a metre apart
   for (const auto& own : around)
     for (const auto middle : own.middles)
       for (const auto& other : around) {
         const double rise = field.faces[other.face].plane.height(middle) - field.faces[own.face].plane.height(middle);
-        if (envelope == Envelope::lowest ? rise < -close : rise > close) return false;
+        if (envelope == Envelope::lowest ? rise < -same_plane : rise > same_plane) return false;
       }
   return true;
 }
@@ -73,13 +76,18 @@ auto where(const Polygon& polygon, const RoofPlane& own, const RoofPlane& other,
   return pieces ? std::move(*pieces) : std::vector<Polygon>();
 }
 
-/// The loops of a polygon in a plane, on the grid of files.
-auto loops_in(const Polygon& polygon, const RoofPlane& plane) -> std::vector<std::vector<Point3>> {
+/// The loops of a polygon in a plane, on the grid of files. Corners of the roof around it stay as high as they are.
+auto loops_in(const Polygon& polygon, const RoofPlane& plane, const std::map<Point2, double>& corners)
+    -> std::vector<std::vector<Point3>> {
   std::vector<std::vector<Point3>> out;
   const auto add = [&](const geometry::Ring& ring) {
     auto& loop = out.emplace_back();
     for (const auto p : ring) {
-      const Point3 q{on_grid(p.x), on_grid(p.y), on_grid(plane.height(p))};
+      const Point2 at{on_grid(p.x), on_grid(p.y)};
+      double z = on_grid(plane.height(p));
+      if (const auto corner = corners.find(at); corner != corners.end() && std::abs(corner->second - z) < same_plane)
+        z = corner->second;
+      const Point3 q{at.x, at.y, z};
       if (loop.empty() || loop.back() != q) loop.push_back(q);
     }
     while (loop.size() > 1 && loop.back() == loop.front()) loop.pop_back();
@@ -92,8 +100,43 @@ auto loops_in(const Polygon& polygon, const RoofPlane& plane) -> std::vector<std
   return out;
 }
 
-/// What a structure gives way to: loops, each by the face in whose plane they lie.
+/// One neighbour of each plane, that with the longest contact: rounding cuts slopes into triangles, whose planes differ
+/// by less than what counts here.
+auto distinct(std::vector<Neighbour> around, const RoofField& field) -> std::vector<Neighbour> {
+  // Rounded, so that equal lengths stay equal wherever the building is.
+  const auto by_length = [](const Neighbour& one) { return std::llround(one.length * model::quanta_per_metre); };
+  std::ranges::stable_sort(around, std::greater(), by_length);
+  std::vector<Neighbour> out;
+  for (auto& one : around) {
+    const auto& plane = field.faces[one.face].plane;
+    const auto same = std::ranges::find_if(out, [&](const Neighbour& kept) {
+      const auto agree = [&](Point2 p) {
+        return std::abs(field.faces[kept.face].plane.height(p) - plane.height(p)) < same_plane;
+      };
+      return std::ranges::all_of(kept.middles, agree) && std::ranges::all_of(one.middles, agree);
+    });
+    if (same == out.end()) {
+      out.push_back(std::move(one));
+      continue;
+    }
+    same->length += one.length;
+    same->middles.insert(same->middles.end(), one.middles.begin(), one.middles.end());
+  }
+  std::ranges::stable_sort(out, std::greater(), by_length);
+  return out;
+}
+
+/// What a structure gives way to: loops, by the face in whose plane they lie.
 using Filling = std::vector<std::pair<std::uint32_t, std::vector<std::vector<Point3>>>>;
+
+/// Volume below some faces, from z = 0, in m³.
+auto volume_below(const std::vector<std::vector<Point3>>& loops) -> double {
+  double sum = 0;
+  for (const auto& loop : loops)
+    for (std::size_t i = 1; i + 1 < loop.size(); ++i)
+      sum += cross(xy(loop[i] - loop[0]), xy(loop[i + 1] - loop[0])) * (loop[0].z + loop[i].z + loop[i + 1].z) / 6;
+  return sum;
+}
 
 auto filling_of(const std::vector<const RoofFace*>& structure, const std::vector<Neighbour>& around,
                 const RoofField& field, double base) -> Filling {
@@ -102,11 +145,14 @@ auto filling_of(const std::vector<const RoofFace*>& structure, const std::vector
     faces.push_back(geometry::oriented(geometry::polygon_of(face->loops, [](Point3 p) { return xy(p); })));
   auto ground = faces.size() == 1 ? base::Result<std::vector<Polygon>>(faces) : geometry::unite(faces);
   if (!ground) return {};
-  std::vector<Neighbour> planes = around;
+  std::map<Point2, double> corners;
+  for (const auto& one : around)
+    for (const auto& loop : field.faces[one.face].loops)
+      for (const auto p : loop) corners.emplace(xy(p), p.z);
+  std::vector<Neighbour> planes = distinct(around, field);
   auto envelope = Envelope::lowest;
-  if (!agrees(around, field, envelope)) envelope = Envelope::highest;
-  if (!agrees(around, field, envelope))
-    planes = {*std::ranges::max_element(around, {}, [](const Neighbour& one) { return one.length; })};
+  if (!agrees(planes, field, envelope)) envelope = Envelope::highest;
+  if (!agrees(planes, field, envelope)) planes.resize(1);
   Filling out;
   for (std::size_t i = 0; i < planes.size(); ++i) {
     std::vector<Polygon> own = *ground;
@@ -121,7 +167,7 @@ auto filling_of(const std::vector<const RoofFace*>& structure, const std::vector
       own = std::move(left);
     }
     for (const auto& polygon : own) {
-      auto loops = loops_in(polygon, plane);
+      auto loops = loops_in(polygon, plane, corners);
       for (const auto& loop : loops)
         for (const auto p : loop)
           if (p.z <= base) return {};  // the plane would go into the ground
@@ -131,24 +177,121 @@ auto filling_of(const std::vector<const RoofFace*>& structure, const std::vector
   return out;
 }
 
-/// Takes out every structure that is on a larger piece. Whether there was one.
-auto take_out(RoofField& field, double base, const LevelOptions& options) -> bool {
-  std::map<std::uint32_t, std::map<std::uint32_t, std::vector<Contact>>> of;  // by piece and by the other piece
-  for (const auto& contact : field.contacts())
-    of[field.faces[contact.face].piece][field.faces[contact.other].piece].push_back(contact);
+/// What may be left out: a piece of roof, or faces of a larger piece that meet it at edges, as the roof of a dormer
+/// does.
+struct Structure {
+  std::vector<std::uint32_t> faces;
+  bool is_piece = true;
+  double outline = 0;  ///< m
+};
+
+auto perimeter(const RoofFace& face) -> double {
+  double sum = 0;
+  for (const auto& loop : face.loops)
+    for (std::size_t i = 0; i < loop.size(); ++i) sum += length(xy(loop[(i + 1) % loop.size()] - loop[i]));
+  return sum;
+}
+
+/// Small pieces, and in larger ones the small faces that are connected without a valley between them.
+auto structures_of(const RoofField& field, std::span<const Contact> seams, double limit) -> std::vector<Structure> {
   std::vector<double> areas(field.pieces);
   for (const auto& face : field.faces) areas[face.piece] += face.area;
-  std::set<std::uint32_t> gone, changed;
+  // A roof bends upwards where a dormer meets the slope behind it. Less than this is one plane, rounded.
+  constexpr double even = 1e-3;
+  base::DisjointSets sets(field.faces.size());
+  for (const auto& seam : seams) {
+    const auto &a = field.faces[seam.face], &b = field.faces[seam.other];
+    if (areas[a.piece] < limit || (a.area < limit && b.area < limit && seam.rise < even))
+      sets.join(seam.face, seam.other);
+  }
+  std::map<std::size_t, Structure> all;
+  for (std::uint32_t f = 0; f < field.faces.size(); ++f) {
+    auto& one = all[sets.of(f)];
+    one.faces.push_back(f);
+    one.is_piece = areas[field.faces[f].piece] < limit;
+    one.outline += perimeter(field.faces[f]);
+  }
+  for (const auto& seam : seams)
+    if (const auto set = sets.of(seam.face); set == sets.of(seam.other)) all[set].outline -= seam.length;
+  std::vector<Structure> out;
+  for (auto& [set, one] : all) {
+    double area = 0;
+    for (const auto f : one.faces) area += field.faces[f].area;
+    if (area < limit) out.push_back(std::move(one));
+  }
+  return out;
+}
+
+/// Makes one face of those that are in one plane with a face that has changed: of the triangles that rounding cut a
+/// slope with dormers into.
+void join_triangles(RoofField& field, std::span<const Contact> seams, const std::vector<bool>& changed,
+                    const std::vector<bool>& gone) {
+  constexpr double flat = 1e-3;  // m
+  const auto contains = [&](const RoofFace& face, const RoofFace& other) {
+    return std::ranges::all_of(other.loops[0],
+                               [&](Point3 p) { return std::abs(face.plane.height(xy(p)) - p.z) < flat; });
+  };
+  std::vector<std::uint32_t> order(field.faces.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::ranges::stable_sort(order, std::greater(), [&](std::uint32_t f) {
+    // Twice an area is a whole number of units of the grid.
+    return std::llround(2 * field.faces[f].area * model::quanta_per_metre * model::quanta_per_metre);
+  });
+  std::vector<std::vector<std::uint32_t>> beside(field.faces.size());
+  for (const auto& seam : seams) beside[seam.face].push_back(seam.other);
+  std::vector<bool> taken = gone;
+  for (const auto first : order) {
+    if (!changed[first] || taken[first]) continue;
+    taken[first] = true;
+    std::vector<std::uint32_t> open{first};
+    for (std::size_t i = 0; i < open.size(); ++i)
+      for (const auto f : beside[open[i]]) {
+        if (taken[f] || !contains(field.faces[first], field.faces[f])) continue;
+        taken[f] = true;
+        open.push_back(f);
+        auto& loops = field.faces[f].loops;
+        std::ranges::move(loops, std::back_inserter(field.faces[first].loops));
+        loops.clear();
+      }
+  }
+}
+
+/// Takes out every structure that is on a larger piece. Whether there was one. `dormers`: also those that are not
+/// pieces of their own.
+auto take_out(RoofField& field, double base, const LevelOptions& options, bool dormers) -> bool {
+  const auto seams = field.seams();
+  const auto structures = structures_of(field, seams, options.lod20_structure);
+  std::vector<std::optional<std::size_t>> of(field.faces.size());
+  for (std::size_t s = 0; s < structures.size(); ++s)
+    for (const auto f : structures[s].faces) of[f] = s;
+  // By structure and by the piece beside it. A dormer is on its own piece, of which other dormers are not the roof.
+  std::vector<std::map<std::uint32_t, std::vector<Contact>>> beside(structures.size());
+  std::vector<double> walls(structures.size());
+  const auto add = [&](const Contact& contact, bool wall) {
+    const auto own = of[contact.face];
+    if (!own || of[contact.other] == own) return;
+    const auto piece = field.faces[contact.other].piece;
+    if (!structures[*own].is_piece && (piece != field.faces[contact.face].piece || of[contact.other])) return;
+    beside[*own][piece].push_back(contact);
+    if (wall) walls[*own] += contact.length;
+  };
+  for (const auto& contact : field.contacts()) add(contact, true);
+  for (const auto& seam : seams) add(seam, false);
+  std::vector<double> areas(field.pieces);
+  for (const auto& face : field.faces) areas[face.piece] += face.area;
+  std::vector<bool> gone(field.faces.size()), changed(field.faces.size());
   std::vector<std::vector<std::vector<std::vector<Point3>>>> more(field.faces.size());
-  for (const auto& [piece, others] : of) {
-    if (areas[piece] >= options.lod20_structure || changed.contains(piece)) continue;
-    const auto host = std::ranges::max_element(others, {}, [](const auto& other) {
+  for (std::size_t s = 0; s < structures.size(); ++s) {
+    const auto& structure = structures[s];
+    if (beside[s].empty() || (!dormers && !structure.is_piece)) continue;
+    const auto host = std::ranges::max_element(beside[s], {}, [](const auto& other) {
       double sum = 0;
       for (const auto& contact : other.second) sum += contact.length;
       return sum;
     });
-    if (areas[host->first] <= areas[piece] || gone.contains(host->first)) continue;
-    double touched = 0;
+    double own = 0, touched = 0;
+    for (const auto f : structure.faces) own += field.faces[f].area;
+    if (areas[host->first] - (structure.is_piece ? 0 : own) <= own) continue;
     std::map<std::uint32_t, Neighbour> around;
     for (const auto& contact : host->second) {
       touched += contact.length;
@@ -157,23 +300,36 @@ auto take_out(RoofField& field, double base, const LevelOptions& options) -> boo
       one.length += contact.length;
       one.middles.push_back(contact.middle);
     }
-    if (touched <= options.lod20_surrounded * field.outline[piece]) continue;
-    std::vector<const RoofFace*> structure;
-    for (const auto& face : field.faces)
-      if (face.piece == piece) structure.push_back(&face);
+    if (touched <= options.lod20_surrounded * structure.outline) continue;
+    // Roofs of wings and hips meet the roof at edges alone; a dormer whose front is in the wall of the house has
+    // cheeks.
+    constexpr double least_walls = 0.2;  // of the outline
+    if (!structure.is_piece && walls[s] <= least_walls * structure.outline) continue;
+    if (std::ranges::any_of(structure.faces, [&](std::uint32_t f) { return changed[f]; }) ||
+        std::ranges::any_of(around, [&](const auto& one) { return gone[one.first]; }))
+      continue;
+    std::vector<const RoofFace*> faces;
+    for (const auto f : structure.faces) faces.push_back(&field.faces[f]);
     std::vector<Neighbour> list;
     for (const auto& [face, one] : around) list.push_back(one);
-    auto filling = filling_of(structure, list, field, base);
-    if (filling.empty()) continue;
+    auto filling = filling_of(faces, list, field, base);
+    double raised = 0;  // m³
+    for (const auto& [face, loops] : filling) raised += volume_below(loops);
+    for (const auto* face : faces) raised -= volume_below(face->loops);
+    if (filling.empty() || raised >= options.lod13_step * own) continue;  // light wells
     for (auto& [face, loops] : filling) more[face].push_back(std::move(loops));
-    gone.insert(piece);
-    changed.insert(host->first);
+    for (const auto f : structure.faces) gone[f] = true;
+    for (const auto& [face, one] : around) changed[face] = true;
   }
-  if (gone.empty()) return false;
+  if (std::ranges::none_of(gone, std::identity())) return false;
   for (std::size_t f = 0; f < field.faces.size(); ++f)
     for (auto& loops : more[f])
       for (auto& loop : loops) field.faces[f].loops.push_back(std::move(loop));
-  std::erase_if(field.faces, [&](const RoofFace& face) { return gone.contains(face.piece); });
+  join_triangles(field, seams, changed, gone);
+  std::vector<RoofFace> kept;
+  for (std::size_t f = 0; f < field.faces.size(); ++f)
+    if (!gone[f] && !field.faces[f].loops.empty()) kept.push_back(std::move(field.faces[f]));
+  field.faces = std::move(kept);
   return true;
 }
 
@@ -204,7 +360,8 @@ auto terraces_of(const RoofField& field, double step) -> Terraces {
   for (std::uint32_t p = 0; p < field.pieces; ++p) out.height[p] = height_of(field, out.of, p);
   std::set<std::pair<std::uint32_t, std::uint32_t>> adjacent;
   for (const auto& contact : field.contacts())
-    adjacent.insert(std::minmax(field.faces[contact.face].piece, field.faces[contact.other].piece));
+    if (const auto a = field.faces[contact.face].piece, b = field.faces[contact.other].piece; a != b)
+      adjacent.insert(std::minmax(a, b));
   for (;;) {
     std::optional<std::pair<std::uint32_t, std::uint32_t>> best;
     double least = step;
@@ -227,7 +384,8 @@ auto option_list(LevelOptions& o) -> base::OptionList {
   return std::move(
       base::OptionList("solid")
           .number("lod13_step", o.lod13_step, "m", {0, 1000},
-                  "Smallest step of height between two roofs that LoD 1.3 keeps.")
+                  "Smallest step of height between two roofs that LoD 1.3 keeps, and depth from which LoD 2.0 keeps a "
+                  "small recess.")
           .source("that of roofer, its option lod13-step-height, so that models can be compared")
           .number("lod20_structure", o.lod20_structure, "m²", {0, 1e6},
                   "Area below which LoD 2.0 leaves out a structure on a roof.")
@@ -241,19 +399,24 @@ auto option_list(LevelOptions& o) -> base::OptionList {
 auto main_roofs(const LabelledSolid& whole, const LevelOptions& options) -> LabelledSolid {
   const LabelledSolid solid = without_eaves(whole);
   auto field = detail::roof_field(solid);
-  if (!field || field->pieces < 2) return solid;
+  if (!field) return solid;
   const double base = ground_level(solid);
   std::optional<LabelledSolid> best;
   LabelledSolid before = solid;
   // Again for what was on a structure.
   constexpr int rounds = 4;
-  for (int round = 0; round < rounds && take_out(*field, base, options); ++round) {
-    auto made = detail::solid_below(*field, before);
+  for (int round = 0; round < rounds; ++round) {
+    std::optional<LabelledSolid> made;
+    for (const bool dormers : {true, false}) {
+      auto changed = *field;
+      if (made || !take_out(changed, base, options, dormers)) break;
+      made = detail::solid_below(changed, before);
+    }
     if (!made) break;
     before = *made;
     best = std::move(made);
     field = detail::roof_field(before);
-    if (!field || field->pieces < 2) break;
+    if (!field) break;
   }
   return best ? *std::move(best) : solid;
 }

@@ -10,18 +10,18 @@ namespace mansard::solid {
 
 /// What the coarser levels of detail leave out.
 struct LevelOptions {
-  double lod13_step = 3;          ///< m; LoD 1.3 joins adjacent pieces of roof whose heights differ by less
+  double lod13_step = 3;          ///< m; LoD 1.3 joins adjacent roofs that differ by less, LoD 2.0 fills small recesses
   double lod20_structure = 10;    ///< m²; LoD 2.0 leaves out roof structures with a smaller area in plan
   double lod20_surrounded = 0.5;  ///< share of its outline that a roof around it must touch, so that it is left out
 };
 [[nodiscard]] auto option_list(LevelOptions& options) -> base::OptionList;
 
-/// LoD 2.0: the solid without dormers, chimneys and other small structures on its roofs; the planes of the roof around
-/// each are continued over it. Guarantees: 1 the result is valid by written_rules() where the solid is · 2 it has the
-/// same ground, so that solids that did not overlap do not overlap now · 3 it has no more faces · 4 where that cannot
-/// be made, nothing is left out: the solid itself. Eaves do not overhang (without_eaves). Solids with ground at several
-/// heights are returned as they are. Cost: O(n log n) for n edges, once for structures on the roof and once for those
-/// on these.
+/// LoD 2.0: the solid without dormers, chimneys and other small structures on its roofs and recesses in them, but for
+/// light wells; the planes around each are continued over it. Guarantees: 1 the result is valid by written_rules()
+/// where the solid is · 2 it has the same ground, so that solids that did not overlap do not overlap now · 3 it has no
+/// more faces · 4 where that cannot be made, nothing is left out: the solid itself. Eaves do not overhang
+/// (without_eaves). Solids with ground at several heights are returned as they are. Cost: O(n log n) for n edges, once
+/// for structures on the roof and once for those on these.
 [[nodiscard]] auto main_roofs(const model::LabelledSolid& solid, const LevelOptions& options = {})
     -> model::LabelledSolid;
 

@@ -190,13 +190,33 @@ auto joints(const Terrain& terrain, std::span<const Ground> grounds) -> Joints {
   return out;
 }
 
+namespace {
+
+auto in_metres(const Place& v) -> geometry::Point3 {
+  return {static_cast<double>(v[0]) / model::quanta_per_metre, static_cast<double>(v[1]) / model::quanta_per_metre,
+          static_cast<double>(v[2]) / model::quanta_per_metre};
+}
+
+}  // namespace
+
 auto mesh_of(const Terrain& terrain) -> geometry::Mesh {
   geometry::Mesh mesh;
-  for (const auto& v : terrain.vertices)
-    mesh.vertices.push_back({static_cast<double>(v[0]) / model::quanta_per_metre,
-                             static_cast<double>(v[1]) / model::quanta_per_metre,
-                             static_cast<double>(v[2]) / model::quanta_per_metre});
+  for (const auto& v : terrain.vertices) mesh.vertices.push_back(in_metres(v));
   mesh.triangles = terrain.triangles;
+  return mesh;
+}
+
+auto mesh_below(const Terrain& terrain) -> geometry::Mesh {
+  geometry::Mesh mesh;
+  std::map<Place, std::uint32_t> numbers;
+  for (const auto& triangle : terrain.below) {
+    auto& corners = mesh.triangles.emplace_back();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto [entry, added] = numbers.try_emplace(triangle[i], static_cast<std::uint32_t>(mesh.vertices.size()));
+      if (added) mesh.vertices.push_back(in_metres(triangle[i]));
+      corners[i] = entry->second;
+    }
+  }
   return mesh;
 }
 

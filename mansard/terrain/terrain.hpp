@@ -82,6 +82,7 @@ class MeshGround {
 struct Terrain {
   std::vector<Place> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< upwards; upright where grounds of two heights meet
+  std::vector<std::array<Place, 3>> below;              ///< triangles of the grounds, at their heights
   geometry::Box2 area;
   std::vector<base::Diagnostic> warnings;
 };
@@ -119,6 +120,8 @@ struct Closed {
 
 /// The triangles in metres.
 [[nodiscard]] auto mesh_of(const Terrain& terrain) -> geometry::Mesh;
+/// Terrain::below, each corner once.
+[[nodiscard]] auto mesh_below(const Terrain& terrain) -> geometry::Mesh;
 
 [[nodiscard]] auto codes() -> std::vector<base::Code>;
 

@@ -111,6 +111,33 @@ TEST(GeoPackageCity, has_valid_geometry_in_the_frame_of_the_file_with_an_index) 
   }
 }
 
+TEST(GeoPackageCity, unites_ground_that_is_cut_into_triangles_as_other_producers_do) {
+  auto city = street();
+  auto& model = city.buildings[0].parts[0].model;
+  const auto ground = std::ranges::find(model.classes, FaceClass::ground) - model.classes.begin();
+  auto& face = model.solid.faces[static_cast<std::size_t>(ground)];
+  const auto corners = face.loops[0];
+  ASSERT_EQ(corners.size(), 4U);
+  face.loops = {{corners[0], corners[1], corners[2]}};
+  add_face(model, {{corners[0], corners[2], corners[3]}}, FaceClass::ground);
+  auto open_below = city.buildings[1].parts[0].model;
+  for (auto& kind : open_below.classes)
+    if (kind == FaceClass::ground) kind = FaceClass::wall;
+  city.buildings[1].solids.push_back({{0}, open_below});
+  write(city, place("cut.gpkg"));
+  const auto file = open(place("cut.gpkg"));
+  const auto all = rows(*file, "ground_lod22");
+  ASSERT_EQ(all.size(), 1U);
+  const auto* geometry = all[0]->GetGeometryRef()->toMultiPolygon();
+  EXPECT_TRUE(geometry->IsValid());
+  EXPECT_NEAR(geometry->get_Area(), all[0]->GetFieldAsDouble("area"), 1e-6);
+  OGREnvelope3D box;
+  geometry->getEnvelope(&box);
+  EXPECT_NEAR(box.MinZ, all[0]->GetFieldAsDouble("bottom"), 1e-9);
+  EXPECT_NEAR(box.MaxZ, box.MinZ, 1e-9);
+  EXPECT_EQ(rows(*file, "solids_lod22").size(), 2U);
+}
+
 TEST(GeoPackageCity, says_of_roofs_and_walls_where_they_look) {
   write(street(), place("city.gpkg"));
   const auto file = open(place("city.gpkg"));

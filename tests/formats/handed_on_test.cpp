@@ -203,6 +203,24 @@ TEST(AttributeChoice, refuses_names_that_it_does_not_compute) {
   }
 }
 
+TEST_F(HandedOn, says_which_chosen_attributes_no_building_has) {
+  formats::WriteOptions options;
+  const auto told = [&](const char* text) {
+    options.attributes = text;
+    base::Outputs outputs;
+    const auto city = street();
+    auto writer =
+        formats::open_writer(Format::cityjson, folder_ / "c.city.json", {city.frame, city.made_by}, options, outputs);
+    EXPECT_TRUE(formats::write_city(city, **writer));
+    std::vector<std::string> out;
+    for (const auto& warning : (*writer)->warnings()) out.push_back(warning.code + " " + warning.message.substr(0, 43));
+    return out;
+  };
+  EXPECT_THAT(told("ms_h_grund"), ElementsAre("write-attribute-missing no building has the attribute 'ms_h_grund';"));
+  EXPECT_THAT(told("3dbag"), testing::IsEmpty());
+  EXPECT_THAT(told("all"), testing::IsEmpty());
+}
+
 TEST_F(HandedOn, attributes_are_chosen_in_every_format) {
   City city = street();
   city.buildings[0].attributes.emplace_back("ms_h_ground", 1.25);

@@ -105,6 +105,104 @@ TEST(MainRoofs, leave_out_what_stands_on_a_small_structure_too) {
   EXPECT_THAT(solid::volume(coarse.solid), DoubleNear(12 * 8 * 6, 1e-3));
 }
 
+/// A dormer 2 m wide on the slope of gabled() in the south, which is at 3 m + y: from `front` to y = 2, where its flat
+/// roof at 5 m meets the slope behind it.
+struct Dormer {
+  double left = 0, front = 0;
+};
+
+/// gabled() with dormers. One whose front is 0 m is in the wall of the house.
+auto with_dormers(const std::vector<Dormer>& dormers, std::vector<LabelledSolid> more = {}) -> LabelledSolid {
+  const Profile slope{{0, 0}, {0, 3}, {1, 4}}, upright{{0, 0}, {0, 30}}, behind{{0, 0}, {0, 5}, {1, 6}};
+  Ring outer{{0, 0}};
+  std::vector<std::uint32_t> profiles{0};
+  Plan house = plan(box(12, 8), {slope, upright, behind});
+  house.holes.clear();
+  std::vector<LabelledSolid> parts;
+  for (const auto& d : dormers) {
+    const double right = d.left + 2;
+    parts.push_back(tower(rectangle(d.left, d.front, right, 2), 5));
+    if (d.front > 0) {
+      house.holes.push_back({{{d.left, d.front}, {d.left, 2}, {right, 2}, {right, d.front}}, {1, 2, 1, 1}});
+      continue;
+    }
+    outer.insert(outer.end(), {{d.left, 0}, {d.left, 2}, {right, 2}, {right, 0}});
+    profiles.insert(profiles.end(), {1, 2, 1, 0});
+  }
+  outer.insert(outer.end(), {{12, 0}, {12, 8}, {0, 8}});
+  profiles.insert(profiles.end(), {1, 0, 1});
+  house.outer = {std::move(outer), std::move(profiles)};
+  parts.insert(parts.begin(), raised(house));
+  parts.insert(parts.end(), more.begin(), more.end());
+  return united(parts);
+}
+
+void expect_house_without_dormers(const LabelledSolid& fine, std::size_t roofs = 2) {
+  ASSERT_GT(faces_of(fine, FaceClass::roof), 3U);
+  const auto coarse = solid::main_roofs(fine);
+  expect_simplified(coarse, fine);
+  EXPECT_EQ(faces_of(coarse, FaceClass::roof), roofs);
+  EXPECT_THAT(solid::volume(coarse.solid), DoubleNear(12 * 8 * 3 + 12 * 8 * 4 / 2.0, 1e-2));
+}
+
+TEST(MainRoofs, leave_out_dormers_that_meet_the_slope_without_a_step) {
+  expect_house_without_dormers(with_dormers({{3, 1}, {7, 0.5}}));
+}
+
+TEST(MainRoofs, leave_out_dormers_in_the_wall_of_the_house) {
+  expect_house_without_dormers(with_dormers({{3, 0}, {7, 0}}));
+}
+
+TEST(MainRoofs, leave_out_dormers_in_a_row_and_a_chimney_on_one) {
+  expect_house_without_dormers(with_dormers({{2, 1}, {7, 1}}, {tower(rectangle(2.5, 1.25, 3, 1.75), 7)}));
+}
+
+TEST(MainRoofs, leave_out_dormers_where_rounding_cut_the_slope_into_triangles) {
+  auto fine = with_dormers({{3, 1}, {7, 1}});
+  const auto cut = *solid::triangulate(fine.solid);
+  LabelledSolid triangles{{fine.solid.vertices, {}}, {}};
+  for (std::size_t t = 0; t < cut.triangles.size(); ++t) {
+    const auto f = cut.face_of[t];
+    if (fine.classes[f] != FaceClass::roof) continue;
+    auto& face = triangles.solid.faces.emplace_back(fine.solid.faces[f]);
+    face.loops = {{cut.triangles[t][0], cut.triangles[t][1], cut.triangles[t][2]}};
+    triangles.classes.push_back(FaceClass::roof);
+  }
+  for (std::size_t f = 0; f < fine.classes.size(); ++f) {
+    if (fine.classes[f] == FaceClass::roof) continue;
+    triangles.solid.faces.push_back(fine.solid.faces[f]);
+    triangles.classes.push_back(fine.classes[f]);
+  }
+  fine = triangles;
+  ASSERT_THAT(solid::check(fine.solid, solid::written_rules()), IsEmpty());
+  expect_house_without_dormers(fine, 3);  // the slope in the north stays two triangles
+}
+
+TEST(MainRoofs, keep_light_wells) {
+  for (const double floor : {0.5, 4.5}) {
+    const Ring well = rectangle(5, 3, 7, 5);
+    const auto fine =
+        united({raised(plan(box(12, 8), {Profile{{0, 0}, {0, 6}}}, {}, 6, {turned_in(well)})), tower(well, floor)});
+    const auto coarse = solid::main_roofs(fine);
+    const bool deep = floor < 3;
+    EXPECT_THAT(solid::volume(coarse.solid), DoubleNear(deep ? solid::volume(fine.solid) : 12 * 8 * 6, 1e-3));
+  }
+}
+
+TEST(MainRoofs, keep_a_wing_whose_roof_meets_that_of_the_house) {
+  // 4 m wide and 0.3 m in front of the wall, with eaves and slopes like those of the house: it meets it along two
+  // valleys.
+  const Profile slope{{0, 0}, {0, 3}, {1, 4}}, upright{{0, 0}, {0, 30}};
+  const auto wing = raised(plan({{4, -0.3}, {8, -0.3}, {8, 0}, {6, 2}, {4, 0}}, {slope, upright}, {1, 0, 1, 1, 0}));
+  const auto fine = united({gabled(), wing});
+  EXPECT_EQ(solid::volume(solid::main_roofs(fine).solid), solid::volume(fine.solid));
+}
+
+TEST(MainRoofs, keep_hips) {
+  const auto fine = raised(plan(box(12, 4), {Profile{{0, 0}, {0, 3}, {1, 4}}}));
+  EXPECT_EQ(solid::volume(solid::main_roofs(fine).solid), solid::volume(fine.solid));
+}
+
 TEST(MainRoofs, keep_an_annex_beside_a_house) {
   const auto fine = united({tower(box(12, 8), 9), tower(rectangle(12, 0, 14, 3), 3)});
   const auto coarse = solid::main_roofs(fine);

@@ -96,6 +96,19 @@ auto covers_the_area_once(const Terrain& terrain, const std::vector<Ground>& gro
   return twice == 2 * side(terrain.area.least.x, terrain.area.most.x) * side(terrain.area.least.y, terrain.area.most.y);
 }
 
+/// Whether the triangles below the buildings cover their grounds once, in plan.
+auto covers_the_grounds_once(const Terrain& terrain, const std::vector<Ground>& grounds) -> bool {
+  std::int64_t twice = 0;
+  for (const auto& [a, b, c] : terrain.below) {
+    const auto own = detail::twice_area({a[0], a[1]}, {b[0], b[1]}, {c[0], c[1]});
+    if (own <= 0) return false;
+    twice += own;
+  }
+  for (const auto& ground : grounds)
+    for (const auto& ring : ground.rings) twice -= ring_area(ring);
+  return twice == 0;
+}
+
 /// Houses of random sizes in rows, some of them touching, some a hair apart, each with its own ground.
 auto random_town(std::uint64_t seed, const Slope& z) -> std::vector<model::Building> {
   base::Random random(seed);
@@ -200,6 +213,7 @@ TEST(Make, is_exact_for_random_towns) {
     EXPECT_EQ(found.joined + found.split + found.shared, 4 * buildings.size());
     EXPECT_GT(found.joined, 2 * buildings.size());
     EXPECT_TRUE(covers_the_area_once(*terrain, grounds));
+    EXPECT_TRUE(covers_the_grounds_once(*terrain, grounds));
   }
 }
 

@@ -108,23 +108,13 @@ auto SolidAtlas::uv(std::size_t solid, std::size_t face, geometry::Point3 p) con
   return atlas_.uv(numbers_[solid][face], solids_[solid]->faces[face].frame.at(p));
 }
 
-auto AtlasQueue::area_of(const model::Building& building) -> std::uint64_t {
+auto area_in_atlas(const model::Building& building) -> std::uint64_t {
   std::uint64_t area = 0;
   if (building.texture)
     for (const auto& solid : building.texture->solids)
       for (const auto& face : solid.faces)
         area += std::uint64_t{in_cells(face.pixels.width)} * in_cells(face.pixels.height);
   return area;
-}
-
-void AtlasQueue::add(model::Building building) {
-  area_ += area_of(building);
-  waiting.push_back(std::move(building));
-}
-
-void AtlasQueue::clear() {
-  waiting.clear();
-  area_ = 0;
 }
 
 }  // namespace mansard::formats::detail

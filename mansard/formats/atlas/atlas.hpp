@@ -77,23 +77,7 @@ class SolidAtlas {
   std::vector<std::vector<std::size_t>> numbers_;  ///< of the pictures of each, by face
 };
 
-/// Buildings wait until their pictures fill an image.
-class AtlasQueue {
- public:
-  explicit AtlasQueue(std::uint32_t side) : room_(std::uint64_t{side} * side / 5 * 4) {}
-  /// The area of the pictures of a building, with what is around them.
-  [[nodiscard]] static auto area_of(const model::Building& building) -> std::uint64_t;
-  /// Takes the next one; true where the queue must be emptied first: what is in it fills an image.
-  [[nodiscard]] auto full_with(const model::Building& building) const -> bool {
-    return !waiting.empty() && area_ + area_of(building) > room_;
-  }
-  void add(model::Building building);
-  void clear();
-
-  std::vector<model::Building> waiting;
-
- private:
-  std::uint64_t room_, area_ = 0;
-};
+/// Pixels that the pictures of a building take, with what is around them.
+[[nodiscard]] auto area_in_atlas(const model::Building& building) -> std::uint64_t;
 
 }  // namespace mansard::formats::detail

@@ -35,4 +35,42 @@ auto textures_for(const model::Building& building, std::size_t solids) -> const 
   return building.texture && building.texture->solids.size() == solids ? &*building.texture : nullptr;
 }
 
+TextureQueue::TextureQueue(const WriteOptions& options) : side_(static_cast<std::uint32_t>(options.atlas_size)) {}
+
+auto TextureQueue::put(const model::Building& building, Gate::Keyed keys) -> base::Result<void> {
+  if (!building.texture && waiting_.empty()) return write(building, keys, nullptr);
+  const std::uint64_t area = area_in_atlas(building), room = std::uint64_t{side_} * side_ / 5 * 4;
+  if (!waiting_.empty() && area_ + area > room)
+    if (auto done = empty(); !done) return done;
+  waiting_.push_back({building, std::move(keys)});
+  area_ += area;
+  return {};
+}
+
+auto TextureQueue::empty() -> base::Result<void> {
+  SolidAtlas atlas(side_);
+  std::vector<std::size_t> first;
+  std::size_t solids = 0;
+  for (const auto& [building, keys] : waiting_) {
+    first.push_back(solids);
+    if (!building.texture) continue;
+    for (const auto& solid : building.texture->solids) solids = atlas.add(solid) + 1;
+  }
+  atlas.settle();
+  std::uint32_t page = 0;
+  if (atlas.pages() > 0) {
+    const auto number = images(atlas);
+    if (!number) return number.failure();
+    page = *number;
+  }
+  for (std::size_t b = 0; b < waiting_.size(); ++b) {
+    const auto& [building, keys] = waiting_[b];
+    const TexturedSolids textured{&atlas, first[b], page};
+    if (auto done = write(building, keys, building.texture ? &textured : nullptr); !done) return done;
+  }
+  waiting_.clear();
+  area_ = 0;
+  return {};
+}
+
 }  // namespace mansard::formats::detail

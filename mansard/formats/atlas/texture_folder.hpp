@@ -6,6 +6,7 @@
 
 #include "mansard/base/outputs.hpp"
 #include "mansard/formats/atlas/atlas.hpp"
+#include "mansard/formats/detail/writers.hpp"
 
 namespace mansard::formats::detail {
 
@@ -38,32 +39,36 @@ class TextureFolder {
 /// The textures of a building for its solids, where they are of these; else nothing.
 [[nodiscard]] auto textures_for(const model::Building& building, std::size_t solids) -> const model::BuildingTexture*;
 
-/// Empties a queue into one atlas: `before(atlas)` once the places of all pictures are known, which returns the number
-/// of its first image, then `each(building number, building, textured)` in order; `textured` is null for a building
-/// without textures. Fails as these do.
-template <class Before, class Each>
-[[nodiscard]] auto empty_queue(AtlasQueue& queue, std::uint32_t side, Before before, Each each) -> base::Result<void> {
-  SolidAtlas atlas(side);
-  std::vector<std::size_t> first;
-  std::size_t solids = 0;
-  for (const auto& building : queue.waiting) {
-    first.push_back(solids);
-    if (!building.texture) continue;
-    for (const auto& solid : building.texture->solids) solids = atlas.add(solid) + 1;
-  }
-  atlas.settle();
-  std::uint32_t page = 0;
-  if (atlas.pages() > 0) {
-    const auto number = before(atlas);
-    if (!number) return number.failure();
-    page = *number;
-  }
-  for (std::size_t b = 0; b < queue.waiting.size(); ++b) {
-    const TexturedSolids textured{&atlas, first[b], page};
-    if (auto done = each(b, queue.waiting[b], queue.waiting[b].texture ? &textured : nullptr); !done) return done;
-  }
-  queue.clear();
-  return {};
-}
+/// What every writer of textures does: buildings wait until their pictures fill an image. One without textures that
+/// none is waiting before is written at once. All are written in the order in which they come.
+class TextureQueue {
+ public:
+  explicit TextureQueue(const WriteOptions& options);
+  virtual ~TextureQueue() = default;
+
+ protected:
+  // A writer of GLB is moved.
+  TextureQueue(TextureQueue&&) = default;
+  auto operator=(TextureQueue&&) -> TextureQueue& = default;
+
+  /// Writes the images of an atlas; returns the number of its first one in the file.
+  [[nodiscard]] virtual auto images(const SolidAtlas& atlas) -> base::Result<std::uint32_t> = 0;
+  /// `textured` is null for a building without textures.
+  [[nodiscard]] virtual auto write(const model::Building& building, const Gate::Keyed& keys,
+                                   const TexturedSolids* textured) -> base::Result<void> = 0;
+
+  /// Both fail as images() and write() do.
+  [[nodiscard]] auto put(const model::Building& building, Gate::Keyed keys) -> base::Result<void>;
+  [[nodiscard]] auto empty() -> base::Result<void>;
+
+ private:
+  struct Waiting {
+    model::Building building;
+    Gate::Keyed keys;
+  };
+  std::uint32_t side_;
+  std::vector<Waiting> waiting_;
+  std::uint64_t area_ = 0;  ///< of the pictures of those that wait
+};
 
 }  // namespace mansard::formats::detail

@@ -93,17 +93,17 @@ struct SolidTextures {
   const model::SolidTexture* own = nullptr;
 };
 
-class CityGmlWriter : public CityWriter {
+class CityGmlWriter : public CityWriter, private TextureQueue {
  public:
   CityGmlWriter(Header header, const WriteOptions& options, Lods lods, std::unique_ptr<base::Spool> objects,
                 base::Sink& file, TextureFolder folder)
-      : header_(std::move(header)),
+      : TextureQueue(options),
+        header_(std::move(header)),
         options_(options),
         v3_(options.citygml == CityGml::v3),
         objects_(std::move(objects)),
         file_(file),
-        folder_(std::move(folder)),
-        queue_(static_cast<std::uint32_t>(options.atlas_size)) {
+        folder_(std::move(folder)) {
     for (const auto lod : lods) {  // CityGML has whole levels: of two that share one the finer is written
       if (lod == Lod::lod0) footprint_ = true;
       if (lod == Lod::lod12 || lod == Lod::lod13) lod1_ = lod;
@@ -114,15 +114,7 @@ class CityGmlWriter : public CityWriter {
   auto add(const model::Building& building) -> base::Result<void> override {
     auto keys = gate_.admit(building);
     if (!keys) return keys.error();
-    if (!building.texture && queue_.waiting.empty()) {
-      write(building, *keys, nullptr);
-      return {};
-    }
-    if (queue_.full_with(building))
-      if (auto done = empty(); !done) return done;
-    queue_.add(building);
-    keys_.push_back(*std::move(keys));
-    return {};
+    return put(building, *std::move(keys));
   }
 
   auto finish() -> base::Result<void> override {
@@ -151,19 +143,10 @@ class CityGmlWriter : public CityWriter {
   [[nodiscard]] auto warnings() const -> std::vector<base::Diagnostic> override { return warnings_; }
 
  private:
-  auto empty() -> base::Result<void> {
-    auto done = empty_queue(
-        queue_, static_cast<std::uint32_t>(options_.atlas_size),
-        [&](const SolidAtlas& atlas) { return folder_.write(atlas); },
-        [&](std::size_t number, const model::Building& building, const TexturedSolids* textured) {
-          write(building, keys_[number], textured);
-          return base::Result<void>();
-        });
-    keys_.clear();
-    return done;
-  }
+  auto images(const SolidAtlas& atlas) -> base::Result<std::uint32_t> override { return folder_.write(atlas); }
 
-  void write(const model::Building& building, const Gate::Keyed& keys, const TexturedSolids* textured) {
+  auto write(const model::Building& building, const Gate::Keyed& keys, const TexturedSolids* textured)
+      -> base::Result<void> override {
     const Drawn all = drawn(building, keys, Solids::building);
     warnings_.insert(warnings_.end(), all.warnings.begin(), all.warnings.end());
     Lods wanted;
@@ -197,6 +180,7 @@ class CityGmlWriter : public CityWriter {
       }
     xml.close().close();
     objects_->append(xml.take());
+    return {};
   }
 
   auto unique_id(const std::string& name) -> std::string {
@@ -497,9 +481,7 @@ class CityGmlWriter : public CityWriter {
   std::unique_ptr<base::Spool> objects_;  ///< the extent of all comes first in the file
   base::Sink& file_;
   TextureFolder folder_;
-  AtlasQueue queue_;
-  std::vector<Gate::Keyed> keys_;  ///< of the buildings in the queue
-  bool appearance_ = false;        ///< whether any building has one
+  bool appearance_ = false;  ///< whether any building has one
   std::vector<base::Diagnostic> warnings_;
 };
 

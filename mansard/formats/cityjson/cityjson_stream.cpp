@@ -3,43 +3,22 @@
 namespace mansard::formats::detail {
 namespace {
 
-/// What both kinds of file do with textures: buildings wait until their pictures fill an image.
-class Textured : public CityWriter {
+/// What both kinds of file have.
+class Textured : public CityWriter, protected TextureQueue {
  public:
   Textured(Header header, CityJsonOptions own, const WriteOptions& options, TextureFolder folder)
-      : header_(std::move(header)),
-        own_(std::move(own)),
-        folder_(std::move(folder)),
-        side_(static_cast<std::uint32_t>(options.atlas_size)),
-        queue_(side_) {}
+      : TextureQueue(options), header_(std::move(header)), own_(std::move(own)), folder_(std::move(folder)) {}
 
   [[nodiscard]] auto add(const model::Building& building) -> base::Result<void> final {
-    const auto keys = gate_.admit(building);
+    auto keys = gate_.admit(building);
     if (!keys) return keys.error();
-    if (!building.texture && queue_.waiting.empty()) {
-      write(building, *keys, nullptr);
-      return {};
-    }
-    if (queue_.full_with(building))
-      if (auto done = empty(); !done) return done;
-    queue_.add(building);
-    keys_.push_back(*keys);
-    return {};
+    return put(building, *std::move(keys));
   }
   [[nodiscard]] auto warnings() const -> std::vector<base::Diagnostic> final { return warnings_; }
 
  protected:
-  virtual void write(const model::Building& building, const Gate::Keyed& keys, const TexturedSolids* textured) = 0;
-
-  [[nodiscard]] auto empty() -> base::Result<void> {
-    auto done = empty_queue(
-        queue_, side_, [&](const SolidAtlas& atlas) { return folder_.write(atlas); },
-        [&](std::size_t number, const model::Building& building, const TexturedSolids* textured) {
-          write(building, keys_[number], textured);
-          return base::Result<void>();
-        });
-    keys_.clear();
-    return done;
+  [[nodiscard]] auto images(const SolidAtlas& atlas) -> base::Result<std::uint32_t> final {
+    return folder_.write(atlas);
   }
   [[nodiscard]] auto header() const -> const Header& { return header_; }
   [[nodiscard]] auto own() const -> const CityJsonOptions& { return own_; }
@@ -52,9 +31,6 @@ class Textured : public CityWriter {
   std::vector<base::Diagnostic> warnings_;
   TextureFolder folder_;
   Gate gate_;
-  std::uint32_t side_;
-  AtlasQueue queue_;
-  std::vector<Gate::Keyed> keys_;  ///< of the buildings in the queue
 };
 
 /// One document. Its metadata come first and tell the extent of all, its vertices last: objects and vertices are put
@@ -92,9 +68,11 @@ class WholeFile : public Textured {
   }
 
  private:
-  void write(const model::Building& building, const Gate::Keyed& keys, const TexturedSolids* textured) override {
+  auto write(const model::Building& building, const Gate::Keyed& keys, const TexturedSolids* textured)
+      -> base::Result<void> override {
     text_.add(building, keys, told(), textured);
     spools_.objects->append(text_.take());
+    return {};
   }
 
   base::Sink& file_;
@@ -115,8 +93,10 @@ class Sequence : public Textured {
   [[nodiscard]] auto finish() -> base::Result<void> override { return empty(); }
 
  private:
-  void write(const model::Building& building, const Gate::Keyed& keys, const TexturedSolids* textured) override {
+  auto write(const model::Building& building, const Gate::Keyed& keys, const TexturedSolids* textured)
+      -> base::Result<void> override {
     file_.append(cityjson_feature(building, keys, header(), own(), told(), textured, &folder()));
+    return {};
   }
 
   base::Sink& file_;

@@ -180,9 +180,7 @@ class GeoPackageWriter : public CityWriter {
       if (table == &walls_table) {
         shape = pen_.foot(model.solid, model.solid.faces[f]);
       } else {
-        auto polygons = std::make_unique<OGRMultiPolygon>();
-        polygons->addGeometryDirectly(pen_.face(model.solid, model.solid.faces[f]).release());
-        shape = std::move(polygons);
+        shape = pen_.areas(model.solid, {&model.solid.faces[f], 1});
       }
       if (auto done = add_row(*table, {building, part, model, f, pen_}, std::move(shape)); !done) return done;
     }
@@ -203,7 +201,9 @@ class GeoPackageWriter : public CityWriter {
         if (model.solid.faces.empty()) continue;
         const LevelRow row{building.id, number, model, pen_};
         if (auto done = add_row(solids_table, row, pen_.surface(model.solid), {}, suffix_of(lod)); !done) return done;
-        if (auto done = add_row(grounds_table, row, pen_.ground(model), {}, suffix_of(lod)); !done) return done;
+        // Parts of other producers may have none.
+        if (auto ground = pen_.ground(model))
+          if (auto done = add_row(grounds_table, row, std::move(ground), {}, suffix_of(lod)); !done) return done;
       }
       ++number;
     }

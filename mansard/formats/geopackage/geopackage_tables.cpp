@@ -1,9 +1,12 @@
 #include "mansard/formats/geopackage/geopackage_tables.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <limits>
 #include <set>
 
 #include "mansard/base/text.hpp"
+#include "mansard/geometry/change.hpp"
 
 namespace mansard::formats::detail {
 namespace {
@@ -111,15 +114,57 @@ auto Pen::surface(const model::Solid& solid) const -> std::unique_ptr<OGRPolyhed
   return out;
 }
 
-auto Pen::ground(const model::LabelledSolid& solid) const -> std::unique_ptr<OGRMultiPolygon> {
+auto Pen::areas(const model::Solid& solid, std::span<const model::Face> faces) const
+    -> std::unique_ptr<OGRMultiPolygon> {
+  if (faces.empty()) return nullptr;
   auto out = std::make_unique<OGRMultiPolygon>();
-  for (std::size_t f = 0; f < solid.classes.size(); ++f) {
-    if (solid.classes[f] != model::FaceClass::ground) continue;
-    model::Face upward = solid.solid.faces[f];
-    for (auto& loop : upward.loops) std::ranges::reverse(loop);
-    out->addGeometryDirectly(face(solid.solid, upward).release());
+  for (const auto& one : faces) out->addGeometryDirectly(face(solid, one).release());
+  if (out->IsValid() != 0) return out;
+  // Of other producers: rings that cross themselves, ground of triangles that touch along their edges.
+  std::vector<geometry::Polygon> pieces;
+  std::map<geometry::Point2, double> heights;
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const auto& one : faces) {
+    for (const auto& loop : one.loops)
+      for (const auto corner : loop) {
+        const auto p = solid.vertices[corner];
+        const auto entry = heights.try_emplace(geometry::xy(p), p.z).first;
+        entry->second = std::min(entry->second, p.z);
+        lowest = std::min(lowest, p.z);
+      }
+    auto sound =
+        geometry::make_valid(geometry::polygon_of(one.loops, [&](auto v) { return geometry::xy(solid.vertices[v]); }));
+    if (sound) std::ranges::move(*sound, std::back_inserter(pieces));
+  }
+  const auto united = geometry::unite(pieces);
+  if (!united || united->empty()) return nullptr;
+  model::Solid flat;
+  out = std::make_unique<OGRMultiPolygon>();
+  for (const auto& polygon : *united) {
+    model::Face made;
+    const auto add = [&](const geometry::Ring& ring) {
+      auto& loop = made.loops.emplace_back();
+      for (const auto p : ring) {
+        const auto known = heights.find(p);
+        loop.push_back(static_cast<std::uint32_t>(flat.vertices.size()));
+        flat.vertices.push_back({p.x, p.y, known != heights.end() ? known->second : lowest});
+      }
+    };
+    add(polygon.outer);
+    for (const auto& hole : polygon.holes) add(hole);
+    out->addGeometryDirectly(face(flat, made).release());
   }
   return out;
+}
+
+auto Pen::ground(const model::LabelledSolid& solid) const -> std::unique_ptr<OGRMultiPolygon> {
+  std::vector<model::Face> faces;
+  for (std::size_t f = 0; f < solid.classes.size(); ++f) {
+    if (solid.classes[f] != model::FaceClass::ground) continue;
+    auto& upward = faces.emplace_back(solid.solid.faces[f]);
+    for (auto& loop : upward.loops) std::ranges::reverse(loop);
+  }
+  return areas(solid.solid, faces);
 }
 
 auto Pen::foot(const model::Solid& solid, const model::Face& face) const -> std::unique_ptr<OGRLineString> {

@@ -45,7 +45,11 @@ class Pen {
   [[nodiscard]] auto face(const model::Solid& solid, const model::Face& face) const -> std::unique_ptr<OGRPolygon>;
   /// All faces, from outside.
   [[nodiscard]] auto surface(const model::Solid& solid) const -> std::unique_ptr<OGRPolyhedralSurface>;
-  /// The ground of a solid, counter-clockwise from above.
+  /// Some faces in plan, with z. Where these are not a valid MultiPolygon, their union, with the heights of its corners
+  /// (the lowest where there are several, and at crossings). None where they have no area in plan.
+  [[nodiscard]] auto areas(const model::Solid& solid, std::span<const model::Face> faces) const
+      -> std::unique_ptr<OGRMultiPolygon>;
+  /// The ground of a solid, counter-clockwise from above; as areas(). None where it has no ground.
   [[nodiscard]] auto ground(const model::LabelledSolid& solid) const -> std::unique_ptr<OGRMultiPolygon>;
   /// Where a vertical face stands in plan, from left to right as seen from outside.
   [[nodiscard]] auto foot(const model::Solid& solid, const model::Face& face) const -> std::unique_ptr<OGRLineString>;

@@ -9,14 +9,16 @@
 namespace mansard::formats::detail {
 
 /// A node for each solid, in the order they are told. Memory grows by about 12 bytes a solid.
-class GlbBytes {
+class GlbBytes : private TextureQueue {
  public:
   /// Fails with "file-write".
   [[nodiscard]] static auto open(const Header& header, const WriteOptions& options) -> base::Result<GlbBytes>;
   /// The level of detail of the solids that come; LoD 2.2 unless it is set.
   void set_level(const LevelOf& level) { level_ = level; }
   /// Buildings with textures wait until these fill an image. Fails with "write-triangulate", "texture-encode".
-  [[nodiscard]] auto add(const model::Building& building, const Gate::Keyed& keys) -> base::Result<void>;
+  [[nodiscard]] auto add(const model::Building& building, Gate::Keyed keys) -> base::Result<void> {
+    return put(building, std::move(keys));
+  }
   /// Of solid::unite.
   [[nodiscard]] auto warnings() const -> const std::vector<base::Diagnostic>& { return warnings_; }
   /// Fails with "write-glb-size", "file-write".
@@ -24,20 +26,15 @@ class GlbBytes {
 
  private:
   GlbBytes(Header header, const WriteOptions& options, std::unique_ptr<GltfFile> file)
-      : header_(std::move(header)),
-        solids_(options.solids),
-        side_(static_cast<std::uint32_t>(options.atlas_size)),
-        queue_(side_),
-        file_(std::move(file)) {}
-  [[nodiscard]] auto append(const model::Building& building, const Gate::Keyed& keys, const TexturedSolids* textured)
-      -> base::Result<void>;
-  [[nodiscard]] auto empty() -> base::Result<void>;
+      : TextureQueue(options), header_(std::move(header)), solids_(options.solids), file_(std::move(file)) {}
+  [[nodiscard]] auto images(const SolidAtlas& atlas) -> base::Result<std::uint32_t> override {
+    return file_->add_images(atlas);
+  }
+  [[nodiscard]] auto write(const model::Building& building, const Gate::Keyed& keys, const TexturedSolids* textured)
+      -> base::Result<void> override;
 
   Header header_;
   Solids solids_;
-  std::uint32_t side_;
-  AtlasQueue queue_;
-  std::vector<Gate::Keyed> keys_;  ///< of the buildings in the queue
   LevelOf level_;
   std::vector<base::Diagnostic> warnings_;
   std::unique_ptr<GltfFile> file_;

@@ -12,9 +12,9 @@ class GlbWriter : public CityWriter {
   GlbWriter(GlbBytes bytes, base::Sink& sink) : bytes_(std::move(bytes)), sink_(&sink) {}
 
   auto add(const model::Building& building) -> base::Result<void> override {
-    const auto keyed = gate_.admit(building);
+    auto keyed = gate_.admit(building);
     if (!keyed) return keyed.error();
-    return bytes_.add(building, *keyed);
+    return bytes_.add(building, *std::move(keyed));
   }
   auto finish() -> base::Result<void> override { return bytes_.write(*sink_); }
   [[nodiscard]] auto warnings() const -> std::vector<base::Diagnostic> override { return bytes_.warnings(); }
@@ -40,26 +40,7 @@ auto GlbBytes::open(const Header& header, const WriteOptions& options) -> base::
   return GlbBytes(header, options, std::move(*file));
 }
 
-auto GlbBytes::add(const model::Building& building, const Gate::Keyed& keys) -> base::Result<void> {
-  if (!building.texture && queue_.waiting.empty()) return append(building, keys, nullptr);
-  if (queue_.full_with(building))
-    if (auto done = empty(); !done) return done;
-  queue_.add(building);
-  keys_.push_back(keys);
-  return {};
-}
-
-auto GlbBytes::empty() -> base::Result<void> {
-  auto done = empty_queue(
-      queue_, side_, [&](const SolidAtlas& atlas) { return file_->add_images(atlas); },
-      [&](std::size_t number, const model::Building& building, const TexturedSolids* textured) {
-        return append(building, keys_[number], textured);
-      });
-  keys_.clear();
-  return done;
-}
-
-auto GlbBytes::append(const model::Building& building, const Gate::Keyed& keys, const TexturedSolids* textured)
+auto GlbBytes::write(const model::Building& building, const Gate::Keyed& keys, const TexturedSolids* textured)
     -> base::Result<void> {
   const std::string record = is_foreign(header_) ? std::string() : building_record(building);
   Drawn solids = drawn(building, keys, solids_);

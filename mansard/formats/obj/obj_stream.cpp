@@ -7,34 +7,28 @@
 namespace mansard::formats::detail {
 namespace {
 
-class Obj : public CityWriter {
+class Obj : public CityWriter, private TextureQueue {
  public:
   /// No file of plans for models that have none.
   Obj(ObjText text, const WriteOptions& options, base::Sink& file, base::Sink& library, base::Sink* plans,
       TextureFolder folder)
-      : text_(std::move(text)),
+      : TextureQueue(options),
+        text_(std::move(text)),
         file_(file),
         library_(library),
         plans_(plans),
-        side_(static_cast<std::uint32_t>(options.atlas_size)),
-        queue_(side_),
         folder_(std::move(folder)) {}
   [[nodiscard]] auto add(const model::Building& building) -> base::Result<void> override {
-    const auto keys = gate_.admit(building);
+    auto keys = gate_.admit(building);
     if (!keys) return keys.error();
-    if (!building.texture && queue_.waiting.empty()) return write(building, *keys, nullptr);
-    if (queue_.full_with(building))
-      if (auto done = empty(); !done) return done;
-    queue_.add(building);
-    keys_.push_back(*keys);
-    return {};
+    return put(building, *std::move(keys));
   }
   [[nodiscard]] auto finish() -> base::Result<void> override { return empty(); }
   [[nodiscard]] auto warnings() const -> std::vector<base::Diagnostic> override { return text_.warnings(); }
 
  private:
   [[nodiscard]] auto write(const model::Building& building, const Gate::Keyed& keys, const TexturedSolids* textured)
-      -> base::Result<void> {
+      -> base::Result<void> override {
     const auto text = text_.of(building, keys, textured);
     if (!text) return text.error();
     file_.append(*text);
@@ -42,30 +36,18 @@ class Obj : public CityWriter {
     return {};
   }
 
-  [[nodiscard]] auto empty() -> base::Result<void> {
-    auto done = empty_queue(
-        queue_, side_,
-        [&](const SolidAtlas& atlas) {
-          auto first = folder_.write(atlas);
-          if (first)
-            for (std::uint32_t page = *first; page < folder_.pages(); ++page)
-              library_.append(textured_mtl_text(page, folder_.name(page)));
-          return first;
-        },
-        [&](std::size_t number, const model::Building& building, const TexturedSolids* textured) {
-          return write(building, keys_[number], textured);
-        });
-    keys_.clear();
-    return done;
+  [[nodiscard]] auto images(const SolidAtlas& atlas) -> base::Result<std::uint32_t> override {
+    auto first = folder_.write(atlas);
+    if (first)
+      for (std::uint32_t page = *first; page < folder_.pages(); ++page)
+        library_.append(textured_mtl_text(page, folder_.name(page)));
+    return first;
   }
 
   Gate gate_;
   ObjText text_;
   base::Sink &file_, &library_;
   base::Sink* plans_;
-  std::uint32_t side_;
-  AtlasQueue queue_;
-  std::vector<Gate::Keyed> keys_;  ///< of the buildings in the queue
   TextureFolder folder_;
 };
 

@@ -86,7 +86,7 @@ auto RoofField::contacts() const -> std::vector<Contact> {
     const Point2 along = (1 / length) * run;
     for (const auto o : index.overlapping(boxes[b].grown(beside))) {
       const auto& other = borders[o];
-      if (faces[other.face].piece == faces[own.face].piece) continue;
+      if (other.face == own.face) continue;
       const Point2 from = other.segment.start - own.segment.start, to = other.segment.end - own.segment.start;
       if (std::abs(cross(along, from)) > beside || std::abs(cross(along, to)) > beside) continue;
       // The other face is on the right, so its edge runs back.
@@ -94,6 +94,22 @@ auto RoofField::contacts() const -> std::vector<Contact> {
       if (last - first > least)
         out.push_back({own.face, other.face, last - first, own.segment.start + (0.5 * (first + last)) * along});
     }
+  }
+  return out;
+}
+
+auto RoofField::seams() const -> std::vector<Contact> {
+  std::vector<Contact> out;
+  const auto edges = edges_of(*this);
+  for (const auto& [edge, face] : edges) {
+    const auto back = edges.find({edge.second, edge.first});
+    if (back == edges.end() || back->second == face) continue;
+    const Point2 run = xy(edge.second) - xy(edge.first);
+    const double length = geometry::length(run);
+    if (!(length > 0)) continue;
+    const Point2 middle = xy(edge.first) + 0.5 * run, beyond = middle - (1 / length) * geometry::left_of(run);
+    out.push_back({face, back->second, length, middle,
+                   faces[back->second].plane.height(beyond) - faces[face].plane.height(beyond)});
   }
   return out;
 }

@@ -26,11 +26,12 @@ struct RoofFace {
   RoofPlane plane;
 };
 
-/// Where two faces of different pieces are adjacent in plan, with a wall between them.
+/// Where two faces are adjacent in plan.
 struct Contact {
   std::uint32_t face = 0, other = 0;  ///< of RoofField::faces
   double length = 0;                  ///< m
   geometry::Point2 middle;
+  double rise = 0;  ///< m; of the other face above the plane of the first, 1 m beyond an edge that they share
 };
 
 /// Guarantee: `pieces` are the sets of faces that are connected without a wall between them.
@@ -40,8 +41,10 @@ struct RoofField {
   std::vector<double> outline;  ///< m; of each piece, where another piece, a wall or the outside begins
 
   [[nodiscard]] auto area_of(std::uint32_t piece) const -> double;
-  /// Every pair twice: from either side. O(n log n).
+  /// With a wall between them, also of one piece. Every pair twice: from either side. O(n log n).
   [[nodiscard]] auto contacts() const -> std::vector<Contact>;
+  /// With an edge that they share, every pair twice. Not the edge of a face with itself. O(n log n).
+  [[nodiscard]] auto seams() const -> std::vector<Contact>;
   /// Counts pieces and measures their outlines anew.
   void connect();
 };

@@ -129,8 +129,13 @@ class Surface {
 
   auto collect() -> Terrain {
     for (std::size_t t = 0; t < triangles().size(); ++t) {
-      if (plan_.inside[t]) continue;
       const auto& c = triangles()[t].corner;
+      if (plan_.inside[t]) {
+        auto& below = out_.below.emplace_back();
+        for (std::size_t i = 0; i < 3; ++i)
+          below[i] = {plan_.net.sites()[c[i]].x, plan_.net.sites()[c[i]].y, plan_.heights[c[i]]};
+        continue;
+      }
       std::array<std::uint32_t, 3> corners{};
       for (std::size_t i = 0; i < 3; ++i) corners[i] = vertex(c[i], heights_[t][i]);
       out_.triangles.push_back(corners);
