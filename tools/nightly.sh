@@ -100,7 +100,7 @@ run_properties() {
 run_kills() {
   tools/setup.sh build test && cmake --preset release --log-level=WARNING &&
     cmake --build --preset release --target test_cli -j "$jobs" &&
-    MANSARD_KILLS=$KILLS build/release/bin/test_cli --gtest_filter='Resume.*kills*'
+    MANSARD_KILLS=$KILLS build/release/bin/test_cli --gtest_filter='Resume*.*kills*'
 }
 # shellcheck disable=SC2086  # CLEAN is several words
 run_clean() { tools/clean_debian.sh ${CLEAN:-}; }

@@ -75,6 +75,8 @@ auto extrude_plans(formats::CityReader& reader, const ExtrudeRequest& request, c
   const auto beside = layers_beside(reader, request.input, *targets);
   if (!beside) return give_up(beside.errors());
   if (auto ready = check_outputs(request); !ready) return give_up(ready.errors());
+  const auto folder = open_run(request);
+  if (!folder) return give_up(folder.errors());
   base::Run run;
   run.cancel = &cancel;
   pipeline::note_options(options, city->made_by);
@@ -87,6 +89,7 @@ auto extrude_plans(formats::CityReader& reader, const ExtrudeRequest& request, c
   tell(beside->warnings, request);
   if (auto written = write_out(raised->city, options, request, run, beside->layers); !written)
     return give_up(written.errors());
+  if (*folder) (*folder)->finished_without_kept();
   std::printf("%s\n", formats::name_to_show(request.out).c_str());
   return raised->fell_short.empty() && refused.empty() ? all_done : some_fell_back;
 }
@@ -140,11 +143,18 @@ auto check_outputs(const ExtrudeRequest& request) -> base::Result<void> {
   }
   all.insert(all.end(), single.begin(), single.end());
   if (auto spared = spare_inputs(all, {request.input}); !spared) return spared;
-  const auto ready = one ? target_free(targets->front(), request.overwrite) : prepare(request.out, request.overwrite);
+  // A run that was killed while its results took their places left some of them: they are its own.
+  const bool replace = request.overwrite || (!database && began_empty(request.out));
+  const auto ready = one ? target_free(targets->front(), replace) : prepare(request.out, request.overwrite);
   if (!ready) return ready;
   for (const auto& path : single)
-    if (auto usable = file_free(path, request.overwrite); !usable) return usable;
-  return request.terrain.check(all, {request.input}, request.overwrite);
+    if (auto usable = file_free(path, replace); !usable) return usable;
+  return request.terrain.check(all, {request.input}, replace);
+}
+
+auto open_run(const ExtrudeRequest& request) -> base::Result<std::unique_ptr<RunFolder>> {
+  if (formats::is_database_name(request.out)) return std::unique_ptr<RunFolder>();
+  return RunFolder::open(request.out, "extrude", is_one(request.out) ? RunFolder::Use::file : RunFolder::Use::whole);
 }
 
 namespace {
@@ -187,8 +197,15 @@ auto write_out(const Made& made, const model::Scene& scene, const pipeline::Opti
   if (!request.report.empty()) reports.emplace_back(request.report);
   for (const auto& path : reports)
     if (auto written = write_report(made, scene, path, outputs); !written) return written;
-  if (request.picture)
-    if (auto written = write_picture(made.whole->city, request, run, outputs); !written) return written;
+  if (request.picture) {
+    model::City city{made.frame, made.made_by, {}};
+    auto all = made.each([&](model::Building building, const auto&) -> base::Result<void> {
+      city.buildings.push_back(std::move(building));
+      return {};
+    });
+    if (all) all = write_picture(city, request, run, outputs);
+    if (!all) return all;
+  }
   return outputs.commit(run.cancel);
 }
 
@@ -209,6 +226,9 @@ auto extrude_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
   verb->add_flag("--picture", request->picture, "Also write a picture of the models");
   verb->add_option("--report", request->report, "Write a copy of the report (run.json) to this file")
       ->type_name("FILE");
+  verb->add_flag(
+      "--no-resume", request->no_resume,
+      "Keep nothing in OUT/.mansard or OUT.mansard for a later run, and take nothing over from an earlier one");
   request->join.add_to(*verb);
   request->terrain.add_to(*verb);
   add_jobs(*verb, request->jobs);

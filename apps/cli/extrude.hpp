@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "apps/cli/made.hpp"
+#include "apps/cli/run_folder.hpp"
 #include "apps/cli/scan.hpp"
 #include "apps/cli/settings.hpp"
 #include "apps/cli/terrain.hpp"
@@ -17,7 +19,7 @@ namespace mansard::cli {
 
 struct ExtrudeRequest {
   std::string input, out, report, formats;
-  bool overwrite = false, picture = false, quiet = false, verbose = false;
+  bool overwrite = false, picture = false, quiet = false, verbose = false, no_resume = false;
   std::size_t jobs = 0;
   Join join;
   TerrainOut terrain;
@@ -27,13 +29,16 @@ struct ExtrudeRequest {
 /// Whatever may be wrong with the outputs, before any work. Fails with "output-…", "file-write".
 [[nodiscard]] auto check_outputs(const ExtrudeRequest& request) -> base::Result<void>;
 
+/// Locks the output until the end of the run; null where that is a database. Fails as RunFolder::open does.
+[[nodiscard]] auto open_run(const ExtrudeRequest& request) -> base::Result<std::unique_ptr<RunFolder>>;
+
 /// The models as OUT and --formats ask for them, with a picture if asked for. `more` are layers for a GeoPackage beside
 /// those of the city.
 [[nodiscard]] auto write_out(const model::City& city, const pipeline::Options& options, const ExtrudeRequest& request,
                              const base::Run& run, const std::vector<formats::Layer>& more = {}) -> base::Result<void>;
 
-/// The same of a run over `scene`, with its report in a folder and where --report says. With a picture it must be in
-/// memory.
+/// The same of a run over `scene`, with its report in a folder and where --report says. For a picture, all models are
+/// in memory.
 [[nodiscard]] auto write_out(const Made& made, const model::Scene& scene, const pipeline::Options& options,
                              const ExtrudeRequest& request, const base::Run& run, Progress& progress)
     -> base::Result<void>;

@@ -9,7 +9,8 @@
 namespace mansard::cli {
 namespace {
 
-auto summarise(const Made& made, const ExtrudeRequest& request, Progress& progress) -> base::Result<void> {
+auto summarise(const Made& made, std::size_t tasks, const ExtrudeRequest& request, Progress& progress)
+    -> base::Result<void> {
   const auto& n = made.outcomes;
   std::size_t remarks = 0;
   std::vector<std::string> reasons;
@@ -21,6 +22,7 @@ auto summarise(const Made& made, const ExtrudeRequest& request, Progress& progre
     return {};
   });
   if (!counted) return counted;
+  if (const auto reuse = in_words(made.summary.reuse, tasks, "tasks"); !reuse.empty()) progress.say(reuse);
   progress.say(in_words(n, remarks));
   for (const auto& reason : reasons) progress.say(reason);
   return {};
@@ -33,11 +35,17 @@ auto extrude_footprints(const ExtrudeRequest& request, const base::Cancel& cance
   if (auto applied = request.settings.apply(options); !applied) return give_up(applied.errors());
   if (auto ready = check_outputs(request); !ready) return give_up(ready.errors());
 
+  const auto folder = open_run(request);
+  if (!folder) return give_up(folder.errors());
+  RunFolder* const kept = folder->get();
   Progress progress(request.quiet);
   base::Run run;
   run.cancel = &cancel;
   run.seed = static_cast<std::uint64_t>(options.seed);
-  run.progress = [&](auto stage, auto subject, double fraction) { progress.show(stage, subject, fraction); };
+  run.progress = [&](auto stage, auto subject, double fraction) {
+    if (kept != nullptr) kept->note(stage, fraction);
+    progress.show(stage, subject, fraction);
+  };
 
   progress.show("ingest", request.input, 0);
   auto scene = ingest::read_footprints(request.input, options.ingest, run);
@@ -45,21 +53,25 @@ auto extrude_footprints(const ExtrudeRequest& request, const base::Cancel& cance
   for (const auto& warning : scene->warnings) progress.say(base::to_string(warning));
   if (auto joined = request.join.apply(*scene, progress); !joined) return give_up(joined.errors());
 
-  const auto finish = [&](const Made& made) -> int {
-    for (const auto& warning : made.summary.warnings) progress.say(base::to_string(warning));
-    progress.show("write", formats::name_to_show(request.out), 1);
-    auto done = write_out(made, *scene, options, request, run, progress);
-    if (done) done = summarise(made, request, progress);
-    if (!done) return give_up(done.errors());
-    std::printf("%s\n", formats::name_to_show(request.out).c_str());
-    return made.outcomes.full == made.outcomes.all() ? all_done : some_fell_back;
+  pipeline::Schedule schedule;
+  if (kept != nullptr) schedule = {request.no_resume ? nullptr : kept->kept(), &kept->tally()};
+  const auto stopped = [&](const auto& failed) {
+    const auto code = give_up(failed.errors());
+    if (kept != nullptr && !request.no_resume)
+      if (const auto words = kept->kept_in_words(); !words.empty()) progress.say(words);
+    return code;
   };
-  if (request.picture) {
-    const auto result = pipeline::raise_footprints(*scene, options, run);
-    return result ? finish(made_of(*result)) : give_up(result.errors());
-  }
-  const auto city = pipeline::raise_footprints_aside(*scene, options, run);
-  return city ? finish(made_of(*city)) : give_up(city.errors());
+  const auto city = pipeline::raise_footprints_aside(*scene, options, run, schedule);
+  if (!city) return stopped(city);
+  const auto made = made_of(*city);
+  for (const auto& warning : made.summary.warnings) progress.say(base::to_string(warning));
+  run.report("write", formats::name_to_show(request.out), 1);
+  auto done = write_out(made, *scene, options, request, run, progress);
+  if (done && kept != nullptr) city->tasks > 0 ? kept->finished() : kept->finished_without_kept();
+  if (done) done = summarise(made, city->tasks, request, progress);
+  if (!done) return stopped(done);
+  std::printf("%s\n", formats::name_to_show(request.out).c_str());
+  return made.outcomes.full == made.outcomes.all() ? all_done : some_fell_back;
 }
 
 }  // namespace mansard::cli

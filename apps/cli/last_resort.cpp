@@ -15,6 +15,7 @@
 
 #include "apps/cli/exit.hpp"
 #include "apps/cli/output.hpp"
+#include "apps/cli/run_folder.hpp"
 #include "mansard/base/result.hpp"
 #include "mansard/base/unfinished.hpp"
 #include "mansard/geometry/exact_memory.hpp"
@@ -44,6 +45,7 @@ void on_signal(int) {
   base::remove_unfinished();
   if (!removing) {
     removing = true;
+    leave_run_folder();
     remove_folders_left_empty();
   }
   (void)!::write(STDERR_FILENO, words.data(), words.size());

@@ -1,6 +1,7 @@
 #include "apps/cli/made.hpp"
 
 #include <array>
+#include <map>
 #include <utility>
 
 #include "mansard/base/stopped.hpp"
@@ -35,6 +36,17 @@ auto in_words(const report::Outcomes& outcomes, std::size_t remarks) -> std::str
   for (const auto& [count, what] : others)
     if (count > 0) words += ", " + std::to_string(count) + what;
   return words;
+}
+
+auto in_words(const report::Reuse& reuse, std::size_t all, const std::string& units) -> std::string {
+  std::map<std::string, std::size_t> made;
+  for (const auto& [name, why] : reuse.made) ++made[why];
+  std::string again;
+  for (const auto& [why, count] : made) again += (again.empty() ? "" : ", ") + std::to_string(count) + " (" + why + ")";
+  if (reuse.blocks == 0 && again.empty()) return {};
+  return std::to_string(reuse.blocks) + " of " + std::to_string(all) + " " + units +
+         " were taken over from an earlier run" +
+         (again.empty() ? "" : "; made again because of what changed: " + again);
 }
 
 auto write_targets(const Made& made, const std::vector<Target>& targets, const formats::WriteOptions& options,

@@ -30,6 +30,10 @@ struct Made {
 /// a full model have some.
 [[nodiscard]] auto in_words(const report::Outcomes& outcomes, std::size_t remarks = 0) -> std::string;
 
+/// "35 of 36 blocks were taken over from an earlier run; made again because of what changed: 1 (footprints)"; empty
+/// where there was none. `units` are what is kept, `all` of them the run has.
+[[nodiscard]] auto in_words(const report::Reuse& reuse, std::size_t all, const std::string& units) -> std::string;
+
 /// The models; the files are there after Outputs::commit. What could not be written as it was meant is said. Fails as
 /// the writers do, and with "cancelled".
 [[nodiscard]] auto write_targets(const Made& made, const std::vector<Target>& targets,

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <map>
 #include <memory>
 
 #include "apps/cli/catalogue.hpp"
@@ -34,20 +33,9 @@ struct Request {
   std::size_t share = 0, shares = 0;  ///< of the work, from 1; 0: all of it
 };
 
-/// What of an earlier run was taken over, and why not more.
-void tell_reuse(const report::Summary& summary, Progress& progress) {
-  std::map<std::string, std::size_t> made;
-  for (const auto& [block, why] : summary.reuse.made) ++made[why];
-  std::string again;
-  for (const auto& [why, count] : made) again += (again.empty() ? "" : ", ") + std::to_string(count) + " (" + why + ")";
-  if (summary.reuse.blocks > 0 || !again.empty())
-    progress.say(std::to_string(summary.reuse.blocks) + " of " + std::to_string(summary.blocks.size()) +
-                 " blocks were taken over from an earlier run" +
-                 (again.empty() ? "" : "; made again because of what changed: " + again));
-}
-
 auto summarise(const Made& made, const Request& request, Progress& progress) -> base::Result<void> {
-  tell_reuse(made.summary, progress);
+  if (const auto reuse = in_words(made.summary.reuse, made.summary.blocks.size(), "blocks"); !reuse.empty())
+    progress.say(reuse);
   const auto& n = made.outcomes;
   progress.say(in_words(n));
   const auto& scores = made.summary.scores;

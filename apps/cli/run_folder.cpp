@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <cerrno>
 #include <cmath>
@@ -22,6 +23,18 @@ using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
 constexpr auto status_name = "status.json", lock_name = "lock", blocks_name = "blocks";
+
+/// Where what a run keeps is: of a folder in it, of a file beside it.
+auto place_in(const fs::path& out, bool file) -> fs::path {
+  if (!file) return out / run_folder_name;
+  const auto name = out.filename().empty() ? out.parent_path() : out;  // "x.3dtiles/"
+  return name.string() + run_folder_name;
+}
+auto place_of(const fs::path& out) -> fs::path {
+  std::error_code status;
+  const auto inside = place_in(out, false), beside = place_in(out, true);
+  return fs::exists(inside / status_name, status) || !fs::exists(beside / status_name, status) ? inside : beside;
+}
 
 auto read_json(const fs::path& path) -> Json {
   const auto text = base::read_file(path);
@@ -49,6 +62,32 @@ auto locked(const fs::path& folder) -> bool {
   return held;
 }
 
+/// Opens and locks; the number of the open file, −1 where somebody else has the lock, or what went wrong.
+struct Opened {
+  int file = -1;
+  int failure = 0;
+};
+auto open_locked(const fs::path& folder, int how) -> Opened {
+  const auto path = folder / lock_name;
+  for (;;) {
+    const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (file < 0) return {-1, errno};
+    // The system takes the lock away with the process, however that ends. Where a file system has no locks, a run goes
+    // without.
+    if (::flock(file, how | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      ::close(file);
+      return {};
+    }
+    // A run that ends may have removed its folder in between.
+    struct stat own {
+    }, there{};
+    if (::fstat(file, &own) == 0 && ::stat(path.c_str(), &there) == 0 && own.st_ino == there.st_ino) return {file, 0};
+    ::close(file);
+    std::error_code failure;
+    fs::create_directory(folder, failure);
+  }
+}
+
 auto busy(const fs::path& out, const fs::path& folder) -> base::Diagnostic {
   const Json status = read_json(folder / status_name);
   std::string who = "another run of mansard works";
@@ -56,7 +95,26 @@ auto busy(const fs::path& out, const fs::path& folder) -> base::Diagnostic {
     who = "'mansard " + text_of(status, "verb") + "' works there since " + text_of(status, "started") + " (process " +
           std::to_string(number_of(status, "process", "id")) + " on " +
           (status.contains("process") ? text_of(status["process"], "host") : "") + ")";
-  return base::error("output-busy", who + "; wait for its end, or choose another folder", out.string());
+  return base::error("output-busy", who + "; wait for its end, or choose another output", out.string());
+}
+
+auto any_in(const fs::path& blocks) -> bool {
+  std::error_code missing;
+  return !fs::is_empty(blocks, missing) && !missing;
+}
+
+void remove_run_folder(const fs::path& folder) {
+  std::error_code ignored;
+  fs::remove_all(folder / blocks_name, ignored);
+  fs::remove(folder / status_name, ignored);
+  fs::remove(folder / lock_name, ignored);  // last: who finds none makes one of its own
+  fs::remove(folder, ignored);
+}
+
+/// That of this process, if it works there alone.
+auto current() -> fs::path& {
+  static fs::path folder;
+  return folder;
 }
 
 auto time_in_words(double seconds) -> std::string {
@@ -80,7 +138,7 @@ RunFolder::RunFolder(fs::path folder, std::string verb, Use use, int lock, bool 
 
 auto RunFolder::open(const fs::path& out, const std::string& verb, Use use)
     -> base::Result<std::unique_ptr<RunFolder>> {
-  const auto folder = out / run_folder_name;
+  const auto folder = place_in(out, use == Use::file);
   std::error_code failure;
   fs::create_directory(folder, failure);
   const auto unusable = [&](const std::string& why) {
@@ -88,35 +146,42 @@ auto RunFolder::open(const fs::path& out, const std::string& verb, Use use)
                        folder.string());
   };
   if (failure) return unusable(failure.message());
-  const int lock = ::open((folder / lock_name).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (lock < 0) return unusable(std::strerror(errno));
-  // The system takes the lock away with the process, however that ends. Where a file system has no locks, a run goes
-  // without.
-  if (::flock(lock, (use == Use::share ? LOCK_SH : LOCK_EX) | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    ::close(lock);
-    return busy(out, folder);
-  }
-  std::unique_ptr<RunFolder> made(new RunFolder(folder, verb, use, lock, !holds_results(out) || began_empty(out)));
-  if (use == Use::whole)
+  const auto lock = open_locked(folder, use == Use::share ? LOCK_SH : LOCK_EX);
+  if (lock.failure != 0) return unusable(std::strerror(lock.failure));
+  if (lock.file < 0) return busy(out, folder);
+  const bool results = use == Use::file ? fs::exists(out, failure) : holds_results(out);
+  std::unique_ptr<RunFolder> made(new RunFolder(folder, verb, use, lock.file, !results || began_empty(out)));
+  if (use != Use::share)
     for (const auto& entry : fs::directory_iterator(folder, failure))
       if (base::is_part(entry.path())) fs::remove(entry.path(), failure);
-  auto kept = pipeline::KeptBlocks::open(folder / blocks_name, use == Use::whole);
+  auto kept = pipeline::KeptBlocks::open(folder / blocks_name, use != Use::share);
   if (!kept) return kept.error();
   made->kept_ = std::move(*kept);
+  if (use != Use::share) current() = folder;
   made->write("working");
   return made;
 }
 
 RunFolder::~RunFolder() {
-  std::error_code ignored;
-  if (use_ == Use::whole) {
-    if (kept_ && !finished_ && fs::is_empty(folder_ / blocks_name, ignored)) fs::remove_all(folder_, ignored);
-    else write(finished_ ? "finished" : "stopped");
+  if (use_ != Use::share) {
+    current().clear();
+    const bool nothing = !finished_ && !any_in(folder_ / blocks_name);
+    // First, so that a run whose folder is not yet gone when it is killed is not taken for one that has to go on.
+    if (finished_ || !nothing) write(finished_ ? "finished" : "stopped");
+    if (kept_ && (nothing || remove_)) remove_run_folder(folder_);
   }
   ::close(lock_);
 }
 
-void RunFolder::finished() { finished_ = true; }
+void RunFolder::finished() {
+  finished_ = true;
+  remove_ = use_ == Use::file;
+}
+
+void RunFolder::finished_without_kept() {
+  finished();
+  remove_ = remove_ || !any_in(folder_ / blocks_name);
+}
 
 auto RunFolder::speed() const -> std::optional<double> {
   const std::size_t made = tally_.buildings_done - tally_.buildings_kept;
@@ -158,25 +223,30 @@ void RunFolder::write(const std::string& state) {
 }
 
 auto RunFolder::kept_in_words() const -> std::string {
-  if (tally_.blocks_done == 0) return {};
+  if (tally_.blocks_done == 0 || !any_in(folder_ / blocks_name)) return {};
   return std::to_string(tally_.blocks_done) + " of " + std::to_string(tally_.blocks) +
          " blocks are done and kept; the same command goes on from there";
 }
 
+void leave_run_folder() {
+  const auto& folder = current();
+  if (!folder.empty() && !any_in(folder / blocks_name)) remove_run_folder(folder);
+}
+
 auto began_empty(const fs::path& out) -> bool {
-  const Json status = read_json(out / run_folder_name / status_name);
+  const Json status = read_json(place_of(out) / status_name);
   if (!status.is_object() || text_of(status, "state") == "finished") return false;
   const auto empty = status.find("began_empty");
   return empty != status.end() && empty->is_boolean() && empty->get<bool>();
 }
 
 auto status_json(const fs::path& out) -> base::Result<std::string> {
-  const auto folder = out / run_folder_name;
+  const auto folder = place_of(out);
   std::error_code status;
   if (!fs::exists(folder / status_name, status))
     return base::error("status-none",
-                       "no run of mansard has worked in this folder, or it kept nothing; give the "
-                       "folder that 'mansard reconstruct' has as -o",
+                       "no run of mansard has worked there, or it kept nothing; give what 'mansard reconstruct' or "
+                       "'mansard extrude' has as -o",
                        out.string());
   const auto text = base::read_file(folder / status_name);
   if (!text) return text.failure();

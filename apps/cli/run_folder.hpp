@@ -1,5 +1,5 @@
-// What a run keeps in its output folder beside the results, in OUTDIR/.mansard: a lock, how far it is, and the blocks
-// that are done, for the same command to go on from.
+// What a run keeps beside its results, in OUTDIR/.mansard, or in FILE.mansard where the output is a file: a lock, how
+// far it is, and the blocks that are done, for the same command to go on from.
 #pragma once
 
 #include <chrono>
@@ -14,16 +14,20 @@
 
 namespace mansard::cli {
 
-/// The name of that folder in OUTDIR.
+/// The name of that folder in OUTDIR, and what is added to the name of an output file.
 inline constexpr auto run_folder_name = ".mansard";
 
 /// One process works in a folder at a time; several where all of them make shares of one run.
 class RunFolder {
  public:
-  enum class Use { whole, share };
+  enum class Use {
+    whole,  ///< of a folder, where what was kept stays for later runs
+    share,  ///< of a folder
+    file,   ///< whose folder goes when the run has finished
+  };
 
-  /// Locks `out`, which must be there, and writes down who works in it. Fails with "output-busy" (who, since when),
-  /// "file-write".
+  /// Locks `out`, which must be there unless it is a file, and writes down who works in it. Fails with "output-busy"
+  /// (who, since when), "file-write".
   [[nodiscard]] static auto open(const std::filesystem::path& out, const std::string& verb, Use use)
       -> base::Result<std::unique_ptr<RunFolder>>;
   RunFolder(const RunFolder&) = delete;
@@ -35,6 +39,8 @@ class RunFolder {
   /// is another one.
   void note(std::string_view stage, double fraction);
   void finished();
+  /// The same of a run that keeps nothing: where no earlier one did, nothing stays.
+  void finished_without_kept();
 
   [[nodiscard]] auto kept() -> pipeline::KeptBlocks* { return kept_.get(); }
   [[nodiscard]] auto tally() -> pipeline::Tally& { return tally_; }
@@ -54,17 +60,20 @@ class RunFolder {
   pipeline::Tally tally_;
   std::string stage_, started_;
   double fraction_ = 0;
-  bool finished_ = false, empty_ = false;
+  bool finished_ = false, empty_ = false, remove_ = false;
   std::chrono::steady_clock::time_point begin_, written_;
   std::optional<std::chrono::steady_clock::time_point> first_block_;  ///< from when on blocks were worked on
 };
 
-/// Whether the last run in a folder found no results there and did not come to its end: what is there now is its own,
-/// and the same command may replace it.
+/// For a process that ends without its destructors, after base::remove_unfinished: what ~RunFolder would take away.
+void leave_run_folder();
+
+/// Whether the last run in a folder, or to a file, found no results there and did not come to its end: what is there
+/// now is its own, and the same command may replace it.
 [[nodiscard]] auto began_empty(const std::filesystem::path& out) -> bool;
 
-/// What is known of the run in a folder: its status.json with "state" brought up to date – "working", "finished", or
-/// "stopped", also where it was killed. Fails with "status-none", "file-read".
+/// What is known of the run in a folder, or to a file: its status.json with "state" brought up to date – "working",
+/// "finished", or "stopped", also where it was killed. Fails with "status-none", "file-read".
 [[nodiscard]] auto status_json(const std::filesystem::path& out) -> base::Result<std::string>;
 /// The same in a few lines for people.
 [[nodiscard]] auto status_in_words(const std::string& json) -> std::string;

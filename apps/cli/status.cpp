@@ -1,4 +1,4 @@
-// `mansard status OUTDIR`.
+// `mansard status OUT`.
 #include <cstdio>
 #include <memory>
 
@@ -16,7 +16,7 @@ auto status_verb(CLI::App& app) -> Verb {
   };
   auto* verb = add_verb(app, "status");
   auto request = std::make_shared<Request>();
-  verb->add_option("OUTDIR", request->out, "Output folder of the run")->required()->type_name("OUTDIR");
+  verb->add_option("OUT", request->out, "Output folder of the run, or its output file")->required()->type_name("OUT");
   verb->add_flag("--json", request->json, "Print JSON");
   return {verb, [request] {
             const auto status = status_json(request->out);

@@ -100,7 +100,7 @@ auto for_every_task(const ingest::CityScene& city, const Options& options, const
     return work(city.scene, *division, detail::Progress{}, std::vector<std::size_t>());
   }
   const auto groups = block::groups(city.scene, options.block);
-  auto wanted = detail::by_place(groups);
+  auto wanted = detail::by_place(groups, city.scene.frame);
   if (share) wanted = share_of(wanted, city, share->first, share->second);
   std::size_t buildings = 0;
   for (const auto* group : wanted) buildings += group->features.size();

@@ -28,6 +28,7 @@ class PutAside {
   model::MadeBy made_by;
   report::Summary summary;
   report::Outcomes outcomes;
+  std::size_t tasks = 0;  ///< those that were kept, or taken over from an earlier run; 0 where blocks were
 
   [[nodiscard]] auto size() const -> std::size_t { return places_.size(); }
   using Visit = std::function<base::Result<void>(model::Building, report::BuildingReport)>;
@@ -51,9 +52,10 @@ class PutAside {
 [[nodiscard]] auto reconstruct_aside(const ingest::CityScene& city, const Options& options, const base::Run& run = {},
                                      const Schedule& schedule = {}) -> base::Result<PutAside>;
 
-/// As raise_footprints, in memory that does not grow with the models. Fails as that does.
-[[nodiscard]] auto raise_footprints_aside(const model::Scene& scene, const Options& options, const base::Run& run = {})
-    -> base::Result<PutAside>;
+/// As raise_footprints, in memory that does not grow with the models. What `schedule` keeps are tasks, of at most
+/// `ingest.task_footprints` footprints; nothing where all is one task. Fails as that does, and as KeptBlocks does.
+[[nodiscard]] auto raise_footprints_aside(const model::Scene& scene, const Options& options, const base::Run& run = {},
+                                          const Schedule& schedule = {}) -> base::Result<PutAside>;
 
 /// One of `shares` of the work: makes the blocks of share number `share`, from 0, and keeps them, so that a
 /// reconstruction with the same blocks kept finds them made. The shares are of about the same number of triangles, and

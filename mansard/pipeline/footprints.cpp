@@ -12,6 +12,7 @@
 #include "mansard/pipeline/detail/city_tasks.hpp"
 #include "mansard/pipeline/detail/overlaps.hpp"
 #include "mansard/pipeline/detail/place.hpp"
+#include "mansard/pipeline/detail/task_kept.hpp"
 #include "mansard/pipeline/pipeline.hpp"
 #include "mansard/report/attributes.hpp"
 #include "mansard/report/measures.hpp"
@@ -348,6 +349,11 @@ auto raise_all(const model::Scene& scene, const Making& making, const Options& o
     detail::add_solids(out.city.buildings[b], out.buildings[b], std::move(united[b]), 0);
   out.city.buildings.resize(scene.footprints.size());
   out.buildings.resize(scene.footprints.size());
+  for (auto& building :
+       out.city.buildings) {  // to the nearest numbers of the files' grid, as those that are taken over
+    for (auto& one : building.parts) detail::move(one.model.solid, {});
+    for (auto& one : building.solids) detail::move(one.model.solid, {});
+  }
   base::parallel_for(out.buildings.size(),
                      [&](std::size_t i) { finish(out.city.buildings[i], out.buildings[i], scene.frame, options); });
   out.times.stages = {{"roof", planned_in}, {"extrude", raised_in}, {"label", labelled_in}};
@@ -369,8 +375,8 @@ auto raise_footprints(const model::Scene& scene, const Options& options, const b
   return out;
 }
 
-auto raise_footprints_aside(const model::Scene& scene, const Options& options, const base::Run& run)
-    -> base::Result<PutAside> {
+auto raise_footprints_aside(const model::Scene& scene, const Options& options, const base::Run& run,
+                            const Schedule& schedule) -> base::Result<PutAside> {
   base::Watch total;
   const auto making = making_of(scene, options);
   if (!making) return making.failure();
@@ -378,39 +384,54 @@ auto raise_footprints_aside(const model::Scene& scene, const Options& options, c
   detail::CityBuilder builder(out, scene.footprints.size());
   if (auto opened = builder.open(); !opened) return opened.failure();
   const auto groups = block::groups(scene, options.block);
-  const auto places = detail::by_place(groups);
+  const auto places = detail::by_place(groups, scene.frame);
   const auto index = detail::index_of(scene);
   std::size_t assumed = 0;
   std::map<std::string, std::vector<base::Spent>> spent;
   std::vector<std::string> stages;
-  const auto take = [&](std::size_t feature, model::Building& building, report::BuildingReport& report) {
-    if (feature < scene.footprints.size() && is_assumed(report)) ++assumed;
-    builder.take(feature, {std::move(building), std::move(report)});
+  const auto take = [&](std::size_t feature, const detail::Finished& one) {
+    if (is_assumed(one.report)) ++assumed;
+    builder.take(feature, one);
   };
+  const auto tasks = detail::in_tasks(places, static_cast<std::size_t>(options.ingest.task_footprints), scene.frame);
+  detail::TaskKeeper keeper(options, schedule, tasks, scene.footprints.size());
   std::size_t before = 0;
-  for (const auto& task : detail::in_tasks(places, static_cast<std::size_t>(options.ingest.task_footprints))) {
+  for (const auto& task : tasks) {
     if (run.cancelled()) break;
-    const auto part = detail::part_of(scene, task, index, true);
-    base::Run inner = run;
-    inner.progress = [&](auto stage, auto subject, double fraction) {
-      const auto groups_before = static_cast<double>(before), groups_here = static_cast<double>(task.size());
-      run.report(stage, subject, (groups_before + fraction * groups_here) / static_cast<double>(places.size()));
-    };
-    auto made = raise_all(part.scene, *making, options, inner);
-    before += task.size();
-    if (run.cancelled()) break;
-    for (std::size_t i = 0; i < made.buildings.size(); ++i)
-      take(part.features[i], made.city.buildings[i], made.buildings[i]);
+    const auto part = detail::part_of(scene, task.groups, index, true);
+    auto features = keeper.find(task, part);
+    const std::size_t here = task.groups.size();
+    if (!features) {
+      base::Run inner = run;
+      inner.progress = [&](auto stage, auto subject, double fraction) {
+        run.report(
+            stage, subject,
+            (static_cast<double>(before) + fraction * static_cast<double>(here)) / static_cast<double>(places.size()));
+      };
+      auto made = raise_all(part.scene, *making, options, inner);
+      if (run.cancelled()) break;
+      features.emplace();
+      for (std::size_t i = 0; i < made.buildings.size(); ++i)
+        features->push_back({std::move(made.city.buildings[i]), std::move(made.buildings[i])});
+      for (const auto& [stage, time] : made.times.stages) {
+        if (!spent.contains(stage)) stages.push_back(stage);
+        spent[stage].push_back(time);
+      }
+      if (auto kept = keeper.keep(*features, scene.frame); !kept) return kept.failure();
+    }
+    before += here;
+    for (std::size_t i = 0; i < features->size(); ++i) take(part.features[i], (*features)[i]);
     if (auto put = builder.check(); !put) return put.failure();
+    keeper.count(task, features->size());
     if (before < places.size())
       run.report("done", std::to_string(before) + " of " + std::to_string(places.size()) + " blocks",
                  static_cast<double>(before) / static_cast<double>(places.size()));
-    for (const auto& [stage, time] : made.times.stages) {
-      if (!spent.contains(stage)) stages.push_back(stage);
-      spent[stage].push_back(time);
-    }
   }
   if (!run.cancelled()) {
+    auto reuse = keeper.finish();
+    if (!reuse) return reuse.failure();
+    out.summary.reuse = std::move(*reuse);
+    if (keeper.keeps()) out.tasks = tasks.size();
     // Those that cannot be used belong to no group.
     model::Scene rest;
     std::vector<std::size_t> features;
@@ -420,9 +441,11 @@ auto raise_footprints_aside(const model::Scene& scene, const Options& options, c
       rest.footprints.push_back(scene.footprints[f]);
     }
     rest.frame = scene.frame;
-    auto unmade = raise_all(rest, *making, options, run);
+    base::Run inner = run;
+    inner.progress = nullptr;  // no stage of the whole
+    auto unmade = raise_all(rest, *making, options, inner);
     for (std::size_t i = 0; i < unmade.buildings.size(); ++i)
-      take(features[i], unmade.city.buildings[i], unmade.buildings[i]);
+      take(features[i], {std::move(unmade.city.buildings[i]), std::move(unmade.buildings[i])});
     builder.finish(run);
   }
   if (run.cancelled()) return base::stopped();

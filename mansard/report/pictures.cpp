@@ -226,8 +226,10 @@ auto picture_of(const model::City& city, const picture::View& view, const base::
 auto pictures(const Reconstruction& reconstruction, const model::Scene& scene, double limit, const base::Run& run,
               const TexturedLayers* textured) -> Pictures {
   const auto frame = frame_of(scene);
-  const rays::Scene surface(scene.mesh);
-  const auto lines = footprint_lines(scene, surface);
+  const auto lines = [&] {
+    const rays::Scene surface(scene.mesh);  // not in memory beside those of the pictures
+    return footprint_lines(scene, surface);
+  }();
   const auto in_footprint = [&](Point3 p) {
     return std::ranges::any_of(scene.footprints, [&](const auto& footprint) {
       return std::ranges::any_of(footprint.polygons, [&](const auto& polygon) {

@@ -36,10 +36,11 @@ auto json_of(const Times& times) -> Json {
   return out;
 }
 
-auto json_of(const Reuse& reuse) -> Json {
+/// Of blocks, or of the tasks in which footprints without a mesh are extruded.
+auto json_of(const Reuse& reuse, const std::string& what) -> Json {
   Json made = Json::object();
-  for (const auto& [block, why] : reuse.made) made[why].push_back(block);
-  return {{"blocks_taken_over", reuse.blocks}, {"blocks_made_again", std::move(made)}};
+  for (const auto& [name, why] : reuse.made) made[why].push_back(name);
+  return {{what + "_taken_over", reuse.blocks}, {what + "_made_again", std::move(made)}};
 }
 
 auto json_of(const evaluate::InsideScores& s) -> Json {
@@ -227,7 +228,8 @@ RunJson::RunJson(const Summary& s, const Outcomes& outcomes, const model::MadeBy
                    {"covered", outcomes.covered},  {"refused", outcomes.refused}, {"blocks", s.blocks.size()}};
   if (scanned) out["scores"] = json_of(s.scores);
   out["times"] = json_of(s.times);
-  if (s.reuse.blocks > 0 || !s.reuse.made.empty()) out["times"]["reuse"] = json_of(s.reuse);
+  if (s.reuse.blocks > 0 || !s.reuse.made.empty())
+    out["times"]["reuse"] = json_of(s.reuse, s.blocks.empty() ? "tasks" : "blocks");
   out["warnings"] = all_warnings(scene, s.warnings);
   std::string text = text_of(out);
   text.resize(text.rfind("\n}"));  // there is more to come

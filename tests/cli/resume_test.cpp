@@ -4,6 +4,7 @@
 #include <sys/file.h>
 #include <chrono>
 #include <csignal>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -105,56 +106,69 @@ class Resume : public Command {
     const auto shown = run("status --json " + at(out));
     return shown.exit == 0 ? Json::parse(shown.out) : Json();
   }
+
+  /// How far runs that are killed at random moments come.
+  struct Killed {
+    std::function<std::string(const std::string& out, const std::string& more)> command;
+    std::function<std::map<std::string, std::string>(const std::string& out)> results;
+    std::string kept;        ///< the folder in which "out" keeps what is done
+    std::string whole, out;  ///< outputs
+  };
+  /// 50 of them, or as many as tools/nightly.sh says. Every run that comes to its end has the bytes of a run that
+  /// nothing disturbed, and nothing that was kept is lost.
+  void survives_kills(const Killed& of) const {
+    const auto begin = std::chrono::steady_clock::now();
+    ASSERT_EQ(run(of.command(of.whole, "-q --no-resume")).exit, 0);
+    const auto took = std::chrono::steady_clock::now() - begin;
+    const auto expected = of.results(of.whole);
+
+    std::mt19937 random(7);
+    std::size_t last = 0;
+    int kills = 0;
+    const auto* more = std::getenv("MANSARD_KILLS");
+    const int wanted = more != nullptr ? std::atoi(more) : 50;
+    for (int round = 0; kills < wanted && round < 8 * wanted; ++round) {
+      const pid_t child = start(of.command(of.out, "-q -j 1"));
+      const auto wait =
+          std::chrono::duration_cast<std::chrono::microseconds>(took) * static_cast<int>(random() % 1000) / 1000;
+      std::this_thread::sleep_for(wait);
+      ::kill(child, SIGKILL);
+      const int ended = end_of(child);
+      const auto now = status(of.out);
+      // Also where the kill came between the run's end and that of its process.
+      const bool done =
+          WIFSIGNALED(ended) && (now.is_object() ? now["state"] == "finished" : fs::is_regular_file(at(of.out)));
+      if (WIFSIGNALED(ended) && !done) {
+        ++kills;
+        if (now.is_object()) {
+          EXPECT_EQ(now["state"], "stopped");
+        }
+        std::size_t blocks = 0;
+        if (fs::exists(at(of.kept) + "/blocks"))
+          for (const auto& entry : fs::recursive_directory_iterator(at(of.kept) + "/blocks"))
+            blocks += entry.is_regular_file() && entry.path().string().find(".part") == std::string::npos ? 1 : 0;
+        EXPECT_GE(blocks, last) << "nothing that was kept is lost";
+        last = blocks;
+      } else {
+        ASSERT_TRUE(done || WEXITSTATUS(ended) == 0) << read(at("stderr"));
+        EXPECT_THAT(different(of.results(of.out), expected), testing::IsEmpty());
+        last = 0;
+        fs::remove_all(at(of.out));
+        fs::remove_all(at(of.kept));  // where the kill came before it went
+      }
+    }
+    EXPECT_EQ(kills, wanted);
+    ASSERT_EQ(run(of.command(of.out, "-q --overwrite")).exit, 0);
+    EXPECT_THAT(different(of.results(of.out), expected), testing::IsEmpty());
+    for (const auto& entry : fs::directory_iterator(fs::path(at(of.kept)).parent_path()))
+      EXPECT_THAT(entry.path().filename(), testing::Not(HasSubstr(".part"))) << "left by a killed run";
+  }
 };
 
 TEST_F(Resume, gives_the_bytes_of_an_undisturbed_run_after_many_kills) {
-  const auto begin = std::chrono::steady_clock::now();
-  ASSERT_EQ(run(command("whole", "-q --no-resume")).exit, 0);
-  const auto took = std::chrono::steady_clock::now() - begin;
+  survives_kills({[&](const auto& out, const auto& more) { return command(out, more); },
+                  [&](const auto& out) { return results(out); }, "out/.mansard", "whole", "out"});
   EXPECT_FALSE(fs::exists(at("whole") + "/.mansard/blocks/last"));
-  const auto expected = results("whole");
-
-  std::mt19937 random(7);
-  std::size_t last = 0;
-  int kills = 0, finished = 0;
-  const auto* more = std::getenv("MANSARD_KILLS");  // tools/nightly.sh
-  const int wanted = more != nullptr ? std::atoi(more) : 50;
-  for (int round = 0; kills < wanted && round < 8 * wanted; ++round) {
-    const pid_t child = start(command("out", "-q -j 1 " + std::string(finished > 0 ? "--overwrite" : "")));
-    const auto wait =
-        std::chrono::duration_cast<std::chrono::microseconds>(took) * static_cast<int>(random() % 1000) / 1000;
-    std::this_thread::sleep_for(wait);
-    ::kill(child, SIGKILL);
-    const int ended = end_of(child);
-    const auto now = status("out");
-    // Also where the kill came between the run's end and that of its process.
-    const bool done = WIFSIGNALED(ended) && now.is_object() && now["state"] == "finished";
-    if (WIFSIGNALED(ended) && !done) {
-      ++kills;
-      if (now.is_object()) {
-        EXPECT_EQ(now["state"], "stopped");
-      }
-      std::size_t blocks = 0;
-      if (fs::exists(at("out") + "/.mansard/blocks"))
-        for (const auto& entry : fs::recursive_directory_iterator(at("out") + "/.mansard/blocks"))
-          blocks += entry.is_regular_file() && entry.path().string().find(".part") == std::string::npos ? 1 : 0;
-      EXPECT_GE(blocks, last) << "nothing that was kept is lost";
-      last = blocks;
-    } else {
-      ASSERT_TRUE(done || WEXITSTATUS(ended) == 0) << read(at("stderr"));
-      EXPECT_THAT(different(results("out"), expected), testing::IsEmpty());
-      ++finished;
-      last = 0;
-      fs::remove_all(at("out"));
-      finished = 0;
-    }
-  }
-  EXPECT_EQ(kills, wanted);
-  ASSERT_EQ(run(command("out", "-q --overwrite")).exit, 0);
-  EXPECT_THAT(different(results("out"), expected), testing::IsEmpty());
-  std::set<std::string> names;
-  for (const auto& entry : fs::directory_iterator(at("out"))) names.insert(entry.path().filename());
-  for (const auto& name : names) EXPECT_THAT(name, testing::Not(HasSubstr(".part"))) << "left by a killed run";
 }
 
 TEST_F(Resume, goes_on_after_an_interrupt_and_says_so) {
@@ -238,6 +252,175 @@ TEST_F(Resume, refuses_shares_that_make_no_sense) {
     EXPECT_EQ(refused.exit, 2) << words;
     EXPECT_FALSE(fs::exists(at("out"))) << words;
   }
+}
+
+/// The same of footprints without a mesh: what is kept are tasks of many blocks.
+class ResumeExtrude : public Resume {
+ protected:
+  void SetUp() override {
+    Command::SetUp();
+    houses(160);
+  }
+
+  /// Houses of four corners and a few heights in rows, 20 m apart; the first one is `longer`.
+  void houses(int count, double longer = 0) {
+    std::string features;
+    for (int i = 0; i < count; ++i) {
+      const double x = 84'000 + 20.0 * (i % 20), y = 447'000 + 20.0 * (i / 20), l = 12 + (i == 0 ? longer : 0);
+      const auto corner = [&](double dx, double dy) {
+        return "[" + std::to_string(x + dx) + "," + std::to_string(y + dy) + "]";
+      };
+      features +=
+          std::string(i > 0 ? "," : "") + R"({"type":"Feature","properties":{"id":"h)" + std::to_string(i) +
+          R"(","building:levels":)" + std::to_string(1 + i % 5) + R"(,"roof:shape":"hipped"},"geometry":)" +
+          polygon(corner(0, 0) + "," + corner(l, 0) + "," + corner(l, 8) + "," + corner(0, 8) + "," + corner(0, 0)) +
+          "}";
+    }
+    put("houses.geojson",
+        R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:28992"}},"features":[)" +
+            features + "]}");
+  }
+
+  [[nodiscard]] auto extrude(const std::string& out, const std::string& more = "") const -> std::string {
+    return "extrude " + at("houses.geojson") + " -o " + at(out) + " --ingest-task-footprints 8 " + more;
+  }
+  [[nodiscard]] auto in_folder(const std::string& out, const std::string& more = "") const -> std::string {
+    return extrude(out, "--formats cityjson,glb,tiles " + more);
+  }
+  [[nodiscard]] auto file(const std::string& out) const -> std::map<std::string, std::string> {
+    return {{"the file", read(at(out))}};
+  }
+  /// What is in the folder of the test beside inputs and what a command printed.
+  [[nodiscard]] auto outputs() const -> std::set<std::string> {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(at("")))
+      if (const auto name = entry.path().filename().string();
+          name != "stdout" && name != "stderr" && !name.starts_with("house"))
+        names.insert(name);
+    return names;
+  }
+};
+
+TEST_F(ResumeExtrude, gives_the_bytes_of_an_undisturbed_run_after_many_kills) {
+  survives_kills({[&](const auto& out, const auto& more) { return in_folder(out, more); },
+                  [&](const auto& out) { return results(out); }, "out/.mansard", "whole", "out"});
+  EXPECT_FALSE(fs::exists(at("whole/.mansard"))) << "nothing was kept";
+}
+
+TEST_F(ResumeExtrude, gives_one_file_as_it_is_undisturbed_after_many_kills) {
+  survives_kills({[&](const auto& out, const auto& more) { return extrude(out, more); },
+                  [&](const auto& out) { return file(out); }, "city.glb.mansard", "whole.glb", "city.glb"});
+  EXPECT_EQ(outputs(), (std::set<std::string>{"city.glb", "whole.glb"}));
+}
+
+TEST_F(ResumeExtrude, goes_on_after_an_interrupt_and_says_so) {
+  houses(1500);
+  const pid_t child = start(extrude("city.city.jsonl", "-j 1"));
+  const auto kept = [&] {
+    std::size_t files = 0;
+    std::error_code gone;
+    for (auto at = fs::recursive_directory_iterator(this->at("city.city.jsonl.mansard/blocks"), gone);
+         !gone && at != fs::recursive_directory_iterator(); at.increment(gone))
+      files += at->is_regular_file(gone) ? 1 : 0;
+    return files;
+  };
+  int waited = 0;  // ms
+  for (; kept() < 10 && waited < 60'000; ++waited) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  ASSERT_LT(waited, 60'000) << read(at("stderr"));
+  EXPECT_EQ(status("city.city.jsonl")["state"], "working");
+  const auto busy = run(extrude("city.city.jsonl", "-q"));
+  EXPECT_EQ(busy.exit, 2);
+  EXPECT_THAT(busy.err, HasSubstr("error[output-busy]"));
+  EXPECT_THAT(busy.err, HasSubstr("'mansard extrude' works there since 20"));
+  ::kill(child, SIGINT);
+  const int ended = end_of(child);
+  ASSERT_TRUE(WIFEXITED(ended));
+  ASSERT_EQ(WEXITSTATUS(ended), 6) << read(at("stderr"));
+  EXPECT_FALSE(fs::exists(at("city.city.jsonl")));
+  EXPECT_EQ(status("city.city.jsonl")["state"], "stopped");
+  EXPECT_EQ(status("city.city.jsonl")["buildings"]["all"], 1500);
+  EXPECT_THAT(run("status " + at("city.city.jsonl")).out, HasSubstr("the same command goes on from there"));
+
+  const auto second = run(extrude("city.city.jsonl"));
+  ASSERT_EQ(second.exit, 0) << second.err;
+  EXPECT_THAT(second.err, HasSubstr(" tasks were taken over from an earlier run"));
+  EXPECT_THAT(second.err, testing::Not(HasSubstr("made again")));
+  EXPECT_EQ(outputs(), std::set<std::string>{"city.city.jsonl"});
+  ASSERT_EQ(run(extrude("whole.city.jsonl", "-q --no-resume -j 1")).exit, 0);
+  EXPECT_EQ(file("city.city.jsonl"), file("whole.city.jsonl"));
+}
+
+TEST_F(ResumeExtrude, makes_again_what_changed_and_says_why) {
+  const auto reuse = [&](const std::string& what) {
+    return Json::parse(read(at("out") + "/run.json"))["times"]["reuse"][what];
+  };
+  const auto expect_bytes_of_a_fresh_run = [&](const std::string& more = "") {
+    ASSERT_EQ(run(in_folder("fresh", "-q --no-resume --overwrite " + more)).exit, 0);
+    EXPECT_THAT(different(results("out"), results("fresh")), testing::IsEmpty());
+  };
+  ASSERT_EQ(run(in_folder("out", "-q")).exit, 0);
+  EXPECT_EQ(status("out")["state"], "finished");
+  const auto same = run(in_folder("out", "--overwrite"));
+  EXPECT_THAT(same.err, HasSubstr(" tasks were taken over from an earlier run\n"));
+  const int all = reuse("tasks_taken_over");
+  EXPECT_GT(all, 20);
+  EXPECT_THAT(same.err, HasSubstr(std::to_string(all) + " of " + std::to_string(all) + " tasks"));
+
+  houses(160, 1.0);  // one house is longer: its task is made again, and those within 50 m
+  EXPECT_THAT(run(in_folder("out", "--overwrite")).err, HasSubstr("; made again because of what changed: "));
+  const int here = static_cast<int>(reuse("tasks_made_again")["footprints"].size());
+  EXPECT_GE(here, 1);
+  EXPECT_LE(here, 6);
+  EXPECT_EQ(reuse("tasks_taken_over"), all - here);
+  expect_bytes_of_a_fresh_run();
+
+  houses(200, 1.0);  // two rows more: the frame begins elsewhere
+  EXPECT_EQ(run(in_folder("out", "-q --overwrite")).exit, 0);
+  EXPECT_GE(reuse("tasks_taken_over"), all / 2);
+  expect_bytes_of_a_fresh_run();
+
+  EXPECT_THAT(run(in_folder("out", "--overwrite --pitch 0.7")).err, HasSubstr(" (options)"));
+  EXPECT_EQ(reuse("tasks_taken_over"), 0);
+  expect_bytes_of_a_fresh_run("--pitch 0.7");
+}
+
+TEST_F(ResumeExtrude, goes_on_when_a_full_disk_has_space_again) {
+  // A file beyond the limit fails as one on a full disk does.
+  const auto full = [&](const std::string& words) {
+    return std::system(("bash -c 'ulimit -f 500 && exec " + std::string(MANSARD_BINARY) + " " + words + "' >" +
+                        at("stdout") + " 2>" + at("stderr"))
+                           .c_str());
+  };
+  houses(800);
+  const int ended = full(extrude("city.city.jsonl"));
+  EXPECT_EQ(WEXITSTATUS(ended), 3) << read(at("stderr"));
+  EXPECT_THAT(read(at("stderr")), HasSubstr("error[file-write]"));
+  EXPECT_THAT(read(at("stderr")), HasSubstr("of 800 blocks are done and kept; the same command goes on from there"));
+  EXPECT_EQ(outputs(), std::set<std::string>{"city.city.jsonl.mansard"});
+  const auto second = run(extrude("city.city.jsonl"));
+  EXPECT_EQ(second.exit, 0) << second.err;
+  EXPECT_THAT(second.err, HasSubstr(" tasks were taken over from an earlier run"));
+  ASSERT_EQ(run(extrude("whole.city.jsonl", "-q --no-resume")).exit, 0);
+  EXPECT_EQ(file("city.city.jsonl"), file("whole.city.jsonl"));
+}
+
+TEST_F(ResumeExtrude, keeps_nothing_of_a_run_of_one_task) {
+  const auto whole = "extrude -q " + at("houses.geojson") + " --formats cityjson -o " + at("out");
+  ASSERT_EQ(run(whole).exit, 0);
+  EXPECT_FALSE(fs::exists(at("out/.mansard")));
+  ASSERT_EQ(run("extrude -q " + at("out/model.city.json") + " -o " + at("plans.json")).exit, 0);
+  EXPECT_EQ(outputs(), (std::set<std::string>{"out", "plans.json"}));
+  EXPECT_THAT(run("status " + at("out")).err, HasSubstr("error[status-none]"));
+  // The output is locked all the same.
+  fs::create_directory(at("plans.json.mansard"));
+  const int lock = ::open((at("plans.json.mansard/lock")).c_str(), O_RDWR | O_CREAT, 0666);
+  ASSERT_GE(lock, 0);
+  ASSERT_EQ(::flock(lock, LOCK_EX), 0);
+  EXPECT_THAT(run("extrude -q " + at("houses.geojson") + " --overwrite -o " + at("plans.json")).err,
+              HasSubstr("error[output-busy]"));
+  ::close(lock);
+  EXPECT_EQ(run("extrude -q " + at("houses.geojson") + " --overwrite -o " + at("plans.json")).exit, 0);
+  EXPECT_EQ(outputs(), (std::set<std::string>{"out", "plans.json"}));
 }
 
 TEST_F(Resume, knows_no_status_where_nothing_ran) {

@@ -3,6 +3,8 @@
 #include <sys/resource.h>
 #include <algorithm>
 #include <csignal>
+#include <set>
+#include <string>
 
 #include "base/scratch.hpp"
 #include "mansard/base/files.hpp"
@@ -225,20 +227,60 @@ TEST(City, is_extruded_in_tasks_of_so_many_footprints) {
   }
   const auto groups = block::groups(scene, {});
   ASSERT_EQ(groups.size(), 9U);
-  const auto places = detail::by_place(groups);
+  const auto places = detail::by_place(groups, scene.frame);
   for (const std::size_t most : {1U, 4U, 12U, 1000U}) {
     std::vector<const block::Group*> again;
-    for (const auto& task : detail::in_tasks(places, most)) {
-      ASSERT_FALSE(task.empty());
+    std::set<std::string> names;
+    std::size_t tasks = 0;
+    for (const auto& task : detail::in_tasks(places, most, scene.frame)) {
+      ASSERT_FALSE(task.groups.empty());
       std::size_t features = 0;
-      for (const auto* group : task) features += group->features.size();
-      EXPECT_TRUE(features <= most || task.size() == 1) << features << " where " << most << " are the most";
-      again.insert(again.end(), task.begin(), task.end());
+      for (const auto* group : task.groups) features += group->features.size();
+      EXPECT_TRUE(features <= most || task.groups.size() == 1) << features << " where " << most << " are the most";
+      again.insert(again.end(), task.groups.begin(), task.groups.end());
+      names.insert(task.name);
+      ++tasks;
     }
     EXPECT_EQ(again, places) << most;
+    EXPECT_EQ(names.size(), tasks) << "each has a name of its own";
   }
-  EXPECT_EQ(detail::in_tasks(places, 1000).size(), 1U);
-  EXPECT_TRUE(detail::in_tasks({}, 4).empty());
+  EXPECT_EQ(detail::in_tasks(places, 1000, scene.frame).size(), 1U);
+  EXPECT_TRUE(detail::in_tasks({}, 4, scene.frame).empty());
+}
+
+TEST(City, has_the_same_tasks_but_one_where_a_footprint_is_added) {
+  model::Scene scene;
+  scene.frame.origin = {84'000, 447'000, 0};
+  const auto add = [&](double x, double y) {
+    scene.footprints.push_back(
+        test::footprint("f" + std::to_string(scene.footprints.size()), test::rectangle(x, y, x + 5, y + 5)));
+  };
+  for (int i = 0; i < 300; ++i) add(-300 + 31.7 * (i % 17), -250 + 23.3 * (i / 17));
+  const auto tasks = [&] {
+    const auto groups = block::groups(scene, {});
+    const auto places = detail::by_place(groups, scene.frame);
+    std::set<std::set<std::string>> out;
+    for (const auto& task : detail::in_tasks(places, 20, scene.frame)) {
+      std::set<std::string> ids;
+      for (const auto* group : task.groups)
+        for (const auto f : group->features) ids.insert(scene.feature(f).id);
+      out.insert(ids);
+    }
+    return out;
+  };
+  const auto shared = [](const auto& a, const auto& b) {
+    return static_cast<std::size_t>(std::ranges::count_if(a, [&](const auto& task) { return b.contains(task); }));
+  };
+  const auto before = tasks();
+  ASSERT_GT(before.size(), 15U);
+  add(-285, -237);
+  const auto after = tasks();
+  EXPECT_EQ(shared(before, after), before.size() - 1);
+  // One frame for another: the file's coordinates are the same, and so are the tasks.
+  scene.frame.origin = {84'123, 446'950, 0};
+  for (auto& footprint : scene.footprints)
+    for (auto& p : footprint.polygons.front().outer) p = p - geometry::Point2{123, -50};
+  EXPECT_EQ(tasks(), after);
 }
 
 TEST(City, loads_for_a_task_only_what_is_near_its_groups) {

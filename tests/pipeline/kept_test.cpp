@@ -220,5 +220,167 @@ TEST(Kept, keeps_nothing_that_a_cancelled_run_made_in_part) {
   EXPECT_EQ(again.bytes, plain.bytes);
 }
 
+/// Footprints without a mesh, 300 m apart but for two pairs: one that touches, one that lies on each other. Their
+/// corners are not on any grid.
+auto footprints() -> model::Scene {
+  model::Scene scene;
+  scene.frame.origin = {84'120, 447'310, 0};
+  const auto add = [&](const std::string& id, double x, double y, std::int64_t levels) {
+    auto footprint =
+        test::footprint(id, {{{x, y}, {x + 11.013, y + 1.377}, {x + 10.1, y + 9.703}, {x - 0.9, y + 8.3}}, {}});
+    footprint.attributes = {{"building:levels", levels}, {"roof:shape", std::string("hipped")}};
+    scene.footprints.push_back(std::move(footprint));
+  };
+  for (int i = 0; i < 12; ++i)
+    add("h" + std::to_string(i), -450.123 + 300.0 * (i % 4) + i / 7.0, -300.456 + 300.0 * (i / 4), 1 + i % 3);
+  add("touches", -450.123 + 11.013, -300.456 + 1.377, 3);
+  add("overlaps", -150.0, -299.0, 2);
+  return scene;
+}
+
+auto made_in_tasks(const model::Scene& scene, KeptBlocks* kept, Options options = {}) -> Made {
+  options.ingest.task_footprints = 2;
+  Tally tally;
+  const auto aside = raise_footprints_aside(scene, options, {}, {kept, &tally});
+  EXPECT_TRUE(aside) << (aside ? "" : base::to_string(aside.error()));
+  if (!aside) return {};
+  model::City city{aside->frame, aside->made_by, {}};
+  Made out;
+  EXPECT_TRUE(aside->each([&](model::Building building, const report::BuildingReport& report) {
+    out.bytes += report.id + std::string(to_string(report.outcome)) + std::to_string(report.volume);
+    for (const auto& reason : report.reasons) out.bytes += base::to_string(reason);
+    city.buildings.push_back(std::move(building));
+    return base::Result<void>();
+  }));
+  for (const auto& overlap : aside->summary.overlaps) out.bytes += overlap.first + std::to_string(overlap.area);
+  out.bytes += *formats::cityjson(city) + formats::plans(city);
+  out.reuse = aside->summary.reuse;
+  out.blocks_kept = tally.blocks_kept;
+  EXPECT_EQ(tally.blocks_done, tally.blocks);
+  EXPECT_EQ(tally.buildings_done, scene.footprints.size());
+  return out;
+}
+
+auto reasons(const report::Reuse& reuse) -> std::map<std::string, int> {
+  std::map<std::string, int> out;
+  for (const auto& [name, why] : reuse.made) ++out[why];
+  return out;
+}
+
+using Reasons = std::map<std::string, int>;
+
+TEST(KeptTasks, are_taken_over_with_the_same_bytes) {
+  const test::Scratch folder;
+  const auto scene = footprints();
+  const auto plain = made_in_tasks(scene, nullptr);
+  const auto first = made_in_tasks(scene, opened(folder).get());
+  EXPECT_EQ(first.bytes, plain.bytes);
+  EXPECT_EQ(first.blocks_kept, 0U);
+  EXPECT_TRUE(first.reuse.made.empty());
+  const auto files = kept_files(folder);
+  EXPECT_GE(files.size(), 7U);
+  const auto second = made_in_tasks(scene, opened(folder).get());
+  EXPECT_EQ(second.bytes, plain.bytes);
+  EXPECT_EQ(second.reuse.blocks, files.size());
+  EXPECT_EQ(second.blocks_kept, 12U) << "blocks";
+
+  const auto whole = base::read_file(files[3]);
+  ASSERT_TRUE(base::write_file(files[3], whole->substr(0, whole->size() / 2)));
+  const auto third = made_in_tasks(scene, opened(folder).get());
+  EXPECT_EQ(third.bytes, plain.bytes);
+  EXPECT_EQ(reasons(third.reuse), (Reasons{{"damaged", 1}}));
+}
+
+TEST(KeptTasks, stay_where_the_frame_begins_elsewhere) {
+  const test::Scratch folder;
+  auto scene = footprints();
+  (void)made_in_tasks(scene, opened(folder).get());
+  // As where a city grows: its frame begins in its middle.
+  const std::array<std::int64_t, 2> by{137, -41};
+  for (std::size_t i = 0; i < 2; ++i) scene.frame.origin[i] += by[i];
+  for (auto& footprint : scene.footprints)
+    for (auto& p : footprint.polygons.front().outer)
+      p = p - geometry::Point2{static_cast<double>(by[0]), static_cast<double>(by[1])};
+  const auto again = made_in_tasks(scene, opened(folder).get());
+  EXPECT_TRUE(again.reuse.made.empty());
+  EXPECT_EQ(again.blocks_kept, 12U);
+  EXPECT_EQ(again.bytes, made_in_tasks(scene, nullptr).bytes);
+}
+
+TEST(KeptTasks, are_made_again_only_where_something_changed) {
+  const test::Scratch folder;
+  auto scene = footprints();
+  (void)made_in_tasks(scene, opened(folder).get());
+  const auto expect = [&](const Reasons& wanted, const std::string& what, const Options& options = {}) {
+    const auto again = made_in_tasks(scene, opened(folder).get(), options);
+    EXPECT_EQ(reasons(again.reuse), wanted) << what;
+    EXPECT_EQ(again.bytes, made_in_tasks(scene, nullptr, options).bytes) << what;
+  };
+  scene.footprints[5].attributes[0].second = std::int64_t{7};
+  expect({{"footprints", 1}}, "an attribute");
+  scene.footprints[11].polygons.front().outer[2].x += 0.001;
+  expect({{"footprints", 1}}, "a millimetre");
+  scene.footprints.push_back(scene.footprints[7]);
+  scene.footprints.back().id = "more";
+  for (auto& p : scene.footprints.back().polygons.front().outer) p.y += 2000;
+  expect({{"new", 1}}, "one more, far from all");
+  scene.footprints.pop_back();
+
+  // A terrain, then one that is higher below one house.
+  model::HeightGrid grid{{-700, -500}, 1, 1400, 1200, std::vector<float>(1400 * 1200, 2.0F)};
+  scene.terrain = std::make_shared<const model::HeightGrid>(grid);
+  auto again = made_in_tasks(scene, opened(folder).get());
+  EXPECT_EQ(reasons(again.reuse).size(), 1U);
+  EXPECT_TRUE(reasons(again.reuse).contains("terrain"));
+  expect({}, "the same terrain");
+  const auto& corner = scene.footprints[9].polygons.front().outer.front();
+  for (int y = -3; y < 16; ++y)
+    for (int x = -3; x < 16; ++x)
+      grid.values[static_cast<std::size_t>(corner.y + 500 + y) * grid.columns +
+                  static_cast<std::size_t>(corner.x + 700 + x)] = 3;
+  scene.terrain = std::make_shared<const model::HeightGrid>(grid);
+  expect({{"terrain", 1}}, "higher ground");
+
+  Options other;
+  other.roof.pitch = 0.7;
+  again = made_in_tasks(scene, opened(folder).get(), other);
+  EXPECT_EQ(again.blocks_kept, 0U);
+  EXPECT_TRUE(reasons(again.reuse).contains("options"));
+  other.write.compress = true;
+  expect({}, "how files are written", other);
+}
+
+TEST(KeptTasks, are_whole_or_not_there) {
+  const test::Scratch folder;
+  const auto scene = footprints();
+  const auto plain = made_in_tasks(scene, nullptr);
+  Options options;
+  options.ingest.task_footprints = 2;
+  // Cancelled at every stage that is reported, one after the other, until a run comes to its end.
+  bool whole = false;
+  for (int stages = 1; !whole && stages < 500; stages += 2) {
+    base::Cancel cancel;
+    base::Run run;
+    run.cancel = &cancel;
+    int seen = 0;
+    run.progress = [&](auto, auto, double) {
+      if (++seen == stages) cancel.request();
+    };
+    const auto kept = opened(folder);
+    whole = raise_footprints_aside(scene, options, run, {kept.get(), nullptr}).has_value();
+  }
+  ASSERT_TRUE(whole);
+  const auto again = made_in_tasks(scene, opened(folder).get());
+  EXPECT_EQ(again.blocks_kept, 12U);
+  EXPECT_EQ(again.bytes, plain.bytes);
+
+  const auto kept = opened(folder);
+  fs::remove_all(fs::path(folder));
+  std::ofstream(fs::path(folder)) << "in the way";
+  const auto r = raise_footprints_aside(scene, options, {}, {kept.get(), nullptr});
+  ASSERT_FALSE(r);
+  EXPECT_EQ(r.error().code, "file-write");
+}
+
 }  // namespace
 }  // namespace mansard::pipeline

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "mansard/base/statistics.hpp"
@@ -12,17 +13,22 @@ namespace {
 using geometry::Point3;
 
 // A low number of rays a pixel, different ones in each pixel of a square pattern, and the mean over such a square of
-// what lies in the same surface: as smooth as 256 rays for the price of 4 (interleaved sampling, Keller and Heidrich
+// what lies in the same surface: as smooth as 64 rays for the price of one (interleaved sampling, Keller and Heidrich
 // 2001). The rays are fixed, so a picture is always the same. The sun, whose shadows have edges, has a smaller square.
-constexpr std::size_t sky_pattern = 8, sun_pattern = 4, sky_rays = 4;
+constexpr std::size_t sky_pattern = 8, sun_pattern = 4, sky_rays = 1;
 constexpr std::uint32_t nothing = ~0U;  ///< no triangle: paper
 
-/// One ray's find, at the centre of a pixel.
+/// What one ray found, and how much light it gets there. As little as there can be: a picture has millions.
 struct Found {
-  Point3 point, normal;
+  float depth = std::numeric_limits<float>::infinity();  ///< along the ray, m; infinite where nothing is to be lit
   std::uint32_t triangle = nothing;
-  bool lit = false;        ///< worth asking how much light it gets
   float sky = 1, sun = 1;  ///< the parts of sky and sun that it sees
+  [[nodiscard]] auto lit() const -> bool { return depth < std::numeric_limits<float>::infinity(); }
+};
+
+/// Where a ray ended, and the direction of the surface there, to the camera.
+struct Surface {
+  Point3 point, normal;
 };
 
 /// Sun and sky make a level roof about as bright as its colour says.
@@ -99,7 +105,8 @@ class Renderer {
         lamp_(lamp_for(camera)),
         found_(canvas.width * canvas.height),
         sky_(sky_directions()),
-        disc_(sun_disc()) {
+        disc_(sun_disc()),
+        across_sun_(frame_about(lamp_.direction)) {
     std::vector<double> heights;
     geometry::Box3 box;
     for (const auto& t : model.mesh.triangles)
@@ -122,14 +129,18 @@ class Renderer {
   void light() {
     rows([&](std::size_t x, std::size_t y) {
       Found& found = found_[y * canvas_.width + x];
-      if (!found.lit) return;
-      ask_for_sky(found, place_in_pattern(x, y, sky_pattern));
-      ask_for_sun(found, place_in_pattern(x, y, sun_pattern));
+      if (!found.lit()) return;
+      const Surface surface = surface_of(middle(x, y), found);
+      ask_for_sky(found, surface, place_in_pattern(x, y, sky_pattern));
+      ask_for_sun(found, surface, place_in_pattern(x, y, sun_pattern));
     });
   }
+  /// The mean sky and sun around every pixel. Bands of rows, so that what a band needs stays near the processor.
   void smooth() {
+    constexpr std::size_t band = 32;
     std::vector<std::array<float, 2>> smooth(found_.size());
-    rows([&](std::size_t x, std::size_t y) { smooth[y * canvas_.width + x] = smoothed(x, y); });
+    base::parallel_for((canvas_.height + band - 1) / band,
+                       [&](std::size_t b) { smooth_rows(b * band, std::min((b + 1) * band, canvas_.height), smooth); });
     for (std::size_t i = 0; i < found_.size(); ++i) {
       found_[i].sky = smooth[i][0];
       found_[i].sun = smooth[i][1];
@@ -138,7 +149,7 @@ class Renderer {
   void paint() {
     rows([&](std::size_t x, std::size_t y) {
       const std::size_t i = y * canvas_.width + x;
-      canvas_.light[i] = on_edge(x, y) ? supersampled(x, y) : colour_of(found_[i]);
+      canvas_.light[i] = on_edge(x, y) ? supersampled(x, y) : colour_of(found_[i], middle(x, y));
     });
   }
 
@@ -156,81 +167,123 @@ class Renderer {
 
   [[nodiscard]] auto cast(Spot spot) const -> Found {
     const Point3 start = camera_.start(spot);
-    const Point3 along = -1.0 * camera_.towards;
     Found found;
-    if (const auto hit = scene_.cast(start, along)) {
+    if (const auto hit = scene_.cast(start, -1.0 * camera_.towards)) {
       found.triangle = hit->triangle;
-      found.point = start + hit->distance * along;
-      found.normal = model_.normals[hit->triangle];
-      if (length(found.normal) < 0.5) found.normal = camera_.towards;  // a triangle without area
-      if (dot(found.normal, camera_.towards) < 0) found.normal = -1.0 * found.normal;
-      found.lit = true;
+      found.depth = static_cast<float>(hit->distance);
     } else if (camera_.towards.z > 0.05) {
-      found.point = start + ((start.z - paper_height_) / camera_.towards.z) * along;
-      found.normal = {0, 0, 1};
-      found.lit = true;
+      found.depth = static_cast<float>((start.z - paper_height_) / camera_.towards.z);
     }
     return found;
   }
 
-  void ask_for_sky(Found& found, std::size_t place) const {
-    const auto [a, b] = frame_about(found.normal);
-    const Point3 origin = found.point + lift_ * found.normal;
+  [[nodiscard]] auto normal_of(const Found& found) const -> Point3 {
+    if (found.triangle == nothing) return {0, 0, 1};
+    const Point3& normal = model_.normals[found.triangle];
+    if (length(normal) < 0.5) return camera_.towards;  // a triangle without area
+    return dot(normal, camera_.towards) < 0 ? -1.0 * normal : normal;
+  }
+  /// Of what is lit.
+  [[nodiscard]] auto surface_of(Spot spot, const Found& found) const -> Surface {
+    return {camera_.start(spot) - static_cast<double>(found.depth) * camera_.towards, normal_of(found)};
+  }
+
+  void ask_for_sky(Found& found, const Surface& surface, std::size_t place) const {
+    const auto [a, b] = frame_about(surface.normal);
+    const Point3 origin = surface.point + lift_ * surface.normal;
     float open = 0;
     for (std::size_t k = 0; k < sky_rays; ++k) {
       const Point3& d = sky_[k * sky_pattern * sky_pattern + place];
-      const auto hit = scene_.cast(origin, d.x * a + d.y * b + d.z * found.normal);
+      const auto hit = scene_.cast(origin, d.x * a + d.y * b + d.z * surface.normal);
       // Light that bounces between walls is not followed: what is far away counts as half open instead.
       open += hit ? static_cast<float>(std::min(hit->distance / reach_, 1.0)) : 1.0F;
     }
     found.sky = open / static_cast<float>(sky_rays);
   }
 
-  void ask_for_sun(Found& found, std::size_t place) const {
-    const Point3 origin = found.point + lift_ * found.normal;
-    if (dot(found.normal, lamp_.direction) <= 0) {
+  void ask_for_sun(Found& found, const Surface& surface, std::size_t place) const {
+    const Point3 origin = surface.point + lift_ * surface.normal;
+    if (dot(surface.normal, lamp_.direction) <= 0) {
       found.sun = 0;
       return;
     }
-    const auto [s, t] = frame_about(lamp_.direction);
-    found.sun = scene_.cast(origin, lamp_.direction + disc_[place].x * s + disc_[place].y * t) ? 0.0F : 1.0F;
+    found.sun = scene_.cast(origin, lamp_.direction + disc_[place].x * across_sun_[0] + disc_[place].y * across_sun_[1])
+                    ? 0.0F
+                    : 1.0F;
   }
 
-  /// The mean sky and sun of the squares of pixels around one that lie in the same surface. A square of a pattern's
-  /// size and one more, with half the weight at the rim, counts every place of the pattern the same.
-  [[nodiscard]] auto smoothed(std::size_t x, std::size_t y) const -> std::array<float, 2> {
-    constexpr std::size_t sky_reach = sky_pattern / 2, sun_reach = sun_pattern / 2;
-    const Found& own = found_[y * canvas_.width + x];
-    if (!own.lit) return {own.sky, own.sun};
-    float sky = 0, sky_weights = 0, sun = 0, sun_weights = 0;
+  /// A pixel in the work on a band.
+  struct Lit : Surface {
+    bool lit = false;
+    std::array<float, 2> light{1, 1};  ///< sky, sun
+  };
+
+  /// The mean of the pixels along a row or a column that lie in the same surface, `step` apart, up to `reach` to both
+  /// sides where there are so many. A line of a pattern's size and one more, with half the weight at its ends, counts
+  /// every place of the pattern the same.
+  [[nodiscard]] auto mean_along(const Lit* own, std::size_t before, std::size_t after, std::size_t step,
+                                std::size_t which, std::size_t reach) const -> float {
     const double near = 3 * camera_.pixel;
-    for (std::size_t j = y >= sky_reach ? y - sky_reach : 0; j <= std::min(y + sky_reach, canvas_.height - 1); ++j)
-      for (std::size_t i = x >= sky_reach ? x - sky_reach : 0; i <= std::min(x + sky_reach, canvas_.width - 1); ++i) {
-        const Found& other = found_[j * canvas_.width + i];
-        if (!other.lit) continue;
-        if (dot(own.normal, other.normal) < 0.7 || std::abs(dot(own.normal, other.point - own.point)) > near) continue;
-        const std::size_t dx = i > x ? i - x : x - i, dy = j > y ? j - y : y - j;
-        const float weight = (dx == sky_reach ? 0.5F : 1.0F) * (dy == sky_reach ? 0.5F : 1.0F);
-        sky += weight * other.sky;
-        sky_weights += weight;
-        if (dx > sun_reach || dy > sun_reach) continue;
-        const float sharper = (dx == sun_reach ? 0.5F : 1.0F) * (dy == sun_reach ? 0.5F : 1.0F);
-        sun += sharper * other.sun;
-        sun_weights += sharper;
-      }
-    return {sky / sky_weights, sun / sun_weights};
+    const double at = dot(own->normal, own->point);
+    float sum = 0, weights = 0;
+    const auto first = static_cast<std::ptrdiff_t>(std::min(before, reach)),
+               last = static_cast<std::ptrdiff_t>(std::min(after, reach));
+    for (std::ptrdiff_t d = -first; d <= last; ++d) {
+      const Lit& other = own[d * static_cast<std::ptrdiff_t>(step)];
+      if (!other.lit || dot(own->normal, other.normal) < 0.7) continue;
+      if (std::abs(dot(own->normal, other.point) - at) > near) continue;
+      const float weight = static_cast<std::size_t>(std::abs(d)) == reach ? 0.5F : 1.0F;
+      sum += weight * other.light[which];
+      weights += weight;
+    }
+    return sum / weights;
   }
 
-  [[nodiscard]] auto colour_of(const Found& found) const -> Light {
+  /// The mean over a square as that of the means of its rows: on one surface they are the same, and they are the
+  /// fewer sums.
+  void smooth_rows(std::size_t from, std::size_t to, std::vector<std::array<float, 2>>& smooth) const {
+    constexpr std::array reaches{sky_pattern / 2, sun_pattern / 2};
+    constexpr std::size_t reach = std::max(reaches[0], reaches[1]);
+    const std::size_t width = canvas_.width, low = from > reach ? from - reach : 0,
+                      high = std::min(to + reach, canvas_.height);
+    std::vector<Lit> rows((high - low) * width);
+    for (std::size_t y = low; y < high; ++y)
+      for (std::size_t x = 0; x < width; ++x) {
+        const Found& found = found_[y * width + x];
+        if (!found.lit()) continue;
+        Lit& lit = rows[(y - low) * width + x];
+        static_cast<Surface&>(lit) = surface_of(middle(x, y), found);
+        lit.lit = true;
+        lit.light = {found.sky, found.sun};
+      }
+    std::vector<std::array<float, 2>> line(width);
+    for (std::size_t y = low; y < high; ++y) {
+      Lit* const row = &rows[(y - low) * width];
+      for (std::size_t x = 0; x < width; ++x)
+        for (std::size_t k = 0; k < 2; ++k)
+          line[x][k] = row[x].lit ? mean_along(row + x, x, width - 1 - x, 1, k, reaches[k]) : row[x].light[k];
+      for (std::size_t x = 0; x < width; ++x) row[x].light = line[x];
+    }
+    for (std::size_t y = from; y < to; ++y)
+      for (std::size_t x = 0; x < width; ++x) {
+        const Lit& own = rows[(y - low) * width + x];
+        for (std::size_t k = 0; k < 2; ++k)
+          smooth[y * width + x][k] =
+              own.lit ? mean_along(&own, y - low, high - 1 - y, width, k, reaches[k]) : own.light[k];
+      }
+  }
+
+  [[nodiscard]] auto colour_of(const Found& found, Spot spot) const -> Light {
     static const Light sheet = to_light(paper);
-    if (!found.lit) return sheet;
-    const auto facing = static_cast<float>(std::max(0.0, dot(found.normal, lamp_.direction)));
+    if (!found.lit()) return sheet;
+    const Point3 normal = normal_of(found);
+    const auto facing = static_cast<float>(std::max(0.0, dot(normal, lamp_.direction)));
     // Walls see half the sky, and the ground, which gives back some of it.
-    const auto up = static_cast<float>(0.8 + 0.2 * found.normal.z);
+    const auto up = static_cast<float>(0.8 + 0.2 * normal.z);
     const Light sky = (0.15F + 0.85F * found.sky) * up * lamp_.sky, sun = facing * found.sun * lamp_.sun;
     if (found.triangle != nothing) {
       const Light light = sky + sun;
-      if (const auto colour = model_.picture_at(found.triangle, found.point))
+      if (const auto colour = model_.picture_at(found.triangle, surface_of(spot, found).point))
         return to_light(*colour) * (0.5F * light + Light{0.5F, 0.5F, 0.5F});
       return model_.albedo[found.triangle] * light;
     }
@@ -249,34 +302,37 @@ class Renderer {
       if (other.triangle == own.triangle) return false;
       if (other.triangle == nothing || own.triangle == nothing) return true;
       if (model_.albedo[other.triangle] != model_.albedo[own.triangle]) return true;
-      if (dot(other.normal, own.normal) < 0.97) return true;
-      return std::abs(dot(own.normal, other.point - own.point)) > 4 * camera_.pixel;
+      const Surface here = surface_of(middle(x, y), own), there = surface_of(middle(i, j), other);
+      if (dot(there.normal, here.normal) < 0.97) return true;
+      return std::abs(dot(here.normal, there.point - here.point)) > 4 * camera_.pixel;
     };
     return (x > 0 && differs(x - 1, y)) || (x + 1 < canvas_.width && differs(x + 1, y)) ||
            (y > 0 && differs(x, y - 1)) || (y + 1 < canvas_.height && differs(x, y + 1));
   }
 
-  /// The mean of a 3 × 3 grid of rays; their light is that of the pixel around that found the most similar surface.
+  /// The mean of a 2 × 2 grid of rays; their light is that of the pixel around that found the most similar surface.
   [[nodiscard]] auto supersampled(std::size_t x, std::size_t y) const -> Light {
-    constexpr int grid = 3;
+    constexpr int grid = 2;
     Light sum{};
     for (int j = 0; j < grid; ++j)
       for (int i = 0; i < grid; ++i) {
-        Found found = cast({static_cast<double>(x) + (i + 0.5) / grid, static_cast<double>(y) + (j + 0.5) / grid});
-        if (found.lit) take_light(found, x, y);
-        sum = sum + colour_of(found);
+        const Spot spot{static_cast<double>(x) + (i + 0.5) / grid, static_cast<double>(y) + (j + 0.5) / grid};
+        Found found = cast(spot);
+        if (found.lit()) take_light(found, surface_of(spot, found), x, y);
+        sum = sum + colour_of(found, spot);
       }
     return (1.0F / (grid * grid)) * sum;
   }
 
-  void take_light(Found& found, std::size_t x, std::size_t y) const {
+  void take_light(Found& found, const Surface& surface, std::size_t x, std::size_t y) const {
     double best = 1e300;
     for (std::size_t j = y >= 1 ? y - 1 : 0; j < std::min(y + 2, canvas_.height); ++j)
       for (std::size_t i = x >= 1 ? x - 1 : 0; i < std::min(x + 2, canvas_.width); ++i) {
         const Found& other = found_[j * canvas_.width + i];
-        if (!other.lit) continue;
-        const double unlike = (1 - dot(found.normal, other.normal)) * 10 +
-                              std::abs(dot(found.normal, other.point - found.point)) / camera_.pixel;
+        if (!other.lit()) continue;
+        const Surface there = surface_of(middle(i, j), other);
+        const double unlike = (1 - dot(surface.normal, there.normal)) * 10 +
+                              std::abs(dot(surface.normal, there.point - surface.point)) / camera_.pixel;
         if (unlike < best) {
           best = unlike;
           found.sky = other.sky;
@@ -293,6 +349,7 @@ class Renderer {
   std::vector<Found> found_;
   SkyDirections sky_;
   SunDisc disc_;
+  std::array<Point3, 2> across_sun_;
   double paper_height_ = 0, reach_ = 1, lift_ = 0;
 };
 

@@ -1,21 +1,26 @@
 #include "mansard/pipeline/detail/block_kept.hpp"
 
+#include <algorithm>
+
 #include "mansard/base/pack.hpp"
 #include "mansard/formats/hash.hpp"
 
 namespace mansard::pipeline::detail {
 
-auto key_of(const Options& options, Keep keep) -> BlockKey {
+auto options_but(const Options& options, std::initializer_list<std::string_view> modules) -> std::string {
   Options copy = options;
   std::string used;
   for (const auto& list : option_lists(copy)) {
-    // What is read shows in the block; how it is written does not matter to it.
-    if (list.module() == "ingest" || list.module() == "cloud" || list.module() == "derive" ||
-        list.module() == "write" || list.module() == "roof" || list.module() == "texture" || list.module() == "terrain")
-      continue;
+    if (std::ranges::find(modules, list.module()) != modules.end()) continue;
     for (const auto& option : list.options()) used += list.module() + "." + option.name + "=" + option.get() + "\n";
   }
-  used += keep == Keep::segmentations ? "segmentations" : "models";
+  return used;
+}
+
+auto key_of(const Options& options, Keep keep) -> BlockKey {
+  // What is read shows in the block; how it is written does not matter to it.
+  const auto used = options_but(options, {"ingest", "cloud", "derive", "write", "roof", "texture", "terrain"}) +
+                    (keep == Keep::segmentations ? "segmentations" : "models");
   return {program_hash(), formats::sha256(used), {}, {}};
 }
 

@@ -1,35 +1,93 @@
 #include "mansard/pipeline/detail/city_tasks.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 
+#include "mansard/model/frame.hpp"
 #include "mansard/pipeline/detail/every_block.hpp"
 
 namespace mansard::pipeline::detail {
 
-auto by_place(const std::vector<block::Group>& groups) -> std::vector<const block::Group*> {
+namespace {
+
+/// A group's place along the curve. Rounded like the blocks' coordinates, so that the frame does not matter.
+auto place_of(const block::Group& group, const model::Frame& frame) -> std::uint64_t {
+  const auto metres = [](double local, std::int64_t origin) {
+    return static_cast<std::int64_t>(std::floor(model::rounded(local))) + origin;
+  };
+  return along_curve(metres(group.box.least.x, frame.origin[0]), metres(group.box.least.y, frame.origin[1]));
+}
+
+/// The cell of all places whose bits from `free_bits` on are those of `place`.
+auto cell_name(std::uint64_t place, unsigned free_bits) -> std::string {
+  if (free_bits >= 64) return "all";
+  const auto corner = from_curve(place >> free_bits << free_bits);
+  const auto side = [](unsigned bits) { return std::to_string(std::uint64_t{1} << bits); };
+  return std::to_string(corner[0]) + "," + std::to_string(corner[1]) + " " + side((free_bits + 1) / 2) + "x" +
+         side(free_bits / 2);
+}
+
+/// Halves what is too much for one task.
+struct Halving {
+  std::span<const block::Group* const> groups;
+  std::vector<std::uint64_t> places;  ///< of the groups, rising
+  std::vector<std::size_t> before;    ///< features of all groups before each, and of all
+  std::size_t most_features;
+  std::vector<Task> out{};
+  std::string last_name{};
+  std::size_t of_that_name = 0;
+
+  /// Several tasks of one cell have names of their own.
+  void add(std::size_t first, std::size_t last, std::string name) {
+    of_that_name = name == last_name ? of_that_name + 1 : 1;
+    last_name = name;
+    if (of_that_name > 1) name += " (" + std::to_string(of_that_name) + ")";
+    out.push_back({groups.subspan(first, last - first), std::move(name)});
+  }
+
+  void halve(std::size_t first, std::size_t last, unsigned free_bits) {
+    if (last - first == 1 || before[last] - before[first] <= most_features) {
+      add(first, last, cell_name(places[first], free_bits));
+      return;
+    }
+    const auto differing = static_cast<unsigned>(std::bit_width(places[first] ^ places[last - 1]));
+    if (differing == 0) {  // all in one square metre, as stacked features are
+      const std::size_t middle = first + (last - first) / 2;
+      halve(first, middle, 0);
+      halve(middle, last, 0);
+      return;
+    }
+    const auto begin = places.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto upper = std::partition_point(begin, places.begin() + static_cast<std::ptrdiff_t>(last),
+                                            [&](std::uint64_t p) { return (p >> (differing - 1) & 1U) == 0; });
+    const auto middle = static_cast<std::size_t>(upper - places.begin());
+    halve(first, middle, differing - 1);
+    halve(middle, last, differing - 1);
+  }
+};
+
+}  // namespace
+
+auto by_place(const std::vector<block::Group>& groups, const model::Frame& frame) -> std::vector<const block::Group*> {
   std::vector<const block::Group*> out;
   for (const auto& group : groups) out.push_back(&group);
-  std::ranges::stable_sort(out, {}, [](const block::Group* group) {
-    return along_curve(std::llround(group->box.least.x), std::llround(group->box.least.y));
-  });
+  std::ranges::stable_sort(out, {}, [&](const block::Group* group) { return place_of(*group, frame); });
   return out;
 }
 
-auto in_tasks(std::span<const block::Group* const> groups, std::size_t most_features)
-    -> std::vector<std::span<const block::Group* const>> {
-  std::vector<std::span<const block::Group* const>> out;
-  std::size_t first = 0, features = 0;
-  for (std::size_t i = 0; i < groups.size(); ++i) {
-    if (i > first && features + groups[i]->features.size() > most_features) {
-      out.push_back(groups.subspan(first, i - first));
-      first = i;
-      features = 0;
-    }
-    features += groups[i]->features.size();
+auto in_tasks(std::span<const block::Group* const> groups, std::size_t most_features, const model::Frame& frame)
+    -> std::vector<Task> {
+  if (groups.empty()) return {};
+  Halving halving{groups, {}, {0}, most_features};
+  for (const auto* group : groups) {
+    halving.places.push_back(place_of(*group, frame));
+    halving.before.push_back(halving.before.back() + group->features.size());
   }
-  if (first < groups.size()) out.push_back(groups.subspan(first));
-  return out;
+  halving.halve(0, groups.size(), 64);
+  return std::move(halving.out);
 }
 
 auto index_of(const model::Scene& scene) -> geometry::BoxIndex {

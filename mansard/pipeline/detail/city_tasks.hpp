@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "mansard/block/block.hpp"
@@ -11,12 +12,21 @@
 
 namespace mansard::pipeline::detail {
 
-/// In an order in which neighbours are mostly near each other.
-[[nodiscard]] auto by_place(const std::vector<block::Group>& groups) -> std::vector<const block::Group*>;
+/// In an order in which neighbours are mostly near each other: along a curve through the plane of the file's
+/// coordinates, so that it does not change with the frame of a scene.
+[[nodiscard]] auto by_place(const std::vector<block::Group>& groups, const model::Frame& frame)
+    -> std::vector<const block::Group*>;
 
-/// The same order in pieces, each of groups with at most so many features together, or of one group with more.
-[[nodiscard]] auto in_tasks(std::span<const block::Group* const> groups, std::size_t most_features)
-    -> std::vector<std::span<const block::Group* const>>;
+/// Groups that are worked on together.
+struct Task {
+  std::span<const block::Group* const> groups;
+  std::string name;  ///< the cell of the plane that it is made of: its lower left corner and its size, whole metres
+};
+/// The same order in pieces, each of groups with at most so many features together, or of one group with more. The
+/// plane is halved until the groups of each half are few enough: a group more or less changes its own piece only, or
+/// halves it, or joins it with the one beside it.
+[[nodiscard]] auto in_tasks(std::span<const block::Group* const> groups, std::size_t most_features,
+                            const model::Frame& frame) -> std::vector<Task>;
 
 /// Which of a scene's features are near a box. Features without polygons are near nothing.
 [[nodiscard]] auto index_of(const model::Scene& scene) -> geometry::BoxIndex;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <map>
@@ -44,6 +45,8 @@ struct Division {
 /// A place's number along a curve that fills the plane, so that neighbours mostly have near numbers (Z-order; G. M.
 /// Morton, A computer oriented geodetic data base, 1966). Whole metres; negative ones too.
 [[nodiscard]] auto along_curve(std::int64_t x, std::int64_t y) -> std::uint64_t;
+/// The place with that number.
+[[nodiscard]] auto from_curve(std::uint64_t number) -> std::array<std::int64_t, 2>;
 
 /// How many blocks of a run were worked through before, and how many there are in all; 0: those of the division.
 struct Progress {
