@@ -48,7 +48,7 @@ auto catalogue() -> const std::vector<VerbEntry>& {
         "mansard convert city.gpkg -o city.glb -o city.3dtiles -o city.stl --write-compress"}},
       {"status",
        city,
-       "Show how far a run of 'mansard reconstruct' or 'mansard extrude' is, from any terminal",
+       "Show how far a run is, from any terminal",
        {"mansard status OUT [options]"},
        {},
        {},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "apps/cli/last_resort.hpp"
 #include "apps/server/server.hpp"
 #include "lab/explore/explore.hpp"
 #include "lab/simulate/simulate.hpp"
@@ -13,6 +14,7 @@ namespace mansard::cli {
 
 auto give_up(const std::vector<base::Diagnostic>& diagnostics) -> int {
   for (const auto& diagnostic : diagnostics) std::fprintf(stderr, "mansard: %s\n", base::to_string(diagnostic).c_str());
+  an_error_is_reported();
   const auto codes = all_codes();
   const auto at = std::ranges::find(codes, diagnostics.front().code, &base::Code::code);
   return at == codes.end() || at->exit_code == all_done ? bug : at->exit_code;

@@ -32,6 +32,7 @@ base::Cancel* request = nullptr;       // NOLINT
 std::array<int, 2> signalled{-1, -1};  // NOLINT: a pipe
 std::atomic<void*> reserve = nullptr;  // NOLINT: for the removal of files when there is no memory
 std::string without_memory, stopped;   // NOLINT: composed while there is memory
+std::atomic<bool> reported = false;    // NOLINT
 
 void on_signal(int) {
   if (request->requested()) ::_exit(cancelled);  // the second Ctrl-C ends it at once
@@ -66,7 +67,7 @@ auto memory_is_exhausted() -> bool {
 
 [[noreturn]] void end_without_memory_now() {
   std::free(reserve.exchange(nullptr));
-  end_now(input_unreadable, without_memory);
+  end_now(input_unreadable, reported ? std::string() : without_memory);
 }
 
 void on_no_memory() {
@@ -108,6 +109,8 @@ void end_without_memory() {
   geometry::exact_numbers_end_by_new_handler();
   std::signal(SIGABRT, on_abort);
 }
+
+void an_error_is_reported() { reported = true; }
 
 void go_on_without_memory() {
   std::set_new_handler(nullptr);

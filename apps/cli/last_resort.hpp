@@ -18,6 +18,9 @@ void stop_in_time();
 /// libraries that call std::abort or would take it for a fault of the data.
 void end_without_memory();
 
+/// The message has been printed that the program ends with: memory that runs out on the way out adds none to it.
+void an_error_is_reported();
+
 /// For servers: a request for which there is no memory fails from now on, and they go on.
 void go_on_without_memory();
 

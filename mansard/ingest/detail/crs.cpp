@@ -32,13 +32,22 @@ auto looks_local(const formats::FeatureFile& file, const geometry::Box2& mesh) -
   return box.overlaps(mesh) && largest_side(file.features) >= 1;
 }
 
-auto utm_crs(const OGRSpatialReference& geographic, const geometry::Box2& box) -> std::optional<crs::Crs> {
+auto utm_crs(const OGRSpatialReference& geographic, const geometry::Box2& box, const crs::GdalMessages& messages,
+             const std::string& subject) -> base::Result<crs::Crs> {
   const geometry::Point2 centre = 0.5 * (box.least + box.most);
   const char* code = geographic.GetAuthorityCode("GEOGCS");
   const auto number = base::to_integer(code != nullptr ? code : "").value_or(4326);
   const int zone = crs::utm_zone(centre.x, centre.y, static_cast<int>(number));
+  if (zone == 0)
+    return base::error("ingest-crs-unknown",
+                       "the footprints are in degrees where there is no UTM zone; say --crs EPSG:n", subject);
   crs::Crs crs;
-  if (zone == 0 || crs.system.importFromEPSG(zone) != OGRERR_NONE) return std::nullopt;
+  if (crs.system.importFromEPSG(zone) != OGRERR_NONE)
+    return base::error("ingest-crs-unknown",
+                       "EPSG:" + std::to_string(zone) + ", the UTM zone of the footprints, could not be looked up" +
+                           (messages.failure().empty() ? std::string() : " (" + messages.failure() + ")") +
+                           "; say --crs EPSG:n",
+                       subject);
   return crs;
 }
 
@@ -161,10 +170,9 @@ auto choose_way(const formats::FeatureFile& file, const std::string& option, con
             ") is not in metres; say --crs EPSG:n with a projected CRS that is, and bring the mesh there",
         subject);
   } else {
-    target = utm_crs(crs::flat(source->system).system, bounds(file.features));
-    if (!target)
-      return base::error("ingest-crs-unknown",
-                         "the footprints are in degrees where there is no UTM zone; say --crs EPSG:n", subject);
+    auto zone = utm_crs(crs::flat(source->system).system, bounds(file.features), messages, subject);
+    if (!zone) return zone.failure();
+    target = std::move(*zone);
   }
 
   if (!target) return base::error("ingest-crs-unknown", "the mesh's CRS is not known; say --crs EPSG:n", subject);
