@@ -11,6 +11,7 @@
 #include "mansard/model/file_grid.hpp"
 #include "mansard/solid/detail/delaunay.hpp"
 #include "mansard/solid/detail/fitted_plane.hpp"
+#include "mansard/solid/detail/flattening.hpp"
 #include "mansard/solid/detail/measure.hpp"
 #include "mansard/solid/triangulator.hpp"
 
@@ -26,24 +27,11 @@ auto units(Point3 p) -> Point3 {
   return {whole(p.x), whole(p.y), whole(p.z)};
 }
 
-struct Box {
-  Point3 least{1e300, 1e300, 1e300}, most{-1e300, -1e300, -1e300};
-
-  void add(Point3 p) {
-    least = {std::min(least.x, p.x), std::min(least.y, p.y), std::min(least.z, p.z)};
-    most = {std::max(most.x, p.x), std::max(most.y, p.y), std::max(most.z, p.z)};
-  }
-  [[nodiscard]] auto meets(const Box& other) const -> bool {
-    return least.x <= other.most.x && other.least.x <= most.x && least.y <= other.most.y && other.least.y <= most.y &&
-           least.z <= other.most.z && other.least.z <= most.z;
-  }
-};
-
 /// A triangle, counter-clockwise from outside, and the third corners of the triangles across its edges: of the one
 /// across the edge from corner i to i + 1, beyond[i].
 struct Plate {
   std::array<Point3, 3> at, beyond;
-  Box box;
+  geometry::Box3 box;
 };
 
 /// The triangles of a solid, or none where a face cannot be cut.
@@ -77,22 +65,6 @@ auto plates_of(const model::Solid& solid) -> std::optional<std::vector<Plate>> {
   }
   return out;
 }
-
-/// A coordinate plane on which a triangle keeps its area.
-class Flat {
- public:
-  explicit Flat(const std::array<Point3, 3>& t) {
-    const Point3 n = cross(t[1] - t[0], t[2] - t[0]);
-    const double x = std::abs(n.x), y = std::abs(n.y), z = std::abs(n.z);
-    axis_ = z >= x && z >= y ? 2 : (x >= y ? 0 : 1);
-  }
-  [[nodiscard]] auto operator()(Point3 p) const -> Point2 {
-    return axis_ == 2 ? Point2{p.x, p.y} : (axis_ == 0 ? Point2{p.y, p.z} : Point2{p.z, p.x});
-  }
-
- private:
-  int axis_;
-};
 
 /// The sides of a triangle's plane on which the corners of another one lie: +1 outside.
 using Signs = std::array<int, 3>;
@@ -150,7 +122,7 @@ class Around {
   [[nodiscard]] auto quarter(Point3 p) const -> int {
     const int side = above(from_, to_, zero_, p);
     if (side != 0) return side > 0 ? 1 : 3;
-    const Flat flat({from_, to_, zero_});
+    const Flattening flat(from_, to_, zero_);
     return turn(flat(from_), flat(to_), flat(zero_)) == turn(flat(from_), flat(to_), flat(p)) ? 0 : 2;
   }
 
@@ -168,7 +140,7 @@ auto have_common(Point3 from, Point3 to, const Wedge& a, const Wedge& b) -> bool
 }
 
 /// Whether a piece of an edge that lies in the plane of a triangle is inside of it.
-auto runs_inside(const Flat& flat, Point3 from, Point3 to, const std::array<Point3, 3>& t) -> bool {
+auto runs_inside(const Flattening& flat, Point3 from, Point3 to, const std::array<Point3, 3>& t) -> bool {
   const Point2 p = flat(from), q = flat(to);
   const std::array<Point2, 3> c{flat(t[0]), flat(t[1]), flat(t[2])};
   const int inner = turn(c[0], c[1], c[2]);
@@ -188,7 +160,7 @@ auto meet_on_a_face(const Plate& s, const Signs& of_s, const Plate& t) -> bool {
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t k = (i + 1) % 3;
     if (of_s[i] != 0 || of_s[k] != 0) continue;
-    const Flat flat(t.at);
+    const Flattening flat(t.at[0], t.at[1], t.at[2]);
     const Point3 from = s.at[i], to = s.at[k];
     if (!runs_inside(flat, from, to, t.at)) continue;
     // Seen from outside, as the triangle's corners run: what is on the left of the edge, and on its right.
@@ -235,7 +207,7 @@ auto meet(const Plate& s, const Plate& t) -> bool {
 auto lies_on_by_chance(const Plate& s, const Plate& t) -> bool {
   for (const auto axis : {&Point3::x, &Point3::y, &Point3::z})
     if (t.at[0].*axis == t.at[1].*axis && t.at[1].*axis == t.at[2].*axis) return false;
-  const Flat flat(t.at);
+  const Flattening flat(t.at[0], t.at[1], t.at[2]);
   for (const Point3 p : s.at) {
     const auto is_exact = [&](Point3 corner) { return corner == p || (corner.x == p.x && corner.y == p.y); };
     const bool upright = turn({t.at[0].x, t.at[0].y}, {t.at[1].x, t.at[1].y}, {t.at[2].x, t.at[2].y}) == 0;
@@ -250,10 +222,9 @@ auto lies_on_by_chance(const Plate& s, const Plate& t) -> bool {
   return false;
 }
 
-auto box_of(const std::vector<Plate>& plates) -> Box {
-  Box out;
-  for (const Plate& plate : plates)
-    for (const Point3 p : plate.at) out.add(p);
+auto box_of(const std::vector<Plate>& plates) -> geometry::Box3 {
+  geometry::Box3 out;
+  for (const Plate& plate : plates) out.include(plate.box);
   return out;
 }
 
@@ -262,10 +233,10 @@ template <class Test>
 auto any_two(const model::Solid& a, const model::Solid& b, Test test) -> bool {
   auto of_a = plates_of(a), of_b = plates_of(b);
   if (!of_a || !of_b) return true;
-  const Box box_a = box_of(*of_a), box_b = box_of(*of_b);
-  if (!box_a.meets(box_b)) return false;
-  std::erase_if(*of_a, [&](const Plate& plate) { return !plate.box.meets(box_b); });
-  std::erase_if(*of_b, [&](const Plate& plate) { return !plate.box.meets(box_a); });
+  const geometry::Box3 box_a = box_of(*of_a), box_b = box_of(*of_b);
+  if (!box_a.overlaps(box_b)) return false;
+  std::erase_if(*of_a, [&](const Plate& plate) { return !plate.box.overlaps(box_b); });
+  std::erase_if(*of_b, [&](const Plate& plate) { return !plate.box.overlaps(box_a); });
   std::ranges::sort(*of_a, {}, [](const Plate& plate) { return plate.box.least.x; });
   std::ranges::sort(*of_b, {}, [](const Plate& plate) { return plate.box.least.x; });
   // Both in the order of their beginning; those of b that have ended are left behind.
@@ -275,7 +246,7 @@ auto any_two(const model::Solid& a, const model::Solid& b, Test test) -> bool {
     while (next != of_b->end() && next->box.least.x <= s.box.most.x) open.push_back(&*next++);
     std::erase_if(open, [&](const Plate* t) { return t->box.most.x < s.box.least.x; });
     for (const Plate* t : open)
-      if (s.box.meets(t->box) && test(s, *t)) return true;
+      if (s.box.overlaps(t->box) && test(s, *t)) return true;
   }
   return false;
 }

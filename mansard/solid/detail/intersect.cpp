@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "mansard/geometry/predicates.hpp"
+#include "mansard/solid/detail/flattening.hpp"
 #include "mansard/solid/detail/measure.hpp"
 
 namespace mansard::solid::detail {
@@ -13,22 +14,6 @@ namespace {
 
 using geometry::Point2;
 using geometry::Point3;
-
-/// A coordinate plane on which the triangle keeps its area (exactly: its corners do not become collinear).
-class Flattening {
- public:
-  Flattening(Point3 a, Point3 b, Point3 c) {
-    const Point3 n = cross(b - a, c - a);
-    const double x = std::abs(n.x), y = std::abs(n.y), z = std::abs(n.z);
-    axis_ = z >= x && z >= y ? 2 : (x >= y ? 0 : 1);
-  }
-  [[nodiscard]] auto operator()(Point3 p) const -> Point2 {
-    return axis_ == 2 ? Point2{p.x, p.y} : (axis_ == 0 ? Point2{p.y, p.z} : Point2{p.z, p.x});
-  }
-
- private:
-  int axis_;
-};
 
 auto in_triangle(Point2 a, Point2 b, Point2 c, Point2 p) -> bool {
   const int x = turn(a, b, p), y = turn(b, c, p), z = turn(c, a, p);
