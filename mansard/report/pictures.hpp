@@ -1,6 +1,7 @@
 // Pictures of a run's result.
 #pragma once
 
+#include "mansard/formats/stream.hpp"
 #include "mansard/picture/picture.hpp"
 #include "mansard/report/report.hpp"
 #include "mansard/texture/scan.hpp"
