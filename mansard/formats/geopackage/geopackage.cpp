@@ -7,6 +7,7 @@
 #include "mansard/crs/gdal.hpp"
 #include "mansard/formats/geopackage/geopackage_tables.hpp"
 #include "mansard/formats/geopackage/qgis_styles.hpp"
+#include "mansard/formats/image/memory_file.hpp"
 
 namespace mansard::formats {
 namespace {
@@ -60,27 +61,11 @@ auto detail::check_layers(const std::vector<Layer>& layers) -> base::Result<void
 
 namespace {
 
-/// A file in memory, gone at the end of the scope.
-class MemoryFile {
- public:
-  MemoryFile() {
-    static std::atomic<unsigned> count{0};
-    name_ = "/vsimem/mansard-" + std::to_string(count++) + ".gpkg";
-  }
-  MemoryFile(const MemoryFile&) = delete;
-  auto operator=(const MemoryFile&) -> MemoryFile& = delete;
-  ~MemoryFile() { VSIUnlink(name_.c_str()); }
-
-  [[nodiscard]] auto name() const -> const char* { return name_.c_str(); }
-  [[nodiscard]] auto bytes() const -> std::string {
-    vsi_l_offset size = 0;
-    const auto* data = reinterpret_cast<const char*>(VSIGetMemFileBuffer(name_.c_str(), &size, FALSE));
-    return data == nullptr ? std::string() : std::string(data, static_cast<std::size_t>(size));
-  }
-
- private:
-  std::string name_;
-};
+/// A name that no other GeoPackage in memory has.
+auto name_in_memory() -> std::string {
+  static std::atomic<unsigned> count{0};
+  return "/vsimem/mansard-" + std::to_string(count++) + ".gpkg";
+}
 
 }  // namespace
 
@@ -92,7 +77,7 @@ auto geopackage(const std::vector<Layer>& layers, const model::Frame& frame) -> 
   if (!crs) return detail::geopackage_failure("understand the CRS " + frame.crs);
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GPKG");
   if (driver == nullptr) return detail::geopackage_failure("find its GPKG driver");
-  const MemoryFile memory;
+  const MemoryFile memory(name_in_memory());
   GDALDatasetUniquePtr file(driver->Create(memory.name(), 0, 0, 0, GDT_Unknown, nullptr));
   if (!file || file->StartTransaction() != OGRERR_NONE) return detail::geopackage_failure("start the file");
   const detail::Pen pen(frame);
