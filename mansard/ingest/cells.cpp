@@ -26,18 +26,22 @@ auto index(double coordinate, double side) -> std::int32_t {
   return static_cast<std::int32_t>(std::floor(coordinate / side));  // |coordinate| < 1e8, side ≥ 1
 }
 
-/// The triangles of a mesh that are numbered, with their own vertices only.
-auto part_of(const formats::RawMesh& raw, std::span<const std::pair<MeshCells::Cell, std::uint32_t>> numbered)
-    -> geometry::Mesh {
+/// The triangles of a mesh that are numbered, with their own vertices only. `places` has room for every vertex of the
+/// mesh; what is in it does not matter.
+auto part_of(const formats::RawMesh& raw, std::span<const std::pair<MeshCells::Cell, std::uint32_t>> numbered,
+             std::vector<std::uint32_t>& places) -> geometry::Mesh {
   std::vector<std::uint32_t> used;
   for (const auto& [cell, t] : numbered) used.insert(used.end(), raw.triangles[t].begin(), raw.triangles[t].end());
   std::ranges::sort(used);
   used.erase(std::unique(used.begin(), used.end()), used.end());
   geometry::Mesh out;
-  for (const auto v : used) out.vertices.push_back(raw.vertices[v]);
+  for (const auto v : used) {
+    places[v] = static_cast<std::uint32_t>(out.vertices.size());
+    out.vertices.push_back(raw.vertices[v]);
+  }
   for (const auto& [cell, t] : numbered) {
     Triangle triangle = raw.triangles[t];
-    for (auto& v : triangle) v = static_cast<std::uint32_t>(std::ranges::lower_bound(used, v) - used.begin());
+    for (auto& v : triangle) v = places[v];
     out.triangles.push_back(triangle);
   }
   return out;
@@ -102,9 +106,10 @@ void MeshCells::add(const formats::RawMesh& raw) {
   }
   std::ranges::sort(placed);
   std::vector<std::pair<Cell, std::pair<std::string, std::size_t>>> pieces;
+  std::vector<std::uint32_t> places(raw.vertices.size());
   for (std::size_t i = 0, end = 0; i < placed.size(); i = end) {
     while (end < placed.size() && placed[end].first == placed[i].first) ++end;
-    const auto part = part_of(raw, std::span(placed).subspan(i, end - i));
+    const auto part = part_of(raw, std::span(placed).subspan(i, end - i), places);
     pieces.emplace_back(placed[i].first, std::pair(base::packed(part), part.triangles.size()));
   }
   const std::scoped_lock lock(mutex_);

@@ -9,30 +9,44 @@
 namespace mansard::picture {
 namespace {
 
-/// Everything that must be in the picture.
-auto corners_of(const detail::Model& model, std::span<const Lines> lines) -> std::vector<geometry::Point3> {
+/// The vertices that a triangle has, each once.
+auto used_vertices(const geometry::Mesh& mesh) -> std::vector<geometry::Point3> {
+  std::vector<char> used(mesh.vertices.size(), 0);
+  for (const auto& triangle : mesh.triangles)
+    for (const auto v : triangle) used[v] = 1;
   std::vector<geometry::Point3> points;
-  for (const auto& triangle : model.mesh.triangles)
-    for (const auto v : triangle) points.push_back(model.mesh.vertices[v]);
-  for (const Lines& layer : lines)
-    for (const auto& segment : layer.segments) points.insert(points.end(), segment.begin(), segment.end());
+  for (std::size_t v = 0; v < used.size(); ++v)
+    if (used[v] != 0) points.push_back(mesh.vertices[v]);
   return points;
 }
 
 }  // namespace
 
-auto draw(std::span<const Layer> layers, std::span<const Lines> lines, const View& view, const base::Run& run)
-    -> Image {
-  detail::Canvas canvas(view.width, view.height, detail::to_light(detail::paper));
-  const detail::Model model = detail::joined(layers);
-  if (const auto points = corners_of(model, lines); !points.empty()) {
-    const detail::Camera camera = detail::camera_for(view, points);
-    const rays::Scene scene(model.mesh);
-    if (!model.mesh.triangles.empty()) detail::render(canvas, model, scene, camera, run);
-    for (const Lines& layer : lines) detail::draw_lines(canvas, layer, scene, camera);
+auto draw_views(std::span<const Layer> layers, std::span<const Lines> lines, std::span<const View> views,
+                const base::Run& run) -> std::vector<Image> {
+  detail::Model model = detail::joined(layers);
+  auto points = used_vertices(model.mesh);
+  const std::size_t of_surfaces = points.size();
+  for (const Lines& layer : lines)
+    for (const auto& segment : layer.segments) points.insert(points.end(), segment.begin(), segment.end());
+  const rays::Scene scene(std::move(model.mesh));  // which has it now
+  std::vector<Image> images;
+  for (const View& view : views) {
+    detail::Canvas canvas(view.width, view.height, detail::to_light(detail::paper));
+    if (!points.empty()) {
+      const detail::Camera camera = detail::camera_for(view, points);
+      if (of_surfaces > 0) detail::render(canvas, model, scene, std::span(points).first(of_surfaces), camera, run);
+      for (const Lines& layer : lines) detail::draw_lines(canvas, layer, scene, camera);
+    }
+    images.push_back(detail::to_image(canvas));
   }
   run.report("picture", "", 1);
-  return detail::to_image(canvas);
+  return images;
+}
+
+auto draw(std::span<const Layer> layers, std::span<const Lines> lines, const View& view, const base::Run& run)
+    -> Image {
+  return std::move(draw_views(layers, lines, std::span(&view, 1), run).front());
 }
 
 auto error_map(std::span<const float> values, std::size_t columns, std::size_t rows, double limit,

@@ -54,6 +54,9 @@ struct Image {
 /// Shaded by a sun and an open sky, supersampled, framed to what is drawn. Same input, same bytes.
 [[nodiscard]] auto draw(std::span<const Layer> layers, std::span<const Lines> lines, const View& view,
                         const base::Run& run = {}) -> Image;
+/// The same scene from several sides, which costs less than one by one.
+[[nodiscard]] auto draw_views(std::span<const Layer> layers, std::span<const Lines> lines, std::span<const View> views,
+                              const base::Run& run = {}) -> std::vector<Image>;
 
 /// A field on a grid as colours with a legend: `values` row by row from the south, NaN left grey, colours fixed from
 /// −limit (blue) over 0 (white) to +limit (red), in metres.

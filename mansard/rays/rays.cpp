@@ -2,11 +2,15 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <memory>
 #include <mutex>
 #include <new>
+#include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -197,6 +201,77 @@ auto Scene::cast(Point3 origin, Point3 direction) const -> std::optional<Hit> {
   rtcIntersect1(tree.scene.get(), &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   return Hit{query.ray.tfar, query.hit.primID};
+}
+
+namespace {
+
+constexpr std::size_t together = 8;  ///< rays in a packet
+
+/// Rays `first` and the seven after it, as far as there are so many, as Embree wants them.
+void fill(RTCRay8& packet, std::array<int, together>& valid, std::span<const Ray> rays, std::size_t first,
+          Point3 centre) {
+  for (std::size_t k = 0; k < together; ++k) {
+    valid[k] = first + k < rays.size() ? -1 : 0;
+    const Ray& ray = rays[std::min(first + k, rays.size() - 1)];
+    const Point3 o = ray.origin - centre, d = geometry::normalised(ray.direction);
+    packet.org_x[k] = static_cast<float>(o.x);
+    packet.org_y[k] = static_cast<float>(o.y);
+    packet.org_z[k] = static_cast<float>(o.z);
+    packet.dir_x[k] = static_cast<float>(d.x);
+    packet.dir_y[k] = static_cast<float>(d.y);
+    packet.dir_z[k] = static_cast<float>(d.z);
+    packet.tnear[k] = packet.time[k] = 0;
+    packet.tfar[k] = std::numeric_limits<float>::infinity();
+    packet.mask[k] = ~0U;
+    packet.id[k] = packet.flags[k] = 0;
+  }
+}
+
+auto coherent() -> RTCIntersectContext {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  return context;
+}
+
+}  // namespace
+
+void Scene::cast_all(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const {
+  if (parts_->empty()) {
+    std::ranges::fill(hits, std::nullopt);
+    return;
+  }
+  const Tree& tree = parts_->tree();
+  auto context = coherent();
+  alignas(4 * together) std::array<int, together> valid{};
+  for (std::size_t first = 0; first < rays.size(); first += together) {
+    RTCRayHit8 packet;
+    fill(packet.ray, valid, rays, first, tree.centre);
+    std::ranges::fill(packet.hit.geomID, RTC_INVALID_GEOMETRY_ID);
+    rtcIntersect8(valid.data(), tree.scene.get(), &context, &packet);
+    for (std::size_t k = 0; k < together && first + k < rays.size(); ++k)
+      hits[first + k] = packet.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID
+                            ? std::nullopt
+                            : std::optional(Hit{packet.ray.tfar[k], packet.hit.primID[k]});
+  }
+}
+
+void Scene::cast_any(std::span<const Ray> rays, std::span<char> blocked) const {
+  if (parts_->empty()) {
+    std::ranges::fill(blocked, 0);
+    return;
+  }
+  const Tree& tree = parts_->tree();
+  auto context = coherent();
+  alignas(4 * together) std::array<int, together> valid{};
+  for (std::size_t first = 0; first < rays.size(); first += together) {
+    RTCRay8 packet;
+    fill(packet, valid, rays, first, tree.centre);
+    rtcOccluded8(valid.data(), tree.scene.get(), &context, &packet);
+    // Embree marks a ray that met something by a length of minus infinity.
+    for (std::size_t k = 0; k < together && first + k < rays.size(); ++k)
+      blocked[first + k] = packet.tfar[k] < 0 ? 1 : 0;
+  }
 }
 
 auto Scene::seen_from_above(Point2 at) const -> std::optional<Seen> {

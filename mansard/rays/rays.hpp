@@ -6,10 +6,15 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "mansard/geometry/mesh.hpp"
 
 namespace mansard::rays {
+
+struct Ray {
+  geometry::Point3 origin, direction;
+};
 
 struct Hit {
   double distance = 0;         ///< metres from the origin along the unit direction
@@ -40,6 +45,12 @@ class Scene {
 
   /// The nearest triangle hit, from either side.
   [[nodiscard]] auto cast(geometry::Point3 origin, geometry::Point3 direction) const -> std::optional<Hit>;
+  /// The same for many rays, `hits` being as many: eight go through the tree together, which is quicker where
+  /// neighbours in the list take nearly the same way. Where two triangles are equally near, another of them than `cast`
+  /// names may be the one hit.
+  void cast_all(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const;
+  /// Whether anything is hit, for many rays, `blocked` being as many.
+  void cast_any(std::span<const Ray> rays, std::span<char> blocked) const;
   /// z of the topmost surface above or below (x, y): what a satellite sees. Vertical triangles have no top. Of
   /// triangles that are equally high there, the one with the lower index is seen.
   [[nodiscard]] auto top(geometry::Point2 at) const -> std::optional<double>;

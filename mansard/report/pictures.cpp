@@ -5,6 +5,7 @@
 #include <map>
 
 #include "mansard/formats/written.hpp"
+#include "mansard/geometry/box_index.hpp"
 #include "mansard/rays/rays.hpp"
 #include "mansard/report/pictures.hpp"
 #include "mansard/solid/solid.hpp"
@@ -23,14 +24,24 @@ auto frame_of(const model::Scene& scene) -> geometry::Box2 {
   return box.grown(street);
 }
 
-/// The triangles whose centres lie in the frame and pass the test.
+/// The triangles whose centres lie in the frame and pass the test, and their vertices.
 template <class Keep>
 auto part_of(const geometry::Mesh& mesh, const geometry::Box2& frame, Keep keep) -> geometry::Mesh {
+  constexpr auto none = ~std::uint32_t{0};
   geometry::Mesh out;
-  out.vertices = mesh.vertices;
+  std::vector<std::uint32_t> places(mesh.vertices.size(), none);
   for (const auto& t : mesh.triangles) {
-    const Point3 centre = (1.0 / 3) * (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]);
-    if (frame.contains(geometry::xy(centre)) && keep(centre)) out.triangles.push_back(t);
+    const Point3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    if (!frame.contains(geometry::xy((1.0 / 3) * (a + b + c))) || !keep(a, b, c)) continue;
+    auto& corners = out.triangles.emplace_back(t);
+    for (auto& corner : corners) {
+      auto& place = places[corner];
+      if (place == none) {
+        place = static_cast<std::uint32_t>(out.vertices.size());
+        out.vertices.push_back(mesh.vertices[corner]);
+      }
+      corner = place;
+    }
   }
   return out;
 }
@@ -132,35 +143,54 @@ auto distance(Point2 p, Point2 a, Point2 b) -> double {
   return geometry::length(p - (a + t * ab));
 }
 
-/// Whether a place is within a metre of an outline.
-auto near_outline(const model::Scene& scene, Point2 p) -> bool {
-  constexpr double near = 1;
-  const auto along = [&](const geometry::Ring& ring) {
-    for (std::size_t i = 0; i < ring.size(); ++i)
-      if (distance(p, ring[i], ring[(i + 1) % ring.size()]) < near) return true;
-    return false;
-  };
-  return std::ranges::any_of(scene.footprints, [&](const auto& footprint) {
-    return std::ranges::any_of(footprint.polygons, [&](const auto& polygon) {
-      return geometry::bounds(polygon.outer).grown(near).contains(p) &&
-             (along(polygon.outer) || std::ranges::any_of(polygon.holes, along));
-    });
-  });
-}
+/// Where the footprints are, to ask for many places.
+class Grounds {
+ public:
+  explicit Grounds(const model::Scene& scene) {
+    std::vector<geometry::Box2> boxes;
+    for (const auto& footprint : scene.footprints)
+      for (const auto& polygon : footprint.polygons) {
+        polygons_.push_back(&polygon);
+        boxes.push_back(geometry::bounds(polygon.outer).grown(near));
+      }
+    index_ = geometry::BoxIndex(boxes);
+  }
 
-/// The scan without its buildings: neither what is over a footprint nor the walls along it, which would show through
-/// those of the models.
-template <class InFootprint>
-auto street_of(const picture::Layer& scan, const model::Scene& scene, InFootprint in_footprint) -> picture::Layer {
+  /// Whether a triangle of the scan is part of the street: neither over a footprint nor one of the walls along it,
+  /// which would show through those of the models or hide them.
+  [[nodiscard]] auto is_street(const Point3& a, const Point3& b, const Point3& c) const -> bool {
+    constexpr double steep = 0.7;  // the cosine of about 45°
+    const Point2 middle = geometry::xy((1.0 / 3) * (a + b + c));
+    const bool wall = geometry::normalised(cross(b - a, c - a)).z < steep;
+    return std::ranges::none_of(index_.overlapping({middle, middle}), [&](std::uint32_t k) {
+      return geometry::contains(*polygons_[k], middle) || (wall && along(*polygons_[k], middle));
+    });
+  }
+
+ private:
+  static constexpr double near = 1;  // m
+
+  /// Whether a place is within a metre of the outline.
+  static auto along(const geometry::Polygon& polygon, Point2 p) -> bool {
+    const auto along_ring = [&](const geometry::Ring& ring) {
+      for (std::size_t i = 0; i < ring.size(); ++i)
+        if (distance(p, ring[i], ring[(i + 1) % ring.size()]) < near) return true;
+      return false;
+    };
+    return along_ring(polygon.outer) || std::ranges::any_of(polygon.holes, along_ring);
+  }
+
+  std::vector<const geometry::Polygon*> polygons_;
+  geometry::BoxIndex index_;
+};
+
+/// The street of a textured scan.
+auto street_of(const picture::Layer& scan, const Grounds& grounds) -> picture::Layer {
   picture::Layer out{{scan.mesh.vertices, {}}, scan.colours, {}};
   std::vector<std::size_t> kept;
   for (std::size_t t = 0; t < scan.mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = scan.mesh.triangles[t];
-    const Point3 &p = scan.mesh.vertices[a], &q = scan.mesh.vertices[b], &r = scan.mesh.vertices[c];
-    const Point3 middle = (1.0 / 3) * (p + q + r);
-    constexpr double steep = 0.7;  // the cosine of about 45°
-    const bool wall = geometry::normalised(cross(q - p, r - p)).z < steep;
-    if (in_footprint(middle) || (wall && near_outline(scene, geometry::xy(middle)))) continue;
+    if (!grounds.is_street(scan.mesh.vertices[a], scan.mesh.vertices[b], scan.mesh.vertices[c])) continue;
     out.mesh.triangles.push_back(scan.mesh.triangles[t]);
     kept.push_back(t);
   }
@@ -226,39 +256,34 @@ auto picture_of(const model::City& city, const picture::View& view, const base::
 auto pictures(const Reconstruction& reconstruction, const model::Scene& scene, double limit, const base::Run& run,
               const TexturedLayers* textured) -> Pictures {
   const auto frame = frame_of(scene);
-  const auto lines = [&] {
+  const picture::Lines lines = [&] {
     const rays::Scene surface(scene.mesh);  // not in memory beside those of the pictures
     return footprint_lines(scene, surface);
   }();
-  const auto in_footprint = [&](Point3 p) {
-    return std::ranges::any_of(scene.footprints, [&](const auto& footprint) {
-      return std::ranges::any_of(footprint.polygons, [&](const auto& polygon) {
-        return geometry::bounds(polygon.outer).contains(geometry::xy(p)) &&
-               geometry::contains(polygon, geometry::xy(p));
-      });
-    });
-  };
-  const picture::Layer plain{part_of(scene.mesh, frame, [](Point3) { return true; }), {picture::mesh_blue}};
-  const picture::Layer& scan = textured != nullptr ? textured->scan : plain;
+  picture::View from_above, at_an_angle;
+  from_above.kind = picture::View::Kind::above;
+  const std::array views{from_above, at_an_angle};
+  const auto left = [&] {  // what was drawn is not in memory beside what comes next
+    if (textured != nullptr) return picture::draw_views({&textured->scan, 1}, {}, views, run);
+    const auto everything = [](const Point3&, const Point3&, const Point3&) { return true; };
+    const picture::Layer scan{part_of(scene.mesh, frame, everything), {picture::mesh_blue}};
+    return picture::draw_views({&scan, 1}, {&lines, 1}, views, run);
+  }();
   // The street of the scan stays in the second picture, for scale, in a quieter blue; the scan's buildings go.
-  const picture::Layer street =
-      textured != nullptr
-          ? street_of(textured->scan, scene, in_footprint)
-          : picture::Layer{part_of(scene.mesh, frame, [&](Point3 p) { return !in_footprint(p); }), {{206, 216, 232}}};
-  const auto models = textured != nullptr ? textured->models : models_of(reconstruction.city);
-
-  const auto pair = [&](picture::View view) {
-    const std::vector<picture::Layer> before{scan}, after{street, models};
-    const std::vector<picture::Lines> drawn = textured != nullptr ? std::vector<picture::Lines>() : std::vector{lines};
-    const std::vector<picture::Image> images{picture::draw(before, drawn, view, run),
-                                             picture::draw(after, {}, view, run)};
-    return picture::beside(images);
-  };
-  picture::View above, angle;
-  above.kind = picture::View::Kind::above;
+  const auto right = [&] {
+    const Grounds grounds(scene);
+    const auto is_street = [&](const Point3& a, const Point3& b, const Point3& c) {
+      return grounds.is_street(a, b, c);
+    };
+    const std::vector<picture::Layer> layers{
+        textured != nullptr ? street_of(textured->scan, grounds)
+                            : picture::Layer{part_of(scene.mesh, frame, is_street), {{206, 216, 232}}},
+        textured != nullptr ? textured->models : models_of(reconstruction.city)};
+    return picture::draw_views(layers, {}, views, run);
+  }();
+  const auto pair = [&](std::size_t view) { return picture::beside(std::array{left[view], right[view]}); };
   const auto map = evaluate::merged(reconstruction.error_maps);
-  return {pair(above), pair(angle),
-          picture::error_map(map.difference, map.columns, map.rows, limit, "model - mesh, m")};
+  return {pair(0), pair(1), picture::error_map(map.difference, map.columns, map.rows, limit, "model - mesh, m")};
 }
 
 }  // namespace mansard::report

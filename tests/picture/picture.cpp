@@ -163,6 +163,16 @@ TEST(Draw, gives_the_same_bytes_with_any_number_of_threads) {
   EXPECT_EQ(*png(one), *png(two));
 }
 
+TEST(Draw, several_views_are_as_one_by_one) {
+  const std::vector<Layer> layers{{box({0, 0, 0}, {10, 10, 10}), {red}}, {box({12, 3, 0}, {20, 9, 5}), {blue}}};
+  const std::vector<Lines> lines{{{{Point3{0, 0, 10}, Point3{20, 0, 0}}}, footprint_orange, 2}};
+  const std::vector<View> views{view(View::Kind::above), from(0.4), view(View::Kind::angle, 61, 47)};
+  const auto images = draw_views(layers, lines, views);
+  ASSERT_EQ(images.size(), views.size());
+  for (std::size_t i = 0; i < views.size(); ++i) EXPECT_EQ(images[i].pixels, draw(layers, lines, views[i]).pixels) << i;
+  EXPECT_TRUE(draw_views(layers, lines, {}).empty());
+}
+
 TEST(Draw, is_the_same_wherever_the_origin_is) {
   const auto at = [](Point3 o) {
     const std::vector<Layer> layers{{box(o, o + Point3{8, 8, 8}), {red}}};

@@ -1,8 +1,11 @@
 #include "mansard/rays/rays.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "mansard/base/run.hpp"
 
@@ -45,6 +48,34 @@ TEST(Scene, of_nothing_sees_nothing) {
   const Scene scene(geometry::Mesh{});
   EXPECT_FALSE(scene.top({0, 0}));
   EXPECT_FALSE(scene.cast({0, 0, 0}, {1, 0, 0}));
+}
+
+TEST(Scene, casts_many_rays_as_one_by_one) {
+  const Scene scene(two_storeys({500, -300, 20}));
+  std::vector<Ray> rays;  // 13 × 13: no multiple of a packet
+  for (int i = 0; i < 13; ++i)
+    for (int j = 0; j < 13; ++j) rays.push_back({{499 + i + 0.31, -301 + j + 0.17, 40}, {0.1, 0.05, -2.0 - i}});
+  std::vector<std::optional<Hit>> hits(rays.size());
+  std::vector<char> blocked(rays.size());
+  scene.cast_all(rays, hits);
+  scene.cast_any(rays, blocked);
+  std::size_t met = 0;
+  for (std::size_t k = 0; k < rays.size(); ++k) {
+    const auto one = scene.cast(rays[k].origin, rays[k].direction);
+    ASSERT_EQ(hits[k].has_value(), one.has_value()) << k;
+    EXPECT_EQ(blocked[k] != 0, one.has_value()) << k;
+    if (!one) continue;
+    ++met;
+    EXPECT_NEAR(hits[k]->distance, one->distance, 1e-4) << k;
+    EXPECT_EQ(hits[k]->triangle, one->triangle) << k;
+  }
+  EXPECT_GT(met, 50U);
+  EXPECT_LT(met, rays.size());
+  scene.cast_all({}, {});
+  Scene(geometry::Mesh{}).cast_all(rays, hits);
+  for (const auto& hit : hits) EXPECT_FALSE(hit);
+  Scene(geometry::Mesh{}).cast_any(rays, blocked);
+  EXPECT_THAT(blocked, testing::Each(0));
 }
 
 /// The slow way: the least distance over many places of the triangle.

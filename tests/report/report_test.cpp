@@ -56,6 +56,28 @@ TEST(Pictures, are_drawn_for_a_reconstruction) {
   }
 }
 
+TEST(Pictures, show_the_walls_of_models_that_stand_behind_those_of_the_scan) {
+  auto scene = test::lone_house();
+  const auto r = reconstructed(scene);
+  for (auto& footprint : scene.footprints)  // half a metre inside the walls, as many a survey is
+    for (auto& polygon : footprint.polygons) {
+      const auto box = geometry::bounds(polygon.outer).grown(-0.5);
+      polygon = test::rectangle(box.least.x, box.least.y, box.most.x, box.most.y);
+    }
+  auto moved = r;
+  for (auto& building : moved.city.buildings)
+    for (auto& part : building.parts)
+      for (auto& v : part.model.solid.vertices) v = v + geometry::Point3{-0.4, 0.4, 0};  // behind walls to the south
+  const auto image = pictures(moved, scene, 2.0).angle;
+  std::size_t walls = 0;  // warm grey; the scan is blue, the paper white, roofs are red
+  for (std::size_t y = 0; y < image.height; ++y)
+    for (std::size_t x = image.width / 2 + 20; x < image.width; ++x) {
+      const auto* c = image.pixels.data() + 3 * (y * image.width + x);
+      walls += c[0] > c[2] + 4 && c[0] < c[2] + 40 && c[0] < 235 ? 1 : 0;
+    }
+  EXPECT_GT(walls, 20000U);
+}
+
 TEST(Pictures, show_a_solid_that_cannot_be_cut_into_triangles) {
   auto city = reconstructed(test::lone_house()).city;
   const auto whole = picture_of(city);

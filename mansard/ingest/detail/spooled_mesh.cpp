@@ -28,6 +28,56 @@ auto bytes_of(const std::vector<T>& values) -> std::string_view {
   return {reinterpret_cast<const char*>(values.data()), sizeof(T) * values.size()};
 }
 
+/// Which vertices some triangles name, ascending, and the place of each among them.
+struct Numbering {
+  std::vector<std::uint32_t> used;
+
+  Numbering(const std::vector<Triangle>& triangles, std::uint64_t vertices) {
+    std::uint32_t least = ~0U, most = 0;
+    std::size_t named = 0;
+    each_of(triangles, vertices, [&](std::uint32_t v) {
+      least = std::min(least, v);
+      most = std::max(most, v);
+      ++named;
+    });
+    if (named == 0) return;
+    // In most files neighbours have near numbers: a table of the range is quicker than to sort, until it is mostly
+    // empty.
+    constexpr std::size_t emptiest = 8;
+    if (most - least < emptiest * named) {
+      first_ = least;
+      table_.resize(std::size_t{most - least} + 1);
+      each_of(triangles, vertices, [&](std::uint32_t v) { table_[v - first_] = 1; });
+      for (std::size_t i = 0; i < table_.size(); ++i)
+        if (table_[i] != 0) {
+          table_[i] = static_cast<std::uint32_t>(used.size());
+          used.push_back(first_ + static_cast<std::uint32_t>(i));
+        }
+      return;
+    }
+    used.reserve(named);
+    each_of(triangles, vertices, [&](std::uint32_t v) { used.push_back(v); });
+    std::ranges::sort(used);
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+  }
+
+  [[nodiscard]] auto place(std::uint32_t v) const -> std::uint32_t {
+    if (!table_.empty()) return table_[v - first_];
+    return static_cast<std::uint32_t>(std::ranges::lower_bound(used, v) - used.begin());
+  }
+
+ private:
+  template <class Work>
+  static void each_of(const std::vector<Triangle>& triangles, std::uint64_t vertices, Work work) {
+    for (const auto& triangle : triangles)
+      for (const auto v : triangle)
+        if (v < vertices) work(v);
+  }
+
+  std::vector<std::uint32_t> table_;  ///< from first_ on; empty where the range is too large
+  std::uint32_t first_ = 0;
+};
+
 }  // namespace
 
 auto SpooledMesh::open() -> base::Result<std::unique_ptr<SpooledMesh>> {
@@ -60,13 +110,8 @@ auto SpooledMesh::piece(std::uint64_t first, std::uint64_t count) -> base::Resul
     if (!bytes) return bytes.failure();
     std::memcpy(out.triangles.data(), bytes->data(), bytes->size());
   }
-  std::vector<std::uint32_t> used;
-  used.reserve(3 * count);
-  for (const auto& triangle : out.triangles)
-    for (const auto v : triangle)
-      if (v < vertices_) used.push_back(v);
-  std::ranges::sort(used);
-  used.erase(std::unique(used.begin(), used.end()), used.end());
+  const Numbering numbering(out.triangles, vertices_);
+  const auto& used = numbering.used;
   out.vertices.reserve(used.size());
   for (std::size_t i = 0, end = 0; i < used.size(); i = end) {
     for (end = i + 1;
@@ -82,9 +127,7 @@ auto SpooledMesh::piece(std::uint64_t first, std::uint64_t count) -> base::Resul
     }
   }
   for (auto& triangle : out.triangles)
-    for (auto& v : triangle)
-      v = v < vertices_ ? static_cast<std::uint32_t>(std::ranges::lower_bound(used, v) - used.begin())
-                        : formats::no_vertex;
+    for (auto& v : triangle) v = v < vertices_ ? numbering.place(v) : formats::no_vertex;
   return out;
 }
 

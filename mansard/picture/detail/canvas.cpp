@@ -20,8 +20,10 @@ auto light_table() -> const std::array<float, 256>& {
   return table;
 }
 
-/// The code whose light is nearest in the sRGB scale: half-way between two codes' lights, mapped once to a table.
+/// The code whose light is nearest in the sRGB scale, of borders half-way between two codes' lights. A table says where
+/// to begin; few codes share an entry, the darkest most.
 auto code_of(float light) -> std::uint8_t {
+  constexpr std::size_t entries = 4096;
   static const std::array<float, 255> borders = [] {
     std::array<float, 255> between{};
     for (std::size_t i = 0; i < between.size(); ++i) {
@@ -30,7 +32,17 @@ auto code_of(float light) -> std::uint8_t {
     }
     return between;
   }();
-  return static_cast<std::uint8_t>(std::upper_bound(borders.begin(), borders.end(), light) - borders.begin());
+  static const std::array<std::uint8_t, entries + 1> begin = [] {
+    std::array<std::uint8_t, entries + 1> codes{};
+    for (std::size_t i = 0; i < codes.size(); ++i)
+      codes[i] = static_cast<std::uint8_t>(std::ranges::upper_bound(borders, static_cast<float>(i) / entries) -
+                                           borders.begin());
+    return codes;
+  }();
+  const float within = light > 0 ? std::min(light, 1.0F) : 0.0F;  // what is no number is 0
+  std::size_t code = begin[static_cast<std::size_t>(within * entries)];
+  while (code < borders.size() && borders[code] <= light) ++code;
+  return static_cast<std::uint8_t>(code);
 }
 
 }  // namespace

@@ -36,8 +36,10 @@ auto encode(const Image& image, Output& output) -> bool {
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
                PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
-  png_set_compression_level(png, 6);
-  png_set_filter(png, 0, PNG_FILTER_NONE | PNG_FILTER_SUB | PNG_FILTER_UP | PNG_FILTER_PAETH);
+  // A third of the time of libpng's own choices for 5 % more bytes (docs/city.md, "Pictures").
+  png_set_compression_level(png, 4);
+  png_set_compression_strategy(png, 0);
+  png_set_filter(png, 0, PNG_FILTER_NONE | PNG_FILTER_SUB | PNG_FILTER_UP);
   png_write_info(png, info);
   for (std::size_t y = 0; y < image.height; ++y) png_write_row(png, image.pixels.data() + 3 * y * image.width);
   png_write_end(png, nullptr);

@@ -4,6 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <span>
+#include <tuple>
+#include <vector>
 
 #include "mansard/base/statistics.hpp"
 
@@ -15,7 +19,9 @@ using geometry::Point3;
 // A low number of rays a pixel, different ones in each pixel of a square pattern, and the mean over such a square of
 // what lies in the same surface: as smooth as 64 rays for the price of one (interleaved sampling, Keller and Heidrich
 // 2001). The rays are fixed, so a picture is always the same. The sun, whose shadows have edges, has a smaller square.
-constexpr std::size_t sky_pattern = 8, sun_pattern = 4, sky_rays = 1;
+// What a place sees of the sky changes slowly: one pixel in four asks, and the others take it from those around them.
+constexpr std::size_t sky_pattern = 8, sun_pattern = 4, sky_step = 2;
+constexpr std::size_t lone_rays = 16;   ///< to the sky, from a pixel with nothing of its surface around that asked
 constexpr std::uint32_t nothing = ~0U;  ///< no triangle: paper
 
 /// What one ray found, and how much light it gets there. As little as there can be: a picture has millions.
@@ -54,8 +60,8 @@ auto radical_inverse(std::uint32_t i) -> double {
   return value;
 }
 
-/// Directions about +z, denser where the cosine is larger. A pixel takes one of each quarter of them.
-using SkyDirections = std::array<Point3, sky_pattern * sky_pattern * sky_rays>;
+/// Directions about +z, denser where the cosine is larger.
+using SkyDirections = std::array<Point3, sky_pattern * sky_pattern>;
 auto sky_directions() -> SkyDirections {
   SkyDirections directions;
   for (std::uint32_t i = 0; i < directions.size(); ++i) {
@@ -97,7 +103,8 @@ auto frame_about(const Point3& n) -> std::array<Point3, 2> {
 
 class Renderer {
  public:
-  Renderer(Canvas& canvas, const Model& model, const rays::Scene& scene, const Camera& camera)
+  Renderer(Canvas& canvas, const Model& model, const rays::Scene& scene, std::span<const Point3> points,
+           const Camera& camera)
       : canvas_(canvas),
         model_(model),
         scene_(scene),
@@ -109,12 +116,10 @@ class Renderer {
         across_sun_(frame_about(lamp_.direction)) {
     std::vector<double> heights;
     geometry::Box3 box;
-    for (const auto& t : model.mesh.triangles)
-      for (const auto v : t) {
-        const Point3& p = model.mesh.vertices[v];
-        heights.push_back(p.z);
-        box.add(p);
-      }
+    for (const Point3& p : points) {
+      heights.push_back(p.z);
+      box.add(p);
+    }
     // Scans have debris far below the ground; the paper lies under all but the lowest hundredth.
     const auto hundredth = heights.size() / 100;
     paper_height_ = base::ranked(std::move(heights), hundredth) - 1e-3;
@@ -124,55 +129,73 @@ class Renderer {
   }
 
   void look() {
-    rows([&](std::size_t x, std::size_t y) { found_[y * canvas_.width + x] = cast(middle(x, y)); });
-  }
-  void light() {
-    rows([&](std::size_t x, std::size_t y) {
-      Found& found = found_[y * canvas_.width + x];
-      if (!found.lit()) return;
-      const Surface surface = surface_of(middle(x, y), found);
-      ask_for_sky(found, surface, place_in_pattern(x, y, sky_pattern));
-      ask_for_sun(found, surface, place_in_pattern(x, y, sun_pattern));
+    rows([&](std::size_t y, Rays& rays) {
+      for (std::size_t x = 0; x < canvas_.width; ++x) rays.add(towards(middle(x, y)));
+      const auto hits = rays.hits(scene_);
+      for (std::size_t x = 0; x < canvas_.width; ++x) at(x, y) = found_by(middle(x, y), hits[x]);
     });
   }
-  /// The mean sky and sun around every pixel. Bands of rows, so that what a band needs stays near the processor.
-  void smooth() {
-    constexpr std::size_t band = 32;
-    std::vector<std::array<float, 2>> smooth(found_.size());
-    base::parallel_for((canvas_.height + band - 1) / band,
-                       [&](std::size_t b) { smooth_rows(b * band, std::min((b + 1) * band, canvas_.height), smooth); });
-    for (std::size_t i = 0; i < found_.size(); ++i) {
-      found_[i].sky = smooth[i][0];
-      found_[i].sun = smooth[i][1];
-    }
+  void light() {
+    rows([&](std::size_t y, Rays& rays) { light_of_sun(y, rays); });
+    smooth_sun();
+    light_of_sky();
   }
   void paint() {
-    rows([&](std::size_t x, std::size_t y) {
-      const std::size_t i = y * canvas_.width + x;
-      canvas_.light[i] = on_edge(x, y) ? supersampled(x, y) : colour_of(found_[i], middle(x, y));
+    find_edges();
+    rows([&](std::size_t y, Rays& rays) {
+      std::vector<std::size_t> edges;
+      for (std::size_t x = 0; x < canvas_.width; ++x)
+        if (on_edge(x, y)) edges.push_back(x);
+        else canvas_.light[y * canvas_.width + x] = colour_of(at(x, y), middle(x, y));
+      supersample(y, edges, rays);
     });
   }
 
  private:
+  /// The rays of a row, and what they meet.
+  class Rays {
+   public:
+    void add(const rays::Ray& ray) { rays_.push_back(ray); }
+    auto hits(const rays::Scene& scene) -> std::span<const std::optional<rays::Hit>> {
+      hits_.resize(rays_.size());
+      scene.cast_all(rays_, hits_);
+      return hits_;
+    }
+    auto blocked(const rays::Scene& scene) -> std::span<const char> {
+      blocked_.resize(rays_.size());
+      scene.cast_any(rays_, blocked_);
+      return blocked_;
+    }
+
+   private:
+    std::vector<rays::Ray> rays_;
+    std::vector<std::optional<rays::Hit>> hits_;
+    std::vector<char> blocked_;
+  };
+
   template <class Work>
   void rows(Work work) const {
     base::parallel_for(canvas_.height, [&](std::size_t y) {
-      for (std::size_t x = 0; x < canvas_.width; ++x) work(x, y);
+      Rays rays;
+      work(y, rays);
     });
   }
+
+  auto at(std::size_t x, std::size_t y) -> Found& { return found_[y * canvas_.width + x]; }
+  [[nodiscard]] auto at(std::size_t x, std::size_t y) const -> const Found& { return found_[y * canvas_.width + x]; }
 
   static auto middle(std::size_t x, std::size_t y) -> Spot {
     return {static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5};
   }
 
-  [[nodiscard]] auto cast(Spot spot) const -> Found {
-    const Point3 start = camera_.start(spot);
+  [[nodiscard]] auto towards(Spot spot) const -> rays::Ray { return {camera_.start(spot), -1.0 * camera_.towards}; }
+  [[nodiscard]] auto found_by(Spot spot, const std::optional<rays::Hit>& hit) const -> Found {
     Found found;
-    if (const auto hit = scene_.cast(start, -1.0 * camera_.towards)) {
+    if (hit) {
       found.triangle = hit->triangle;
       found.depth = static_cast<float>(hit->distance);
     } else if (camera_.towards.z > 0.05) {
-      found.depth = static_cast<float>((start.z - paper_height_) / camera_.towards.z);
+      found.depth = static_cast<float>((camera_.start(spot).z - paper_height_) / camera_.towards.z);
     }
     return found;
   }
@@ -188,89 +211,195 @@ class Renderer {
     return {camera_.start(spot) - static_cast<double>(found.depth) * camera_.towards, normal_of(found)};
   }
 
-  void ask_for_sky(Found& found, const Surface& surface, std::size_t place) const {
-    const auto [a, b] = frame_about(surface.normal);
-    const Point3 origin = surface.point + lift_ * surface.normal;
-    float open = 0;
-    for (std::size_t k = 0; k < sky_rays; ++k) {
-      const Point3& d = sky_[k * sky_pattern * sky_pattern + place];
-      const auto hit = scene_.cast(origin, d.x * a + d.y * b + d.z * surface.normal);
-      // Light that bounces between walls is not followed: what is far away counts as half open instead.
-      open += hit ? static_cast<float>(std::min(hit->distance / reach_, 1.0)) : 1.0F;
-    }
-    found.sky = open / static_cast<float>(sky_rays);
+  /// Whether two places lie in the same surface, as far as `near` metres show.
+  static auto alike(const Surface& a, const Surface& b, double near) -> bool {
+    return dot(a.normal, b.normal) >= 0.7 && std::abs(dot(a.normal, b.point - a.point)) <= near;
   }
 
-  void ask_for_sun(Found& found, const Surface& surface, std::size_t place) const {
-    const Point3 origin = surface.point + lift_ * surface.normal;
-    if (dot(surface.normal, lamp_.direction) <= 0) {
-      found.sun = 0;
-      return;
-    }
-    found.sun = scene_.cast(origin, lamp_.direction + disc_[place].x * across_sun_[0] + disc_[place].y * across_sun_[1])
-                    ? 0.0F
-                    : 1.0F;
-  }
-
-  /// A pixel in the work on a band.
-  struct Lit : Surface {
+  /// A place in the work on a band: a pixel, or every second one.
+  struct Sample : Surface {
     bool lit = false;
-    std::array<float, 2> light{1, 1};  ///< sky, sun
+    float light = 1;
   };
 
-  /// The mean of the pixels along a row or a column that lie in the same surface, `step` apart, up to `reach` to both
-  /// sides where there are so many. A line of a pattern's size and one more, with half the weight at its ends, counts
-  /// every place of the pattern the same.
-  [[nodiscard]] auto mean_along(const Lit* own, std::size_t before, std::size_t after, std::size_t step,
-                                std::size_t which, std::size_t reach) const -> float {
-    const double near = 3 * camera_.pixel;
-    const double at = dot(own->normal, own->point);
+  /// The mean of the samples along a row or a column that lie in the same surface, `step` apart in memory, up to
+  /// `reach` to both sides where there are so many. A line of a pattern's size and one more, with half the weight at
+  /// its ends, counts every place of the pattern the same.
+  static auto mean_along(const Sample* own, std::size_t before, std::size_t after, std::size_t step, std::size_t reach,
+                         double near) -> float {
     float sum = 0, weights = 0;
     const auto first = static_cast<std::ptrdiff_t>(std::min(before, reach)),
                last = static_cast<std::ptrdiff_t>(std::min(after, reach));
+    // In most places all are the same, in whatever surfaces they lie.
+    bool same = true;
+    for (std::ptrdiff_t d = -first; d <= last; ++d)
+      same = same && own[d * static_cast<std::ptrdiff_t>(step)].light == own->light;
+    if (same) return own->light;
     for (std::ptrdiff_t d = -first; d <= last; ++d) {
-      const Lit& other = own[d * static_cast<std::ptrdiff_t>(step)];
-      if (!other.lit || dot(own->normal, other.normal) < 0.7) continue;
-      if (std::abs(dot(own->normal, other.point) - at) > near) continue;
+      const Sample& other = own[d * static_cast<std::ptrdiff_t>(step)];
+      if (!other.lit || !alike(*own, other, near)) continue;
       const float weight = static_cast<std::size_t>(std::abs(d)) == reach ? 0.5F : 1.0F;
-      sum += weight * other.light[which];
+      sum += weight * other.light;
       weights += weight;
     }
     return sum / weights;
   }
 
-  /// The mean over a square as that of the means of its rows: on one surface they are the same, and they are the
-  /// fewer sums.
-  void smooth_rows(std::size_t from, std::size_t to, std::vector<std::array<float, 2>>& smooth) const {
-    constexpr std::array reaches{sky_pattern / 2, sun_pattern / 2};
-    constexpr std::size_t reach = std::max(reaches[0], reaches[1]);
-    const std::size_t width = canvas_.width, low = from > reach ? from - reach : 0,
-                      high = std::min(to + reach, canvas_.height);
-    std::vector<Lit> rows((high - low) * width);
-    for (std::size_t y = low; y < high; ++y)
-      for (std::size_t x = 0; x < width; ++x) {
-        const Found& found = found_[y * width + x];
-        if (!found.lit()) continue;
-        Lit& lit = rows[(y - low) * width + x];
-        static_cast<Surface&>(lit) = surface_of(middle(x, y), found);
-        lit.lit = true;
-        lit.light = {found.sky, found.sun};
+  /// For each sample of a grid the mean over a square of a pattern's size around it, as that of the means of its rows:
+  /// on one surface they are the same, and they are the fewer sums. Bands of rows, so that what a band needs stays near
+  /// the processor. `sample(x, y)` makes a Sample, `keep(x, y, light)` takes the mean.
+  template <class Make, class Keep>
+  void smooth(std::size_t width, std::size_t height, std::size_t pattern, double near, Make sample, Keep keep) const {
+    constexpr std::size_t band = 32;
+    const std::size_t reach = pattern / 2;
+    base::parallel_for((height + band - 1) / band, [&](std::size_t b) {
+      const std::size_t from = b * band, to = std::min(from + band, height), low = from > reach ? from - reach : 0,
+                        high = std::min(to + reach, height);
+      std::vector<Sample> rows;
+      rows.reserve((high - low) * width);
+      for (std::size_t y = low; y < high; ++y)
+        for (std::size_t x = 0; x < width; ++x) rows.push_back(sample(x, y));
+      std::vector<float> line(width);
+      for (std::size_t y = low; y < high; ++y) {
+        Sample* const row = &rows[(y - low) * width];
+        for (std::size_t x = 0; x < width; ++x)
+          line[x] = row[x].lit ? mean_along(row + x, x, width - 1 - x, 1, reach, near) : row[x].light;
+        for (std::size_t x = 0; x < width; ++x) row[x].light = line[x];
       }
-    std::vector<std::array<float, 2>> line(width);
-    for (std::size_t y = low; y < high; ++y) {
-      Lit* const row = &rows[(y - low) * width];
-      for (std::size_t x = 0; x < width; ++x)
-        for (std::size_t k = 0; k < 2; ++k)
-          line[x][k] = row[x].lit ? mean_along(row + x, x, width - 1 - x, 1, k, reaches[k]) : row[x].light[k];
-      for (std::size_t x = 0; x < width; ++x) row[x].light = line[x];
+      for (std::size_t y = from; y < to; ++y)
+        for (std::size_t x = 0; x < width; ++x) {
+          const Sample& own = rows[(y - low) * width + x];
+          keep(x, y, own.lit ? mean_along(&own, y - low, high - 1 - y, width, reach, near) : own.light);
+        }
+    });
+  }
+
+  // ---- the sun: a ray from every pixel
+
+  void light_of_sun(std::size_t y, Rays& rays) {
+    std::vector<std::size_t> asking;
+    for (std::size_t x = 0; x < canvas_.width; ++x) {
+      if (!at(x, y).lit()) continue;
+      const Surface surface = surface_of(middle(x, y), at(x, y));
+      if (dot(surface.normal, lamp_.direction) <= 0) {
+        at(x, y).sun = 0;
+        continue;
+      }
+      const auto& [right, up] = disc_[place_in_pattern(x, y, sun_pattern)];
+      asking.push_back(x);
+      rays.add(
+          {surface.point + lift_ * surface.normal, lamp_.direction + right * across_sun_[0] + up * across_sun_[1]});
     }
-    for (std::size_t y = from; y < to; ++y)
-      for (std::size_t x = 0; x < width; ++x) {
-        const Lit& own = rows[(y - low) * width + x];
-        for (std::size_t k = 0; k < 2; ++k)
-          smooth[y * width + x][k] =
-              own.lit ? mean_along(&own, y - low, high - 1 - y, width, k, reaches[k]) : own.light[k];
+    const auto blocked = rays.blocked(scene_);
+    for (std::size_t k = 0; k < asking.size(); ++k) at(asking[k], y).sun = blocked[k] != 0 ? 0.0F : 1.0F;
+  }
+  void smooth_sun() {
+    std::vector<float> sun(found_.size());
+    smooth(
+        canvas_.width, canvas_.height, sun_pattern, 3 * camera_.pixel,
+        [&](std::size_t x, std::size_t y) {
+          Sample sample;
+          if (const Found& found = at(x, y); found.lit()) {
+            static_cast<Surface&>(sample) = surface_of(middle(x, y), found);
+            sample.lit = true;
+            sample.light = found.sun;
+          }
+          return sample;
+        },
+        [&](std::size_t x, std::size_t y, float light) { sun[y * canvas_.width + x] = light; });
+    for (std::size_t i = 0; i < found_.size(); ++i) found_[i].sun = sun[i];
+  }
+
+  // ---- the sky: a ray from one pixel of every square of two by two
+
+  struct Square {
+    std::size_t x = 0, y = 0;  ///< the pixel that asks: the first that is lit
+    bool lit = false;
+  };
+  [[nodiscard]] auto asking_of(std::size_t i, std::size_t j) const -> Square {
+    for (std::size_t y = sky_step * j; y < std::min(sky_step * (j + 1), canvas_.height); ++y)
+      for (std::size_t x = sky_step * i; x < std::min(sky_step * (i + 1), canvas_.width); ++x)
+        if (at(x, y).lit()) return {x, y, true};
+    return {};
+  }
+
+  [[nodiscard]] auto to_sky(const Surface& surface, std::size_t place) const -> rays::Ray {
+    const auto [a, b] = frame_about(surface.normal);
+    const Point3& d = sky_[place];
+    return {surface.point + lift_ * surface.normal, d.x * a + d.y * b + d.z * surface.normal};
+  }
+  /// Light that bounces between walls is not followed: what is far away counts as half open instead.
+  [[nodiscard]] auto openness(const std::optional<rays::Hit>& hit) const -> float {
+    return hit ? static_cast<float>(std::min(hit->distance / reach_, 1.0)) : 1.0F;
+  }
+
+  void light_of_sky() {
+    const std::size_t columns = (canvas_.width + sky_step - 1) / sky_step,
+                      lines = (canvas_.height + sky_step - 1) / sky_step;
+    std::vector<float> asked(columns * lines, 1.0F), sky(columns * lines, 1.0F);
+    base::parallel_for(lines, [&](std::size_t j) {
+      for (std::size_t i = 0; i < columns; ++i)
+        if (const Square square = asking_of(i, j); square.lit) {
+          const Surface surface = surface_of(middle(square.x, square.y), at(square.x, square.y));
+          const rays::Ray ray = to_sky(surface, place_in_pattern(i, j, sky_pattern));
+          asked[j * columns + i] = openness(scene_.cast(ray.origin, ray.direction));
+        }
+    });
+    const double near = 3 * sky_step * camera_.pixel;
+    const auto sample = [&](std::size_t i, std::size_t j) {
+      Sample one;
+      if (const Square square = asking_of(i, j); square.lit) {
+        static_cast<Surface&>(one) = surface_of(middle(square.x, square.y), at(square.x, square.y));
+        one.lit = true;
+        one.light = asked[j * columns + i];
       }
+      return one;
+    };
+    smooth(columns, lines, sky_pattern, near, sample,
+           [&](std::size_t i, std::size_t j, float light) { sky[j * columns + i] = light; });
+    base::parallel_for(lines, [&](std::size_t j) { spread_sky(j, columns, lines, near, sky); });
+  }
+
+  /// What the pixels of a line of squares see of the sky: that of the squares nearest to them, in their own surface.
+  void spread_sky(std::size_t line, std::size_t columns, std::size_t lines, double near,
+                  const std::vector<float>& sky) {
+    std::array<std::vector<Sample>, 3> around;  // the lines above, of, and below
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (line + k < 1 || line + k > lines) continue;
+      const std::size_t j = line + k - 1;
+      around[k].resize(columns);
+      for (std::size_t i = 0; i < columns; ++i)
+        if (const Square square = asking_of(i, j); square.lit) {
+          static_cast<Surface&>(around[k][i]) = surface_of(middle(square.x, square.y), at(square.x, square.y));
+          around[k][i].lit = true;
+          around[k][i].light = sky[j * columns + i];
+        }
+    }
+    for (std::size_t y = sky_step * line; y < std::min(sky_step * (line + 1), canvas_.height); ++y)
+      for (std::size_t x = 0; x < canvas_.width; ++x) {
+        Found& found = at(x, y);
+        if (!found.lit()) continue;
+        const Surface own = surface_of(middle(x, y), found);
+        const std::size_t i = x / sky_step;
+        const std::size_t beside = x % sky_step == 0 ? i - 1 : i + 1;  // may be none: wraps to a large number
+        const std::size_t above = y % sky_step == 0 ? 0 : 2;           // or below
+        float sum = 0, weights = 0;
+        for (const auto& [k, column, weight] :
+             {std::tuple{std::size_t{1}, i, 9.0F}, {1, beside, 3.0F}, {above, i, 3.0F}, {above, beside, 1.0F}}) {
+          if (column >= around[k].size() || !around[k][column].lit || !alike(own, around[k][column], near)) continue;
+          sum += weight * around[k][column].light;
+          weights += weight;
+        }
+        found.sky = weights > 0 ? sum / weights : sky_alone(own);
+      }
+  }
+  [[nodiscard]] auto sky_alone(const Surface& surface) const -> float {
+    float open = 0;
+    for (std::size_t k = 0; k < lone_rays; ++k) {
+      const rays::Ray ray = to_sky(surface, k * (sky_pattern * sky_pattern / lone_rays));
+      open += openness(scene_.cast(ray.origin, ray.direction));
+    }
+    return open / lone_rays;
   }
 
   [[nodiscard]] auto colour_of(const Found& found, Spot spot) const -> Light {
@@ -295,50 +424,80 @@ class Renderer {
   }
 
   /// Whether a neighbour shows another colour, another direction or another distance.
+  [[nodiscard]] auto differ(const Found& own, const Surface& here, const Found& other, const Surface& there) const
+      -> bool {
+    if (other.triangle == own.triangle) return false;
+    if (other.triangle == nothing || own.triangle == nothing) return true;
+    if (model_.albedo[other.triangle] != model_.albedo[own.triangle]) return true;
+    if (dot(there.normal, here.normal) < 0.97) return true;
+    return std::abs(dot(here.normal, there.point - here.point)) > 4 * camera_.pixel;
+  }
+  /// Between which pixels there is an edge: each pixel and those to the right and below.
+  void find_edges() {
+    edges_.assign(found_.size(), 0);
+    base::parallel_for(canvas_.height, [&](std::size_t y) {
+      const auto surface = [&](std::size_t x, std::size_t j) {
+        return at(x, j).lit() ? surface_of(middle(x, j), at(x, j)) : Surface{};
+      };
+      Surface here = surface(0, y);
+      for (std::size_t x = 0; x < canvas_.width; ++x) {
+        Surface next;
+        char& edge = edges_[y * canvas_.width + x];
+        if (x + 1 < canvas_.width) {
+          next = surface(x + 1, y);
+          if (differ(at(x, y), here, at(x + 1, y), next)) edge |= edge_right;
+        }
+        if (y + 1 < canvas_.height && differ(at(x, y), here, at(x, y + 1), surface(x, y + 1))) edge |= edge_below;
+        here = next;
+      }
+    });
+  }
   [[nodiscard]] auto on_edge(std::size_t x, std::size_t y) const -> bool {
-    const Found& own = found_[y * canvas_.width + x];
-    const auto differs = [&](std::size_t i, std::size_t j) {
-      const Found& other = found_[j * canvas_.width + i];
-      if (other.triangle == own.triangle) return false;
-      if (other.triangle == nothing || own.triangle == nothing) return true;
-      if (model_.albedo[other.triangle] != model_.albedo[own.triangle]) return true;
-      const Surface here = surface_of(middle(x, y), own), there = surface_of(middle(i, j), other);
-      if (dot(there.normal, here.normal) < 0.97) return true;
-      return std::abs(dot(here.normal, there.point - here.point)) > 4 * camera_.pixel;
-    };
-    return (x > 0 && differs(x - 1, y)) || (x + 1 < canvas_.width && differs(x + 1, y)) ||
-           (y > 0 && differs(x, y - 1)) || (y + 1 < canvas_.height && differs(x, y + 1));
+    const std::size_t i = y * canvas_.width + x;
+    return edges_[i] != 0 || (x > 0 && (edges_[i - 1] & edge_right) != 0) ||
+           (y > 0 && (edges_[i - canvas_.width] & edge_below) != 0);
   }
 
   /// The mean of a 2 × 2 grid of rays; their light is that of the pixel around that found the most similar surface.
-  [[nodiscard]] auto supersampled(std::size_t x, std::size_t y) const -> Light {
-    constexpr int grid = 2;
-    Light sum{};
-    for (int j = 0; j < grid; ++j)
-      for (int i = 0; i < grid; ++i) {
-        const Spot spot{static_cast<double>(x) + (i + 0.5) / grid, static_cast<double>(y) + (j + 0.5) / grid};
-        Found found = cast(spot);
-        if (found.lit()) take_light(found, surface_of(spot, found), x, y);
+  void supersample(std::size_t y, std::span<const std::size_t> edges, Rays& rays) {
+    constexpr std::size_t grid = 2;
+    const auto spot_of = [&](std::size_t x, std::size_t k) {
+      return Spot{static_cast<double>(x) + (static_cast<double>(k % grid) + 0.5) / grid,
+                  static_cast<double>(y) + (static_cast<double>(k / grid) + 0.5) / grid};
+    };
+    for (const std::size_t x : edges)
+      for (std::size_t k = 0; k < grid * grid; ++k) rays.add(towards(spot_of(x, k)));
+    const auto hits = rays.hits(scene_);
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      Light sum{};
+      for (std::size_t k = 0; k < grid * grid; ++k) {
+        const Spot spot = spot_of(edges[e], k);
+        Found found = found_by(spot, hits[e * grid * grid + k]);
+        if (found.lit()) take_light(found, surface_of(spot, found), edges[e], y);
         sum = sum + colour_of(found, spot);
       }
-    return (1.0F / (grid * grid)) * sum;
+      canvas_.light[y * canvas_.width + edges[e]] = (1.0F / (grid * grid)) * sum;
+    }
   }
 
   void take_light(Found& found, const Surface& surface, std::size_t x, std::size_t y) const {
-    double best = 1e300;
+    // How unlike a pixel's own surface may be that is taken without a look at those around: half a pixel, or 18°.
+    constexpr double like_enough = 0.5;
+    double best = std::numeric_limits<double>::infinity();
+    const auto take = [&](const Found& other, Spot spot) {
+      if (!other.lit()) return;
+      const Surface there = surface_of(spot, other);
+      const double unlike = (1 - dot(surface.normal, there.normal)) * 10 +
+                            std::abs(dot(surface.normal, there.point - surface.point)) / camera_.pixel;
+      if (unlike >= best) return;
+      best = unlike;
+      found.sky = other.sky;
+      found.sun = other.sun;
+    };
+    take(at(x, y), middle(x, y));
+    if (best <= like_enough) return;
     for (std::size_t j = y >= 1 ? y - 1 : 0; j < std::min(y + 2, canvas_.height); ++j)
-      for (std::size_t i = x >= 1 ? x - 1 : 0; i < std::min(x + 2, canvas_.width); ++i) {
-        const Found& other = found_[j * canvas_.width + i];
-        if (!other.lit()) continue;
-        const Surface there = surface_of(middle(i, j), other);
-        const double unlike = (1 - dot(surface.normal, there.normal)) * 10 +
-                              std::abs(dot(surface.normal, there.point - surface.point)) / camera_.pixel;
-        if (unlike < best) {
-          best = unlike;
-          found.sky = other.sky;
-          found.sun = other.sun;
-        }
-      }
+      for (std::size_t i = x >= 1 ? x - 1 : 0; i < std::min(x + 2, canvas_.width); ++i) take(at(i, j), middle(i, j));
   }
 
   Canvas& canvas_;
@@ -347,6 +506,8 @@ class Renderer {
   const Camera& camera_;
   Lamp lamp_;
   std::vector<Found> found_;
+  static constexpr char edge_right = 1, edge_below = 2;
+  std::vector<char> edges_;
   SkyDirections sky_;
   SunDisc disc_;
   std::array<Point3, 2> across_sun_;
@@ -382,15 +543,15 @@ auto Model::picture_at(std::size_t triangle, Point3 point) const -> std::optiona
   return std::nullopt;
 }
 
-void render(Canvas& canvas, const Model& model, const rays::Scene& scene, const Camera& camera, const base::Run& run) {
-  Renderer renderer(canvas, model, scene, camera);
+void render(Canvas& canvas, const Model& model, const rays::Scene& scene, std::span<const Point3> points,
+            const Camera& camera, const base::Run& run) {
+  Renderer renderer(canvas, model, scene, points, camera);
   renderer.look();
   run.report("picture", "", 0.2);
   if (run.cancelled()) return;
   renderer.light();
   run.report("picture", "", 0.7);
   if (run.cancelled()) return;
-  renderer.smooth();
   renderer.paint();
 }
 

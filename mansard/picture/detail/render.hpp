@@ -21,8 +21,10 @@ struct Model {
 
 inline constexpr Colour paper{250, 250, 248};
 
-/// The model under a sun and an open sky, standing on a sheet of paper that takes its shadow.
-void render(Canvas& canvas, const Model& model, const rays::Scene& scene, const Camera& camera, const base::Run& run);
+/// The model under a sun and an open sky, standing on a sheet of paper that takes its shadow. `scene` is of its mesh,
+/// which is not asked; `points` are the mesh's vertices.
+void render(Canvas& canvas, const Model& model, const rays::Scene& scene, std::span<const geometry::Point3> points,
+            const Camera& camera, const base::Run& run);
 
 /// The lines' visible pieces: those with nothing more than 10 cm in front of them.
 void draw_lines(Canvas& canvas, const Lines& lines, const rays::Scene& scene, const Camera& camera);
