@@ -192,9 +192,11 @@ auto RunFolder::speed() const -> std::optional<double> {
 
 void RunFolder::note(std::string_view stage, double fraction) {
   const auto now = Clock::now();
-  if (!first_block_ && tally_.blocks > 0) first_block_ = now;
+  const bool first = !first_block_ && tally_.blocks > 0;
+  if (first) first_block_ = now;
   fraction_ = fraction;
-  if (now - written_ < std::chrono::seconds(1) && (stage == stage_ || tally_.blocks > 0)) return;
+  // Once a second, and whenever the stage changes; blocks go through theirs too quickly for that.
+  if (!first && now - written_ < std::chrono::seconds(1) && (stage == stage_ || tally_.blocks > 0)) return;
   stage_ = stage;
   written_ = now;
   write("working");

@@ -157,6 +157,7 @@ void Settings::add_list(CLI::App& verb, const base::OptionList& list) {
                                   : 1;
     given.flag = option.kind == base::Option::Kind::flag;
     given.option = verb.add_option(names, given.words, option.meaning);
+    if (words > 1) given.option->delimiter(',');  // XMIN,YMIN,XMAX,YMAX, as other tools have it, is the same
     given.option->expected(given.flag ? 0 : static_cast<int>(words), static_cast<int>(words));
     given.option->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->group(list.module())->allow_extra_args(false);
     if (given.flag) given.option->default_str("");  // what it is without a word; CLI11 would give the empty list's text

@@ -246,6 +246,7 @@ auto simulate_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
                    "Keep the buildings of a MODEL, or the footprints, that intersect this box, in the CRS of the model "
                    "or the working CRS")
       ->type_name("XMIN YMIN XMAX YMAX")
+      ->delimiter(',')
       ->expected(4);
   verb->add_option(
           "--points", request->points,

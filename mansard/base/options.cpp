@@ -155,8 +155,9 @@ auto OptionList::numbers(std::string name, std::span<double> members, std::strin
   };
   option.set = [members, module = module_, option](std::string_view given) -> Result<void> {
     std::vector<std::optional<double>> values;
-    for (std::size_t at = 0; (at = given.find_first_not_of(' ', at)) != given.npos;) {
-      const std::size_t end = std::min(given.find(' ', at), given.size());
+    constexpr std::string_view between = " ,";
+    for (std::size_t at = 0; (at = given.find_first_not_of(between, at)) != given.npos;) {
+      const std::size_t end = std::min(given.find_first_of(between, at), given.size());
       values.push_back(to_number(given.substr(at, end - at)));
       at = end;
     }

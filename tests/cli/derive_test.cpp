@@ -65,6 +65,8 @@ TEST_F(Derive, with_a_box_gives_the_buildings_of_the_full_run) {
   EXPECT_GT(some.size(), 1U);
   EXPECT_LT(some.size(), all.size());
   for (const auto& [id, line] : some) EXPECT_TRUE(all.contains(id) && all.at(id) == line) << id;
+  for (const auto* written : {" --bbox 60,90,110,140", " --bbox=60,90,110,140", " --bbox 60, 90, 110, 140"})
+    EXPECT_EQ(buildings(written), some) << written;
 }
 
 }  // namespace
