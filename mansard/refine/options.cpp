@@ -230,7 +230,7 @@ void add_sharpen(OptionList& list, Options::Sharpen& o) {
       .number("sharpen_level_gain", o.level_gain, "", share,
               "Pitches explain little where they leave at least this share of the squared differences of a flat roof, "
               "explain at most this share of those away from the outline, and save less than a part costs.")
-      .advanced("0.5, 0.7 and 0.8 give nearly the same models; docs/decisions/0102-pitches-that-explain-little.md");
+      .advanced("docs/decisions/0102-pitches-that-explain-little.md");
 }
 
 void add_alike(OptionList& list, Options::Alike& o) {
