@@ -221,7 +221,16 @@ void add_sharpen(OptionList& list, Options::Sharpen& o) {
       .advanced(by_hand)
       .number("sharpen_flat_slope", o.flat_slope, "", slope,
               "A roof with no greater slope (rise per run) is tried as a flat one.")
-      .advanced("0.07 is 4°, about the fall of a flat roof; docs/refine.md, not measured");
+      .advanced("0.07 is 4°, about the fall of a flat roof; docs/refine.md, not measured")
+      .number(
+          "sharpen_level_slope", o.level_slope, "", slope,
+          "A roof with no greater slope (rise per run) becomes a flat one where its pitches explain little of what a "
+          "flat one leaves.")
+      .advanced("0.6 is 31°; docs/decisions/0102-pitches-that-explain-little.md")
+      .number("sharpen_level_gain", o.level_gain, "", share,
+              "Pitches explain little where they leave at least this share of the squared differences of a flat roof, "
+              "explain at most this share of those away from the outline, and save less than a part costs.")
+      .advanced("docs/decisions/0102-pitches-that-explain-little.md");
 }
 
 void add_alike(OptionList& list, Options::Alike& o) {

@@ -107,6 +107,8 @@ struct Options {
   struct Sharpen {
     std::int64_t rounds = 2;
     double flat_slope = 0.07;
+    double level_slope = 0.6;
+    double level_gain = 0.8;
   } sharpen;
 
   /// Eaves, ridges and pitches made equal (alike).

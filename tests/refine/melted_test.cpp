@@ -93,4 +93,44 @@ TEST(Melted, roof_of_one_low_pitch_is_not_made_level) {
   EXPECT_LT(difference({part}, {truth}), 0.03);
 }
 
+const geometry::Ring annex = rectangle(10, 20, 10, 3);
+
+/// A lean-to of that slope.
+auto lean_to(double slope) -> Plan { return plan(annex, {roof(3, slope), wall(3), wall(3), wall(3)}, 5); }
+
+/// Its scan under waves that no profile can follow, and that much lower along its outline.
+auto rough(const Plan& truth, double wave, double lower) -> rays::Scene {
+  auto mesh = scanned({truth}, 0);
+  const auto polygon = model::polygon_of(truth);
+  for (auto& v : mesh.vertices) {
+    if (v.z < ground + 1) continue;
+    if (geometry::boundary_distance(polygon, {v.x, v.y}) < 0.3) v.z -= lower;
+    v.z += wave * std::sin(4 * v.x) * std::sin(4 * v.y);
+  }
+  return rays::Scene(mesh);
+}
+
+auto sides_with_roof(const rays::Scene& mesh, double level_gain) -> std::size_t {
+  Options options;
+  options.effort = Effort::planes;
+  options.sharpen.level_gain = level_gain;
+  const auto out = refine::refine(std::vector{flat_draft(annex, 3.2)}, mesh, options, {});
+  EXPECT_EQ(out.parts.size(), 1U);
+  return pitched_sides(out.parts.front().plan).size();
+}
+
+TEST(Melted, pitch_that_explains_little_of_a_rough_roof_is_made_level) {
+  const auto default_gain = Options().sharpen.level_gain;
+  const auto very_rough = rough(lean_to(0.13), 0.5, 0), less_rough = rough(lean_to(0.13), 0.2, 0);
+  EXPECT_EQ(sides_with_roof(very_rough, 1), 1U) << "whatever a pitch explains, however little";
+  EXPECT_EQ(sides_with_roof(very_rough, default_gain), 0U);
+  EXPECT_EQ(sides_with_roof(less_rough, default_gain), 1U) << "explains more than a fifth";
+}
+
+TEST(Melted, pitch_that_explains_the_roof_but_not_its_walls_stays) {
+  const auto mesh = rough(lean_to(0.12), 0, 1);
+  EXPECT_EQ(sides_with_roof(mesh, 1), 1U);
+  EXPECT_EQ(sides_with_roof(mesh, Options().sharpen.level_gain), 1U);
+}
+
 }  // namespace

@@ -206,6 +206,33 @@ TEST(OnFootprints, the_facade_of_a_row_stays_one) {
   EXPECT_LT(length(edges[0].segment.start - Point2{30, 0}) + length(edges[0].segment.end), 1e-9);
 }
 
+TEST(OnFootprints, the_facade_of_a_row_is_the_line_through_all_of_its_corners) {
+  // A straight facade, surveyed with errors of 1 and 2 cm, which are largest at the two ends.
+  const std::vector<double> off{0.02, -0.01, -0.01, -0.01, -0.01, 0.02};
+  std::vector<geometry::Ring> row;
+  for (std::size_t i = 0; i + 1 < off.size(); ++i) {
+    const double x = 6.0 * static_cast<double>(i);
+    row.push_back({{x, off[i]}, {x + 6, off[i + 1]}, {x + 6, 9}, {x, 9}});
+  }
+  const SweepEdge facade{{{30, -0.1}, {0, -0.1}}, 150, 0, 5, 0};
+  const auto edges = put_on_footprints({facade}, block_of(row), {}, {});
+  ASSERT_EQ(edges.size(), 1U);
+  EXPECT_NEAR(edges[0].segment.start.y, 0, 0.005);
+  EXPECT_NEAR(edges[0].segment.end.y, 0, 0.005);
+  EXPECT_NEAR(edges[0].segment.start.x, 30, 0.001);
+  EXPECT_NEAR(edges[0].segment.end.x, 0, 0.001);
+}
+
+TEST(OnFootprints, a_house_set_back_by_more_than_a_survey_is_off_is_not_in_the_line) {
+  const std::vector<geometry::Ring> row{rectangle({0, 0}, {6, 9}), rectangle({6, 0.1}, {12, 9}),
+                                        rectangle({12, 0}, {18, 9})};
+  const SweepEdge facade{{{18, -0.1}, {0, -0.1}}, 90, 0, 5, 0};
+  const auto edges = put_on_footprints({facade}, block_of(row), {}, {});
+  ASSERT_EQ(edges.size(), 3U);
+  EXPECT_NEAR(edges[1].segment.start.y, 0.1, 1e-9);
+  EXPECT_NEAR(edges[1].segment.end.y, 0.1, 1e-9);
+}
+
 TEST(OnFootprints, a_whole_scan_is_put_on_its_displaced_footprints) {
   Town town(0.05);
   town.gabled({0, 0}, {14, 9}, 6, 9);

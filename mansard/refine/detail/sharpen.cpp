@@ -12,7 +12,7 @@ namespace {
 
 using model::Plan;
 
-/// Whether all that the plan's profiles carry rises less than a flat roof may, for the rain to run off.
+/// Whether all that the plan's profiles carry rises less than that, per run.
 auto nearly_level(const Plan& plan, double flattest) -> bool {
   bool any = false;
   for (const auto& profile : plan.profiles) {
@@ -32,6 +32,25 @@ auto levelled(const Plan& plan, const Site& site, const Options::Forms& options)
   flat.cap = std::max(options.min_height, base::median_of_sorted(site.sorted));
   for (auto& profile : flat.profiles) profile = wall(flat.cap, options);
   return flat;
+}
+
+/// m²·m²: of the squared differences away from the outline, along which no roof explains the melted walls.
+auto misfit_inside(const Judged& judged, const Site& site) -> double {
+  double sum = 0;
+  for (std::size_t i = 0; i < site.cells.size(); ++i)
+    if (const double d = judged.view.z[site.cells[i]] - site.measured.z[site.cells[i]]; site.weight[i] == 1 && d == d)
+      sum += d * d;
+  return sum * site.cell_area;
+}
+
+/// Whether the pitches of a roof explain little of what a level one leaves. Over a level roof, too, some pitch suits a
+/// scan's own errors a little better; where they explain nearly all that is not the walls', the roof is pitched.
+auto explain_little(const Judged& pitched, const Judged& level, const Judge& judge) -> bool {
+  const auto& options = judge.options();
+  const double gain = options.sharpen.level_gain;
+  return nearly_level(pitched.plan, options.sharpen.level_slope) && pitched.misfit >= gain * level.misfit &&
+         level.cost <= pitched.cost + options.part_price &&
+         misfit_inside(pitched, judge.site()) >= (1 - gain) * misfit_inside(level, judge.site());
 }
 
 /// Up to its ridge, where that is no higher than a scan rounds off: a roof that ends flat just below suits it better.
@@ -58,9 +77,11 @@ auto sharpened(Judged judged, const Judge& judge) -> Judged {
     judged = std::move(*next);
   }
   judged = uncut(std::move(judged), judge, most);
-  if (!nearly_level(judged.plan, options.sharpen.flat_slope)) return judged;
+  if (!nearly_level(judged.plan, std::max(options.sharpen.flat_slope, options.sharpen.level_slope))) return judged;
   auto flat = judge(levelled(judged.plan, judge.site(), options.forms));
-  return flat && flat->cost <= most ? std::move(*flat) : judged;
+  if (!flat) return judged;
+  const bool drained = nearly_level(judged.plan, options.sharpen.flat_slope) && flat->cost <= most;
+  return drained || explain_little(judged, *flat, judge) ? std::move(*flat) : judged;
 }
 
 }  // namespace mansard::refine::detail

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "mansard/base/statistics.hpp"
+#include "mansard/geometry/fit.hpp"
 #include "mansard/geometry/polygon.hpp"
 #include "mansard/sweep/detail/line_index.hpp"
 
@@ -255,24 +256,44 @@ auto without_overlaps(std::vector<Stretch> found, const Options& o) -> std::vect
   return kept;
 }
 
+/// The line nearest to the edges of all stretches, from the foot of its first corner to that of its last. A survey is
+/// off at every corner by itself: the line through two of them is off by as much as these, that through all by less.
+auto line_through(const std::vector<Stretch>& stretches) -> Segment2 {
+  const Point2 first = stretches.front().on.start, last = stretches.back().on.end, d = normalised(last - first);
+  geometry::LineSums sums;  // of distances from the chord over distances along it
+  const auto add = [&](Point2 p, double weight) { sums.add(dot(p - first, d), cross(d, p - first), weight); };
+  for (const auto& s : stretches) {
+    add(s.on.start, 0.5 * span(s.on));
+    add(s.on.end, 0.5 * span(s.on));
+  }
+  const geometry::FittedLine off = sums.line(sums.joint() / sums.spread());
+  const auto foot = [&](Point2 p) {
+    const Point2 direction = normalised(d + off.slope * geometry::left_of(d));
+    const Point2 through = first + off.at_zero * geometry::left_of(d);
+    return through + dot(p - through, direction) * direction;
+  };
+  return {foot(first), foot(last)};
+}
+
 /// Stretches on one straight line become one: corners between houses of a row must not cut their facade.
 auto joined(const std::vector<Stretch>& stretches, const Options& o) -> std::vector<Stretch> {
   std::vector<Stretch> out;
-  std::vector<Point2> between;
+  std::vector<Stretch> row;  // what the last one is made of
   for (const auto& next : stretches) {
     if (!out.empty() && next.from - out.back().to < o.footprint_rest) {
-      const Segment2 chord{out.back().on.start, next.on.end};
-      auto passed = between;
-      passed.insert(passed.end(), {out.back().on.end, next.on.start});
-      if (std::ranges::all_of(passed, [&](Point2 p) { return distance(chord, p) <= o.footprint_straight; })) {
-        out.back().on.end = next.on.end;
+      auto longer = row;
+      longer.push_back(next);
+      const Segment2 line = line_through(longer);
+      const auto near = [&](Point2 p) { return distance(line, p) <= o.footprint_straight; };
+      if (std::ranges::all_of(longer, [&](const Stretch& s) { return near(s.on.start) && near(s.on.end); })) {
+        out.back().on = line;
         out.back().to = next.to;
-        between = std::move(passed);
+        row = std::move(longer);
         continue;
       }
     }
     out.push_back(next);
-    between.clear();
+    row = {next};
   }
   return out;
 }
