@@ -2,10 +2,15 @@
 
 #include <ogrsf_frmts.h>
 #include <algorithm>
+#include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
+#include <string_view>
+#include <variant>
 
 #include "mansard/base/options.hpp"
+#include "mansard/base/text.hpp"
 #include "mansard/crs/gdal.hpp"
 #include "mansard/crs/gdal_frame.hpp"
 #include "mansard/crs/gdal_messages.hpp"
@@ -27,6 +32,43 @@ struct Row {
   model::Attributes attributes;
   bool used = false;
 };
+
+/// A number in a text of a table; not one with leading zeros or a plus, which is a code or a telephone number.
+auto number_in(const std::string& text) -> std::optional<model::Value> {
+  if (text.starts_with('+')) return std::nullopt;
+  const std::size_t digits = text.starts_with('-') ? 1 : 0;
+  if (text.size() > digits + 1 && text[digits] == '0' && text[digits + 1] != '.') return std::nullopt;
+  if (const auto whole = base::to_integer(text)) return model::Value(*whole);
+  if (const auto number = base::to_number(text)) return model::Value(*number);
+  return std::nullopt;
+}
+
+/// CSV has texts only. A column in which every value is a number, or nothing, has numbers.
+void find_numbers(std::map<std::string, Row>& rows) {
+  struct Column {
+    bool numbers = true, whole = true, any = false;
+  };
+  std::map<std::string, Column> columns;
+  for (const auto& [id, row] : rows)
+    for (const auto& [name, value] : row.attributes) {
+      auto& column = columns[name];
+      const auto* text = std::get_if<std::string>(&value);
+      if (text == nullptr || text->empty()) continue;
+      const auto number = number_in(*text);
+      column.numbers = column.numbers && number;
+      column.whole = column.whole && number && std::holds_alternative<std::int64_t>(*number);
+      column.any = true;
+    }
+  for (auto& [id, row] : rows)
+    for (auto& [name, value] : row.attributes) {
+      const auto& column = columns[name];
+      const auto* text = std::get_if<std::string>(&value);
+      if (text == nullptr || !column.any || !column.numbers) continue;
+      if (text->empty()) value = std::monostate();
+      else if (column.whole) value = *number_in(*text);
+      else value = *base::to_number(*text);
+    }
+}
 
 /// The layer with that column, or the first one for the message about its columns.
 auto layer_with(GDALDataset& file, const std::string& key) -> OGRLayer* {
@@ -72,6 +114,7 @@ auto join(model::Scene& scene, const std::filesystem::path& table, const std::st
     std::erase_if(attributes, [&](const auto& one) { return one.first == key_name; });
     if (!rows.try_emplace(id, Row{std::move(attributes), false}).second) twice.push_back(id);
   }
+  if (std::string_view(file->GetDriverName()) == "CSV") find_numbers(rows);
   if (CPLGetLastErrorType() >= CE_Failure)
     return base::error("ingest-join-table", "the table cannot be read to its end" + crs::gdal_words(), table.string());
   if (!twice.empty())

@@ -57,6 +57,23 @@ TEST_F(HandedOn, a_table_is_joined_by_the_id) {
   EXPECT_FALSE(attributes().contains("code"));
 }
 
+TEST_F(HandedOn, numbers_of_a_joined_csv_are_numbers) {
+  const auto table = put("more.csv",
+                         "code,year,area,share,postcode,phone,mixed,nothing,partly\n"
+                         "a,1900,12.50,-0.25,0363,+31152,1,,\n"
+                         "b,1950,8,0,0364,+31153,x,,3\n");
+  ASSERT_LE(extrude("--join " + table + " --on code").exit, 1);
+  const auto all = attributes();
+  EXPECT_TRUE(all["year"].is_number_integer());
+  EXPECT_EQ(all["year"], 1900);
+  EXPECT_EQ(all["area"], 12.5);
+  EXPECT_EQ(all["share"], -0.25);
+  EXPECT_EQ(all["postcode"], "0363") << "a code keeps its zeros";
+  EXPECT_EQ(all["phone"], "+31152");
+  EXPECT_EQ(all["mixed"], "1") << "a column has one type";
+  EXPECT_TRUE(!all.contains("partly") || all["partly"].is_null()) << "a number that is not there is no text";
+}
+
 TEST_F(HandedOn, tables_that_do_not_fit_are_refused_with_what_to_do) {
   const auto refused = [&](const std::string& table, const std::string& key, int exit, const std::string& code,
                            const std::string& words) {
