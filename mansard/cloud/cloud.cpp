@@ -162,7 +162,7 @@ void Surface::flush(const Tile& tile, std::string& buffer) {
   chunks_[tile].push_back({spool_->size(), buffer.size()});
   spool_->append(buffer);
   buffered_ -= buffer.size();
-  buffer.clear();
+  buffer = {};  // with its memory: there may be thousands of tiles
 }
 
 void Surface::add(std::span<const Sample> samples, const std::optional<geometry::Box2>& within) {
