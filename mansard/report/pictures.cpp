@@ -205,10 +205,9 @@ auto textured_scan(const texture::Scan& scan, const model::Scene& scene) -> base
     constexpr double reach = texture::Options{}.point_reach;
     auto points = scan.points_near({{frame.least.x, frame.least.y, -far}, {frame.most.x, frame.most.y, far}});
     if (!points) return points.failure();
-    layer.mesh = part_of(scene.mesh, frame, [](Point3) { return true; });
-    layer.picture = [tree = std::make_shared<const texture::PointTree>(*std::move(points))](std::size_t, Point3 p) {
-      return texture::colour_at(*tree, p, reach);
-    };
+    const auto tree = std::make_shared<const texture::PointTree>(*std::move(points));
+    layer.mesh = part_of(scene.mesh, frame, [&](Point3 p) { return texture::colour_at(*tree, p, reach).has_value(); });
+    layer.picture = [tree](std::size_t, Point3 p) { return texture::colour_at(*tree, p, reach); };
     return layer;
   }
   std::map<std::uint32_t, std::shared_ptr<const model::Pixels>> images;
