@@ -157,10 +157,14 @@ auto Surface::open(double cell, const Options& options) -> base::Result<std::uni
 auto Surface::cell() const -> double { return static_cast<double>(cell_) / per_metre; }
 auto Surface::side() const -> double { return cell() * tile_cells; }
 
+void Surface::put_aside(const Tile& tile, const std::string& bytes) {
+  chunks_[tile].push_back({spool_->size(), bytes.size()});
+  spool_->append(bytes);
+}
+
 void Surface::flush(const Tile& tile, std::string& buffer) {
   if (buffer.empty()) return;
-  chunks_[tile].push_back({spool_->size(), buffer.size()});
-  spool_->append(buffer);
+  put_aside(tile, buffer);
   buffered_ -= buffer.size();
   buffer = {};  // with its memory: there may be thousands of tiles
 }
@@ -203,6 +207,10 @@ void Surface::add(std::span<const Sample> samples, const std::optional<geometry:
   constexpr std::size_t piece = 1U << 16, most_buffered = std::size_t{1} << 26;
   const std::scoped_lock lock(mutex_);
   for (auto& [tile, part] : parts) {
+    if (part.size() >= piece / 4) {  // of points that are beside each other: nothing to collect
+      put_aside(tile, part);
+      continue;
+    }
     auto& buffer = buffers_[tile];
     buffer += part;
     buffered_ += part.size();
