@@ -302,25 +302,31 @@ auto join(const std::vector<GroundTile>& tiles, double reach) -> std::optional<G
                   out.heights.begin() +
                       static_cast<std::ptrdiff_t>((static_cast<std::size_t>(tile.y - out.y) + row) * out.columns +
                                                   static_cast<std::size_t>(tile.x - out.x)));
-  std::vector<std::pair<std::size_t, float>> found;
+  // Row by row, from the heights before the step: what is filled in one of them does not count for the next row.
+  std::vector<float> before(out.columns), here(out.columns);
   for (std::int64_t step = 0; step < steps; ++step) {
-    found.clear();
-    for (std::size_t row = 0; row < out.rows; ++row)
+    bool any = false;
+    for (std::size_t row = 0; row < out.rows; ++row) {
+      float* const heights = out.heights.data() + row * out.columns;
+      here.assign(heights, heights + out.columns);
+      const float* const after = row + 1 < out.rows ? heights + out.columns : nullptr;
       for (std::size_t column = 0; column < out.columns; ++column) {
-        const std::size_t i = row * out.columns + column;
-        if (!std::isnan(out.heights[i])) continue;
+        if (!std::isnan(here[column])) continue;
         double sum = 0;
         int count = 0;
-        for (std::size_t r = row == 0 ? 0 : row - 1; r <= row + 1 && r < out.rows; ++r)
-          for (std::size_t c = column == 0 ? 0 : column - 1; c <= column + 1 && c < out.columns; ++c)
-            if (const float h = out.heights[r * out.columns + c]; !std::isnan(h)) {
-              sum += static_cast<double>(h);
+        for (const float* line : {row == 0 ? nullptr : std::as_const(before).data(), std::as_const(here).data(), after})
+          for (std::size_t c = column == 0 ? 0 : column - 1; line != nullptr && c <= column + 1 && c < out.columns; ++c)
+            if (!std::isnan(line[c])) {
+              sum += static_cast<double>(line[c]);
               ++count;
             }
-        if (count > 0) found.emplace_back(i, static_cast<float>(sum / count));
+        if (count == 0) continue;
+        heights[column] = static_cast<float>(sum / count);
+        any = true;
       }
-    if (found.empty()) break;
-    for (const auto& [i, height] : found) out.heights[i] = height;
+      before.swap(here);
+    }
+    if (!any) break;
   }
   return out;
 }
