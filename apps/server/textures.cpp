@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -176,6 +177,22 @@ auto colour(std::vector<Texel>& texels, const std::vector<texture::ScanTriangle>
   return any;
 }
 
+/// The same by points.
+auto colour(const std::vector<Texel>& texels, const texture::PointTree& points, double within, model::Pixels& to)
+    -> bool {
+  std::atomic<bool> any = false;
+  constexpr std::size_t together = 1024;
+  base::parallel_for((texels.size() + together - 1) / together, [&](std::size_t p) {
+    for (std::size_t i = p * together; i < std::min(texels.size(), (p + 1) * together); ++i) {
+      const auto rgb = texture::colour_at(points, texels[i].at, within);
+      if (!rgb) continue;
+      any = true;
+      std::ranges::copy(*rgb, to.rgb.begin() + static_cast<std::ptrdiff_t>(3 * texels[i].pixel));
+    }
+  });
+  return any;
+}
+
 /// Where triangles are, in squares of `piece` metres.
 auto pieces_of(const picture::Tile& tile) -> std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::size_t>> {
   std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::size_t>> out;
@@ -251,7 +268,7 @@ auto Textures::read(const Inputs& inputs, const OpenScene& scene, const base::Ru
   if (run.cancelled()) return base::stopped();
   if ((*scan)->empty())
     return base::error("server-no-textures",
-                       "the mesh has neither textures nor colours; OBJ, glTF and 3D Tiles can have them",
+                       "the mesh has neither textures nor colours; OBJ, PLY, glTF, 3D Tiles and LAS can have them",
                        inputs.meshes.empty() ? "" : inputs.meshes.front());
   return std::shared_ptr<const Textures>(new Textures(std::move(*scan)));
 }
@@ -290,6 +307,10 @@ auto Textures::of_tile(const picture::Tile& tile) const -> base::Result<std::str
       const auto near = scan_->near({box.least - more, box.most + more});
       if (!near) return near.failure();
       any = colour(texels, *near, *scan_, within, picture) || any;
+      if (!near->empty() || !scan_->has_points()) continue;
+      auto points = scan_->points_near({box.least - more, box.most + more});
+      if (!points) return points.failure();
+      any = colour(texels, texture::PointTree(*std::move(points)), within, picture) || any;
     }
   }
   append(bytes, static_cast<std::uint32_t>(any ? count : 0));

@@ -157,12 +157,16 @@ auto Surface::open(double cell, const Options& options) -> base::Result<std::uni
 auto Surface::cell() const -> double { return static_cast<double>(cell_) / per_metre; }
 auto Surface::side() const -> double { return cell() * tile_cells; }
 
+void Surface::put_aside(const Tile& tile, const std::string& bytes) {
+  chunks_[tile].push_back({spool_->size(), bytes.size()});
+  spool_->append(bytes);
+}
+
 void Surface::flush(const Tile& tile, std::string& buffer) {
   if (buffer.empty()) return;
-  chunks_[tile].push_back({spool_->size(), buffer.size()});
-  spool_->append(buffer);
+  put_aside(tile, buffer);
   buffered_ -= buffer.size();
-  buffer.clear();
+  buffer = {};  // with its memory: there may be thousands of tiles
 }
 
 void Surface::add(std::span<const Sample> samples, const std::optional<geometry::Box2>& within) {
@@ -203,6 +207,10 @@ void Surface::add(std::span<const Sample> samples, const std::optional<geometry:
   constexpr std::size_t piece = 1U << 16, most_buffered = std::size_t{1} << 26;
   const std::scoped_lock lock(mutex_);
   for (auto& [tile, part] : parts) {
+    if (part.size() >= piece / 4) {  // of points that are beside each other: nothing to collect
+      put_aside(tile, part);
+      continue;
+    }
     auto& buffer = buffers_[tile];
     buffer += part;
     buffered_ += part.size();
@@ -294,25 +302,31 @@ auto join(const std::vector<GroundTile>& tiles, double reach) -> std::optional<G
                   out.heights.begin() +
                       static_cast<std::ptrdiff_t>((static_cast<std::size_t>(tile.y - out.y) + row) * out.columns +
                                                   static_cast<std::size_t>(tile.x - out.x)));
-  std::vector<std::pair<std::size_t, float>> found;
+  // Row by row, from the heights before the step: what is filled in one of them does not count for the next row.
+  std::vector<float> before(out.columns), here(out.columns);
   for (std::int64_t step = 0; step < steps; ++step) {
-    found.clear();
-    for (std::size_t row = 0; row < out.rows; ++row)
+    bool any = false;
+    for (std::size_t row = 0; row < out.rows; ++row) {
+      float* const heights = out.heights.data() + row * out.columns;
+      here.assign(heights, heights + out.columns);
+      const float* const after = row + 1 < out.rows ? heights + out.columns : nullptr;
       for (std::size_t column = 0; column < out.columns; ++column) {
-        const std::size_t i = row * out.columns + column;
-        if (!std::isnan(out.heights[i])) continue;
+        if (!std::isnan(here[column])) continue;
         double sum = 0;
         int count = 0;
-        for (std::size_t r = row == 0 ? 0 : row - 1; r <= row + 1 && r < out.rows; ++r)
-          for (std::size_t c = column == 0 ? 0 : column - 1; c <= column + 1 && c < out.columns; ++c)
-            if (const float h = out.heights[r * out.columns + c]; !std::isnan(h)) {
-              sum += static_cast<double>(h);
+        for (const float* line : {row == 0 ? nullptr : std::as_const(before).data(), std::as_const(here).data(), after})
+          for (std::size_t c = column == 0 ? 0 : column - 1; line != nullptr && c <= column + 1 && c < out.columns; ++c)
+            if (!std::isnan(line[c])) {
+              sum += static_cast<double>(line[c]);
               ++count;
             }
-        if (count > 0) found.emplace_back(i, static_cast<float>(sum / count));
+        if (count == 0) continue;
+        heights[column] = static_cast<float>(sum / count);
+        any = true;
       }
-    if (found.empty()) break;
-    for (const auto& [i, height] : found) out.heights[i] = height;
+      before.swap(here);
+    }
+    if (!any) break;
   }
   return out;
 }

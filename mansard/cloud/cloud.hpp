@@ -111,6 +111,7 @@ class Surface {
 
  private:
   Surface(std::int64_t cell, const Options& options) : cell_(cell), options_(options) {}
+  void put_aside(const Tile& tile, const std::string& bytes);
   void flush(const Tile& tile, std::string& buffer);
 
   std::int64_t cell_;  ///< in units of quantum

@@ -31,6 +31,13 @@ enum class Wrap : std::uint8_t { repeat, clamp, mirror };
 using LinearColour = std::array<std::uint16_t, 3>;
 inline constexpr LinearColour white{65535, 65535, 65535};
 
+/// A point of a cloud with its colour.
+struct ColouredPoint {
+  geometry::Point3 position;
+  LinearColour colour{};
+  bool ground = false;  ///< by its class, or water
+};
+
 struct TextureMaterial {
   std::optional<ImageSource> image;
   std::array<Wrap, 2> wrap{Wrap::repeat, Wrap::repeat};

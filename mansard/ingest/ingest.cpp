@@ -287,7 +287,7 @@ auto moved(const geometry::Box3& box, const std::array<double, 3>& by) -> geomet
   return {box.least + shift, box.most + shift};
 }
 
-/// Of the meshes on this machine's disk; tilesets are the folder that they are in.
+/// Of the meshes on this machine's disk; tilesets and EPT are the folder that they are in.
 auto bytes_of(const std::vector<std::filesystem::path>& paths) -> std::uintmax_t {
   namespace fs = std::filesystem;
   std::uintmax_t sum = 0;
@@ -299,8 +299,8 @@ auto bytes_of(const std::vector<std::filesystem::path>& paths) -> std::uintmax_t
     if (!failure) sum += formats::extension_of(file) == ".laz" ? laz * size : size;
   };
   for (const auto& path : paths) {
-    const bool tileset = path.filename() == "tileset.json";
-    const auto folder = tileset ? (path.has_parent_path() ? path.parent_path() : fs::path(".")) : path;
+    const bool in_folder = path.filename() == "tileset.json" || path.filename() == "ept.json";
+    const auto folder = in_folder ? (path.has_parent_path() ? path.parent_path() : fs::path(".")) : path;
     if (!fs::is_directory(folder, failure)) {
       add(path);
       continue;

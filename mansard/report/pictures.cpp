@@ -9,6 +9,7 @@
 #include "mansard/rays/rays.hpp"
 #include "mansard/report/pictures.hpp"
 #include "mansard/solid/solid.hpp"
+#include "mansard/texture/options.hpp"
 
 namespace mansard::report {
 namespace {
@@ -230,6 +231,15 @@ auto textured_scan(const texture::Scan& scan, const model::Scene& scene) -> base
   if (!near) return near.failure();
   picture::Layer layer;
   layer.colours = {picture::mesh_blue};
+  if (near->empty() && scan.has_points()) {  // the surface that was made of them, in their colours
+    constexpr double reach = texture::Options{}.point_reach;
+    auto points = scan.points_near({{frame.least.x, frame.least.y, -far}, {frame.most.x, frame.most.y, far}});
+    if (!points) return points.failure();
+    const auto tree = std::make_shared<const texture::PointTree>(*std::move(points));
+    layer.mesh = part_of(scene.mesh, frame, [&](Point3 p) { return texture::colour_at(*tree, p, reach).has_value(); });
+    layer.picture = [tree](std::size_t, Point3 p) { return texture::colour_at(*tree, p, reach); };
+    return layer;
+  }
   std::map<std::uint32_t, std::shared_ptr<const model::Pixels>> images;
   for (const auto& triangle : *near) {
     const auto first = static_cast<std::uint32_t>(layer.mesh.vertices.size());

@@ -23,6 +23,10 @@ auto option_list(Options& o) -> base::OptionList {
           "Known share of a face from which its other texels are continued from it; below, they get the mean colour "
           "of the building's roofs or walls.")
       .source("docs/texture.md");
+  list.number("point_reach", o.point_reach, "m", {0.01, 100},
+              "Maximum distance to which a point of a coloured cloud colours a surface; where points are closer "
+              "together, they reach to their neighbours.")
+      .source("docs/texture.md");
   list.number("image_memory", o.image_memory, "MB", {1, 1e6},
               "Memory for decoded images of the scan; images that are needed again after that are decoded again.")
       .advanced("about 80 images of 1024 × 1024 pixels");

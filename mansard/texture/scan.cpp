@@ -32,7 +32,7 @@ auto key_of(const ScanTriangle& t) {
 
 auto Scan::open(double image_memory) -> base::Result<std::unique_ptr<Scan>> {
   std::unique_ptr<Scan> out(new Scan(image_memory));
-  for (auto* spool : {&out->triangles_, &out->pictures_}) {
+  for (auto* spool : {&out->triangles_, &out->pictures_, &out->points_}) {
     auto opened = base::Spool::open();
     if (!opened) return opened.failure();
     *spool = std::move(*opened);
@@ -115,6 +115,39 @@ void Scan::add(const formats::TexturedMesh& mesh) {
   if (!large.empty()) append(large_, large);
 }
 
+void Scan::add(const std::vector<ScanPoint>& points) {
+  std::map<Cell, std::vector<ScanPoint>> by_cell;
+  for (const auto& point : points) {
+    if (!finite(point.position)) continue;
+    const Cell cell{cell_of(point.position.x), cell_of(point.position.y)};
+    if (wanted_.contains(cell)) by_cell[cell].push_back(point);
+  }
+  for (const auto& [cell, own] : by_cell) {
+    points_of_[cell].push_back({points_->size(), own.size()});
+    points_->append({reinterpret_cast<const char*>(own.data()), own.size() * sizeof(ScanPoint)});
+  }
+}
+
+auto Scan::points_near(const Box3& box) const -> base::Result<std::vector<ScanPoint>> {
+  std::vector<ScanPoint> out;
+  for (auto x = cell_of(box.least.x); x <= cell_of(box.most.x); ++x)
+    for (auto y = cell_of(box.least.y); y <= cell_of(box.most.y); ++y) {
+      const auto found = points_of_.find({x, y});
+      if (found == points_of_.end()) continue;
+      for (const Chunk& chunk : found->second) {
+        const auto bytes = points_->read(chunk.offset, chunk.triangles * sizeof(ScanPoint));
+        if (!bytes) return bytes.failure();
+        for (std::size_t i = 0; i < chunk.triangles; ++i) {
+          ScanPoint point;
+          std::memcpy(&point, bytes->data() + i * sizeof point, sizeof point);
+          const Box3 at{point.position, point.position};
+          if (at.overlaps(box)) out.push_back(point);
+        }
+      }
+    }
+  return out;
+}
+
 auto Scan::near(const Box3& box) const -> base::Result<std::vector<ScanTriangle>> {
   std::vector<ScanTriangle> out;
   const auto take = [&](const std::vector<Chunk>& chunks) -> base::Result<void> {
@@ -188,8 +221,9 @@ auto Scan::warnings() const -> std::vector<base::Diagnostic> {
   std::vector<base::Diagnostic> out;
   if (empty())
     out.push_back(base::warning("texture-none",
-                                "the meshes have no textures and no colours near the models, which get the colours of "
-                                "their classes; give textured meshes, or leave --texture out"));
+                                "the meshes have no textures and no colours near the models, and point clouds no "
+                                "colours, so the models get the colours of their classes; give textured meshes or "
+                                "clouds with colours (red, green, blue), or leave --texture out"));
   constexpr std::size_t most = 5;
   for (const auto& [name, why] : failed_) {
     if (out.size() == most) {

@@ -17,6 +17,7 @@
 #include "mansard/base/result.hpp"
 #include "mansard/formats/textured_mesh.hpp"
 #include "mansard/model/texture.hpp"
+#include "mansard/texture/points.hpp"
 
 namespace mansard::texture {
 
@@ -48,11 +49,17 @@ class Scan {
   [[nodiscard]] auto expected() const -> const geometry::Box2& { return expected_; }
   /// In the frame of the buildings. Triangles without a picture and without a colour of their own are left out.
   void add(const formats::TexturedMesh& mesh);
-  [[nodiscard]] auto empty() const -> bool { return cells_.empty() && large_.empty(); }
+  /// The points of a coloured cloud, likewise.
+  void add(const std::vector<ScanPoint>& points);
+  [[nodiscard]] auto empty() const -> bool { return cells_.empty() && large_.empty() && points_of_.empty(); }
+  [[nodiscard]] auto has_points() const -> bool { return !points_of_.empty(); }
 
   /// The triangles that reach into the box, each once, in an order that depends on nothing but them. Fails with
   /// "file-write". From one thread at a time.
   [[nodiscard]] auto near(const geometry::Box3& box) const -> base::Result<std::vector<ScanTriangle>>;
+
+  /// The points in the box, in no order. Fails with "file-write". From one thread at a time.
+  [[nodiscard]] auto points_near(const geometry::Box3& box) const -> base::Result<std::vector<ScanPoint>>;
 
   /// The picture of a material, decoded; none where it is missing or cannot be read. From any thread.
   [[nodiscard]] auto image(std::uint32_t material) const -> std::shared_ptr<const model::Pixels>;
@@ -66,7 +73,7 @@ class Scan {
   using Cell = std::pair<std::int32_t, std::int32_t>;
   struct Chunk {
     std::uint64_t offset = 0;
-    std::size_t triangles = 0;
+    std::size_t triangles = 0;  ///< or points
   };
   struct Material {
     formats::ImageSource source;  ///< without bytes
@@ -93,8 +100,8 @@ class Scan {
   std::size_t most_bytes_;
   geometry::Box2 expected_;
   std::set<Cell> wanted_;
-  std::unique_ptr<base::Spool> triangles_, pictures_;
-  std::map<Cell, std::vector<Chunk>> cells_;
+  std::unique_ptr<base::Spool> triangles_, pictures_, points_;
+  std::map<Cell, std::vector<Chunk>> cells_, points_of_;
   std::vector<Chunk> large_;  ///< triangles that reach into many cells
   std::vector<Material> materials_;
   std::vector<Image> images_;

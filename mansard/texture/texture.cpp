@@ -12,6 +12,7 @@
 #include "mansard/ingest/textured.hpp"
 #include "mansard/texture/detail/fill.hpp"
 #include "mansard/texture/detail/project.hpp"
+#include "mansard/texture/detail/splat.hpp"
 
 namespace mansard::texture {
 namespace {
@@ -27,6 +28,9 @@ using model::FaceClass;
 
 /// The furthest that the scan's surface may be from a face, plus what a texel sticks out.
 auto reach_of(const Options& options) -> double { return std::max(options.outward, options.inward) + options.size; }
+
+/// The same for points: what decides on those has its neighbours, too.
+auto point_reach_of(const Options& options) -> double { return reach_of(options) + 2 * options.point_reach; }
 
 auto grown(Box3 box, double by) -> Box3 {
   const Point3 reach{by, by, by};
@@ -69,18 +73,29 @@ auto near_triangles(const std::vector<ScanTriangle>& scan, const std::array<doub
   return out;
 }
 
-auto project_all(const Faces& faces, const std::vector<NearTriangle>& triangles, const Scan& scan,
-                 const Options& options) -> std::vector<FaceLight> {
+auto project_all(const Faces& faces, const std::vector<NearTriangle>& triangles,
+                 const std::vector<detail::Splat>& splats, const Scan& scan, const Options& options)
+    -> std::vector<FaceLight> {
   std::vector<Box2> boxes;
   for (const auto& triangle : triangles) boxes.push_back(triangle.box.plan());
   const geometry::BoxIndex index(boxes);
+  std::vector<Box3> spots;
+  boxes.clear();
+  for (const auto& splat : splats)
+    boxes.push_back(spots.emplace_back(grown({splat.at, splat.at}, splat.radius)).plan());
+  const geometry::BoxIndex index_of_splats(boxes);
   std::vector<FaceLight> out(faces.grids.size());
   base::parallel_for(out.size(), [&](std::size_t f) {
     if (faces.grids[f].columns == 0) return;
     std::vector<const NearTriangle*> near;
     for (const auto t : index.overlapping(faces.boxes[f].plan()))
       if (triangles[t].box.overlaps(faces.boxes[f])) near.push_back(&triangles[t]);
-    out[f] = detail::project(faces.grids[f], near, scan, options);
+    std::vector<const detail::Splat*> near_splats;
+    for (const auto s : index_of_splats.overlapping(faces.boxes[f].plan()))
+      if (spots[s].overlaps(faces.boxes[f])) near_splats.push_back(&splats[s]);
+    const auto of_points = near_splats.empty() ? std::vector<std::optional<Light>>()
+                                               : detail::splatted(faces.grids[f], near_splats, options);
+    out[f] = detail::project(faces.grids[f], near, scan, of_points, options);
   });
   return out;
 }
@@ -178,7 +193,11 @@ auto bake(const std::vector<model::LabelledSolid>& solids, const Scan& scan, con
   const Point3 origin{placed.origin[0], placed.origin[1], placed.origin[2]};
   const auto near = scan.near({box.least + origin, box.most + origin});
   if (!near) return near.failure();
-  auto lights = project_all(faces, near_triangles(*near, placed.origin), scan, options);
+  const auto around = grown({box.least + origin, box.most + origin}, point_reach_of(options) - reach_of(options));
+  const auto points = scan.points_near(around);
+  if (!points) return points.failure();
+  auto lights = project_all(faces, near_triangles(*near, placed.origin),
+                            detail::splats_of(*points, placed.origin, options), scan, options);
   const MeanColours means = means_of(faces, lights);
   out.known = known_share(faces, lights);
   std::vector<model::FaceTexture> textures(lights.size());
@@ -236,14 +255,17 @@ auto read(Scan& scan, const std::vector<std::filesystem::path>& meshes, const in
           const model::Frame& frame, const base::Run& run) -> base::Result<std::vector<base::Diagnostic>> {
   if (scan.expected().empty()) return std::vector<base::Diagnostic>();
   std::vector<base::Diagnostic> told;
-  auto done = ingest::read_textured(
-      meshes, options, frame, scan.expected(),
-      [&](formats::TexturedMesh mesh) -> base::Result<void> {
-        scan.add(mesh);
-        told.insert(told.end(), mesh.warnings.begin(), mesh.warnings.end());
-        return {};
-      },
-      run);
+  auto done = ingest::read_textured(meshes, options, frame, scan.expected(),
+                                    {[&](formats::TexturedMesh mesh) -> base::Result<void> {
+                                       scan.add(mesh);
+                                       told.insert(told.end(), mesh.warnings.begin(), mesh.warnings.end());
+                                       return {};
+                                     },
+                                     [&](std::vector<formats::ColouredPoint> points) -> base::Result<void> {
+                                       scan.add(points);
+                                       return {};
+                                     }},
+                                    run);
   if (!done) return done.failure();
   return told;  // what else reading warns of was told when the scene was read
 }
@@ -260,7 +282,7 @@ auto bake_all(const EachBuilding& each, const std::vector<std::filesystem::path>
       for (const Point3& v : part.model.solid.vertices) box.add(v);
     for (const auto& solid : building.solids)
       for (const Point3& v : solid.model.solid.vertices) box.add(v);
-    if (!box.empty()) (*scan)->expect(grown(box, reach_of(options)));
+    if (!box.empty()) (*scan)->expect(grown(box, point_reach_of(options)));
     ++count;
     return {};
   });
@@ -291,8 +313,10 @@ auto codes() -> std::vector<base::Code> {
        "Copy it to where the mesh names it. Faces that only it shows get the mean colour of the building.", 0},
       {"texture-image", "A picture on a mesh cannot be read: it is damaged, too large or of a kind that is not read.",
        "Export the mesh with JPEG, PNG or WebP textures; KTX2 is not read.", 0},
-      {"texture-none", "Textures were asked for, and the meshes have neither textures nor colours near the models.",
-       "Give a textured mesh (OBJ with its MTL, glTF, 3D Tiles), or leave --texture out.", 0},
+      {"texture-none",
+       "Textures were asked for, and neither meshes nor point clouds have textures or colours near the models.",
+       "Give a textured mesh (OBJ with its MTL, glTF, 3D Tiles) or a point cloud with colours, or leave --texture out.",
+       0},
       {"texture-encode", "Textures could not be encoded, because GDAL lacks the codec.",
        "Choose another write.texture_format, or install GDAL with it.", 70},
   };

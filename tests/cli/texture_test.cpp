@@ -1,5 +1,8 @@
 // --texture: the synthetic houses of data/textured.
+#include <array>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <utility>
 
 #include "cli/command.hpp"
 
@@ -97,6 +100,62 @@ TEST_F(Textured, a_mesh_without_textures_is_a_warning) {
       run("reconstruct " + at("house.obj") + " " + at("house.geojson") + " --crs local -o " + at("out") + " --texture");
   EXPECT_THAT(done.err, HasSubstr("warning[texture-none]"));
   EXPECT_TRUE(fs::exists(at("out/model_obj_textures/0000.jpg")));
+}
+
+/// A cloud of the two houses with 25 points a square metre of every triangle of their mesh: red, or without a colour.
+auto cloud_of_houses(const fs::path& obj, bool coloured) -> std::string {
+  std::ifstream in(obj);
+  std::vector<std::array<double, 3>> vertices;
+  std::string points, line;
+  std::size_t count = 0;
+  while (std::getline(in, line)) {
+    std::istringstream words(line);
+    std::string kind;
+    words >> kind;
+    if (kind == "v") {
+      auto& v = vertices.emplace_back();
+      words >> v[0] >> v[1] >> v[2];
+    }
+    if (kind != "f") continue;
+    std::array<std::size_t, 3> corner{};
+    for (auto& c : corner) {
+      std::string word;
+      words >> word;
+      c = std::stoul(word) - 1;
+    }
+    for (const auto& [u, v] : {std::pair(0.2, 0.2), std::pair(0.6, 0.2), std::pair(0.2, 0.6)}) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double a = vertices[corner[0]][axis], b = vertices[corner[1]][axis], c = vertices[corner[2]][axis];
+        points += std::to_string(a + u * (b - a) + v * (c - a)) + " ";
+      }
+      points += coloured ? "250 10 10\n" : "\n";
+      ++count;
+    }
+  }
+  std::string out = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count);
+  for (const char* name : {"x", "y", "z"}) out += std::string("\nproperty double ") + name;
+  for (const char* name : {"red", "green", "blue"}) out += coloured ? std::string("\nproperty uchar ") + name : "";
+  return out + "\nend_header\n" + points;
+}
+
+TEST_F(Textured, a_cloud_with_colours_gives_them_to_the_models) {
+  std::ofstream(at("textured/a cloud.ply")) << cloud_of_houses(at("textured/houses.obj"), true);
+  const auto done = run("reconstruct '" + at("textured/a cloud.ply") + "' " + at("textured/houses_footprints.geojson") +
+                        " --crs local -o " + at("out") + " --texture --picture");
+  ASSERT_EQ(done.exit, 0) << done.err;
+  EXPECT_THAT(done.err, Not(HasSubstr("warning[texture")));
+  const auto shares = known("out");
+  ASSERT_EQ(shares.size(), 2U);
+  for (const double share : shares) EXPECT_GT(share, 0.9);
+  EXPECT_TRUE(fs::exists(at("out/picture.png")));
+}
+
+TEST_F(Textured, a_cloud_without_colours_is_a_warning_that_says_so) {
+  std::ofstream(at("textured/plain.ply")) << cloud_of_houses(at("textured/houses.obj"), false);
+  const auto done = run("reconstruct " + inputs("plain.ply") + " -o " + at("out") + " --texture");
+  ASSERT_EQ(done.exit, 0) << done.err;
+  EXPECT_THAT(done.err, HasSubstr("warning[texture-none]"));
+  EXPECT_THAT(done.err, HasSubstr("point clouds no colours"));
 }
 
 }  // namespace

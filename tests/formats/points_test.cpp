@@ -375,6 +375,28 @@ TEST(Las, that_is_written_is_read_back_to_the_millimetre) {
   EXPECT_EQ(formats::las(points, frame).error().code, "write-las");
 }
 
+TEST(Las, that_is_written_has_colours_where_a_point_has_one) {
+  std::vector<CloudPoint> points(2);
+  points[0].position = {1, 2, 3};
+  points[0].classification = 6;
+  points[1].position = {4, 5, 6};
+  points[1].colour = {65535, 257, 1};
+  const auto bytes = formats::las(points, {});
+  ASSERT_TRUE(bytes) << base::to_string(bytes.error());
+  const test::Scratch folder;
+  ASSERT_TRUE(base::write_file(folder / "a.las", *bytes));
+  const auto cloud = formats::open_points(folder / "a.las");
+  ASSERT_TRUE(cloud) << base::to_string(cloud.error());
+  EXPECT_EQ((*cloud)->info().point_format, 7);
+  EXPECT_TRUE((*cloud)->info().has_colours);
+  const auto read = all_of(**cloud);
+  ASSERT_TRUE(read);
+  ASSERT_EQ(read->size(), 2U);
+  EXPECT_EQ((*read)[0].colour, points[0].colour);
+  EXPECT_EQ((*read)[1].colour, points[1].colour);
+  EXPECT_EQ((*read)[0].classification, 6);
+}
+
 TEST(ChunkTable, that_is_cut_off_or_promises_too_much_is_an_error) {
   EXPECT_FALSE(formats::read_chunk_table("", true, 10, "a"));
   EXPECT_FALSE(formats::read_chunk_table(std::string(8, '\1'), true, 10, "a"));

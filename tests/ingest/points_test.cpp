@@ -88,5 +88,85 @@ TEST_F(CloudDensity, of_a_cloud_that_is_cut_out_along_a_street_is_that_of_the_st
   EXPECT_THAT(said, testing::HasSubstr("cells of 0.5 m"));
 }
 
+/// Why a cloud is none that can be used.
+class CloudWithoutSurface : public test::Workshop {
+ protected:
+  struct Point {
+    geometry::Point3 position;
+    int classification = 0;
+  };
+  /// Points on 20 m by 20 m in rows 0.5 m apart, all of one class.
+  static auto square(int classification) -> std::vector<Point> {
+    std::vector<Point> out;
+    for (double y = 0; y < 20; y += 0.5)
+      for (double x = 0; x < 20; x += 0.5) out.push_back({{x, y, 3}, classification});
+    return out;
+  }
+  [[nodiscard]] auto said_of(const std::vector<Point>& points, const Options& options = {}) const -> std::string {
+    std::string ply = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(points.size()) +
+                      "\nproperty double x\nproperty double y\nproperty double z\nproperty uchar classification\n"
+                      "end_header\n";
+    for (const auto& [p, classification] : points)
+      ply += base::to_text(p.x) + " " + base::to_text(p.y) + " " + base::to_text(p.z) + " " +
+             std::to_string(classification) + "\n";
+    const auto scene = read_scene({file("cloud.ply", ply)}, {}, options);
+    if (scene) return "a surface";
+    EXPECT_EQ(scene.error().code, "ingest-points-empty");
+    EXPECT_EQ(scene.error().message.find('\n'), std::string::npos);
+    return scene.error().message;
+  }
+};
+
+TEST_F(CloudWithoutSurface, of_noise_alone_is_said_to_be_noise_with_and_without_a_box) {
+  for (const int noise : {7, 18})
+    EXPECT_THAT(said_of(square(noise)), testing::HasSubstr("1600 are noise (class 7 or 18)"));
+  Options boxed;
+  boxed.crs = "local";
+  boxed.bbox = {5, 5, 15, 15};
+  EXPECT_THAT(said_of(square(7), boxed), testing::HasSubstr("1600 are noise (class 7 or 18)"));
+}
+
+TEST_F(CloudWithoutSurface, of_vegetation_alone_is_said_to_be_vegetation) {
+  auto points = square(5);
+  for (std::size_t i = 0; i < 100; ++i) points[i].classification = 14;
+  const auto said = said_of(points);
+  EXPECT_THAT(said, testing::HasSubstr("vegetation (classes 3 to 5: 1500)"));
+  EXPECT_THAT(said, testing::HasSubstr("wires and masts (classes 13 to 16: 100)"));
+}
+
+TEST_F(CloudWithoutSurface, at_one_place_or_on_a_line_is_not_said_to_be_without_points) {
+  EXPECT_THAT(said_of(std::vector<Point>(500, Point{{5, 5, 3}, 6})),
+              testing::HasSubstr("its 500 points are at one place"));
+  std::vector<Point> line, upright;
+  for (int i = 0; i < 500; ++i) {
+    line.push_back({{0.1 * i, 5, 3}, 6});
+    upright.push_back({{5, 5, 0.1 * i}, 6});
+  }
+  EXPECT_THAT(said_of(line), testing::HasSubstr("on one line"));
+  EXPECT_THAT(said_of(upright), testing::HasSubstr("at one place"));
+}
+
+TEST_F(CloudWithoutSurface, of_coordinates_that_are_no_numbers_is_said_to_be_so) {
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+      "property float z\nend_header\nnan nan nan\nnan nan nan\n";
+  const auto scene = read_scene({file("nan.ply", ply)}, {}, {});
+  ASSERT_FALSE(scene);
+  EXPECT_THAT(scene.error().message, testing::HasSubstr("none of its 2 points has coordinates that are finite"));
+}
+
+TEST_F(CloudWithoutSurface, beside_the_box_is_said_to_be_beside_it) {
+  Options boxed;
+  boxed.crs = "local";
+  boxed.bbox = {5000, 5000, 5100, 5100};
+  auto points = square(6);
+  points[0].classification = 7;
+  const auto said = said_of(points, boxed);
+  EXPECT_THAT(said, testing::HasSubstr("no point is in the box"));
+  EXPECT_THAT(said, testing::HasSubstr("1 are noise"));
+}
+
+TEST_F(CloudWithoutSurface, of_ground_alone_is_a_surface) { EXPECT_EQ(said_of(square(2)), "a surface"); }
+
 }  // namespace
 }  // namespace mansard::ingest

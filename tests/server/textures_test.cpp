@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 
 #include "mansard/formats/image.hpp"
 #include "server/running.hpp"
@@ -132,6 +133,50 @@ TEST_F(Textures, are_missing_where_the_scan_has_none) {
   const auto job = server.get("/api/jobs").json()["jobs"].back();
   EXPECT_EQ(job["state"], "failed");
   EXPECT_EQ(job["failure"]["code"], "server-no-textures");
+}
+
+TEST_F(Textures, of_tiles_have_the_colours_of_the_points_of_a_cloud) {
+  std::string points;
+  std::size_t count = 0;
+  for (double y = 0.125; y < 30; y += 0.25)
+    for (double x = 0.125; x < 30; x += 0.25, ++count) {
+      const double z = x > 10 && x < 20 && y > 10 && y < 20 ? 5 : 0;
+      points += std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) +
+                (x < 15 ? " 255 10 10\n" : " 10 255 10\n");
+    }
+  std::string ply = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count);
+  for (const char* name : {"double x", "double y", "double z", "uchar red", "uchar green", "uchar blue"})
+    ply += std::string("\nproperty ") + name;
+  std::ofstream(folder_ / "cloud.ply") << ply << "\nend_header\n" << points;
+  std::ofstream(folder_ / "one.geojson")
+      << R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{"id":"a"},"geometry":)"
+      << R"({"type":"Polygon","coordinates":[[[10,10],[20,10],[20,20],[10,20],[10,10]]]}}]})";
+  Running server(folder_ / "cloud");
+  const Json inputs{{"meshes", {(folder_ / "cloud.ply").string()}},
+                    {"footprints", (folder_ / "one.geojson").string()},
+                    {"reading", {{"ingest.crs", "local"}}}};
+  ASSERT_EQ(server.post("/api/project/inputs", inputs).status, 200);
+  server.settle();
+  const auto origin = server.get("/api/scene").json()["origin"];
+  ASSERT_EQ(server.post("/api/scene/textures", Json::object()).status, 200);
+  server.settle();
+  const auto tile = server.get("/api/scene/tiles").json()["tiles"][0];
+  const auto path = "/api/scene/tiles/" + tile["id"].get<std::string>();
+  const auto mesh = server.get(path).text, texture = server.get(path + "/texture").text;
+  const auto counts = numbers<std::uint32_t>(mesh, 0, 2);
+  const auto positions = numbers<float>(mesh, 8, std::size_t{3} * counts[0]);
+  const auto corners = numbers<std::uint32_t>(mesh, 8 + std::size_t{12} * counts[0], std::size_t{3} * counts[1]);
+  ASSERT_GT(corners.size(), 100U);
+  ASSERT_EQ(numbers<std::uint32_t>(texture, 0, 1)[0], counts[1]);
+  const auto uv = numbers<std::uint16_t>(texture, 4, std::size_t{6} * counts[1]);
+  const auto image = formats::decode_image(std::string_view(texture).substr(4 + std::size_t{12} * counts[1]), "tile");
+  ASSERT_TRUE(image);
+  for (std::size_t c = 0; c < corners.size(); ++c) {
+    const double x = positions[3 * corners[c]] + tile["centre"][0].get<double>() + origin[0].get<double>();
+    if (std::abs(x - 15) < 1) continue;
+    const auto shown = place_shown(*image, uv[2 * c] / 65535.0, uv[2 * c + 1] / 65535.0);
+    EXPECT_EQ(x<15, shown[0] * 5> shown[1] * 10) << x;
+  }
 }
 
 TEST_F(Textures, and_the_terrain_is_around_the_models_as_they_are) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -22,8 +23,8 @@ class Range {
   std::shared_ptr<const void> owner_;
 };
 
-/// A file of which parts are asked for: mapped where it is on disk, fetched part by part where it is on a server,
-/// decompressed as a whole where it is in an archive.
+/// A file of which parts are asked for: read part by part where it is on disk or on a server, decompressed as a whole
+/// where it is in an archive. Files on disk are not kept open: there may be thousands of them.
 class RangeFile {
  public:
   virtual ~RangeFile() = default;
@@ -35,8 +36,8 @@ class RangeFile {
   [[nodiscard]] static auto open(const std::filesystem::path& path) -> base::Result<std::shared_ptr<const RangeFile>>;
 
   [[nodiscard]] virtual auto size() const -> std::uint64_t = 0;
-  /// All of it, where it is in memory or mapped; else empty.
-  [[nodiscard]] virtual auto all() const -> std::string_view = 0;
+  /// SHA-256 of all of it; none of a file on a server, which would be fetched for that. Fails with "file-read".
+  [[nodiscard]] virtual auto hash() const -> base::Result<std::optional<std::string>> = 0;
   /// `count` bytes from `offset` on, or those up to the end of the file. From any thread. Fails with "file-read".
   [[nodiscard]] virtual auto read(std::uint64_t offset, std::uint64_t count) const -> base::Result<Range> = 0;
 };

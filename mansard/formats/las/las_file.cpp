@@ -252,7 +252,9 @@ auto LasFile::read(std::size_t i) const -> base::Result<std::vector<CloudPoint>>
 }
 
 auto LasFile::inputs() const -> base::Result<std::vector<model::InputFile>> {
-  if (!file_->all().empty()) return std::vector{model::InputFile{name_, file_->size(), sha256(file_->all())}};
+  auto whole = file_->hash();
+  if (!whole) return whole.failure();
+  if (*whole) return std::vector{model::InputFile{name_, file_->size(), **std::move(whole)}};
   const auto head = file_->read(0, header_.point_offset);
   if (!head) return head.failure();
   std::string known(head->view());

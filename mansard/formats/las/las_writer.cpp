@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -10,7 +11,7 @@
 namespace mansard::formats {
 namespace {
 
-constexpr std::size_t header_size = 375, record_head = 54, record_size = 30;
+constexpr std::size_t header_size = 375, record_head = 54, plain_size = 30, coloured_size = 36;
 constexpr double scale = 0.001;
 
 template <class T>
@@ -38,6 +39,8 @@ auto wkt_of_frame(const model::Frame& frame) -> std::string {
 
 auto las(std::span<const CloudPoint> points, const model::Frame& frame) -> base::Result<std::string> {
   const std::string wkt = wkt_of_frame(frame);
+  const bool coloured = std::ranges::any_of(points, [](const CloudPoint& p) { return std::ranges::max(p.colour) > 0; });
+  const std::size_t record_size = coloured ? coloured_size : plain_size;
   const std::size_t record = wkt.empty() ? 0 : record_head + wkt.size() + 1;
   const std::size_t first = header_size + record;
   std::string out(first, '\0');
@@ -46,10 +49,10 @@ auto las(std::span<const CloudPoint> points, const model::Frame& frame) -> base:
   least.fill(std::numeric_limits<std::int32_t>::max());
   most.fill(std::numeric_limits<std::int32_t>::min());
   std::array<std::uint64_t, 15> by_return{};
-  std::array<char, record_size> bytes{};
+  std::string bytes(record_size, '\0');
   for (const auto& p : points) {
     const std::array<double, 3> at{p.position.x, p.position.y, p.position.z};
-    bytes.fill('\0');
+    bytes.assign(record_size, '\0');
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double units = std::floor(at[axis] / scale + 0.5);
       if (!(std::abs(units) < std::numeric_limits<std::int32_t>::max()))
@@ -63,7 +66,8 @@ auto las(std::span<const CloudPoint> points, const model::Frame& frame) -> base:
     bytes[14] = static_cast<char>((p.return_number & 15U) | (p.returns & 15U) << 4U);
     bytes[15] = static_cast<char>(p.withheld ? 4 : 0);
     bytes[16] = static_cast<char>(p.classification);
-    out.append(bytes.data(), bytes.size());
+    for (std::size_t c = 0; coloured && c < 3; ++c) put(bytes, plain_size + 2 * c, p.colour[c]);
+    out.append(bytes);
     if (p.return_number >= 1 && p.return_number <= by_return.size()) ++by_return[p.return_number - 1U];
   }
 
@@ -75,8 +79,8 @@ auto las(std::span<const CloudPoint> points, const model::Frame& frame) -> base:
   put<std::uint16_t>(out, 94, header_size);
   put<std::uint32_t>(out, 96, static_cast<std::uint32_t>(first));
   put<std::uint32_t>(out, 100, wkt.empty() ? 0U : 1U);
-  out[104] = 6;
-  put<std::uint16_t>(out, 105, record_size);
+  out[104] = static_cast<char>(coloured ? 7 : 6);
+  put(out, 105, static_cast<std::uint16_t>(record_size));
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto origin = static_cast<double>(frame.origin[axis]);
     put(out, 131 + 8 * axis, scale);

@@ -15,7 +15,7 @@ using namespace ply;
 enum class Target { none, x, y, z, classification, return_number, returns, intensity, red, green, blue };
 
 auto target_of(std::string_view name) -> Target {
-  static constexpr std::array<std::pair<std::string_view, Target>, 19> names{{
+  static constexpr std::array<std::pair<std::string_view, Target>, 22> names{{
       {"x", Target::x},
       {"y", Target::y},
       {"z", Target::z},
@@ -35,6 +35,9 @@ auto target_of(std::string_view name) -> Target {
       {"red", Target::red},
       {"green", Target::green},
       {"blue", Target::blue},
+      {"diffuse_red", Target::red},
+      {"diffuse_green", Target::green},
+      {"diffuse_blue", Target::blue},
   }};
   const auto* at = std::ranges::find(names, name, &std::pair<std::string_view, Target>::first);
   return at == names.end() ? Target::none : at->second;
@@ -44,6 +47,12 @@ template <class T>
 auto clamped(double value) -> T {
   constexpr double most = std::numeric_limits<T>::max();
   return value > 0 ? static_cast<T>(std::min(value, most)) : T{0};
+}
+
+/// Colours that are not integers are from 0 to 1, unless they are larger.
+auto is_share(Target target, Type type, double value) -> bool {
+  const bool colour = target == Target::red || target == Target::green || target == Target::blue;
+  return colour && (type == Type::float32 || type == Type::float64) && value <= 1;
 }
 
 void put(CloudPoint& point, Target target, double value) {
@@ -109,7 +118,7 @@ auto take_points(Values values, const PlyHeader& header, const std::string& name
       for (std::size_t p = 0; p < targets.size() && !values.failed; ++p) {
         const Property& property = element.properties[p];
         const double value = values.take(property.count.value_or(property.type));
-        put(point, targets[p], value);
+        put(point, targets[p], is_share(targets[p], property.type, value) ? std::round(255 * value) : value);
         if (!property.count) continue;
         if (!(value >= 0) ||
             value * static_cast<double>(values.least(property.type)) > static_cast<double>(values.rest.size()) + 1)

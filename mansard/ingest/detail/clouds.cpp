@@ -93,6 +93,60 @@ auto percent(std::uint64_t part, std::uint64_t whole) -> std::string {
   return base::to_text(whole == 0 ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole), 1) + " %";
 }
 
+/// What was read, and what of it cannot be used wherever it is.
+struct Read {
+  std::uint64_t points = 0, not_finite = 0, noise = 0, withheld = 0;
+
+  void add(const formats::CloudPoint& p) {
+    ++points;
+    if (!finite(p.position)) ++not_finite;
+    else if (p.withheld) ++withheld;
+    else if (p.classification == 7 || p.classification == 18) ++noise;
+  }
+  void include(const Read& o) {
+    points += o.points;
+    not_finite += o.not_finite;
+    noise += o.noise;
+    withheld += o.withheld;
+  }
+  [[nodiscard]] auto usable() const -> std::uint64_t { return points - not_finite - noise - withheld; }
+};
+
+/// "120 are noise (class 7 or 18) and 3 are marked as withheld"
+auto left_out_in_words(const Read& read) -> std::string {
+  std::string out;
+  for (const auto& [count, what] :
+       {std::pair(read.noise, "are noise (class 7 or 18)"), std::pair(read.withheld, "are marked as withheld"),
+        std::pair(read.not_finite, "have coordinates that are not finite numbers")})
+    if (count > 0) out += (out.empty() ? "" : " and ") + std::to_string(count) + " " + what;
+  return out;
+}
+
+/// Why no point came to be in a tile.
+auto why_none(const Read& read) -> std::string {
+  const std::string left_out = left_out_in_words(read);
+  if (read.points > 0 && read.usable() == 0)
+    return "none of its " + std::to_string(read.points) + " points that were read can be used: " + left_out +
+           "; give a cloud whose buildings are not classified as noise";
+  return "no point is in the box of the footprints or of --bbox; check --bbox, --crs and --mesh-offset" +
+         (left_out.empty() ? std::string() : "; of the points that were read, " + left_out);
+}
+
+/// Why the points that were in a tile are no surface.
+auto why_no_surface(const cloud::Counts& counts, double density, double cell) -> std::string {
+  std::uint64_t plants = 0, wires = 0;
+  for (const std::size_t kind : {3, 4, 5}) plants += counts.classes[kind];
+  for (const std::size_t kind : {13, 14, 15, 16}) wires += counts.classes[kind];
+  const std::string all = std::to_string(counts.points);
+  if (plants + wires == counts.points)
+    return "all its " + all + " points in the area are vegetation (classes 3 to 5: " + std::to_string(plants) +
+           ") or wires and masts (classes 13 to 16: " + std::to_string(wires) +
+           "); give a cloud whose buildings are not classified as these, or --cloud-buildings top";
+  return "none of its " + all + " points (" + base::to_text(density, density < 0.1 ? 6 : 1) +
+         " points/m²) can be a surface: they are vegetation or wires, or too few for a surface in cells of " +
+         base::to_text(cell) + " m; check its CRS and unit, and cloud.isolated";
+}
+
 auto in_words(const cloud::Counts& counts, double density, double cell, bool ground) -> std::string {
   const auto tiles = counts.tiles_by_class + counts.tiles_by_shape;
   std::string buildings;
@@ -122,9 +176,12 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
   // these, those in the middle are not cut out of anything, and their headers are right.
   constexpr std::size_t few = 8;
   std::vector<double> densities;
+  std::uint64_t stated = 0;
+  std::size_t without_place = 0, flat = 0;
   for (const auto* source : clouds) {
     const auto& info = source->cloud->info();
     if (info.points == 0) continue;
+    stated += info.points;
     Box2 plan;
     if (info.stated_bounds) plan = info.stated_bounds->plan();
     double area = plan.empty() ? 0 : area_of(plan, source->way);
@@ -132,6 +189,7 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
       const auto box = measured(*source->cloud, run);
       if (!box) return box.failure();
       area = box->empty() ? 0 : area_of(*box, source->way);
+      ++(box->empty() ? without_place : flat);
     }
     if (!(area > 0)) continue;
     densities.push_back(static_cast<double>(info.points) / area);
@@ -142,7 +200,15 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
     if (*seen > cut_out * densities.back()) densities.back() = *seen;
   }
   const auto none = [&](const std::string& what) { return base::error("ingest-points-empty", what, subject); };
-  if (densities.empty()) return none("there are no points in it; check what it is");
+  if (densities.empty()) {
+    const std::string all = std::to_string(stated);
+    if (stated == 0) return none("there are no points in it; check what it is");
+    if (flat == 0)
+      return none("none of its " + all + " points has coordinates that are finite numbers; export it again");
+    return none("its " + all +
+                " points are at one place, or on one line along an axis, which is no surface; check scale and "
+                "coordinates, or export it again");
+  }
   std::ranges::sort(densities);
   const double density = densities[densities.size() / 2];
   const double cell = cloud::cell_for(density, options_.cloud);
@@ -150,7 +216,14 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
   if (!opened) return opened.failure();
   auto& surface = **opened;
 
+  Read read;
+  std::mutex mutex;
+  std::uint64_t opened_points = 0;
   for (const auto* source : clouds) {
+    // Between what read_scene reports before and after.
+    run.report("ingest", source->path.string(),
+               0.5 + 0.2 * static_cast<double>(opened_points) / static_cast<double>(stated));
+    opened_points += source->cloud->info().points;
     std::optional<Box2> box = within;
     if (box) {
       const double side = surface.side();
@@ -183,11 +256,15 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
       if (source->way) source->way->take(positions);
       std::vector<cloud::Sample> samples;
       samples.reserve(points->size());
+      Read own;
       for (std::size_t k = 0; k < points->size(); ++k) {
         const auto& p = (*points)[k];
+        own.add(p);
         if (!p.withheld) samples.push_back({positions[k], p.classification, p.return_number, p.returns});
       }
       surface.add(samples, within);
+      const std::scoped_lock lock(mutex);
+      read.include(own);
     });
     if (run.cancelled()) return base::stopped();
     for (const auto& failure : failures)
@@ -201,7 +278,6 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
   std::vector<formats::MeshPiece> pieces(tiles.size());
   std::vector<cloud::GroundTile> grounds(tiles.size());
   cloud::Counts counts;
-  std::mutex mutex;
   base::parallel_for(tiles.size(), [&](std::size_t i) {
     if (run.cancelled()) return;
     auto made = surface.make(tiles[i]);
@@ -219,16 +295,10 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
   if (run.cancelled()) return base::stopped();
   for (const auto& piece : pieces)
     if (piece.failure) return *piece.failure;
-  if (counts.points == 0)
-    return none(within ? "no point is in the box asked for; check --bbox, --crs and --mesh-offset"
-                       : "no point can be used: all are noise, or their coordinates are not finite");
+  if (counts.points == 0) return none(why_none(read));
   const bool any = std::ranges::any_of(
       pieces, [](const auto& piece) { return !piece.mesh.triangles.empty() || piece.triangles > 0; });
-  if (!any)
-    return none(
-        "none of its " + std::to_string(counts.points) + " points (" + base::to_text(density, density < 0.1 ? 6 : 1) +
-        " points/m²) can be a surface: they are vegetation, noise or wires, or too few for a surface in cells of " +
-        base::to_text(cell) + " m; check its CRS and unit, and cloud.isolated");
+  if (!any) return none(why_no_surface(counts, density, cell));
   Box2 area;
   for (const auto& tile : grounds)
     if (!tile.heights.empty()) area.add({static_cast<double>(tile.x), static_cast<double>(tile.y)});

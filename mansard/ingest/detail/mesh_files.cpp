@@ -426,7 +426,7 @@ auto MeshReading::finish(const std::string& working, const std::optional<Box2>& 
     return base::error(
         "ingest-mesh-unusable",
         "there are " + std::to_string(vertices) + " vertices but no faces; export the mesh with its faces", subject);
-  if (pieces.size() > 1) {
+  if (pieces.size() > 1 && cells_ == nullptr) {
     out.mesh.vertices.reserve(vertices);
     out.mesh.triangles.reserve(triangles);
   }

@@ -61,7 +61,7 @@ class MeshReading {
   /// The meshes with their textures, in the working CRS but for the offset, piece by piece. Returns warnings.
   [[nodiscard]] static auto each_textured(const std::vector<std::filesystem::path>& paths, const Options& options,
                                           const std::string& working, const geometry::Box2& within,
-                                          const TakeTextured& take, const base::Run& run)
+                                          const TakeColours& take, const base::Run& run)
       -> base::Result<std::vector<base::Diagnostic>>;
 
  private:
@@ -95,6 +95,8 @@ class MeshReading {
   void into_cells(formats::MeshPiece& piece);
   [[nodiscard]] auto streamed(Source& source, const base::Run& run) -> base::Result<bool>;
   [[nodiscard]] auto into_cells(SpooledMesh& mesh, Source& source, const base::Run& run) -> base::Result<void>;
+  [[nodiscard]] auto colours_of_clouds(const geometry::Box2& within, const TakePoints& take, const base::Run& run) const
+      -> base::Result<void>;
   [[nodiscard]] auto surface_of_clouds(const std::optional<geometry::Box2>& within, const base::Run& run,
                                        MeshFiles& out) -> base::Result<std::vector<formats::MeshPiece>>;
 

@@ -194,7 +194,7 @@ void sum_up(const Band& band, const std::vector<Flat>& flats, const FaceGrid& gr
 }  // namespace
 
 auto project(const FaceGrid& grid, std::span<const NearTriangle* const> triangles, const Scan& scan,
-             const Options& options) -> FaceLight {
+             const std::vector<std::optional<Light>>& of_points, const Options& options) -> FaceLight {
   FaceLight out;
   const auto samples = static_cast<std::size_t>(options.samples);
   const std::size_t texels = std::size_t{grid.columns} * grid.rows;
@@ -229,13 +229,16 @@ auto project(const FaceGrid& grid, std::span<const NearTriangle* const> triangle
       const Sum& sum = sums[i];
       if (sum.inside == 0) continue;
       const std::size_t row = grid.rows - 1 - (first + i / grid.columns), at = row * grid.columns + i % grid.columns;
-      const bool known = sum.shown > 0 && 2 * sum.shown >= sum.inside;
-      out.state[at] = known ? seen : unknown;
+      const bool shown = sum.shown > 0 && 2 * sum.shown >= sum.inside;
+      const std::size_t from_below = first * grid.columns + i;
+      const bool pointed = !shown && !of_points.empty() && of_points[from_below];
+      out.state[at] = shown || pointed ? seen : unknown;
       out.inside += sum.inside;
-      if (!known) continue;
+      if (!shown && !pointed) continue;
       out.known += sum.inside;
       for (std::size_t c = 0; c < 3; ++c) {
-        out.light[at][c] = static_cast<std::uint16_t>((sum.light[c] + sum.shown / 2) / sum.shown);
+        out.light[at][c] = pointed ? (*of_points[from_below])[c]
+                                   : static_cast<std::uint16_t>((sum.light[c] + sum.shown / 2) / sum.shown);
         out.sum[c] += std::uint64_t{out.light[at][c]} * sum.inside;
       }
     }

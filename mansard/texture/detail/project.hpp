@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,8 +34,9 @@ struct FaceLight {
 enum TexelState : std::uint8_t { outside, unknown, seen };
 
 /// What the scan shows of the face: every texel that is partly inside the polygon is `unknown` or `seen`. A texel is
-/// seen where half of its samples inside the polygon show something.
+/// seen where half of its samples inside the polygon show something, or else where points give it a colour: those of
+/// `splatted`, or none.
 [[nodiscard]] auto project(const FaceGrid& grid, std::span<const NearTriangle* const> triangles, const Scan& scan,
-                           const Options& options) -> FaceLight;
+                           const std::vector<std::optional<Light>>& of_points, const Options& options) -> FaceLight;
 
 }  // namespace mansard::texture::detail
