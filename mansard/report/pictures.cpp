@@ -236,7 +236,9 @@ auto textured_scan(const texture::Scan& scan, const model::Scene& scene) -> base
     auto points = scan.points_near({{frame.least.x, frame.least.y, -far}, {frame.most.x, frame.most.y, far}});
     if (!points) return points.failure();
     const auto tree = std::make_shared<const texture::PointTree>(*std::move(points));
-    layer.mesh = part_of(scene.mesh, frame, [&](Point3 p) { return texture::colour_at(*tree, p, reach).has_value(); });
+    layer.mesh = part_of(scene.mesh, frame, [&](const Point3& a, const Point3& b, const Point3& c) {
+      return texture::colour_at(*tree, (1.0 / 3) * (a + b + c), reach).has_value();
+    });
     layer.picture = [tree](std::size_t, Point3 p) { return texture::colour_at(*tree, p, reach); };
     return layer;
   }
