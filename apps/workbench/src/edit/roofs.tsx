@@ -2,18 +2,24 @@
 import { signal } from "@preact/signals";
 import * as state from "../state";
 import { alike, alongRow, type Place, rowOf } from "./alike";
-import { partsOf } from "./desk";
+import { partsOf, withPlan } from "./desk";
 import { session } from "./here";
 import type { Parts } from "./session";
 import { type Shape, shaped, shapes, sharedEdges } from "./shapes";
+import { bare, dormerRoof, replaced, structureAt, structuresOf } from "./structures";
 
 type Reach = "part" | "selected" | "row";
 const reach = signal<Reach>("part");
 
+/** Parts without the structures on their roofs, and without the holes for these. */
 const everyPart = (): Place[] =>
-  [...state.run.value!.buildings.keys()].flatMap((building) =>
-    partsOf(building).map(({ id, plan }) => ({ building, part: id, plan })),
-  );
+  [...state.run.value!.buildings.keys()].flatMap((building) => {
+    const parts = partsOf(building);
+    const structures = new Set(structuresOf(parts).map((s) => s.id));
+    return parts
+      .filter(({ id }) => !structures.has(id))
+      .map(({ id }) => ({ building, part: id, plan: bare(parts, id) }));
+  });
 const isAt = (p: Place, at: { building: string; part: string | null }) => p.building === at.building && p.part === at.part;
 
 /** Neighbours of a part within 60 m. */
@@ -29,16 +35,19 @@ function sharedOf(place: Place, all: readonly Place[]): boolean[] {
   return sharedEdges(place.plan, near.map((p) => p.plan));
 }
 
-/** One edit of several parts: all parts of each building that changes. */
+/** One edit of several parts: all parts of each building that changes. Dormers follow their slopes. */
 function together(changed: readonly Place[]): Parts[] {
   const buildings = [...new Set(changed.map((p) => p.building))];
-  return buildings.map((building) => ({
-    building,
-    parts: partsOf(building).map((p) => ({
-      id: p.id,
-      plan: changed.find((c) => c.building === building && c.part === p.id)?.plan ?? p.plan,
-    })),
-  }));
+  return buildings.map((building) => {
+    let parts = partsOf(building);
+    const lost: string[] = [];
+    for (const { part, plan } of changed.filter((c) => c.building === building)) {
+      const now = replaced(parts, part, plan);
+      parts = now.parts;
+      lost.push(...now.lost);
+    }
+    return { building, parts, lost };
+  });
 }
 
 /** Roof shapes for the selected part, for all selected parts, or for the row that the part is in. */
@@ -47,6 +56,15 @@ export function Roofs() {
   const also = state.also.value;
   if (reach.value === "selected" && !also.length) reach.value = "part";
   const apply = (shape: Shape) => {
+    const own = partsOf(at.building);
+    const structure = structureAt(own, at.part);
+    if (structure) {
+      // A roof of its own; it is not among the parts of a row.
+      const plan = own.find((p) => p.id === structure.id)!.plan;
+      const roof = dormerRoof(own, structure.id, shape) ?? shaped(plan, shape);
+      session.propose(`${shape} roof of ${structure.id}`, withPlan(roof));
+      return;
+    }
     const all = everyPart();
     const first = all.find((p) => isAt(p, at));
     if (!first) return;
