@@ -55,6 +55,7 @@ export function Roofs() {
   const at = state.selection.value!;
   const also = state.also.value;
   if (reach.value === "selected" && !also.length) reach.value = "part";
+  const alone = structureAt(partsOf(at.building), at.part) !== null;
   const apply = (shape: Shape) => {
     const own = partsOf(at.building);
     const structure = structureAt(own, at.part);
@@ -96,7 +97,7 @@ export function Roofs() {
           {name}
         </button>
       ))}
-      <select
+      {!alone && <select
         aria-label="Parts that get the roof"
         title="A row is what is joined by walls; its ridge runs through all houses"
         value={reach.value}
@@ -105,8 +106,8 @@ export function Roofs() {
         <option value="part">this part</option>
         {also.length > 0 && <option value="selected">selected parts ({also.length + 1})</option>}
         <option value="row">the whole row</option>
-      </select>
-      {also.length > 0 && (
+      </select>}
+      {!alone && also.length > 0 && (
         <button
           type="button"
           class="small"
