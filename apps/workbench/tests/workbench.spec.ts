@@ -5,9 +5,10 @@ import { readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import type { Page } from "@playwright/test";
 import type * as api from "../src/api/types";
+import { structuresOf } from "../src/edit/structures";
 import { type Server, data, expect, mansard, picture, saved, test } from "./harness";
 
-type Known = { window: { mansard: { state: typeof import("../src/state"); latency: number[] } } };
+type Known = { window: { mansard: { state: typeof import("../src/state"); latency: number[]; drawn: number[] } } };
 
 async function openSample(page: Page, server: Server) {
   await page.goto(server.link);
@@ -83,6 +84,29 @@ const canvas = (page: Page) => page.locator("main canvas").first();
 const menuItem = (page: Page, file: string) =>
   page.getByRole("menuitem", { name: new RegExp(`^${file.replaceAll(".", "\\.")}\\s`) });
 
+/** Share of the cells of 8 by 8 pixels in which two images of one size differ, below the guide of the first steps. */
+async function difference(page: Page, a: Buffer, b: Buffer) {
+  return page.evaluate(
+    async (images) => {
+      const [p, q] = await Promise.all(
+        images.map(async (bytes) => {
+          const image = await createImageBitmap(new Blob([Uint8Array.from(atob(bytes), (c) => c.charCodeAt(0))]));
+          const small = new OffscreenCanvas(image.width >> 3, image.height >> 3);
+          const draw = small.getContext("2d")!;
+          draw.imageSmoothingQuality = "high";
+          draw.drawImage(image, 0, 0, small.width, small.height);
+          return draw.getImageData(0, 0, small.width, small.height).data;
+        }),
+      );
+      let count = 0;
+      const first = Math.floor(p!.length / 16) * 4;
+      for (let i = first; i < p!.length; i += 4) if ([0, 1, 2].some((k) => Math.abs(p![i + k]! - q![i + k]!) > 32)) ++count;
+      return (4 * count) / (p!.length - first);
+    },
+    [a.toString("base64"), b.toString("base64")],
+  );
+}
+
 test("the sample is read, reconstructed, edited, undone and exported", { tag: "@firefox" }, async ({ clean: page, server, folder }) => {
   await page.goto(server.link);
   await expect(page.getByRole("button", { name: "Open the sample" })).toBeVisible();
@@ -127,17 +151,30 @@ test("the sample is read, reconstructed, edited, undone and exported", { tag: "@
       )
       .toBeGreaterThan(volume(before) + 1);
     expect((await buildingOf(page, house.id)).revision).toBe(before.revision);
+    await page.mouse.move(x, y - 30); // no other preview follows
+    await expect.poll(() => state(page, (s) => s.draft.value?.pending)).toBe(false);
+    await idle(page);
+    const dragged = await canvas(page).screenshot();
+    expect(await difference(page, seen, dragged), "the image has the new solid").toBeGreaterThan(0.001);
     await page.mouse.up();
     await expect.poll(async () => (await buildingOf(page, house.id)).revision).toBeGreaterThan(before.revision);
     const after = await buildingOf(page, house.id);
     expect(volume(after)).toBeGreaterThan(volume(before) + 1);
     expect(after.mse).not.toBe(before.mse);
     await picture(page, "profile");
-    expect((await canvas(page).screenshot()).equals(seen), "the image changed").toBe(false);
-    const latency = await page.evaluate(() => (window as unknown as Known["window"]).mansard.latency);
-    expect(latency.length).toBeGreaterThan(0);
-    const sorted = [...latency].sort((a, b) => a - b);
-    const report = `pointer to geometry, ms: median ${sorted[sorted.length >> 1]!.toFixed(1)}, worst ${sorted.at(-1)!.toFixed(1)} of ${sorted.length}`;
+    await idle(page);
+    // Images of a drag are put together; they show what an image of the whole scene shows.
+    expect(await difference(page, dragged, await canvas(page).screenshot())).toBeLessThan(0.02);
+    const { latency, drawn } = await page.evaluate(() => {
+      const { latency, drawn } = (window as unknown as Known["window"]).mansard;
+      return { latency, drawn };
+    });
+    expect(drawn.length).toBeGreaterThan(0);
+    const told = (values: number[]) => {
+      const sorted = [...values].sort((a, b) => a - b);
+      return `median ${sorted[sorted.length >> 1]!.toFixed(1)}, worst ${sorted.at(-1)!.toFixed(1)} of ${sorted.length}`;
+    };
+    const report = `pointer to geometry, ms: ${told(latency)}; to the image, ms: ${told(drawn)}`;
     console.log(report);
     if (process.env.MANSARD_PICTURES) writeFileSync(join(process.env.MANSARD_PICTURES, "latency.txt"), report + "\n");
   });
@@ -1067,6 +1104,153 @@ test("roofs of a row, parts like another, an annex and a deleted part", { tag: "
     await expect.poll(async () => (await buildingOf(page, "right")).parts.length).toBe(0);
     await page.getByRole("button", { name: /^Undo/ }).click();
     await expect.poll(async () => (await buildingOf(page, "right")).parts.length).toBe(1);
+  });
+});
+
+test("dormers are parts: moved, resized, given other roofs, deleted and added", { tag: "@firefox" }, async ({ clean: page, server, folder }) => {
+  await openSample(page, server);
+  await reconstruct(page, "first");
+  const dormersOf = (b: api.RaisedBuilding) => structuresOf(b.parts).filter((s) => s.dormer);
+  const found = (await buildings(page)).filter((b) => b.parts.length === 2 && dormersOf(b).length === 1);
+  expect(found.length, "the sample has dormers").toBeGreaterThan(2);
+  // The steepest slope has the most room above it.
+  const house = found.sort((a, b) => dormersOf(b)[0]!.dormer!.slope - dormersOf(a)[0]!.dormer!.slope)[0]!;
+  const { id, host } = dormersOf(house)[0]!;
+  const now = () => buildingOf(page, house.id);
+  const planOf = async (part: string) => (await now()).parts.find((p) => p.id === part)!.plan;
+  /** Valid, with one dormer, and one face for the slope around it: no roof grows from the edges of its hole. */
+  const check = async (dormer: string) => {
+    const b = await now();
+    expect(b.valid).toBe(true);
+    const own = dormersOf(b).find((s) => s.id === dormer);
+    expect(own, "a dormer on its slope").toBeTruthy();
+    const roof = b.parts.find((p) => p.id === own!.host)!;
+    expect(roof.outcome).toBe("full");
+    expect(roof.geometry!.faces.filter((f) => f.ring === own!.ring && f.class === "roof")).toEqual([]);
+  };
+  const changes = async (act: () => Promise<void>) => {
+    const { revision } = await now();
+    await act();
+    await expect.poll(async () => (await now()).revision).toBeGreaterThan(revision);
+  };
+  const drag = async (name: RegExp, dx: number, dy: number) => {
+    const grip = page.getByRole("button", { name });
+    await grip.hover();
+    const box = (await grip.boundingBox())!;
+    const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    for (let i = 1; i <= 6; ++i) await page.mouse.move(x + (dx * i) / 6, y + (dy * i) / 6);
+    await page.mouse.up();
+  };
+  const undo = () => page.getByRole("button", { name: /^Undo/ }).click();
+  await pick(page, house.id);
+  await page.getByLabel("Part", { exact: true }).selectOption({ label: "part 2, dormer" });
+  await expect(page.getByRole("button", { name: /^dormer: move it/ })).toBeVisible();
+  await idle(page);
+  await picture(page, "dormer");
+
+  await test.step("it is moved as a whole, with the pointer and with keys", async () => {
+    const before = await planOf(id);
+    await changes(() => drag(/^dormer: move it/, 12, -9));
+    await check(id);
+    expect((await planOf(id)).outer.points).not.toEqual(before.outer.points);
+    await changes(async () => {
+      await page.getByRole("button", { name: /^dormer: move it/ }).focus();
+      await page.keyboard.press("Alt+ArrowLeft");
+    });
+    await check(id);
+    await changes(undo);
+    await changes(undo);
+    expect(await planOf(id)).toEqual(before);
+    expect((await now()).edited).toBe(false);
+  });
+
+  await test.step("a wall, the cap and the roof", async () => {
+    const before = await planOf(id);
+    const width = ({ outer: { points: p } }: api.Plan) => Math.hypot(p[1]![0] - p[0]![0], p[1]![1] - p[0]![1]);
+    await changes(() => drag(/^edge 1,/, 0, 14));
+    const wide = await planOf(id);
+    expect(Math.abs(width(wide) - width(before))).toBeGreaterThan(0.1);
+    await check(id);
+    const cap = page.getByRole("textbox", { name: "Cap, metres" });
+    await changes(async () => {
+      await cap.fill((wide.cap - 0.2).toFixed(2));
+      await cap.press("Enter");
+    });
+    await check(id);
+    expect((await planOf(id)).cap).toBeCloseTo(wide.cap - 0.2, 2);
+    await changes(() => page.getByRole("group", { name: "Roof shape" }).getByRole("button", { name: "Gable" }).click());
+    await check(id);
+    const gabled = await planOf(id);
+    expect(gabled.outer.profile_of_edge.map((p) => gabled.profiles[p]!.length > 2)).toEqual([false, true, false, true]);
+    await idle(page);
+    await picture(page, "dormer-gable");
+  });
+
+  await test.step("it follows the gutter of its roof", async () => {
+    const before = await planOf(id);
+    const slope = dormersOf(await now())[0]!.dormer!;
+    await page.getByLabel("Part", { exact: true }).selectOption({ label: "part 1" });
+    await pickEdge(page, slope.edge);
+    const gutter = page.getByRole("textbox", { name: "Gutter, metres" });
+    await changes(async () => {
+      await gutter.fill((Number(await gutter.inputValue()) + 0.5).toFixed(2));
+      await gutter.press("Enter");
+    });
+    await check(id);
+    const raised = await planOf(id);
+    expect(raised.cap - before.cap).toBeGreaterThan(0.4);
+    expect(raised.outer.points[0]![0]).toBeCloseTo(before.outer.points[0]![0], 6);
+    await changes(undo);
+    expect(await planOf(id)).toEqual(before);
+  });
+
+  await test.step("it is deleted, and its roof is closed; another one is added there", async () => {
+    await page.getByLabel("Part", { exact: true }).selectOption({ label: "part 2, dormer" });
+    const { points } = (await planOf(id)).outer;
+    const centre = [0, 1].map((k) => (points[0]![k]! + points[1]![k]!) / 2) as api.Point2;
+    await changes(() => page.getByRole("button", { name: "Delete dormer" }).click());
+    expect((await now()).parts.map((p) => [p.id, p.plan.holes.length])).toEqual([[host, 0]]);
+    await changes(undo);
+    await check(id);
+    await page.keyboard.press("Control+Shift+Z");
+    await expect.poll(async () => (await now()).parts.length).toBe(1);
+    // Corners of the plan tell where a point is on the sheet.
+    const corners = (await planOf(host)).outer.points;
+    const at = async (i: number) => {
+      const box = (await page.getByRole("button", { name: new RegExp(`^corner ${i} at`) }).boundingBox())!;
+      return [box.x + box.width / 2, box.y + box.height / 2] as const;
+    };
+    const [a, b] = [await at(0), await at(2)];
+    const scale = Math.hypot(b[0] - a[0], b[1] - a[1]) / Math.hypot(corners[2]![0] - corners[0]![0], corners[2]![1] - corners[0]![1]);
+    const press = page.getByRole("button", { name: "Dormer", exact: true });
+    await press.click();
+    await expect(press).toHaveAttribute("aria-pressed", "true");
+    await changes(() => page.mouse.click(a[0] + (centre[0] - corners[0]![0]) * scale, a[1] - (centre[1] - corners[0]![1]) * scale));
+    const added = dormersOf(await now())[0]!;
+    await check(added.id);
+    await expect.poll(() => state(page, (s) => s.selection.value?.part)).toBe(added.id);
+    await idle(page);
+    await picture(page, "dormer-added");
+  });
+
+  await test.step("the command line makes the same model", async () => {
+    await page.getByRole("button", { name: "Export" }).click();
+    const plans = await saved(page, folder, () => menuItem(page, "plans.json").click());
+    await page.getByRole("button", { name: "Export" }).click();
+    const city = await saved(page, folder, () => menuItem(page, "model.city.json").click());
+    mansard("extrude", "-q", plans, "-o", join(folder, "again.city.json"));
+    expect(readFileSync(join(folder, "again.city.json")).equals(readFileSync(city))).toBe(true);
+  });
+
+  await test.step("a flat roof has none, and says so", async () => {
+    await page.getByLabel("Part", { exact: true }).selectOption({ label: "part 1" });
+    await changes(() => page.getByRole("group", { name: "Roof shape" }).getByRole("button", { name: "Flat" }).click());
+    expect((await now()).parts.length).toBe(1);
+    await expect(page.getByText(/no slope any more for a dormer/)).toBeVisible();
+    await changes(undo);
+    expect(dormersOf(await now()).length).toBe(1);
   });
 });
 

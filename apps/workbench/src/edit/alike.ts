@@ -3,6 +3,7 @@ import type { NamedPlan, Plan, Point2 } from "../api/types";
 import { after, clean, oriented, ringsOf, sharedWall } from "./plan";
 import { gutterOf, pitchOf, slopes } from "./profile";
 import { eavesOf, shaped, type Roof, type Shape } from "./shapes";
+import { freeId } from "./structures";
 import { distance, minus, unit } from "./vector";
 
 export interface Place {
@@ -125,8 +126,6 @@ export function alongRow(plan: Plan, shared: readonly boolean[]): boolean[] | nu
 
 /** A part that is drawn: walls up to a flat roof. */
 export function annex(building: string, parts: readonly NamedPlan[], points: Point2[], base: number, height: number): NamedPlan {
-  const numbers = parts.map((p) => Number(p.id.slice(building.length + 1))).filter(Number.isInteger);
-  const id = `${building}-${Math.max(0, ...numbers, parts.length) + 1}`;
   const plan: Plan = {
     base,
     cap: height,
@@ -134,5 +133,5 @@ export function annex(building: string, parts: readonly NamedPlan[], points: Poi
     holes: [],
     profiles: [[[0, 0], [0, height]]],
   };
-  return { id, plan: oriented(plan) };
+  return { id: freeId(building, parts), plan: oriented(plan) };
 }

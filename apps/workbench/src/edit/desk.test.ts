@@ -51,7 +51,7 @@ describe("the selected part", () => {
     state.draft.value = { what: "", changes, raised: new Map(), pending: false, invalid: true };
     expect(partsOf("b")[1]?.plan).toBe(moved);
     const plan = { ...house(), cap: 5 };
-    expect(withPlan(plan)).toEqual([{ building: "b", parts: [{ id: "b-1", plan }, parts[1]] }]);
+    expect(withPlan(plan)).toEqual([{ building: "b", parts: [{ id: "b-1", plan }, parts[1]], lost: [] }]);
   });
 
   it("shows its longest edge unless one is selected", () => {

@@ -4,6 +4,7 @@ import type * as api from "../api/types";
 import { keepOpen } from "../actions";
 import * as state from "../state";
 import type { Parts } from "./session";
+import { replaced } from "./structures";
 import { distance } from "./vector";
 import { edgesOf, endsOf, ringOf, sameEdge, type EdgeAt, type Scope } from "./plan";
 
@@ -20,12 +21,11 @@ export function partsOf(building: string): api.NamedPlan[] {
   return drafted ?? state.run.value?.buildings.get(building)?.parts ?? [];
 }
 
-/** The parts of the building, with this plan for the selected part. */
-export function withPlan(plan: api.Plan): Parts[] {
+/** The parts of the building, with this plan for the selected part, which is a change of `parts`; roof structures follow. */
+export function withPlan(plan: api.Plan, parts?: readonly api.NamedPlan[]): Parts[] {
   const at = state.selection.value;
   if (!at?.part) return [];
-  const parts = partsOf(at.building).map((p) => ({ id: p.id, plan: p.id === at.part ? plan : p.plan }));
-  return [{ building: at.building, parts }];
+  return [{ building: at.building, ...replaced(parts ?? partsOf(at.building), at.part, plan) }];
 }
 
 /** The selected edge, or the longest one if none is selected: there is always a profile to show. */

@@ -3,7 +3,7 @@ import { effect } from "@preact/signals";
 import { client, select, showMessage, take } from "../actions";
 import { keep, kept } from "../keep";
 import * as state from "../state";
-import { latencies, measureShown } from "./latency";
+import { drawnLatencies, latencies, measureShown } from "./latency";
 import { EditSession } from "./session";
 
 export const session = new EditSession(client, {
@@ -36,5 +36,5 @@ effect(() => {
 
 if (typeof window !== "undefined") {
   const page = window as unknown as { mansard?: Record<string, unknown> };
-  page.mansard = { ...page.mansard, latency: latencies };
+  page.mansard = { ...page.mansard, latency: latencies, drawn: drawnLatencies };
 }

@@ -48,5 +48,12 @@ export function useNeighbours(plan: Plan | null, key: string): { all: Neighbour[
       .filter((n) => picked(n) || n.shared >= 0.1)
       .sort((a, b) => rank(b) - rank(a) || b.shared - a.shared);
   }, [all, also]);
-  return { all, touching };
+  // Structures on a roof move with it, and it with them.
+  const own = new Map(at ? partsOf(at.building).map((p) => [p.id, p.plan]) : []);
+  const now = all.flatMap((n) => {
+    if (n.building !== at?.building) return [n];
+    const plan = own.get(n.part);
+    return plan ? [{ ...n, plan }] : [];
+  });
+  return { all: now, touching };
 }

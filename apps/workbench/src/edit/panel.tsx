@@ -10,6 +10,7 @@ import { session, showDraft } from "./here";
 import { PlanEditor } from "./plan_editor";
 import { ProfileEditor } from "./profile_editor";
 import { Roofs } from "./roofs";
+import { structuresOf } from "./structures";
 
 /** The editors of the selected part: its plan above, the profile of its selected edge below. */
 export function EditPanel() {
@@ -113,6 +114,7 @@ function EditBar() {
   const draft = state.draft.value;
   const phase = session.phase.value;
   const held = phase === "held";
+  const dormers = new Set(structuresOf(building.parts).flatMap((s) => (s.dormer ? [s.id] : [])));
   return (
     <header class={`edit-bar${draft?.invalid ? " invalid" : held ? " held" : ""}`}>
       <div class="edit-what">
@@ -127,7 +129,7 @@ function EditBar() {
           >
             {building.parts.map((p) => (
               <option key={p.id} value={p.id}>
-                {shortName(building.id, p.id)}
+                {shortName(building.id, p.id) + (dormers.has(p.id) ? ", dormer" : "")}
               </option>
             ))}
           </select>

@@ -60,6 +60,11 @@ export function moveVertex(plan: Plan, at: EdgeAt, to: Point2): Plan {
   return withPoints(plan, at.ring, (p, i) => (i === at.edge ? to : p));
 }
 
+export function moveAll(plan: Plan, by: Point2): Plan {
+  const moved = (ring: PlanRing): PlanRing => ({ ...ring, points: ring.points.map((p) => plus(p, by)) });
+  return { ...plan, outer: moved(plan.outer), holes: plan.holes.map(moved) };
+}
+
 /** Shifts the edge to its left, i.e. inwards, also for holes; its neighbours keep their directions. */
 export function moveEdge(plan: Plan, at: EdgeAt, by: number): Plan {
   const ring = ringOf(plan, at.ring);

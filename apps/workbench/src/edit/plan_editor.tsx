@@ -10,6 +10,7 @@ import {
   edgeShown,
   grid,
   keyStep,
+  raisedPart,
   renumber,
   selectEdge,
   snapping,
@@ -29,6 +30,7 @@ import {
   edgesOf,
   endsOf,
   insertVertex,
+  moveAll,
   moveEdge,
   moveVertex,
   planArea,
@@ -36,19 +38,21 @@ import {
   ringOf,
   type EdgeAt,
 } from "./plan";
-import { Backdrop, Corners, Edges, Marks, ringPoints, ScaleBar, type Dimension, type Grips } from "./plan_layers";
+import { Backdrop, Corners, Edges, Marks, ringPoints, ScaleBar, type Dimension, type Grip, type Grips } from "./plan_layers";
 import { PlanHint, PlanTools, type Tool } from "./plan_tools";
 import { fitted, panned, ruling, toMetres, zoomed } from "./sheet";
-import { snapDrawn, snapEdge, snapVertex, surroundings, type Guide, type Snap, type Surroundings } from "./snap";
+import { bare, removed, structuresOf, withDormer, withStructure } from "./structures";
+import { snapDrawn, snapEdge, snapMove, snapVertex, surroundings, type Guide, type Snap, type Surroundings } from "./snap";
 import { useSheet } from "./use_sheet";
-import { cross, distance, dot, middle, minus, nearestOn, plus, turnedLeft, unit } from "./vector";
+import { contains, cross, distance, dot, middle, minus, nearestOn, plus, turnedLeft, unit } from "./vector";
 
 interface Drag {
-  kind: "pan" | "corner" | "edge";
+  kind: "pan" | "corner" | "edge" | "whole";
   at: EdgeAt;
   down: Point2; // pixels of the window: the drawing may move when messages appear
   last: Point2;
-  plan: api.Plan; // at the start of the drag
+  plan: api.Plan; // at the start of the drag, as are the parts of the building
+  parts: api.NamedPlan[];
   around: Surroundings;
   began: boolean;
 }
@@ -85,7 +89,7 @@ export function PlanEditor() {
     if (sweeps.value && state.run.value) void needLayers(state.run.value.id);
   });
 
-  const { all: others, touching } = useNeighbours(plan, key);
+  const { all: others, touching: touchingAll } = useNeighbours(plan, key);
 
   if (!plan || !at?.part || !run) return null;
   const part = at.part;
@@ -93,6 +97,18 @@ export function PlanEditor() {
   const now = sheet.value;
   const invalid = state.draft.value?.invalid ?? false;
   const drafted = state.draft.value?.changes.some((c) => c.building === building) ?? false;
+  const structures = structuresOf(partsOf(building));
+  const structure = structures.find((s) => s.id === part);
+  const filled = new Set(structures.flatMap((s) => (s.host === part ? [s.ring] : [])));
+  // A structure and its host are merged by deleting the structure.
+  const touching = touchingAll.filter(
+    (n) => n.building !== building || !structures.some((s) => (s.id === n.part && s.host === part) || (s.id === part && s.host === n.part)),
+  );
+
+  // What to snap to: not to the hole that the part itself fills.
+  const solid = others.map((o) =>
+    o.building === building && o.part === structure?.host ? bare(partsOf(building), o.part) : o.plan,
+  );
 
   const snap = (event: { altKey: boolean }): Snap => ({
     reach: snapping.value && !event.altKey ? reachPixels / now.scale : 0,
@@ -103,12 +119,16 @@ export function PlanEditor() {
   // ---- changes of the plan
 
   const cornerMoved = (at: EdgeAt, moved: api.Plan, by: number, time: number) => {
-    session.change(`corner of ${part} moved by ${metres(by)}`, withPlan(moved), time);
+    session.change(`corner of ${part} moved by ${metres(by)}`, withPlan(moved, drag.current?.parts), time);
     describeCorner(moved, at);
   };
   const edgeMoved = (at: EdgeAt, moved: api.Plan, by: number, time: number) => {
-    session.change(`wall of ${part} moved by ${metres(Math.abs(by))}`, withPlan(moved), time);
+    session.change(`wall of ${part} moved by ${metres(Math.abs(by))}`, withPlan(moved, drag.current?.parts), time);
     describeEdge(moved, at, by);
+  };
+  const wholeMoved = (from: api.Plan, by: Point2, time: number) => {
+    session.change(`${part} moved by ${metres(Math.hypot(...by))}`, withPlan(moveAll(from, by), drag.current?.parts), time);
+    spoken.value = `moved by ${metres(Math.hypot(...by))}${structure?.dormer ? ", along its slope" : ""}`;
   };
   const once = (what: string, changed: api.Plan) => session.propose(what, withPlan(changed));
 
@@ -144,7 +164,8 @@ export function PlanEditor() {
     dimensions.value = [];
   };
 
-  const cornersOf = (at: EdgeAt, kind: "corner" | "edge") => (e: EdgeAt) => {
+  const cornersOf = (at: EdgeAt, kind: "corner" | "edge" | "whole") => (e: EdgeAt) => {
+    if (kind === "whole") return true;
     const ring = ringOf(plan, at.ring)!;
     return e.ring === at.ring && (e.edge === at.edge || (kind === "edge" && e.edge === after(ring, at.edge)));
   };
@@ -162,10 +183,10 @@ export function PlanEditor() {
         ? { corners: [], edges: [] }
         : surroundings(
             plan,
-            others.map((o) => o.plan),
+            solid,
             cornersOf(at, moves),
           );
-    drag.current = { kind: moves, at, down: p, last: p, plan, around, began: false };
+    drag.current = { kind: moves, at, down: p, last: p, plan, parts: partsOf(building), around, began: false };
   };
 
   // Only once something is dragged: clicks and double clicks go to their own elements.
@@ -206,7 +227,8 @@ export function PlanEditor() {
       return;
     }
     const by: Point2 = [(p[0] - d.down[0]) / now.scale, (d.down[1] - p[1]) / now.scale];
-    if (d.kind === "corner") {
+    if (d.kind === "whole") wholeMoved(d.plan, snapMove(d.plan, by, snap(event)), event.timeStamp);
+    else if (d.kind === "corner") {
       const from = ringOf(d.plan, d.at.ring)!.points[d.at.edge]!;
       const snapped = snapVertex(d.plan, d.at, plus(from, by), d.around, snap(event));
       guides.value = snapped.guides;
@@ -235,7 +257,7 @@ export function PlanEditor() {
       if (event.shiftKey || event.ctrlKey || event.metaKey) toggleChosen(d.at);
       else selectEdge(d.at);
       corner.value = null;
-    } else corner.value = d.at;
+    } else if (d.kind === "corner") corner.value = d.at;
     quiet();
   };
   const broken = () => {
@@ -246,7 +268,7 @@ export function PlanEditor() {
 
   // ---- keyboard
 
-  const nudge = (event: KeyboardEvent, at: EdgeAt, kind: "corner" | "edge"): boolean => {
+  const nudge = (event: KeyboardEvent, at: EdgeAt, kind: Grip): boolean => {
     const by = arrow(event);
     if (!by) return false;
     event.preventDefault();
@@ -254,6 +276,10 @@ export function PlanEditor() {
     if (!nudging.current) {
       if (!session.begin([building])) return true;
       nudging.current = true;
+    }
+    if (kind === "whole") {
+      wholeMoved(plan, by, event.timeStamp);
+      return true;
     }
     if (kind === "corner") {
       const p = ringOf(plan, at.ring)!.points[at.edge]!;
@@ -276,16 +302,19 @@ export function PlanEditor() {
     session.commit();
     quiet();
   };
-  const onKey = (event: KeyboardEvent, at: EdgeAt, kind: "corner" | "edge") => {
+  const onKey = (event: KeyboardEvent, at: EdgeAt, kind: Grip) => {
     if (event.ctrlKey || event.metaKey || nudge(event, at, kind)) return;
     const taken = () => {
       event.preventDefault();
       event.stopPropagation();
     };
-    if ((event.key === "Delete" || event.key === "Backspace") && kind === "corner") {
+    if (event.key === "Delete" || event.key === "Backspace") {
+      if (kind === "edge") return;
       taken();
-      removeCorner(at);
-    } else if (event.key === "Insert") {
+      if (kind === "corner") removeCorner(at);
+      else remove();
+    } else if (kind === "whole") return;
+    else if (event.key === "Insert") {
       taken();
       insertAt(at, middle(...endsOf(plan, at)!));
     } else if ((event.key === "Enter" || event.key === " ") && kind === "edge") {
@@ -355,12 +384,13 @@ export function PlanEditor() {
     insertAt(at, nearestOn(toMetres(now, pixels(event)), a, b).at);
   };
   const drawingPoint = (event: { altKey: boolean }, p: Point2): Point2 => {
+    if (tool.value === "dormer") return p;
     const first = drawn.value[0];
     if (tool.value !== "split" && drawn.value.length > 2 && first && distance(first, p) < reachPixels / now.scale)
       return first;
     const around = surroundings(
       plan,
-      others.map((o) => o.plan),
+      solid,
       () => false,
     );
     const snapped = snapDrawn(plan, drawn.value, p, around, snap(event));
@@ -368,6 +398,7 @@ export function PlanEditor() {
     return snapped.at;
   };
   const place = (p: Point2) => {
+    if (tool.value === "dormer") return addDormer(p);
     const first = drawn.value[0];
     const last = drawn.value.at(-1);
     if (tool.value !== "split" && first && drawn.value.length > 2 && distance(first, p) < 1e-6) return finish();
@@ -403,16 +434,40 @@ export function PlanEditor() {
   };
   const add = (points: Point2[]) => {
     const parts = partsOf(building).map((p) => ({ id: p.id, plan: p.plan }));
+    const geometry = raisedPart.value?.geometry;
+    if (geometry && !structure && points.every((p) => contains(plan.outer.points, p))) {
+      const { id, parts: all } = withStructure(building, parts, part, geometry, points);
+      if (session.propose(`${id} on the roof of ${part}`, [{ building, parts: all }]))
+        select({ building, part: id, ring: 0, edge: null });
+      return;
+    }
     const made = annex(building, parts, points, plan.base, Math.min(usualAnnex, plan.cap));
     if (!session.propose(`annex ${made.id}`, [{ building, parts: [...parts, made] }])) return;
     select({ building, part: made.id, ring: 0, edge: null });
   };
+  const addDormer = (p: Point2) => {
+    const parts = partsOf(building).map(({ id, plan }) => ({ id, plan }));
+    const geometry = raisedPart.value?.geometry;
+    const made = geometry ? withDormer(building, parts, part, geometry, p) : null;
+    leaveDrawing();
+    if (!made) {
+      showMessage({
+        severity: "warning",
+        code: "edit-no-dormer",
+        message: "a dormer needs a slope of 14° to 63° with room for it, at least 1.2 m wide, above the point that is clicked; click nearer to the middle of a slope",
+        subject: part,
+      });
+      return;
+    }
+    if (session.propose(`dormer ${made.id} added`, [{ building, parts: made.parts }]))
+      select({ building, part: made.id, ring: 0, edge: null });
+  };
   const remove = () => {
-    const rest = partsOf(building).filter((p) => p.id !== part).map((p) => ({ id: p.id, plan: p.plan }));
+    const rest = removed(partsOf(building), part);
     if (!rest.length && !window.confirm(`This is the only part of building ${building}, which is left without a model. Delete it?`))
       return;
     if (session.propose(`${part} deleted`, [{ building, parts: rest }]))
-      select({ building, part: rest[0]?.id ?? null, ring: 0, edge: null });
+      select({ building, part: structure?.host ?? rest[0]?.id ?? null, ring: 0, edge: null });
   };
   const mergeable = touching.find((o) => `${o.building} ${o.part}` === partner.value) ?? touching[0];
   const merge = async () => {
@@ -458,10 +513,11 @@ export function PlanEditor() {
     move: spoken.value || measures,
     hole: "Click the corners of the courtyard. Enter: close, Esc: cancel",
     split: "Click points of a line across the part. Enter: split, Esc: cancel",
-    annex: "Click the corners of the missing part. Enter: close, Esc: cancel",
+    annex: "Click the corners of the missing part, beside this one or on its roof. Enter: close, Esc: cancel",
+    dormer: "Click where the middle of the dormer's front shall be. Esc: cancel",
   };
   const instructions =
-    `Plan of ${part}. Tab moves from edge to edge, then from corner to corner. Arrow keys move an edge or corner by 0.1 ` +
+    `Plan of ${part}. Tab moves from edge to edge, ${structure ? "to the handle of the whole part, " : ""}then from corner to corner. Arrow keys move an edge or corner by 0.1 ` +
     "metres, with Shift by 1 metre, with Alt by 0.01 metres. Insert adds a corner, Delete removes one, Enter on an edge " +
     "shows its profile, Escape cancels.";
   const grips: Grips = { down, doubleClick, key: onKey, settle: settleNudge };
@@ -472,7 +528,8 @@ export function PlanEditor() {
         tool={tool.value}
         building={building}
         drafted={drafted}
-        hole={at.ring > 0}
+        hole={at.ring > 0 && !filled.has(at.ring)}
+        structure={structure ? (structure.dormer ? "dormer" : "structure") : null}
         touching={touching}
         partner={mergeable}
         onTool={choose}
@@ -508,12 +565,14 @@ export function PlanEditor() {
         <Edges
           sheet={now}
           plan={plan}
+          hidden={filled}
+          whole={structure ? (structure.dormer ? "dormer" : "structure") : null}
           selected={edgeShown.value}
           chosen={chosen.value}
           labelled={dimensions.value.length === 0}
           grips={grips}
         />
-        <Corners sheet={now} plan={plan} selected={corner.value} onFocus={(at) => (corner.value = at)} grips={grips} />
+        <Corners sheet={now} plan={plan} hidden={filled} selected={corner.value} onFocus={(at) => (corner.value = at)} grips={grips} />
         <Marks
           sheet={now}
           guides={guides.value}

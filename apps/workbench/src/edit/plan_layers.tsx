@@ -15,11 +15,14 @@ export interface Dimension {
   text: string;
 }
 
-/** The handlers of an edge or a corner. */
+/** What can be dragged; a roof structure also as a whole. */
+export type Grip = "corner" | "edge" | "whole";
+
+/** The handlers of an edge, a corner or a whole part. */
 export interface Grips {
-  down(event: PointerEvent, kind: "corner" | "edge", at: EdgeAt): void;
+  down(event: PointerEvent, kind: Grip, at: EdgeAt): void;
   doubleClick(event: MouseEvent, at: EdgeAt): void;
-  key(event: KeyboardEvent, at: EdgeAt, kind: "corner" | "edge"): void;
+  key(event: KeyboardEvent, at: EdgeAt, kind: Grip): void;
   settle(): void;
 }
 
@@ -84,16 +87,23 @@ export function Backdrop(props: {
 export function Edges(props: {
   sheet: Sheet;
   plan: Plan;
+  hidden: ReadonlySet<number>; // rings that roof structures fill: they are moved with these
+  whole: string | null; // what the part is called, if it can be moved as a whole
   selected: EdgeAt | null;
   chosen: EdgeAt[];
   labelled: boolean;
   grips: Grips;
 }) {
-  const { sheet, plan, selected, chosen, labelled, grips } = props;
+  const { sheet, plan, hidden, whole, selected, chosen, labelled, grips } = props;
+  const place: EdgeAt = { ring: 0, edge: 0 };
   return (
     <>
-      <path class="part" d={pathOf(sheet, ringPoints(plan))} />
-      {edgesOf(plan).map((at) => {
+      <path
+        class={`part${whole ? " movable" : ""}`}
+        d={pathOf(sheet, ringPoints(plan))}
+        onPointerDown={(event) => whole && grips.down(event, "whole", place)}
+      />
+      {edgesOf(plan).filter((at) => !hidden.has(at.ring)).map((at) => {
         const [a, b] = endsOf(plan, at)!;
         const profile = profileOf(plan, at) ?? [];
         const kind = kindOf(profile);
@@ -131,21 +141,47 @@ export function Edges(props: {
           </g>
         );
       })}
+      {whole && <Whole sheet={sheet} plan={plan} name={whole} grips={grips} place={place} />}
     </>
+  );
+}
+
+/** The handle that moves a roof structure. */
+function Whole(props: { sheet: Sheet; plan: Plan; name: string; grips: Grips; place: EdgeAt }) {
+  const { sheet, plan, name, grips, place } = props;
+  const { points } = plan.outer;
+  const sum = points.reduce((a, b): Point2 => [a[0] + b[0], a[1] + b[1]], [0, 0] as Point2);
+  const [x, y] = toPixels(sheet, [sum[0] / points.length, sum[1] / points.length]);
+  return (
+    <g class="whole" transform={`translate(${x} ${y})`}>
+      <circle
+        class="grip"
+        r={12}
+        tabindex={0}
+        role="button"
+        aria-label={`${name}: move it as a whole. Delete removes it`}
+        onPointerDown={(event) => grips.down(event, "whole", place)}
+        onKeyDown={(event) => grips.key(event, place, "whole")}
+        onKeyUp={grips.settle}
+        onBlur={grips.settle}
+      />
+      <path class="seen" d="M-8 0H8M0 -8V8M-5 -3L-8 0L-5 3M5 -3L8 0L5 3M-3 -5L0 -8L3 -5M-3 5L0 8L3 5" />
+    </g>
   );
 }
 
 export function Corners(props: {
   sheet: Sheet;
   plan: Plan;
+  hidden: ReadonlySet<number>;
   selected: EdgeAt | null;
   onFocus(at: EdgeAt): void;
   grips: Grips;
 }) {
-  const { sheet, plan, selected, onFocus, grips } = props;
+  const { sheet, plan, hidden, selected, onFocus, grips } = props;
   return (
     <>
-      {edgesOf(plan).map((at) => {
+      {edgesOf(plan).filter((at) => !hidden.has(at.ring)).map((at) => {
         const p = ringOf(plan, at.ring)!.points[at.edge]!;
         const [cx, cy] = toPixels(sheet, p);
         const isSelected = selected !== null && sameEdge(selected, at);

@@ -2,7 +2,7 @@ import type { Signal } from "@preact/signals";
 import { grid, shortId, shortName, snapping } from "./desk";
 import type { Neighbour } from "./neighbours";
 
-export type Tool = "move" | "hole" | "split" | "annex";
+export type Tool = "move" | "hole" | "split" | "annex" | "dormer";
 
 /** The tools of the plan editor. */
 export function PlanTools(props: {
@@ -10,6 +10,7 @@ export function PlanTools(props: {
   building: string;
   drafted: boolean; // splitting and merging need a saved plan
   hole: boolean; // an edge of a courtyard is selected
+  structure: "dormer" | "structure" | null; // the part is one on the roof of another part
   touching: Neighbour[];
   partner: Neighbour | undefined;
   onTool(tool: Tool): void;
@@ -18,7 +19,7 @@ export function PlanTools(props: {
   onPartner(partner: Neighbour): void;
   onMerge(): void;
 }) {
-  const { tool, building, drafted, touching, partner } = props;
+  const { tool, building, drafted, touching, partner, structure } = props;
   const key = (n: Neighbour | undefined) => (n ? `${n.building} ${n.part}` : "");
   const first = "Save or discard the change first";
   return (
@@ -45,17 +46,38 @@ export function PlanTools(props: {
         aria-pressed={tool === "annex"}
         disabled={drafted}
         onClick={() => props.onTool("annex")}
-        title={drafted ? first : "Draw a part that is missing: click its corners. Enter or a click on the first corner closes it"}
+        title={
+          drafted
+            ? first
+            : "Draw a part that is missing, beside this part or on its roof: click its corners. Enter or a click on the first corner closes it"
+        }
       >
         Annex
       </button>
+      {!structure && (
+        <button
+          type="button"
+          aria-pressed={tool === "dormer"}
+          disabled={drafted}
+          onClick={() => props.onTool("dormer")}
+          title={drafted ? first : "Add a dormer: click where the middle of its front shall be on a slope"}
+        >
+          Dormer
+        </button>
+      )}
       <button
         type="button"
         disabled={drafted}
         onClick={props.onDelete}
-        title={drafted ? first : "Delete this part, as of a tree that was taken for one"}
+        title={
+          drafted
+            ? first
+            : structure
+              ? "Delete this part, and close the roof under it"
+              : "Delete this part, as of a tree that was taken for one, with what stands on its roof"
+        }
       >
-        Delete part
+        {structure === "dormer" ? "Delete dormer" : "Delete part"}
       </button>
       {props.hole && (
         <button type="button" onClick={props.onFill} title="Fill the courtyard of the selected edge">

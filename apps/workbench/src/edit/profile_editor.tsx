@@ -10,6 +10,7 @@ import {
   grid,
   keyStep,
   partBefore,
+  partsOf,
   raisedPart,
   ridgeOf,
   scope,
@@ -53,6 +54,7 @@ interface Drag {
   down: Point2; // pixels of the window: the drawing may move when messages appear
   last: Point2;
   plan: api.Plan;
+  parts: api.NamedPlan[]; // of the building, at the start of the drag
   profile: Profile;
   began: boolean;
 }
@@ -128,7 +130,7 @@ export function ProfileEditor() {
     changeProfiles(from, inScope(from, at, scope.value), (p) => (gutterOf(p) === null ? null : withGutter(p, height)));
   const gutterWords = (height: number) => `gutter of ${who} to ${metres(height)}`;
   const gutterMoved = (from: api.Plan, height: number, hints: string[], time: number) => {
-    session.change(gutterWords(height), withPlan(withGutters(from, height)), time);
+    session.change(gutterWords(height), withPlan(withGutters(from, height), drag.current?.parts), time);
     words.value = `gutter at ${metres(height)}; the roof moves along${hints.length ? ` · ${hints.join(", ")}` : ""}`;
   };
   const describe = (changed: Profile, i: number, hints: string[] = []) => {
@@ -145,7 +147,7 @@ export function ProfileEditor() {
     if (event.button > 1) return;
     event.stopPropagation();
     const p: Point2 = [event.clientX, event.clientY];
-    drag.current = { kind: event.button === 1 ? "pan" : kind, i, down: p, last: p, plan, profile, began: false };
+    drag.current = { kind: event.button === 1 ? "pan" : kind, i, down: p, last: p, plan, parts: partsOf(selection.building), profile, began: false };
   };
   const move = (event: PointerEvent) => {
     const d = drag.current;
@@ -173,7 +175,7 @@ export function ProfileEditor() {
     const by: Point2 = [(p[0] - d.down[0]) / now.scale, (d.down[1] - p[1]) / now.scale];
     if (d.kind === "cap") {
       const cap = Math.max(0.01, rounded(d.plan.cap + by[1], snap(event, d.plan).step));
-      session.change(`cap of ${part} to ${metres(cap)}`, withPlan({ ...d.plan, cap }), event.timeStamp);
+      session.change(`cap of ${part} to ${metres(cap)}`, withPlan({ ...d.plan, cap }, d.parts), event.timeStamp);
       words.value = `cap at ${metres(cap)}`;
       return;
     }
@@ -181,7 +183,7 @@ export function ProfileEditor() {
       const up = rounded(by[1], snap(event, d.plan).step);
       const changed = lifted(d.profile, d.i - 1, up);
       const height = changed[d.i - 1]![1];
-      session.change(`roof of ${who} moved up by ${metres(up)}`, withPlan(withProfile(d.plan, changed)), event.timeStamp);
+      session.change(`roof of ${who} moved up by ${metres(up)}`, withPlan(withProfile(d.plan, changed), d.parts), event.timeStamp);
       words.value = `roof moved up by ${metres(height - d.profile[d.i - 1]![1])}; it starts at ${metres(height)}`;
       return;
     }
@@ -196,7 +198,7 @@ export function ProfileEditor() {
     pointMoved(d.plan, movePoint(d.profile, d.i, snapped.at), d.i, snapped.words, event.timeStamp);
   };
   const pointMoved = (from: api.Plan, changed: Profile, i: number, hints: string[], time: number) => {
-    session.change(`profile of ${who}`, withPlan(withProfile(from, changed)), time);
+    session.change(`profile of ${who}`, withPlan(withProfile(from, changed), drag.current?.parts), time);
     describe(changed, i, hints);
   };
   const up = () => {

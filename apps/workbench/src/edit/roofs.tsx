@@ -2,18 +2,24 @@
 import { signal } from "@preact/signals";
 import * as state from "../state";
 import { alike, alongRow, type Place, rowOf } from "./alike";
-import { partsOf } from "./desk";
+import { partsOf, withPlan } from "./desk";
 import { session } from "./here";
 import type { Parts } from "./session";
 import { type Shape, shaped, shapes, sharedEdges } from "./shapes";
+import { bare, dormerRoof, replaced, structureAt, structuresOf } from "./structures";
 
 type Reach = "part" | "selected" | "row";
 const reach = signal<Reach>("part");
 
+/** Parts without the structures on their roofs, and without the holes for these. */
 const everyPart = (): Place[] =>
-  [...state.run.value!.buildings.keys()].flatMap((building) =>
-    partsOf(building).map(({ id, plan }) => ({ building, part: id, plan })),
-  );
+  [...state.run.value!.buildings.keys()].flatMap((building) => {
+    const parts = partsOf(building);
+    const structures = new Set(structuresOf(parts).map((s) => s.id));
+    return parts
+      .filter(({ id }) => !structures.has(id))
+      .map(({ id }) => ({ building, part: id, plan: bare(parts, id) }));
+  });
 const isAt = (p: Place, at: { building: string; part: string | null }) => p.building === at.building && p.part === at.part;
 
 /** Neighbours of a part within 60 m. */
@@ -29,16 +35,19 @@ function sharedOf(place: Place, all: readonly Place[]): boolean[] {
   return sharedEdges(place.plan, near.map((p) => p.plan));
 }
 
-/** One edit of several parts: all parts of each building that changes. */
+/** One edit of several parts: all parts of each building that changes. Dormers follow their slopes. */
 function together(changed: readonly Place[]): Parts[] {
   const buildings = [...new Set(changed.map((p) => p.building))];
-  return buildings.map((building) => ({
-    building,
-    parts: partsOf(building).map((p) => ({
-      id: p.id,
-      plan: changed.find((c) => c.building === building && c.part === p.id)?.plan ?? p.plan,
-    })),
-  }));
+  return buildings.map((building) => {
+    let parts = partsOf(building);
+    const lost: string[] = [];
+    for (const { part, plan } of changed.filter((c) => c.building === building)) {
+      const now = replaced(parts, part, plan);
+      parts = now.parts;
+      lost.push(...now.lost);
+    }
+    return { building, parts, lost };
+  });
 }
 
 /** Roof shapes for the selected part, for all selected parts, or for the row that the part is in. */
@@ -46,7 +55,17 @@ export function Roofs() {
   const at = state.selection.value!;
   const also = state.also.value;
   if (reach.value === "selected" && !also.length) reach.value = "part";
+  const alone = structureAt(partsOf(at.building), at.part) !== null;
   const apply = (shape: Shape) => {
+    const own = partsOf(at.building);
+    const structure = structureAt(own, at.part);
+    if (structure) {
+      // A roof of its own; it is not among the parts of a row.
+      const plan = own.find((p) => p.id === structure.id)!.plan;
+      const roof = dormerRoof(own, structure.id, shape) ?? shaped(plan, shape);
+      session.propose(`${shape} roof of ${structure.id}`, withPlan(roof));
+      return;
+    }
     const all = everyPart();
     const first = all.find((p) => isAt(p, at));
     if (!first) return;
@@ -78,7 +97,7 @@ export function Roofs() {
           {name}
         </button>
       ))}
-      <select
+      {!alone && <select
         aria-label="Parts that get the roof"
         title="A row is what is joined by walls; its ridge runs through all houses"
         value={reach.value}
@@ -87,8 +106,8 @@ export function Roofs() {
         <option value="part">this part</option>
         {also.length > 0 && <option value="selected">selected parts ({also.length + 1})</option>}
         <option value="row">the whole row</option>
-      </select>
-      {also.length > 0 && (
+      </select>}
+      {!alone && also.length > 0 && (
         <button
           type="button"
           class="small"

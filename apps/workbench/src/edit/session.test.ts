@@ -197,6 +197,20 @@ describe("a drag", () => {
     expect(t.draft.value?.pending).toBe(false);
   });
 
+  it("says on release which parts it removes, and nothing if they are there again", async () => {
+    const lost = parts("a", plan(7)).map((p) => ({ ...p, lost: ["a-2"] }));
+    t.session.begin(["a"]);
+    t.session.change("flat", lost, 1);
+    t.session.change("gutter", parts("a", plan(8)), 2);
+    t.session.commit();
+    expect(t.said).toEqual([]);
+    t.session.begin(["a"]);
+    t.session.change("flat", lost, 3);
+    expect(t.said).toEqual([]);
+    t.session.commit();
+    expect(t.said).toMatchObject([{ code: "edit-dormers", subject: "a-2" }]);
+  });
+
   it("released before its last preview is saved if that is valid", async () => {
     t.session.begin(["a"]);
     t.session.change("gutter", parts("a", plan(7)));

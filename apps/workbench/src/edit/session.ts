@@ -43,6 +43,7 @@ export type Phase = "idle" | "changing" | "checking" | "saving" | "held";
 export interface Parts {
   building: string;
   parts: api.NamedPlan[];
+  lost?: string[]; // parts that the change removes, which is said when it is released
 }
 
 const warning = (code: string, message: string, subject = ""): api.Diagnostic => ({
@@ -71,6 +72,7 @@ export class EditSession {
   private touched = new Set<string>(); // buildings changed since the last edit was sent
   private writing: { run: string; undo: boolean } | null = null;
   private putting = false;
+  private lost: string[] = []; // parts that the gesture removes
 
   constructor(
     private readonly calls: Calls,
@@ -118,6 +120,7 @@ export class EditSession {
     });
     const others = draft?.changes.filter((c) => !changes.some((n) => n.building === c.building)) ?? [];
     for (const { building } of changes) this.touched.add(building);
+    this.lost = changes.flatMap((c) => c.lost ?? []);
     ++this.version;
     this.pointer = pointer;
     this.put({
@@ -151,6 +154,7 @@ export class EditSession {
         parts: c.parts.map((p) => ({ id: p.id, plan: clean(oriented(p.plan)) })),
       })),
     });
+    if (this.lost.length) this.desk.showMessage(noSlope(this.lost));
     this.released = true;
     this.phase.value = "checking";
     this.pump();
@@ -441,6 +445,13 @@ function diagnosticOf(e: unknown): api.Diagnostic {
   const message = e instanceof Error ? e.message : String(e);
   return { severity: "error", code: "page-fault", message, subject: "" };
 }
+
+const noSlope = (parts: string[]) =>
+  warning(
+    "edit-dormers",
+    `the roof has no slope any more for ${parts.length === 1 ? "a dormer, which was removed" : `${parts.length} dormers, which were removed`}; Undo brings ${parts.length === 1 ? "it" : "them"} back`,
+    parts.join(", "),
+  );
 
 const stale = (changes: api.Change[]) =>
   warning(

@@ -11,7 +11,9 @@ import {
   minus,
   nearestOn,
   onLine,
+  plus,
   shareAlong,
+  times,
   turnedLeft,
   unit,
   type Line,
@@ -60,6 +62,16 @@ export function surroundings(plan: Plan, others: Plan[], moves: (at: EdgeAt) => 
   add(plan, moves);
   for (const other of others) add(other, () => false);
   return found;
+}
+
+/** A move of a whole part: along its first edge or across it if it is nearly that. */
+export function snapMove(plan: Plan, by: Point2, { reach, step }: Snap): Point2 {
+  const along = unit(minus(plan.outer.points[1]!, plan.outer.points[0]!));
+  if (!along) return by;
+  let [a, b] = [dot(by, along), dot(by, turnedLeft(along))];
+  if (reach > 0 && Math.abs(a) < Math.abs(b) / 4) a = 0;
+  else if (reach > 0 && Math.abs(b) < Math.abs(a) / 4) b = 0;
+  return plus(times(along, rounded(a, step)), times(turnedLeft(along), rounded(b, step)));
 }
 
 interface Candidate {

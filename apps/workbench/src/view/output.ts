@@ -165,6 +165,11 @@ export class Output {
     if (this.loose.size > 60 && !drafts.size) this.rebuild(buildings);
   }
 
+  /** Puts these buildings into another layer of three.js than all others. They have their own buffers. */
+  apart(ids: { has(id: string): boolean }, layer: number) {
+    for (const [id, loose] of this.loose) for (const o of [loose.solid, loose.lines]) o.layers.set(ids.has(id) ? layer : 0);
+  }
+
   /** Draws one building in its new state. Only its own buffers change. */
   show(building: RaisedBuilding) {
     if (this.drawn.get(building.id) === building) return;

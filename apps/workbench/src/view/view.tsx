@@ -3,6 +3,7 @@ import { computed, effect, signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import * as actions from "../actions";
 import type * as api from "../api/types";
+import { measureDrawn } from "../edit/latency";
 import { keep, kept } from "../keep";
 import * as state from "../state";
 import { addPlace, aligning } from "./align";
@@ -271,6 +272,7 @@ export function View() {
           },
           point: (place) => (state.pointer.value = place),
           drawn: (azimuth, metresPerPixel) => {
+            measureDrawn();
             const was = state.compass.peek();
             if (was?.azimuth !== azimuth || was.metresPerPixel !== metresPerPixel)
               state.compass.value = { azimuth, metresPerPixel };

@@ -20,6 +20,7 @@ import { Others } from "./others";
 import { type Hit, type Ray, covers, pick, pickFootprint } from "./pick";
 import { Terrain } from "./terrain";
 import { Tiles } from "./tiles";
+import { Still, changing, isSoftware } from "./still";
 import { type SectionPlane, cutLines, filling, planeOf, reach } from "./section";
 import { SegmentationLayers } from "./segmentation";
 import type { Colour } from "./styling";
@@ -89,6 +90,7 @@ export class Viewer {
   private large: Large | null = null;
   private contents: Box | null = null; // the box of what is shown, until it changes
   private highlight: Highlight;
+  private readonly still: Still | null; // only where images are slow
   private tiles: Tiles | null = null;
   private sides: [Side, Side | null];
   private scene: api.Scene | null = null;
@@ -118,6 +120,8 @@ export class Viewer {
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace; // see materials.ts: nothing is converted
     this.renderer.setClearColor(background.light);
     this.renderer.autoClear = false;
+    this.still = isSoftware(this.renderer.getContext()) ? new Still() : null;
+    this.eye.layers.enable(changing);
     this.highlight = new Highlight(this.centre);
     this.sides = [new Side(this.output(0)), null];
     this.world.add(
@@ -152,6 +156,7 @@ export class Viewer {
     cancelAnimationFrame(this.frameAsked);
     this.tiles?.dispose();
     this.far.dispose();
+    this.still?.dispose();
     this.basemap.clear();
     for (const side of this.sides) side?.dispose();
     this.renderer.dispose();
@@ -280,7 +285,7 @@ export class Viewer {
     this.showSelection();
     this.place();
     this.fillCut();
-    this.request();
+    this.request(another || which === 1);
   }
 
   /** Colours the buildings of the run; null: by the class of their faces. */
@@ -439,17 +444,17 @@ export class Viewer {
   setSelection(at: Selection | null, also: { building: string; part: string }[]) {
     this.selected = { at, also };
     this.showSelection();
-    this.request();
+    this.request(false);
   }
 
   setHover(at: { building: string; part: string | null } | null) {
     this.highlight.hover(at ? this.sides[0].building(at.building)?.parts.find((p) => p.id === at.part) : undefined);
-    this.request();
+    this.request(false);
   }
 
   setRaw(part: api.RaisedPart | undefined, climbs: RawClimbs[]) {
     this.highlight.showRaw(part, climbs);
-    this.request();
+    this.request(false);
   }
 
   setChosen(blocks: ReadonlySet<string>) {
@@ -958,7 +963,9 @@ export class Viewer {
 
   // ---- drawing
 
-  request() {
+  /** Asks for an image. `more`: other things changed than drafts and highlights. */
+  request(more = true) {
+    if (more) this.still?.forget();
     if (!this.frameAsked && !this.gone.signal.aborted)
       this.frameAsked = requestAnimationFrame((now) => this.frame(now));
   }
@@ -985,7 +992,7 @@ export class Viewer {
     }
     this.draw();
     this.moving = !settled; // the next image follows at once
-    if (!settled) this.request();
+    if (!settled) this.request(false);
   }
 
   private aim() {
@@ -1008,6 +1015,7 @@ export class Viewer {
 
   private draw() {
     this.aim();
+    if (this.drawDrag()) return;
     this.stream();
     this.far.seenFrom(this.eye.position);
     this.highlight.detailed = this.pose.size < 150;
@@ -1052,6 +1060,32 @@ export class Viewer {
       });
     }
     this.listener.drawn(this.pose.azimuth, this.pose.size / this.height);
+  }
+
+  /** An image of a drag, of which only the changed buildings and the highlights are new. */
+  private drawDrag(): boolean {
+    const [{ drafts, output }, second] = this.sides;
+    if (!this.still || second || this.divided !== null || drafts.size === 0) return false;
+    output.apart(drafts, changing);
+    for (const object of [this.highlight.group, this.cap.object, this.capLines.object]) object.traverse((o) => o.layers.set(changing));
+    this.cap.object.visible = this.capLines.object.visible = this.filled > 0;
+    this.highlight.detailed = this.pose.size < 150;
+    const { pose, eye, renderer } = this;
+    renderer.setScissorTest(false);
+    renderer.setViewport(0, 0, this.width, this.height);
+    renderer.clear();
+    this.still.draw(renderer, JSON.stringify([pose, [...drafts.keys()]]), () => {
+      this.stream();
+      this.far.seenFrom(eye.position);
+      output.seenFrom(pose.size, this.choices.outlines.opacity);
+      eye.layers.set(0);
+      renderer.render(this.world, eye);
+    });
+    eye.layers.set(changing);
+    renderer.render(this.world, eye);
+    eye.layers.enableAll();
+    this.listener.drawn(pose.azimuth, pose.size / this.height);
+    return true;
   }
 
   /** Draws one pane: its left edge, and the part of it that is drawn. */
