@@ -54,11 +54,11 @@ function expect(holds, what) {
   if (!holds) throw new Error(what);
 }
 
-async function models(name, mesh, footprints, from) {
+async function models(name, mesh, footprints, from, most = 0) {
   const out = path.join(scratch, name);
   asked.length = 0;
   const { code, said } = await run("reconstruct", mesh, footprints, "-o", out, "--formats", "obj,plans,tiles", "-q");
-  expect(code === 0, `${name}: exit code ${code}: ${said}`);
+  expect(code <= most, `${name}: exit code ${code}: ${said}`);
   for (const file of from) expect(asked.includes(file), `${name}: ${file} was not asked for, only ${asked}`);
   // Comments say where the inputs lie.
   const obj = fs.readFileSync(path.join(out, "model.obj"), "utf8").split("\n").filter((line) => !line.startsWith("#"));
@@ -87,8 +87,9 @@ try {
   // A tileset with what it leads to, by its own relative addresses.
   fs.cpSync(path.join(scratch, "disk/model.3dtiles"), path.join(scratch, "bucket/tiles"), { recursive: true });
   const tiles = path.join(scratch, "bucket/tiles/tileset.json"), footprints = path.join(data, "hall/footprints.geojson");
-  const local = await models("tiles_on_disk", tiles, footprints, []);
-  same(await models("tiles", `${web}/tiles/tileset.json`, footprints, ["/bucket/tiles/tileset.json"]), local, "a tileset");
+  // They are of models alone and show nothing over some of a footprint, so that a building may fall back (1).
+  const local = await models("tiles_on_disk", tiles, footprints, [], 1);
+  same(await models("tiles", `${web}/tiles/tileset.json`, footprints, ["/bucket/tiles/tileset.json"], 1), local, "a tileset");
 
   const missing = await run("reconstruct", `${web}/hall/none.off`, footprints, "-o", path.join(scratch, "none"), "-q");
   expect(missing.code === 3 && missing.said.includes("none.off"), `a file that is not there: ${missing.code}: ${missing.said}`);
