@@ -133,9 +133,7 @@ TEST(BakeClouds, gives_the_same_pixels_in_any_order_frame_and_number_of_threads)
   base::limit_threads(0);
   ASSERT_TRUE(here && there);
   EXPECT_EQ(here->known, there->known);
-  for (std::size_t s = 0; s < solids.size(); ++s)
-    for (std::size_t f = 0; f < here->solids[s].faces.size(); ++f)
-      EXPECT_EQ(here->solids[s].faces[f].pixels.rgb, there->solids[s].faces[f].pixels.rgb);
+  expect_same_pixels(*here, *there);
 }
 
 TEST(BakeClouds, makes_a_building_alone_as_among_others) {
@@ -149,8 +147,7 @@ TEST(BakeClouds, makes_a_building_alone_as_among_others) {
   const auto among = bake(first, *scan_of({cloud}, solids), {}, side);
   const auto alone = bake(first, *scan_of({cloud}, larger), {}, side);
   ASSERT_TRUE(among && alone);
-  for (std::size_t f = 0; f < among->solids[0].faces.size(); ++f)
-    EXPECT_EQ(among->solids[0].faces[f].pixels.rgb, alone->solids[0].faces[f].pixels.rgb);
+  expect_same_pixels(*among, *alone, 1);
 }
 
 TEST(BakeClouds, leaves_out_ground_vegetation_noise_and_all_but_last_returns) {
@@ -178,9 +175,7 @@ TEST(BakeClouds, leaves_out_ground_vegetation_noise_and_all_but_last_returns) {
   }
   const auto baked = bake(solids, *scan_of({las_file(folder / "b.las", points)}, solids), {}, side);
   ASSERT_TRUE(expected && baked);
-  for (std::size_t s = 0; s < solids.size(); ++s)
-    for (std::size_t f = 0; f < baked->solids[s].faces.size(); ++f)
-      EXPECT_EQ(baked->solids[s].faces[f].pixels.rgb, expected->solids[s].faces[f].pixels.rgb);
+  expect_same_pixels(*baked, *expected);
 }
 
 TEST(BakeClouds, colours_no_wall_by_level_ground_that_is_not_classified) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -113,6 +114,18 @@ inline auto is_inside(const model::LabelledSolid& solid, std::size_t face, geome
     if (a.x - a.y / (b.y - a.y) * (b.x - a.x) > 0) inside = !inside;
   }
   return inside;
+}
+
+/// Of the first `solids` of what was baked, by default all.
+template <class Baked>
+void expect_same_pixels(const Baked& one, const Baked& other, std::size_t solids = ~std::size_t{0}) {
+  const std::size_t count = std::min({solids, one.solids.size(), other.solids.size()});
+  ASSERT_GT(count, 0U);
+  for (std::size_t s = 0; s < count; ++s) {
+    ASSERT_EQ(one.solids[s].faces.size(), other.solids[s].faces.size());
+    for (std::size_t f = 0; f < one.solids[s].faces.size(); ++f)
+      EXPECT_EQ(one.solids[s].faces[f].pixels.rgb, other.solids[s].faces[f].pixels.rgb) << s << ' ' << f;
+  }
 }
 
 inline auto pixel(const model::Pixels& pixels, std::size_t x, std::size_t y) -> std::array<int, 3> {

@@ -160,9 +160,7 @@ TEST(Bake, gives_the_same_pixels_at_any_number_of_threads) {
   const auto four = bake(solids, *scan, {}, side);
   base::limit_threads(0);
   ASSERT_TRUE(one && four);
-  for (std::size_t s = 0; s < solids.size(); ++s)
-    for (std::size_t f = 0; f < one->solids[s].faces.size(); ++f)
-      EXPECT_EQ(one->solids[s].faces[f].pixels.rgb, four->solids[s].faces[f].pixels.rgb);
+  expect_same_pixels(*one, *four);
 }
 
 TEST(Bake, gives_the_same_pixels_wherever_the_origin_of_the_frame_is) {
@@ -176,9 +174,7 @@ TEST(Bake, gives_the_same_pixels_wherever_the_origin_of_the_frame_is) {
   const auto there = bake(moved, *scan_of({houses_folder() / "houses.obj"}, moved, nullptr, frame), {}, side);
   ASSERT_TRUE(here && there);
   EXPECT_EQ(here->known, there->known);
-  for (std::size_t s = 0; s < solids.size(); ++s)
-    for (std::size_t f = 0; f < here->solids[s].faces.size(); ++f)
-      EXPECT_EQ(here->solids[s].faces[f].pixels.rgb, there->solids[s].faces[f].pixels.rgb);
+  expect_same_pixels(*here, *there);
 }
 
 TEST(Bake, makes_a_building_alone_as_among_others) {
@@ -188,8 +184,7 @@ TEST(Bake, makes_a_building_alone_as_among_others) {
   const auto among = bake(first, *scan, {}, side);
   const auto alone = bake(first, *scan_of({houses_folder() / "houses.obj"}, first), {}, side);
   ASSERT_TRUE(among && alone);
-  for (std::size_t f = 0; f < among->solids[0].faces.size(); ++f)
-    EXPECT_EQ(among->solids[0].faces[f].pixels.rgb, alone->solids[0].faces[f].pixels.rgb);
+  expect_same_pixels(*among, *alone, 1);
 }
 
 TEST(Bake, keeps_pictures_within_the_side_that_is_asked_for) {
@@ -269,9 +264,7 @@ TEST(Scan, decodes_a_picture_again_where_memory_is_short) {
   const auto small = bake(solids, **scan, {}, side);
   const auto large = bake(solids, *scan_of({houses_folder() / "houses.obj"}, solids), {}, side);
   ASSERT_TRUE(small && large);
-  for (std::size_t s = 0; s < solids.size(); ++s)
-    for (std::size_t f = 0; f < small->solids[s].faces.size(); ++f)
-      EXPECT_EQ(small->solids[s].faces[f].pixels.rgb, large->solids[s].faces[f].pixels.rgb);
+  expect_same_pixels(*small, *large);
 }
 
 TEST(Scan, reads_the_same_picture_from_obj_and_glb) {
