@@ -163,8 +163,8 @@ test("the sample is read, reconstructed, edited, undone and exported", { tag: "@
     expect(after.mse).not.toBe(before.mse);
     await picture(page, "profile");
     await idle(page);
-    // Images of a drag are put together; they show what an image of the whole scene shows.
-    expect(await difference(page, dragged, await canvas(page).screenshot())).toBeLessThan(0.02);
+    // Images of a drag are put together; they show what an image of the whole scene shows, once messages over it are gone.
+    await expect.poll(async () => difference(page, dragged, await canvas(page).screenshot()), { timeout: 30_000 }).toBeLessThan(0.02);
     const { latency, drawn } = await page.evaluate(() => {
       const { latency, drawn } = (window as unknown as Known["window"]).mansard;
       return { latency, drawn };
