@@ -163,8 +163,9 @@ test("the sample is read, reconstructed, edited, undone and exported", { tag: "@
     expect(after.mse).not.toBe(before.mse);
     await picture(page, "profile");
     await idle(page);
-    // Images of a drag are put together; they show what an image of the whole scene shows, once messages over it are gone.
-    await expect.poll(async () => difference(page, dragged, await canvas(page).screenshot()), { timeout: 30_000 }).toBeLessThan(0.02);
+    // Images of a drag are put together; they show what an image of the whole scene shows. The grain of steep places of the
+    // scan is another one in them: 4 % in Firefox. Where the rest of the scene is missing it is more than half.
+    expect(await difference(page, dragged, await canvas(page).screenshot())).toBeLessThan(0.08);
     const { latency, drawn } = await page.evaluate(() => {
       const { latency, drawn } = (window as unknown as Known["window"]).mansard;
       return { latency, drawn };
