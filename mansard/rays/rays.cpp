@@ -227,11 +227,18 @@ void fill(RTCRay8& packet, std::array<int, together>& valid, std::span<const Ray
   }
 }
 
-auto coherent() -> RTCIntersectContext {
+/// For every packet of so many rays cast(valid, context, number of its first ray), which fills and casts it, then
+/// take(place in the packet, number of the ray) for each ray in it.
+template <class Cast, class Take>
+void each_packet(std::size_t count, Cast cast, Take take) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  return context;
+  alignas(4 * together) std::array<int, together> valid{};
+  for (std::size_t first = 0; first < count; first += together) {
+    cast(valid, context, first);
+    for (std::size_t k = 0; k < together && first + k < count; ++k) take(k, first + k);
+  }
 }
 
 }  // namespace
@@ -242,18 +249,19 @@ void Scene::cast_all(std::span<const Ray> rays, std::span<std::optional<Hit>> hi
     return;
   }
   const Tree& tree = parts_->tree();
-  auto context = coherent();
-  alignas(4 * together) std::array<int, together> valid{};
-  for (std::size_t first = 0; first < rays.size(); first += together) {
-    RTCRayHit8 packet;
-    fill(packet.ray, valid, rays, first, tree.centre);
-    std::ranges::fill(packet.hit.geomID, RTC_INVALID_GEOMETRY_ID);
-    rtcIntersect8(valid.data(), tree.scene.get(), &context, &packet);
-    for (std::size_t k = 0; k < together && first + k < rays.size(); ++k)
-      hits[first + k] = packet.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID
-                            ? std::nullopt
-                            : std::optional(Hit{packet.ray.tfar[k], packet.hit.primID[k]});
-  }
+  RTCRayHit8 packet;
+  each_packet(
+      rays.size(),
+      [&](auto& valid, auto& context, std::size_t first) {
+        fill(packet.ray, valid, rays, first, tree.centre);
+        std::ranges::fill(packet.hit.geomID, RTC_INVALID_GEOMETRY_ID);
+        rtcIntersect8(valid.data(), tree.scene.get(), &context, &packet);
+      },
+      [&](std::size_t k, std::size_t number) {
+        hits[number] = packet.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID
+                           ? std::nullopt
+                           : std::optional(Hit{packet.ray.tfar[k], packet.hit.primID[k]});
+      });
 }
 
 void Scene::cast_any(std::span<const Ray> rays, std::span<char> blocked) const {
@@ -262,16 +270,15 @@ void Scene::cast_any(std::span<const Ray> rays, std::span<char> blocked) const {
     return;
   }
   const Tree& tree = parts_->tree();
-  auto context = coherent();
-  alignas(4 * together) std::array<int, together> valid{};
-  for (std::size_t first = 0; first < rays.size(); first += together) {
-    RTCRay8 packet;
-    fill(packet, valid, rays, first, tree.centre);
-    rtcOccluded8(valid.data(), tree.scene.get(), &context, &packet);
-    // Embree marks a ray that met something by a length of minus infinity.
-    for (std::size_t k = 0; k < together && first + k < rays.size(); ++k)
-      blocked[first + k] = packet.tfar[k] < 0 ? 1 : 0;
-  }
+  RTCRay8 packet;
+  each_packet(
+      rays.size(),
+      [&](auto& valid, auto& context, std::size_t first) {
+        fill(packet, valid, rays, first, tree.centre);
+        rtcOccluded8(valid.data(), tree.scene.get(), &context, &packet);
+      },
+      // Embree marks a ray that met something by a length of minus infinity.
+      [&](std::size_t k, std::size_t number) { blocked[number] = packet.tfar[k] < 0 ? 1 : 0; });
 }
 
 auto Scene::seen_from_above(Point2 at) const -> std::optional<Seen> {

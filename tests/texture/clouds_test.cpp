@@ -56,21 +56,12 @@ struct Places {
 auto places_of(const std::vector<model::LabelledSolid>& solids, const model::BuildingTexture& baked, double tolerance)
     -> Places {
   Places out;
-  for (std::size_t s = 0; s < solids.size(); ++s)
-    for (std::size_t f = 0; f < solids[s].solid.faces.size(); ++f) {
-      const auto& texture = baked.solids[s].faces[f];
-      if (texture.pixels.width == 1 && texture.pixels.height == 1) continue;
-      for (std::uint32_t y = 0; y < texture.pixels.height; ++y)
-        for (std::uint32_t x = 0; x < texture.pixels.width; ++x) {
-          const Point3 p = place_of(texture, solids[s], f, x + 0.5, y + 0.5);
-          if (!is_inside(solids[s], f, p, 0)) continue;
-          const auto colour = pixel(texture.pixels, x, y);
-          const double off = std::max(
-              {std::abs(colour[0] / 5.0 - p.x), std::abs(colour[1] / 10.0 - p.y), std::abs(colour[2] / 25.0 - p.z)});
-          ++out.all;
-          out.right += off < tolerance ? 1 : 0;
-        }
-    }
+  each_texel(solids, baked, 0, [&](auto, auto, const auto&, auto, auto, Point3 p, const auto& colour) {
+    const double off =
+        std::max({std::abs(colour[0] / 5.0 - p.x), std::abs(colour[1] / 10.0 - p.y), std::abs(colour[2] / 25.0 - p.z)});
+    ++out.all;
+    out.right += off < tolerance ? 1 : 0;
+  });
   return out;
 }
 

@@ -17,22 +17,6 @@ namespace {
 using geometry::Point3;
 using testing::HasSubstr;
 
-/// visit(solid, face, texture, x, y, place, colour) for every texel whose middle is inside its face by `margin`.
-template <class Visit>
-void each_texel(const std::vector<model::LabelledSolid>& solids, const model::BuildingTexture& baked, double margin,
-                Visit visit) {
-  for (std::size_t s = 0; s < solids.size(); ++s)
-    for (std::size_t f = 0; f < solids[s].solid.faces.size(); ++f) {
-      const auto& texture = baked.solids[s].faces[f];
-      if (texture.pixels.width == 1 && texture.pixels.height == 1) continue;
-      for (std::uint32_t y = 0; y < texture.pixels.height; ++y)
-        for (std::uint32_t x = 0; x < texture.pixels.width; ++x) {
-          const Point3 p = place_of(texture, solids[s], f, x + 0.5, y + 0.5);
-          if (is_inside(solids[s], f, p, margin)) visit(s, f, texture, x, y, p, pixel(texture.pixels, x, y));
-        }
-    }
-}
-
 TEST(Bake, takes_every_texel_from_the_place_where_it_is) {
   const auto solids = exact_solids();
   const test::Scratch folder;
