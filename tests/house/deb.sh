@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds the Debian packages, looks into them, and runs the program from where it was unpacked.
-#   deb.sh REPOSITORY BUILD SCRATCH
+#   deb.sh REPOSITORY BUILD SCRATCH [VARIABLE=VALUE…]    of the environment of Python
 set -euo pipefail
 repository=$1 build=$2 scratch=$3
 rm -rf "$scratch"
@@ -57,7 +57,7 @@ said=$(PATH=/usr/bin:/bin "$mansard" reconstruct -q "$scratch/a.stl" "$data/hall
 [[ $(dpkg-deb -f "$python" Depends) == *python3-numpy*libgdal* || $(dpkg-deb -f "$python" Depends) == *libgdal*python3-numpy* ]] ||
   fail "python3-mansard does not depend on numpy and GDAL: $(dpkg-deb -f "$python" Depends)"
 dpkg-deb -x "$python" "$scratch/root"
-PYTHONPATH=$scratch/root/usr/lib/python3/dist-packages PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 -c "
+PYTHONPATH=$scratch/root/usr/lib/python3/dist-packages PYTHONDONTWRITEBYTECODE=1 env "${@:4}" /usr/bin/python3 -c "
 import sys, mansard
 assert mansard.__file__.startswith('$scratch'), mansard.__file__
 assert len(mansard.reconstruct('$data/hall/mesh.off', '$data/hall/footprints.geojson')) == 2" || fail "no Python package"
