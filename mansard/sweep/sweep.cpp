@@ -49,9 +49,7 @@ auto with_roof_steps(SweepEdges edges, const block::Block& block, const rays::Sc
     edges.clusters.push_back({{}, step.area});
     edges.edges.push_back(step);
   }
-  std::ranges::stable_sort(edges.edges, [](const SweepEdge& a, const SweepEdge& b) {
-    return geometry::length(a.segment.end - a.segment.start) > geometry::length(b.segment.end - b.segment.start);
-  });
+  detail::sort_longest_first(edges.edges);
   return edges;
 }
 

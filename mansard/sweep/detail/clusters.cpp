@@ -100,7 +100,7 @@ auto grow_clusters(const LineStack& stack, const Options& options, const base::R
     const double wa = a.good * (a.low ? options.low_weight : 1), wb = b.good * (b.low ? options.low_weight : 1);
     if (in_units(wa) != in_units(wb)) return wa > wb;
     if (p.slice != q.slice) return p.slice < q.slice;
-    return a.line.segment < b.line.segment;
+    return comes_before(a.line.segment, b.line.segment);
   });
 
   std::vector<std::ptrdiff_t> steps;  // up and down, the nearest first
@@ -139,7 +139,7 @@ auto grow_clusters(const LineStack& stack, const Options& options, const base::R
       continue;
     }
     std::sort(members.begin(), members.end(), [&](Place p, Place q) {
-      return p.slice != q.slice ? p.slice < q.slice : at(p).line.segment < at(q).line.segment;
+      return p.slice != q.slice ? p.slice < q.slice : comes_before(at(p).line.segment, at(q).line.segment);
     });
     auto& cluster = clusters.emplace_back();
     for (const auto m : members) cluster.push_back(at(m));

@@ -136,7 +136,7 @@ void add_pieces(const Chain& chain, Point2 origin, double tolerance, const Optio
 
 auto longer(const Piece& a, const Piece& b) -> bool {
   if (in_units(a.length()) != in_units(b.length())) return a.length() > b.length();
-  return Segment2{a.start(), a.end()} < Segment2{b.start(), b.end()};
+  return comes_before({a.start(), a.end()}, {b.start(), b.end()});
 }
 
 /// Where a piece must have a part to be joined to that line.

@@ -116,7 +116,7 @@ auto put_together(std::vector<Side> sides, const slice::SliceStack& stack, doubl
   for (auto& c : found)
     if (c) candidates.push_back(std::move(*c));
   std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-    return in_units(a.area) != in_units(b.area) ? a.area > b.area : a.base < b.base;
+    return in_units(a.area) != in_units(b.area) ? a.area > b.area : comes_before(a.base, b.base);
   });
 
   std::vector<Segment2> bases;
@@ -147,7 +147,7 @@ auto put_together(std::vector<Side> sides, const slice::SliceStack& stack, doubl
       }
     }
     std::sort(side.begin(), side.end(), [](const WeighedLine& a, const WeighedLine& b) {
-      return a.line.slice != b.line.slice ? a.line.slice < b.line.slice : a.line.segment < b.line.segment;
+      return a.line.slice != b.line.slice ? a.line.slice < b.line.slice : comes_before(a.line.segment, b.line.segment);
     });
     result.push_back(std::move(side));
   }
@@ -213,7 +213,7 @@ void drop_twins(SweepEdges& found, const Options& o) {
     const double area_a = found.clusters[a.cluster].area, area_b = found.clusters[b.cluster].area;
     if (in_units(area_a) != in_units(area_b)) return area_a > area_b;
     if (in_units(a.area) != in_units(b.area)) return a.area > b.area;
-    return a.segment != b.segment ? a.segment < b.segment : i < k;
+    return a.segment != b.segment ? comes_before(a.segment, b.segment) : i < k;
   });
   std::vector<char> gone(found.edges.size(), 0);
   for (std::size_t n = 0; n < order.size(); ++n) {
@@ -292,8 +292,8 @@ auto select_edges(std::vector<Side> sides, const LineStack& lines, const slice::
 void sort_longest_first(std::vector<SweepEdge>& edges) {
   std::sort(edges.begin(), edges.end(), [](const SweepEdge& a, const SweepEdge& b) {
     const double la = span(a.segment), lb = span(b.segment);
-    if (la != lb) return la > lb;
-    return a.segment != b.segment ? a.segment < b.segment : a.cluster < b.cluster;
+    if (in_units(la) != in_units(lb)) return la > lb;
+    return a.segment != b.segment ? comes_before(a.segment, b.segment) : a.cluster < b.cluster;
   });
 }
 

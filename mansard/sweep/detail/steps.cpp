@@ -13,6 +13,7 @@
 #include "mansard/geometry/fit.hpp"
 #include "mansard/sweep/detail/line_index.hpp"
 #include "mansard/sweep/detail/steps_field.hpp"
+#include "mansard/sweep/detail/units.hpp"
 
 namespace mansard::sweep::detail {
 
@@ -302,7 +303,8 @@ auto displaced(const block::Block& block, Point2 shift) -> block::Block {
 /// The best first, each without what runs along a known line or a better step.
 auto selected(std::vector<Step> steps, const std::vector<Segment2>& known, const Options& o) -> std::vector<Step> {
   std::ranges::sort(steps, [&](const Step& a, const Step& b) {
-    return std::pair(-a.worth(o), a.segment) < std::pair(-b.worth(o), b.segment);
+    const double wa = a.worth(o), wb = b.worth(o);
+    return in_units(wa) != in_units(wb) ? wa > wb : comes_before(a.segment, b.segment);
   });
   std::vector<Step> kept;
   const Lines lines(known, o);
@@ -312,8 +314,10 @@ auto selected(std::vector<Step> steps, const std::vector<Segment2>& known, const
     for (const Step& k : kept) better.push_back(k.segment);
     if (rest) rest = Lines(std::move(better), o).rest_of(*rest);
     if (!rest) continue;
+    // Whole steps are long enough: `steps_along`. Their lengths are whole cells, and rounding would decide on equal ones.
+    const bool is_whole = rest->start == step.segment.start && rest->end == step.segment.end;
     step.segment = *rest;
-    if (step.length() >= o.step_length) kept.push_back(step);
+    if (is_whole || step.length() >= o.step_length) kept.push_back(step);
   }
   return kept;
 }

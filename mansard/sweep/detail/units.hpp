@@ -3,6 +3,9 @@
 
 #include <cmath>
 #include <cstdint>
+#include <tuple>
+
+#include "mansard/geometry/points.hpp"
 
 namespace mansard::sweep::detail {
 
@@ -10,5 +13,14 @@ namespace mansard::sweep::detail {
 /// would choose between their lines (decision 35); so something that does not depend on it decides. Two values that a
 /// micrometre parts are in one unit but in one case of ten thousand.
 [[nodiscard]] inline auto in_units(double value) -> std::int64_t { return std::llround(value * 1e2); }
+
+/// An order of segments by their places in cm, then exactly: that of the ends of walls that start on one line of a raster
+/// would be rounding's choice.
+[[nodiscard]] inline auto comes_before(const geometry::Segment2& a, const geometry::Segment2& b) -> bool {
+  const auto place = [](const geometry::Segment2& s) {
+    return std::tuple(in_units(s.start.x), in_units(s.start.y), in_units(s.end.x), in_units(s.end.y));
+  };
+  return place(a) != place(b) ? place(a) < place(b) : a < b;
+}
 
 }  // namespace mansard::sweep::detail
