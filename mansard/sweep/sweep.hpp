@@ -47,7 +47,7 @@ struct Registration {
 };
 
 struct SweepEdges {
-  std::vector<SweepEdge> edges;  ///< longest first; ties by coordinates
+  std::vector<SweepEdge> edges;  ///< longest first, by whole centimetres; then by coordinates
   std::vector<Cluster> clusters;
   Registration registration;
 };

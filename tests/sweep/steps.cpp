@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <vector>
 
 #include "mansard/rays/rays.hpp"
+#include "mansard/sweep/detail/selection.hpp"
 #include "mansard/sweep/sweep.hpp"
 #include "sweep/town.hpp"
 
@@ -122,6 +124,16 @@ TEST(RoofSteps, have_the_height_and_length_asked_for) {
   EXPECT_TRUE(steps_of(block, {.step_length = 12}).empty());
 }
 
+/// Steps are whole cells of 0.25 m long, so that many have the least length exactly: rounding must not choose.
+TEST(RoofSteps, of_the_least_length_are_found_at_any_angle) {
+  for (int turn = 0; turn < 24; ++turn) {
+    const auto block = flats(0.7).block(0.1 * turn);
+    for (const double length : {9.5, 9.75, 10.0})
+      EXPECT_EQ(steps_of(block, {.step_length = length}).size(), steps_of(block, {.step_length = length - 1e-6}).size())
+          << length << " m, turned by " << 0.1 * turn;
+  }
+}
+
 TEST(RoofSteps, stand_among_the_walls_longest_first) {
   const auto block = flats(0.7).block();
   SweepEdges walls;
@@ -156,6 +168,30 @@ TEST(RoofSteps, stop_when_cancelled) {
   base::Run run;
   run.cancel = &cancel;
   EXPECT_TRUE(with_roof_steps({}, block, rays::Scene(block.mesh), {}, run).edges.empty());
+}
+
+/// Lengths that a nanometre parts are one length: then the places decide, in centimetres too.
+TEST(SweepEdges, are_ordered_by_length_and_place_whatever_a_nanometre_says) {
+  std::vector<Segment2> places;
+  for (const double x : {3.0, 1.0, 2.0})
+    for (const double y : {7.0, 5.0}) places.push_back({{x, y}, {x, y + 10}});
+  places.push_back({{9, 0}, {9, 10.1}});
+  std::mt19937 chance(7);  // NOLINT(cert-msc51-cpp): the same numbers in every run
+  std::uniform_real_distribution<double> off(-1e-9, 1e-9);
+  for (int round = 0; round < 50; ++round) {
+    std::ranges::shuffle(places, chance);
+    std::vector<SweepEdge> edges;
+    for (const Segment2& s : places) {
+      auto& segment = edges.emplace_back().segment;
+      segment = {{s.start.x + off(chance), s.start.y + off(chance)}, {s.end.x + off(chance), s.end.y + off(chance)}};
+    }
+    detail::sort_longest_first(edges);
+    EXPECT_NEAR(edges[0].segment.start.x, 9, 1e-6);
+    for (std::size_t i = 1; i < edges.size(); ++i) {
+      EXPECT_NEAR(edges[i].segment.start.x, 1.0 + static_cast<double>((i - 1) / 2), 1e-6);
+      EXPECT_NEAR(edges[i].segment.start.y, i % 2 == 1 ? 5 : 7, 1e-6);
+    }
+  }
 }
 
 }  // namespace

@@ -93,7 +93,8 @@ TEST(FindEdges, keeps_the_area_promise_and_the_order) {  // guarantees 1 and 3
                                  [](const Line& a, const Line& b) { return a.slice < b.slice; }));
     }
     EXPECT_TRUE(std::is_sorted(found.edges.begin(), found.edges.end(), [](const SweepEdge& a, const SweepEdge& b) {
-      return length(a.segment.end - a.segment.start) > length(b.segment.end - b.segment.start);
+      return std::llround(100 * length(a.segment.end - a.segment.start)) >
+             std::llround(100 * length(b.segment.end - b.segment.start));
     }));
   }
 }

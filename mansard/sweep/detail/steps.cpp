@@ -314,7 +314,8 @@ auto selected(std::vector<Step> steps, const std::vector<Segment2>& known, const
     for (const Step& k : kept) better.push_back(k.segment);
     if (rest) rest = Lines(std::move(better), o).rest_of(*rest);
     if (!rest) continue;
-    // Whole steps are long enough: `steps_along`. Their lengths are whole cells, and rounding would decide on equal ones.
+    // Whole steps are long enough: `steps_along`. Their lengths are whole cells, and rounding would decide on equal
+    // ones.
     const bool is_whole = rest->start == step.segment.start && rest->end == step.segment.end;
     step.segment = *rest;
     if (is_whole || step.length() >= o.step_length) kept.push_back(step);
