@@ -46,6 +46,11 @@ TEST_P(Fixture, is_raised_in_full_and_as_the_oracle_says) {
   if (plan.outer.points.size() > 60) return;
   const Footprint footprint = footprint_of(plan);
   EXPECT_EQ(oracle::difference(surface_of(footprint, cap_of(plan)), oracle::raise(footprint, cap_of(plan))), "");
+  const auto ours = oracle::faces(surface_of(footprint, cap_of(plan))),
+             judged = oracle::raise(footprint, cap_of(plan)).faces;
+  ASSERT_EQ(ours.size(), judged.size());
+  for (std::size_t f = 0; f < ours.size(); ++f)
+    EXPECT_EQ(ours[f].provenance, judged[f].provenance) << "the name of face " << f;
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Fixture, testing::ValuesIn(fixtures()), [](const auto& instance) {
