@@ -184,4 +184,36 @@ auto difference(const ExactSurface& surface, const Solid& solid) -> std::string 
   return "";
 }
 
+auto misnamed(const mansard::extrude::detail::Footprint& footprint, const std::vector<Face>& ours,
+              const std::vector<Face>& judged) -> std::string {
+  using mansard::extrude::detail::CanonicalEdge;
+  using mansard::model::Provenance;
+  std::vector<const CanonicalEdge*> edges;
+  for (const auto& ring : footprint.rings)
+    for (const CanonicalEdge& edge : ring) edges.push_back(&edge);
+  const auto moves_as = [](const CanonicalEdge& p, const CanonicalEdge& q) {
+    return p.direction == q.direction && p.offset == q.offset && p.track == q.track;
+  };
+  const auto is = [](const CanonicalEdge& edge, const Provenance& name) {
+    return edge.provenance.ring == name.ring && edge.provenance.edge == name.edge;
+  };
+  const auto any_pair = [&](const auto& wanted) {
+    return std::ranges::any_of(edges, [&](const auto* p) {
+      return std::ranges::any_of(edges, [&](const auto* q) { return p != q && moves_as(*p, *q) && wanted(*p, *q); });
+    });
+  };
+  for (std::size_t f = 0; f < std::min(ours.size(), judged.size()); ++f) {
+    if (ours[f].provenance == judged[f].provenance) continue;
+    if (ours[f].provenance && judged[f].provenance) {
+      const Provenance a = *ours[f].provenance, b = *judged[f].provenance;
+      const bool level = ours[f].kind == FaceKind::terrace;
+      if (a.part == b.part &&
+          any_pair([&](const auto& p, const auto& q) { return level ? is(p, a) || is(p, b) : is(p, a) && is(q, b); }))
+        continue;
+    }
+    return "name of a face differs: " + text(ours[f]) + " and " + text(judged[f]);
+  }
+  return "";
+}
+
 }  // namespace oracle

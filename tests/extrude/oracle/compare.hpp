@@ -31,4 +31,10 @@ using mansard::extrude::detail::ExactSurface;
 /// What differs between the kernel's surface and the oracle's, in words; empty when nothing does. Names aside.
 [[nodiscard]] auto difference(const ExactSurface& surface, const Solid& solid) -> std::string;
 
+/// The first face whose name is that of an edge that does not sweep it, in words; empty when there is none. Edges on
+/// one line with one profile sweep one face where they have met, and it goes by any of them; so does a terrace, which
+/// goes by the first of all edges that sweep it.
+[[nodiscard]] auto misnamed(const mansard::extrude::detail::Footprint& footprint, const std::vector<Face>& ours,
+                            const std::vector<Face>& judged) -> std::string;
+
 }  // namespace oracle

@@ -48,9 +48,6 @@ void Wave::connect(const Rational& t) {
         ++i;
         continue;
       }
-      // Also where they meet at a knot, so that the strip above it is the first that they have in common.
-      const Line &one = lines[loop[i].line], &other = lines[loop[j].line];
-      if (one.edge != nullptr && other.edge->provenance < one.edge->provenance) loop[i].line = loop[j].line;
       loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(j));
       if (j < i) --i;
     }
