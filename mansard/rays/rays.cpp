@@ -160,23 +160,40 @@ Tree::Tree(const geometry::Mesh& mesh) {
 /// Each structure is built when it is first needed: most scenes are only looked at from above.
 struct Scene::Parts {
   geometry::Mesh mesh;
+  std::vector<std::uint32_t> hiding;  ///< of the mesh, ascending
   std::once_flag tree_once, above_once;
   std::optional<Tree> tree_;
   std::optional<detail::FromAbove> above_;
 
-  explicit Parts(geometry::Mesh of) : mesh(std::move(of)) {}
-  [[nodiscard]] auto empty() const -> bool { return mesh.triangles.empty(); }
+  Parts(geometry::Mesh of, std::vector<std::uint32_t> without) : mesh(std::move(of)), hiding(std::move(without)) {}
+  [[nodiscard]] auto empty() const -> bool { return mesh.triangles.size() == hiding.size(); }
+  [[nodiscard]] auto hides(std::uint32_t triangle) const -> bool {
+    return std::ranges::binary_search(hiding, triangle);
+  }
   auto tree() -> const Tree& {
-    std::call_once(tree_once, [&] { tree_.emplace(mesh); });
+    std::call_once(tree_once, [&] {
+      if (hiding.empty()) tree_.emplace(mesh);
+      else tree_.emplace(remaining());
+    });
     return *tree_;
   }
   auto above() -> const detail::FromAbove& {
     std::call_once(above_once, [&] { above_.emplace(mesh); });
     return *above_;
   }
+
+ private:
+  [[nodiscard]] auto remaining() const -> geometry::Mesh {
+    geometry::Mesh out{mesh.vertices, {}};
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+      if (!hides(t)) out.triangles.push_back(mesh.triangles[t]);
+    return out;
+  }
 };
 
-Scene::Scene(geometry::Mesh mesh) : parts_(std::make_unique<Parts>(std::move(mesh))) {}
+Scene::Scene(geometry::Mesh mesh) : Scene(std::move(mesh), {}) {}
+Scene::Scene(geometry::Mesh mesh, std::vector<std::uint32_t> hiding)
+    : parts_(std::make_unique<Parts>(std::move(mesh), std::move(hiding))) {}
 Scene::Scene(Scene&&) noexcept = default;
 auto Scene::operator=(Scene&&) noexcept -> Scene& = default;
 Scene::~Scene() = default;
@@ -284,7 +301,7 @@ void Scene::cast_any(std::span<const Ray> rays, std::span<char> blocked) const {
 auto Scene::seen_from_above(Point2 at) const -> std::optional<Seen> {
   if (parts_->empty()) return std::nullopt;
   const auto seen = parts_->above()(at);
-  return seen ? std::optional(Seen{seen->z, seen->triangle}) : std::nullopt;
+  return seen && !parts_->hides(seen->triangle) ? std::optional(Seen{seen->z, seen->triangle}) : std::nullopt;
 }
 
 auto Scene::top(Point2 at) const -> std::optional<double> {

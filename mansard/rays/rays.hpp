@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "mansard/geometry/mesh.hpp"
 
@@ -37,6 +38,9 @@ struct Nearest {
 class Scene {
  public:
   explicit Scene(geometry::Mesh mesh);
+  /// Without some triangles (ascending), below which nothing is seen from above either: where one of them is topmost,
+  /// `top` and `seen_from_above` see nothing. `cast` and `nearest` number the triangles that are left.
+  Scene(geometry::Mesh mesh, std::vector<std::uint32_t> hiding);
   Scene(Scene&&) noexcept;
   auto operator=(Scene&&) noexcept -> Scene&;
   Scene(const Scene&) = delete;
@@ -54,7 +58,7 @@ class Scene {
   /// z of the topmost surface above or below (x, y): what a satellite sees. Vertical triangles have no top. Of
   /// triangles that are equally high there, the one with the lower index is seen.
   [[nodiscard]] auto top(geometry::Point2 at) const -> std::optional<double>;
-  /// The triangle that `top` saw, and its z.
+  /// The triangle that `top` saw, of the mesh as it was given, and its z.
   struct Seen {
     double z = 0;
     std::uint32_t triangle = 0;

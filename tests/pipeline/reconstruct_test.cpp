@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include <numbers>
+
 #include "mansard/formats/documents.hpp"
 #include "mansard/formats/plans.hpp"
 #include "mansard/pipeline/pipeline.hpp"
@@ -56,6 +58,36 @@ TEST(Reconstruct, has_no_ridge_above_the_highest_point_of_the_roof) {
   }
   EXPECT_DOUBLE_EQ(value(building.attributes, "ms_h_roof_max"), top);
   EXPECT_DOUBLE_EQ(r.buildings[0].roof_max, top);
+}
+
+TEST(Reconstruct, sees_nothing_through_the_place_of_a_crown) {
+  // A flat roof of small triangles under a lumpy crown, and below it the ground in two large ones, whose middles are
+  // far from the crown.
+  auto scene = test::terrace();
+  scene.mesh = {};
+  test::add_quad(scene.mesh, {-20, -20, 0}, {50, -20, 0}, {50, 40, 0}, {-20, 40, 0});
+  test::add_house(scene.mesh, 0, 0, 12, 10, 6, 6);
+  scene.mesh.triangles.resize(scene.mesh.triangles.size() - 4);  // its roof
+  for (int i = 0; i < 24; ++i)
+    for (int j = 0; j < 20; ++j) {
+      const double x = i / 2.0, y = j / 2.0;
+      test::add_quad(scene.mesh, {x, y, 6}, {x + 0.5, y, 6}, {x + 0.5, y + 0.5, 6}, {x, y + 0.5, 6});
+    }
+  const auto crown = [](int around, int up) -> geometry::Point3 {
+    const double a = around * std::numbers::pi / 16, e = (up / 16.0 - 0.5) * std::numbers::pi;
+    const double r = 2.6 + 0.25 * std::sin(5 * a + 3 * e) * std::cos(4 * e + a);
+    return {8 + r * std::cos(e) * std::cos(a), 5 + r * std::cos(e) * std::sin(a), 9.2 + r * std::sin(e)};
+  };
+  for (int up = 0; up < 16; ++up)
+    for (int i = 0; i < 32; ++i)
+      test::add_quad(scene.mesh, crown(i, up), crown(i + 1, up), crown(i + 1, up + 1), crown(i, up + 1));
+  scene.footprints.resize(1);
+
+  const auto r = reconstructed(scene);
+  EXPECT_THAT(r.warnings, testing::Contains(testing::Field(&base::Diagnostic::code, "vegetation-crowns")));
+  EXPECT_EQ(r.buildings.at(0).parts, 1U);
+  EXPECT_NEAR(r.buildings.at(0).volume, 12 * 10 * 6, 5);
+  EXPECT_NEAR(r.buildings.at(0).roof_min, 6, 0.1);
 }
 
 TEST(Reconstruct, keeps_the_identity_of_every_feature) {

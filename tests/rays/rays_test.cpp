@@ -36,6 +36,22 @@ TEST(Scene, sees_the_topmost_surface) {
   EXPECT_GE(scene.seen_from_above({502, -298})->triangle, 2U);
 }
 
+TEST(Scene, sees_nothing_from_above_where_a_triangle_is_left_out) {
+  const geometry::Point3 shift{500, -300, 20};
+  const auto mesh = two_storeys(shift);
+  const Scene scene(mesh, {2, 3});  // the upper square
+  EXPECT_FALSE(scene.top({502, -298}));
+  EXPECT_FALSE(scene.seen_from_above({502, -298}));
+  EXPECT_NEAR(*scene.top({508, -292}), 23, 1e-4);
+  // Only from above: other rays and distances pass it.
+  const auto hit = scene.cast({502, -298, 40}, {0, 0, -1});
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(hit->distance, 17, 1e-4);
+  EXPECT_FALSE(scene.nearest({502, -298, 27}, 1));
+  EXPECT_FALSE(Scene(mesh, {0, 1, 2, 3}).top({508, -292}));
+  EXPECT_FALSE(Scene(mesh, {0, 1, 2, 3}).cast({502, -298, 40}, {0, 0, -1}));
+}
+
 TEST(Scene, casts_in_metres_whatever_the_length_of_the_direction) {
   const Scene scene(two_storeys({}));
   const auto hit = scene.cast({2, 2, 0}, {0, 0, 100});

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <vector>
@@ -195,6 +196,35 @@ TEST(Vegetation, takes_nothing_built_for_a_crown) {
                                     return dormer ? std::max(gable(p), 8.6) : gable(p);
                                   }))))
       << "dormers";
+}
+
+/// A flat roof, and above it what is seen from above and, 0.4 m lower, from below wherever `z` is a number.
+auto above_a_flat_roof(const std::function<double(Point2)>& z) -> Mesh {
+  auto all = sheet(ground, 0.25, [](Point2 p) { return in_outline(p) ? 6.0 : 0.0; });
+  for (const bool below : {false, true}) {
+    auto part = sheet(ground, 0.25, [&](Point2 p) { return z(p) - (below ? 0.4 : 0.0); });
+    std::erase_if(part.triangles, [&](const auto& corners) {
+      return std::ranges::any_of(corners, [&](std::uint32_t v) { return std::isnan(part.vertices[v].z); });
+    });
+    for (auto& vertex : part.vertices)
+      if (std::isnan(vertex.z)) vertex.z = 0;  // of no triangle
+    if (below)
+      for (auto& corners : part.triangles) std::swap(corners[1], corners[2]);
+    all = both(std::move(all), part);
+  }
+  return all;
+}
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+TEST(Vegetation, leaves_what_hangs_over_a_roof_but_is_lower_in_its_middle) {
+  const auto cup = [](double bend) {
+    return above_a_flat_roof([bend](Point2 p) {
+      const double r = length(p - Point2{6, 5});
+      return r < 1.95 ? 10 + bend * r * r + 0.05 * std::sin(5 * p.x) * std::cos(4 * p.y) : none;
+    });
+  };
+  EXPECT_EQ(found(cup(-0.9)).crowns.size(), 1U);  // the other way up it has the shape of a crown
+  EXPECT_TRUE(found(cup(1.05)).crowns.empty());
 }
 
 TEST(Vegetation, leaves_a_canopy_whose_underside_is_seen) {

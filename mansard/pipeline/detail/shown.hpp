@@ -12,7 +12,7 @@ namespace mansard::pipeline::detail {
 class Shown {
  public:
   Shown(const block::Block& block, const vegetation::Found& crowns)
-      : mesh_(crowns.below.empty() ? block.mesh : vegetation::without(block.mesh, crowns.below)), whole_block_(block) {
+      : mesh_(block.mesh, crowns.below), whole_block_(block) {
     if (crowns.below.empty()) return;
     cleared_ = block;
     cleared_->mesh = vegetation::without(block.mesh, crowns.triangles);
@@ -23,7 +23,7 @@ class Shown {
 
   /// With the walls below crowns, for slices.
   [[nodiscard]] auto block() const -> const block::Block& { return cleared_ ? *cleared_ : whole_block_; }
-  /// Seen from above: nothing where a crown is.
+  /// Seen from above: nothing where a crown is, also not the large triangles of a coarse mesh that reach below it.
   [[nodiscard]] auto mesh() const -> const rays::Scene& { return mesh_; }
   /// As it was scanned.
   [[nodiscard]] auto whole() const -> const rays::Scene& { return whole_ ? *whole_ : mesh_; }

@@ -52,6 +52,7 @@ struct Fitted {
 struct Blob {
   Crown seen;
   std::vector<std::uint32_t> cells;  ///< ascending
+  bool hangs = false;                ///< over what is below it, as a crown does
   bool dome = false;                 ///< hangs over too little for a crown, but has the shape of one
   bool too_long = false;             ///< longer than the margin around a tile
 };
