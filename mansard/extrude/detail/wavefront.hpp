@@ -148,7 +148,7 @@ class Wavefront {
     std::vector<TerraceMotion> motions;  ///< by line; without a plane: it stands still, and was not asked for yet
     std::vector<std::uint32_t> touched;  ///< slots whose motion over the height must be found anew afterwards
     std::vector<Candidate> waiting;      ///< the queue of the rise
-    double rise_horizon = 0;
+    double rise_horizon;  ///< without an initialiser: clang 16 wants those of a nested class after its outer class
     [[nodiscard]] auto motion_of(std::uint32_t line) const -> const TerraceMotion* {
       return line < motions.size() && motions[line].plane != none ? &motions[line] : nullptr;
     }
