@@ -11,6 +11,10 @@ JOBS ?= $(shell awk -v cores=$$(nproc) '/^MemAvailable/ { jobs = int($$2 / 15728
 # `make demo` needs no test packages, so it configures without tests, unless build/release has them from `make test` already.
 TESTS = $(if $(wildcard build/release/tests/CTestTestfile.cmake),ON,OFF)
 
+# In a new build folder, the sources of a folder are compiled as one unit (cmake/mansard_quick_build.cmake). One that was
+# configured before keeps what was chosen.
+UNITY = $(if $(wildcard build/release/CMakeCache.txt),,-DMANSARD_UNITY=ON)
+
 help:
 	@echo "make demo    reconstruct the samples of data/ into out/"
 	@echo "make test    run all tests"
@@ -20,7 +24,7 @@ help:
 
 demo:
 	@tools/setup.sh build
-	@cmake --preset release -DMANSARD_TESTS=$(TESTS) --log-level=WARNING > /dev/null
+	@cmake --preset release -DMANSARD_TESTS=$(TESTS) $(UNITY) --log-level=WARNING > /dev/null
 	cmake --build --preset release --target mansard -j $(JOBS)
 	@tools/demo.sh
 
@@ -31,7 +35,7 @@ setup:
 	@tools/setup.sh build test package
 
 configure: setup
-	@cmake --preset release --log-level=WARNING > /dev/null
+	@cmake --preset release $(UNITY) --log-level=WARNING > /dev/null
 
 build: configure
 	cmake --build --preset release -j $(JOBS)

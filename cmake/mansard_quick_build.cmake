@@ -12,6 +12,11 @@ if(NOT PROJECT_IS_TOP_LEVEL OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   set(MANSARD_QUICK_BUILD OFF)
 endif()
 
+# MANSARD_UNITY, which the Makefile sets for a new folder, compiles the sources of a folder together, so that headers are
+# parsed and templates are compiled once a folder. Who changes sources is quicker without: one source is compiled then, not
+# all of its folder. Names in anonymous namespaces have to be unique in a folder; `make demo` and `make test` see to that.
+option(MANSARD_UNITY "Compile the sources of a folder as one unit, with MANSARD_QUICK_BUILD: quicker from nothing" OFF)
+
 if(MANSARD_QUICK_BUILD)
   # Warnings of what is left after inlining, which differs: -Wstringop-overflow at "text" + std::string is a false alarm
   # akin to -Wrestrict in CMakeLists.txt; the others are its relatives.
@@ -24,6 +29,49 @@ if(MANSARD_QUICK_BUILD)
       CCACHE_BASEDIR=${PROJECT_SOURCE_DIR})
   endif()
 endif()
+
+# mansard_united(target): the sources of each folder of `target` are compiled as one unit; a folder with more than 80 kB of
+# sources as several, so that no unit takes long alone or much memory. Call it when the target has its sources.
+function(mansard_united target)
+  if(NOT MANSARD_QUICK_BUILD OR NOT MANSARD_UNITY)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  # Both warn of what is right in sources of their own, where a build without units has them: names that a source before has
+  # too, and members of types in anonymous namespaces.
+  target_compile_options(${target} PRIVATE -Wno-shadow $<$<COMPILE_LANGUAGE:CXX>:-Wno-subobject-linkage>)
+  get_target_property(sources ${target} SOURCES)
+  get_target_property(root ${target} SOURCE_DIR)
+  list(FILTER sources INCLUDE REGEX "[.]cpp$")
+  set(folders "")
+  foreach(source IN LISTS sources)
+    cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${root} OUTPUT_VARIABLE path)
+    if(NOT EXISTS ${path})  # made by the build
+      continue()
+    endif()
+    cmake_path(GET path PARENT_PATH folder)
+    string(MAKE_C_IDENTIFIER "${folder}" folder)
+    if(NOT folder IN_LIST folders)
+      list(APPEND folders ${folder})
+      set(sources_${folder} "")
+      set(bytes_${folder} 0)
+    endif()
+    list(APPEND sources_${folder} ${source})
+    file(SIZE ${path} bytes)
+    math(EXPR bytes_${folder} "${bytes_${folder}} + ${bytes}")
+  endforeach()
+  foreach(folder IN LISTS folders)
+    list(LENGTH sources_${folder} count)
+    math(EXPR units "(${bytes_${folder}} + 79999) / 80000")
+    set(number 0)
+    foreach(source IN LISTS sources_${folder})
+      math(EXPR unit "${number} * ${units} / ${count}")
+      math(EXPR number "${number} + 1")
+      string(MD5 group "${folder} ${unit}")  # names of files: short ones
+      set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${group})
+    endforeach()
+  endforeach()
+endfunction()
 
 # mansard_precompiled(target modules|tests|commands): `target` uses the precompiled headers of modules, those of tests, or those
 # of the command line, which is compiled as its own target is.

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Request {
+struct ClusterRequest {
   std::string scheduler, out, image = "mansard";
   std::vector<std::string> command;
   std::size_t shares = 0, cpus = 2;
@@ -34,13 +34,13 @@ auto program() -> std::string {
 }
 
 /// The command of a share or of the merge; `more` is added as it is.
-auto line(const Request& request, const std::string& program, const std::string& more) -> std::string {
+auto line(const ClusterRequest& request, const std::string& program, const std::string& more) -> std::string {
   std::string out = quoted(program);
   for (const auto& word : request.command) out += " " + quoted(word);
   return out + more;
 }
 
-auto shares_of(const Request& request, const std::string& index) -> std::string {
+auto shares_of(const ClusterRequest& request, const std::string& index) -> std::string {
   return " --shares " + std::to_string(request.shares) + " --share " + index;
 }
 
@@ -58,7 +58,7 @@ auto here() -> std::string {
 /// Some buildings may have fallen back (exit code 1): no reason for a scheduler to call the job failed.
 constexpr auto accept_fallbacks = " || [ $? -eq 1 ]\n";
 
-auto slurm(const Request& request, const fs::path& folder) -> std::vector<Script> {
+auto slurm(const ClusterRequest& request, const fs::path& folder) -> std::vector<Script> {
   const std::string from = fs::absolute(folder).lexically_normal().string();
   const auto head = [&](const std::string& name, const std::string& log) {
     return "#!/bin/bash\n#SBATCH --job-name=mansard-" + name + "\n#SBATCH --output=\"" + from + "/" + log +
@@ -78,7 +78,7 @@ auto slurm(const Request& request, const fs::path& folder) -> std::vector<Script
                             "$merge\"\n"}};
 }
 
-auto parallel(const Request& request) -> std::vector<Script> {
+auto parallel(const ClusterRequest& request) -> std::vector<Script> {
   return {{"run.sh",
            "#!/bin/bash\n# GNU parallel makes the shares, as many at a time as -j says (-j 4, or --sshlogin "
            "for other machines);\n# a job that is stopped can be started again. Then the models are written.\n"
@@ -98,7 +98,7 @@ auto yaml(const std::string& text) -> std::string {
   return out + "\"";
 }
 
-auto kubernetes(const Request& request) -> std::vector<Script> {
+auto kubernetes(const ClusterRequest& request) -> std::vector<Script> {
   const auto job = [&](const std::string& name, const std::string& indexed, const std::string& command) {
     return "apiVersion: batch/v1\nkind: Job\nmetadata:\n  name: mansard-" + name + "\nspec:\n" + indexed +
            "  backoffLimit: 12\n  template:\n    spec:\n      restartPolicy: Never\n      containers:\n"
@@ -121,7 +121,7 @@ auto kubernetes(const Request& request) -> std::vector<Script> {
            false}};
 }
 
-auto check(const Request& request) -> base::Result<void> {
+auto check(const ClusterRequest& request) -> base::Result<void> {
   if (request.command.empty() || request.command.front() != "reconstruct")
     return base::error("usage",
                        "expected '--' and a whole command to be shared: -- reconstruct MESH... FOOTPRINTS -o OUTDIR");
@@ -133,7 +133,7 @@ auto check(const Request& request) -> base::Result<void> {
   return {};
 }
 
-auto cluster(const Request& request) -> int {
+auto cluster(const ClusterRequest& request) -> int {
   if (auto right = check(request); !right) return give_up(right.errors());
   if (auto ready = prepare(request.out, request.overwrite); !ready) return give_up(ready.errors());
   const auto scripts = request.scheduler == "slurm"      ? slurm(request, request.out)
@@ -164,7 +164,7 @@ auto cluster(const Request& request) -> int {
 
 auto cluster_verb(CLI::App& app) -> Verb {
   auto* verb = add_verb(app, "cluster");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<ClusterRequest>();
   verb->add_option("SCHEDULER", request->scheduler, "slurm, parallel (GNU parallel) or kubernetes")
       ->required()
       ->check(CLI::IsMember({"slurm", "parallel", "kubernetes"}));

@@ -21,12 +21,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Request : Common {
+struct ConvertRequest : Common {
   std::string input, to;
   std::vector<std::string> outs;
 };
 
-auto targets_of(const Request& request) -> base::Result<std::vector<Target>> {
+auto targets_of(const ConvertRequest& request) -> base::Result<std::vector<Target>> {
   std::vector<Target> targets;
   if (!request.to.empty() && request.outs.size() != 1)
     return base::error("usage", "--to is for one output; with several, the file extension of each names its format",
@@ -45,7 +45,7 @@ auto targets_of(const Request& request) -> base::Result<std::vector<Target>> {
   return targets;
 }
 
-auto check_outputs(const Request& request, const std::vector<Target>& targets) -> base::Result<void> {
+auto check_outputs(const ConvertRequest& request, const std::vector<Target>& targets) -> base::Result<void> {
   std::vector<fs::path> places;
   for (const auto& target : targets)
     for (const auto& place : formats::is_database_name(target.path) ? std::vector<fs::path>() : places_of(target)) {
@@ -116,7 +116,8 @@ auto may_be_city_model(const std::string& input) -> bool {
 }
 
 /// Models of another producer, as they are.
-auto convert_foreign(const Request& request, const std::vector<Target>& targets, const base::Cancel& cancel) -> int {
+auto convert_foreign(const ConvertRequest& request, const std::vector<Target>& targets, const base::Cancel& cancel)
+    -> int {
   for (const auto& target : targets)
     if (!formats::takes_foreign(target.format))
       return give_up(
@@ -142,7 +143,7 @@ auto convert_foreign(const Request& request, const std::vector<Target>& targets,
   return all_done;
 }
 
-auto convert(const Request& request, const base::Cancel& cancel) -> int {
+auto convert(const ConvertRequest& request, const base::Cancel& cancel) -> int {
   const auto targets = targets_of(request);
   if (!targets) return give_up(targets.errors());
   auto reader = open_city(request.input);
@@ -193,7 +194,7 @@ auto convert(const Request& request, const base::Cancel& cancel) -> int {
 
 auto convert_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
   auto* verb = add_verb(app, "convert");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<ConvertRequest>();
   verb->add_option(
           "INPUT", request->input,
           "Model that mansard wrote: " + readable_formats().own_models + "; or CityJSON or CityGML of any producer")

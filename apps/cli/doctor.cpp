@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Request : Common {
+struct DoctorRequest : Common {
   std::vector<std::string> inputs;
   bool json = false;
 };
@@ -34,7 +34,7 @@ auto command_of(const pipeline::InputPaths& paths, const Settings& settings, con
          (more.empty() ? "" : " " + more) + " -o models";
 }
 
-auto inputs_of(const Request& request, const pipeline::Options& options, const base::Run& run)
+auto inputs_of(const DoctorRequest& request, const pipeline::Options& options, const base::Run& run)
     -> base::Result<std::vector<Finding>> {
   std::vector<Finding> all;
   if (request.inputs.size() == 1) {
@@ -70,7 +70,7 @@ auto inputs_of(const Request& request, const pipeline::Options& options, const b
   return all;
 }
 
-auto doctor(const Request& request, const base::Cancel& cancel) -> int {
+auto doctor(const DoctorRequest& request, const base::Cancel& cancel) -> int {
   pipeline::Options options;
   if (auto applied = request.settings.apply(options); !applied) return give_up(applied.errors());
   auto all = machine();
@@ -100,7 +100,7 @@ auto doctor(const Request& request, const base::Cancel& cancel) -> int {
 
 auto doctor_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
   auto* verb = add_verb(app, "doctor");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<DoctorRequest>();
   verb->add_option("INPUTS", request->inputs,
                    "Meshes: " + readable_formats().meshes + ". Then the footprints: " + readable_formats().footprints)
       ->type_name("MESH... FOOTPRINTS");

@@ -18,9 +18,9 @@ namespace mansard::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using NamedBytes = std::vector<std::pair<std::string, std::string>>;
+using ReportBytes = std::vector<std::pair<std::string, std::string>>;
 
-struct Request : Common {
+struct EvaluateRequest : Common {
   std::vector<std::string> inputs;  // the model, then the meshes
   std::string truth, footprints, lod, out;
   double error_limit = 2.0;
@@ -30,7 +30,7 @@ constexpr std::array report_names{"report.json", "error.png", "error.tif"};
 
 auto is_file(const std::string& out) -> bool { return fs::path(out).extension() == ".json"; }
 
-auto check_outputs(const Request& request) -> base::Result<void> {
+auto check_outputs(const EvaluateRequest& request) -> base::Result<void> {
   if (request.out.empty()) return {};
   std::vector<fs::path> results;
   if (is_file(request.out)) results.emplace_back(request.out);
@@ -43,7 +43,7 @@ auto check_outputs(const Request& request) -> base::Result<void> {
   return is_file(request.out) ? file_free(request.out, request.overwrite) : prepare(request.out, request.overwrite);
 }
 
-auto files_of(const Request& request) -> pipeline::EvaluationFiles {
+auto files_of(const EvaluateRequest& request) -> pipeline::EvaluationFiles {
   return {request.inputs.front(),
           {request.inputs.begin() + 1, request.inputs.end()},
           request.truth,
@@ -52,10 +52,10 @@ auto files_of(const Request& request) -> pipeline::EvaluationFiles {
 }
 
 /// The report, and in a folder the error maps too: in a colour scale that is the same for every model, and as numbers.
-auto write_all(const Request& request, const report::Evaluation& result, const report::EvaluationInput& input,
+auto write_all(const EvaluateRequest& request, const report::Evaluation& result, const report::EvaluationInput& input,
                const std::string& report, const base::Cancel& cancel) -> base::Result<void> {
   if (is_file(request.out)) return base::write_files({{request.out, report}}, &cancel);
-  NamedBytes files{{"report.json", report}};
+  ReportBytes files{{"report.json", report}};
   const auto& map = result.map;
   auto png =
       picture::png(picture::error_map(map.difference, map.columns, map.rows, request.error_limit, "model - mesh, m"));
@@ -67,7 +67,7 @@ auto write_all(const Request& request, const report::Evaluation& result, const r
   return base::write_files(in_folder(request.out, files), &cancel);
 }
 
-auto evaluate(const Request& request, const base::Cancel& cancel) -> int {
+auto evaluate(const EvaluateRequest& request, const base::Cancel& cancel) -> int {
   if (request.inputs.size() < 2) return give_up(base::error("usage", "expected a model, then one or more meshes"));
   if (auto order =
           check_model_place(request.inputs.front(), request.inputs.back(),
@@ -99,7 +99,7 @@ auto evaluate(const Request& request, const base::Cancel& cancel) -> int {
 
 auto evaluate_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
   auto* verb = add_verb(app, "evaluate");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<EvaluateRequest>();
   verb->add_option("INPUTS", request->inputs,
                    "The model: " + readable_formats().models + ". Then the meshes: " + readable_formats().meshes)
       ->type_name("MODEL MESH...");

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Request {
+struct ExploreRequest {
   ScanRequest scan;
   std::string experiment, out, list, data;
   std::vector<std::string> grids, parameters;
@@ -29,16 +29,16 @@ struct Request {
   bool no_pictures = false;
 };
 
-auto bad_list(const Request& request, const std::string& what) -> base::Diagnostic {
+auto bad_list(const ExploreRequest& request, const std::string& what) -> base::Diagnostic {
   return base::error("explore-list", what, request.list);
 }
 
 /// A path of the list: it starts at --data, or in the folder of the list.
-auto path_from(const Request& request, const std::string& path) -> fs::path {
+auto path_from(const ExploreRequest& request, const std::string& path) -> fs::path {
   return (request.data.empty() ? fs::path(request.list).parent_path() : fs::path(request.data)) / path;
 }
 
-auto dataset_of(const Request& request, const toml::table& table) -> base::Result<explore::Dataset> {
+auto dataset_of(const ExploreRequest& request, const toml::table& table) -> base::Result<explore::Dataset> {
   explore::Dataset dataset;
   for (const auto& [key, node] : table) {
     const auto name = std::string(key.str());
@@ -72,7 +72,7 @@ auto dataset_of(const Request& request, const toml::table& table) -> base::Resul
   return dataset;
 }
 
-auto listed(const Request& request) -> base::Result<std::vector<explore::Dataset>> {
+auto datasets_listed(const ExploreRequest& request) -> base::Result<std::vector<explore::Dataset>> {
   const auto text = base::read_file(request.list);
   if (!text) return text.failure();
   toml::table table;
@@ -97,11 +97,11 @@ auto listed(const Request& request) -> base::Result<std::vector<explore::Dataset
 }
 
 /// From the list, or the one of the command line, which takes its name from the folder of its footprints.
-auto datasets_of(const Request& request) -> base::Result<std::vector<explore::Dataset>> {
+auto datasets_of(const ExploreRequest& request) -> base::Result<std::vector<explore::Dataset>> {
   const auto& inputs = request.scan.inputs;
   if (!request.list.empty()) {
     if (!inputs.empty()) return base::error("usage", "expected either --datasets or meshes and footprints, not both");
-    return listed(request);
+    return datasets_listed(request);
   }
   if (inputs.size() < 2)
     return base::error("usage", "expected one or more meshes, then the footprints; or --datasets LIST");
@@ -115,7 +115,7 @@ auto datasets_of(const Request& request) -> base::Result<std::vector<explore::Da
 /// Not among the experiments that vary every axis with every other one.
 constexpr auto sensitivity = "sensitivity";
 
-auto study_of(const Request& request, const std::vector<std::string>& words) -> base::Result<explore::Request> {
+auto study_of(const ExploreRequest& request, const std::vector<std::string>& words) -> base::Result<explore::Request> {
   const bool one_by_one = request.experiment == sensitivity;
   if (one_by_one && !request.grids.empty())
     return base::error("usage", "the experiment 'sensitivity' takes --parameters, not --grid");
@@ -156,7 +156,7 @@ auto study_of(const Request& request, const std::vector<std::string>& words) -> 
   return study;
 }
 
-auto check_outputs(const Request& request, const explore::Request& study) -> base::Result<void> {
+auto check_outputs(const ExploreRequest& request, const explore::Request& study) -> base::Result<void> {
   std::vector<fs::path> inputs;
   if (!request.list.empty()) inputs.emplace_back(request.list);
   for (const auto& dataset : study.datasets) {
@@ -181,7 +181,8 @@ void summarise(const explore::Study& study, Progress& progress) {
                " runs succeeded");
 }
 
-auto explore_scans(const Request& request, const std::vector<std::string>& words, const base::Cancel& cancel) -> int {
+auto explore_scans(const ExploreRequest& request, const std::vector<std::string>& words, const base::Cancel& cancel)
+    -> int {
   const auto study = study_of(request, words);
   if (!study) return give_up(study.errors());
   if (request.experiment == sensitivity)
@@ -208,7 +209,7 @@ auto explore_scans(const Request& request, const std::vector<std::string>& words
 
 auto explore_verb(CLI::App& app, std::vector<std::string> words, const base::Cancel& cancel) -> Verb {
   auto* verb = add_verb(app, "explore");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<ExploreRequest>();
   std::string names;
   for (const auto& name : explore::experiment_names()) names += (names.empty() ? "" : ", ") + name;
   names += std::string(", ") + sensitivity;

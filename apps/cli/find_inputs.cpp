@@ -22,17 +22,17 @@ constexpr int deepest = 4;
 /// A folder with more tiles than this is named as a folder: a command with hundreds of files is of no use to anybody.
 constexpr std::size_t most_tiles = 3;
 
-struct Found {
+struct FoundFiles {
   Paths meshes, points, rasters, footprints;
   [[nodiscard]] auto surfaces() const -> std::size_t { return meshes.size() + points.size() + rasters.size(); }
-  void take(Found other) {
-    for (auto member : {&Found::meshes, &Found::points, &Found::rasters, &Found::footprints})
+  void take(FoundFiles other) {
+    for (auto member : {&FoundFiles::meshes, &FoundFiles::points, &FoundFiles::rasters, &FoundFiles::footprints})
       for (auto& path : other.*member) (this->*member).push_back(std::move(path));
   }
 };
 
 /// False: no format has that name.
-auto add(const fs::path& path, Found& found) -> bool {
+auto add(const fs::path& path, FoundFiles& found) -> bool {
   if (pipeline::is_footprints_name(path)) found.footprints.push_back(path);
   else if (path.filename() == "ept.json" || has_extension(path, &Reads::points)) found.points.push_back(path);
   else if (path.filename() == "tileset.json" || has_extension(path, &Reads::mesh)) found.meshes.push_back(path);
@@ -51,8 +51,8 @@ auto in_folder_order(const fs::path& folder) -> base::Result<std::vector<fs::dir
   return entries;
 }
 
-auto search(const fs::path& folder, int depth) -> base::Result<Found> {
-  Found found;
+auto search(const fs::path& folder, int depth) -> base::Result<FoundFiles> {
+  FoundFiles found;
   std::error_code status;
   if (fs::exists(folder / "tileset.json", status) || fs::exists(folder / "ept.json", status)) {
     (fs::exists(folder / "ept.json", status) ? found.points : found.meshes).push_back(folder);
@@ -77,7 +77,7 @@ auto search(const fs::path& folder, int depth) -> base::Result<Found> {
       levels |= add(path, found) && formats::extension_of(path) == ".osgb";
     }
   }
-  for (auto member : {&Found::meshes, &Found::points}) {
+  for (auto member : {&FoundFiles::meshes, &FoundFiles::points}) {
     auto& paths = found.*member;
     if (paths.size() == found.surfaces() && (paths.size() > most_tiles || levels)) paths = {folder};
   }
@@ -126,7 +126,7 @@ auto chosen_footprints(const Paths& candidates, std::vector<std::string>& notes)
 }
 
 /// Of what folders hold: one kind of surface.
-void prefer_one_kind(Found& found, std::vector<std::string>& notes) {
+void prefer_one_kind(FoundFiles& found, std::vector<std::string>& notes) {
   const bool meshes = !found.meshes.empty(), points = !found.points.empty();
   const auto leave = [&](Paths& paths, const char* what, const char* instead) {
     if (paths.empty()) return;
@@ -149,7 +149,7 @@ auto unknown_kind(const std::string& name) -> base::Diagnostic {
 
 auto find_inputs(const std::vector<std::string>& given) -> base::Result<FoundInputs> {
   FoundInputs out;
-  Found named, found;
+  FoundFiles named, found;
   std::error_code status;
   for (const auto& name : given) {
     if (auto there = formats::check_input(name); !there) return there.failure();
@@ -165,7 +165,7 @@ auto find_inputs(const std::vector<std::string>& given) -> base::Result<FoundInp
   }
   // A folder gives what is not named. Beside a mesh and footprints it can only be there for its meshes.
   if (!named.footprints.empty()) found.footprints.clear();
-  else if (named.surfaces() > 0) found = Found{{}, {}, {}, std::move(found.footprints)};
+  else if (named.surfaces() > 0) found = FoundFiles{{}, {}, {}, std::move(found.footprints)};
   prefer_one_kind(found, out.notes);
   found.take(std::move(named));
   if (found.footprints.size() > 1) {
@@ -173,7 +173,7 @@ auto find_inputs(const std::vector<std::string>& given) -> base::Result<FoundInp
     if (!one) return one.failure();
     found.footprints = {std::move(*one)};
   }
-  for (auto member : {&Found::meshes, &Found::points, &Found::rasters})
+  for (auto member : {&FoundFiles::meshes, &FoundFiles::points, &FoundFiles::rasters})
     for (auto& path : found.*member) out.paths.meshes.push_back(std::move(path));
   if (!found.footprints.empty()) out.paths.footprints = found.footprints.front();
   out.paths.derive_footprints = found.footprints.empty();

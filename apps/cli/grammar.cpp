@@ -26,13 +26,13 @@ auto names_of(const Presets& presets) -> Words {
 
 /// What CLI11 does not know: the words of a verb's own options by option, and where verbs differ by "verb option"; and
 /// the options of the modules.
-struct Known {
+struct KnownWords {
   std::map<std::string, Words> words;
   pipeline::Options pipeline;
   simulate::Options simulate;
   std::vector<base::OptionList> lists = pipeline::option_lists(pipeline);
 
-  Known() {
+  KnownWords() {
     lists.push_back(simulate::option_list(simulate));
     words["--preset"] = names_of(pipeline::presets());
     words["simulate --preset"] = names_of(simulate::presets());
@@ -46,8 +46,8 @@ struct Known {
     words["--formats"].emplace_back("all");
     words["completion SHELL"] = {"bash", "zsh", "fish"};
   }
-  Known(const Known&) = delete;  // the lists are bound to the members
-  auto operator=(const Known&) -> Known& = delete;
+  KnownWords(const KnownWords&) = delete;  // the lists are bound to the members
+  auto operator=(const KnownWords&) -> KnownWords& = delete;
 
   [[nodiscard]] auto option(const std::string& module, const std::string& name) const -> const base::Option* {
     for (const auto& list : lists)
@@ -104,7 +104,7 @@ void add_module_option(const base::Option& option, Term& term) {
   if (!term.needs_value) term.value = "";
 }
 
-auto term_of(const CLI::Option& option, const std::string& verb, const Known& known) -> Term {
+auto term_of(const CLI::Option& option, const std::string& verb, const KnownWords& known) -> Term {
   Term term;
   for (const auto& name : option.get_lnames()) term.names.push_back("--" + name);
   for (const auto& name : option.get_snames()) term.names.push_back("-" + name);
@@ -126,7 +126,7 @@ auto term_of(const CLI::Option& option, const std::string& verb, const Known& kn
   return term;
 }
 
-auto form_of(const CLI::App& verb, const Known& known) -> Form {
+auto form_with(const CLI::App& verb, const KnownWords& known) -> Form {
   Form form{verb.get_name(), verb.get_description(), {}, {}};
   for (const auto* option : verb.get_options()) {
     auto term = term_of(*option, form.verb, known);
@@ -148,14 +148,14 @@ auto without_details(std::string text) -> std::string {
 }  // namespace
 
 auto forms_of(const CLI::App& app) -> std::vector<Form> {
-  const Known known;
+  const KnownWords known;
   std::vector<Form> forms;
   for (const auto* verb : app.get_subcommands([](const CLI::App*) { return true; }))
-    forms.push_back(form_of(*verb, known));
+    forms.push_back(form_with(*verb, known));
   return forms;
 }
 
-auto form_of(const CLI::App& verb) -> Form { return form_of(verb, Known()); }
+auto form_of(const CLI::App& verb) -> Form { return form_with(verb, KnownWords()); }
 
 auto explained(const Term& term, bool full) -> std::string {
   std::vector<std::string> notes;

@@ -19,13 +19,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Request {
+struct InfoRequest {
   std::vector<std::string> files;
   bool json = false, verbose = false;
   std::size_t jobs = 0;
 };
 
-auto info_of(const fs::path& path, const Request& request, const base::Run& run) -> base::Result<Json> {
+auto info_of(const fs::path& path, const InfoRequest& request, const base::Run& run) -> base::Result<Json> {
   // A CityJSON of terrain alone has no models for a reader of models.
   const auto extension = formats::extension_of(path);
   if (extension.ends_with("json") || extension.ends_with("jsonl"))
@@ -51,7 +51,7 @@ auto info_of(const fs::path& path, const Request& request, const base::Run& run)
   return info_of_other(path, why, request.verbose, run);
 }
 
-auto info(const Request& request, const base::Cancel& cancel) -> int {
+auto info(const InfoRequest& request, const base::Cancel& cancel) -> int {
   base::limit_threads(request.jobs);
   base::Run run;
   run.cancel = &cancel;
@@ -76,7 +76,7 @@ auto info(const Request& request, const base::Cancel& cancel) -> int {
 
 auto info_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
   auto* verb = add_verb(app, "info");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<InfoRequest>();
   verb->add_option("FILES", request->files,
                    "Models: " + readable_formats().models + ", STL. Meshes: " + readable_formats().meshes +
                        ". Footprints: " + readable_formats().footprints)

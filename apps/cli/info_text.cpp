@@ -9,7 +9,7 @@
 namespace mansard::cli {
 namespace {
 
-constexpr std::size_t width = 80, margin = 14;
+constexpr std::size_t text_width = 80, margin = 14;
 constexpr std::size_t few = 5;  // of a list that --json has in full: a tileset has thousands of files
 
 /// Terms at the left, their values in a second column, broken between words.
@@ -18,7 +18,7 @@ class Lines {
   explicit Lines(const std::string& title) : text_(base::on_one_line(title) + "\n") {}
 
   void add(const std::string& term, const std::string& words) {
-    if (!words.empty()) text_ += term_and_text("  " + term, base::on_one_line(words), margin, width);
+    if (!words.empty()) text_ += term_and_text("  " + term, base::on_one_line(words), margin, text_width);
   }
   [[nodiscard]] auto text() const -> const std::string& { return text_; }
 
@@ -49,7 +49,7 @@ auto extent_in_words(const Json& extent) -> std::string {
   return words;
 }
 
-auto joined(const Json& words) -> std::string {
+auto json_list(const Json& words) -> std::string {
   std::string all;
   for (const auto& word : words) all += (all.empty() ? "" : ", ") + word.get<std::string>();
   return all;
@@ -236,7 +236,7 @@ auto info_text(const Json& info) -> std::string {
   if (info.contains("outcomes")) lines.add("outcomes", counted(info["outcomes"]));
   if (info.contains("points")) add_points(info, lines);
   else if (info.contains("classes")) lines.add("classes", counted(info["classes"]));
-  if (info.contains("lods") && !info["lods"].empty()) lines.add("LoD", joined(info["lods"]));
+  if (info.contains("lods") && !info["lods"].empty()) lines.add("LoD", json_list(info["lods"]));
   if (info.contains("validity")) add_validity(info["validity"], lines);
   if (info.value("raised", false)) lines.add("", "rebuilt from the plans in the file");
   if (info.contains("validity")) add_overlaps(info["validity"]["overlaps"], lines);

@@ -24,13 +24,13 @@ namespace {
 namespace fs = std::filesystem;
 using Classes = std::vector<model::SurfaceClass>;
 
-struct Request : Common {
+struct LabelRequest : Common {
   std::vector<std::string> inputs;  // the meshes, then the model
   std::string truth_mesh, truth, lod, out;
   label::ScanOptions scan;
 };
 
-auto check_outputs(const Request& request) -> base::Result<void> {
+auto check_outputs(const LabelRequest& request) -> base::Result<void> {
   const auto ending = fs::path(request.out).extension();
   if (ending != ".ply" && ending != ".glb")
     return base::error("usage", "the output is a mesh; its file extension must be .ply or .glb", request.out);
@@ -49,7 +49,8 @@ struct Input {
   std::optional<model::ModelSurface> true_model;
 };
 
-auto true_model_of(const Request& request, const Input& input) -> base::Result<std::optional<model::ModelSurface>> {
+auto true_model_of(const LabelRequest& request, const Input& input)
+    -> base::Result<std::optional<model::ModelSurface>> {
   std::optional<model::ModelSurface> none;
   if (request.truth.empty()) return none;
   auto truth = pipeline::read_any_model(request.truth, {request.lod, {}});
@@ -62,7 +63,7 @@ auto true_model_of(const Request& request, const Input& input) -> base::Result<s
   return std::optional(std::move(surface));
 }
 
-auto truth_of(const Request& request, const Input& input, const ingest::Options& options, const base::Run& run)
+auto truth_of(const LabelRequest& request, const Input& input, const ingest::Options& options, const base::Run& run)
     -> base::Result<Classes> {
   if (request.truth_mesh.empty()) return Classes();
   auto truth = ingest::read_mesh({request.truth_mesh}, input.frame, options, run);
@@ -77,7 +78,7 @@ auto truth_of(const Request& request, const Input& input, const ingest::Options&
   return label::classes_from(input.mesh.mesh, truth->mesh, truth->classes);
 }
 
-auto read(const Request& request, const pipeline::Options& options, const base::Run& run, Progress& progress)
+auto read(const LabelRequest& request, const pipeline::Options& options, const base::Run& run, Progress& progress)
     -> base::Result<Input> {
   auto model = pipeline::read_any_model(request.inputs.back(), {request.lod, options.ingest.crs}, run);
   if (!model) return model.failure();
@@ -158,7 +159,7 @@ void print(const Input& input, const Classes& classes) {
   }
 }
 
-auto label_mesh(const Request& request, const base::Cancel& cancel) -> int {
+auto label_mesh(const LabelRequest& request, const base::Cancel& cancel) -> int {
   if (request.inputs.size() < 2) return give_up(base::error("usage", "expected one or more meshes, then a model"));
   if (auto order = check_model_place(request.inputs.back(), request.inputs.front(),
                                      "mansard label " + quoted(request.inputs.back()) + " " +
@@ -189,7 +190,7 @@ auto label_mesh(const Request& request, const base::Cancel& cancel) -> int {
 
 auto label_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
   auto* verb = add_verb(app, "label");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<LabelRequest>();
   verb->add_option("INPUTS", request->inputs,
                    "Meshes: " + readable_formats().meshes + ". Then the model: " + readable_formats().models)
       ->type_name("MESH... MODEL");

@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 
 constexpr auto options_file = "options.toml", models_folder = "models";
 
-struct Request : Common {
+struct NewRequest : Common {
   std::string project;
   std::vector<std::string> inputs;
   bool no_check = false;
@@ -40,7 +40,7 @@ constexpr std::array proposed{"ingest.id_attribute", "ingest.layer",      "inges
                               "ingest.terrain",      "sweep.gamma",       "profile.quality",       "write.lod",
                               "texture.bake",        "terrain.tolerance", "pipeline.survey_source"};
 
-auto command_of(const Request& request, const pipeline::InputPaths& paths) -> std::string {
+auto command_of(const NewRequest& request, const pipeline::InputPaths& paths) -> std::string {
   std::string command = "mansard reconstruct";
   for (const auto& mesh : paths.meshes) command += " " + quoted(formats::name_to_show(mesh));
   command += " " + (paths.derive_footprints ? "--derive-footprints" : quoted(formats::name_to_show(paths.footprints)));
@@ -80,7 +80,7 @@ auto comment(const std::string& text) -> std::string {
 
 /// Every option that has not its default, and the proposed ones as comments, in a table for each module. `why` says of
 /// an option where its value is from.
-auto options_text(const Request& request, const FoundInputs& found, pipeline::Options options,
+auto options_text(const NewRequest& request, const FoundInputs& found, pipeline::Options options,
                   const std::map<std::string, std::string>& why) -> std::string {
   std::string text = comment("Options of this project, written by 'mansard new' of mansard " MANSARD_VERSION
                              ". Edit this file as you like; nothing overwrites it. Lines that begin with '#' have no "
@@ -116,7 +116,7 @@ auto options_text(const Request& request, const FoundInputs& found, pipeline::Op
 }
 
 /// What is wrong with the name of the project, before anything is read.
-auto check_project(const Request& request) -> base::Result<void> {
+auto check_project(const NewRequest& request) -> base::Result<void> {
   const fs::path project = request.project;
   std::error_code status;
   if (fs::exists(project / "project.json", status))
@@ -193,7 +193,7 @@ void take_back(const fs::path& project) {
   fs::remove(project, status);
 }
 
-auto write(const Request& request, const FoundInputs& found, const Checked& checked) -> base::Result<void> {
+auto write(const NewRequest& request, const FoundInputs& found, const Checked& checked) -> base::Result<void> {
   server::InputsRequest asked;
   for (const auto& mesh : found.paths.meshes) asked.meshes.push_back(mesh.string());
   asked.footprints = found.paths.footprints.string();
@@ -228,7 +228,7 @@ void tell(const FoundInputs& found, Progress& progress) {
   for (const auto& note : found.notes) progress.say("note: " + note);
 }
 
-auto make(const Request& request, const base::Cancel& cancel) -> int {
+auto make_project(const NewRequest& request, const base::Cancel& cancel) -> int {
   pipeline::Options options;
   if (auto applied = request.settings.apply(options); !applied) return give_up(applied.errors());
   if (request.inputs.empty())
@@ -273,7 +273,7 @@ auto make(const Request& request, const base::Cancel& cancel) -> int {
 
 auto new_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
   auto* verb = add_verb(app, "new");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<NewRequest>();
   verb->add_option("PROJECT", request->project, "Folder of the new project; it must not exist, or be empty")
       ->required()
       ->type_name("PROJECT");
@@ -285,7 +285,7 @@ auto new_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
   add_jobs(*verb, request->jobs);
   verb->add_flag("-q,--quiet", request->quiet, "Print the commands only");
   request->settings.add_to(*verb);
-  return {verb, [request, &cancel] { return make(*request, cancel); }};
+  return {verb, [request, &cancel] { return make_project(*request, cancel); }};
 }
 
 }  // namespace mansard::cli

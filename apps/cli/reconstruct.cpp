@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Request {
+struct ReconstructRequest {
   ScanRequest scan;
   TerrainOut terrain;
   std::string out;
@@ -33,7 +33,7 @@ struct Request {
   std::size_t share = 0, shares = 0;  ///< of the work, from 1; 0: all of it
 };
 
-auto summarise(const Made& made, const Request& request, Progress& progress) -> base::Result<void> {
+auto summarise(const Made& made, const ReconstructRequest& request, Progress& progress) -> base::Result<void> {
   if (const auto reuse = in_words(made.summary.reuse, made.summary.blocks.size(), "blocks"); !reuse.empty())
     progress.say(reuse);
   const auto& n = made.outcomes;
@@ -50,15 +50,15 @@ auto summarise(const Made& made, const Request& request, Progress& progress) -> 
 }
 
 /// What `--formats` and `--layers` ask for.
-auto targets_of(const Request& request) -> base::Result<std::vector<Target>> {
+auto targets_of(const ReconstructRequest& request) -> base::Result<std::vector<Target>> {
   auto formats = formats_in(request.formats + (request.layers ? ",geopackage" : ""));
   if (!formats) return formats.failure();
   return targets_in(request.out, *formats);
 }
 
-auto write_pictures(const Request& request, const pipeline::Options& options, const report::Reconstruction& result,
-                    const texture::Baked& baked, const model::Scene& scene, const base::Run& run,
-                    base::Outputs& outputs) -> base::Result<void> {
+auto write_pictures(const ReconstructRequest& request, const pipeline::Options& options,
+                    const report::Reconstruction& result, const texture::Baked& baked, const model::Scene& scene,
+                    const base::Run& run, base::Outputs& outputs) -> base::Result<void> {
   model::City textured;
   report::TexturedLayers layers;
   if (baked.textures) {
@@ -85,7 +85,7 @@ auto is_result(const std::string& name) -> bool {
   return std::ranges::find(own, name) != own.end();
 }
 
-auto write_all(const Request& request, const std::vector<Target>& targets, const pipeline::Options& options,
+auto write_all(const ReconstructRequest& request, const std::vector<Target>& targets, const pipeline::Options& options,
                const Made& made, const ingest::CityScene& city, const base::Run& run, Progress& progress)
     -> base::Result<void> {
   const auto& scene = city.scene;
@@ -133,7 +133,7 @@ auto write_all(const Request& request, const std::vector<Target>& targets, const
 }
 
 /// Everything that can be wrong with the outputs, before any work.
-auto check_outputs(const Request& request, const std::vector<Target>& targets) -> base::Result<void> {
+auto check_outputs(const ReconstructRequest& request, const std::vector<Target>& targets) -> base::Result<void> {
   std::vector<fs::path> results;
   for (const auto& name : all_results()) results.push_back(fs::path(request.out) / name);
   if (auto spared = spare_inputs(results, {request.scan.inputs.begin(), request.scan.inputs.end()}); !spared)
@@ -154,7 +154,7 @@ auto check_outputs(const Request& request, const std::vector<Target>& targets) -
   return {};
 }
 
-auto check_share(const Request& request) -> base::Result<void> {
+auto check_share(const ReconstructRequest& request) -> base::Result<void> {
   if ((request.share > 0) != (request.shares > 0))
     return base::error("usage", "--share and --shares belong together: --share 1 --shares 8");
   if (request.share > request.shares)
@@ -164,7 +164,7 @@ auto check_share(const Request& request) -> base::Result<void> {
   return {};
 }
 
-auto reconstruct(const Request& request, const base::Cancel& cancel) -> int {
+auto reconstruct(const ReconstructRequest& request, const base::Cancel& cancel) -> int {
   const auto options = options_of(request.scan);
   if (!options) return give_up(options.errors());
   if (auto right = check_share(request); !right) return give_up(right.errors());
@@ -227,7 +227,7 @@ auto reconstruct(const Request& request, const base::Cancel& cancel) -> int {
 
 auto reconstruct_verb(CLI::App& app, std::vector<std::string> words, const base::Cancel& cancel) -> Verb {
   auto* verb = add_verb(app, "reconstruct");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<ReconstructRequest>();
   add_to(*verb, request->scan);
   request->scan.words = std::move(words);
   verb->add_option("-o,--output", request->out, "Output folder")->required()->type_name("OUTDIR");

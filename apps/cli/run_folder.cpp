@@ -30,7 +30,7 @@ auto place_in(const fs::path& out, bool file) -> fs::path {
   const auto name = out.filename().empty() ? out.parent_path() : out;  // "x.3dtiles/"
   return name.string() + run_folder_name;
 }
-auto place_of(const fs::path& out) -> fs::path {
+auto folder_of(const fs::path& out) -> fs::path {
   std::error_code status;
   const auto inside = place_in(out, false), beside = place_in(out, true);
   return fs::exists(inside / status_name, status) || !fs::exists(beside / status_name, status) ? inside : beside;
@@ -236,14 +236,14 @@ void leave_run_folder() {
 }
 
 auto began_empty(const fs::path& out) -> bool {
-  const Json status = read_json(place_of(out) / status_name);
+  const Json status = read_json(folder_of(out) / status_name);
   if (!status.is_object() || text_of(status, "state") == "finished") return false;
   const auto empty = status.find("began_empty");
   return empty != status.end() && empty->is_boolean() && empty->get<bool>();
 }
 
 auto status_json(const fs::path& out) -> base::Result<std::string> {
-  const auto folder = place_of(out);
+  const auto folder = folder_of(out);
   std::error_code status;
   if (!fs::exists(folder / status_name, status))
     return base::error("status-none",

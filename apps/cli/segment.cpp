@@ -19,13 +19,13 @@ namespace {
 namespace fs = std::filesystem;
 using NamedBytes = std::vector<std::pair<fs::path, std::string>>;
 
-struct Request {
+struct SegmentRequest {
   ScanRequest scan;
   std::string out, mps;
 };
 
 /// Of two outputs with one path only the last would be left. The report is checked too.
-auto check_apart(const Request& request, std::vector<fs::path> files) -> base::Result<void> {
+auto check_apart(const SegmentRequest& request, std::vector<fs::path> files) -> base::Result<void> {
   if (!request.scan.report.empty()) files.emplace_back(request.scan.report);
   std::set<fs::path> taken;
   for (const auto& file : files) {
@@ -38,7 +38,7 @@ auto check_apart(const Request& request, std::vector<fs::path> files) -> base::R
 }
 
 /// Names of programs are known when the blocks are: those of an earlier run are found before the work all the same.
-auto programs_free(const Request& request) -> base::Result<void> {
+auto programs_free(const SegmentRequest& request) -> base::Result<void> {
   if (request.mps.empty() || request.scan.overwrite) return {};
   const fs::path path = request.mps;
   const auto start = path.stem().string() + "-block-", end = path.extension().string();
@@ -54,7 +54,7 @@ auto programs_free(const Request& request) -> base::Result<void> {
   return {};
 }
 
-auto check_outputs(const Request& request) -> base::Result<void> {
+auto check_outputs(const SegmentRequest& request) -> base::Result<void> {
   if (fs::path(request.out).extension() != ".gpkg")
     return base::error("usage", "the output is a GeoPackage; its file extension must be .gpkg", request.out);
   std::vector<fs::path> files{request.out};
@@ -65,7 +65,7 @@ auto check_outputs(const Request& request) -> base::Result<void> {
 }
 
 /// The programs of the blocks with faces inside. One takes the name that was given; several have the block's in it.
-auto programs(const Request& request, const report::Segmented& result) -> base::Result<NamedBytes> {
+auto programs(const SegmentRequest& request, const report::Segmented& result) -> base::Result<NamedBytes> {
   std::vector<const report::SegmentedBlock*> blocks;
   for (const auto& block : result.segmented)
     if (block.segmentation && std::ranges::any_of(block.segmentation->faces, &segment::FaceEvidence::inside))
@@ -111,7 +111,7 @@ void say_terms(const std::vector<report::BlockReport>& blocks, Progress& progres
   progress.say(text);
 }
 
-void summarise(const report::Segmented& result, const Request& request, Progress& progress) {
+void summarise(const report::Segmented& result, const SegmentRequest& request, Progress& progress) {
   using report::BlockReport;
   const auto& blocks = result.blocks;
   const auto count = [&](std::size_t BlockReport::*member) { return std::to_string(total(blocks, member)); };
@@ -128,7 +128,7 @@ void summarise(const report::Segmented& result, const Request& request, Progress
     for (const auto& warning : result.warnings) progress.say(base::to_string(warning));
 }
 
-auto write_all(const Request& request, const report::Segmented& result, const model::Scene& scene,
+auto write_all(const SegmentRequest& request, const report::Segmented& result, const model::Scene& scene,
                const NamedBytes& mps, const base::Run& run) -> base::Result<void> {
   const auto layers = formats::geopackage(report::segment_layers(scene, result.segmented, result.made_by), scene.frame);
   if (!layers) return layers.failure();
@@ -139,7 +139,7 @@ auto write_all(const Request& request, const report::Segmented& result, const mo
   return base::write_files(files, run.cancel);
 }
 
-auto segment_scan(const Request& request, const base::Cancel& cancel) -> int {
+auto segment_scan(const SegmentRequest& request, const base::Cancel& cancel) -> int {
   const auto options = options_of(request.scan);
   if (!options) return give_up(options.errors());
   if (auto ready = check_outputs(request); !ready) return give_up(ready.errors());
@@ -172,7 +172,7 @@ auto segment_scan(const Request& request, const base::Cancel& cancel) -> int {
 
 auto segment_verb(CLI::App& app, std::vector<std::string> words, const base::Cancel& cancel) -> Verb {
   auto* verb = add_verb(app, "segment");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<SegmentRequest>();
   add_to(*verb, request->scan);
   request->scan.words = std::move(words);
   verb->add_option("-o,--output", request->out, "Output GeoPackage")->required()->type_name("OUT.gpkg");

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Request {
+struct ServeRequest {
   server::Options options;
   std::string project = "mansard-project", sample, basemap;
   std::uint64_t upload_limit = 4096;  // MB
@@ -72,7 +72,7 @@ auto own_sample() -> fs::path {
   return (fs::is_directory(installed, status) ? installed : folder / "../../../data/delft").lexically_normal();
 }
 
-auto serve(const Request& request, const base::Cancel& cancel) -> int {
+auto serve(const ServeRequest& request, const base::Cancel& cancel) -> int {
   auto options = request.options;
   options.project = request.project;
   options.sample = request.sample.empty() ? own_sample() : fs::path(request.sample);
@@ -106,7 +106,7 @@ auto serve(const Request& request, const base::Cancel& cancel) -> int {
 
 auto serve_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
   auto* verb = add_verb(app, "serve");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<ServeRequest>();
   verb->add_option("PROJECT", request->project, "Folder of the project; created if it is missing")
       ->type_name("PROJECT");
   verb->add_option("--port", request->options.port, "Port to listen on; 0 for any free port")

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Request : Common {
+struct SimulateRequest : Common {
   std::string model, block, footprints, lod, out;
   std::vector<double> box;
   double points = 0;  ///< a square metre; 0: none are written
@@ -52,7 +52,7 @@ auto menu_of(simulate::Options& options) -> Menu {
 }
 
 /// What the input is called in truth.json.
-auto source_of(const Request& request) -> std::string {
+auto source_of(const SimulateRequest& request) -> std::string {
   return !request.block.empty() ? request.block : !request.model.empty() ? request.model : request.footprints;
 }
 
@@ -61,17 +61,18 @@ void say_all(const std::vector<base::Diagnostic>& warnings, Progress& progress) 
 }
 
 /// What is scanned.
-using Known = simulate::ModelTruth;
+using KnownTruth = simulate::ModelTruth;
 
-auto with_surface(base::Result<simulate::Truth> truth) -> base::Result<Known> {
+auto with_surface(base::Result<simulate::Truth> truth) -> base::Result<KnownTruth> {
   if (!truth) return truth.failure();
   auto surface = simulate::surface_of(truth->city);
   if (!surface) return surface.failure();
-  return Known{std::move(*truth), std::move(*surface)};
+  return KnownTruth{std::move(*truth), std::move(*surface)};
 }
 
 /// Plans where the file has them: less is known of a model of another producer.
-auto known_of_model(const Request& request, const base::Run& run, Progress& progress) -> base::Result<Known> {
+auto known_of_model(const SimulateRequest& request, const base::Run& run, Progress& progress)
+    -> base::Result<KnownTruth> {
   auto reader = formats::read_city(request.model);
   if (reader) {
     auto plans = formats::read_whole(**reader);
@@ -90,8 +91,8 @@ auto known_of_model(const Request& request, const base::Run& run, Progress& prog
   return known;
 }
 
-auto truth_for(const Request& request, const simulate::Options& options, const base::Run& run, Progress& progress)
-    -> base::Result<simulate::Truth> {
+auto truth_for(const SimulateRequest& request, const simulate::Options& options, const base::Run& run,
+               Progress& progress) -> base::Result<simulate::Truth> {
   if (!request.block.empty()) {
     const auto kind = simulate::kind_of(request.block);
     return simulate::make_block(*kind, options.block, run.seed, run);
@@ -117,8 +118,8 @@ auto picture_of(const simulate::Scan& scan, const base::Run& run) -> base::Resul
 }
 
 /// A model of another producer is the truth as it is: a copy of its file; of a part of it, its triangles.
-auto add_copy(const Request& request, const Known& known, std::vector<std::pair<std::string, std::string>>& files)
-    -> base::Result<void> {
+auto add_copy(const SimulateRequest& request, const KnownTruth& known,
+              std::vector<std::pair<std::string, std::string>>& files) -> base::Result<void> {
   if (!request.box.empty()) {
     files.emplace_back("truth.obj", simulate::surface_obj(known.surface, known.truth.city));
     return {};
@@ -160,8 +161,8 @@ auto add_models(const model::City& city, std::vector<std::pair<std::string, std:
   return {};
 }
 
-auto write_all(const Request& request, const simulate::Options& options, const Known& known, const base::Run& run,
-               Progress& progress) -> base::Result<void> {
+auto write_all(const SimulateRequest& request, const simulate::Options& options, const KnownTruth& known,
+               const base::Run& run, Progress& progress) -> base::Result<void> {
   const auto& truth = known.truth;
   const auto scan = simulate::scan(known.surface, options.scan, run.seed, run);
   if (!scan) return scan.failure();
@@ -195,7 +196,7 @@ auto write_all(const Request& request, const simulate::Options& options, const K
   return {};
 }
 
-auto simulate_block(const Request& request, const base::Cancel& cancel) -> int {
+auto simulate_block(const SimulateRequest& request, const base::Cancel& cancel) -> int {
   const int inputs =
       (request.model.empty() ? 0 : 1) + (request.block.empty() ? 0 : 1) + (request.footprints.empty() ? 0 : 1);
   if (inputs != 1) return give_up(base::error("usage", "expected exactly one of MODEL, --block and --footprints"));
@@ -233,7 +234,7 @@ auto simulate_block(const Request& request, const base::Cancel& cancel) -> int {
 
 auto simulate_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
   auto* verb = add_verb(app, "simulate");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<SimulateRequest>();
   verb->add_option("MODEL", request->model, "Model to scan: " + readable_formats().models)->type_name("MODEL");
   verb->add_option("--block", request->block, "Generate a block of this kind: " + block_names())->type_name("KIND");
   verb->add_option("--footprints", request->footprints,

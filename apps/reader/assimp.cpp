@@ -38,9 +38,9 @@ struct Place {
   }
 };
 
-class Walk {
+class AssimpWalk {
  public:
-  Walk(const aiScene& from, formats::outside::Scene& scene) : from_(from), scene_(scene) {}
+  AssimpWalk(const aiScene& from, formats::outside::Scene& scene) : from_(from), scene_(scene) {}
 
   void take(const aiNode& node, const Place& above) {
     const Place place = above.then(node.mTransformation);
@@ -102,7 +102,7 @@ auto read_assimp(std::string_view bytes, const std::string& extension) -> format
   if (from == nullptr || from->mRootNode == nullptr) throw Wrong(importer.GetErrorString());
   formats::outside::Scene scene;
   scene.nodes.emplace_back();
-  Walk(*from, scene).take(*from->mRootNode, {});
+  AssimpWalk(*from, scene).take(*from->mRootNode, {});
   // The library turns COLLADA to y up and metres, and leaves FBX as it is.
   int axis = 1;  // of 0, 1 and 2
   if (extension == "fbx" && from->mMetaData != nullptr) (void)from->mMetaData->Get("UpAxis", axis);

@@ -66,9 +66,9 @@ struct Triangles {
   void operator()(unsigned a, unsigned b, unsigned c) { out->push_back({a, b, c}); }
 };
 
-class Walk {
+class OsgWalk {
  public:
-  explicit Walk(Scene& scene) : scene_(scene) {}
+  explicit OsgWalk(Scene& scene) : scene_(scene) {}
 
   /// The node's number in the scene.
   auto take(osg::Node& node, const osg::Matrixd& place, int depth) -> std::uint32_t {
@@ -186,7 +186,7 @@ auto read_osgb(std::string_view bytes) -> Scene {
     throw Truncated();
   }
   Scene scene;
-  (void)Walk(scene).take(*node, osg::Matrixd::identity(), 0);
+  (void)OsgWalk(scene).take(*node, osg::Matrixd::identity(), 0);
   return scene;
 }
 

@@ -44,7 +44,7 @@ auto surface(const model::City& city, const OpenScene& scene, const pipeline::Op
 }
 
 template <class T>
-void append(std::string& bytes, T value) {
+void append_value(std::string& bytes, T value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
@@ -58,13 +58,13 @@ auto terrain_bytes(const model::City& city, const OpenScene& scene, const pipeli
   const auto middle = 0.5 * (box.least + box.most);
   const geometry::Point3 centre{std::round(middle.x), std::round(middle.y), std::round(middle.z)};
   std::string bytes;
-  for (const double c : {centre.x, centre.y, centre.z}) append(bytes, c);
-  append(bytes, static_cast<std::uint32_t>(mesh->vertices.size()));
-  append(bytes, static_cast<std::uint32_t>(mesh->triangles.size()));
+  for (const double c : {centre.x, centre.y, centre.z}) append_value(bytes, c);
+  append_value(bytes, static_cast<std::uint32_t>(mesh->vertices.size()));
+  append_value(bytes, static_cast<std::uint32_t>(mesh->triangles.size()));
   for (const auto& v : mesh->vertices)
-    for (const double c : {v.x - centre.x, v.y - centre.y, v.z - centre.z}) append(bytes, static_cast<float>(c));
+    for (const double c : {v.x - centre.x, v.y - centre.y, v.z - centre.z}) append_value(bytes, static_cast<float>(c));
   for (const auto& triangle : mesh->triangles)
-    for (const std::uint32_t v : triangle) append(bytes, v);
+    for (const std::uint32_t v : triangle) append_value(bytes, v);
   return bytes;
 }
 

@@ -170,7 +170,7 @@ auto unreadable(const std::string& why, const fs::path& path) -> base::Diagnosti
 }
 
 /// One damaged run does not keep the others from being opened.
-auto read_run(const fs::path& path, const std::string& id) -> RunRecord {
+auto read_run_record(const fs::path& path, const std::string& id) -> RunRecord {
   std::string why;
   if (const auto text = base::read_file(path); !text) {
     why = text.error().message;
@@ -314,7 +314,7 @@ auto Project::runs() -> base::Result<std::vector<RunRecord>> {
     const auto path = folder_ / "runs" / ("run-" + std::to_string(number)) / run_file;
     std::error_code status;
     if (!fs::exists(path, status)) continue;
-    runs.push_back(read_run(path, "run-" + std::to_string(number)));
+    runs.push_back(read_run_record(path, "run-" + std::to_string(number)));
     if (over(runs.back().state)) continue;
     runs.back().state = State::interrupted;
     if (auto saved = save(runs.back()); !saved) return saved.error();

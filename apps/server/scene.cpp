@@ -12,7 +12,7 @@ namespace mansard::server {
 namespace {
 
 /// Half the width of a section, and its height above and below the base of the edge, in m.
-constexpr double reach = 20.0;
+constexpr double section_reach = 20.0;
 /// Triangles that are kept prepared for rays: about 100 MB.
 constexpr std::size_t most_prepared = 500'000;
 
@@ -91,7 +91,7 @@ auto OpenScene::section(const model::Plan& plan, std::size_t ring, std::size_t e
     const auto& mesh = blocks_[b].mesh;
     auto& prepared = prepared_[b];
     std::call_once(prepared.once_raw, [&] { prepared.raw = std::make_unique<profile::RawProfiles>(mesh); });
-    for (const auto& [start, end] : edit::section(mesh, from, to, share, plan.base, reach).pieces)
+    for (const auto& [start, end] : edit::section(mesh, from, to, share, plan.base, section_reach).pieces)
       pieces.push_back(Json::array({json_of(start), json_of(end)}));
     for (const auto& raw : prepared.raw->behind(model::polygon_of(plan), ring, edge, plan.base, options.profile)) {
       Json climb = Json::array();

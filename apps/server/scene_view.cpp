@@ -12,11 +12,11 @@
 namespace mansard::server {
 namespace {
 
-constexpr std::size_t piece = std::size_t{1} << 23;  // bytes that are copied at a time
-constexpr std::size_t longest_head = 4096;           // bytes
+constexpr std::size_t piece_bytes = std::size_t{1} << 23;  // bytes that are copied at a time
+constexpr std::size_t longest_head = 4096;                 // bytes
 
 template <class T>
-void append(std::string& bytes, const std::vector<T>& values) {
+void append_all(std::string& bytes, const std::vector<T>& values) {
   bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
 }
 
@@ -50,10 +50,10 @@ auto SceneView::make(std::string scene_json, std::vector<picture::Tile> tiles)
   for (auto& tile : tiles) {
     Place place{{}, view->spool_->size(), tile.positions.size() / 3, tile.triangles.size() / 3};
     std::string bytes;
-    append(bytes, std::vector<std::uint32_t>{static_cast<std::uint32_t>(place.vertices),
-                                             static_cast<std::uint32_t>(place.triangles)});
-    append(bytes, tile.positions);
-    append(bytes, tile.triangles);
+    append_all(bytes, std::vector<std::uint32_t>{static_cast<std::uint32_t>(place.vertices),
+                                                 static_cast<std::uint32_t>(place.triangles)});
+    append_all(bytes, tile.positions);
+    append_all(bytes, tile.triangles);
     view->spool_->append(bytes);
     tile.positions = {};
     tile.triangles = {};
@@ -71,8 +71,8 @@ auto SceneView::keep(const std::filesystem::path& path, const std::string& key) 
   const Json head{{"key", key}, {"scene", scene_json_.size()}, {"list", tiles_json_.size()}, {"tiles", size_}};
   for (const auto& text : {text_of(head) + '\n', scene_json_, tiles_json_})
     if (auto added = file->add(text); !added) return added;
-  for (std::uint64_t at = 0; at < size_; at += piece) {
-    const auto bytes = bytes_at(at, static_cast<std::size_t>(std::min<std::uint64_t>(piece, size_ - at)));
+  for (std::uint64_t at = 0; at < size_; at += piece_bytes) {
+    const auto bytes = bytes_at(at, static_cast<std::size_t>(std::min<std::uint64_t>(piece_bytes, size_ - at)));
     if (!bytes) return bytes.failure();
     if (auto added = file->add(*bytes); !added) return added;
   }

@@ -10,13 +10,6 @@
 namespace mansard::explore {
 namespace {
 
-auto with(pipeline::Options options, const Setting& values) -> base::Result<pipeline::Options> {
-  auto lists = pipeline::option_lists(options);
-  for (const auto& [key, value] : values)
-    if (auto set = pipeline::set_option(lists, key, value); !set) return set.error();
-  return options;
-}
-
 /// Whatever is wrong with the request, before any work.
 auto checked(const Request& request) -> base::Result<std::vector<Setting>> {
   if (request.datasets.empty()) return base::error("explore-list", "there is no dataset; give one at least");
@@ -28,10 +21,10 @@ auto checked(const Request& request) -> base::Result<std::vector<Setting>> {
                                            std::to_string(request.most_runs) +
                                            " runs; give fewer, or allow more with --most-runs");
   for (const auto& dataset : request.datasets) {
-    const auto options = with(request.options, dataset.options);
+    const auto options = detail::with(request.options, dataset.options);
     if (!options) return options.error();
     for (const auto& setting : *settings)
-      if (const auto set = with(*options, setting); !set) return set.error();
+      if (const auto set = detail::with(*options, setting); !set) return set.error();
   }
   return settings;
 }
@@ -88,7 +81,7 @@ auto investigate(const Request& request, const base::Run& run) -> base::Result<S
   std::optional<base::Diagnostic> unread;
   for (std::size_t d = 0; d < request.datasets.size(); ++d) {
     const auto& dataset = request.datasets[d];
-    const auto options = *with(request.options, dataset.options);
+    const auto options = *detail::with(request.options, dataset.options);
     const auto scene = ingest::read_scene(dataset.meshes, dataset.footprints, options.ingest, run);
     if (run.cancelled()) return base::stopped();
     if (!scene) {
@@ -100,7 +93,7 @@ auto investigate(const Request& request, const base::Run& run) -> base::Result<S
     study.datasets.push_back(info_of(dataset, *scene));
     for (std::size_t s = 0; s < settings->size(); ++s) {
       const auto& setting = (*settings)[s];
-      const auto set = *with(options, setting);
+      const auto set = *detail::with(options, setting);
       const std::size_t number = d * settings->size() + s;
       const auto inner = part_of(run, told(dataset, setting), share * static_cast<double>(number), share,
                                  static_cast<std::uint64_t>(set.seed));

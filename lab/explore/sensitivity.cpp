@@ -49,13 +49,6 @@ auto values_for(const base::Option& option) -> std::vector<std::string> {
   return values;
 }
 
-auto with(pipeline::Options options, const Setting& setting) -> base::Result<pipeline::Options> {
-  auto lists = pipeline::option_lists(options);
-  for (const auto& [key, value] : setting)
-    if (auto set = pipeline::set_option(lists, key, value); !set) return set.error();
-  return options;
-}
-
 /// FNV-1a: enough to tell models apart that are not made to deceive.
 auto digest_of(std::string_view bytes) -> std::string {
   std::uint64_t hash = 0xcbf29ce484222325ULL;
@@ -179,7 +172,7 @@ auto sensitivity(const SensitivityRequest& request, const base::Run& run) -> bas
   };
   std::vector<Trial> usual, trials;
   for (const auto& dataset : request.datasets) {
-    auto options = with(request.options, dataset.options);
+    auto options = detail::with(request.options, dataset.options);
     if (!options) return options.error();
     const auto scene = ingest::read_scene(dataset.meshes, dataset.footprints, options->ingest, run);
     if (run.cancelled()) return base::error("cancelled", "stopped on request");
@@ -194,7 +187,7 @@ auto sensitivity(const SensitivityRequest& request, const base::Run& run) -> bas
         own[i] = at->second;
         return finished(own[i], false);
       }
-      const auto set = key.empty() ? options : with(*options, {{key, value}});
+      const auto set = key.empty() ? options : detail::with(*options, {{key, value}});
       base::Run seeded = inner;
       if (set) seeded.seed = static_cast<std::uint64_t>(set->seed);
       if (!set) own[i].failure = base::to_string(set.error());

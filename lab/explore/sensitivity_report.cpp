@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view headings = "dataset,parameter,value,rmse_m,rmse_inside_m,faces,parts,cpu_s,models,failure";
 
-auto csv_cell(const std::string& text) -> std::string {
+auto one_line_cell(const std::string& text) -> std::string {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string out = "\"";
   for (const char c : text) out += c == '"' ? std::string("\"\"") : c == '\n' || c == '\r' ? " " : std::string(1, c);
@@ -72,14 +72,14 @@ auto results_csv(const Sensitivity& result) -> std::string {
   std::string out = "parameter,usual,value,effect,no_effect,";
   out += std::string(headings.substr(0, headings.find(','))) + ",rmse_m,rmse_inside_m,faces,parts,cpu_s,failure\n";
   const auto add = [&](const std::string& first, const Trial& t) {
-    out += first + "," + csv_cell(t.dataset) + "," + base::to_text(t.rmse) + "," + base::to_text(t.rmse_inside) + "," +
-           std::to_string(t.faces) + "," + std::to_string(t.parts) + "," + base::to_text(t.cpu_seconds, 3) + "," +
-           csv_cell(t.failure) + "\n";
+    out += first + "," + one_line_cell(t.dataset) + "," + base::to_text(t.rmse) + "," + base::to_text(t.rmse_inside) +
+           "," + std::to_string(t.faces) + "," + std::to_string(t.parts) + "," + base::to_text(t.cpu_seconds, 3) + "," +
+           one_line_cell(t.failure) + "\n";
   };
   for (const auto& trial : result.usual) add(",,,,", trial);
   for (const auto& effect : result.effects)
     for (const auto& trial : effect.trials)
-      add(csv_cell(effect.key) + "," + csv_cell(effect.usual) + "," + csv_cell(effect.value) + "," +
+      add(one_line_cell(effect.key) + "," + one_line_cell(effect.usual) + "," + one_line_cell(effect.value) + "," +
               base::to_text(effect.largest) + "," + (effect.none ? "yes" : "no"),
           trial);
   return out;
@@ -95,9 +95,10 @@ auto trials_head(const SensitivityRequest& request) -> std::string {
 }
 
 auto trial_line(const Trial& t) -> std::string {
-  return csv_cell(t.dataset) + "," + csv_cell(t.key) + "," + csv_cell(t.value) + "," + base::to_text(t.rmse) + "," +
-         base::to_text(t.rmse_inside) + "," + std::to_string(t.faces) + "," + std::to_string(t.parts) + "," +
-         base::to_text(t.cpu_seconds, 3) + "," + t.models + "," + csv_cell(t.failure) + "\n";
+  return one_line_cell(t.dataset) + "," + one_line_cell(t.key) + "," + one_line_cell(t.value) + "," +
+         base::to_text(t.rmse) + "," + base::to_text(t.rmse_inside) + "," + std::to_string(t.faces) + "," +
+         std::to_string(t.parts) + "," + base::to_text(t.cpu_seconds, 3) + "," + t.models + "," +
+         one_line_cell(t.failure) + "\n";
 }
 
 auto trials_from(std::string_view text, const SensitivityRequest& request) -> std::vector<Trial> {

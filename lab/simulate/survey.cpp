@@ -17,7 +17,7 @@ using geometry::Point2;
 using geometry::Polygon;
 using geometry::Ring;
 
-constexpr double splinter = 1.0;  // m²; nobody draws less
+constexpr double least_drawn = 1.0;  // m²; nobody draws less
 
 /// Which buildings are drawn as one: per building the lowest one of its feature. Buildings merge in pairs, never more.
 auto features_of(const Truth& truth, double merged, std::uint64_t seed) -> std::vector<std::size_t> {
@@ -58,7 +58,7 @@ auto with_eaves(std::vector<std::vector<Polygon>> outlines, double eaves)
         grown = std::move(left);
       }
     }
-    std::erase_if(grown, [](const Polygon& p) { return geometry::area(p) < splinter; });
+    std::erase_if(grown, [](const Polygon& p) { return geometry::area(p) < least_drawn; });
     outlines[f] = std::move(grown);
   }
   return outlines;
@@ -100,7 +100,7 @@ auto drawn_outline(Polygon polygon, const SurveyOptions& options, std::uint64_t 
   if (geometry::is_simple(polygon)) return std::vector{polygon};
   auto valid = geometry::make_valid(polygon);
   if (!valid) return valid.error();
-  std::erase_if(*valid, [](const Polygon& p) { return geometry::area(p) < splinter; });
+  std::erase_if(*valid, [](const Polygon& p) { return geometry::area(p) < least_drawn; });
   return valid;
 }
 

@@ -148,7 +148,7 @@ auto without(const std::set<Point2>& corners, const std::vector<std::uint32_t>& 
   return ring;
 }
 
-auto refusal(std::string what) -> base::Diagnostic { return base::error("edit-merge", std::move(what)); }
+auto no_merge(std::string what) -> base::Diagnostic { return base::error("edit-merge", std::move(what)); }
 
 }  // namespace
 
@@ -156,13 +156,13 @@ auto merge(const model::Plan& first, const model::Plan& second) -> base::Result<
   constexpr double least_wall = 0.1;  // m
   const auto polygon = model::polygon_of(first), other = model::polygon_of(second);
   if (!geometry::is_simple(polygon) || !geometry::is_simple(other))
-    return refusal("the outline of one of the parts crosses itself; repair it first");
+    return no_merge("the outline of one of the parts crosses itself; repair it first");
   const auto overlap = detail::overlap(polygon, other);
   if (!overlap)
-    return refusal("whether the parts overlap could not be computed (" + overlap.error().message +
-                   "); move their corners together first");
+    return no_merge("whether the parts overlap could not be computed (" + overlap.error().message +
+                    "); move their corners together first");
   if (*overlap > detail::least_area)
-    return refusal("the parts overlap by " + base::to_text(*overlap, 2) + " m²; move their corners together first");
+    return no_merge("the parts overlap by " + base::to_text(*overlap, 2) + " m²; move their corners together first");
 
   const double base = std::min(first.base, second.base);
   const double rise = first.base - base, other_rise = second.base - base;
@@ -179,8 +179,8 @@ auto merge(const model::Plan& first, const model::Plan& second) -> base::Result<
   std::set<Point2> corners;
   const double shared = take_out_wall(edges, more, corners);
   if (shared < least_wall)
-    return refusal("the parts share " + base::to_text(shared, 3) +
-                   " m of wall, less than 0.1 m; only parts side by side can be merged");
+    return no_merge("the parts share " + base::to_text(shared, 3) +
+                    " m of wall, less than 0.1 m; only parts side by side can be merged");
 
   edges.insert(edges.end(), more.begin(), more.end());
   const auto cycles = detail::cycles_of(edges);
@@ -188,7 +188,7 @@ auto merge(const model::Plan& first, const model::Plan& second) -> base::Result<
   if (outlines)
     std::erase_if(*outlines, [](const auto& o) { return geometry::signed_area(o.outer.points) < detail::least_area; });
   if (!outlines || outlines->size() != 1)
-    return refusal("the parts would not be one outline; merge what lies between them first");
+    return no_merge("the parts would not be one outline; merge what lies between them first");
   auto& outline = outlines->front();
   std::erase_if(outline.holes,
                 [](const auto& hole) { return -geometry::signed_area(hole.points) < detail::least_area; });
@@ -198,7 +198,7 @@ auto merge(const model::Plan& first, const model::Plan& second) -> base::Result<
   auto plan = detail::plan_of(std::move(outline), profiles, base, std::max(first.cap + rise, second.cap + other_rise));
   detail::keep_overhangs(std::array{&first, &second}, plan);
   if (!geometry::is_simple(model::polygon_of(plan)))
-    return refusal("the outline of both would touch itself; merge what lies between them first, or move the corner");
+    return no_merge("the outline of both would touch itself; merge what lies between them first, or move the corner");
   return plan;
 }
 

@@ -155,18 +155,18 @@ void drop_dead_ends(const std::vector<Edge>& outline, std::uint32_t wall, std::v
   chains.resize(kept);
 }
 
-auto refusal(std::string what) -> base::Diagnostic { return base::error("edit-split", std::move(what)); }
+auto no_split(std::string what) -> base::Diagnostic { return base::error("edit-split", std::move(what)); }
 
 }  // namespace
 
 auto split(const model::Plan& plan, std::span<const Point2> line) -> base::Result<std::vector<model::Plan>> {
   const auto polygon = model::polygon_of(plan);
   if (!std::ranges::all_of(line, [](Point2 p) { return std::isfinite(p.x) && std::isfinite(p.y); }))
-    return refusal("the line has a point that is not finite; draw it again");
+    return no_split("the line has a point that is not finite; draw it again");
   const auto edges = detail::edges_of(plan);
-  if (!geometry::is_simple(polygon)) return refusal("the part's outline crosses itself; repair it first");
+  if (!geometry::is_simple(polygon)) return no_split("the part's outline crosses itself; repair it first");
   const auto stops = stops_of(line, edges);
-  if (crosses_itself(stops)) return refusal("the line crosses itself; draw it again");
+  if (crosses_itself(stops)) return no_split("the line crosses itself; draw it again");
 
   auto profiles = plan.profiles;
   const auto wall = static_cast<std::uint32_t>(profiles.size());
@@ -175,7 +175,7 @@ auto split(const model::Plan& plan, std::span<const Point2> line) -> base::Resul
   auto chains = chains_of(stops, polygon);
   drop_dead_ends(outline, wall, chains);
   if (chains.empty())
-    return refusal("the line does not divide the part; draw it from outside of the part to the outside again");
+    return no_split("the line does not divide the part; draw it from outside of the part to the outside again");
 
   // Corners only where something is divided.
   std::vector<Stop> used;
@@ -186,7 +186,7 @@ auto split(const model::Plan& plan, std::span<const Point2> line) -> base::Resul
   const auto drawing = drawing_of(with_corners(edges, used), chains, wall, first);
   const auto cycles = detail::cycles_of(drawing);
   auto outlines = cycles ? detail::outlines_of(drawing, *cycles) : std::nullopt;
-  if (!outlines || outlines->size() < 2) return refusal("the line does not divide the part; draw it again");
+  if (!outlines || outlines->size() < 2) return no_split("the line does not divide the part; draw it again");
 
   std::vector<model::Plan> plans;
   double sum = 0;
@@ -197,11 +197,11 @@ auto split(const model::Plan& plan, std::span<const Point2> line) -> base::Resul
     const double area = geometry::area(ground);
     sum += area;
     if (area < detail::least_area)
-      return refusal("the line cuts off " + base::to_text(area, 4) + " m²; move it away from the outline");
-    if (!geometry::is_simple(ground)) return refusal("the line runs along the outline; move it away from it");
+      return no_split("the line cuts off " + base::to_text(area, 4) + " m²; move it away from the outline");
+    if (!geometry::is_simple(ground)) return no_split("the line runs along the outline; move it away from it");
   }
   if (std::abs(sum - geometry::area(polygon)) > 1e-6)
-    return refusal("the line runs along the outline; move it away from it");
+    return no_split("the line runs along the outline; move it away from it");
   std::ranges::stable_sort(plans, std::greater(), [](const auto& p) { return geometry::area(model::polygon_of(p)); });
   return plans;
 }

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <optional>
 
 #include "mansard/evaluate/detail/corners.hpp"
+#include "mansard/evaluate/detail/degree.hpp"
 #include "mansard/evaluate/detail/normals.hpp"
 #include "mansard/evaluate/detail/shared_boundary.hpp"
 #include "mansard/evaluate/detail/steep.hpp"
@@ -17,9 +17,8 @@
 namespace mansard::evaluate {
 namespace {
 
+using detail::degree;
 using geometry::Point3;
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// Degrees from level.
 auto pitch_of(const RoofPlane& plane) -> double {

@@ -1,21 +1,21 @@
 // The planes, lines and structures of a roof that two models of one place have in common.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <tuple>
 
 #include "mansard/base/statistics.hpp"
+#include "mansard/evaluate/detail/degree.hpp"
 #include "mansard/evaluate/form.hpp"
 #include "mansard/geometry/angles.hpp"
 
 namespace mansard::evaluate {
 namespace {
 
+using detail::degree;
 using geometry::Point2;
 using geometry::Point3;
 
-constexpr double degree = std::numbers::pi / 180;
-constexpr std::size_t none = ~std::size_t{0};
+constexpr std::size_t no_building = ~std::size_t{0};
 
 /// The buildings of one model that may be those of the other: each with the one with which it shares most ground.
 /// Several buildings of one model may be one of the other.
@@ -24,8 +24,8 @@ class SameBuildings {
   SameBuildings(const model::Model& truth, const model::Model& model, std::size_t& unchecked) {
     const auto true_outlines = outlines_of(truth), outlines = outlines_of(model);
     std::vector<double> most_of_truth(true_outlines.size(), 0), most_of_model(outlines.size(), 0);
-    model_of_.assign(true_outlines.size(), none);
-    truth_of_.assign(outlines.size(), none);
+    model_of_.assign(true_outlines.size(), no_building);
+    truth_of_.assign(outlines.size(), no_building);
     for (std::size_t t = 0; t < true_outlines.size(); ++t)
       for (std::size_t m = 0; m < outlines.size(); ++m) {
         const auto common =

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
+#include "mansard/evaluate/detail/degree.hpp"
 #include "mansard/evaluate/detail/plan_of_face.hpp"
 #include "mansard/evaluate/form.hpp"
 #include "mansard/geometry/angles.hpp"
@@ -13,10 +13,9 @@
 namespace mansard::evaluate {
 namespace {
 
+using detail::degree;
 using geometry::Point2;
 using geometry::Point3;
-
-constexpr double degree = std::numbers::pi / 180;
 
 struct RoofFace {
   const model::ModelFace* face = nullptr;

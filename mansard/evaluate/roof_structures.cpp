@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <numeric>
 
+#include "mansard/evaluate/detail/degree.hpp"
 #include "mansard/evaluate/detail/grid.hpp"
 #include "mansard/evaluate/form.hpp"
 #include "mansard/geometry/angles.hpp"
@@ -13,9 +13,8 @@
 namespace mansard::evaluate {
 namespace {
 
+using detail::degree;
 using geometry::Point2;
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// One building seen from above.
 struct View {

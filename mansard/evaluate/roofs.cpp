@@ -15,12 +15,12 @@ using geometry::Point3;
 using model::SurfaceClass;
 
 /// A model, ready to be looked at from above.
-struct FromAbove {
+struct RoofsFromAbove {
   model::ModelSurface surface;
   std::vector<Point3> normals;
   rays::Scene scene;
 
-  explicit FromAbove(const model::Model& model)
+  explicit RoofsFromAbove(const model::Model& model)
       : surface(model::surface_of(model)), normals(detail::normals_of(surface.mesh)), scene(surface.mesh) {}
 };
 
@@ -37,8 +37,8 @@ auto angle_between(Point3 a, Point3 b) -> double {
 }
 
 /// The places of one building of the truth, on the grid over it.
-auto places_of(std::uint32_t building, const geometry::Box2& box, const FromAbove& truth, const Planes& planes,
-               const FromAbove& model, double grid) -> std::vector<Place> {
+auto places_of(std::uint32_t building, const geometry::Box2& box, const RoofsFromAbove& truth, const Planes& planes,
+               const RoofsFromAbove& model, double grid) -> std::vector<Place> {
   constexpr double least_area = 2;  // m²; less is a dormer's cheek or a sliver
   constexpr std::uint32_t none = ~0U;
   std::vector<Place> places;
@@ -73,8 +73,8 @@ auto places_of(std::uint32_t building, const geometry::Box2& box, const FromAbov
   return places;
 }
 
-auto places_on(const FromAbove& truth, std::size_t buildings, const Planes& planes, const FromAbove& model, double grid)
-    -> std::vector<Place> {
+auto places_on(const RoofsFromAbove& truth, std::size_t buildings, const Planes& planes, const RoofsFromAbove& model,
+               double grid) -> std::vector<Place> {
   std::vector<geometry::Box2> boxes(buildings);
   for (std::size_t t = 0; t < truth.surface.mesh.triangles.size(); ++t)
     for (const auto v : truth.surface.mesh.triangles[t])
@@ -92,7 +92,7 @@ auto places_on(const FromAbove& truth, std::size_t buildings, const Planes& plan
 
 auto compare_roofs(const model::Model& truth_model, const model::Model& model_model, double grid) -> Roofs {
   constexpr double right_angle = 3 * 0.017453292519943295, right_offset = 0.25;
-  const FromAbove truth(truth_model), model(model_model);
+  const RoofsFromAbove truth(truth_model), model(model_model);
   const auto planes = planes_of(truth_model);
   const auto places = places_on(truth, truth_model.buildings.size(), planes, model, grid);
 

@@ -113,17 +113,17 @@ auto polygons_of(std::initializer_list<std::span<const Polygon>> inputs, const O
 
 auto one(const Polygon& polygon) -> std::span<const Polygon> { return {&polygon, 1}; }
 
-enum class Side : std::uint8_t { inside, outside };
+enum class Keep : std::uint8_t { inside, outside };
 
 /// The part of `a` on one side of `b`; on a grid of that size, or with all digits where it is 0.
-auto part_of(const Polygon& a, const Polygon& b, Side side, double grid) -> base::Result<std::vector<Polygon>> {
+auto part_of(const Polygon& a, const Polygon& b, Keep side, double grid) -> base::Result<std::vector<Polygon>> {
   return polygons_of({one(a), one(b)}, [&](Context& context) {
     const Shape p = to_shape(context, a), q = to_shape(context, b);
     auto* handle = context.handle;
     if (grid > 0)
-      return side == Side::inside ? GEOSIntersectionPrec_r(handle, p.get(), q.get(), grid)
+      return side == Keep::inside ? GEOSIntersectionPrec_r(handle, p.get(), q.get(), grid)
                                   : GEOSDifferencePrec_r(handle, p.get(), q.get(), grid);
-    return side == Side::inside ? GEOSIntersection_r(handle, p.get(), q.get())
+    return side == Keep::inside ? GEOSIntersection_r(handle, p.get(), q.get())
                                 : GEOSDifference_r(handle, p.get(), q.get());
   });
 }
@@ -140,7 +140,7 @@ auto place_in(const Polygon& polygon) -> std::optional<Point2> {
 }
 
 /// Whether all parts of `a` are where they should be, as far as they are larger than rounding, and not larger than `a`.
-auto are_on(Side side, const std::vector<Polygon>& parts, const Polygon& a, const Polygon& b) -> bool {
+auto are_on(Keep side, const std::vector<Polygon>& parts, const Polygon& a, const Polygon& b) -> bool {
   const Box2 box = bounds(a.outer);
   const Point2 extent = box.most - box.least;
   const double little = 1e-9 * dot(extent, extent);  // far more than rounding loses
@@ -149,7 +149,7 @@ auto are_on(Side side, const std::vector<Polygon>& parts, const Polygon& a, cons
     rest -= area(part);
     if (area(part) <= little) continue;
     const auto place = place_in(part);
-    if (place && contains(b, *place) != (side == Side::inside)) return false;
+    if (place && contains(b, *place) != (side == Keep::inside)) return false;
   }
   return rest >= -little;
 }
@@ -158,11 +158,11 @@ auto are_on(Side side, const std::vector<Polygon>& parts, const Polygon& a, cons
 /// within rounding of one line: what is inside of `b` is then left in the difference, and lacks in the intersection.
 /// Where any part of `a` is not on its side, both are made again on a grid that is coarser than rounding and finer than
 /// anything else, where it cannot happen.
-auto divided(const Polygon& a, const Polygon& b, Side side) -> base::Result<std::vector<Polygon>> {
+auto divided(const Polygon& a, const Polygon& b, Keep side) -> base::Result<std::vector<Polygon>> {
   auto wanted = part_of(a, b, side, 0);
   if (!wanted || !bounds(a.outer).overlaps(bounds(b.outer))) return wanted;
   // What lacks on this side is too much on the other one.
-  const Side other = side == Side::inside ? Side::outside : Side::inside;
+  const Keep other = side == Keep::inside ? Keep::outside : Keep::inside;
   const auto rest = part_of(a, b, other, 0);
   if (!rest || (are_on(side, *wanted, a, b) && are_on(other, *rest, a, b))) return wanted;
   double most = 1;
@@ -189,11 +189,11 @@ auto unite(std::span<const Polygon> polygons) -> base::Result<std::vector<Polygo
 }
 
 auto intersect(const Polygon& a, const Polygon& b) -> base::Result<std::vector<Polygon>> {
-  return divided(a, b, Side::inside);
+  return divided(a, b, Keep::inside);
 }
 
 auto subtract(const Polygon& a, const Polygon& b) -> base::Result<std::vector<Polygon>> {
-  return divided(a, b, Side::outside);
+  return divided(a, b, Keep::outside);
 }
 
 auto buffer(const Polygon& polygon, double by) -> base::Result<std::vector<Polygon>> {

@@ -31,7 +31,7 @@ struct Raising {
   std::vector<base::Diagnostic> reasons;
 };
 
-void append(std::vector<base::Diagnostic>& all, const std::vector<base::Diagnostic>& more) {
+void add_all(std::vector<base::Diagnostic>& all, const std::vector<base::Diagnostic>& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
@@ -122,7 +122,7 @@ void raise(Raising& job, bool ridge_known, const Options& options, const base::R
   }
   if (raised->outcome != extrude::Outcome::full) {
     job.full = false;
-    append(job.reasons, raised->warnings);
+    add_all(job.reasons, raised->warnings);
   }
   if (ridge_known && raised->outcome != extrude::Outcome::prism && missed(raised->solid, job.planned) > far_off) {
     job.full = false;
@@ -196,7 +196,7 @@ void begin(const model::Scene& scene, const std::vector<roof::Read>& read, bool 
       continue;
     }
     report.height_from = by_attributes ? roof::to_string(read[i].form.source) : "profile";
-    if (by_attributes) append(report.reasons, read[i].warnings);
+    if (by_attributes) add_all(report.reasons, read[i].warnings);
   }
 }
 
@@ -339,7 +339,7 @@ auto raise_all(const model::Scene& scene, const Making& making, const Options& o
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     auto& job = jobs[i];
     auto& report = out.buildings[job.feature];
-    append(report.reasons, job.reasons);
+    add_all(report.reasons, job.reasons);
     if (!job.full) report.outcome = report::Outcome::fallback;
     if (by_attributes && report.roof.empty()) report.roof = roof::to_string(job.planned.shape);
     if (models[i]) take(std::move(job), std::move(*models[i]), out.city.buildings[job.feature], report);

@@ -16,7 +16,7 @@ using base::to_text;
 
 auto degrees(double radians) -> double { return radians * 180 / std::numbers::pi; }
 
-auto json_of(const evaluate::InsideScores& s) -> Json {
+auto inside_json(const evaluate::InsideScores& s) -> Json {
   if (s.cells == 0) return nullptr;
   return {{"mse_m2", s.mse}, {"median_absolute_m", s.median_absolute}, {"cells", s.cells}};
 }
@@ -33,8 +33,8 @@ auto json_of(const evaluate::Scores& s, bool independent) -> Json {
            {"footprint_rmse_m", std::sqrt(s.footprint_mse)},
            {"footprint_cells", s.footprint_cells},
            {"footprint_median_absolute_m", s.footprint_median_absolute},
-           {"inside", json_of(s.inside)},
-           {"inside_each", json_of(s.inside_each)}};
+           {"inside", inside_json(s.inside)},
+           {"inside_each", inside_json(s.inside_each)}};
   out["missed_m2"] = independent ? Json(s.missed) : Json(nullptr);
   out["invented_m2"] = independent ? Json(s.invented) : Json(nullptr);
   return out;
@@ -45,7 +45,7 @@ auto json_of_prism(const evaluate::Scores& s) -> Json {
   return {{"footprint_mse_m2", s.footprint_mse},
           {"footprint_cells", s.footprint_cells},
           {"footprint_median_absolute_m", s.footprint_median_absolute},
-          {"inside_each", json_of(s.inside_each)}};
+          {"inside_each", inside_json(s.inside_each)}};
 }
 
 /// Which buildings would be better as a prism.
@@ -143,7 +143,7 @@ auto json_of(const ModelCounts& c) -> Json {
   return {{"buildings", c.buildings}, {"parts", c.parts}, {"faces", c.faces}, {"planes", c.planes}, {"area_m2", areas}};
 }
 
-auto json_of(const std::vector<base::Diagnostic>& all) -> Json {
+auto warnings_json(const std::vector<base::Diagnostic>& all) -> Json {
   Json out = Json::array();
   for (const auto& d : all) out.push_back({{"code", d.code}, {"subject", d.subject}, {"message", d.message}});
   return out;
@@ -297,7 +297,7 @@ auto evaluation_json(const Evaluation& e, const EvaluationInput& input) -> std::
   out["beside_all_footprints"] = e.beside;
   auto warnings = input.scene.warnings;
   warnings.insert(warnings.end(), e.warnings.begin(), e.warnings.end());
-  out["warnings"] = json_of(warnings);
+  out["warnings"] = warnings_json(warnings);
   out["blocks"] = Json::array();
   for (const auto& block : e.blocks)
     out["blocks"].push_back({{"name", block.name},

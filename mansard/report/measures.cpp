@@ -46,7 +46,7 @@ auto together(const std::vector<const LabelledSolid*>& solids) -> LabelledSolid 
   return out;
 }
 
-struct Lines {
+struct RoofLines {
   std::optional<double> eave;  ///< z
   std::int64_t ridges = 0;
 };
@@ -99,8 +99,8 @@ auto roof_line(const LabelledSolid& model, const solid::Line& line) -> RoofLine 
 }
 
 /// The height of the eaves is that below which half of their length lies.
-auto lines_of(const std::vector<const LabelledSolid*>& solids) -> Lines {
-  Lines out;
+auto lines_of(const std::vector<const LabelledSolid*>& solids) -> RoofLines {
+  RoofLines out;
   std::vector<std::pair<double, double>> eaves;  // z, length
   double all = 0;
   for (const auto* one : solids) {

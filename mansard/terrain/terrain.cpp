@@ -129,7 +129,7 @@ auto box_of(const Flat& p, const Flat& q) -> geometry::Box2 {
   return box;
 }
 
-auto flat(const Place& p) -> Flat { return {p[0], p[1]}; }
+auto in_plan(const Place& p) -> Flat { return {p[0], p[1]}; }
 
 auto is_on_border(const geometry::Box2& area, const Edge& edge) -> bool {
   const auto both = [&](std::size_t axis, double side) {
@@ -159,7 +159,7 @@ auto joints(const Terrain& terrain, std::span<const Ground> grounds) -> Joints {
   for (const auto& [edge, count] : edges) {
     if (count != 1) ++out.faults;
     if (edges.contains({edge.second, edge.first}) || is_on_border(terrain.area, edge)) continue;
-    const Flat p = flat(edge.first), q = flat(edge.second);
+    const Flat p = in_plan(edge.first), q = in_plan(edge.second);
     if (p == q) continue;
     bool met = false;
     for (const auto g : index.overlapping(box_of(p, q))) {

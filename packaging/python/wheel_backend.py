@@ -52,7 +52,7 @@ def _built(config_settings):
         subprocess.run(
             ["cmake", "-S", str(ROOT), "-B", str(folder), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
              "-DMANSARD_TESTS=OFF", "-DMANSARD_PYTHON=ON", "-DMANSARD_PAGE=OFF", "-DMANSARD_QUICK_BUILD=ON",
-             f"-DPython3_EXECUTABLE={sys.executable}"],
+             "-DMANSARD_UNITY=ON", f"-DPython3_EXECUTABLE={sys.executable}"],
             check=True, stdout=sys.stderr)
     subprocess.run(["cmake", "--build", str(folder), "--target", "mansard_python", "mansard_reader", "-j", str(_jobs())],
                    check=True, stdout=sys.stderr)

@@ -137,6 +137,19 @@ case $2 in
     called_make demo || fail "make demo failed"
     called '^cmake --preset release -DMANSARD_TESTS=ON' || fail "configured without tests"
     ;;
+  make_compiles_folders_as_units_in_a_new_folder_only)
+    for target in demo test; do
+      makefile
+      called_make $target || fail "make $target failed"
+      called '^cmake --preset release .*-DMANSARD_UNITY=ON' || fail "make $target: one by one in a new folder"
+      mkdir -p "$scratch/build/release"
+      touch "$scratch/build/release/CMakeCache.txt"
+      : > "$scratch/calls"
+      called_make $target || fail "make $target failed"
+      ! called 'MANSARD_UNITY' || fail "make $target: a folder that was configured is configured otherwise"
+      rm -r "$scratch/build" "$scratch/tools"
+    done
+    ;;
   make_test_installs_configures_and_builds_all)
     makefile
     called_make test || fail "make test failed"

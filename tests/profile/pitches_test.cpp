@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "mansard/base/run.hpp"
@@ -167,6 +168,22 @@ TEST(Setback, is_no_pitch_parapet_yard_or_chimney) {
   for (std::size_t s = 0; s < 6; ++s)
     for (std::size_t b = 15; b < 20; ++b) slices[s].heights[b] = 11;
   EXPECT_FALSE(find_setback(slices));
+}
+
+TEST(Setback, has_a_level_column_before_what_the_scan_smears_whatever_the_options_say) {
+  // A wall after the first columns, so that options with fewer columns before the wall than it smears meet it.
+  for (const std::size_t blur : {1, 2, 4, 8})
+    for (const std::size_t depth : {1, 2, 4, 8})
+      for (std::size_t columns = 0; columns < 12; ++columns) {
+        auto slices = slices_with([](double) { return 8.0; });
+        for (auto& slice : slices)
+          for (std::size_t b = 0; b < columns; ++b) slice.heights[b] = 3;
+        const auto found = find_setback(slices, {.setback_blur = blur, .setback_depth = depth});
+        EXPECT_EQ(found.has_value(), columns >= std::max(depth, blur + 1)) << blur << " " << depth << " " << columns;
+        if (found) {
+          EXPECT_NEAR(found->depth, static_cast<double>(columns) * bin, 1e-9);
+        }
+      }
 }
 
 TEST(Rising, belongs_to_the_run_only_where_it_rises_inward_and_hardly_along) {

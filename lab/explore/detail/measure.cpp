@@ -223,6 +223,13 @@ auto quoted(const std::vector<std::string>& words) -> std::string {
   return all;
 }
 
+auto with(pipeline::Options options, const Setting& setting) -> base::Result<pipeline::Options> {
+  auto lists = pipeline::option_lists(options);
+  for (const auto& [key, value] : setting)
+    if (auto set = pipeline::set_option(lists, key, value); !set) return set.error();
+  return options;
+}
+
 auto command_of(const Dataset& dataset, pipeline::Options options) -> std::string {
   std::string command = "mansard reconstruct";
   for (const auto& mesh : dataset.meshes) command += " " + quoted(mesh.string());

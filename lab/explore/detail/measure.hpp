@@ -15,6 +15,9 @@ namespace mansard::explore::detail {
 [[nodiscard]] auto measure(const model::Scene& scene, const pipeline::Options& options, const Request& request,
                            std::size_t number, const base::Run& run) -> Row;
 
+/// The options with the values of a setting. Fails as pipeline::set_option does.
+[[nodiscard]] auto with(pipeline::Options options, const Setting& setting) -> base::Result<pipeline::Options>;
+
 /// The command that makes this run's models.
 [[nodiscard]] auto command_of(const Dataset& dataset, pipeline::Options options) -> std::string;
 

@@ -23,7 +23,7 @@ auto offset(std::size_t s) -> Point2 {
 }
 
 /// Which side of the line from a to b; its ends are put in order, so that two triangles at an edge agree.
-auto side(Point2 a, Point2 b, Point2 p) -> bool {
+auto lies_left(Point2 a, Point2 b, Point2 p) -> bool {
   if (a < b) return cross(b - a, p - a) >= 0;
   return cross(a - b, p - b) < 0;
 }
@@ -99,8 +99,8 @@ class Lines {
       for (auto i = left; i <= right; ++i)
         for (std::size_t s = 0; s < lines; ++s) {
           const Point2 p = place(i, j, s);
-          if (side(xy(v[0]), xy(v[1]), p) != up || side(xy(v[1]), xy(v[2]), p) != up ||
-              side(xy(v[2]), xy(v[0]), p) != up)
+          if (lies_left(xy(v[0]), xy(v[1]), p) != up || lies_left(xy(v[1]), xy(v[2]), p) != up ||
+              lies_left(xy(v[2]), xy(v[0]), p) != up)
             continue;
           const double z = v[0].z - (normal.x * (p.x - v[0].x) + normal.y * (p.y - v[0].y)) / normal.z;
           crossings_.push_back({line_of(i, j, s), world_.surface.buildings[triangle], up ? -1 : 1, z});

@@ -11,8 +11,6 @@ namespace {
 
 using geometry::Point2;
 
-constexpr double degree = 0.017453292519943295;
-
 /// The rectangle of a lot: its front from `origin` along u, deep to the left of u.
 struct Site {
   Point2 origin, u;

@@ -42,8 +42,6 @@ auto whole(base::Random& random, int least, int most) -> int {
   return least + static_cast<int>(random.index(static_cast<std::size_t>(most - least + 1)));
 }
 
-constexpr double degree = 0.017453292519943295;
-
 auto drawn_style(base::Random& random, int least, int most) -> Style {
   Style style;
   style.storeys = whole(random, least, most);

@@ -9,6 +9,8 @@
 
 namespace mansard::simulate::detail {
 
+inline constexpr double degree = 0.017453292519943295;
+
 enum class Roof : std::uint8_t { flat, pitched, mansard, mono };
 
 /// A piece of a building with one roof.

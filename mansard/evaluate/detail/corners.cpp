@@ -10,9 +10,9 @@ namespace mansard::evaluate::detail {
 namespace {
 
 using geometry::Point3;
-using Cell = std::array<std::int64_t, 3>;
+using SnapCell = std::array<std::int64_t, 3>;
 
-auto cell_of(Point3 p) -> Cell {
+auto cell_of(Point3 p) -> SnapCell {
   const auto at = [](double x) { return static_cast<std::int64_t>(std::floor(x / Corners::snap)); };
   return {at(p.x), at(p.y), at(p.z)};
 }
@@ -20,7 +20,7 @@ auto cell_of(Point3 p) -> Cell {
 }  // namespace
 
 Corners::Corners(const model::ModelBuilding& building) {
-  std::map<Cell, std::vector<std::uint32_t>> cells;
+  std::map<SnapCell, std::vector<std::uint32_t>> cells;
   const auto number_of = [&](Point3 p) {
     const auto at = cell_of(p);
     for (std::int64_t i = -1; i <= 1; ++i)

@@ -21,6 +21,7 @@ struct TrackPart {
   friend auto operator==(const TrackPart&, const TrackPart&) -> bool = default;
 };
 using Track = std::vector<TrackPart>;
+[[nodiscard]] auto in_metres(std::int64_t quanta) -> Rational;
 
 /// A profile on the grid: parts without extent left out, knots within four quanta of a straight run taken out. The
 /// profile of a canonical profile is that profile.

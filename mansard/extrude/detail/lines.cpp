@@ -52,12 +52,6 @@ auto corner_between(const Direction& d, std::int64_t at_d, const Direction& e, s
   return corner;
 }
 
-auto in_metres(std::int64_t quanta) -> Rational {
-  Rational value(mpz_class(static_cast<long>(quanta)), 65536);
-  value.canonicalize();
-  return value;
-}
-
 auto distance_to(Point2 a, Point2 b, Point2 p) -> double { return geometry::distance({a, b}, p); }
 
 /// At least the distance of a segment from some others. It is convex along a segment for each of them; where no one is

@@ -40,10 +40,10 @@ struct Course {
 };
 
 /// The height at which a line enters a part of its track.
-struct Knot {
+struct TrackChange {
   std::int64_t height;
   std::uint32_t line, part;
-  friend auto operator<=>(const Knot&, const Knot&) = default;
+  friend auto operator<=>(const TrackChange&, const TrackChange&) = default;
 };
 
 class Sweep {
@@ -294,7 +294,7 @@ class Sweep {
     std::vector<std::uint32_t> entering(courses_.size(), none);  // by line: the part
     bool terraces = false;
     for (; knot_ < knots_.size() && knots_[knot_].height == wave_.height; ++knot_) {
-      const Knot& k = knots_[knot_];
+      const TrackChange& k = knots_[knot_];
       go_on(k.line);
       if ((*courses_[k.line].track)[k.part].horizontal) {
         courses_[k.line].part = k.part;
@@ -398,7 +398,7 @@ class Sweep {
   const Eaves* eaves_;
   std::size_t steps_ = 0, knot_ = 0;
   std::vector<Course> courses_;  ///< of the lines that are not connectors, which come first
-  std::vector<Knot> knots_;
+  std::vector<TrackChange> knots_;
   PlaneId moment_plane_ = none;
   Trace trace_;
   Wavefront wave_;

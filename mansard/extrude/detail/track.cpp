@@ -37,13 +37,13 @@ auto thinned(const std::vector<Knot>& knots) -> std::vector<Knot> {
   return kept;
 }
 
+}  // namespace
+
 auto in_metres(std::int64_t quanta) -> Rational {
   Rational value(mpz_class(static_cast<long>(quanta)), 65536);
   value.canonicalize();
   return value;
 }
-
-}  // namespace
 
 auto track_of(const model::Profile& profile) -> Track { return canonical_profile(profile).track; }
 

@@ -16,7 +16,7 @@ namespace {
 
 using geometry::Point3;
 
-auto complaints_about(const std::string& subject) -> CityComplaints {
+auto footprint_complaints(const std::string& subject) -> CityComplaints {
   return {"ingest-footprints-format", subject,
           [](std::size_t line, bool) { return "line " + std::to_string(line) + " is not JSON, or it is cut short"; }};
 }
@@ -57,7 +57,7 @@ auto flat_polygon(const Outline& surface) -> RawPolygon {
   return out;
 }
 
-class Reader {
+class FootprintReader {
  public:
   void add(const CityDocument& document) {
     for (const auto& [id, object] : document.objects().items())
@@ -196,8 +196,8 @@ auto looks_like_cityjson(std::string_view bytes) -> bool {
 }
 
 auto read_cityjson_footprints(std::string_view bytes, const std::string& subject) -> base::Result<FeatureFile> {
-  Reader reader;
-  const auto crs = each_document(bytes, complaints_about(subject), [&](const CityDocument& document) {
+  FootprintReader reader;
+  const auto crs = each_document(bytes, footprint_complaints(subject), [&](const CityDocument& document) {
     reader.add(document);
     return base::Result<void>();
   });

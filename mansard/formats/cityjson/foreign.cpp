@@ -66,7 +66,7 @@ auto crs_of(const std::string& system) -> std::string {
   return code.empty() ? std::string() : "EPSG:" + code;
 }
 
-class Reader {
+class ForeignReader {
  public:
   auto add(const CityDocument& document) -> base::Result<void> {
     const Json& objects = document.objects();
@@ -271,7 +271,7 @@ auto read_foreign(const std::filesystem::path& path) -> base::Result<ForeignCity
                                     return first ? std::string("it is not CityJSON, or it is cut short")
                                                  : "line " + std::to_string(line) + " is not JSON";
                                   }};
-  Reader reader;
+  ForeignReader reader;
   const auto system =
       each_document(*bytes, complaints, [&](const CityDocument& document) { return reader.add(document); });
   if (!system) return system.failure();

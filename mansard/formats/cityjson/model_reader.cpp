@@ -12,7 +12,7 @@ namespace {
 
 using geometry::Point3;
 
-auto complaints_about(const std::string& name) -> CityComplaints {
+auto model_complaints(const std::string& name) -> CityComplaints {
   return {"ingest-model-format", name, [](std::size_t line, bool first) {
             return first ? "it is neither CityJSON nor OBJ, or it is cut short"
                          : "line " + std::to_string(line) + " is not JSON";
@@ -44,9 +44,9 @@ struct Tally {
   std::size_t without_geometry = 0, without_lod = 0, repeated = 0, shells = 0;
 };
 
-class Reader {
+class ModelReader {
  public:
-  Reader(const std::string& lod, const std::string& name, const CityComplaints& complaints)
+  ModelReader(const std::string& lod, const std::string& name, const CityComplaints& complaints)
       : wanted_(lod), name_(name), bad_(complaints) {}
 
   auto add(const CityDocument& document) -> base::Result<void> {
@@ -203,8 +203,8 @@ class Reader {
 }  // namespace
 
 auto read_cityjson(std::string_view bytes, const std::string& lod, const std::string& name) -> base::Result<RawModel> {
-  const CityComplaints complaints = complaints_about(name);
-  Reader reader(lod, name, complaints);
+  const CityComplaints complaints = model_complaints(name);
+  ModelReader reader(lod, name, complaints);
   auto crs = each_document(bytes, complaints, [&](const CityDocument& document) { return reader.add(document); });
   if (!crs) return crs.error();
   return reader.finish(*std::move(crs));

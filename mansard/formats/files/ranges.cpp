@@ -98,13 +98,13 @@ class LocalFile : public RangeFile {
   std::uint64_t size_;
 };
 
-struct Close {
+struct CloseFile {
   void operator()(VSILFILE* file) const { VSIFCloseL(file); }
 };
 
 class ServedFile : public RangeFile {
  public:
-  ServedFile(std::unique_ptr<VSILFILE, Close> file, std::uint64_t size, std::string name)
+  ServedFile(std::unique_ptr<VSILFILE, CloseFile> file, std::uint64_t size, std::string name)
       : file_(std::move(file)), size_(size), name_(std::move(name)) {}
   [[nodiscard]] auto size() const -> std::uint64_t override { return size_; }
   [[nodiscard]] auto hash() const -> base::Result<std::optional<std::string>> override {
@@ -126,7 +126,7 @@ class ServedFile : public RangeFile {
   }
 
  private:
-  std::unique_ptr<VSILFILE, Close> file_;
+  std::unique_ptr<VSILFILE, CloseFile> file_;
   std::uint64_t size_;
   std::string name_;
   mutable std::mutex mutex_;
@@ -146,7 +146,7 @@ auto RangeFile::open(const std::filesystem::path& path) -> base::Result<std::sha
   if (is_served(path.string())) {
     const crs::GdalMessages messages;
     VSIStatBufL status{};
-    std::unique_ptr<VSILFILE, Close> file(VSIFOpenL(path.c_str(), "rb"));
+    std::unique_ptr<VSILFILE, CloseFile> file(VSIFOpenL(path.c_str(), "rb"));
     if (!file || VSIStatL(path.c_str(), &status) != 0 || status.st_size < 0) return why_missing(path);
     return std::shared_ptr<const RangeFile>(
         std::make_shared<ServedFile>(std::move(file), static_cast<std::uint64_t>(status.st_size), path.string()));

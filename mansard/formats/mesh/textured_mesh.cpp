@@ -35,7 +35,7 @@ auto linear_table() -> const Table& {
 }
 
 template <class Open, class Read>
-auto guarded(const std::filesystem::path& path, Open open, Read read) -> base::Result<TexturedMesh> {
+auto read_guarded(const std::filesystem::path& path, Open open, Read read) -> base::Result<TexturedMesh> {
   const std::string name = path.string();
   try {
     const auto bytes = open(path);
@@ -85,7 +85,7 @@ auto read_textured_file(const std::filesystem::path& path, UpAxis up) -> base::R
   const auto extension = extension_of(path);
   const bool obj = extension == ".obj", ply = extension == ".ply", gltf = extension == ".glb" || extension == ".gltf";
   if (extension == ".osgb")
-    return guarded(path, &Bytes::of, [&](std::string_view bytes) -> base::Result<TexturedMesh> {
+    return read_guarded(path, &Bytes::of, [&](std::string_view bytes) -> base::Result<TexturedMesh> {
       auto read = read_osgb(bytes, path, true);
       if (!read) return read.failure();
       if (up == UpAxis::y)
@@ -99,7 +99,7 @@ auto read_textured_file(const std::filesystem::path& path, UpAxis up) -> base::R
     out.mesh = {std::move(piece.mesh.vertices), std::move(piece.mesh.triangles)};
     return out;
   }
-  return guarded(path, &Bytes::of, [&](std::string_view bytes) -> base::Result<TexturedMesh> {
+  return read_guarded(path, &Bytes::of, [&](std::string_view bytes) -> base::Result<TexturedMesh> {
     if ((obj || ply) && !bytes.starts_with("glTF")) {
       const auto text = without_mark(bytes);
       auto read = ply ? read_textured_ply(text, path) : read_textured_obj(text, path);
@@ -118,7 +118,7 @@ auto read_textured_file(const std::filesystem::path& path, UpAxis up) -> base::R
 }
 
 auto read_textured_tile(const TileFile& tile) -> base::Result<TexturedMesh> {
-  return guarded(tile.path, &bytes_of_named, [&](std::string_view bytes) {
+  return read_guarded(tile.path, &bytes_of_named, [&](std::string_view bytes) {
     return read_textured_content(bytes, tile.path, tile.turn, tile.place);
   });
 }

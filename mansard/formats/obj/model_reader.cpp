@@ -49,9 +49,9 @@ class ClassAbove {
   std::optional<model::SurfaceClass> by_group_, by_material_;
 };
 
-class Reader {
+class ObjModelReader {
  public:
-  Reader(std::string_view bytes, const std::string& name) : rest_(bytes), name_(name) {}
+  ObjModelReader(std::string_view bytes, const std::string& name) : rest_(bytes), name_(name) {}
 
   auto read() -> base::Result<RawModel> {
     while (!rest_.empty()) {
@@ -174,7 +174,7 @@ auto labels_every_face(const std::filesystem::path& obj) -> bool {
 }
 
 auto read_labelled_obj(std::string_view bytes, const std::string& name) -> base::Result<RawModel> {
-  return Reader(without_mark(bytes), name).read();
+  return ObjModelReader(without_mark(bytes), name).read();
 }
 
 }  // namespace mansard::formats

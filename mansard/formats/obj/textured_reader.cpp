@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-auto trimmed(std::string_view text) -> std::string {
+auto material_name(std::string_view text) -> std::string {
   while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
   while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
   if (text.size() > 1 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
@@ -41,7 +41,7 @@ class Library {
     while (!text.empty()) {
       std::string_view line = take_line(text);
       const auto keyword = base::lower(take_word(line));
-      if (keyword == "newmtl") material = &materials[trimmed(line)];
+      if (keyword == "newmtl") material = &materials[material_name(line)];
       if (material == nullptr) continue;
       if (keyword == "kd" && !material->texture.image) take_colour(line, *material);
       if (keyword == "map_kd" || keyword == "map_kd.") take_picture(line, *material);
@@ -76,7 +76,7 @@ class Library {
       }
       line = rest;
     }
-    const auto name = trimmed(line);
+    const auto name = material_name(line);
     if (name.empty()) return;
     const auto path = named_beside(folder_, name);
     material.texture.image = ImageSource{path, {}, path.string()};
@@ -86,9 +86,10 @@ class Library {
   fs::path folder_;
 };
 
-class Reader {
+class TexturedObjReader {
  public:
-  Reader(std::string_view bytes, const fs::path& path) : rest_(bytes), path_(path), library_(path.parent_path()) {}
+  TexturedObjReader(std::string_view bytes, const fs::path& path)
+      : rest_(bytes), path_(path), library_(path.parent_path()) {}
 
   auto read() -> base::Result<TexturedMesh> {
     while (!rest_.empty()) {
@@ -98,7 +99,7 @@ class Reader {
       if (keyword == "v") done = take_vertex(line);
       else if (keyword == "vt") take_coordinates(line);
       else if (keyword == "f") done = take_face(line);
-      else if (keyword == "usemtl") use(trimmed(line));
+      else if (keyword == "usemtl") use(material_name(line));
       else if (keyword == "mtllib") done = take_libraries(line);
       if (!done) return done.error();
     }
@@ -218,7 +219,7 @@ class Reader {
 
   /// Several names, or one with blanks in it.
   auto take_libraries(std::string_view line) -> base::Result<void> {
-    const auto whole = trimmed(line);
+    const auto whole = material_name(line);
     const auto folder = path_.parent_path();
     if (const auto path = named_beside(folder, whole); is_there(path)) return take_library(path);
     bool any = false;
@@ -260,7 +261,7 @@ class Reader {
 }  // namespace
 
 auto read_textured_obj(std::string_view bytes, const fs::path& path) -> base::Result<TexturedMesh> {
-  return Reader(bytes, path).read();
+  return TexturedObjReader(bytes, path).read();
 }
 
 }  // namespace mansard::formats

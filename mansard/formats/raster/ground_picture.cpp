@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-auto bad(const std::string& what, const fs::path& path) -> base::Diagnostic {
+auto bad_picture(const std::string& what, const fs::path& path) -> base::Diagnostic {
   return base::error("ingest-raster", what, path.string());
 }
 
@@ -80,8 +80,8 @@ auto read_ground_picture(const fs::path& path, const std::string& crs, int most)
                                               GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr,
                                               nullptr, nullptr));
   if (!file || file->GetRasterCount() == 0)
-    return bad("not a picture that GDAL reads" + (messages.failure().empty() ? "" : " (" + messages.failure() + ")"),
-               path);
+    return bad_picture(
+        "not a picture that GDAL reads" + (messages.failure().empty() ? "" : " (" + messages.failure() + ")"), path);
   if (!is_virtual(path)) {
     const CPLStringList files(file->GetFileList());
     for (int i = 0; i < files.Count(); ++i)
@@ -89,12 +89,12 @@ auto read_ground_picture(const fs::path& path, const std::string& crs, int most)
   }
   double g[6];
   if (file->GetGeoTransform(g) != CE_None)
-    return bad("it does not say where it is; give a GeoTIFF, or a world file beside it", path);
+    return bad_picture("it does not say where it is; give a GeoTIFF, or a world file beside it", path);
   const auto wanted = crs.empty() ? std::nullopt : crs::from_words(crs);
   const auto* own = file->GetSpatialRef();
   const bool placed = own != nullptr && !own->IsLocal() && wanted;
   if (!placed && (g[2] != 0 || g[4] != 0 || g[1] <= 0 || g[5] >= 0))
-    return bad("it is turned, and has no CRS; make it north up, as gdalwarp does", path);
+    return bad_picture("it is turned, and has no CRS; make it north up, as gdalwarp does", path);
 
   GDALDatasetUniquePtr coloured, moved;
   auto* now = file.get();
@@ -109,9 +109,9 @@ auto read_ground_picture(const fs::path& path, const std::string& crs, int most)
     now = moved.get();
   }
   if (now == nullptr || now->GetGeoTransform(g) != CE_None)
-    return bad("it cannot be transformed to " + (crs.empty() ? "colours" : crs) +
-                   (messages.failure().empty() ? "" : " (" + messages.failure() + ")"),
-               path);
+    return bad_picture("it cannot be transformed to " + (crs.empty() ? "colours" : crs) +
+                           (messages.failure().empty() ? "" : " (" + messages.failure() + ")"),
+                       path);
 
   const int columns = now->GetRasterXSize(), rows = now->GetRasterYSize();
   const double scale = std::min(1.0, static_cast<double>(most) / std::max(columns, rows));
@@ -128,7 +128,7 @@ auto read_ground_picture(const fs::path& path, const std::string& crs, int most)
     if (written) out.png = in_memory.bytes();
   }
   if (out.png.empty())
-    return bad("it cannot be read" + (messages.failure().empty() ? "" : " (" + messages.failure() + ")"), path);
+    return bad_picture("it cannot be read" + (messages.failure().empty() ? "" : " (" + messages.failure() + ")"), path);
   out.place.add({g[0], g[3]});
   out.place.add({g[0] + columns * g[1], g[3] + rows * g[5]});
   return out;

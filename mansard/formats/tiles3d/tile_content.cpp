@@ -15,7 +15,7 @@ namespace mansard::formats {
 namespace {
 
 using geometry::Point3;
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 
 /// Little endian, as everything in 3D Tiles.
 template <class Number>
@@ -115,7 +115,7 @@ class ContentReader {
   /// RTC_CENTER of a feature table: three numbers, or where they are in its binary part; zero where there is none.
   static auto centre_of(std::string_view table, std::string_view binary) -> std::optional<Point3> {
     if (table.empty()) return Point3{};
-    const auto json = Json::parse(table, nullptr, false);
+    const auto json = PlainJson::parse(table, nullptr, false);
     if (!json.is_object()) return std::nullopt;
     const auto found = json.find("RTC_CENTER");
     if (found == json.end()) return Point3{};

@@ -12,7 +12,7 @@
 
 namespace mansard::formats {
 
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 
 namespace {
 
@@ -57,8 +57,8 @@ class SubtreeReader {
     const auto contents = json_.find("contentAvailability");
     if (contents == json_.end()) return out;
     // One for each content of a tile; in the extension to 3D Tiles 1.0, one without a list around it.
-    const Json list = contents->is_array() ? *contents : Json::array({*contents});
-    for (const Json& one : list)
+    const PlainJson list = contents->is_array() ? *contents : PlainJson::array({*contents});
+    for (const PlainJson& one : list)
       if (auto done = bits_of(one, tiles, out.contents_.emplace_back()); !done) return done.error();
     return out;
   }
@@ -91,7 +91,7 @@ class SubtreeReader {
       binary_ = bytes.substr(header + json, binary);
     }
     if (base::nests_too_deep(text)) return bad("nests too deep");
-    json_ = Json::parse(text, nullptr, false);
+    json_ = PlainJson::parse(text, nullptr, false);
     if (!json_.is_object()) return bad("is damaged");
     return {};
   }
@@ -102,13 +102,14 @@ class SubtreeReader {
     return bits_of(*found, count, bits);
   }
 
-  auto bits_of(const Json& object, std::uint64_t count, Subtree::Bits& bits) -> base::Result<void> {
+  auto bits_of(const PlainJson& object, std::uint64_t count, Subtree::Bits& bits) -> base::Result<void> {
     if (!object.is_object()) return bad("does not say what there is");
     if (object.contains("constant")) {
       bits.all = object["constant"] == 1;
       return {};
     }
-    const Json& number = object.contains("bitstream") ? object["bitstream"] : object.value("bufferView", Json());
+    const PlainJson& number =
+        object.contains("bitstream") ? object["bitstream"] : object.value("bufferView", PlainJson());
     if (!number.is_number_unsigned()) return bad("does not say what there is");
     const auto bytes = view_of(number.get<std::size_t>());
     if (!bytes) return bytes.error();
@@ -120,17 +121,17 @@ class SubtreeReader {
   }
 
   auto view_of(std::size_t index) -> base::Result<std::string_view> {
-    const auto entry = [&](const char* list, std::size_t i) -> const Json* {
+    const auto entry = [&](const char* list, std::size_t i) -> const PlainJson* {
       const auto found = json_.find(list);
       if (found == json_.end() || !found->is_array() || i >= found->size() || !(*found)[i].is_object()) return nullptr;
       return &(*found)[i];
     };
-    const auto whole = [](const Json& object, const char* key) -> std::size_t {
+    const auto whole = [](const PlainJson& object, const char* key) -> std::size_t {
       const auto found = object.find(key);
       return found != object.end() && found->is_number_unsigned() ? found->get<std::size_t>() : 0;
     };
-    const Json* view = entry("bufferViews", index);
-    const Json* buffer = view == nullptr ? nullptr : entry("buffers", whole(*view, "buffer"));
+    const PlainJson* view = entry("bufferViews", index);
+    const PlainJson* buffer = view == nullptr ? nullptr : entry("buffers", whole(*view, "buffer"));
     if (buffer == nullptr) return bad("names a buffer that does not exist");
     std::string_view bytes = binary_;
     if (buffer->contains("uri") && (*buffer)["uri"].is_string()) {
@@ -151,7 +152,7 @@ class SubtreeReader {
   Bytes file_;
   std::vector<Bytes> beside_;
   std::string_view binary_;
-  Json json_;
+  PlainJson json_;
 };
 
 auto part_of(const Volume& root, const TileIndex& index, bool octree) -> Volume {

@@ -15,9 +15,9 @@ namespace fs = std::filesystem;
 
 /// Counts tiles by their distance from the root. A tile whose content is a tileset is followed by that tileset's root;
 /// one that was opened already, or is missing, is not.
-class Walk {
+class SourceWalk {
  public:
-  explicit Walk(TilesetSource& out) : out_(out) {}
+  explicit SourceWalk(TilesetSource& out) : out_(out) {}
 
   void take(const TileJson& tile, const fs::path& file, std::size_t depth) {
     if (!tile.is_object()) return;
@@ -74,7 +74,7 @@ auto tileset_source(const std::filesystem::path& path) -> std::optional<TilesetS
   out.geometric_error = text_of(tileset.json(), "geometricError");
   out.placed_on_the_earth = root.contains("transform");
   out.bounding_volume = text_of(root, "boundingVolume");
-  Walk(out).take(tileset.root(), file, 0);
+  SourceWalk(out).take(tileset.root(), file, 0);
   return out;
 }
 

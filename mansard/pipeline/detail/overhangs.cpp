@@ -65,7 +65,7 @@ void level_rows(const Plan& plan, const PlanRing& ring, std::vector<double>& ove
   }
 }
 
-auto text(double metres) -> std::string { return base::to_text(metres, 2); }
+auto metres_in_words(double metres) -> std::string { return base::to_text(metres, 2); }
 
 /// What the eaves of a building must not reach into: the ground of other features.
 struct Others {
@@ -176,8 +176,8 @@ void keep_made(Plan& plan, const std::vector<Polygon>& soffits) {
 
 auto words_of(PartResult& part, bool made, double cut) -> std::string {
   const auto& eaves = part.eaves;
-  std::string words = "eaves overhang by " + text(eaves.area / eaves.overhanging) + " m along " +
-                      text(eaves.overhanging) + " of " + text(eaves.length) + " m";
+  std::string words = "eaves overhang by " + metres_in_words(eaves.area / eaves.overhanging) + " m along " +
+                      metres_in_words(eaves.overhanging) + " of " + metres_in_words(eaves.length) + " m";
   if (!made) return words;
   double whole = 0;
   for (std::size_t r = 0; r <= part.plan.holes.size(); ++r) {
@@ -185,8 +185,8 @@ auto words_of(PartResult& part, bool made, double cut) -> std::string {
     for (std::size_t i = 0; i < ring.overhang_of_edge.size(); ++i)
       if (ring.overhang_of_edge[i] > 0) whole += length_of(ring, i);
   }
-  words += "; soffits along " + text(whole) + " m";
-  if (cut > 0) words += ", cut back before neighbours along " + text(cut) + " m";
+  words += "; soffits along " + metres_in_words(whole) + " m";
+  if (cut > 0) words += ", cut back before neighbours along " + metres_in_words(cut) + " m";
   return words;
 }
 

@@ -150,10 +150,11 @@ auto find_setback(std::span<const SliceColumns> slices, const Options& o) -> std
     if (2 * heights.size() < slices.size()) break;
     middles.push_back(base::median(std::move(heights)));
   }
-  // The first step up, where it is steepest.
+  // The first step up, where it is steepest. Before it are one level column at least and those that the scan smears.
+  const std::size_t depth = std::max(o.setback_depth, o.setback_blur + 1);
   std::size_t wall = 0;
   double highest = o.setback_step;
-  for (std::size_t b = o.setback_depth; b + o.setback_blur < middles.size(); ++b) {
+  for (std::size_t b = depth; b + o.setback_blur < middles.size(); ++b) {
     const double step = middles[b + o.setback_blur - 1] - middles[b - o.setback_blur];
     if (step > highest) {
       highest = step;
@@ -166,7 +167,7 @@ auto find_setback(std::span<const SliceColumns> slices, const Options& o) -> std
   const double halfway = (middles[wall - o.setback_blur] + middles[wall + o.setback_blur - 1]) / 2;
   wall -= o.setback_blur;
   while (middles[wall] < halfway) ++wall;
-  if (wall < o.setback_depth) return std::nullopt;
+  if (wall < depth) return std::nullopt;
   const auto begin = middles.begin() + 1,
              end = middles.begin() + static_cast<std::ptrdiff_t>(wall - o.setback_blur) + 1;
   const auto [low, high] = std::minmax_element(begin, end);

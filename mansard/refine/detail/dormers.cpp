@@ -19,7 +19,7 @@ using geometry::Point2;
 using model::Plan;
 using model::Profile;
 
-constexpr double unseen = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_seen = std::numeric_limits<double>::quiet_NaN();
 
 /// A slope of the roof: height = gutter + slope · inward of its edge, above the base.
 struct Slope {
@@ -146,7 +146,7 @@ auto error_of(const std::vector<Sample>& samples, const Slope& slope, const Box*
 }
 
 /// Walls and eaves moved until that no longer helps, by less and less.
-auto fitted(Box box, const std::vector<Sample>& samples, const Slope& slope, double blur, double reach) -> Box {
+auto fitted_box(Box box, const std::vector<Sample>& samples, const Slope& slope, double blur, double reach) -> Box {
   Box least = box, most = box;
   least.left -= reach, least.front -= reach, most.right += reach, most.eaves += reach;
   double error = error_of(samples, slope, &box, blur);
@@ -320,7 +320,7 @@ auto best_box(const std::vector<std::uint32_t>& island, const Slope& slope, cons
   double blur = 0, least_rough = infinity;
   Box rough = start;
   for (const double may_be : {site.measured.spacing / 2, blur_of(options)}) {
-    const Box box = fitted(start, samples, slope, may_be, options.samples.melt);
+    const Box box = fitted_box(start, samples, slope, may_be, options.samples.melt);
     if (const double error = error_of(samples, slope, &box, may_be); error < least_rough)
       rough = box, blur = may_be, least_rough = error;
   }
@@ -344,7 +344,7 @@ auto best_box(const std::vector<std::uint32_t>& island, const Slope& slope, cons
     Box box = best ? *best : start;
     box.pitch = pitch;
     if (best) box.eaves -= pitch * box.width() / 4;
-    box = fitted(box, samples, slope, blur, options.samples.melt / 2);
+    box = fitted_box(box, samples, slope, blur, options.samples.melt / 2);
     const double error = error_of(samples, slope, &box, blur);
     if (error < o.gable_gain * least) best = box, least = error;
   }
@@ -468,7 +468,7 @@ auto without_dormers(const Site& site, const std::vector<Dormer>& dormers, doubl
     for (const auto cell : site.cells) {
       const Point2 at = site.measured.centre(cell);
       if (geometry::contains(polygon, at) || geometry::boundary_distance(polygon, at) < aside)
-        out.measured.z[cell] = unseen;
+        out.measured.z[cell] = not_seen;
     }
   }
   return crop(out, site.polygon, options);

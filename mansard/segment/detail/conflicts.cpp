@@ -109,10 +109,10 @@ auto seen_from_both_sides(const Run& one, const Run& other) -> bool {
          (most(one.facing_in, one) && most(other.facing_in, other));
 }
 
-class Search {
+class ConflictSearch {
  public:
-  Search(const fracture::Arrangement& arrangement, const std::vector<FaceEvidence>& faces,
-         const std::vector<std::optional<std::uint32_t>>& candidate_of, const Options& options)
+  ConflictSearch(const fracture::Arrangement& arrangement, const std::vector<FaceEvidence>& faces,
+                 const std::vector<std::optional<std::uint32_t>>& candidate_of, const Options& options)
       : arrangement_(arrangement), faces_(faces), options_(options), run_of_(arrangement.half_edges.size()) {
     for (std::uint32_t f = 0; f < faces.size(); ++f)
       if (faces[f].inside) add_runs(arrangement, f, candidate_of, options, runs_, run_of_);
@@ -232,7 +232,7 @@ class Search {
 auto conflicts_of(const fracture::Arrangement& arrangement, const std::vector<FaceEvidence>& faces,
                   const std::vector<std::optional<std::uint32_t>>& candidate_of, const Options& options)
     -> std::vector<Conflict> {
-  return Search(arrangement, faces, candidate_of, options).found();
+  return ConflictSearch(arrangement, faces, candidate_of, options).found();
 }
 
 }  // namespace mansard::segment::detail

@@ -32,13 +32,13 @@ auto numbered(Pieces& pieces, std::uint32_t nodes) -> Labels {
 
 /// One connected part of the problem, with the numbers its nodes and edges had in the whole. What forced edges cost and
 /// what they do to others is in the part's costs and constant where they leave it.
-struct Part {
+struct Subproblem {
   Multicut problem;
   std::vector<std::uint32_t> nodes, edges;
 };
 
 /// Splits where only forced edges connect: those are cut whatever the labels, so that their pairs become linear.
-auto split(const Multicut& whole, std::int64_t& constant) -> std::vector<Part> {
+auto split(const Multicut& whole, std::int64_t& constant) -> std::vector<Subproblem> {
   Pieces pieces(whole.nodes);
   for (const MulticutEdge& e : whole.edges)
     if (!e.forced) pieces.join(e.a, e.b);
@@ -48,10 +48,10 @@ auto split(const Multicut& whole, std::int64_t& constant) -> std::vector<Part> {
       pieces.join(whole.edges[pair.first].a, whole.edges[pair.second].a);
   const Labels part_of = numbered(pieces, whole.nodes);
   const std::size_t count = part_of.empty() ? 0 : std::ranges::max(part_of) + 1U;
-  std::vector<Part> parts(count);
+  std::vector<Subproblem> parts(count);
   std::vector<std::uint32_t> inner_node(whole.nodes), inner_edge(whole.edges.size(), none);
   for (std::uint32_t v = 0; v < whole.nodes; ++v) {
-    Part& part = parts[part_of[v]];
+    Subproblem& part = parts[part_of[v]];
     inner_node[v] = part.problem.nodes++;
     part.nodes.push_back(v);
   }
@@ -61,7 +61,7 @@ auto split(const Multicut& whole, std::int64_t& constant) -> std::vector<Part> {
       constant += edge.cost;
       continue;
     }
-    Part& part = parts[part_of[edge.a]];
+    Subproblem& part = parts[part_of[edge.a]];
     inner_edge[e] = static_cast<std::uint32_t>(part.edges.size());
     part.edges.push_back(e);
     part.problem.edges.push_back({inner_node[edge.a], inner_node[edge.b], edge.cost, edge.forced});
@@ -344,9 +344,9 @@ auto solve(const Multicut& problem, const MulticutLimits& limits, const base::Ru
   whole.optimal = true;
   whole.labels.resize(problem.nodes);
   std::uint32_t used = 0;
-  const std::vector<Part> parts = split(problem, whole.objective);
+  const std::vector<Subproblem> parts = split(problem, whole.objective);
   whole.bound = whole.objective;
-  for (const Part& part : parts) {
+  for (const Subproblem& part : parts) {
     MulticutAnswer answer = solve_part(part.problem, limits, deadline, run);
     std::uint32_t most = 0;
     for (std::size_t i = 0; i < part.nodes.size(); ++i) {

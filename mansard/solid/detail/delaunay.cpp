@@ -11,7 +11,7 @@ namespace {
 
 using geometry::Point2;
 using geometry::Point3;
-using Edge = std::pair<std::uint32_t, std::uint32_t>;
+using VertexPair = std::pair<std::uint32_t, std::uint32_t>;
 
 class Flipping {
  public:
@@ -26,7 +26,7 @@ class Flipping {
   void run() {
     for (std::size_t t = 0; t < triangles_.size(); ++t)
       for (std::size_t i = 0; i < 3; ++i) at_[{triangles_[t][i], triangles_[t][(i + 1) % 3]}] = t;
-    std::vector<Edge> open;
+    std::vector<VertexPair> open;
     for (const auto& [edge, t] : at_)
       if (edge.first < edge.second && at_.contains({edge.second, edge.first})) open.push_back(edge);
     // Each flip makes the triangulation a better one; rounding may not, so that there is an end to them.
@@ -40,7 +40,7 @@ class Flipping {
       if (!is_better(a, b, c, d)) continue;
       flip(there->second, back->second, a, b, c, d);
       --left;
-      for (const Edge& edge : {Edge{b, c}, {c, a}, {a, d}, {d, b}}) open.push_back(edge);
+      for (const VertexPair& edge : {VertexPair{b, c}, {c, a}, {a, d}, {d, b}}) open.push_back(edge);
     }
   }
 
@@ -77,7 +77,7 @@ class Flipping {
   const model::Solid& solid_;
   std::vector<Corners>& triangles_;
   Point3 origin_, u_, v_;
-  std::map<Edge, std::size_t> at_;  ///< the triangle on the left of an edge
+  std::map<VertexPair, std::size_t> at_;  ///< the triangle on the left of an edge
 };
 
 }  // namespace

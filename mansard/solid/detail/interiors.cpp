@@ -22,7 +22,7 @@ using geometry::Point2;
 using geometry::Point3;
 
 /// Halves go up everywhere, as in sheets_of().
-auto units(Point3 p) -> Point3 {
+auto whole_units(Point3 p) -> Point3 {
   const auto whole = [](double metres) { return std::floor(metres * model::quanta_per_metre + 0.5); };
   return {whole(p.x), whole(p.y), whole(p.z)};
 }
@@ -38,7 +38,7 @@ struct Plate {
 auto plates_of(const model::Solid& solid) -> std::optional<std::vector<Plate>> {
   model::Solid whole;
   whole.vertices.reserve(solid.vertices.size());
-  for (const Point3 p : solid.vertices) whole.vertices.push_back(units(p));
+  for (const Point3 p : solid.vertices) whole.vertices.push_back(whole_units(p));
   Triangulator triangulator(whole);
   std::vector<Corners> all, own;
   for (const model::Face& face : solid.faces) {
@@ -197,7 +197,7 @@ auto meet_on_an_edge(const Plate& s, const Signs& of_s, const Plate& t, const Si
   return false;
 }
 
-auto meet(const Plate& s, const Plate& t) -> bool {
+auto plates_meet(const Plate& s, const Plate& t) -> bool {
   const Signs of_s = sides(t, s), of_t = sides(s, t);
   if (on_both_sides(of_s) && on_both_sides(of_t)) return cross_each_other(s, of_s, t, of_t);
   return meet_on_a_face(s, of_s, t) || meet_on_a_face(t, of_t, s) || meet_on_an_edge(s, of_s, t, of_t);
@@ -253,7 +253,7 @@ auto any_two(const model::Solid& a, const model::Solid& b, Test test) -> bool {
 
 }  // namespace
 
-auto insides_meet(const model::Solid& a, const model::Solid& b) -> bool { return any_two(a, b, meet); }
+auto insides_meet(const model::Solid& a, const model::Solid& b) -> bool { return any_two(a, b, plates_meet); }
 
 auto touch_by_chance(const model::Solid& a, const model::Solid& b) -> bool {
   return any_two(a, b,

@@ -74,7 +74,7 @@ auto intersect(const std::vector<Point3>& vertices, const Corners& s, const Corn
 namespace {
 
 /// A triangle with what the cheap tests of its pairs ask for.
-struct Plate {
+struct Triangle {
   std::array<Point3, 3> at;
   Corners corners;
   std::uint32_t face;
@@ -85,8 +85,8 @@ struct Plate {
 };
 
 auto plate_of(const std::vector<Point3>& vertices, const Corners& corners, std::uint32_t face, std::uint32_t index)
-    -> Plate {
-  Plate t{{vertices[corners[0]], vertices[corners[1]], vertices[corners[2]]}, corners, face, index, {}, {}, {}, {}};
+    -> Triangle {
+  Triangle t{{vertices[corners[0]], vertices[corners[1]], vertices[corners[2]]}, corners, face, index, {}, {}, {}, {}};
   const auto [a, b, c] = t.at;
   const Point3 u = b - a, v = c - a;
   t.normal = cross(u, v);
@@ -103,24 +103,24 @@ auto plate_of(const std::vector<Point3>& vertices, const Corners& corners, std::
 /// component of p − a (1 u) another 1 u, and 2 u of the sum of three: 8 u. Twice that.
 constexpr double side_error = 16 * 0x1.0p-53;
 /// Two differences, a product, a difference: 1 + 1 + 1 + 1 = 4 u (Shewchuk has a little over 3). Twice that.
-constexpr double turn_error = 8 * 0x1.0p-53;
+constexpr double sure_turn_error = 8 * 0x1.0p-53;
 /// Underflow takes 2⁻¹⁰⁷⁴ from a product at most, times 2⁸⁰ for coordinates below 1e24: far less than the bounds times
 /// this.
-constexpr double no_underflow = 1e-280;
+constexpr double sure_no_underflow = 1e-280;
 
 /// The side of the plane on which p surely lies; 0 when rounding leaves it open.
-auto sure_side(const Plate& t, Point3 p) -> int {
+auto sure_side(const Triangle& t, Point3 p) -> int {
   const Point3 d = p - t.at[0];
   const double det = dot(t.normal, d);
   const double size = t.terms.x * std::abs(d.x) + t.terms.y * std::abs(d.y) + t.terms.z * std::abs(d.z);
-  if (std::abs(det) <= side_error * size || std::abs(det) < no_underflow) return 0;
+  if (std::abs(det) <= side_error * size || std::abs(det) < sure_no_underflow) return 0;
   return det > 0 ? 1 : -1;
 }
 
 /// The side of the line from a to b on which c surely lies.
 auto sure_turn(Point2 a, Point2 b, Point2 c) -> int {
   const double l = (b.x - a.x) * (c.y - a.y), r = (b.y - a.y) * (c.x - a.x), det = l - r;
-  if (std::abs(det) <= turn_error * (std::abs(l) + std::abs(r)) || std::abs(det) < no_underflow) return 0;
+  if (std::abs(det) <= sure_turn_error * (std::abs(l) + std::abs(r)) || std::abs(det) < sure_no_underflow) return 0;
   return det > 0 ? 1 : -1;
 }
 
@@ -131,7 +131,7 @@ auto unshared(const Corners& s, const Corners& t) -> std::array<bool, 3> {
   return own;
 }
 
-auto all_on_one_side(const Plate& s, const std::array<bool, 3>& own, const Plate& t) -> bool {
+auto all_on_one_side(const Triangle& s, const std::array<bool, 3>& own, const Triangle& t) -> bool {
   int side = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     if (!own[i]) continue;
@@ -144,7 +144,7 @@ auto all_on_one_side(const Plate& s, const std::array<bool, 3>& own, const Plate
 
 /// Whether the line through a side of `base` surely parts the two, seen along an axis: its third corner on one side,
 /// everything of `other` that is not shared on the other. A shared corner must be on the line.
-auto parted_by_a_side(const Plate& base, const std::array<bool, 3>& own_base, const Plate& other,
+auto parted_by_a_side(const Triangle& base, const std::array<bool, 3>& own_base, const Triangle& other,
                       const std::array<bool, 3>& own_other, int axis) -> bool {
   const auto seen = [axis](Point3 p) {
     return axis == 2 ? Point2{p.x, p.y} : (axis == 0 ? Point2{p.y, p.z} : Point2{p.z, p.x});
@@ -170,7 +170,7 @@ auto main_axis(Point3 n) -> int {
 
 /// Whether the two surely have nothing in common but the corners they share. Settles nearly every pair of a sound
 /// solid; what it leaves open is decided exactly.
-auto surely_apart(const Plate& s, const Plate& t) -> bool {
+auto surely_apart(const Triangle& s, const Triangle& t) -> bool {
   const auto own_s = unshared(s.corners, t.corners), own_t = unshared(t.corners, s.corners);
   if (!own_s[0] && !own_s[1] && !own_s[2]) return false;
   if (all_on_one_side(s, own_s, t) || all_on_one_side(t, own_t, s)) return true;
@@ -183,13 +183,13 @@ auto surely_apart(const Plate& s, const Plate& t) -> bool {
 /// Finds pairs with overlapping boxes through a tree of boxes.
 class Pairs {
  public:
-  Pairs(const std::vector<Point3>& vertices, std::vector<Plate> plates)
+  Pairs(const std::vector<Point3>& vertices, std::vector<Triangle> plates)
       : vertices_(vertices), plates_(std::move(plates)) {
     nodes_.reserve(plates_.size());
     if (!plates_.empty()) build(0, static_cast<std::uint32_t>(plates_.size()));
   }
 
-  using Found = std::optional<std::pair<const Plate*, const Plate*>>;
+  using Found = std::optional<std::pair<const Triangle*, const Triangle*>>;
 
   auto first() -> Found {
     if (!plates_.empty()) within(0);
@@ -234,7 +234,7 @@ class Pairs {
     const auto index = static_cast<std::uint32_t>(nodes_.size());
     Node node{plates_[begin].least, plates_[begin].most, begin, end, 0};
     for (std::uint32_t i = begin + 1; i < end; ++i) {
-      const Plate& p = plates_[i];
+      const Triangle& p = plates_[i];
       node.least = {std::min(node.least.x, p.least.x), std::min(node.least.y, p.least.y),
                     std::min(node.least.z, p.least.z)};
       node.most = {std::max(node.most.x, p.most.x), std::max(node.most.y, p.most.y), std::max(node.most.z, p.most.z)};
@@ -242,13 +242,13 @@ class Pairs {
     nodes_.push_back(node);
     if (end - begin <= leaf) return index;
     const Point3 size = node.most - node.least;
-    const auto middle = [&](const Plate& p) {
+    const auto middle = [&](const Triangle& p) {
       const Point3 m = p.least + p.most;
       return size.x >= size.y && size.x >= size.z ? m.x : (size.y >= size.z ? m.y : m.z);
     };
     const std::uint32_t half = begin + (end - begin) / 2;
     std::nth_element(plates_.begin() + begin, plates_.begin() + half, plates_.begin() + end,
-                     [&](const Plate& a, const Plate& b) {
+                     [&](const Triangle& a, const Triangle& b) {
                        const double p = middle(a), q = middle(b);
                        return p != q ? p < q : a.index < b.index;
                      });
@@ -264,7 +264,7 @@ class Pairs {
            p.least.z <= q.most.z && q.least.z <= p.most.z;
   }
 
-  void ask(const Plate& s, const Plate& t) {
+  void ask(const Triangle& s, const Triangle& t) {
     if (s.face == t.face || !overlap(s, t) || surely_apart(s, t)) return;
     if (intersect(vertices_, s.corners, t.corners)) found_ = std::pair(&s, &t);
   }
@@ -301,7 +301,7 @@ class Pairs {
   }
 
   const std::vector<Point3>& vertices_;
-  std::vector<Plate> plates_;
+  std::vector<Triangle> plates_;
   std::vector<Node> nodes_;
   Found found_;
 };
@@ -310,7 +310,7 @@ class Pairs {
 /// own corners and edges, and no triangle of it needs to be looked at.
 class Level {
  public:
-  Level(const std::vector<Point3>& vertices, const model::Face& face, std::vector<Plate> plates)
+  Level(const std::vector<Point3>& vertices, const model::Face& face, std::vector<Triangle> plates)
       : vertices_(vertices), pairs_(vertices, std::move(plates)) {
     for (const auto& loop : face.loops)
       for (std::size_t i = 0; i < loop.size(); ++i) edges_.emplace_back(loop[i], loop[(i + 1) % loop.size()]);
@@ -326,18 +326,18 @@ class Level {
 
   auto first_with(const Pairs& others) -> Pairs::Found {
     const auto [least, most] = pairs_.bounds();
-    others.each_in(least, most, [&](const Plate& t) { return !stands_on(t) && meets(t); });
+    others.each_in(least, most, [&](const Triangle& t) { return !stands_on(t) && meets(t); });
     return found_;
   }
   auto first_with(const Level& other) -> Pairs::Found {
     const auto [least, most] = pairs_.bounds();
-    other.pairs_.each_in(least, most, [&](const Plate& t) { return meets(t); });
+    other.pairs_.each_in(least, most, [&](const Triangle& t) { return meets(t); });
     return found_;
   }
 
  private:
   /// On one side of the height, but for a corner or an edge of this face.
-  [[nodiscard]] auto stands_on(const Plate& t) const -> bool {
+  [[nodiscard]] auto stands_on(const Triangle& t) const -> bool {
     const double z = pairs_.bounds().first.z;
     if (t.least.z < z && t.most.z > z) return false;
     std::array<std::uint32_t, 3> here{};
@@ -354,8 +354,8 @@ class Level {
     return count == 2 && (has(here[0], here[1]) || has(here[1], here[0]));
   }
 
-  auto meets(const Plate& t) -> bool {
-    return pairs_.each_in(t.least, t.most, [&](const Plate& own) {
+  auto meets(const Triangle& t) -> bool {
+    return pairs_.each_in(t.least, t.most, [&](const Triangle& own) {
       if (surely_apart(own, t) || !intersect(vertices_, own.corners, t.corners)) return false;
       found_ = std::pair(&own, &t);
       return true;
@@ -373,7 +373,7 @@ class Level {
 auto first_intersection(const model::Solid& solid, const std::vector<Corners>& triangles,
                         const std::vector<std::uint32_t>& face_of) -> std::array<std::size_t, 2> {
   constexpr std::size_t large = 64;
-  std::vector<Plate> plates;
+  std::vector<Triangle> plates;
   std::vector<Level> levels;
   plates.reserve(triangles.size());
   for (std::uint32_t i = 0; i < triangles.size();) {
@@ -381,7 +381,7 @@ auto first_intersection(const model::Solid& solid, const std::vector<Corners>& t
     std::uint32_t end = i;
     while (end < triangles.size() && face_of[end] == face) ++end;
     const bool apart = end - i >= large && Level::is_level(solid.vertices, solid.faces[face]);
-    std::vector<Plate> own;
+    std::vector<Triangle> own;
     for (auto& list = apart ? own : plates; i < end; ++i)
       list.push_back(plate_of(solid.vertices, triangles[i], face, i));
     if (apart) levels.emplace_back(solid.vertices, solid.faces[face], std::move(own));

@@ -44,13 +44,13 @@ struct Border {
   geometry::Segment2 segment;
 };
 
-using Edge = std::pair<Point3, Point3>;
+using PointPair = std::pair<Point3, Point3>;
 
-auto edges_of(const RoofField& field) -> std::map<Edge, std::uint32_t> {
-  std::map<Edge, std::uint32_t> edges;
+auto edges_of(const RoofField& field) -> std::map<PointPair, std::uint32_t> {
+  std::map<PointPair, std::uint32_t> edges;
   for (std::uint32_t f = 0; f < field.faces.size(); ++f)
     for (const auto& loop : field.faces[f].loops)
-      for (std::size_t i = 0; i < loop.size(); ++i) edges.emplace(Edge{loop[i], loop[(i + 1) % loop.size()]}, f);
+      for (std::size_t i = 0; i < loop.size(); ++i) edges.emplace(PointPair{loop[i], loop[(i + 1) % loop.size()]}, f);
   return edges;
 }
 

@@ -12,7 +12,7 @@ namespace mansard::solid::detail {
 namespace {
 
 /// An edge of the ground.
-struct Edge {
+struct SheetEdge {
   Place from{}, to{};
   std::uint32_t owner = 0;
 
@@ -25,7 +25,7 @@ auto minus(const Place& a, const Place& b) -> std::array<double, 2> {
 }
 
 /// From a point to an edge.
-auto distance(const Place& p, const Edge& edge) -> double {
+auto distance(const Place& p, const SheetEdge& edge) -> double {
   const auto along = minus(edge.to, edge.from), to = minus(p, edge.from);
   const double length2 = along[0] * along[0] + along[1] * along[1];
   const double t = length2 > 0 ? std::clamp((to[0] * along[0] + to[1] * along[1]) / length2, 0.0, 1.0) : 0.0;
@@ -34,7 +34,7 @@ auto distance(const Place& p, const Edge& edge) -> double {
 
 /// Sign of the area of the triangle from an edge to a point. Places reach 2⁴⁰ quanta, 10⁵ km; their products are
 /// compared in long double.
-auto side(const Edge& edge, const Place& p) -> int {
+auto side(const SheetEdge& edge, const Place& p) -> int {
   const long double left = static_cast<long double>(edge.to[0] - edge.from[0]) *
                            static_cast<long double>(p[1] - edge.from[1]),
                     right = static_cast<long double>(edge.to[1] - edge.from[1]) *
@@ -42,15 +42,15 @@ auto side(const Edge& edge, const Place& p) -> int {
   return (left > right) - (left < right);
 }
 
-auto meet(const Edge& a, const Edge& b, std::int64_t near) -> bool {
+auto meet(const SheetEdge& a, const SheetEdge& b, std::int64_t near) -> bool {
   if (side(a, b.from) * side(a, b.to) < 0 && side(b, a.from) * side(b, a.to) < 0) return true;
   const auto reach = static_cast<double>(near);
   return distance(a.from, b) < reach || distance(a.to, b) < reach || distance(b.from, a) < reach ||
          distance(b.to, a) < reach;
 }
 
-auto edges_of(const Sheets& sheets, const std::vector<std::uint32_t>& owner_of_solid) -> std::vector<Edge> {
-  std::vector<Edge> edges;
+auto edges_of(const Sheets& sheets, const std::vector<std::uint32_t>& owner_of_solid) -> std::vector<SheetEdge> {
+  std::vector<SheetEdge> edges;
   for (const Sheet& sheet : sheets.sheets) {
     if (sheet.facing != Facing::down) continue;
     for (const Path& path : sheet.paths)
@@ -58,7 +58,7 @@ auto edges_of(const Sheets& sheets, const std::vector<std::uint32_t>& owner_of_s
         edges.push_back(
             {sheets.places[path[i].at], sheets.places[path[(i + 1) % path.size()].at], owner_of_solid[sheet.solid]});
   }
-  std::ranges::sort(edges, {}, [](const Edge& e) { return std::tuple(e.least(0), e.from, e.to, e.owner); });
+  std::ranges::sort(edges, {}, [](const SheetEdge& e) { return std::tuple(e.least(0), e.from, e.to, e.owner); });
   return edges;
 }
 
@@ -68,7 +68,7 @@ namespace {
 
 /// Whether the grounds on the inner sides of two edges overlap there by more than surveys differ: the edges cross far
 /// from their ends, or run along each other in one direction.
-auto overlap(const Edge& a, const Edge& b, std::int64_t near) -> bool {
+auto overlap(const SheetEdge& a, const SheetEdge& b, std::int64_t near) -> bool {
   constexpr double deep = 0.1 * quanta_per_metre;
   const auto along_a = minus(a.to, a.from), along_b = minus(b.to, b.from);
   if (side(a, b.from) * side(a, b.to) < 0 && side(b, a.from) * side(b, a.to) < 0)
@@ -88,7 +88,7 @@ auto overlap(const Edge& a, const Edge& b, std::int64_t near) -> bool {
 
 /// Calls work(i, k) for edges of different owners whose boxes are near, as long as it is true of i.
 template <class Work>
-void for_near(const std::vector<Edge>& edges, std::int64_t near, Work work) {
+void for_near(const std::vector<SheetEdge>& edges, std::int64_t near, Work work) {
   for (std::size_t i = 0; i < edges.size(); ++i)
     for (std::size_t k = i + 1; k < edges.size() && edges[k].least(0) <= edges[i].most(0) + near; ++k) {
       if (edges[k].least(1) > edges[i].most(1) + near || edges[i].least(1) > edges[k].most(1) + near) continue;
@@ -99,10 +99,10 @@ void for_near(const std::vector<Edge>& edges, std::int64_t near, Work work) {
 /// The owners whose ground overlaps that of others at so many edges that it is no survey of a city, but footprints
 /// piled up: all their crossings in one plan would cost the square of their number and more. Which edges are counted
 /// depends on their order, and so on nothing but the owners that are near.
-auto piled_up(const std::vector<Edge>& edges, std::int64_t near, std::uint32_t owners) -> std::vector<bool> {
+auto piled_up(const std::vector<SheetEdge>& edges, std::int64_t near, std::uint32_t owners) -> std::vector<bool> {
   constexpr int most = 64;
   std::vector<int> count(owners, 0);
-  for_near(edges, near, [&](const Edge& a, const Edge& b) {
+  for_near(edges, near, [&](const SheetEdge& a, const SheetEdge& b) {
     if (count[a.owner] > most) return false;
     if (overlap(a, b, near)) ++count[a.owner], ++count[b.owner];
     return true;
@@ -119,7 +119,7 @@ auto touching(const Sheets& sheets, const std::vector<std::uint32_t>& owner_of_s
   const auto edges = edges_of(sheets, owner_of_solid);
   const auto alone = piled_up(edges, sheets.near, owners);
   base::DisjointSets sets(owners);
-  for_near(edges, sheets.near, [&](const Edge& a, const Edge& b) {
+  for_near(edges, sheets.near, [&](const SheetEdge& a, const SheetEdge& b) {
     if (alone[a.owner]) return false;
     if (!alone[b.owner] && sets.of(a.owner) != sets.of(b.owner) && meet(a, b, sheets.near)) sets.join(a.owner, b.owner);
     return true;
@@ -141,7 +141,7 @@ auto only_broken(const Path& before, const Path& after, const Sheets& sheets,
       continue;
     }
     if (found == 0) return false;
-    const Edge edge{sheets.places[before[found - 1].at], sheets.places[before[found % before.size()].at]};
+    const SheetEdge edge{sheets.places[before[found - 1].at], sheets.places[before[found % before.size()].at]};
     if (is_others(node.at) && side(edge, sheets.places[node.at]) != 0) return false;
   }
   return found == before.size();

@@ -27,14 +27,14 @@ auto area_of(const Side& side, double interval) -> double {
   return sum;
 }
 
-struct Evidence {
+struct Weighed {
   double area = 0;   // m² that count against gamma
   bool low = false;  // most of it is in the zone of cars and hedges
 };
 
 /// Fences and parapets have next to nothing left of their length after the bus filter. Narrow gabled houses lose to it
 /// too, towards the ridge, but keep half: they count in full.
-auto weigh(const Side& side, double interval, const Options& o) -> Evidence {
+auto weigh(const Side& side, double interval, const Options& o) -> Weighed {
   double all = 0, good = 0, low = 0;
   for (const auto& l : side) {
     all += l.length * interval;
@@ -44,7 +44,7 @@ auto weigh(const Side& side, double interval, const Options& o) -> Evidence {
   return {good < o.thin_share * all ? good : all, low > o.low_share * all};
 }
 
-auto span(const Segment2& s) -> double { return length(s.end - s.start); }
+auto extent(const Segment2& s) -> double { return length(s.end - s.start); }
 
 /// A coordinate moved by a micrometre moves a length by two, far less than this share of a spacing of decimetres.
 constexpr double column_rounding = 1e-4;
@@ -71,7 +71,7 @@ class Outline {
 
 /// Edges are whole columns long, so that many are whole multiples of the spacing: rounding must not add a point.
 auto samples_of(const Segment2& s, double spacing) -> std::vector<Point2> {
-  const auto n = static_cast<std::size_t>(std::ceil(span(s) / spacing - column_rounding)) + 1;
+  const auto n = static_cast<std::size_t>(std::ceil(extent(s) / spacing - column_rounding)) + 1;
   std::vector<Point2> points;
   for (std::size_t k = 0; k <= n; ++k)
     points.push_back(s.start + (static_cast<double>(k) / static_cast<double>(n)) * (s.end - s.start));
@@ -129,7 +129,7 @@ auto put_together(std::vector<Side> sides, const slice::SliceStack& stack, doubl
     used[i] = 1;
     Side side = std::move(candidates[i].side);
     const Point2 origin = bases[i].start, d = normalised(bases[i].end - origin);
-    double low = 0, high = span(bases[i]);
+    double low = 0, high = extent(bases[i]);
     for (bool grown = true; grown;) {
       grown = false;
       const Segment2 reach{origin + low * d, origin + high * d};
@@ -191,8 +191,8 @@ class RoofParts {
     for (const auto k : index_[slice].near(geometry::Box2::of(s).grown(options_.roof_look_sideways))) {
       const auto& o = lines_[slice][k].line.segment;
       if (dot(normalised(o.end - o.start), d) < options_.roof_cosine) continue;
-      const double a = std::max(0.0, dot(o.start - s.start, d)), b = std::min(span(s), dot(o.end - s.start, d));
-      if (b - a >= options_.roof_share * span(s) && lateral_step(s, o) < options_.roof_look_sideways) return true;
+      const double a = std::max(0.0, dot(o.start - s.start, d)), b = std::min(extent(s), dot(o.end - s.start, d));
+      if (b - a >= options_.roof_share * extent(s) && lateral_step(s, o) < options_.roof_look_sideways) return true;
     }
     return false;
   }
@@ -225,8 +225,8 @@ void drop_twins(SweepEdges& found, const Options& o) {
       if (dot(normalised(small.end - small.start), d) < o.same_line_cosine) continue;
       const Point2 a = small.start - large.start, b = small.end - large.start;
       if (std::max(std::abs(cross(d, a)), std::abs(cross(d, b))) > o.twin_distance) continue;
-      const double shared = std::min(span(large), dot(d, b)) - std::max(0.0, dot(d, a));
-      if (shared >= o.twin_share * span(small)) gone[order[m]] = 1;
+      const double shared = std::min(extent(large), dot(d, b)) - std::max(0.0, dot(d, a));
+      if (shared >= o.twin_share * extent(small)) gone[order[m]] = 1;
     }
   }
   std::vector<SweepEdge> kept;
@@ -264,7 +264,7 @@ auto select_edges(std::vector<Side> sides, const LineStack& lines, const slice::
     auto bases = find_bases(sides[i], stack, block.ground, o);
     for (auto& base : bases) {
       const auto clip = clipped(base.segment, outline, o);
-      if (!clip || span(*clip) < o.minimum_length) continue;
+      if (!clip || extent(*clip) < o.minimum_length) continue;
       base.segment = *clip;
       const bool clutter = evidence.low && !stands_at_the_outline(*clip, outline, o);
       if (clutter && o.low_weight * evidence.area < o.gamma) continue;
@@ -291,7 +291,7 @@ auto select_edges(std::vector<Side> sides, const LineStack& lines, const slice::
 
 void sort_longest_first(std::vector<SweepEdge>& edges) {
   std::sort(edges.begin(), edges.end(), [](const SweepEdge& a, const SweepEdge& b) {
-    const double la = span(a.segment), lb = span(b.segment);
+    const double la = extent(a.segment), lb = extent(b.segment);
     if (in_units(la) != in_units(lb)) return la > lb;
     return a.segment != b.segment ? comes_before(a.segment, b.segment) : a.cluster < b.cluster;
   });

@@ -30,17 +30,17 @@ struct Step {
 };
 
 /// Jumps of one line, one a row, ascending.
-using Stretch = std::vector<Jump>;
+using JumpRow = std::vector<Jump>;
 
-auto length_of(const Stretch& s, const Options& o) -> double {
+auto length_of(const JumpRow& s, const Options& o) -> double {
   return s.empty() ? 0 : static_cast<double>(s.back().row - s.front().row + 1) * o.step_cell;
 }
-auto worth_of(const Stretch& s, const Options& o) -> double {
+auto worth_of(const JumpRow& s, const Options& o) -> double {
   double sum = 0;
   for (const Jump& j : s) sum += o.step_cell * std::min(std::abs(j.height), o.step_full_jump);
   return sum;
 }
-auto cover_of(const Stretch& s, const Options& o) -> double {
+auto cover_of(const JumpRow& s, const Options& o) -> double {
   return static_cast<double>(s.size()) * o.step_cell / length_of(s, o);
 }
 
@@ -55,7 +55,7 @@ class Field {
   }
 
   /// The best stretch along a line.
-  [[nodiscard]] auto best_along(const HeightGrid::Line& line) const -> Stretch {
+  [[nodiscard]] auto best_along(const HeightGrid::Line& line) const -> JumpRow {
     std::map<std::size_t, std::uint32_t> by_row;  // the highest jump of each
     const double sideways =
         options_.step_band + std::abs(line.tangent) * static_cast<double>(grid_.along()) * options_.step_cell;
@@ -67,13 +67,13 @@ class Field {
         const auto [place, is_new] = by_row.try_emplace(jumps_[i].row, i);
         if (!is_new && std::abs(jumps_[i].height) > std::abs(jumps_[place->second].height)) place->second = i;
       }
-    Stretch best;
+    JumpRow best;
     for (auto& s : joined(stretches(by_row), line.across))
       if (worth_of(s, options_) > worth_of(best, options_)) best = std::move(s);
     return best;
   }
 
-  void use(const Stretch& stretch) {
+  void use(const JumpRow& stretch) {
     for (const Jump& j : stretch) {
       const auto last = std::min(columns_.size() - 1, column_of(j.across + options_.step_band));
       for (auto c = column_of(std::max(0.0, j.across - options_.step_band)); c <= last; ++c)
@@ -87,8 +87,8 @@ class Field {
   }
 
  private:
-  [[nodiscard]] auto stretches(const std::map<std::size_t, std::uint32_t>& by_row) const -> std::vector<Stretch> {
-    std::vector<Stretch> parts;
+  [[nodiscard]] auto stretches(const std::map<std::size_t, std::uint32_t>& by_row) const -> std::vector<JumpRow> {
+    std::vector<JumpRow> parts;
     for (const auto& [row, i] : by_row) {
       if (parts.empty() ||
           static_cast<double>(row - parts.back().back().row - 1) * options_.step_cell > options_.step_gap)
@@ -99,8 +99,8 @@ class Field {
   }
 
   /// Stretches in one line with a roof between them, where most of the whole jumps.
-  [[nodiscard]] auto joined(std::vector<Stretch> parts, double across) const -> std::vector<Stretch> {
-    std::vector<Stretch> whole;
+  [[nodiscard]] auto joined(std::vector<JumpRow> parts, double across) const -> std::vector<JumpRow> {
+    std::vector<JumpRow> whole;
     for (auto& part : parts) {
       if (!whole.empty() && is_one(whole.back(), part, across))
         whole.back().insert(whole.back().end(), part.begin(), part.end());
@@ -108,7 +108,7 @@ class Field {
     }
     return whole;
   }
-  [[nodiscard]] auto is_one(const Stretch& a, const Stretch& b, double across) const -> bool {
+  [[nodiscard]] auto is_one(const JumpRow& a, const JumpRow& b, double across) const -> bool {
     const std::size_t from = a.back().row, to = b.front().row;
     if (static_cast<double>(to - from - 1) * options_.step_cell > options_.step_wide_gap) return false;
     if ((a.back().height > 0) == (b.front().height > 0)) return false;
@@ -130,7 +130,7 @@ class Field {
 using Line = HeightGrid::Line;
 
 /// Where the line of a stretch lies; turned off the grain only if it has to be.
-auto line_of(const Stretch& stretch, const Options& o) -> Line {
+auto line_of(const JumpRow& stretch, const Options& o) -> Line {
   std::vector<double> at;
   double row = 0, n = 0;
   for (const Jump& j : stretch) at.push_back(j.across), row += static_cast<double>(j.row), n += 1;
@@ -147,8 +147,8 @@ auto line_of(const Stretch& stretch, const Options& o) -> Line {
 }
 
 /// Stretches that jump one way, where those of the other way lie between.
-auto one_way(const Stretch& stretch) -> std::vector<Stretch> {
-  std::vector<Stretch> parts;
+auto one_way(const JumpRow& stretch) -> std::vector<JumpRow> {
+  std::vector<JumpRow> parts;
   for (const Jump& j : stretch) {
     if (parts.empty() || (parts.back().back().height > 0) != (j.height > 0)) parts.emplace_back();
     parts.back().push_back(j);
@@ -157,10 +157,10 @@ auto one_way(const Stretch& stretch) -> std::vector<Stretch> {
 }
 
 /// The step along a line, measured again on the mean surface across each part that jumps one way, where noise is small.
-auto step_of(const HeightGrid& grid, const Stretch& stretch, Line line, const Options& o) -> Step {
+auto step_of(const HeightGrid& grid, const JumpRow& stretch, Line line, const Options& o) -> Step {
   Step step;
   double up = 0, beside = 0, weight = 0;
-  for (const Stretch& part : one_way(stretch)) {
+  for (const JumpRow& part : one_way(stretch)) {
     if (length_of(part, o) < o.step_part) continue;
     const auto flank = grid.flank_of(part, line);
     const auto rows = static_cast<double>(part.size());
@@ -189,7 +189,7 @@ auto steps_along(const HeightGrid& grid, const Options& o) -> std::vector<Step> 
   Field field(grid, grid.jumps(), o);
   const auto line_at = [&](std::size_t c) { return (static_cast<double>(c) + 0.5) * o.step_cell; };
   const auto straight_at = [&](std::size_t c) { return Line{line_at(c), 0, 0, o.step_cell}; };
-  std::vector<Stretch> best(field.columns());
+  std::vector<JumpRow> best(field.columns());
   std::vector<double> worths(
       best.size());  // of these; a sum over each would be made again for every line that is taken
   const auto measure = [&](std::size_t c) {
@@ -206,9 +206,9 @@ auto steps_along(const HeightGrid& grid, const Options& o) -> std::vector<Step> 
       worths[c] = worth_of(best[c], o);
       continue;
     }
-    Stretch stretch = best[c];
+    JumpRow stretch = best[c];
     Line line = line_of(stretch, o);
-    if (Stretch again = field.best_along(line); worth_of(again, o) >= worth_of(stretch, o)) {
+    if (JumpRow again = field.best_along(line); worth_of(again, o) >= worth_of(stretch, o)) {
       stretch = std::move(again);
       line = line_of(stretch, o);
     }
