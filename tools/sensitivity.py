@@ -74,7 +74,7 @@ def main():
         changed = {key for key, models in done if key and models != usual} | set(crashed)
         left = [key for key in left if key not in changed]
         (out / f"left-{name}.txt").write_text("".join(key + "\n" for key in left))
-        print(f"{name}: {len(changed)} change models, {len(left)} did not on any set so far", flush=True)
+        print(f"{name}: {len(changed - set(crashed))} change models, {len(left)} did not on any set so far", flush=True)
 
 
 main()

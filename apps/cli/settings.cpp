@@ -14,7 +14,7 @@
 namespace mansard::cli {
 namespace {
 
-auto comma_list(const std::vector<std::string>& words) -> std::string {
+auto in_one_line(const std::vector<std::string>& words) -> std::string {
   std::string all;
   for (const auto& word : words) all += (all.empty() ? "" : " ") + word;
   return all;
@@ -33,7 +33,7 @@ auto text_of(const toml::node& node) -> std::optional<std::string> {
       if (!word) return std::nullopt;
       words.push_back(std::move(*word));
     }
-    return comma_list(words);
+    return in_one_line(words);
   }
   return std::nullopt;
 }
@@ -182,7 +182,7 @@ auto Settings::apply(Menu menu) const -> base::Result<void> {
       wrong.push_back(base::error("option-value", "is given " + std::to_string(times) + " times; give it once", typed));
       continue;
     }
-    const std::string value = given.flag && comma_list(given.words).empty() ? "true" : comma_list(given.words);
+    const std::string value = given.flag && in_one_line(given.words).empty() ? "true" : in_one_line(given.words);
     append(wrong, pipeline::set_option(menu.lists, given.key, value), typed);
   }
   return result_of(std::move(wrong));
