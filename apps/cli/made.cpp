@@ -18,12 +18,20 @@ auto made_of(const report::Reconstruction& r) -> Made {
               if (auto visited = visit(r.city.buildings[i], r.buildings[i]); !visited) return visited;
             return {};
           },
+          [&r](const auto& visit) -> base::Result<void> {
+            for (const auto& map : r.error_maps) visit(map);
+            return {};
+          },
           &r};
 }
 
 auto made_of(const pipeline::PutAside& city) -> Made {
-  return {city.summary, city.outcomes, city.frame, city.made_by,
-          [&city](const Made::Visit& visit) { return city.each(visit); }};
+  return {city.summary,
+          city.outcomes,
+          city.frame,
+          city.made_by,
+          [&city](const Made::Visit& visit) { return city.each(visit); },
+          [&city](const auto& visit) { return city.each_error_map(visit); }};
 }
 
 auto in_words(const report::Outcomes& outcomes, std::size_t remarks) -> std::string {
@@ -91,6 +99,7 @@ auto with_textures(const Made& made, const texture::PutAside& textures) -> Made 
               return visit(building, report);
             });
           },
+          made.each_error_map,
           made.whole};
 }
 

@@ -8,12 +8,13 @@
 
 #include "apps/cli/formats.hpp"
 #include "apps/cli/progress.hpp"
+#include "mansard/evaluate/merged.hpp"
 #include "mansard/pipeline/city.hpp"
 #include "mansard/texture/texture.hpp"
 
 namespace mansard::cli {
 
-/// In memory where pictures or layers are made of all of it, else put aside. What it was made of must outlive it.
+/// In memory where layers are made of all of it, else put aside. What it was made of must outlive it.
 struct Made {
   const report::Summary& summary;
   report::Outcomes outcomes;
@@ -21,6 +22,7 @@ struct Made {
   const model::MadeBy& made_by;
   using Visit = std::function<base::Result<void>(const model::Building&, const report::BuildingReport&)>;
   std::function<base::Result<void>(const Visit&)> each;  ///< in the source's order; ends with the first failure
+  evaluate::EachMap each_error_map;                      ///< where they were kept
   const report::Reconstruction* whole = nullptr;         ///< where it is in memory
 };
 [[nodiscard]] auto made_of(const report::Reconstruction& reconstruction) -> Made;

@@ -1,4 +1,5 @@
 // `mansard reconstruct MESH… FOOTPRINTS -o OUTDIR`.
+#include <malloc.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -15,6 +16,7 @@
 #include "apps/cli/verbs.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/base/text.hpp"
+#include "mansard/pipeline/scan_pieces.hpp"
 #include "mansard/report/layers.hpp"
 #include "mansard/report/pictures.hpp"
 
@@ -56,22 +58,34 @@ auto targets_of(const ReconstructRequest& request) -> base::Result<std::vector<T
   return targets_in(request.out, *formats);
 }
 
-auto write_pictures(const ReconstructRequest& request, const pipeline::Options& options,
-                    const report::Reconstruction& result, const texture::Baked& baked, const model::Scene& scene,
-                    const base::Run& run, base::Outputs& outputs) -> base::Result<void> {
+auto write_pictures(const ReconstructRequest& request, const pipeline::Options& options, const Made& made,
+                    const texture::Baked& baked, const ingest::CityScene& city, const base::Run& run,
+                    base::Outputs& outputs) -> base::Result<void> {
+  ::malloc_trim(0);  // what the blocks took is not kept beside the pixels
+  const auto& scene = city.scene;
   model::City textured;
   report::TexturedLayers layers;
-  if (baked.textures) {
-    textured.buildings = result.city.buildings;
-    for (std::size_t b = 0; b < textured.buildings.size(); ++b)
-      if (auto applied = baked.textures->apply(b, textured.buildings[b]); !applied) return applied;
+  if (baked.textures) {  // in memory as a whole
+    auto all = with_textures(made, *baked.textures).each([&](const model::Building& building, const auto&) {
+      textured.buildings.push_back(building);
+      return base::Result<void>();
+    });
+    if (!all) return all;
     auto scan = report::textured_scan(*baked.scan, scene);
     if (!scan) return scan.failure();
     layers = {std::move(*scan), report::textured_models(textured, options.write.solids)};
   }
-  const auto pictures = report::pictures(result, scene, request.error_limit, run, baked.textures ? &layers : nullptr);
-  for (const auto& [name, image] : {std::pair{"picture.png", &pictures.angle}, std::pair{"above.png", &pictures.above},
-                                    std::pair{"error.png", &pictures.error}}) {
+  const report::Drawn drawn{
+      scene, pipeline::scan_pieces(city, report::frame_of(scene)),
+      [&](const auto& visit) {
+        return made.each([&](const model::Building& building, const auto&) { return visit(building); });
+      },
+      made.each_error_map};
+  const auto pictures = report::pictures(drawn, request.error_limit, run, baked.textures ? &layers : nullptr);
+  if (!pictures) return pictures.failure();
+  for (const auto& [name, image] :
+       {std::pair{"picture.png", &pictures->angle}, std::pair{"above.png", &pictures->above},
+        std::pair{"error.png", &pictures->error}}) {
     const auto bytes = picture::png(*image);
     if (!bytes) return bytes.failure();
     if (auto written = write_bytes(fs::path(request.out) / name, *bytes, outputs); !written) return written;
@@ -115,8 +129,7 @@ auto write_all(const ReconstructRequest& request, const std::vector<Target>& tar
     if (auto written = write_report(made, scene, request.scan.report, outputs); !written) return written;
   if (request.picture) {
     progress.show("picture", "", 1);
-    if (auto written = write_pictures(request, options, *made.whole, baked, scene, run, outputs); !written)
-      return written;
+    if (auto written = write_pictures(request, options, made, baked, city, run, outputs); !written) return written;
   }
   const auto left = leftovers(request.out, "run.json", is_result);
   if (auto written = outputs.commit(run.cancel); !written) return written;
@@ -185,9 +198,9 @@ auto reconstruct(const ReconstructRequest& request, const base::Cancel& cancel) 
     if (const auto kept = (*folder)->kept_in_words(); !kept.empty() && !request.no_resume) progress.say(kept);
     return code;
   };
-  // Pictures and layers are made of everything at once.
-  const bool whole = request.picture || request.layers;
-  const auto city = whole && request.shares == 0
+  // Layers are made of everything at once, and textured pictures of the whole mesh.
+  const bool whole = request.layers;
+  const auto city = (whole || (request.picture && options->texture.bake)) && request.shares == 0
                         ? read_scan(request.scan, *options, run, progress).transform([](model::Scene&& scene) {
                             return ingest::CityScene{std::move(scene), nullptr};
                           })
@@ -219,7 +232,9 @@ auto reconstruct(const ReconstructRequest& request, const base::Cancel& cancel) 
     const auto result = pipeline::reconstruct(city->scene, *options, run, keep, {}, schedule);
     return result ? finish(made_of(*result)) : stopped(result);
   }
-  const auto aside = pipeline::reconstruct_aside(*city, *options, run, schedule);
+  const auto aside =
+      pipeline::reconstruct_aside(*city, *options, run, schedule,
+                                  request.picture ? pipeline::Aside::models_and_error_maps : pipeline::Aside::models);
   return aside ? finish(made_of(*aside)) : stopped(aside);
 }
 

@@ -25,7 +25,9 @@ auto around(const model::City& city, const OpenScene& scene, const pipeline::Opt
     if (auto ground = terrain::ground_of(building); !ground.rings.empty()) out.grounds.push_back(std::move(ground));
   const auto area = terrain::area_around(out.grounds, options.terrain);
   if (area.empty()) return base::error("pipeline-nothing", "there are no models, so there is no terrain around them");
-  auto heights = pipeline::terrain_heights(scene.scene(), nullptr, area, options.terrain);
+  const auto whole = scene.with_mesh();
+  if (!whole) return whole.failure();
+  auto heights = pipeline::terrain_heights(*whole, nullptr, area, options.terrain);
   if (!heights) return heights.failure();
   out.heights = std::move(*heights);
   return out;

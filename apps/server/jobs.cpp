@@ -1,5 +1,6 @@
 #include "apps/server/jobs.hpp"
 
+#include <malloc.h>
 #include <algorithm>
 #include <chrono>
 #include <exception>
@@ -137,6 +138,9 @@ void Jobs::carry_out(const std::shared_ptr<Entry>& entry) {
   };
   const auto result = as_result([&] { return entry->work(run); });
   entry->work = nullptr;  // releases what it captured
+  // Reading and runs take several times the memory of their results. The C library keeps it for what comes next, which
+  // may be nothing.
+  ::malloc_trim(0);
   if (result) return end(entry, State::done, std::nullopt);
   if (result.error().code != "cancelled") return end(entry, State::failed, result.error());
   bool stopping = false;

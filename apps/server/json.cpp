@@ -47,6 +47,8 @@ auto box_of(const block::Block& block) -> geometry::Box3 {
   return box;
 }
 
+}  // namespace
+
 auto json_of(const block::Block& block, const model::Scene& scene) -> Json {
   Json buildings = Json::array();
   for (const auto& member : block.members) buildings.push_back(scene.feature(member.feature).id);
@@ -57,8 +59,6 @@ auto json_of(const block::Block& block, const model::Scene& scene) -> Json {
           {"high", json_of(box.most)},
           {"triangles", block.mesh.triangles.size()}};
 }
-
-}  // namespace
 
 auto text_of(const Json& json) -> std::string { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
@@ -261,11 +261,10 @@ auto json_of(std::span<const picture::Tile> tiles) -> Json {
   return {{"levels", levels}, {"tiles", std::move(infos)}};
 }
 
-auto json_of(const model::Scene& scene, std::span<const block::Block> blocks) -> Json {
+auto json_of(const model::Scene& scene, std::span<const block::Block> blocks, std::vector<Json> shown) -> Json {
   std::vector<Json> block_of(scene.footprints.size(), nullptr), ground(scene.footprints.size(), 0.0);
-  Json block_list = Json::array(), footprints = Json::array();
+  Json block_list(std::move(shown)), footprints = Json::array();
   for (const auto& block : blocks) {
-    block_list.push_back(json_of(block, scene));
     for (const auto& member : block.members) {
       if (member.feature >= scene.footprints.size()) continue;
       block_of[member.feature] = block.name;

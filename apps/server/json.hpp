@@ -53,7 +53,10 @@ using Json = nlohmann::ordered_json;
 /// TileIndex.
 [[nodiscard]] auto json_of(std::span<const picture::Tile> tiles) -> Json;
 
-/// Scene, with its blocks.
-[[nodiscard]] auto json_of(const model::Scene& scene, std::span<const block::Block> blocks) -> Json;
+/// A block with its mesh.
+[[nodiscard]] auto json_of(const block::Block& block, const model::Scene& scene) -> Json;
+/// Scene, with its blocks, whose meshes are not needed; `shown` is the JSON of each.
+[[nodiscard]] auto json_of(const model::Scene& scene, std::span<const block::Block> blocks, std::vector<Json> shown)
+    -> Json;
 
 }  // namespace mansard::server

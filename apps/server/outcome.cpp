@@ -42,7 +42,11 @@ auto reconstruct(const OpenScene& scene, RunRecord record, const base::Run& how)
   if (auto set = set_all(options, record.options); !set) return set.error();
   auto run = how;
   run.seed = static_cast<std::uint64_t>(options.seed);
-  const auto result = pipeline::reconstruct(scene.scene(), options, run, pipeline::Keep::segmentations, record.blocks);
+  const auto result = [&]() -> base::Result<report::Reconstruction> {
+    const auto whole = scene.with_mesh();
+    if (!whole) return whole.failure();
+    return pipeline::reconstruct(*whole, options, run, pipeline::Keep::segmentations, record.blocks);
+  }();
   if (!result) return result.error();
   run.report("write", "", 1);
   auto layers = formats::geopackage(

@@ -1,7 +1,6 @@
 #include "apps/server/scene.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <limits>
 
 #include "apps/server/options.hpp"
@@ -13,8 +12,8 @@ namespace {
 
 /// Half the width of a section, and its height above and below the base of the edge, in m.
 constexpr double section_reach = 20.0;
-/// Triangles that are kept prepared for rays: about 100 MB.
-constexpr std::size_t most_prepared = 500'000;
+/// Triangles that are kept prepared, for rays and for sections: about 50 MB each.
+constexpr std::size_t most_prepared = 250'000;
 
 }  // namespace
 
@@ -27,43 +26,77 @@ auto OpenScene::read(const Inputs& inputs, const base::Run& run) -> base::Result
   const std::shared_ptr<OpenScene> out(new OpenScene);
   out->scene_ = std::move(*scene);
   run.report("block", formats::name_to_show(inputs.footprints), 0.9);
-  out->blocks_ = block::partition(out->scene_, options.block, run);
-  if (run.cancelled()) return base::error("cancelled", "stopped on request");
+  out->mesh_box_ = geometry::Box3::of(out->scene_.mesh.vertices);
+  std::vector<Json> blocks;
+  if (auto divided = out->divide(options.block, run, blocks); !divided) return divided.failure();
   run.report("tiles", inputs.meshes.front(), 0.95);
   auto tiles = picture::tiles(out->scene_.mesh, {}, run);
   if (run.cancelled()) return base::error("cancelled", "stopped on request");
-  out->prepared_.resize(out->blocks_.size());
   for (std::size_t b = 0; b < out->blocks_.size(); ++b)
     for (const auto& member : out->blocks_[b].members) out->block_of_[out->scene_.feature(member.feature).id] = b;
-  auto view = SceneView::make(text_of(json_of(out->scene_, out->blocks_)), std::move(tiles));
+  auto view = SceneView::make(text_of(json_of(out->scene_, out->blocks_, std::move(blocks))), std::move(tiles));
   if (!view) return view.failure();
   out->view_ = std::move(*view);
+  out->meshes_->put(out->blocks_.size(), out->scene_.mesh);
+  out->scene_.mesh = {};
+  if (auto put = out->meshes_->check(); !put) return put.failure();
   return std::shared_ptr<const OpenScene>(out);
+}
+
+/// The blocks, of which each piece of the mesh is in memory only until it is in the file; `shown`: for the page.
+auto OpenScene::divide(const block::Options& options, const base::Run& run, std::vector<Json>& shown)
+    -> base::Result<void> {
+  const block::Partition partition(scene_, options, run);
+  const std::size_t count = partition.size();
+  auto meshes = MeshFile::open(count + 1);
+  if (!meshes) return meshes.failure();
+  meshes_ = std::move(*meshes);
+  blocks_.resize(count);
+  shown.resize(count);
+  base::parallel_for(count, [&](std::size_t b) {
+    if (run.cancelled()) return;
+    auto block = partition.make(b);
+    shown[b] = json_of(block, scene_);
+    meshes_->put(b, block.mesh);
+    block.mesh = {};
+    blocks_[b] = std::move(block);
+  });
+  if (run.cancelled()) return base::error("cancelled", "stopped on request");
+  rays_ = std::make_unique<UsedLast<rays::Scene>>(count, most_prepared);
+  sliced_ = std::make_unique<UsedLast<Sliced>>(count, most_prepared);
+  return meshes_->check();
+}
+
+auto OpenScene::with_mesh() const -> base::Result<model::Scene> {
+  auto mesh = meshes_->read(blocks_.size());
+  if (!mesh) return mesh.failure();
+  auto whole = scene_;
+  whole.mesh = std::move(*mesh);
+  return whole;
+}
+
+auto OpenScene::failure() const -> std::optional<base::Diagnostic> {
+  const std::scoped_lock lock(failure_mutex_);
+  return failure_;
+}
+
+auto OpenScene::mesh_of(std::size_t block) const -> std::optional<geometry::Mesh> {
+  auto mesh = meshes_->read(block);
+  if (mesh) return std::move(*mesh);
+  const std::scoped_lock lock(failure_mutex_);
+  failure_ = mesh.error();
+  return std::nullopt;
 }
 
 auto OpenScene::has_block(std::string_view name) const -> bool { return block_named(name) != nullptr; }
 
 auto OpenScene::rays_of(std::string_view building) const -> std::shared_ptr<const rays::Scene> {
   const auto at = block_of_.find(building);
-  if (at == block_of_.end() || blocks_[at->second].mesh.triangles.empty()) return nullptr;
-  auto& prepared = prepared_[at->second];
-  const std::scoped_lock lock(prepared.rays_mutex);
-  auto rays = prepared.rays.lock();
-  if (!rays) prepared.rays = rays = std::make_shared<const rays::Scene>(blocks_[at->second].mesh);
-  keep(at->second, rays);
-  return rays;
-}
-
-void OpenScene::keep(std::size_t block, const std::shared_ptr<const rays::Scene>& rays) const {
-  const std::scoped_lock lock(kept_mutex_);
-  const auto known = std::ranges::find(kept_, block, [](const auto& one) { return one.first; });
-  if (known != kept_.end()) kept_.erase(known);
-  kept_.emplace_front(block, rays);
-  std::size_t triangles = 0;
-  for (auto one = kept_.begin(); one != kept_.end();) {
-    triangles += blocks_[one->first].mesh.triangles.size();
-    one = triangles > most_prepared && one != kept_.begin() ? kept_.erase(one) : std::next(one);
-  }
+  if (at == block_of_.end() || meshes_->triangles(at->second) == 0) return nullptr;
+  return rays_->get(at->second, meshes_->triangles(at->second), [&]() -> std::shared_ptr<const rays::Scene> {
+    auto mesh = mesh_of(at->second);
+    return mesh ? std::make_shared<const rays::Scene>(std::move(*mesh)) : nullptr;
+  });
 }
 
 auto OpenScene::member_of(std::string_view building) const -> const block::Member* {
@@ -88,12 +121,14 @@ auto OpenScene::section(const model::Plan& plan, std::size_t ring, std::size_t e
   if (!blocks_.empty()) {
     const auto known = building ? block_of_.find(*building) : block_of_.end();
     const auto b = known != block_of_.end() ? known->second : block_near(0.5 * (from + to));
-    const auto& mesh = blocks_[b].mesh;
-    auto& prepared = prepared_[b];
-    std::call_once(prepared.once_raw, [&] { prepared.raw = std::make_unique<profile::RawProfiles>(mesh); });
-    for (const auto& [start, end] : edit::section(mesh, from, to, share, plan.base, section_reach).pieces)
+    const auto sliced = sliced_->get(b, meshes_->triangles(b), [&]() -> std::shared_ptr<const Sliced> {
+      auto mesh = mesh_of(b);
+      return mesh ? std::make_shared<const Sliced>(std::move(*mesh)) : nullptr;
+    });
+    if (sliced == nullptr) return {{"share", share}, {"pieces", std::move(pieces)}, {"climbs", std::move(climbs)}};
+    for (const auto& [start, end] : edit::section(sliced->mesh, from, to, share, plan.base, section_reach).pieces)
       pieces.push_back(Json::array({json_of(start), json_of(end)}));
-    for (const auto& raw : prepared.raw->behind(model::polygon_of(plan), ring, edge, plan.base, options.profile)) {
+    for (const auto& raw : sliced->raw.behind(model::polygon_of(plan), ring, edge, plan.base, options.profile)) {
       Json climb = Json::array();
       for (const auto& point : raw.points) climb.push_back(json_of(point));
       climbs.push_back(std::move(climb));

@@ -55,8 +55,9 @@ auto SceneView::make(std::string scene_json, std::vector<picture::Tile> tiles)
     append_all(bytes, tile.positions);
     append_all(bytes, tile.triangles);
     view->spool_->append(bytes);
-    tile.positions = {};
-    tile.triangles = {};
+    // Not `= {}`, which empties a vector and leaves it its memory.
+    tile.positions = std::vector<float>();
+    tile.triangles = std::vector<std::uint32_t>();
     place.tile = std::move(tile);
     view->tiles_.emplace(id_of(place.tile), std::move(place));
   }

@@ -260,7 +260,7 @@ auto Textures::read(const Inputs& inputs, const OpenScene& scene, const base::Ru
   auto scan = texture::Scan::open(image_memory);
   if (!scan) return scan.failure();
   const Point3 more{reach, reach, reach};
-  const auto box = Box3::of(scene.scene().mesh.vertices);
+  const auto box = scene.mesh_box();
   if (!box.empty()) (*scan)->expect({box.least - more, box.most + more});
   const std::vector<std::filesystem::path> meshes(inputs.meshes.begin(), inputs.meshes.end());
   const auto told = texture::read(**scan, meshes, options.ingest, scene.scene().frame, run);

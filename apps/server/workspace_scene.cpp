@@ -1,5 +1,4 @@
 // Workspace: inputs, and the scene that is read from them.
-#include <malloc.h>
 #include <algorithm>
 #include <utility>
 
@@ -157,9 +156,6 @@ auto Workspace::read_scene(Inputs inputs, bool save, const base::Run& run) -> ba
   // Not being able to keep it costs time when the project is opened again, and nothing else.
   if (keeps && !key.empty() && make_folder(kept_view_file().parent_path()))
     (void)(*scene)->view()->keep(kept_view_file(), key);
-  // Reading takes several times the memory of its result. The C library keeps it for what comes next, which may be
-  // nothing.
-  ::malloc_trim(0);
   return {};
 }
 
@@ -184,7 +180,10 @@ auto Workspace::scene_now() const -> SceneOrNone {
 auto Workspace::scene_or_error() const -> base::Result<SceneOrNone> {
   const bool reading = jobs_.pending("read");
   const std::scoped_lock lock(mutex_);
-  if (scene_) return scene_;
+  if (scene_) {
+    if (const auto failure = scene_->failure()) return *failure;
+    return scene_;
+  }
   if (reading) return base::error("server-no-scene", "the inputs are being read; wait until the job has ended");
   return base::error("server-no-scene", scene_failure_ ? "the inputs could not be read: " + scene_failure_->message
                                                        : "the project has no inputs; open a mesh and footprints first");

@@ -166,7 +166,7 @@ void Surface::flush(const Tile& tile, std::string& buffer) {
   if (buffer.empty()) return;
   put_aside(tile, buffer);
   buffered_ -= buffer.size();
-  buffer = {};  // with its memory: there may be thousands of tiles
+  std::string().swap(buffer);  // frees its memory, as `= {}` does not: there may be thousands of tiles
 }
 
 void Surface::add(std::span<const Sample> samples, const std::optional<geometry::Box2>& within) {

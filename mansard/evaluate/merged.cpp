@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mansard/evaluate/evaluate.hpp"
+#include "mansard/evaluate/merged.hpp"
 
 namespace mansard::evaluate {
 namespace {
@@ -37,12 +37,27 @@ struct Frame {
 }  // namespace
 
 auto merged(std::span<const ErrorMap> maps, std::size_t most) -> ErrorMap {
-  const auto filled = std::ranges::find_if(maps, [](const ErrorMap& map) { return map.columns > 0; });
+  const auto all = merged_from(
+      [&](const auto& take) -> base::Result<void> {
+        for (const auto& map : maps) take(map);
+        return {};
+      },
+      most);
+  return *all;  // there is nothing that could fail
+}
+
+auto merged_from(const EachMap& each, std::size_t most) -> base::Result<ErrorMap> {
+  std::vector<ErrorMap> outlines;  // without their values
+  auto outlined = each([&](const ErrorMap& map) {
+    if (map.columns > 0) outlines.push_back({map.origin, map.grid, map.columns, map.rows, {}});
+  });
+  if (!outlined) return outlined.failure();
   ErrorMap all;
-  if (filled == maps.end()) return all;
+  if (outlines.empty()) return all;
+  const double grid = outlines.front().grid;
   std::int64_t times = 1;
-  Frame frame(maps, filled->grid, times);
-  while (static_cast<std::size_t>(frame.columns * frame.rows) > most) frame = Frame(maps, filled->grid, ++times);
+  Frame frame(outlines, grid, times);
+  while (static_cast<std::size_t>(frame.columns * frame.rows) > most) frame = Frame(outlines, grid, ++times);
 
   all.grid = frame.grid;
   all.origin = {(static_cast<double>(frame.west) + 0.5) * frame.grid,
@@ -51,7 +66,7 @@ auto merged(std::span<const ErrorMap> maps, std::size_t most) -> ErrorMap {
   all.rows = static_cast<std::size_t>(frame.rows);
   all.difference.assign(all.columns * all.rows, std::numeric_limits<float>::quiet_NaN());
   std::vector<std::uint32_t> counts(times > 1 ? all.difference.size() : 0, 0);
-  for (const auto& map : maps)
+  auto filled = each([&](const ErrorMap& map) {
     for (std::size_t r = 0; r < map.rows; ++r)
       for (std::size_t c = 0; c < map.columns; ++c) {
         const float value = map.at(c, r);
@@ -64,6 +79,8 @@ auto merged(std::span<const ErrorMap> maps, std::size_t most) -> ErrorMap {
         cell = times == 1 || counts[at] == 0 ? value : cell + (value - cell) / static_cast<float>(counts[at] + 1);
         if (times > 1) ++counts[at];
       }
+  });
+  if (!filled) return filled.failure();
   return all;
 }
 

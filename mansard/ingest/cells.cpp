@@ -230,4 +230,18 @@ auto MeshCells::load(const std::set<Cell>& cells) const -> base::Result<geometry
   return out;
 }
 
+auto MeshCells::load_own(const Cell& cell) const -> base::Result<geometry::Mesh> {
+  auto mesh = load({cell});
+  if (!mesh || cell == everywhere) return mesh;
+  const double margin = 1e-6 * side_;  // a rounding of the shift must not lose a triangle at the border
+  const Box2 box = Box2{{cell.first * side_ + shift_[0], cell.second * side_ + shift_[1]},
+                        {(cell.first + 1.0) * side_ + shift_[0], (cell.second + 1.0) * side_ + shift_[1]}}
+                       .grown(margin);
+  std::erase_if(mesh->triangles, [&](const Triangle& t) {
+    const auto& v = mesh->vertices;
+    return !box.contains(geometry::xy((1.0 / 3) * (v[t[0]] + v[t[1]] + v[t[2]])));
+  });
+  return mesh;
+}
+
 }  // namespace mansard::ingest

@@ -46,6 +46,9 @@ class MeshCells {
   /// Every triangle that reaches into one of the cells, those that reach into several of them several times; and some
   /// vertices several times. Fails with "file-write". From any thread.
   [[nodiscard]] auto load(const std::set<Cell>& cells) const -> base::Result<geometry::Mesh>;
+  /// The triangles whose middle is in the cell, so that those of all cells together are the mesh; only one with its
+  /// middle on a border may be in both. Fails as `load`.
+  [[nodiscard]] auto load_own(const Cell& cell) const -> base::Result<geometry::Mesh>;
 
  private:
   struct Chunk {

@@ -9,39 +9,37 @@
 namespace mansard::picture {
 namespace {
 
-/// The vertices that a triangle has, each once.
-auto used_vertices(const geometry::Mesh& mesh) -> std::vector<geometry::Point3> {
-  std::vector<char> used(mesh.vertices.size(), 0);
-  for (const auto& triangle : mesh.triangles)
-    for (const auto v : triangle) used[v] = 1;
-  std::vector<geometry::Point3> points;
-  for (std::size_t v = 0; v < used.size(); ++v)
-    if (used[v] != 0) points.push_back(mesh.vertices[v]);
-  return points;
+auto views_of(detail::Scenery scenery, std::span<const Lines> lines, std::span<const View> views, const base::Run& run)
+    -> base::Result<std::vector<Image>> {
+  std::vector<detail::Camera> directions;
+  for (const View& view : views) directions.push_back(detail::directions_of(view));
+  if (auto surveyed = scenery.survey(directions); !surveyed) return surveyed.failure();
+  std::vector<Image> images;
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    const View& view = views[v];
+    images.push_back(detail::blank(view.width, view.height, detail::paper));
+    auto box = scenery.box_in(v);
+    for (const Lines& layer : lines)
+      for (const auto& segment : layer.segments)
+        for (const auto& end : segment) box.add(detail::along(directions[v], end));
+    if (!box.empty())
+      if (auto drawn = detail::render(images.back(), scenery, lines, detail::camera_for(view, box), run); !drawn)
+        return drawn.failure();
+  }
+  run.report("picture", "", 1);
+  return images;
 }
 
 }  // namespace
 
 auto draw_views(std::span<const Layer> layers, std::span<const Lines> lines, std::span<const View> views,
                 const base::Run& run) -> std::vector<Image> {
-  detail::Model model = detail::joined(layers);
-  auto points = used_vertices(model.mesh);
-  const std::size_t of_surfaces = points.size();
-  for (const Lines& layer : lines)
-    for (const auto& segment : layer.segments) points.insert(points.end(), segment.begin(), segment.end());
-  const rays::Scene scene(std::move(model.mesh));  // which has it now
-  std::vector<Image> images;
-  for (const View& view : views) {
-    detail::Canvas canvas(view.width, view.height, detail::to_light(detail::paper));
-    if (!points.empty()) {
-      const detail::Camera camera = detail::camera_for(view, points);
-      if (of_surfaces > 0) detail::render(canvas, model, scene, std::span(points).first(of_surfaces), camera, run);
-      for (const Lines& layer : lines) detail::draw_lines(canvas, layer, scene, camera);
-    }
-    images.push_back(detail::to_image(canvas));
-  }
-  run.report("picture", "", 1);
-  return images;
+  return std::move(views_of(detail::Scenery(layers), lines, views, run).value());
+}
+
+auto draw_views(const Pieces& pieces, std::span<const Lines> lines, std::span<const View> views, const base::Run& run)
+    -> base::Result<std::vector<Image>> {
+  return views_of(detail::Scenery(pieces), lines, views, run);
 }
 
 auto draw(std::span<const Layer> layers, std::span<const Lines> lines, const View& view, const base::Run& run)

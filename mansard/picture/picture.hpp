@@ -58,6 +58,17 @@ struct Image {
 [[nodiscard]] auto draw_views(std::span<const Layer> layers, std::span<const Lines> lines, std::span<const View> views,
                               const base::Run& run = {}) -> std::vector<Image>;
 
+/// A scene of any size, of which one piece is in memory at a time.
+struct Pieces {
+  std::size_t count = 0;
+  /// The layers of a piece, the same each time; called about eight times for each, never twice at once.
+  std::function<base::Result<std::vector<Layer>>(std::size_t piece)> load;
+};
+/// The same picture as that of all layers together, but for the colour where two triangles are equally near. Fails as
+/// `load` does.
+[[nodiscard]] auto draw_views(const Pieces& pieces, std::span<const Lines> lines, std::span<const View> views,
+                              const base::Run& run = {}) -> base::Result<std::vector<Image>>;
+
 /// A field on a grid as colours with a legend: `values` row by row from the south, NaN left grey, colours fixed from
 /// −limit (blue) over 0 (white) to +limit (red), in metres.
 [[nodiscard]] auto error_map(std::span<const float> values, std::size_t columns, std::size_t rows, double limit,

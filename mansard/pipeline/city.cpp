@@ -30,6 +30,18 @@ auto PutAside::each(const Visit& visit) const -> base::Result<void> {
   return {};
 }
 
+auto PutAside::each_error_map(const std::function<void(const evaluate::ErrorMap&)>& visit) const -> base::Result<void> {
+  for (const auto& place : error_maps_) {
+    const auto bytes = spool_->read(place.offset, place.bytes);
+    if (!bytes) return bytes.failure();
+    evaluate::ErrorMap map;
+    base::Unpacker from(*bytes);
+    if (!from.take(map) || !from.done()) return detail::put_aside_changed();
+    visit(map);
+  }
+  return {};
+}
+
 namespace {
 
 /// Blocks that are worked through together, with the part of the mesh that they need in memory.
@@ -136,7 +148,7 @@ auto for_every_task(const ingest::CityScene& city, const Options& options, const
 }  // namespace
 
 auto reconstruct_aside(const ingest::CityScene& city, const Options& options, const base::Run& run,
-                       const Schedule& schedule) -> base::Result<PutAside> {
+                       const Schedule& schedule, Aside aside) -> base::Result<PutAside> {
   base::Watch watch;
   PutAside out;
   const model::Scene& scene = city.scene;
@@ -148,6 +160,7 @@ auto reconstruct_aside(const ingest::CityScene& city, const Options& options, co
     std::size_t first = 0;  ///< of its features
     report::BlockReport report;
     std::vector<base::Diagnostic> warnings;
+    std::size_t error_map = 0;  ///< its number among those that were put aside
   };
   std::vector<Made> made;
   std::vector<base::Spent> dividing;
@@ -165,6 +178,7 @@ auto reconstruct_aside(const ingest::CityScene& city, const Options& options, co
               own.first = number(block.members.front().feature);
               for (const auto& [feature, one] : detail::finish_block(part, result, options, own.warnings))
                 builder.take(number(feature), one);
+              if (aside == Aside::models_and_error_maps) own.error_map = builder.take(result.map);
               own.report = std::move(result.report);
               return own;
             },
@@ -181,10 +195,13 @@ auto reconstruct_aside(const ingest::CityScene& city, const Options& options, co
     if (!builder.has(f)) builder.take(f, detail::unbuilt(scene, f, options));
   auto& summary = out.summary;
   std::ranges::sort(made, {}, &Made::first);
+  std::vector<std::size_t> error_maps;
   for (auto& one : made) {
+    error_maps.push_back(one.error_map);
     summary.blocks.push_back(std::move(one.report));
     std::ranges::move(one.warnings, std::back_inserter(summary.warnings));
   }
+  if (aside == Aside::models_and_error_maps) builder.order_error_maps(error_maps);
   builder.finish(run);
   if (run.cancelled()) return base::stopped();
   out.frame = scene.frame;

@@ -19,9 +19,12 @@ namespace detail {
 class CityBuilder;
 }
 
-/// Everything of a report::Reconstruction but the error maps and segmentations. Its buildings are in a file without a
-/// name in the folder for temporary files (TMPDIR), so that memory holds only what is listed here, and what is needed
-/// to see solids that overlap: about 8 kB a building.
+/// What is put aside beside the models.
+enum class Aside : std::uint8_t { models, models_and_error_maps };
+
+/// Everything of a report::Reconstruction but the segmentations, and the error maps where they are asked for. Its
+/// buildings are in a file without a name in the folder for temporary files (TMPDIR), so that memory holds only what is
+/// listed here, and what is needed to see solids that overlap: about 8 kB a building.
 class PutAside {
  public:
   model::Frame frame;
@@ -35,6 +38,9 @@ class PutAside {
   /// Every input feature, in the source's order; ends with the first failure of `visit`. Fails with "file-write" where
   /// something could not be put aside.
   [[nodiscard]] auto each(const Visit& visit) const -> base::Result<void>;
+  /// The error map of every block, in the order of summary.blocks; none with Aside::models. Fails as `each`.
+  [[nodiscard]] auto each_error_map(const std::function<void(const evaluate::ErrorMap&)>& visit) const
+      -> base::Result<void>;
 
  private:
   friend class detail::CityBuilder;
@@ -44,13 +50,15 @@ class PutAside {
   };
   std::unique_ptr<base::Spool> spool_;
   std::vector<Place> places_;                                        ///< by feature
+  std::vector<Place> error_maps_;                                    ///< by block
   std::map<std::size_t, std::vector<base::Diagnostic>> afterwards_;  ///< reasons that were found when all was made
 };
 
 /// As reconstruct, in memory that does not grow with the models, nor, where it is in cells, with the mesh. Fails as
 /// that does.
 [[nodiscard]] auto reconstruct_aside(const ingest::CityScene& city, const Options& options, const base::Run& run = {},
-                                     const Schedule& schedule = {}) -> base::Result<PutAside>;
+                                     const Schedule& schedule = {}, Aside aside = Aside::models)
+    -> base::Result<PutAside>;
 
 /// As raise_footprints, in memory that does not grow with the models. What `schedule` keeps are tasks, of at most
 /// `ingest.task_footprints` footprints; nothing where all is one task. Fails as that does, and as KeptBlocks does.

@@ -2,10 +2,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 
+#include "mansard/base/outputs.hpp"
+#include "mansard/base/pack.hpp"
 #include "mansard/formats/written.hpp"
 #include "mansard/geometry/box_index.hpp"
+#include "mansard/geometry/curve.hpp"
 #include "mansard/rays/rays.hpp"
 #include "mansard/report/pictures.hpp"
 #include "mansard/solid/solid.hpp"
@@ -16,14 +20,6 @@ namespace {
 
 using geometry::Point2;
 using geometry::Point3;
-
-/// Where the buildings are, with some street around them: what the pictures show.
-auto frame_of(const model::Scene& scene) -> geometry::Box2 {
-  constexpr double street = 8;
-  geometry::Box2 box;
-  for (const auto& footprint : scene.footprints) box.include(geometry::bounds(footprint.polygons));
-  return box.grown(street);
-}
 
 /// The triangles whose centres lie in the frame and pass the test, and their vertices.
 template <class Keep>
@@ -47,31 +43,94 @@ auto part_of(const geometry::Mesh& mesh, const geometry::Box2& frame, Keep keep)
   return out;
 }
 
-auto footprint_lines(const model::Scene& scene, const rays::Scene& surface) -> picture::Lines {
-  picture::Lines lines;
-  const auto add = [&](const geometry::Ring& ring) {
-    constexpr double piece = 1.0;  // short pieces follow the surface they are drawn on
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Point2 a = ring[i], b = ring[(i + 1) % ring.size()];
-      const auto n = static_cast<std::size_t>(std::ceil(geometry::length(b - a) / piece));
-      // The height is taken a little inside, where the roof is: on the wall itself it would jump up and down.
-      const Point2 inside = 0.75 * geometry::left_of(geometry::normalised(b - a));
-      const auto on = [&](std::size_t k) -> std::optional<Point3> {
-        const Point2 p = a + (static_cast<double>(k) / static_cast<double>(n)) * (b - a);
-        const auto z = surface.top(p + inside);
-        return z ? std::optional(Point3{p.x, p.y, *z}) : std::nullopt;
-      };
-      for (std::size_t k = 0; k < n; ++k)
-        if (const auto from = on(k), to = on(k + 1); from && to) lines.segments.push_back({*from, *to});
+/// The outlines of the footprints on the scan.
+class FootprintLines {
+ public:
+  explicit FootprintLines(const model::Scene& scene) {
+    // Short pieces follow the surface they are drawn on; less than half a pixel need none be.
+    const auto frame = frame_of(scene);
+    const auto pixels = static_cast<double>(picture::View{}.width);
+    if (!frame.empty())
+      piece_ =
+          std::max({1.0, 0.5 * (frame.most.x - frame.least.x) / pixels, 0.5 * (frame.most.y - frame.least.y) / pixels});
+    std::vector<geometry::Box2> boxes;
+    const auto add = [&](const geometry::Ring& ring) {
+      rings_.push_back({&ring, heights_.size()});
+      boxes.push_back(geometry::bounds(ring).grown(2 * inside));
+      for (std::size_t i = 0; i < ring.size(); ++i)
+        heights_.resize(heights_.size() + Edge(ring, i, piece_).count + 1, unseen);
+    };
+    for (const auto& footprint : scene.footprints)
+      for (const auto& polygon : footprint.polygons) {
+        add(polygon.outer);
+        for (const auto& hole : polygon.holes) add(hole);
+      }
+    index_ = geometry::BoxIndex(boxes);
+  }
+
+  /// What a piece of the scan has there.
+  void look_at(const geometry::Mesh& mesh) {
+    const auto plan = geometry::Box3::of(mesh.vertices).plan();
+    const rays::Scene surface(mesh);
+    const auto near = index_.overlapping(plan);
+    base::parallel_for(near.size(), [&](std::size_t k) {
+      const auto& [ring, first] = rings_[near[k]];
+      double* height = &heights_[first];
+      for (std::size_t i = 0; i < ring->size(); ++i) {
+        const Edge edge(*ring, i, piece_);
+        for (std::size_t n = 0; n <= edge.count; ++n, ++height) {
+          const Point2 at = edge.at(n) + edge.inwards;
+          if (!plan.contains(at)) continue;
+          if (const auto z = surface.top(at)) *height = std::max(*height, *z);
+        }
+      }
+    });
+  }
+
+  [[nodiscard]] auto lines() const -> picture::Lines {
+    picture::Lines lines;
+    for (const auto& [ring, first] : rings_) {
+      const double* height = &heights_[first];
+      for (std::size_t i = 0; i < ring->size(); ++i) {
+        const Edge edge(*ring, i, piece_);
+        for (std::size_t n = 0; n < edge.count; ++n) {
+          const Point2 a = edge.at(n), b = edge.at(n + 1);
+          if (height[n] > unseen && height[n + 1] > unseen)
+            lines.segments.push_back({Point3{a.x, a.y, height[n]}, Point3{b.x, b.y, height[n + 1]}});
+        }
+        height += edge.count + 1;
+      }
     }
+    return lines;
+  }
+
+ private:
+  static constexpr double unseen = -std::numeric_limits<double>::infinity();
+  // The height is taken a little inside, where the roof is: on the wall itself it would jump up and down.
+  static constexpr double inside = 0.75;  // m
+
+  struct Edge {
+    Edge(const geometry::Ring& ring, std::size_t i, double piece)
+        : a(ring[i]),
+          b(ring[(i + 1) % ring.size()]),
+          inwards(inside * geometry::left_of(geometry::normalised(b - a))),
+          count(static_cast<std::size_t>(std::ceil(geometry::length(b - a) / piece))) {}
+    [[nodiscard]] auto at(std::size_t n) const -> Point2 {
+      return a + (static_cast<double>(n) / static_cast<double>(count)) * (b - a);
+    }
+    Point2 a, b, inwards;
+    std::size_t count;
   };
-  for (const auto& footprint : scene.footprints)
-    for (const auto& polygon : footprint.polygons) {
-      add(polygon.outer);
-      for (const auto& hole : polygon.holes) add(hole);
-    }
-  return lines;
-}
+  struct Outline {
+    const geometry::Ring* ring = nullptr;
+    std::size_t first = 0;  ///< of its heights
+  };
+
+  double piece_ = 1;  ///< m
+  std::vector<Outline> rings_;
+  std::vector<double> heights_;  ///< z at the ends of the pieces of all edges
+  geometry::BoxIndex index_;
+};
 
 auto colour_of(model::FaceClass kind) -> picture::Colour {
   switch (kind) {
@@ -127,14 +186,11 @@ auto has_soffits(const model::Building& building) -> bool {
   });
 }
 
-auto models_of(const model::City& city) -> picture::Layer {
-  picture::Layer layer;
-  for (const auto& building : city.buildings)
-    if (has_soffits(building))
-      for (const auto& one : building.solids) append(one.model, layer, [](std::uint32_t) {});
-    else
-      for (const auto& part : building.parts) append(part.model, layer, [](std::uint32_t) {});
-  return layer;
+void append(const model::Building& building, picture::Layer& layer) {
+  if (has_soffits(building))
+    for (const auto& one : building.solids) append(one.model, layer, [](std::uint32_t) {});
+  else
+    for (const auto& part : building.parts) append(part.model, layer, [](std::uint32_t) {});
 }
 
 auto distance(Point2 p, Point2 a, Point2 b) -> double {
@@ -199,7 +255,127 @@ auto street_of(const picture::Layer& scan, const Grounds& grounds) -> picture::L
   return out;
 }
 
+/// Coloured triangles put aside, from which those that are near each other are drawn together.
+class Store {
+ public:
+  [[nodiscard]] static auto open() -> base::Result<std::unique_ptr<Store>> {
+    auto spool = base::Spool::open();
+    if (!spool) return spool.failure();
+    std::unique_ptr<Store> out(new Store);
+    out->spool_ = std::move(*spool);
+    return out;
+  }
+
+  void add(const picture::Layer& layer) {
+    if (layer.mesh.triangles.empty()) return;
+    const auto box = geometry::Box3::of(layer.mesh.vertices);
+    const auto metre = [](double at) { return static_cast<std::int64_t>(std::floor(std::clamp(at, -1e9, 1e9))); };
+    const auto bytes = base::packed(std::pair(layer.mesh, layer.colours));
+    chunks_.push_back(
+        {geometry::along_curve(metre(0.5 * (box.least.x + box.most.x)), metre(0.5 * (box.least.y + box.most.y))),
+         spool_->size(), bytes.size(), layer.mesh.triangles.size()});
+    spool_->append(bytes);
+  }
+
+  /// After the last one. The store must outlive them.
+  [[nodiscard]] auto pieces() -> picture::Pieces {
+    std::size_t triangles = 0;
+    for (const auto& chunk : chunks_) triangles += chunk.triangles;
+    // All of one piece stay in the order in which they came.
+    const std::size_t most = piece_triangles(triangles);
+    if (triangles > most) std::ranges::stable_sort(chunks_, {}, &Chunk::place);
+    firsts_.clear();
+    std::size_t in_piece = 0;
+    for (std::size_t i = 0; i < chunks_.size(); ++i) {
+      if (i == 0 || in_piece + chunks_[i].triangles > most) {
+        firsts_.push_back(i);
+        in_piece = 0;
+      }
+      in_piece += chunks_[i].triangles;
+    }
+    return {firsts_.size(), [this](std::size_t piece) { return load(piece); }};
+  }
+
+ private:
+  struct Chunk {
+    std::uint64_t place = 0, offset = 0;
+    std::size_t bytes = 0, triangles = 0;
+  };
+
+  [[nodiscard]] auto load(std::size_t piece) const -> base::Result<std::vector<picture::Layer>> {
+    std::vector<picture::Layer> layers;
+    const std::size_t last = piece + 1 < firsts_.size() ? firsts_[piece + 1] : chunks_.size();
+    for (std::size_t i = firsts_[piece]; i < last; ++i) {
+      const auto bytes = spool_->read(chunks_[i].offset, chunks_[i].bytes);
+      if (!bytes) return bytes.failure();
+      std::pair<geometry::Mesh, std::vector<picture::Colour>> own;
+      base::Unpacker from(*bytes);
+      if (!from.take(own) || !from.done())
+        return base::error("file-write",
+                           "what was put aside in the folder for temporary files (TMPDIR) was changed there");
+      layers.push_back({std::move(own.first), std::move(own.second), {}});
+    }
+    return layers;
+  }
+
+  std::unique_ptr<base::Spool> spool_;
+  std::vector<Chunk> chunks_;
+  std::vector<std::size_t> firsts_;  ///< the first chunk of each piece
+};
+
+using Images = base::Result<std::vector<picture::Image>>;
+
+/// The scan in `frame` with the footprints on it.
+auto scan_images(const Drawn& drawn, const geometry::Box2& frame, std::span<const picture::View> views,
+                 const base::Run& run) -> Images {
+  FootprintLines outlines(drawn.scene);
+  for (std::size_t i = 0; i < drawn.scan.count && !run.cancelled(); ++i) {
+    const auto mesh = drawn.scan.load(i);
+    if (!mesh) return mesh.failure();
+    outlines.look_at(**mesh);
+  }
+  const auto lines = outlines.lines();
+  const auto everything = [](const Point3&, const Point3&, const Point3&) { return true; };
+  const picture::Pieces pieces{drawn.scan.count, [&](std::size_t i) -> base::Result<std::vector<picture::Layer>> {
+                                 const auto mesh = drawn.scan.load(i);
+                                 if (!mesh) return mesh.failure();
+                                 std::vector<picture::Layer> layers;
+                                 layers.push_back({part_of(**mesh, frame, everything), {picture::mesh_blue}, {}});
+                                 return layers;
+                               }};
+  return picture::draw_views(pieces, {&lines, 1}, views, run);
+}
+
+/// The models in the scan's street, which stays for scale, in a quieter blue; the scan's buildings go.
+auto model_images(const Drawn& drawn, const geometry::Box2& frame, std::span<const picture::View> views,
+                  const base::Run& run) -> Images {
+  auto store = Store::open();
+  if (!store) return store.failure();
+  const Grounds grounds(drawn.scene);
+  const auto is_street = [&](const Point3& a, const Point3& b, const Point3& c) { return grounds.is_street(a, b, c); };
+  for (std::size_t i = 0; i < drawn.scan.count && !run.cancelled(); ++i) {
+    const auto mesh = drawn.scan.load(i);
+    if (!mesh) return mesh.failure();
+    (*store)->add({part_of(**mesh, frame, is_street), {{206, 216, 232}}, {}});
+  }
+  auto visited = drawn.each_building([&](const model::Building& building) -> base::Result<void> {
+    picture::Layer layer;
+    append(building, layer);
+    (*store)->add(layer);
+    return {};
+  });
+  if (!visited) return visited.failure();
+  return picture::draw_views((*store)->pieces(), {}, views, run);
+}
+
 }  // namespace
+
+auto frame_of(const model::Scene& scene) -> geometry::Box2 {
+  constexpr double street = 8;
+  geometry::Box2 box;
+  for (const auto& footprint : scene.footprints) box.include(geometry::bounds(footprint.polygons));
+  return box.grown(street);
+}
 
 auto textured_models(const model::City& city, formats::Solids solids) -> picture::Layer {
   picture::Layer layer;
@@ -261,41 +437,52 @@ auto textured_scan(const texture::Scan& scan, const model::Scene& scene) -> base
 }
 
 auto picture_of(const model::City& city, const picture::View& view, const base::Run& run) -> picture::Image {
-  const std::vector<picture::Layer> layers{models_of(city)};
-  return picture::draw(layers, {}, view, run);
+  picture::Layer models;
+  for (const auto& building : city.buildings) append(building, models);
+  return picture::draw({&models, 1}, {}, view, run);
 }
 
-auto pictures(const Reconstruction& reconstruction, const model::Scene& scene, double limit, const base::Run& run,
-              const TexturedLayers* textured) -> Pictures {
-  const auto frame = frame_of(scene);
-  const picture::Lines lines = [&] {
-    const rays::Scene surface(scene.mesh);  // not in memory beside those of the pictures
-    return footprint_lines(scene, surface);
-  }();
+auto pictures(const Drawn& drawn, double limit, const base::Run& run, const TexturedLayers* textured)
+    -> base::Result<Pictures> {
+  constexpr std::size_t most_cells = 4'000'000;  // of the error map
+  const auto frame = frame_of(drawn.scene);
   picture::View from_above, at_an_angle;
   from_above.kind = picture::View::Kind::above;
   const std::array views{from_above, at_an_angle};
-  const auto left = [&] {  // what was drawn is not in memory beside what comes next
-    if (textured != nullptr) return picture::draw_views({&textured->scan, 1}, {}, views, run);
-    const auto everything = [](const Point3&, const Point3&, const Point3&) { return true; };
-    const picture::Layer scan{part_of(scene.mesh, frame, everything), {picture::mesh_blue}};
-    return picture::draw_views({&scan, 1}, {&lines, 1}, views, run);
-  }();
-  // The street of the scan stays in the second picture, for scale, in a quieter blue; the scan's buildings go.
-  const auto right = [&] {
-    const Grounds grounds(scene);
-    const auto is_street = [&](const Point3& a, const Point3& b, const Point3& c) {
-      return grounds.is_street(a, b, c);
-    };
-    const std::vector<picture::Layer> layers{
-        textured != nullptr ? street_of(textured->scan, grounds)
-                            : picture::Layer{part_of(scene.mesh, frame, is_street), {{206, 216, 232}}},
-        textured != nullptr ? textured->models : models_of(reconstruction.city)};
+  // What was drawn is not in memory beside what comes next.
+  const auto left = textured != nullptr ? Images(picture::draw_views({&textured->scan, 1}, {}, views, run))
+                                        : scan_images(drawn, frame, views, run);
+  if (!left) return left.failure();
+  const auto right = [&]() -> Images {
+    if (textured == nullptr) return model_images(drawn, frame, views, run);
+    const Grounds grounds(drawn.scene);
+    const std::array layers{street_of(textured->scan, grounds), textured->models};
     return picture::draw_views(layers, {}, views, run);
   }();
-  const auto pair = [&](std::size_t view) { return picture::beside(std::array{left[view], right[view]}); };
-  const auto map = evaluate::merged(reconstruction.error_maps);
-  return {pair(0), pair(1), picture::error_map(map.difference, map.columns, map.rows, limit, "model - mesh, m")};
+  if (!right) return right.failure();
+  const auto pair = [&](std::size_t view) { return picture::beside(std::array{(*left)[view], (*right)[view]}); };
+  const auto map = evaluate::merged_from(drawn.each_error_map, most_cells);
+  if (!map) return map.failure();
+  return Pictures{pair(0), pair(1),
+                  picture::error_map(map->difference, map->columns, map->rows, limit, "model - mesh, m")};
+}
+
+auto pictures(const Reconstruction& reconstruction, const model::Scene& scene, double limit, const base::Run& run)
+    -> base::Result<Pictures> {
+  const ScanPieces scan{1, [&](std::size_t) -> base::Result<std::shared_ptr<const geometry::Mesh>> {
+                          return std::shared_ptr<const geometry::Mesh>(std::shared_ptr<const geometry::Mesh>(),
+                                                                       &scene.mesh);  // which nobody owns
+                        }};
+  const auto each_building = [&](const Drawn::Visit& visit) -> base::Result<void> {
+    for (const auto& building : reconstruction.city.buildings)
+      if (auto visited = visit(building); !visited) return visited;
+    return {};
+  };
+  const auto each_error_map = [&](const auto& visit) -> base::Result<void> {
+    for (const auto& map : reconstruction.error_maps) visit(map);
+    return {};
+  };
+  return pictures({scene, scan, each_building, each_error_map}, limit, run);
 }
 
 }  // namespace mansard::report

@@ -1,6 +1,12 @@
 // Pictures of a run's result.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <memory>
+
+#include "mansard/evaluate/merged.hpp"
 #include "mansard/formats/stream.hpp"
 #include "mansard/picture/picture.hpp"
 #include "mansard/report/report.hpp"
@@ -17,8 +23,36 @@ struct Pictures {
 struct TexturedLayers {
   picture::Layer scan, models;
 };
+
+/// Where the buildings are, with some street around them: what the pictures show.
+[[nodiscard]] auto frame_of(const model::Scene& scene) -> geometry::Box2;
+/// How many triangles of a scene with so many are drawn at a time. A small scene is quicker as one piece, which is
+/// prepared for rays once; of a large one a piece takes a small part of the memory of the run. Pieces that are too many
+/// are slow, since every ray is compared with the box of each.
+[[nodiscard]] constexpr auto piece_triangles(std::size_t all) -> std::size_t {
+  constexpr std::size_t small = 600'000, least = 200'000, most_pieces = 128;
+  return all <= small ? small : std::max(least, all / most_pieces);
+}
+
+/// A mesh of which one piece is in memory at a time; each triangle is in one of them.
+struct ScanPieces {
+  std::size_t count = 0;
+  std::function<base::Result<std::shared_ptr<const geometry::Mesh>>(std::size_t piece)> load;
+};
+/// What a run read and made, for pictures in memory that does not grow with it but for its footprints.
+struct Drawn {
+  const model::Scene& scene;  ///< its mesh is not used
+  ScanPieces scan;            ///< within frame_of(scene); at most piece_triangles(all) each, where possible
+  using Visit = std::function<base::Result<void>(const model::Building&)>;
+  std::function<base::Result<void>(const Visit&)> each_building;
+  evaluate::EachMap each_error_map;
+};
+/// Fails as the parts of `drawn` do, and with "file-write" where something could not be put aside.
+[[nodiscard]] auto pictures(const Drawn& drawn, double limit, const base::Run& run = {},
+                            const TexturedLayers* textured = nullptr) -> base::Result<Pictures>;
+/// Of what is in memory.
 [[nodiscard]] auto pictures(const Reconstruction& reconstruction, const model::Scene& scene, double limit,
-                            const base::Run& run = {}, const TexturedLayers* textured = nullptr) -> Pictures;
+                            const base::Run& run = {}) -> base::Result<Pictures>;
 
 /// The solids of buildings as they are written, with their textures; the city must outlive it. Faces without have the
 /// colour of their class.

@@ -47,6 +47,23 @@ TEST_F(Command, gives_identical_model_files_with_one_thread_and_two) {
     EXPECT_EQ(read(at("one") + "/" + name), read(at("out") + "/" + name)) << name;
 }
 
+TEST_F(Command, draws_the_same_pictures_from_cells_on_any_number_of_threads_and_when_resumed) {
+  const std::string in_cells = "--picture --ingest-cells-from 0 ";
+  ASSERT_EQ(reconstruct(at("house.obj"), at("house.geojson"), in_cells + "-j 1 --no-resume").exit, 0);
+  fs::rename(at("out"), at("one"));
+  ASSERT_EQ(reconstruct(at("house.obj"), at("house.geojson"), in_cells + "-j 2").exit, 0);
+  const auto same = [&] {
+    for (const auto* name : {"picture.png", "above.png", "error.png"})
+      EXPECT_EQ(read(at("one") + "/" + name), read(at("out") + "/" + name)) << name;
+  };
+  same();
+  // All blocks taken over from the run before.
+  const auto again = reconstruct(at("house.obj"), at("house.geojson"), in_cells + "--overwrite");
+  ASSERT_EQ(again.exit, 0) << again.err;
+  EXPECT_EQ(nlohmann::json::parse(read(at("out") + "/run.json"))["times"]["reuse"]["blocks_taken_over"], 1);
+  same();
+}
+
 TEST_F(Command, raises_its_own_plans_to_the_same_model_again) {
   ASSERT_EQ(reconstruct(at("house.obj"), at("house.geojson")).exit, 0);
   const auto again = run("extrude " + at("out") + "/plans.json -o " + at("again.obj"));

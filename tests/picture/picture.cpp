@@ -229,6 +229,107 @@ TEST(Draw, stops_when_asked_to) {
   EXPECT_EQ(draw(layers, {}, view(View::Kind::angle), run).pixels.size(), 3U * 160 * 120);
 }
 
+/// A street of towers on a field of small squares, with lines on it: shadows fall from one piece to another.
+struct Street {
+  std::vector<Layer> layers;
+  std::vector<Lines> lines{{{}, footprint_orange, 2}};
+  Street() {
+    Layer field;
+    for (std::uint32_t y = 0; y <= 40; ++y)
+      for (std::uint32_t x = 0; x <= 40; ++x)
+        field.mesh.vertices.push_back({2.5 * x, 2.5 * y, 0.3 * static_cast<double>((7 * x + 3 * y) % 5)});
+    for (std::uint32_t y = 0; y < 40; ++y)
+      for (std::uint32_t x = 0; x < 40; ++x) {
+        const std::uint32_t v = 41 * y + x;
+        field.mesh.triangles.push_back({v, v + 1, v + 42});
+        field.mesh.triangles.push_back({v, v + 42, v + 41});
+      }
+    layers.push_back(field);
+    for (int i = 0; i < 9; ++i) {
+      const double x = 8 + 30.0 * (i % 3), y = 8 + 30.0 * (i / 3), z = 6 + 4.0 * i;
+      layers.push_back({box({x, y, 0}, {x + 14, y + 11, z}), {i % 2 == 0 ? red : blue}, {}});
+      lines.front().segments.push_back({Point3{x, y, z}, Point3{x + 14, y, z}});
+      lines.front().segments.push_back({Point3{x - 3, y + 20, 1}, Point3{x + 20, y + 20, 1}});
+    }
+    layers.back().picture = [](std::size_t, Point3 p) {
+      return p.z > 3 ? std::optional(green) : std::nullopt;  // a sign on the last tower
+    };
+  }
+  /// In `columns` × `columns` pieces, by the middles of the triangles; the last has nothing.
+  [[nodiscard]] auto pieces(int columns) const -> Pieces {
+    return {static_cast<std::size_t>(columns * columns + 1),
+            [this, columns](std::size_t piece) -> mansard::base::Result<std::vector<Layer>> {
+              std::vector<Layer> out;
+              for (const Layer& layer : layers) {
+                Layer own{{layer.mesh.vertices, {}}, layer.colours, layer.picture};
+                for (const auto& t : layer.mesh.triangles) {
+                  const Point3 middle =
+                      (1.0 / 3) * (layer.mesh.vertices[t[0]] + layer.mesh.vertices[t[1]] + layer.mesh.vertices[t[2]]);
+                  const int column = static_cast<int>(middle.x / 101 * columns),
+                            row = static_cast<int>(middle.y / 101 * columns);
+                  if (static_cast<std::size_t>(row * columns + column) == piece) own.mesh.triangles.push_back(t);
+                }
+                out.push_back(own);
+              }
+              return out;
+            }};
+  }
+};
+
+TEST(Draw, in_pieces_is_as_a_whole) {
+  const Street street;
+  const std::vector<View> views{view(View::Kind::above), from(0.4, 0.5), view(View::Kind::angle, 301, 217)};
+  const auto whole = draw_views(street.layers, street.lines, views);
+  for (const int columns : {1, 2, 5}) {
+    const auto images = draw_views(street.pieces(columns), street.lines, views);
+    ASSERT_TRUE(images);
+    ASSERT_EQ(images->size(), views.size());
+    for (std::size_t v = 0; v < views.size(); ++v) {
+      const auto& pixels = (*images)[v].pixels;
+      ASSERT_EQ(pixels.size(), whole[v].pixels.size());
+      std::size_t different = 0;
+      for (std::size_t i = 0; i < pixels.size(); ++i) different += std::abs(pixels[i] - whole[v].pixels[i]) > 3 ? 1 : 0;
+      EXPECT_LT(different, pixels.size() / 300) << columns << " " << v;
+    }
+  }
+}
+
+TEST(Draw, in_pieces_gives_the_same_bytes_with_any_number_of_threads) {
+  const Street street;
+  const std::vector<View> views{view(View::Kind::angle)};
+  mansard::base::limit_threads(1);
+  const auto one = draw_views(street.pieces(3), street.lines, views);
+  mansard::base::limit_threads(2);
+  const auto two = draw_views(street.pieces(3), street.lines, views);
+  mansard::base::limit_threads(0);
+  ASSERT_TRUE(one && two);
+  EXPECT_EQ(one->front().pixels, two->front().pixels);
+}
+
+TEST(Draw, in_pieces_fails_where_a_piece_cannot_be_loaded) {
+  const Street street;
+  // At first all goes well: the pieces are gone through several times.
+  for (const int good : {0, 4, 9, 11, 17, 21}) {
+    int loads = 0;
+    auto pieces = street.pieces(2);
+    const auto load = pieces.load;
+    pieces.load = [&](std::size_t piece) -> mansard::base::Result<std::vector<Layer>> {
+      if (loads++ == good) return mansard::base::error("file-write", "gone");
+      return load(piece);
+    };
+    const auto images = draw_views(pieces, street.lines, std::vector<View>{view(View::Kind::angle)});
+    ASSERT_FALSE(images) << good;
+    EXPECT_EQ(images.error().code, "file-write");
+  }
+}
+
+TEST(Draw, takes_no_pieces) {
+  const Pieces none;
+  const auto images = draw_views(none, {}, std::vector<View>{view(View::Kind::angle, 40, 30)});
+  ASSERT_TRUE(images);
+  EXPECT_EQ(images->front().pixels, draw({}, {}, view(View::Kind::angle, 40, 30)).pixels);
+}
+
 TEST(Lines, are_hidden_behind_surfaces_and_shown_in_front) {
   const std::vector<Layer> layers{{box({0, 0, 0}, {10, 10, 10}), {blue}}};
   const auto oranges = [&](double y) {

@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <algorithm>
+#include <array>
 #include <csignal>
+#include <cstdlib>
+#include <memory>
 #include <set>
 #include <string>
 
@@ -12,6 +15,7 @@
 #include "mansard/formats/plans.hpp"
 #include "mansard/pipeline/city.hpp"
 #include "mansard/pipeline/detail/city_tasks.hpp"
+#include "mansard/pipeline/scan_pieces.hpp"
 #include "pipeline/houses.hpp"
 
 namespace mansard::pipeline {
@@ -160,6 +164,80 @@ TEST(City, put_aside_is_that_of_reconstruct) {
   for (std::size_t i = 0; i < reports.size(); ++i) EXPECT_EQ(reports[i].reasons, whole->buildings[i].reasons);
   EXPECT_EQ(aside->summary.warnings, whole->warnings);
   EXPECT_EQ(aside->summary.scores.mse, whole->scores.mse);
+}
+
+auto how_many_differ(const picture::Image& a, const picture::Image& b) -> std::size_t {
+  EXPECT_EQ(a.pixels.size(), b.pixels.size());
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) different += std::abs(a.pixels[i] - b.pixels[i]) > 3 ? 1 : 0;
+  return different;
+}
+
+TEST(City, cells_have_every_triangle_once) {
+  const Files files;
+  Options options;
+  options.ingest.cell_side = 17;  // the largest triangles lie in thousands of them
+  const auto in_memory = files.read(options, never), in_cells = files.read(options, 0);
+  const auto corners_of = [](const geometry::Mesh& mesh, std::multiset<std::array<double, 9>>& out) {
+    for (const auto& t : mesh.triangles) {
+      std::array<double, 9> corners{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto& v = mesh.vertices[t[k]];
+        corners[3 * k] = v.x, corners[3 * k + 1] = v.y, corners[3 * k + 2] = v.z;
+      }
+      out.insert(corners);
+    }
+  };
+  std::multiset<std::array<double, 9>> all, own;
+  corners_of(in_memory.scene.mesh, all);
+  for (const auto& cell : in_cells.cells->cells_in(geometry::Box3::of(in_memory.scene.mesh.vertices).plan())) {
+    const auto mesh = in_cells.cells->load_own(cell);
+    ASSERT_TRUE(mesh);
+    corners_of(*mesh, own);
+  }
+  const auto each_once = [](const auto& triangles) { return std::set(triangles.begin(), triangles.end()); };
+  EXPECT_EQ(each_once(own), each_once(all));
+  EXPECT_LT(own.size(), 1.02 * static_cast<double>(all.size()))
+      << "only those with the middle on a border are in two cells";
+}
+
+TEST(City, pictures_in_cells_are_those_in_memory) {
+  const Files files;
+  const Options options;
+  const auto in_memory = files.read(options, never), in_cells = files.read(options, 0);
+  const auto whole = reconstruct(in_memory.scene, options);
+  ASSERT_TRUE(whole);
+  const auto expected = report::pictures(*whole, in_memory.scene, 1);
+  ASSERT_TRUE(expected);
+  const auto aside = reconstruct_aside(in_cells, options, {}, {}, Aside::models_and_error_maps);
+  ASSERT_TRUE(aside);
+  const auto frame = report::frame_of(in_cells.scene);
+  const auto cells = in_cells.cells->cells_in(frame);
+  ASSERT_GT(cells.size(), 10U);
+  const report::ScanPieces by_cell{cells.size(),
+                                   [&](std::size_t i) -> base::Result<std::shared_ptr<const geometry::Mesh>> {
+                                     auto mesh = in_cells.cells->load_own(cells[i]);
+                                     if (!mesh) return mesh.failure();
+                                     return std::make_shared<const geometry::Mesh>(std::move(*mesh));
+                                   }};
+  const auto each_building = [&](const auto& visit) {
+    return aside->each([&](const model::Building& building, const auto&) { return visit(building); });
+  };
+  const auto each_error_map = [&](const auto& visit) { return aside->each_error_map(visit); };
+  for (const auto& scan : {scan_pieces(in_cells, frame), by_cell}) {
+    const auto pictures = report::pictures({in_cells.scene, scan, each_building, each_error_map}, 1);
+    ASSERT_TRUE(pictures);
+    EXPECT_LT(how_many_differ(pictures->above, expected->above), expected->above.pixels.size() / 1000);
+    EXPECT_LT(how_many_differ(pictures->angle, expected->angle), expected->angle.pixels.size() / 1000);
+    EXPECT_EQ(pictures->error.pixels, expected->error.pixels);
+  }
+}
+
+TEST(City, without_error_maps_has_none) {
+  const Files files;
+  const auto aside = reconstruct_aside(files.read({}, 0), {});
+  ASSERT_TRUE(aside);
+  ASSERT_TRUE(aside->each_error_map([](const auto&) { ADD_FAILURE(); }));
 }
 
 TEST(City, in_a_box_is_that_in_memory) {

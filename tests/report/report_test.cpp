@@ -50,7 +50,8 @@ TEST(Pictures, are_drawn_for_a_reconstruction) {
   const auto scene = test::lone_house();
   const auto r = reconstructed(scene);
   const auto p = pictures(r, scene, 2.0);
-  for (const auto* image : {&p.above, &p.angle, &p.error}) {
+  ASSERT_TRUE(p);
+  for (const auto* image : {&p->above, &p->angle, &p->error}) {
     EXPECT_GT(image->width, 100U);
     EXPECT_EQ(image->pixels.size(), 3 * image->width * image->height);
   }
@@ -68,7 +69,7 @@ TEST(Pictures, show_the_walls_of_models_that_stand_behind_those_of_the_scan) {
   for (auto& building : moved.city.buildings)
     for (auto& part : building.parts)
       for (auto& v : part.model.solid.vertices) v = v + geometry::Point3{-0.4, 0.4, 0};  // behind walls to the south
-  const auto image = pictures(moved, scene, 2.0).angle;
+  const auto image = pictures(moved, scene, 2.0).value().angle;
   std::size_t walls = 0;  // warm grey; the scan is blue, the paper white, roofs are red
   for (std::size_t y = 0; y < image.height; ++y)
     for (std::size_t x = image.width / 2 + 20; x < image.width; ++x) {

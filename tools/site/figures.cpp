@@ -247,7 +247,7 @@ void rooms_in_plan(const Figures& to, const model::Scene& scene, const pipeline:
     auto with = options;
     with.refine.effort = effort;
     const auto made = need(pipeline::reconstruct(scene, with, {}, pipeline::Keep::models, std::vector{block.name}));
-    before_after.push_back(report::pictures(made, scene, 2).error);
+    before_after.push_back(need(report::pictures(made, scene, 2)).error);
   }
   to.put("refine.png", picture::beside(before_after));
 

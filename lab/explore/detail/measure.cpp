@@ -137,9 +137,13 @@ void draw(const report::Reconstruction& result, const model::Scene& scene, const
   const std::string prefix = "run-" + std::to_string(number) + "-";
   if (request.experiment == Experiment::datasets) {
     const auto pictures = report::pictures(result, scene, request.error_limit, run);
-    add_picture(pictures.angle, prefix + "angle.png", "scan with footprints, and models, at an angle", row);
-    add_picture(pictures.above, prefix + "above.png", "scan with footprints, and models, from above", row);
-    add_picture(pictures.error, prefix + "error.png", error_alt, row);
+    if (pictures) {
+      add_picture(pictures->angle, prefix + "angle.png", "scan with footprints, and models, at an angle", row);
+      add_picture(pictures->above, prefix + "above.png", "scan with footprints, and models, from above", row);
+      add_picture(pictures->error, prefix + "error.png", error_alt, row);
+    } else {
+      row.warnings.push_back(pictures.error());
+    }
   }
   if (!request.axes.empty()) {
     picture::View view;

@@ -8,8 +8,7 @@ namespace mansard::picture::detail {
 
 using geometry::Point3;
 
-auto camera_for(const View& view, std::span<const Point3> points) -> Camera {
-  constexpr double margin = 0.04;  // of the picture, on each side
+auto directions_of(const View& view) -> Camera {
   Camera camera;
   camera.width = view.width;
   camera.height = view.height;
@@ -25,9 +24,12 @@ auto camera_for(const View& view, std::span<const Point3> points) -> Camera {
     camera.towards = {-s * flat, -c * flat, high};
     camera.up = geometry::cross(camera.towards, camera.right);
   }
+  return camera;
+}
 
-  geometry::Box3 box;
-  for (const Point3& p : points) box.add({dot(p, camera.right), dot(p, camera.up), dot(p, camera.towards)});
+auto camera_for(const View& view, const geometry::Box3& box) -> Camera {
+  constexpr double margin = 0.04;  // of the picture, on each side
+  Camera camera = directions_of(view);
   const Point3 middle = 0.5 * (box.least + box.most), size = box.most - box.least;
   const double room = 1 - 2 * margin;
   camera.pixel = std::max(

@@ -1,8 +1,6 @@
 // An orthographic camera, framed to what is drawn.
 #pragma once
 
-#include <span>
-
 #include "mansard/picture/detail/canvas.hpp"
 
 namespace mansard::picture::detail {
@@ -27,7 +25,13 @@ struct Camera {
   [[nodiscard]] auto depth(geometry::Point3 p) const -> double { return -geometry::dot(p - eye, towards); }
 };
 
-/// Shows all points with a small margin; `points` must not be empty.
-[[nodiscard]] auto camera_for(const View& view, std::span<const geometry::Point3> points) -> Camera;
+/// The directions of a view's camera; where it stands is not set yet.
+[[nodiscard]] auto directions_of(const View& view) -> Camera;
+/// A place by these directions: x to the right, y up, z to the eye.
+[[nodiscard]] inline auto along(const Camera& directions, geometry::Point3 p) -> geometry::Point3 {
+  return {dot(p, directions.right), dot(p, directions.up), dot(p, directions.towards)};
+}
+/// Shows with a small margin all that lies in the box, which is by the view's directions and not empty.
+[[nodiscard]] auto camera_for(const View& view, const geometry::Box3& box) -> Camera;
 
 }  // namespace mansard::picture::detail

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mansard/base/run.hpp"
-
 namespace mansard::picture::detail {
 namespace {
 
@@ -54,22 +52,10 @@ auto to_light(Colour colour) -> Light {
 
 auto to_colour(const Light& light) -> Colour { return {code_of(light[0]), code_of(light[1]), code_of(light[2])}; }
 
-auto to_image(const Canvas& canvas) -> Image {
-  Image image{canvas.width, canvas.height, std::vector<std::uint8_t>(3 * canvas.width * canvas.height)};
-  base::parallel_for(canvas.height, [&](std::size_t y) {
-    for (std::size_t i = y * canvas.width; i < (y + 1) * canvas.width; ++i) {
-      const Colour colour = to_colour(canvas.light[i]);
-      std::copy(colour.begin(), colour.end(), image.pixels.begin() + static_cast<std::ptrdiff_t>(3 * i));
-    }
-  });
+auto blank(std::size_t width, std::size_t height, Colour paper) -> Image {
+  Image image{width, height, std::vector<std::uint8_t>(3 * width * height)};
+  for (std::size_t i = 0; i < width * height; ++i) set_colour(image, i, paper);
   return image;
-}
-
-auto to_canvas(const Image& image) -> Canvas {
-  Canvas canvas(image.width, image.height, {1, 1, 1});
-  for (std::size_t i = 0; i < canvas.light.size(); ++i)
-    canvas.light[i] = to_light({image.pixels[3 * i], image.pixels[3 * i + 1], image.pixels[3 * i + 2]});
-  return canvas;
 }
 
 void Ink::stroke(Spot a, Spot b, double width) {
@@ -89,10 +75,11 @@ void Ink::stroke(Spot a, Spot b, double width) {
     }
 }
 
-void Ink::spread_on(Canvas& canvas, Colour colour) const {
+void Ink::spread_on(Image& image, Colour colour) const {
   const Light light = to_light(colour);
   for (std::size_t i = 0; i < cover_.size(); ++i)
-    if (cover_[i] > 0) canvas.light[i] = (1 - cover_[i]) * canvas.light[i] + cover_[i] * light;
+    if (cover_[i] > 0)
+      set_colour(image, i, to_colour((1 - cover_[i]) * to_light(colour_at(image, i)) + cover_[i] * light));
 }
 
 }  // namespace mansard::picture::detail

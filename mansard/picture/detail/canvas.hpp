@@ -1,4 +1,4 @@
-// A picture in the making: linear light, single precision.
+// Light on an image: linear, in single precision.
 #pragma once
 
 #include <array>
@@ -24,17 +24,16 @@ using Light = std::array<float, 3>;
 [[nodiscard]] auto to_light(Colour colour) -> Light;
 [[nodiscard]] auto to_colour(const Light& light) -> Colour;
 
-struct Canvas {
-  Canvas(std::size_t w, std::size_t h, const Light& paper) : width(w), height(h), light(w * h, paper) {}
-  std::size_t width, height;
-  std::vector<Light> light;  ///< row by row from the top
-};
+[[nodiscard]] auto blank(std::size_t width, std::size_t height, Colour paper) -> Image;
+/// A pixel by its number.
+[[nodiscard]] inline auto colour_at(const Image& image, std::size_t pixel) -> Colour {
+  return {image.pixels[3 * pixel], image.pixels[3 * pixel + 1], image.pixels[3 * pixel + 2]};
+}
+inline void set_colour(Image& image, std::size_t pixel, Colour colour) {
+  for (std::size_t c = 0; c < colour.size(); ++c) image.pixels[3 * pixel + c] = colour[c];
+}
 
-[[nodiscard]] auto to_image(const Canvas& canvas) -> Image;
-/// The other way round; exact, since to_colour(to_light(c)) is c.
-[[nodiscard]] auto to_canvas(const Image& image) -> Canvas;
-
-/// A point on the canvas: pixels from its top left corner.
+/// A point on an image: pixels from its top left corner.
 struct Spot {
   double x = 0, y = 0;
 };
@@ -44,7 +43,7 @@ class Ink {
  public:
   Ink(std::size_t width, std::size_t height) : width_(width), height_(height), cover_(width * height, 0.0F) {}
   void stroke(Spot a, Spot b, double width);
-  void spread_on(Canvas& canvas, Colour colour) const;
+  void spread_on(Image& image, Colour colour) const;
 
  private:
   std::size_t width_, height_;

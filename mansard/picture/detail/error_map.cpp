@@ -89,7 +89,6 @@ auto map_image(std::span<const float> values, std::size_t columns, std::size_t r
   outline(image, map, thick, frame_colour);
   outline(image, bar, thick, frame_colour);
 
-  Canvas canvas = to_canvas(image);
   Ink ink(width, height);
   write_text(ink, title, {static_cast<double>(map.x), 2.6 * static_cast<double>(unit)}, big);
   for (const double part : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
@@ -99,8 +98,8 @@ auto map_image(std::span<const float> values, std::size_t columns, std::size_t r
     write_text(ink, tick_label(part * limit) + (part == 1 ? " m" : ""), {x + static_cast<double>(unit), y + small / 2},
                small);
   }
-  ink.spread_on(canvas, ink_colour);
-  return to_image(canvas);
+  ink.spread_on(image, ink_colour);
+  return image;
 }
 
 }  // namespace mansard::picture::detail

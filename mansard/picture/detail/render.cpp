@@ -21,15 +21,33 @@ using geometry::Point3;
 // 2001). The rays are fixed, so a picture is always the same. The sun, whose shadows have edges, has a smaller square.
 // What a place sees of the sky changes slowly: one pixel in four asks, and the others take it from those around them.
 constexpr std::size_t sky_pattern = 8, sun_pattern = 4, sky_step = 2;
-constexpr std::size_t lone_rays = 16;   ///< to the sky, from a pixel with nothing of its surface around that asked
-constexpr std::uint32_t nothing = ~0U;  ///< no triangle: paper
+constexpr std::size_t lone_rays = 16;  ///< to the sky, from a pixel with nothing of its surface around that asked
+
+// Where a scene is in pieces, every ray goes through one after the other: it ends at the nearest of what it meets, and
+// is blocked where one of them blocks it. That is what it does in the scene as a whole. So there are three rounds
+// through the pieces: for what the pixels see, for the light there and for the lines, and for the edges.
+
+/// A number from 0 to 1 in two bytes.
+class Share {
+ public:
+  Share() = default;  ///< 1
+  Share(float value) : steps_(static_cast<std::uint16_t>(std::lround(most * std::clamp(value, 0.0F, 1.0F)))) {}
+  operator float() const { return static_cast<float>(steps_) / most; }
+
+ private:
+  static constexpr float most = 65535;
+  std::uint16_t steps_ = 65535;
+};
 
 /// What one ray found, and how much light it gets there. As little as there can be: a picture has millions.
 struct Found {
   float depth = std::numeric_limits<float>::infinity();  ///< along the ray, m; infinite where nothing is to be lit
-  std::uint32_t triangle = nothing;
-  float sky = 1, sun = 1;  ///< the parts of sky and sun that it sees
+  std::array<std::int16_t, 3> normal{0, 0, unit};        ///< to the camera
+  Piece::Look look;
+  bool surface = false;  ///< no paper
+  Share sky, sun;        ///< the parts of sky and sun that it sees
   [[nodiscard]] auto lit() const -> bool { return depth < std::numeric_limits<float>::infinity(); }
+  static constexpr std::int16_t unit = 32767;
 };
 
 /// Where a ray ended, and the direction of the surface there, to the camera.
@@ -101,54 +119,199 @@ auto frame_about(const Point3& n) -> std::array<Point3, 2> {
   return {a, cross(n, a)};
 }
 
+/// The pixels from `left` and `top` to before `right` and `bottom`.
+struct Window {
+  std::size_t left = 0, top = 0, right = 0, bottom = 0;
+};
+
+/// Lines, and what of them is hidden: each is sampled every half pixel.
+class SeenLines {
+ public:
+  SeenLines(const Lines& lines, const Camera& camera) : lines_(lines) {
+    first_.reserve(lines.segments.size() + 1);
+    first_.push_back(0);
+    for (const auto& segment : lines.segments) first_.push_back(first_.back() + Strip(segment, camera).steps);
+    hidden_.assign(first_.back(), 0);
+  }
+
+  /// Notes what a piece hides, which shows in no pixel outside of the window; of the only piece no more than it takes.
+  void hide(const rays::Scene& scene, const Window& window, const Camera& camera, bool only) {
+    base::parallel_for(lines_.segments.size(), [&](std::size_t s) {
+      const auto& [start, end] = lines_.segments[s];
+      const Strip strip(lines_.segments[s], camera);
+      const auto within = [&](double v, std::size_t low, std::size_t high) {
+        return v >= static_cast<double>(low) - 1 && v <= static_cast<double>(high) + 1;
+      };
+      for (std::size_t i = 0; i < strip.steps; ++i) {
+        char& hidden = hidden_[first_[s] + i];
+        if (hidden == all_hidden) continue;
+        const double middle = strip.middle(i);
+        const Spot spot = strip.at(middle);
+        if (!within(spot.x, window.left, window.right) || !within(spot.y, window.top, window.bottom)) continue;
+        const double depth = camera.depth((1 - middle) * start + middle * end);
+        const auto closed = [&](Spot place) {
+          const auto hit = scene.cast(camera.start(place), -1.0 * camera.towards);
+          return hit && hit->distance < depth - lift - tolerance;
+        };
+        // A line along the foot of a wall, seen from above, coincides with the edge of the roof: whether the surface
+        // there hides it would be chance. It shows when a place just beside it does.
+        const std::array places{spot, Spot{spot.x + strip.aside.x, spot.y + strip.aside.y},
+                                Spot{spot.x - strip.aside.x, spot.y - strip.aside.y}};
+        for (unsigned k = 0; k < places.size(); ++k) {
+          if ((hidden >> k & 1) == 0 && closed(places[k])) hidden = static_cast<char>(hidden | 1 << k);
+          if (only && (hidden >> k & 1) == 0) break;  // it is seen
+        }
+      }
+    });
+  }
+
+  void draw(Image& image, const Camera& camera) const {
+    Ink ink(image.width, image.height);
+    for (std::size_t s = 0; s < lines_.segments.size(); ++s) {
+      const Strip strip(lines_.segments[s], camera);
+      double since = 0;  // where the visible piece began
+      bool before_seen = false;
+      for (std::size_t i = 0; i < strip.steps; ++i) {
+        const double before = static_cast<double>(i) / static_cast<double>(strip.steps);
+        const bool seen = hidden_[first_[s] + i] != all_hidden;
+        if (seen && !before_seen) since = before;
+        if (!seen && before_seen) ink.stroke(strip.at(since), strip.at(before), lines_.width);
+        before_seen = seen;
+      }
+      if (before_seen) ink.stroke(strip.at(since), strip.b, lines_.width);
+    }
+    ink.spread_on(image, lines_.colour);
+  }
+
+ private:
+  static constexpr double lift = 0.05, tolerance = 0.10;  // m
+  static constexpr char all_hidden = 7;                   ///< the place itself, and those to both sides
+
+  /// A segment in the picture.
+  struct Strip {
+    Strip(const std::array<Point3, 2>& segment, const Camera& camera)
+        : a(camera.spot(segment[0])), b(camera.spot(segment[1])) {
+      const double across = std::hypot(b.x - a.x, b.y - a.y);
+      steps = std::max<std::size_t>(1, static_cast<std::size_t>(2 * across));
+      if (across > 0) aside = {-0.75 * (b.y - a.y) / across, 0.75 * (b.x - a.x) / across};
+    }
+    [[nodiscard]] auto middle(std::size_t step) const -> double {
+      return (static_cast<double>(step) + 0.5) / static_cast<double>(steps);
+    }
+    [[nodiscard]] auto at(double t) const -> Spot { return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)}; }
+    Spot a, b, aside{};
+    std::size_t steps = 1;
+  };
+
+  const Lines& lines_;
+  std::vector<std::size_t> first_;  ///< of the samples, by segment
+  std::vector<char> hidden_;        ///< a bit for each place of a sample that something hides
+};
+
+/// Whether a ray may meet a piece.
+class Reach {
+ public:
+  /// A piece that every ray is for: the only one.
+  Reach() = default;
+  explicit Reach(const geometry::Box3& box) : box_(box), all_(false) {
+    constexpr double rounding = 0.01;  // m; more than what single precision makes of a place in a city
+    box_.add(box.least - Point3{rounding, rounding, rounding});
+    box_.add(box.most + Point3{rounding, rounding, rounding});
+  }
+  /// Within so many lengths of its direction.
+  [[nodiscard]] auto operator()(const rays::Ray& ray, double most = std::numeric_limits<double>::infinity()) const
+      -> bool {
+    if (all_) return true;
+    double from = 0, to = most;
+    const auto cut = [&](double origin, double direction, double low, double high) {
+      if (direction == 0) return origin >= low && origin <= high;
+      const double a = (low - origin) / direction, b = (high - origin) / direction;
+      from = std::max(from, std::min(a, b));
+      to = std::min(to, std::max(a, b));
+      return from <= to;
+    };
+    return cut(ray.origin.x, ray.direction.x, box_.least.x, box_.most.x) &&
+           cut(ray.origin.y, ray.direction.y, box_.least.y, box_.most.y) &&
+           cut(ray.origin.z, ray.direction.z, box_.least.z, box_.most.z);
+  }
+
+ private:
+  geometry::Box3 box_;
+  bool all_ = true;
+};
+
 class Renderer {
  public:
-  Renderer(Canvas& canvas, const Model& model, const rays::Scene& scene, std::span<const Point3> points,
-           const Camera& camera)
-      : canvas_(canvas),
-        model_(model),
-        scene_(scene),
+  Renderer(Image& image, const Scenery& scenery, std::span<const Lines> lines, const Camera& camera,
+           const base::Run& run)
+      : image_(image),
+        scenery_(scenery),
         camera_(camera),
+        run_(run),
         lamp_(lamp_for(camera)),
-        found_(canvas.width * canvas.height),
+        found_(image.width * image.height),
         sky_(sky_directions()),
         disc_(sun_disc()),
         across_sun_(frame_about(lamp_.direction)) {
-    std::vector<double> heights;
-    geometry::Box3 box;
-    for (const Point3& p : points) {
-      heights.push_back(p.z);
-      box.add(p);
-    }
-    // Scans have debris far below the ground; the paper lies under all but the lowest hundredth.
-    const auto hundredth = heights.size() / 100;
-    paper_height_ = base::ranked(std::move(heights), hundredth) - 1e-3;
-    const double size = length(box.most - box.least);
+    const double size = length(scenery.box().most - scenery.box().least);
+    paper_height_ = scenery.low() - 1e-3;
     reach_ = 0.2 * size;
     lift_ = 1e-3 + 2e-5 * size;
+    for (const Lines& layer : lines) lines_.emplace_back(layer, camera);
   }
 
-  void look() {
-    rows([&](std::size_t y, Rays& rays) {
-      for (std::size_t x = 0; x < canvas_.width; ++x) rays.add(towards(middle(x, y)));
-      const auto hits = rays.hits(scene_);
-      for (std::size_t x = 0; x < canvas_.width; ++x) at(x, y) = found_by(middle(x, y), hits[x]);
+  [[nodiscard]] auto look() -> base::Result<void> {
+    auto seen = each_piece([&](const Piece& piece, std::size_t i) {
+      const Window window = window_of(i);
+      rows(window.top, window.bottom, [&](std::size_t y, Rays& rays) {
+        for (std::size_t x = window.left; x < window.right; ++x) rays.add(towards(middle(x, y)));
+        const auto hits = rays.hits(piece.scene());
+        for (std::size_t x = window.left; x < window.right; ++x)
+          take_nearer(at(x, y), middle(x, y), hits[x - window.left], piece);
+      });
     });
+    if (seen)
+      rows(0, image_.height, [&](std::size_t y, Rays&) {
+        for (std::size_t x = 0; x < image_.width; ++x) put_on_paper(at(x, y), middle(x, y));
+      });
+    return seen;
   }
-  void light() {
-    rows([&](std::size_t y, Rays& rays) { light_of_sun(y, rays); });
+  [[nodiscard]] auto light() -> base::Result<void> {
+    rows(0, image_.height, [&](std::size_t y, Rays&) {
+      for (std::size_t x = 0; x < image_.width; ++x)
+        if (Found& found = at(x, y); found.lit() && dot(normal_of(found), lamp_.direction) <= 0) found.sun = 0;
+    });
+    columns_ = (image_.width + sky_step - 1) / sky_step;
+    lines_of_sky_ = (image_.height + sky_step - 1) / sky_step;
+    asked_.assign(columns_ * lines_of_sky_, 1.0F);
+    if (scenery_.size() > 1) find_lone();
+    auto lit = each_piece([&](const Piece& piece, std::size_t i) {
+      const Reach reach = scenery_.size() == 1 ? Reach() : Reach(scenery_.box(i));
+      rows(0, image_.height, [&](std::size_t y, Rays& rays) { light_of_sun(piece.scene(), reach, y, rays); });
+      base::parallel_for(lines_of_sky_, [&](std::size_t j) { light_of_sky(piece.scene(), reach, j); });
+      base::parallel_for(lone_.size(), [&](std::size_t k) { light_of_lone(piece.scene(), reach, lone_[k]); });
+      for (auto& layer : lines_) layer.hide(piece.scene(), window_of(i), camera_, scenery_.size() == 1);
+    });
+    if (!lit) return lit;
     smooth_sun();
-    light_of_sky();
+    return smooth_sky();
   }
-  void paint() {
+  [[nodiscard]] auto paint() -> base::Result<void> {
     find_edges();
-    rows([&](std::size_t y, Rays& rays) {
-      std::vector<std::size_t> edges;
-      for (std::size_t x = 0; x < canvas_.width; ++x)
-        if (on_edge(x, y)) edges.push_back(x);
-        else canvas_.light[y * canvas_.width + x] = colour_of(at(x, y), middle(x, y));
-      supersample(y, edges, rays);
+    rows(0, image_.height, [&](std::size_t y, Rays&) {
+      for (std::size_t x = 0; x < image_.width; ++x)
+        if (!on_edge(x, y)) set_colour(image_, y * image_.width + x, to_colour(colour_of(at(x, y))));
     });
+    for (std::size_t from = 0, to = 0; from < image_.height && !run_.cancelled(); from = to) {
+      to = end_of_band(from);
+      if (auto smoothed = supersample(from, to); !smoothed) return smoothed;
+    }
+    return {};
+  }
+  /// After all else.
+  void draw_lines() {
+    found_ = std::vector<Found>();  // not `= {}`, which leaves the memory
+    for (const auto& layer : lines_) layer.draw(image_, camera_);
   }
 
  private:
@@ -174,41 +337,86 @@ class Renderer {
   };
 
   template <class Work>
-  void rows(Work work) const {
-    base::parallel_for(canvas_.height, [&](std::size_t y) {
+  void rows(std::size_t from, std::size_t to, Work work) const {
+    base::parallel_for(to > from ? to - from : 0, [&](std::size_t k) {
       Rays rays;
-      work(y, rays);
+      work(from + k, rays);
     });
   }
 
-  auto at(std::size_t x, std::size_t y) -> Found& { return found_[y * canvas_.width + x]; }
-  [[nodiscard]] auto at(std::size_t x, std::size_t y) const -> const Found& { return found_[y * canvas_.width + x]; }
+  /// work(piece, its number), in order; those after a cancellation are left out.
+  template <class Work>
+  [[nodiscard]] auto each_piece(Work work) const -> base::Result<void> {
+    return each_piece(work, [](std::size_t) { return true; });
+  }
+  /// Only of those that are wanted.
+  template <class Work, class Wanted>
+  [[nodiscard]] auto each_piece(Work work, Wanted wanted) const -> base::Result<void> {
+    for (std::size_t i = 0; i < scenery_.size(); ++i) {
+      if (run_.cancelled()) return {};
+      if (!wanted(i)) continue;
+      const auto piece = scenery_.piece(i);
+      if (!piece) return piece.failure();
+      work(**piece, i);
+    }
+    return {};
+  }
+
+  /// The pixels in which a piece may be seen.
+  [[nodiscard]] auto window_of(std::size_t piece) const -> Window {
+    if (scenery_.size() == 1) return {0, 0, image_.width, image_.height};
+    const auto& box = scenery_.box(piece);
+    if (box.empty()) return {};
+    geometry::Box2 seen;
+    for (const double x : {box.least.x, box.most.x})
+      for (const double y : {box.least.y, box.most.y})
+        for (const double z : {box.least.z, box.most.z}) {
+          const Spot spot = camera_.spot({x, y, z});
+          seen.add({spot.x, spot.y});
+        }
+    const auto within = [](double v, std::size_t most) {
+      return static_cast<std::size_t>(std::clamp(v, 0.0, static_cast<double>(most)));
+    };
+    return {within(seen.least.x - 1, image_.width), within(seen.least.y - 1, image_.height),
+            within(seen.most.x + 2, image_.width), within(seen.most.y + 2, image_.height)};
+  }
+
+  auto at(std::size_t x, std::size_t y) -> Found& { return found_[y * image_.width + x]; }
+  [[nodiscard]] auto at(std::size_t x, std::size_t y) const -> const Found& { return found_[y * image_.width + x]; }
 
   static auto middle(std::size_t x, std::size_t y) -> Spot {
     return {static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5};
   }
 
   [[nodiscard]] auto towards(Spot spot) const -> rays::Ray { return {camera_.start(spot), -1.0 * camera_.towards}; }
-  [[nodiscard]] auto found_by(Spot spot, const std::optional<rays::Hit>& hit) const -> Found {
-    Found found;
-    if (hit) {
-      found.triangle = hit->triangle;
-      found.depth = static_cast<float>(hit->distance);
-    } else if (camera_.towards.z > 0.05) {
+  /// What a ray met in a piece, where that is nearer than what it met before.
+  void take_nearer(Found& found, Spot spot, const std::optional<rays::Hit>& hit, const Piece& piece) const {
+    if (!hit || !(static_cast<float>(hit->distance) < found.depth)) return;
+    found.surface = true;
+    found.depth = static_cast<float>(hit->distance);
+    Point3 normal = piece.normal(hit->triangle);
+    if (length(normal) < 0.5) normal = camera_.towards;  // a triangle without area
+    else if (dot(normal, camera_.towards) < 0) normal = -1.0 * normal;
+    const auto in_steps = [](double of_unit) { return static_cast<std::int16_t>(std::lround(Found::unit * of_unit)); };
+    found.normal = {in_steps(normal.x), in_steps(normal.y), in_steps(normal.z)};
+    found.look = piece.look(hit->triangle, point_of(spot, found));
+  }
+  /// After the last piece: what met nothing meets the paper.
+  void put_on_paper(Found& found, Spot spot) const {
+    if (!found.surface && camera_.towards.z > 0.05)
       found.depth = static_cast<float>((camera_.start(spot).z - paper_height_) / camera_.towards.z);
-    }
-    return found;
   }
 
-  [[nodiscard]] auto normal_of(const Found& found) const -> Point3 {
-    if (found.triangle == nothing) return {0, 0, 1};
-    const Point3& normal = model_.normals[found.triangle];
-    if (length(normal) < 0.5) return camera_.towards;  // a triangle without area
-    return dot(normal, camera_.towards) < 0 ? -1.0 * normal : normal;
+  static auto normal_of(const Found& found) -> Point3 {
+    constexpr double step = 1.0 / Found::unit;
+    return {step * found.normal[0], step * found.normal[1], step * found.normal[2]};
+  }
+  [[nodiscard]] auto point_of(Spot spot, const Found& found) const -> Point3 {
+    return camera_.start(spot) - static_cast<double>(found.depth) * camera_.towards;
   }
   /// Of what is lit.
   [[nodiscard]] auto surface_of(Spot spot, const Found& found) const -> Surface {
-    return {camera_.start(spot) - static_cast<double>(found.depth) * camera_.towards, normal_of(found)};
+    return {point_of(spot, found), normal_of(found)};
   }
 
   /// Whether two places lie in the same surface, as far as `near` metres show.
@@ -276,27 +484,26 @@ class Renderer {
 
   // ---- the sun: a ray from every pixel
 
-  void light_of_sun(std::size_t y, Rays& rays) {
+  void light_of_sun(const rays::Scene& scene, const Reach& reach, std::size_t y, Rays& rays) {
     std::vector<std::size_t> asking;
-    for (std::size_t x = 0; x < canvas_.width; ++x) {
-      if (!at(x, y).lit()) continue;
+    for (std::size_t x = 0; x < image_.width; ++x) {
+      if (!at(x, y).lit() || at(x, y).sun == 0) continue;
       const Surface surface = surface_of(middle(x, y), at(x, y));
-      if (dot(surface.normal, lamp_.direction) <= 0) {
-        at(x, y).sun = 0;
-        continue;
-      }
       const auto& [right, up] = disc_[place_in_pattern(x, y, sun_pattern)];
+      const rays::Ray ray{surface.point + lift_ * surface.normal,
+                          lamp_.direction + right * across_sun_[0] + up * across_sun_[1]};
+      if (!reach(ray)) continue;
       asking.push_back(x);
-      rays.add(
-          {surface.point + lift_ * surface.normal, lamp_.direction + right * across_sun_[0] + up * across_sun_[1]});
+      rays.add(ray);
     }
-    const auto blocked = rays.blocked(scene_);
-    for (std::size_t k = 0; k < asking.size(); ++k) at(asking[k], y).sun = blocked[k] != 0 ? 0.0F : 1.0F;
+    const auto blocked = rays.blocked(scene);
+    for (std::size_t k = 0; k < asking.size(); ++k)
+      if (blocked[k] != 0) at(asking[k], y).sun = 0;
   }
   void smooth_sun() {
-    std::vector<float> sun(found_.size());
+    std::vector<Share> sun(found_.size(), 0.0F);
     smooth(
-        canvas_.width, canvas_.height, sun_pattern, 3 * camera_.pixel,
+        image_.width, image_.height, sun_pattern, 3 * camera_.pixel,
         [&](std::size_t x, std::size_t y) {
           Sample sample;
           if (const Found& found = at(x, y); found.lit()) {
@@ -306,7 +513,7 @@ class Renderer {
           }
           return sample;
         },
-        [&](std::size_t x, std::size_t y, float light) { sun[y * canvas_.width + x] = light; });
+        [&](std::size_t x, std::size_t y, float light) { sun[y * image_.width + x] = light; });
     for (std::size_t i = 0; i < found_.size(); ++i) found_[i].sun = sun[i];
   }
 
@@ -317,8 +524,8 @@ class Renderer {
     bool lit = false;
   };
   [[nodiscard]] auto asking_of(std::size_t i, std::size_t j) const -> Square {
-    for (std::size_t y = sky_step * j; y < std::min(sky_step * (j + 1), canvas_.height); ++y)
-      for (std::size_t x = sky_step * i; x < std::min(sky_step * (i + 1), canvas_.width); ++x)
+    for (std::size_t y = sky_step * j; y < std::min(sky_step * (j + 1), image_.height); ++y)
+      for (std::size_t x = sky_step * i; x < std::min(sky_step * (i + 1), image_.width); ++x)
         if (at(x, y).lit()) return {x, y, true};
     return {};
   }
@@ -333,36 +540,87 @@ class Renderer {
     return hit ? static_cast<float>(std::min(hit->distance / reach_, 1.0)) : 1.0F;
   }
 
-  void light_of_sky() {
-    const std::size_t columns = (canvas_.width + sky_step - 1) / sky_step,
-                      lines = (canvas_.height + sky_step - 1) / sky_step;
-    std::vector<float> asked(columns * lines, 1.0F), sky(columns * lines, 1.0F);
-    base::parallel_for(lines, [&](std::size_t j) {
-      for (std::size_t i = 0; i < columns; ++i)
-        if (const Square square = asking_of(i, j); square.lit) {
-          const Surface surface = surface_of(middle(square.x, square.y), at(square.x, square.y));
-          const rays::Ray ray = to_sky(surface, place_in_pattern(i, j, sky_pattern));
-          asked[j * columns + i] = openness(scene_.cast(ray.origin, ray.direction));
-        }
-    });
-    const double near = 3 * sky_step * camera_.pixel;
+  /// How open the sky is in one direction, as far as a piece shows: the least of all pieces is that of the scene.
+  [[nodiscard]] auto open_beside(const rays::Scene& scene, const Reach& reach, const Surface& surface,
+                                 std::size_t place) const -> float {
+    const rays::Ray ray = to_sky(surface, place);
+    return reach(ray, reach_) ? openness(scene.cast(ray.origin, ray.direction)) : 1.0F;
+  }
+
+  void light_of_sky(const rays::Scene& scene, const Reach& reach, std::size_t j) {
+    for (std::size_t i = 0; i < columns_; ++i)
+      if (const Square square = asking_of(i, j); square.lit) {
+        const Surface surface = surface_of(middle(square.x, square.y), at(square.x, square.y));
+        float& asked = asked_[j * columns_ + i];
+        asked = std::min(asked, open_beside(scene, reach, surface, place_in_pattern(i, j, sky_pattern)));
+      }
+  }
+
+  [[nodiscard]] auto smooth_sky() -> base::Result<void> {
+    std::vector<float> sky(asked_.size(), 1.0F);
     const auto sample = [&](std::size_t i, std::size_t j) {
       Sample one;
       if (const Square square = asking_of(i, j); square.lit) {
         static_cast<Surface&>(one) = surface_of(middle(square.x, square.y), at(square.x, square.y));
         one.lit = true;
-        one.light = asked[j * columns + i];
+        one.light = asked_[j * columns_ + i];
       }
       return one;
     };
-    smooth(columns, lines, sky_pattern, near, sample,
-           [&](std::size_t i, std::size_t j, float light) { sky[j * columns + i] = light; });
-    base::parallel_for(lines, [&](std::size_t j) { spread_sky(j, columns, lines, near, sky); });
+    smooth(columns_, lines_of_sky_, sky_pattern, near_sky(), sample,
+           [&](std::size_t i, std::size_t j, float light) { sky[j * columns_ + i] = light; });
+    asked_ = std::move(sky);
+    std::shared_ptr<const Piece> only;
+    if (scenery_.size() == 1 && !run_.cancelled()) {
+      auto piece = scenery_.piece(0);
+      if (!piece) return piece.failure();
+      only = std::move(*piece);
+    }
+    base::parallel_for(lines_of_sky_, [&](std::size_t j) {
+      spread_sky(j, [&](Found& found, const Surface& own, float sum, float weights, std::size_t) {
+        if (weights > 0) found.sky = sum / weights;
+        else if (only) found.sky = sky_alone(only->scene(), own);
+      });
+    });
+    for (const auto& [at, open] : lone_) {
+      float sum = 0;
+      for (const float one : open) sum += one;
+      found_[at].sky = sum / lone_rays;
+    }
+    lone_ = std::vector<Lone>();
+    return {};
   }
+  [[nodiscard]] auto near_sky() const -> double { return 3 * sky_step * camera_.pixel; }
+
+  /// A pixel with nothing of its surface around that asked, and what its own rays see.
+  struct Lone {
+    std::size_t at = 0;
+    std::array<Share, lone_rays> open{};
+  };
+  void find_lone() {
+    std::vector<std::vector<std::size_t>> found(lines_of_sky_);
+    base::parallel_for(lines_of_sky_, [&](std::size_t j) {
+      spread_sky(j, [&](const Found&, const Surface&, float, float weights, std::size_t at) {
+        if (!(weights > 0)) found[j].push_back(at);
+      });
+    });
+    for (const auto& line : found)
+      for (const std::size_t at : line) lone_.push_back({at, {}});
+  }
+  void light_of_lone(const rays::Scene& scene, const Reach& reach, Lone& lone) const {
+    const std::size_t x = lone.at % image_.width, y = lone.at / image_.width;
+    const Surface surface = surface_of(middle(x, y), at(x, y));
+    for (std::size_t k = 0; k < lone_rays; ++k)
+      lone.open[k] = std::min<float>(lone.open[k], open_beside(scene, reach, surface, lone_place(k)));
+  }
+  static auto lone_place(std::size_t ray) -> std::size_t { return ray * (sky_pattern * sky_pattern / lone_rays); }
 
   /// What the pixels of a line of squares see of the sky: that of the squares nearest to them, in their own surface.
-  void spread_sky(std::size_t line, std::size_t columns, std::size_t lines, double near,
-                  const std::vector<float>& sky) {
+  /// take(pixel, its surface, sum of what they see, sum of their weights, number of the pixel).
+  template <class Take>
+  void spread_sky(std::size_t line, Take take) {
+    const std::size_t columns = columns_, lines = lines_of_sky_;
+    const double near = near_sky();
     std::array<std::vector<Sample>, 3> around;  // the lines above, of, and below
     for (std::size_t k = 0; k < 3; ++k) {
       if (line + k < 1 || line + k > lines) continue;
@@ -372,11 +630,11 @@ class Renderer {
         if (const Square square = asking_of(i, j); square.lit) {
           static_cast<Surface&>(around[k][i]) = surface_of(middle(square.x, square.y), at(square.x, square.y));
           around[k][i].lit = true;
-          around[k][i].light = sky[j * columns + i];
+          around[k][i].light = asked_[j * columns + i];
         }
     }
-    for (std::size_t y = sky_step * line; y < std::min(sky_step * (line + 1), canvas_.height); ++y)
-      for (std::size_t x = 0; x < canvas_.width; ++x) {
+    for (std::size_t y = sky_step * line; y < std::min(sky_step * (line + 1), image_.height); ++y)
+      for (std::size_t x = 0; x < image_.width; ++x) {
         Found& found = at(x, y);
         if (!found.lit()) continue;
         const Surface own = surface_of(middle(x, y), found);
@@ -390,19 +648,16 @@ class Renderer {
           sum += weight * around[k][column].light;
           weights += weight;
         }
-        found.sky = weights > 0 ? sum / weights : sky_alone(own);
+        take(found, own, sum, weights, y * image_.width + x);
       }
   }
-  [[nodiscard]] auto sky_alone(const Surface& surface) const -> float {
+  [[nodiscard]] auto sky_alone(const rays::Scene& scene, const Surface& surface) const -> float {
     float open = 0;
-    for (std::size_t k = 0; k < lone_rays; ++k) {
-      const rays::Ray ray = to_sky(surface, k * (sky_pattern * sky_pattern / lone_rays));
-      open += openness(scene_.cast(ray.origin, ray.direction));
-    }
+    for (std::size_t k = 0; k < lone_rays; ++k) open += open_beside(scene, Reach(), surface, lone_place(k));
     return open / lone_rays;
   }
 
-  [[nodiscard]] auto colour_of(const Found& found, Spot spot) const -> Light {
+  [[nodiscard]] auto colour_of(const Found& found) const -> Light {
     static const Light sheet = to_light(paper);
     if (!found.lit()) return sheet;
     const Point3 normal = normal_of(found);
@@ -410,11 +665,9 @@ class Renderer {
     // Walls see half the sky, and the ground, which gives back some of it.
     const auto up = static_cast<float>(0.8 + 0.2 * normal.z);
     const Light sky = (0.15F + 0.85F * found.sky) * up * lamp_.sky, sun = facing * found.sun * lamp_.sun;
-    if (found.triangle != nothing) {
+    if (found.surface) {
       const Light light = sky + sun;
-      if (const auto colour = model_.picture_at(found.triangle, surface_of(spot, found).point))
-        return to_light(*colour) * (0.5F * light + Light{0.5F, 0.5F, 0.5F});
-      return model_.albedo[found.triangle] * light;
+      return to_light(found.look.colour) * (found.look.pictured ? 0.5F * light + Light{0.5F, 0.5F, 0.5F} : light);
     }
     // The paper is white where nothing shades it, and keeps some white where something does.
     const Light full = lamp_.sky + facing * lamp_.sun, here = sky + sun;
@@ -426,58 +679,103 @@ class Renderer {
   /// Whether a neighbour shows another colour, another direction or another distance.
   [[nodiscard]] auto differ(const Found& own, const Surface& here, const Found& other, const Surface& there) const
       -> bool {
-    if (other.triangle == own.triangle) return false;
-    if (other.triangle == nothing || own.triangle == nothing) return true;
-    if (model_.albedo[other.triangle] != model_.albedo[own.triangle]) return true;
+    if (!own.surface && !other.surface) return false;
+    if (own.surface != other.surface) return true;
+    if (other.look.pictured != own.look.pictured) return true;
+    if (!own.look.pictured && other.look.colour != own.look.colour) return true;
     if (dot(there.normal, here.normal) < 0.97) return true;
     return std::abs(dot(here.normal, there.point - here.point)) > 4 * camera_.pixel;
   }
   /// Between which pixels there is an edge: each pixel and those to the right and below.
   void find_edges() {
     edges_.assign(found_.size(), 0);
-    base::parallel_for(canvas_.height, [&](std::size_t y) {
+    base::parallel_for(image_.height, [&](std::size_t y) {
       const auto surface = [&](std::size_t x, std::size_t j) {
         return at(x, j).lit() ? surface_of(middle(x, j), at(x, j)) : Surface{};
       };
       Surface here = surface(0, y);
-      for (std::size_t x = 0; x < canvas_.width; ++x) {
+      for (std::size_t x = 0; x < image_.width; ++x) {
         Surface next;
-        char& edge = edges_[y * canvas_.width + x];
-        if (x + 1 < canvas_.width) {
+        char& edge = edges_[y * image_.width + x];
+        if (x + 1 < image_.width) {
           next = surface(x + 1, y);
           if (differ(at(x, y), here, at(x + 1, y), next)) edge |= edge_right;
         }
-        if (y + 1 < canvas_.height && differ(at(x, y), here, at(x, y + 1), surface(x, y + 1))) edge |= edge_below;
+        if (y + 1 < image_.height && differ(at(x, y), here, at(x, y + 1), surface(x, y + 1))) edge |= edge_below;
         here = next;
       }
     });
   }
   [[nodiscard]] auto on_edge(std::size_t x, std::size_t y) const -> bool {
-    const std::size_t i = y * canvas_.width + x;
+    const std::size_t i = y * image_.width + x;
     return edges_[i] != 0 || (x > 0 && (edges_[i - 1] & edge_right) != 0) ||
-           (y > 0 && (edges_[i - canvas_.width] & edge_below) != 0);
+           (y > 0 && (edges_[i - image_.width] & edge_below) != 0);
   }
 
-  /// The mean of a 2 × 2 grid of rays; their light is that of the pixel around that found the most similar surface.
-  void supersample(std::size_t y, std::span<const std::size_t> edges, Rays& rays) {
-    constexpr std::size_t grid = 2;
-    const auto spot_of = [&](std::size_t x, std::size_t k) {
+  /// The last row of a band and one more, so that its edges are not too many for memory.
+  [[nodiscard]] auto end_of_band(std::size_t from) const -> std::size_t {
+    constexpr std::size_t most_edges = 200'000;
+    std::size_t edges = 0, y = from;
+    for (; y < image_.height && (y == from || edges + image_.width <= most_edges); ++y)
+      for (std::size_t x = 0; x < image_.width; ++x) edges += on_edge(x, y) ? 1 : 0;
+    return y;
+  }
+
+  /// The edges of a band: the mean of a 2 × 2 grid of rays. Their light is that of the pixel around that found the most
+  /// similar surface.
+  [[nodiscard]] auto supersample(std::size_t from, std::size_t to) -> base::Result<void> {
+    constexpr std::size_t grid = 2, samples = grid * grid;
+    const auto spot_of = [](std::size_t x, std::size_t y, std::size_t k) {
       return Spot{static_cast<double>(x) + (static_cast<double>(k % grid) + 0.5) / grid,
                   static_cast<double>(y) + (static_cast<double>(k / grid) + 0.5) / grid};
     };
-    for (const std::size_t x : edges)
-      for (std::size_t k = 0; k < grid * grid; ++k) rays.add(towards(spot_of(x, k)));
-    const auto hits = rays.hits(scene_);
-    for (std::size_t e = 0; e < edges.size(); ++e) {
-      Light sum{};
-      for (std::size_t k = 0; k < grid * grid; ++k) {
-        const Spot spot = spot_of(edges[e], k);
-        Found found = found_by(spot, hits[e * grid * grid + k]);
-        if (found.lit()) take_light(found, surface_of(spot, found), edges[e], y);
-        sum = sum + colour_of(found, spot);
-      }
-      canvas_.light[y * canvas_.width + edges[e]] = (1.0F / (grid * grid)) * sum;
+    struct Row {
+      std::vector<std::size_t> edges;
+      std::vector<Found> found;
+    };
+    std::vector<Row> band(to - from);
+    for (std::size_t y = from; y < to; ++y) {
+      Row& row = band[y - from];
+      for (std::size_t x = 0; x < image_.width; ++x)
+        if (on_edge(x, y)) row.edges.push_back(x);
+      row.found.resize(samples * row.edges.size());
     }
+    auto cast = each_piece(
+        [&](const Piece& piece, std::size_t i) {
+          const Window window = window_of(i);
+          rows(std::max(from, window.top), std::min(to, window.bottom), [&](std::size_t y, Rays& rays) {
+            Row& row = band[y - from];
+            const auto first = std::ranges::lower_bound(row.edges, window.left) - row.edges.begin(),
+                       last = std::ranges::lower_bound(row.edges, window.right) - row.edges.begin();
+            for (auto e = static_cast<std::size_t>(first); e < static_cast<std::size_t>(last); ++e)
+              for (std::size_t k = 0; k < samples; ++k) rays.add(towards(spot_of(row.edges[e], y, k)));
+            const auto hits = rays.hits(piece.scene());
+            for (std::size_t n = 0; n < hits.size(); ++n) {
+              const std::size_t at = samples * static_cast<std::size_t>(first) + n;
+              take_nearer(row.found[at], spot_of(row.edges[at / samples], y, at % samples), hits[n], piece);
+            }
+          });
+        },
+        [&](std::size_t i) {
+          const Window window = window_of(i);
+          return window.top < to && window.bottom > from;
+        });
+    if (!cast) return cast;
+    rows(from, to, [&](std::size_t y, Rays&) {
+      Row& row = band[y - from];
+      for (std::size_t e = 0; e < row.edges.size(); ++e) {
+        Light sum{};
+        for (std::size_t k = 0; k < samples; ++k) {
+          const Spot spot = spot_of(row.edges[e], y, k);
+          Found& found = row.found[samples * e + k];
+          put_on_paper(found, spot);
+          if (found.lit()) take_light(found, surface_of(spot, found), row.edges[e], y);
+          sum = sum + colour_of(found);
+        }
+        set_colour(image_, y * image_.width + row.edges[e], to_colour((1.0F / samples) * sum));
+      }
+    });
+    return {};
   }
 
   void take_light(Found& found, const Surface& surface, std::size_t x, std::size_t y) const {
@@ -496,14 +794,15 @@ class Renderer {
     };
     take(at(x, y), middle(x, y));
     if (best <= like_enough) return;
-    for (std::size_t j = y >= 1 ? y - 1 : 0; j < std::min(y + 2, canvas_.height); ++j)
-      for (std::size_t i = x >= 1 ? x - 1 : 0; i < std::min(x + 2, canvas_.width); ++i) take(at(i, j), middle(i, j));
+    for (std::size_t j = y >= 1 ? y - 1 : 0; j < std::min(y + 2, image_.height); ++j)
+      for (std::size_t i = x >= 1 ? x - 1 : 0; i < std::min(x + 2, image_.width); ++i) take(at(i, j), middle(i, j));
   }
 
-  Canvas& canvas_;
-  const Model& model_;
-  const rays::Scene& scene_;
+  Image& image_;
+  const Scenery& scenery_;
   const Camera& camera_;
+  const base::Run& run_;
+  std::vector<SeenLines> lines_;
   Lamp lamp_;
   std::vector<Found> found_;
   static constexpr char edge_right = 1, edge_below = 2;
@@ -512,88 +811,27 @@ class Renderer {
   SunDisc disc_;
   std::array<Point3, 2> across_sun_;
   double paper_height_ = 0, reach_ = 1, lift_ = 0;
+  std::size_t columns_ = 0, lines_of_sky_ = 0;  ///< squares of the sky
+  std::vector<float> asked_;                    ///< of each what it sees
+  std::vector<Lone> lone_;
 };
 
 }  // namespace
 
-auto joined(std::span<const Layer> layers) -> Model {
-  Model model;
-  for (const Layer& layer : layers) {
-    const auto first = static_cast<std::uint32_t>(model.mesh.vertices.size());
-    if (layer.picture) model.pictured.emplace_back(model.mesh.triangles.size(), &layer);
-    model.mesh.vertices.insert(model.mesh.vertices.end(), layer.mesh.vertices.begin(), layer.mesh.vertices.end());
-    for (std::size_t t = 0; t < layer.mesh.triangles.size(); ++t) {
-      const auto& [a, b, c] = layer.mesh.triangles[t];
-      model.mesh.triangles.push_back({first + a, first + b, first + c});
-      const Point3 &p = layer.mesh.vertices[a], &q = layer.mesh.vertices[b], &r = layer.mesh.vertices[c];
-      model.normals.push_back(normalised(cross(q - p, r - p)));
-      const Colour colour = layer.colours.empty()
-                                ? mesh_blue
-                                : layer.colours[layer.colours.size() == layer.mesh.triangles.size() ? t : 0];
-      model.albedo.push_back(to_light(colour));
-    }
+auto render(Image& image, const Scenery& scenery, std::span<const Lines> lines, const Camera& camera,
+            const base::Run& run) -> base::Result<void> {
+  Renderer renderer(image, scenery, lines, camera, run);
+  if (!scenery.box().empty()) {
+    if (auto looked = renderer.look(); !looked) return looked;
+    run.report("picture", "", 0.2);
+    if (run.cancelled()) return {};
+    if (auto lit = renderer.light(); !lit) return lit;
+    run.report("picture", "", 0.7);
+    if (run.cancelled()) return {};
+    if (auto painted = renderer.paint(); !painted) return painted;
   }
-  return model;
-}
-
-auto Model::picture_at(std::size_t triangle, Point3 point) const -> std::optional<Colour> {
-  for (const auto& [first, layer] : pictured)
-    if (triangle >= first && triangle - first < layer->mesh.triangles.size())
-      return layer->picture(triangle - first, point);
-  return std::nullopt;
-}
-
-void render(Canvas& canvas, const Model& model, const rays::Scene& scene, std::span<const Point3> points,
-            const Camera& camera, const base::Run& run) {
-  Renderer renderer(canvas, model, scene, points, camera);
-  renderer.look();
-  run.report("picture", "", 0.2);
-  if (run.cancelled()) return;
-  renderer.light();
-  run.report("picture", "", 0.7);
-  if (run.cancelled()) return;
-  renderer.paint();
-}
-
-void draw_lines(Canvas& canvas, const Lines& lines, const rays::Scene& scene, const Camera& camera) {
-  constexpr double lift = 0.05, tolerance = 0.10;  // m
-  struct Piece {
-    Spot a, b;
-  };
-  std::vector<std::vector<Piece>> visible(lines.segments.size());
-  base::parallel_for(lines.segments.size(), [&](std::size_t s) {
-    const auto& [start, end] = lines.segments[s];
-    const Spot a = camera.spot(start), b = camera.spot(end);
-    const auto steps = std::max<std::size_t>(1, static_cast<std::size_t>(2 * std::hypot(b.x - a.x, b.y - a.y)));
-    const auto at = [&](double t) { return Spot{a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)}; };
-    // A line along the foot of a wall, seen from above, coincides with the edge of the roof: whether the surface there
-    // hides it would be chance. It shows when a place just beside it does.
-    const double across = std::hypot(b.x - a.x, b.y - a.y);
-    const Spot aside = across > 0 ? Spot{-0.75 * (b.y - a.y) / across, 0.75 * (b.x - a.x) / across} : Spot{};
-    const auto open = [&](Spot spot, double depth) {
-      const auto hit = scene.cast(camera.start(spot), -1.0 * camera.towards);
-      return !hit || hit->distance >= depth - lift - tolerance;
-    };
-    double since = 0;  // where the visible piece began
-    bool before_seen = false;
-    for (std::size_t i = 0; i < steps; ++i) {
-      const double before = static_cast<double>(i) / static_cast<double>(steps);
-      const double middle = (static_cast<double>(i) + 0.5) / static_cast<double>(steps);
-      const Point3 p = (1 - middle) * start + middle * end;
-      const Spot spot = at(middle);
-      const double depth = camera.depth(p);
-      const bool seen = open(spot, depth) || open({spot.x + aside.x, spot.y + aside.y}, depth) ||
-                        open({spot.x - aside.x, spot.y - aside.y}, depth);
-      if (seen && !before_seen) since = before;
-      if (!seen && before_seen) visible[s].push_back({at(since), at(before)});
-      before_seen = seen;
-    }
-    if (before_seen) visible[s].push_back({at(since), b});
-  });
-  Ink ink(canvas.width, canvas.height);
-  for (const auto& pieces : visible)
-    for (const Piece& piece : pieces) ink.stroke(piece.a, piece.b, lines.width);
-  ink.spread_on(canvas, lines.colour);
+  renderer.draw_lines();
+  return {};
 }
 
 }  // namespace mansard::picture::detail

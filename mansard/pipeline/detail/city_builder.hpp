@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 #include <mutex>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,6 +45,21 @@ class CityBuilder {
     extents_.insert(extents_.end(), extents.begin(), extents.end());
   }
 
+  /// Gives the number by which order_error_maps knows it.
+  auto take(const evaluate::ErrorMap& map) -> std::size_t {
+    const auto bytes = base::packed(map);
+    const std::scoped_lock lock(mutex_);
+    city_.error_maps_.push_back({city_.spool_->size(), static_cast<std::uint32_t>(bytes.size())});
+    city_.spool_->append(bytes);
+    return city_.error_maps_.size() - 1;
+  }
+  /// After the last one: the maps with these numbers, in this order.
+  void order_error_maps(std::span<const std::size_t> numbers) {
+    std::vector<PutAside::Place> ordered;
+    for (const std::size_t number : numbers) ordered.push_back(city_.error_maps_[number]);
+    city_.error_maps_ = std::move(ordered);
+  }
+
   /// Whether all could be put aside until now: asked from time to time, so that a full disk ends a run of hours at
   /// once. Fails with "file-write".
   [[nodiscard]] auto check() -> base::Result<void> {
@@ -69,7 +85,7 @@ class CityBuilder {
       return standing(building, one.building);
     };
     auto [of_each, in_all, pairs] = overlaps(extents_, load, run);
-    extents_ = {};
+    extents_ = std::vector<Extent>();
     for (auto& [building, what] : of_each) city_.afterwards_[building].push_back(std::move(what));
     std::ranges::move(in_all, std::back_inserter(city_.summary.warnings));
     city_.summary.overlaps = std::move(pairs);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "mansard/geometry/curve.hpp"
 #include "mansard/model/frame.hpp"
 #include "mansard/pipeline/detail/every_block.hpp"
 
@@ -18,13 +19,13 @@ auto place_of(const block::Group& group, const model::Frame& frame) -> std::uint
   const auto metres = [](double local, std::int64_t origin) {
     return static_cast<std::int64_t>(std::floor(model::rounded(local))) + origin;
   };
-  return along_curve(metres(group.box.least.x, frame.origin[0]), metres(group.box.least.y, frame.origin[1]));
+  return geometry::along_curve(metres(group.box.least.x, frame.origin[0]), metres(group.box.least.y, frame.origin[1]));
 }
 
 /// The cell of all places whose bits from `free_bits` on are those of `place`.
 auto cell_name(std::uint64_t place, unsigned free_bits) -> std::string {
   if (free_bits >= 64) return "all";
-  const auto corner = from_curve(place >> free_bits << free_bits);
+  const auto corner = geometry::from_curve(place >> free_bits << free_bits);
   const auto side = [](unsigned bits) { return std::to_string(std::uint64_t{1} << bits); };
   return std::to_string(corner[0]) + "," + std::to_string(corner[1]) + " " + side((free_bits + 1) / 2) + "x" +
          side(free_bits / 2);

@@ -42,12 +42,6 @@ struct Division {
     -> std::vector<report::StageTime>;
 [[nodiscard]] auto combined_scores(const std::vector<report::BlockReport>& blocks) -> evaluate::Scores;
 
-/// A place's number along a curve that fills the plane, so that neighbours mostly have near numbers (Z-order; G. M.
-/// Morton, A computer oriented geodetic data base, 1966). Whole metres; negative ones too.
-[[nodiscard]] auto along_curve(std::int64_t x, std::int64_t y) -> std::uint64_t;
-/// The place with that number.
-[[nodiscard]] auto from_curve(std::uint64_t number) -> std::array<std::int64_t, 2>;
-
 /// How many blocks of a run were worked through before, and how many there are in all; 0: those of the division.
 struct Progress {
   std::size_t before = 0, all = 0;
