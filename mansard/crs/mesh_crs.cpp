@@ -220,7 +220,8 @@ auto WayOfMesh::box_of_degrees(double west, double south, double east, double no
   const GdalMessages messages;
   std::array<Point3, side * side> points{};
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double u = static_cast<double>(i % side) / (side - 1), v = static_cast<double>(i / side) / (side - 1);
+    const std::size_t column = i % side, row = i / side;
+    const double u = static_cast<double>(column) / (side - 1), v = static_cast<double>(row) / (side - 1);
     points[i] = {west + u * (east - west), south + v * (north - south), 0};
   }
   plane_->with([&](auto& way) { take_along(way, points, false); });

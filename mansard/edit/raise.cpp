@@ -45,7 +45,7 @@ auto box_of(std::span<const NamedPlan> parts) -> Box2 {
 auto shared_with(std::span<const Polygon> parts, const Polygon& neighbour) -> base::Result<double> {
   double sum = 0;
   for (const auto& part : parts) {
-    const auto area = detail::overlap(part, neighbour);
+    auto area = detail::overlap(part, neighbour);
     if (!area) return area;
     sum += *area;
   }
@@ -54,7 +54,7 @@ auto shared_with(std::span<const Polygon> parts, const Polygon& neighbour) -> ba
 auto shared_among(std::span<const Polygon> parts) -> base::Result<double> {
   double sum = 0;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    const auto area = shared_with(parts.subspan(0, i), parts[i]);
+    auto area = shared_with(parts.subspan(0, i), parts[i]);
     if (!area) return area;
     sum += *area;
   }
@@ -144,7 +144,7 @@ void find_overlaps(std::span<const NamedPlan* const> parts, std::span<const mode
 auto error_of_parts(std::span<const RaisedPart> parts) -> std::optional<double> {
   double squared = 0, area = 0;
   for (const auto& part : parts) {
-    if (!part.mse) continue;
+    if (!part.mse || !part.model) continue;
     const double ground = label::areas(*part.model).ground;
     squared += *part.mse * ground;
     area += ground;

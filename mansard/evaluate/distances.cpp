@@ -115,7 +115,8 @@ auto from_model(const model::ModelSurface& model, const rays::Scene& scan, const
   return measured(open_samples(model, options, seed, run), run, [&](const Sample& sample) {
     if (model.classes[sample.triangle] == SurfaceClass::ground) return infinity;
     const auto near = scan.nearest(sample.point);
-    return near ? near->distance : infinity;
+    if (!near) return infinity;
+    return near->distance;
   });
 }
 
@@ -127,7 +128,8 @@ auto from_scan(const geometry::Mesh& scan, std::span<const Site> sites, const mo
     const auto near = scene.nearest(sample.point, infinity, [&](std::uint32_t t) {
       return model.classes[t] == SurfaceClass::ground ? infinity : 0.0;
     });
-    return near ? near->distance : infinity;
+    if (!near) return infinity;
+    return near->distance;
   });
 }
 

@@ -109,11 +109,13 @@ void count_parts(const std::vector<Extent>& parts, Form& out) {
 void count_ridges(const std::vector<Extent>& parts, Form& out) {
   constexpr double least_touch = 1;  // m
   for (std::size_t a = 0; a < parts.size(); ++a) {
-    if (!parts[a].ridge || !parts[a].outline) continue;
+    const Extent& one = parts[a];
+    if (!one.ridge || !one.outline) continue;
     for (auto b = a + 1; b < parts.size(); ++b) {
-      if (!parts[b].ridge || !parts[b].outline) continue;
-      const double off = std::abs(*parts[a].ridge - *parts[b].ridge);
-      if (off >= ridge_near || detail::shared_boundary(*parts[a].outline, *parts[b].outline) < least_touch) continue;
+      const Extent& other = parts[b];
+      if (!other.ridge || !other.outline) continue;
+      const double off = std::abs(*one.ridge - *other.ridge);
+      if (off >= ridge_near || detail::shared_boundary(*one.outline, *other.outline) < least_touch) continue;
       ++out.ridges;
       out.ridges_unequal += off > ridge_equal ? 1 : 0;
     }

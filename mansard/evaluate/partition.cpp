@@ -122,7 +122,7 @@ auto outline_of(std::span<const model::ModelPart> parts) -> base::Result<Outline
   for (const auto& part : parts)
     for (const auto& face : part.faces) {
       if (face.kind == SurfaceClass::wall) continue;
-      const auto pieces = detail::plan_of_face(face);
+      auto pieces = detail::plan_of_face(face);
       if (!pieces) return pieces;
       auto& list = face.kind == SurfaceClass::ground ? ground : above;
       list.insert(list.end(), pieces->begin(), pieces->end());

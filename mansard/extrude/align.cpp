@@ -255,7 +255,7 @@ auto align(std::span<const Plan> plans, const Options& options) -> std::vector<s
   });
   std::vector<Wall> walls;
   for (std::size_t p = 0; p < plans.size(); ++p)
-    if (footprints[p]) add_walls(*footprints[p], p, walls);
+    if (const auto& footprint = footprints[p]) add_walls(*footprint, p, walls);
   share_lines(walls, neighbours, near, options.shared);
 
   // What stands on one line with a neighbour is canonical from now on, whoever gave the line.

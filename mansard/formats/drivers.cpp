@@ -29,8 +29,8 @@ auto gltf(const MeshBytes& source, MeshPiece& piece) -> base::Result<RawMesh> {
   piece.inputs.insert(piece.inputs.end(), read->buffers.begin(), read->buffers.end());
   if (source.up != UpAxis::z)
     for (auto& v : read->mesh.vertices) v = {v.x, -v.z, v.y};
-  if (read->centre)
-    for (auto& v : read->mesh.vertices) v = v + *read->centre;
+  if (const auto centre = read->centre)
+    for (auto& v : read->mesh.vertices) v = v + *centre;
   return std::move(read->mesh);
 }
 

@@ -100,7 +100,7 @@ auto possible_lods(Format format) -> Lods {
   switch (format) {
     case Format::cityjson:
     case Format::cityjsonseq:
-    case Format::geopackage: return {lod0, lod12, lod13, lod20, lod22};
+    case Format::geopackage:
     case Format::citygml: return {lod0, lod12, lod13, lod20, lod22};
     case Format::obj:
     case Format::glb:
@@ -119,7 +119,7 @@ auto default_lods(Format format) -> Lods {
   switch (format) {
     case Format::cityjson:
     case Format::cityjsonseq:
-    case Format::geopackage: return {lod0, lod12, lod13, lod22};
+    case Format::geopackage:
     case Format::citygml: return {lod0, lod12, lod13, lod22};
     case Format::obj:
     case Format::glb:
@@ -136,13 +136,14 @@ auto default_lods(Format format) -> Lods {
 auto lods_of(std::string_view text, Format format) -> base::Result<Lods> {
   auto asked = parse(text);
   if (!asked) return asked.failure();
+  const auto& all = asked->all;
   for (auto& [of, levels] : asked->some)
     if (of == format) return std::move(levels);
   const auto usual = default_lods(format);
-  if (!asked->all) return usual;
+  if (!all) return usual;
   const auto possible = possible_lods(format);
   Lods out;
-  for (const auto lod : *asked->all)
+  for (const auto lod : *all)
     if (std::ranges::find(possible, lod) != possible.end()) out.push_back(lod);
   if (usual.size() == 1 && !out.empty()) out = {out.back()};
   return out.empty() ? usual : out;

@@ -85,7 +85,8 @@ auto Grid::layer_below(std::size_t cell, std::int64_t top, std::int64_t step, bo
   const auto n = static_cast<std::int64_t>(best.size());
   const auto mean = [n](std::int64_t sum) {
     const std::int64_t doubled = 2 * sum + n;
-    return static_cast<double>(doubled / (2 * n) - (doubled % (2 * n) < 0 ? 1 : 0)) / per_metre;
+    const std::int64_t floor = doubled / (2 * n) - (doubled % (2 * n) < 0 ? 1 : 0);
+    return static_cast<double>(floor) / per_metre;
   };
   out.points = static_cast<std::uint32_t>(best.size());
   out.x = mean(x);

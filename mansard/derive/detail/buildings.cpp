@@ -63,7 +63,10 @@ class Patch {
 
  private:
   [[nodiscard]] auto column(std::size_t cell) const -> double { return static_cast<double>(cell % place_.columns); }
-  [[nodiscard]] auto row(std::size_t cell) const -> double { return static_cast<double>(cell / place_.columns); }
+  [[nodiscard]] auto row(std::size_t cell) const -> double {
+    const std::size_t row = cell / place_.columns;
+    return static_cast<double>(row);
+  }
 
   const Options& options_;
   const Place& place_;
@@ -81,7 +84,8 @@ auto unevenness(const Place& place, const Heights& top, const Mask& standing, co
   for_neighbours(place, cell, [&](std::size_t next) {
     if (standing[next] == 0) return;
     const double dx = static_cast<double>(next % place.columns) - static_cast<double>(cell % place.columns);
-    const double dy = static_cast<double>(next / place.columns) - static_cast<double>(cell / place.columns);
+    const std::size_t row = next / place.columns, from = cell / place.columns;
+    const double dy = static_cast<double>(row) - static_cast<double>(from);
     const double off = top[next] - plane.z - plane.a * dx - plane.b * dy;
     sum += off * off;
   });

@@ -27,10 +27,9 @@ constexpr double slack = 1e-6;
 }  // namespace
 
 auto exact_place(const Planes& planes, const TracePoint& point) -> ExactPlace {
-  Planes::Exact e = planes.exact(point.planes);
-  const auto metres = [](Rational quanta) -> Rational { return quanta / quanta_per_metre; };
-  return {metres(std::move(e.x)), metres(std::move(e.y)),
-          metres(point.on_level ? Rational(mpz_class(point.level)) : std::move(e.t))};
+  const Planes::Exact e = planes.exact(point.planes);
+  const auto metres = [](const Rational& quanta) -> Rational { return quanta / quanta_per_metre; };
+  return {metres(e.x), metres(e.y), metres(point.on_level ? Rational(mpz_class(point.level)) : e.t)};
 }
 
 auto Places::same(std::uint32_t i, std::uint32_t j) const -> bool {

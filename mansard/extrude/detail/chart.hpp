@@ -21,8 +21,9 @@ class Places {
 
   [[nodiscard]] auto nearest(std::uint32_t i) const -> geometry::Point3 { return places_[i]; }
   [[nodiscard]] auto operator()(std::uint32_t i) const -> const ExactPlace& {
-    if (!exact_[i]) exact_[i] = exact_place(planes_, points_[i]);
-    return *exact_[i];
+    auto& place = exact_[i];
+    if (!place) place = exact_place(planes_, points_[i]);
+    return *place;
   }
   [[nodiscard]] auto same(std::uint32_t i, std::uint32_t j) const -> bool;
 

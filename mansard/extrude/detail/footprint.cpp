@@ -64,20 +64,22 @@ auto canonical(const Source& source, const Options& options, std::string& why) -
     return footprint;
   };
   auto footprint = made(source, why);
-  if (footprint) why.clear();
+  if (!footprint) return footprint;
+  why.clear();
   // Until nothing more is flattened: the canonical form of a canonical form is that form.
   constexpr int rounds = 8;
-  for (int round = 0; footprint && round < rounds && would_be_straightened(*footprint, options); ++round) {
-    const Source flatter = source_of(*footprint, source);
+  Footprint& best = *footprint;
+  for (int round = 0; round < rounds && would_be_straightened(best, options); ++round) {
+    const Source flatter = source_of(best, source);
     std::string reason;
     auto again = made(flatter, reason);
-    if (!again || again->moved + footprint->moved > options.tolerance) break;
-    if (again->corners == footprint->corners) break;
-    again->moved += footprint->moved;
-    again->tally.straightened += footprint->tally.straightened;
-    again->tally.collinear += footprint->tally.collinear;
-    again->tally.slivers += footprint->tally.slivers;
-    footprint = std::move(again);
+    if (!again || again->moved + best.moved > options.tolerance) break;
+    if (again->corners == best.corners) break;
+    again->moved += best.moved;
+    again->tally.straightened += best.tally.straightened;
+    again->tally.collinear += best.tally.collinear;
+    again->tally.slivers += best.tally.slivers;
+    best = *std::move(again);
   }
   return footprint;
 }

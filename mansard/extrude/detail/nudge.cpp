@@ -63,8 +63,10 @@ auto moved_inward(Footprint& footprint, int step, int modulus) -> std::optional<
       e.joint->y += e.direction.a * along;
     }
     auto& corners = footprint.corners[r];
-    for (std::size_t i = 0; i < n; ++i)
-      corners[i] = ring[i].joint ? *ring[i].joint : corner_of(ring[(i + n - 1) % n], ring[i]);
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto& joint = ring[i].joint;
+      corners[i] = joint ? *joint : corner_of(ring[(i + n - 1) % n], ring[i]);
+    }
     for (std::size_t i = 0; i < n; ++i) {
       const Point2 a = rounded(corners[i]), b = rounded(corners[(i + 1) % n]);
       if (dot(ring[i].direction.approximate(), b - a) < shortest) return std::nullopt;

@@ -292,8 +292,8 @@ auto Planes::compare(const Fraction& a, const Fraction& b) const -> int {
   const auto integer = [](const Wide& w) {
     mpz_class z(0);
     Wide rest = abs(w);
-    for (int word = 0; rest != 0; ++word, rest >>= 64)
-      z += mpz_class(static_cast<unsigned long>(static_cast<std::uint64_t>(rest & Wide(UINT64_MAX)))) << (64 * word);
+    for (mp_bitcnt_t shift = 0; rest != 0; shift += 64, rest >>= 64)
+      z += mpz_class(static_cast<unsigned long>(static_cast<std::uint64_t>(rest & Wide(UINT64_MAX)))) << shift;
     return w.sign() < 0 ? mpz_class(-z) : z;
   };
   const mpz_class an = a.narrow ? integer(a.n) : a.un, ad = a.narrow ? integer(a.d) : a.ud,

@@ -69,6 +69,7 @@ auto ring_name(std::size_t r) -> std::string { return r == 0 ? "the outline" : "
 
 /// What a meeting of edges is, where, and what to do about it.
 auto in_words(const Source& source, const Meetings& meetings, std::size_t most, Point2 origin) -> std::string {
+  if (!meetings.first) return {};
   const Meeting& m = *meetings.first;
   const auto name = [&](const Meeting::Edge& e) { return std::to_string(source.rings[e.ring].edge[e.index]); };
   std::string a = "edge " + name(m.a), b = "edge " + name(m.b);

@@ -95,7 +95,7 @@ struct SolidTextures {
 
 class CityGmlWriter : public CityWriter, private TextureQueue {
  public:
-  CityGmlWriter(Header header, const WriteOptions& options, Lods lods, std::unique_ptr<base::Spool> objects,
+  CityGmlWriter(Header header, const WriteOptions& options, const Lods& lods, std::unique_ptr<base::Spool> objects,
                 base::Sink& file, TextureFolder folder)
       : TextureQueue(options),
         header_(std::move(header)),
@@ -495,7 +495,7 @@ auto citygml_writer(const Path& path, const Header& header, const WriteOptions& 
   if (!objects) return objects.error();
   const auto file = outputs.file(path);
   if (!file) return file.error();
-  return WriterResult(std::make_unique<CityGmlWriter>(header, options, *std::move(lods), *std::move(objects), **file,
+  return WriterResult(std::make_unique<CityGmlWriter>(header, options, *lods, *std::move(objects), **file,
                                                       TextureFolder(path, options, outputs)));
 }
 

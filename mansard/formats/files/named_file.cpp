@@ -17,9 +17,9 @@ auto bytes_of_named(const std::filesystem::path& path) -> base::Result<Bytes> {
 
 auto named_beside(const std::filesystem::path& folder, std::string name) -> std::filesystem::path {
   std::ranges::replace(name, '\\', '/');
-  const auto given = folder / name;
+  auto given = folder / name;
   if (is_there(given)) return given;
-  const auto here = folder / std::filesystem::path(name).filename();
+  auto here = folder / std::filesystem::path(name).filename();
   return is_there(here) ? here : given;
 }
 

@@ -60,8 +60,9 @@ class GeoPackageWriter : public CityWriter {
 
   auto begin(const Path& place) -> base::Result<void> {
     const GeopackageManners manners;
-    crs_ = crs::crs_of(header_.frame);
-    if (!crs_) return geopackage_failure("understand the CRS " + header_.frame.crs);
+    const auto crs = crs::crs_of(header_.frame);
+    if (!crs) return geopackage_failure("understand the CRS " + header_.frame.crs);
+    crs_ = *crs;
     GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GPKG");
     if (driver == nullptr) return geopackage_failure("find its GPKG driver");
     file_.reset(driver->Create(place.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
@@ -97,7 +98,7 @@ class GeoPackageWriter : public CityWriter {
     const GeopackageManners manners;
     if (auto done = add_footprints(); !done) return done;
     for (const Layer& layer : more_)
-      if (auto done = add_layer(layer, pen_, *crs_, *file_); !done) return done;
+      if (auto done = add_layer(layer, pen_, crs_, *file_); !done) return done;
     if (auto done = add_styles(*file_); !done) return done;
     if (file_->CommitTransaction() != OGRERR_NONE) return geopackage_failure("finish the file");
     CPLErrorReset();
@@ -109,7 +110,7 @@ class GeoPackageWriter : public CityWriter {
  private:
   template <class Row>
   auto make(const CityTable<Row>& given, const std::string& suffix = {}) -> base::Result<void> {
-    auto table = GeopackageTable::make(*file_, given.name + suffix, given.meaning, given.geometry, *crs_);
+    auto table = GeopackageTable::make(*file_, given.name + suffix, given.meaning, given.geometry, crs_);
     if (!table) return table.error();
     if (auto done = table->add_fields(given.fields()); !done) return done;
     table->take_place();
@@ -261,7 +262,7 @@ class GeoPackageWriter : public CityWriter {
   const solid::LevelOptions levels_;
   const std::vector<Layer> more_;
   const Pen pen_;
-  std::optional<OGRSpatialReference> crs_;
+  OGRSpatialReference crs_;
   GDALDatasetUniquePtr file_;
   std::map<std::string, GeopackageTable> tables_;
   Gate gate_;

@@ -253,7 +253,8 @@ class GltfReader {
           double light = paint.material.factor[k];
           if (exists && paint.colour_components >= 3)
             light *= static_cast<double>(paint.colours[point * paint.colour_components + k]);
-          corners.colour[c][k] = static_cast<std::uint16_t>((light > 0 ? std::min(light, 1.0) : 0) * 65535 + 0.5);
+          corners.colour[c][k] =
+              static_cast<std::uint16_t>(std::lround((light > 0 ? std::min(light, 1.0) : 0) * 65535));
         }
       }
       out.corners.push_back(corners);

@@ -254,7 +254,7 @@ auto LasFile::read(std::size_t i) const -> base::Result<std::vector<CloudPoint>>
 auto LasFile::inputs() const -> base::Result<std::vector<model::InputFile>> {
   auto whole = file_->hash();
   if (!whole) return whole.failure();
-  if (*whole) return std::vector{model::InputFile{name_, file_->size(), **std::move(whole)}};
+  if (const auto& hash = *whole) return std::vector{model::InputFile{name_, file_->size(), *hash}};
   const auto head = file_->read(0, header_.point_offset);
   if (!head) return head.failure();
   std::string known(head->view());

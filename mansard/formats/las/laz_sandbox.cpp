@@ -103,6 +103,7 @@ struct Z_wasi_snapshot_preview1_instance_t {
   Z_env_instance_t* host = nullptr;
 };
 
+// NOLINTBEGIN(bugprone-reserved-identifier): the names that wasm2c gives to what the decoder imports
 extern "C" {
 
 auto wasm_rt_is_initialized() -> bool { return true; }
@@ -224,6 +225,7 @@ auto Z_wasi_snapshot_preview1Z_fd_seek(Wasi*, uint32_t, uint32_t, uint32_t, uint
 auto Z_wasi_snapshot_preview1Z_fd_write(Wasi*, uint32_t, uint32_t, uint32_t, uint32_t) -> uint32_t { return 0; }
 
 }  // extern "C"
+// NOLINTEND(bugprone-reserved-identifier)
 
 namespace mansard::formats {
 namespace {

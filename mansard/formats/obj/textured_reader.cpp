@@ -23,7 +23,7 @@ auto material_name(std::string_view text) -> std::string {
 }
 
 auto light_of(double srgb) -> std::uint16_t {
-  return linear_of(static_cast<std::uint8_t>((srgb > 0 ? std::min(srgb, 1.0) : 0) * 255 + 0.5));  // NaN is black
+  return linear_of(static_cast<std::uint8_t>(std::lround((srgb > 0 ? std::min(srgb, 1.0) : 0) * 255)));  // NaN is black
 }
 
 struct ObjMaterial {
