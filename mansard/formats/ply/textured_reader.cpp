@@ -33,11 +33,11 @@ auto texture_files(std::string_view header) -> std::vector<std::string> {
 /// Whole numbers of 8 and 16 bits are shares of the largest one; others are from 0 to 1, of some programs to 255.
 auto light_of(double value, Type type) -> std::uint16_t {
   double most = 1;
-  if (type == Type::uint8 || type == Type::int8) most = 255;
-  else if (type == Type::uint16 || type == Type::int16) most = 65535;
-  else if (value > 1) most = 255;
+  const bool wide = type == Type::uint16 || type == Type::int16;
+  if (wide) most = 65535;
+  else if (type == Type::uint8 || type == Type::int8 || value > 1) most = 255;
   const double share = value > 0 ? std::min(value / most, 1.0) : 0;  // NaN is black
-  return linear_of(static_cast<std::uint8_t>(share * 255 + 0.5));
+  return linear_of(static_cast<std::uint8_t>(std::lround(share * 255)));
 }
 
 /// What a property of a vertex or a face says.
@@ -128,6 +128,7 @@ class Layout {
 
   template <class Values>
   static auto took_list(Values& values, const Property& property, std::vector<double>* into) -> bool {
+    if (!property.count) return false;
     const double size = values.take(*property.count);
     // Before anything is allocated: a list can promise what no file holds.
     if (!(size >= 0) ||

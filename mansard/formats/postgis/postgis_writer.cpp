@@ -59,8 +59,9 @@ class PostgisWriter : public CityWriter {
 
   auto begin(const std::string& connection) -> base::Result<void> {
     const Manners manners;
-    crs_ = crs::crs_of(header_.frame);
-    if (!crs_) return failure("understand the CRS " + header_.frame.crs);
+    const auto crs = crs::crs_of(header_.frame);
+    if (!crs) return failure("understand the CRS " + header_.frame.crs);
+    crs_ = *crs;
     if (GetGDALDriverManager()->GetDriverByName("PostgreSQL") == nullptr) return failure("find its PostgreSQL driver");
     database_.reset(GDALDataset::Open(connection.c_str(), GDAL_OF_VECTOR | GDAL_OF_UPDATE));
     if (!database_) return failure("open it");
@@ -160,13 +161,13 @@ class PostgisWriter : public CityWriter {
       options.SetNameValue("LAUNDER", "NO");
       options.SetNameValue("GEOMETRY_NAME", "geom");
       options.SetNameValue("FID", "fid");
-      layer = database_->CreateLayer(name, header_.frame.crs.empty() ? nullptr : &*crs_, type, options.List());
+      layer = database_->CreateLayer(name, header_.frame.crs.empty() ? nullptr : &crs_, type, options.List());
       if (layer == nullptr)
         return failure(std::string("make the table ") + name + "; PostGIS must be enabled (CREATE EXTENSION postgis)");
     } else {
       const auto* own = layer->GetSpatialRef();
       const bool same =
-          own == nullptr ? header_.frame.crs.empty() : !header_.frame.crs.empty() && own->IsSame(&*crs_) != 0;
+          own == nullptr ? header_.frame.crs.empty() : !header_.frame.crs.empty() && own->IsSame(&crs_) != 0;
       if (!same)
         return base::error("write-postgis", std::string("the table ") + name +
                                                 " has another coordinate system than the models; use another schema "
@@ -231,7 +232,7 @@ class PostgisWriter : public CityWriter {
   const Lods lods_;
   const solid::LevelOptions levels_;
   const Pen pen_;
-  std::optional<OGRSpatialReference> crs_;
+  OGRSpatialReference crs_;
   GDALDatasetUniquePtr database_;
   bool open_ = false;  ///< the transaction
   OGRLayer *buildings_ = nullptr, *solids_ = nullptr;

@@ -30,8 +30,8 @@ class SourceWalk {
     }
     for (const auto& content : tile.contents()) {
       const fs::path path = address_beside(file, content.uri);
-      if (!check_reach(file, path)) ++out_.levels[depth].contents;
-      else if (path.extension().string().starts_with(".json")) open(path, depth + 1);  // maybe with a server's "?key=…"
+      // The extension is maybe that of a server's address, with "?key=…".
+      if (check_reach(file, path) && path.extension().string().starts_with(".json")) open(path, depth + 1);
       else ++out_.levels[depth].contents;
     }
     for (const auto& child : tile.children()) take(child, file, depth + 1);

@@ -24,7 +24,7 @@ auto date_text(const OGRFeature& feature, int field, OGRFieldType type) -> std::
   int year = 0, month = 0, day = 0, hour = 0, minute = 0, zone = 0;
   float second = 0;
   feature.GetFieldAsDateTime(field, &year, &month, &day, &hour, &minute, &second, &zone);
-  const std::string date = padded(year, 4) + "-" + padded(month, 2) + "-" + padded(day, 2);
+  std::string date = padded(year, 4) + "-" + padded(month, 2) + "-" + padded(day, 2);
   if (type == OFTDate) return date;
   const auto milliseconds = static_cast<int>(std::lround(static_cast<double>(second) * 1000));
   std::string time = padded(hour, 2) + ":" + padded(minute, 2) + ":" + padded(milliseconds / 1000, 2);

@@ -491,7 +491,7 @@ auto read_features(const fs::path& path, const FeatureQuery& options, const base
       return base::error("ingest-footprints-format", "the file is empty; export the footprints again", subject);
     auto model = read_city_model(path, options);
     if (!model) return model.error();
-    if (*model) return **std::move(model);
+    if (auto& file = *model) return *std::move(file);
   }
   return Source(path, options, run).read();
 }
