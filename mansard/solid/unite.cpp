@@ -99,9 +99,10 @@ class Parts {
     std::vector<const LabelledSolid*> solids;
     for (const auto b : family)
       for (const One& one : made[b].solids) solids.push_back(&one.model);
+    const auto near = detail::near_each(solids);
     for (std::size_t i = 0; i < solids.size(); ++i)
-      for (std::size_t k = 0; k < i; ++k)
-        if (test(*solids[k], *solids[i])) return true;
+      for (const std::uint32_t k : near[i])
+        if (k < i && test(*solids[k], *solids[i])) return true;
     return false;
   }
 
@@ -465,9 +466,10 @@ auto unite(std::span<const LabelledSolid* const> parts) -> United { return unite
 
 auto overlapping(std::span<const LabelledSolid* const> solids) -> std::vector<Overlapping> {
   std::vector<Overlapping> out;
+  const auto near = detail::near_each(solids);
   for (std::size_t i = 0; i < solids.size(); ++i)
-    for (std::size_t k = 0; k < i; ++k)
-      if (detail::overlap(*solids[k], *solids[i])) {
+    for (const std::uint32_t k : near[i])
+      if (k < i && detail::overlap(*solids[k], *solids[i])) {
         out.push_back({i, base::error("solid-overlap",
                                       "it shares space with solid " + std::to_string(k + 1) + " of its building")});
         break;

@@ -7,6 +7,7 @@
 #include <set>
 #include <tuple>
 
+#include "mansard/geometry/box_index.hpp"
 #include "mansard/geometry/change.hpp"
 #include "mansard/model/file_grid.hpp"
 #include "mansard/solid/detail/interiors.hpp"
@@ -41,22 +42,22 @@ auto ground_of(const LabelledSolid& solid) -> std::vector<Polygon> {
   return out;
 }
 
-struct Range {
-  double low = 1e300, high = -1e300;
-};
-auto heights_of(const LabelledSolid& solid) -> Range {
-  Range out;
-  for (const Point3 p : solid.solid.vertices) out = {std::min(out.low, p.z), std::max(out.high, p.z)};
-  return out;
+auto box_of(const LabelledSolid& solid) -> geometry::Box3 { return geometry::Box3::of(solid.solid.vertices); }
+
+/// Units of files: its corners are there when they are written.
+auto written_plan(const geometry::Box3& box) -> geometry::Box2 {
+  return {geometry::xy(units(box.least)), geometry::xy(units(box.most))};
 }
 
 auto has_eaves(const LabelledSolid& solid) -> bool {
   return std::ranges::find(solid.classes, FaceClass::soffit) != solid.classes.end();
 }
 
-auto at_common_height(const LabelledSolid& a, const LabelledSolid& b) -> bool {
-  const Range own = heights_of(a), other = heights_of(b);
-  return std::min(own.high, other.high) > std::max(own.low, other.low);
+/// Whether two solids have a common height, and boxes that meet.
+auto may_meet(const LabelledSolid& a, const LabelledSolid& b) -> bool {
+  const auto own = box_of(a), other = box_of(b);
+  return std::min(own.most.z, other.most.z) > std::max(own.least.z, other.least.z) &&
+         written_plan(own).overlaps(written_plan(other));
 }
 
 /// What of a solid's plan is outside of its ground: roofs that look down by rounding.
@@ -256,14 +257,27 @@ class Clipping {
 }  // namespace
 
 auto share_ground(const LabelledSolid& a, const LabelledSolid& b) -> bool {
-  if (has_eaves(a) || has_eaves(b) || !at_common_height(a, b)) return false;
+  if (has_eaves(a) || has_eaves(b) || !may_meet(a, b)) return false;
   const auto ground_a = ground_of(a), ground_b = ground_of(b);
   return meet(ground_a, ground_b) || meet(overhang_of(a), ground_b) || meet(ground_a, overhang_of(b));
 }
 
 auto overlap(const LabelledSolid& a, const LabelledSolid& b) -> bool {
-  if (has_eaves(a) || has_eaves(b) || !at_common_height(a, b)) return false;
-  return share_ground(a, b) || insides_meet(a.solid, b.solid) || touch_by_chance(a.solid, b.solid);
+  return !has_eaves(a) && !has_eaves(b) && may_meet(a, b) &&
+         (share_ground(a, b) || meet_or_touch_by_chance(a.solid, b.solid));
+}
+
+auto near_each(std::span<const LabelledSolid* const> solids) -> std::vector<std::vector<std::uint32_t>> {
+  std::vector<geometry::Box2> boxes;
+  boxes.reserve(solids.size());
+  for (const auto* solid : solids) boxes.push_back(written_plan(box_of(*solid)));
+  const geometry::BoxIndex index(boxes);
+  std::vector<std::vector<std::uint32_t>> out(solids.size());
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    out[i] = index.overlapping(boxes[i]);
+    std::erase(out[i], i);
+  }
+  return out;
 }
 
 auto wider_than_points(const LabelledSolid& solid, double near) -> bool {
@@ -277,7 +291,7 @@ auto clipped(const LabelledSolid& solid, std::span<const Polygon> over) -> std::
 auto without(const LabelledSolid& solid, std::span<const LabelledSolid* const> others, double gap) -> Rest {
   std::vector<Polygon> rest = ground_of(solid);
   for (const LabelledSolid* other : others) {
-    if (!at_common_height(solid, *other)) continue;
+    if (!may_meet(solid, *other)) continue;
     for (const Polygon& ground : ground_of(*other)) {
       std::vector<Polygon> wide{ground};
       if (gap > 0) {
@@ -304,15 +318,19 @@ auto parted(std::span<const LabelledSolid* const> solids, const std::vector<bool
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, std::greater(),
-                           [&](std::size_t i) { return std::pair(bool{firm[i]}, heights_of(*solids[i]).high); });
-  std::vector<std::size_t> before;
+                           [&](std::size_t i) { return std::pair(bool{firm[i]}, box_of(*solids[i]).most.z); });
+  std::vector<std::size_t> place(count);
+  for (std::size_t i = 0; i < count; ++i) place[order[i]] = i;
+  auto near = near_each(solids);
   for (const std::size_t i : order) {
     if (has_eaves(*solids[i])) continue;
     std::vector<const LabelledSolid*> in_its_way;
-    for (const std::size_t k : before)
+    std::ranges::sort(near[i], {}, [&](std::uint32_t k) { return place[k]; });
+    for (const std::uint32_t k : near[i]) {
+      if (place[k] > place[i]) break;
       if (share_ground(*solids[k], *solids[i]) && (shared == Shared::any || share_wide(*solids[k], *solids[i])))
         in_its_way.push_back(solids[k]);
-    before.push_back(i);
+    }
     if (in_its_way.empty()) continue;
     auto rest = without(*solids[i], in_its_way, 0);
     out.changed[i] = std::move(rest.solid);

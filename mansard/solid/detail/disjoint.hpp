@@ -20,6 +20,11 @@ namespace mansard::solid::detail {
 /// it is chance whether they do, by touch_by_chance().
 [[nodiscard]] auto overlap(const model::LabelledSolid& a, const model::LabelledSolid& b) -> bool;
 
+/// Of each solid the others whose boxes in plan meet its own, ascending: no others can share ground or overlap.
+/// Cost: O(n log n) where few do.
+[[nodiscard]] auto near_each(std::span<const model::LabelledSolid* const> solids)
+    -> std::vector<std::vector<std::uint32_t>>;
+
 /// Whether there is ground wider than two points that become one, `near` units apart.
 [[nodiscard]] auto wider_than_points(const model::LabelledSolid& solid, double near) -> bool;
 

@@ -222,6 +222,10 @@ auto lies_on_by_chance(const Plate& s, const Plate& t) -> bool {
   return false;
 }
 
+auto near_by_chance(const Plate& s, const Plate& t) -> bool {
+  return lies_on_by_chance(s, t) || lies_on_by_chance(t, s);
+}
+
 auto box_of(const std::vector<Plate>& plates) -> geometry::Box3 {
   geometry::Box3 out;
   for (const Plate& plate : plates) out.include(plate.box);
@@ -255,9 +259,10 @@ auto any_two(const model::Solid& a, const model::Solid& b, Test test) -> bool {
 
 auto insides_meet(const model::Solid& a, const model::Solid& b) -> bool { return any_two(a, b, plates_meet); }
 
-auto touch_by_chance(const model::Solid& a, const model::Solid& b) -> bool {
-  return any_two(a, b,
-                 [](const Plate& s, const Plate& t) { return lies_on_by_chance(s, t) || lies_on_by_chance(t, s); });
+auto touch_by_chance(const model::Solid& a, const model::Solid& b) -> bool { return any_two(a, b, near_by_chance); }
+
+auto meet_or_touch_by_chance(const model::Solid& a, const model::Solid& b) -> bool {
+  return any_two(a, b, [](const Plate& s, const Plate& t) { return plates_meet(s, t) || near_by_chance(s, t); });
 }
 
 }  // namespace mansard::solid::detail

@@ -17,4 +17,7 @@ namespace mansard::solid::detail {
 /// faces along two axes, nor above or below a corner of a wall: these are exact in doubles, too.
 [[nodiscard]] auto touch_by_chance(const model::Solid& a, const model::Solid& b) -> bool;
 
+/// One of both, for the cost of one.
+[[nodiscard]] auto meet_or_touch_by_chance(const model::Solid& a, const model::Solid& b) -> bool;
+
 }  // namespace mansard::solid::detail
