@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cctype>
 #include <cmath>
 #include <limits>
@@ -51,27 +52,35 @@ void round_all(Polygons& polygons) {
   for (auto& polygon : polygons) geometry::change_corners(polygon, [](Point2 p) { return rounded(p); });
 }
 
-/// The vertices that some triangles use, and where each is among them.
+/// The vertices that some triangles use, each once, and where each is among them. A table by their last digits
+/// (D. E. Knuth, The Art of Computer Programming 3, 6.4, linear probing): a mesh has the vertices of a place anywhere.
 class Places {
  public:
   Places(const geometry::Mesh& mesh, const std::vector<std::uint32_t>& triangles) {
-    used_.reserve(3 * triangles.size());
-    for (const auto t : triangles) used_.insert(used_.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
-    std::ranges::sort(used_);
-    used_.erase(std::unique(used_.begin(), used_.end()), used_.end());
-    constexpr std::size_t sparse = 8;  // a table costs memory, a search time; never more than 32 bytes a vertex
-    if (used_.empty() || used_.back() - used_.front() >= sparse * used_.size()) return;
-    table_.resize(used_.back() - used_.front() + 1);
-    for (std::size_t i = 0; i < used_.size(); ++i) table_[used_[i] - used_.front()] = static_cast<std::uint32_t>(i);
+    // A surface has half as many vertices as triangles, one in pieces three for each: at most three quarters are full.
+    table_.assign(std::bit_ceil(4 * triangles.size() + 2), nobody);
+    for (const auto t : triangles)
+      for (const auto v : mesh.triangles[t]) {
+        auto& place = table_[slot(v)];
+        if (place != nobody) continue;
+        place = static_cast<std::uint32_t>(used_.size());
+        used_.push_back(v);
+      }
   }
 
   [[nodiscard]] auto used() const -> const std::vector<std::uint32_t>& { return used_; }
-  [[nodiscard]] auto operator()(std::uint32_t vertex) const -> std::size_t {
-    if (!table_.empty()) return table_[vertex - used_.front()];
-    return static_cast<std::size_t>(std::ranges::lower_bound(used_, vertex) - used_.begin());
-  }
+  [[nodiscard]] auto operator()(std::uint32_t vertex) const -> std::size_t { return table_[slot(vertex)]; }
 
  private:
+  static constexpr std::uint32_t nobody = UINT32_MAX;
+
+  /// Where a vertex is, or would be.
+  [[nodiscard]] auto slot(std::uint32_t vertex) const -> std::size_t {
+    std::size_t at = vertex & (table_.size() - 1);
+    while (table_[at] != nobody && used_[table_[at]] != vertex) at = (at + 1) & (table_.size() - 1);
+    return at;
+  }
+
   std::vector<std::uint32_t> used_, table_;
 };
 

@@ -29,38 +29,34 @@ struct Tiles {
   std::size_t halo = 0;  ///< cells
 };
 
+/// The first begins where the region does: that of a block of a few houses is one tile.
 auto tiles_of(const geometry::Mesh& mesh, const Box2& region, const Options& options) -> Tiles {
   const auto side = static_cast<std::int64_t>(std::ceil(tile_side / options.grid));
   const auto halo = static_cast<std::int64_t>(std::ceil(halo_width / options.grid));
-  const auto tile_at = [&](double v) {
-    return static_cast<std::int64_t>(std::floor(v / (options.grid * static_cast<double>(side))));
-  };
-  const std::int64_t west = tile_at(region.least.x), east = tile_at(region.most.x);
-  const std::int64_t south = tile_at(region.least.y), north = tile_at(region.most.y);
-  Tiles out{{}, static_cast<std::size_t>(halo)};
-  const auto columns = static_cast<std::size_t>(east - west + 1);
   const auto cell_at = [&](double v) { return static_cast<std::int64_t>(std::floor(v / options.grid)); };
-  for (std::int64_t row = south; row <= north; ++row)
-    for (std::int64_t column = west; column <= east; ++column) {
-      // No farther than the region: a block of a few houses is a small tile.
-      const auto from_x = std::max(column * side, cell_at(region.least.x)) - halo;
-      const auto from_y = std::max(row * side, cell_at(region.least.y)) - halo;
-      const auto to_x = std::min((column + 1) * side, cell_at(region.most.x) + 1) + halo;
-      const auto to_y = std::min((row + 1) * side, cell_at(region.most.y) + 1) + halo;
-      out.tiles.push_back({{options.grid, from_x, from_y, static_cast<std::size_t>(to_x - from_x),
-                            static_cast<std::size_t>(to_y - from_y)},
-                           {}});
-    }
+  const std::int64_t west = cell_at(region.least.x), east = cell_at(region.most.x) + 1;
+  const std::int64_t south = cell_at(region.least.y), north = cell_at(region.most.y) + 1;
+  Tiles out{{}, static_cast<std::size_t>(halo)};
+  for (std::int64_t y = south; y < north; y += side)
+    for (std::int64_t x = west; x < east; x += side)
+      out.tiles.push_back(
+          {{options.grid, x - halo, y - halo, static_cast<std::size_t>(std::min(x + side, east) - x + 2 * halo),
+            static_cast<std::size_t>(std::min(y + side, north) - y + 2 * halo)},
+           {}});
+  const std::int64_t columns = (east - west + side - 1) / side, rows = (north - south + side - 1) / side;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     Box2 box;
     for (const auto v : mesh.triangles[t]) box.add(xy(mesh.vertices[v]));
     const Box2 reach = box.grown(static_cast<double>(halo + 1) * options.grid);
     if (!reach.overlaps(region)) continue;
-    for (auto row = std::max(south, tile_at(reach.least.y)); row <= std::min(north, tile_at(reach.most.y)); ++row)
-      for (auto column = std::max(west, tile_at(reach.least.x)); column <= std::min(east, tile_at(reach.most.x));
-           ++column)
-        out.tiles[static_cast<std::size_t>(row - south) * columns + static_cast<std::size_t>(column - west)]
-            .triangles.push_back(t);
+    const auto tile_at = [&](double v, std::int64_t first, std::int64_t count) {
+      const std::int64_t cell = cell_at(v) - first;
+      return cell < 0 ? std::int64_t{0} : std::min(cell / side, count - 1);
+    };
+    const auto last_row = tile_at(reach.most.y, south, rows), last_column = tile_at(reach.most.x, west, columns);
+    for (auto row = tile_at(reach.least.y, south, rows); row <= last_row; ++row)
+      for (auto column = tile_at(reach.least.x, west, columns); column <= last_column; ++column)
+        out.tiles[static_cast<std::size_t>(row * columns + column)].triangles.push_back(t);
   }
   return out;
 }

@@ -22,10 +22,43 @@ constexpr double sheet = 0.1;
 /// Share of a square that must be known.
 constexpr double known_share = 0.6;
 
-/// Sums along a column of cells, its own middle being y = 0.
-struct Column {
-  double n = 0, y = 0, yy = 0, z = 0, yz = 0, zz = 0;
+/// Several sums over each cell of a row.
+template <std::size_t Count>
+class Rows {
+ public:
+  explicit Rows(std::size_t columns) : columns_(columns), sums_(Count * columns) {}
+  void clear() { std::ranges::fill(sums_, 0.0); }
+  [[nodiscard]] auto operator[](std::size_t sum) -> double* { return &sums_[sum * columns_]; }
+
+ private:
+  std::size_t columns_;
+  std::vector<double> sums_;
 };
+
+/// A row y of cells to the sums along columns: of 1, y, y², z, y z, z².
+void add_row(const double* known, const double* height, std::size_t count, double y, Rows<6>& columns) {
+  double* __restrict n = columns[0], * __restrict sum_y = columns[1], * __restrict yy = columns[2];
+  double* __restrict z = columns[3], * __restrict yz = columns[4], * __restrict zz = columns[5];
+  for (std::size_t c = 0; c < count; ++c) {
+    n[c] += known[c], sum_y[c] += y * known[c], yy[c] += y * y * known[c];
+    z[c] += height[c], yz[c] += y * height[c], zz[c] += height[c] * height[c];
+  }
+}
+
+/// The columns x = d beside every cell to the sums over squares: of 1, x, y, z, x², x y, y², x z, y z, z².
+void add_columns(Rows<6>& columns, std::ptrdiff_t d, std::size_t count, Rows<10>& squares) {
+  const auto beside = static_cast<std::size_t>(std::abs(d));
+  if (beside >= count) return;
+  const std::size_t from = d < 0 ? 0 : beside, to = d < 0 ? beside : 0;
+  const auto x = static_cast<double>(d);
+  const auto add = [&](std::size_t sum, double factor, std::size_t of) {
+    const double* in = columns[of] + from;
+    double* __restrict out = squares[sum] + to;
+    for (std::size_t c = 0; c < count - beside; ++c) out[c] += factor * in[c];
+  };
+  add(0, 1, 0), add(1, x, 0), add(2, 1, 1), add(3, 1, 3);
+  add(4, x * x, 0), add(5, x, 1), add(6, 1, 2), add(7, x, 3), add(8, 1, 4), add(9, 1, 5);
+}
 
 template <class Better>
 auto extreme_around(const Grid& grid, const std::vector<double>& values, std::size_t half, Better better)
@@ -66,11 +99,10 @@ void each_covered(const std::array<Point3, 3>& t, const Grid& grid, See see) {
   const auto last = static_cast<std::size_t>(index(east, grid.column, grid.columns));
   for (std::size_t row = first_row; row < std::min(grid.rows, last_row + 1); ++row)
     for (std::size_t column = first; column < std::min(grid.columns, last + 1); ++column) {
-      const std::size_t cell = row * grid.columns + column;
-      const Point2 p = grid.centre(cell) - a;
+      const Point2 p = grid.centre(column, row) - a;
       const double u = (p.x * ac.y - p.y * ac.x) / twice, v = (ab.x * p.y - ab.y * p.x) / twice;
       if (u < 0 || v < 0 || u + v > 1) continue;
-      see(cell, t[0].z + u * (t[1].z - t[0].z) + v * (t[2].z - t[0].z));
+      see(row * grid.columns + column, t[0].z + u * (t[1].z - t[0].z) + v * (t[2].z - t[0].z));
     }
 }
 
@@ -99,33 +131,29 @@ auto surface_of(const geometry::Mesh& mesh, std::span<const std::uint32_t> trian
 
 auto planes_of(const Surface& surface, std::size_t half) -> std::vector<Fitted> {
   const auto& grid = surface.grid;
-  const auto reach = static_cast<std::int64_t>(half);
   const double side = 2 * static_cast<double>(half) + 1;
   std::vector<Fitted> out(grid.size(), Fitted{infinite, {}, 0});
-  std::vector<Column> columns(grid.columns);
+  // An unseen cell adds nothing to any sum. Every sum is a row of its own: the compiler takes several cells at a time.
+  std::vector<double> known(grid.size()), height(grid.size());
+  for (std::size_t c = 0; c < grid.size(); ++c) {
+    known[c] = std::isnan(surface.top[c]) ? 0 : 1;
+    height[c] = std::isnan(surface.top[c]) ? 0 : surface.top[c];
+  }
+  Rows<6> columns(grid.columns);
+  Rows<10> squares(grid.columns);
   for (std::size_t row = 0; row < grid.rows; ++row) {
+    columns.clear();
     const std::size_t first = row >= half ? row - half : 0, last = std::min(grid.rows, row + half + 1);
+    for (std::size_t r = first; r < last; ++r)
+      add_row(&known[r * grid.columns], &height[r * grid.columns], grid.columns,
+              static_cast<double>(r) - static_cast<double>(row), columns);
+    squares.clear();
+    const auto reach = static_cast<std::ptrdiff_t>(half);
+    for (std::ptrdiff_t d = -reach; d <= reach; ++d) add_columns(columns, d, grid.columns, squares);
     for (std::size_t c = 0; c < grid.columns; ++c) {
-      Column sums;
-      for (std::size_t r = first; r < last; ++r) {
-        const double z = surface.top[r * grid.columns + c], y = static_cast<double>(r) - static_cast<double>(row);
-        if (std::isnan(z)) continue;
-        sums.n += 1, sums.y += y, sums.yy += y * y, sums.z += z, sums.yz += y * z, sums.zz += z * z;
-      }
-      columns[c] = sums;
-    }
-    for (std::size_t c = 0; c < grid.columns; ++c) {
-      geometry::PlaneSums sums;
-      double zz = 0;
-      for (std::int64_t d = -reach; d <= reach; ++d) {
-        const std::int64_t at = static_cast<std::int64_t>(c) + d;
-        if (at < 0 || at >= static_cast<std::int64_t>(grid.columns)) continue;
-        const Column& of = columns[static_cast<std::size_t>(at)];
-        const auto x = static_cast<double>(d);
-        sums.count += of.n, sums.x += x * of.n, sums.y += of.y, sums.z += of.z;
-        sums.xx += x * x * of.n, sums.xy += x * of.y, sums.yy += of.yy, sums.xz += x * of.z, sums.yz += of.yz;
-        zz += of.zz;
-      }
+      const auto at = [&](std::size_t sum) { return squares[sum][c]; };
+      const geometry::PlaneSums sums{at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7), at(8)};
+      const double zz = at(9);
       if (sums.count < known_share * side * side) continue;
       const auto equations = sums.centred();
       // Sums of integers: exact, and 0 where all samples are on one line.

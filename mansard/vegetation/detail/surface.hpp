@@ -17,9 +17,12 @@ struct Grid {
   std::int64_t column = 0, row = 0;  ///< of the first cell, counted from the origin of the frame
   std::size_t columns = 0, rows = 0;
   [[nodiscard]] auto size() const -> std::size_t { return columns * rows; }
+  [[nodiscard]] auto centre(std::size_t x, std::size_t y) const -> geometry::Point2 {
+    return {(static_cast<double>(column + static_cast<std::int64_t>(x)) + 0.5) * spacing,
+            (static_cast<double>(row + static_cast<std::int64_t>(y)) + 0.5) * spacing};
+  }
   [[nodiscard]] auto centre(std::size_t cell) const -> geometry::Point2 {
-    return {(static_cast<double>(column + static_cast<std::int64_t>(cell % columns)) + 0.5) * spacing,
-            (static_cast<double>(row + static_cast<std::int64_t>(cell / columns)) + 0.5) * spacing};
+    return centre(cell % columns, cell / columns);
   }
 };
 
