@@ -28,9 +28,18 @@ class Ends {
     std::ranges::sort(entries_);
   }
 
-  /// The acceptable piece with an end nearest to `at`, within `radius`; the lowest number among equals.
+  /// The acceptable piece with an end nearest to `at`, within `radius`; the lowest number among equals. Pieces of a
+  /// surface are joined, so that it is mostly found right there.
   template <class Accept>
   [[nodiscard]] auto nearest(SectionPoint at, double radius, Accept accept) const -> std::size_t {
+    for (const double share : {1.0 / 64, 1.0 / 8, 1.0})
+      if (const auto found = nearest_of_all(at, share * radius, accept); found != none) return found;
+    return none;
+  }
+
+ private:
+  template <class Accept>
+  [[nodiscard]] auto nearest_of_all(SectionPoint at, double radius, Accept accept) const -> std::size_t {
     std::size_t best = none;
     double least = radius * radius;
     auto entry = std::ranges::lower_bound(entries_, std::pair{at.inward - radius, std::size_t{0}});
@@ -44,7 +53,6 @@ class Ends {
     return best;
   }
 
- private:
   std::span<const Piece> pieces_;
   std::vector<std::pair<double, std::size_t>> entries_;
 };

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
+#include <cstdint>
+#include <tuple>
 #include <utility>
 
 #include "mansard/sweep/detail/units.hpp"
@@ -58,12 +59,11 @@ auto join(std::vector<Segment2> segments) -> std::vector<Chain> {
     if (used[i] == 0 && !std::binary_search(ends.begin(), ends.end(), segments[i].start)) follow(i);
   // Closed ones from their westernmost point. Vertices of a raster have one x, so that rounding would choose among
   // them.
-  std::vector<std::size_t> order(segments.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, {}, [&](std::size_t i) {
-    return std::pair(in_units(segments[i].start.x), in_units(segments[i].start.y));
-  });
-  for (const std::size_t i : order)
+  std::vector<std::tuple<std::int64_t, std::int64_t, std::size_t>> rest;
+  for (std::size_t i = 0; i < segments.size(); ++i)
+    if (used[i] == 0) rest.emplace_back(in_units(segments[i].start.x), in_units(segments[i].start.y), i);
+  std::sort(rest.begin(), rest.end());
+  for (const auto& [x, y, i] : rest)
     if (used[i] == 0) follow(i);
   return chains;
 }
