@@ -18,11 +18,16 @@ Nearness::Nearness(const std::vector<geometry::Polygon>& area, double reach) : a
     for (std::size_t i = 0; i < ring.size(); ++i) edges_.push_back({ring[i], ring[(i + 1) % ring.size()]});
   };
   for (const auto& polygon : area_) {
+    boxes_.push_back(geometry::bounds(polygon.outer));
     add(polygon.outer);
     for (const auto& hole : polygon.holes) add(hole);
   }
   box_ = geometry::bounds(area_).grown(reach);
   if (edges_.empty()) return;
+  std::vector<Box2> boxes;
+  boxes.reserve(edges_.size());
+  for (const auto& edge : edges_) boxes.push_back(Box2::of(edge));
+  index_ = geometry::BoxIndex(boxes);
 
   // Some thousand cells: few enough to be made quickly, small enough to leave few triangles to the exact test.
   const Point2 extent = box_.most - box_.least;
@@ -43,7 +48,9 @@ Nearness::Nearness(const std::vector<geometry::Polygon>& area, double reach) : a
 }
 
 auto Nearness::holds(Point2 p) const -> bool {
-  return std::ranges::any_of(area_, [p](const auto& polygon) { return geometry::contains(polygon, p); });
+  for (std::size_t i = 0; i < area_.size(); ++i)
+    if (boxes_[i].contains(p) && geometry::contains(area_[i], p)) return true;
+  return false;
 }
 
 auto Nearness::distance(Point2 p) const -> double {
@@ -58,15 +65,14 @@ auto Nearness::place(double along, double least, std::size_t count) const -> std
 }
 
 auto Nearness::exactly(const PlanTriangle& t) const -> bool {
-  const Box2 reach = Box2::of(t).grown(reach_);
-  for (const auto& edge : edges_) {
-    if (!reach.overlaps(Box2::of(edge))) continue;
+  const Box2 box = Box2::of(t);
+  for (const auto e : index_.overlapping(box.grown(reach_)))
     for (std::size_t k = 0; k < 3; ++k)
-      if (detail::distance({t[k], t[(k + 1) % 3]}, edge) <= reach_) return true;
-  }
+      if (detail::distance({t[k], t[(k + 1) % 3]}, edges_[e]) <= reach_) return true;
   // No edge is near the triangle's sides: one is wholly inside the other, or they are apart.
-  return holds(t[0]) || std::ranges::any_of(area_, [&t](const auto& polygon) {
-           return geometry::contains(std::span<const Point2>(t), polygon.outer.front());
+  return holds(t[0]) || std::ranges::any_of(area_, [&](const auto& polygon) {
+           const Point2 corner = polygon.outer.front();
+           return box.contains(corner) && geometry::contains(std::span<const Point2>(t), corner);
          });
 }
 

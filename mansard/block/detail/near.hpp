@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "mansard/geometry/box_index.hpp"
 #include "mansard/geometry/mesh.hpp"
 #include "mansard/geometry/polygon.hpp"
 
@@ -38,7 +39,9 @@ class Nearness {
   [[nodiscard]] auto distance(geometry::Point2 p) const -> double;
 
   std::vector<geometry::Polygon> area_;
+  std::vector<geometry::Box2> boxes_;  ///< of the polygons
   std::vector<geometry::Segment2> edges_;
+  geometry::BoxIndex index_;  ///< of the edges
   double reach_ = 0, size_ = 1;
   geometry::Box2 box_;
   std::size_t columns_ = 0, rows_ = 0;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "mansard/geometry/predicates.hpp"
 
@@ -13,12 +15,23 @@ using geometry::Box2;
 using geometry::Point2;
 using geometry::Point3;
 
-/// Whether p is in the triangle or on its boundary; `turn` is the triangle's own orientation.
-auto holds(const std::array<Point2, 3>& t, int turn, Point2 p) -> bool {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (geometry::orientation(t[k], t[(k + 1) % 3], p) == -turn) return false;
+/// Whether p is in the triangle, which has an area, or on its boundary: it is not on both sides of its edges' lines.
+auto holds(const std::array<Point2, 3>& t, Point2 p) -> bool {
+  int side = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const int turn = geometry::orientation(t[k], t[(k + 1) % 3], p);
+    if (turn * side < 0) return false;
+    if (turn != 0) side = turn;
+  }
   return true;
 }
+
+/// The nearest float that is not above, or not below.
+auto floor_of(double value) -> float {
+  const auto near = static_cast<float>(value);
+  return near <= value ? near : std::nextafter(near, -std::numeric_limits<float>::infinity());
+}
+auto ceiling_of(double value) -> float { return -floor_of(-value); }
 
 /// z of the triangle's plane at p, which is over the triangle. The bounds matter to needles, whose plane is ill
 /// conditioned.
@@ -43,20 +56,29 @@ auto FromAbove::Axis::cell(double along) const -> std::size_t {
 FromAbove::FromAbove(const geometry::Mesh& mesh) : mesh_(&mesh) {
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
     const auto& t = mesh.triangles[i];
-    const Point2 a = xy(mesh.vertices[t[0]]), b = xy(mesh.vertices[t[1]]), c = xy(mesh.vertices[t[2]]);
-    const int turn = geometry::orientation(a, b, c);
-    if (turn == 0) continue;
+    const Point3 a = mesh.vertices[t[0]], b = mesh.vertices[t[1]], c = mesh.vertices[t[2]];
+    if (geometry::orientation(xy(a), xy(b), xy(c)) == 0) continue;
     Box2 box;
-    for (const Point2 p : {a, b, c}) box.add(p);
-    flat_.push_back(i);
-    turns_.push_back(static_cast<std::int8_t>(turn));
-    boxes_.push_back(box);
-    box_.add(box.least);
-    box_.add(box.most);
+    for (const Point3 p : {a, b, c}) box.add(xy(p));
+    flat_.push_back({floor_of(box.least.x), floor_of(box.least.y), ceiling_of(box.most.x), ceiling_of(box.most.y),
+                     ceiling_of(std::max({a.z, b.z, c.z})), i});
+    box_.include(box);
   }
   if (flat_.empty()) return;
   choose_cells(box_);
+  order_by_cell();
   fill();
+}
+
+/// So that what is looked at for one point lies together in memory.
+void FromAbove::order_by_cell() {
+  std::vector<std::uint32_t> start(x_.count * y_.count + 1, 0);
+  const auto cell = [this](const Flat& one) { return cell_of({one.west, one.south}); };
+  for (const Flat& one : flat_) ++start[cell(one) + 1];
+  for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
+  std::vector<Flat> ordered(flat_.size());
+  for (const Flat& one : flat_) ordered[start[cell(one)]++] = one;
+  flat_ = std::move(ordered);
 }
 
 /// About two triangles a cell, and fewer cells while triangles reach over too many of them.
@@ -76,38 +98,41 @@ void FromAbove::choose_cells(const Box2& box) {
 
 auto FromAbove::entries() const -> std::size_t {
   std::size_t sum = 0;
-  for (const Box2& b : boxes_)
-    sum += (x_.cell(b.most.x) - x_.cell(b.least.x) + 1) * (y_.cell(b.most.y) - y_.cell(b.least.y) + 1);
+  for (const Flat& one : flat_)
+    sum += (x_.cell(one.east) - x_.cell(one.west) + 1) * (y_.cell(one.north) - y_.cell(one.south) + 1);
   return sum;
 }
 
+template <class Visit>
+void FromAbove::each_cell(const Flat& one, Visit visit) const {
+  for (std::size_t row = y_.cell(one.south), last = y_.cell(one.north); row <= last; ++row)
+    for (std::size_t column = x_.cell(one.west), end = x_.cell(one.east); column <= end; ++column)
+      visit(row * x_.count + column);
+}
+
 void FromAbove::fill() {
-  const auto each_cell = [&](const Box2& b, const auto& visit) {
-    for (std::size_t row = y_.cell(b.least.y), last = y_.cell(b.most.y); row <= last; ++row)
-      for (std::size_t column = x_.cell(b.least.x), end = x_.cell(b.most.x); column <= end; ++column)
-        visit(row * x_.count + column);
-  };
   start_.assign(x_.count * y_.count + 1, 0);
-  for (const Box2& b : boxes_) each_cell(b, [&](std::size_t cell) { ++start_[cell + 1]; });
+  for (const Flat& one : flat_) each_cell(one, [&](std::size_t cell) { ++start_[cell + 1]; });
   for (std::size_t i = 1; i < start_.size(); ++i) start_[i] += start_[i - 1];
   inside_.resize(start_.back());
   auto next = start_;
-  for (std::uint32_t i = 0; i < boxes_.size(); ++i)
-    each_cell(boxes_[i], [&](std::size_t cell) { inside_[next[cell]++] = i; });
+  for (std::uint32_t i = 0; i < flat_.size(); ++i)
+    each_cell(flat_[i], [&](std::size_t cell) { inside_[next[cell]++] = i; });
 }
 
 auto FromAbove::operator()(Point2 at) const -> std::optional<Seen> {
   if (flat_.empty() || !box_.contains(at)) return std::nullopt;
-  const std::size_t cell = y_.cell(at.y) * x_.count + x_.cell(at.x);
+  const std::size_t cell = cell_of(at);
   std::optional<Seen> best;
   for (std::size_t k = start_[cell]; k < start_[cell + 1]; ++k) {
-    const std::uint32_t i = inside_[k];
-    if (!boxes_[i].contains(at)) continue;
-    const auto& t = mesh_->triangles[flat_[i]];
+    const auto& [west, south, east, north, top, triangle] = flat_[inside_[k]];
+    if (at.x < west || at.x > east || at.y < south || at.y > north || (best && top < best->z)) continue;
+    const auto& t = mesh_->triangles[triangle];
     const Point3 a = mesh_->vertices[t[0]], b = mesh_->vertices[t[1]], c = mesh_->vertices[t[2]];
-    if (best && std::max({a.z, b.z, c.z}) <= best->z) continue;
-    if (!holds({xy(a), xy(b), xy(c)}, turns_[i], at)) continue;
-    if (const double z = height(a, b, c, at); !best || z > best->z) best = Seen{z, flat_[i]};
+    if (!holds({xy(a), xy(b), xy(c)}, at)) continue;
+    const double z = height(a, b, c, at);
+    // Of several at one height the first of the mesh.
+    if (!best || z > best->z || (z == best->z && triangle < best->triangle)) best = Seen{z, triangle};
   }
   return best;
 }

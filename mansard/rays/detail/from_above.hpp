@@ -32,18 +32,25 @@ class FromAbove {
     std::size_t count = 1;
     [[nodiscard]] auto cell(double along) const -> std::size_t;
   };
+  /// A triangle with an area in plan: its box in plan and its top, rounded outward to floats, as a first answer.
+  struct Flat {
+    float west = 0, south = 0, east = 0, north = 0, top = 0;
+    std::uint32_t triangle = 0;
+  };
+  [[nodiscard]] auto cell_of(geometry::Point2 p) const -> std::size_t { return y_.cell(p.y) * x_.count + x_.cell(p.x); }
+  template <class Visit>
+  void each_cell(const Flat& one, Visit visit) const;
   void choose_cells(const geometry::Box2& box);
+  void order_by_cell();
   [[nodiscard]] auto entries() const -> std::size_t;
   void fill();
 
   const geometry::Mesh* mesh_;
-  std::vector<std::uint32_t> flat_;    ///< triangles with an area in plan
-  std::vector<geometry::Box2> boxes_;  ///< of these, in plan
-  std::vector<std::int8_t> turns_;     ///< the orientation of each, in plan
+  std::vector<Flat> flat_;  ///< by the cells of their south-western corners, in the mesh's order
   geometry::Box2 box_;
   Axis x_, y_;
   std::vector<std::size_t> start_;     ///< of cell i: inside_[start_[i]] … inside_[start_[i + 1] - 1]
-  std::vector<std::uint32_t> inside_;  ///< indices into flat_, ascending per cell
+  std::vector<std::uint32_t> inside_;  ///< indices into flat_
 };
 
 }  // namespace mansard::rays::detail
