@@ -5,10 +5,10 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "mansard/evaluate/detail/corners.hpp"
 #include "mansard/evaluate/detail/degree.hpp"
-#include "mansard/evaluate/detail/normals.hpp"
 #include "mansard/evaluate/detail/shared_boundary.hpp"
 #include "mansard/evaluate/detail/steep.hpp"
 #include "mansard/evaluate/planes.hpp"
@@ -49,19 +49,15 @@ void count_steep(const FormInput& model, const geometry::Mesh& scan, Form& out) 
     for (const auto& part : building.parts)
       for (const auto& face : part.faces)
         if (const auto plane = model.planes.plane_of_face[number++]; plane != no_plane) faces[plane].push_back(&face);
-  std::vector<std::size_t> steep;
+  std::vector<detail::SteepPlane> steep;
   for (std::size_t p = 0; p < faces.size(); ++p)
-    if (model.planes.planes[p].normal.z < geometry::cosine(steep_pitch * degree)) steep.push_back(p);
-  const auto normals = steep.empty() ? std::vector<Point3>() : detail::normals_of(scan);
-  enum class Evidence : std::uint8_t { some, none, unknown };
-  std::vector<Evidence> evidence(steep.size());
-  base::parallel_for(steep.size(), [&](std::size_t i) {
-    const auto area = detail::carried(model.planes.planes[steep[i]], faces[steep[i]], scan, normals);
-    evidence[i] = !area ? Evidence::unknown : *area < steep_evidence ? Evidence::none : Evidence::some;
-  });
+    if (const auto& plane = model.planes.planes[p]; plane.normal.z < geometry::cosine(steep_pitch * degree))
+      steep.push_back({&plane, std::move(faces[p])});
   out.steep = steep.size();
-  out.steep_bare = static_cast<std::size_t>(std::ranges::count(evidence, Evidence::none));
-  out.unchecked += static_cast<std::size_t>(std::ranges::count(evidence, Evidence::unknown));
+  for (const auto& area : detail::carried(steep, scan)) {
+    if (!area) ++out.unchecked;
+    else if (*area < steep_evidence) ++out.steep_bare;
+  }
 }
 
 /// One part: the ground it is on, how high it is, and its longest ridge.

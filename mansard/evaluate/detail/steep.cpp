@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <utility>
 
+#include "mansard/base/run.hpp"
 #include "mansard/geometry/angles.hpp"
+#include "mansard/geometry/box_index.hpp"
 #include "mansard/geometry/change.hpp"
 
 namespace mansard::evaluate::detail {
@@ -32,18 +36,43 @@ auto drawn(const model::ModelFace& face, const Axes& axes) -> base::Result<std::
       geometry::oriented(geometry::polygon_of(face.loops, [&](Point3 p) { return axes.on(p); })));
 }
 
-}  // namespace
+/// Of each box the triangles whose boxes in plan meet it, ascending.
+auto triangles_near(const std::vector<geometry::Box2>& boxes, const geometry::Mesh& scan)
+    -> std::vector<std::vector<std::uint32_t>> {
+  std::vector<std::vector<std::uint32_t>> out(boxes.size());
+  const geometry::BoxIndex index(boxes);
+  constexpr std::size_t piece = 1 << 16;
+  const std::size_t pieces = (scan.triangles.size() + piece - 1) / piece;
+  std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> found(pieces);
+  base::parallel_for(pieces, [&](std::size_t k) {
+    for (std::size_t t = k * piece; t < std::min(scan.triangles.size(), (k + 1) * piece); ++t) {
+      geometry::Box2 box;
+      for (const auto v : scan.triangles[t]) box.add(xy(scan.vertices[v]));
+      for (const auto one : index.overlapping(box)) found[k].emplace_back(one, static_cast<std::uint32_t>(t));
+    }
+  });
+  for (const auto& some : found)
+    for (const auto& [one, triangle] : some) out[one].push_back(triangle);
+  return out;
+}
 
-auto carried(const RoofPlane& plane, const std::vector<const model::ModelFace*>& faces, const geometry::Mesh& scan,
-             const std::vector<Point3>& normals) -> base::Result<double> {
+auto around(const SteepPlane& steep) -> geometry::Box2 {
+  geometry::Box2 box;
+  for (const auto* face : steep.faces)
+    for (const Point3 p : face->loops[0]) box.add(xy(p));
+  return box.grown(off);
+}
+
+/// By those triangles of the scan.
+auto carried_by(const SteepPlane& steep, const std::vector<std::uint32_t>& triangles, const geometry::Mesh& scan)
+    -> base::Result<double> {
+  const RoofPlane& plane = *steep.plane;
   const Axes axes(plane);
   std::vector<geometry::Polygon> pieces;
-  std::vector<Point3> corners;
-  for (const auto* face : faces) {
+  for (const auto* face : steep.faces) {
     const auto flat = drawn(*face, axes);
     if (!flat) return flat.failure();
     pieces.insert(pieces.end(), flat->begin(), flat->end());
-    corners.insert(corners.end(), face->loops[0].begin(), face->loops[0].end());
   }
   const auto whole = geometry::unite(pieces);
   if (!whole) return whole.failure();
@@ -53,19 +82,29 @@ auto carried(const RoofPlane& plane, const std::vector<const model::ModelFace*>&
     return std::ranges::any_of(
         *whole, [&](const auto& one) { return contains(one, at) && geometry::boundary_distance(one, at) > inset; });
   };
-  const auto box = geometry::Box3::of(corners);
-  const auto around = box.plan().grown(off);
+  const auto box = around(steep);
   double sum = 0;
-  for (std::size_t t = 0; t < scan.triangles.size(); ++t) {
+  for (const auto t : triangles) {
     const auto& triangle = scan.triangles[t];
     const Point3 a = scan.vertices[triangle[0]], b = scan.vertices[triangle[1]], c = scan.vertices[triangle[2]];
-    if (!around.contains(xy(a)) && !around.contains(xy(b)) && !around.contains(xy(c))) continue;
-    if (std::abs(dot(normals[t], plane.normal)) < geometry::cosine(turned)) continue;
-    const double share = length(cross(b - a, c - a)) / 6;
+    const Point3 twice = cross(b - a, c - a);
+    if (std::abs(dot(normalised(twice), plane.normal)) < geometry::cosine(turned)) continue;
     for (const auto p : {a, b, c})
-      if (around.contains(xy(p)) && inside(p)) sum += share;
+      if (box.contains(xy(p)) && inside(p)) sum += length(twice) / 6;
   }
   return sum;
+}
+
+}  // namespace
+
+auto carried(std::span<const SteepPlane> planes, const geometry::Mesh& scan) -> std::vector<base::Result<double>> {
+  std::vector<geometry::Box2> boxes;
+  boxes.reserve(planes.size());
+  for (const auto& one : planes) boxes.push_back(around(one));
+  const auto near = triangles_near(boxes, scan);
+  std::vector<base::Result<double>> out(planes.size(), 0.0);
+  base::parallel_for(planes.size(), [&](std::size_t i) { out[i] = carried_by(planes[i], near[i], scan); });
+  return out;
 }
 
 }  // namespace mansard::evaluate::detail
