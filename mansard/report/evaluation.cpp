@@ -190,7 +190,9 @@ auto prism_lines(const evaluate::Scores& prism, const std::vector<BuildingScores
     -> std::string {
   const auto ids = ids_of(buildings, worse);
   std::string named;
-  for (const auto& id : ids) named += (named.empty() ? ": " : ", ") + id;
+  constexpr std::size_t most_named = 8;  // about one line more; all of them are in the report
+  for (std::size_t i = 0; i < std::min(ids.size(), most_named); ++i) named += (i == 0 ? ": " : ", ") + ids[i];
+  if (ids.size() > most_named) named += " and " + std::to_string(ids.size() - most_named) + " more";
   return line("  flat prisms in its place", to_text(prism.footprint_mse, 4) + " m²") +
          line("  worse than their prism",
               std::to_string(ids.size()) + " of " + std::to_string(buildings.size()) + " buildings" + named);
