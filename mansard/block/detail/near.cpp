@@ -13,6 +13,9 @@ using geometry::Point2;
 using geometry::Ring;
 using geometry::Segment2;
 
+/// More are found by an index, whose answer takes memory for each triangle.
+constexpr std::size_t few_edges = 64;
+
 Nearness::Nearness(const std::vector<geometry::Polygon>& area, double reach) : area_(area), reach_(reach) {
   const auto add = [this](const Ring& ring) {
     for (std::size_t i = 0; i < ring.size(); ++i) edges_.push_back({ring[i], ring[(i + 1) % ring.size()]});
@@ -24,10 +27,12 @@ Nearness::Nearness(const std::vector<geometry::Polygon>& area, double reach) : a
   }
   box_ = geometry::bounds(area_).grown(reach);
   if (edges_.empty()) return;
-  std::vector<Box2> boxes;
-  boxes.reserve(edges_.size());
-  for (const auto& edge : edges_) boxes.push_back(Box2::of(edge));
-  index_ = geometry::BoxIndex(boxes);
+  if (edges_.size() > few_edges) {
+    std::vector<Box2> boxes;
+    boxes.reserve(edges_.size());
+    for (const auto& edge : edges_) boxes.push_back(Box2::of(edge));
+    index_ = geometry::BoxIndex(boxes);
+  }
 
   // Some thousand cells: few enough to be made quickly, small enough to leave few triangles to the exact test.
   const Point2 extent = box_.most - box_.least;
@@ -65,10 +70,18 @@ auto Nearness::place(double along, double least, std::size_t count) const -> std
 }
 
 auto Nearness::exactly(const PlanTriangle& t) const -> bool {
-  const Box2 box = Box2::of(t);
-  for (const auto e : index_.overlapping(box.grown(reach_)))
+  const Box2 box = Box2::of(t), reach = box.grown(reach_);
+  const auto is_near = [&](const Segment2& edge) {
     for (std::size_t k = 0; k < 3; ++k)
-      if (detail::distance({t[k], t[(k + 1) % 3]}, edges_[e]) <= reach_) return true;
+      if (detail::distance({t[k], t[(k + 1) % 3]}, edge) <= reach_) return true;
+    return false;
+  };
+  if (edges_.size() <= few_edges) {
+    for (const auto& edge : edges_)
+      if (reach.overlaps(Box2::of(edge)) && is_near(edge)) return true;
+  } else if (std::ranges::any_of(index_.overlapping(reach), [&](auto e) { return is_near(edges_[e]); })) {
+    return true;
+  }
   // No edge is near the triangle's sides: one is wholly inside the other, or they are apart.
   return holds(t[0]) || std::ranges::any_of(area_, [&](const auto& polygon) {
            const Point2 corner = polygon.outer.front();

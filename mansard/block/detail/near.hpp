@@ -41,7 +41,7 @@ class Nearness {
   std::vector<geometry::Polygon> area_;
   std::vector<geometry::Box2> boxes_;  ///< of the polygons
   std::vector<geometry::Segment2> edges_;
-  geometry::BoxIndex index_;  ///< of the edges
+  geometry::BoxIndex index_;  ///< of the edges, where they are many
   double reach_ = 0, size_ = 1;
   geometry::Box2 box_;
   std::size_t columns_ = 0, rows_ = 0;

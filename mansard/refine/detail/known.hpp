@@ -35,11 +35,13 @@ class KnownRoofs {
 
  private:
   struct TooDear {
+    std::uint64_t key = 0;
     model::Plan plan;
     double least_cost = 0;
   };
   mutable std::mutex mutex_;
-  std::deque<Known> roofs_;  // addresses stay
+  std::deque<Known> roofs_;          // addresses stay
+  std::vector<std::uint64_t> keys_;  // of the roofs: equal plans have equal ones
   std::vector<TooDear> too_dear_;
 };
 
