@@ -22,9 +22,9 @@ auto attributes() -> std::vector<formats::Attribute> {
   add("ms_source_date", building, "string", "",
       "The date of the scan, as pipeline.survey_date gives it; absent where that is empty.");
   add("ms_nodata_share", building, "number", "",
-      "Share of the footprint without a surface of the mesh, 0 to 1; only with a mesh.");
+      "Share of the footprint without a surface of the mesh or below the crown of a tree, 0 to 1; only with a mesh.");
   add("ms_nodata_radius", building, "number", "m",
-      "Radius of the largest circle in the footprint without a surface of the mesh; only with a mesh.");
+      "Radius of the largest circle in the footprint without such a surface; only with a mesh.");
   add("ms_point_density", building, "number", "1/m²",
       "Points of the point clouds over the footprint per square metre of it, without noise and points that are "
       "withheld; "

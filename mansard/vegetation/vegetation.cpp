@@ -62,8 +62,9 @@ auto tiles_of(const geometry::Mesh& mesh, const Box2& region, const Options& opt
 }
 
 /// Above which z a crown's triangles are, per cell of the surface; infinite elsewhere.
+/// `over_all`: whether it covers most of a building.
 void lower(std::vector<double>& floor, const Blob& blob, const Surface& surface,
-           std::span<const geometry::Polygon> outline, const Options& options) {
+           std::span<const geometry::Polygon> outline, bool over_all, const Options& options) {
   constexpr double deeper = 0.3;  // m: noise, and the sides of the outermost cells
   constexpr double below = 1.0;   // m: what is so far under a crown's lowest does not carry it
   const auto& grid = surface.grid;
@@ -77,7 +78,9 @@ void lower(std::vector<double>& floor, const Blob& blob, const Surface& surface,
   const auto is_roof = [&](std::uint32_t cell) {
     if (blob.dome) return false;
     const auto at = grid.centre(cell);
-    return std::ranges::any_of(outline, [&](const auto& polygon) { return geometry::contains(polygon, at); }) &&
+    // Nor is a small building nothing but crown because one touches it.
+    if (over_all) return std::isnan(surface.under[cell]);
+    return detail::is_inside(outline, at) &&
            std::ranges::none_of(hanging, [&](geometry::Point2 p) { return length(p - at) <= options.near_underside; });
   };
   for (const auto c : blob.cells) {
@@ -98,8 +101,9 @@ void lower(std::vector<double>& floor, const Blob& blob, const Surface& surface,
 
 }  // namespace
 
-auto find(const geometry::Mesh& mesh, std::span<const geometry::Polygon> outline, const Options& options,
-          const base::Run& run) -> Found {
+auto find(const geometry::Mesh& mesh, std::span<const geometry::Polygon> outline,
+          std::span<const std::vector<geometry::Polygon>> footprints, const Options& options, const base::Run& run)
+    -> Found {
   Found out;
   Box2 region = geometry::bounds(outline);
   if (!options.mask || region.empty() || mesh.triangles.empty()) return out;
@@ -115,8 +119,11 @@ auto find(const geometry::Mesh& mesh, std::span<const geometry::Polygon> outline
     const auto& grid = surface.grid;
     std::vector<double> floor(grid.size(), std::numeric_limits<double>::infinity());
     for (const auto& blob : blobs) {
+      const bool over_all = detail::covers_any(blob, grid, footprints);
+      // A scan rounds a shed until it has the shape of a crown; but a tree is not just as large as what it stands over.
+      if (over_all && blob.seen.inside > blob.seen.area / 2) continue;
       each[i].crowns.push_back(blob.seen);
-      lower(floor, blob, surface, outline, options);
+      lower(floor, blob, surface, outline, over_all, options);
     }
     // The sides of a crown are steep: what is next to a cell counts with it.
     floor = detail::least_around(grid, floor, 1);

@@ -60,8 +60,10 @@ struct Found {
 /// Regions of the top surface that are rough at the scale of a metre or two, slope to all sides and hang over what is
 /// below them. Guarantees: 1 a mesh of planes wider than `window` has no crowns ·
 /// 2 the same bytes at any thread count · 3 no triangle farther than reach + margin from the outline is named.
-/// Cost: O(area / grid² + triangles).
-[[nodiscard]] auto find(const geometry::Mesh& mesh, std::span<const geometry::Polygon> outline, const Options& options,
+/// `footprints`: the buildings that make the outline. A region that covers most of one of them is that building, unless
+/// half of it is beyond; then what has no visible underside is still roof. Cost: O(area / grid² + triangles).
+[[nodiscard]] auto find(const geometry::Mesh& mesh, std::span<const geometry::Polygon> outline,
+                        std::span<const std::vector<geometry::Polygon>> footprints, const Options& options,
                         const base::Run& run = {}) -> Found;
 
 /// The mesh without those triangles.

@@ -73,7 +73,7 @@ auto in_outline(Point2 p) -> bool { return p.x >= 0 && p.x <= 12 && p.y >= 0 && 
 /// A gabled house on level ground; its walls are the steep triangles of the sheet.
 auto gable(Point2 p) -> double { return in_outline(p) ? 6 + 0.7 * (5 - std::abs(p.y - 5)) : 0; }
 
-auto found(const Mesh& mesh) -> Found { return find(mesh, std::vector{outline}, {}); }
+auto found(const Mesh& mesh) -> Found { return find(mesh, std::vector{outline}, {}, {}); }
 
 /// Whether a triangle has its middle within a distance of a place, in plan.
 auto any_near(const Mesh& mesh, std::span<const std::uint32_t> triangles, Point2 place, double within) -> bool {
@@ -115,7 +115,7 @@ TEST(Vegetation, takes_over_the_footprints_what_is_near_a_visible_underside_only
   const auto cells = [&](double near_underside) {
     Options options;
     options.near_underside = near_underside;
-    return find(all, std::vector{outline}, options).below.size();
+    return find(all, std::vector{outline}, {}, options).below.size();
   };
   EXPECT_GT(cells(0.25), 0U);
   EXPECT_LT(cells(0.25), cells(1));
@@ -227,6 +227,35 @@ TEST(Vegetation, leaves_what_hangs_over_a_roof_but_is_lower_in_its_middle) {
   EXPECT_TRUE(found(cup(1.05)).crowns.empty());
 }
 
+/// A shed that a scan has rounded until it is a crown's shape.
+const Polygon shed{{{4.3, 3.3}, {7.7, 3.3}, {7.7, 6.7}, {4.3, 6.7}}, {}};
+auto rounded_shed(Point2 p) -> double { return std::max(0.0, 0.8 + crown_over(p, {6, 5})); }
+
+auto buildings(const std::vector<Polygon>& one) -> std::vector<std::vector<Polygon>> { return {one}; }
+
+TEST(Vegetation, takes_no_shed_for_the_crown_of_a_tree) {
+  const auto mesh = sheet(ground, 0.25, rounded_shed);
+  const std::vector<Polygon> plan{shed};
+  EXPECT_EQ(find(mesh, plan, {}, {}).crowns.size(), 1U) << "it has the shape of one";
+  EXPECT_TRUE(find(mesh, plan, buildings(plan), {}).crowns.empty());
+  // A footprint that is hardly covered says nothing of what is on it.
+  const std::vector<Polygon> large{{{{-2, -2}, {12, -2}, {12, 12}, {-2, 12}}, {}}};
+  EXPECT_EQ(find(mesh, large, buildings(large), {}).crowns.size(), 1U);
+}
+
+TEST(Vegetation, leaves_of_a_shed_below_a_tree_what_has_no_visible_underside) {
+  // The crown is beside the shed, joins it, and with it is one region.
+  const auto mesh = both(sheet(ground, 0.25, rounded_shed), ball({3.4, 5, 3.2}, 2.2, 0.2));
+  const std::vector<Polygon> plan{shed};
+  const auto all = find(mesh, plan, {}, {}), known = find(mesh, plan, buildings(plan), {});
+  ASSERT_EQ(all.crowns.size(), 1U);
+  ASSERT_EQ(known.crowns.size(), 1U);
+  const Point2 east{7.2, 5};  // of the shed, beyond the crown
+  EXPECT_TRUE(any_near(mesh, all.below, east, 0.3));
+  EXPECT_FALSE(any_near(mesh, known.below, east, 0.3));
+  EXPECT_TRUE(any_near(mesh, known.triangles, {3.4, 5}, 0.5));
+}
+
 TEST(Vegetation, leaves_a_canopy_whose_underside_is_seen) {
   auto canopy = sheet({{3, -3}, {9, 0.5}}, 0.25, [](Point2) { return 4.0; });
   auto underside = sheet({{3, -3}, {9, 0.5}}, 0.25, [](Point2) { return 3.7; });
@@ -246,7 +275,7 @@ TEST(Vegetation, is_found_the_same_at_any_number_of_threads_and_far_from_the_ori
   for (auto& v : mesh.vertices) v = v + Point3{1024, -4096, 0};
   auto moved = outline;
   for (auto& p : moved.outer) p = p + Point2{1024, -4096};
-  const auto elsewhere = find(mesh, std::vector{moved}, {});
+  const auto elsewhere = find(mesh, std::vector{moved}, {}, {});
   ASSERT_EQ(elsewhere.crowns.size(), many.crowns.size());
   for (std::size_t i = 0; i < many.crowns.size(); ++i) EXPECT_NEAR(elsewhere.crowns[i].area, many.crowns[i].area, 0.25);
 }
@@ -255,9 +284,9 @@ TEST(Vegetation, is_not_looked_for_without_a_mesh_without_an_outline_and_when_sw
   const auto mesh = both(sheet(ground, 0.25, gable), ball({6, -1, 7}, 2.6, 0.25));
   Options off;
   off.mask = false;
-  EXPECT_TRUE(find(mesh, std::vector{outline}, off).triangles.empty());
-  EXPECT_TRUE(find({}, std::vector{outline}, {}).triangles.empty());
-  EXPECT_TRUE(find(mesh, {}, {}).triangles.empty());
+  EXPECT_TRUE(find(mesh, std::vector{outline}, {}, off).triangles.empty());
+  EXPECT_TRUE(find({}, std::vector{outline}, {}, {}).triangles.empty());
+  EXPECT_TRUE(find(mesh, {}, {}, {}).triangles.empty());
 }
 
 }  // namespace

@@ -222,9 +222,10 @@ void add_eaves(const PartResult::EavesSeen& eaves, model::Attributes& attributes
 namespace {
 
 /// Every feature's attributes that take the mesh.
-auto measured(const block::Block& block, const rays::Scene& mesh, const std::vector<PartResult>& parts,
-              const std::vector<std::pair<std::size_t, SolidsOf>>& solids, const Options& options)
-    -> std::vector<std::pair<std::size_t, model::Attributes>> {
+/// `known`: the mesh where it shows what is built.
+auto measured(const block::Block& block, const rays::Scene& mesh, const rays::Scene& known,
+              const std::vector<PartResult>& parts, const std::vector<std::pair<std::size_t, SolidsOf>>& solids,
+              const Options& options) -> std::vector<std::pair<std::size_t, model::Attributes>> {
   std::vector<std::pair<std::size_t, model::Attributes>> out(block.members.size());
   base::parallel_for(out.size(), [&](std::size_t m) {
     const auto& member = block.members[m];
@@ -249,7 +250,7 @@ auto measured(const block::Block& block, const rays::Scene& mesh, const std::vec
         eaves.area += part.eaves.area;
       }
     add_eaves(eaves, attributes);
-    const auto seen = report::coverage(mesh, member.polygons, options.roof_grid);
+    const auto seen = report::coverage(known, member.polygons, options.roof_grid);
     attributes.emplace_back("ms_nodata_share", seen.missing);
     attributes.emplace_back("ms_nodata_radius", seen.radius);
   });
@@ -297,7 +298,8 @@ auto run_block(const block::Block& block, const Options& options, const base::Ru
   if (options.profile.overhangs != profile::Overhangs::off)
     out.solids = stage("overhangs", tell, report,
                        [&] { return with_overhangs(shown.block().mesh, options, run, parts, std::move(out.solids)); });
-  out.measures = stage("measure", tell, report, [&] { return measured(block, mesh, parts, out.solids, options); });
+  out.measures =
+      stage("measure", tell, report, [&] { return measured(block, mesh, shown.mesh(), parts, out.solids, options); });
 
   std::vector<model::LabelledSolid> models;
   std::vector<Polygon> footprints;

@@ -41,8 +41,10 @@ class Shown {
 [[nodiscard]] inline auto crowns_over(const block::Block& block, const Options& options, const base::Run& run,
                                       const Tell& tell, report::BlockReport& report,
                                       std::vector<base::Diagnostic>& warnings) -> vegetation::Found {
+  std::vector<std::vector<geometry::Polygon>> footprints;
+  for (const auto& member : block.members) footprints.push_back(member.polygons);
   auto found = stage("vegetation", tell, report,
-                     [&] { return vegetation::find(block.mesh, block.outline, options.vegetation, run); });
+                     [&] { return vegetation::find(block.mesh, block.outline, footprints, options.vegetation, run); });
   double inside = 0;
   for (const auto& crown : found.crowns) inside += crown.inside;
   if (!found.crowns.empty())
