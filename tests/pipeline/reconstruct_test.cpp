@@ -41,13 +41,14 @@ TEST(Reconstruct, raises_a_gabled_house_as_it_stands) {
   EXPECT_NEAR(areas.wall, 2 * 12 * 5 + 2 * (8 * 5 + 12), 8);  // the gables are wall up to the ridge
 }
 
+auto value(const model::Attributes& attributes, std::string_view name) -> double {
+  for (const auto& [key, found] : attributes)
+    if (key == name) return std::get<double>(found);
+  return std::nan("");
+}
+
 TEST(Reconstruct, has_no_ridge_above_the_highest_point_of_the_roof) {
   const auto r = reconstructed(test::lone_house());
-  const auto value = [](const model::Attributes& attributes, std::string_view name) {
-    for (const auto& [key, found] : attributes)
-      if (key == name) return std::get<double>(found);
-    return std::nan("");
-  };
   const auto& building = r.city.buildings.at(0);
   double ridge = 0, top = 0;
   for (const auto& part : building.parts) {
@@ -88,6 +89,9 @@ TEST(Reconstruct, sees_nothing_through_the_place_of_a_crown) {
   EXPECT_EQ(r.buildings.at(0).parts, 1U);
   EXPECT_NEAR(r.buildings.at(0).volume, 12 * 10 * 6, 5);
   EXPECT_NEAR(r.buildings.at(0).roof_min, 6, 0.1);
+  // What is below the crown, of 21 m² and what is next to it, counts as not seen.
+  EXPECT_GT(value(r.city.buildings.at(0).attributes, "ms_nodata_share"), 21.0 / 120);
+  EXPECT_LT(value(r.city.buildings.at(0).attributes, "ms_nodata_share"), 0.5);
 }
 
 TEST(Reconstruct, keeps_the_identity_of_every_feature) {
