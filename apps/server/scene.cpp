@@ -30,11 +30,11 @@ auto OpenScene::read(const Inputs& inputs, const base::Run& run) -> base::Result
   std::vector<Json> blocks;
   if (auto divided = out->divide(options.block, run, blocks); !divided) return divided.failure();
   run.report("tiles", inputs.meshes.front(), 0.95);
-  auto tiles = picture::tiles(out->scene_.mesh, {}, run);
-  if (run.cancelled()) return base::error("cancelled", "stopped on request");
   for (std::size_t b = 0; b < out->blocks_.size(); ++b)
     for (const auto& member : out->blocks_[b].members) out->block_of_[out->scene_.feature(member.feature).id] = b;
-  auto view = SceneView::make(text_of(json_of(out->scene_, out->blocks_, std::move(blocks))), std::move(tiles));
+  auto view = SceneView::make(text_of(json_of(out->scene_, out->blocks_, std::move(blocks))),
+                              [&](const picture::TakeTile& take) { picture::tiles(out->scene_.mesh, {}, run, take); });
+  if (run.cancelled()) return base::error("cancelled", "stopped on request");
   if (!view) return view.failure();
   out->view_ = std::move(*view);
   out->meshes_->put(out->blocks_.size(), out->scene_.mesh);

@@ -19,6 +19,8 @@ using geometry::Mesh;
 using geometry::Point3;
 using geometry::Triangle;
 
+constexpr std::size_t at_a_time = 16;  // tiles that are in memory, of about 1.5 MB each
+
 template <class Work>
 void in_pieces(std::size_t count, const Work& work) {
   constexpr std::size_t size = 65'536;
@@ -60,7 +62,11 @@ auto clustered(const Mesh& mesh, Point3 low, double cell, const base::Run& run) 
   std::ranges::sort(order);
   if (run.cancelled()) return {};
 
+  // Of a large mesh, arrays that grow by doubling would take more than all else: counted first, and freed when used.
   Mesh out;
+  std::size_t cells = 0;
+  for (std::size_t i = 0; i < order.size(); ++i) cells += i == 0 || order[i].first != order[i - 1].first ? 1 : 0;
+  out.vertices.reserve(cells);
   std::vector<std::uint32_t> cluster(order.size());
   for (std::size_t first = 0; first < order.size();) {
     std::size_t end = first;
@@ -72,10 +78,14 @@ auto clustered(const Mesh& mesh, Point3 low, double cell, const base::Run& run) 
     out.vertices.push_back(low + (1 / static_cast<double>(end - first)) * sum);
     first = end;
   }
-  for (const auto& t : mesh.triangles) {
-    const Triangle moved{cluster[t[0]], cluster[t[1]], cluster[t[2]]};
-    if (moved[0] != moved[1] && moved[1] != moved[2] && moved[2] != moved[0]) out.triangles.push_back(turned(moved));
-  }
+  order = std::vector<std::pair<std::uint64_t, std::uint32_t>>();
+  const auto moved = [&](const Triangle& t) { return Triangle{cluster[t[0]], cluster[t[1]], cluster[t[2]]}; };
+  const auto has_corners = [](const Triangle& t) { return t[0] != t[1] && t[1] != t[2] && t[2] != t[0]; };
+  out.triangles.reserve(static_cast<std::size_t>(
+      std::ranges::count_if(mesh.triangles, [&](const Triangle& t) { return has_corners(moved(t)); })));
+  for (const auto& t : mesh.triangles)
+    if (const auto m = moved(t); has_corners(m)) out.triangles.push_back(turned(m));
+  cluster = std::vector<std::uint32_t>();
   if (run.cancelled()) return {};
   std::ranges::sort(out.triangles);
   out.triangles.erase(std::ranges::unique(out.triangles).begin(), out.triangles.end());
@@ -154,46 +164,49 @@ auto tile_of(const Mesh& mesh, std::span<const std::uint32_t> group) -> Tile {
   return tile;
 }
 
+/// Level `level` of the tiles, in the order of their rows.
 void add_level(const Mesh& mesh, Point3 low, double size, std::size_t level, double cell, const base::Run& run,
-               std::vector<Tile>& out) {
-  const auto places = places_of(mesh, low, size);
-  if (run.cancelled()) return;
-  const auto counts = counts_of(places);
-  std::unordered_map<Place, std::size_t> next;
-  std::vector<std::size_t> starts{0};
-  for (const auto& [p, count] : counts) {
-    next[p] = starts.back();
-    starts.push_back(starts.back() + count);
-  }
-  std::vector<std::uint32_t> order(places.size());
-  for (std::uint32_t t = 0; t < places.size(); ++t) order[next[places[t]]++] = t;
-
-  if (run.cancelled()) return;
-
+               const TakeTile& take) {
   std::vector<Place> place_of_tile;
-  for (const auto& [p, count] : counts) place_of_tile.push_back(p);
-  const std::size_t first = out.size();
-  out.resize(first + counts.size());
-  base::parallel_for(counts.size(), [&](std::size_t i) {
+  std::vector<std::size_t> starts{0};
+  std::vector<std::uint32_t> order(mesh.triangles.size());
+  {
+    const auto places = places_of(mesh, low, size);
     if (run.cancelled()) return;
-    Tile& tile = out[first + i] = tile_of(mesh, std::span(order).subspan(starts[i], starts[i + 1] - starts[i]));
-    tile.level = level;
-    tile.row = row_of(place_of_tile[i]);
-    tile.column = column_of(place_of_tile[i]);
-    tile.cell = cell;
-  });
+    std::unordered_map<Place, std::size_t> next;
+    for (const auto& [p, count] : counts_of(places)) {
+      place_of_tile.push_back(p);
+      next[p] = starts.back();
+      starts.push_back(starts.back() + count);
+    }
+    for (std::uint32_t t = 0; t < places.size(); ++t) order[next[places[t]]++] = t;
+  }
+  for (std::size_t first = 0; first < place_of_tile.size(); first += at_a_time) {
+    if (run.cancelled()) return;
+    std::vector<Tile> made(std::min(at_a_time, place_of_tile.size() - first));
+    base::parallel_for(made.size(), [&](std::size_t k) {
+      if (run.cancelled()) return;
+      const std::size_t i = first + k;
+      Tile& tile = made[k] = tile_of(mesh, std::span(order).subspan(starts[i], starts[i + 1] - starts[i]));
+      tile.level = level;
+      tile.row = row_of(place_of_tile[i]);
+      tile.column = column_of(place_of_tile[i]);
+      tile.cell = cell;
+    });
+    if (run.cancelled()) return;
+    for (auto& tile : made) take(std::move(tile));
+  }
 }
 
 }  // namespace
 
-auto tiles(const Mesh& mesh, const TileOptions& options, const base::Run& run) -> std::vector<Tile> {
-  std::vector<Tile> out;
-  if (mesh.triangles.empty()) return out;
+void tiles(const Mesh& mesh, const TileOptions& options, const base::Run& run, const TakeTile& take) {
+  if (mesh.triangles.empty()) return;
   const Box3 box = box_of(mesh);
-  if (run.cancelled()) return out;
+  if (run.cancelled()) return;
   double size = tile_size(mesh, box, options.most), cell = options.error;
   run.report("tiles", "level 0", 0);
-  add_level(mesh, box.least, size, 0, 0, run, out);
+  add_level(mesh, box.least, size, 0, 0, run, take);
 
   std::size_t before = mesh.triangles.size();
   const double extent = std::max({box.most.x - box.least.x, box.most.y - box.least.y, box.most.z - box.least.z});
@@ -201,18 +214,24 @@ auto tiles(const Mesh& mesh, const TileOptions& options, const base::Run& run) -
     // Clustering the mesh itself, not the level before: a vertex moves within one cell, errors do not add up.
     Mesh coarse;
     for (;; cell *= 2) {
-      if (run.cancelled()) return {};
+      if (run.cancelled()) return;
+      coarse = Mesh();  // not beside the next one
       coarse = clustered(mesh, box.least, cell, run);
-      if (run.cancelled()) return {};
+      if (run.cancelled()) return;
       if (coarse.triangles.size() <= before / 2 || cell >= extent) break;  // else it is hardly worth a level
     }
     size *= 2;
     run.report("tiles", "level " + std::to_string(level),
                1 - static_cast<double>(coarse.triangles.size()) / static_cast<double>(mesh.triangles.size()));
-    add_level(coarse, box.least, size, level, cell, run, out);
+    add_level(coarse, box.least, size, level, cell, run, take);
     before = coarse.triangles.size();
     cell *= 2;
   }
+}
+
+auto tiles(const Mesh& mesh, const TileOptions& options, const base::Run& run) -> std::vector<Tile> {
+  std::vector<Tile> out;
+  tiles(mesh, options, run, [&](Tile tile) { out.push_back(std::move(tile)); });
   if (run.cancelled()) return {};
   return out;
 }
