@@ -1,5 +1,6 @@
 #include "apps/server/scene.hpp"
 
+#include <malloc.h>
 #include <algorithm>
 #include <limits>
 
@@ -29,6 +30,7 @@ auto OpenScene::read(const Inputs& inputs, const base::Run& run) -> base::Result
   out->mesh_box_ = geometry::Box3::of(out->scene_.mesh.vertices);
   std::vector<Json> blocks;
   if (auto divided = out->divide(options.block, run, blocks); !divided) return divided.failure();
+  ::malloc_trim(0);  // what dividing took is not kept beside what the tiles take
   run.report("tiles", inputs.meshes.front(), 0.95);
   for (std::size_t b = 0; b < out->blocks_.size(); ++b)
     for (const auto& member : out->blocks_[b].members) out->block_of_[out->scene_.feature(member.feature).id] = b;
