@@ -2,11 +2,13 @@
 // those that have the tag @firefox.
 import { execFileSync } from "node:child_process";
 import { readFileSync, readdirSync, writeFileSync } from "node:fs";
+import { createServer } from "node:http";
+import type { AddressInfo } from "node:net";
 import { join } from "node:path";
 import type { Page } from "@playwright/test";
 import type * as api from "../src/api/types";
 import { structuresOf } from "../src/edit/structures";
-import { type Server, data, expect, mansard, picture, saved, test } from "./harness";
+import { type Server, data, expect, mansard, picture, png, saved, test } from "./harness";
 
 type Known = { window: { mansard: { state: typeof import("../src/state"); latency: number[]; drawn: number[] } } };
 
@@ -1394,5 +1396,51 @@ test("a basemap is shown under the models, if the server was started with one", 
   await expect.poll(shown).toBe(true);
   await idle(page);
   expect(await pixels(page, [[20, 150, 60], [200, 230, 120]])).toBeGreaterThan(20_000);
+  await expect(page.locator(".attribution")).toHaveCount(0);
   await picture(page, "basemap");
+
+  // Tiles of another server, which hears nothing before the layer is shown.
+  const asked: string[] = [];
+  const tiles = createServer((request, response) => {
+    asked.push(request.url!);
+    const [z, x, y] = request.url!.split(/[/.]/).slice(1).map(Number) as [number, number, number];
+    if (z > 18) return void response.writeHead(404).end();
+    response.writeHead(200, { "Content-Type": "image/png" }).end(png(256, (x + y) % 2 ? [225, 190, 90] : [60, 110, 200]));
+  });
+  await new Promise<void>((resolve) => tiles.listen(0, "127.0.0.1", resolve));
+  const address = `http://127.0.0.1:${(tiles.address() as AddressInfo).port}/{z}/{x}/{y}.png`;
+  try {
+    await server.stop();
+    await server.start("--basemap", address, "--basemap-attribution", "© Somebody’s map");
+    await page.goto("about:blank");
+    await page.goto(server.link);
+    await open(page, "street.city.json");
+    await page.getByRole("tab", { name: "Layers" }).click();
+    await expect(layer).not.toBeChecked();
+    expect(asked).toEqual([]);
+    await layer.click();
+    await expect.poll(shown).toBe(true);
+    await expect(page.locator(".attribution")).toHaveText("© Somebody’s map");
+    await idle(page);
+    expect(await pixels(page, [[225, 190, 90], [60, 110, 200]])).toBeGreaterThan(20_000);
+    expect(asked.length).toBeGreaterThan(1);
+    await picture(page, "basemap-tiles");
+    await page.keyboard.press("p");
+    const file = await saved(page, folder, () => page.getByRole("button", { name: "Save PNG" }).click());
+    expect(readFileSync(file).length).toBeGreaterThan(10_000);
+  } finally {
+    tiles.closeAllConnections();
+    await new Promise((resolve) => tiles.close(resolve));
+  }
+
+  // A server of tiles that does not answer.
+  await server.stop();
+  await server.start("--basemap", address);
+  await page.goto("about:blank");
+  await page.goto(server.link);
+  await open(page, "street.city.json");
+  await page.getByRole("tab", { name: "Layers" }).click();
+  await layer.click();
+  await expect(page.getByText(/The server of the tiles does not send/i).first()).toBeVisible();
+  await expect(layer).not.toBeChecked();
 });

@@ -596,8 +596,8 @@ export class Viewer {
     return { ...this.goal, target: this.goal.target.map((t, i) => t + this.centre[i]!) as Vector };
   }
 
-  /** The view as an image of that size, without the marks of the pointer. */
-  async picture(width: number, height: number): Promise<Blob | null> {
+  /** The view as an image of that size, without the marks of the pointer; `note` is written into its lower right corner. */
+  async picture(width: number, height: number, note = ""): Promise<Blob | null> {
     const [w, h, ratio] = [this.width, this.height, this.renderer.getPixelRatio()];
     const hovering = this.highlight;
     hovering.hover(undefined);
@@ -607,7 +607,8 @@ export class Viewer {
       [this.width, this.height] = [width, height];
       this.draw();
       // The canvas is read in the same task: its contents are not kept after that.
-      return await new Promise((resolve) => this.canvas.toBlob(resolve, "image/png"));
+      const image = note ? withNote(this.canvas, note) : this.canvas;
+      return await new Promise((resolve) => image.toBlob(resolve, "image/png"));
     } finally {
       [this.width, this.height] = [w, h];
       this.renderer.setPixelRatio(ratio);
@@ -1115,6 +1116,25 @@ export class Viewer {
       },
     });
   }
+}
+
+/** A copy of the image with a text in its lower right corner. */
+function withNote(image: HTMLCanvasElement, note: string): HTMLCanvasElement {
+  const copy = document.createElement("canvas");
+  copy.width = image.width;
+  copy.height = image.height;
+  const draw = copy.getContext("2d")!;
+  draw.drawImage(image, 0, 0);
+  const size = Math.max(11, Math.round(image.height / 80)); // pixels
+  draw.font = `${size}px sans-serif`;
+  draw.textAlign = "right";
+  draw.textBaseline = "bottom";
+  draw.fillStyle = "rgb(255 255 255 / 75%)";
+  const wide = Math.min(image.width, draw.measureText(note).width + size);
+  draw.fillRect(image.width - wide, image.height - 1.5 * size, wide, 1.5 * size);
+  draw.fillStyle = "#222";
+  draw.fillText(note, image.width - size / 2, image.height - size / 4, image.width - size);
+  return copy;
 }
 
 const empty: ReadonlyMap<string, api.Building> = new Map();
