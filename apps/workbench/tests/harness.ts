@@ -112,6 +112,44 @@ export async function picture(page: Page, name: string, when: "when idle" | "at 
   await page.screenshot({ path: join(folder, `${name}.png`) });
 }
 
+export type Line = [from: [number, number], to: [number, number]];
+
+/** Moves one finger along each line, all at the same time. Playwright itself only taps: this speaks the browser's protocol. */
+export async function fingers(page: Page, lines: Line[]) {
+  const steps = 8;
+  const at = ([a, b]: Line, share: number) => ({ x: a[0] + (b[0] - a[0]) * share, y: a[1] + (b[1] - a[1]) * share });
+  if (process.env.MANSARD_BROWSER === "firefox") {
+    type Session = { sessionId: string; send(method: string, parameters: object): Promise<unknown> };
+    type Inside = { _connection: { toImpl(of: object): { delegate: { _session: Session } } } };
+    const session = (page as unknown as Inside)._connection.toImpl(page).delegate._session;
+    await session.send("input.performActions", {
+      context: session.sessionId,
+      actions: lines.map((line, i) => ({
+        type: "pointer",
+        id: `finger ${i}`,
+        parameters: { pointerType: "touch" },
+        actions: [
+          { type: "pointerMove", ...at(line, 0) },
+          { type: "pointerDown", button: 0 },
+          ...Array.from({ length: steps }, (_, k) => ({ type: "pointerMove", duration: 20, ...at(line, (k + 1) / steps) })),
+          { type: "pointerUp", button: 0 },
+        ],
+      })),
+    });
+    return;
+  }
+  const devtools = await page.context().newCDPSession(page);
+  const touch = (type: "touchStart" | "touchMove" | "touchEnd", share: number) =>
+    devtools.send("Input.dispatchTouchEvent", {
+      type,
+      touchPoints: type === "touchEnd" ? [] : lines.map((line, id) => ({ ...at(line, share), id })),
+    });
+  await touch("touchStart", 0);
+  for (let k = 1; k <= steps; ++k) await touch("touchMove", k / steps);
+  await touch("touchEnd", 1);
+  await devtools.detach();
+}
+
 /** A square PNG of one colour. */
 export function png(side: number, colour: [number, number, number]): Buffer {
   const crc = (bytes: Buffer) => {
