@@ -15,8 +15,8 @@ namespace mansard::formats {
 
 /// The pattern of the name of a tile, with {z} for the zoom level, {x} for the column, and {y} for the row, counted
 /// from the north, or {-y}, counted from the south: "https://…/{z}/{x}/{y}.png", "/maps/{z}/{x}/{y}.jpg". Of a folder,
-/// what its tiles are called. Paths are made absolute. Fails with "ingest-ground-tiles" where it is no such pattern,
-/// "file-missing".
+/// what its tiles are called; rows are counted from the south where it has a tilemapresource.xml (TMS). Paths are made
+/// absolute. Fails with "ingest-ground-tiles" where it is no such pattern.
 [[nodiscard]] auto ground_tiles_pattern(const std::string& name) -> base::Result<std::string>;
 
 /// The tiles of Web Mercator (EPSG:3857; PNG, JPEG or WebP) that cover a box of `crs`, transformed to it. The zoom

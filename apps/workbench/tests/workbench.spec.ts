@@ -435,7 +435,7 @@ test("each run has its own marks, edits are carried over, and merging across bui
     await expect(page.getByRole("button", { name: /^Carry over from/ })).toHaveCount(0);
   });
 
-  await test.step("marks of a run are not drawn over the other one", async () => {
+  await test.step("why a model is simpler is said in every panel, and marks of a run are not drawn over the other one", async () => {
     // The sample has no building with a simpler model than asked for.
     await page.evaluate((id) => {
       const { state } = (window as unknown as Known["window"]).mansard;
@@ -444,6 +444,12 @@ test("each run has its own marks, edits are carried over, and merging across bui
       const building = { ...run.buildings.get(id)!, reasons: [reason] };
       state.run.value = { ...run, buildings: new Map(run.buildings).set(id, building) };
     }, house.id);
+    await pick(page, house.id);
+    for (const tab of ["Edit", "Run", "Attributes", "Layers", "Buildings"]) {
+      await page.getByRole("tab", { name: tab }).click();
+      await expect(page.getByRole("region", { name: "Diagnostics of the selected building" })).toContainText(/for the test/i);
+    }
+    await expect(page.getByRole("row", { name: house.id }).getByLabel(/for the test/i)).toBeVisible();
     const mark: [number, number, number][] = [[217, 128, 13], [217, 127, 13]];
     await idle(page);
     expect(await pixels(page, mark)).toBeGreaterThan(20);
@@ -1444,6 +1450,8 @@ test("a basemap is shown under the models, if the server was started with one", 
   await idle(page);
   expect(await pixels(page, [[20, 150, 60], [200, 230, 120]])).toBeGreaterThan(20_000);
   await expect(page.locator(".attribution")).toHaveCount(0);
+  await expect(page.getByRole("img", { name: "North arrow" })).toBeVisible();
+  await expect(page.getByRole("img", { name: /^Scale bar: \d+ m/ })).toBeVisible();
   await picture(page, "basemap");
 
   // Tiles of another server, which hears nothing before the layer is shown.

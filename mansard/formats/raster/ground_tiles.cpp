@@ -74,7 +74,9 @@ auto pattern_in(const fs::path& folder) -> std::optional<std::string> {
   const auto column = zoom ? lowest_in(*zoom, true) : std::nullopt;
   const auto tile = column ? lowest_in(*column, false) : std::nullopt;
   if (!tile) return std::nullopt;
-  return (folder / "{z}" / "{x}" / ("{y}" + tile->extension().string())).string();
+  std::error_code status;  // the file says that rows are counted as in TMS; gdal2tiles writes it for such rows only
+  const char* row = fs::exists(folder / "tilemapresource.xml", status) ? "{-y}" : "{y}";
+  return (folder / "{z}" / "{x}" / (row + tile->extension().string())).string();
 }
 
 struct TileName {
