@@ -26,19 +26,19 @@ auto square(int side, std::array<std::uint8_t, 3> colour) -> std::string {
 
 auto text(const std::filesystem::path& path) -> std::string { return path.string(); }
 
-struct Tile {
+struct MapTile {
   int zoom = 0, column = 0, row = 0;
 };
 /// The tile of a place, by the formula of https://wiki.openstreetmap.org/wiki/Slippy_map_tilenames.
-auto tile_of(double longitude, double latitude, int zoom) -> Tile {
+auto tile_of(double longitude, double latitude, int zoom) -> MapTile {
   const double n = std::exp2(zoom), phi = latitude * std::numbers::pi / 180;
   return {zoom, static_cast<int>((longitude + 180) / 360 * n),
           static_cast<int>((1 - std::asinh(std::tan(phi)) / std::numbers::pi) / 2 * n)};
 }
-auto colour_of(const Tile& t) -> std::array<std::uint8_t, 3> {
+auto colour_of(const MapTile& t) -> std::array<std::uint8_t, 3> {
   return {static_cast<std::uint8_t>(t.column % 2 ? 200 : 40), static_cast<std::uint8_t>(t.row % 2 ? 200 : 40), 100};
 }
-void put(const std::filesystem::path& folder, const Tile& t, const std::string& bytes, const std::string& row) {
+void put(const std::filesystem::path& folder, const MapTile& t, const std::string& bytes, const std::string& row) {
   const auto column = folder / std::to_string(t.zoom) / std::to_string(t.column);
   std::filesystem::create_directories(column);
   std::ofstream(column / (row + ".png"), std::ios::binary) << bytes;
@@ -47,19 +47,19 @@ void put(const std::filesystem::path& folder, const Tile& t, const std::string& 
 // In Delft, in EPSG:28992, and where that is by gdaltransform.
 constexpr Box2 delft{{84'300, 447'300}, {84'700, 447'700}};
 constexpr double longitude = 4.36029931, latitude = 52.01137928;
-struct Place {
+struct KnownPlace {
   double x, y, longitude, latitude;
 };
 constexpr std::array places{
-    Place{84'500, 447'500, longitude, latitude}, Place{84'320, 447'320, 4.35771499, 52.00973873},
-    Place{84'680, 447'680, 4.36288382, 52.01301978}, Place{84'320, 447'680, 4.35764068, 52.01297404}};
+    KnownPlace{84'500, 447'500, longitude, latitude}, KnownPlace{84'320, 447'320, 4.35771499, 52.00973873},
+    KnownPlace{84'680, 447'680, 4.36288382, 52.01301978}, KnownPlace{84'320, 447'680, 4.35764068, 52.01297404}};
 
 /// Tiles around Delft at one zoom level, each of one colour.
 void put_all(const std::filesystem::path& folder, int zoom, int reach, int side, bool south = false) {
   const auto middle = tile_of(longitude, latitude, zoom);
   for (int dx = -reach; dx <= reach; ++dx)
     for (int dy = -reach; dy <= reach; ++dy) {
-      const Tile t{zoom, middle.column + dx, middle.row + dy};
+      const MapTile t{zoom, middle.column + dx, middle.row + dy};
       put(folder, t, square(side, colour_of(t)), std::to_string(south ? (1 << zoom) - 1 - t.row : t.row));
     }
 }
